@@ -1,0 +1,62 @@
+"""Nodal state of the lubricant and the mobility of a face between two nodes."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+
+@dataclass
+class Fluid:
+    """Density and mobility at nodes with their derivatives; all arrays of one shape.
+
+    eps = rho* H^3/(eta* lambda)  [Liu eq. 26, in units of a^2/R]
+    """
+
+    P: np.ndarray
+    H: np.ndarray
+    rho: np.ndarray
+    drho_dP: np.ndarray
+    eps: np.ndarray
+    deps_dP: np.ndarray
+    deps_dH: np.ndarray
+
+    def __getitem__(self, part):
+        """The same fluid on a part of the nodes (views)."""
+        return Fluid(*(getattr(self, name)[part] for name in self.__dataclass_fields__))
+
+
+def fluid_state(P, H, contact):
+    """Evaluate the constitutive laws at nodes of pressure `P` and gap `H`.
+
+    `contact` gives the lubricant, p_h and lambda. H must be positive wherever the node can
+    exchange fluid; contact nodes may carry any H, their faces are closed.
+    """
+    lubricant, p_h = contact.lubricant, contact.hertz.p_h
+    rho, drho_dP = lubricant.density_law.density(P, p_h)
+    log_eta, dlog_eta_dP = lubricant.viscosity_law.log_viscosity(P, p_h)
+    by_H3 = rho * np.exp(-log_eta) / contact.lambda_
+    H2 = H * H
+    eps = by_H3 * H2 * H
+    return Fluid(P, H, rho, drho_dP, eps, eps * (drho_dP / rho - dlog_eta_dP), 3.0 * by_H3 * H2)
+
+
+def arithmetic_mean(a, b):
+    """(a + b)/2 and its two derivatives  [Liu eq. 7]."""
+    return 0.5 * (a + b), 0.5, 0.5
+
+
+def geometric_mean(a, b):
+    """sqrt(a b) and its two derivatives: vanishes with either side."""
+    mean = np.sqrt(np.maximum(a * b, 0.0))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return mean, np.nan_to_num(0.5 * mean / a), np.nan_to_num(0.5 * mean / b)
+
+
+def harmonic_mean(a, b):
+    """2 a b/(a + b) and its two derivatives: vanishes with either side."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        share = np.nan_to_num(b / (a + b))
+    return 2.0 * a * share, 2.0 * share**2, 2.0 * (1.0 - share) ** 2
+
+
+FACE_MEANS = {"arithmetic": arithmetic_mean, "geometric": geometric_mean, "harmonic": harmonic_mean}

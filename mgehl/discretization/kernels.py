@@ -1,0 +1,130 @@
+"""The few loops that numpy cannot fuse, compiled by numba and cached.
+
+Each has a numpy twin in the tests that says the same thing slowly.
+"""
+
+from numba import njit
+
+from mgehl.discretization.residual import WW, C, E, N, S, W
+
+REACH = 5
+"""Neighbours on each side that a line's band couples."""
+
+
+@njit(cache=True, fastmath={"contract"})
+def apply_jacobian(A, B, dP, dH, dH0, out):
+    """out = A dP + B (dH + dH0); stencils (6, lines, nx), `dP` and `dH` ghosted."""
+    lines, nx = out.shape
+    for j in range(lines):
+        for i in range(nx):
+            out[j, i] = (
+                A[C, j, i] * dP[j + 1, i]
+                + A[S, j, i] * dP[j, i]
+                + A[N, j, i] * dP[j + 2, i]
+                + B[C, j, i] * (dH[j + 1, i] + dH0)
+                + B[S, j, i] * (dH[j, i] + dH0)
+                + B[N, j, i] * (dH[j + 2, i] + dH0)
+            )
+        for i in range(1, nx - 1):
+            out[j, i] += (
+                A[W, j, i] * dP[j + 1, i - 1]
+                + A[E, j, i] * dP[j + 1, i + 1]
+                + B[W, j, i] * (dH[j + 1, i - 1] + dH0)
+                + B[E, j, i] * (dH[j + 1, i + 1] + dH0)
+            )
+        for i in range(2, nx - 1):
+            out[j, i] += A[WW, j, i] * dP[j + 1, i - 2] + B[WW, j, i] * (dH[j + 1, i - 2] + dH0)
+
+
+@njit(cache=True, fastmath={"contract"})
+def build_bands(A, B, distributive, kappa, bands):
+    """Fill `bands` (lines, nx, 2 REACH + 1) with each line's part of J Q.
+
+    Column m of Q is 1 at node m and, where `distributive[j, m]`, -1/4 at its four neighbours.
+    `kappa[d, l, k]` is the deflection k nodes along and l lines beside a unit column of kind d.
+    """
+    lines, nx, width = bands.shape
+    for j in range(lines):
+        for i in range(nx):
+            across_A = A[S, j, i] + A[N, j, i]
+            across_B = B[S, j, i] + B[N, j, i]
+            for k in range(-REACH, REACH + 1):
+                m = i + k
+                if m < 0 or m >= nx:
+                    bands[j, i, k + REACH] = 0.0
+                    continue
+                d = 1 if distributive[j, m] else 0
+                along, across = kappa[d, 0], kappa[d, 1]
+                entry = (
+                    B[WW, j, i] * along[abs(k + 2)]
+                    + B[W, j, i] * along[abs(k + 1)]
+                    + B[C, j, i] * along[abs(k)]
+                    + B[E, j, i] * along[abs(k - 1)]
+                    + across_B * across[abs(k)]
+                )
+                if -3 <= k <= 2:
+                    entry += _column_of_Q(A[WW, j, i], k + 2, d)
+                    entry += _column_of_Q(A[W, j, i], k + 1, d)
+                    entry += _column_of_Q(A[C, j, i], k, d)
+                    entry += _column_of_Q(A[E, j, i], k - 1, d)
+                    if k == 0 and d == 1:
+                        entry -= 0.25 * across_A
+                bands[j, i, k + REACH] = entry
+
+
+@njit(cache=True, inline="always")
+def _column_of_Q(coefficient, distance, d):
+    if distance == 0:
+        return coefficient
+    if d == 1 and (distance == 1 or distance == -1):
+        return -0.25 * coefficient
+    return 0.0
+
+
+@njit(cache=True, fastmath={"contract"})
+def factor_bands(bands):
+    """LU factors in place, without pivoting; the diagonal holds the reciprocal pivots."""
+    lines, nx, width = bands.shape
+    for j in range(lines):
+        band = bands[j]
+        for i in range(nx):
+            pivot = 1.0 / band[i, REACH]
+            band[i, REACH] = pivot
+            for below in range(1, min(REACH, nx - 1 - i) + 1):
+                row = i + below
+                factor = band[row, REACH - below] * pivot
+                band[row, REACH - below] = factor
+                for k in range(1, REACH + 1):
+                    band[row, REACH - below + k] -= factor * band[i, REACH + k]
+
+
+@njit(cache=True, fastmath={"contract"})
+def solve_bands(bands, r, w):
+    """Solve every line with the factors of `factor_bands`; `r` and `w` are (lines, nx)."""
+    lines, nx, width = bands.shape
+    for j in range(lines):
+        band = bands[j]
+        for i in range(nx):
+            value = r[j, i]
+            for k in range(max(-REACH, -i), 0):
+                value -= band[i, REACH + k] * w[j, i + k]
+            w[j, i] = value
+        for i in range(nx - 1, -1, -1):
+            value = w[j, i]
+            for k in range(1, min(REACH, nx - 1 - i) + 1):
+                value -= band[i, REACH + k] * w[j, i + k]
+            w[j, i] = value * band[i, REACH]
+
+
+@njit(cache=True, fastmath={"contract"})
+def distribute(w, distributive, omega, out):
+    """out = omega Q w; `w` and `distributive` ghosted, `out` (lines, nx)."""
+    lines, nx = out.shape
+    for j in range(lines):
+        for i in range(nx):
+            spread = w[j, i] * distributive[j, i] + w[j + 2, i] * distributive[j + 2, i]
+            if i > 0:
+                spread += w[j + 1, i - 1] * distributive[j + 1, i - 1]
+            if i < nx - 1:
+                spread += w[j + 1, i + 1] * distributive[j + 1, i + 1]
+            out[j, i] = omega * (w[j + 1, i] - 0.25 * spread)

@@ -1,0 +1,111 @@
+"""Deflection of the half-space: a distributed convolution by FFT  [Liu eq. 51].
+
+Boundary nodes carry no pressure, so the offsets between n - 2 sources and n nodes number
+2n - 3 and a period of 2(n - 1), a power of two, holds them all without overlap. Only lines
+that are not all zero are transformed, and padding is dropped as soon as it can be.
+"""
+
+import numpy as np
+import pyfftw
+from mpi4py import MPI
+
+from mgehl.discretization.influence import influence_coefficients
+
+_PLAN = ("FFTW_MEASURE",)
+
+
+class Deflection:
+    """D = K * P on one grid; `count` tells how many convolutions were made."""
+
+    def __init__(self, grid, deflection_scale):
+        self.grid = grid
+        self.count = 0
+        mesh, (lines, nx) = grid.mesh, grid.shape
+        self._transpose = Transpose(grid.comm, grid.starts, nx)
+        columns = self._transpose.columns
+        self._x_real = pyfftw.zeros_aligned((lines, 2 * (nx - 1)))
+        self._x_modes = pyfftw.zeros_aligned((lines, nx), dtype=complex)
+        self._y_modes = pyfftw.zeros_aligned((2 * (mesh.ny - 1), columns), dtype=complex)
+        self._x_forward = pyfftw.FFTW(self._x_real, self._x_modes, axes=(1,), flags=_PLAN)
+        self._x_backward = pyfftw.FFTW(
+            self._x_modes, self._x_real, axes=(1,), direction="FFTW_BACKWARD", flags=_PLAN
+        )
+        self._y_forward = pyfftw.FFTW(self._y_modes, self._y_modes, axes=(0,), flags=_PLAN)
+        self._y_backward = pyfftw.FFTW(
+            self._y_modes, self._y_modes, axes=(0,), direction="FFTW_BACKWARD", flags=_PLAN
+        )
+        self._spectrum = self._transform_kernel(deflection_scale)
+
+    def __call__(self, P):
+        """Deflection (lines, nx) by the pressure P (lines, nx), zero on boundary nodes.
+
+        The result is a view that the next call overwrites.
+        """
+        nx, ny = self.grid.mesh.nx, self.grid.mesh.ny
+        self.count += 1
+        self._x_real[:, :nx] = P
+        self._x_real[:, nx:] = 0.0
+        self._x_forward.execute()
+        self._transpose.to_columns(self._x_modes, self._y_modes[:ny])
+        self._y_modes[ny:] = 0.0
+        self._y_forward.execute()
+        self._y_modes *= self._spectrum
+        self._y_backward.execute()
+        self._transpose.to_lines(self._y_modes[:ny], self._x_modes)
+        self._x_backward.execute()
+        return self._x_real[:, :nx]
+
+    def _transform_kernel(self, deflection_scale):
+        """Spectrum of the even kernel on this rank's columns, with the scale of the FFTs: real."""
+        nx, ny = self.grid.mesh.nx, self.grid.mesh.ny
+        kernel = influence_coefficients(self.grid.mesh, deflection_scale, self.grid.first, self.grid.last)
+        self._x_real[:, :nx] = kernel
+        self._x_real[:, nx:] = kernel[:, -2:0:-1]
+        self._x_forward.execute()
+        self._transpose.to_columns(self._x_modes, self._y_modes[:ny])
+        self._y_modes[ny:] = self._y_modes[ny - 2 : 0 : -1]
+        self._y_forward.execute()
+        return self._y_modes.real / (4.0 * (nx - 1) * (ny - 1))
+
+
+class Transpose:
+    """Between lines (all columns of some lines) and columns (all lines of some columns).
+
+    The lines follow the multigrid hierarchy's ownership, which block-distributing transpose
+    libraries cannot express; the exchange itself is one MPI_Alltoallw.
+    """
+
+    def __init__(self, comm, line_starts, columns):
+        self._comm = comm
+        bounds = np.linspace(0, columns, comm.size + 1).astype(int)
+        lines = np.diff(line_starts)
+        my_lines, my_columns = int(lines[comm.rank]), int(bounds[comm.rank + 1] - bounds[comm.rank])
+        self.columns = my_columns
+        whole_lines, whole_columns = (my_lines, columns), (int(line_starts[-1]), my_columns)
+        self._line_parts, self._column_parts = [], []
+        for rank in range(comm.size):
+            width = int(bounds[rank + 1] - bounds[rank])
+            self._line_parts.append(_part(whole_lines, (my_lines, width), (0, int(bounds[rank]))))
+            height = int(lines[rank])
+            self._column_parts.append(
+                _part(whole_columns, (height, my_columns), (int(line_starts[rank]), 0))
+            )
+
+    def to_columns(self, by_lines, by_columns):
+        """Send lines, receive columns: (my lines, columns) to (all lines, my columns)."""
+        self._exchange(by_lines, self._line_parts, by_columns, self._column_parts)
+
+    def to_lines(self, by_columns, by_lines):
+        """The way back."""
+        self._exchange(by_columns, self._column_parts, by_lines, self._line_parts)
+
+    def _exchange(self, source, source_parts, target, target_parts):
+        if self._comm.size == 1:
+            np.copyto(target, source)
+        else:
+            ones, zeros = [1] * self._comm.size, [0] * self._comm.size
+            self._comm.Alltoallw([source, ones, zeros, source_parts], [target, ones, zeros, target_parts])
+
+
+def _part(whole, part, start):
+    return MPI.COMPLEX16.Create_subarray(whole, part, start).Commit()

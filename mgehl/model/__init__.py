@@ -1,0 +1,1 @@
+"""What is computed: lubricant laws, Hertz contact, dimensionless groups, film formulas."""

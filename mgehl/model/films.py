@@ -1,0 +1,32 @@
+"""Film-thickness formulas to compare with; every function returns metres."""
+
+from math import exp, log, sqrt
+
+
+def hamrock_dowson(groups, radius_x, ellipticity):
+    """Central and minimum film of Hamrock and Dowson; `ellipticity` k = b/a."""
+    U, W, G = groups.U, groups.W, groups.G
+    central = 2.69 * U**0.67 * G**0.53 * W**-0.067 * (1.0 - 0.61 * exp(-0.73 * ellipticity))
+    minimum = 3.63 * U**0.68 * G**0.49 * W**-0.073 * (1.0 - exp(-0.68 * ellipticity))
+    return central * radius_x, minimum * radius_x
+
+
+def nijenbanning_venner_moes(groups, radius_x, radius_y):
+    """Central film of Nijenbanning, Venner and Moes for every regime."""
+    M, L, D = groups.M, groups.L, radius_x / radius_y
+    shape = 1.0 + 0.006 * log(D) + 0.63 * D ** (4 / 7)
+    RI = 145.0 * (1.0 + 0.796 * D ** (14 / 15)) ** (-15 / 7) / D * M**-2.0
+    EI = 3.18 * shape ** (-14 / 25) * D ** (-1 / 15) * M ** (-2 / 15)
+    RP = 1.29 * (1.0 + 0.691 * D) ** (-2 / 3) * L ** (2 / 3)
+    EP = 1.48 * shape ** (-7 / 20) * D ** (-1 / 24) * M ** (-1 / 12) * L**0.75
+    H00 = 1.8 / D
+    s = 1.5 * (1.0 + exp(-1.2 * EI / RI))
+    isoviscous = RI**1.5 + (EI**-4.0 + H00**-4.0) ** (-3 / 8)
+    piezoviscous = RP**-8.0 + EP**-8.0
+    H = (isoviscous ** (2 * s / 3) + piezoviscous ** (-s / 8)) ** (1.0 / s)
+    return H * radius_x * sqrt(2.0 * groups.U)
+
+
+def grubin(pressure_viscosity, viscosity, speed, a, gap_coefficient):
+    """Ertel-Grubin film of a heavily loaded contact with dry edge gap C s^(3/2)."""
+    return (12.0 * 0.2687 * pressure_viscosity * viscosity * speed * a) ** 0.75 / sqrt(gap_coefficient)

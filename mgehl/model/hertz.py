@@ -1,0 +1,63 @@
+"""Dry Hertz contact of a paraboloid on a flat, circular or elliptical."""
+
+from dataclasses import dataclass
+from math import pi, sqrt
+
+import numpy as np
+from scipy.optimize import brentq
+from scipy.special import ellipe, ellipk
+
+
+@dataclass(frozen=True)
+class HertzContact:
+    """Semi-axes (m), maximum pressure (Pa) and approach (m) of a dry contact."""
+
+    a: float
+    """Semi-axis along x, the direction of motion."""
+    b: float
+    """Semi-axis along y."""
+    p_h: float
+    approach: float
+
+
+def hertz_contact(load, radius_x, radius_y, reduced_modulus):
+    """Solve the dry contact [Johnson 1985, eqs. 4.25-4.28].
+
+    `load` in N, radii in m, `reduced_modulus` E' in Pa with E' = 2 E*, as in the paper.
+    """
+    E_star = reduced_modulus / 2.0
+    small, large = sorted((radius_x, radius_y))
+    ratio = _axis_ratio(large / small)
+    m = 1.0 - ratio**2
+    curvature = 0.5 / radius_x + 0.5 / radius_y
+    major = (3.0 * load * ellipe(m) / (2.0 * pi * E_star * curvature * ratio**2)) ** (1.0 / 3.0)
+    minor = ratio * major
+    p_h = 3.0 * load / (2.0 * pi * major * minor)
+    approach = p_h / E_star * minor * ellipk(m)
+    a, b = (minor, major) if radius_x <= radius_y else (major, minor)
+    return HertzContact(a, b, p_h, approach)
+
+
+def _axis_ratio(radius_ratio):
+    """Minor over major semi-axis for a ratio R_large/R_small >= 1."""
+    if radius_ratio < 1.0 + 1e-12:
+        return 1.0
+
+    def mismatch(ratio):
+        m = 1.0 - ratio**2
+        return (ellipe(m) / ratio**2 - ellipk(m)) / (ellipk(m) - ellipe(m)) - radius_ratio
+
+    return brentq(mismatch, 1e-6, 1.0 - 1e-9, xtol=1e-15)
+
+
+def hertz_pressure(X, Y):
+    """Dimensionless pressure sqrt(1 - X^2 - Y^2), zero outside; X = x/a, Y = y/b."""
+    return np.sqrt(np.maximum(1.0 - X**2 - Y**2, 0.0))
+
+
+def edge_gap_coefficient(contact, reduced_modulus):
+    """C in metres of the dry gap h = C s^(3/2) beside the edge on the x axis, s = x/a - 1.
+
+    Locally plane strain: C = (8 sqrt2/3) p_h a/E', which is (8 sqrt2/(3 pi)) a^2/R for a circle.
+    """
+    return 8.0 * sqrt(2.0) / 3.0 * contact.p_h * contact.a / reduced_modulus

@@ -1,0 +1,97 @@
+"""Constitutive laws of the lubricant as pure functions of the dimensionless pressure.
+
+Every law returns the value and its derivative with respect to P = p/p_h, so that the
+residual and its linearisation cannot drift apart.
+"""
+
+from dataclasses import dataclass
+from math import log
+
+import numpy as np
+
+ROELANDS_PRESSURE = 1.0 / 5.1e-9
+"""Pressure constant of Roelands' law in Pa."""
+
+
+@dataclass(frozen=True)
+class Barus:
+    """Exponential law ln(eta/eta0) = alpha p  [Liu eq. 46]."""
+
+    viscosity: float
+    """eta0 in Pa s."""
+    pressure_viscosity: float
+    """alpha in 1/Pa."""
+
+    def log_viscosity(self, P, p_h):
+        """Return ln(eta*) and d ln(eta*)/dP, shapes as P."""
+        alpha_bar = self.pressure_viscosity * p_h
+        return alpha_bar * P, alpha_bar
+
+
+@dataclass(frozen=True)
+class Roelands:
+    """ln(eta/eta0) = (ln eta0 + 9.67) ((1 + 5.1e-9 p)^z - 1), slope alpha at p = 0.
+
+    Raises ValueError when ln(eta0) + 9.67 is not positive, where the law has no meaning.
+    """
+
+    viscosity: float
+    pressure_viscosity: float
+
+    def __post_init__(self):
+        if self._scale <= 0.0:
+            raise ValueError("Roelands' law needs a viscosity above 6.3e-5 Pa s")
+
+    @property
+    def _scale(self):
+        return log(self.viscosity) + 9.67
+
+    def log_viscosity(self, P, p_h):
+        """Return ln(eta*) and d ln(eta*)/dP, shapes as P."""
+        z = self.pressure_viscosity * ROELANDS_PRESSURE / self._scale
+        pressure = p_h / ROELANDS_PRESSURE
+        power = (1.0 + pressure * np.maximum(P, 0.0)) ** z
+        slope = self._scale * z * pressure * power / (1.0 + pressure * np.maximum(P, 0.0))
+        return self._scale * (power - 1.0), slope
+
+
+@dataclass(frozen=True)
+class DowsonHigginson:
+    """rho* = 1 + 0.6e-9 p / (1 + 1.7e-9 p), p in Pa  [Liu eq. 47]."""
+
+    def density(self, P, p_h):
+        """Return rho* and d rho*/dP, shapes as P."""
+        rise, softening = 0.6e-9 * p_h, 1.7e-9 * p_h
+        denominator = 1.0 + softening * P
+        return 1.0 + rise * P / denominator, rise / denominator**2
+
+
+@dataclass(frozen=True)
+class ConstantDensity:
+    """rho* = 1."""
+
+    def density(self, P, p_h):
+        """Return rho* and d rho*/dP, shapes as P."""
+        return np.ones_like(P), np.zeros_like(P)
+
+
+VISCOSITY_LAWS = {"barus": Barus, "roelands": Roelands}
+DENSITY_LAWS = {"dowson-higginson": DowsonHigginson, "constant": ConstantDensity}
+
+
+@dataclass(frozen=True)
+class Lubricant:
+    """A viscosity law and a density law."""
+
+    viscosity_law: Barus | Roelands
+    density_law: DowsonHigginson | ConstantDensity
+
+    @property
+    def viscosity(self):
+        """eta0 in Pa s."""
+        return self.viscosity_law.viscosity
+
+    @property
+    def pressure_viscosity(self):
+        """alpha in 1/Pa."""
+        return self.viscosity_law.pressure_viscosity

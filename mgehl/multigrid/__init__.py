@@ -1,0 +1,1 @@
+"""Multigrid for the bordered Jacobian: PETSc's PCMG with a distributive line smoother."""

@@ -1,0 +1,68 @@
+"""Direct solve of the bordered Jacobian on the coarsest grid, redundantly on every rank."""
+
+import numpy as np
+from scipy.linalg import lu_factor, lu_solve
+from scipy.sparse import diags
+
+from mgehl.discretization.influence import influence_coefficients
+from mgehl.discretization.residual import WW, C, E, N, S, W
+
+
+class CoarseSolve:
+    """Python context of a PC: dense LU of J with its border."""
+
+    def __init__(self, jacobian):
+        self._jacobian = jacobian
+        self._K = dense_influence(jacobian.grid.mesh, jacobian.contact.deflection_scale)
+
+    def setUp(self, _pc):
+        """Gather the stencils, form the dense matrix and factor it."""
+        jacobian = self._jacobian
+        linearisation = jacobian.linearisation
+        A, B = (self._gather(stencil) for stencil in (linearisation.A, linearisation.B))
+        nodes = jacobian.grid.mesh.nodes
+        matrix = np.zeros((nodes + 1, nodes + 1))
+        matrix[:nodes, :nodes] = B @ self._K
+        matrix[:nodes, :nodes] += A.toarray()
+        matrix[:nodes, nodes] = B @ np.ones(nodes)
+        matrix[nodes, :nodes] = jacobian.load_weight
+        self._factors = lu_factor(matrix, overwrite_a=True, check_finite=False)
+
+    def apply(self, _pc, x, y):
+        """y = J^-1 x."""
+        space, grid = self._jacobian.space, self._jacobian.grid
+        r, load = space.read(x)
+        whole = np.append(np.concatenate(grid.comm.allgather(np.array(r))).ravel(), load)
+        solution = lu_solve(self._factors, whole, check_finite=False)
+        lines = solution[:-1].reshape(grid.mesh.ny, grid.mesh.nx)
+        space.write(y, lines[grid.first : grid.last], solution[-1])
+
+    def view(self, _pc, viewer):
+        viewer.printfASCII("  dense LU with the border, redundant on every rank\n")
+
+    def _gather(self, stencil):
+        """Sparse matrix of a stencil (6, local lines, nx) of all ranks."""
+        grid = self._jacobian.grid
+        whole = np.concatenate(grid.comm.allgather(stencil), axis=1)
+        return stencil_matrix(whole)
+
+
+def stencil_matrix(stencil):
+    """Sparse matrix of a whole-grid stencil (6, ny, nx)."""
+    _, ny, nx = stencil.shape
+    nodes = nx * ny
+    offsets = {WW: -2, W: -1, C: 0, E: 1, S: -nx, N: nx}
+    diagonals = []
+    for position, offset in offsets.items():
+        rows = stencil[position].ravel()
+        diagonals.append(rows[max(0, -offset) : nodes - max(0, offset)])
+    return diags(diagonals, list(offsets.values()), shape=(nodes, nodes), format="csr")
+
+
+def dense_influence(mesh, deflection_scale):
+    """Influence of every node on every node, (nodes, nodes)."""
+    kernel = influence_coefficients(mesh, deflection_scale)
+    distance_y = np.abs(np.subtract.outer(np.arange(mesh.ny), np.arange(mesh.ny)))
+    distance_x = np.abs(np.subtract.outer(np.arange(mesh.nx), np.arange(mesh.nx)))
+    K = kernel[distance_y[:, None, :, None], distance_x[None, :, None, :]]
+    return K.reshape(mesh.nodes, mesh.nodes)

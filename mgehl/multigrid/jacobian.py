@@ -1,0 +1,81 @@
+"""The bordered Jacobian on one grid.
+
+    [ A + B K   B 1 ] [ dP  ]
+    [ s^T        0  ] [ dH0 ]        s = load weight x dX dY
+
+K is the full convolution and is never truncated or assembled. A bordered vector holds the
+rank's lines of P and, on the last rank, one entry more for H0 (or for the load row).
+"""
+
+import numpy as np
+from petsc4py import PETSc
+
+from mgehl.discretization.kernels import apply_jacobian
+from mgehl.discretization.residual import linearise
+
+
+class BorderedSpace:
+    """Vectors (P, H0) on a grid."""
+
+    def __init__(self, grid):
+        self.grid = grid
+        self._last = grid.comm.size - 1
+        self._owns_border = grid.comm.rank == self._last
+        self.local_size = grid.shape[0] * grid.shape[1] + int(self._owns_border)
+
+    def create_vec(self):
+        """A new vector of this space."""
+        return PETSc.Vec().createMPI((self.local_size, PETSc.DECIDE), comm=self.grid.comm)
+
+    def read(self, vec):
+        """Return the pressure part, a view (lines, nx), and the border entry on every rank."""
+        values = vec.getArray(readonly=True)
+        border = float(values[-1]) if self._owns_border else None
+        return self._lines(values), self.grid.comm.bcast(border, root=self._last)
+
+    def write(self, vec, P, border):
+        """Set a vector from its pressure part and its border entry."""
+        values = vec.getArray()
+        self._lines(values)[:] = P
+        if self._owns_border:
+            values[-1] = border
+
+    def _lines(self, values):
+        return values[: self.grid.shape[0] * self.grid.shape[1]].reshape(self.grid.shape)
+
+
+class Jacobian:
+    """Python context of the bordered Jacobian's Mat."""
+
+    def __init__(self, grid, deflection, contact, scheme):
+        self.grid, self.space = grid, BorderedSpace(grid)
+        self.deflection, self.scheme, self.contact = deflection, scheme, contact
+        mesh = grid.mesh
+        # One load row against nx ny others of size H/dX: this weight lets the rms of the whole
+        # bordered residual see a relative load error as it sees a residual of that size.
+        self.load_scale = np.sqrt(mesh.nodes)
+        self.load_weight = mesh.dX * mesh.dY * self.load_scale
+        self.linearisation = None
+        self._dP = np.zeros(grid.ghosted_shape)
+        self._dH = np.zeros(grid.ghosted_shape)
+        self._out = np.zeros(grid.shape)
+        size = (self.space.local_size, PETSc.DECIDE)
+        self.mat = PETSc.Mat().createPython((size, size), self, comm=grid.comm)
+        self.mat.setUp()
+
+    def destroy(self, _mat=None):
+        """Called by PETSc with the Mat; nothing else to free."""
+
+    def linearise(self, P, H, status):
+        """Linearise about ghosted P, H and status."""
+        self.linearisation = linearise(P, H, status, self.grid.mesh, self.contact, self.scheme)
+        self.mat.stateIncrease()
+
+    def mult(self, _mat, x, y):
+        """y = J x; one convolution."""
+        dP, dH0 = self.space.read(x)
+        grid, lin = self.grid, self.linearisation
+        grid.halo(self.deflection(dP), out=self._dH)
+        grid.halo(dP, out=self._dP)
+        apply_jacobian(lin.A, lin.B, self._dP, self._dH, dH0, self._out)
+        self.space.write(y, self._out, self.load_weight * grid.sum(dP.sum()))

@@ -1,0 +1,55 @@
+"""Damped Jacobi x-line relaxation, distributive where the Poiseuille flow is weak."""
+
+import numpy as np
+
+from mgehl.discretization.bands import LineBands, distributive_nodes, influence_of_columns
+from mgehl.discretization.influence import influence_coefficients
+from mgehl.discretization.kernels import REACH, distribute
+
+OMEGA = 0.8
+
+
+class LineSmoother:
+    """Python context of a PC: y = omega Q T^-1 x, T the lines' part of J Q.
+
+    Without the distribution Q the relaxation diverges: K is long-ranged, and a band of it
+    overshoots on smooth corrections; K Q decays fast enough for a band.
+    """
+
+    def __init__(self, jacobian, omega=OMEGA):
+        self._jacobian, self._omega = jacobian, omega
+        grid = jacobian.grid
+        near = _influence_nearby(jacobian)
+        self._K00, self._kappa = near[0, 0], influence_of_columns(near)
+        self._bands = LineBands(*grid.shape)
+        self._w = np.zeros(grid.shape)
+        self._ghosted_w = np.zeros(grid.ghosted_shape)
+        self._out = np.zeros(grid.shape)
+
+    def partition(self, eps, status):
+        """Choose the distributive nodes; `eps` and `status` ghosted."""
+        grid = self._jacobian.grid
+        distributive = distributive_nodes(eps, status, grid.mesh.dX, self._K00)
+        self._distributive = grid.halo(distributive)
+
+    def setUp(self, _pc):
+        """Factor the bands of the present linearisation."""
+        self._bands.factor(self._jacobian.linearisation, self._distributive[1:-1], self._kappa)
+
+    def apply(self, _pc, x, y):
+        """One relaxation from zero; the border is left alone."""
+        space = self._jacobian.space
+        r, _ = space.read(x)
+        self._bands.solve(r, self._w)
+        self._jacobian.grid.halo(self._w, out=self._ghosted_w)
+        distribute(self._ghosted_w, self._distributive, self._omega, self._out)
+        space.write(y, self._out, 0.0)
+
+    def view(self, _pc, viewer):
+        viewer.printfASCII(f"  distributive x-line Jacobi, omega {self._omega}, {REACH} neighbours\n")
+
+
+def _influence_nearby(jacobian):
+    """Influence coefficients of the few nearest nodes, [l, k]."""
+    mesh = jacobian.grid.mesh
+    return influence_coefficients(mesh, jacobian.contact.deflection_scale, 0, 3)[:, : REACH + 4]
