@@ -3,6 +3,7 @@
 Each has a numpy twin in the tests that says the same thing slowly.
 """
 
+import numpy as np
 from numba import njit
 
 from mgehl.discretization.residual import WW, C, E, N, S, W
@@ -34,6 +35,19 @@ def apply_jacobian(A, B, dP, dH, dH0, out):
             )
         for i in range(2, nx - 1):
             out[j, i] += A[WW, j, i] * dP[j + 1, i - 2] + B[WW, j, i] * (dH[j + 1, i - 2] + dH0)
+
+
+@njit(cache=True, fastmath={"contract"})
+def apply_stencil(A, dP, out):
+    """out = A dP, the Jacobian of a rigid gap; `dP` ghosted."""
+    lines, nx = out.shape
+    for j in range(lines):
+        for i in range(nx):
+            out[j, i] = A[C, j, i] * dP[j + 1, i] + A[S, j, i] * dP[j, i] + A[N, j, i] * dP[j + 2, i]
+        for i in range(1, nx - 1):
+            out[j, i] += A[W, j, i] * dP[j + 1, i - 1] + A[E, j, i] * dP[j + 1, i + 1]
+        for i in range(2, nx - 1):
+            out[j, i] += A[WW, j, i] * dP[j + 1, i - 2]
 
 
 @njit(cache=True, fastmath={"contract"})
@@ -128,3 +142,76 @@ def distribute(w, distributive, omega, out):
             if i < nx - 1:
                 spread += w[j + 1, i + 1] * distributive[j + 1, i + 1]
             out[j, i] = omega * (w[j + 1, i] - 0.25 * spread)
+
+
+@njit(cache=True, fastmath={"contract"})
+def flow_sources(inflow, P, along, across, source):
+    """source = inflow - L P: the net inflow of a node without its Poiseuille flow.
+
+    `P` is ghosted. `along` (lines, nx - 1) and `across` (lines + 1, nx) are the conductances of
+    the x and y faces over dX^2 and dY^2; L P is their flow. Ends of lines are left alone.
+    """
+    lines, nx = source.shape
+    for j in range(lines):
+        for i in range(1, nx - 1):
+            centre = P[j + 1, i]
+            source[j, i] = inflow[j, i] - (
+                along[j, i - 1] * (P[j + 1, i - 1] - centre)
+                + along[j, i] * (P[j + 1, i + 1] - centre)
+                + across[j, i] * (P[j, i] - centre)
+                + across[j + 1, i] * (P[j + 2, i] - centre)
+            )
+
+
+@njit(cache=True, fastmath={"contract"})
+def relax_cavitation(first, P, lubricated, movable, source, along, across, passes):
+    """Solve P >= 0, inflow <= 0, one of them zero, on every other line from `first`.
+
+    Only `movable` nodes take part; `lubricated` (of those) and the ghosted `P` are updated. On a
+    line the set is iterated `passes` times: solve the lubricated nodes, give up the negative
+    ones, take cavitated ones that the flow fills. Returns the number of changes of the last pass.
+    """
+    lines, nx = source.shape
+    upper, value = np.zeros(nx), np.zeros(nx)
+    changes = 0
+    for j in range(first, lines, 2):
+        for _ in range(passes):
+            changed = 0
+            for i in range(1, nx - 1):
+                upper[i] = 0.0
+                value[i] = P[j + 1, i]
+                if movable[j, i]:
+                    value[i] = 0.0
+                    if lubricated[j, i]:
+                        west, east = along[j, i - 1], along[j, i]
+                        south, north = across[j, i], across[j + 1, i]
+                        known = source[j, i] + south * P[j, i] + north * P[j + 2, i]
+                        pivot = 1.0 / (west + east + south + north - west * upper[i - 1])
+                        value[i] = (known + west * value[i - 1]) * pivot
+                        upper[i] = east * pivot
+            for i in range(nx - 2, 0, -1):
+                if movable[j, i]:
+                    P[j + 1, i] = value[i] + upper[i] * P[j + 1, i + 1]
+            for i in range(1, nx - 1):
+                if not movable[j, i]:
+                    continue
+                if lubricated[j, i]:
+                    if P[j + 1, i] < 0.0:
+                        P[j + 1, i] = 0.0
+                        lubricated[j, i] = False
+                        changed += 1
+                else:
+                    filled = (
+                        source[j, i]
+                        + along[j, i - 1] * P[j + 1, i - 1]
+                        + along[j, i] * P[j + 1, i + 1]
+                        + across[j, i] * P[j, i]
+                        + across[j + 1, i] * P[j + 2, i]
+                    )
+                    if filled > 0.0:
+                        lubricated[j, i] = True
+                        changed += 1
+            if changed == 0:
+                break
+        changes += changed
+    return changes

@@ -61,8 +61,11 @@ def residual(inflow, P, H, status, mesh):
     return F
 
 
-def linearise(P, H, status, mesh, contact, scheme):
-    """Derivatives of `residual` by P (A) and by H (B); arguments ghosted."""
+def linearise(P, H, status, mesh, contact, scheme, rigid=False):
+    """Derivatives of `residual` by P (A) and by H (B); arguments ghosted.
+
+    With a `rigid` gap contact pressures are given, as on the boundary: row -P/dX.
+    """
     fluid = fluid_state(P, H, contact)
     inner = status[1:-1]
     leaving, entering = x_flows(fluid[1:-1], inner, mesh, scheme.couette, scheme.face_mobility, True)
@@ -72,7 +75,7 @@ def linearise(P, H, status, mesh, contact, scheme):
     B = _difference(leaving.by_H, entering.by_H, across.by_H, mesh)
     A *= lubricated
     B *= lubricated
-    contact_nodes = inner == CONTACT
+    contact_nodes = (inner == CONTACT) & (not rigid)
     A[C] -= ~(lubricated | contact_nodes) / mesh.dX
     B[C] -= contact_nodes / mesh.dX
     return Linearisation(A, B)

@@ -61,6 +61,12 @@ class Grid:
         self._global.resetArray()
         return ghosted if ghosted.dtype == array.dtype or out is not None else ghosted.astype(array.dtype)
 
+    def refresh(self, ghosted):
+        """Fetch the neighbours' lines into a ghosted array of doubles, in place."""
+        self._local.placeArray(ghosted.ravel())
+        self.dm.localToLocal(self._local, self._local)
+        self._local.resetArray()
+
     def boundary(self):
         """True on the outermost nodes of the domain: (lines, nx)."""
         mask = np.zeros(self.shape, dtype=bool)

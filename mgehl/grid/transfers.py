@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
+from mgehl.discretization.status import CONTACT, LUBRICATED
 
 
 class Transfer:
@@ -44,12 +44,14 @@ class Transfer:
         return fine
 
 
-class ResidualTransfer:
-    """Full weighting of residuals and bilinear corrections that respect the partition.
+class PartitionedTransfer:
+    """Full weighting of residuals and bilinear corrections, fluid and contact kept apart.
 
-    Lubricated and contact rows are different equations and are weighted apart; a contact row is
-    normalised by the weight of the contact nodes it gathers. Rows and corrections of boundary and
-    cavitated nodes are zero.
+    Their rows are different equations and their pressures jump across the interface, so each
+    kind is averaged over nodes of its own kind only. A contact row is -H/dX on every grid: what
+    is gathered on the fine one shrinks with the ratio of the spacings (leaving that out makes the
+    coarse correction twice too large, and the cycle slower with every refinement). Rows and
+    corrections of boundary and cavitated nodes are zero.
     """
 
     def __init__(self, transfer):
@@ -57,26 +59,35 @@ class ResidualTransfer:
 
     def partition(self, coarse_status, fine_status):
         """Take the partitions of both grids."""
-        self._fine_lubricated = fine_status == LUBRICATED
-        self._fine_contact = fine_status == CONTACT
-        self._fine_given = (fine_status == BOUNDARY) | (fine_status == CAVITATED)
-        self._coarse_lubricated = coarse_status == LUBRICATED
-        self._any_contact = self._transfer.coarse.count(self._fine_contact) > 0
+        transfer = self._transfer
+        self._fine_film, self._coarse_film = fine_status == LUBRICATED, coarse_status == LUBRICATED
+        fine_contact, coarse_contact = fine_status == CONTACT, coarse_status == CONTACT
+        self._any_contact = transfer.coarse.count(coarse_contact) > 0
         if self._any_contact:
-            weight = self._transfer.full_weighting(self._fine_contact.astype(float))
-            is_contact = (coarse_status == CONTACT) & (weight > 0.0)
-            self._coarse_contact_share = np.divide(1.0, weight, out=np.zeros_like(weight), where=is_contact)
+            self._fine_contact, self._coarse_contact = fine_contact, coarse_contact
+            gathered = transfer.full_weighting(fine_contact.astype(float))
+            self._restrict_contact = 0.5 * _inverse(gathered, where=coarse_contact)
+            spread = transfer.bilinear(coarse_contact.astype(float))
+            self._prolong_contact = _inverse(spread, where=fine_contact)
+            self._prolong_film = _inverse(1.0 - spread, where=self._fine_film)
 
     def restrict(self, fine):
         """Residual (lines, nx) of the fine grid to the coarse one."""
-        coarse = self._transfer.full_weighting(fine * self._fine_lubricated) * self._coarse_lubricated
+        transfer = self._transfer
+        coarse = transfer.full_weighting(fine * self._fine_film) * self._coarse_film
         if self._any_contact:
-            gathered = self._transfer.full_weighting(fine * self._fine_contact)
-            coarse += gathered * self._coarse_contact_share
+            coarse += transfer.full_weighting(fine * self._fine_contact) * self._restrict_contact
         return coarse
 
     def prolong(self, coarse):
         """Correction (lines, nx) of the coarse grid to the fine one."""
-        fine = self._transfer.bilinear(coarse)
-        fine[self._fine_given] = 0.0
-        return fine
+        transfer = self._transfer
+        if not self._any_contact:
+            return transfer.bilinear(coarse) * self._fine_film
+        contact = transfer.bilinear(coarse * self._coarse_contact) * self._prolong_contact
+        return contact + transfer.bilinear(coarse * ~self._coarse_contact) * self._prolong_film
+
+
+def _inverse(weight, where):
+    """1/weight on a set of nodes, 0 elsewhere and where there is no weight."""
+    return np.divide(1.0, weight, out=np.zeros_like(weight), where=where & (weight > 0.0))

@@ -13,19 +13,22 @@ class CoarseSolve:
 
     def __init__(self, jacobian):
         self._jacobian = jacobian
-        self._K = dense_influence(jacobian.grid.mesh, jacobian.contact.deflection_scale)
+        if not jacobian.rigid:
+            self._K = dense_influence(jacobian.grid.mesh, jacobian.contact.deflection_scale)
 
     def setUp(self, _pc):
         """Gather the stencils, form the dense matrix and factor it."""
         jacobian = self._jacobian
-        linearisation = jacobian.linearisation
-        A, B = (self._gather(stencil) for stencil in (linearisation.A, linearisation.B))
         nodes = jacobian.grid.mesh.nodes
         matrix = np.zeros((nodes + 1, nodes + 1))
-        matrix[:nodes, :nodes] = B @ self._K
-        matrix[:nodes, :nodes] += A.toarray()
-        matrix[:nodes, nodes] = B @ np.ones(nodes)
-        matrix[nodes, :nodes] = jacobian.load_weight
+        matrix[:nodes, :nodes] = self._gather(jacobian.linearisation.A).toarray()
+        if jacobian.rigid:
+            matrix[nodes, nodes] = 1.0
+        else:
+            B = self._gather(jacobian.linearisation.B)
+            matrix[:nodes, :nodes] += B @ self._K
+            matrix[:nodes, nodes] = B @ np.ones(nodes)
+            matrix[nodes, :nodes] = jacobian.load_weight
         self._factors = lu_factor(matrix, overwrite_a=True, check_finite=False)
 
     def apply(self, _pc, x, y):

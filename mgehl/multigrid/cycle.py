@@ -5,13 +5,15 @@ border travels with the residual, so H0 is corrected by the direct solve on the 
 and the cycle needs no second solve for its column.
 """
 
+from dataclasses import dataclass
+
 from petsc4py import PETSc
 
 from mgehl.discretization.fluid import fluid_state
+from mgehl.grid.transfers import PartitionedTransfer
 from mgehl.multigrid.coarse import CoarseSolve
 from mgehl.multigrid.jacobian import Jacobian
 from mgehl.multigrid.smoother import LineSmoother
-from mgehl.grid.transfers import ResidualTransfer
 
 
 class _Restriction:
@@ -39,23 +41,37 @@ class _Interpolation:
         self._fine.write(y, self._transfer.prolong(correction), dH0)
 
 
-class MultigridSolver:
-    """Flexible GMRES with one V-cycle for the bordered Jacobian of the finest of `grids`.
+@dataclass(frozen=True)
+class CycleSettings:
+    """The linear solver: relaxations before and after the coarse grids, and GMRES limits."""
 
-    `deflections` and `transfers` belong to the same grids, coarsest first; `transfers[l]` leads
-    from grid l to grid l + 1.
+    sweeps: int = 2
+    omega: float = 0.8
+    max_iterations: int = 30
+    options_prefix: str = "mgehl_"
+
+
+class MultigridSolver:
+    """Flexible GMRES with one V-cycle for the bordered Jacobian of grid `level`.
+
+    With a `rigid` gap it solves for the fluid alone and makes no convolution.
     """
 
-    def __init__(self, grids, deflections, transfers, contact, scheme, settings):
-        self.contact = contact
-        self.jacobians = [
-            Jacobian(grid, deflection, contact, scheme)
-            for grid, deflection in zip(grids, deflections, strict=True)
-        ]
-        self._transfers = transfers
-        self._residual_transfers = [ResidualTransfer(transfer) for transfer in transfers]
-        self._smoothers = [LineSmoother(jacobian) for jacobian in self.jacobians[1:]]
-        self.ksp = self._create_ksp(grids[-1].comm, settings)
+    def __init__(self, hierarchy, level, contact, scheme, settings=CycleSettings(), rigid=False):
+        self.contact, self._settings = contact, settings
+        self.jacobians = []
+        for grid, deflection in zip(hierarchy.grids, hierarchy.deflections, strict=True):
+            if len(self.jacobians) <= level:
+                self.jacobians.append(Jacobian(grid, None if rigid else deflection, contact, scheme))
+        self._transfers = hierarchy.transfers[:level]
+        self._partitioned = [PartitionedTransfer(transfer) for transfer in self._transfers]
+        self._smoothers = [LineSmoother(jacobian, settings.omega) for jacobian in self.jacobians[1:]]
+        self._transfer_mats = []
+
+    def free(self):
+        """Destroy the Mats; the KSP that uses them must be destroyed before."""
+        for mat in [*self._transfer_mats, *(jacobian.mat for jacobian in self.jacobians)]:
+            mat.destroy()
 
     @property
     def space(self):
@@ -74,49 +90,44 @@ class MultigridSolver:
                 self._smoothers[level - 1].partition(eps, ghosted[2])
                 transfer = self._transfers[level - 1]
                 coarser = [transfer.inject(array) for array in (P, H, status)]
-                self._residual_transfers[level - 1].partition(coarser[2], status)
+                self._partitioned[level - 1].partition(coarser[2], status)
                 P, H, status = coarser
 
-    def solve(self, rhs, correction, rtol):
-        """Solve J correction = rhs to the relative tolerance; return the iterations."""
-        self.ksp.setTolerances(rtol=rtol)
-        self.ksp.solve(rhs, correction)
-        return self.ksp.getIterationNumber()
-
-    def _create_ksp(self, comm, settings):
-        ksp = PETSc.KSP().create(comm)
-        ksp.setOptionsPrefix(settings.options_prefix)
+    def configure(self, ksp):
+        """Make a KSP (of a SNES, say) this solver; its options may still change it."""
         ksp.setType(PETSc.KSP.Type.FGMRES)
         ksp.setOperators(self.jacobians[-1].mat)
-        ksp.setTolerances(max_it=settings.max_iterations, atol=0.0)
-        self._configure_cycle(ksp.getPC(), settings)
+        ksp.setTolerances(max_it=self._settings.max_iterations, atol=0.0)
+        self._configure_cycle(ksp.getPC())
         ksp.setFromOptions()
-        return ksp
 
-    def _configure_cycle(self, pc, settings):
+    def _configure_cycle(self, pc):
         pc.setType(PETSc.PC.Type.MG)
         pc.setMGLevels(len(self.jacobians))
         pc.setMGType(PETSc.PC.MGType.MULTIPLICATIVE)
-        for level, jacobian in enumerate(self.jacobians):
-            if level == 0:
-                solver, context, sweeps = pc.getMGCoarseSolve(), CoarseSolve(jacobian), 1
-                solver.setType(PETSc.KSP.Type.PREONLY)
-            else:
-                solver, context, sweeps = pc.getMGSmoother(level), self._smoothers[level - 1], settings.sweeps
-                solver.setType(PETSc.KSP.Type.RICHARDSON)
-                pc.setMGRestriction(level, self._transfer_mat(level, _Restriction, down=True))
-                pc.setMGInterpolation(level, self._transfer_mat(level, _Interpolation, down=False))
-            solver.setNormType(PETSc.KSP.NormType.NONE)
-            solver.setTolerances(max_it=sweeps)
-            solver.setOperators(jacobian.mat)
-            solver.getPC().setType(PETSc.PC.Type.PYTHON)
-            solver.getPC().setPythonContext(context)
+        self._configure_level(pc.getMGCoarseSolve(), 0, PETSc.KSP.Type.PREONLY, 1)
+        for level in range(1, len(self.jacobians)):
+            smoother = pc.getMGSmoother(level)
+            self._configure_level(smoother, level, PETSc.KSP.Type.RICHARDSON, self._settings.sweeps)
+            pc.setMGRestriction(level, self._transfer_mat(level, _Restriction))
+            pc.setMGInterpolation(level, self._transfer_mat(level, _Interpolation))
 
-    def _transfer_mat(self, level, kind, down):
+    def _configure_level(self, solver, level, kind, iterations):
+        jacobian = self.jacobians[level]
+        solver.setType(kind)
+        solver.setNormType(PETSc.KSP.NormType.NONE)
+        solver.setTolerances(max_it=iterations)
+        solver.setOperators(jacobian.mat)
+        solver.getPC().setType(PETSc.PC.Type.PYTHON)
+        context = CoarseSolve(jacobian) if level == 0 else self._smoothers[level - 1]
+        solver.getPC().setPythonContext(context)
+
+    def _transfer_mat(self, level, kind):
         fine, coarse = self.jacobians[level], self.jacobians[level - 1]
-        context = kind(self._residual_transfers[level - 1], fine, coarse)
-        spaces = (coarse.space, fine.space) if down else (fine.space, coarse.space)
+        spaces = (coarse.space, fine.space) if kind is _Restriction else (fine.space, coarse.space)
         sizes = [(space.local_size, PETSc.DECIDE) for space in spaces]
+        context = kind(self._partitioned[level - 1], fine, coarse)
         mat = PETSc.Mat().createPython(sizes, context, comm=fine.grid.comm)
         mat.setUp()
+        self._transfer_mats.append(mat)
         return mat

@@ -10,7 +10,7 @@ rank's lines of P and, on the last rank, one entry more for H0 (or for the load 
 import numpy as np
 from petsc4py import PETSc
 
-from mgehl.discretization.kernels import apply_jacobian
+from mgehl.discretization.kernels import apply_jacobian, apply_stencil
 from mgehl.discretization.residual import linearise
 
 
@@ -45,14 +45,18 @@ class BorderedSpace:
 
 
 class Jacobian:
-    """Python context of the bordered Jacobian's Mat."""
+    """Python context of the bordered Jacobian's Mat.
+
+    Without a `deflection` the gap is rigid: K = 0, H0 is given, and no convolution is made.
+    """
 
     def __init__(self, grid, deflection, contact, scheme):
         self.grid, self.space = grid, BorderedSpace(grid)
         self.deflection, self.scheme, self.contact = deflection, scheme, contact
+        self.rigid = deflection is None
         mesh = grid.mesh
-        # One load row against nx ny others of size H/dX: this weight lets the rms of the whole
-        # bordered residual see a relative load error as it sees a residual of that size.
+        # One load row against nx ny others: with this weight the norm of the bordered residual
+        # sees a load error as it sees an rms residual of that size.
         self.load_scale = np.sqrt(mesh.nodes)
         self.load_weight = mesh.dX * mesh.dY * self.load_scale
         self.linearisation = None
@@ -63,19 +67,21 @@ class Jacobian:
         self.mat = PETSc.Mat().createPython((size, size), self, comm=grid.comm)
         self.mat.setUp()
 
-    def destroy(self, _mat=None):
-        """Called by PETSc with the Mat; nothing else to free."""
-
     def linearise(self, P, H, status):
         """Linearise about ghosted P, H and status."""
-        self.linearisation = linearise(P, H, status, self.grid.mesh, self.contact, self.scheme)
+        mesh = self.grid.mesh
+        self.linearisation = linearise(P, H, status, mesh, self.contact, self.scheme, self.rigid)
         self.mat.stateIncrease()
 
     def mult(self, _mat, x, y):
-        """y = J x; one convolution."""
+        """y = J x; one convolution unless the gap is rigid."""
         dP, dH0 = self.space.read(x)
         grid, lin = self.grid, self.linearisation
-        grid.halo(self.deflection(dP), out=self._dH)
         grid.halo(dP, out=self._dP)
-        apply_jacobian(lin.A, lin.B, self._dP, self._dH, dH0, self._out)
-        self.space.write(y, self._out, self.load_weight * grid.sum(dP.sum()))
+        if self.rigid:
+            apply_stencil(lin.A, self._dP, self._out)
+            self.space.write(y, self._out, dH0)
+        else:
+            grid.halo(self.deflection(dP), out=self._dH)
+            apply_jacobian(lin.A, lin.B, self._dP, self._dH, dH0, self._out)
+            self.space.write(y, self._out, self.load_weight * grid.sum(dP.sum()))

@@ -6,9 +6,6 @@ from mgehl.discretization.bands import LineBands, distributive_nodes, influence_
 from mgehl.discretization.influence import influence_coefficients
 from mgehl.discretization.kernels import REACH, distribute
 
-OMEGA = 0.8
-
-
 class LineSmoother:
     """Python context of a PC: y = omega Q T^-1 x, T the lines' part of J Q.
 
@@ -16,10 +13,12 @@ class LineSmoother:
     overshoots on smooth corrections; K Q decays fast enough for a band.
     """
 
-    def __init__(self, jacobian, omega=OMEGA):
+    def __init__(self, jacobian, omega):
         self._jacobian, self._omega = jacobian, omega
         grid = jacobian.grid
         near = _influence_nearby(jacobian)
+        if jacobian.rigid:
+            near = np.zeros_like(near)
         self._K00, self._kappa = near[0, 0], influence_of_columns(near)
         self._bands = LineBands(*grid.shape)
         self._w = np.zeros(grid.shape)

@@ -1,0 +1,28 @@
+"""The grids of a run, coarsest first, with what connects them and the count of convolutions."""
+
+from mgehl.grid.convolution import Deflection
+from mgehl.grid.grid import build_grids
+from mgehl.grid.transfers import Transfer
+
+
+class Hierarchy:
+    """Grids, the transfers between neighbours and the deflection operator on each.
+
+    `transfers[l]` leads from grid l to grid l + 1.
+    """
+
+    def __init__(self, mesh, coarsest_nodes, deflection_scale, comm):
+        self.grids = build_grids(mesh, coarsest_nodes, comm)
+        self.transfers = [Transfer(*pair) for pair in zip(self.grids[:-1], self.grids[1:], strict=True)]
+        self.deflections = [Deflection(grid, deflection_scale) for grid in self.grids]
+
+    @property
+    def convolutions(self):
+        """Convolutions made so far, in equivalents of one on the finest grid (by node ratio)."""
+        work = sum(deflection.count * deflection.grid.mesh.nodes for deflection in self.deflections)
+        return work / self.grids[-1].mesh.nodes
+
+    def destroy(self):
+        """Free the PETSc objects of the grids."""
+        for grid in self.grids:
+            grid.destroy()

@@ -1,0 +1,1 @@
+"""Newton's method, the partition into film, cavity and contact, nested iteration, verification."""

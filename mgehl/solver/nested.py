@@ -1,0 +1,119 @@
+"""Nested iteration: from a coarse grid to the finest, at speeds that each grid can resolve."""
+
+from dataclasses import dataclass, field, replace
+from functools import partial
+
+import numpy as np
+
+from mgehl.discretization.residual import Scheme
+from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
+from mgehl.model.hertz import hertz_pressure
+from mgehl.multigrid.cycle import CycleSettings, MultigridSolver
+from mgehl.solver.cavitation import RigidGapFluid
+from mgehl.solver.newton import Newton, NewtonSettings
+from mgehl.solver.problem import PointProblem
+
+
+@dataclass(frozen=True)
+class NestedSettings:
+    """How the finest grid's first guess is made."""
+
+    start: str = "film"
+    """"film" from a full film on a coarse grid, "contact" from the Hertz ellipse in contact."""
+    first_nodes: int = 65
+    """Nodes along X of the first grid of the nested iteration."""
+    inlet_cells: float = 2.0
+    """Cells that the inlet must have on the coarse grids: the speed is raised until it has.
+
+    Fewer lead to spurious contact that poisons the finer grids (full film is lost near 1.4),
+    more to a longer way back to the wanted speed.
+    """
+    coarse_tolerance: float = 1e-4
+    """Residual at which a coarse grid has served its purpose."""
+
+
+@dataclass(frozen=True)
+class SolverSettings:
+    """All that the solver may be told."""
+
+    scheme: Scheme = field(default_factory=Scheme)
+    nested: NestedSettings = field(default_factory=NestedSettings)
+    newton: NewtonSettings = field(default_factory=NewtonSettings)
+    cycle: CycleSettings = field(default_factory=CycleSettings)
+
+
+@dataclass(frozen=True)
+class LevelSolve:
+    """What is being solved: the grid's nodes along X and the speed in m/s."""
+
+    nodes: int
+    speed: float
+    finest: bool
+
+
+def nested_iteration(hierarchy, contact, settings, monitor):
+    """Solve `contact` on the finest grid; return its `PointProblem` and its `Outcome`.
+
+    `monitor(level, cycle)` is called with a `LevelSolve` and the `Cycle` for every cycle.
+    """
+    finest = len(hierarchy.grids) - 1
+    outcome = None
+    for level in _levels(hierarchy.grids, settings.nested):
+        grid = hierarchy.grids[level]
+        if level < finest:
+            speed = contact.matched_speed(grid.mesh.dX, settings.nested.inlet_cells)
+            limits = replace(settings.newton, tolerance=settings.nested.coarse_tolerance)
+        else:
+            speed, limits = contact.speed, settings.newton
+        problem = PointProblem(grid, hierarchy.deflections[level], contact.at_speed(speed), settings.scheme)
+        if outcome is None:
+            state = first_guess(problem, settings.nested.start)
+        else:
+            state = interpolate(hierarchy.transfers[level - 1], problem, outcome.state)
+        tell = partial(monitor, LevelSolve(grid.mesh.nx, speed, level == finest))
+        outcome = _solve_level(hierarchy, level, problem, state, limits, settings.cycle, tell, settings.nested.start)
+    return problem, outcome
+
+
+def first_guess(problem, start):
+    """Hertz pressure with a film of the formula's thickness, or with the ellipse in contact."""
+    grid, contact = problem.grid, problem.contact
+    P = hertz_pressure(grid.X, grid.Y)
+    if start == "film":
+        film = contact.formulas.hamrock_dowson_central / contact.film_scale
+        return problem.state(P, film - contact.approach, np.full(grid.shape, LUBRICATED))
+    status = np.where(grid.X**2 + grid.Y**2 <= 1.0, CONTACT, LUBRICATED)
+    return problem.state(P, -contact.approach, status)
+
+
+def interpolate(transfer, problem, coarse):
+    """The coarse state on the fine grid: P bilinear, a node in contact where most of it would be."""
+    P = transfer.bilinear(coarse.P)
+    in_contact = transfer.bilinear((coarse.status == CONTACT).astype(float)) > 0.5
+    status = np.where(in_contact, CONTACT, np.where(P > 0.0, LUBRICATED, CAVITATED))
+    return problem.state(P, coarse.H0, status)
+
+
+def _levels(grids, settings):
+    """Grids to solve on: a film grows from the coarse ones, contact starts on the finest."""
+    finest = len(grids) - 1
+    if settings.start == "contact":
+        return [finest]
+    return [level for level in range(finest) if grids[level].mesh.nx >= settings.first_nodes] + [finest]
+
+
+def _solve_level(hierarchy, level, problem, state, limits, cycle_settings, tell, settings_start):
+    multigrid = MultigridSolver(hierarchy, level, problem.contact, problem.scheme, cycle_settings)
+    import os
+    if settings_start == "contact":
+        rigid = MultigridSolver(hierarchy, level, problem.contact, problem.scheme, cycle_settings, rigid=True)
+        fluid = RigidGapFluid(problem, rigid, "mgehl_fluid_")
+        import time; t=time.time()
+        n = fluid.solve(state, 1e-4, 30)
+        print("rigid steps", n, time.time()-t)
+        fluid.free()
+    newton = Newton(problem, multigrid, limits, cycle_settings.options_prefix, tell)
+    try:
+        return newton.run(state)
+    finally:
+        newton.free()

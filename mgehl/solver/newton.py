@@ -1,0 +1,190 @@
+"""Newton's method for one grid, the sets re-partitioned between its steps.
+
+A python-type SNES, so that PETSc's options, monitors and viewers of SNES, KSP and PC apply.
+"""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from petsc4py import PETSc
+
+from mgehl.solver.cavitation import relax_cavitation_set
+from mgehl.solver.partition import Changes, Partition
+from mgehl.solver.problem import State
+
+
+@dataclass(frozen=True)
+class NewtonSettings:
+    """Tolerances and limits of Newton's method on one grid."""
+
+    tolerance: float = 1e-8
+    """For the rms residual and the load error."""
+    max_steps: int = 60
+    linear_tolerance: float = 0.03
+    max_pressure_step: float = 0.3
+    film_threshold: float = 0.0
+    """H_th in units of H."""
+    release_budget: int = 2
+
+
+@dataclass
+class Cycle:
+    """One line of the history: the state before a Newton step and what led to it."""
+
+    step: int
+    residual: float
+    load_error: float
+    central: float
+    minimum: float
+    contact_nodes: int
+    cavitated_nodes: int
+    changes: Changes
+    linear_iterations: int = 0
+    step_length: float = 1.0
+
+
+@dataclass
+class Outcome:
+    """How Newton's method ended."""
+
+    state: State
+    converged: bool
+    reason: str
+    cycles: list = field(default_factory=list)
+
+
+class Newton:
+    """Solves one `PointProblem` with a `MultigridSolver`.
+
+    `monitor` is called with every `Cycle`. PETSc objects are freed by `free`.
+    """
+
+    def __init__(self, problem, multigrid, settings, options_prefix="mgehl_", monitor=lambda cycle: None):
+        self._problem, self._multigrid, self._settings = problem, multigrid, settings
+        self._monitor = monitor
+        self._partition = Partition(problem, settings.film_threshold, settings.release_budget)
+        self._snes = PETSc.SNES().create(problem.grid.comm)
+        self._snes.setOptionsPrefix(options_prefix)
+        self._snes.setType(PETSc.SNES.Type.PYTHON)
+        self._snes.setPythonContext(self)
+        self._unknown, self._rhs, self._correction = (multigrid.space.create_vec() for _ in range(3))
+        self._snes.setFunction(self._form_function, self._rhs)
+        self._snes.setJacobian(self._form_jacobian, multigrid.jacobians[-1].mat)
+        self._snes.setTolerances(atol=settings.tolerance, rtol=0.0, max_it=settings.max_steps)
+        multigrid.configure(self._snes.getKSP())
+        self._snes.setFromOptions()
+
+    def free(self):
+        """Destroy the PETSc objects, the multigrid solver's too: the KSP refers to them.
+
+        (Not called `destroy`: PETSc calls a context's method of that name.)
+        """
+        for thing in (self._snes, self._unknown, self._rhs, self._correction):
+            thing.destroy()
+        self._multigrid.free()
+
+    def run(self, state):
+        """Solve from `state`, which is not changed; return the `Outcome`."""
+        self._outcome = Outcome(state.copy(), False, "")
+        self._snes.solve(None, self._unknown)
+        return self._outcome
+
+    def solve(self, snes, _b, x):
+        """The nonlinear iteration (called by PETSc)."""
+        _, tolerance, _, max_steps = snes.getTolerances()
+        outcome = self._outcome
+        state, changes = outcome.state, Changes()
+        self._partition.enter_contact(state, changes)
+        linear_iterations, length = 0, 0.0
+        while True:
+            F, load = self._settle(state, changes)
+            cycle = self._cycle(len(outcome.cycles), state, F, load, changes, linear_iterations, length)
+            outcome.cycles.append(cycle)
+            self._monitor(cycle)
+            snes.setIterationNumber(cycle.step)
+            snes.setFunctionNorm(cycle.residual)
+            snes.monitor(cycle.step, cycle.residual)
+            if self._finished(outcome, tolerance, max_steps):
+                break
+            changes = Changes()
+            linear_iterations = self._correct(snes, state, F, load)
+            length = self._update(state, changes)
+        self._multigrid.space.write(x, state.P, state.H0)
+        reasons = PETSc.SNES.ConvergedReason
+        snes.setConvergedReason(
+            reasons.CONVERGED_FNORM_ABS if outcome.converged else reasons.DIVERGED_MAX_IT
+        )
+
+    def _settle(self, state, changes):
+        """Settle cavitation at the present gap; return the residual and the load deficit."""
+        problem = self._problem
+        inflow = problem.inflow(state)
+        moved = relax_cavitation_set(problem, state, inflow)
+        if moved:
+            changes.cavitated += moved
+            inflow = problem.inflow(state)
+        self._partition.fill(state, inflow, changes)
+        return problem.residual(state, inflow), problem.load_deficit(state.P)
+
+    def _correct(self, snes, state, F, load):
+        """Solve the linearised bordered system into `_correction`; return the iterations."""
+        multigrid = self._multigrid
+        multigrid.linearise(state.P, state.H, state.status)
+        self._write_residual(self._rhs, F, load, sign=-1.0)
+        ksp = snes.getKSP()
+        ksp.setTolerances(rtol=self._settings.linear_tolerance)
+        ksp.solve(self._rhs, self._correction)
+        return ksp.getIterationNumber()
+
+    def _update(self, state, changes):
+        """Take the step, cut tension, let gaps close; return the step length."""
+        problem = self._problem
+        dP, dH0 = self._multigrid.space.read(self._correction)
+        largest = problem.grid.max(np.abs(dP), initial=0.0)
+        length = min(1.0, self._settings.max_pressure_step / max(largest, 1e-300))
+        state.P += length * dP
+        state.H0 += length * dH0
+        self._partition.cut_tension(state.P, state.status, changes)
+        state.H = problem.gap(state.P, state.H0)
+        self._partition.enter_contact(state, changes)
+        return length
+
+    def _finished(self, outcome, tolerance, max_steps):
+        """Decide on the last cycle; sets `converged` and `reason`."""
+        cycle = outcome.cycles[-1]
+        small = cycle.residual <= tolerance and abs(cycle.load_error) <= tolerance
+        if small and cycle.changes.total == 0:
+            outcome.converged, outcome.reason = True, "residual, load and sets settled"
+            return True
+        if not np.isfinite(cycle.residual):
+            outcome.reason = "the residual is not finite"
+            return True
+        if cycle.step >= max_steps:
+            settled = "sets still change" if small else f"residual {cycle.residual:.1e} after"
+            outcome.reason = f"{settled} {max_steps} steps"
+            return True
+        return False
+
+    def _cycle(self, step, state, F, load, changes, linear_iterations, length):
+        problem, grid = self._problem, self._problem.grid
+        counts = problem.counts(state.status)
+        central, minimum = problem.films(state)
+        return Cycle(
+            step, problem.rms(F), load, central, minimum, *counts, changes, linear_iterations, length
+        )
+
+    def _form_function(self, _snes, x, f):
+        """f = bordered residual at x for the present partition."""
+        P, H0 = self._multigrid.space.read(x)
+        state = self._problem.state(P, H0, self._outcome.state.status)
+        F = self._problem.residual(state, self._problem.inflow(state))
+        self._write_residual(f, F, self._problem.load_deficit(P))
+
+    def _form_jacobian(self, _snes, x, _J, _preconditioner):
+        """Linearise at x for the present partition."""
+        P, H0 = self._multigrid.space.read(x)
+        state = self._problem.state(P, H0, self._outcome.state.status)
+        self._multigrid.linearise(state.P, state.H, state.status)
+
+    def _write_residual(self, vec, F, load, sign=1.0):
+        self._multigrid.space.write(vec, sign * F, sign * load * self._multigrid.jacobians[-1].load_scale)

@@ -1,0 +1,81 @@
+"""Which nodes are film, cavity and contact: re-partitioned between Newton steps.
+
+    cavitated  enters when P < 0, leaves when fluid flows in
+    contact    enters when H <= H_th, leaves when P < 0 (always) or when its P is below the fluid
+               pressure beside it [Liu eq. 2] (after convergence, and a finite number of times)
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED, close_gaps, largest_fluid_neighbour
+
+
+@dataclass
+class Changes:
+    """Nodes that changed status, over all ranks."""
+
+    cavitated: int = 0
+    filled: int = 0
+    entered: int = 0
+    released: int = 0
+
+    @property
+    def total(self):
+        return self.cavitated + self.filled + self.entered + self.released
+
+
+class Partition:
+    """Moves nodes of a state between the sets; owns the budget of releases on Eq. 2."""
+
+    def __init__(self, problem, film_threshold, release_budget):
+        self._problem, self._grid = problem, problem.grid
+        self._film_threshold = film_threshold
+        self._budget = np.full(problem.grid.shape, release_budget, dtype=np.int8)
+        self._just_released = np.zeros(problem.grid.shape, dtype=bool)
+        self._was_tensile = np.zeros(problem.grid.shape, dtype=bool)
+
+    def cut_tension(self, P, status, changes):
+        """Set negative pressures to zero in place: fluid cavitates, contact is released."""
+        negative = P < 0.0
+        torn, tensile = negative & (status == LUBRICATED), negative & (status == CONTACT)
+        P[negative] = 0.0
+        # A released node has no gap yet: held at P = 0 for one step, it opens one.
+        status[torn | tensile] = CAVITATED
+        self._just_released = tensile
+        self._was_tensile |= tensile
+        changes.cavitated += self._grid.count(torn)
+        changes.released += self._grid.count(tensile)
+
+    def enter_contact(self, state, changes):
+        """Nodes whose gap is closed, and fluid shut in from west and east, become contact.
+
+        A node that was tensile in contact comes back only when the bodies would overlap: with a
+        gap between 0 and H_th it would be torn off and put back for ever.
+        """
+        fluid = (state.status == LUBRICATED) | (state.status == CAVITATED)
+        threshold = np.where(self._was_tensile, 0.0, self._film_threshold)
+        closed = fluid & (state.H <= threshold) & ~self._just_released
+        state.status[closed] = CONTACT
+        changes.entered += self._grid.count(closed)
+        changes.entered += int(self._grid.sum(close_gaps(state.status)))
+
+    def fill(self, state, inflow, changes):
+        """Cavitated nodes that fluid flows into become lubricated."""
+        filled = (state.status == CAVITATED) & (inflow > 0.0)
+        # A node without a gap cannot take part in the flow.
+        filled &= state.H > 0.0
+        state.status[filled] = LUBRICATED
+        changes.filled += self._grid.count(filled)
+
+    def release_violations(self, state):
+        """Release contact nodes that violate Eq. 2 and have budget left; return how many."""
+        ghosted = self._grid.halo(state.P), self._grid.halo(state.status)
+        violated = (state.status == CONTACT) & (state.P < largest_fluid_neighbour(*ghosted))
+        released = violated & (self._budget > 0)
+        self._budget[released] -= 1
+        state.status[released] = CAVITATED
+        state.P[released] = 0.0
+        self._just_released = released
+        return self._grid.count(released)

@@ -1,0 +1,71 @@
+"""The discrete problem on one grid and its state."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mgehl.discretization.influence import influence_coefficients
+from mgehl.discretization.residual import net_inflow, residual
+from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT
+from mgehl.model.contact import LOAD
+
+
+@dataclass
+class State:
+    """A solution on one grid: local lines of pressure, gap and status, and the approach H0."""
+
+    P: np.ndarray
+    H0: float
+    H: np.ndarray
+    status: np.ndarray
+
+    def copy(self):
+        return State(self.P.copy(), self.H0, self.H.copy(), self.status.copy())
+
+
+class PointProblem:
+    """Gap, residual and load balance of a contact on one grid."""
+
+    def __init__(self, grid, deflection, contact, scheme):
+        self.grid, self.deflection = grid, deflection
+        self.contact, self.scheme = contact, scheme
+        self.boundary = grid.boundary()
+        self.K00 = influence_coefficients(grid.mesh, contact.deflection_scale, 0, 1)[0, 0]
+        self._undeformed = contact.undeformed_gap(grid.X, grid.Y)
+
+    def gap(self, P, H0):
+        """H of [Liu eq. 48] under the pressure P; one convolution."""
+        return self.deflection(P) + (self._undeformed + H0)
+
+    def state(self, P, H0, status):
+        """The state of a given pressure, with its gap; boundary nodes are set."""
+        P = np.where(self.boundary, 0.0, P)
+        status = np.where(self.boundary, BOUNDARY, status).astype(np.int8)
+        return State(P, H0, self.gap(P, H0), status)
+
+    def inflow(self, state):
+        """Net inflow/(dX dY) of every node  [Liu eq. 35]."""
+        ghosted = (self.grid.halo(array) for array in (state.P, state.H, state.status))
+        return net_inflow(*ghosted, self.grid.mesh, self.contact, self.scheme)
+
+    def residual(self, state, inflow):
+        """Rows of the nonlinear residual."""
+        return residual(inflow, state.P, state.H, state.status, self.grid.mesh)
+
+    def rms(self, F):
+        """Root mean square of a residual over all nodes."""
+        return float(np.sqrt(self.grid.sum(np.vdot(F, F)) / self.grid.mesh.nodes))
+
+    def load_deficit(self, P):
+        """Integral of P minus the load  [Liu eq. 50]."""
+        mesh = self.grid.mesh
+        return mesh.dX * mesh.dY * self.grid.sum(P.sum()) - LOAD
+
+    def films(self, state):
+        """Gap at the node nearest to the centre, and the smallest gap, in units of H."""
+        i, j = self.grid.mesh.nearest(0.0, 0.0)
+        return self.grid.value_at(state.H, i, j), self.grid.min(state.H)
+
+    def counts(self, status):
+        """Numbers of contact and of cavitated nodes."""
+        return self.grid.count(status == CONTACT), self.grid.count(status == CAVITATED)
