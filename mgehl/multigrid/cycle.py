@@ -45,7 +45,7 @@ class _Interpolation:
 class CycleSettings:
     """The linear solver: relaxations before and after the coarse grids, and GMRES limits."""
 
-    sweeps: int = 2
+    sweeps: int = 1
     omega: float = 0.8
     max_iterations: int = 30
     options_prefix: str = "mgehl_"

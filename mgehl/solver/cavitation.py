@@ -14,7 +14,10 @@ from mgehl.discretization.kernels import flow_sources, relax_cavitation
 from mgehl.discretization.status import BOUNDARY, CAVITATED, LUBRICATED, open_x_faces, open_y_faces
 
 WEAKLY_COUPLED = 10.0
-"""A node takes part where its mobility/dX exceeds this multiple of its own influence."""
+"""A node is relaxed where its mobility/dX exceeds this multiple of its own influence."""
+
+SEPARABLE = 1.0
+"""The same for a node whose pressure may be solved apart from the gap."""
 
 SWEEPS = 40
 """Sweeps over all lines at the most; they end when one changes no status."""
@@ -33,7 +36,7 @@ def relax_cavitation_set(problem, state, inflow):
     P, H, status = (grid.halo(array) for array in (state.P, state.H, state.status))
     eps = fluid_state(P, H, problem.contact).eps
     along, across = _conductances(eps, status, mesh, FACE_MEANS[problem.scheme.face_mobility])
-    movable = weakly_coupled(problem, eps[1:-1], state.status)
+    movable = weakly_coupled(problem, eps[1:-1], state.status, WEAKLY_COUPLED)
     lubricated = state.status == LUBRICATED
     source = np.zeros(grid.shape)
     flow_sources(inflow, P, along, across, source)
@@ -53,10 +56,10 @@ def relax_cavitation_set(problem, state, inflow):
     return moved
 
 
-def weakly_coupled(problem, eps, status):
+def weakly_coupled(problem, eps, status, multiple):
     """Fluid nodes whose gap hardly answers to their pressure; all (lines, nx)."""
     fluid = (status == LUBRICATED) | (status == CAVITATED)
-    return fluid & (eps > WEAKLY_COUPLED * problem.K00 * problem.grid.mesh.dX)
+    return fluid & (eps > multiple * problem.K00 * problem.grid.mesh.dX)
 
 
 def _conductances(eps, status, mesh, mean):
@@ -68,14 +71,14 @@ def _conductances(eps, status, mesh, mean):
 
 
 class RigidGapFluid:
-    """Newton's method for the weakly coupled fluid alone; `multigrid` is a rigid-gap solver."""
+    """Newton's method for the separable fluid alone; `multigrid` is a rigid-gap solver."""
 
     def __init__(self, problem, multigrid, options_prefix):
         self._problem, self._multigrid = problem, multigrid
         self._ksp = PETSc.KSP().create(problem.grid.comm)
         self._ksp.setOptionsPrefix(options_prefix)
         multigrid.configure(self._ksp)
-        self._ksp.setTolerances(rtol=0.1)
+        self._ksp.setTolerances(rtol=0.03)
         self._rhs, self._correction = (multigrid.space.create_vec() for _ in range(2))
 
     def free(self):
@@ -84,32 +87,35 @@ class RigidGapFluid:
             thing.destroy()
         self._multigrid.free()
 
-    def solve(self, state, tolerance, max_steps):
-        """Bring the fluid of `state` near balance at its gap, in place; return the steps made.
+    def separable(self, state):
+        """Fluid nodes that this solver answers for: (lines, nx) bool."""
+        eps = fluid_state(state.P, state.H, self._problem.contact).eps
+        return weakly_coupled(self._problem, eps, state.status, SEPARABLE)
 
-        Ends when the rms inflow is below `tolerance` and the set has settled.
+    def solve(self, state, tolerance, max_steps=30):
+        """Bring the fluid of `state` into balance at its gap, in place.
+
+        Ends when the rms inflow is below `tolerance` and the set has settled, or after
+        `max_steps`.
         """
         problem, space = self._problem, self._multigrid.space
-        for step in range(max_steps):
+        separable = self.separable(state)
+        for _ in range(max_steps):
             inflow = problem.inflow(state)
             moved = relax_cavitation_set(problem, state, inflow)
             if moved:
                 inflow = problem.inflow(state)
-            eps = fluid_state(state.P, state.H, problem.contact).eps
-            movable = weakly_coupled(problem, eps, state.status)
-            filled = movable & (state.status == CAVITATED) & (inflow > 0.0)
+            filled = separable & (state.status == CAVITATED) & (inflow > 0.0)
             state.status[filled] = LUBRICATED
-            residual = np.where(movable & (state.status == LUBRICATED), inflow, 0.0)
-            import os
-            if os.environ.get("DBG"): print("  rigid", step, problem.rms(residual), moved, filled.sum())
+            lubricated = state.status == LUBRICATED
+            residual = np.where(separable & lubricated, inflow, 0.0)
             if problem.rms(residual) <= tolerance and moved + problem.grid.count(filled) == 0:
-                return step
-            given = (state.status == LUBRICATED) & ~movable
+                return
+            given = lubricated & ~separable
             self._multigrid.linearise(state.P, state.H, np.where(given, BOUNDARY, state.status))
             space.write(self._rhs, -residual, 0.0)
             self._ksp.solve(self._rhs, self._correction)
             state.P += space.read(self._correction)[0]
-            torn = (state.P < 0.0) & movable
+            torn = (state.P < 0.0) & separable
             state.P[torn] = 0.0
             state.status[torn] = CAVITATED
-        return max_steps

@@ -71,7 +71,7 @@ def nested_iteration(hierarchy, contact, settings, monitor):
         else:
             state = interpolate(hierarchy.transfers[level - 1], problem, outcome.state)
         tell = partial(monitor, LevelSolve(grid.mesh.nx, speed, level == finest))
-        outcome = _solve_level(hierarchy, level, problem, state, limits, settings.cycle, tell, settings.nested.start)
+        outcome = _solve_level(hierarchy, level, problem, state, limits, settings, tell)
     return problem, outcome
 
 
@@ -102,18 +102,17 @@ def _levels(grids, settings):
     return [level for level in range(finest) if grids[level].mesh.nx >= settings.first_nodes] + [finest]
 
 
-def _solve_level(hierarchy, level, problem, state, limits, cycle_settings, tell, settings_start):
-    multigrid = MultigridSolver(hierarchy, level, problem.contact, problem.scheme, cycle_settings)
-    import os
-    if settings_start == "contact":
-        rigid = MultigridSolver(hierarchy, level, problem.contact, problem.scheme, cycle_settings, rigid=True)
-        fluid = RigidGapFluid(problem, rigid, "mgehl_fluid_")
-        import time; t=time.time()
-        n = fluid.solve(state, 1e-4, 30)
-        print("rigid steps", n, time.time()-t)
-        fluid.free()
-    newton = Newton(problem, multigrid, limits, cycle_settings.options_prefix, tell)
+def _solve_level(hierarchy, level, problem, state, limits, settings, tell):
+    def multigrid(rigid):
+        return MultigridSolver(hierarchy, level, problem.contact, problem.scheme, settings.cycle, rigid)
+
+    prefix, fluid = settings.cycle.options_prefix, None
+    if settings.nested.start == "contact":
+        fluid = RigidGapFluid(problem, multigrid(rigid=True), prefix + "fluid_")
+    newton = Newton(problem, multigrid(rigid=False), limits, fluid, prefix, tell)
     try:
         return newton.run(state)
     finally:
         newton.free()
+        if fluid:
+            fluid.free()

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from petsc4py import PETSc
 
+from mgehl.discretization.status import BOUNDARY, LUBRICATED
 from mgehl.solver.cavitation import relax_cavitation_set
 from mgehl.solver.partition import Changes, Partition
 from mgehl.solver.problem import State
@@ -56,12 +57,14 @@ class Outcome:
 class Newton:
     """Solves one `PointProblem` with a `MultigridSolver`.
 
+    With a `fluid` solver (`RigidGapFluid`) the separable fluid is solved at each new gap, without
+    convolutions, and left out of the linear systems: right where solid contact carries the load.
     `monitor` is called with every `Cycle`. PETSc objects are freed by `free`.
     """
 
-    def __init__(self, problem, multigrid, settings, options_prefix="mgehl_", monitor=lambda cycle: None):
+    def __init__(self, problem, multigrid, settings, fluid=None, options_prefix="mgehl_", monitor=None):
         self._problem, self._multigrid, self._settings = problem, multigrid, settings
-        self._monitor = monitor
+        self._fluid, self._monitor = fluid, monitor or (lambda cycle: None)
         self._partition = Partition(problem, settings.film_threshold, settings.release_budget)
         self._snes = PETSc.SNES().create(problem.grid.comm)
         self._snes.setOptionsPrefix(options_prefix)
@@ -104,9 +107,9 @@ class Newton:
             snes.setIterationNumber(cycle.step)
             snes.setFunctionNorm(cycle.residual)
             snes.monitor(cycle.step, cycle.residual)
-            if self._finished(outcome, tolerance, max_steps):
-                break
             changes = Changes()
+            if self._finished(outcome, tolerance, max_steps) and not self._reopen(outcome, changes):
+                break
             linear_iterations = self._correct(snes, state, F, load)
             length = self._update(state, changes)
         self._multigrid.space.write(x, state.P, state.H0)
@@ -116,8 +119,12 @@ class Newton:
         )
 
     def _settle(self, state, changes):
-        """Settle cavitation at the present gap; return the residual and the load deficit."""
+        """Settle the fluid at the present gap; return the residual and the load deficit."""
         problem = self._problem
+        if self._fluid:
+            before = state.status.copy()
+            self._fluid.solve(state, 0.3 * self._settings.tolerance)
+            changes.cavitated += problem.grid.count(before != state.status)
         inflow = problem.inflow(state)
         moved = relax_cavitation_set(problem, state, inflow)
         if moved:
@@ -128,8 +135,11 @@ class Newton:
 
     def _correct(self, snes, state, F, load):
         """Solve the linearised bordered system into `_correction`; return the iterations."""
-        multigrid = self._multigrid
-        multigrid.linearise(state.P, state.H, state.status)
+        status = state.status
+        if self._fluid:
+            settled = (status == LUBRICATED) & self._fluid.separable(state)
+            status, F = np.where(settled, BOUNDARY, status), np.where(settled, 0.0, F)
+        self._multigrid.linearise(state.P, state.H, status)
         self._write_residual(self._rhs, F, load, sign=-1.0)
         ksp = snes.getKSP()
         ksp.setTolerances(rtol=self._settings.linear_tolerance)
@@ -164,6 +174,13 @@ class Newton:
             outcome.reason = f"{settled} {max_steps} steps"
             return True
         return False
+
+    def _reopen(self, outcome, changes):
+        """Release what violates Eq. 2 in a converged state, if its budget allows; True if so."""
+        if outcome.converged:
+            changes.released += self._partition.release_violations(outcome.state)
+            outcome.converged = changes.released == 0
+        return changes.released > 0
 
     def _cycle(self, step, state, F, load, changes, linear_iterations, length):
         problem, grid = self._problem, self._problem.grid

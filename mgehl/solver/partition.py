@@ -34,7 +34,7 @@ class Partition:
         self._film_threshold = film_threshold
         self._budget = np.full(problem.grid.shape, release_budget, dtype=np.int8)
         self._just_released = np.zeros(problem.grid.shape, dtype=bool)
-        self._was_tensile = np.zeros(problem.grid.shape, dtype=bool)
+        self._was_released = np.zeros(problem.grid.shape, dtype=bool)
 
     def cut_tension(self, P, status, changes):
         """Set negative pressures to zero in place: fluid cavitates, contact is released."""
@@ -44,18 +44,18 @@ class Partition:
         # A released node has no gap yet: held at P = 0 for one step, it opens one.
         status[torn | tensile] = CAVITATED
         self._just_released = tensile
-        self._was_tensile |= tensile
+        self._was_released |= tensile
         changes.cavitated += self._grid.count(torn)
         changes.released += self._grid.count(tensile)
 
     def enter_contact(self, state, changes):
         """Nodes whose gap is closed, and fluid shut in from west and east, become contact.
 
-        A node that was tensile in contact comes back only when the bodies would overlap: with a
-        gap between 0 and H_th it would be torn off and put back for ever.
+        A node that was released before comes back only when the bodies would overlap: with a gap
+        between 0 and H_th it would be torn off and put back for ever.
         """
         fluid = (state.status == LUBRICATED) | (state.status == CAVITATED)
-        threshold = np.where(self._was_tensile, 0.0, self._film_threshold)
+        threshold = np.where(self._was_released, 0.0, self._film_threshold)
         closed = fluid & (state.H <= threshold) & ~self._just_released
         state.status[closed] = CONTACT
         changes.entered += self._grid.count(closed)
@@ -78,4 +78,5 @@ class Partition:
         state.status[released] = CAVITATED
         state.P[released] = 0.0
         self._just_released = released
+        self._was_released |= released
         return self._grid.count(released)
