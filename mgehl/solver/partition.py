@@ -70,13 +70,16 @@ class Partition:
         changes.filled += self._grid.count(filled)
 
     def release_violations(self, state):
-        """Release contact nodes that violate Eq. 2 and have budget left; return how many."""
+        """Release contact nodes that violate Eq. 2 and have budget left; return how many.
+
+        The fluid beside such a node would pry it open: it becomes film under that fluid's pressure.
+        """
         ghosted = self._grid.halo(state.P), self._grid.halo(state.status)
-        violated = (state.status == CONTACT) & (state.P < largest_fluid_neighbour(*ghosted))
-        released = violated & (self._budget > 0)
+        beside = largest_fluid_neighbour(*ghosted)
+        released = (state.status == CONTACT) & (state.P < beside) & (self._budget > 0)
         self._budget[released] -= 1
-        state.status[released] = CAVITATED
-        state.P[released] = 0.0
+        state.status[released] = LUBRICATED
+        state.P[released] = beside[released]
         self._just_released = released
         self._was_released |= released
         return self._grid.count(released)

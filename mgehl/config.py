@@ -1,0 +1,294 @@
+"""The configuration: TOML with SI numbers or strings with units, validated key by key.
+
+Every mistake is one line that names the key, the value and what is allowed (`ConfigError`).
+"""
+
+import difflib
+import sys
+import tomllib
+from dataclasses import asdict, dataclass, field, fields
+from math import isfinite
+from pathlib import Path
+
+from mgehl.discretization.couette import SCHEMES
+from mgehl.discretization.fluid import FACE_MEANS
+from mgehl.model.lubricant import DENSITY_LAWS, VISCOSITY_LAWS
+
+_CONFIG_DIRECTORIES = (
+    Path(__file__).resolve().parent.parent / "configs",
+    Path(sys.prefix) / "share" / "mgehl" / "configs",
+)
+"""Where configurations live in a checkout, and where an installation puts them."""
+
+
+class ConfigError(ValueError):
+    """A configuration that cannot be used; the message is one line for the user."""
+
+
+def _key(default, help, unit=None, above=None, low=None, high=None, choices=None, kind=float):
+    rules = {
+        "help": help, "unit": unit, "above": above, "low": low, "high": high,
+        "choices": choices, "kind": kind,
+    }  # fmt: skip
+    return field(default=default, metadata=rules)
+
+
+@dataclass(frozen=True)
+class ContactSection:
+    kind: str = _key("point", "kind of contact", choices=("point",), kind=str)
+    load: float = _key(800.0, "normal load", "N", above=0.0)
+    radius_x: float = _key(12.7e-3, "reduced radius along the motion", "m", above=0.0)
+    radius_y: float = _key(12.7e-3, "reduced radius across the motion", "m", above=0.0)
+    reduced_modulus: float = _key(219.78e9, "E' of 2/E' = sum of (1 - nu^2)/E", "Pa", above=0.0)
+
+
+@dataclass(frozen=True)
+class LubricantSection:
+    viscosity: float = _key(0.096, "viscosity at ambient pressure", "Pa*s", above=0.0)
+    viscosity_law: str = _key("barus", "viscosity-pressure law", choices=tuple(VISCOSITY_LAWS), kind=str)
+    pressure_viscosity: float = _key(18.2e-9, "pressure-viscosity coefficient", "1/Pa", above=0.0)
+    density_law: str = _key(
+        "dowson-higginson", "density-pressure law", choices=tuple(DENSITY_LAWS), kind=str
+    )
+
+
+@dataclass(frozen=True)
+class MotionSection:
+    speed: float = _key(5e-6, "entrainment speed u of the flow rho u h", "m/s", above=0.0)
+
+
+@dataclass(frozen=True)
+class MoesSection:
+    M: float | None = _key(None, "Moes load number, instead of load and speed", "", above=0.0)
+    L: float | None = _key(None, "Moes material number, instead of load and speed", "", above=0.0)
+
+
+@dataclass(frozen=True)
+class GridSection:
+    nodes: int = _key(257, "nodes along each side, 2^k + 1", low=65, high=16385, kind=int)
+    x: tuple = _key((-1.9, 1.3), "domain along x in units of the Hertz semi-axis a", kind=tuple)
+    y: tuple = _key((-1.5, 1.5), "domain along y in units of the Hertz semi-axis b", kind=tuple)
+
+
+@dataclass(frozen=True)
+class DiscretizationSection:
+    couette: str = _key("1B", "differential scheme of the Couette flow", choices=tuple(SCHEMES), kind=str)
+    face_mobility: str = _key(
+        "arithmetic", "mean of the mobility on a face", choices=tuple(FACE_MEANS), kind=str
+    )
+    film_threshold: float = _key(0.02e-9, "gap H_th at which a node is in contact", "m", low=0.0)
+
+
+@dataclass(frozen=True)
+class SolverSection:
+    tolerance: float = _key(1e-8, "rms residual and load error at convergence", above=0.0, high=1e-2)
+    start: str = _key(
+        "film", "first guess: a full film, or the Hertz ellipse in contact",
+        choices=("film", "contact"), kind=str,
+    )  # fmt: skip
+    max_steps: int = _key(60, "Newton steps on one grid at the most", low=1, high=10000, kind=int)
+    linear_tolerance: float = _key(0.1, "relative tolerance of GMRES in a Newton step", above=0.0, high=0.5)
+    sweeps: int = _key(1, "line relaxations before and after the coarse grids", low=1, high=10, kind=int)
+    omega: float = _key(0.8, "damping of the line relaxation", above=0.0, high=1.0)
+    first_nodes: int = _key(65, "nodes of the first grid of the nested iteration", low=33, kind=int)
+    inlet_cells: float = _key(2.0, "cells the inlet gets on coarse grids by raising the speed", low=0.0)
+    release_budget: int = _key(
+        2, "times a contact node may be released on Eq. 2 after convergence", low=0, high=100, kind=int
+    )
+
+
+@dataclass(frozen=True)
+class Config:
+    """A validated configuration."""
+
+    contact: ContactSection = ContactSection()
+    lubricant: LubricantSection = LubricantSection()
+    motion: MotionSection = MotionSection()
+    moes: MoesSection = MoesSection()
+    grid: GridSection = GridSection()
+    discretization: DiscretizationSection = DiscretizationSection()
+    solver: SolverSection = SolverSection()
+
+    def as_toml_tables(self):
+        """Nested plain values, without the keys that are not set: what a TOML file can hold."""
+        tables = {name: _without_none(section) for name, section in asdict(self).items()}
+        if self.moes.M is not None:
+            del tables["contact"]["load"], tables["motion"]
+        return {name: table for name, table in tables.items() if table}
+
+
+def _without_none(section):
+    plain = {key: list(value) if isinstance(value, tuple) else value for key, value in section.items()}
+    return {key: value for key, value in plain.items() if value is not None}
+
+
+def default_config():
+    """Path of the configuration that runs when none is named."""
+    paths = [directory / "point_contact.toml" for directory in _CONFIG_DIRECTORIES]
+    return next((path for path in paths if path.exists()), paths[0])
+
+
+SECTIONS = {section.name: type(section.default) for section in fields(Config)}
+
+
+def load_config(path=None, settings=()):
+    """Read a TOML file (default: the point contact) and apply `key=value` settings.
+
+    Raises ConfigError for anything that cannot be used.
+    """
+    tables = _read_toml(Path(path) if path else default_config())
+    for setting in settings:
+        _apply_setting(tables, setting)
+    return config_from_tables(tables)
+
+
+def config_from_tables(tables):
+    """Validate nested values as read from TOML."""
+    sections = {}
+    for name, table in tables.items():
+        if name not in SECTIONS:
+            raise ConfigError(f"{name}: unknown section{_closest(name, SECTIONS)}")
+        if not isinstance(table, dict):
+            raise ConfigError(f"{name} = {table!r}: is a section, its keys go under [{name}]")
+        sections[name] = _section(name, table)
+    config = Config(**sections)
+    _check_together(config, tables)
+    return config
+
+
+def _section(name, table):
+    known = {key.name: key for key in fields(SECTIONS[name])}
+    for key in table:
+        if key not in known:
+            raise ConfigError(f"{name}.{key} = {table[key]!r}: unknown key{_closest_key(name, key)}")
+    return SECTIONS[name](
+        **{key: _value(f"{name}.{key}", known[key].metadata, table[key]) for key in table}
+    )
+
+
+def _value(key, rules, value):
+    if rules["choices"]:
+        if value not in rules["choices"]:
+            raise ConfigError(f"{key} = {value!r}: must be one of {', '.join(rules['choices'])}")
+        return value
+    if rules["kind"] is tuple:
+        return _interval(key, value)
+    number = _number(key, rules, value)
+    if not _in_range(rules, number):
+        raise ConfigError(f"{key} = {value!r}: must be {_describe_range(rules)}")
+    return number
+
+
+def _number(key, rules, value):
+    if isinstance(value, str) and rules["unit"] is not None:
+        value = _with_unit(key, rules["unit"], value)
+    if isinstance(value, bool) or not isinstance(value, int | float) or not isfinite(value):
+        raise ConfigError(f"{key} = {value!r}: must be {_describe_range(rules)}")
+    if rules["kind"] is int:
+        if value != int(value):
+            raise ConfigError(f"{key} = {value!r}: must be {_describe_range(rules)}")
+        return int(value)
+    return float(value)
+
+
+def _with_unit(key, unit, text):
+    """The SI magnitude of a string such as "7.5 mm/s"."""
+    import pint  # a slow import that most runs do not need
+
+    example = f'a number in {unit or "no unit"} or a string such as "1 {unit}"'
+    try:
+        quantity = pint.UnitRegistry().Quantity(text)
+        return float(quantity.to(unit or "dimensionless").magnitude)
+    except pint.DimensionalityError:
+        raise ConfigError(f"{key} = {text!r}: wrong unit; must be {example}") from None
+    except Exception:
+        raise ConfigError(f"{key} = {text!r}: not understood; must be {example}") from None
+
+
+def _in_range(rules, number):
+    above, low, high = rules["above"], rules["low"], rules["high"]
+    return (
+        (above is None or number > above)
+        and (low is None or number >= low)
+        and (high is None or number <= high)
+    )
+
+
+def _describe_range(rules):
+    what = "a whole number" if rules["kind"] is int else "a number"
+    if rules["unit"]:
+        what += f" in {rules['unit']} (or a string with a unit)"
+    limits = []
+    for word, name in (("above", "above"), ("low", "at least"), ("high", "at most")):
+        if rules[word] is not None:
+            limits.append(f"{name} {rules[word]:g}")
+    return " ".join([what, " and ".join(limits)]).strip()
+
+
+def _interval(key, value):
+    numbers = isinstance(value, list | tuple) and len(value) == 2
+    numbers = numbers and all(isinstance(end, int | float) and isfinite(end) for end in value)
+    if not numbers or not (value[0] < -1.0 and value[1] > 1.0):
+        raise ConfigError(f"{key} = {value!r}: must be two numbers [first < -1, last > 1]")
+    return float(value[0]), float(value[1])
+
+
+def _check_together(config, tables):
+    """Rules that concern more than one key."""
+    nodes = config.grid.nodes
+    if (nodes - 1) & (nodes - 2):
+        lower = 2 ** ((nodes - 1).bit_length() - 1) + 1
+        raise ConfigError(f"grid.nodes = {nodes}: must be 2^k + 1, such as {lower} or {2 * lower - 1}")
+    if (config.moes.M is None) != (config.moes.L is None):
+        missing = "moes.L" if config.moes.L is None else "moes.M"
+        raise ConfigError(f"{missing}: must be given too, moes.M and moes.L go together")
+    if config.moes.M is not None:
+        for section, key in (("contact", "load"), ("motion", "speed")):
+            if key in tables.get(section, {}):
+                raise ConfigError(
+                    f"{section}.{key} = {tables[section][key]!r}: cannot be given with moes.M and moes.L"
+                )
+    try:
+        VISCOSITY_LAWS[config.lubricant.viscosity_law](
+            config.lubricant.viscosity, config.lubricant.pressure_viscosity
+        )
+    except ValueError as error:
+        raise ConfigError(f"lubricant.viscosity = {config.lubricant.viscosity!r}: {error}") from None
+
+
+def _read_toml(path):
+    try:
+        return tomllib.loads(path.read_text())
+    except OSError as error:
+        raise ConfigError(f"{path}: cannot be read: {error.strerror}") from None
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise ConfigError(f"{path}: not valid TOML: {error}") from None
+
+
+def _apply_setting(tables, setting):
+    """Put one "section.key=value" into the tables; the value is TOML, or else a plain string."""
+    key, equals, text = setting.partition("=")
+    section, dot, name = key.strip().partition(".")
+    if not (equals and dot and section and name):
+        raise ConfigError(f"--set {setting}: must be section.key=value, such as grid.nodes=513")
+    try:
+        value = tomllib.loads(f"value = {text}")["value"]
+    except tomllib.TOMLDecodeError:
+        value = text.strip()
+    table = tables.setdefault(section, {})
+    if not isinstance(table, dict):
+        raise ConfigError(f"{section} = {table!r}: is a section, its keys go under [{section}]")
+    table[name] = value
+
+
+def _closest(name, known):
+    close = difflib.get_close_matches(name, known, n=1, cutoff=0.4)
+    return f"; did you mean {close[0]}?" if close else f"; known are {', '.join(known)}"
+
+
+def _closest_key(section, key):
+    """The nearest known key, of this section if one is near, else of any."""
+    everywhere = [f"{name}.{each.name}" for name, kind in SECTIONS.items() for each in fields(kind)]
+    close = difflib.get_close_matches(f"{section}.{key}", everywhere, n=1, cutoff=0.4)
+    same_name = [each for each in everywhere if each.endswith(f".{key}")]
+    return f"; did you mean {(same_name or close)[0]}?" if same_name or close else ""

@@ -1,0 +1,1 @@
+"""What a run leaves behind: result, fields, history, picture; and what it says while it runs."""

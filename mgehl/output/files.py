@@ -1,0 +1,72 @@
+"""Files of a run directory: configuration, result, history, fields."""
+
+import csv
+import json
+from dataclasses import asdict
+from pathlib import Path
+
+import h5netcdf
+import tomli_w
+
+from mgehl.discretization.status import NAMES
+
+
+class OutputError(Exception):
+    """A run directory that cannot be used; the message is one line for the user."""
+
+
+def prepare_directory(path, force):
+    """Create a run directory; refuse one that exists unless `force`. Raises OutputError."""
+    path = Path(path)
+    if path.exists() and not force:
+        raise OutputError(f"{path} exists: add --force to replace it, or choose another with --out")
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+        probe = path / ".writable"
+        probe.touch()
+        probe.unlink()
+    except OSError as error:
+        raise OutputError(f"{path}: cannot be written: {error.strerror}") from None
+    return path
+
+
+def write_config(path, config):
+    """The resolved configuration, as TOML that `mgehl run` reads."""
+    path.write_text(tomli_w.dumps(config.as_toml_tables()))
+
+
+def write_result(path, result):
+    """result.json."""
+    path.write_text(json.dumps(asdict(result), indent=2) + "\n")
+
+
+def write_history(path, rows):
+    """history.csv: a row per cycle from dictionaries of one shape."""
+    with path.open("w", newline="") as file:
+        writer = csv.DictWriter(file, fieldnames=list(rows[0]) if rows else [])
+        writer.writeheader()
+        writer.writerows(rows)
+
+
+def write_fields(path, mesh, contact, fields):
+    """fields.h5, netCDF-4: pressure, film and status with coordinates, SI and dimensionless."""
+    hertz = contact.hertz
+    with h5netcdf.File(path, "w") as file:
+        file.dimensions = {"y": mesh.ny, "x": mesh.nx}
+        _put(file, "x", ("x",), mesh.X * hertz.a, "m", "distance along the motion")
+        _put(file, "y", ("y",), mesh.Y * hertz.b, "m", "distance across the motion")
+        _put(file, "X", ("x",), mesh.X, "1", "x over Hertz semi-axis a")
+        _put(file, "Y", ("y",), mesh.Y, "1", "y over Hertz semi-axis b")
+        plane = ("y", "x")
+        _put(file, "pressure", plane, fields.P * hertz.p_h, "Pa", "fluid or contact pressure")
+        _put(file, "film", plane, fields.H * contact.film_scale, "m", "film thickness or gap")
+        _put(file, "P", plane, fields.P, "1", "pressure over maximum Hertz pressure")
+        _put(file, "H", plane, fields.H, "1", "gap over a^2/R_x")
+        _put(file, "status", plane, fields.status, "1", ", ".join(f"{k} {n}" for k, n in enumerate(NAMES)))
+
+
+def _put(file, name, dimensions, values, unit, description):
+    compression = {"compression": "gzip", "compression_opts": 1} if values.ndim == 2 else {}
+    variable = file.create_variable(name, dimensions, values.dtype, data=values, **compression)
+    variable.attrs["units"] = unit
+    variable.attrs["long_name"] = description

@@ -1,0 +1,57 @@
+"""The picture of a run: centre lines of pressure and film, and the map of the status."""
+
+import matplotlib
+
+matplotlib.use("Agg")
+
+import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
+import numpy as np  # noqa: E402
+from matplotlib.colors import BoundaryNorm, ListedColormap  # noqa: E402
+from matplotlib.patches import Patch  # noqa: E402
+
+from mgehl.discretization.status import NAMES  # noqa: E402
+from mgehl.model.hertz import hertz_pressure  # noqa: E402
+
+# Colour-blind safe (Okabe and Ito).
+PRESSURE, FILM, HERTZ = "#0072B2", "#D55E00", "0.6"
+STATUS_COLOURS = ("0.85", "#56B4E9", "#F0E442", "#222222")
+STYLE = {"font.size": 9, "axes.titlesize": 9, "figure.dpi": 150}
+
+
+def draw(path, mesh, contact, fields, title):
+    """Write the picture of whole-grid `fields` (P, H, status) to `path`."""
+    with plt.rc_context(STYLE):
+        figure, axes = plt.subplots(1, 3, figsize=(12.5, 3.9), layout="constrained")
+        i, j = mesh.nearest(0.0, 0.0)
+        nm = 1e9 * contact.film_scale
+        _centre_line(axes[0], "X = x/a", mesh.X, fields.P[j], fields.H[j] * nm, contact)
+        axes[0].set_title("Y = 0, along the motion (left to right)")
+        _centre_line(axes[1], "Y = y/b", mesh.Y, fields.P[:, i], fields.H[:, i] * nm, contact)
+        axes[1].set_title("X = 0, across the motion")
+        _status_map(axes[2], mesh, fields.status)
+        figure.suptitle(title)
+        figure.savefig(path)
+        plt.close(figure)
+
+
+def _centre_line(axes, label, position, P, film, contact):
+    p_h = 1e-9 * contact.hertz.p_h
+    pressure = axes.plot(position, P * p_h, color=PRESSURE, label="pressure")
+    dry = axes.plot(position, hertz_pressure(position, 0.0) * p_h, ":", color=HERTZ, label="Hertz")
+    axes.set(xlabel=label, ylabel="pressure, GPa", ylim=(0.0, 1.25 * p_h), xlim=position[[0, -1]])
+    films = axes.twinx()
+    inside = np.abs(position) < 0.8
+    top = max(3.0 * float(np.max(film[inside])), 1.0)
+    gap = films.plot(position, film, color=FILM, label="film")
+    films.set(ylabel="film thickness, nm", ylim=(-0.05 * top, top))
+    lines = [*pressure, *dry, *gap]
+    axes.legend(lines, [line.get_label() for line in lines], loc="upper center", ncols=3, frameon=False)
+
+
+def _status_map(axes, mesh, status):
+    colours = ListedColormap(STATUS_COLOURS)
+    norm = BoundaryNorm(np.arange(len(NAMES) + 1) - 0.5, colours.N)
+    axes.pcolormesh(mesh.X, mesh.Y, status, cmap=colours, norm=norm, rasterized=True)
+    axes.set(xlabel="X = x/a", ylabel="Y = y/b", title="status of the nodes", aspect="equal")
+    handles = [Patch(color=STATUS_COLOURS[k], label=NAMES[k]) for k in (1, 2, 3)]
+    axes.legend(handles=handles, loc="upper left", fontsize=8, framealpha=0.9)

@@ -1,0 +1,150 @@
+"""The result of a run as one record: films, verdicts, work. Its fields are result.json's."""
+
+from dataclasses import asdict, dataclass
+
+import numpy as np
+
+from mgehl.discretization.status import CONTACT
+from mgehl.solver.verification import check_pressure_inequality, complementarity_error, flux_imbalance
+
+COMPLEMENTARITY_TOLERANCE = 1e-6
+"""Breach of P >= 0, H >= 0 and no inflow (units of P and H) that a converged answer may have."""
+
+
+@dataclass(frozen=True)
+class ContactResult:
+    """The solid contact; node numbers count from 1, None without contact on that line."""
+
+    nodes: int
+    area_fraction: float
+    x_nodes: tuple | None
+    y_nodes: tuple | None
+
+
+@dataclass(frozen=True)
+class InequalityResult:
+    """Check of [Liu eq. 2]: interface nodes checked, number and size (p_h) of violations."""
+
+    checked: int
+    violations: int
+    worst: float
+    nodes: list
+
+
+@dataclass(frozen=True)
+class Resolution:
+    """Cells in the inlet zone that builds the film, and what follows from their number."""
+
+    inlet_cells: float
+    verdict: str
+
+
+@dataclass(frozen=True)
+class Work:
+    """Convolutions in equivalents of one on the finest grid; Newton steps on all grids."""
+
+    convolutions: float
+    newton_steps: int
+
+
+@dataclass(frozen=True)
+class Result:
+    """Everything result.json holds."""
+
+    converged: bool
+    reason: str
+    central_film_nm: float
+    minimum_film_nm: float
+    max_pressure_GPa: float
+    residual: float
+    load_error: float
+    complementarity_error: float
+    flux_imbalance: float
+    contact: ContactResult
+    pressure_inequality: InequalityResult
+    cavitated_nodes: int
+    resolution: Resolution
+    groups: dict
+    moes_film: dict
+    formulas: dict
+    work: Work
+    wall_s: float
+    ranks: int
+    versions: dict
+
+
+def summarise(problem, outcome, film_threshold, work, wall_s, versions):
+    """Verify the final state and put the `Result` together (collective)."""
+    grid, contact, state = problem.grid, problem.contact, outcome.state
+    nm = 1e9 * contact.film_scale
+    central, minimum = problem.films(state)
+    last = outcome.cycles[-1]
+    inequality = check_pressure_inequality(grid, state.P, state.status)
+    complementarity = complementarity_error(problem, state, film_threshold)
+    converged, reason = _verdict(outcome, inequality, complementarity)
+    formulas = {name: 1e9 * film for name, film in asdict(contact.formulas).items()}
+    moes = contact.film_scale * contact.moes_scale
+    return Result(
+        converged=converged,
+        reason=reason,
+        central_film_nm=central * nm,
+        minimum_film_nm=minimum * nm,
+        max_pressure_GPa=1e-9 * contact.hertz.p_h * grid.max(state.P),
+        residual=last.residual,
+        load_error=last.load_error,
+        complementarity_error=complementarity,
+        flux_imbalance=flux_imbalance(problem, state),
+        contact=_contact_result(grid, state.status),
+        pressure_inequality=InequalityResult(
+            inequality.checked,
+            len(inequality.violations),
+            inequality.worst,
+            [asdict(violation) for violation in inequality.violations],
+        ),
+        cavitated_nodes=problem.counts(state.status)[1],
+        resolution=resolution(contact, grid.mesh),
+        groups=asdict(contact.groups),
+        moes_film={"central": central * moes, "minimum": minimum * moes},
+        formulas={f"{name}_nm": film for name, film in formulas.items()},
+        work=work,
+        wall_s=wall_s,
+        ranks=grid.comm.size,
+        versions=versions,
+    )
+
+
+def resolution(contact, mesh):
+    """How well a mesh resolves the inlet: below 1 cell the contact set is the grid's."""
+    cells = contact.inlet_length / mesh.dX
+    verdict = "resolved" if cells >= 4.0 else "coarse" if cells >= 1.0 else "grid-determined"
+    return Resolution(cells, verdict)
+
+
+def _verdict(outcome, inequality, complementarity):
+    """Converged only if residual, load, sets, complementarity and Eq. 2 all hold."""
+    if not outcome.converged:
+        return False, outcome.reason
+    if complementarity > COMPLEMENTARITY_TOLERANCE:
+        return False, f"complementarity is broken by {complementarity:.1e}"
+    if inequality.violations:
+        count = len(inequality.violations)
+        return False, (
+            f"contact pressure is below the fluid pressure beside it at {count} of "
+            f"{inequality.checked} interface nodes, by up to {inequality.worst:.1e} p_h"
+        )
+    return True, "residual, load, sets, complementarity and the pressure inequality hold"
+
+
+def _contact_result(grid, status):
+    contact = status == CONTACT
+    cell = grid.mesh.dX * grid.mesh.dY
+    nodes = grid.count(contact)
+    i, j = grid.mesh.nearest(0.0, 0.0)
+    along_x = contact[j - grid.first] if grid.first <= j < grid.last else np.zeros(grid.mesh.nx, bool)
+    x_nodes = np.flatnonzero(np.logical_or.reduce(grid.comm.allgather(along_x))) + 1
+    y_nodes = np.flatnonzero(np.concatenate(grid.comm.allgather(contact[:, i]))) + 1
+    return ContactResult(nodes, nodes * cell / np.pi, _ends(x_nodes), _ends(y_nodes))
+
+
+def _ends(nodes):
+    return (int(nodes[0]), int(nodes[-1])) if len(nodes) else None

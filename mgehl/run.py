@@ -1,0 +1,79 @@
+"""One run from a configuration to its directory."""
+
+import time
+from dataclasses import dataclass
+from importlib.metadata import PackageNotFoundError, version
+
+import numpy as np
+from petsc4py import PETSc
+
+import mgehl
+from mgehl.grid.hierarchy import Hierarchy
+from mgehl.output import files
+from mgehl.output.progress import Progress, trust_block
+from mgehl.output.result import Work, summarise
+from mgehl.solver.nested import nested_iteration
+from mgehl.solver.setup import contact_from, mesh_from, settings_from
+
+COARSEST_NODES = 33
+"""Nodes of the coarsest grid, which is solved directly."""
+
+
+@dataclass
+class Fields:
+    """Whole-grid fields (ny, nx) on rank 0."""
+
+    P: np.ndarray
+    H: np.ndarray
+    status: np.ndarray
+
+
+def run(config, directory, comm, speak=True):
+    """Solve `config` on `comm`, write `directory` (from rank 0), return the `Result`."""
+    started = time.perf_counter()
+    first = comm.rank == 0
+    contact = contact_from(config)
+    settings = settings_from(config, contact)
+    hierarchy = Hierarchy(mesh_from(config, contact), COARSEST_NODES, contact.deflection_scale, comm)
+    progress = Progress(contact.film_scale, lambda: hierarchy.convolutions, speak and first)
+    try:
+        problem, outcome = nested_iteration(hierarchy, contact, settings, progress)
+        work = Work(hierarchy.convolutions, progress.newton_steps)
+        wall = time.perf_counter() - started
+        threshold = settings.newton.film_threshold
+        result = summarise(problem, outcome, threshold, work, wall, versions())
+        state = outcome.state
+        fields = Fields(*(problem.grid.gather(array) for array in (state.P, state.H, state.status)))
+    finally:
+        hierarchy.destroy()
+    if first:
+        _write(directory, config, contact, problem.grid.mesh, fields, progress.rows, result)
+        if speak:
+            print(trust_block(result), f"  results in {directory}", sep="\n", flush=True)
+    return result
+
+
+def versions():
+    """Versions of what computes."""
+    packages = ("numpy", "scipy", "mpi4py", "petsc4py", "pyfftw", "numba")
+    found = {"mgehl": mgehl.__version__, "petsc": ".".join(map(str, PETSc.Sys.getVersion()))}
+    for package in packages:
+        try:
+            found[package] = version(package)
+        except PackageNotFoundError:
+            found[package] = "unknown"
+    return found
+
+
+def _write(directory, config, contact, mesh, fields, rows, result):
+    from mgehl.output.picture import draw  # matplotlib is slow to import, and needed only here
+
+    files.write_config(directory / "configuration.toml", config)
+    files.write_history(directory / "history.csv", rows)
+    files.write_fields(directory / "fields.h5", mesh, contact, fields)
+    title = (
+        f"{1e3 * contact.speed:.4g} mm/s, {contact.load:.4g} N, {mesh.nx} x {mesh.ny} nodes: "
+        + ("converged" if result.converged else "NOT converged")
+    )
+    draw(directory / "picture.png", mesh, contact, fields, title)
+    files.write_result(directory / "result.json", result)
