@@ -3,24 +3,26 @@
 import numpy as np
 
 from mgehl.discretization.kernels import REACH, build_bands, factor_bands, solve_bands
-from mgehl.discretization.status import BOUNDARY, CAVITATED
+from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT
 
 STIFF = 0.3
 """A node is distributive where its mobility/dX is below this part of its own influence."""
 
 
-def distributive_nodes(eps, status, dX, K00):
-    """Where corrections are distributed: contact and weak Poiseuille flow; (lines, nx) bool.
+def given_nodes(status):
+    """Nodes whose pressure is given: boundary and cavitated; shape as `status`."""
+    return (status == BOUNDARY) | (status == CAVITATED)
 
-    `eps` and `status` are ghosted, (lines + 2, nx). A node beside a boundary or cavitated one
-    keeps its correction to itself: those pressures are given.
+
+def distributive_nodes(eps, status, dX, K00):
+    """Where corrections are distributed: contact and weak Poiseuille flow; all (lines, nx).
+
+    What such a node would hand to a given one is dropped. (Keeping the correction of a node
+    beside a given one to itself instead leaves modes at the contact's edge that the band of K
+    amplifies: twice the iterations at 513 nodes, and more on finer grids.)
     """
-    given = (status == BOUNDARY) | (status == CAVITATED)
-    free = ~given[1:-1]
-    free &= ~(given[:-2] | given[2:])
-    free[:, 1:] &= ~given[1:-1, :-1]
-    free[:, :-1] &= ~given[1:-1, 1:]
-    return free & (eps[1:-1] < STIFF * K00 * dX)
+    stiff = eps < STIFF * K00 * dX
+    return (stiff | (status == CONTACT)) & ~given_nodes(status)
 
 
 def influence_of_columns(K):

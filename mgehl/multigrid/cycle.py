@@ -86,8 +86,7 @@ class MultigridSolver:
             ghosted = [jacobian.grid.halo(array) for array in (P, H, status)]
             jacobian.linearise(*ghosted)
             if level > 0:
-                eps = fluid_state(ghosted[0], ghosted[1], self.contact).eps
-                self._smoothers[level - 1].partition(eps, ghosted[2])
+                self._smoothers[level - 1].partition(fluid_state(P, H, self.contact).eps, status)
                 transfer = self._transfers[level - 1]
                 coarser = [transfer.inject(array) for array in (P, H, status)]
                 self._partitioned[level - 1].partition(coarser[2], status)

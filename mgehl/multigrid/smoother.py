@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mgehl.discretization.bands import LineBands, distributive_nodes, influence_of_columns
+from mgehl.discretization.bands import LineBands, distributive_nodes, given_nodes, influence_of_columns
 from mgehl.discretization.influence import influence_coefficients
 from mgehl.discretization.kernels import REACH, distribute
 
@@ -26,10 +26,10 @@ class LineSmoother:
         self._out = np.zeros(grid.shape)
 
     def partition(self, eps, status):
-        """Choose the distributive nodes; `eps` and `status` ghosted."""
+        """Choose the distributive nodes; `eps` and `status` (lines, nx)."""
         grid = self._jacobian.grid
-        distributive = distributive_nodes(eps, status, grid.mesh.dX, self._K00)
-        self._distributive = grid.halo(distributive)
+        self._distributive = grid.halo(distributive_nodes(eps, status, grid.mesh.dX, self._K00))
+        self._given = given_nodes(status)
 
     def setUp(self, _pc):
         """Factor the bands of the present linearisation."""
@@ -42,6 +42,7 @@ class LineSmoother:
         self._bands.solve(r, self._w)
         self._jacobian.grid.halo(self._w, out=self._ghosted_w)
         distribute(self._ghosted_w, self._distributive, self._omega, self._out)
+        self._out[self._given] = 0.0
         space.write(y, self._out, 0.0)
 
     def view(self, _pc, viewer):

@@ -14,6 +14,10 @@ from mgehl.solver.partition import Changes, Partition
 from mgehl.solver.problem import State
 
 
+SETTLED_RESIDUAL = 1e-4
+"""Residual below which Eq. 2 may decide on the contact set."""
+
+
 @dataclass(frozen=True)
 class NewtonSettings:
     """Tolerances and limits of Newton's method on one grid."""
@@ -108,8 +112,11 @@ class Newton:
             snes.setFunctionNorm(cycle.residual)
             snes.monitor(cycle.step, cycle.residual)
             changes = Changes()
-            if self._finished(outcome, tolerance, max_steps) and not self._reopen(outcome, changes):
+            released = self._release(outcome, changes)
+            if self._finished(outcome, tolerance, max_steps, released):
                 break
+            if released:
+                F, load = self._settle(state, changes)
             linear_iterations = self._correct(snes, state, F, load)
             length = self._update(state, changes)
         self._multigrid.space.write(x, state.P, state.H0)
@@ -159,11 +166,11 @@ class Newton:
         self._partition.enter_contact(state, changes)
         return length
 
-    def _finished(self, outcome, tolerance, max_steps):
+    def _finished(self, outcome, tolerance, max_steps, released):
         """Decide on the last cycle; sets `converged` and `reason`."""
         cycle = outcome.cycles[-1]
         small = cycle.residual <= tolerance and abs(cycle.load_error) <= tolerance
-        if small and cycle.changes.total == 0:
+        if small and cycle.changes.total == 0 and not released:
             outcome.converged, outcome.reason = True, "residual, load and sets settled"
             return True
         if not np.isfinite(cycle.residual):
@@ -175,11 +182,15 @@ class Newton:
             return True
         return False
 
-    def _reopen(self, outcome, changes):
-        """Release what violates Eq. 2 in a converged state, if its budget allows; True if so."""
-        if outcome.converged:
+    def _release(self, outcome, changes):
+        """Release what violates Eq. 2, once the contact set has settled; True if any was.
+
+        Contact pressures are known to a few digits long before convergence: no need to wait.
+        """
+        cycle = outcome.cycles[-1]
+        settled = cycle.changes.entered + cycle.changes.released == 0
+        if settled and cycle.residual <= max(SETTLED_RESIDUAL, self._settings.tolerance):
             changes.released += self._partition.release_violations(outcome.state)
-            outcome.converged = changes.released == 0
         return changes.released > 0
 
     def _cycle(self, step, state, F, load, changes, linear_iterations, length):
