@@ -40,8 +40,7 @@ def run(config, directory, comm, speak=True):
         problem, outcome = nested_iteration(hierarchy, contact, settings, progress)
         work = Work(hierarchy.convolutions, progress.newton_steps)
         wall = time.perf_counter() - started
-        threshold = settings.newton.film_threshold
-        result = summarise(problem, outcome, threshold, work, wall, versions())
+        result = summarise(problem, outcome, work, wall, versions())
         state = outcome.state
         fields = Fields(*(problem.grid.gather(array) for array in (state.P, state.H, state.status)))
     finally:

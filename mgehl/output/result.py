@@ -73,14 +73,14 @@ class Result:
     versions: dict
 
 
-def summarise(problem, outcome, film_threshold, work, wall_s, versions):
+def summarise(problem, outcome, work, wall_s, versions):
     """Verify the final state and put the `Result` together (collective)."""
     grid, contact, state = problem.grid, problem.contact, outcome.state
     nm = 1e9 * contact.film_scale
     central, minimum = problem.films(state)
     last = outcome.cycles[-1]
     inequality = check_pressure_inequality(grid, state.P, state.status)
-    complementarity = complementarity_error(problem, state, film_threshold)
+    complementarity = complementarity_error(problem, state)
     converged, reason = _verdict(outcome, inequality, complementarity)
     formulas = {name: 1e9 * film for name, film in asdict(contact.formulas).items()}
     moes = contact.film_scale * contact.moes_scale

@@ -51,11 +51,12 @@ def check_pressure_inequality(grid, P, status):
     return PressureInequality(grid.count(interface), violations)
 
 
-def complementarity_error(problem, state, film_threshold):
+def complementarity_error(problem, state):
     """Largest breach of the conditions that define the partition, in units of P and H.
 
-    Lubricated: P >= 0 and H > H_th. Cavitated: P = 0 and no inflow. Contact: H = 0 and P >= 0.
-    Fluid shut in from west and east counts as a gap of 1.
+    Lubricated: P >= 0 and H >= 0. Cavitated: P = 0, H >= 0 and no inflow. Contact: H = 0 and
+    P >= 0. Fluid shut in from west and east counts as 1. (H_th is where contact is entered; a
+    node that would be tensile in contact may stay film with a gap between 0 and H_th.)
     """
     grid, status = problem.grid, state.status
     film, cavity, contact = status == LUBRICATED, status == CAVITATED, status == CONTACT
@@ -64,7 +65,7 @@ def complementarity_error(problem, state, film_threshold):
         np.abs(state.P[cavity]),
         problem.inflow(state)[cavity] * grid.mesh.dX,
         np.abs(state.H[contact]),
-        film_threshold - state.H[film | cavity],
+        -state.H[film | cavity],
         np.array([float(close_gaps(status.copy()))]),
     )
     return max(grid.max(breach, initial=0.0) for breach in breaches)
