@@ -24,3 +24,25 @@ clean:
 	rm -rf .venv
 
 .PHONY: run test env clean
+
+# make tables   run the cases of README's table and write it to runs/tables
+TABLE := runs/acceptance
+MGEHL := mpiexec -n 2 python -m mgehl run --force --quiet
+
+tables: $(ENVIRONMENT)
+	$(ON) $(MGEHL) configs/full_film.toml --out $(TABLE)/full-film
+	$(ON) $(MGEHL) configs/full_film.toml --set grid.nodes=2049 --out $(TABLE)/full-film-2049
+	$(ON) $(MGEHL) configs/full_film.toml --set grid.nodes=513 --set motion.speed=0.03 --out $(TABLE)/film-30mm-s-513
+	$(ON) $(MGEHL) configs/thick_film.toml --out $(TABLE)/thick-film
+	for n in 257 513 1025; do ( $(ON) $(MGEHL) configs/point_contact.toml --set grid.nodes=$$n \
+	  --out $(TABLE)/full-contact-$$n ) || exit 1; done
+	$(ON) $(MGEHL) configs/elliptical.toml --out $(TABLE)/elliptical
+	$(ON) $(MGEHL) configs/elliptical_dry.toml --out $(TABLE)/elliptical-dry
+	for m in 20 200; do for n in 65 129 257; do for s in 1B 2B; do ( $(ON) $(MGEHL) configs/moes_$${m}_10.toml \
+	  --set grid.nodes=$$n --set discretization.couette=$$s --out $(TABLE)/moes-$$m-10-$$s-$$n ) || exit 1; \
+	  done; done; done
+	for r in 1 2 3; do ( $(ON) mpiexec -n $$r python -m mgehl run --force --quiet configs/full_film.toml \
+	  --set grid.nodes=513 --set motion.speed=0.03 --out $(TABLE)/ranks-$$r ) || exit 1; done
+	$(ON) mgehl collect $(TABLE)/* --out runs/tables/acceptance.csv > runs/tables/acceptance.md
+
+.PHONY: tables

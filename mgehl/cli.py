@@ -1,10 +1,12 @@
 """The command line.
 
     mpiexec -n 2 python -m mgehl run [CONFIG] [--set key=value ...] [--out DIR] [PETSc options]
+    python -m mgehl collect RUN [RUN ...] [--out FILE.csv]
     python -m mgehl keys
 
-argparse takes what it knows; single-dash options go to PETSc. Those of the run's own solvers
-carry the prefix mgehl_ (-mgehl_ksp_monitor, -mgehl_snes_view), global ones none (-log_view).
+argparse takes the words before the first single-dash option, PETSc that option and all after.
+Options of the run's own solvers carry the prefix mgehl_ (-mgehl_ksp_monitor, -mgehl_snes_view;
+mgehl_fluid_ for the fluid solved apart), global ones none (-log_view). Unused ones are reported.
 """
 
 import argparse
@@ -21,12 +23,17 @@ CONVERGED, NOT_CONVERGED, USAGE = 0, 1, 2
 
 def main(arguments=None):
     """Run the command line; return the exit status."""
+    own, petsc = split_options(sys.argv[1:] if arguments is None else arguments)
     parser = _parser()
-    options, rest = parser.parse_known_args(arguments)
+    for word in petsc:
+        if word.startswith("--"):
+            parser.error(f"{word}: PETSc options take one dash and come last")
+    options = parser.parse_args(own)
     if options.command == "keys":
         print(describe_keys())
         return CONVERGED
-    petsc = _petsc_options(parser, rest)
+    if options.command == "collect":
+        return _collect(options)
     import petsc4py  # after the arguments are known to be good: it starts MPI
 
     petsc4py.init([sys.argv[0], *petsc, *(["-options_left"] if petsc else [])])
@@ -35,8 +42,15 @@ def main(arguments=None):
     return _run(options, MPI.COMM_WORLD)
 
 
+class _Parser(argparse.ArgumentParser):
+    """Says in one line what is wrong."""
+
+    def error(self, message):
+        self.exit(USAGE, f"mgehl: {message} (see {self.prog} --help)\n")
+
+
 def _parser():
-    parser = argparse.ArgumentParser(
+    parser = _Parser(
         prog="mgehl", description="Multigrid for mixed and boundary lubrication of loaded contacts."
     )
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
@@ -54,18 +68,19 @@ def _parser():
     run.add_argument("--out", metavar="DIR", help="directory of the results (default: runs/NAME)")
     run.add_argument("--force", action="store_true", help="write into a directory that exists")
     run.add_argument("--quiet", action="store_true", help="print nothing but errors")
+    collect = commands.add_parser("collect", help="make one table of several run directories")
+    collect.add_argument("runs", nargs="+", metavar="RUN", help="run directory")
+    collect.add_argument("--out", metavar="FILE", help="write the table as CSV, too")
     commands.add_parser("keys", help="list every configuration key")
     return parser
 
 
-def _petsc_options(parser, rest):
-    """Single-dash options and their values; anything else is an error."""
-    for word in rest:
-        if word.startswith("--"):
-            parser.error(f"unknown option {word}; PETSc options take one dash")
-    if rest and not rest[0].startswith("-"):
-        parser.error(f"unexpected argument {rest[0]}")
-    return rest
+def split_options(arguments):
+    """Split the words of a command line into mgehl's own and PETSc's."""
+    for position, word in enumerate(arguments):
+        if word.startswith("-") and not word.startswith("--") and word != "-h":
+            return arguments[:position], arguments[position:]
+    return arguments, []
 
 
 def _run(options, comm):
@@ -91,6 +106,20 @@ def _run(options, comm):
         traceback.print_exc()
         sys.stderr.flush()
         comm.Abort(1)
+
+
+def _collect(options):
+    from mgehl.output.table import collect, markdown, write_csv
+
+    try:
+        rows = collect(options.runs)
+    except OSError as error:
+        print(f"mgehl: {error.filename}: cannot be read: {error.strerror}", file=sys.stderr)
+        return USAGE
+    if options.out:
+        write_csv(Path(options.out), rows)
+    print(markdown(rows))
+    return CONVERGED
 
 
 def _on_first_rank(comm, function, *arguments):

@@ -92,11 +92,11 @@ class MultigridSolver:
                 self._partitioned[level - 1].partition(coarser[2], status)
                 P, H, status = coarser
 
-    def configure(self, ksp):
+    def configure(self, ksp, rtol):
         """Make a KSP (of a SNES, say) this solver; its options may still change it."""
         ksp.setType(PETSc.KSP.Type.FGMRES)
         ksp.setOperators(self.jacobians[-1].mat)
-        ksp.setTolerances(max_it=self._settings.max_iterations, atol=0.0)
+        ksp.setTolerances(rtol=rtol, atol=0.0, max_it=self._settings.max_iterations)
         self._configure_cycle(ksp.getPC())
         ksp.setFromOptions()
 

@@ -3,6 +3,7 @@
 import csv
 import json
 from dataclasses import asdict
+from math import isfinite
 from pathlib import Path
 
 import h5netcdf
@@ -36,8 +37,16 @@ def write_config(path, config):
 
 
 def write_result(path, result):
-    """result.json."""
-    path.write_text(json.dumps(asdict(result), indent=2) + "\n")
+    """result.json; numbers that are not finite become null, which JSON can hold."""
+    path.write_text(json.dumps(_finite(asdict(result)), indent=2, allow_nan=False) + "\n")
+
+
+def _finite(value):
+    if isinstance(value, dict):
+        return {key: _finite(each) for key, each in value.items()}
+    if isinstance(value, list | tuple):
+        return [_finite(each) for each in value]
+    return None if isinstance(value, float) and not isfinite(value) else value
 
 
 def write_history(path, rows):

@@ -15,13 +15,15 @@ from mgehl.model.hertz import hertz_pressure  # noqa: E402
 # Colour-blind safe (Okabe and Ito).
 PRESSURE, FILM, HERTZ = "#0072B2", "#D55E00", "0.6"
 STATUS_COLOURS = ("0.85", "#56B4E9", "#F0E442", "#222222")
+SMALLEST_FILM_RANGE = 10.0
+"""Upper end of the film axis, in nm, where solid contact leaves no film to scale it by."""
 STYLE = {"font.size": 9, "axes.titlesize": 9, "figure.dpi": 150}
 
 
 def draw(path, mesh, contact, fields, title):
     """Write the picture of whole-grid `fields` (P, H, status) to `path`."""
     with plt.rc_context(STYLE):
-        figure, axes = plt.subplots(1, 3, figsize=(12.5, 3.9), layout="constrained")
+        figure, axes = plt.subplots(1, 3, figsize=(12.5, 4.2), layout="constrained")
         i, j = mesh.nearest(0.0, 0.0)
         nm = 1e9 * contact.film_scale
         _centre_line(axes[0], "X = x/a", mesh.X, fields.P[j], fields.H[j] * nm, contact)
@@ -41,11 +43,12 @@ def _centre_line(axes, label, position, P, film, contact):
     axes.set(xlabel=label, ylabel="pressure, GPa", ylim=(0.0, 1.25 * p_h), xlim=position[[0, -1]])
     films = axes.twinx()
     inside = np.abs(position) < 0.8
-    top = max(3.0 * float(np.max(film[inside])), 1.0)
+    top = max(3.0 * float(np.max(film[inside])), SMALLEST_FILM_RANGE)
     gap = films.plot(position, film, color=FILM, label="film")
     films.set(ylabel="film thickness, nm", ylim=(-0.05 * top, top))
     lines = [*pressure, *dry, *gap]
-    axes.legend(lines, [line.get_label() for line in lines], loc="upper center", ncols=3, frameon=False)
+    labels = [line.get_label() for line in lines]
+    axes.legend(lines, labels, loc="upper center", bbox_to_anchor=(0.5, -0.18), ncols=3, frameon=False)
 
 
 def _status_map(axes, mesh, status):
@@ -54,4 +57,4 @@ def _status_map(axes, mesh, status):
     axes.pcolormesh(mesh.X, mesh.Y, status, cmap=colours, norm=norm, rasterized=True)
     axes.set(xlabel="X = x/a", ylabel="Y = y/b", title="status of the nodes", aspect="equal")
     handles = [Patch(color=STATUS_COLOURS[k], label=NAMES[k]) for k in (1, 2, 3)]
-    axes.legend(handles=handles, loc="upper left", fontsize=8, framealpha=0.9)
+    axes.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, -0.18), ncols=3, frameon=False)

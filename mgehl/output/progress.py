@@ -1,11 +1,14 @@
 """What a run says: a line per cycle and a last block on whether to trust the answer."""
 
+import time
+
 
 class Progress:
     """Collects the history of a run and, on the rank that may speak, prints it."""
 
     def __init__(self, film_scale, work, speak):
         self._nm, self._work, self._speak = 1e9 * film_scale, work, speak
+        self._started = time.perf_counter()
         self.rows = []
 
     def __call__(self, level, cycle):
@@ -24,6 +27,7 @@ class Progress:
             "linear_iterations": cycle.linear_iterations,
             "step_length": cycle.step_length,
             "convolutions": self._work(),
+            "seconds": time.perf_counter() - self._started,
         }
         self.rows.append(row)
         if self._speak:
@@ -56,7 +60,8 @@ def trust_block(result):
         f"  residual {result.residual:.1e}, load error {result.load_error:.1e}, complementarity "
         f"{result.complementarity_error:.1e}, flux imbalance {result.flux_imbalance:.1e}",
         f"  contact: {contact.nodes} nodes, {100 * contact.area_fraction:.2f} % of the Hertz area; "
-        f"nodes {_span(contact.x_nodes)} on Y = 0, {_span(contact.y_nodes)} on X = 0",
+        f"nodes {_span(contact.x_nodes)} on Y = 0, {_span(contact.y_nodes)} on X = 0; "
+        f"largest gap {contact.largest_gap_nm:.1e} nm",
         f"  pressure inequality: {inequality.violations} violations at {inequality.checked} interface nodes",
         f"  inlet: {resolution.inlet_cells:.2f} cells, {_ADVICE[resolution.verdict]}",
         f"  work: {result.work.convolutions:.1f} fine-grid convolutions, {result.work.newton_steps} Newton "

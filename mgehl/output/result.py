@@ -19,6 +19,8 @@ class ContactResult:
     area_fraction: float
     x_nodes: tuple | None
     y_nodes: tuple | None
+    largest_gap_nm: float
+    """Largest |H| of a contact node: what the zero-gap equation has left."""
 
 
 @dataclass(frozen=True)
@@ -94,7 +96,7 @@ def summarise(problem, outcome, work, wall_s, versions):
         load_error=last.load_error,
         complementarity_error=complementarity,
         flux_imbalance=flux_imbalance(problem, state),
-        contact=_contact_result(grid, state.status),
+        contact=_contact_result(grid, state, nm),
         pressure_inequality=InequalityResult(
             inequality.checked,
             len(inequality.violations),
@@ -135,15 +137,16 @@ def _verdict(outcome, inequality, complementarity):
     return True, "residual, load, sets, complementarity and the pressure inequality hold"
 
 
-def _contact_result(grid, status):
-    contact = status == CONTACT
+def _contact_result(grid, state, nm):
+    contact = state.status == CONTACT
+    largest_gap = nm * grid.max(np.abs(state.H[contact]), initial=0.0)
     cell = grid.mesh.dX * grid.mesh.dY
     nodes = grid.count(contact)
     i, j = grid.mesh.nearest(0.0, 0.0)
     along_x = contact[j - grid.first] if grid.first <= j < grid.last else np.zeros(grid.mesh.nx, bool)
     x_nodes = np.flatnonzero(np.logical_or.reduce(grid.comm.allgather(along_x))) + 1
     y_nodes = np.flatnonzero(np.concatenate(grid.comm.allgather(contact[:, i]))) + 1
-    return ContactResult(nodes, nodes * cell / np.pi, _ends(x_nodes), _ends(y_nodes))
+    return ContactResult(nodes, nodes * cell / np.pi, _ends(x_nodes), _ends(y_nodes), largest_gap)
 
 
 def _ends(nodes):

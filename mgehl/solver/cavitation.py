@@ -20,6 +20,9 @@ SEPARABLE = 1e-5
 """The same for a node that is solved apart from the gap: all but films under contact pressure,
 whose viscosity makes them stiff (measured: the smaller, the fewer steps; 0.01 to 10 work too)."""
 
+LINEAR_TOLERANCE = 0.03
+"""Of the linear systems of a rigid gap."""
+
 SWEEPS = 40
 """Sweeps over all lines at the most; they end when one changes no status."""
 
@@ -78,8 +81,7 @@ class RigidGapFluid:
         self._problem, self._multigrid = problem, multigrid
         self._ksp = PETSc.KSP().create(problem.grid.comm)
         self._ksp.setOptionsPrefix(options_prefix)
-        multigrid.configure(self._ksp)
-        self._ksp.setTolerances(rtol=0.03)
+        multigrid.configure(self._ksp, LINEAR_TOLERANCE)
         self._rhs, self._correction = (multigrid.space.create_vec() for _ in range(2))
 
     def free(self):

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, field, replace
 from functools import partial
+from math import isfinite
 
 import numpy as np
 
@@ -72,6 +73,8 @@ def nested_iteration(hierarchy, contact, settings, monitor):
             state = interpolate(hierarchy.transfers[level - 1], problem, outcome.state)
         tell = partial(monitor, LevelSolve(grid.mesh.nx, speed, level == finest))
         outcome = _solve_level(hierarchy, level, problem, state, limits, settings, tell)
+        if not isfinite(outcome.cycles[-1].residual):
+            break  # nothing to start the next grid from; the outcome says why
     return problem, outcome
 
 

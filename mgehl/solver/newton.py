@@ -25,7 +25,7 @@ class NewtonSettings:
     tolerance: float = 1e-8
     """For the rms residual and the load error."""
     max_steps: int = 60
-    linear_tolerance: float = 0.03
+    linear_tolerance: float = 0.1
     max_pressure_step: float = 0.3
     film_threshold: float = 0.0
     """H_th in units of H."""
@@ -78,7 +78,7 @@ class Newton:
         self._snes.setFunction(self._form_function, self._rhs)
         self._snes.setJacobian(self._form_jacobian, multigrid.jacobians[-1].mat)
         self._snes.setTolerances(atol=settings.tolerance, rtol=0.0, max_it=settings.max_steps)
-        multigrid.configure(self._snes.getKSP())
+        multigrid.configure(self._snes.getKSP(), settings.linear_tolerance)
         self._snes.setFromOptions()
 
     def free(self):
@@ -149,7 +149,6 @@ class Newton:
         self._multigrid.linearise(state.P, state.H, status)
         self._write_residual(self._rhs, F, load, sign=-1.0)
         ksp = snes.getKSP()
-        ksp.setTolerances(rtol=self._settings.linear_tolerance)
         ksp.solve(self._rhs, self._correction)
         return ksp.getIterationNumber()
 

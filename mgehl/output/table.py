@@ -1,0 +1,71 @@
+"""One table of several run directories, from the files that the runs wrote."""
+
+import csv
+import json
+import tomllib
+from pathlib import Path
+
+
+def collect(directories):
+    """A row (dict of text) for each run directory. Raises OSError if one cannot be read."""
+    return [_row(Path(directory)) for directory in directories]
+
+
+def markdown(rows):
+    """The rows as a Markdown table."""
+    header = list(rows[0])
+    lines = [header, ["---"] * len(header), *(row.values() for row in rows)]
+    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+
+
+def write_csv(path, rows):
+    """The rows as CSV."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with path.open("w", newline="") as file:
+        writer = csv.DictWriter(file, fieldnames=list(rows[0]))
+        writer.writeheader()
+        writer.writerows(rows)
+
+
+def _row(directory):
+    result = json.loads((directory / "result.json").read_text())
+    config = tomllib.loads((directory / "configuration.toml").read_text())
+    with (directory / "history.csv").open() as file:
+        history = list(csv.DictReader(file))
+    nodes = config["grid"]["nodes"]
+    finest = [row for row in history if int(row["grid"]) == nodes]
+    contact, inequality = result["contact"], result["pressure_inequality"]
+    return {
+        "run": directory.name,
+        "nodes": str(nodes),
+        "couette": config["discretization"]["couette"],
+        "ranks": str(result["ranks"]),
+        "converged": "yes" if result["converged"] else "no",
+        "central, nm": f"{result['central_film_nm']:.4f}",
+        "minimum, nm": f"{result['minimum_film_nm']:.4f}",
+        "H_Moes central": f"{result['moes_film']['central']:.5f}",
+        "H_Moes minimum": f"{result['moes_film']['minimum']:.5f}",
+        "residual": f"{result['residual']:.1e}",
+        "load error": f"{result['load_error']:.1e}",
+        "contact nodes on X": _span(contact["x_nodes"]),
+        "on Y": _span(contact["y_nodes"]),
+        "largest gap in contact, nm": f"{contact['largest_gap_nm']:.1e}",
+        "Eq. 2 violations": f"{inequality['violations']} of {inequality['checked']}",
+        "inlet cells": f"{result['resolution']['inlet_cells']:.2f}",
+        "convolutions": f"{result['work']['convolutions']:.1f}",
+        "Newton steps, finest": str(len(finest) - 1),
+        "most GMRES iterations": max((row["linear_iterations"] for row in finest), key=int),
+        "us a step and node": f"{1e6 * _seconds_per_step(finest) / nodes**2:.3f}",
+        "wall, s": f"{result['wall_s']:.1f}",
+    }
+
+
+def _seconds_per_step(finest):
+    """Mean time between the cycles of the finest grid."""
+    if len(finest) < 2:
+        return 0.0
+    return (float(finest[-1]["seconds"]) - float(finest[0]["seconds"])) / (len(finest) - 1)
+
+
+def _span(ends):
+    return f"{ends[0]}..{ends[1]}" if ends else "none"
