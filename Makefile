@@ -27,6 +27,7 @@ clean:
 
 # make tables   run the cases of README's table and write it to runs/tables
 TABLE := runs/acceptance
+SHORT := run,nodes,converged,central nm,minimum nm,contact nodes on X,on Y,Eq. 2 violations,inlet cells,convolutions,most GMRES iterations,wall s
 MGEHL := mpiexec -n 2 python -m mgehl run --force --quiet
 
 tables: $(ENVIRONMENT)
@@ -44,5 +45,6 @@ tables: $(ENVIRONMENT)
 	for r in 1 2 3; do ( $(ON) mpiexec -n $$r python -m mgehl run --force --quiet configs/full_film.toml \
 	  --set grid.nodes=513 --set motion.speed=0.03 --out $(TABLE)/ranks-$$r ) || exit 1; done
 	$(ON) mgehl collect $(TABLE)/* --out runs/tables/acceptance.csv > runs/tables/acceptance.md
+	$(ON) mgehl collect $(TABLE)/* --columns "$(SHORT)" > runs/tables/short.md
 
 .PHONY: tables

@@ -15,7 +15,7 @@ import traceback
 from dataclasses import fields
 from pathlib import Path
 
-from mgehl.config import SECTIONS, ConfigError, default_config, load_config
+from mgehl.config import SECTIONS, ConfigError, check_ranks, default_config, load_config
 
 CONVERGED, NOT_CONVERGED, USAGE = 0, 1, 2
 """Exit statuses."""
@@ -70,7 +70,8 @@ def _parser():
     run.add_argument("--quiet", action="store_true", help="print nothing but errors")
     collect = commands.add_parser("collect", help="make one table of several run directories")
     collect.add_argument("runs", nargs="+", metavar="RUN", help="run directory")
-    collect.add_argument("--out", metavar="FILE", help="write the table as CSV, too")
+    collect.add_argument("--out", metavar="FILE", help="write the whole table as CSV, too")
+    collect.add_argument("--columns", metavar="A,B", help="print only these columns")
     commands.add_parser("keys", help="list every configuration key")
     return parser
 
@@ -89,12 +90,15 @@ def _run(options, comm):
 
     try:
         config = load_config(options.config, options.settings)
+        check_ranks(comm.size)
         name = Path(options.config or default_config()).stem
         directory = Path(options.out or Path("runs") / name)
         _on_first_rank(comm, prepare_directory, directory, options.force)
         from mgehl.run import run
 
         result = run(config, directory, comm, speak=not options.quiet)
+        if options.quiet and not result.converged and comm.rank == 0:
+            print(f"mgehl: not converged: {result.reason}", file=sys.stderr)
         return CONVERGED if result.converged else NOT_CONVERGED
     except (ConfigError, OutputError) as error:
         if comm.rank == 0:
@@ -118,7 +122,12 @@ def _collect(options):
         return USAGE
     if options.out:
         write_csv(Path(options.out), rows)
-    print(markdown(rows))
+    columns = options.columns.split(",") if options.columns else list(rows[0])
+    unknown = [column for column in columns if column not in rows[0]]
+    if unknown:
+        print(f"mgehl: --columns {unknown[0]}: known are {', '.join(rows[0])}", file=sys.stderr)
+        return USAGE
+    print(markdown(rows, columns))
     return CONVERGED
 
 

@@ -14,6 +14,9 @@ from mgehl.discretization.couette import SCHEMES
 from mgehl.discretization.fluid import FACE_MEANS
 from mgehl.model.lubricant import DENSITY_LAWS, VISCOSITY_LAWS
 
+COARSEST_NODES = 33
+"""Nodes along each side of the coarsest grid, which is solved directly."""
+
 _CONFIG_DIRECTORIES = (
     Path(__file__).resolve().parent.parent / "configs",
     Path(sys.prefix) / "share" / "mgehl" / "configs",
@@ -140,6 +143,15 @@ def load_config(path=None, settings=()):
     for setting in settings:
         _apply_setting(tables, setting)
     return config_from_tables(tables)
+
+
+def check_ranks(ranks):
+    """Raise ConfigError if the lines of the coarsest grid cannot be shared by so many ranks."""
+    most = (COARSEST_NODES - 1) // 2
+    if ranks > most:
+        raise ConfigError(
+            f"{ranks} ranks: at most {most} can share the coarsest grid of {COARSEST_NODES} lines"
+        )
 
 
 def config_from_tables(tables):

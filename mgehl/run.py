@@ -8,15 +8,13 @@ import numpy as np
 from petsc4py import PETSc
 
 import mgehl
+from mgehl.config import COARSEST_NODES
 from mgehl.grid.hierarchy import Hierarchy
 from mgehl.output import files
 from mgehl.output.progress import Progress, trust_block
 from mgehl.output.result import Work, summarise
 from mgehl.solver.nested import nested_iteration
 from mgehl.solver.setup import contact_from, mesh_from, settings_from
-
-COARSEST_NODES = 33
-"""Nodes of the coarsest grid, which is solved directly."""
 
 
 @dataclass
@@ -70,9 +68,8 @@ def _write(directory, config, contact, mesh, fields, rows, result):
     files.write_config(directory / "configuration.toml", config)
     files.write_history(directory / "history.csv", rows)
     files.write_fields(directory / "fields.h5", mesh, contact, fields)
-    title = (
-        f"{1e3 * contact.speed:.4g} mm/s, {contact.load:.4g} N, {mesh.nx} x {mesh.ny} nodes: "
-        + ("converged" if result.converged else "NOT converged")
+    title = f"{1e3 * contact.speed:.4g} mm/s, {contact.load:.4g} N, {mesh.nx} x {mesh.ny} nodes: " + (
+        "converged" if result.converged else "NOT converged"
     )
     draw(directory / "picture.png", mesh, contact, fields, title)
     files.write_result(directory / "result.json", result)

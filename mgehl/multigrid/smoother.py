@@ -6,6 +6,7 @@ from mgehl.discretization.bands import LineBands, distributive_nodes, given_node
 from mgehl.discretization.influence import influence_coefficients
 from mgehl.discretization.kernels import REACH, distribute
 
+
 class LineSmoother:
     """Python context of a PC: y = omega Q T^-1 x, T the lines' part of J Q.
 

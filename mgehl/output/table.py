@@ -11,10 +11,9 @@ def collect(directories):
     return [_row(Path(directory)) for directory in directories]
 
 
-def markdown(rows):
-    """The rows as a Markdown table."""
-    header = list(rows[0])
-    lines = [header, ["---"] * len(header), *(row.values() for row in rows)]
+def markdown(rows, columns):
+    """Some columns of the rows as a Markdown table."""
+    lines = [columns, ["---"] * len(columns), *([row[column] for column in columns] for row in rows)]
     return "\n".join("| " + " | ".join(line) + " |" for line in lines)
 
 
@@ -41,22 +40,22 @@ def _row(directory):
         "couette": config["discretization"]["couette"],
         "ranks": str(result["ranks"]),
         "converged": "yes" if result["converged"] else "no",
-        "central, nm": f"{result['central_film_nm']:.4f}",
-        "minimum, nm": f"{result['minimum_film_nm']:.4f}",
+        "central nm": f"{result['central_film_nm']:.4f}",
+        "minimum nm": f"{result['minimum_film_nm']:.4f}",
         "H_Moes central": f"{result['moes_film']['central']:.5f}",
         "H_Moes minimum": f"{result['moes_film']['minimum']:.5f}",
         "residual": f"{result['residual']:.1e}",
         "load error": f"{result['load_error']:.1e}",
         "contact nodes on X": _span(contact["x_nodes"]),
         "on Y": _span(contact["y_nodes"]),
-        "largest gap in contact, nm": f"{contact['largest_gap_nm']:.1e}",
+        "largest gap in contact nm": f"{contact['largest_gap_nm']:.1e}",
         "Eq. 2 violations": f"{inequality['violations']} of {inequality['checked']}",
         "inlet cells": f"{result['resolution']['inlet_cells']:.2f}",
         "convolutions": f"{result['work']['convolutions']:.1f}",
-        "Newton steps, finest": str(len(finest) - 1),
+        "Newton steps on finest": str(len(finest) - 1),
         "most GMRES iterations": max((row["linear_iterations"] for row in finest), key=int),
         "us a step and node": f"{1e6 * _seconds_per_step(finest) / nodes**2:.3f}",
-        "wall, s": f"{result['wall_s']:.1f}",
+        "wall s": f"{result['wall_s']:.1f}",
     }
 
 

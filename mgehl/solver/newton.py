@@ -13,7 +13,6 @@ from mgehl.solver.cavitation import relax_cavitation_set
 from mgehl.solver.partition import Changes, Partition
 from mgehl.solver.problem import State
 
-
 SETTLED_RESIDUAL = 1e-4
 """Residual below which Eq. 2 may decide on the contact set."""
 
@@ -193,7 +192,7 @@ class Newton:
         return changes.released > 0
 
     def _cycle(self, step, state, F, load, changes, linear_iterations, length):
-        problem, grid = self._problem, self._problem.grid
+        problem = self._problem
         counts = problem.counts(state.status)
         central, minimum = problem.films(state)
         return Cycle(

@@ -1,8 +1,8 @@
 """Which nodes are film, cavity and contact: re-partitioned between Newton steps.
 
-    cavitated  enters when P < 0, leaves when fluid flows in
-    contact    enters when H <= H_th, leaves when P < 0 (always) or when its P is below the fluid
-               pressure beside it [Liu eq. 2] (after convergence, and a finite number of times)
+cavitated  enters when P < 0, leaves when fluid flows in
+contact    enters when H <= H_th, leaves when P < 0 (always) or when its P is below the fluid
+           pressure beside it [Liu eq. 2] (after convergence, and a finite number of times)
 """
 
 from dataclasses import dataclass

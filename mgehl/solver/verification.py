@@ -80,9 +80,7 @@ def flux_imbalance(problem, state):
     grid, mesh, scheme = problem.grid, problem.grid.mesh, problem.scheme
     P, H, status = (grid.halo(array) for array in (state.P, state.H, state.status))
     fluid = fluid_state(P, H, problem.contact)
-    leaving, entering = x_flows(
-        fluid[1:-1], state.status, mesh, scheme.couette, scheme.face_mobility
-    )
+    leaving, entering = x_flows(fluid[1:-1], state.status, mesh, scheme.couette, scheme.face_mobility)
     across = y_flows(fluid, status, mesh, scheme.face_mobility).value * mesh.dX
     film = status == LUBRICATED
     inner = film[1:-1]
