@@ -7,11 +7,10 @@ import difflib
 import sys
 import tomllib
 from dataclasses import asdict, dataclass, field, fields
-from math import isfinite
+from functools import cache
 from pathlib import Path
 
 from mgehl.discretization.couette import SCHEMES
-from mgehl.discretization.fluid import FACE_MEANS
 from mgehl.model.lubricant import DENSITY_LAWS, VISCOSITY_LAWS
 
 COARSEST_NODES = 33
@@ -76,9 +75,6 @@ class GridSection:
 @dataclass(frozen=True)
 class DiscretizationSection:
     couette: str = _key("1B", "differential scheme of the Couette flow", choices=tuple(SCHEMES), kind=str)
-    face_mobility: str = _key(
-        "arithmetic", "mean of the mobility on a face", choices=tuple(FACE_MEANS), kind=str
-    )
     film_threshold: float = _key(0.02e-9, "gap H_th at which a node is in contact", "m", low=0.0)
 
 
@@ -194,7 +190,7 @@ def _value(key, rules, value):
 def _number(key, rules, value):
     if isinstance(value, str) and rules["unit"] is not None:
         value = _with_unit(key, rules["unit"], value)
-    if isinstance(value, bool) or not isinstance(value, int | float) or not isfinite(value):
+    if not _is_number(value):
         raise ConfigError(f"{key} = {value!r}: must be {_describe_range(rules)}")
     if rules["kind"] is int:
         if value != int(value):
@@ -203,18 +199,32 @@ def _number(key, rules, value):
     return float(value)
 
 
+def _is_number(value):
+    """A finite number that a double holds."""
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return False
+    return abs(value) <= sys.float_info.max
+
+
 def _with_unit(key, unit, text):
     """The SI magnitude of a string such as "7.5 mm/s"."""
-    import pint  # a slow import that most runs do not need
+    import pint  # slow to import, so only where a unit is met
 
     example = f'a number in {unit or "no unit"} or a string such as "1 {unit}"'
     try:
-        quantity = pint.UnitRegistry().Quantity(text)
+        quantity = _units().Quantity(text)
         return float(quantity.to(unit or "dimensionless").magnitude)
     except pint.DimensionalityError:
         raise ConfigError(f"{key} = {text!r}: wrong unit; must be {example}") from None
     except Exception:
         raise ConfigError(f"{key} = {text!r}: not understood; must be {example}") from None
+
+
+@cache
+def _units():
+    import pint
+
+    return pint.UnitRegistry()
 
 
 def _in_range(rules, number):
@@ -239,7 +249,7 @@ def _describe_range(rules):
 
 def _interval(key, value):
     numbers = isinstance(value, list | tuple) and len(value) == 2
-    numbers = numbers and all(isinstance(end, int | float) and isfinite(end) for end in value)
+    numbers = numbers and all(_is_number(end) for end in value)
     if not numbers or not (value[0] < -1.0 and value[1] > 1.0):
         raise ConfigError(f"{key} = {value!r}: must be two numbers [first < -1, last > 1]")
     return float(value[0]), float(value[1])
@@ -280,9 +290,9 @@ def _read_toml(path):
 def _apply_setting(tables, setting):
     """Put one "section.key=value" into the tables; the value is TOML, or else a plain string."""
     key, equals, text = setting.partition("=")
-    section, dot, name = key.strip().partition(".")
+    section, dot, name = (part.strip() for part in key.partition("."))
     if not (equals and dot and section and name):
-        raise ConfigError(f"--set {setting}: must be section.key=value, such as grid.nodes=513")
+        raise ConfigError(f"--set {' '.join(setting.split())}: must be section.key=value, such as grid.nodes=513")
     try:
         value = tomllib.loads(f"value = {text}")["value"]
     except tomllib.TOMLDecodeError:
@@ -301,6 +311,6 @@ def _closest(name, known):
 def _closest_key(section, key):
     """The nearest known key, of this section if one is near, else of any."""
     everywhere = [f"{name}.{each.name}" for name, kind in SECTIONS.items() for each in fields(kind)]
-    close = difflib.get_close_matches(f"{section}.{key}", everywhere, n=1, cutoff=0.4)
+    close = difflib.get_close_matches(f"{section}.{key}", everywhere, n=1, cutoff=0.6)
     same_name = [each for each in everywhere if each.endswith(f".{key}")]
     return f"; did you mean {(same_name or close)[0]}?" if same_name or close else ""

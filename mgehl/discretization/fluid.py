@@ -47,16 +47,21 @@ def arithmetic_mean(a, b):
 
 def geometric_mean(a, b):
     """sqrt(a b) and its two derivatives: vanishes with either side."""
-    mean = np.sqrt(np.maximum(a * b, 0.0))
-    with np.errstate(divide="ignore", invalid="ignore"):
-        return mean, np.nan_to_num(0.5 * mean / a), np.nan_to_num(0.5 * mean / b)
+    a, b = np.maximum(a, 0.0), np.maximum(b, 0.0)
+    mean = np.sqrt(a * b)
+    return mean, _share(0.5 * mean, a), _share(0.5 * mean, b)
 
 
 def harmonic_mean(a, b):
     """2 a b/(a + b) and its two derivatives: vanishes with either side."""
-    with np.errstate(divide="ignore", invalid="ignore"):
-        share = np.nan_to_num(b / (a + b))
-    return 2.0 * a * share, 2.0 * share**2, 2.0 * (1.0 - share) ** 2
+    a, b = np.maximum(a, 0.0), np.maximum(b, 0.0)
+    of_a, of_b = _share(a, a + b), _share(b, a + b)
+    return 2.0 * a * of_b, 2.0 * of_b**2, 2.0 * of_a**2
+
+
+def _share(part, whole):
+    """part/whole, zero where there is nothing (a closed gap's mobility may be negative)."""
+    return np.divide(part, whole, out=np.zeros(np.broadcast(part, whole).shape), where=whole > 0.0)
 
 
 FACE_MEANS = {"arithmetic": arithmetic_mean, "geometric": geometric_mean, "harmonic": harmonic_mean}

@@ -177,6 +177,7 @@ def relax_cavitation(first, P, lubricated, movable, source, along, across, passe
     for j in range(first, lines, 2):
         for _ in range(passes):
             changed = 0
+            value[0] = P[j + 1, 0]
             for i in range(1, nx - 1):
                 upper[i] = 0.0
                 value[i] = P[j + 1, i]
@@ -186,9 +187,10 @@ def relax_cavitation(first, P, lubricated, movable, source, along, across, passe
                         west, east = along[j, i - 1], along[j, i]
                         south, north = across[j, i], across[j + 1, i]
                         known = source[j, i] + south * P[j, i] + north * P[j + 2, i]
-                        pivot = 1.0 / (west + east + south + north - west * upper[i - 1])
-                        value[i] = (known + west * value[i - 1]) * pivot
-                        upper[i] = east * pivot
+                        diagonal = west + east + south + north - west * upper[i - 1]
+                        if diagonal > 0.0:  # else shut in on all four sides: its P stays 0
+                            value[i] = (known + west * value[i - 1]) / diagonal
+                            upper[i] = east / diagonal
             for i in range(nx - 2, 0, -1):
                 if movable[j, i]:
                     P[j + 1, i] = value[i] + upper[i] * P[j + 1, i + 1]

@@ -36,7 +36,7 @@ def settings_from(config, contact):
     """Everything the solver is told."""
     solver, discretization = config.solver, config.discretization
     return SolverSettings(
-        scheme=Scheme(discretization.couette, discretization.face_mobility),
+        scheme=Scheme(discretization.couette),
         nested=NestedSettings(
             start=solver.start, first_nodes=solver.first_nodes, inlet_cells=solver.inlet_cells
         ),

@@ -1,0 +1,97 @@
+from math import exp, sqrt
+
+import numpy as np
+import pytest
+
+from mgehl.discretization.fluid import FACE_MEANS, fluid_state
+
+
+def test_mobility_is_rho_H3_over_eta_lambda(contact):
+    """eps at one node from numbers only: p = 0.5 p_h, alpha = 3/GPa."""
+    p = 0.5 * contact.hertz.p_h
+    rho = 1.0 + 0.6e-9 * p / (1.0 + 1.7e-9 * p)
+    a, p_h = contact.hertz.a, contact.hertz.p_h
+    reynolds = 12.0 * 0.1 * 0.096 * 12.7e-3**2 / (a**3 * p_h)
+    fluid = fluid_state(np.array([0.5]), np.array([0.1]), contact)
+    assert fluid.rho[0] == pytest.approx(rho, rel=1e-14)
+    assert fluid.eps[0] == pytest.approx(rho * 0.1**3 * exp(-3e-9 * p) / reynolds, rel=1e-13)
+
+
+def test_mobility_is_the_paper_s_in_its_own_units(contact):
+    """a p_h/(12 u eta0) rho* h*^3/eta* with h* = h/a equals eps (a/R_x), as the flow per u a does."""
+    a, p_h, R = contact.hertz.a, contact.hertz.p_h, contact.radius_x
+    gap = 0.1 * contact.film_scale
+    paper = a * p_h / (12.0 * contact.speed * 0.096) * (gap / a) ** 3
+    eps = fluid_state(np.array([0.0]), np.array([0.1]), contact).eps[0]
+    assert eps * a / R == pytest.approx(paper, rel=1e-13)
+
+
+@pytest.mark.parametrize("name, by", [("rho", "P"), ("eps", "P"), ("eps", "H")])
+def test_derivatives_match_central_differences(contact, name, by):
+    P, H, d = np.linspace(0.0, 1.2, 5), np.linspace(0.03, 0.2, 5), 1e-6
+    dP, dH = (d, 0.0) if by == "P" else (0.0, d)
+    above = getattr(fluid_state(P + dP, H + dH, contact), name)
+    below = getattr(fluid_state(P - dP, H - dH, contact), name)
+    derivative = getattr(fluid_state(P, H, contact), f"d{name}_d{by}")
+    np.testing.assert_allclose(derivative, (above - below) / (2.0 * d), rtol=1e-7)
+
+
+def test_part_of_a_fluid_keeps_every_field(contact):
+    P, H = np.linspace(0.1, 0.6, 6).reshape(3, 2), np.linspace(0.1, 0.2, 6).reshape(3, 2)
+    fluid = fluid_state(P, H, contact)
+    part = fluid[1:, 1]
+    for name in ("P", "H", "rho", "drho_dP", "eps", "deps_dP", "deps_dH"):
+        assert (getattr(part, name) == getattr(fluid, name)[1:, 1]).all()
+
+
+@pytest.mark.parametrize(
+    "mean, value, by_a, by_b",
+    [
+        ("arithmetic", 5.0, 0.5, 0.5),
+        ("geometric", 4.0, 1.0, 0.25),
+        ("harmonic", 3.2, 2.0 * 0.8**2, 2.0 * 0.2**2),
+    ],
+)
+def test_means_of_two_and_eight(mean, value, by_a, by_b):
+    """sqrt(2*8) = 4 with slopes 4/(2*2), 4/(2*8); 2*16/10 = 3.2 with slopes 2 (8/10)^2, 2 (2/10)^2."""
+    result = FACE_MEANS[mean](np.array([2.0]), np.array([8.0]))
+    assert [np.ravel(part)[0] for part in result] == pytest.approx([value, by_a, by_b], rel=1e-15)
+
+
+@pytest.mark.parametrize("mean", FACE_MEANS)
+@pytest.mark.parametrize("a, b", [(1.0, 3.0), (2e-9, 5e-3), (7e4, 1e-12), (4.0, 4.0)])
+def test_mean_slopes_match_central_differences(mean, a, b):
+    value, by_a, by_b = (np.ravel(part)[0] for part in FACE_MEANS[mean](np.array([a]), np.array([b])))
+    d = 1e-4
+
+    def at(a, b):
+        return FACE_MEANS[mean](np.array([a]), np.array([b]))[0][0]
+
+    # Homogeneity of degree one states the slopes where a difference would drown in rounding.
+    assert a * by_a + b * by_b == pytest.approx(value, rel=1e-13)
+    if max(a, b) / min(a, b) < 1e3:
+        assert by_a == pytest.approx((at(a * (1 + d), b) - at(a * (1 - d), b)) / (2 * a * d), rel=1e-7)
+        assert by_b == pytest.approx((at(a, b * (1 + d)) - at(a, b * (1 - d))) / (2 * b * d), rel=1e-7)
+
+
+@pytest.mark.parametrize("mean", ["geometric", "harmonic"])
+@pytest.mark.parametrize("a, b", [(0.0, 3.0), (3.0, 0.0), (0.0, 0.0)])
+def test_vanishing_mean_of_a_closed_node_is_finite(mean, a, b):
+    value, by_a, by_b = FACE_MEANS[mean](np.array([a]), np.array([b]))
+    assert value[0] == 0.0
+    assert np.isfinite(by_a).all() and np.isfinite(by_b).all()
+
+
+def test_means_are_ordered_and_symmetric():
+    a, b = np.array([1.0, 5.0, 1e-6]), np.array([2.0, 5.0, 1e3])
+    means = {name: mean(a, b)[0] for name, mean in FACE_MEANS.items()}
+    assert (means["harmonic"] <= means["geometric"] * (1 + 1e-15)).all()
+    assert (means["geometric"] <= means["arithmetic"] * (1 + 1e-15)).all()
+    assert means["geometric"][0] == pytest.approx(sqrt(2.0), rel=1e-15)
+    for name, mean in FACE_MEANS.items():
+        value, by_a, by_b = mean(a, b)
+        swapped, by_b_swapped, by_a_swapped = mean(b, a)
+        np.testing.assert_allclose(swapped, value, rtol=1e-15)
+        # A slope is a pure number up to 2, so rounding is absolute.
+        np.testing.assert_allclose(by_a_swapped, by_a, rtol=0.0, atol=5e-16)
+        np.testing.assert_allclose(by_b_swapped, by_b, rtol=0.0, atol=5e-16)

@@ -1,0 +1,111 @@
+from math import pi
+
+import numpy as np
+import pytest
+from scipy.integrate import dblquad
+
+from mgehl.discretization.influence import influence_coefficients
+from mgehl.discretization.mesh import Mesh
+
+
+def mesh(k_e=1.0, nx=9, ny=7):
+    return Mesh(nx, ny, (-1.9, 1.3), (-1.5, 1.5), k_e)
+
+
+def integral_of_reciprocal_distance(x, y, width, height):
+    """The integral of 1/r from (0, 0) over a rectangle around (x, y), by adaptive quadrature."""
+
+    def quarter(x0, x1, y0, y1):
+        return dblquad(
+            lambda y, x: 1.0 / np.hypot(x, y), x0, x1, y0, y1, epsabs=1e-12, epsrel=1e-11
+        )[0]
+
+    if x == y == 0.0:
+        # Polar coordinates around the singular corner: the integral of the boundary's distance.
+        angle = np.arctan2(height, width)
+        t, weight = np.polynomial.legendre.leggauss(40)
+        across = 0.5 * angle * (weight / np.cos(0.5 * angle * (t + 1))).sum() * width / 2
+        rest = pi / 2 - angle
+        along = 0.5 * rest * (weight / np.cos(0.5 * rest * (t + 1))).sum() * height / 2
+        return 4.0 * (across + along)
+    return quarter(x - width / 2, x + width / 2, y - height / 2, y + height / 2)
+
+
+@pytest.mark.parametrize("k_e", [1.0, 0.4, 2.5])
+@pytest.mark.parametrize("line, node", [(0, 0), (0, 1), (1, 0), (1, 1), (3, 2), (6, 8)])
+def test_coefficients_against_quadrature(k_e, line, node):
+    """The rectangle is dX by dY/k_e in units of a, whatever the axis ratio."""
+    m = mesh(k_e)
+    width, height = m.dX, m.dY / k_e
+    expected = integral_of_reciprocal_distance(node * width, line * height, width, height)
+    assert influence_coefficients(m, 2.0)[line, node] == pytest.approx(2.0 * expected, rel=1e-9)
+
+
+def test_own_influence_of_a_square():
+    """8 (s/2) arcsinh(1) for a square of side s: the mean of 1/r over it times its area."""
+    m = Mesh(5, 5, (-1.0, 1.0), (-1.0, 1.0))
+    assert influence_coefficients(m, 1.0)[0, 0] == pytest.approx(4.0 * 0.5 * np.arcsinh(1.0), rel=1e-14)
+
+
+def test_far_field_is_area_over_distance():
+    """The relative error of area/r falls with the square of the distance."""
+    m = mesh(k_e=0.6, nx=129, ny=129)
+    K, area = influence_coefficients(m, 1.0), m.dX * m.dY / 0.6
+
+    def error(n):
+        return abs(K[n, n] * np.hypot(n * m.dX, n * m.dY / 0.6) / area - 1.0)
+
+    assert error(100) < 1e-5
+    assert error(25) / error(100) == pytest.approx(16.0, rel=0.01)
+
+
+def test_lines_may_be_taken_in_parts():
+    """A rank's lines, lines on both sides of the source, and all lines are the same numbers."""
+    m = mesh(k_e=0.6)
+    K = influence_coefficients(m, 1.3)
+    assert K.shape == (7, 9)
+    np.testing.assert_allclose(influence_coefficients(m, 1.3, 2, 5), K[2:5], rtol=1e-13)
+    both = influence_coefficients(m, 1.3, -2, 3)
+    np.testing.assert_allclose(both, K[[2, 1, 0, 1, 2]], rtol=1e-13)
+
+
+def test_exchanging_the_axes_transposes_the_coefficients():
+    m = Mesh(9, 7, (-1.9, 1.3), (-1.5, 1.5))
+    turned = Mesh(7, 9, (-1.5, 1.5), (-1.9, 1.3))
+    K = influence_coefficients(m, 1.0)
+    np.testing.assert_allclose(influence_coefficients(turned, 1.0), K.T, rtol=1e-13)
+
+
+def test_coefficients_are_positive_and_fall_with_distance():
+    K = influence_coefficients(mesh(k_e=0.6), 1.0)
+    assert (K > 0.0).all()
+    assert (np.diff(K, axis=0) < 0.0).all() and (np.diff(K, axis=1) < 0.0).all()
+
+
+def test_axis_ratio_and_spacing_enter_only_through_their_quotient():
+    """Twice k_e on twice dY is the same rectangle."""
+    K = influence_coefficients(Mesh(9, 7, (-1.9, 1.3), (-1.5, 1.5), 1.0), 1.0)
+    same = influence_coefficients(Mesh(9, 7, (-1.9, 1.3), (-3.0, 3.0), 2.0), 1.0)
+    np.testing.assert_allclose(same, K, rtol=1e-14)
+
+
+def test_hertz_pressure_flattens_the_paraboloid():
+    """Deflection by the discrete Hertz pressure restores the approach less X^2/2 inside the circle.
+
+    H = H0 + X^2/2 + Y^2/2 + (2/pi^2) iint P/r with H0 = -1; first order in the mesh size.
+    """
+    errors = []
+    for n in (17, 33):
+        m = Mesh(n, n, (-1.25, 1.25), (-1.25, 1.25))
+        X, Y = np.meshgrid(m.X, m.Y)
+        P = np.sqrt(np.maximum(1.0 - X**2 - Y**2, 0.0))
+        K = influence_coefficients(m, 2.0 / pi**2)
+        j, i = np.indices((n, n))
+        centre = n // 2
+        gaps = []
+        for line, node in ((centre, centre), (centre, centre + n // 5), (centre - n // 5, centre)):
+            deflection = (K[abs(j - line), abs(i - node)] * P).sum()
+            gaps.append(-1.0 + 0.5 * (X[line, node] ** 2 + Y[line, node] ** 2) + deflection)
+        errors.append(np.abs(gaps).max())
+    assert errors[1] < 0.01
+    assert errors[1] < 0.6 * errors[0]

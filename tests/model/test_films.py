@@ -1,0 +1,74 @@
+from types import SimpleNamespace
+
+import pytest
+
+from mgehl.model.contact import PointContact
+from mgehl.model.films import grubin, hamrock_dowson, nijenbanning_venner_moes
+from mgehl.model.lubricant import Barus, DowsonHigginson, Lubricant
+
+# The literals below were computed in 30-digit decimal arithmetic from the formulas as printed in
+# the literature, with no line of mgehl.
+
+
+def test_hamrock_dowson_of_the_paper():
+    """The paper states 14.7 nm for its ball on a flat at 7.5 mm/s."""
+    lubricant = Lubricant(Barus(0.096, 18.2e-9), DowsonHigginson())
+    headline = PointContact(800.0, 12.7e-3, 12.7e-3, 219.78e9, 7.5e-3, lubricant)
+    assert headline.formulas.hamrock_dowson_central == pytest.approx(14.7e-9, abs=0.1e-9)
+
+
+@pytest.mark.parametrize(
+    "ellipticity, central, minimum",
+    [(1.0, 1.765149363430689e-5, 1.002685985506984e-5), (3.0, 2.329406894962160e-5, 1.768013907852289e-5)],
+)
+def test_hamrock_dowson(ellipticity, central, minimum):
+    """U = 1e-11, W = 1e-6, G = 4500; the film scales with the radius."""
+    groups = SimpleNamespace(U=1e-11, W=1e-6, G=4500.0)
+    expected = (0.02 * central, 0.02 * minimum)
+    assert hamrock_dowson(groups, 0.02, ellipticity) == pytest.approx(expected, rel=1e-13)
+
+
+@pytest.mark.parametrize(
+    "M, L, D, H",
+    [
+        (20.0, 10.0, 1.0, 4.708073308),
+        (200.0, 10.0, 1.0, 4.380290978),
+        (200.0, 10.0, 0.25, 5.390596135),
+        (1e4, 40.0, 1.0, 9.028713288),
+        (5.0, 100.0, 1.0, 19.79027532),
+    ],
+)
+def test_nijenbanning_venner_moes(M, L, D, H):
+    """Central film H (h/R_x)(2U)^(-1/2), for U = 2e-12 and R_x = 0.02."""
+    groups = SimpleNamespace(U=2e-12, M=M, L=L)
+    film = nijenbanning_venner_moes(groups, 0.02, 0.02 / D)
+    assert film / 0.02 / 4e-12**0.5 == pytest.approx(H, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    "M, L, H, rel",
+    [
+        (1e5, 1e-6, 3.18 * 1.636 ** (-14 / 25) * 1e5 ** (-2 / 15), 2e-3),
+        (1e7, 100.0, 1.48 * 1.63 ** (-7 / 20) * 1e7 ** (-1 / 12) * 100.0**0.75, 1e-2),
+        (0.1, 1e-3, 145.0 * 1.796 ** (-15 / 7) * 0.1**-2.0, 1e-2),
+    ],
+    ids=["isoviscous elastic", "piezoviscous elastic", "isoviscous rigid"],
+)
+def test_nijenbanning_venner_moes_tends_to_its_asymptotes(M, L, H, rel):
+    """Circular contact, far into one regime."""
+    groups = SimpleNamespace(U=2e-12, M=M, L=L)
+    film = nijenbanning_venner_moes(groups, 0.02, 0.02)
+    assert film / 0.02 / 4e-12**0.5 == pytest.approx(H, rel=rel)
+
+
+def test_nijenbanning_venner_moes_beside_full_numerical_solutions():
+    """The formula is within a few per cent of converged central films (references.md, 2B on 257)."""
+    for M, numerical in ((20.0, 4.79386), (200.0, 4.42083)):
+        film = nijenbanning_venner_moes(SimpleNamespace(U=2e-12, M=M, L=10.0), 0.02, 0.02)
+        assert film / 0.02 / 4e-12**0.5 == pytest.approx(numerical, rel=0.03)
+
+
+def test_grubin():
+    """(12*0.2687 * 2e-8 * 0.05 * 0.3 * 4e-4)^(3/4)/sqrt(1.6e-5)."""
+    film = grubin(2e-8, 0.05, 0.3, 4e-4, 1.6e-5)
+    assert film == pytest.approx(1.226486091358103e-7, rel=1e-13)

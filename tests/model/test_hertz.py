@@ -1,0 +1,138 @@
+from math import acos, cos, pi, sin, sqrt
+
+import numpy as np
+import pytest
+from scipy.integrate import dblquad, quad
+from scipy.special import elliprd, elliprf
+
+from mgehl.model.hertz import edge_gap_coefficient, hertz_contact, hertz_pressure
+
+E = 219.78e9
+
+ellipses = pytest.mark.parametrize(
+    "radius_x, radius_y",
+    [(12.7e-3, 12.7e-3), (12.7e-3, 13e-3), (12.7e-3, 60e-3), (60e-3, 12.7e-3), (5e-3, 5.0)],
+)
+
+
+def test_headline_circle():
+    """The paper's ball: a = 0.41083 mm and p_h = 2.2631 GPa at 800 N on R = 12.7 mm."""
+    contact = hertz_contact(800.0, 12.7e-3, 12.7e-3, E)
+    assert contact.a == contact.b == pytest.approx(0.41083e-3, abs=0.5e-8)
+    assert contact.p_h == pytest.approx(2.2631e9, abs=0.5e5)
+
+
+@pytest.mark.parametrize("load", [1.0, 800.0])
+def test_circle_formulas(load):
+    """a^3 = 3 w R/(2 E'), p_h = 3 w/(2 pi a^2), approach a^2/R."""
+    R = 0.02
+    contact = hertz_contact(load, R, R, E)
+    a = (3.0 * load * R / (2.0 * E)) ** (1.0 / 3.0)
+    assert contact.a == pytest.approx(a, rel=1e-14)
+    assert contact.p_h == pytest.approx(3.0 * load / (2.0 * pi * a**2), rel=1e-14)
+    assert contact.approach == pytest.approx(a**2 / R, rel=1e-14)
+
+
+@ellipses
+def test_load_is_two_thirds_of_the_peak_over_the_ellipse(radius_x, radius_y):
+    contact = hertz_contact(800.0, radius_x, radius_y, E)
+    assert 2.0 / 3.0 * pi * contact.a * contact.b * contact.p_h == pytest.approx(800.0, rel=1e-14)
+
+
+@ellipses
+def test_curvatures_and_approach_follow_from_the_ellipse(radius_x, radius_y):
+    """The displacement of an ellipse of Hertz pressure, in Carlson's integrals.
+
+    u(x, y) = (p_h a b/E') int_0^inf (1 - x^2/(a^2 + t) - y^2/(b^2 + t)) dt/sqrt((a^2 + t)(b^2 + t) t)
+    must be approach - x^2/2R_x - y^2/2R_y, with E' = 2 E*  [Johnson 1985, sec. 3.5].
+    """
+    contact = hertz_contact(800.0, radius_x, radius_y, E)
+    a2, b2 = contact.a**2, contact.b**2
+    factor = contact.p_h * contact.a * contact.b / E
+    # int dt/((a^2 + t) sqrt(...)) = (2/3) R_D(0, b^2, a^2) and int dt/sqrt(...) = 2 R_F(0, a^2, b^2)
+    assert factor * 2.0 / 3.0 * elliprd(0.0, b2, a2) == pytest.approx(0.5 / radius_x, rel=1e-9)
+    assert factor * 2.0 / 3.0 * elliprd(0.0, a2, b2) == pytest.approx(0.5 / radius_y, rel=1e-9)
+    assert factor * 2.0 * elliprf(0.0, a2, b2) == pytest.approx(contact.approach, rel=1e-9)
+
+
+@ellipses
+def test_exchanging_the_radii_exchanges_the_semi_axes(radius_x, radius_y):
+    one = hertz_contact(800.0, radius_x, radius_y, E)
+    other = hertz_contact(800.0, radius_y, radius_x, E)
+    assert (one.a, one.b, one.p_h, one.approach) == (other.b, other.a, other.p_h, other.approach)
+
+
+def test_ellipse_is_long_where_the_radius_is_large():
+    contact = hertz_contact(800.0, 12.7e-3, 60e-3, E)
+    assert contact.b > 2.0 * contact.a
+
+
+@pytest.mark.parametrize("exponent", range(2, 14))
+def test_limit_to_the_circle(exponent):
+    """Radii that differ by d give b/a = (R_y/R_x)^(2/3) and the circle's values, to first order in d."""
+    d = 10.0**-exponent
+    circle = hertz_contact(800.0, 12.7e-3, 12.7e-3, E)
+    contact = hertz_contact(800.0, 12.7e-3, 12.7e-3 * (1.0 + d), E)
+    # The elliptic integrals K - E cancel near the circle: half of the digits is what they leave.
+    rounding = 1e-7
+    for value, limit in ((contact.a, circle.a), (contact.b, circle.b), (contact.p_h, circle.p_h)):
+        assert value == pytest.approx(limit, rel=d + rounding)
+    assert contact.b / contact.a - 1.0 == pytest.approx(2.0 / 3.0 * d, abs=d**2 + rounding)
+
+
+def test_scaling_with_load():
+    """Semi-axes and peak grow with the cube root of the load, the approach with its square."""
+    one, eight = hertz_contact(100.0, 0.01, 0.03, E), hertz_contact(800.0, 0.01, 0.03, E)
+    assert eight.a / one.a == pytest.approx(2.0, rel=1e-13)
+    assert eight.p_h / one.p_h == pytest.approx(2.0, rel=1e-13)
+    assert eight.approach / one.approach == pytest.approx(4.0, rel=1e-13)
+
+
+def test_hertz_pressure():
+    X = np.array([0.0, 0.6, 0.0, 0.8, 1.0, 1.2])
+    Y = np.array([0.0, 0.0, 0.8, 0.6, 1.0, -3.0])
+    np.testing.assert_allclose(hertz_pressure(X, Y), [1.0, 0.8, 0.6, 0.0, 0.0, 0.0], atol=1e-15)
+
+
+def test_hertz_pressure_carries_two_thirds_of_pi():
+    """In polar coordinates, where the edge is a line of the quadrature."""
+    volume = dblquad(lambda r, t: r * hertz_pressure(r * cos(t), r * sin(t)), 0, 2 * pi, 0, 1)[0]
+    assert volume == pytest.approx(2.0 * pi / 3.0, rel=1e-8)
+
+
+def test_edge_gap_of_a_circle():
+    """C = (8 sqrt2/(3 pi)) a^2/R = 1.2004 a^2/R, and the exact dry gap tends to C s^(3/2).
+
+    Exact: h = (a^2/(pi R)) ((r^2 - 2) arccos(1/r) + sqrt(r^2 - 1)), r in units of a  [Johnson eq. 3.42a].
+    """
+    R = 12.7e-3
+    contact = hertz_contact(800.0, R, R, E)
+    C = edge_gap_coefficient(contact, E)
+    assert C == pytest.approx(8.0 * sqrt(2.0) / (3.0 * pi) * contact.a**2 / R, rel=1e-13)
+    assert C * R / contact.a**2 == pytest.approx(1.2004, abs=5e-5)
+    errors = []
+    for s in (1e-2, 1e-3):
+        r = 1.0 + s
+        gap = contact.a**2 / (pi * R) * ((r * r - 2.0) * acos(1.0 / r) + sqrt(r * r - 1.0))
+        errors.append(abs(C * s**1.5 / gap - 1.0))
+    assert errors[1] < 1e-3
+    assert errors[0] / errors[1] == pytest.approx(10.0, rel=0.05)
+
+
+@ellipses
+def test_edge_gap_of_an_ellipse(radius_x, radius_y):
+    """The exact gap beside the edge on the x axis, s = x/a - 1, tends to C s^(3/2).
+
+    h = (p_h a b/E') int_0^l (x^2/(a^2 + t) - 1) dt/sqrt((a^2 + t)(b^2 + t) t), l = x^2 - a^2; t = v^2.
+    """
+    contact = hertz_contact(800.0, radius_x, radius_y, E)
+    ratio = contact.b / contact.a
+    s = 1e-5 * min(1.0, ratio**2)
+
+    def integrand(v):
+        t = v * v
+        return ((1 + s) ** 2 / (1 + t) - 1.0) * 2.0 / sqrt((1 + t) * (ratio**2 + t))
+
+    integral = quad(integrand, 0.0, sqrt(s * (2 + s)), epsrel=1e-12)[0]
+    gap = contact.p_h * contact.b / E * integral
+    assert edge_gap_coefficient(contact, E) * s**1.5 == pytest.approx(gap, rel=1e-4)

@@ -1,0 +1,102 @@
+from math import exp, log
+
+import numpy as np
+import pytest
+
+from mgehl.model.lubricant import (
+    DENSITY_LAWS,
+    VISCOSITY_LAWS,
+    Barus,
+    ConstantDensity,
+    DowsonHigginson,
+    Lubricant,
+    Roelands,
+)
+
+P_H = 0.8e9
+P = np.array([0.0, 0.25, 1.0, 1.7])
+
+
+def central_difference(law, P, d=1e-6):
+    return (law(P + d, P_H)[0] - law(P - d, P_H)[0]) / (2.0 * d)
+
+
+@pytest.mark.parametrize("name", VISCOSITY_LAWS)
+def test_viscosity_slope_matches_central_differences(name):
+    law = VISCOSITY_LAWS[name](0.05, 18e-9).log_viscosity
+    slope = np.broadcast_to(law(P[1:], P_H)[1], P[1:].shape)
+    np.testing.assert_allclose(slope, central_difference(law, P[1:]), rtol=1e-8)
+
+
+@pytest.mark.parametrize("name", DENSITY_LAWS)
+def test_density_slope_matches_central_differences(name):
+    law = DENSITY_LAWS[name]().density
+    np.testing.assert_allclose(law(P, P_H)[1], central_difference(law, P), rtol=1e-8)
+
+
+@pytest.mark.parametrize("name", VISCOSITY_LAWS)
+def test_viscosity_law_starts_at_eta0_with_slope_alpha(name):
+    """ln(eta*) = 0 and d ln(eta*)/dp = alpha at p = 0, whatever eta0."""
+    for eta0 in (1e-3, 0.096, 2.0):
+        value, slope = VISCOSITY_LAWS[name](eta0, 18e-9).log_viscosity(np.zeros(1), P_H)
+        assert value[0] == 0.0
+        assert np.ravel(slope)[0] == pytest.approx(18e-9 * P_H, rel=1e-13)
+
+
+def test_barus_at_one_gigapascal():
+    """ln(eta*) = alpha p: 20 per GPa times 1 GPa."""
+    assert Barus(0.1, 20e-9).log_viscosity(np.array([1.25]), P_H)[0][0] == pytest.approx(20.0, rel=1e-14)
+
+
+def test_roelands_at_a_known_pressure():
+    """p = 1/5.1e-9 Pa doubles the bracket: ln(eta*) = (ln eta0 + 9.67)(2^z - 1)."""
+    law = Roelands(0.04, 20e-9)
+    S = log(0.04) + 9.67
+    z = 20e-9 / (5.1e-9 * S)
+    assert z == pytest.approx(0.6079, abs=1e-4)
+    value, slope = law.log_viscosity(np.array([1.0]), 1.0 / 5.1e-9)
+    assert value[0] == pytest.approx(S * (2.0**z - 1.0), rel=1e-14)
+    assert slope[0] == pytest.approx(S * z * 2.0 ** (z - 1.0), rel=1e-14)
+
+
+def test_roelands_stays_below_barus():
+    """Its exponent z is below one here, so the logarithm grows more slowly than alpha p."""
+    roelands, barus = Roelands(0.096, 18.2e-9), Barus(0.096, 18.2e-9)
+    assert (roelands.log_viscosity(P[1:], P_H)[0] < barus.log_viscosity(P[1:], P_H)[0]).all()
+
+
+def test_roelands_takes_tension_as_ambient_pressure():
+    """A Newton step may overshoot below p = 0, where the power has no value."""
+    value, slope = Roelands(0.04, 20e-9).log_viscosity(np.array([-5.0, -1e-3]), P_H)
+    assert value.tolist() == [0.0, 0.0]
+    assert np.isfinite(slope).all()
+
+
+@pytest.mark.parametrize("viscosity", [exp(-9.67), 6e-5, 1e-9])
+def test_roelands_refuses_a_viscosity_without_meaning(viscosity):
+    with pytest.raises(ValueError, match="above 6.3e-5 Pa s"):
+        Roelands(viscosity, 20e-9)
+
+
+def test_roelands_accepts_the_least_viscosity_its_message_promises():
+    Roelands(6.4e-5, 20e-9)
+
+
+def test_dowson_higginson_at_one_gigapascal():
+    """1 + 0.6/(1 + 1.7) at 1 GPa, with slope 0.6/2.7^2 per GPa; 1 at ambient; at most 1 + 0.6/1.7."""
+    density = DowsonHigginson().density
+    rho, slope = density(np.array([1.25]), P_H)
+    assert rho[0] == pytest.approx(1.0 + 0.6 / 2.7, rel=1e-14)
+    assert slope[0] == pytest.approx(0.6 / 2.7**2 * 0.8, rel=1e-14)
+    assert density(np.zeros(1), P_H)[0][0] == 1.0
+    assert density(np.array([1e12]), P_H)[0][0] == pytest.approx(1.0 + 0.6 / 1.7, rel=1e-9)
+
+
+def test_constant_density():
+    rho, slope = ConstantDensity().density(P, P_H)
+    assert rho.tolist() == [1.0] * 4 and slope.tolist() == [0.0] * 4
+
+
+def test_lubricant_knows_its_ambient_viscosity_and_slope():
+    lubricant = Lubricant(Roelands(0.05, 21e-9), ConstantDensity())
+    assert (lubricant.viscosity, lubricant.pressure_viscosity) == (0.05, 21e-9)

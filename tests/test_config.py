@@ -1,0 +1,293 @@
+import os
+import re
+import tomllib
+from dataclasses import asdict, fields
+from pathlib import Path
+
+import pytest
+import tomli_w
+
+from mgehl.config import (
+    SECTIONS,
+    Config,
+    ConfigError,
+    config_from_tables,
+    default_config,
+    load_config,
+)
+
+CONFIGS = Path(__file__).resolve().parent.parent / "configs"
+
+
+def with_settings(*settings):
+    """All defaults but for the settings: an empty file, since every unit in a file takes its time."""
+    return load_config(os.devnull, settings)
+
+
+def error_of(*settings, tables=None):
+    """The message of the ConfigError that settings (or nested values) raise: always one line."""
+    with pytest.raises(ConfigError) as caught:
+        with_settings(*settings) if tables is None else config_from_tables(tables)
+    message = str(caught.value)
+    assert message and "\n" not in message
+    return message
+
+
+def assert_same(config, other):
+    """Equal up to the last digit that the conversion of a unit may cost."""
+    for name, section in asdict(config).items():
+        for key, value in section.items():
+            expected = getattr(getattr(other, name), key)
+            if isinstance(expected, float | tuple):
+                expected = pytest.approx(expected, rel=1e-14, abs=0.0)
+            assert value == expected, f"{name}.{key}"
+
+
+def test_default_configuration_is_the_point_contact():
+    assert default_config() == CONFIGS / "point_contact.toml"
+    config = load_config()
+    assert config.contact.load == 800.0
+    assert config.contact.radius_x == config.contact.radius_y == pytest.approx(12.7e-3, rel=1e-14)
+    assert config.contact.reduced_modulus == pytest.approx(219.78e9, rel=1e-14)
+    assert config.lubricant.pressure_viscosity == pytest.approx(18.2e-9, rel=1e-14)
+    assert config.motion.speed == pytest.approx(5e-6, rel=1e-14)
+    assert config.discretization.film_threshold == pytest.approx(0.02e-9, rel=1e-14)
+    assert (config.grid.nodes, config.grid.x, config.grid.y) == (257, (-1.9, 1.3), (-1.5, 1.5))
+
+
+def test_defaults_of_the_keys_are_the_default_file_but_for_the_start():
+    config = load_config(settings=["solver.start=film"])
+    assert load_config().solver.start == "contact"
+    assert_same(config, Config())
+
+
+@pytest.mark.parametrize("path", sorted(CONFIGS.glob("*.toml")), ids=lambda path: path.stem)
+def test_every_configuration_of_the_repository_is_valid(path):
+    load_config(path)
+
+
+def test_empty_file_is_all_defaults(tmp_path):
+    path = tmp_path / "empty.toml"
+    path.write_text("")
+    assert load_config(path) == Config()
+
+
+@pytest.mark.parametrize(
+    "setting, value",
+    [
+        ("motion.speed=7.5 mm/s", 7.5e-3),
+        ("motion.speed='27 km/hour'", 7.5),
+        ("motion.speed=0.25", 0.25),
+        ("motion.speed=2", 2.0),
+        ("contact.load='0.8 kN'", 800.0),
+        ("contact.radius_x=0.5 inch", 12.7e-3),
+        ("contact.reduced_modulus=219.78 GPa", 219.78e9),
+        ("lubricant.viscosity=96 mPa*s", 0.096),
+        ("lubricant.pressure_viscosity=18.2/GPa", 18.2e-9),
+        ("discretization.film_threshold=0.2 angstrom", 0.02e-9),
+        ("discretization.film_threshold=0", 0.0),
+        ("solver.tolerance=1e-6", 1e-6),
+    ],
+)
+def test_units_end_as_SI_floats(setting, value):
+    section, key = setting.split("=")[0].split(".")
+    found = getattr(getattr(with_settings(setting), section), key)
+    assert isinstance(found, float)
+    assert found == pytest.approx(value, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    "setting, value",
+    [
+        ("grid.nodes=513", 513),
+        (" grid.nodes = 129 ", 129),
+        ("grid.nodes=129.0", 129),
+        ("grid.x=[-4.5, 1.5]", (-4.5, 1.5)),
+        ("grid.y=[-3, 3]", (-3.0, 3.0)),
+        ("discretization.couette=S2C", "S2C"),
+        ('discretization.couette="2B"', "2B"),
+        ("lubricant.viscosity_law=roelands", "roelands"),
+        ("lubricant.density_law=constant", "constant"),
+        ("solver.release_budget=0", 0),
+    ],
+)
+def test_settings_are_toml_or_else_plain_strings(setting, value):
+    section, key = setting.split("=")[0].strip().split(".")
+    found = getattr(getattr(with_settings(setting), section), key)
+    assert found == value and type(found) is type(value)
+
+
+def test_later_settings_win():
+    config = with_settings("grid.nodes=129", "motion.speed=1", "grid.nodes=65")
+    assert (config.grid.nodes, config.motion.speed) == (65, 1.0)
+
+
+def test_settings_may_open_a_section_that_the_file_lacks(tmp_path):
+    path = tmp_path / "short.toml"
+    path.write_text("[motion]\nspeed = 1.0\n")
+    config = load_config(path, ["grid.nodes=129"])
+    assert (config.motion.speed, config.grid.nodes) == (1.0, 129)
+
+
+# setting; words that must appear: the key, the value, what is allowed
+MISTAKES = [
+    ("contact.load=0", "contact.load = 0: ", "a number in N", "above 0"),
+    ("contact.load=-3 N", "contact.load = '-3 N': ", "above 0"),
+    ("motion.speed=true", "motion.speed = True: ", "a number in m/s"),
+    ("motion.speed=nan", "motion.speed = nan: ", "a number in m/s"),
+    ("motion.speed=-inf", "motion.speed = -inf: ", "a number in m/s"),
+    ("motion.speed=nan m/s", "motion.speed = ", "a number in m/s"),
+    ("motion.speed=[1, 2]", "motion.speed = [1, 2]: ", "a number in m/s"),
+    ("motion.speed={a = 1}", "motion.speed = {'a': 1}: ", "a number in m/s"),
+    ("motion.speed=1979-05-27", "motion.speed = ", "a number in m/s"),
+    ("motion.speed=7.5 mm", "motion.speed = '7.5 mm': ", "wrong unit", '"1 m/s"'),
+    ("motion.speed=fast", "motion.speed = 'fast': ", "not understood", '"1 m/s"'),
+    ("motion.speed=", "motion.speed = '': ", '"1 m/s"'),
+    ("motion.speed=3 bananas", "motion.speed = '3 bananas': ", "not understood", '"1 m/s"'),
+    ("grid.nodes=64.5", "grid.nodes = 64.5: ", "a whole number", "at least 65", "at most 16385"),
+    ('grid.nodes="257"', "grid.nodes = '257': ", "a whole number"),
+    ("grid.nodes=33", "grid.nodes = 33: ", "at least 65"),
+    ("grid.nodes=32769", "grid.nodes = 32769: ", "at most 16385"),
+    ("grid.nodes=100", "grid.nodes = 100: ", "2^k + 1", "65 or 129"),
+    ("grid.nodes=256", "grid.nodes = 256: ", "2^k + 1", "129 or 257"),
+    ("grid.nodes=1e400", "grid.nodes = inf: ", "a whole number"),
+    ("grid.x=[-1.9]", "grid.x = [-1.9]: ", "two numbers", "first < -1", "last > 1"),
+    ("grid.x=[-0.5, 1.3]", "grid.x = [-0.5, 1.3]: ", "first < -1"),
+    ("grid.y=[-1.5, 1]", "grid.y = [-1.5, 1]: ", "last > 1"),
+    ('grid.y=["a", 2]', "grid.y = ['a', 2]: ", "two numbers"),
+    ("grid.y=[-inf, 2]", "grid.y = [-inf, 2]: ", "two numbers"),
+    ("grid.y=wide", "grid.y = 'wide': ", "two numbers"),
+    ("contact.kind=line", "contact.kind = 'line': ", "must be one of point"),
+    ("discretization.couette=3B", "discretization.couette = '3B': ", "1B, 2B, 2C, S1B, S2C"),
+    ("discretization.couette=1", "discretization.couette = 1: ", "1B, 2B, 2C, S1B, S2C"),
+    ("discretization.couette=[]", "discretization.couette = []: ", "1B, 2B, 2C, S1B, S2C"),
+    (
+        "arithmetic, geometric, harmonic",
+    ),
+    ("solver.start=cold", "solver.start = 'cold': ", "film, contact"),
+    ("solver.omega=1.5", "solver.omega = 1.5: ", "above 0", "at most 1"),
+    ("solver.max_steps=0", "solver.max_steps = 0: ", "at least 1"),
+    ("grid.nodez=129", "grid.nodez = 129: ", "unknown key", "did you mean grid.nodes?"),
+    ("solver.speed=1", "solver.speed = 1: ", "unknown key", "did you mean motion.speed?"),
+    ("gird.nodes=129", "gird: ", "unknown section", "did you mean grid?"),
+    ("qqqq.w=1", "qqqq: ", "unknown section", "known are contact, lubricant, motion"),
+    ("grid.nodes", "--set grid.nodes: ", "must be section.key=value"),
+    ("nodes=129", "--set nodes=129: ", "must be section.key=value"),
+    (".nodes=129", "--set .nodes=129: ", "must be section.key=value"),
+    ("grid.=129", "--set grid.=129: ", "must be section.key=value"),
+]
+
+
+@pytest.mark.parametrize("setting, start, words", [(m[0], m[1], m[2:]) for m in MISTAKES])
+def test_mistake_is_one_line_with_key_value_and_what_is_allowed(setting, start, words):
+    message = error_of(setting)
+    assert message.startswith(start)
+    for word in words:
+        assert word in message
+
+
+@pytest.mark.parametrize(
+    "setting",
+    ["grid.nodes=1" + 400 * "0", "grid.y=[-2, 1" + 400 * "0" + "]"],
+    ids=["number", "interval"],
+)
+def test_whole_number_beyond_every_float_is_refused_too(setting):
+    error_of(setting)
+
+
+@pytest.mark.parametrize("tables", [{"grid": 5}, {"motion": "fast"}, {"contact": [1]}])
+def test_section_that_is_a_value(tables):
+    (name,) = tables
+    message = error_of(tables=tables)
+    assert message.startswith(f"{name} = {tables[name]!r}: ") and f"[{name}]" in message
+
+
+def test_setting_into_a_section_that_is_a_value(tmp_path):
+    path = tmp_path / "flat.toml"
+    path.write_text("grid = 5\n")
+    with pytest.raises(ConfigError, match=r"^grid = 5: .*\[grid\]$"):
+        load_config(path, ["grid.nodes=129"])
+
+
+@pytest.mark.parametrize("law, viscosity", [("roelands", 1e-5), ("roelands", 6e-5)])
+def test_viscosity_below_what_the_law_allows(law, viscosity):
+    message = error_of(f"lubricant.viscosity_law={law}", f"lubricant.viscosity={viscosity}")
+    assert message.startswith(f"lubricant.viscosity = {viscosity!r}: ")
+    assert "above 6.3e-5 Pa s" in message
+    with_settings(f"lubricant.viscosity={viscosity}")
+
+
+def test_file_that_is_not_there(tmp_path):
+    path = tmp_path / "none.toml"
+    with pytest.raises(ConfigError, match=re.escape(f"{path}: cannot be read: No such file")):
+        load_config(path)
+
+
+@pytest.mark.parametrize("content", [b"[grid\nnodes = 5", b"nodes 5", b"\xff\xfe"])
+def test_file_that_is_not_toml(tmp_path, content):
+    path = tmp_path / "bad.toml"
+    path.write_bytes(content)
+    with pytest.raises(ConfigError) as caught:
+        load_config(path)
+    assert str(caught.value).startswith(f"{path}: not valid TOML: ")
+    assert "\n" not in str(caught.value)
+
+
+MOES = {"moes": {"M": 200, "L": 10}}
+
+
+def test_moes_numbers_replace_load_and_speed():
+    config = config_from_tables(MOES)
+    assert (config.moes.M, config.moes.L) == (200.0, 10.0)
+
+
+@pytest.mark.parametrize("key, missing", [("M", "moes.L"), ("L", "moes.M")])
+def test_moes_numbers_go_together(key, missing):
+    assert error_of(tables={"moes": {key: 20.0}}).startswith(f"{missing}: must be given too")
+
+
+@pytest.mark.parametrize("section, key, value", [("contact", "load", 800.0), ("motion", "speed", "1 m/s")])
+def test_moes_numbers_exclude_load_and_speed(section, key, value):
+    message = error_of(tables={**MOES, section: {key: value}})
+    assert message == f"{section}.{key} = {value!r}: cannot be given with moes.M and moes.L"
+
+
+@pytest.mark.parametrize(
+    "value, allowed", [(0, "above 0"), (-1.0, "above 0"), (True, "a number"), ("20 N", "wrong unit")]
+)
+def test_moes_numbers_are_positive_and_have_no_unit(value, allowed):
+    message = error_of(tables={"moes": {"M": value, "L": 10.0}})
+    assert message.startswith(f"moes.M = {value!r}: ") and allowed in message
+
+
+@pytest.mark.parametrize(
+    "tables",
+    [
+        {},
+        MOES,
+        {"contact": {"radius_y": "2.54 cm"}, "grid": {"nodes": 129, "x": [-4.5, 1.5]}},
+        {"lubricant": {"viscosity_law": "roelands"}, "solver": {"tolerance": 1e-7, "sweeps": 2}},
+    ],
+    ids=["defaults", "moes", "ellipse", "laws"],
+)
+def test_round_trip_through_toml(tables):
+    """What a run writes is the same configuration, to the last bit, when read again."""
+    config = config_from_tables(tables)
+    again = config_from_tables(tomllib.loads(tomli_w.dumps(config.as_toml_tables())))
+    assert again == config
+
+
+def test_written_tables_name_every_key_that_is_set():
+    """Nothing is left to the defaults of a later version; unset keys are absent."""
+    written = Config().as_toml_tables()
+    assert "moes" not in written
+    for name, section in SECTIONS.items():
+        if name != "moes":
+            assert set(written[name]) == {key.name for key in fields(section)}
+    written = config_from_tables(MOES).as_toml_tables()
+    assert "motion" not in written and "load" not in written["contact"]
+
+
+def test_configuration_cannot_be_changed():
+    with pytest.raises(AttributeError):
+        load_config().grid.nodes = 129
