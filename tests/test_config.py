@@ -161,9 +161,6 @@ MISTAKES = [
     ("discretization.couette=3B", "discretization.couette = '3B': ", "1B, 2B, 2C, S1B, S2C"),
     ("discretization.couette=1", "discretization.couette = 1: ", "1B, 2B, 2C, S1B, S2C"),
     ("discretization.couette=[]", "discretization.couette = []: ", "1B, 2B, 2C, S1B, S2C"),
-    (
-        "arithmetic, geometric, harmonic",
-    ),
     ("solver.start=cold", "solver.start = 'cold': ", "film, contact"),
     ("solver.omega=1.5", "solver.omega = 1.5: ", "above 0", "at most 1"),
     ("solver.max_steps=0", "solver.max_steps = 0: ", "at least 1"),

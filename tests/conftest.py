@@ -1,0 +1,230 @@
+"""Fixtures that tests share: the paper's contact, grids that are destroyed, clean PETSc options.
+
+PETSc and MPI are imported inside the fixtures that need them, so that the tests of the lower
+layers run without.
+"""
+
+import sys
+from dataclasses import dataclass
+
+import pytest
+
+from mgehl.discretization.mesh import Mesh
+from mgehl.model.contact import PointContact
+from mgehl.model.lubricant import Barus, ConstantDensity, DowsonHigginson, Lubricant
+
+BODY = {"radius_x": 12.7e-3, "radius_y": 12.7e-3, "reduced_modulus": 219.78e9}
+DOMAIN = {"x": (-1.9, 1.3), "y": (-1.5, 1.5)}
+MOES_DOMAIN = {"x": (-4.5, 1.5), "y": (-3.0, 3.0)}
+VISCOSITY = Barus(0.096, 18.2e-9)
+
+
+@pytest.fixture
+def paper_contact():
+    """Factory of the paper's ball on a flat; keywords replace parameters."""
+
+    def make(speed=1.0, **changes):
+        parameters = {"load": 800.0, **BODY, "lubricant": Lubricant(VISCOSITY, DowsonHigginson())}
+        return PointContact(speed=speed, **(parameters | changes))
+
+    return make
+
+
+@pytest.fixture
+def moes_contact():
+    """Factory of circular contacts with Moes numbers M and L and constant density."""
+    lubricant = Lubricant(VISCOSITY, ConstantDensity())
+    return lambda M, L: PointContact.from_moes(M, L, **BODY, lubricant=lubricant)
+
+
+@pytest.fixture
+def make_hierarchy():
+    """Factory of grid hierarchies; all of them are destroyed after the test.
+
+    The communicator is COMM_SELF unless another is given: every rank has a grid of its own.
+    """
+    from mpi4py import MPI
+
+    from mgehl.grid.hierarchy import Hierarchy
+
+    made = []
+
+    def make(contact, nodes=65, coarsest=33, comm=MPI.COMM_SELF, x=DOMAIN["x"], y=DOMAIN["y"], ny=None):
+        mesh = Mesh(nodes, ny or nodes, x, y, contact.k_e)
+        made.append(Hierarchy(mesh, coarsest, contact.deflection_scale, comm))
+        return made[-1]
+
+    yield make
+    for hierarchy in made:
+        hierarchy.destroy()
+
+
+@pytest.fixture
+def make_problem(paper_contact, make_hierarchy):
+    """Factory of a `PointProblem` on the finest grid of a new hierarchy."""
+    from mgehl.discretization.residual import Scheme
+    from mgehl.solver.problem import PointProblem
+
+    def make(contact=None, scheme=None, **grid):
+        contact = contact or paper_contact()
+        hierarchy = make_hierarchy(contact, **grid)
+        scheme = scheme or Scheme()
+        return PointProblem(hierarchy.grids[-1], hierarchy.deflections[-1], contact, scheme)
+
+    return make
+
+
+@pytest.fixture
+def tiny_problem(make_problem):
+    """The paper's contact at 1 m/s on 9 x 9 nodes: small enough for states made by hand."""
+    return make_problem(nodes=9)
+
+
+@dataclass
+class Solution:
+    """A nested iteration that was run, with what it told its monitor."""
+
+    hierarchy: object
+    problem: object
+    outcome: object
+    told: list
+
+    @property
+    def films(self):
+        """Central and minimum film in nm."""
+        nm = 1e9 * self.problem.contact.film_scale
+        return tuple(film * nm for film in self.problem.films(self.outcome.state))
+
+    @property
+    def finest_steps(self):
+        """Newton steps on the finest grid."""
+        return self.outcome.cycles[-1].step
+
+
+@pytest.fixture
+def solve(make_hierarchy):
+    """Function that solves a contact by nested iteration and returns a `Solution`."""
+    from mgehl.discretization.residual import Scheme
+    from mgehl.solver.nested import NestedSettings, SolverSettings, nested_iteration
+    from mgehl.solver.newton import NewtonSettings
+
+    def run(contact, nodes, start="film", couette="1B", newton=None, **grid):
+        # H_th is the configuration's default, 0.02 nm.
+        limits = {"film_threshold": 0.02e-9 / contact.film_scale} | (newton or {})
+        settings = SolverSettings(
+            scheme=Scheme(couette), nested=NestedSettings(start=start), newton=NewtonSettings(**limits)
+        )
+        hierarchy, told = make_hierarchy(contact, nodes, **grid), []
+        problem, outcome = nested_iteration(hierarchy, contact, settings, lambda *each: told.append(each))
+        return Solution(hierarchy, problem, outcome, told)
+
+    return run
+
+
+@pytest.fixture
+def petsc_options():
+    """PETSc's option database; `clean_petsc_options` takes back what a test sets."""
+    from petsc4py import PETSc
+
+    return PETSc.Options()
+
+
+@pytest.fixture(autouse=True)
+def clean_petsc_options():
+    """No PETSc option outlives the test that set it."""
+    before = _all_options()
+    yield
+    after = _all_options()
+    for name in after.keys() - before.keys():
+        _database().delValue(name)
+    for name, value in before.items():
+        if after.get(name) != value:
+            _database().setValue(name, value)
+
+
+def _all_options():
+    return dict(_database().getAll()) if "petsc4py.PETSc" in sys.modules else {}
+
+
+def _database():
+    return sys.modules["petsc4py.PETSc"].Options()
+
+
+@pytest.fixture
+def rough_state():
+    """Function that makes a state of a problem far from any solution, with a gap everywhere.
+
+    Random pressures on a parabola; with `contact` a disc of contact and a cavity behind it.
+    """
+    import numpy as np
+
+    from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
+
+    def make(problem, contact=False):
+        grid = problem.grid
+        status = np.full(grid.shape, LUBRICATED)
+        if contact:
+            status = np.where(grid.X**2 + grid.Y**2 < 0.25, CONTACT, status)
+            status = np.where(grid.X + 0.2 * grid.Y**2 > 0.9, CAVITATED, status)
+        dome = np.maximum(0.7 - 0.3 * (grid.X**2 + grid.Y**2), 0.0)
+        P = dome + 0.02 * np.random.default_rng(5).random(grid.shape)
+        P = np.where(problem.boundary | (status == CAVITATED), 0.0, P)
+        H0 = 0.02 - float(problem.gap(P, 0.0).min())
+        return problem.state(P, H0, status)
+
+    return make
+
+
+@pytest.fixture
+def make_multigrid():
+    """Factory of `MultigridSolver`s linearised about a state; freed after the test."""
+    from mgehl.multigrid.cycle import CycleSettings, MultigridSolver
+
+    made = []
+
+    def make(hierarchy, problem, state, rigid=False, **settings):
+        level = hierarchy.grids.index(problem.grid)
+        settings = CycleSettings(**settings)
+        made.append(MultigridSolver(hierarchy, level, problem.contact, problem.scheme, settings, rigid))
+        made[-1].linearise(state.P, state.H, state.status)
+        return made[-1]
+
+    yield make
+    for multigrid in made:
+        multigrid.free()
+
+
+@pytest.fixture
+def make_jacobian():
+    """Factory of the `Jacobian` of a problem about a state; its Mat is destroyed after the test."""
+    from mgehl.multigrid.jacobian import Jacobian
+
+    made = []
+
+    def make(problem, state, rigid=False):
+        deflection = None if rigid else problem.deflection
+        jacobian = Jacobian(problem.grid, deflection, problem.contact, problem.scheme)
+        made.append(jacobian)
+        jacobian.linearise(*(problem.grid.halo(array) for array in (state.P, state.H, state.status)))
+        return jacobian
+
+    yield make
+    for jacobian in made:
+        jacobian.mat.destroy()
+
+
+@pytest.fixture
+def make_vec():
+    """Factory of vectors of a `BorderedSpace`, filled if values are given; destroyed after the test."""
+    made = []
+
+    def make(space, P=None, border=0.0):
+        made.append(space.create_vec())
+        made[-1].set(0.0)
+        if P is not None:
+            space.write(made[-1], P, border)
+        return made[-1]
+
+    yield make
+    for vec in made:
+        vec.destroy()

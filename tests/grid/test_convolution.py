@@ -1,0 +1,75 @@
+"""The deflection by FFT against the direct double sum."""
+
+import numpy as np
+import pytest
+
+from mgehl.discretization.influence import influence_coefficients
+from mgehl.model.hertz import hertz_pressure
+
+
+def double_sum(mesh, deflection_scale, P):
+    """Deflection of every node by the pressure at every node, without any transform."""
+    kernel = influence_coefficients(mesh, deflection_scale)
+    j, i = np.arange(mesh.ny), np.arange(mesh.nx)
+    along = np.abs(i[:, None] - i)
+    deflection = np.zeros_like(P)
+    for line in j:
+        lines = kernel[np.abs(j - line)]
+        deflection[line] = np.einsum("lik,lk->i", lines[:, along], P)
+    return deflection
+
+
+def random_pressure(mesh):
+    """Pressure that is zero on the boundary only."""
+    P = np.zeros((mesh.ny, mesh.nx))
+    P[1:-1, 1:-1] = np.random.default_rng(4).random((mesh.ny - 2, mesh.nx - 2))
+    return P
+
+
+@pytest.mark.parametrize(
+    "ratio, grid",
+    [
+        (1.0, {"nodes": 33}),
+        (2.0, {"nodes": 33}),
+        (0.5, {"nodes": 33}),
+        (1.0, {"nodes": 33, "x": (-4.5, 1.5), "y": (-1.5, 1.5)}),
+        (2.0, {"nodes": 65, "ny": 33, "coarsest": 65}),
+    ],
+    ids=["circle", "wide", "long", "oblong-domain", "oblong-grid"],
+)
+def test_convolution_is_the_double_sum(paper_contact, make_hierarchy, ratio, grid):
+    contact = paper_contact(radius_y=ratio * 12.7e-3)
+    assert (contact.k_e == 1.0) == (ratio == 1.0)
+    hierarchy = make_hierarchy(contact, **grid)
+    mesh = hierarchy.grids[-1].mesh
+    P = random_pressure(mesh)
+    expected = double_sum(mesh, contact.deflection_scale, P)
+    deflection = hierarchy.deflections[-1](P)
+    assert np.max(np.abs(deflection - expected)) < 1e-12 * np.max(np.abs(expected))
+
+
+def test_every_convolution_is_counted(paper_contact, make_hierarchy):
+    deflection = make_hierarchy(paper_contact(), 33).deflections[0]
+    P = np.zeros((33, 33))
+    for count in (1, 2, 3):
+        deflection(P)
+        assert deflection.count == count
+
+
+def test_the_pressure_is_left_alone(paper_contact, make_hierarchy):
+    hierarchy = make_hierarchy(paper_contact(), 33)
+    P = random_pressure(hierarchy.grids[0].mesh)
+    before = P.copy()
+    hierarchy.deflections[0](P)
+    np.testing.assert_array_equal(P, before)
+
+
+def test_hertz_pressure_flattens_the_ball(paper_contact, make_hierarchy):
+    """Gap constant inside the Hertz circle: an answer that owes nothing to this code."""
+    contact = paper_contact()
+    hierarchy = make_hierarchy(contact, 129)
+    grid = hierarchy.grids[-1]
+    gap = contact.undeformed_gap(grid.X, grid.Y) + hierarchy.deflections[-1](hertz_pressure(grid.X, grid.Y))
+    inside = grid.X**2 + grid.Y**2 < 0.8**2
+    np.testing.assert_allclose(gap[inside], contact.approach, rtol=0.0, atol=1e-3)
+    assert contact.approach == pytest.approx(1.0, rel=1e-9)

@@ -1,0 +1,96 @@
+"""One grid and the hierarchy of grids, on one rank."""
+
+import numpy as np
+import pytest
+
+
+@pytest.fixture
+def hierarchy(paper_contact, make_hierarchy):
+    return make_hierarchy(paper_contact(), 129)
+
+
+def test_hierarchy_halves_the_grids_down_to_the_coarsest(hierarchy):
+    assert [grid.mesh.nx for grid in hierarchy.grids] == [33, 65, 129]
+    assert [grid.mesh.ny for grid in hierarchy.grids] == [33, 65, 129]
+    assert len(hierarchy.transfers) == 2
+    assert len(hierarchy.deflections) == 3
+
+
+def test_coarse_nodes_are_every_other_fine_node(hierarchy):
+    coarse, fine = hierarchy.grids[0], hierarchy.grids[1]
+    np.testing.assert_allclose(coarse.X, fine.X[:, ::2], atol=1e-14)
+    np.testing.assert_allclose(coarse.Y, fine.Y[::2], atol=1e-14)
+    assert fine.X.shape == (1, 65) and fine.Y.shape == (65, 1)
+
+
+def test_convolutions_are_counted_by_node_ratio(hierarchy):
+    pressures = [np.zeros(grid.shape) for grid in hierarchy.grids]
+    assert hierarchy.convolutions == 0.0
+    hierarchy.deflections[2](pressures[2])
+    assert hierarchy.convolutions == 1.0
+    hierarchy.deflections[0](pressures[0])
+    assert hierarchy.convolutions == pytest.approx(1.0 + (33 / 129) ** 2, rel=1e-14)
+
+
+def test_halo_surrounds_with_zero_lines_outside_the_domain(hierarchy):
+    grid = hierarchy.grids[0]
+    values = np.arange(33.0 * 33.0).reshape(33, 33) + 1.0
+    ghosted = grid.halo(values)
+    assert ghosted.shape == (35, 33)
+    np.testing.assert_array_equal(ghosted[1:-1], values)
+    np.testing.assert_array_equal(ghosted[[0, -1]], 0.0)
+
+
+@pytest.mark.parametrize("kind", [bool, np.int8, float])
+def test_halo_keeps_the_type(hierarchy, kind):
+    grid = hierarchy.grids[0]
+    values = (np.arange(33 * 33).reshape(33, 33) % 2).astype(kind)
+    ghosted = grid.halo(values)
+    assert ghosted.dtype == kind
+    np.testing.assert_array_equal(ghosted[1:-1], values)
+
+
+def test_halo_fills_a_given_array_and_leaves_its_argument_alone(hierarchy):
+    grid = hierarchy.grids[0]
+    values, out = np.ones(grid.shape, dtype=bool), np.full(grid.ghosted_shape, 7.0)
+    assert grid.halo(values, out=out) is out
+    np.testing.assert_array_equal(out[1:-1], 1.0)
+    np.testing.assert_array_equal(values, True)
+
+
+def test_refresh_keeps_the_own_lines(hierarchy):
+    grid = hierarchy.grids[0]
+    ghosted = np.random.default_rng(0).random(grid.ghosted_shape)
+    own = ghosted[1:-1].copy()
+    grid.refresh(ghosted)
+    np.testing.assert_array_equal(ghosted[1:-1], own)
+
+
+def test_boundary_is_the_outermost_ring(hierarchy):
+    boundary = hierarchy.grids[0].boundary()
+    assert boundary[0].all() and boundary[-1].all() and boundary[:, 0].all() and boundary[:, -1].all()
+    assert not boundary[1:-1, 1:-1].any()
+
+
+def test_reductions(hierarchy):
+    grid = hierarchy.grids[0]
+    values = np.linspace(-2.0, 3.0, 33 * 33).reshape(33, 33)
+    assert grid.max(values) == 3.0
+    assert grid.min(values) == -2.0
+    assert grid.count(values > 0.0) == np.count_nonzero(values > 0.0)
+    assert grid.sum(2.5) == 2.5
+    assert grid.value_at(values, 4, 7) == values[7, 4]
+
+
+def test_reductions_of_nothing_give_the_initial_value(hierarchy):
+    grid, nothing = hierarchy.grids[0], np.zeros(0)
+    assert grid.max(nothing, initial=0.0) == 0.0
+    assert grid.min(nothing, initial=5.0) == 5.0
+
+
+def test_gather_and_scatter_are_inverse(hierarchy):
+    grid = hierarchy.grids[0]
+    values = np.random.default_rng(1).random(grid.shape)
+    whole = grid.gather(values)
+    assert whole.shape == (33, 33)
+    np.testing.assert_array_equal(grid.scatter(whole), values)

@@ -1,0 +1,127 @@
+"""Transfers between a grid and the one of every other node."""
+
+import numpy as np
+import pytest
+
+from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
+from mgehl.grid.transfers import PartitionedTransfer
+
+INNER = (slice(1, -1), slice(1, -1))
+
+
+@pytest.fixture
+def transfer(paper_contact, make_hierarchy):
+    return make_hierarchy(paper_contact(), 65).transfers[0]
+
+
+def test_inject_takes_the_shared_nodes(transfer):
+    fine = np.random.default_rng(0).random(transfer.fine.shape)
+    np.testing.assert_array_equal(transfer.inject(fine), fine[::2, ::2])
+
+
+def test_bilinear_reproduces_bilinear_functions(transfer):
+    def function(grid):
+        return 2.0 + 3.0 * grid.X - 1.5 * grid.Y + 0.7 * grid.X * grid.Y
+
+    np.testing.assert_allclose(
+        transfer.bilinear(function(transfer.coarse)), function(transfer.fine), rtol=0.0, atol=1e-13
+    )
+
+
+def test_full_weighting_is_a_quarter_of_the_adjoint_of_bilinear(transfer):
+    random = np.random.default_rng(1)
+    fine = random.standard_normal(transfer.fine.shape)
+    coarse = np.zeros(transfer.coarse.shape)
+    coarse[INNER] = random.standard_normal(coarse[INNER].shape)
+    weighted = np.vdot(transfer.full_weighting(fine), coarse)
+    assert weighted == pytest.approx(0.25 * np.vdot(fine, transfer.bilinear(coarse)), rel=1e-12)
+
+
+def test_full_weighting_keeps_a_constant_and_ends_of_lines_are_zero(transfer):
+    coarse = transfer.full_weighting(np.full(transfer.fine.shape, 3.0))
+    np.testing.assert_allclose(coarse[INNER], 3.0, rtol=1e-14)
+    np.testing.assert_array_equal(coarse[:, [0, -1]], 0.0)
+
+
+def test_full_weighting_spreads_one_node_with_the_known_weights(transfer):
+    fine = np.zeros(transfer.fine.shape)
+    fine[21, 21] = 16.0  # between four coarse nodes
+    coarse = transfer.full_weighting(fine)
+    np.testing.assert_array_equal(coarse[10:12, 10:12], 1.0)
+    assert np.count_nonzero(coarse) == 4
+
+
+class TestPartitioned:
+    """A disc of contact in the film, a cavity behind it."""
+
+    @pytest.fixture
+    def status(self, transfer):
+        X, Y = transfer.fine.X, transfer.fine.Y
+        status = np.where(X**2 + Y**2 < 0.49, CONTACT, LUBRICATED)
+        status = np.where(X > 0.9, CAVITATED, status)
+        return np.where(transfer.fine.boundary(), BOUNDARY, status).astype(np.int8)
+
+    @pytest.fixture
+    def coarse_status(self, transfer, status):
+        return transfer.inject(status)
+
+    @pytest.fixture
+    def partitioned(self, transfer, status, coarse_status):
+        partitioned = PartitionedTransfer(transfer)
+        partitioned.partition(coarse_status, status)
+        return partitioned
+
+    @pytest.mark.parametrize("kind, other", [(LUBRICATED, CONTACT), (CONTACT, LUBRICATED)])
+    def test_restriction_keeps_the_kinds_apart(self, partitioned, status, coarse_status, kind, other):
+        fine = np.where(status == kind, 1.0, 0.0)
+        coarse = partitioned.restrict(fine)
+        assert np.all(coarse[coarse_status == kind] > 0.0)
+        np.testing.assert_array_equal(coarse[coarse_status == other], 0.0)
+
+    @pytest.mark.parametrize("kind, other", [(LUBRICATED, CONTACT), (CONTACT, LUBRICATED)])
+    def test_prolongation_keeps_the_kinds_apart(self, partitioned, status, coarse_status, kind, other):
+        fine = partitioned.prolong(np.where(coarse_status == kind, 1.0, 0.0))
+        assert np.all(fine[status == kind] > 0.0)
+        np.testing.assert_array_equal(fine[status == other], 0.0)
+
+    def test_rows_of_boundary_and_cavity_are_zero(self, partitioned, status, coarse_status):
+        random = np.random.default_rng(2)
+        coarse = partitioned.restrict(random.random(status.shape) + 1.0)
+        fine = partitioned.prolong(random.random(coarse_status.shape) + 1.0)
+        for kind in (BOUNDARY, CAVITATED):
+            assert np.any(status == kind) and np.any(coarse_status == kind)
+            np.testing.assert_array_equal(coarse[coarse_status == kind], 0.0)
+            np.testing.assert_array_equal(fine[status == kind], 0.0)
+
+    def test_constant_contact_residual_comes_out_halved(self, partitioned, status, coarse_status):
+        coarse = partitioned.restrict(np.where(status == CONTACT, 4.0, 0.0))
+        np.testing.assert_allclose(coarse[coarse_status == CONTACT], 2.0, rtol=1e-13)
+
+    def test_constant_contact_correction_stays_constant(self, partitioned, status, coarse_status):
+        fine = partitioned.prolong(np.where(coarse_status == CONTACT, 5.0, 0.0))
+        np.testing.assert_allclose(fine[status == CONTACT], 5.0, rtol=1e-13)
+
+    def test_constant_film_correction_stays_constant_beside_contact(
+        self, transfer, partitioned, status, coarse_status
+    ):
+        fine = partitioned.prolong(np.where(coarse_status == CONTACT, 0.0, 5.0))
+        np.testing.assert_allclose(fine[status == LUBRICATED], 5.0, rtol=1e-13)
+
+    def test_without_contact_it_is_full_weighting_and_bilinear(self, transfer, status, coarse_status):
+        for each in (status, coarse_status):
+            each[each == CONTACT] = LUBRICATED
+        partitioned = PartitionedTransfer(transfer)
+        partitioned.partition(coarse_status, status)
+        random = np.random.default_rng(3)
+        film, coarse_film = status == LUBRICATED, coarse_status == LUBRICATED
+        fine, coarse = film * random.random(film.shape), coarse_film * random.random(coarse_film.shape)
+        weighted = transfer.full_weighting(fine) * coarse_film
+        np.testing.assert_array_equal(partitioned.restrict(fine), weighted)
+        np.testing.assert_array_equal(partitioned.prolong(coarse), transfer.bilinear(coarse) * film)
+
+    def test_contact_that_disappears_is_forgotten(self, partitioned, status, coarse_status):
+        film = np.where(status == CONTACT, LUBRICATED, status)
+        coarse_film = np.where(coarse_status == CONTACT, LUBRICATED, coarse_status)
+        partitioned.partition(coarse_film, film)
+        coarse = partitioned.restrict(np.where(film == LUBRICATED, 1.0, 0.0))
+        np.testing.assert_allclose(coarse[16, 16], 1.0, rtol=1e-13)

@@ -1,0 +1,86 @@
+"""The direct solve on the coarsest grid."""
+
+import numpy as np
+import pytest
+
+from mgehl.discretization.residual import Scheme
+from mgehl.discretization.status import CAVITATED, CONTACT
+from mgehl.multigrid.coarse import CoarseSolve, dense_influence, stencil_matrix
+
+NODES = 33
+
+
+@pytest.fixture
+def states(solve, paper_contact):
+    """Solutions on the coarsest grid: a film at 3 m/s, and full contact at 0.005 mm/s."""
+    film = solve(paper_contact(3.0), NODES)
+    mixed = solve(paper_contact(5e-6), NODES, start="contact")
+    assert not np.any(film.outcome.state.status == CONTACT)
+    assert np.any(mixed.outcome.state.status == CONTACT)
+    assert np.any(mixed.outcome.state.status == CAVITATED)
+    return {"film": film.outcome.state, "contact": mixed.outcome.state}
+
+
+@pytest.fixture
+def invert(make_vec):
+    """Function: solve J x = J random; check that J x is that, and return x and the random vector."""
+
+    def run(problem, jacobian, coarse):
+        space = jacobian.space
+        P = np.where(problem.boundary, 0.0, np.random.default_rng(8).standard_normal(problem.grid.shape))
+        x, y, solved = make_vec(space, P, 0.4), make_vec(space), make_vec(space)
+        jacobian.mat.mult(x, y)
+        coarse.setUp(None)
+        coarse.apply(None, y, solved)
+        jacobian.mat.mult(solved, x)
+        x.axpy(-1.0, y)
+        assert x.norm() < 1e-12 * y.norm()
+        return space.read(solved), (P, 0.4)
+
+    return run
+
+
+def assert_same(result, expected):
+    """To what the condition leaves: mobilities differ by fifteen orders of magnitude."""
+    (P, H0), (expected_P, expected_H0) = result, expected
+    np.testing.assert_allclose(P, expected_P, rtol=0.0, atol=1e-7)
+    assert H0 == pytest.approx(expected_H0, abs=1e-7)
+
+
+@pytest.mark.parametrize("couette", ["1B", "2B", "S1B"])
+@pytest.mark.parametrize("kind", ["film", "contact"])
+@pytest.mark.parametrize("rigid", [False, True], ids=["elastic", "rigid"])
+def test_it_inverts_the_jacobian(make_problem, states, make_jacobian, invert, couette, kind, rigid):
+    problem = make_problem(nodes=NODES, scheme=Scheme(couette))
+    jacobian = make_jacobian(problem, states[kind], rigid)
+    assert_same(*invert(problem, jacobian, CoarseSolve(jacobian)))
+
+
+def test_it_follows_the_linearisation(make_problem, states, make_jacobian, invert):
+    """Set up again after the Jacobian was linearised about another state."""
+    problem = make_problem(nodes=NODES)
+    jacobian = make_jacobian(problem, states["film"])
+    coarse = CoarseSolve(jacobian)
+    coarse.setUp(None)
+    state = states["contact"]
+    jacobian.linearise(*(problem.grid.halo(array) for array in (state.P, state.H, state.status)))
+    assert_same(*invert(problem, jacobian, coarse))
+
+
+def test_dense_influence_is_the_convolution(make_problem):
+    problem = make_problem(nodes=NODES)
+    P = np.where(problem.boundary, 0.0, np.random.default_rng(9).random(problem.grid.shape))
+    K = dense_influence(problem.grid.mesh, problem.contact.deflection_scale)
+    expected = problem.deflection(P)
+    np.testing.assert_allclose((K @ P.ravel()).reshape(P.shape), expected, rtol=0.0, atol=1e-13)
+
+
+def test_stencil_matrix_places_the_six_neighbours():
+    lines, nx = 3, 5
+    stencil = np.zeros((6, lines, nx))
+    stencil[:, 1, 2] = 1.0, 2.0, 3.0, 4.0, 5.0, 6.0  # WW, W, C, E, S, N
+    row = stencil_matrix(stencil).toarray()[1 * nx + 2].reshape(lines, nx)
+    expected = np.zeros((lines, nx))
+    expected[1, :4] = 1.0, 2.0, 3.0, 4.0
+    expected[0, 2], expected[2, 2] = 5.0, 6.0
+    np.testing.assert_array_equal(row, expected)

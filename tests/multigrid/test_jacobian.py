@@ -1,0 +1,132 @@
+"""The bordered Jacobian against differences of the nonlinear residual."""
+
+import numpy as np
+import pytest
+
+from mgehl.discretization.residual import Scheme
+from mgehl.discretization.status import CAVITATED, CONTACT
+from mgehl.solver.problem import State
+
+STEP = 1e-6
+
+
+def direction(problem):
+    """A random change of P, zero on the boundary where none is allowed, and of H0."""
+    dP = np.random.default_rng(6).standard_normal(problem.grid.shape)
+    return np.where(problem.boundary, 0.0, dP), 0.7
+
+
+def rows(problem, state, dP, dH0, step, rigid=False):
+    """Residual and load deficit a step along a direction, the partition unchanged."""
+    P, H0 = state.P + step * dP, state.H0 + step * dH0
+    H = state.H if rigid else problem.gap(P, H0)
+    moved = State(P, H0, H, state.status)
+    return problem.residual(moved, problem.inflow(moved)), problem.load_deficit(P)
+
+
+def differences(problem, state, dP, dH0, rigid=False):
+    """Central differences of the residual and of the load deficit."""
+    ahead, load_ahead = rows(problem, state, dP, dH0, STEP, rigid)
+    behind, load_behind = rows(problem, state, dP, dH0, -STEP, rigid)
+    return (ahead - behind) / (2 * STEP), (load_ahead - load_behind) / (2 * STEP)
+
+
+def apply(jacobian, make_vec, dP, dH0):
+    x, y = make_vec(jacobian.space, dP, dH0), make_vec(jacobian.space)
+    jacobian.mat.mult(x, y)
+    r, border = jacobian.space.read(y)
+    return r.copy(), border
+
+
+def assert_close(result, expected):
+    """To 1e-6 of the largest row of the kind that is compared."""
+    assert np.max(np.abs(expected)) > 0.0
+    assert np.max(np.abs(result - expected)) < 1e-6 * np.max(np.abs(expected))
+
+
+@pytest.mark.parametrize("contact", [False, True], ids=["film", "contact"])
+@pytest.mark.parametrize("couette", ["1B", "2B", "2C", "S1B", "S2C"])
+def test_schemes(make_problem, rough_state, make_jacobian, make_vec, couette, contact):
+    problem = make_problem(nodes=33, scheme=Scheme(couette))
+    assert_consistent(problem, rough_state(problem, contact), make_jacobian, make_vec)
+
+
+@pytest.mark.parametrize("contact", [False, True], ids=["film", "contact"])
+@pytest.mark.parametrize("mobility", ["geometric", "harmonic"])
+def test_face_mobilities(make_problem, rough_state, make_jacobian, make_vec, mobility, contact):
+    problem = make_problem(nodes=33, scheme=Scheme(face_mobility=mobility))
+    assert_consistent(problem, rough_state(problem, contact), make_jacobian, make_vec)
+
+
+def test_elliptical_contact(paper_contact, make_problem, rough_state, make_jacobian, make_vec):
+    problem = make_problem(paper_contact(radius_y=25.4e-3), nodes=33)
+    assert_consistent(problem, rough_state(problem, contact=True), make_jacobian, make_vec)
+
+
+def assert_consistent(problem, state, make_jacobian, make_vec):
+    dP, dH0 = direction(problem)
+    jacobian = make_jacobian(problem, state)
+    r, border = apply(jacobian, make_vec, dP, dH0)
+    expected, load = differences(problem, state, dP, dH0)
+    given = problem.boundary | (state.status == CAVITATED)
+    in_contact = state.status == CONTACT
+    for kind in (~given & ~in_contact, in_contact, given):
+        if np.any(expected[kind]):
+            assert_close(r[kind], expected[kind])
+    assert border == pytest.approx(load * jacobian.load_scale, rel=1e-6)
+    assert border == pytest.approx(jacobian.load_weight * dP.sum(), rel=1e-12)
+
+
+def test_response_to_h0_alone(make_problem, rough_state, make_jacobian, make_vec):
+    problem = make_problem(nodes=33)
+    state = rough_state(problem, contact=True)
+    zero = np.zeros(problem.grid.shape)
+    r, border = apply(make_jacobian(problem, state), make_vec, zero, 1.0)
+    expected, _ = differences(problem, state, zero, 1.0)
+    assert_close(r, expected)
+    np.testing.assert_allclose(r[state.status == CONTACT], -1.0 / problem.grid.mesh.dX, rtol=1e-12)
+    assert border == 0.0
+
+
+def test_given_pressures_have_the_row_of_the_identity(make_problem, rough_state, make_jacobian, make_vec):
+    problem = make_problem(nodes=33)
+    state = rough_state(problem, contact=True)
+    dP, dH0 = direction(problem)
+    r, _ = apply(make_jacobian(problem, state), make_vec, dP, dH0)
+    given = problem.boundary | (state.status == CAVITATED)
+    np.testing.assert_allclose(r[given], -dP[given] / problem.grid.mesh.dX, rtol=1e-12)
+
+
+@pytest.mark.parametrize("contact", [False, True], ids=["film", "contact"])
+def test_rigid_gap(make_problem, rough_state, make_jacobian, make_vec, contact):
+    """No deflection: contact pressures are given, H0 is its own row, no convolution is made."""
+    problem = make_problem(nodes=33)
+    state = rough_state(problem, contact)
+    dP, dH0 = direction(problem)
+    before = problem.deflection.count
+    r, border = apply(make_jacobian(problem, state, rigid=True), make_vec, dP, dH0)
+    assert problem.deflection.count == before
+    expected, _ = differences(problem, state, dP, dH0, rigid=True)
+    in_contact = state.status == CONTACT
+    assert_close(r[~in_contact], expected[~in_contact])
+    np.testing.assert_allclose(r[in_contact], -dP[in_contact] / problem.grid.mesh.dX, rtol=1e-12)
+    assert border == dH0
+
+
+def test_one_convolution_for_each_product(make_problem, rough_state, make_jacobian, make_vec):
+    problem = make_problem(nodes=33)
+    state = rough_state(problem)
+    jacobian, before = make_jacobian(problem, state), problem.deflection.count
+    apply(jacobian, make_vec, *direction(problem))
+    assert problem.deflection.count == before + 1
+
+
+def test_space_reads_what_it_wrote(make_problem, rough_state, make_jacobian, make_vec):
+    problem = make_problem(nodes=33)
+    space = make_jacobian(problem, rough_state(problem)).space
+    P = np.random.default_rng(7).random(problem.grid.shape)
+    vec = make_vec(space, P, -3.0)
+    assert vec.getSize() == 33 * 33 + 1
+    read, border = space.read(vec)
+    np.testing.assert_array_equal(read, P)
+    assert border == -3.0

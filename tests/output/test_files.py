@@ -1,0 +1,157 @@
+"""The files of a run directory."""
+
+import csv
+import json
+import os
+from dataclasses import asdict
+
+import numpy as np
+import pytest
+import xarray
+
+from mgehl.config import config_from_tables, load_config
+from mgehl.discretization.mesh import Mesh
+from mgehl.discretization.status import NAMES
+from mgehl.output import files
+from mgehl.output.result import (
+    ContactResult,
+    InequalityResult,
+    Resolution,
+    Result,
+    Work,
+)
+from mgehl.run import Fields
+
+
+def make_result(**changes):
+    values = {
+        "converged": True, "reason": "all holds", "central_film_nm": 12.0, "minimum_film_nm": 1.0,
+        "max_pressure_GPa": 2.3, "residual": 1e-9, "load_error": -1e-10, "complementarity_error": 0.0,
+        "flux_imbalance": 1e-11, "contact": ContactResult(3, 0.01, (4, 6), None, 0.0),
+        "pressure_inequality": InequalityResult(8, 1, 0.25, [{"i": 6, "j": 3, "size": 0.25}]),
+        "cavitated_nodes": 100, "resolution": Resolution(5.0, "resolved"), "groups": {"U": 1e-12},
+        "moes_film": {"central": 4.0}, "formulas": {"grubin_nm": 10.0}, "work": Work(80.5, 14),
+        "wall_s": 2.0, "ranks": 1, "versions": {"mgehl": "0"},
+    }  # fmt: skip
+    return Result(**(values | changes))
+
+
+class TestDirectory:
+    def test_it_is_created_with_its_parents(self, tmp_path):
+        path = files.prepare_directory(tmp_path / "one" / "two", force=False)
+        assert path.is_dir() and not list(path.iterdir())
+
+    def test_one_that_exists_is_refused(self, tmp_path):
+        (tmp_path / "kept.txt").write_text("mine")
+        with pytest.raises(files.OutputError, match="--force"):
+            files.prepare_directory(tmp_path, force=False)
+        assert [path.name for path in tmp_path.iterdir()] == ["kept.txt"]
+
+    def test_force_accepts_it(self, tmp_path):
+        assert files.prepare_directory(tmp_path, force=True) == tmp_path
+
+    @pytest.mark.parametrize("force", [False, True])
+    def test_a_file_in_its_place_is_refused(self, tmp_path, force):
+        path = tmp_path / "file"
+        path.write_text("mine")
+        with pytest.raises(files.OutputError):
+            files.prepare_directory(path, force)
+        assert path.read_text() == "mine"
+
+    def test_a_file_among_its_parents_is_refused(self, tmp_path):
+        (tmp_path / "file").write_text("mine")
+        with pytest.raises(files.OutputError, match="cannot be written"):
+            files.prepare_directory(tmp_path / "file" / "deep", force=False)
+
+    @pytest.mark.skipif(os.geteuid() == 0, reason="root may write anywhere")
+    def test_one_that_is_write_protected_is_refused(self, tmp_path):
+        tmp_path.chmod(0o500)
+        with pytest.raises(files.OutputError, match="cannot be written"):
+            files.prepare_directory(tmp_path, force=True)
+        tmp_path.chmod(0o700)
+
+
+@pytest.mark.parametrize(
+    "tables",
+    [
+        {"grid": {"nodes": 129, "x": [-2.0, 1.5]}, "motion": {"speed": "7.5 mm/s"}},
+        {"moes": {"M": 20, "L": 10}, "lubricant": {"density_law": "constant"}},
+    ],
+)
+def test_the_configuration_reads_back_as_itself(tmp_path, tables):
+    config = config_from_tables(tables)
+    path = tmp_path / "configuration.toml"
+    files.write_config(path, config)
+    assert load_config(path) == config
+
+
+def test_the_result_reads_back(tmp_path):
+    result = make_result()
+    files.write_result(tmp_path / "result.json", result)
+    read = json.loads((tmp_path / "result.json").read_text())
+    assert read == json.loads(json.dumps(asdict(result)))
+    assert read["contact"]["x_nodes"] == [4, 6] and read["contact"]["y_nodes"] is None
+
+
+def test_numbers_that_are_not_finite_stay_valid_json(tmp_path):
+    files.write_result(tmp_path / "result.json", make_result(residual=np.nan, flux_imbalance=np.inf))
+
+    def refuse(constant):
+        raise AssertionError(f"{constant} is not JSON")
+
+    read = json.loads((tmp_path / "result.json").read_text(), parse_constant=refuse)
+    assert read["residual"] is None and read["flux_imbalance"] is None
+
+
+def test_the_history_has_a_row_for_each_cycle(tmp_path):
+    rows = [{"grid": 65, "step": 0, "residual": 0.1}, {"grid": 65, "step": 1, "residual": 1.25e-9}]
+    files.write_history(tmp_path / "history.csv", rows)
+    with (tmp_path / "history.csv").open() as file:
+        read = list(csv.DictReader(file))
+    assert [{k: float(v) for k, v in row.items()} for row in read] == rows
+
+
+class TestFields:
+    @pytest.fixture
+    def mesh(self, paper_contact):
+        contact = paper_contact(radius_y=25.4e-3)
+        return Mesh(5, 3, (-1.9, 1.3), (-1.5, 1.5), contact.k_e)
+
+    @pytest.fixture
+    def contact(self, paper_contact):
+        return paper_contact(radius_y=25.4e-3)
+
+    @pytest.fixture
+    def fields(self):
+        P = np.arange(15.0).reshape(3, 5) / 15.0
+        return Fields(P, 1.0 + P, (np.arange(15).reshape(3, 5) % 4).astype(np.int8))
+
+    @pytest.fixture
+    def data(self, tmp_path, mesh, contact, fields):
+        files.write_fields(tmp_path / "fields.h5", mesh, contact, fields)
+        with xarray.open_dataset(tmp_path / "fields.h5", engine="h5netcdf") as data:
+            yield data
+
+    def test_every_field_is_there_with_unit_and_name(self, data):
+        assert set(data.variables) == {"x", "y", "X", "Y", "pressure", "film", "P", "H", "status"}
+        assert dict(data.sizes) == {"y": 3, "x": 5}
+        for name, unit in {"x": "m", "y": "m", "pressure": "Pa", "film": "m", "P": "1", "H": "1"}.items():
+            assert data[name].attrs["units"] == unit
+            assert data[name].attrs["long_name"]
+
+    def test_values(self, data, mesh, contact, fields):
+        hertz = contact.hertz
+        np.testing.assert_array_equal(data["P"], fields.P)
+        np.testing.assert_array_equal(data["H"], fields.H)
+        np.testing.assert_array_equal(data["status"], fields.status)
+        np.testing.assert_allclose(data["pressure"], fields.P * hertz.p_h, rtol=1e-15)
+        np.testing.assert_allclose(data["film"], fields.H * hertz.a**2 / 12.7e-3, rtol=1e-12)
+        np.testing.assert_allclose(data["x"], mesh.X * hertz.a, rtol=1e-15)
+        np.testing.assert_allclose(data["y"], mesh.Y * hertz.b, rtol=1e-15)
+
+    def test_coordinates_select_nodes(self, data, contact):
+        centre = data["P"].sel(x=0.5 * contact.hertz.a, y=0.0, method="nearest")
+        assert float(centre) == 8.0 / 15.0
+
+    def test_the_status_is_explained(self, data):
+        assert all(name in data["status"].attrs["long_name"] for name in NAMES)

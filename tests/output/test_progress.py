@@ -1,0 +1,89 @@
+"""What a run says."""
+
+from dataclasses import replace
+
+import pytest
+from test_files import make_result
+
+from mgehl.output.progress import Progress, trust_block
+from mgehl.output.result import ContactResult, InequalityResult, Resolution
+from mgehl.solver.nested import LevelSolve
+from mgehl.solver.newton import Changes, Cycle
+
+LEVEL = LevelSolve(129, 7.5e-3, True)
+
+
+def cycle(step):
+    return Cycle(step, 1.5e-5, -2e-7, 2e-3, 1e-3, 11, 222, Changes(cavitated=3, released=1), 4, 0.5)
+
+
+def test_a_row_for_each_cycle():
+    work = iter((1.0, 2.5))
+    progress = Progress(1e-6, lambda: next(work), speak=False)
+    progress(LEVEL, cycle(0))
+    progress(LEVEL, cycle(1))
+    first, second = progress.rows
+    expected = {
+        "grid": 129, "speed_mm_s": 7.5, "step": 1, "residual": 1.5e-5, "load_error": -2e-7,
+        "central_film_nm": 2.0, "minimum_film_nm": 1.0, "contact_nodes": 11, "cavitated_nodes": 222,
+        "changed_nodes": 4, "linear_iterations": 4, "step_length": 0.5, "convolutions": 2.5,
+    }  # fmt: skip
+    assert {key: second[key] for key in expected} == pytest.approx(expected)
+    assert second["seconds"] >= first["seconds"] >= 0.0
+    assert first.keys() == second.keys()
+
+
+def test_newton_steps_are_counted_on_all_grids():
+    progress = Progress(1e-6, lambda: 0.0, speak=False)
+    for step in (0, 1, 2, 0, 1):
+        progress(LEVEL, cycle(step))
+    assert progress.newton_steps == 3
+
+
+def test_it_prints_a_line_for_each_cycle(capsys):
+    progress = Progress(1e-6, lambda: 0.0, speak=True)
+    progress(LEVEL, cycle(0))
+    progress(LEVEL, cycle(1))
+    lines = capsys.readouterr().out.splitlines()
+    assert len(lines) == 2
+    for word in ("129", "7.5 mm/s", "step  1", "1.50e-05", "-2.0e-07", "2.0000", "1.0000 nm", "11", "222"):
+        assert word in lines[1]
+
+
+def test_a_quiet_one_prints_nothing(capsys):
+    Progress(1e-6, lambda: 0.0, speak=False)(LEVEL, cycle(0))
+    assert capsys.readouterr() == ("", "")
+
+
+class TestTrustBlock:
+    def test_the_answer_and_what_it_rests_on(self):
+        lines = trust_block(make_result()).splitlines()
+        assert lines[0] == "CONVERGED: all holds"
+        text = "\n".join(lines)
+        for part in ("12.0000 nm", "1.0000 nm", "2.3000 GPa", "1.0e-09", "-1.0e-10", "3 nodes", "1.00 %",
+                     "4..6", "none", "5.00 cells", "80.5", "14 Newton", "1 ranks"):  # fmt: skip
+            assert part in text
+
+    def test_failure_comes_first(self):
+        text = trust_block(make_result(converged=False, reason="sets still change 60 steps"))
+        assert text.startswith("NOT CONVERGED: sets still change 60 steps")
+
+    def test_a_violation_is_named_with_place_and_size(self):
+        assert "(6, 3) by 2.50e-01 p_h" in trust_block(make_result())
+
+    def test_a_long_list_is_cut_and_says_so(self):
+        nodes = [{"i": k, "j": 1, "size": 0.1} for k in range(1, 51)]
+        result = make_result(pressure_inequality=InequalityResult(60, 50, 0.1, nodes))
+        text = trust_block(result)
+        assert text.count("Eq. 2 violated at node") == 20
+        assert "30 more" in text
+
+    @pytest.mark.parametrize(
+        "verdict, advice", [("coarse", "expect the film to change"), ("grid-determined", "the grid's")]
+    )
+    def test_a_coarse_inlet_is_a_warning(self, verdict, advice):
+        assert advice in trust_block(make_result(resolution=Resolution(0.5, verdict)))
+
+    def test_no_contact(self):
+        nothing = replace(make_result(), contact=ContactResult(0, 0.0, None, None, 0.0))
+        assert "nodes none on Y = 0, none on X = 0" in trust_block(nothing)

@@ -1,0 +1,115 @@
+"""The record of a run and its verdict."""
+
+from dataclasses import asdict, replace
+
+import numpy as np
+import pytest
+
+from mgehl.discretization.mesh import Mesh
+from mgehl.discretization.status import BOUNDARY, CONTACT, LUBRICATED
+from mgehl.output.result import Work, resolution, summarise
+from mgehl.solver.newton import Changes, Cycle, Outcome
+from mgehl.solver.problem import State
+
+
+@pytest.fixture
+def outcome(tiny_problem):
+    """A film without pressure and with a parallel gap, said to be converged."""
+    shape = tiny_problem.grid.shape
+    status = np.where(tiny_problem.boundary, BOUNDARY, LUBRICATED).astype(np.int8)
+    state = State(np.zeros(shape), 0.0, np.full(shape, 0.5), status)
+    last = Cycle(3, 1e-9, -2e-10, 0.5, 0.5, 0, 0, Changes())
+    return Outcome(state, True, "settled", [last])
+
+
+@pytest.fixture
+def summary(tiny_problem, outcome):
+    return lambda: summarise(tiny_problem, outcome, Work(12.5, 7), 3.0, {"mgehl": "0"})
+
+
+def touch(state, nodes):
+    """Put nodes in contact under the pressure 0.5."""
+    for j, i in nodes:
+        state.status[j, i], state.P[j, i], state.H[j, i] = CONTACT, 0.5, 0.0
+
+
+def test_a_good_answer_converges(summary, tiny_problem):
+    result = summary()
+    assert result.converged
+    nm = 1e9 * tiny_problem.contact.film_scale
+    assert result.central_film_nm == pytest.approx(0.5 * nm)
+    assert result.minimum_film_nm == pytest.approx(0.5 * nm)
+    assert (result.residual, result.load_error) == (1e-9, -2e-10)
+    assert (result.contact.nodes, result.contact.x_nodes, result.contact.y_nodes) == (0, None, None)
+    assert result.contact.largest_gap_nm == 0.0
+    assert (result.work.convolutions, result.work.newton_steps) == (12.5, 7)
+    assert (result.wall_s, result.ranks) == (3.0, 1)
+
+
+def test_what_newton_gave_up_is_not_converged(summary, outcome):
+    outcome.converged, outcome.reason = False, "residual 1.0 after 3 steps"
+    result = summary()
+    assert not result.converged
+    assert result.reason == "residual 1.0 after 3 steps"
+
+
+def test_a_violation_of_eq_2_is_not_converged(summary, outcome):
+    touch(outcome.state, [(2, 5)])
+    outcome.state.P[2, 4] = 0.75
+    result = summary()
+    assert not result.converged
+    assert "1 of 1" in result.reason
+    inequality = result.pressure_inequality
+    assert (inequality.checked, inequality.violations, inequality.worst) == (1, 1, 0.25)
+    assert inequality.nodes == [{"i": 6, "j": 3, "size": 0.25}]
+
+
+def test_broken_complementarity_is_not_converged(summary, outcome):
+    outcome.state.P[4, 4] = -1e-3
+    result = summary()
+    assert not result.converged
+    assert "complementarity" in result.reason
+    assert result.complementarity_error == pytest.approx(1e-3)
+
+
+def test_contact_is_described_with_nodes_counted_from_one(summary, outcome, tiny_problem):
+    mesh = tiny_problem.grid.mesh
+    i, j = mesh.nearest(0.0, 0.0)
+    assert (i, j) == (5, 4)
+    touch(outcome.state, [(j, i), (j, i - 1), (j - 1, i), (j + 1, i), (j + 2, i)])
+    outcome.state.H[j, i] = -1e-9
+    contact = summary().contact
+    assert contact.nodes == 5
+    assert contact.x_nodes == (i, i + 1)
+    assert contact.y_nodes == (j, j + 3)
+    assert contact.area_fraction == pytest.approx(5 * mesh.dX * mesh.dY / np.pi)
+    nm = 1e9 * tiny_problem.contact.film_scale
+    assert contact.largest_gap_nm == pytest.approx(1e-9 * nm)
+
+
+def test_pressure_is_in_gigapascal(summary, outcome, tiny_problem):
+    outcome.state.P[4, 4] = 0.5
+    assert summary().max_pressure_GPa == pytest.approx(0.5e-9 * tiny_problem.contact.hertz.p_h)
+
+
+def test_the_record_holds_groups_formulas_and_moes_films(summary, tiny_problem):
+    result, contact = asdict(summary()), tiny_problem.contact
+    assert result["groups"] == asdict(contact.groups)
+    assert result["formulas"]["hamrock_dowson_central_nm"] == pytest.approx(
+        1e9 * contact.formulas.hamrock_dowson_central
+    )
+    assert result["moes_film"]["central"] == pytest.approx(0.5 * contact.film_scale * contact.moes_scale)
+
+
+@pytest.mark.parametrize(
+    "cells, verdict",
+    [(4.5, "resolved"), (3.9, "coarse"), (1.1, "coarse"), (0.9, "grid-determined")],
+)
+def test_resolution_of_the_inlet(paper_contact, cells, verdict):
+    mesh = Mesh(65, 65, (-1.9, 1.3), (-1.5, 1.5))
+    contact = paper_contact()
+    # The inlet grows with the square root of the speed.
+    speed = contact.speed * (cells * mesh.dX / contact.inlet_length) ** 2
+    result = resolution(replace(contact, speed=speed), mesh)
+    assert result.inlet_cells == pytest.approx(cells)
+    assert result.verdict == verdict

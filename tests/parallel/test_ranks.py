@@ -1,0 +1,260 @@
+"""The same answers on any number of ranks. Run as `mpiexec -n 2 python -m pytest -m parallel`.
+
+Every rank runs every test, and collective calls must be reached by all: what is compared on one
+rank is sent to all before the assertion.
+"""
+
+import numpy as np
+import pytest
+from mpi4py import MPI
+
+from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
+from mgehl.grid.grid import build_grids
+from mgehl.grid.transfers import PartitionedTransfer
+from mgehl.multigrid.jacobian import BorderedSpace
+from mgehl.solver.verification import check_pressure_inequality, complementarity_error, flux_imbalance
+
+pytestmark = pytest.mark.parallel
+
+COMM = MPI.COMM_WORLD
+MESHES = [{"nodes": 65}, {"nodes": 65, "ny": 33, "coarsest": 65}]
+
+
+@pytest.fixture
+def pair(paper_contact, make_hierarchy):
+    """Function: the same hierarchy on all ranks together, and on each by itself."""
+
+    def make(ratio=1.0, **grid):
+        contact = paper_contact(radius_y=ratio * 12.7e-3)
+        return make_hierarchy(contact, comm=COMM, **grid), make_hierarchy(contact, **grid)
+
+    return make
+
+
+def lines(grid, whole):
+    """This rank's lines of a whole array that every rank has."""
+    return np.ascontiguousarray(whole[grid.first : grid.last])
+
+
+def whole(grid, array):
+    """The whole array on every rank (collective)."""
+    return COMM.bcast(grid.gather(array))
+
+
+def random(grid, seed=0):
+    """The same whole array of random numbers on every rank."""
+    return np.random.default_rng(seed).standard_normal((grid.mesh.ny, grid.mesh.nx))
+
+
+def mixed_status(grid):
+    """A disc of contact, a cavity behind it; whole, for a grid on one rank."""
+    status = np.where(grid.X**2 + grid.Y**2 < 0.49, CONTACT, LUBRICATED)
+    status = np.where(grid.X > 0.9, CAVITATED, status)
+    return np.where(grid.boundary(), BOUNDARY, status).astype(np.int8)
+
+
+class TestGrid:
+    def test_lines_are_dealt_out_to_all_ranks(self, pair):
+        together, _ = pair(nodes=129)
+        for coarse, fine in zip(together.grids[:-1], together.grids[1:], strict=True):
+            assert sum(COMM.allgather(fine.shape[0])) == fine.mesh.ny
+            assert fine.shape[0] >= 2
+            # A coarse line belongs to the rank that owns the same fine line.
+            assert fine.first <= 2 * coarse.first and 2 * (coarse.last - 1) < fine.last
+
+    @pytest.mark.parametrize("kind", [float, np.int8, bool])
+    def test_halo_brings_the_neighbours_lines(self, pair, kind):
+        together, _ = pair(nodes=65)
+        grid = together.grids[-1]
+        values = (random(grid) > 0.0).astype(kind)
+        padded = np.zeros((grid.mesh.ny + 2, grid.mesh.nx), dtype=kind)
+        padded[1:-1] = values
+        ghosted = grid.halo(lines(grid, values))
+        assert ghosted.dtype == kind
+        np.testing.assert_array_equal(ghosted, padded[grid.first : grid.last + 2])
+
+    def test_refresh_brings_the_neighbours_lines_in_place(self, pair):
+        together, _ = pair(nodes=65)
+        grid = together.grids[-1]
+        values = random(grid)
+        ghosted = grid.halo(lines(grid, values))
+        ghosted[1:-1] *= 2.0
+        grid.refresh(ghosted)
+        if grid.first > 0:
+            np.testing.assert_array_equal(ghosted[0], 2.0 * values[grid.first - 1])
+        if grid.last < grid.mesh.ny:
+            np.testing.assert_array_equal(ghosted[-1], 2.0 * values[grid.last])
+
+    def test_gather_and_scatter(self, pair):
+        together, _ = pair(nodes=65)
+        grid, values = together.grids[-1], random(together.grids[-1])
+        gathered = grid.gather(lines(grid, values))
+        assert (gathered is None) == (COMM.rank != 0)
+        np.testing.assert_array_equal(COMM.bcast(gathered), values)
+        scattered = grid.scatter(values if COMM.rank == 0 else None)
+        np.testing.assert_array_equal(scattered, lines(grid, values))
+
+    def test_reductions(self, pair):
+        together, _ = pair(nodes=65)
+        grid, values = together.grids[-1], random(together.grids[-1])
+        mine = lines(grid, values)
+        assert grid.max(mine) == values.max() and grid.min(mine) == values.min()
+        assert grid.count(mine > 0.0) == np.count_nonzero(values > 0.0)
+        assert grid.sum(mine.sum()) == pytest.approx(values.sum(), rel=1e-12)
+        for j in (0, 32, 64):
+            assert grid.value_at(mine, 10, j) == values[j, 10]
+
+    def test_boundary(self, pair):
+        together, alone = pair(nodes=65)
+        grid = together.grids[-1]
+        np.testing.assert_array_equal(whole(grid, grid.boundary()), alone.grids[-1].boundary())
+
+    @pytest.mark.skipif(COMM.size == 1, reason="one rank is never too many")
+    def test_too_many_ranks_for_a_grid_are_refused_on_all(self, pair):
+        together, _ = pair(nodes=9)
+        with pytest.raises(ValueError, match="too many"):
+            build_grids(together.grids[-1].mesh, 3, COMM)
+
+
+class TestConvolution:
+    @pytest.mark.parametrize("grid", MESHES, ids=["square", "oblong"])
+    @pytest.mark.parametrize("ratio", [1.0, 2.0])
+    def test_it_equals_the_serial_one(self, pair, ratio, grid):
+        together, alone = pair(ratio, **grid)
+        for shared, serial in zip(together.deflections, alone.deflections, strict=True):
+            P = np.where(serial.grid.boundary(), 0.0, random(serial.grid))
+            expected = serial(P).copy()
+            deflection = whole(shared.grid, shared(lines(shared.grid, P)).copy())
+            assert np.max(np.abs(deflection - expected)) < 1e-12 * np.max(np.abs(expected))
+            assert shared.count == 1
+
+
+class TestTransfers:
+    def test_they_equal_the_serial_ones(self, pair):
+        together, alone = pair(nodes=129)
+        for shared, serial in zip(together.transfers, alone.transfers, strict=True):
+            fine, coarse = random(serial.fine, 1), random(serial.coarse, 2)
+            for name, values, source, target in (
+                ("inject", fine, shared.fine, shared.coarse),
+                ("full_weighting", fine, shared.fine, shared.coarse),
+                ("bilinear", coarse, shared.coarse, shared.fine),
+            ):
+                expected = getattr(serial, name)(values)
+                result = whole(target, getattr(shared, name)(lines(source, values)))
+                np.testing.assert_allclose(result, expected, rtol=0.0, atol=1e-14, err_msg=name)
+
+    def test_partitioned_ones_too(self, pair):
+        together, alone = pair(nodes=65)
+        shared, serial = together.transfers[0], alone.transfers[0]
+        status = mixed_status(serial.fine)
+        coarse_status = serial.inject(status)
+        expected, partitioned = PartitionedTransfer(serial), PartitionedTransfer(shared)
+        expected.partition(coarse_status, status)
+        partitioned.partition(lines(shared.coarse, coarse_status), lines(shared.fine, status))
+        fine, coarse = random(serial.fine, 3), random(serial.coarse, 4)
+        restricted = whole(shared.coarse, partitioned.restrict(lines(shared.fine, fine)))
+        prolonged = whole(shared.fine, partitioned.prolong(lines(shared.coarse, coarse)))
+        np.testing.assert_allclose(restricted, expected.restrict(fine), rtol=0.0, atol=1e-13)
+        np.testing.assert_allclose(prolonged, expected.prolong(coarse), rtol=0.0, atol=1e-13)
+
+
+def test_the_border_is_known_to_every_rank(pair, make_vec):
+    together, _ = pair(nodes=65)
+    grid = together.grids[-1]
+    space, values = BorderedSpace(grid), random(grid)
+    vec = make_vec(space, lines(grid, values), 2.5)
+    assert vec.getSize() == grid.mesh.nodes + 1
+    P, border = space.read(vec)
+    np.testing.assert_array_equal(P, lines(grid, values))
+    assert border == 2.5
+
+
+CASES = {"film": (1.0, "film"), "contact": (5e-6, "contact")}
+
+
+class TestSolutions:
+    @pytest.mark.parametrize("case", CASES)
+    def test_they_equal_the_serial_ones(self, solve, paper_contact, case):
+        speed, start = CASES[case]
+        together = solve(paper_contact(speed), 65, start, comm=COMM)
+        alone = solve(paper_contact(speed), 65, start)
+        grid, state = together.problem.grid, together.outcome.state
+        assert together.outcome.converged and alone.outcome.converged
+        expected = alone.outcome.state
+        np.testing.assert_array_equal(whole(grid, state.status), expected.status)
+        H, scale = whole(grid, state.H), np.max(np.abs(expected.H))
+        np.testing.assert_allclose(H, expected.H, rtol=0.0, atol=1e-9 * scale)
+        np.testing.assert_allclose(whole(grid, state.P), expected.P, rtol=0.0, atol=1e-8)
+        if case == "film":
+            for film, expected_film in zip(together.films, alone.films, strict=True):
+                assert film == pytest.approx(expected_film, rel=1e-9)
+        # The verification says the same on every rank, and the same as on one.
+        problem = together.problem
+        inequality = check_pressure_inequality(grid, state.P, state.status)
+        serial = check_pressure_inequality(alone.problem.grid, expected.P, expected.status)
+        assert (inequality.checked, inequality.violations) == (serial.checked, serial.violations)
+        assert complementarity_error(problem, state) < 1e-7
+        assert flux_imbalance(problem, state) < 1e-7
+        assert len(together.told) == len(alone.told)
+
+    def test_every_rank_is_told_the_same(self, solve, paper_contact):
+        solution = solve(paper_contact(), 65, comm=COMM)
+        told = [(level.nodes, cycle.step, cycle.residual, cycle.central) for level, cycle in solution.told]
+        assert all(each == told for each in COMM.allgather(told))
+
+    def test_a_violation_is_listed_on_every_rank(self, pair):
+        together, alone = pair(nodes=65)
+        grid = together.grids[-1]
+        status, P = mixed_status(alone.grids[-1]), np.zeros((65, 65))
+        P[status == CONTACT] = 0.5
+        j = grid.starts[1] if COMM.size > 1 else 32  # the first line of the second rank
+        j = int(COMM.bcast(j))
+        i = int(np.flatnonzero(status[j] == CONTACT)[0])
+        P[j, i - 1] = 0.75
+        result = check_pressure_inequality(grid, lines(grid, P), lines(grid, status))
+        assert (i + 1, j + 1) in {(each.i, each.j) for each in result.violations}
+        assert all(each == result.violations for each in COMM.allgather(result.violations))
+        serial = check_pressure_inequality(alone.grids[-1], P, status)
+        assert sorted((v.i, v.j, v.size) for v in serial.violations) == sorted(
+            (v.i, v.j, v.size) for v in result.violations
+        )
+
+
+class TestCommandLine:
+    """`main` runs on all ranks of COMM_WORLD."""
+
+    @pytest.fixture
+    def directory(self, tmp_path):
+        """Rank 0's temporary directory, the same on every rank."""
+        return COMM.bcast(tmp_path)
+
+    def test_bad_input_is_refused_on_every_rank_and_said_once(self, directory, capsys):
+        from mgehl.cli import main
+
+        status = main(["run", "--set", "grid.nodes=66", "--out", str(directory / "here")])
+        lines = capsys.readouterr().err.splitlines()
+        assert COMM.allgather(status) == [2] * COMM.size
+        assert [len(each) for each in COMM.allgather(lines)] == [1] + [0] * (COMM.size - 1)
+        assert not (directory / "here").exists()
+
+    def test_a_directory_that_exists_is_refused_on_every_rank(self, directory, capsys):
+        from mgehl.cli import main
+
+        status = main(["run", "--set", "grid.nodes=65", "--out", str(directory)])
+        lines = capsys.readouterr().err.splitlines()
+        assert COMM.allgather(status) == [2] * COMM.size
+        assert [len(each) for each in COMM.allgather(lines)] == [1] + [0] * (COMM.size - 1)
+
+    def test_one_directory_for_all(self, directory, capsys):
+        from mgehl.cli import main
+
+        here = directory / "here"
+        arguments = ["run", "--set", "grid.nodes=65", "--set", "solver.start=contact", "--out", str(here)]
+        status = main(arguments)
+        out = capsys.readouterr().out
+        assert COMM.allgather(status) == [0] * COMM.size
+        spoke = COMM.allgather(bool(out))
+        assert spoke == [True] + [False] * (COMM.size - 1)
+        names = {path.name for path in here.iterdir()}
+        assert names == {"configuration.toml", "fields.h5", "history.csv", "picture.png", "result.json"}
+        assert f"{COMM.size} ranks" in (out if COMM.rank == 0 else f"{COMM.size} ranks")

@@ -1,0 +1,145 @@
+"""Newton's method on one grid."""
+
+import numpy as np
+import pytest
+
+from mgehl.discretization.status import CAVITATED, LUBRICATED
+from mgehl.solver.nested import first_guess
+from mgehl.solver.newton import Newton, NewtonSettings
+from mgehl.solver.problem import PointProblem
+
+
+@pytest.fixture
+def make_newton(make_hierarchy, paper_contact):
+    """Factory of (problem, Newton) for the film at 1 m/s on 65 nodes; freed after the test."""
+    from mgehl.discretization.residual import Scheme
+    from mgehl.multigrid.cycle import MultigridSolver
+
+    made = []
+
+    def make(monitor=None, options_prefix="test_", **limits):
+        contact, scheme = paper_contact(), Scheme()
+        hierarchy = make_hierarchy(contact, 65)
+        problem = PointProblem(hierarchy.grids[-1], hierarchy.deflections[-1], contact, scheme)
+        multigrid = MultigridSolver(hierarchy, 1, contact, scheme)
+        settings = NewtonSettings(**limits)
+        made.append(Newton(problem, multigrid, settings, None, options_prefix, monitor))
+        return problem, made[-1]
+
+    yield make
+    for newton in made:
+        newton.free()
+
+
+def test_it_solves_from_the_hertz_pressure(make_newton):
+    problem, newton = make_newton()
+    outcome = newton.run(first_guess(problem, "film"))
+    state, last = outcome.state, outcome.cycles[-1]
+    assert outcome.converged
+    assert last.step <= 15
+    assert last.residual <= 1e-8 and abs(last.load_error) <= 1e-8
+    # The outcome's own words are checked against the equations.
+    F = problem.residual(state, problem.inflow(state))
+    assert problem.rms(F) <= 1e-8
+    assert abs(problem.load_deficit(state.P)) <= 1e-8
+    np.testing.assert_allclose(state.H, problem.gap(state.P, state.H0), rtol=0.0, atol=1e-12)
+    assert state.P.min() >= 0.0
+    np.testing.assert_array_equal(state.P[state.status == CAVITATED], 0.0)
+
+
+def test_convergence_is_fast_at_the_end(make_newton):
+    problem, newton = make_newton(linear_tolerance=1e-3)
+    cycles = newton.run(first_guess(problem, "film")).cycles
+    settled = [cycle.residual for cycle in cycles if cycle.changes.total == 0]
+    assert len(settled) >= 2
+    assert settled[-1] < 0.02 * settled[-2]
+
+
+def test_the_first_guess_is_not_changed(make_newton):
+    problem, newton = make_newton()
+    guess = first_guess(problem, "film")
+    before = guess.copy()
+    newton.run(guess)
+    for name in ("P", "H", "status"):
+        np.testing.assert_array_equal(getattr(guess, name), getattr(before, name))
+    assert guess.H0 == before.H0
+
+
+def test_every_cycle_is_told(make_newton):
+    told = []
+    problem, newton = make_newton(told.append)
+    outcome = newton.run(first_guess(problem, "film"))
+    assert told == outcome.cycles
+    assert [cycle.step for cycle in told] == list(range(len(told)))
+    assert all(cycle.linear_iterations > 0 for cycle in told[1:])
+    assert all(0.0 < cycle.step_length <= 1.0 for cycle in told[1:])
+    central, minimum = problem.films(outcome.state)
+    assert (told[-1].central, told[-1].minimum) == (central, minimum)
+    counts = told[-1].contact_nodes, told[-1].cavitated_nodes
+    assert counts == problem.counts(outcome.state.status)
+
+
+def test_a_solution_needs_no_step(make_newton):
+    problem, newton = make_newton()
+    first = newton.run(first_guess(problem, "film"))
+    again = newton.run(first.state)
+    assert again.converged
+    assert again.cycles[-1].step == 0
+
+
+def test_the_solution_does_not_depend_on_the_guess(make_newton):
+    problem, newton = make_newton()
+    first = newton.run(first_guess(problem, "film")).state
+    guess = first_guess(problem, "film")
+    other = problem.state(0.9 * guess.P, guess.H0 + 0.1, np.full(guess.status.shape, LUBRICATED))
+    second = newton.run(other)
+    assert second.converged
+    np.testing.assert_allclose(second.state.P, first.P, rtol=0.0, atol=1e-6)
+    np.testing.assert_array_equal(second.state.status, first.status)
+
+
+def test_it_stops_at_the_last_step_and_says_so(make_newton):
+    problem, newton = make_newton(max_steps=1)
+    outcome = newton.run(first_guess(problem, "film"))
+    assert not outcome.converged
+    assert outcome.cycles[-1].step == 1
+    assert "1 steps" in outcome.reason
+
+
+def test_a_pressure_step_is_limited(make_newton):
+    problem, newton = make_newton(max_steps=1, max_pressure_step=1e-3)
+    guess = first_guess(problem, "film")
+    outcome = newton.run(guess)
+    assert 0.0 < outcome.cycles[1].step_length < 1.0
+    # Where the fluid is stiff nothing but the Newton step changes the pressure.
+    high = guess.P > 0.6
+    changed = np.abs(outcome.state.P - guess.P)[high].max()
+    assert 0.0 < changed <= 1e-3 * (1.0 + 1e-9)
+
+
+def test_a_looser_tolerance_stops_earlier(make_newton):
+    problem, strict = make_newton()
+    _, loose = make_newton(tolerance=1e-3)
+    guess = first_guess(problem, "film")
+    loose_outcome = loose.run(guess)
+    assert loose_outcome.converged
+    assert loose_outcome.cycles[-1].step < strict.run(guess).cycles[-1].step
+
+
+def test_a_residual_that_is_not_finite_ends_it(make_newton):
+    problem, newton = make_newton()
+    guess = first_guess(problem, "film")
+    guess.P[30, 30] = np.nan
+    outcome = newton.run(guess)
+    assert not outcome.converged
+    assert "not finite" in outcome.reason
+
+
+def test_petsc_options_reach_snes_and_ksp(make_newton, petsc_options):
+    petsc_options["opt_snes_max_it"] = 2
+    petsc_options["opt_ksp_max_it"] = 1
+    problem, newton = make_newton(options_prefix="opt_")
+    outcome = newton.run(first_guess(problem, "film"))
+    assert not outcome.converged
+    assert outcome.cycles[-1].step == 2
+    assert [cycle.linear_iterations for cycle in outcome.cycles[1:]] == [1, 1]

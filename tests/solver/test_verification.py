@@ -1,0 +1,159 @@
+"""What must hold of an answer, on states made by hand."""
+
+import numpy as np
+import pytest
+
+from mgehl.discretization.residual import Scheme
+from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
+from mgehl.solver.problem import State
+from mgehl.solver.verification import check_pressure_inequality, complementarity_error, flux_imbalance
+
+NODE = (4, 4)
+
+
+@pytest.fixture
+def state(tiny_problem):
+    """All film without pressure and a gap of 1."""
+    shape = tiny_problem.grid.shape
+    status = np.where(tiny_problem.boundary, BOUNDARY, LUBRICATED).astype(np.int8)
+    return State(np.zeros(shape), 0.0, np.ones(shape), status)
+
+
+class TestPressureInequality:
+    def test_without_contact_nothing_is_checked(self, tiny_problem, state):
+        result = check_pressure_inequality(tiny_problem.grid, state.P, state.status)
+        assert (result.checked, result.violations, result.worst) == (0, [], 0.0)
+
+    @pytest.mark.parametrize("beside", [(2, 4), (2, 6), (1, 5), (3, 5)], ids=["W", "E", "S", "N"])
+    def test_a_violation_on_each_side(self, tiny_problem, state, beside):
+        state.status[2, 5], state.P[2, 5] = CONTACT, 0.5
+        state.P[beside] = 0.75
+        result = check_pressure_inequality(tiny_problem.grid, state.P, state.status)
+        assert result.checked == 1
+        (violation,) = result.violations
+        assert (violation.i, violation.j) == (6, 3)  # counted from 1
+        assert violation.size == result.worst == 0.25
+
+    def test_the_largest_of_several_neighbours_counts(self, tiny_problem, state):
+        state.status[NODE], state.P[NODE] = CONTACT, 0.5
+        state.P[4, 3], state.P[4, 5], state.P[5, 4] = 0.6, 0.8, 0.7
+        result = check_pressure_inequality(tiny_problem.grid, state.P, state.status)
+        assert [violation.size for violation in result.violations] == [pytest.approx(0.3)]
+
+    def test_several_violations_are_all_named(self, tiny_problem, state):
+        for i in (2, 6):
+            state.status[4, i], state.P[4, i] = CONTACT, 0.1
+        state.P[4, 4], state.P[3, 6], state.P[3, 2] = 1.0, 0.4, 0.2
+        result = check_pressure_inequality(tiny_problem.grid, state.P, state.status)
+        places = {(each.i, each.j): each.size for each in result.violations}
+        assert places == {(3, 5): pytest.approx(0.1), (7, 5): pytest.approx(0.3)}
+        assert result.worst == pytest.approx(0.3)
+
+    def test_equal_pressures_hold(self, tiny_problem, state):
+        state.status[NODE], state.P[NODE], state.P[4, 3] = CONTACT, 0.5, 0.5
+        result = check_pressure_inequality(tiny_problem.grid, state.P, state.status)
+        assert (result.checked, result.violations) == (1, [])
+
+    def test_contact_inside_contact_is_not_interface(self, tiny_problem, state):
+        state.status[3:6, 3:6], state.P[3:6, 3:6] = CONTACT, 0.9
+        state.P[NODE] = 0.1
+        result = check_pressure_inequality(tiny_problem.grid, state.P, state.status)
+        assert (result.checked, result.violations) == (8, [])
+
+
+class TestComplementarity:
+    @pytest.fixture
+    def balanced(self, state):
+        """No pressure, and a gap that narrows nowhere: nothing flows into any node."""
+        state.status[1:-1, 5:-1] = CAVITATED
+        return state
+
+    def test_a_state_without_breaches(self, tiny_problem, balanced):
+        assert complementarity_error(tiny_problem, balanced) < 1e-12
+
+    @pytest.mark.parametrize("status", [LUBRICATED, CONTACT])
+    def test_tension(self, tiny_problem, balanced, status):
+        balanced.status[4, 2], balanced.P[4, 2] = status, -0.25
+        balanced.H[4, 2] = 0.0 if status == CONTACT else 1.0
+        # Contact also blocks the flow: the cavity is far from it.
+        assert complementarity_error(tiny_problem, balanced) == pytest.approx(0.25)
+
+    def test_pressure_in_the_cavity(self, tiny_problem, balanced):
+        balanced.P[4, 6] = 1e-9
+        assert complementarity_error(tiny_problem, balanced) >= 1e-9
+
+    def test_flow_into_the_cavity(self, tiny_problem, balanced):
+        balanced.H[4, 6] = 0.7  # receives 1, passes 0.7 on
+        assert complementarity_error(tiny_problem, balanced) == pytest.approx(0.3, rel=1e-12)
+
+    @pytest.mark.parametrize("gap", [0.125, -0.125])
+    def test_contact_with_a_gap_or_an_overlap(self, tiny_problem, balanced, gap):
+        balanced.status[4, 2], balanced.H[4, 2] = CONTACT, gap
+        assert complementarity_error(tiny_problem, balanced) == pytest.approx(0.125)
+
+    def test_film_where_the_bodies_overlap(self, tiny_problem, balanced):
+        balanced.H[4, 2] = -0.125
+        assert complementarity_error(tiny_problem, balanced) == pytest.approx(0.125)
+
+    def test_fluid_shut_in(self, tiny_problem, balanced):
+        balanced.status[4, 1] = balanced.status[4, 3] = CONTACT
+        balanced.H[4, 1] = balanced.H[4, 3] = 0.0
+        assert complementarity_error(tiny_problem, balanced) >= 1.0
+
+
+class TestFluxImbalance:
+    """Without pressure a face passes the gap of its upstream node (1B)."""
+
+    @pytest.fixture
+    def widening(self, state):
+        state.H[:] = 1.0 + 0.1 * np.arange(9)
+        return state
+
+    def test_parallel_gap(self, tiny_problem, state):
+        assert flux_imbalance(tiny_problem, state) < 1e-14
+
+    def test_film_up_to_the_edges_of_the_domain(self, tiny_problem, widening):
+        # In through the first face 1.0, out through the last 1.7.
+        assert flux_imbalance(tiny_problem, widening) == pytest.approx(0.7)
+
+    def test_film_that_ends_at_a_cavity(self, tiny_problem, widening):
+        widening.status[1:-1, 5:-1] = CAVITATED
+        assert flux_imbalance(tiny_problem, widening) == pytest.approx(0.4)
+
+    def test_contact_lets_nothing_through(self, tiny_problem, widening):
+        widening.status[1:-1, 5] = CONTACT
+        # Film before the contact takes in 1.0; film behind it passes 1.7 on without any supply.
+        assert flux_imbalance(tiny_problem, widening) == pytest.approx(0.7)
+        widening.status[1:-1, 5:-1] = CONTACT
+        assert flux_imbalance(tiny_problem, widening) == pytest.approx(1.0)
+
+    def test_flow_across_the_motion(self, tiny_problem, state):
+        mesh, contact = tiny_problem.grid.mesh, tiny_problem.contact
+        p = 1e-3
+        state.P[1, 4] = p  # beside the first line, where the pressure is zero
+        rho = contact.lubricant.density_law.density(p, contact.hertz.p_h)[0]
+        log_eta = contact.lubricant.viscosity_law.log_viscosity(p, contact.hertz.p_h)[0]
+        mobility = 0.5 * (1.0 + rho * np.exp(-log_eta)) / contact.lambda_
+        out = mobility * p / mesh.dY * mesh.dX
+        assert flux_imbalance(tiny_problem, state) == pytest.approx(out / (7 * mesh.dY), rel=1e-12)
+
+    def test_no_film_no_imbalance(self, tiny_problem, state):
+        state.status[1:-1, 1:-1] = CONTACT
+        assert flux_imbalance(tiny_problem, state) == 0.0
+
+
+@pytest.mark.parametrize("couette", ["1B", "2B", "2C", "S2C"])
+def test_conservative_schemes_balance_when_solved(solve, paper_contact, couette):
+    solution = solve(paper_contact(), 65, couette=couette)
+    assert solution.outcome.converged
+    assert solution.problem.scheme == Scheme(couette)
+    assert flux_imbalance(solution.problem, solution.outcome.state) < 1e-7
+
+
+def test_solutions_pass(solve, paper_contact):
+    for speed, start in ((1.0, "film"), (5e-6, "contact")):
+        solution = solve(paper_contact(speed), 65, start=start)
+        state, problem = solution.outcome.state, solution.problem
+        assert complementarity_error(problem, state) < 1e-7
+        assert flux_imbalance(problem, state) < 1e-7
+        assert check_pressure_inequality(problem.grid, state.P, state.status).violations == []

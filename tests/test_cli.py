@@ -1,0 +1,184 @@
+"""The command line: exit statuses, one-line errors, PETSc options."""
+
+import json
+import os
+import subprocess
+import sys
+
+import pytest
+
+from mgehl.cli import main, split_options
+
+FILES = {"configuration.toml", "fields.h5", "history.csv", "picture.png", "result.json"}
+DRY = ["run", "--set", "grid.nodes=65", "--set", "solver.start=contact", "--set", "motion.speed=0.005 mm/s"]
+
+
+@pytest.fixture(autouse=True)
+def empty_directory(tmp_path, monkeypatch):
+    """Every test starts in an empty directory."""
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def mgehl(*arguments):
+    """Run the command in a process of its own, without MPI variables of this one."""
+    environment = {k: v for k, v in os.environ.items() if not k.startswith(("OMPI_COMM", "PMIX_", "PRTE_"))}
+    command = [sys.executable, "-m", "mgehl", *arguments]
+    return subprocess.run(command, capture_output=True, text=True, timeout=60, env=environment)
+
+
+def exit_status(arguments):
+    """What `main` returns or exits with."""
+    try:
+        return main(arguments)
+    except SystemExit as stop:
+        return stop.code
+
+
+def test_a_run_in_a_process_of_its_own(tmp_path):
+    done = mgehl(*DRY, "--out", "here")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "\nCONVERGED" in done.stdout
+    assert {path.name for path in (tmp_path / "here").iterdir()} == FILES
+    assert [path.name for path in tmp_path.iterdir()] == ["here"]
+
+
+def test_petsc_options_reach_the_solver_and_unknown_ones_are_reported():
+    done = mgehl(*DRY, "--out", "here", "-mgehl_ksp_monitor", "-mgehl_snes_monitor", "-mgehl_nonsense", "3")
+    assert done.returncode == 0
+    assert "KSP Residual norm" in done.stdout
+    assert "SNES Function norm" in done.stdout
+    text = done.stdout + done.stderr
+    left = [line for line in text.splitlines() if "Option left" in line]
+    assert len(left) == 1 and "-mgehl_nonsense" in left[0] and "3" in left[0]
+
+
+def test_a_petsc_option_with_a_value_changes_the_run():
+    """The value is not taken for the configuration file."""
+    done = mgehl(*DRY, "--out", "here", "-mgehl_snes_max_it", "1")
+    assert done.returncode == 1
+    assert "NOT CONVERGED" in done.stdout and "1 steps" in done.stdout
+    assert "Option left" not in done.stdout + done.stderr
+
+
+def test_a_run_that_cannot_converge_exits_with_1(tmp_path, capsys):
+    assert exit_status([*DRY, "--set", "solver.max_steps=1", "--out", "here"]) == 1
+    assert "NOT CONVERGED" in capsys.readouterr().out
+    assert {path.name for path in (tmp_path / "here").iterdir()} == FILES
+    assert json.loads((tmp_path / "here" / "result.json").read_text())["converged"] is False
+
+
+def test_quiet_success_prints_nothing(capfd):
+    assert exit_status([*DRY, "--quiet", "--out", "here"]) == 0
+    assert capfd.readouterr() == ("", "")
+
+
+def test_the_default_directory_is_named_after_the_configuration(tmp_path):
+    (tmp_path / "mine.toml").write_text("[grid]\nnodes = 65\n[solver]\nstart = 'contact'\n")
+    assert exit_status(["run", "mine.toml", "--quiet"]) == 0
+    assert {path.name for path in (tmp_path / "runs" / "mine").iterdir()} == FILES
+
+
+def test_the_configuration_may_come_after_the_options(tmp_path):
+    (tmp_path / "mine.toml").write_text("[grid]\nnodes = 65\n")
+    options = ["--quiet", "--set", "solver.start=contact", "--out", "here"]
+    assert exit_status(["run", *options, "mine.toml"]) == 0
+    assert (tmp_path / "here" / "result.json").exists()
+
+
+def test_a_directory_that_exists_is_refused_and_replaced_with_force(tmp_path, capsys):
+    here = tmp_path / "here"
+    here.mkdir()
+    (here / "result.json").write_text("old")
+    assert exit_status([*DRY, "--out", "here"]) == 2
+    assert_one_line(capsys, "here", "--force")
+    assert (here / "result.json").read_text() == "old"
+    assert [path.name for path in here.iterdir()] == ["result.json"]
+    assert exit_status([*DRY, "--out", "here", "--force", "--quiet"]) == 0
+    assert json.loads((here / "result.json").read_text())["converged"] is True
+    assert {path.name for path in here.iterdir()} == FILES
+
+
+def assert_one_line(capsys, *parts):
+    """Nothing on stdout; one line without traceback on stderr that holds all parts."""
+    out, err = capsys.readouterr()
+    assert out == ""
+    lines = err.strip().splitlines()
+    assert len(lines) == 1, err
+    assert lines[0].startswith("mgehl: ")
+    for part in parts:
+        assert part in lines[0]
+
+
+BAD = [
+    (["run", "missing.toml"], ["missing.toml", "cannot be read"]),
+    (["run", "broken.toml"], ["broken.toml", "TOML"]),
+    (["run", "--set", "grid.nodes=66"], ["grid.nodes = 66", "65 or 129"]),
+    (["run", "--set", "grid.nodes=17"], ["grid.nodes = 17", "at least 65"]),
+    (["run", "--set", "grid.x=[-0.5, 1.0]"], ["grid.x"]),
+    (["run", "--set", "contact.load=-1"], ["contact.load = -1", "above 0"]),
+    (["run", "--set", "contact.load=nan"], ["contact.load"]),
+    (["run", "--set", "motion.speed=3 kg"], ["motion.speed", "wrong unit", "m/s"]),
+    (["run", "--set", "motion.speed=fast"], ["motion.speed", "fast"]),
+    (["run", "--set", "motion.sped=1"], ["motion.sped", "did you mean motion.speed"]),
+    (["run", "--set", "moton.speed=1"], ["moton", "did you mean motion"]),
+    (["run", "--set", "grid.nodes"], ["--set grid.nodes", "section.key=value"]),
+    (["run", "--set", "discretization.couette=3B"], ["discretization.couette", "2B", "S2C"]),
+    (["run", "--set", "solver.max_steps=1.5"], ["solver.max_steps = 1.5", "whole number"]),
+    (["run", "--set", "moes.M=20"], ["moes.L"]),
+    (["run", "--nonsense"], ["--nonsense"]),
+    (["run", "one.toml", "two.toml"], ["two.toml"]),
+    (["run", "--set"], ["--set"]),
+    (["run", "--out", "broken.toml"], ["broken.toml", "exists"]),
+    (["run", "--out", "broken.toml/deep"], ["broken.toml/deep", "cannot be written"]),
+    (["run", "-mgehl_ksp_monitor", "--out", "here"], ["--out", "PETSc options"]),
+    (["frobnicate"], ["frobnicate"]),
+    ([], ["COMMAND"]),
+]
+
+
+@pytest.mark.parametrize("arguments, parts", BAD, ids=[" ".join(words) or "nothing" for words, _ in BAD])
+def test_bad_input_is_one_line_and_writes_nothing(tmp_path, capsys, arguments, parts):
+    (tmp_path / "broken.toml").write_text("[grid\n")
+    assert exit_status(arguments) == 2
+    assert_one_line(capsys, *parts)
+    assert [path.name for path in tmp_path.iterdir()] == ["broken.toml"]
+
+
+def test_bad_input_in_a_process_of_its_own(tmp_path):
+    done = mgehl("run", "--set", "grid.nodes=66")
+    assert done.returncode == 2
+    assert done.stdout == "" and len(done.stderr.splitlines()) == 1
+    assert "Traceback" not in done.stderr
+    assert not list(tmp_path.iterdir())
+
+
+def test_keys_lists_every_key(capsys):
+    from dataclasses import fields
+
+    from mgehl.config import SECTIONS
+
+    assert exit_status(["keys"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    named = [line.split()[0] for line in lines]
+    assert named == [f"{name}.{key.name}" for name, kind in SECTIONS.items() for key in fields(kind)]
+    assert "m/s" in next(line for line in lines if line.startswith("motion.speed"))
+
+
+def test_help(capsys):
+    for arguments in (["--help"], ["run", "--help"], ["run", "-h"]):
+        assert exit_status(arguments) == 0
+        assert "usage: mgehl" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    "words, own, petsc",
+    [
+        ("run a.toml --quiet", "run a.toml --quiet", ""),
+        ("run --out b -log_view", "run --out b", "-log_view"),
+        ("run -mgehl_ksp_rtol 1e-3 -log_view", "run", "-mgehl_ksp_rtol 1e-3 -log_view"),
+        ("run -h", "run -h", ""),
+    ],
+)
+def test_words_are_split_at_the_first_single_dash(words, own, petsc):
+    assert split_options(words.split()) == (own.split(), petsc.split())
