@@ -46,7 +46,11 @@ class _Parser(argparse.ArgumentParser):
     """Says in one line what is wrong."""
 
     def error(self, message):
-        self.exit(USAGE, f"mgehl: {message} (see {self.prog} --help)\n")
+        from mpi4py import MPI
+
+        self.exit(
+            USAGE, f"mgehl: {message} (see {self.prog} --help)\n" if MPI.COMM_WORLD.rank == 0 else None
+        )
 
 
 def _parser():
@@ -86,14 +90,14 @@ def split_options(arguments):
 
 def _run(options, comm):
     """Solve on all ranks; errors of the user's making end in one line and status 2."""
-    from mgehl.output.files import OutputError, prepare_directory
+    from mgehl.output.files import OutputError, on_first_rank, prepare_directory
 
     try:
         config = load_config(options.config, options.settings)
         check_ranks(comm.size)
         name = Path(options.config or default_config()).stem
         directory = Path(options.out or Path("runs") / name)
-        _on_first_rank(comm, prepare_directory, directory, options.force)
+        on_first_rank(comm, prepare_directory, directory, options.force)
         from mgehl.run import run
 
         result = run(config, directory, comm, speak=not options.quiet)
@@ -129,19 +133,6 @@ def _collect(options):
         return USAGE
     print(markdown(rows, columns))
     return CONVERGED
-
-
-def _on_first_rank(comm, function, *arguments):
-    """Call on rank 0; every rank raises what it raised."""
-    error = None
-    if comm.rank == 0:
-        try:
-            function(*arguments)
-        except Exception as caught:
-            error = caught
-    error = comm.bcast(error)
-    if error is not None:
-        raise error
 
 
 def describe_keys():

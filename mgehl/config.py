@@ -292,7 +292,9 @@ def _apply_setting(tables, setting):
     key, equals, text = setting.partition("=")
     section, dot, name = (part.strip() for part in key.partition("."))
     if not (equals and dot and section and name):
-        raise ConfigError(f"--set {' '.join(setting.split())}: must be section.key=value, such as grid.nodes=513")
+        raise ConfigError(
+            f"--set {' '.join(setting.split())}: must be section.key=value, such as grid.nodes=513"
+        )
     try:
         value = tomllib.loads(f"value = {text}")["value"]
     except tomllib.TOMLDecodeError:

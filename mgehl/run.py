@@ -43,10 +43,10 @@ def run(config, directory, comm, speak=True):
         fields = Fields(*(problem.grid.gather(array) for array in (state.P, state.H, state.status)))
     finally:
         hierarchy.destroy()
-    if first:
-        _write(directory, config, contact, problem.grid.mesh, fields, progress.rows, result)
-        if speak:
-            print(trust_block(result), f"  results in {directory}", sep="\n", flush=True)
+    arguments = (directory, config, contact, problem.grid.mesh, fields, progress.rows, result)
+    files.on_first_rank(comm, _write, *arguments)
+    if speak and first:
+        print(trust_block(result), f"  results in {directory}", sep="\n", flush=True)
     return result
 
 
@@ -63,13 +63,18 @@ def versions():
 
 
 def _write(directory, config, contact, mesh, fields, rows, result):
+    """Write all files; raise OutputError if the disk does not take them."""
     from mgehl.output.picture import draw  # matplotlib is slow to import, and needed only here
 
-    files.write_config(directory / "configuration.toml", config)
-    files.write_history(directory / "history.csv", rows)
-    files.write_fields(directory / "fields.h5", mesh, contact, fields)
+    paths = files.RunFiles(directory)
     title = f"{1e3 * contact.speed:.4g} mm/s, {contact.load:.4g} N, {mesh.nx} x {mesh.ny} nodes: " + (
         "converged" if result.converged else "NOT converged"
     )
-    draw(directory / "picture.png", mesh, contact, fields, title)
-    files.write_result(directory / "result.json", result)
+    try:
+        files.write_config(paths.configuration, config)
+        files.write_history(paths.history, rows)
+        files.write_fields(paths.fields, mesh, contact, fields)
+        draw(paths.picture, mesh, contact, fields, title)
+        files.write_result(paths.result, result)
+    except OSError as error:
+        raise files.OutputError(f"{directory}: cannot be written: {error}") from None

@@ -115,13 +115,14 @@ def build_grids(mesh, coarsest_nodes, comm):
     A coarse line belongs to the rank that owns the same fine line, so that every transfer needs
     one ghost line only. Raises ValueError when a rank would be left without lines.
     """
+    meshes = [mesh]
+    while meshes[-1].nx > coarsest_nodes and meshes[-1].nx % 2 and meshes[-1].ny % 2:
+        meshes.append(meshes[-1].coarsened())
     starts = [rank * (mesh.ny // comm.size) + min(rank, mesh.ny % comm.size) for rank in range(comm.size)]
-    starts = np.array([*starts, mesh.ny])
-    grids = [Grid(mesh, starts, comm)]
-    while mesh.nx > coarsest_nodes and mesh.nx % 2 and mesh.ny % 2:
-        mesh = mesh.coarsened()
-        starts = (starts + 1) // 2
-        if np.any(np.diff(starts) < 2):
-            raise ValueError(f"{comm.size} ranks are too many for a coarsest grid of {mesh.ny} lines")
-        grids.append(Grid(mesh, starts, comm))
+    all_starts = [np.array([*starts, mesh.ny])]
+    for _ in meshes[1:]:
+        all_starts.append((all_starts[-1] + 1) // 2)
+    if np.any(np.diff(all_starts[-1]) < 2):
+        raise ValueError(f"{comm.size} ranks are too many for a coarsest grid of {meshes[-1].ny} lines")
+    grids = [Grid(mesh, starts, comm) for mesh, starts in zip(meshes, all_starts, strict=True)]
     return grids[::-1]

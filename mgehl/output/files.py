@@ -9,20 +9,52 @@ from pathlib import Path
 import h5netcdf
 import tomli_w
 
-from mgehl.discretization.status import NAMES
+from mgehl.discretization import status
 
 
 class OutputError(Exception):
     """A run directory that cannot be used; the message is one line for the user."""
 
 
+def on_first_rank(comm, function, *arguments):
+    """Call on rank 0; every rank raises what it raised."""
+    error = None
+    if comm.rank == 0:
+        try:
+            function(*arguments)
+        except Exception as caught:
+            error = caught
+    error = comm.bcast(error)
+    if error is not None:
+        raise error
+
+
+NAMES = ("configuration.toml", "result.json", "history.csv", "fields.h5", "picture.png")
+"""The files of a run directory, in the order of `RunFiles`."""
+
+
+class RunFiles:
+    """Paths of a run directory's files."""
+
+    def __init__(self, directory):
+        self.configuration, self.result, self.history, self.fields, self.picture = (
+            Path(directory) / name for name in NAMES
+        )
+
+
 def prepare_directory(path, force):
-    """Create a run directory; refuse one that exists unless `force`. Raises OutputError."""
+    """Create a run directory, or with `force` clear one of an earlier run's files.
+
+    Raises OutputError if it exists and `force` is not given, or if it cannot be written.
+    """
     path = Path(path)
     if path.exists() and not force:
         raise OutputError(f"{path} exists: add --force to replace it, or choose another with --out")
     try:
         path.mkdir(parents=True, exist_ok=True)
+        for name in NAMES:
+            # An old result must not pass for that of a run that was cut off.
+            (path / name).unlink(missing_ok=True)
         probe = path / ".writable"
         probe.touch()
         probe.unlink()
@@ -71,7 +103,14 @@ def write_fields(path, mesh, contact, fields):
         _put(file, "film", plane, fields.H * contact.film_scale, "m", "film thickness or gap")
         _put(file, "P", plane, fields.P, "1", "pressure over maximum Hertz pressure")
         _put(file, "H", plane, fields.H, "1", "gap over a^2/R_x")
-        _put(file, "status", plane, fields.status, "1", ", ".join(f"{k} {n}" for k, n in enumerate(NAMES)))
+        _put(
+            file,
+            "status",
+            plane,
+            fields.status,
+            "1",
+            ", ".join(f"{k} {n}" for k, n in enumerate(status.NAMES)),
+        )
 
 
 def _put(file, name, dimensions, values, unit, description):

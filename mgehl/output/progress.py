@@ -62,7 +62,7 @@ def trust_block(result):
         f"  contact: {contact.nodes} nodes, {100 * contact.area_fraction:.2f} % of the Hertz area; "
         f"nodes {_span(contact.x_nodes)} on Y = 0, {_span(contact.y_nodes)} on X = 0; "
         f"largest gap {contact.largest_gap_nm:.1e} nm",
-        f"  pressure inequality: violated at {inequality.violations} of {inequality.checked} interface nodes",
+        f"  pressure inequality broken at {inequality.violations} of {inequality.checked} interface nodes",
         f"  inlet: {resolution.inlet_cells:.2f} cells, {_ADVICE[resolution.verdict]}",
         f"  work: {result.work.convolutions:.1f} fine-grid convolutions, {result.work.newton_steps} Newton "
         f"steps, {result.wall_s:.1f} s on {result.ranks} ranks",

@@ -41,7 +41,7 @@ class PressureInequality:
 def check_pressure_inequality(grid, P, status):
     """Check P_contact >= P_fluid across the interface, nodes counted from 1  [Liu eq. 2]."""
     neighbour = largest_fluid_neighbour(grid.halo(P), grid.halo(status))
-    interface = (status == CONTACT) & np.isfinite(neighbour)
+    interface = (status == CONTACT) & ~(neighbour == -np.inf)
     excess = np.where(interface, neighbour - P, 0.0)
     local = [
         Violation(int(i) + 1, int(j) + grid.first + 1, float(excess[j, i]))

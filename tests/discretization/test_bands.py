@@ -52,8 +52,8 @@ def test_given_pressures_are_those_of_boundary_and_cavity():
 def test_influence_of_a_column_of_Q(line, k):
     """A unit pressure, and one less a quarter on each of its four neighbours."""
 
-    def at(l, k):
-        return K[abs(l), abs(k)]
+    def at(line, k):
+        return K[abs(line), abs(k)]
 
     kappa = influence_of_columns(K)
     assert kappa.shape == (2, 2, REACH + 3)

@@ -16,9 +16,7 @@ def integral_of_reciprocal_distance(x, y, width, height):
     """The integral of 1/r from (0, 0) over a rectangle around (x, y), by adaptive quadrature."""
 
     def quarter(x0, x1, y0, y1):
-        return dblquad(
-            lambda y, x: 1.0 / np.hypot(x, y), x0, x1, y0, y1, epsabs=1e-12, epsrel=1e-11
-        )[0]
+        return dblquad(lambda y, x: 1.0 / np.hypot(x, y), x0, x1, y0, y1, epsabs=1e-12, epsrel=1e-11)[0]
 
     if x == y == 0.0:
         # Polar coordinates around the singular corner: the integral of the boundary's distance.

@@ -20,6 +20,7 @@ from mgehl.discretization.kernels import (
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.residual import Scheme, linearise, net_inflow
 
+
 @pytest.fixture
 def rng():
     return np.random.default_rng(11)

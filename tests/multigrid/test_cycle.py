@@ -96,9 +96,7 @@ def test_gmres_iterations(film, make_ksp, make_vec, nodes, kind):
 
 @pytest.mark.parametrize("kind", ["noise", "bulge"])
 @pytest.mark.parametrize("nodes", SIZES)
-def test_gmres_iterations_in_contact(
-    solve, paper_contact, make_multigrid, make_ksp, make_vec, nodes, kind
-):
+def test_gmres_iterations_in_contact(solve, paper_contact, make_multigrid, make_ksp, make_vec, nodes, kind):
     """Full contact at 0.005 mm/s; the fluid around it is solved apart and given here."""
     solution = solve(paper_contact(5e-6), nodes, start="contact")
     state = solution.outcome.state.copy()
