@@ -132,5 +132,5 @@ def test_moes_numbers_give_the_reference_film(tmp_path):
     }
     result = run_quietly(tables, tmp_path)
     assert result.converged
-    assert result.moes_film["central"] == pytest.approx(4.65234, rel=1e-4)
-    assert result.moes_film["minimum"] == pytest.approx(2.88452, rel=1e-4)
+    assert result.moes_film.central == pytest.approx(4.65234, rel=1e-4)
+    assert result.moes_film.minimum == pytest.approx(2.88452, rel=1e-4)

@@ -1,10 +1,11 @@
 """The result of a run as one record: films, verdicts, work. Its fields are result.json's."""
 
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, astuple, dataclass
 
 import numpy as np
 
 from mgehl.discretization.status import CONTACT
+from mgehl.model.contact import Groups
 from mgehl.solver.verification import check_pressure_inequality, complementarity_error, flux_imbalance
 
 COMPLEMENTARITY_TOLERANCE = 1e-6
@@ -42,6 +43,24 @@ class Resolution:
 
 
 @dataclass(frozen=True)
+class MoesFilm:
+    """Central and minimum film as (h/R_x)(2U)^(-1/2)."""
+
+    central: float
+    minimum: float
+
+
+@dataclass(frozen=True)
+class Formulas:
+    """What film formulas predict, in nm; the fields of `FilmFormulas`, in their order."""
+
+    hamrock_dowson_central_nm: float
+    hamrock_dowson_minimum_nm: float
+    nijenbanning_venner_moes_nm: float
+    grubin_nm: float
+
+
+@dataclass(frozen=True)
 class Work:
     """Convolutions in equivalents of one on the finest grid; Newton steps on all grids."""
 
@@ -66,9 +85,9 @@ class Result:
     pressure_inequality: InequalityResult
     cavitated_nodes: int
     resolution: Resolution
-    groups: dict
-    moes_film: dict
-    formulas: dict
+    groups: Groups
+    moes_film: MoesFilm
+    formulas: Formulas
     work: Work
     wall_s: float
     ranks: int
@@ -84,7 +103,6 @@ def summarise(problem, outcome, work, wall_s, versions):
     inequality = check_pressure_inequality(grid, state.P, state.status)
     complementarity = complementarity_error(problem, state)
     converged, reason = _verdict(outcome, inequality, complementarity)
-    formulas = {name: 1e9 * film for name, film in asdict(contact.formulas).items()}
     moes = contact.film_scale * contact.moes_scale
     return Result(
         converged=converged,
@@ -105,9 +123,9 @@ def summarise(problem, outcome, work, wall_s, versions):
         ),
         cavitated_nodes=problem.counts(state.status)[1],
         resolution=resolution(contact, grid.mesh),
-        groups=asdict(contact.groups),
-        moes_film={"central": central * moes, "minimum": minimum * moes},
-        formulas={f"{name}_nm": film for name, film in formulas.items()},
+        groups=contact.groups,
+        moes_film=MoesFilm(central * moes, minimum * moes),
+        formulas=Formulas(*(1e9 * film for film in astuple(contact.formulas))),
         work=work,
         wall_s=wall_s,
         ranks=grid.comm.size,
