@@ -115,3 +115,14 @@ def test_a_run_that_cannot_converge_says_so(solve, paper_contact):
     assert not solution.outcome.converged
     assert solution.finest_steps == 1
     assert np.any(solution.outcome.state.status == LUBRICATED)
+
+
+@pytest.mark.parametrize("speed, start", [(1.0, "film"), (5e-6, "contact")])
+def test_the_residual_is_that_of_the_final_pressures_at_their_own_gap(solve, paper_contact, speed, start):
+    """Fluid that is solved apart, at the gap before, must not flatter the residual."""
+    solution = solve(paper_contact(speed), 65, start=start)
+    problem, state = solution.problem, solution.outcome.state
+    state.H = problem.gap(state.P, state.H0)
+    true = problem.rms(problem.residual(state, problem.inflow(state)))
+    assert true == pytest.approx(solution.outcome.cycles[-1].residual, rel=1e-3)
+    assert true <= 1e-8
