@@ -24,7 +24,11 @@ def mgehl(*arguments):
     """Run the command in a process of its own, without MPI variables of this one."""
     environment = {k: v for k, v in os.environ.items() if not k.startswith(("OMPI_COMM", "PMIX_", "PRTE_"))}
     command = [sys.executable, "-m", "mgehl", *arguments]
-    return subprocess.run(command, capture_output=True, text=True, timeout=60, env=environment)
+    done = subprocess.run(command, capture_output=True, text=True, timeout=60, env=environment)
+    # MPI's libraries may have a say on the machine: "[hwloc/linux] ...".
+    own = [line for line in done.stderr.splitlines(keepends=True) if not line.startswith("[")]
+    done.stderr = "".join(own)
+    return done
 
 
 def exit_status(arguments):
