@@ -13,8 +13,8 @@ from mgehl.grid.hierarchy import Hierarchy
 from mgehl.output import files
 from mgehl.output.progress import Progress, trust_block
 from mgehl.output.result import Work, summarise
-from mgehl.solver.nested import nested_iteration
 from mgehl.solver.from_config import contact_from, mesh_from, settings_from
+from mgehl.solver.nested import nested_iteration
 
 
 @dataclass
