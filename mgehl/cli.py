@@ -90,11 +90,17 @@ def split_options(arguments):
 
 def _run(options, comm):
     """Solve on all ranks; errors of the user's making end in one line and status 2."""
+    from petsc4py import PETSc
+
     from mgehl.output.files import OutputError, on_first_rank, prepare_directory
+    from mgehl.plausibility import check_contact
+    from mgehl.solver.from_config import contact_from
+    from mgehl.solver.newton import UnusableOption
 
     try:
         config = load_config(options.config, options.settings)
         check_ranks(comm.size)
+        check_contact(config, contact_from(config))
         name = Path(options.config or default_config()).stem
         directory = Path(options.out or Path("runs") / name)
         on_first_rank(comm, prepare_directory, directory, options.force)
@@ -104,10 +110,14 @@ def _run(options, comm):
         if options.quiet and not result.converged and comm.rank == 0:
             print(f"mgehl: not converged: {result.reason}", file=sys.stderr)
         return CONVERGED if result.converged else NOT_CONVERGED
-    except (ConfigError, OutputError) as error:
+    except (ConfigError, OutputError, UnusableOption) as error:
         if comm.rank == 0:
             print(f"mgehl: {error}", file=sys.stderr)
         return USAGE
+    except PETSc.Error as error:
+        # Mostly an option that this matrix-free solver cannot serve, such as -mgehl_pc_type lu.
+        print(f"mgehl: PETSc: {' '.join(str(error).split())[:200]}", file=sys.stderr, flush=True)
+        comm.Abort(1)
     except Exception:
         # One rank's failure must not leave the others waiting.
         print(f"mgehl: rank {comm.rank} failed", file=sys.stderr)
@@ -121,11 +131,14 @@ def _collect(options):
 
     try:
         rows = collect(options.runs)
+        if options.out:
+            write_csv(Path(options.out), rows)
     except OSError as error:
-        print(f"mgehl: {error.filename}: cannot be read: {error.strerror}", file=sys.stderr)
+        print(f"mgehl: {error.filename}: {error.strerror}", file=sys.stderr)
         return USAGE
-    if options.out:
-        write_csv(Path(options.out), rows)
+    except (ValueError, KeyError) as error:
+        print(f"mgehl: a file of these runs is damaged: {error}", file=sys.stderr)
+        return USAGE
     columns = options.columns.split(",") if options.columns else list(rows[0])
     unknown = [column for column in columns if column not in rows[0]]
     if unknown:

@@ -4,7 +4,10 @@ Every mistake is one line that names the key, the value and what is allowed (`Co
 """
 
 import difflib
+import os
+import re
 import sys
+import sysconfig
 import tomllib
 from dataclasses import asdict, dataclass, field, fields
 from functools import cache
@@ -16,9 +19,17 @@ from mgehl.model.lubricant import DENSITY_LAWS, VISCOSITY_LAWS
 COARSEST_NODES = 33
 """Nodes along each side of the coarsest grid, which is solved directly."""
 
+MOES_REPLACES = (("contact", "load"), ("motion", "speed"))
+"""Keys that moes.M and moes.L stand for."""
+
+FARTHEST = 100.0
+"""Largest distance of the domain's edge, in semi-axes of the contact."""
+
+_INSTALLED = Path("share") / "mgehl" / "configs"
 _CONFIG_DIRECTORIES = (
     Path(__file__).resolve().parent.parent / "configs",
-    Path(sys.prefix) / "share" / "mgehl" / "configs",
+    Path(sysconfig.get_path("data")) / _INSTALLED,
+    Path(sysconfig.get_path("data", f"{os.name}_user")) / _INSTALLED,
 )
 """Where configurations live in a checkout, and where an installation puts them."""
 
@@ -38,17 +49,19 @@ def _key(default, help, unit=None, above=None, low=None, high=None, choices=None
 @dataclass(frozen=True)
 class ContactSection:
     kind: str = _key("point", "kind of contact", choices=("point",), kind=str)
-    load: float = _key(800.0, "normal load", "N", above=0.0)
-    radius_x: float = _key(12.7e-3, "reduced radius along the motion", "m", above=0.0)
-    radius_y: float = _key(12.7e-3, "reduced radius across the motion", "m", above=0.0)
-    reduced_modulus: float = _key(219.78e9, "E' of 2/E' = sum of (1 - nu^2)/E", "Pa", above=0.0)
+    load: float = _key(800.0, "normal load", "N", low=1e-6, high=1e9)
+    radius_x: float = _key(12.7e-3, "reduced radius along the motion", "m", low=1e-6, high=100.0)
+    radius_y: float = _key(12.7e-3, "reduced radius across the motion", "m", low=1e-6, high=100.0)
+    reduced_modulus: float = _key(219.78e9, "E' of 2/E' = sum of (1 - nu^2)/E", "Pa", low=1e6, high=1e13)
 
 
 @dataclass(frozen=True)
 class LubricantSection:
-    viscosity: float = _key(0.096, "viscosity at ambient pressure", "Pa*s", above=0.0)
+    viscosity: float = _key(0.096, "viscosity at ambient pressure", "Pa*s", low=1e-6, high=1e4)
     viscosity_law: str = _key("barus", "viscosity-pressure law", choices=tuple(VISCOSITY_LAWS), kind=str)
-    pressure_viscosity: float = _key(18.2e-9, "pressure-viscosity coefficient", "1/Pa", above=0.0)
+    pressure_viscosity: float = _key(
+        18.2e-9, "pressure-viscosity coefficient", "1/Pa", low=1e-10, high=1e-6
+    )
     density_law: str = _key(
         "dowson-higginson", "density-pressure law", choices=tuple(DENSITY_LAWS), kind=str
     )
@@ -56,13 +69,13 @@ class LubricantSection:
 
 @dataclass(frozen=True)
 class MotionSection:
-    speed: float = _key(5e-6, "entrainment speed u of the flow rho u h", "m/s", above=0.0)
+    speed: float = _key(5e-6, "entrainment speed u of the flow rho u h", "m/s", low=1e-12, high=1e3)
 
 
 @dataclass(frozen=True)
 class MoesSection:
-    M: float | None = _key(None, "Moes load number, instead of load and speed", "", above=0.0)
-    L: float | None = _key(None, "Moes material number, instead of load and speed", "", above=0.0)
+    M: float | None = _key(None, "Moes load number, instead of load and speed", "", low=1.0, high=1e7)
+    L: float | None = _key(None, "Moes material number, instead of load and speed", "", low=0.1, high=100.0)
 
 
 @dataclass(frozen=True)
@@ -94,6 +107,12 @@ class SolverSection:
     release_budget: int = _key(
         2, "times a contact node may be released on Eq. 2 after convergence", low=0, high=100, kind=int
     )
+
+
+_UNIT = r"[A-Za-zµ°]+(?:(?:\^|\*\*)-?\d)?"
+_QUANTITY = re.compile(rf"([-+]?[\d.]+(?:[eE][-+]?\d+)?)\s*((?:1\s*)?/)?\s*({_UNIT}(?:[ */]+{_UNIT})*)?")
+_NO_MATCH = re.match("(?P<number>)(?P<per>)(?P<units>)", "")
+"""A quantity such as "7.5 mm/s" or "18.2 1/GPa", and one without a number, which no float reads."""
 
 
 @dataclass(frozen=True)
@@ -136,6 +155,11 @@ def load_config(path=None, settings=()):
     Raises ConfigError for anything that cannot be used.
     """
     tables = _read_toml(Path(path) if path else default_config())
+    if any(setting.strip().startswith("moes.") for setting in settings):
+        # Moes numbers set by hand replace the file's load and speed.
+        for section, key in MOES_REPLACES:
+            if isinstance(tables.get(section), dict):
+                tables[section].pop(key, None)
     for setting in settings:
         _apply_setting(tables, setting)
     return config_from_tables(tables)
@@ -155,7 +179,7 @@ def config_from_tables(tables):
     sections = {}
     for name, table in tables.items():
         if name not in SECTIONS:
-            raise ConfigError(f"{name}: unknown section{_closest(name, SECTIONS)}")
+            raise ConfigError(f"{name} = {table!r}: unknown section{_closest(name, SECTIONS)}")
         if not isinstance(table, dict):
             raise ConfigError(f"{name} = {table!r}: is a section, its keys go under [{name}]")
         sections[name] = _section(name, table)
@@ -211,8 +235,10 @@ def _with_unit(key, unit, text):
     import pint  # slow to import, so only where a unit is met
 
     example = f'a number in {unit or "no unit"} or a string such as "1 {unit}"'
+    # Only a number and a unit: pint would also evaluate an expression, 9**9**9 for one.
+    number, per, units = (_QUANTITY.fullmatch(text.strip()) or _NO_MATCH).groups()
     try:
-        quantity = _units().Quantity(text)
+        quantity = float(number) * _units()(f"{'1/' if per else ''}{units or 'dimensionless'}")
         return float(quantity.to(unit or "dimensionless").magnitude)
     except pint.DimensionalityError:
         raise ConfigError(f"{key} = {text!r}: wrong unit; must be {example}") from None
@@ -250,8 +276,10 @@ def _describe_range(rules):
 def _interval(key, value):
     numbers = isinstance(value, list | tuple) and len(value) == 2
     numbers = numbers and all(_is_number(end) for end in value)
-    if not numbers or not (value[0] < -1.0 and value[1] > 1.0):
-        raise ConfigError(f"{key} = {value!r}: must be two numbers [first < -1, last > 1]")
+    if not numbers or not (-FARTHEST <= value[0] < -1.0 and 1.0 < value[1] <= FARTHEST):
+        raise ConfigError(
+            f"{key} = {value!r}: must be two numbers [first < -1, last > 1] within {FARTHEST:g}"
+        )
     return float(value[0]), float(value[1])
 
 
@@ -265,7 +293,7 @@ def _check_together(config, tables):
         missing = "moes.L" if config.moes.L is None else "moes.M"
         raise ConfigError(f"{missing}: must be given too, moes.M and moes.L go together")
     if config.moes.M is not None:
-        for section, key in (("contact", "load"), ("motion", "speed")):
+        for section, key in MOES_REPLACES:
             if key in tables.get(section, {}):
                 raise ConfigError(
                     f"{section}.{key} = {tables[section][key]!r}: cannot be given with moes.M and moes.L"
@@ -296,7 +324,8 @@ def _apply_setting(tables, setting):
             f"--set {' '.join(setting.split())}: must be section.key=value, such as grid.nodes=513"
         )
     try:
-        value = tomllib.loads(f"value = {text}")["value"]
+        parsed = tomllib.loads(f"value = {text}")
+        value = parsed["value"] if len(parsed) == 1 else text.strip()
     except tomllib.TOMLDecodeError:
         value = text.strip()
     table = tables.setdefault(section, {})

@@ -38,7 +38,7 @@ def run(config, directory, comm, speak=True):
         problem, outcome = nested_iteration(hierarchy, contact, settings, progress)
         work = Work(hierarchy.convolutions, progress.newton_steps)
         wall = time.perf_counter() - started
-        result = summarise(problem, outcome, work, wall, versions())
+        result = summarise(problem, outcome, settings.newton.tolerance, work, wall, versions())
         state = outcome.state
         fields = Fields(*(problem.grid.gather(array) for array in (state.P, state.H, state.status)))
     finally:

@@ -120,7 +120,7 @@ BAD = [
     (["run", "--set", "grid.nodes=66"], ["grid.nodes = 66", "65 or 129"]),
     (["run", "--set", "grid.nodes=17"], ["grid.nodes = 17", "at least 65"]),
     (["run", "--set", "grid.x=[-0.5, 1.0]"], ["grid.x"]),
-    (["run", "--set", "contact.load=-1"], ["contact.load = -1", "above 0"]),
+    (["run", "--set", "contact.load=-1"], ["contact.load = -1", "at least"]),
     (["run", "--set", "contact.load=nan"], ["contact.load"]),
     (["run", "--set", "motion.speed=3 kg"], ["motion.speed", "wrong unit", "m/s"]),
     (["run", "--set", "motion.speed=fast"], ["motion.speed", "fast"]),

@@ -36,6 +36,10 @@ class Deflection:
         )
         self._spectrum = self._transform_kernel(deflection_scale)
 
+    def destroy(self):
+        """Free the MPI datatypes."""
+        self._transpose.destroy()
+
     def __call__(self, P):
         """Deflection (lines, nx) by the pressure P (lines, nx), zero on boundary nodes.
 
@@ -90,6 +94,11 @@ class Transpose:
             self._column_parts.append(
                 _part(whole_columns, (height, my_columns), (int(line_starts[rank]), 0))
             )
+
+    def destroy(self):
+        """Free the MPI datatypes."""
+        for part in (*self._line_parts, *self._column_parts):
+            part.Free()
 
     def to_columns(self, by_lines, by_columns):
         """Send lines, receive columns: (my lines, columns) to (all lines, my columns)."""

@@ -101,13 +101,6 @@ class Grid:
         parts = self.comm.gather(np.ascontiguousarray(array))
         return None if parts is None else np.concatenate(parts)
 
-    def scatter(self, array):
-        """The local lines of a whole (ny, nx) array that rank 0 holds."""
-        parts = None
-        if self.comm.rank == 0:
-            parts = [array[a:b] for a, b in zip(self.starts[:-1], self.starts[1:], strict=True)]
-        return self.comm.scatter(parts)
-
 
 def build_grids(mesh, coarsest_nodes, comm):
     """Grids from the coarsest to `mesh`, each of every other node of the next.

@@ -23,6 +23,6 @@ class Hierarchy:
         return work / self.grids[-1].mesh.nodes
 
     def destroy(self):
-        """Free the PETSc objects of the grids."""
-        for grid in self.grids:
-            grid.destroy()
+        """Free the PETSc and MPI objects of the grids."""
+        for thing in (*self.deflections, *self.grids):
+            thing.destroy()

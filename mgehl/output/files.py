@@ -48,9 +48,9 @@ def prepare_directory(path, force):
     Raises OutputError if it exists and `force` is not given, or if it cannot be written.
     """
     path = Path(path)
-    if path.exists() and not force:
-        raise OutputError(f"{path} exists: add --force to replace it, or choose another with --out")
     try:
+        if path.exists() and not force:
+            raise OutputError(f"{path} exists: add --force to replace it, or choose another with --out")
         path.mkdir(parents=True, exist_ok=True)
         for name in NAMES:
             # An old result must not pass for that of a run that was cut off.

@@ -9,7 +9,8 @@ from mgehl.model.contact import Groups
 from mgehl.solver.verification import check_pressure_inequality, complementarity_error, flux_imbalance
 
 COMPLEMENTARITY_TOLERANCE = 1e-6
-"""Breach of P >= 0, H >= 0 and no inflow (units of P and H) that a converged answer may have."""
+"""Breach of P >= 0, H >= 0 and no inflow (units of P and H) that a converged answer may have,
+however loose the tolerance of the residual."""
 
 
 @dataclass(frozen=True)
@@ -94,15 +95,21 @@ class Result:
     versions: dict
 
 
-def summarise(problem, outcome, work, wall_s, versions):
-    """Verify the final state and put the `Result` together (collective)."""
-    grid, contact, state = problem.grid, problem.contact, outcome.state
+def summarise(problem, outcome, tolerance, work, wall_s, versions):
+    """Verify the final state and put the `Result` together (collective).
+
+    Gap, residual and load are evaluated anew from P, H0 and the partition; nothing that the
+    iteration said of them is trusted.
+    """
+    grid, contact = problem.grid, problem.contact
+    state = outcome.state = problem.state(outcome.state.P, outcome.state.H0, outcome.state.status)
+    residual = problem.rms(problem.residual(state, problem.inflow(state)))
+    load_error = problem.load_deficit(state.P)
     nm = 1e9 * contact.film_scale
     central, minimum = problem.films(state)
-    last = outcome.cycles[-1]
     inequality = check_pressure_inequality(grid, state.P, state.status)
     complementarity = complementarity_error(problem, state)
-    converged, reason = _verdict(outcome, inequality, complementarity)
+    converged, reason = _verdict(outcome, tolerance, residual, load_error, inequality, complementarity)
     moes = contact.film_scale * contact.moes_scale
     return Result(
         converged=converged,
@@ -110,8 +117,8 @@ def summarise(problem, outcome, work, wall_s, versions):
         central_film_nm=central * nm,
         minimum_film_nm=minimum * nm,
         max_pressure_GPa=1e-9 * contact.hertz.p_h * grid.max(state.P),
-        residual=last.residual,
-        load_error=last.load_error,
+        residual=residual,
+        load_error=load_error,
         complementarity_error=complementarity,
         flux_imbalance=flux_imbalance(problem, state),
         contact=_contact_result(grid, state, nm),
@@ -140,11 +147,15 @@ def resolution(contact, mesh):
     return Resolution(cells, verdict)
 
 
-def _verdict(outcome, inequality, complementarity):
+def _verdict(outcome, tolerance, residual, load_error, inequality, complementarity):
     """Converged only if residual, load, sets, complementarity and Eq. 2 all hold."""
     if not outcome.converged:
         return False, outcome.reason
-    if complementarity > COMPLEMENTARITY_TOLERANCE:
+    if not residual <= tolerance:
+        return False, f"the residual of the final state is {residual:.1e}, above {tolerance:.1e}"
+    if not abs(load_error) <= tolerance:
+        return False, f"the load is off by {load_error:.1e}, more than {tolerance:.1e}"
+    if not complementarity <= COMPLEMENTARITY_TOLERANCE:
         return False, f"complementarity is broken by {complementarity:.1e}"
     if inequality.violations:
         count = len(inequality.violations)

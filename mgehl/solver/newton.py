@@ -13,8 +13,15 @@ from mgehl.solver.cavitation import relax_cavitation_set
 from mgehl.solver.partition import Changes, Partition
 from mgehl.solver.problem import State
 
+FLUID_SHARE = 0.3
+"""Part of the tolerance that the fluid solved apart may use up: 0.3^2 of the mean square."""
+
 SETTLED_RESIDUAL = 1e-4
 """Residual below which Eq. 2 may decide on the contact set."""
+
+
+class UnusableOption(Exception):
+    """A PETSc option that this solver cannot follow; the message is one line for the user."""
 
 
 @dataclass(frozen=True)
@@ -60,6 +67,9 @@ class Outcome:
 class Newton:
     """Solves one `PointProblem` with a `MultigridSolver`.
 
+    `solve` holds the iteration, because the sets change within it. SNES is given the function and
+    the Jacobian of the present partition besides, for its viewers and whoever probes it.
+
     With a `fluid` solver (`RigidGapFluid`) the separable fluid is solved at each new gap, without
     convolutions, and left out of the linear systems: right where solid contact carries the load.
     `monitor` is called with every `Cycle`. PETSc objects are freed by `free`.
@@ -79,6 +89,10 @@ class Newton:
         self._snes.setTolerances(atol=settings.tolerance, rtol=0.0, max_it=settings.max_steps)
         multigrid.configure(self._snes.getKSP(), settings.linear_tolerance)
         self._snes.setFromOptions()
+        if self._snes.getType() != PETSc.SNES.Type.PYTHON:
+            raise UnusableOption(
+                f"-{options_prefix}snes_type: the solver is the SNES type python, no other"
+            )
 
     def free(self):
         """Destroy the PETSc objects, the multigrid solver's too: the KSP refers to them.
@@ -133,7 +147,7 @@ class Newton:
         problem = self._problem
         if self._fluid:
             before = state.status.copy()
-            self._fluid.solve(state, 0.3 * self._settings.tolerance)
+            self._fluid.solve(state, FLUID_SHARE * self._settings.tolerance)
             changes.cavitated += problem.grid.count(before != state.status)
         inflow = problem.inflow(state)
         moved = relax_cavitation_set(problem, state, inflow)
@@ -191,7 +205,8 @@ class Newton:
         """
         cycle = outcome.cycles[-1]
         settled = cycle.changes.entered + cycle.changes.released == 0
-        if settled and cycle.residual <= max(SETTLED_RESIDUAL, self._settings.tolerance):
+        steps_left = cycle.step < self._snes.getTolerances()[3]
+        if steps_left and settled and cycle.residual <= max(SETTLED_RESIDUAL, self._settings.tolerance):
             changes.released += self._partition.release_violations(outcome.state)
         return changes.released > 0
 

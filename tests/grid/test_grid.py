@@ -88,9 +88,8 @@ def test_reductions_of_nothing_give_the_initial_value(hierarchy):
     assert grid.min(nothing, initial=5.0) == 5.0
 
 
-def test_gather_and_scatter_are_inverse(hierarchy):
+def test_one_rank_gathers_what_it_has(hierarchy):
     grid = hierarchy.grids[0]
     values = np.random.default_rng(1).random(grid.shape)
     whole = grid.gather(values)
-    assert whole.shape == (33, 33)
-    np.testing.assert_array_equal(grid.scatter(whole), values)
+    np.testing.assert_array_equal(whole, values)

@@ -23,8 +23,33 @@ def outcome(tiny_problem):
 
 
 @pytest.fixture
-def summary(tiny_problem, outcome):
-    return lambda: summarise(tiny_problem, outcome, Work(12.5, 7), 3.0, {"mgehl": "0"})
+def summary(tiny_problem, outcome, monkeypatch):
+    """The record of `outcome`, whose state is taken as it is and called a good one."""
+
+    def make(residual=1e-9, load=-2e-10):
+        monkeypatch.setattr(tiny_problem, "state", lambda P, H0, status: outcome.state)
+        monkeypatch.setattr(
+            tiny_problem, "residual", lambda state, inflow: np.full(state.P.shape, residual)
+        )
+        monkeypatch.setattr(tiny_problem, "load_deficit", lambda P: load)
+        return summarise(tiny_problem, outcome, 1e-8, Work(12.5, 7), 3.0, {"mgehl": "0"})
+
+    return make
+
+
+@pytest.mark.parametrize("wrong", [{"residual": 2e-8}, {"load": -2e-8}, {"residual": np.nan}])
+def test_a_final_state_beyond_the_tolerance_is_not_converged_whatever_newton_said(summary, wrong):
+    result = summary(**wrong)
+    assert not result.converged
+    assert next(iter(wrong)) in result.reason
+
+
+def test_gap_residual_and_load_are_evaluated_anew(tiny_problem, outcome):
+    result = summarise(tiny_problem, outcome, 1e-8, Work(12.5, 7), 3.0, {})
+    state = tiny_problem.state(outcome.state.P, 0.0, outcome.state.status)
+    assert result.residual == tiny_problem.rms(tiny_problem.residual(state, tiny_problem.inflow(state)))
+    assert result.load_error == tiny_problem.load_deficit(state.P)
+    assert not result.converged
 
 
 def touch(state, nodes):
@@ -39,7 +64,7 @@ def test_a_good_answer_converges(summary, tiny_problem):
     nm = 1e9 * tiny_problem.contact.film_scale
     assert result.central_film_nm == pytest.approx(0.5 * nm)
     assert result.minimum_film_nm == pytest.approx(0.5 * nm)
-    assert (result.residual, result.load_error) == (1e-9, -2e-10)
+    assert (result.residual, result.load_error) == (pytest.approx(1e-9), -2e-10)
     assert (result.contact.nodes, result.contact.x_nodes, result.contact.y_nodes) == (0, None, None)
     assert result.contact.largest_gap_nm == 0.0
     assert (result.work.convolutions, result.work.newton_steps) == (12.5, 7)
