@@ -95,7 +95,7 @@ def _run(options, comm):
     from mgehl.output.files import OutputError, on_first_rank, prepare_directory
     from mgehl.plausibility import check_contact
     from mgehl.solver.from_config import contact_from
-    from mgehl.solver.newton import UnusableOption
+    from mgehl.solver.newton import OptionError
 
     try:
         config = load_config(options.config, options.settings)
@@ -110,7 +110,7 @@ def _run(options, comm):
         if options.quiet and not result.converged and comm.rank == 0:
             print(f"mgehl: not converged: {result.reason}", file=sys.stderr)
         return CONVERGED if result.converged else NOT_CONVERGED
-    except (ConfigError, OutputError, UnusableOption) as error:
+    except (ConfigError, OutputError, OptionError) as error:
         if comm.rank == 0:
             print(f"mgehl: {error}", file=sys.stderr)
         return USAGE

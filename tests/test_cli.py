@@ -186,3 +186,15 @@ def test_help(capsys):
 )
 def test_words_are_split_at_the_first_single_dash(words, own, petsc):
     assert split_options(words.split()) == (own.split(), petsc.split())
+
+
+def test_a_solver_type_that_cannot_be_followed_is_one_line(tmp_path):
+    done = mgehl(*DRY, "--out", "here", "-mgehl_snes_type", "newtonls")
+    assert done.returncode == 2
+    assert done.stderr.startswith("mgehl: -mgehl_snes_type") and len(done.stderr.splitlines()) == 1
+
+
+def test_a_looser_option_does_not_loosen_the_verdict(tmp_path):
+    done = mgehl(*DRY, "--out", "here", "-mgehl_snes_atol", "1e30")
+    assert done.returncode == 1
+    assert "NOT CONVERGED: the residual of the final state" in done.stdout

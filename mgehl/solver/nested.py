@@ -112,10 +112,12 @@ def _solve_level(hierarchy, level, problem, state, limits, settings, tell):
     prefix, fluid = settings.cycle.options_prefix, None
     if settings.nested.start == "contact":
         fluid = RigidGapFluid(problem, multigrid(rigid=True), prefix + "fluid_")
-    newton = Newton(problem, multigrid(rigid=False), limits, fluid, prefix, tell)
     try:
-        return newton.run(state)
+        newton = Newton(problem, multigrid(rigid=False), limits, fluid, prefix, tell)
+        try:
+            return newton.run(state)
+        finally:
+            newton.free()
     finally:
-        newton.free()
         if fluid:
             fluid.free()

@@ -20,7 +20,7 @@ SETTLED_RESIDUAL = 1e-4
 """Residual below which Eq. 2 may decide on the contact set."""
 
 
-class UnusableOption(Exception):
+class OptionError(Exception):
     """A PETSc option that this solver cannot follow; the message is one line for the user."""
 
 
@@ -90,7 +90,8 @@ class Newton:
         multigrid.configure(self._snes.getKSP(), settings.linear_tolerance)
         self._snes.setFromOptions()
         if self._snes.getType() != PETSc.SNES.Type.PYTHON:
-            raise UnusableOption(
+            self.free()
+            raise OptionError(
                 f"-{options_prefix}snes_type: the solver is the SNES type python, no other"
             )
 
