@@ -5,14 +5,12 @@ Every mistake is one line that names the key, the value and what is allowed (`Co
 
 import difflib
 import os
-import re
-import sys
 import sysconfig
 import tomllib
-from dataclasses import asdict, dataclass, field, fields
-from functools import cache
+from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 
+from mgehl.config_value import ConfigError, key_field, read_value
 from mgehl.discretization.couette import SCHEMES
 from mgehl.model.lubricant import DENSITY_LAWS, VISCOSITY_LAWS
 
@@ -21,9 +19,6 @@ COARSEST_NODES = 33
 
 MOES_REPLACES = (("contact", "load"), ("motion", "speed"))
 """Keys that moes.M and moes.L stand for."""
-
-FARTHEST = 100.0
-"""Largest distance of the domain's edge, in semi-axes of the contact."""
 
 _INSTALLED = Path("share") / "mgehl" / "configs"
 _CONFIG_DIRECTORIES = (
@@ -34,85 +29,81 @@ _CONFIG_DIRECTORIES = (
 """Where configurations live in a checkout, and where an installation puts them."""
 
 
-class ConfigError(ValueError):
-    """A configuration that cannot be used; the message is one line for the user."""
-
-
-def _key(default, help, unit=None, above=None, low=None, high=None, choices=None, kind=float):
-    rules = {
-        "help": help, "unit": unit, "above": above, "low": low, "high": high,
-        "choices": choices, "kind": kind,
-    }  # fmt: skip
-    return field(default=default, metadata=rules)
-
-
 @dataclass(frozen=True)
 class ContactSection:
-    kind: str = _key("point", "kind of contact", choices=("point",), kind=str)
-    load: float = _key(800.0, "normal load", "N", low=1e-6, high=1e9)
-    radius_x: float = _key(12.7e-3, "reduced radius along the motion", "m", low=1e-6, high=100.0)
-    radius_y: float = _key(12.7e-3, "reduced radius across the motion", "m", low=1e-6, high=100.0)
-    reduced_modulus: float = _key(219.78e9, "E' of 2/E' = sum of (1 - nu^2)/E", "Pa", low=1e6, high=1e13)
+    kind: str = key_field("point", "kind of contact", choices=("point",), kind=str)
+    load: float = key_field(800.0, "normal load", "N", low=1e-6, high=1e9)
+    radius_x: float = key_field(12.7e-3, "reduced radius along the motion", "m", low=1e-6, high=100.0)
+    radius_y: float = key_field(12.7e-3, "reduced radius across the motion", "m", low=1e-6, high=100.0)
+    reduced_modulus: float = key_field(
+        219.78e9, "E' of 2/E' = sum of (1 - nu^2)/E", "Pa", low=1e6, high=1e13
+    )
 
 
 @dataclass(frozen=True)
 class LubricantSection:
-    viscosity: float = _key(0.096, "viscosity at ambient pressure", "Pa*s", low=1e-6, high=1e4)
-    viscosity_law: str = _key("barus", "viscosity-pressure law", choices=tuple(VISCOSITY_LAWS), kind=str)
-    pressure_viscosity: float = _key(
+    viscosity: float = key_field(0.096, "viscosity at ambient pressure", "Pa*s", low=1e-6, high=1e4)
+    viscosity_law: str = key_field(
+        "barus", "viscosity-pressure law", choices=tuple(VISCOSITY_LAWS), kind=str
+    )
+    pressure_viscosity: float = key_field(
         18.2e-9, "pressure-viscosity coefficient", "1/Pa", low=1e-10, high=1e-6
     )
-    density_law: str = _key(
+    density_law: str = key_field(
         "dowson-higginson", "density-pressure law", choices=tuple(DENSITY_LAWS), kind=str
     )
 
 
 @dataclass(frozen=True)
 class MotionSection:
-    speed: float = _key(5e-6, "entrainment speed u of the flow rho u h", "m/s", low=1e-12, high=1e3)
+    speed: float = key_field(5e-6, "entrainment speed u of the flow rho u h", "m/s", low=1e-12, high=1e3)
 
 
 @dataclass(frozen=True)
 class MoesSection:
-    M: float | None = _key(None, "Moes load number, instead of load and speed", "", low=1.0, high=1e7)
-    L: float | None = _key(None, "Moes material number, instead of load and speed", "", low=0.1, high=100.0)
+    M: float | None = key_field(None, "Moes load number, instead of load and speed", "", low=1.0, high=1e7)
+    L: float | None = key_field(
+        None, "Moes material number, instead of load and speed", "", low=0.1, high=100.0
+    )
 
 
 @dataclass(frozen=True)
 class GridSection:
-    nodes: int = _key(257, "nodes along each side, 2^k + 1", low=65, high=16385, kind=int)
-    x: tuple = _key((-1.9, 1.3), "domain along x in units of the Hertz semi-axis a", kind=tuple)
-    y: tuple = _key((-1.5, 1.5), "domain along y in units of the Hertz semi-axis b", kind=tuple)
+    nodes: int = key_field(257, "nodes along each side, 2^k + 1", low=65, high=16385, kind=int)
+    x: tuple = key_field((-1.9, 1.3), "domain along x in units of the Hertz semi-axis a", kind=tuple)
+    y: tuple = key_field((-1.5, 1.5), "domain along y in units of the Hertz semi-axis b", kind=tuple)
 
 
 @dataclass(frozen=True)
 class DiscretizationSection:
-    couette: str = _key("1B", "differential scheme of the Couette flow", choices=tuple(SCHEMES), kind=str)
-    film_threshold: float = _key(0.02e-9, "gap H_th at which a node is in contact", "m", low=0.0)
+    couette: str = key_field(
+        "1B", "differential scheme of the Couette flow", choices=tuple(SCHEMES), kind=str
+    )
+    film_threshold: float = key_field(0.02e-9, "gap H_th at which a node is in contact", "m", low=0.0)
 
 
 @dataclass(frozen=True)
 class SolverSection:
-    tolerance: float = _key(1e-8, "rms residual and load error at convergence", above=0.0, high=1e-2)
-    start: str = _key(
+    tolerance: float = key_field(1e-8, "rms residual and load error at convergence", above=0.0, high=1e-2)
+    start: str = key_field(
         "film", "first guess: a full film, or the Hertz ellipse in contact",
         choices=("film", "contact"), kind=str,
     )  # fmt: skip
-    max_steps: int = _key(60, "Newton steps on one grid at the most", low=1, high=10000, kind=int)
-    linear_tolerance: float = _key(0.1, "relative tolerance of GMRES in a Newton step", above=0.0, high=0.5)
-    sweeps: int = _key(1, "line relaxations before and after the coarse grids", low=1, high=10, kind=int)
-    omega: float = _key(0.8, "damping of the line relaxation", above=0.0, high=1.0)
-    first_nodes: int = _key(65, "nodes of the first grid of the nested iteration", low=33, kind=int)
-    inlet_cells: float = _key(2.0, "cells the inlet gets on coarse grids by raising the speed", low=0.0)
-    release_budget: int = _key(
+    max_steps: int = key_field(60, "Newton steps on one grid at the most", low=1, high=10000, kind=int)
+    linear_tolerance: float = key_field(
+        0.1, "relative tolerance of GMRES in a Newton step", above=0.0, high=0.5
+    )
+    sweeps: int = key_field(
+        1, "line relaxations before and after the coarse grids", low=1, high=10, kind=int
+    )
+    omega: float = key_field(0.8, "damping of the line relaxation", above=0.0, high=1.0)
+    first_nodes: int = key_field(65, "nodes of the first grid of the nested iteration", low=33, kind=int)
+    inlet_cells: float = key_field(
+        2.0, "cells the inlet gets on coarse grids by raising the speed", low=0.0
+    )
+    release_budget: int = key_field(
         2, "times a contact node may be released on Eq. 2 after convergence", low=0, high=100, kind=int
     )
-
-
-_UNIT = r"[A-Za-zµ°]+(?:(?:\^|\*\*)-?\d)?"
-_QUANTITY = re.compile(rf"([-+]?[\d.]+(?:[eE][-+]?\d+)?)\s*((?:1\s*)?/)?\s*({_UNIT}(?:[ */]+{_UNIT})*)?")
-_NO_MATCH = re.match("(?P<number>)(?P<per>)(?P<units>)", "")
-"""A quantity such as "7.5 mm/s" or "18.2 1/GPa", and one without a number, which no float reads."""
 
 
 @dataclass(frozen=True)
@@ -194,93 +185,8 @@ def _section(name, table):
         if key not in known:
             raise ConfigError(f"{name}.{key} = {table[key]!r}: unknown key{_closest_key(name, key)}")
     return SECTIONS[name](
-        **{key: _value(f"{name}.{key}", known[key].metadata, table[key]) for key in table}
+        **{key: read_value(f"{name}.{key}", known[key].metadata, table[key]) for key in table}
     )
-
-
-def _value(key, rules, value):
-    if rules["choices"]:
-        if value not in rules["choices"]:
-            raise ConfigError(f"{key} = {value!r}: must be one of {', '.join(rules['choices'])}")
-        return value
-    if rules["kind"] is tuple:
-        return _interval(key, value)
-    number = _number(key, rules, value)
-    if not _in_range(rules, number):
-        raise ConfigError(f"{key} = {value!r}: must be {_describe_range(rules)}")
-    return number
-
-
-def _number(key, rules, value):
-    if isinstance(value, str) and rules["unit"] is not None:
-        value = _with_unit(key, rules["unit"], value)
-    if not _is_number(value):
-        raise ConfigError(f"{key} = {value!r}: must be {_describe_range(rules)}")
-    if rules["kind"] is int:
-        if value != int(value):
-            raise ConfigError(f"{key} = {value!r}: must be {_describe_range(rules)}")
-        return int(value)
-    return float(value)
-
-
-def _is_number(value):
-    """A finite number that a double holds."""
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        return False
-    return abs(value) <= sys.float_info.max
-
-
-def _with_unit(key, unit, text):
-    """The SI magnitude of a string such as "7.5 mm/s"."""
-    import pint  # slow to import, so only where a unit is met
-
-    example = f'a number in {unit or "no unit"} or a string such as "1 {unit}"'
-    # Only a number and a unit: pint would also evaluate an expression, 9**9**9 for one.
-    number, per, units = (_QUANTITY.fullmatch(text.strip()) or _NO_MATCH).groups()
-    try:
-        quantity = float(number) * _units()(f"{'1/' if per else ''}{units or 'dimensionless'}")
-        return float(quantity.to(unit or "dimensionless").magnitude)
-    except pint.DimensionalityError:
-        raise ConfigError(f"{key} = {text!r}: wrong unit; must be {example}") from None
-    except Exception:
-        raise ConfigError(f"{key} = {text!r}: not understood; must be {example}") from None
-
-
-@cache
-def _units():
-    import pint
-
-    return pint.UnitRegistry()
-
-
-def _in_range(rules, number):
-    above, low, high = rules["above"], rules["low"], rules["high"]
-    return (
-        (above is None or number > above)
-        and (low is None or number >= low)
-        and (high is None or number <= high)
-    )
-
-
-def _describe_range(rules):
-    what = "a whole number" if rules["kind"] is int else "a number"
-    if rules["unit"]:
-        what += f" in {rules['unit']} (or a string with a unit)"
-    limits = []
-    for word, name in (("above", "above"), ("low", "at least"), ("high", "at most")):
-        if rules[word] is not None:
-            limits.append(f"{name} {rules[word]:g}")
-    return " ".join([what, " and ".join(limits)]).strip()
-
-
-def _interval(key, value):
-    numbers = isinstance(value, list | tuple) and len(value) == 2
-    numbers = numbers and all(_is_number(end) for end in value)
-    if not numbers or not (-FARTHEST <= value[0] < -1.0 and 1.0 < value[1] <= FARTHEST):
-        raise ConfigError(
-            f"{key} = {value!r}: must be two numbers [first < -1, last > 1] within {FARTHEST:g}"
-        )
-    return float(value[0]), float(value[1])
 
 
 def _check_together(config, tables):

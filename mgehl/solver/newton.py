@@ -91,9 +91,7 @@ class Newton:
         self._snes.setFromOptions()
         if self._snes.getType() != PETSc.SNES.Type.PYTHON:
             self.free()
-            raise OptionError(
-                f"-{options_prefix}snes_type: the solver is the SNES type python, no other"
-            )
+            raise OptionError(f"-{options_prefix}snes_type: the solver is the SNES type python, no other")
 
     def free(self):
         """Destroy the PETSc objects, the multigrid solver's too: the KSP refers to them.
