@@ -1,6 +1,7 @@
 """The command line.
 
     mpiexec -n 2 python -m mgehl run [CONFIG] [--set key=value ...] [--out DIR] [PETSc options]
+    mpiexec -n 2 python -m mgehl study NAME [--nodes 129,257] [--out DIR] [PETSc options]
     python -m mgehl collect RUN [RUN ...] [--out FILE.csv]
     python -m mgehl keys
 
@@ -16,6 +17,14 @@ from dataclasses import fields
 from pathlib import Path
 
 from mgehl.config import SECTIONS, ConfigError, check_ranks, default_config, load_config
+
+STUDIES = {
+    "wedge": "the rigid wedge bearing, Figures 7 to 10, convergence to the exact series",
+    "line": "line-contact films against the formulas",
+    "inlet": "the line contact from under-resolved to resolved inlets, from both starts",
+    "methods": "Newton with multigrid beside the paper's relaxation, interface conditions beside none",
+    "schemes": "films of the point contact by every differential scheme",
+}
 
 CONVERGED, NOT_CONVERGED, USAGE = 0, 1, 2
 """Exit statuses."""
@@ -72,6 +81,18 @@ def _parser():
     run.add_argument("--out", metavar="DIR", help="directory of the results (default: runs/NAME)")
     run.add_argument("--force", action="store_true", help="write into a directory that exists")
     run.add_argument("--quiet", action="store_true", help="print nothing but errors")
+    study = commands.add_parser(
+        "study",
+        help="solve many cases and make tables and pictures of them",
+        allow_abbrev=False,
+        description="Solve the cases of a study; write its tables (CSV, Markdown) and pictures.",
+        epilog="; ".join(f"{name}: {text}" for name, text in STUDIES.items()),
+    )
+    study.add_argument("study", choices=tuple(STUDIES), metavar="NAME", help=", ".join(STUDIES))
+    study.add_argument("--nodes", metavar="N,N,...", help="grids instead of the study's own")
+    study.add_argument("--out", metavar="DIR", help="directory of the results (default: runs/study-NAME)")
+    study.add_argument("--force", action="store_true", help="write into a directory that exists")
+    study.add_argument("--quiet", action="store_true", help="print nothing but errors")
     collect = commands.add_parser("collect", help="make one table of several run directories")
     collect.add_argument("runs", nargs="+", metavar="RUN", help="run directory")
     collect.add_argument("--out", metavar="FILE", help="write the whole table as CSV, too")
@@ -89,27 +110,14 @@ def split_options(arguments):
 
 
 def _run(options, comm):
-    """Solve on all ranks; errors of the user's making end in one line and status 2."""
+    """Run or study on all ranks; errors of the user's making end in one line and status 2."""
     from petsc4py import PETSc
 
-    from mgehl.output.files import OutputError, on_first_rank, prepare_directory
-    from mgehl.plausibility import check_contact
-    from mgehl.solver.from_config import contact_from
+    from mgehl.output.files import OutputError
     from mgehl.solver.newton import OptionError
 
     try:
-        config = load_config(options.config, options.settings)
-        check_ranks(comm.size)
-        check_contact(config, contact_from(config))
-        name = Path(options.config or default_config()).stem
-        directory = Path(options.out or Path("runs") / name)
-        on_first_rank(comm, prepare_directory, directory, options.force)
-        from mgehl.run import run
-
-        result = run(config, directory, comm, speak=not options.quiet)
-        if options.quiet and not result.converged and comm.rank == 0:
-            print(f"mgehl: not converged: {result.reason}", file=sys.stderr)
-        return CONVERGED if result.converged else NOT_CONVERGED
+        return _run_one(options, comm) if options.command == "run" else _study(options, comm)
     except (ConfigError, OutputError, OptionError) as error:
         if comm.rank == 0:
             print(f"mgehl: {error}", file=sys.stderr)
@@ -124,6 +132,49 @@ def _run(options, comm):
         traceback.print_exc()
         sys.stderr.flush()
         comm.Abort(1)
+
+
+def _run_one(options, comm):
+    from mgehl.output.files import on_first_rank, prepare_directory
+    from mgehl.plausibility import check_contact
+    from mgehl.solver.from_config import contact_from
+
+    config = load_config(options.config, options.settings)
+    check_ranks(comm.size)
+    check_contact(config, contact_from(config))
+    name = Path(options.config or default_config()).stem
+    directory = Path(options.out or Path("runs") / name)
+    on_first_rank(comm, prepare_directory, directory, options.force)
+    from mgehl.run import run
+
+    result = run(config, directory, comm, speak=not options.quiet)
+    if options.quiet and not result.converged and comm.rank == 0:
+        print(f"mgehl: not converged: {result.reason}", file=sys.stderr)
+    return CONVERGED if result.converged else NOT_CONVERGED
+
+
+def _study(options, comm):
+    from importlib import import_module
+
+    from mgehl.output.files import on_first_rank, prepare_directory
+    from mgehl.studies.study import Study
+
+    check_ranks(comm.size)
+    nodes = _nodes(options.nodes)
+    directory = Path(options.out or Path("runs") / f"study-{options.study}")
+    on_first_rank(comm, prepare_directory, directory, options.force)
+    study = Study(directory, comm, nodes, speak=not options.quiet)
+    import_module(f"mgehl.studies.{options.study}").run(study)
+    return CONVERGED
+
+
+def _nodes(text):
+    """The grids of --nodes, checked by the rules of grid.nodes."""
+    if text is None:
+        return ()
+    for each in text.split(","):
+        load_config(settings=[f"grid.nodes={each}"])
+    return tuple(int(each) for each in text.split(","))
 
 
 def _collect(options):

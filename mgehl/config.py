@@ -10,15 +10,29 @@ import tomllib
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 
-from mgehl.config_value import ConfigError, key_field, read_value
-from mgehl.discretization.couette import SCHEMES
-from mgehl.model.lubricant import DENSITY_LAWS, VISCOSITY_LAWS
+from mgehl import config_sections as sections
+from mgehl.config_value import ConfigError, read_value
+from mgehl.model.lubricant import VISCOSITY_LAWS
 
 COARSEST_NODES = 33
 """Nodes along each side of the coarsest grid, which is solved directly."""
 
 MOES_REPLACES = (("contact", "load"), ("motion", "speed"))
 """Keys that moes.M and moes.L stand for."""
+
+FOREIGN = {
+    "point": ("contact.load_per_length", "wedge"),
+    "line": ("contact.load", "contact.radius_y", "grid.y", "moes", "wedge"),
+    "wedge": (
+        "contact.load", "contact.load_per_length", "contact.radius_x", "contact.radius_y",
+        "contact.reduced_modulus", "lubricant.pressure_viscosity",
+        "lubricant.viscosity_law", "lubricant.density_law", "moes", "grid.x", "grid.y",
+        "discretization.contact_model", "discretization.unified_gap", "discretization.film_threshold",
+        "solver.method", "solver.start", "solver.first_nodes", "solver.inlet_cells",
+        "solver.release_budget", "relaxation",
+    ),
+}  # fmt: skip
+"""Sections and keys that a kind of contact has no use for."""
 
 _INSTALLED = Path("share") / "mgehl" / "configs"
 _CONFIG_DIRECTORIES = (
@@ -30,99 +44,30 @@ _CONFIG_DIRECTORIES = (
 
 
 @dataclass(frozen=True)
-class ContactSection:
-    kind: str = key_field("point", "kind of contact", choices=("point",), kind=str)
-    load: float = key_field(800.0, "normal load", "N", low=1e-6, high=1e9)
-    radius_x: float = key_field(12.7e-3, "reduced radius along the motion", "m", low=1e-6, high=100.0)
-    radius_y: float = key_field(12.7e-3, "reduced radius across the motion", "m", low=1e-6, high=100.0)
-    reduced_modulus: float = key_field(
-        219.78e9, "E' of 2/E' = sum of (1 - nu^2)/E", "Pa", low=1e6, high=1e13
-    )
-
-
-@dataclass(frozen=True)
-class LubricantSection:
-    viscosity: float = key_field(0.096, "viscosity at ambient pressure", "Pa*s", low=1e-6, high=1e4)
-    viscosity_law: str = key_field(
-        "barus", "viscosity-pressure law", choices=tuple(VISCOSITY_LAWS), kind=str
-    )
-    pressure_viscosity: float = key_field(
-        18.2e-9, "pressure-viscosity coefficient", "1/Pa", low=1e-10, high=1e-6
-    )
-    density_law: str = key_field(
-        "dowson-higginson", "density-pressure law", choices=tuple(DENSITY_LAWS), kind=str
-    )
-
-
-@dataclass(frozen=True)
-class MotionSection:
-    speed: float = key_field(5e-6, "entrainment speed u of the flow rho u h", "m/s", low=1e-12, high=1e3)
-
-
-@dataclass(frozen=True)
-class MoesSection:
-    M: float | None = key_field(None, "Moes load number, instead of load and speed", "", low=1.0, high=1e7)
-    L: float | None = key_field(
-        None, "Moes material number, instead of load and speed", "", low=0.1, high=100.0
-    )
-
-
-@dataclass(frozen=True)
-class GridSection:
-    nodes: int = key_field(257, "nodes along each side, 2^k + 1", low=65, high=16385, kind=int)
-    x: tuple = key_field((-1.9, 1.3), "domain along x in units of the Hertz semi-axis a", kind=tuple)
-    y: tuple = key_field((-1.5, 1.5), "domain along y in units of the Hertz semi-axis b", kind=tuple)
-
-
-@dataclass(frozen=True)
-class DiscretizationSection:
-    couette: str = key_field(
-        "1B", "differential scheme of the Couette flow", choices=tuple(SCHEMES), kind=str
-    )
-    film_threshold: float = key_field(0.02e-9, "gap H_th at which a node is in contact", "m", low=0.0)
-
-
-@dataclass(frozen=True)
-class SolverSection:
-    tolerance: float = key_field(1e-8, "rms residual and load error at convergence", above=0.0, high=1e-2)
-    start: str = key_field(
-        "film", "first guess: a full film, or the Hertz ellipse in contact",
-        choices=("film", "contact"), kind=str,
-    )  # fmt: skip
-    max_steps: int = key_field(60, "Newton steps on one grid at the most", low=1, high=10000, kind=int)
-    linear_tolerance: float = key_field(
-        0.1, "relative tolerance of GMRES in a Newton step", above=0.0, high=0.5
-    )
-    sweeps: int = key_field(
-        1, "line relaxations before and after the coarse grids", low=1, high=10, kind=int
-    )
-    omega: float = key_field(0.8, "damping of the line relaxation", above=0.0, high=1.0)
-    first_nodes: int = key_field(65, "nodes of the first grid of the nested iteration", low=33, kind=int)
-    inlet_cells: float = key_field(
-        2.0, "cells the inlet gets on coarse grids by raising the speed", low=0.0
-    )
-    release_budget: int = key_field(
-        2, "times a contact node may be released on Eq. 2 after convergence", low=0, high=100, kind=int
-    )
-
-
-@dataclass(frozen=True)
 class Config:
     """A validated configuration."""
 
-    contact: ContactSection = ContactSection()
-    lubricant: LubricantSection = LubricantSection()
-    motion: MotionSection = MotionSection()
-    moes: MoesSection = MoesSection()
-    grid: GridSection = GridSection()
-    discretization: DiscretizationSection = DiscretizationSection()
-    solver: SolverSection = SolverSection()
+    contact: sections.ContactSection = sections.ContactSection()
+    wedge: sections.WedgeSection = sections.WedgeSection()
+    lubricant: sections.LubricantSection = sections.LubricantSection()
+    motion: sections.MotionSection = sections.MotionSection()
+    moes: sections.MoesSection = sections.MoesSection()
+    grid: sections.GridSection = sections.GridSection()
+    discretization: sections.DiscretizationSection = sections.DiscretizationSection()
+    solver: sections.SolverSection = sections.SolverSection()
+    relaxation: sections.RelaxationSection = sections.RelaxationSection()
 
     def as_toml_tables(self):
         """Nested plain values, without the keys that are not set: what a TOML file can hold."""
         tables = {name: _without_none(section) for name, section in asdict(self).items()}
         if self.moes.M is not None:
-            del tables["contact"]["load"], tables["motion"]
+            del tables["contact"]["load"], tables["motion"]["speed"]
+        for name in FOREIGN[self.contact.kind]:
+            section, _, key = name.partition(".")
+            if key:
+                tables[section].pop(key, None)
+            else:
+                tables.pop(section)
         return {name: table for name, table in tables.items() if table}
 
 
@@ -195,6 +140,7 @@ def _check_together(config, tables):
     if (nodes - 1) & (nodes - 2):
         lower = 2 ** ((nodes - 1).bit_length() - 1) + 1
         raise ConfigError(f"grid.nodes = {nodes}: must be 2^k + 1, such as {lower} or {2 * lower - 1}")
+    _check_foreign(config.contact.kind, tables)
     if (config.moes.M is None) != (config.moes.L is None):
         missing = "moes.L" if config.moes.L is None else "moes.M"
         raise ConfigError(f"{missing}: must be given too, moes.M and moes.L go together")
@@ -204,12 +150,26 @@ def _check_together(config, tables):
                 raise ConfigError(
                     f"{section}.{key} = {tables[section][key]!r}: cannot be given with moes.M and moes.L"
                 )
+    wedge = config.wedge
+    if not wedge.exit < wedge.inlet:
+        raise ConfigError(f"wedge.inlet = {wedge.inlet:g}: must be above wedge.exit = {wedge.exit:g}")
     try:
         VISCOSITY_LAWS[config.lubricant.viscosity_law](
             config.lubricant.viscosity, config.lubricant.pressure_viscosity
         )
     except ValueError as error:
         raise ConfigError(f"lubricant.viscosity = {config.lubricant.viscosity!r}: {error}") from None
+
+
+def _check_foreign(kind, tables):
+    """A key that this kind of contact would not heed is a mistake."""
+    for name in FOREIGN[kind]:
+        section, _, key = name.partition(".")
+        given = tables.get(section, {})
+        if key and key in given:
+            raise ConfigError(f"{name} = {given[key]!r}: means nothing to a {kind} contact")
+        if not key and given:
+            raise ConfigError(f"[{section}]: means nothing to a {kind} contact")
 
 
 def _read_toml(path):

@@ -35,6 +35,10 @@ def read_value(key, rules, value):
         return value
     if rules["kind"] is tuple:
         return _interval(key, value)
+    if rules["kind"] is bool:
+        if not isinstance(value, bool):
+            raise ConfigError(f"{key} = {value!r}: must be true or false")
+        return value
     number = _number(key, rules, value)
     if not _in_range(rules, number):
         raise ConfigError(f"{key} = {value!r}: must be {_describe_range(rules)}")

@@ -13,28 +13,65 @@ LARGEST_EXPONENT = 200.0
 
 
 def check_contact(config, contact):
-    """Raise ConfigError where a contact is none: too large for its body, or without an inlet."""
-    section, hertz = config.contact, contact.hertz
-    name = "moes.M" if config.moes.M is not None else "contact.load"
+    """Raise ConfigError where a contact is none."""
+    if config.contact.kind == "wedge":
+        _check_pillar(config.wedge)
+        return
+    if config.contact.kind == "point":
+        _check_radii(config.contact)
+    _check_size(config, contact)
+    exponent = contact.lubricant.pressure_viscosity * contact.hertz.p_h
+    if exponent > LARGEST_EXPONENT:
+        raise ConfigError(
+            f"lubricant.pressure_viscosity = {contact.lubricant.pressure_viscosity:g}: times the Hertz "
+            f"pressure of {contact.hertz.p_h:.2g} Pa it must be at most {LARGEST_EXPONENT:g}, "
+            f"is {exponent:.2g}"
+        )
+    if 1.0 + contact.inlet_length > -config.grid.x[0]:
+        raise ConfigError(
+            f"grid.x = {list(config.grid.x)!r}: must begin before {-1.0 - contact.inlet_length:.3g}, "
+            "where the inlet that builds the film begins"
+        )
+
+
+def _check_radii(section):
     ratio = max(section.radius_x, section.radius_y) / min(section.radius_x, section.radius_y)
     if ratio > LARGEST_RADIUS_RATIO:
         raise ConfigError(
             f"contact.radius_y = {section.radius_y:g}: must be within a factor of "
             f"{LARGEST_RADIUS_RATIO:g} of contact.radius_x = {section.radius_x:g}"
         )
-    if max(hertz.a / section.radius_x, hertz.b / section.radius_y) > LARGEST_CONTACT:
+
+
+def _check_size(config, contact):
+    """The bodies must be half-spaces."""
+    section, hertz = config.contact, contact.hertz
+    if config.contact.kind == "line":
+        name, size, radii = "contact.load_per_length", f"{hertz.a:.2g} m", f"{section.radius_x:g} m"
+        part = hertz.a / section.radius_x
+    else:
+        name = "moes.M" if config.moes.M is not None else "contact.load"
+        size = f"{hertz.a:.2g} m by {hertz.b:.2g} m"
+        radii = f"{section.radius_x:g} m and {section.radius_y:g} m"
+        part = max(hertz.a / section.radius_x, hertz.b / section.radius_y)
+    if part > LARGEST_CONTACT:
         raise ConfigError(
-            f"{name}: the contact would be {hertz.a:.2g} m by {hertz.b:.2g} m wide on radii of "
-            f"{section.radius_x:g} m and {section.radius_y:g} m; it must be below half of them"
+            f"{name}: the contact would be {size} wide on radii of {radii}; it must be below half of them"
         )
-    exponent = contact.lubricant.pressure_viscosity * hertz.p_h
-    if exponent > LARGEST_EXPONENT:
+
+
+def _check_pillar(wedge):
+    """A pillar stands within the pad."""
+    if wedge.pillar == "none":
+        return
+    half = 0.5 * wedge.pillar_size
+    if not (wedge.exit < wedge.pillar_x - half and wedge.pillar_x + half < wedge.inlet):
         raise ConfigError(
-            f"lubricant.pressure_viscosity = {contact.lubricant.pressure_viscosity:g}: times the Hertz "
-            f"pressure of {hertz.p_h:.2g} Pa it must be at most {LARGEST_EXPONENT:g}, is {exponent:.2g}"
+            f"wedge.pillar_x = {wedge.pillar_x:g}: the pillar of {wedge.pillar_size:g} m must stand "
+            f"between the exit at {wedge.exit:g} and the inlet at {wedge.inlet:g}"
         )
-    if 1.0 + contact.inlet_length > -config.grid.x[0]:
+    if not abs(wedge.pillar_y) + half < 0.5 * wedge.width:
         raise ConfigError(
-            f"grid.x = {list(config.grid.x)!r}: must begin before {-1.0 - contact.inlet_length:.3g}, "
-            "where the inlet that builds the film begins"
+            f"wedge.pillar_y = {wedge.pillar_y:g}: the pillar of {wedge.pillar_size:g} m must stand within "
+            f"the width of {wedge.width:g}"
         )

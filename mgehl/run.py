@@ -5,16 +5,19 @@ from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
 
 import numpy as np
+from mpi4py import MPI
 from petsc4py import PETSc
 
 import mgehl
 from mgehl.config import COARSEST_NODES
+from mgehl.discretization.mesh import Mesh
 from mgehl.grid.hierarchy import Hierarchy
-from mgehl.output import files
-from mgehl.output.progress import Progress, trust_block
+from mgehl.output import files, progress
 from mgehl.output.result import Work, summarise
-from mgehl.solver.from_config import contact_from, mesh_from, settings_from
-from mgehl.solver.nested import nested_iteration
+from mgehl.output.wedge_result import summarise_wedge
+from mgehl.solver.from_config import contact_from, cycle_from, mesh_from, scheme_from, settings_from
+from mgehl.solver.nested import nested_iteration, single_loop
+from mgehl.solver.wedge import solve_wedge
 
 
 @dataclass
@@ -26,28 +29,74 @@ class Fields:
     status: np.ndarray
 
 
+@dataclass
+class Solution:
+    """What was solved and found; `result` is a `Result` or a `WedgeResult`, `rows` the history."""
+
+    config: object
+    contact: object
+    mesh: Mesh
+    fields: Fields
+    rows: list
+    result: object
+
+
 def run(config, directory, comm, speak=True):
-    """Solve `config` on `comm`, write `directory` (from rank 0), return the `Result`."""
+    """Solve `config` on `comm`, write `directory` (from rank 0), return the result."""
+    solution = solve(config, comm, speak)
+    files.on_first_rank(comm, _write, directory, solution)
+    if speak and comm.rank == 0:
+        block = progress.wedge_block if config.contact.kind == "wedge" else progress.trust_block
+        print(block(solution.result), f"  results in {directory}", sep="\n", flush=True)
+    return solution.result
+
+
+def solve(config, comm, speak=False):
+    """Solve `config` on `comm`; return the `Solution`.
+
+    A line contact has a single line, which belongs to one rank: every rank solves all of it.
+    """
     started = time.perf_counter()
-    first = comm.rank == 0
     contact = contact_from(config)
-    settings = settings_from(config, contact)
-    hierarchy = Hierarchy(mesh_from(config, contact), COARSEST_NODES, contact.deflection_scale, comm)
-    progress = Progress(contact.film_scale, lambda: hierarchy.convolutions, speak and first)
+    kind = config.contact.kind
+    on = MPI.COMM_SELF if kind == "line" else comm
+    hierarchy = Hierarchy(mesh_from(config, contact), COARSEST_NODES, contact.deflection_scale, on)
+    find = _solve_wedge if kind == "wedge" else _solve_loaded
     try:
-        problem, outcome = nested_iteration(hierarchy, contact, settings, progress)
-        work = Work(hierarchy.convolutions, progress.newton_steps)
-        wall = time.perf_counter() - started
-        result = summarise(problem, outcome, settings.newton.tolerance, work, wall, versions())
-        state = outcome.state
+        problem, state, rows, result = find(config, contact, hierarchy, started, speak and comm.rank == 0)
         fields = Fields(*(problem.grid.gather(array) for array in (state.P, state.H, state.status)))
     finally:
         hierarchy.destroy()
-    arguments = (directory, config, contact, problem.grid.mesh, fields, progress.rows, result)
-    files.on_first_rank(comm, _write, *arguments)
-    if speak and first:
-        print(trust_block(result), f"  results in {directory}", sep="\n", flush=True)
-    return result
+    return Solution(config, contact, problem.grid.mesh, fields, rows, result)
+
+
+def _solve_loaded(config, contact, hierarchy, started, speak):
+    """A point or a line contact, by either method."""
+    settings = settings_from(config, contact)
+    by_newton = settings.method == "newton-mg"
+    lines = (progress.newton_row, progress.newton_line)
+    if not by_newton:
+        lines = (progress.sweep_row, progress.sweep_line)
+    monitor = progress.Progress(*lines, contact.film_scale, lambda: hierarchy.convolutions, speak)
+    method = nested_iteration if by_newton else single_loop
+    problem, outcome = method(hierarchy, contact, settings, monitor)
+    work = Work(hierarchy.convolutions, monitor.steps if by_newton else outcome.cycles[-1].step)
+    wall = time.perf_counter() - started
+    result = summarise(problem, outcome, settings.newton.tolerance, work, wall, versions())
+    return problem, outcome.state, monitor.rows, result
+
+
+def _solve_wedge(config, bearing, hierarchy, started, speak):
+    """A rigid bearing."""
+    scheme, solver = scheme_from(config, bearing), config.solver
+    limits = solver.tolerance, solver.max_steps
+    problem, outcome = solve_wedge(hierarchy, bearing, scheme, cycle_from(config), *limits)
+    wall = time.perf_counter() - started
+    result = summarise_wedge(problem, outcome, wall, versions())
+    rows = progress.wedge_rows(problem.grid.mesh.nx, outcome.cycles)
+    if speak:
+        print(*map(progress.wedge_line, rows), sep="\n", flush=True)
+    return problem, outcome.state, rows, result
 
 
 def versions():
@@ -62,19 +111,21 @@ def versions():
     return found
 
 
-def _write(directory, config, contact, mesh, fields, rows, result):
+def _write(directory, solution):
     """Write all files; raise OutputError if the disk does not take them."""
-    from mgehl.output.picture import draw  # matplotlib is slow to import, and needed only here
+    from mgehl.output import picture, wedge_picture  # matplotlib is slow to import
 
     paths = files.RunFiles(directory)
-    title = f"{1e3 * contact.speed:.4g} mm/s, {contact.load:.4g} N, {mesh.nx} x {mesh.ny} nodes: " + (
-        "converged" if result.converged else "NOT converged"
-    )
+    config, mesh, fields = solution.config, solution.mesh, solution.fields
     try:
         files.write_config(paths.configuration, config)
-        files.write_history(paths.history, rows)
-        files.write_fields(paths.fields, mesh, contact, fields)
-        draw(paths.picture, mesh, contact, fields, title)
-        files.write_result(paths.result, result)
+        files.write_history(paths.history, solution.rows)
+        files.write_fields(paths.fields, mesh, solution.contact, fields)
+        if config.contact.kind == "wedge":
+            files.write_center_line(paths.center_line, mesh, fields.P)
+            wedge_picture.draw(paths.picture, solution)
+        else:
+            picture.draw(paths.picture, solution)
+        files.write_result(paths.result, solution.result)
     except OSError as error:
         raise files.OutputError(f"{directory}: cannot be written: {error}") from None

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import pytest
 
 from mgehl.discretization.mesh import Mesh
-from mgehl.model.contact import PointContact
+from mgehl.model.point import PointContact
 from mgehl.model.lubricant import Barus, ConstantDensity, DowsonHigginson, Lubricant
 
 BODY = {"radius_x": 12.7e-3, "radius_y": 12.7e-3, "reduced_modulus": 219.78e9}
@@ -61,15 +61,15 @@ def make_hierarchy():
 
 @pytest.fixture
 def make_problem(paper_contact, make_hierarchy):
-    """Factory of a `PointProblem` on the finest grid of a new hierarchy."""
-    from mgehl.discretization.residual import Scheme
-    from mgehl.solver.problem import PointProblem
+    """Factory of a `ContactProblem` on the finest grid of a new hierarchy."""
+    from mgehl.discretization.scheme import Scheme
+    from mgehl.solver.problem import ContactProblem
 
     def make(contact=None, scheme=None, **grid):
         contact = contact or paper_contact()
         hierarchy = make_hierarchy(contact, **grid)
         scheme = scheme or Scheme()
-        return PointProblem(hierarchy.grids[-1], hierarchy.deflections[-1], contact, scheme)
+        return ContactProblem(hierarchy.grids[-1], hierarchy.deflections[-1], contact, scheme)
 
     return make
 
@@ -104,7 +104,7 @@ class Solution:
 @pytest.fixture
 def solve(make_hierarchy):
     """Function that solves a contact by nested iteration and returns a `Solution`."""
-    from mgehl.discretization.residual import Scheme
+    from mgehl.discretization.scheme import Scheme
     from mgehl.solver.nested import NestedSettings, SolverSettings, nested_iteration
     from mgehl.solver.newton import NewtonSettings
 
@@ -205,7 +205,8 @@ def make_jacobian():
         deflection = None if rigid else problem.deflection
         jacobian = Jacobian(problem.grid, deflection, problem.contact, problem.scheme)
         made.append(jacobian)
-        jacobian.linearise(*(problem.grid.halo(array) for array in (state.P, state.H, state.status)))
+        grid = problem.grid
+        jacobian.linearise(grid.halo(state.P), grid.halo(state.H), grid.halo_status(state.status))
         return jacobian
 
     yield make

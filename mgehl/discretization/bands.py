@@ -25,18 +25,22 @@ def distributive_nodes(eps, status, dX, K00):
     return (stiff | (status == CONTACT)) & ~given_nodes(status)
 
 
-def influence_of_columns(K):
+def influence_of_columns(K, share):
     """Table kappa[d, l, k]: deflection k nodes along and l lines beside a column of Q.
 
-    d = 0 is a single unit pressure, d = 1 the distributed one (1 and four times -1/4).
-    `K` holds influence coefficients [l, k] for l <= 2, k <= REACH + 3.
+    d = 0 is a single unit pressure, d = 1 the distributed one (1, and -`share` at its neighbours).
+    `K` holds influence coefficients [l, k] for l <= 2, k <= REACH + 1. Beyond REACH the table keeps
+    its last value: the rows of a band difference it, and one that fell to zero would leave them
+    with a sum. That acts as a source along the line, whose solution grows as exp(c nx): no
+    convergence from 4097 nodes on for the logarithmic kernel of a line contact. (Rows of 2B reach one
+    node further and keep a thousandth of their diagonal.)
     """
-    reach = REACH + 3
-    kappa = np.zeros((2, 2, reach))
+    kappa = np.zeros((2, 2, REACH + 3))
     for line in (0, 1):
-        for k in range(reach):
+        for k in range(REACH + 1):
             neighbours = K[line, abs(k - 1)] + K[line, k + 1] + K[abs(line - 1), k] + K[line + 1, k]
-            kappa[:, line, k] = K[line, k], K[line, k] - 0.25 * neighbours
+            kappa[:, line, k] = K[line, k], K[line, k] - share * neighbours
+    kappa[:, :, REACH + 1 :] = kappa[:, :, REACH : REACH + 1]
     return kappa
 
 
@@ -46,9 +50,9 @@ class LineBands:
     def __init__(self, lines, nx):
         self._factors = np.zeros((lines, nx, 2 * REACH + 1))
 
-    def factor(self, linearisation, distributive, kappa):
+    def factor(self, linearisation, distributive, kappa, share):
         """Build and factor the bands of J Q for the present linearisation."""
-        build_bands(linearisation.A, linearisation.B, distributive, kappa, self._factors)
+        build_bands(linearisation.A, linearisation.B, distributive, kappa, share, self._factors)
         factor_bands(self._factors)
 
     def solve(self, r, w):

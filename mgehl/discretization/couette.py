@@ -1,28 +1,31 @@
-"""The Couette flow through a face by every differential scheme  [Liu eqs. 17, 18, 31, 32].
+"""The Couette flow through a face by every differential scheme  [Liu eqs. 9-14, 17, 18, 31, 32].
 
 Each scheme is a sum of products c rho_a H_b over the nodes a, b near the face: W and E on its
-two sides, WW upstream of W. Value and linearisation come from the same table.
+two sides, WW beyond W and EE beyond E. Value and linearisation come from the same table.
 """
 
 from dataclasses import dataclass
 
-WW, W, E = 0, 1, 2
+from mgehl.discretization.status import CONTACT
+
+WW, W, E, EE = 0, 1, 2, 3
 """Node positions relative to the face between W and E."""
 
-_SHIFT = {WW: -1, W: 0, E: 1}
+_SHIFT = {WW: -1, W: 0, E: 1, EE: 2}
 
 
 @dataclass(frozen=True)
 class CouetteScheme:
     """Terms (c, a, b) of the flow c rho_a H_b that leaves W and that enters E.
 
-    The two are the same flow in every scheme but S1B, which is not conservative: Eq. 12 has one
-    term more than Eq. 8. `first` serves the first face of a line, which has no WW node.
+    The two are the same flow where the scheme is a difference of rho H. Where rho and H are
+    differenced apart (Eq. 12 has one term more than Eq. 8) they differ. `near` serves the faces
+    whose node WW or EE is not there, or is solid: nothing is extrapolated across an interface.
     """
 
     leaving: tuple
     entering: tuple
-    first: tuple | None = None
+    near: tuple = ()
 
     @property
     def conservative(self):
@@ -32,49 +35,74 @@ class CouetteScheme:
 _1B = ((1.0, W, W),)
 _2B = ((1.5, W, W), (-0.5, WW, WW))
 _2C = ((0.5, W, W), (0.5, E, E))
-_S2C = ((0.5, W, E), (0.5, E, W))
 _S1B_LEAVING = ((2.0, W, W), (-1.0, WW, W))
 _S1B_ENTERING = ((1.0, E, W),)
+_S2C = ((0.5, W, E), (0.5, E, W))
 
-# 2B at the first face: rho H extrapolated linearly from W and E to WW gives 2C, and the first
-# interior node then sees exactly the 1B difference.
+
+def _apart(centre, sides, upstream):
+    """2B of rho and of H apart: H_m rho_f + rho_m H_f - rho_i H_i at node i = `centre`.
+
+    f is the 2B value at the face, (3 q_i - q_i-1)/2 with i = `upstream[0]`; m the mean over
+    `sides`. Flow that leaves less flow that enters is options (v) and (vi) of [Liu sec. 3.1]; the
+    last product, in both, makes each of them a flow: where rho = 1 it is the 2B face value of H.
+    """
+    face = ((1.5, upstream[0]), (-0.5, upstream[1]))
+    share = 1.0 / len(sides)
+    terms = [(share * c, f, m) for c, f in face for m in sides]
+    terms += [(share * c, m, f) for c, f in face for m in sides]
+    return (*terms, (-1.0, centre, centre))
+
+
+# 2B without WW: rho H extrapolated linearly from W and E to WW gives 2C, and the first interior
+# node then sees exactly the 1B difference. The same for rho and H apart gives S2C.
 SCHEMES = {
     "1B": CouetteScheme(_1B, _1B),
-    "2B": CouetteScheme(_2B, _2B, first=_2C),
+    "2B": CouetteScheme(_2B, _2B, near=_2C),
     "2C": CouetteScheme(_2C, _2C),
-    "S1B": CouetteScheme(_S1B_LEAVING, _S1B_ENTERING, first=_S1B_ENTERING),
+    "S1B": CouetteScheme(_S1B_LEAVING, _S1B_ENTERING, near=_1B),
     "S2C": CouetteScheme(_S2C, _S2C),
+    "S2B-v": CouetteScheme(_apart(W, (WW, E), (W, WW)), _apart(E, (W, EE), (W, WW)), near=_S2C),
+    "S2B-vi": CouetteScheme(_apart(W, (W,), (W, WW)), _apart(E, (E,), (W, WW)), near=_S2C),
 }
+"""S2B-v and S2B-vi: rho and H apart with 2B, their other factor the mean of i - 1 and i + 1, or at i."""
 
 
-def add_couette(leaving, entering, fluid, scheme):
-    """Add the Couette flow of `fluid` (lines, nx) to two flows through the x faces.
+def nodes_of(terms):
+    """Node positions at which a flow depends on pressure or gap."""
+    return {node for _, a, b in terms for node in (a, b)}
 
-    `leaving` and `entering` are `Flow` objects of shape (lines, nx - 1), one and the same object
-    where the scheme is conservative.
+
+def add_couette(flow, terms, near, fluid, status, motion=1):
+    """Add to `flow` through the x faces (lines, nx - 1) the Couette flow by `terms`.
+
+    `fluid` is (lines, nx). With a `status` (lines, nx) the products `near` are used where a far
+    node is in contact; with None only where there is none. `motion` is its sign along X.
     """
-    table = SCHEMES[scheme]
-    _add_terms(leaving, table.leaving, table.first, fluid)
-    if entering is not leaving:
-        _add_terms(entering, table.entering, table.first, fluid)
-
-
-def _add_terms(flow, terms, first, fluid):
+    far = nodes_of(terms) & {WW, EE}
     faces = flow.value.shape[1]
-    if first is None:
-        _add_products(flow, terms, fluid, 0, faces)
+    start, stop = int(WW in far), faces - int(EE in far)
+    _add_products(flow, near, fluid, 0, start, motion)
+    _add_products(flow, near, fluid, stop, faces, motion)
+    solid = False
+    if status is not None:
+        for node in far:
+            solid = solid | (status[:, start + _SHIFT[node] : stop + _SHIFT[node]] == CONTACT)
+    if solid is False or not solid.any():
+        _add_products(flow, terms, fluid, start, stop, motion)
     else:
-        _add_products(flow, first, fluid, 0, 1)
-        _add_products(flow, terms, fluid, 1, faces)
+        _add_products(flow, terms, fluid, start, stop, motion * ~solid)
+        _add_products(flow, near, fluid, start, stop, motion * solid)
 
 
-def _add_products(flow, terms, fluid, start, stop):
-    """Add c rho_a H_b through the faces start..stop-1, with its derivatives if asked for."""
-    for c, a, b in terms:
+def _add_products(flow, terms, fluid, start, stop, weight):
+    """Add weight c rho_a H_b through the faces start..stop-1, with its derivatives if asked for."""
+    for c, a, b in terms if start < stop else ():
         at_a = slice(start + _SHIFT[a], stop + _SHIFT[a])
         at_b = slice(start + _SHIFT[b], stop + _SHIFT[b])
         rho, H = fluid.rho[:, at_a], fluid.H[:, at_b]
-        flow.value[:, start:stop] += c * rho * H
+        signed = c * weight
+        flow.value[:, start:stop] += signed * rho * H
         if flow.linearised:
-            flow.by_P[a][:, start:stop] += c * fluid.drho_dP[:, at_a] * H
-            flow.by_H[b][:, start:stop] += c * rho
+            flow.by_P[a][:, start:stop] += signed * fluid.drho_dP[:, at_a] * H
+            flow.by_H[b][:, start:stop] += signed * rho

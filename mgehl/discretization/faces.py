@@ -6,62 +6,69 @@ which is the whole of the no-flow half of the interface conditions [Liu eq. 4].
 
 import numpy as np
 
-from mgehl.discretization.couette import SCHEMES, WW, E, W, add_couette
+from mgehl.discretization.couette import SCHEMES, E, W, add_couette, nodes_of
 from mgehl.discretization.fluid import FACE_MEANS
 from mgehl.discretization.status import open_x_faces, open_y_faces
 
 
 class Flow:
-    """A flow through faces and, if `linearised`, its derivatives by P and H at WW, W and E.
+    """A flow through faces and its derivatives by P and H at the `nodes` it depends on.
 
-    For faces between lines W stands for the line before and E for the line after.
+    `by_P` and `by_H` map node positions (WW, W, E, EE) to arrays of the flow's shape; no nodes,
+    no derivatives. For faces between lines W stands for the line before and E for the line after.
     """
 
-    def __init__(self, shape, linearised):
+    def __init__(self, shape, nodes=()):
         self.value = np.zeros(shape)
-        self.linearised = linearised
-        if linearised:
-            self.by_P = [np.zeros(shape) for _ in (WW, W, E)]
-            self.by_H = [np.zeros(shape) for _ in (WW, W, E)]
+        self.linearised = bool(nodes)
+        self.by_P = {node: np.zeros(shape) for node in sorted(nodes)}
+        self.by_H = {node: np.zeros(shape) for node in sorted(nodes)}
 
     def close(self, is_open):
         """Nothing passes where `is_open` is False."""
-        arrays = [self.value, *self.by_P, *self.by_H] if self.linearised else [self.value]
-        for array in arrays:
+        for array in (self.value, *self.by_P.values(), *self.by_H.values()):
             array *= is_open
 
 
-def x_flows(fluid, status, mesh, scheme, mean, linearised=False):
+def x_flows(fluid, status, mesh, scheme, linearised=False):
     """Flows (leaving W, entering E) through the x faces of lines: rho H - eps dP/dX.
 
     `fluid` and `status` are (lines, nx), the flows (lines, nx - 1). Both are one object for a
     conservative scheme.
     """
-    lines, nx = status.shape
-    leaving = Flow((lines, nx - 1), linearised)
-    entering = leaving if SCHEMES[scheme].conservative else Flow((lines, nx - 1), linearised)
-    is_open = open_x_faces(status)
-    for flow in {id(leaving): leaving, id(entering): entering}.values():
-        _add_poiseuille(flow, fluid[:, :-1], fluid[:, 1:], mesh.dX, mean)
-    add_couette(leaving, entering, fluid, scheme)
-    leaving.close(is_open)
-    if entering is not leaving:
-        entering.close(is_open)
-    return leaving, entering
+    table = SCHEMES[scheme.couette]
+    leaving = _x_flow(fluid, status, mesh, scheme, table.leaving, table.near, linearised)
+    if table.conservative:
+        return leaving, leaving
+    return leaving, _x_flow(fluid, status, mesh, scheme, table.entering, table.near, linearised)
 
 
-def y_flows(fluid, status, mesh, mean, linearised=False):
+def y_flows(fluid, status, mesh, scheme, linearised=False):
     """Flow k_e^2 (-eps dP/dY) through the faces between consecutive lines, (lines - 1, nx)."""
     lines, nx = status.shape
-    flow = Flow((lines - 1, nx), linearised)
-    _add_poiseuille(flow, fluid[:-1], fluid[1:], mesh.dY / mesh.k_e**2, mean)
+    flow = Flow((lines - 1, nx), {W, E} if linearised else ())
+    _add_poiseuille(flow, fluid[:-1], fluid[1:], mesh.dY / mesh.k_e**2, scheme)
     flow.close(open_y_faces(status))
     return flow
 
 
-def _add_poiseuille(flow, west, east, spacing, mean):
+def _x_flow(fluid, status, mesh, scheme, terms, near, linearised):
+    """One flow through the x faces, its Couette part by `terms`."""
+    lines, nx = status.shape
+    flow = Flow((lines, nx - 1), {W, E} | nodes_of(terms) | nodes_of(near) if linearised else ())
+    _add_poiseuille(flow, fluid[:, :-1], fluid[:, 1:], mesh.pressure_dX, scheme)
+    if scheme.couette_at_interface == "closed":
+        add_couette(flow, terms, near, fluid, status, scheme.motion)
+        flow.close(open_x_faces(status))
+    else:
+        flow.close(open_x_faces(status))
+        add_couette(flow, terms, near, fluid, None, scheme.motion)
+    return flow
+
+
+def _add_poiseuille(flow, west, east, spacing, scheme):
     """Add -eps (P_E - P_W)/spacing with eps the face's mean mobility  [Liu eqs. 7, 16, 30]."""
-    eps, by_west, by_east = FACE_MEANS[mean](west.eps, east.eps)
+    eps, by_west, by_east = FACE_MEANS[scheme.face_mobility](west.eps, east.eps)
     gradient = (east.P - west.P) / spacing
     flow.value -= eps * gradient
     if flow.linearised:
@@ -70,3 +77,15 @@ def _add_poiseuille(flow, west, east, spacing, mean):
         flow.by_P[E] -= conductance + gradient * by_east * east.deps_dP
         flow.by_H[W] -= gradient * by_west * west.deps_dH
         flow.by_H[E] -= gradient * by_east * east.deps_dH
+
+
+def conductances(eps, status, mesh, scheme):
+    """Mobility of the x faces over dX^2 and of the y faces over dY^2, zero where closed.
+
+    `eps` and `status` are ghosted; the results (lines, nx - 1) and (lines + 1, nx). With them the
+    Poiseuille flow into a node is a sum over its faces of conductance times pressure difference.
+    """
+    mean, inner = FACE_MEANS[scheme.face_mobility], eps[1:-1]
+    along = mean(inner[:, :-1], inner[:, 1:])[0] * open_x_faces(status[1:-1])
+    across = mean(eps[:-1], eps[1:])[0] * open_y_faces(status)
+    return along / (mesh.pressure_dX * mesh.dX), across * (mesh.k_e / mesh.dY) ** 2

@@ -25,19 +25,23 @@ class Fluid:
         return Fluid(*(getattr(self, name)[part] for name in self.__dataclass_fields__))
 
 
-def fluid_state(P, H, contact):
+def fluid_state(P, H, contact, gap_floor=None):
     """Evaluate the constitutive laws at nodes of pressure `P` and gap `H`.
 
-    `contact` gives the lubricant, p_h and lambda. H must be positive wherever the node can
-    exchange fluid; contact nodes may carry any H, their faces are closed.
+    `contact` gives the lubricant, the unit of P and lambda. H must be positive wherever the node
+    can exchange fluid; contact nodes may carry any H, their faces are closed. With a `gap_floor`
+    (the unified equations) the mobility is that of a gap not below it; the fluid carried along is
+    that of H, of whatever sign.
     """
-    lubricant, p_h = contact.lubricant, contact.hertz.p_h
+    lubricant, p_h = contact.lubricant, contact.pressure_scale
     rho, drho_dP = lubricant.density_law.density(P, p_h)
     log_eta, dlog_eta_dP = lubricant.viscosity_law.log_viscosity(P, p_h)
     by_H3 = rho * np.exp(-log_eta) / contact.lambda_
-    H2 = H * H
-    eps = by_H3 * H2 * H
-    return Fluid(P, H, rho, drho_dP, eps, eps * (drho_dP / rho - dlog_eta_dP), 3.0 * by_H3 * H2)
+    open_gap = H if gap_floor is None else np.maximum(H, gap_floor)
+    by_H2 = by_H3 * open_gap * open_gap
+    eps = by_H2 * open_gap
+    deps_dH = 3.0 * by_H2 if gap_floor is None else 3.0 * by_H2 * (H > gap_floor)
+    return Fluid(P, H, rho, drho_dP, eps, eps * (drho_dP / rho - dlog_eta_dP), deps_dH)
 
 
 def arithmetic_mean(a, b):

@@ -51,10 +51,10 @@ def apply_stencil(A, dP, out):
 
 
 @njit(cache=True, fastmath={"contract"})
-def build_bands(A, B, distributive, kappa, bands):
+def build_bands(A, B, distributive, kappa, share, bands):
     """Fill `bands` (lines, nx, 2 REACH + 1) with each line's part of J Q.
 
-    Column m of Q is 1 at node m and, where `distributive[j, m]`, -1/4 at its four neighbours.
+    Column m of Q is 1 at node m and, where `distributive[j, m]`, -share at its neighbours.
     `kappa[d, l, k]` is the deflection k nodes along and l lines beside a unit column of kind d.
     """
     lines, nx, width = bands.shape
@@ -77,27 +77,33 @@ def build_bands(A, B, distributive, kappa, bands):
                     + across_B * across[abs(k)]
                 )
                 if -3 <= k <= 2:
-                    entry += _column_of_Q(A[WW, j, i], k + 2, d)
-                    entry += _column_of_Q(A[W, j, i], k + 1, d)
-                    entry += _column_of_Q(A[C, j, i], k, d)
-                    entry += _column_of_Q(A[E, j, i], k - 1, d)
+                    if i > 1:
+                        entry += _column_of_Q(A[WW, j, i], k + 2, d, share)
+                    if i > 0:
+                        entry += _column_of_Q(A[W, j, i], k + 1, d, share)
+                    entry += _column_of_Q(A[C, j, i], k, d, share)
+                    if i < nx - 1:
+                        entry += _column_of_Q(A[E, j, i], k - 1, d, share)
                     if k == 0 and d == 1:
-                        entry -= 0.25 * across_A
+                        entry -= share * across_A
                 bands[j, i, k + REACH] = entry
 
 
 @njit(cache=True, inline="always")
-def _column_of_Q(coefficient, distance, d):
+def _column_of_Q(coefficient, distance, d, share):
     if distance == 0:
         return coefficient
     if d == 1 and (distance == 1 or distance == -1):
-        return -0.25 * coefficient
+        return -share * coefficient
     return 0.0
 
 
-@njit(cache=True, fastmath={"contract"})
+@njit(cache=True, fastmath={"contract"}, error_model="numpy")
 def factor_bands(bands):
-    """LU factors in place, without pivoting; the diagonal holds the reciprocal pivots."""
+    """LU factors in place, without pivoting; the diagonal holds the reciprocal pivots.
+
+    A singular line gives factors that are not finite: the iteration that made it ends by itself.
+    """
     lines, nx, width = bands.shape
     for j in range(lines):
         band = bands[j]
@@ -131,8 +137,8 @@ def solve_bands(bands, r, w):
 
 
 @njit(cache=True, fastmath={"contract"})
-def distribute(w, distributive, omega, out):
-    """out = omega Q w; `w` and `distributive` ghosted, `out` (lines, nx)."""
+def distribute(w, distributive, share, omega, out):
+    """out = omega Q w, Q as in `build_bands`; `w` and `distributive` ghosted, `out` (lines, nx)."""
     lines, nx = out.shape
     for j in range(lines):
         for i in range(nx):
@@ -141,7 +147,7 @@ def distribute(w, distributive, omega, out):
                 spread += w[j + 1, i - 1] * distributive[j + 1, i - 1]
             if i < nx - 1:
                 spread += w[j + 1, i + 1] * distributive[j + 1, i + 1]
-            out[j, i] = omega * (w[j + 1, i] - 0.25 * spread)
+            out[j, i] = omega * (w[j + 1, i] - share * spread)
 
 
 @njit(cache=True, fastmath={"contract"})

@@ -1,6 +1,6 @@
-"""Uniform node-centred mesh in the contact's units X = x/a, Y = y/b."""
+"""Uniform node-centred mesh in the contact's units, X = x/a and Y = y/b for a loaded one."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -8,7 +8,10 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Mesh:
-    """`nx` by `ny` nodes on [x[0], x[1]] by [y[0], y[1]], outermost nodes on the boundary."""
+    """`nx` by `ny` nodes on [x[0], x[1]] by [y[0], y[1]], outermost nodes on the boundary.
+
+    One line (`ny` = 1) is a plane problem: a slice of unit width between two walls.
+    """
 
     nx: int
     ny: int
@@ -16,6 +19,8 @@ class Mesh:
     y: tuple[float, float]
     k_e: float = 1.0
     """Axis ratio a/b of the units of X and Y."""
+    edges: tuple[float, float] | None = None
+    """Where along X the boundary's pressure acts, if not at the outermost nodes themselves."""
 
     @property
     def dX(self):
@@ -23,7 +28,21 @@ class Mesh:
 
     @property
     def dY(self):
-        return (self.y[1] - self.y[0]) / (self.ny - 1)
+        return 1.0 if self.is_line else (self.y[1] - self.y[0]) / (self.ny - 1)
+
+    @property
+    def is_line(self):
+        return self.ny == 1
+
+    @cached_property
+    def pressure_dX(self):
+        """Distance of the pressures on both sides of each x face: dX, or (nx - 1,) with `edges`."""
+        if self.edges is None:
+            return self.dX
+        distance = np.full(self.nx - 1, self.dX)
+        distance[0] = self.X[1] - self.edges[0]
+        distance[-1] = self.edges[1] - self.X[-2]
+        return distance
 
     @property
     def nodes(self):
@@ -41,7 +60,7 @@ class Mesh:
 
     def coarsened(self):
         """The mesh of every other node."""
-        return Mesh((self.nx + 1) // 2, (self.ny + 1) // 2, self.x, self.y, self.k_e)
+        return replace(self, nx=(self.nx + 1) // 2, ny=(self.ny + 1) // 2)
 
     def nearest(self, X, Y):
         """Indices (i, j) of the node nearest to a point."""

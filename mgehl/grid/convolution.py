@@ -1,7 +1,8 @@
 """Deflection of the half-space: a distributed convolution by FFT  [Liu eq. 51].
 
 Boundary nodes carry no pressure, so the offsets between n - 2 sources and n nodes number
-2n - 3 and a period of 2(n - 1), a power of two, holds them all without overlap. Only lines
+2n - 3 and a period of 2(n - 1), a power of two, holds them all without overlap. A single line
+has the period 1 across. Only lines
 that are not all zero are transformed, and padding is dropped as soon as it can be.
 """
 
@@ -24,8 +25,9 @@ class Deflection:
         self._transpose = Transpose(grid.comm, grid.starts, nx)
         columns = self._transpose.columns
         self._x_real = pyfftw.zeros_aligned((lines, 2 * (nx - 1)))
+        period_y = max(2 * (mesh.ny - 1), 1)
         self._x_modes = pyfftw.zeros_aligned((lines, nx), dtype=complex)
-        self._y_modes = pyfftw.zeros_aligned((2 * (mesh.ny - 1), columns), dtype=complex)
+        self._y_modes = pyfftw.zeros_aligned((period_y, columns), dtype=complex)
         self._x_forward = pyfftw.FFTW(self._x_real, self._x_modes, axes=(1,), flags=_PLAN)
         self._x_backward = pyfftw.FFTW(
             self._x_modes, self._x_real, axes=(1,), direction="FFTW_BACKWARD", flags=_PLAN
@@ -69,7 +71,7 @@ class Deflection:
         self._transpose.to_columns(self._x_modes, self._y_modes[:ny])
         self._y_modes[ny:] = self._y_modes[ny - 2 : 0 : -1]
         self._y_forward.execute()
-        return self._y_modes.real / (4.0 * (nx - 1) * (ny - 1))
+        return self._y_modes.real / (self._x_real.shape[1] * self._y_modes.shape[0])
 
 
 class Transpose:

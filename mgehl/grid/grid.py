@@ -4,6 +4,8 @@ import numpy as np
 from mpi4py import MPI
 from petsc4py import PETSc
 
+from mgehl.discretization.status import CONTACT
+
 
 class Grid:
     """A `Mesh` decomposed along Y only; `shape` is (local lines, nx).
@@ -61,6 +63,14 @@ class Grid:
         self._global.resetArray()
         return ghosted if ghosted.dtype == array.dtype or out is not None else ghosted.astype(array.dtype)
 
+    def halo_status(self, status):
+        """As `halo` for node statuses: a single line runs between two walls, which are as solid as
+        contact."""
+        ghosted = self.halo(status)
+        if self.mesh.is_line:
+            ghosted[[0, -1]] = CONTACT
+        return ghosted
+
     def refresh(self, ghosted):
         """Fetch the neighbours' lines into a ghosted array of doubles, in place."""
         self._local.placeArray(ghosted.ravel())
@@ -72,7 +82,8 @@ class Grid:
         mask = np.zeros(self.shape, dtype=bool)
         mask[:, [0, -1]] = True
         lines = np.arange(self.first, self.last)
-        mask[(lines == 0) | (lines == self.mesh.ny - 1)] = True
+        if not self.mesh.is_line:
+            mask[(lines == 0) | (lines == self.mesh.ny - 1)] = True
         return mask
 
     def sum(self, value):
@@ -115,7 +126,7 @@ def build_grids(mesh, coarsest_nodes, comm):
     all_starts = [np.array([*starts, mesh.ny])]
     for _ in meshes[1:]:
         all_starts.append((all_starts[-1] + 1) // 2)
-    if np.any(np.diff(all_starts[-1]) < 2):
+    if comm.size > 1 and np.any(np.diff(all_starts[-1]) < 2):
         raise ValueError(f"{comm.size} ranks are too many for a coarsest grid of {meshes[-1].ny} lines")
     grids = [Grid(mesh, starts, comm) for mesh, starts in zip(meshes, all_starts, strict=True)]
     return grids[::-1]

@@ -18,17 +18,20 @@ class Transfer:
         return np.ascontiguousarray(fine[self._lines, ::2])
 
     def full_weighting(self, fine):
-        """Weighted mean of nine fine values around each inner coarse node, zero on the ends of
-        lines; a quarter of the adjoint of `bilinear` there."""
-        ghosted = self.fine.halo(fine)
-        first = self._lines[0]
-        last = self._lines[-1]
-        along_y = 0.5 * ghosted[first + 1 : last + 2 : 2]
-        along_y += 0.25 * ghosted[first : last + 1 : 2]
-        along_y += 0.25 * ghosted[first + 2 : last + 3 : 2]
+        """Weighted mean of the nine fine values around each inner coarse node, on a single line of three.
+
+        Zero on the ends of lines; elsewhere a quarter (a half) of the adjoint of `bilinear`.
+        """
+        along_y = fine if self.fine.mesh.is_line else self._weighted_lines(self.fine.halo(fine))
         coarse = np.zeros(self.coarse.shape)
         coarse[:, 1:-1] = 0.5 * along_y[:, 2:-2:2] + 0.25 * (along_y[:, 1:-3:2] + along_y[:, 3:-1:2])
         return coarse
+
+    def _weighted_lines(self, ghosted):
+        """Every other line with half of the lines beside it, of a ghosted fine array."""
+        first, last = self._lines[0], self._lines[-1]
+        beside = ghosted[first : last + 1 : 2] + ghosted[first + 2 : last + 3 : 2]
+        return 0.5 * ghosted[first + 1 : last + 2 : 2] + 0.25 * beside
 
     def bilinear(self, coarse):
         """Bilinear interpolation to the fine grid."""

@@ -11,6 +11,14 @@ def hamrock_dowson(groups, radius_x, ellipticity):
     return central * radius_x, minimum * radius_x
 
 
+def dowson_higginson(groups, radius_x):
+    """Central and minimum film of a line contact, of the type of Dowson and Higginson."""
+    U, W, G = groups.U, groups.W, groups.G
+    central = 3.06 * U**0.69 * G**0.56 * W**-0.10
+    minimum = 2.65 * U**0.70 * G**0.54 * W**-0.13
+    return central * radius_x, minimum * radius_x
+
+
 def nijenbanning_venner_moes(groups, radius_x, radius_y):
     """Central film of Nijenbanning, Venner and Moes for every regime."""
     M, L, D = groups.M, groups.L, radius_x / radius_y

@@ -1,7 +1,7 @@
-"""Dry Hertz contact of a paraboloid on a flat, circular or elliptical."""
+"""Dry Hertz contact on a flat: of a paraboloid, circular or elliptical, and of a cylinder."""
 
 from dataclasses import dataclass
-from math import pi, sqrt
+from math import log, pi, sqrt
 
 import numpy as np
 from scipy.optimize import brentq
@@ -15,7 +15,7 @@ class HertzContact:
     a: float
     """Semi-axis along x, the direction of motion."""
     b: float
-    """Semi-axis along y."""
+    """Semi-axis along y; of a line contact a metre of its length."""
     p_h: float
     approach: float
 
@@ -36,6 +36,16 @@ def hertz_contact(load, radius_x, radius_y, reduced_modulus):
     approach = p_h / E_star * minor * ellipk(m)
     a, b = (minor, major) if radius_x <= radius_y else (major, minor)
     return HertzContact(a, b, p_h, approach)
+
+
+def hertz_line_contact(load, radius, reduced_modulus):
+    """The dry line contact under `load` N/m [Johnson 1985, eqs. 4.43-4.45].
+
+    The approach of a line contact has no absolute value: here it belongs to a deflection that
+    counts -ln|x/a|, with which the parabola's gap closes at 1/4 + ln(2)/2 units of a^2/R.
+    """
+    a = sqrt(8.0 * load * radius / (pi * reduced_modulus))
+    return HertzContact(a, 1.0, 2.0 * load / (pi * a), (0.25 + 0.5 * log(2.0)) * a**2 / radius)
 
 
 def _axis_ratio(radius_ratio):

@@ -56,6 +56,17 @@ class Roelands:
 
 
 @dataclass(frozen=True)
+class ConstantViscosity:
+    """eta* = 1."""
+
+    viscosity: float
+
+    def log_viscosity(self, P, _p_h):
+        """Return ln(eta*) and d ln(eta*)/dP, shapes as P."""
+        return np.zeros_like(P), np.zeros_like(P)
+
+
+@dataclass(frozen=True)
 class DowsonHigginson:
     """rho* = 1 + 0.6e-9 p / (1 + 1.7e-9 p), p in Pa  [Liu eq. 47]."""
 
@@ -83,7 +94,7 @@ DENSITY_LAWS = {"dowson-higginson": DowsonHigginson, "constant": ConstantDensity
 class Lubricant:
     """A viscosity law and a density law."""
 
-    viscosity_law: Barus | Roelands
+    viscosity_law: Barus | Roelands | ConstantViscosity
     density_law: DowsonHigginson | ConstantDensity
 
     @property

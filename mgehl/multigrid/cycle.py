@@ -5,7 +5,7 @@ border travels with the residual, so H0 is corrected by the direct solve on the 
 and the cycle needs no second solve for its column.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from petsc4py import PETSc
 
@@ -47,6 +47,8 @@ class CycleSettings:
 
     sweeps: int = 1
     omega: float = 0.8
+    couette: str = "same"
+    """Couette scheme of the cycle's operators; "same" is the one that is solved."""
     max_iterations: int = 30
     options_prefix: str = "mgehl_"
 
@@ -59,10 +61,20 @@ class MultigridSolver:
 
     def __init__(self, hierarchy, level, contact, scheme, settings=CycleSettings(), rigid=False):
         self.contact, self._settings = contact, settings
-        self.jacobians = []
-        for grid, deflection in zip(hierarchy.grids, hierarchy.deflections, strict=True):
-            if len(self.jacobians) <= level:
-                self.jacobians.append(Jacobian(grid, None if rigid else deflection, contact, scheme))
+        same = settings.couette in ("same", scheme.couette)
+        self._scheme = scheme if same else replace(scheme, couette=settings.couette)
+        grids, deflections = hierarchy.grids[: level + 1], hierarchy.deflections[: level + 1]
+        if rigid:
+            deflections = [None] * len(grids)
+        self.jacobians = [
+            Jacobian(grid, deflection, contact, self._scheme)
+            for grid, deflection in zip(grids, deflections, strict=True)
+        ]
+        """Of the cycle's grids, coarsest first."""
+        self.jacobian = self.jacobians[-1]
+        """What is solved."""
+        if not same:
+            self.jacobian = Jacobian(grids[-1], deflections[-1], contact, scheme)
         self._transfers = hierarchy.transfers[:level]
         self._partitioned = [PartitionedTransfer(transfer) for transfer in self._transfers]
         self._smoothers = [LineSmoother(jacobian, settings.omega) for jacobian in self.jacobians[1:]]
@@ -70,32 +82,35 @@ class MultigridSolver:
 
     def free(self):
         """Destroy the Mats; the KSP that uses them must be destroyed before."""
-        for mat in [*self._transfer_mats, *(jacobian.mat for jacobian in self.jacobians)]:
+        mats = [jacobian.mat for jacobian in (*self.jacobians, self.jacobian)]
+        for mat in (*self._transfer_mats, *mats):
             mat.destroy()
 
     @property
     def space(self):
         """Space of the finest grid's vectors."""
-        return self.jacobians[-1].space
+        return self.jacobian.space
 
     def linearise(self, P, H, status):
         """Linearise on every grid about the finest grid's (lines, nx) state."""
-        coarser = None
+        if self.jacobian is not self.jacobians[-1]:
+            grid = self.jacobian.grid
+            self.jacobian.linearise(grid.halo(P), grid.halo(H), grid.halo_status(status))
         for level in range(len(self.jacobians) - 1, -1, -1):
             jacobian = self.jacobians[level]
-            ghosted = [jacobian.grid.halo(array) for array in (P, H, status)]
-            jacobian.linearise(*ghosted)
+            grid = jacobian.grid
+            jacobian.linearise(grid.halo(P), grid.halo(H), grid.halo_status(status))
             if level > 0:
-                self._smoothers[level - 1].partition(fluid_state(P, H, self.contact).eps, status)
-                transfer = self._transfers[level - 1]
-                coarser = [transfer.inject(array) for array in (P, H, status)]
+                eps = fluid_state(P, H, self.contact, self._scheme.gap_floor).eps
+                self._smoothers[level - 1].partition(eps, status)
+                coarser = [self._transfers[level - 1].inject(array) for array in (P, H, status)]
                 self._partitioned[level - 1].partition(coarser[2], status)
                 P, H, status = coarser
 
     def configure(self, ksp, rtol):
         """Make a KSP (of a SNES, say) this solver; its options may still change it."""
         ksp.setType(PETSc.KSP.Type.FGMRES)
-        ksp.setOperators(self.jacobians[-1].mat)
+        ksp.setOperators(self.jacobian.mat, self.jacobians[-1].mat)
         ksp.setTolerances(rtol=rtol, atol=0.0, max_it=self._settings.max_iterations)
         self._configure_cycle(ksp.getPC())
         ksp.setFromOptions()

@@ -18,9 +18,8 @@ class LineSmoother:
         self._jacobian, self._omega = jacobian, omega
         grid = jacobian.grid
         near = _influence_nearby(jacobian)
-        if jacobian.rigid:
-            near = np.zeros_like(near)
-        self._K00, self._kappa = near[0, 0], influence_of_columns(near)
+        self._share = 0.5 if grid.mesh.is_line else 0.25
+        self._K00, self._kappa = near[0, 0], influence_of_columns(near, self._share)
         self._bands = LineBands(*grid.shape)
         self._w = np.zeros(grid.shape)
         self._ghosted_w = np.zeros(grid.ghosted_shape)
@@ -34,7 +33,8 @@ class LineSmoother:
 
     def setUp(self, _pc):
         """Factor the bands of the present linearisation."""
-        self._bands.factor(self._jacobian.linearisation, self._distributive[1:-1], self._kappa)
+        bands, linearisation = self._bands, self._jacobian.linearisation
+        bands.factor(linearisation, self._distributive[1:-1], self._kappa, self._share)
 
     def apply(self, _pc, x, y):
         """One relaxation from zero; the border is left alone."""
@@ -42,7 +42,7 @@ class LineSmoother:
         r, _ = space.read(x)
         self._bands.solve(r, self._w)
         self._jacobian.grid.halo(self._w, out=self._ghosted_w)
-        distribute(self._ghosted_w, self._distributive, self._omega, self._out)
+        distribute(self._ghosted_w, self._distributive, self._share, self._omega, self._out)
         self._out[self._given] = 0.0
         space.write(y, self._out, 0.0)
 
@@ -51,6 +51,8 @@ class LineSmoother:
 
 
 def _influence_nearby(jacobian):
-    """Influence coefficients of the few nearest nodes, [l, k]."""
+    """Influence coefficients of the few nearest nodes, [l, k]; none of a rigid gap's."""
+    if jacobian.rigid:
+        return np.zeros((3, REACH + 2))
     mesh = jacobian.grid.mesh
-    return influence_coefficients(mesh, jacobian.contact.deflection_scale, 0, 3)[:, : REACH + 4]
+    return influence_coefficients(mesh, jacobian.contact.deflection_scale, 0, 3)[:, : REACH + 2]

@@ -29,17 +29,19 @@ def on_first_rank(comm, function, *arguments):
         raise error
 
 
-NAMES = ("configuration.toml", "result.json", "history.csv", "fields.h5", "picture.png")
-"""The files of a run directory, in the order of `RunFiles`."""
+NAMES = (
+    "configuration.toml", "result.json", "history.csv", "fields.h5", "picture.png", "centerline.csv",
+)  # fmt: skip
+"""The files of a run directory, in the order of `RunFiles`; the last is a wedge's."""
 
 
 class RunFiles:
     """Paths of a run directory's files."""
 
     def __init__(self, directory):
-        self.configuration, self.result, self.history, self.fields, self.picture = (
-            Path(directory) / name for name in NAMES
-        )
+        (
+            self.configuration, self.result, self.history, self.fields, self.picture, self.center_line,
+        ) = (Path(directory) / name for name in NAMES)  # fmt: skip
 
 
 def prepare_directory(path, force):
@@ -89,20 +91,35 @@ def write_history(path, rows):
         writer.writerows(rows)
 
 
+def write_center_line(path, mesh, P):
+    """centerline.csv of a wedge: X in mm and P  [Liu eq. 44] on the line nearest to Y = 0."""
+    _, j = mesh.nearest(0.0, 0.0)
+    with path.open("w", newline="") as file:
+        writer = csv.writer(file)
+        writer.writerow(["X_mm", "P"])
+        writer.writerows(zip(mesh.X.tolist(), P[j].tolist(), strict=True))
+
+
 def write_fields(path, mesh, contact, fields):
     """fields.h5, netCDF-4: pressure, film and status with coordinates, SI and dimensionless."""
-    hertz = contact.hertz
     with h5netcdf.File(path, "w") as file:
         file.dimensions = {"y": mesh.ny, "x": mesh.nx}
-        _put(file, "x", ("x",), mesh.X * hertz.a, "m", "distance along the motion")
-        _put(file, "y", ("y",), mesh.Y * hertz.b, "m", "distance across the motion")
-        _put(file, "X", ("x",), mesh.X, "1", "x over Hertz semi-axis a")
-        _put(file, "Y", ("y",), mesh.Y, "1", "y over Hertz semi-axis b")
+        _put(file, "x", ("x",), mesh.X * contact.x_scale, "m", "distance along the motion")
+        _put(file, "y", ("y",), mesh.Y * contact.y_scale, "m", "distance across the motion")
+        _put(file, "X", ("x",), mesh.X, "1", "x over its unit: Hertz semi-axis a, or mm")
+        _put(file, "Y", ("y",), mesh.Y, "1", "y over its unit: Hertz semi-axis b, or mm")
         plane = ("y", "x")
-        _put(file, "pressure", plane, fields.P * hertz.p_h, "Pa", "fluid or contact pressure")
+        _put(file, "pressure", plane, fields.P * contact.pressure_scale, "Pa", "fluid or contact pressure")
         _put(file, "film", plane, fields.H * contact.film_scale, "m", "film thickness or gap")
-        _put(file, "P", plane, fields.P, "1", "pressure over maximum Hertz pressure")
-        _put(file, "H", plane, fields.H, "1", "gap over a^2/R_x")
+        _put(
+            file,
+            "P",
+            plane,
+            fields.P,
+            "1",
+            "pressure over its unit: maximum Hertz pressure, or eta u/(m^2 mm)",
+        )
+        _put(file, "H", plane, fields.H, "1", "gap over its unit: a^2/R_x, or m mm")
         _put(
             file,
             "status",

@@ -1,4 +1,4 @@
-"""The picture of a run: centre lines of pressure and film, and the map of the status."""
+"""The picture of a loaded contact: centre lines of pressure and film, map of the status."""
 
 import matplotlib
 
@@ -20,20 +20,33 @@ SMALLEST_FILM_RANGE = 10.0
 STYLE = {"font.size": 9, "axes.titlesize": 9, "figure.dpi": 150}
 
 
-def draw(path, mesh, contact, fields, title):
-    """Write the picture of whole-grid `fields` (P, H, status) to `path`."""
+def draw(path, solution):
+    """Write the picture of a `Solution`'s whole-grid fields to `path`."""
+    mesh, contact, fields = solution.mesh, solution.contact, solution.fields
     with plt.rc_context(STYLE):
-        figure, axes = plt.subplots(1, 3, figsize=(12.5, 4.2), layout="constrained")
+        panels = 1 if mesh.is_line else 3
+        figure, axes = plt.subplots(
+            1, panels, figsize=(1.5 + 3.7 * panels, 4.2), layout="constrained", squeeze=False
+        )
         i, j = mesh.nearest(0.0, 0.0)
         nm = 1e9 * contact.film_scale
-        _centre_line(axes[0], "X = x/a", mesh.X, fields.P[j], fields.H[j] * nm, contact)
-        axes[0].set_title("Y = 0, along the motion (left to right)")
-        _centre_line(axes[1], "Y = y/b", mesh.Y, fields.P[:, i], fields.H[:, i] * nm, contact)
-        axes[1].set_title("X = 0, across the motion")
-        _status_map(axes[2], mesh, fields.status)
-        figure.suptitle(title)
+        _centre_line(axes[0, 0], "X = x/a", mesh.X, fields.P[j], fields.H[j] * nm, contact)
+        axes[0, 0].set_title("Y = 0, along the motion (left to right)")
+        if not mesh.is_line:
+            _centre_line(axes[0, 1], "Y = y/b", mesh.Y, fields.P[:, i], fields.H[:, i] * nm, contact)
+            axes[0, 1].set_title("X = 0, across the motion")
+            _status_map(axes[0, 2], mesh, fields.status)
+        figure.suptitle(_title(solution))
         figure.savefig(path)
         plt.close(figure)
+
+
+def _title(solution):
+    contact, mesh = solution.contact, solution.mesh
+    load = f"{contact.load:.4g} N" + ("/m" if mesh.is_line else "")
+    nodes = f"{mesh.nx} nodes" if mesh.is_line else f"{mesh.nx} x {mesh.ny} nodes"
+    verdict = "converged" if solution.result.converged else "NOT converged"
+    return f"{1e3 * contact.speed:.4g} mm/s, {load}, {nodes}: {verdict}"
 
 
 def _centre_line(axes, label, position, P, film, contact):

@@ -4,54 +4,118 @@ import time
 
 
 class Progress:
-    """Collects the history of a run and, on the rank that may speak, prints it."""
+    """Collects the history of a run and, on the rank that may speak, prints it.
 
-    def __init__(self, film_scale, work, speak):
+    `row` and `line` say what is kept and what is printed of a cycle (`newton_row`, `newton_line`
+    or those of another method). The monitor of `nested_iteration` and its like.
+    """
+
+    def __init__(self, row, line, film_scale, work, speak):
+        self._row, self._line = row, line
         self._nm, self._work, self._speak = 1e9 * film_scale, work, speak
         self._started = time.perf_counter()
         self.rows = []
 
     def __call__(self, level, cycle):
-        """Take one cycle; the monitor of `nested_iteration`."""
-        row = {
-            "grid": level.nodes,
-            "speed_mm_s": 1e3 * level.speed,
-            "step": cycle.step,
-            "residual": cycle.residual,
-            "load_error": cycle.load_error,
-            "central_film_nm": cycle.central * self._nm,
-            "minimum_film_nm": cycle.minimum * self._nm,
-            "contact_nodes": cycle.contact_nodes,
-            "cavitated_nodes": cycle.cavitated_nodes,
-            "changed_nodes": cycle.changes.total,
-            "linear_iterations": cycle.linear_iterations,
-            "step_length": cycle.step_length,
-            "convolutions": self._work(),
-            "seconds": time.perf_counter() - self._started,
-        }
+        """Take one cycle."""
+        row = {"grid": level.nodes, "speed_mm_s": 1e3 * level.speed} | self._row(cycle, self._nm)
+        row |= {"convolutions": self._work(), "seconds": time.perf_counter() - self._started}
         self.rows.append(row)
         if self._speak:
-            print(_line(row), flush=True)
+            print(self._line(row), flush=True)
 
     @property
-    def newton_steps(self):
-        """Newton steps on all grids."""
+    def steps(self):
+        """Newton steps or sweeps on all grids."""
         return sum(1 for row in self.rows if row["step"] > 0)
 
 
-def _line(row):
+def newton_row(cycle, nm):
+    """What history.csv keeps of a Newton cycle."""
+    return {
+        "step": cycle.step,
+        "residual": cycle.residual,
+        "load_error": cycle.load_error,
+        "central_film_nm": cycle.central * nm,
+        "minimum_film_nm": cycle.minimum * nm,
+        "contact_nodes": cycle.contact_nodes,
+        "cavitated_nodes": cycle.cavitated_nodes,
+        "changed_nodes": cycle.changes.total,
+        "linear_iterations": cycle.linear_iterations,
+        "step_length": cycle.step_length,
+    }
+
+
+def newton_line(row):
+    """A Newton cycle on the terminal."""
+    return f"{_state(row)}  changed {row['changed_nodes']:5d}"
+
+
+def sweep_row(sweep, nm):
+    """What history.csv keeps of a relaxation sweep."""
+    return {
+        "step": sweep.step,
+        "residual": sweep.residual,
+        "load_error": sweep.load_error,
+        "central_film_nm": sweep.central * nm,
+        "minimum_film_nm": sweep.minimum * nm,
+        "contact_nodes": sweep.contact_nodes,
+        "cavitated_nodes": sweep.cavitated_nodes,
+        "e_p": sweep.e_p,
+        "e_p_lubr": sweep.e_p_fluid,
+        "e_p_solid": sweep.e_p_solid,
+    }
+
+
+def sweep_line(row):
+    """A relaxation sweep on the terminal."""
+    apart = f"lubr. {row['e_p_lubr']:8.2e}, solid {row['e_p_solid']:8.2e}"
+    return f"{_state(row)}  e^p {row['e_p']:8.2e} ({apart})"
+
+
+def _state(row):
     return (
         f"grid {row['grid']:5d}  {row['speed_mm_s']:9.4g} mm/s  step {row['step']:2d}  "
         f"residual {row['residual']:8.2e}  load {row['load_error']:+8.1e}  "
         f"film {row['central_film_nm']:10.4f} min {row['minimum_film_nm']:10.4f} nm  "
-        f"contact {row['contact_nodes']:6d}  cavitated {row['cavitated_nodes']:6d}  "
-        f"changed {row['changed_nodes']:5d}"
+        f"contact {row['contact_nodes']:6d}  cavitated {row['cavitated_nodes']:6d}"
+    )
+
+
+def wedge_rows(nodes, steps):
+    """The history of a wedge: what each linear solve found and took."""
+    return [
+        {"grid": nodes, "step": k, "residual": step.residual, "linear_iterations": step.linear_iterations}
+        for k, step in enumerate(steps)
+    ]
+
+
+def wedge_line(row):
+    """A linear solve on the terminal."""
+    return (
+        f"grid {row['grid']:5d}  solve {row['step']:2d}  residual {row['residual']:8.2e}  "
+        f"iterations {row['linear_iterations']:3d}"
+    )
+
+
+def wedge_block(result):
+    """The last words of a wedge run."""
+    return "\n".join(
+        [
+            f"{'CONVERGED' if result.converged else 'NOT CONVERGED'}: {result.reason}",
+            f"  load {result.load:.6f} mm ({result.load_N:.4g} N), P from {result.min_P:.6f} to "
+            f"{result.max_P:.6f} /mm (at most {result.max_pressure_MPa:.4g} MPa)",
+            f"  residual {result.residual:.1e}, flux imbalance {result.flux_imbalance:.1e}, "
+            f"flow through closed faces {result.closed_face_flow:.1e}",
+            f"  work: {result.linear_iterations} iterations, {result.wall_s:.1f} s on {result.ranks} ranks",
+        ]
     )
 
 
 def trust_block(result):
     """The last words of a run: the answer, and whether and why it can be trusted."""
     contact, inequality, resolution = result.contact, result.pressure_inequality, result.resolution
+    overlap = result.overlap
     verdict = "CONVERGED" if result.converged else "NOT CONVERGED"
     lines = [
         f"{verdict}: {result.reason}",
@@ -64,9 +128,13 @@ def trust_block(result):
         f"largest gap {contact.largest_gap_nm:.1e} nm",
         f"  pressure inequality broken at {inequality.violations} of {inequality.checked} interface nodes",
         f"  inlet: {resolution.inlet_cells:.2f} cells, {_ADVICE[resolution.verdict]}",
-        f"  work: {result.work.convolutions:.1f} fine-grid convolutions, {result.work.newton_steps} Newton "
-        f"steps, {result.wall_s:.1f} s on {result.ranks} ranks",
+        f"  work: {result.work.convolutions:.1f} fine-grid convolutions, {result.work.steps} steps, "
+        f"{result.wall_s:.1f} s on {result.ranks} ranks",
     ]
+    if overlap.nodes:
+        lines.insert(
+            4, f"  THE BODIES OVERLAP at {overlap.nodes} nodes by up to {overlap.largest_nm:.2e} nm"
+        )
     lines += [
         f"  Eq. 2 violated at node ({each['i']}, {each['j']}) by {each['size']:.2e} p_h"
         for each in inequality.nodes[:20]

@@ -1,6 +1,6 @@
 """The result of a run as one record: films, verdicts, work. Its fields are result.json's."""
 
-from dataclasses import asdict, astuple, dataclass
+from dataclasses import asdict, dataclass
 
 import numpy as np
 
@@ -26,12 +26,22 @@ class ContactResult:
 
 
 @dataclass(frozen=True)
+class Overlap:
+    """Nodes outside of contact whose gap is negative: the unified equations leave some."""
+
+    nodes: int
+    largest_nm: float
+
+
+@dataclass(frozen=True)
 class InequalityResult:
     """Check of [Liu eq. 2]: interface nodes checked, number and size (p_h) of violations."""
 
     checked: int
     violations: int
     worst: float
+    largest_ratio: float
+    """Largest fluid pressure over the contact pressure beside it."""
     nodes: list
 
 
@@ -52,21 +62,11 @@ class MoesFilm:
 
 
 @dataclass(frozen=True)
-class Formulas:
-    """What film formulas predict, in nm; the fields of `FilmFormulas`, in their order."""
-
-    hamrock_dowson_central_nm: float
-    hamrock_dowson_minimum_nm: float
-    nijenbanning_venner_moes_nm: float
-    grubin_nm: float
-
-
-@dataclass(frozen=True)
 class Work:
-    """Convolutions in equivalents of one on the finest grid; Newton steps on all grids."""
+    """Convolutions in equivalents of one on the finest grid; Newton steps or sweeps on all grids."""
 
     convolutions: float
-    newton_steps: int
+    steps: int
 
 
 @dataclass(frozen=True)
@@ -83,12 +83,14 @@ class Result:
     complementarity_error: float
     flux_imbalance: float
     contact: ContactResult
+    overlap: Overlap
     pressure_inequality: InequalityResult
     cavitated_nodes: int
     resolution: Resolution
     groups: Groups
     moes_film: MoesFilm
-    formulas: Formulas
+    formulas: dict
+    """Films that formulas predict: name and nm."""
     work: Work
     wall_s: float
     ranks: int
@@ -110,6 +112,12 @@ def summarise(problem, outcome, tolerance, work, wall_s, versions):
     inequality = check_pressure_inequality(grid, state.P, state.status)
     complementarity = complementarity_error(problem, state)
     converged, reason = _verdict(outcome, tolerance, residual, load_error, inequality, complementarity)
+    overlap = _overlap(grid, state, nm)
+    if converged and overlap.nodes:
+        reason = (
+            f"the unified equations hold, but the bodies overlap at {overlap.nodes} nodes "
+            f"by up to {overlap.largest_nm:.3g} nm"
+        )
     moes = contact.film_scale * contact.moes_scale
     return Result(
         converged=converged,
@@ -121,18 +129,20 @@ def summarise(problem, outcome, tolerance, work, wall_s, versions):
         load_error=load_error,
         complementarity_error=complementarity,
         flux_imbalance=flux_imbalance(problem, state),
-        contact=_contact_result(grid, state, nm),
+        contact=_contact_result(grid, state, nm, contact.contact_area),
+        overlap=overlap,
         pressure_inequality=InequalityResult(
             inequality.checked,
             len(inequality.violations),
             inequality.worst,
+            inequality.largest_ratio,
             [asdict(violation) for violation in inequality.violations],
         ),
         cavitated_nodes=problem.counts(state.status)[1],
         resolution=resolution(contact, grid.mesh),
         groups=contact.groups,
         moes_film=MoesFilm(central * moes, minimum * moes),
-        formulas=Formulas(*(1e9 * film for film in astuple(contact.formulas))),
+        formulas={f"{name}_nm": 1e9 * film for name, film in asdict(contact.formulas).items()},
         work=work,
         wall_s=wall_s,
         ranks=grid.comm.size,
@@ -166,7 +176,7 @@ def _verdict(outcome, tolerance, residual, load_error, inequality, complementari
     return True, "residual, load, sets, complementarity and the pressure inequality hold"
 
 
-def _contact_result(grid, state, nm):
+def _contact_result(grid, state, nm, contact_area):
     contact = state.status == CONTACT
     largest_gap = nm * grid.max(np.abs(state.H[contact]), initial=0.0)
     cell = grid.mesh.dX * grid.mesh.dY
@@ -175,7 +185,13 @@ def _contact_result(grid, state, nm):
     along_x = contact[j - grid.first] if grid.first <= j < grid.last else np.zeros(grid.mesh.nx, bool)
     x_nodes = np.flatnonzero(np.logical_or.reduce(grid.comm.allgather(along_x))) + 1
     y_nodes = np.flatnonzero(np.concatenate(grid.comm.allgather(contact[:, i]))) + 1
-    return ContactResult(nodes, nodes * cell / np.pi, _ends(x_nodes), _ends(y_nodes), largest_gap)
+    across = None if grid.mesh.is_line else _ends(y_nodes)
+    return ContactResult(nodes, nodes * cell / contact_area, _ends(x_nodes), across, largest_gap)
+
+
+def _overlap(grid, state, nm):
+    below = np.where(state.status == CONTACT, 0.0, -state.H)
+    return Overlap(grid.count(below > 0.0), nm * grid.max(below, initial=0.0))
 
 
 def _ends(nodes):

@@ -1,42 +1,112 @@
 """From a configuration to the objects of a run."""
 
+from dataclasses import asdict
+from math import inf
+
 from mgehl.discretization.mesh import Mesh
-from mgehl.discretization.residual import Scheme
-from mgehl.model.contact import PointContact
+from mgehl.discretization.scheme import Scheme
+from mgehl.model.line import LineContact
 from mgehl.model.lubricant import DENSITY_LAWS, VISCOSITY_LAWS, Lubricant
+from mgehl.model.point import PointContact
+from mgehl.model.wedge import WedgeBearing
 from mgehl.multigrid.cycle import CycleSettings
 from mgehl.solver.nested import NestedSettings, SolverSettings
 from mgehl.solver.newton import NewtonSettings
+from mgehl.solver.relaxation import RelaxationSettings
 
 OPTIONS_PREFIX = "mgehl_"
 """Prefix under which PETSc options reach the solvers of a run."""
 
 
 def contact_from(config):
-    """The contact that a `Config` describes."""
+    """The contact that a `Config` describes: a point, a line or a wedge."""
+    return {"point": _point_from, "line": _line_from, "wedge": _wedge_from}[config.contact.kind](config)
+
+
+def _lubricant_from(config):
+    section = config.lubricant
+    viscosity = VISCOSITY_LAWS[section.viscosity_law](section.viscosity, section.pressure_viscosity)
+    return Lubricant(viscosity, DENSITY_LAWS[section.density_law]())
+
+
+def _point_from(config):
     section, moes = config.contact, config.moes
-    viscosity = VISCOSITY_LAWS[config.lubricant.viscosity_law]
-    lubricant = Lubricant(
-        viscosity(config.lubricant.viscosity, config.lubricant.pressure_viscosity),
-        DENSITY_LAWS[config.lubricant.density_law](),
-    )
     body = (section.radius_x, section.radius_y, section.reduced_modulus)
+    lubricant = _lubricant_from(config)
     if moes.M is not None:
         return PointContact.from_moes(moes.M, moes.L, *body, lubricant)
     return PointContact(section.load, *body, config.motion.speed, lubricant)
 
 
+def _line_from(config):
+    section, lubricant = config.contact, _lubricant_from(config)
+    body = (section.radius_x, section.reduced_modulus)
+    return LineContact(section.load_per_length, *body, config.motion.speed, lubricant)
+
+
+def _wedge_from(config):
+    section = config.wedge
+    return WedgeBearing(
+        exit=section.exit,
+        inlet=section.inlet,
+        width=section.width,
+        slope=section.slope,
+        viscosity=config.lubricant.viscosity,
+        speed=config.motion.speed,
+        turned=section.reversed,
+        blocked_exit=section.blocked_exit,
+        pillar=section.pillar,
+        pillar_x=section.pillar_x,
+        pillar_y=section.pillar_y,
+        pillar_size=section.pillar_size,
+    )
+
+
 def mesh_from(config, contact):
     """The finest mesh."""
-    grid = config.grid
+    grid, kind = config.grid, config.contact.kind
+    if kind == "line":
+        return Mesh(grid.nodes, 1, grid.x, (0.0, 0.0))
+    if kind == "wedge":
+        x, edges = contact.placement(grid.nodes)
+        half = 0.5 * contact.width / contact.y_scale
+        return Mesh(grid.nodes, grid.nodes, x, (-half, half), edges=edges)
     return Mesh(grid.nodes, grid.nodes, grid.x, grid.y, contact.k_e)
+
+
+def scheme_from(config, contact):
+    """How the Reynolds equation is differenced."""
+    section = config.discretization
+    unified = section.contact_model == "unified"
+    return Scheme(
+        couette=section.couette,
+        couette_at_interface=section.couette_at_interface,
+        motion=contact.motion,
+        gap_floor=section.unified_gap / contact.film_scale if unified else None,
+        cavitation=section.cavitation,
+    )
+
+
+def cycle_from(config):
+    """The settings of the multigrid cycle."""
+    solver = config.solver
+    return CycleSettings(
+        sweeps=solver.sweeps,
+        omega=solver.omega,
+        couette=solver.cycle_couette,
+        options_prefix=OPTIONS_PREFIX,
+    )
 
 
 def settings_from(config, contact):
     """Everything the solver is told."""
-    solver, discretization = config.solver, config.discretization
+    solver, relaxation = config.solver, config.relaxation
+    unified = config.discretization.contact_model == "unified"
+    # Without interface conditions no gap is small enough to be contact.
+    threshold = -inf if unified else config.discretization.film_threshold / contact.film_scale
     return SolverSettings(
-        scheme=Scheme(discretization.couette),
+        method=solver.method,
+        scheme=scheme_from(config, contact),
         nested=NestedSettings(
             start=solver.start, first_nodes=solver.first_nodes, inlet_cells=solver.inlet_cells
         ),
@@ -44,8 +114,11 @@ def settings_from(config, contact):
             tolerance=solver.tolerance,
             max_steps=solver.max_steps,
             linear_tolerance=solver.linear_tolerance,
-            film_threshold=discretization.film_threshold / contact.film_scale,
+            film_threshold=threshold,
             release_budget=solver.release_budget,
         ),
-        cycle=CycleSettings(sweeps=solver.sweeps, omega=solver.omega, options_prefix=OPTIONS_PREFIX),
+        cycle=cycle_from(config),
+        relaxation=RelaxationSettings(
+            **asdict(relaxation), tolerance=solver.tolerance, film_threshold=threshold
+        ),
     )

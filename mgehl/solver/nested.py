@@ -6,13 +6,14 @@ from math import isfinite
 
 import numpy as np
 
-from mgehl.discretization.residual import Scheme
+from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
 from mgehl.model.hertz import hertz_pressure
 from mgehl.multigrid.cycle import CycleSettings, MultigridSolver
-from mgehl.solver.cavitation import RigidGapFluid
 from mgehl.solver.newton import Newton, NewtonSettings
-from mgehl.solver.problem import PointProblem
+from mgehl.solver.problem import ContactProblem
+from mgehl.solver.relaxation import RelaxationSettings, relax
+from mgehl.solver.rigid_gap import RigidGapFluid
 
 
 @dataclass(frozen=True)
@@ -37,10 +38,13 @@ class NestedSettings:
 class SolverSettings:
     """All that the solver may be told."""
 
+    method: str = "newton-mg"
+    """"newton-mg", or the paper's "relaxation" on the finest grid alone."""
     scheme: Scheme = field(default_factory=Scheme)
     nested: NestedSettings = field(default_factory=NestedSettings)
     newton: NewtonSettings = field(default_factory=NewtonSettings)
     cycle: CycleSettings = field(default_factory=CycleSettings)
+    relaxation: RelaxationSettings = field(default_factory=RelaxationSettings)
 
 
 @dataclass(frozen=True)
@@ -53,7 +57,7 @@ class LevelSolve:
 
 
 def nested_iteration(hierarchy, contact, settings, monitor):
-    """Solve `contact` on the finest grid; return its `PointProblem` and its `Outcome`.
+    """Solve `contact` on the finest grid; return its `ContactProblem` and its `Outcome`.
 
     `monitor(level, cycle)` is called with a `LevelSolve` and the `Cycle` for every cycle.
     """
@@ -66,7 +70,9 @@ def nested_iteration(hierarchy, contact, settings, monitor):
             limits = replace(settings.newton, tolerance=settings.nested.coarse_tolerance)
         else:
             speed, limits = contact.speed, settings.newton
-        problem = PointProblem(grid, hierarchy.deflections[level], contact.at_speed(speed), settings.scheme)
+        problem = ContactProblem(
+            grid, hierarchy.deflections[level], contact.at_speed(speed), settings.scheme
+        )
         if outcome is None:
             state = first_guess(problem, settings.nested.start)
         else:
@@ -78,14 +84,24 @@ def nested_iteration(hierarchy, contact, settings, monitor):
     return problem, outcome
 
 
+def single_loop(hierarchy, contact, settings, monitor):
+    """Solve by the paper's relaxation, on the finest grid alone; otherwise as `nested_iteration`."""
+    grid = hierarchy.grids[-1]
+    problem = ContactProblem(grid, hierarchy.deflections[-1], contact, settings.scheme)
+    state = first_guess(problem, settings.nested.start)
+    tell = partial(monitor, LevelSolve(grid.mesh.nx, contact.speed, True))
+    return problem, relax(problem, state, settings.relaxation, tell)
+
+
 def first_guess(problem, start):
     """Hertz pressure with a film of the formula's thickness, or with the ellipse in contact."""
     grid, contact = problem.grid, problem.contact
     P = hertz_pressure(grid.X, grid.Y)
     if start == "film":
-        film = contact.formulas.hamrock_dowson_central / contact.film_scale
+        film = contact.expected_film / contact.film_scale
         return problem.state(P, film - contact.approach, np.full(grid.shape, LUBRICATED))
-    status = np.where(grid.X**2 + grid.Y**2 <= 1.0, CONTACT, LUBRICATED)
+    pressed = (grid.X**2 + grid.Y**2 <= 1.0) & (problem.scheme.gap_floor is None)
+    status = np.where(pressed, CONTACT, LUBRICATED)
     return problem.state(P, -contact.approach, status)
 
 
@@ -93,7 +109,8 @@ def interpolate(transfer, problem, coarse):
     """The coarse state on the fine grid: P bilinear, a node in contact where most of it would be."""
     P = transfer.bilinear(coarse.P)
     in_contact = transfer.bilinear((coarse.status == CONTACT).astype(float)) > 0.5
-    status = np.where(in_contact, CONTACT, np.where(P > 0.0, LUBRICATED, CAVITATED))
+    film = (P > 0.0) | (not problem.scheme.cavitation)
+    status = np.where(in_contact, CONTACT, np.where(film, LUBRICATED, CAVITATED))
     return problem.state(P, coarse.H0, status)
 
 
@@ -110,7 +127,7 @@ def _solve_level(hierarchy, level, problem, state, limits, settings, tell):
         return MultigridSolver(hierarchy, level, problem.contact, problem.scheme, settings.cycle, rigid)
 
     prefix, fluid = settings.cycle.options_prefix, None
-    if settings.nested.start == "contact":
+    if settings.nested.start == "contact" and problem.scheme.gap_floor is None:
         fluid = RigidGapFluid(problem, multigrid(rigid=True), prefix + "fluid_")
     try:
         newton = Newton(problem, multigrid(rigid=False), limits, fluid, prefix, tell)

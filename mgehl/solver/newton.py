@@ -65,7 +65,7 @@ class Outcome:
 
 
 class Newton:
-    """Solves one `PointProblem` with a `MultigridSolver`.
+    """Solves one `ContactProblem` with a `MultigridSolver`.
 
     `solve` holds the iteration, because the sets change within it. SNES is given the function and
     the Jacobian of the present partition besides, for its viewers and whoever probes it.
@@ -85,7 +85,7 @@ class Newton:
         self._snes.setPythonContext(self)
         self._unknown, self._rhs, self._correction = (multigrid.space.create_vec() for _ in range(3))
         self._snes.setFunction(self._form_function, self._rhs)
-        self._snes.setJacobian(self._form_jacobian, multigrid.jacobians[-1].mat)
+        self._snes.setJacobian(self._form_jacobian, multigrid.jacobian.mat)
         self._snes.setTolerances(atol=settings.tolerance, rtol=0.0, max_it=settings.max_steps)
         multigrid.configure(self._snes.getKSP(), settings.linear_tolerance)
         self._snes.setFromOptions()
@@ -231,4 +231,4 @@ class Newton:
         self._multigrid.linearise(state.P, state.H, state.status)
 
     def _write_residual(self, vec, F, load, sign=1.0):
-        self._multigrid.space.write(vec, sign * F, sign * load * self._multigrid.jacobians[-1].load_scale)
+        self._multigrid.space.write(vec, sign * F, sign * load * self._multigrid.jacobian.load_scale)

@@ -40,7 +40,9 @@ class Partition:
         """Set negative pressures to zero in place: fluid cavitates, contact is released."""
         negative = P < 0.0
         torn, tensile = negative & (status == LUBRICATED), negative & (status == CONTACT)
-        P[negative] = 0.0
+        if not self._problem.scheme.cavitation:
+            torn[:] = False
+        P[torn | tensile] = 0.0
         # A released node has no gap yet: held at P = 0 for one step, it opens one.
         status[torn | tensile] = CAVITATED
         self._just_released = tensile
@@ -64,8 +66,9 @@ class Partition:
     def fill(self, state, inflow, changes):
         """Cavitated nodes that fluid flows into become lubricated."""
         filled = (state.status == CAVITATED) & (inflow > 0.0)
-        # A node without a gap cannot take part in the flow.
-        filled &= state.H > 0.0
+        # A node without a gap cannot take part in the flow (but in the unified equations it does).
+        if self._problem.scheme.gap_floor is None:
+            filled &= state.H > 0.0
         state.status[filled] = LUBRICATED
         changes.filled += self._grid.count(filled)
 
@@ -74,7 +77,7 @@ class Partition:
 
         The fluid beside such a node would pry it open: it becomes film under that fluid's pressure.
         """
-        ghosted = self._grid.halo(state.P), self._grid.halo(state.status)
+        ghosted = self._grid.halo(state.P), self._grid.halo_status(state.status)
         beside = largest_fluid_neighbour(*ghosted)
         released = (state.status == CONTACT) & (state.P < beside) & (self._budget > 0)
         self._budget[released] -= 1

@@ -7,7 +7,6 @@ import numpy as np
 from mgehl.discretization.influence import influence_coefficients
 from mgehl.discretization.residual import net_inflow, residual
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT
-from mgehl.model.contact import LOAD
 
 
 @dataclass
@@ -23,13 +22,38 @@ class State:
         return State(self.P.copy(), self.H0, self.H.copy(), self.status.copy())
 
 
-class PointProblem:
-    """Gap, residual and load balance of a contact on one grid."""
+class Problem:
+    """The fluid of a contact on one grid, in whatever gap."""
+
+    K00 = 0.0
+    """Deflection of a node by its own pressure: none in a rigid gap."""
+
+    def __init__(self, grid, contact, scheme):
+        self.grid, self.contact, self.scheme = grid, contact, scheme
+        self.boundary = grid.boundary()
+
+    def inflow(self, state):
+        """Net inflow/(dX dY) of every node  [Liu eq. 35]."""
+        halo = self.grid.halo
+        ghosted = halo(state.P), halo(state.H), self.grid.halo_status(state.status)
+        return net_inflow(*ghosted, self.grid.mesh, self.contact, self.scheme)
+
+    def rms(self, F):
+        """Root mean square of a residual over all nodes."""
+        return float(np.sqrt(self.grid.sum(np.vdot(F, F)) / self.grid.mesh.nodes))
+
+    def load(self, P):
+        """Integral of P  [Liu eq. 50]."""
+        mesh = self.grid.mesh
+        return mesh.dX * mesh.dY * self.grid.sum(P.sum())
+
+
+class ContactProblem(Problem):
+    """Gap, residual and load balance of a loaded contact on one grid."""
 
     def __init__(self, grid, deflection, contact, scheme):
-        self.grid, self.deflection = grid, deflection
-        self.contact, self.scheme = contact, scheme
-        self.boundary = grid.boundary()
+        super().__init__(grid, contact, scheme)
+        self.deflection = deflection
         self.K00 = influence_coefficients(grid.mesh, contact.deflection_scale, 0, 1)[0, 0]
         self._undeformed = contact.undeformed_gap(grid.X, grid.Y)
 
@@ -43,23 +67,13 @@ class PointProblem:
         status = np.where(self.boundary, BOUNDARY, status).astype(np.int8)
         return State(P, H0, self.gap(P, H0), status)
 
-    def inflow(self, state):
-        """Net inflow/(dX dY) of every node  [Liu eq. 35]."""
-        ghosted = (self.grid.halo(array) for array in (state.P, state.H, state.status))
-        return net_inflow(*ghosted, self.grid.mesh, self.contact, self.scheme)
-
     def residual(self, state, inflow):
         """Rows of the nonlinear residual."""
         return residual(inflow, state.P, state.H, state.status, self.grid.mesh)
 
-    def rms(self, F):
-        """Root mean square of a residual over all nodes."""
-        return float(np.sqrt(self.grid.sum(np.vdot(F, F)) / self.grid.mesh.nodes))
-
     def load_deficit(self, P):
         """Integral of P minus the load  [Liu eq. 50]."""
-        mesh = self.grid.mesh
-        return mesh.dX * mesh.dY * self.grid.sum(P.sum()) - LOAD
+        return self.load(P) - self.contact.load_integral
 
     def films(self, state):
         """Gap at the node nearest to the centre, and the smallest gap, in units of H."""

@@ -12,6 +12,8 @@ from mgehl.discretization.status import (
     LUBRICATED,
     close_gaps,
     largest_fluid_neighbour,
+    open_x_faces,
+    open_y_faces,
 )
 
 
@@ -31,6 +33,8 @@ class PressureInequality:
     checked: int
     """Contact nodes with fluid on at least one side."""
     violations: list = field(default_factory=list)
+    largest_ratio: float = 0.0
+    """Largest fluid pressure over the contact pressure beside it; infinite beside P = 0."""
 
     @property
     def worst(self):
@@ -39,8 +43,8 @@ class PressureInequality:
 
 
 def check_pressure_inequality(grid, P, status):
-    """Check P_contact >= P_fluid across the interface, nodes counted from 1  [Liu eq. 2]."""
-    neighbour = largest_fluid_neighbour(grid.halo(P), grid.halo(status))
+    """Check P_contact >= P_fluid across the interface, nodes counted from 1  [Liu eqs. 2, 25]."""
+    neighbour = largest_fluid_neighbour(grid.halo(P), grid.halo_status(status))
     interface = (status == CONTACT) & ~(neighbour == -np.inf)
     excess = np.where(interface, neighbour - P, 0.0)
     local = [
@@ -48,24 +52,31 @@ def check_pressure_inequality(grid, P, status):
         for j, i in np.argwhere(excess > 0.0)
     ]
     violations = [violation for part in grid.comm.allgather(local) for violation in part]
-    return PressureInequality(grid.count(interface), violations)
+    beside = np.maximum(neighbour[interface], 0.0)
+    ratios = np.divide(
+        beside, P[interface], out=np.where(beside > 0.0, np.inf, 0.0), where=P[interface] > 0.0
+    )
+    return PressureInequality(grid.count(interface), violations, grid.max(ratios, initial=0.0))
 
 
 def complementarity_error(problem, state):
     """Largest breach of the conditions that define the partition, in units of P and H.
 
-    Lubricated: P >= 0 and H >= 0. Cavitated: P = 0, H >= 0 and no inflow. Contact: H = 0 and
-    P >= 0. Fluid shut in from west and east counts as 1. (H_th is where contact is entered; a
-    node that would be tensile in contact may stay film with a gap between 0 and H_th.)
+    Lubricated: P >= 0 (if the film cavitates) and H >= 0 (not asked of the unified equations).
+    Cavitated: P = 0, H >= 0 and no inflow. Contact: H = 0 and P >= 0. Fluid shut in from west and
+    east counts as 1. (H_th is where contact is entered; a node that would be tensile in contact
+    may stay film with a gap between 0 and H_th.)
     """
     grid, status = problem.grid, state.status
     film, cavity, contact = status == LUBRICATED, status == CAVITATED, status == CONTACT
+    open_gap = film | cavity if problem.scheme.gap_floor is None else cavity & ~cavity
+    tension = film | contact if problem.scheme.cavitation else contact
     breaches = (
-        -state.P[film | contact],
+        -state.P[tension],
         np.abs(state.P[cavity]),
         problem.inflow(state)[cavity] * grid.mesh.dX,
         np.abs(state.H[contact]),
-        -state.H[film | cavity],
+        -state.H[open_gap],
         np.array([float(close_gaps(status.copy()))]),
     )
     return max(grid.max(breach, initial=0.0) for breach in breaches)
@@ -78,10 +89,10 @@ def flux_imbalance(problem, state):
     and the residual are all that a conservative scheme may leave.
     """
     grid, mesh, scheme = problem.grid, problem.grid.mesh, problem.scheme
-    P, H, status = (grid.halo(array) for array in (state.P, state.H, state.status))
-    fluid = fluid_state(P, H, problem.contact)
-    leaving, entering = x_flows(fluid[1:-1], state.status, mesh, scheme.couette, scheme.face_mobility)
-    across = y_flows(fluid, status, mesh, scheme.face_mobility).value * mesh.dX
+    P, H, status = grid.halo(state.P), grid.halo(state.H), grid.halo_status(state.status)
+    fluid = fluid_state(P, H, problem.contact, problem.scheme.gap_floor)
+    leaving, entering = x_flows(fluid[1:-1], state.status, mesh, scheme)
+    across = y_flows(fluid, status, mesh, scheme).value * mesh.dX
     film = status == LUBRICATED
     inner = film[1:-1]
     first, last = inner[:, 1:] & ~inner[:, :-1], inner[:, :-1] & ~inner[:, 1:]
@@ -93,3 +104,14 @@ def flux_imbalance(problem, state):
     total = grid.sum(flows.sum())
     inflow = grid.sum(flows[flows > 0.0].sum())
     return abs(total) / inflow if inflow > 0.0 else 0.0
+
+
+def closed_face_flow(problem, state):
+    """Largest flow through a face that contact closes: what leaks through solid  [Liu eq. 4]."""
+    grid, mesh, scheme = problem.grid, problem.grid.mesh, problem.scheme
+    P, H, status = grid.halo(state.P), grid.halo(state.H), grid.halo_status(state.status)
+    fluid = fluid_state(P, H, problem.contact, scheme.gap_floor)
+    shut = ~open_x_faces(state.status)
+    leaks = [flow.value[shut] for flow in x_flows(fluid[1:-1], state.status, mesh, scheme)]
+    leaks.append(y_flows(fluid, status, mesh, scheme).value[~open_y_faces(status)])
+    return max(grid.max(np.abs(leak), initial=0.0) for leak in leaks)

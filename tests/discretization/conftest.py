@@ -5,8 +5,8 @@ import pytest
 
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
-from mgehl.model.contact import PointContact
 from mgehl.model.lubricant import Barus, DowsonHigginson, Lubricant
+from mgehl.model.point import PointContact
 
 
 @pytest.fixture

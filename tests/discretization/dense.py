@@ -33,7 +33,17 @@ def dense_K(K, lines, nx):
     return K[np.abs(np.subtract.outer(j, j)), np.abs(np.subtract.outer(i, i))]
 
 
-def dense_Q(distributive):
+def held_beyond(K_Q, lines, nx, reach):
+    """K Q ((lines + 2) nx, lines nx) whose columns keep, beyond `reach` along X, their value there."""
+    far = K_Q.reshape(lines + 2, nx, lines, nx).copy()
+    for i, m in np.ndindex(nx, nx):
+        if abs(i - m) > reach:
+            # A column is even along X: whichever side lies on the line will do.
+            far[:, i, :, m] = far[:, m + reach if m + reach < nx else m - reach, :, m]
+    return far.reshape(K_Q.shape)
+
+
+def dense_Q(distributive, share):
     """Columns of Q for the inner nodes of ghosted lines: ((lines + 2) nx, lines nx)."""
     lines, nx = distributive.shape
     Q = np.zeros((lines + 2, nx, lines, nx))
@@ -42,5 +52,5 @@ def dense_Q(distributive):
         if distributive[j, i]:
             for dj, di in ((-1, 0), (1, 0), (0, -1), (0, 1)):
                 if 0 <= i + di < nx:
-                    Q[j + 1 + dj, i + di, j, i] = -0.25
+                    Q[j + 1 + dj, i + di, j, i] = -share
     return Q.reshape(-1, lines * nx)

@@ -1,6 +1,6 @@
 import numpy as np
 import pytest
-from dense import dense_K, dense_Q, dense_stencil, line_stencils
+from dense import dense_K, dense_Q, dense_stencil, held_beyond, line_stencils
 
 from mgehl.discretization.bands import (
     STIFF,
@@ -10,13 +10,14 @@ from mgehl.discretization.bands import (
     influence_of_columns,
 )
 from mgehl.discretization.influence import influence_coefficients
-from mgehl.discretization.kernels import REACH
+from mgehl.discretization.kernels import REACH, build_bands
 from mgehl.discretization.mesh import Mesh
-from mgehl.discretization.residual import Linearisation
+from mgehl.discretization.residual import C, Linearisation, W
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
 
 MESH = Mesh(15, 11, (-1.9, 1.3), (-1.5, 1.5), k_e=0.6)
 K = influence_coefficients(MESH, 0.2)
+every_share = pytest.mark.parametrize("share", [0.25, 0.5])
 
 
 @pytest.mark.parametrize(
@@ -47,48 +48,113 @@ def test_given_pressures_are_those_of_boundary_and_cavity():
     assert given_nodes(status).tolist() == [[True, False, True, False]]
 
 
+@every_share
 @pytest.mark.parametrize("line", [0, 1])
 @pytest.mark.parametrize("k", range(REACH + 3))
-def test_influence_of_a_column_of_Q(line, k):
-    """A unit pressure, and one less a quarter on each of its four neighbours."""
+def test_influence_of_a_column_of_Q(line, k, share):
+    """A unit pressure, and one less its share on each of its four neighbours; held beyond REACH."""
 
     def at(line, k):
         return K[abs(line), abs(k)]
 
-    kappa = influence_of_columns(K)
+    kappa = influence_of_columns(K[:3, : REACH + 2], share)
     assert kappa.shape == (2, 2, REACH + 3)
-    spread = at(line, k - 1) + at(line, k + 1) + at(line - 1, k) + at(line + 1, k)
-    assert kappa[0, line, k] == at(line, k)
-    assert kappa[1, line, k] == pytest.approx(at(line, k) - spread / 4.0, rel=1e-14)
+    near = min(k, REACH)
+    spread = at(line, near - 1) + at(line, near + 1) + at(line - 1, near) + at(line + 1, near)
+    assert kappa[0, line, k] == at(line, near)
+    assert kappa[1, line, k] == pytest.approx(at(line, near) - share * spread, rel=1e-13)
 
 
 def test_distributed_column_hardly_reaches_beyond_the_band():
     """Why corrections are distributed: the far field of (1, -1/4 ...) falls as 1/r^3, not 1/r.
 
-    On a square mesh the column is the discrete Laplacian of 1/r, which is 1/(4 r^3) of a cell.
+    On a square mesh the column is the discrete Laplacian of 1/r, which is 1/(4 r^3) of a cell; on
+    a line half the second difference of -ln|x|, which is 1/(2 x^2).
     """
     square = Mesh(33, 33, (-1.6, 1.6), (-1.6, 1.6))
-    kappa = influence_of_columns(influence_coefficients(square, 1.0))
-    single, distributed = np.abs(kappa[:, 0, -1] / kappa[:, 0, 0])
-    assert distributed < 0.01 * single
+    _, distributed = influence_of_columns(influence_coefficients(square, 1.0), 0.25)[:, 0, REACH]
+    assert distributed == pytest.approx(-square.dX / (4.0 * REACH**3), rel=0.15)
+    line = Mesh(33, 1, (-1.6, 1.6), (0.0, 0.0))
+    _, distributed = influence_of_columns(influence_coefficients(line, 1.0, 0, 3), 0.5)[:, 0, REACH]
+    assert distributed == pytest.approx(-line.dX / (2.0 * REACH**2), rel=0.1)
 
 
-def test_line_bands_solve_the_band_of_J_Q():
+@every_share
+def test_line_bands_solve_the_band_of_J_Q(share):
     """LineBands against numpy.linalg.solve on the dense lines of (A + B K) Q cut to the band."""
     rng = np.random.default_rng(5)
     lines, nx = 3, MESH.nx
     A, B = line_stencils(rng, lines, nx)
     distributive = rng.random((lines, nx)) < 0.5
     distributive[:, [0, -1]] = False
-    JQ = (dense_stencil(A) + dense_stencil(B) @ dense_K(K, lines + 2, nx)) @ dense_Q(distributive)
-    JQ = JQ.reshape(lines, nx, lines, nx)
+    Q = dense_Q(distributive, share)
+    K_Q = held_beyond(dense_K(K, lines + 2, nx) @ Q, lines, nx, REACH)
+    JQ = (dense_stencil(A) @ Q + dense_stencil(B) @ K_Q).reshape(lines, nx, lines, nx)
     r, w = rng.standard_normal((lines, nx)), np.empty((lines, nx))
     bands = LineBands(lines, nx)
     # A second factorisation must not see the first.
     for stencils in ((B, A), (A, B)):
-        bands.factor(Linearisation(*stencils), distributive, influence_of_columns(K))
+        bands.factor(Linearisation(*stencils), distributive, influence_of_columns(K, share), share)
     bands.solve(r, w)
     offset = np.subtract.outer(np.arange(nx), np.arange(nx))
     for j in range(lines):
         line = np.where(np.abs(offset) <= REACH, JQ[j, :, j], 0.0)
         np.testing.assert_allclose(w[j], np.linalg.solve(line, r[j]), rtol=1e-11, atol=1e-13)
+
+
+def wedge_term(nx):
+    """Stencils of a pure Couette flow by 1B, d H/dX of a line in steps of 1; its ends are given."""
+    A, B = np.zeros((2, 6, 1, nx))
+    A[C, :, [0, -1]] = -1.0
+    B[C, :, 1:-1], B[W, :, 1:-1] = -1.0, 1.0
+    distributive = np.ones((1, nx), bool)
+    distributive[:, [0, -1]] = False
+    return Linearisation(A, B), distributive
+
+
+def line_table():
+    """Table of the logarithmic kernel."""
+    near = influence_coefficients(Mesh(257, 1, (-4.0, 2.0), (0.0, 0.0)), 1.0 / np.pi, 0, 3)
+    return influence_of_columns(near, 0.5)
+
+
+def cut_off(kappa):
+    """The same table without what it holds beyond the band."""
+    kappa = kappa.copy()
+    kappa[:, :, REACH + 1 :] = 0.0
+    return kappa
+
+
+@pytest.mark.parametrize("kind", [0, 1], ids=["single", "distributed"])
+def test_rows_of_a_differenced_gap_sum_to_zero(kind):
+    """A pressure that is constant along the line changes no dH/dX: why the table holds its last value."""
+    nx = 4 * REACH
+    linear, distributive = wedge_term(nx)
+
+    def row_sums(kappa):
+        bands = np.empty((1, nx, 2 * REACH + 1))
+        build_bands(linear.A, linear.B, distributive & bool(kind), kappa, 0.5, bands)
+        # A row that reaches a line's end meets the end's column, which is never distributed.
+        return bands[0, REACH + 1 : -REACH - 1].sum(axis=1)
+
+    kappa = line_table()
+    np.testing.assert_allclose(row_sums(kappa), 0.0, rtol=0.0, atol=1e-14 * abs(kappa[kind, 0, 0]))
+    np.testing.assert_allclose(row_sums(cut_off(kappa)), -kappa[kind, 0, REACH], rtol=1e-10)
+
+
+def test_long_lines_of_a_differenced_gap_have_a_bounded_solution():
+    """One unit of residual asks for no more correction on 4097 nodes than on 257."""
+
+    def largest(kappa, nx):
+        linear, distributive = wedge_term(nx)
+        bands, r, w = LineBands(1, nx), np.zeros((1, nx)), np.empty((1, nx))
+        bands.factor(linear, distributive, kappa, 0.5)
+        r[0, nx // 4] = 1.0
+        bands.solve(r, w)
+        return np.abs(w).max()
+
+    kappa = line_table()
+    assert largest(kappa, 4097) == pytest.approx(largest(kappa, 257), rel=0.01)
+    # With a sum in every row the correction grows as exp(c nx).
+    assert largest(cut_off(kappa), 257) > 1e6 * largest(kappa, 257)
+    assert largest(cut_off(kappa), 4097) > 1e100 * largest(kappa, 4097)

@@ -4,10 +4,11 @@ from math import sqrt
 import numpy as np
 import pytest
 
-from mgehl.discretization.couette import SCHEMES, WW, E, W
+from mgehl.discretization.couette import EE, SCHEMES, WW, E, W
 from mgehl.discretization.faces import x_flows, y_flows
 from mgehl.discretization.fluid import FACE_MEANS, Fluid, fluid_state
 from mgehl.discretization.mesh import Mesh
+from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import BOUNDARY, CONTACT, LUBRICATED
 
 every_scheme = pytest.mark.parametrize("scheme", SCHEMES)
@@ -26,7 +27,7 @@ def test_poiseuille_flow_through_an_x_face(mean, eps):
     mesh = Mesh(3, 3, (0.0, 1.0), (0.0, 2.0))
     line = np.array([[2.0, 8.0, 8.0]])
     fluid = plain_fluid(np.array([[1.0, 4.0, 4.0]]), np.zeros((1, 3)), np.ones((1, 3)), line)
-    leaving, entering = x_flows(fluid, np.full((1, 3), LUBRICATED), mesh, "1B", mean)
+    leaving, entering = x_flows(fluid, np.full((1, 3), LUBRICATED), mesh, Scheme("1B", mean))
     assert leaving.value[0].tolist() == pytest.approx([-eps * 3.0 / 0.5, 0.0], rel=1e-15)
     assert entering is leaving
 
@@ -37,8 +38,22 @@ def test_poiseuille_flow_through_a_y_face(mean, eps):
     mesh = Mesh(3, 5, (0.0, 1.0), (0.0, 1.0), k_e=2.0)
     ones = np.ones((2, 1))
     fluid = plain_fluid(np.array([[1.0], [4.0]]), ones, ones, np.array([[2.0], [8.0]]))
-    flow = y_flows(fluid, np.full((2, 1), LUBRICATED), mesh, mean)
+    flow = y_flows(fluid, np.full((2, 1), LUBRICATED), mesh, Scheme(face_mobility=mean))
     assert flow.value[0, 0] == pytest.approx(-4.0 * eps * 3.0 / 0.25, rel=1e-15)
+
+
+def arrays_of(flow):
+    return (flow.value, *flow.by_P.values(), *flow.by_H.values())
+
+
+def reaches_across(flow, solid):
+    """x faces whose far nodes are solid: they are served by the nodes on their two sides."""
+    across = np.zeros(flow.value.shape, dtype=bool)
+    if WW in flow.by_P:
+        across[:, 1:] |= solid[:, :-2]
+    if EE in flow.by_P:
+        across[:, :-1] |= solid[:, 2:]
+    return across
 
 
 @every_scheme
@@ -49,15 +64,15 @@ def test_contact_closes_a_face_for_both_flows_and_all_derivatives(scheme, mixed,
     closed_x, closed_y = x[:, :-1] | x[:, 1:], x[:-1] | x[1:]
 
     def flows(status):
-        across = y_flows(fluid, status, mixed.mesh, "arithmetic", True)
-        return (*x_flows(fluid, status, mixed.mesh, scheme, "arithmetic", True), across)
+        across = y_flows(fluid, status, mixed.mesh, Scheme(), True)
+        return (*x_flows(fluid, status, mixed.mesh, Scheme(scheme), True), across)
 
     without = flows(np.where(x, LUBRICATED, mixed.status))
     for flow, free, closed in zip(flows(mixed.status), without, (closed_x, closed_x, closed_y)):
-        arrays = (flow.value, *flow.by_P, *flow.by_H), (free.value, *free.by_P, *free.by_H)
-        for array, free_array in zip(*arrays):
+        unlike = closed | reaches_across(flow, x)
+        for array, free_array in zip(arrays_of(flow), arrays_of(free), strict=True):
             assert (array[closed] == 0.0).all()
-            assert (array[~closed] == free_array[~closed]).all()
+            assert (array[~unlike] == free_array[~unlike]).all()
         assert free.value[closed].all()
 
 
@@ -71,11 +86,11 @@ def test_closed_faces_stay_closed_for_any_gap_of_the_contact_node(mean, gap, con
     status = np.full((3, 5), LUBRICATED)
     H[1, 2], status[1, 2] = gap, CONTACT
     fluid = fluid_state(P, H, contact)
-    leaving, _ = x_flows(fluid, status, mesh, "1B", mean, True)
-    across = y_flows(fluid, status, mesh, mean, True)
+    leaving, _ = x_flows(fluid, status, mesh, Scheme("1B", mean), True)
+    across = y_flows(fluid, status, mesh, Scheme(face_mobility=mean), True)
     for flow, faces in ((leaving, leaving.value[1, 1:3]), (across, across.value[:, 2])):
         assert (faces == 0.0).all()
-        assert all(np.isfinite(array).all() for array in (flow.value, *flow.by_P, *flow.by_H))
+        assert all(np.isfinite(array).all() for array in arrays_of(flow))
 
 
 # Liu eqs. 20-24: the pressure rise P_i - P_i-1 times eps/dX where the face carries no net flow.
@@ -88,7 +103,7 @@ BLOCKED_RISE = {
 }
 
 
-@every_scheme
+@pytest.mark.parametrize("scheme", BLOCKED_RISE)
 def test_blocked_flow_recursion(scheme):
     """Pressures by Eqs. 20-24 up to a contact node leave every face of the line without flow."""
     rng = np.random.default_rng(3)
@@ -103,7 +118,7 @@ def test_blocked_flow_recursion(scheme):
     status = np.full(nx, LUBRICATED)
     status[0], status[-1] = BOUNDARY, CONTACT
     fluid = plain_fluid(*(array[None, :] for array in (P, H, rho, eps)))
-    leaving, entering = x_flows(fluid, status[None, :], mesh, scheme, "arithmetic")
+    leaving, entering = x_flows(fluid, status[None, :], mesh, Scheme(scheme))
     assert np.abs(entering.value).max() < 1e-14
     assert leaving.value[0, -1] == 0.0
     if SCHEMES[scheme].conservative:
@@ -121,7 +136,7 @@ def test_pressure_that_stops_one_face_is_the_recursion_s(scheme, i, film, contac
         P = fluid.P.copy()
         P[0, i] = P_i
         changed = replace(fluid, P=P)
-        return x_flows(changed, film.status[2:3], mesh, scheme, "arithmetic")[1].value[0, i - 1]
+        return x_flows(changed, film.status[2:3], mesh, Scheme(scheme))[1].value[0, i - 1]
 
     root = entering(0.0) / (entering(0.0) - entering(1.0))
     eps = 0.5 * (fluid.eps[0, i - 1] + fluid.eps[0, i])
@@ -144,10 +159,10 @@ def assert_derivatives(flow, function, state, faces_of):
     """Every derivative the flow lists, and no other, agrees with central differences."""
     shape = flow.value.shape
     for name, listed in (("P", flow.by_P), ("H", flow.by_H)):
-        scale = max(np.abs(array).max() for array in listed)
+        scale = max(np.abs(array).max() for array in listed.values())
         for node in np.ndindex(*state.P.shape):
             expected = np.zeros(shape)
-            for position in (WW, W, E):
+            for position in listed:
                 face = faces_of(node, position)
                 if all(0 <= index < length for index, length in zip(face, shape)):
                     expected[face] = listed[position][face]
@@ -160,10 +175,11 @@ def assert_derivatives(flow, function, state, faces_of):
 def test_x_flow_derivatives(scheme, mean, state, contact):
     def flow(side):
         return lambda P, H: (
-            x_flows(fluid_state(P, H, contact), state.status, state.mesh, scheme, mean)[side].value
+            x_flows(fluid_state(P, H, contact), state.status, state.mesh, Scheme(scheme, mean))[side].value
         )
 
-    flows = x_flows(fluid_state(state.P, state.H, contact), state.status, state.mesh, scheme, mean, True)
+    fluid = fluid_state(state.P, state.H, contact)
+    flows = x_flows(fluid, state.status, state.mesh, Scheme(scheme, mean), True)
     for side in (0, 1):
         # Face i lies between nodes i and i + 1, so node i is its W and node i - 1 its WW.
         assert_derivatives(flows[side], flow(side), state, lambda node, at: (node[0], node[1] + W - at))
@@ -171,11 +187,13 @@ def test_x_flow_derivatives(scheme, mean, state, contact):
 
 @every_mean
 def test_y_flow_derivatives(mean, state, contact):
-    def flow(P, H):
-        return y_flows(fluid_state(P, H, contact), state.status, state.mesh, mean).value
+    scheme = Scheme(face_mobility=mean)
 
-    across = y_flows(fluid_state(state.P, state.H, contact), state.status, state.mesh, mean, True)
-    assert not across.by_P[WW].any() and not across.by_H[WW].any()
+    def flow(P, H):
+        return y_flows(fluid_state(P, H, contact), state.status, state.mesh, scheme).value
+
+    across = y_flows(fluid_state(state.P, state.H, contact), state.status, state.mesh, scheme, True)
+    assert set(across.by_P) == set(across.by_H) == {W, E}
     assert_derivatives(across, flow, state, lambda node, at: (node[0] + W - at, node[1]))
 
 
@@ -185,8 +203,8 @@ def test_values_do_not_depend_on_whether_derivatives_are_asked_for(mixed, contac
         [
             flow.value
             for flow in (
-                *x_flows(fluid, mixed.status, mixed.mesh, "S1B", "geometric", derivatives),
-                y_flows(fluid, mixed.status, mixed.mesh, "geometric", derivatives),
+                *x_flows(fluid, mixed.status, mixed.mesh, Scheme("S1B", "geometric"), derivatives),
+                y_flows(fluid, mixed.status, mixed.mesh, Scheme("S1B", "geometric"), derivatives),
             )
         ]
         for derivatives in (False, True)
@@ -202,8 +220,101 @@ def test_geometric_mean_of_a_nearly_closed_gap_throttles_the_flow():
         np.array([[1.0, 0.0, 0.0]]), np.zeros((1, 3)), np.ones((1, 3)), np.array([[1.0, 1e-10, 1e-10]])
     )
     leak = {
-        mean: x_flows(fluid, np.full((1, 3), LUBRICATED), mesh, "1B", mean)[0].value[0, 0]
+        mean: x_flows(fluid, np.full((1, 3), LUBRICATED), mesh, Scheme("1B", mean))[0].value[0, 0]
         for mean in FACE_MEANS
     }
     expected = {"arithmetic": 0.5 + 0.5e-10, "geometric": sqrt(1e-10), "harmonic": 2e-10 / (1.0 + 1e-10)}
     assert leak == pytest.approx(expected, rel=1e-14)
+
+
+OPTIONS = {
+    "untreated": {"couette_at_interface": "untreated"},
+    "against": {"motion": -1},
+    "floor": {"gap_floor": 0.1},
+    "unified": {"couette_at_interface": "untreated", "motion": -1, "gap_floor": 0.1},
+}
+"""Choices of a `Scheme` beside the two tables; the states' gaps lie on both sides of the floor."""
+
+
+@pytest.mark.parametrize("options", OPTIONS.values(), ids=OPTIONS)
+@every_scheme
+def test_x_flow_derivatives_of_options(scheme, options, state, contact):
+    scheme = Scheme(scheme, **options)
+
+    def flows(P, H, linearised=False):
+        fluid = fluid_state(P, H, contact, scheme.gap_floor)
+        return x_flows(fluid, state.status, state.mesh, scheme, linearised)
+
+    for side, flow in enumerate(flows(state.P, state.H, True)):
+        values = lambda P, H, side=side: flows(P, H)[side].value  # noqa: E731
+        assert_derivatives(flow, values, state, lambda node, at: (node[0], node[1] + W - at))
+
+
+@pytest.mark.parametrize("options", OPTIONS.values(), ids=OPTIONS)
+def test_y_flow_derivatives_of_options(options, state, contact):
+    scheme = Scheme(**options)
+
+    def flow(P, H, linearised=False):
+        fluid = fluid_state(P, H, contact, scheme.gap_floor)
+        return y_flows(fluid, state.status, state.mesh, scheme, linearised)
+
+    assert_derivatives(
+        flow(state.P, state.H, True),
+        lambda P, H: flow(P, H).value,
+        state,
+        lambda node, at: (node[0] + W - at, node[1]),
+    )
+
+
+@every_scheme
+def test_untreated_interface_stops_poiseuille_flow_only(scheme, mixed, contact):
+    """Every face keeps the Couette flow that a fluid without mobility has, closed ones nothing else."""
+    untreated = Scheme(scheme, couette_at_interface="untreated")
+    fluid = fluid_state(mixed.P, mixed.H, contact)
+    no_contact = np.full_like(mixed.status, LUBRICATED)
+    immobile = replace(fluid, eps=np.zeros_like(fluid.eps))
+    couette = x_flows(immobile, no_contact, mixed.mesh, untreated)
+    both = x_flows(fluid, no_contact, mixed.mesh, untreated)
+    solid = mixed.status == CONTACT
+    closed = solid[:, :-1] | solid[:, 1:]
+    flows = x_flows(fluid, mixed.status, mixed.mesh, untreated)
+    for flow, carried, free in zip(flows, couette, both, strict=True):
+        np.testing.assert_array_equal(flow.value[closed], carried.value[closed])
+        np.testing.assert_array_equal(flow.value[~closed], free.value[~closed])
+        assert flow.value[closed].any() and (free.value != carried.value)[closed].all()
+
+
+def test_untreated_interface_stops_the_flow_between_lines(mixed, contact):
+    """No Couette flow crosses a y face: both treatments are one there."""
+    fluid = fluid_state(mixed.P, mixed.H, contact)
+    closed, untreated = (
+        y_flows(fluid, mixed.status, mixed.mesh, Scheme(couette_at_interface=name)).value
+        for name in ("closed", "untreated")
+    )
+    np.testing.assert_array_equal(closed, untreated)
+    solid = mixed.status == CONTACT
+    assert (untreated[solid[:-1] | solid[1:]] == 0.0).all()
+
+
+@every_scheme
+def test_motion_turns_the_couette_flow_round_and_nothing_else(scheme, mixed, contact):
+    """Flows with and against the motion: their mean is the Poiseuille flow, half their difference rho H."""
+    fluid = fluid_state(mixed.P, mixed.H, contact)
+    immobile = replace(fluid, eps=np.zeros_like(fluid.eps))
+    still = replace(fluid, rho=np.zeros_like(fluid.rho))
+    forth = x_flows(fluid, mixed.status, mixed.mesh, Scheme(scheme))
+    back = x_flows(fluid, mixed.status, mixed.mesh, Scheme(scheme, motion=-1))
+    couette = x_flows(immobile, mixed.status, mixed.mesh, Scheme(scheme))
+    poiseuille = x_flows(still, mixed.status, mixed.mesh, Scheme(scheme))
+    for one, other, carried, driven in zip(forth, back, couette, poiseuille, strict=True):
+        np.testing.assert_allclose(one.value + other.value, 2.0 * driven.value, rtol=1e-13, atol=1e-15)
+        np.testing.assert_allclose(one.value - other.value, 2.0 * carried.value, rtol=1e-13, atol=1e-15)
+
+
+def test_edges_shorten_the_distance_of_the_pressures_only():
+    """-eps (P_E - P_W)/(dX/2) through the first face, whose Couette flow knows nothing of it."""
+    P, H = np.array([[0.0, 1.0, 3.0]]), np.array([[2.0, 4.0, 8.0]])
+    fluid = plain_fluid(P, H, np.ones((1, 3)), np.full((1, 3), 3.0))
+    mesh = Mesh(3, 1, (0.0, 2.0), (0.0, 0.0), edges=(0.5, 1.75))
+    status = np.full((1, 3), LUBRICATED)
+    assert x_flows(fluid, status, mesh, Scheme())[0].value.tolist() == [[2.0 - 3.0 / 0.5, 4.0 - 6.0 / 0.75]]

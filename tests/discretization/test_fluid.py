@@ -95,3 +95,33 @@ def test_means_are_ordered_and_symmetric():
         # A slope is a pure number up to 2, so rounding is absolute.
         np.testing.assert_allclose(by_a_swapped, by_a, rtol=0.0, atol=5e-16)
         np.testing.assert_allclose(by_b_swapped, by_b, rtol=0.0, atol=5e-16)
+
+
+def test_gap_floor_is_the_least_gap_of_the_mobility(contact):
+    """At and below the floor eps is that of the floor and ignores H; above it nothing changes."""
+    P, H, floor = np.full(5, 0.4), np.array([-0.2, 0.0, 0.05, 0.1, 0.3]), 0.1
+    floored, free = fluid_state(P, H, contact, floor), fluid_state(P, H, contact)
+    below, above = slice(0, 4), slice(4, 5)
+    for name in ("eps", "deps_dP"):
+        np.testing.assert_array_equal(getattr(floored, name)[below], getattr(free, name)[3])
+    assert (floored.eps > 0.0).all()
+    assert (floored.deps_dH[below] == 0.0).all()
+    for name in ("eps", "deps_dP", "deps_dH"):
+        np.testing.assert_array_equal(getattr(floored, name)[above], getattr(free, name)[above])
+
+
+def test_gap_floor_leaves_the_fluid_carried_along_alone(contact):
+    """rho and H, of whatever sign, are those without a floor."""
+    P, H = np.linspace(0.1, 0.9, 4), np.array([-0.2, 0.0, 0.05, 0.3])
+    floored, free = fluid_state(P, H, contact, 0.1), fluid_state(P, H, contact)
+    for name in ("P", "H", "rho", "drho_dP"):
+        np.testing.assert_array_equal(getattr(floored, name), getattr(free, name))
+
+
+@pytest.mark.parametrize("by", ["P", "H"])
+def test_floored_mobility_matches_central_differences(contact, by):
+    P, H, d = np.linspace(0.0, 1.2, 6), np.array([-0.1, 0.03, 0.09, 0.11, 0.2, 0.3]), 1e-6
+    dP, dH = (d, 0.0) if by == "P" else (0.0, d)
+    above, below = (fluid_state(P + s * dP, H + s * dH, contact, 0.1).eps for s in (1.0, -1.0))
+    derivative = getattr(fluid_state(P, H, contact, 0.1), f"deps_d{by}")
+    np.testing.assert_allclose(derivative, (above - below) / (2.0 * d), rtol=1e-7)

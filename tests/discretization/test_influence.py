@@ -2,7 +2,7 @@ from math import pi
 
 import numpy as np
 import pytest
-from scipy.integrate import dblquad
+from scipy.integrate import dblquad, quad
 
 from mgehl.discretization.influence import influence_coefficients
 from mgehl.discretization.mesh import Mesh
@@ -107,3 +107,44 @@ def test_hertz_pressure_flattens_the_paraboloid():
         errors.append(np.abs(gaps).max())
     assert errors[1] < 0.01
     assert errors[1] < 0.6 * errors[0]
+
+
+def line(nx=9, x=(-1.9, 1.3)):
+    return Mesh(nx, 1, x, (0.0, 0.0))
+
+
+@pytest.mark.parametrize("node", [0, 1, 2, 8])
+def test_line_coefficients_against_quadrature(node):
+    """-ln|x| over the strip around a node, with its singularity inside the first."""
+    m = line()
+    ends = (node - 0.5) * m.dX, (node + 0.5) * m.dX
+    halves = ((ends[0], node * m.dX), (node * m.dX, ends[1]))
+    expected = sum(quad(lambda x: -np.log(abs(x)), *half, epsabs=1e-13, epsrel=1e-12)[0] for half in halves)
+    K = influence_coefficients(m, 0.7)
+    assert K.shape == (1, 9)
+    assert K[0, node] == pytest.approx(0.7 * expected, rel=1e-10)
+
+
+def test_a_line_has_no_lines_beside_it():
+    m = line()
+    K = influence_coefficients(m, 1.3, 0, 3)
+    assert K.shape == (3, 9)
+    np.testing.assert_array_equal(K[:1], influence_coefficients(m, 1.3))
+    assert not K[1:].any()
+
+
+def test_hertz_line_pressure_flattens_the_parabola():
+    """H0 + X^2/2 - (1/pi) int P ln|X - X'| = 0 inside, with H0 = -(1/4 + ln2/2), to O(dX).
+
+    The edge of the contact is a node of every mesh: the error depends on where it lies in its cell.
+    """
+    errors = []
+    for n in (65, 129, 257):
+        m = line(n, (-1.6, 1.6))
+        P = np.sqrt(np.maximum(1.0 - m.X**2, 0.0))
+        K = influence_coefficients(m, 1.0 / pi)[0]
+        deflection = K[np.abs(np.subtract.outer(np.arange(n), np.arange(n)))] @ P
+        gap = -(0.25 + 0.5 * np.log(2.0)) + 0.5 * m.X**2 + deflection
+        errors.append(np.abs(gap[np.abs(m.X) < 1.01]).max())
+        assert errors[-1] < 0.25 * m.dX
+    assert errors[2] < 0.5 * errors[1] < 0.25 * errors[0]

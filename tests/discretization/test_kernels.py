@@ -1,6 +1,6 @@
 import numpy as np
 import pytest
-from dense import dense_K, dense_Q, dense_stencil, line_stencils
+from dense import dense_K, dense_Q, dense_stencil, held_beyond, line_stencils
 
 from mgehl.discretization.bands import influence_of_columns
 from mgehl.discretization.faces import x_flows, y_flows
@@ -18,7 +18,8 @@ from mgehl.discretization.kernels import (
     solve_bands,
 )
 from mgehl.discretization.mesh import Mesh
-from mgehl.discretization.residual import Scheme, linearise, net_inflow
+from mgehl.discretization.residual import linearise, net_inflow
+from mgehl.discretization.scheme import Scheme
 
 
 @pytest.fixture
@@ -61,21 +62,22 @@ def test_apply_jacobian_predicts_the_change_of_the_inflow(couette, mixed, contac
     np.testing.assert_allclose(out[film], measured, rtol=1e-6, atol=1e-8 * np.abs(measured).max())
 
 
-@pytest.mark.parametrize("share", [0.0, 0.5, 1.0], ids=["identity", "partly", "all"])
-@pytest.mark.parametrize("k_e", [1.0, 0.6])
-def test_build_bands_is_the_band_of_J_Q(share, k_e, rng):
+@pytest.mark.parametrize("distributed", [0.0, 0.5, 1.0], ids=["identity", "partly", "all"])
+@pytest.mark.parametrize("k_e, share", [(1.0, 0.25), (0.6, 0.25), (0.6, 0.5)])
+def test_build_bands_is_the_band_of_J_Q(distributed, k_e, share, rng):
     """Entry (i, m) of each line is that of (A + B K) Q with dense K and Q, up to REACH nodes away."""
     mesh = Mesh(15, 11, (-1.9, 1.3), (-1.5, 1.5), k_e)
     lines, nx = 3, mesh.nx
     K = influence_coefficients(mesh, 0.2)
     A, B = line_stencils(rng, lines, nx)
-    distributive = rng.random((lines, nx)) < share
+    distributive = rng.random((lines, nx)) < distributed
     # A line's ends are given; their column would reach outside the domain.
     distributive[:, [0, -1]] = False
     bands = np.full((lines, nx, 2 * REACH + 1), np.nan)
-    build_bands(A, B, distributive, influence_of_columns(K), bands)
-    JQ = (dense_stencil(A) + dense_stencil(B) @ dense_K(K, lines + 2, nx)) @ dense_Q(distributive)
-    JQ = JQ.reshape(lines, nx, lines, nx)
+    build_bands(A, B, distributive, influence_of_columns(K, share), share, bands)
+    Q = dense_Q(distributive, share)
+    K_Q = held_beyond(dense_K(K, lines + 2, nx) @ Q, lines, nx, REACH)
+    JQ = (dense_stencil(A) @ Q + dense_stencil(B) @ K_Q).reshape(lines, nx, lines, nx)
     expected = np.zeros_like(bands)
     for j, i, k in np.ndindex(*bands.shape):
         if 0 <= i + k - REACH < nx:
@@ -102,13 +104,14 @@ def test_banded_solve_against_dense(nx, rng):
     np.testing.assert_allclose(w, expected, rtol=1e-12, atol=1e-14)
 
 
-def test_distribute(rng):
+@pytest.mark.parametrize("share", [0.25, 0.5])
+def test_distribute(share, rng):
     """omega Q w against the dense Q of all ghosted lines."""
     lines, nx, omega = 4, 7, 0.8
     w, distributive = rng.standard_normal((lines + 2, nx)), rng.random((lines + 2, nx)) < 0.5
     out = np.full((lines, nx), np.nan)
-    distribute(w, distributive, omega, out)
-    expected = omega * (dense_Q(distributive) @ w.ravel()).reshape(lines + 4, nx)[2:-2]
+    distribute(w, distributive, share, omega, out)
+    expected = omega * (dense_Q(distributive, share) @ w.ravel()).reshape(lines + 4, nx)[2:-2]
     np.testing.assert_allclose(out, expected, rtol=1e-14, atol=1e-15)
 
 
@@ -150,9 +153,9 @@ def test_flow_sources_leave_the_couette_flow_alone(film, contact):
     expected = (rho_H[:, :-2] - rho_H[:, 1:-1]) / mesh.dX
     np.testing.assert_allclose(source[:, 1:-1], expected, rtol=1e-11, atol=1e-12)
     # The conductances above are those of the faces themselves.
-    x = x_flows(fluid[1:-1], status[1:-1], mesh, "1B", "arithmetic")[0].value
+    x = x_flows(fluid[1:-1], status[1:-1], mesh, Scheme())[0].value
     np.testing.assert_allclose(x / mesh.dX, rho_H[:, :-1] / mesh.dX - along * np.diff(P[1:-1]), rtol=1e-12)
-    y = y_flows(fluid, status, mesh, "arithmetic").value
+    y = y_flows(fluid, status, mesh, Scheme()).value
     np.testing.assert_allclose(y / mesh.dY, -across * np.diff(P, axis=0), rtol=1e-12, atol=1e-15)
 
 

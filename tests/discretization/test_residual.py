@@ -7,7 +7,8 @@ from mgehl.discretization.couette import SCHEMES
 from mgehl.discretization.faces import x_flows, y_flows
 from mgehl.discretization.fluid import FACE_MEANS, fluid_state
 from mgehl.discretization.mesh import Mesh
-from mgehl.discretization.residual import Scheme, linearise, net_inflow, residual
+from mgehl.discretization.residual import linearise, net_inflow, residual
+from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
 
 every_scheme = pytest.mark.parametrize("couette", SCHEMES)
@@ -35,7 +36,7 @@ ENTERING = {
 
 
 @neighbourhoods
-@every_scheme
+@pytest.mark.parametrize("couette", LEAVING)
 def test_net_inflow_of_each_neighbourhood(number, closed, couette, contact):
     """The four flows of Eq. 33 written out for one node, less those through its closed faces."""
     rng = np.random.default_rng(number)
@@ -48,10 +49,13 @@ def test_net_inflow_of_each_neighbourhood(number, closed, couette, contact):
     def poiseuille(here, there, spacing):
         return -0.5 * (eps[here] + eps[there]) * (P[there] - P[here]) / spacing
 
+    # 2B and S1B do not reach across a closed west face: 2C and 1B serve the east one then.
+    beside_contact = {"2B": "2C", "S1B": "1B"}.get(couette, couette)
+    leaving = LEAVING[beside_contact if "west" in closed else couette]
     c, w, e, s, n = (1, 2), (1, 1), (1, 3), (0, 2), (2, 2)
     flows = {
         "west": (ENTERING[couette](fluid.rho[1], H[1], i) + poiseuille(w, c, mesh.dX)) / mesh.dX,
-        "east": -(LEAVING[couette](fluid.rho[1], H[1], i) + poiseuille(c, e, mesh.dX)) / mesh.dX,
+        "east": -(leaving(fluid.rho[1], H[1], i) + poiseuille(c, e, mesh.dX)) / mesh.dX,
         "south": 0.7**2 * poiseuille(s, c, mesh.dY) / mesh.dY,
         "north": -(0.7**2) * poiseuille(c, n, mesh.dY) / mesh.dY,
     }
@@ -85,8 +89,8 @@ def patch_imbalance(state, contact, couette, mean, lines, nodes):
     inflow = net_inflow(state.P, state.H, state.status, mesh, contact, scheme)
     inside = inflow[lines, nodes].sum() * mesh.dX * mesh.dY
     fluid = fluid_state(state.P, state.H, contact)
-    leaving, entering = x_flows(fluid[1:-1], state.status[1:-1], mesh, couette, mean)
-    across = y_flows(fluid, state.status, mesh, mean).value
+    leaving, entering = x_flows(fluid[1:-1], state.status[1:-1], mesh, scheme)
+    across = y_flows(fluid, state.status, mesh, scheme).value
     border = (
         *(entering.value[lines, nodes.start - 1] * mesh.dY),
         *(-leaving.value[lines, nodes.stop - 1] * mesh.dY),
@@ -170,3 +174,54 @@ def test_linearised_rows_of_given_nodes(mixed, contact):
             assert (stencil[2][rows] == -1.0 / mesh.dX).all()
             assert not stencil[2][given & ~rows].any()
             assert not stencil[[0, 1, 3, 4, 5]][:, given].any()
+
+
+def test_residual_of_a_rigid_gap_gives_the_pressure_of_contact_too():
+    """Row -P/dX, whatever the gap; all other rows are those of a deformable one."""
+    status = np.array([[BOUNDARY, LUBRICATED, CAVITATED, CONTACT]])
+    P, H = np.array([[1.0, 2.0, 3.0, 4.0]]), np.array([[5.0, 6.0, 7.0, 8.0]])
+    inflow = np.array([[0.0, 9.0, 10.0, 11.0]])
+    mesh = Mesh(5, 5, (-1.0, 1.0), (-1.0, 1.0))
+    assert residual(inflow, P, H, status, mesh, rigid=True).tolist() == [[-2.0, 9.0, -6.0, -8.0]]
+
+
+OPTIONS = {
+    "untreated": {"couette_at_interface": "untreated"},
+    "against": {"motion": -1},
+    "floor": {"gap_floor": 0.1},
+    "unified": {"couette_at_interface": "untreated", "motion": -1, "gap_floor": 0.1},
+}
+
+
+@pytest.mark.parametrize("rigid", [False, True], ids=["deformable", "rigid"])
+@pytest.mark.parametrize("options", OPTIONS.values(), ids=OPTIONS)
+@every_scheme
+def test_linearisation_of_options_matches_central_differences(couette, options, rigid, mixed, contact):
+    P, H, status, mesh = mixed.P, mixed.H, mixed.status, mixed.mesh
+    scheme = Scheme(couette, **options)
+
+    def rows(P, H):
+        inflow = net_inflow(P, H, status, mesh, contact, scheme)
+        return residual(inflow, P[1:-1], H[1:-1], status[1:-1], mesh, rigid)
+
+    linear = linearise(P, H, status, mesh, contact, scheme, rigid)
+    by_P = central_differences(lambda changed: rows(changed, H), P, 1e-6)
+    by_H = central_differences(lambda changed: rows(P, changed), H, 1e-7)
+    for stencil, measured in ((linear.A, by_P), (linear.B, by_H)):
+        scale = np.abs(stencil).max()
+        np.testing.assert_allclose(dense_stencil(stencil), measured, rtol=1e-6, atol=1e-8 * scale)
+
+
+def test_nothing_crosses_the_walls_of_a_single_line(contact):
+    """Contact in the ghost lines: all inflow is along the line, whatever pressure lies beyond."""
+    mesh = Mesh(8, 1, (-1.9, 1.3), (0.0, 0.0))
+    rng = np.random.default_rng(2)
+    P, H = rng.uniform(0.2, 0.8, (3, 8)), rng.uniform(0.05, 0.15, (3, 8))
+    status = np.full((3, 8), LUBRICATED)
+    status[[0, -1]] = CONTACT
+    inflow = net_inflow(P, H, status, mesh, contact, Scheme())
+    leaving, entering = x_flows(fluid_state(P, H, contact)[1:-1], status[1:-1], mesh, Scheme())
+    along = (entering.value[:, :-1] - leaving.value[:, 1:]) / mesh.dX
+    np.testing.assert_array_equal(inflow[:, 1:-1], along)
+    linear = linearise(P, H, status, mesh, contact, Scheme())
+    assert not linear.A[4:].any() and not linear.B[4:].any()

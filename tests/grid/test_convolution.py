@@ -73,3 +73,26 @@ def test_hertz_pressure_flattens_the_ball(paper_contact, make_hierarchy):
     inside = grid.X**2 + grid.Y**2 < 0.8**2
     np.testing.assert_allclose(gap[inside], contact.approach, rtol=0.0, atol=1e-3)
     assert contact.approach == pytest.approx(1.0, rel=1e-9)
+
+
+@pytest.mark.parametrize("nodes", [33, 257])
+def test_convolution_on_one_line_is_the_dense_product(line_contact, make_line, nodes):
+    """With the logarithmic kernel, which reaches from end to end of the line and changes sign."""
+    hierarchy = make_line(nodes)
+    K = influence_coefficients(hierarchy.grids[-1].mesh, line_contact.deflection_scale)[0]
+    i = np.arange(nodes)
+    P = np.random.default_rng(4).random((1, nodes))
+    P[:, [0, -1]] = 0.0
+    expected = K[np.abs(np.subtract.outer(i, i))] @ P[0]
+    assert K.min() < 0.0 < K.max()
+    deflection = hierarchy.deflections[-1](P)
+    assert deflection.shape == (1, nodes)
+    assert np.max(np.abs(deflection[0] - expected)) < 1e-12 * np.max(np.abs(expected))
+
+
+def test_hertz_pressure_flattens_the_cylinder(line_contact, make_line):
+    hierarchy = make_line(1025)
+    grid = hierarchy.grids[-1]
+    deflection = hierarchy.deflections[-1](hertz_pressure(grid.X, grid.Y))
+    gap = line_contact.undeformed_gap(grid.X, grid.Y) + deflection
+    np.testing.assert_allclose(gap[np.abs(grid.X) < 0.9], line_contact.approach, rtol=0.0, atol=2e-4)

@@ -2,6 +2,11 @@
 
 import numpy as np
 import pytest
+from mpi4py import MPI
+
+from mgehl.discretization.mesh import Mesh
+from mgehl.discretization.status import CONTACT, LUBRICATED
+from mgehl.grid.hierarchy import Hierarchy
 
 
 @pytest.fixture
@@ -93,3 +98,48 @@ def test_one_rank_gathers_what_it_has(hierarchy):
     values = np.random.default_rng(1).random(grid.shape)
     whole = grid.gather(values)
     np.testing.assert_array_equal(whole, values)
+
+
+def test_grids_of_one_line_stay_one_line(make_line):
+    line = make_line(129)
+    assert [(grid.mesh.nx, grid.mesh.ny) for grid in line.grids] == [(33, 1), (65, 1), (129, 1)]
+    assert all(grid.mesh.is_line and grid.shape == (1, grid.mesh.nx) for grid in line.grids)
+    assert [grid.Y.tolist() for grid in line.grids] == [[[0.0]]] * 3
+    np.testing.assert_allclose(line.grids[0].X, line.grids[2].X[:, ::4], atol=1e-14)
+
+
+def test_boundary_of_one_line_is_its_two_ends(make_line):
+    boundary = make_line(33).grids[0].boundary()
+    assert np.argwhere(boundary).tolist() == [[0, 0], [0, 32]]
+
+
+def test_one_line_runs_between_two_solid_walls(make_line):
+    """Contact in both ghost lines of a status; no pressure and no gap beyond the walls."""
+    grid = make_line(33).grids[0]
+    status = np.full(grid.shape, LUBRICATED)
+    ghosted = grid.halo_status(status)
+    assert ghosted.dtype == status.dtype and ghosted.shape == (3, 33)
+    np.testing.assert_array_equal(ghosted[1:-1], status)
+    np.testing.assert_array_equal(ghosted[[0, -1]], CONTACT)
+    for array in (np.ones(grid.shape), np.ones(grid.shape, dtype=bool)):
+        np.testing.assert_array_equal(grid.halo(array)[[0, -1]], 0)
+        np.testing.assert_array_equal(grid.halo(array)[1:-1], array)
+
+
+def test_status_of_many_lines_has_no_walls(hierarchy):
+    grid = hierarchy.grids[0]
+    status = np.full(grid.shape, LUBRICATED)
+    np.testing.assert_array_equal(grid.halo_status(status), grid.halo(status))
+
+
+@pytest.mark.parametrize("ny", [1, 65])
+def test_rigid_bodies_have_grids_and_transfers_but_no_deflection(ny):
+    mesh = Mesh(65, ny, (0.0, 1.0), (0.0, float(ny > 1)))
+    rigid = Hierarchy(mesh, 33, None, MPI.COMM_SELF)
+    try:
+        assert [grid.mesh.nx for grid in rigid.grids] == [33, 65]
+        assert len(rigid.transfers) == 1
+        assert rigid.deflections == [None, None]
+        assert rigid.convolutions == 0.0
+    finally:
+        rigid.destroy()

@@ -125,3 +125,42 @@ class TestPartitioned:
         partitioned.partition(coarse_film, film)
         coarse = partitioned.restrict(np.where(film == LUBRICATED, 1.0, 0.0))
         np.testing.assert_allclose(coarse[16, 16], 1.0, rtol=1e-13)
+
+
+class TestOneLine:
+    """Nine fine and five coarse nodes, by hand."""
+
+    @pytest.fixture
+    def transfer(self, make_line):
+        return make_line(9, coarsest=5).transfers[0]
+
+    def test_full_weighting(self, transfer):
+        """A quarter, a half, a quarter along the line and nothing across; ends are zero."""
+        fine = np.array([[8.0, 4.0, 2.0, 6.0, 10.0, 1.0, 3.0, 5.0, 7.0]])
+        expected = [0.0, (4 + 4 + 6) / 4, (6 + 20 + 1) / 4, (1 + 6 + 5) / 4, 0.0]
+        assert transfer.full_weighting(fine).tolist() == [expected]
+
+    def test_bilinear(self, transfer):
+        coarse = np.array([[1.0, 3.0, 2.0, 6.0, -4.0]])
+        assert transfer.bilinear(coarse).tolist() == [[1.0, 2.0, 3.0, 2.5, 2.0, 4.0, 6.0, 1.0, -4.0]]
+
+    def test_inject(self, transfer):
+        assert transfer.inject(np.arange(9.0)[None, :]).tolist() == [[0.0, 2.0, 4.0, 6.0, 8.0]]
+
+    def test_full_weighting_is_half_of_the_adjoint_of_bilinear(self, transfer):
+        """A coarse node stands for two fine ones, not for four."""
+        random = np.random.default_rng(1)
+        fine, coarse = random.standard_normal((1, 9)), np.zeros((1, 5))
+        coarse[:, 1:-1] = random.standard_normal((1, 3))
+        weighted = np.vdot(transfer.full_weighting(fine), coarse)
+        assert weighted == pytest.approx(0.5 * np.vdot(fine, transfer.bilinear(coarse)), rel=1e-12)
+
+    def test_partitioned_keeps_constants_of_each_kind(self, transfer):
+        """As on many lines: contact residuals come out halved, corrections as they are."""
+        fine = np.array([[BOUNDARY] + 3 * [LUBRICATED] + 3 * [CONTACT] + [LUBRICATED, BOUNDARY]])
+        coarse = transfer.inject(fine)
+        partitioned = PartitionedTransfer(transfer)
+        partitioned.partition(coarse, fine)
+        assert partitioned.restrict(4.0 * (fine == CONTACT)).tolist() == [[0.0, 0.0, 2.0, 2.0, 0.0]]
+        corrected = partitioned.prolong(5.0 * (coarse == CONTACT))
+        np.testing.assert_array_equal(corrected, 5.0 * (fine == CONTACT))

@@ -1,10 +1,11 @@
+from math import exp, log
 from types import SimpleNamespace
 
 import pytest
 
-from mgehl.model.contact import PointContact
-from mgehl.model.films import grubin, hamrock_dowson, nijenbanning_venner_moes
+from mgehl.model.films import dowson_higginson, grubin, hamrock_dowson, nijenbanning_venner_moes
 from mgehl.model.lubricant import Barus, DowsonHigginson, Lubricant
+from mgehl.model.point import PointContact
 
 # The literals below were computed in 30-digit decimal arithmetic from the formulas as printed in
 # the literature, with no line of mgehl.
@@ -72,3 +73,11 @@ def test_grubin():
     """(12*0.2687 * 2e-8 * 0.05 * 0.3 * 4e-4)^(3/4)/sqrt(1.6e-5)."""
     film = grubin(2e-8, 0.05, 0.3, 4e-4, 1.6e-5)
     assert film == pytest.approx(1.226486091358103e-7, rel=1e-13)
+
+
+def test_dowson_higginson():
+    """U = 1e-11, W = 1e-4, G = 4500: 3.06 U^0.69 G^0.56 W^-0.10 and 2.65 U^0.70 G^0.54 W^-0.13."""
+    groups = SimpleNamespace(U=1e-11, W=1e-4, G=4500.0)
+    central = 3.06 * exp(0.69 * log(1e-11) + 0.56 * log(4500.0) - 0.10 * log(1e-4))
+    minimum = 2.65 * exp(0.70 * log(1e-11) + 0.54 * log(4500.0) - 0.13 * log(1e-4))
+    assert dowson_higginson(groups, 0.02) == pytest.approx((0.02 * central, 0.02 * minimum), rel=1e-13)

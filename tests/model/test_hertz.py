@@ -5,7 +5,7 @@ import pytest
 from scipy.integrate import dblquad, quad
 from scipy.special import elliprd, elliprf
 
-from mgehl.model.hertz import edge_gap_coefficient, hertz_contact, hertz_pressure
+from mgehl.model.hertz import edge_gap_coefficient, hertz_contact, hertz_line_contact, hertz_pressure
 
 E = 219.78e9
 
@@ -136,3 +136,52 @@ def test_edge_gap_of_an_ellipse(radius_x, radius_y):
     integral = quad(integrand, 0.0, sqrt(s * (2 + s)), epsrel=1e-12)[0]
     gap = contact.p_h * contact.b / E * integral
     assert edge_gap_coefficient(contact, E) * s**1.5 == pytest.approx(gap, rel=1e-4)
+
+
+def test_line_contact_formulas():
+    """a = sqrt(8 w R/(pi E')), p_h = 2 w/(pi a) = sqrt(w E'/(2 pi R)); b is a metre of the length."""
+    w, R = 1.86e6, 12.7e-3
+    contact = hertz_line_contact(w, R, E)
+    assert contact.a == pytest.approx(sqrt(8.0 * w * R / (pi * E)), rel=1e-14)
+    assert contact.p_h == pytest.approx(2.0 * w / (pi * contact.a), rel=1e-14)
+    assert contact.p_h == pytest.approx(sqrt(w * E / (2.0 * pi * R)), rel=1e-13)
+    assert contact.b == 1.0
+    # Numbers by hand; the pressure is that of the paper's ball.
+    assert contact.a == pytest.approx(0.52316e-3, abs=0.5e-8)
+    assert contact.p_h == pytest.approx(2.2634e9, abs=0.5e5)
+
+
+def test_load_of_a_line_is_the_area_under_the_hertz_pressure():
+    """w = (pi/2) a p_h, and the axes grow with the square root of the load."""
+    one, four = hertz_line_contact(1e5, 0.02, E), hertz_line_contact(4e5, 0.02, E)
+    area = quad(lambda X: hertz_pressure(X, 0.0), -1.0, 1.0)[0]
+    assert area * one.a * one.p_h == pytest.approx(1e5, rel=1e-9)
+    assert four.a / one.a == pytest.approx(2.0, rel=1e-14)
+    assert four.p_h / one.p_h == pytest.approx(2.0, rel=1e-14)
+
+
+@pytest.mark.parametrize("X", [0.0, 0.3, -0.9])
+def test_approach_of_a_line_closes_the_parabola(X):
+    """(1/pi) int P ln|X - t| dt + approach R/a^2 = X^2/2 inside, at every X."""
+    R = 0.02
+    contact = hertz_line_contact(1e5, R, E)
+    # t = sin s takes the root at the ends out of the quadrature.
+    integral = quad(lambda s: np.cos(s) ** 2 * np.log(abs(X - np.sin(s))), -pi / 2, pi / 2,
+                    points=[np.arcsin(X)], epsabs=1e-12)[0]  # fmt: skip
+    approach = contact.approach * R / contact.a**2
+    assert approach == pytest.approx(0.25 + 0.5 * np.log(2.0), rel=1e-14)
+    assert integral / pi + approach == pytest.approx(0.5 * X**2, abs=1e-9)
+
+
+def test_edge_gap_of_a_line():
+    """C = (2 sqrt2/3) a^2/R, and the exact dry gap tends to C s^(3/2).
+
+    Exact: h = (a^2/2R) (r sqrt(r^2 - 1) - arccosh(r)), r = x/a  [Johnson sec. 4.2].
+    """
+    R = 0.02
+    contact = hertz_line_contact(1e5, R, E)
+    C = edge_gap_coefficient(contact, E)
+    assert C == pytest.approx(2.0 * sqrt(2.0) / 3.0 * contact.a**2 / R, rel=1e-13)
+    r = 1.0 + 1e-4
+    gap = 0.5 * contact.a**2 / R * (r * sqrt(r * r - 1.0) - np.arccosh(r))
+    assert C * 1e-4**1.5 == pytest.approx(gap, rel=1e-4)

@@ -8,6 +8,7 @@ from mgehl.model.lubricant import (
     VISCOSITY_LAWS,
     Barus,
     ConstantDensity,
+    ConstantViscosity,
     DowsonHigginson,
     Lubricant,
     Roelands,
@@ -100,3 +101,11 @@ def test_constant_density():
 def test_lubricant_knows_its_ambient_viscosity_and_slope():
     lubricant = Lubricant(Roelands(0.05, 21e-9), ConstantDensity())
     assert (lubricant.viscosity, lubricant.pressure_viscosity) == (0.05, 21e-9)
+
+
+def test_constant_viscosity():
+    """ln(eta*) = 0 at every pressure, below ambient too, with arrays of P's shape."""
+    law = ConstantViscosity(0.05)
+    value, slope = law.log_viscosity(np.array([-3.0, 0.0, 2.0]), P_H)
+    assert value.tolist() == slope.tolist() == [0.0] * 3
+    assert Lubricant(law, ConstantDensity()).viscosity == 0.05

@@ -5,7 +5,10 @@ import pytest
 from mpi4py import MPI
 from petsc4py import PETSc
 
+from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
+from mgehl.multigrid.coarse import dense_influence, stencil_matrix
+from mgehl.solver.problem import ContactProblem
 
 SIZES = (65, 129)
 
@@ -53,7 +56,7 @@ def right_hand_side(kind, multigrid, state, where=None):
 def richardson(multigrid, ksp, make_vec, b, cycles):
     """Residual norms of x += (V-cycle) (b - J x) from x = 0."""
     x, r, correction = (make_vec(multigrid.space) for _ in range(3))
-    mat = multigrid.jacobians[-1].mat
+    mat = multigrid.jacobian.mat
     norms = []
     for _ in range(cycles):
         mat.mult(x, r)
@@ -89,7 +92,7 @@ def test_gmres_iterations(film, make_ksp, make_vec, nodes, kind):
     assert ksp.getConvergedReason() > 0
     assert ksp.getIterationNumber() <= 6
     # GMRES says so; the true residual must too.
-    multigrid.jacobians[-1].mat.mult(x, r)
+    multigrid.jacobian.mat.mult(x, r)
     r.aypx(-1.0, b)
     assert r.norm() <= 1.01e-2 * b.norm()
 
@@ -155,3 +158,94 @@ def test_petsc_options_change_the_solver(film, make_ksp, petsc_options):
     assert ksp.getTolerances()[3] == 3
     assert ksp.getType() == "gmres"
     assert ksp.getPC().getType() == "mg"
+
+
+def solve_linear(multigrid, ksp, make_vec, kind, state):
+    """Iterations to the KSP's tolerance, which the true residual must meet, too."""
+    b, x, r = (make_vec(multigrid.space) for _ in range(3))
+    multigrid.space.write(b, *right_hand_side(kind, multigrid, state))
+    ksp.solve(b, x)
+    assert ksp.getConvergedReason() > 0
+    multigrid.jacobian.mat.mult(x, r)
+    r.aypx(-1.0, b)
+    assert r.norm() <= 1.01 * ksp.getTolerances()[0] * b.norm()
+    return ksp.getIterationNumber()
+
+
+def dense_jacobian(jacobian):
+    """The bordered matrix, from the dense influence of all nodes on all nodes."""
+    mesh, linear = jacobian.grid.mesh, jacobian.linearisation
+    A, B = stencil_matrix(linear.A).toarray(), stencil_matrix(linear.B).toarray()
+    J = A + B @ dense_influence(mesh, jacobian.contact.deflection_scale)
+    load = np.full((1, mesh.nodes), jacobian.load_weight)
+    return np.block([[J, B.sum(axis=1, keepdims=True)], [load, np.zeros((1, 1))]])
+
+
+class TestCycleOfAnotherScheme:
+    """2B is solved, by cycles whose operators are those of 1B."""
+
+    @pytest.fixture
+    def linearised(self, make_hierarchy, paper_contact, rough_state, make_multigrid):
+        """Function: solver of a problem by `couette` with cycles by `cycle`, all about one state."""
+        contact = paper_contact()
+        hierarchy = make_hierarchy(contact, 33, coarsest=17)
+
+        def make(couette, cycle):
+            grid, deflection = hierarchy.grids[-1], hierarchy.deflections[-1]
+            problem = ContactProblem(grid, deflection, contact, Scheme(couette))
+            return make_multigrid(hierarchy, problem, rough_state(problem, contact=True), couette=cycle)
+
+        return make
+
+    def test_outer_operator_is_that_of_the_problem(self, linearised, make_vec):
+        multigrid = linearised("2B", "1B")
+        assert multigrid.jacobian.scheme.couette == "2B"
+        space = multigrid.space
+        P = np.random.default_rng(9).standard_normal(space.grid.shape)
+        P[space.grid.boundary()] = 0.0  # as the convolution has it
+        x, y = make_vec(space, P, 0.7), make_vec(space)
+        multigrid.jacobian.mat.mult(x, y)
+        expected = dense_jacobian(linearised("2B", "same").jacobian) @ np.append(P, 0.7)
+        np.testing.assert_allclose(y.getArray(), expected, rtol=0.0, atol=1e-12 * np.abs(expected).max())
+
+    def test_operators_of_the_cycle_are_those_of_its_scheme(self, linearised):
+        multigrid, plain = linearised("2B", "1B"), linearised("1B", "same")
+        for mine, theirs in zip(multigrid.jacobians, plain.jacobians, strict=True):
+            np.testing.assert_array_equal(mine.linearisation.A, theirs.linearisation.A)
+            np.testing.assert_array_equal(mine.linearisation.B, theirs.linearisation.B)
+        assert (multigrid.jacobian.linearisation.B != multigrid.jacobians[-1].linearisation.B).any()
+
+    @pytest.mark.parametrize("cycle", ["same", "2B"])
+    def test_the_problem_s_own_scheme_needs_no_second_operator(self, linearised, cycle):
+        multigrid = linearised("2B", cycle)
+        assert multigrid.jacobian is multigrid.jacobians[-1]
+
+    @pytest.mark.parametrize("kind", ["noise", "bulge"])
+    @pytest.mark.parametrize("nodes", SIZES)
+    def test_gmres_converges(self, solve, paper_contact, make_multigrid, make_ksp, make_vec, nodes, kind):
+        solution = solve(paper_contact(), nodes, couette="2B")
+        state = solution.outcome.state
+        multigrid = make_multigrid(solution.hierarchy, solution.problem, state, couette="1B")
+        assert solve_linear(multigrid, make_ksp(multigrid), make_vec, kind, state) <= 12
+
+    @pytest.mark.parametrize("nodes", [257, 1025])
+    def test_gmres_converges_on_one_line(self, line_film, make_multigrid, make_ksp, make_vec, nodes):
+        solution = line_film(nodes, "2B")
+        state = solution.outcome.state
+        multigrid = make_multigrid(solution.hierarchy, solution.problem, state, couette="1B")
+        assert solve_linear(multigrid, make_ksp(multigrid, 1e-6), make_vec, "noise", state) <= 13
+
+
+@pytest.mark.parametrize("couette", ["1B", "2B"])
+@pytest.mark.parametrize("kind", ["noise", "bulge"])
+def test_gmres_iterations_on_one_line(line_film, make_multigrid, make_ksp, make_vec, kind, couette):
+    """A line contact: few iterations to 1e-6, and hardly more on sixteen times the nodes."""
+    iterations = []
+    for nodes in (257, 1025, 4097):
+        solution = line_film(nodes, couette)
+        state = solution.outcome.state
+        assert (state.status == LUBRICATED).sum() > nodes / 2
+        multigrid = make_multigrid(solution.hierarchy, solution.problem, state)
+        iterations.append(solve_linear(multigrid, make_ksp(multigrid, 1e-6), make_vec, kind, state))
+    assert max(iterations) <= 8
+    assert max(iterations) <= min(iterations) + 2

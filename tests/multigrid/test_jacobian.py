@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mgehl.discretization.residual import Scheme
+from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import CAVITATED, CONTACT
 from mgehl.solver.problem import State
 

@@ -5,9 +5,9 @@ import pytest
 from mpi4py import MPI
 from petsc4py import PETSc
 
-from mgehl.discretization.residual import Scheme
+from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import BOUNDARY, CAVITATED, LUBRICATED
-from mgehl.solver.problem import PointProblem
+from mgehl.solver.problem import ContactProblem
 
 NODES = 65
 
@@ -42,7 +42,7 @@ def film(solve, paper_contact):
 def relax(film, make_multigrid, make_smoother, make_vec):
     """Function: norms of error and residual after 0, 1, 2 ... relaxations of J e = 0."""
     multigrid = make_multigrid(film.hierarchy, film.problem, film.outcome.state)
-    smooth, mat = make_smoother(multigrid), multigrid.jacobians[-1].mat
+    smooth, mat = make_smoother(multigrid), multigrid.jacobian.mat
 
     def run(error, relaxations):
         e, r, correction = make_vec(multigrid.space, error), *(make_vec(multigrid.space) for _ in range(2))
@@ -112,7 +112,7 @@ def test_given_pressures_get_no_correction(
     make_hierarchy, paper_contact, rough_state, make_multigrid, make_smoother, make_vec, rigid
 ):
     hierarchy = make_hierarchy(paper_contact(), NODES)
-    problem = PointProblem(hierarchy.grids[-1], hierarchy.deflections[-1], paper_contact(), Scheme())
+    problem = ContactProblem(hierarchy.grids[-1], hierarchy.deflections[-1], paper_contact(), Scheme())
     state = rough_state(problem, contact=True)
     multigrid = make_multigrid(hierarchy, problem, state, rigid)
     corrected = make_vec(multigrid.space)

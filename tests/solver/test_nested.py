@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from mgehl.discretization.status import CONTACT, LUBRICATED
-from mgehl.model.contact import LOAD
+from mgehl.model.point import LOAD
 from mgehl.model.hertz import hertz_pressure
 from mgehl.solver.verification import check_pressure_inequality
 

@@ -6,13 +6,13 @@ import pytest
 from mgehl.discretization.status import CAVITATED, LUBRICATED
 from mgehl.solver.nested import first_guess
 from mgehl.solver.newton import Newton, NewtonSettings
-from mgehl.solver.problem import PointProblem
+from mgehl.solver.problem import ContactProblem
 
 
 @pytest.fixture
 def make_newton(make_hierarchy, paper_contact):
     """Factory of (problem, Newton) for the film at 1 m/s on 65 nodes; freed after the test."""
-    from mgehl.discretization.residual import Scheme
+    from mgehl.discretization.scheme import Scheme
     from mgehl.multigrid.cycle import MultigridSolver
 
     made = []
@@ -20,7 +20,7 @@ def make_newton(make_hierarchy, paper_contact):
     def make(monitor=None, options_prefix="test_", **limits):
         contact, scheme = paper_contact(), Scheme()
         hierarchy = make_hierarchy(contact, 65)
-        problem = PointProblem(hierarchy.grids[-1], hierarchy.deflections[-1], contact, scheme)
+        problem = ContactProblem(hierarchy.grids[-1], hierarchy.deflections[-1], contact, scheme)
         multigrid = MultigridSolver(hierarchy, 1, contact, scheme)
         settings = NewtonSettings(**limits)
         made.append(Newton(problem, multigrid, settings, None, options_prefix, monitor))

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mgehl.discretization.residual import Scheme
+from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
 from mgehl.solver.problem import State
 from mgehl.solver.verification import check_pressure_inequality, complementarity_error, flux_imbalance

@@ -1,0 +1,144 @@
+"""The sections of a configuration and their keys, each with default, unit, range and meaning."""
+
+from dataclasses import dataclass
+
+from mgehl.config_value import key_field
+from mgehl.discretization.couette import SCHEMES
+from mgehl.discretization.scheme import INTERFACES
+from mgehl.model.lubricant import DENSITY_LAWS, VISCOSITY_LAWS
+from mgehl.model.wedge import PILLARS
+
+
+@dataclass(frozen=True)
+class ContactSection:
+    kind: str = key_field(
+        "point", "loaded point or line contact, or a rigid wedge bearing",
+        choices=("point", "line", "wedge"), kind=str,
+    )  # fmt: skip
+    load: float = key_field(800.0, "normal load of a point contact", "N", low=1e-6, high=1e9)
+    load_per_length: float = key_field(500e3, "load of a line contact", "N/m", low=1e-6, high=1e12)
+    radius_x: float = key_field(12.7e-3, "reduced radius along the motion", "m", low=1e-6, high=100.0)
+    radius_y: float = key_field(12.7e-3, "reduced radius across the motion", "m", low=1e-6, high=100.0)
+    reduced_modulus: float = key_field(
+        219.78e9, "E' of 2/E' = sum of (1 - nu^2)/E", "Pa", low=1e6, high=1e13
+    )
+
+
+@dataclass(frozen=True)
+class WedgeSection:
+    exit: float = key_field(20e-3, "where the pad ends: distance from the line of no gap", "m", above=0.0)
+    inlet: float = key_field(
+        50e-3, "where the pad begins: distance from the line of no gap", "m", above=0.0
+    )
+    width: float = key_field(20e-3, "width of the pad", "m", above=0.0)
+    slope: float = key_field(1e-3, "slope m of the pad", "", above=0.0, high=0.1)
+    reversed: bool = key_field(
+        False, "turned by 180 degrees: the plate moves with the differencing", kind=bool
+    )
+    blocked_exit: bool = key_field(False, "no flow at the exit", kind=bool)
+    pillar: str = key_field("none", "rigid pillar between pad and plate", choices=PILLARS, kind=str)
+    pillar_x: float = key_field(35e-3, "centre of the pillar along the motion", "m")
+    pillar_y: float = key_field(0.0, "centre of the pillar across the motion", "m")
+    pillar_size: float = key_field(8e-3, "side or diameter of the pillar", "m", above=0.0)
+
+
+@dataclass(frozen=True)
+class LubricantSection:
+    viscosity: float = key_field(0.096, "viscosity at ambient pressure", "Pa*s", low=1e-6, high=1e4)
+    viscosity_law: str = key_field(
+        "barus", "viscosity-pressure law", choices=tuple(VISCOSITY_LAWS), kind=str
+    )
+    pressure_viscosity: float = key_field(
+        18.2e-9, "pressure-viscosity coefficient", "1/Pa", low=1e-10, high=1e-6
+    )
+    density_law: str = key_field(
+        "dowson-higginson", "density-pressure law", choices=tuple(DENSITY_LAWS), kind=str
+    )
+
+
+@dataclass(frozen=True)
+class MotionSection:
+    speed: float = key_field(5e-6, "entrainment speed u of the flow rho u h", "m/s", low=1e-12, high=1e3)
+
+
+@dataclass(frozen=True)
+class MoesSection:
+    M: float | None = key_field(None, "Moes load number, instead of load and speed", "", low=1.0, high=1e7)
+    L: float | None = key_field(
+        None, "Moes material number, instead of load and speed", "", low=0.1, high=100.0
+    )
+
+
+@dataclass(frozen=True)
+class GridSection:
+    nodes: int = key_field(257, "nodes along each side, 2^k + 1", low=65, high=16385, kind=int)
+    x: tuple = key_field((-1.9, 1.3), "domain along x in units of the Hertz semi-axis a", kind=tuple)
+    y: tuple = key_field((-1.5, 1.5), "domain along y in units of the Hertz semi-axis b", kind=tuple)
+
+
+@dataclass(frozen=True)
+class DiscretizationSection:
+    couette: str = key_field(
+        "1B", "differential scheme of the Couette flow", choices=tuple(SCHEMES), kind=str
+    )
+    contact_model: str = key_field(
+        "lcic", "interface conditions, or the unified equations that have none",
+        choices=("lcic", "unified"), kind=str,
+    )  # fmt: skip
+    unified_gap: float = key_field(0.0, "smallest gap of the unified Poiseuille flow", "m", low=0.0)
+    couette_at_interface: str = key_field(
+        "closed", "Couette flow at the edge of contact: none, or as if there were no contact",
+        choices=INTERFACES, kind=str,
+    )  # fmt: skip
+    cavitation: bool = key_field(True, "whether the film tears where its pressure falls to zero", kind=bool)
+    film_threshold: float = key_field(0.02e-9, "gap H_th at which a node is in contact", "m", low=0.0)
+
+
+@dataclass(frozen=True)
+class SolverSection:
+    method: str = key_field(
+        "newton-mg", "Newton's method with multigrid, or the paper's single-loop relaxation",
+        choices=("newton-mg", "relaxation"), kind=str,
+    )  # fmt: skip
+    tolerance: float = key_field(1e-8, "rms residual and load error at convergence", above=0.0, high=1e-2)
+    start: str = key_field(
+        "film", "first guess: a full film, or the Hertz ellipse in contact",
+        choices=("film", "contact"), kind=str,
+    )  # fmt: skip
+    max_steps: int = key_field(60, "Newton steps on one grid at the most", low=1, high=10000, kind=int)
+    linear_tolerance: float = key_field(
+        0.1, "relative tolerance of GMRES in a Newton step", above=0.0, high=0.5
+    )
+    sweeps: int = key_field(
+        1, "line relaxations before and after the coarse grids", low=1, high=10, kind=int
+    )
+    omega: float = key_field(0.8, "damping of the line relaxation", above=0.0, high=1.0)
+    cycle_couette: str = key_field(
+        "same", "differential scheme of the preconditioner's operators",
+        choices=("same", *SCHEMES), kind=str,
+    )  # fmt: skip
+    first_nodes: int = key_field(65, "nodes of the first grid of the nested iteration", low=33, kind=int)
+    inlet_cells: float = key_field(
+        2.0, "cells the inlet gets on coarse grids by raising the speed", low=0.0
+    )
+    release_budget: int = key_field(
+        2, "times a contact node may be released on Eq. 2 after convergence", low=0, high=100, kind=int
+    )
+
+
+@dataclass(frozen=True)
+class RelaxationSection:
+    fluid_update: str = key_field(
+        "line", "fluid pressures by lines or by points", choices=("line", "point"), kind=str
+    )
+    contact_update: str = key_field(
+        "line", "contact pressures by lines or by points", choices=("line", "point"), kind=str
+    )
+    omega: float = key_field(0.02, "relaxation factor of the pressure", above=0.0, high=1.0)
+    contact_share: float = key_field(1.0 / 3.0, "part of it on contact nodes", above=0.0, high=1.0)
+    stability: float = key_field(1.0, "stability factor C_c of the contact pressure", low=1.0, high=1000.0)
+    load_factor: float = key_field(0.05, "H0 correction per unit of load error", above=0.0, high=10.0)
+    load_every: int = key_field(
+        2, "sweeps from one correction of H0 to the next", low=1, high=1000, kind=int
+    )
+    max_sweeps: int = key_field(20000, "sweeps at the most", low=1, high=10**9, kind=int)

@@ -1,0 +1,69 @@
+"""The lubricated line contact: a cylinder on a flat, per metre of its length."""
+
+from dataclasses import dataclass
+from functools import cached_property
+from math import pi
+
+from mgehl.model import films
+from mgehl.model.contact import Groups, LoadedContact
+from mgehl.model.hertz import hertz_line_contact
+from mgehl.model.lubricant import Lubricant
+
+
+@dataclass(frozen=True)
+class LineFormulas:
+    """Film thicknesses in metres that formulas predict."""
+
+    dowson_higginson_central: float
+    dowson_higginson_minimum: float
+    grubin: float
+
+
+@dataclass(frozen=True)
+class LineContact(LoadedContact):
+    """A cylinder pressed on a lubricated flat; load in N per metre of length."""
+
+    load: float
+    radius_x: float
+    reduced_modulus: float
+    speed: float
+    lubricant: Lubricant
+
+    load_integral = pi / 2.0
+    """The integral of P over X: that of sqrt(1 - X^2)."""
+    contact_area = 2.0
+    """Width of the Hertz contact in units of X."""
+    k_e = 1.0
+
+    @cached_property
+    def hertz(self):
+        """The dry contact of the same bodies under the same load."""
+        return hertz_line_contact(self.load, self.radius_x, self.reduced_modulus)
+
+    @property
+    def deflection_scale(self):
+        """Factor of the integral of -P ln|x/a|: 4 p_h R/(pi E' a), which is 1/pi."""
+        return 4.0 * self.hertz.p_h * self.radius_x / (pi * self.reduced_modulus * self.hertz.a)
+
+    def undeformed_gap(self, X, _Y):
+        """The parabola x^2/2R in units of H  [Liu eq. 48]."""
+        return 0.5 * X**2
+
+    @property
+    def groups(self):
+        """U, W, G from the dimensional values, and Moes' M and L of the line contact."""
+        U = self.lubricant.viscosity * self.speed / (self.reduced_modulus * self.radius_x)
+        W = self.load / (self.reduced_modulus * self.radius_x)
+        G = self.lubricant.pressure_viscosity * self.reduced_modulus
+        return Groups(U, W, G, M=W * (2.0 * U) ** -0.5, L=G * (2.0 * U) ** 0.25)
+
+    @property
+    def formulas(self):
+        """What the film formulas say of this contact."""
+        central, minimum = films.dowson_higginson(self.groups, self.radius_x)
+        return LineFormulas(central, minimum, self.grubin_film)
+
+    @property
+    def expected_film(self):
+        """Central film in metres to start from."""
+        return self.formulas.dowson_higginson_central

@@ -1,0 +1,87 @@
+"""The lubricated point contact: SI parameters in, dimensionless problem out (Y = y/b)."""
+
+from dataclasses import dataclass
+from functools import cached_property
+from math import pi
+
+from mgehl.model import films
+from mgehl.model.contact import Groups, LoadedContact
+from mgehl.model.hertz import hertz_contact
+from mgehl.model.lubricant import Lubricant
+
+LOAD = 2.0 * pi / 3.0
+"""Dimensionless load: the integral of P over X and Y  [Liu eq. 50]."""
+
+
+@dataclass(frozen=True)
+class PointFormulas:
+    """Film thicknesses in metres that formulas predict."""
+
+    hamrock_dowson_central: float
+    hamrock_dowson_minimum: float
+    nijenbanning_venner_moes: float
+    grubin: float
+
+
+@dataclass(frozen=True)
+class PointContact(LoadedContact):
+    """A paraboloid pressed on a lubricated flat; load in N."""
+
+    load: float
+    radius_x: float
+    radius_y: float
+    reduced_modulus: float
+    speed: float
+    lubricant: Lubricant
+
+    load_integral = LOAD
+    contact_area = pi
+    """Of the Hertz ellipse in units of X and Y."""
+
+    @classmethod
+    def from_moes(cls, M, L, radius_x, radius_y, reduced_modulus, lubricant):
+        """The contact with Moes numbers M and L: load and speed follow from the rest."""
+        two_U = (L / (lubricant.pressure_viscosity * reduced_modulus)) ** 4
+        load = M * two_U**0.75 * reduced_modulus * radius_x**2
+        speed = 0.5 * two_U * reduced_modulus * radius_x / lubricant.viscosity
+        return cls(load, radius_x, radius_y, reduced_modulus, speed, lubricant)
+
+    @cached_property
+    def hertz(self):
+        """The dry contact of the same bodies under the same load."""
+        return hertz_contact(self.load, self.radius_x, self.radius_y, self.reduced_modulus)
+
+    @property
+    def k_e(self):
+        """Axis ratio a/b  [Liu eq. 26]."""
+        return self.hertz.a / self.hertz.b
+
+    @property
+    def deflection_scale(self):
+        """Factor of the integral of P/r over x/a and y/a: 2 p_h R_x/(pi E' a)  [Liu eq. 49]."""
+        return 2.0 * self.hertz.p_h * self.radius_x / (pi * self.reduced_modulus * self.hertz.a)
+
+    def undeformed_gap(self, X, Y):
+        """The paraboloid x^2/2R_x + y^2/2R_y in units of H  [Liu eq. 48]."""
+        side = self.radius_x / (self.radius_y * self.k_e**2)
+        return 0.5 * X**2 + 0.5 * side * Y**2
+
+    @property
+    def groups(self):
+        """U, W, G from the dimensional values, and Moes' M and L."""
+        U = self.lubricant.viscosity * self.speed / (self.reduced_modulus * self.radius_x)
+        W = self.load / (self.reduced_modulus * self.radius_x**2)
+        G = self.lubricant.pressure_viscosity * self.reduced_modulus
+        return Groups(U, W, G, M=W * (2.0 * U) ** -0.75, L=G * (2.0 * U) ** 0.25)
+
+    @property
+    def formulas(self):
+        """What the film formulas say of this contact."""
+        central, minimum = films.hamrock_dowson(self.groups, self.radius_x, 1.0 / self.k_e)
+        moes = films.nijenbanning_venner_moes(self.groups, self.radius_x, self.radius_y)
+        return PointFormulas(central, minimum, moes, self.grubin_film)
+
+    @property
+    def expected_film(self):
+        """Central film in metres to start from."""
+        return self.formulas.hamrock_dowson_central

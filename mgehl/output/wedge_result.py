@@ -1,0 +1,59 @@
+"""The result of a wedge bearing as one record. Its fields are result.json's."""
+
+from dataclasses import dataclass
+
+from mgehl.discretization.status import CONTACT, LUBRICATED
+from mgehl.solver.verification import closed_face_flow, flux_imbalance
+
+
+@dataclass(frozen=True)
+class WedgeResult:
+    """Everything result.json holds; P and the load as in [Liu eq. 44], lengths in mm."""
+
+    converged: bool
+    reason: str
+    load: float
+    """Integral of P over X and Y."""
+    load_N: float
+    max_P: float
+    min_P: float
+    max_pressure_MPa: float
+    residual: float
+    flux_imbalance: float
+    closed_face_flow: float
+    """Largest flow through a face that contact closes: what leaks through solid."""
+    solid_nodes: int
+    cavitated_nodes: int
+    linear_iterations: int
+    wall_s: float
+    ranks: int
+    versions: dict
+
+
+def summarise_wedge(problem, outcome, wall_s, versions):
+    """Evaluate the final state and put the `WedgeResult` together (collective)."""
+    grid, bearing, state = problem.grid, problem.contact, outcome.state
+    residual = problem.rms(problem.residual(state, problem.inflow(state)))
+    load = problem.load(state.P)
+    largest = grid.max(state.P)
+    solid = grid.count(state.status == CONTACT)
+    fluid = grid.count(state.status == LUBRICATED)
+    boundary = grid.count(problem.boundary & (state.status != CONTACT))
+    return WedgeResult(
+        converged=outcome.converged,
+        reason=outcome.reason,
+        load=load,
+        load_N=load * bearing.pressure_scale * bearing.x_scale * bearing.y_scale,
+        max_P=largest,
+        min_P=grid.min(state.P),
+        max_pressure_MPa=1e-6 * bearing.pressure_scale * largest,
+        residual=residual,
+        flux_imbalance=flux_imbalance(problem, state),
+        closed_face_flow=closed_face_flow(problem, state),
+        solid_nodes=solid,
+        cavitated_nodes=grid.mesh.nodes - solid - fluid - boundary,
+        linear_iterations=sum(step.linear_iterations for step in outcome.cycles),
+        wall_s=wall_s,
+        ranks=grid.comm.size,
+        versions=versions,
+    )

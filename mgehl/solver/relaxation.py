@@ -1,0 +1,195 @@
+"""The paper's own method, to compare with: one loop of relaxed line or point solutions.
+
+Every sweep marks contact by the gap, solves each x-line for new pressures (fluid nodes by
+[Liu eqs. 37, 52], contact nodes by [Liu eq. 41]), moves a small part of the way to them
+[Liu eq. 53, whose sign is mended] and every few sweeps corrects H0 by the load [Liu eq. 54].
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg import solve_banded
+
+from mgehl.discretization.bands import given_nodes
+from mgehl.discretization.faces import conductances
+from mgehl.discretization.fluid import fluid_state
+from mgehl.discretization.influence import influence_coefficients
+from mgehl.discretization.status import (
+    BOUNDARY,
+    CAVITATED,
+    CONTACT,
+    LUBRICATED,
+    close_gaps,
+    open_x_faces,
+)
+from mgehl.solver.newton import Outcome
+
+
+@dataclass(frozen=True)
+class RelaxationSettings:
+    """Factors and limits of the relaxation."""
+
+    fluid_update: str = "line"
+    """"line" [Liu eq. 37], or "point" [Liu eq. 36]."""
+    contact_update: str = "line"
+    """"line" [Liu eq. 41], or "point" [Liu eq. 42]."""
+    omega: float = 0.02
+    contact_share: float = 1.0 / 3.0
+    """Part of omega that contact nodes get."""
+    stability: float = 1.0
+    """C_c of [Liu eqs. 40-42]."""
+    load_factor: float = 0.05
+    """omega_w of [Liu eq. 54]."""
+    load_every: int = 2
+    max_sweeps: int = 20000
+    report_every: int = 100
+    """Sweeps from one line of the history to the next."""
+    tolerance: float = 1e-8
+    film_threshold: float = 0.0
+
+
+@dataclass
+class Sweep:
+    """One line of the history: the state before a sweep and how far that wants to move it."""
+
+    step: int
+    residual: float
+    """The true one, of film, cavity and contact."""
+    load_error: float
+    central: float
+    minimum: float
+    contact_nodes: int
+    cavitated_nodes: int
+    e_p: float
+    """[Liu eq. 45], of all nodes; then of the fluid and of the solid alone."""
+    e_p_fluid: float
+    e_p_solid: float
+
+
+def relax(problem, state, settings, monitor):
+    """Relax `state` in place until its true residual and load hold; return the `Outcome`.
+
+    One convolution a sweep. `monitor` is called with a `Sweep` every `report_every` sweeps.
+    """
+    relaxation = _Relaxation(problem, settings)
+    outcome = Outcome(state, False, "")
+    for step in range(settings.max_sweeps + 1):
+        relaxation.mark_contact(state)
+        inflow = problem.inflow(state)
+        relaxation.mark_cavities(state, inflow)
+        change = relaxation.change(state, inflow)
+        last = step == settings.max_sweeps
+        if last or step % settings.report_every == 0:
+            cycle = relaxation.sweep(step, state, inflow, change)
+            outcome.cycles.append(cycle)
+            monitor(cycle)
+            if not np.isfinite(cycle.residual):
+                outcome.reason = "the residual is not finite"
+                return outcome
+            if max(cycle.residual, abs(cycle.load_error)) <= settings.tolerance:
+                outcome.converged, outcome.reason = True, "residual, load and sets settled"
+                return outcome
+        if not last:
+            relaxation.move(state, change, step)
+    outcome.reason = f"residual {cycle.residual:.1e} after {settings.max_sweeps} sweeps"
+    return outcome
+
+
+class _Relaxation:
+    """One sweep's steps."""
+
+    def __init__(self, problem, settings):
+        self._problem, self._settings = problem, settings
+        self._D = influence_coefficients(problem.grid.mesh, problem.contact.deflection_scale, 0, 1)[0, :3]
+
+    def mark_contact(self, state):
+        """Contact where the gap is closed, film elsewhere; without interface conditions all film."""
+        problem = self._problem
+        closed = state.H <= self._settings.film_threshold
+        if problem.scheme.gap_floor is not None:
+            closed[:] = False
+        state.status[:] = np.where(closed, CONTACT, LUBRICATED)
+        state.status[problem.boundary] = BOUNDARY
+        close_gaps(state.status)
+
+    def mark_cavities(self, state, inflow):
+        """Film without pressure that no fluid flows into is a cavity, whose pressure stays.
+
+        (Cutting negative pressures alone settles with a residual beside the cavity: a line's new
+        pressures there answer to those that are cut.)
+        """
+        empty = (state.status == LUBRICATED) & (state.P <= 0.0) & (inflow <= 0.0)
+        state.status[empty & self._problem.scheme.cavitation] = CAVITATED
+
+    def change(self, state, inflow):
+        """P_new - P_old of every node."""
+        contact = state.status == CONTACT
+        bands = self._line_bands(state, contact)
+        rhs = np.where(contact, -state.H, -inflow)
+        rhs[given_nodes(state.status)] = 0.0
+        # The lines follow each other in one system: their ends are boundary and couple nothing.
+        flat = [band.ravel() for band in bands]
+        ab = np.zeros((3, rhs.size))
+        ab[0, 1:], ab[1], ab[2, :-1] = flat[2][:-1], flat[1], flat[0][1:]
+        return solve_banded((1, 1), ab, rhs.ravel(), overwrite_ab=True).reshape(rhs.shape)
+
+    def move(self, state, change, step):
+        """Go the relaxed part of the way; correct H0 when its turn has come."""
+        settings, problem = self._settings, self._problem
+        factor = np.where(state.status == CONTACT, settings.contact_share, 1.0) * settings.omega
+        state.P += factor * change
+        if problem.scheme.cavitation:
+            np.maximum(state.P, 0.0, out=state.P)
+        if (step + 1) % settings.load_every == 0:
+            state.H0 += settings.load_factor * problem.load_deficit(state.P)
+        state.H = problem.gap(state.P, state.H0)
+
+    def sweep(self, step, state, inflow, change):
+        """The state before a sweep, as a line of the history."""
+        problem, grid = self._problem, self._problem.grid
+        residual = problem.rms(problem.residual(state, inflow))
+        contact = state.status == CONTACT
+        moved, new = np.abs(change), np.maximum(state.P + change, 0.0)
+        errors = []
+        for part in (np.ones_like(contact), ~contact, contact):
+            whole = grid.sum(new[part].sum())
+            errors.append(grid.sum(moved[part].sum()) / whole if whole > 0.0 else 0.0)
+        counts = problem.counts(state.status)
+        load = problem.load_deficit(state.P)
+        return Sweep(step, residual, load, *problem.films(state), *counts, *errors)
+
+    def _line_bands(self, state, contact):
+        """Coefficients of P_i-1, P_i, P_i+1 in the equation of node i, each (lines, nx)."""
+        settings, D = self._settings, self._D
+        alpha, beta, gamma = self._fluid_bands(state)
+        if settings.fluid_update == "point":
+            alpha, gamma = np.zeros_like(beta), np.zeros_like(beta)
+        # By points a contact node answers to the one before it. (Eq. 42 has the line before in it,
+        # too: here all lines are relaxed at once, so that ranks do not matter.)
+        after = D[1] if settings.contact_update == "line" else 0.0
+        alpha = np.where(contact, D[1], alpha)
+        beta = np.where(contact, settings.stability * D[0], beta)
+        gamma = np.where(contact, after, gamma)
+        given = given_nodes(state.status)
+        alpha[given], beta[given], gamma[given] = 0.0, 1.0, 0.0
+        return alpha, beta, gamma
+
+    def _fluid_bands(self, state):
+        """alpha, beta, gamma of [Liu eq. 52]: mobility held, the gap answering to P."""
+        problem, D = self._problem, self._D
+        grid, mesh, scheme = problem.grid, problem.grid.mesh, problem.scheme
+        P, H, status = grid.halo(state.P), grid.halo(state.H), grid.halo_status(state.status)
+        fluid = fluid_state(P, H, problem.contact, scheme.gap_floor)
+        along, across = conductances(fluid.eps, status, mesh, scheme)
+        is_open = open_x_faces(state.status)
+        carried = fluid.rho[1:-1] / mesh.dX
+        west, east = (np.zeros(grid.shape) for _ in range(2))
+        west[:, 1:], east[:, :-1] = along, along
+        entering, leaving = (np.zeros(grid.shape) for _ in range(2))
+        entering[:, 1:], leaving[:, :-1] = carried[:, :-1] * is_open, carried[:, :-1] * is_open
+        alpha = west - (leaving * D[1] - entering * D[0])
+        beta = -(west + east + across[:-1] + across[1:]) - leaving * D[0]
+        gamma = east - (leaving * D[1] - entering * D[2])
+        # A node that nothing reaches (no mobility, all faces closed) stays where it is.
+        beta[beta == 0.0] = -1.0
+        return alpha, beta, gamma

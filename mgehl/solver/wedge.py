@@ -1,0 +1,53 @@
+"""The rigid wedge bearing: one linear system for the pressure, or a few where the film cavitates."""
+
+import numpy as np
+
+from mgehl.discretization.status import BOUNDARY, CONTACT, LUBRICATED
+from mgehl.multigrid.cycle import MultigridSolver
+from mgehl.solver.newton import Outcome
+from mgehl.solver.problem import Problem, State
+from mgehl.solver.rigid_gap import RigidGapFluid
+
+LINEAR_TOLERANCE = 1e-11
+"""Reduction of the residual by one linear solve: a second one repairs what rounding left."""
+
+MAX_ITERATIONS = 200
+"""Of one linear solve."""
+
+
+class WedgeProblem(Problem):
+    """Gap and contact of a `WedgeBearing` on one grid: both are given."""
+
+    def first_guess(self):
+        """The state without pressure; solid nodes have no gap."""
+        grid, bearing = self.grid, self.contact
+        solid = np.broadcast_to(bearing.solid(grid.X, grid.Y), grid.shape)
+        status = np.where(solid, CONTACT, np.where(self.boundary, BOUNDARY, LUBRICATED))
+        H = np.where(solid, 0.0, np.broadcast_to(bearing.gap(grid.X), grid.shape))
+        return State(np.zeros(grid.shape), 0.0, H, status.astype(np.int8))
+
+    def residual(self, state, inflow):
+        """Rows of the residual; the pressure of contact nodes is given, zero."""
+        return np.where(state.status == LUBRICATED, inflow, -state.P / self.grid.mesh.dX)
+
+
+def solve_wedge(hierarchy, bearing, scheme, cycle, tolerance, max_steps):
+    """Solve on the finest grid; return the `WedgeProblem` and an `Outcome` of `FluidStep`s.
+
+    `tolerance` is for the rms residual, in which the Couette term of a full film is 1.
+    """
+    level = len(hierarchy.grids) - 1
+    problem = WedgeProblem(hierarchy.grids[level], bearing, scheme)
+    multigrid = MultigridSolver(hierarchy, level, bearing, scheme, cycle, rigid=True)
+    fluid = RigidGapFluid(problem, multigrid, cycle.options_prefix, LINEAR_TOLERANCE)
+    state = problem.first_guess()
+    try:
+        steps = fluid.solve(state, tolerance, max_steps)
+        # Once more: what the tolerance left would show in the flow balance.
+        steps = steps[:-1] + fluid.solve(state, 0.0, 1)
+    finally:
+        fluid.free()
+    left = problem.rms(problem.residual(state, problem.inflow(state)))
+    converged = bool(left <= tolerance)
+    reason = "the residual holds" if converged else f"residual {left:.1e} after {len(steps) - 1} solves"
+    return problem, Outcome(state, converged, reason, steps)

@@ -1,0 +1,1 @@
+"""Studies: many runs, one table and the pictures that answer one question."""

@@ -1,0 +1,100 @@
+"""Pictures of the studies of films and methods."""
+
+import matplotlib
+
+matplotlib.use("Agg")
+
+import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
+
+from mgehl.output.picture import STYLE  # noqa: E402
+
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#555555")
+"""Colour-blind safe (Okabe and Ito)."""
+
+MARKS = ("o", "s", "^", "v", "D", "<", ">")
+
+
+def schemes(path, nodes, films):
+    """Central and minimum film against the spacing, a line for each scheme."""
+    with plt.rc_context(STYLE):
+        figure, panels = plt.subplots(1, 2, figsize=(10.5, 4.2), layout="constrained")
+        for panel, which, title in zip(panels, (0, 1), ("central film", "minimum film"), strict=True):
+            for (scheme, values), colour, mark in zip(films.items(), COLOURS, MARKS, strict=True):
+                heights = [value[which] for value in values]
+                spacing = [1.0 / (n - 1) for n in nodes]
+                panel.plot(spacing, heights, mark + "-", color=colour, markersize=4, label=scheme)
+            panel.set(xlabel="spacing over length of the domain", ylabel="film, nm", title=title)
+            panel.set_xlim(left=0.0)
+        panels[1].legend(frameon=False)
+        figure.suptitle("Point contact at 1 m/s by every differential scheme")
+        _save(figure, path)
+
+
+def line(path, rows):
+    """Central and minimum film over the formulas' against speed, a line for each pressure."""
+    with plt.rc_context(STYLE):
+        figure, panels = plt.subplots(1, 2, figsize=(10.5, 4.2), layout="constrained")
+        pressures = list(dict.fromkeys(row["p_h GPa"] for row in rows))
+        for panel, film in zip(panels, ("central", "minimum"), strict=True):
+            for pressure, colour, mark in zip(pressures, COLOURS, MARKS, strict=False):
+                own = [row for row in rows if row["p_h GPa"] == pressure and row["converged"] == "yes"]
+                speeds = [float(row["speed mm/s"]) for row in own]
+                ratio = [float(row[f"{film} nm"]) / float(row[f"{film} formula nm"]) for row in own]
+                panel.plot(speeds, ratio, mark + "-", color=colour, markersize=4, label=f"{pressure} GPa")
+            panel.axhline(1.0, color="0.8", linewidth=0.8, zorder=0)
+            panel.set(xscale="log", xlabel="speed, mm/s", ylabel="film over formula", title=f"{film} film")
+        panels[1].legend(frameon=False)
+        figure.suptitle("Line contact over formulas of the Dowson-Higginson type")
+        _save(figure, path)
+
+
+def inlet(path, rows):
+    """Films and the pressure ratio at the interface against the cells in the inlet."""
+    with plt.rc_context(STYLE):
+        figure, panels = plt.subplots(1, 2, figsize=(10.5, 4.2), layout="constrained")
+        films, ratios = panels
+        by_film = [row for row in rows if row["film start"] == "film"]
+        for film, colour, mark in (("central", COLOURS[0], "o"), ("minimum", COLOURS[1], "s")):
+            heights = [float(row[f"{film} nm"]) for row in by_film]
+            films.plot(_cells(by_film), heights, mark + "-", color=colour, label=f"{film}, film start")
+        dry = [row for row in rows if row["contact start"] == "contact"]
+        films.plot(_cells(dry), [0.0] * len(dry), "kx", label="contact start: contact")
+        films.set(xscale="log", xlabel="cells in the inlet", ylabel="film, nm")
+        films.legend(frameon=False)
+        for ending, mark in (("contact", "o"), ("contact, Eq. 25 broken", "x")):
+            own = [row for row in rows if row["contact start"] == ending]
+            ratio = [float(row["p_f/p_d"]) for row in own]
+            ratios.plot(_cells(own), ratio, mark, color=COLOURS[2], label=ending)
+        ratios.axhline(1.0, color="0.6", linewidth=0.8, zorder=0)
+        ratios.set(
+            xscale="log", yscale="log", xlabel="cells in the inlet", ylabel="p$_f$/p$_d$ at the interface"
+        )
+        ratios.legend(frameon=False)
+        figure.suptitle("Line contact at 7.5 mm/s, 2.26 GPa: what the grid decides")
+        _save(figure, path)
+
+
+def histories(path, cases):
+    """True residual against convolutions, by both methods."""
+    with plt.rc_context(STYLE):
+        figure, panels = plt.subplots(
+            1, len(cases), figsize=(4.2 * len(cases), 3.9), layout="constrained", squeeze=False
+        )
+        for panel, (name, methods) in zip(panels[0], cases.items(), strict=True):
+            for (method, rows), colour in zip(methods.items(), COLOURS, strict=False):
+                finest = [row for row in rows if row["grid"] == rows[-1]["grid"]]
+                work = [max(row["convolutions"], 1.0) for row in finest]
+                panel.plot(work, [row["residual"] for row in finest], color=colour, label=method)
+            panel.set(xscale="log", yscale="log", xlabel="fine-grid convolutions", title=name)
+        panels[0, 0].set_ylabel("true residual (rms)")
+        panels[0, 0].legend(frameon=False)
+        _save(figure, path)
+
+
+def _cells(rows):
+    return [float(row["inlet cells"]) for row in rows]
+
+
+def _save(figure, path):
+    figure.savefig(path)
+    plt.close(figure)

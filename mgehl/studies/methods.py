@@ -1,0 +1,100 @@
+"""Newton with multigrid beside the paper's relaxation, and the interface conditions beside none."""
+
+from mgehl.studies.study import merged
+
+TOLERANCE = 1e-6
+"""True residual that both methods are asked for."""
+
+CASES = {
+    "1 m/s, 65 nodes": {"motion": {"speed": 1.0}, "grid": {"nodes": 65}},
+    "1 m/s, 129 nodes": {"motion": {"speed": 1.0}, "grid": {"nodes": 129}},
+    "0.005 mm/s, 257 nodes": {
+        "motion": {"speed": 5e-6}, "grid": {"nodes": 257}, "solver": {"start": "contact"},
+    },
+}  # fmt: skip
+SWEEPS = {"1 m/s, 65 nodes": 60000, "1 m/s, 129 nodes": 300000, "0.005 mm/s, 257 nodes": 20000}
+"""At the most; a sweep is one convolution."""
+
+MODEL_CASES = {
+    "1 m/s, 129 nodes": CASES["1 m/s, 129 nodes"],
+    "20 mm/s, 257 nodes": {"motion": {"speed": 0.02}, "grid": {"nodes": 257}},
+    "0.1 mm/s, 257 nodes": {
+        "motion": {"speed": 1e-4}, "grid": {"nodes": 257}, "solver": {"start": "contact"},
+    },
+}  # fmt: skip
+
+
+def run(study):
+    """Solve all; write tables `methods` and `models` and the picture `histories`."""
+    study.cases = 2 * len(CASES) + 2 * len(MODEL_CASES)
+    rows, histories = [], {}
+    for name, case in CASES.items():
+        pair = {method: _solve(study, name, case, method) for method in ("newton-mg", "relaxation")}
+        rows += _method_rows(name, pair)
+        histories[name] = {method: solution.rows for method, solution in pair.items()}
+    study.write_table("methods", rows)
+    study.write_table("models", _model_rows(study))
+    from mgehl.studies import film_figures
+
+    study.draw("histories", film_figures.histories, histories)
+
+
+def _solve(study, name, case, method):
+    solver = {
+        "solver": {"method": method, "tolerance": TOLERANCE},
+        "relaxation": {"max_sweeps": SWEEPS[name]},
+    }
+    return study.solve(f"{method}, {name}", merged(case, solver))
+
+
+def _method_rows(name, pair):
+    """A row for each method; the ratio is of convolutions, the relaxation's to Newton's."""
+    least = pair["newton-mg"].result.work.convolutions
+    rows = []
+    for method, solution in pair.items():
+        result, last = solution.result, solution.rows[-1]
+        rows.append(
+            {
+                "case": name,
+                "method": method,
+                "converged": "yes" if result.converged else "no",
+                "residual": f"{result.residual:.1e}",
+                "load error": f"{result.load_error:.1e}",
+                "central nm": f"{result.central_film_nm:.5f}",
+                "minimum nm": f"{result.minimum_film_nm:.5f}",
+                "contact nodes": str(result.contact.nodes),
+                "e^p": f"{last['e_p']:.1e}" if "e_p" in last else "",
+                "e^p lubr.": f"{last['e_p_lubr']:.1e}" if "e_p" in last else "",
+                "e^p solid": f"{last['e_p_solid']:.1e}" if "e_p" in last else "",
+                "steps or sweeps": str(result.work.steps),
+                "convolutions": f"{result.work.convolutions:.1f}",
+                "ratio": f"{result.work.convolutions / least:.0f}",
+                "wall s": f"{result.wall_s:.1f}",
+            }
+        )
+    return rows
+
+
+def _model_rows(study):
+    """The interface conditions and the unified equations on the same cases."""
+    rows = []
+    for name, case in MODEL_CASES.items():
+        for model in ("lcic", "unified"):
+            tables = merged(case, {"discretization": {"contact_model": model}})
+            result = study.solve(f"{model}, {name}", tables).result
+            inequality = result.pressure_inequality
+            rows.append(
+                {
+                    "case": name,
+                    "contact model": model,
+                    "equations solved to": f"{result.residual:.1e}",
+                    "central nm": f"{result.central_film_nm:.4f}",
+                    "minimum nm": f"{result.minimum_film_nm:.4f}",
+                    "contact nodes": str(result.contact.nodes),
+                    "nodes that overlap": str(result.overlap.nodes),
+                    "largest overlap nm": f"{result.overlap.largest_nm:.3f}",
+                    "Eq. 2 violations": f"{inequality.violations} of {inequality.checked}",
+                    "verdict": result.reason,
+                }
+            )
+    return rows

@@ -1,0 +1,98 @@
+"""What every study does: solve cases one after the other, say so, write tables and pictures."""
+
+import time
+from dataclasses import dataclass, field
+from math import log2
+from pathlib import Path
+
+from mpi4py import MPI
+
+from mgehl.config import config_from_tables
+from mgehl.output.files import OutputError, on_first_rank
+from mgehl.output.table import markdown, write_csv
+from mgehl.run import solve
+
+
+@dataclass
+class Study:
+    """A study's directory and grids; cases are solved on `comm`, rank 0 speaks and writes."""
+
+    directory: Path
+    comm: MPI.Comm
+    nodes: tuple = ()
+    """Nodes along each side, coarsest first; empty for the study's own choice."""
+    speak: bool = True
+    cases: int = 0
+    """How many there will be; set it before the first to be told the time left."""
+    _done: int = field(default=0, init=False)
+    _started: float = field(default_factory=time.perf_counter, init=False)
+
+    @property
+    def first(self):
+        """True on the rank that writes; fields of solutions are whole there."""
+        return self.comm.rank == 0
+
+    def solve(self, title, tables):
+        """Solve the configuration of nested `tables`; return the `Solution`."""
+        solution = solve(config_from_tables(tables), self.comm)
+        self._done += 1
+        if self.first and self.speak:
+            spent = time.perf_counter() - self._started
+            left = spent / self._done * max(self.cases - self._done, 0)
+            verdict = "" if solution.result.converged else f"  NOT CONVERGED: {solution.result.reason}"
+            print(f"{self._done:3d}/{self.cases}  {left:5.0f} s left  {title}{verdict}", flush=True)
+        return solution
+
+    def write_table(self, name, rows):
+        """Write rows (dictionaries of text) as NAME.csv and NAME.md, and print them (collective)."""
+        on_first_rank(self.comm, self._write_table, name, rows)
+
+    def draw(self, name, function, *arguments):
+        """Draw NAME.png by `function(path, *arguments)` on rank 0 (collective)."""
+        on_first_rank(self.comm, self._draw, name, function, arguments)
+
+    def _write_table(self, name, rows):
+        text = markdown(rows, list(rows[0]))
+        try:
+            write_csv(self.directory / f"{name}.csv", rows)
+            (self.directory / f"{name}.md").write_text(text + "\n")
+        except OSError as error:
+            raise OutputError(f"{self.directory}: cannot be written: {error}") from None
+        if self.speak:
+            print(f"\n{name}\n\n{text}\n", flush=True)
+
+    def _draw(self, name, function, arguments):
+        path = self.directory / f"{name}.png"
+        try:
+            function(path, *arguments)
+        except OSError as error:
+            raise OutputError(f"{path}: cannot be written: {error}") from None
+        if self.speak:
+            print(f"picture {path}", flush=True)
+
+
+def merged(*tables):
+    """Nested tables put together, later ones first in authority."""
+    result = {}
+    for table in tables:
+        for section, keys in table.items():
+            result.setdefault(section, {}).update(keys)
+    return result
+
+
+def observed_order(coarse, fine):
+    """Power of the spacing by which an error falls when that is halved."""
+    return log2(abs(coarse) / abs(fine)) if coarse and fine else float("nan")
+
+
+def richardson(values):
+    """(limit, observed order) from the values on the last three grids, each twice as fine.
+
+    NaN where the differences do not fall with one sign: there is no limit to see yet.
+    """
+    coarse, middle, fine = values[-3:]
+    first, second = middle - coarse, fine - middle
+    if second == 0.0 or not first / second > 1.0:
+        return float("nan"), float("nan")
+    ratio = first / second
+    return fine + second / (ratio - 1.0), log2(ratio)

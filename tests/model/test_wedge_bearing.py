@@ -1,0 +1,128 @@
+"""mgehl.model.wedge; its film without a pillar is solved in closed form in wedge_series."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from mgehl.model.wedge import WedgeBearing
+
+BEARING = WedgeBearing(exit=4e-3, inlet=8e-3, width=4e-3, slope=1e-3, viscosity=0.05, speed=0.3)
+TURNED = replace(BEARING, turned=True)
+
+
+def coordinates(bearing, nodes):
+    x, _ = bearing.placement(nodes)
+    return np.linspace(*x, nodes)
+
+
+@pytest.mark.parametrize("nodes", [65, 257])
+def test_nodes_lie_where_the_paper_puts_them(nodes):
+    """dX = l/(n - 1.5) and X_i = X0 + l (2i - 3)/(2n - 3), i = 1 ... n  [Liu sec. 4.1]."""
+    X, i = coordinates(BEARING, nodes), np.arange(1, nodes + 1)
+    np.testing.assert_allclose(X, 4.0 + 4.0 * (2 * i - 3) / (2 * nodes - 3), rtol=1e-14)
+    np.testing.assert_allclose(np.diff(X), 4.0 / (nodes - 1.5), rtol=1e-11)
+    # The exit is a face, the inlet a node.
+    assert 0.5 * (X[0] + X[1]) == pytest.approx(4.0, rel=1e-14)
+    assert X[-1] == 8.0
+    assert BEARING.placement(nodes)[1] == (4.0, 8.0)
+
+
+def test_turned_bearing_is_the_mirror_image():
+    """Nodes, edges and gap; its plate drags the fluid towards +X, again into the narrowing film."""
+    X, turned = coordinates(BEARING, 65), coordinates(TURNED, 65)
+    np.testing.assert_allclose(turned, -X[::-1], rtol=1e-15)
+    assert TURNED.placement(65)[1] == (-8.0, -4.0)
+    np.testing.assert_allclose(TURNED.gap(turned), BEARING.gap(X)[::-1], rtol=1e-15)
+    assert (BEARING.motion, TURNED.motion) == (-1, 1)
+
+
+def test_gap_is_the_slope_times_the_distance():
+    X = np.array([4.0, 5.5, 8.0])
+    np.testing.assert_allclose(BEARING.gap(X) * BEARING.film_scale, 1e-3 * X * 1e-3, rtol=1e-15)
+
+
+def test_pressure_scale_is_that_of_eq_44():
+    """p = P eta u/(m^2 mm): 0.05*0.3/(1e-6*1e-3); it turns h^3 dp/dx = 6 eta u h into H^3 dP/dX = 6 H."""
+    assert BEARING.pressure_scale == pytest.approx(1.5e7, rel=1e-14)
+    flow = BEARING.film_scale**3 * BEARING.pressure_scale / BEARING.x_scale
+    assert flow == pytest.approx(0.05 * 0.3 * BEARING.film_scale, rel=1e-14)
+    assert BEARING.lambda_ == 6.0
+    assert (BEARING.x_scale, BEARING.y_scale, BEARING.k_e) == (1e-3, 1e-3, 1.0)
+
+
+def test_fluid_is_constant_and_nothing_yields():
+    P = np.array([-1.0, 0.0, 30.0])
+    lubricant = BEARING.lubricant
+    assert lubricant.density_law.density(P, BEARING.pressure_scale)[0].tolist() == [1.0] * 3
+    assert lubricant.viscosity_law.log_viscosity(P, BEARING.pressure_scale)[0].tolist() == [0.0] * 3
+    assert lubricant.viscosity == 0.05
+    assert BEARING.deflection_scale is None
+
+
+X, Y = np.linspace(4.0, 8.0, 9)[None, :], np.linspace(-2.0, 2.0, 9)[:, None]
+"""Nodes half a millimetre apart."""
+
+
+def solid_nodes(bearing, X=X, Y=Y):
+    """The nodes that are solid, (X, Y) in half millimetres."""
+    solid = np.broadcast_to(bearing.solid(X, Y), (Y.size, X.size))
+    return {(int(2 * X[0, i]), int(2 * Y[j, 0])) for j, i in np.argwhere(solid)}
+
+
+def test_nothing_is_solid_without_a_pillar():
+    assert BEARING.solid(X, Y).shape == (9, 9)
+    assert solid_nodes(BEARING) == set()
+
+
+def pillar(shape, x=6e-3, y=0.0, size=2e-3, bearing=BEARING):
+    return replace(bearing, pillar=shape, pillar_x=x, pillar_y=y, pillar_size=size)
+
+
+SQUARE = {(di, dj) for di in range(-2, 3) for dj in range(-2, 3)}
+CYLINDER = {(di, dj) for di, dj in SQUARE if di**2 + dj**2 <= 4}
+
+
+@pytest.mark.parametrize("shape, offsets", [("square", SQUARE), ("cylinder", CYLINDER)])
+@pytest.mark.parametrize("x, y", [(6e-3, 0.0), (5.5e-3, 0.0), (6.5e-3, -0.5e-3)])
+def test_pillar_is_solid_with_its_edge(shape, offsets, x, y):
+    """Side and diameter are the size: 2 mm are two nodes to each side of the centre."""
+    centre = round(2e3 * x), round(2e3 * y)
+    assert len(SQUARE) == 25 and len(CYLINDER) == 13
+    assert solid_nodes(pillar(shape, x, y)) == {(centre[0] + di, centre[1] + dj) for di, dj in offsets}
+
+
+@pytest.mark.parametrize("rounding", [-1e-12, 1e-12])
+@pytest.mark.parametrize("shape", ["square", "cylinder"])
+def test_rounding_does_not_move_the_edge(shape, rounding):
+    edge = np.array([[7.0 + rounding, 7.0 + 1e-6]])
+    assert pillar(shape).solid(edge, np.zeros((1, 1))).tolist() == [[True, False]]
+
+
+@pytest.mark.parametrize("shape", ["square", "cylinder"])
+def test_turned_pillar_is_turned_about_the_vertical_axis(shape):
+    """Node (X, Y) of the bearing becomes (-X, -Y): an off-centre pillar changes sides along Y, too."""
+    bearing = pillar(shape, 5.5e-3, 1e-3, 1e-3)
+    turned = pillar(shape, 5.5e-3, 1e-3, 1e-3, TURNED)
+    expected = bearing.solid(X, Y)
+    assert expected.any() and (expected != expected[::-1]).any()
+    np.testing.assert_array_equal(turned.solid(-X[:, ::-1], Y), expected[::-1, ::-1])
+
+
+@pytest.mark.parametrize("bearing, first", [(BEARING, 0), (TURNED, -1)], ids=["as it is", "turned"])
+@pytest.mark.parametrize("nodes", [65, 1025])
+def test_blocked_exit_is_the_layer_of_nodes_outside_the_pad(bearing, first, nodes):
+    """The wall's face is the exit itself."""
+    X = coordinates(bearing, nodes)[None, :]
+    assert not bearing.solid(X, Y).any()
+    solid = np.broadcast_to(replace(bearing, blocked_exit=True).solid(X, Y), (9, nodes))
+    expected = np.zeros(nodes, dtype=bool)
+    expected[first] = True
+    np.testing.assert_array_equal(solid, np.broadcast_to(expected, solid.shape))
+
+
+def test_blocked_exit_and_pillar_add_up():
+    X = coordinates(BEARING, 65)[None, :]
+    both = replace(pillar("square"), blocked_exit=True).solid(X, Y)
+    one, other = pillar("square").solid(X, Y), replace(BEARING, blocked_exit=True).solid(X, Y)
+    np.testing.assert_array_equal(both, one | other)
