@@ -1,7 +1,9 @@
 """Direct solve of the bordered Jacobian on the coarsest grid, redundantly on every rank."""
 
+import warnings
+
 import numpy as np
-from scipy.linalg import lu_factor, lu_solve
+from scipy.linalg import LinAlgWarning, lu_factor, lu_solve
 from scipy.sparse import diags
 
 from mgehl.discretization.influence import influence_coefficients
@@ -29,7 +31,10 @@ class CoarseSolve:
             matrix[:nodes, :nodes] += B @ self._K
             matrix[:nodes, nodes] = B @ np.ones(nodes)
             matrix[nodes, :nodes] = jacobian.load_weight
-        self._factors = lu_factor(matrix, overwrite_a=True, check_finite=False)
+        with warnings.catch_warnings():
+            # Of a singular matrix: the iteration that made it ends by itself.
+            warnings.simplefilter("ignore", LinAlgWarning)
+            self._factors = lu_factor(matrix, overwrite_a=True, check_finite=False)
 
     def apply(self, _pc, x, y):
         """y = J^-1 x."""

@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass, field, replace
 from functools import partial
-from math import isfinite
 
 import numpy as np
 
@@ -10,7 +9,7 @@ from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
 from mgehl.model.hertz import hertz_pressure
 from mgehl.multigrid.cycle import CycleSettings, MultigridSolver
-from mgehl.solver.newton import Newton, NewtonSettings
+from mgehl.solver.newton import DIVERGED, Newton, NewtonSettings
 from mgehl.solver.problem import ContactProblem
 from mgehl.solver.relaxation import RelaxationSettings, relax
 from mgehl.solver.rigid_gap import RigidGapFluid
@@ -79,7 +78,7 @@ def nested_iteration(hierarchy, contact, settings, monitor):
             state = interpolate(hierarchy.transfers[level - 1], problem, outcome.state)
         tell = partial(monitor, LevelSolve(grid.mesh.nx, speed, level == finest))
         outcome = _solve_level(hierarchy, level, problem, state, limits, settings, tell)
-        if not isfinite(outcome.cycles[-1].residual):
+        if not outcome.cycles[-1].residual < DIVERGED:
             break  # nothing to start the next grid from; the outcome says why
     return problem, outcome
 

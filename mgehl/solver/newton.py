@@ -20,6 +20,10 @@ SETTLED_RESIDUAL = 1e-4
 """Residual below which Eq. 2 may decide on the contact set."""
 
 
+DIVERGED = 1e10
+"""Residual from which there is no way back; that of a first guess is below 1e4."""
+
+
 class OptionError(Exception):
     """A PETSc option that this solver cannot follow; the message is one line for the user."""
 
@@ -105,7 +109,9 @@ class Newton:
     def run(self, state):
         """Solve from `state`, which is not changed; return the `Outcome`."""
         self._outcome = Outcome(state.copy(), False, "")
-        self._snes.solve(None, self._unknown)
+        # A diverging iteration says so itself.
+        with np.errstate(all="ignore"):
+            self._snes.solve(None, self._unknown)
         return self._outcome
 
     def solve(self, snes, _b, x):
@@ -188,8 +194,8 @@ class Newton:
         if small and cycle.changes.total == 0 and not released:
             outcome.converged, outcome.reason = True, "residual, load and sets settled"
             return True
-        if not np.isfinite(cycle.residual):
-            outcome.reason = "the residual is not finite"
+        if not cycle.residual < DIVERGED:
+            outcome.reason = f"diverged: residual {cycle.residual:.1e} after {cycle.step} steps"
             return True
         if cycle.step >= max_steps:
             settled = "sets still change" if small else f"residual {cycle.residual:.1e} after"

@@ -22,7 +22,7 @@ from mgehl.discretization.status import (
     close_gaps,
     open_x_faces,
 )
-from mgehl.solver.newton import Outcome
+from mgehl.solver.newton import DIVERGED, Outcome
 
 
 @dataclass(frozen=True)
@@ -83,8 +83,8 @@ def relax(problem, state, settings, monitor):
             cycle = relaxation.sweep(step, state, inflow, change)
             outcome.cycles.append(cycle)
             monitor(cycle)
-            if not np.isfinite(cycle.residual):
-                outcome.reason = "the residual is not finite"
+            if not cycle.residual < DIVERGED:
+                outcome.reason = f"diverged: residual {cycle.residual:.1e} after {step} sweeps"
                 return outcome
             if max(cycle.residual, abs(cycle.load_error)) <= settings.tolerance:
                 outcome.converged, outcome.reason = True, "residual, load and sets settled"

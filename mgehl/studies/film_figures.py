@@ -49,29 +49,31 @@ def line(path, rows):
 
 
 def inlet(path, rows):
-    """Films and the pressure ratio at the interface against the cells in the inlet."""
+    """Central film and the pressure ratio at the interface against the cells in the inlet."""
     with plt.rc_context(STYLE):
-        figure, panels = plt.subplots(1, 2, figsize=(10.5, 4.2), layout="constrained")
-        films, ratios = panels
-        by_film = [row for row in rows if row["film start"] == "film"]
-        for film, colour, mark in (("central", COLOURS[0], "o"), ("minimum", COLOURS[1], "s")):
-            heights = [float(row[f"{film} nm"]) for row in by_film]
-            films.plot(_cells(by_film), heights, mark + "-", color=colour, label=f"{film}, film start")
-        dry = [row for row in rows if row["contact start"] == "contact"]
-        films.plot(_cells(dry), [0.0] * len(dry), "kx", label="contact start: contact")
-        films.set(xscale="log", xlabel="cells in the inlet", ylabel="film, nm")
-        films.legend(frameon=False)
-        for ending, mark in (("contact", "o"), ("contact, Eq. 25 broken", "x")):
-            own = [row for row in rows if row["contact start"] == ending]
-            ratio = [float(row["p_f/p_d"]) for row in own]
-            ratios.plot(_cells(own), ratio, mark, color=COLOURS[2], label=ending)
+        figure, (films, ratios) = plt.subplots(1, 2, figsize=(10.5, 4.6), layout="constrained")
+        for speed, colour in zip(dict.fromkeys(row["speed mm/s"] for row in rows), COLOURS, strict=False):
+            own = [row for row in rows if row["speed mm/s"] == speed]
+            for start, mark in (("film", "o"), ("contact", "x")):
+                label = f"{speed} mm/s, from {start}"
+                films.plot(*_points(own, f"central nm from {start}"), mark, color=colour, label=label)
+                ratios.plot(*_points(own, f"p_f/p_d from {start}"), mark, color=colour, label=label)
+            label = f"{speed} mm/s, gap of the dry contact"
+            ratios.plot(*_points(own, "p_f/p_d dry gap"), ":", color=colour, label=label)
+        films.set(xscale="log", xlabel="cells in the inlet", ylabel="central film, nm (0: contact)")
         ratios.axhline(1.0, color="0.6", linewidth=0.8, zorder=0)
-        ratios.set(
-            xscale="log", yscale="log", xlabel="cells in the inlet", ylabel="p$_f$/p$_d$ at the interface"
-        )
-        ratios.legend(frameon=False)
-        figure.suptitle("Line contact at 7.5 mm/s, 2.26 GPa: what the grid decides")
+        ratios.set(xscale="log", yscale="log", xlabel="cells in the inlet", xlim=films.get_xlim())
+        ratios.set_ylabel("p$_f$/p$_d$ at the interface")
+        for axes in (films, ratios):
+            axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=2, frameon=False)
+        figure.suptitle("Line contact, 2.26 GPa: what the grid decides")
         _save(figure, path)
+
+
+def _points(rows, column):
+    """Cells and numbers of the rows that have a number there."""
+    numbers = [row for row in rows if row[column] not in ("", "unbounded")]
+    return _cells(numbers), [float(row[column]) for row in numbers]
 
 
 def histories(path, cases):

@@ -32,14 +32,18 @@ class Study:
         """True on the rank that writes; fields of solutions are whole there."""
         return self.comm.rank == 0
 
-    def solve(self, title, tables):
-        """Solve the configuration of nested `tables`; return the `Solution`."""
+    def solve(self, title, tables, is_answer=True):
+        """Solve the configuration of nested `tables`; return the `Solution`.
+
+        One that is not meant to be an answer may end unconverged without a word.
+        """
         solution = solve(config_from_tables(tables), self.comm)
         self._done += 1
         if self.first and self.speak:
             spent = time.perf_counter() - self._started
             left = spent / self._done * max(self.cases - self._done, 0)
-            verdict = "" if solution.result.converged else f"  NOT CONVERGED: {solution.result.reason}"
+            fine = solution.result.converged or not is_answer
+            verdict = "" if fine else f"  NOT CONVERGED: {solution.result.reason}"
             print(f"{self._done:3d}/{self.cases}  {left:5.0f} s left  {title}{verdict}", flush=True)
         return solution
 
