@@ -169,12 +169,12 @@ def _study(options, comm):
 
 
 def _nodes(text):
-    """The grids of --nodes, checked by the rules of grid.nodes."""
+    """The grids of --nodes, coarsest first, by the rules of grid.nodes."""
     if text is None:
         return ()
-    for each in text.split(","):
-        load_config(settings=[f"grid.nodes={each}"])
-    return tuple(int(each) for each in text.split(","))
+    return tuple(
+        sorted({load_config(settings=[f"grid.nodes={each}"]).grid.nodes for each in text.split(",")})
+    )
 
 
 def _collect(options):

@@ -63,10 +63,14 @@ def solve(config, comm, speak=False):
     hierarchy = Hierarchy(mesh_from(config, contact), COARSEST_NODES, contact.deflection_scale, on)
     find = _solve_wedge if kind == "wedge" else _solve_loaded
     try:
-        problem, state, rows, result = find(config, contact, hierarchy, started, speak and comm.rank == 0)
+        with np.errstate(all="ignore"):  # an iteration that diverges says so itself
+            found = find(config, contact, hierarchy, started, speak and comm.rank == 0)
+        problem, state, rows, result = found
         fields = Fields(*(problem.grid.gather(array) for array in (state.P, state.H, state.status)))
     finally:
         hierarchy.destroy()
+    if kind == "line":
+        result = comm.bcast(result)  # ranks may differ in the last bit
     return Solution(config, contact, problem.grid.mesh, fields, rows, result)
 
 

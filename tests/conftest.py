@@ -10,8 +10,8 @@ from dataclasses import dataclass
 import pytest
 
 from mgehl.discretization.mesh import Mesh
-from mgehl.model.point import PointContact
 from mgehl.model.lubricant import Barus, ConstantDensity, DowsonHigginson, Lubricant
+from mgehl.model.point import PointContact
 
 BODY = {"radius_x": 12.7e-3, "radius_y": 12.7e-3, "reduced_modulus": 219.78e9}
 DOMAIN = {"x": (-1.9, 1.3), "y": (-1.5, 1.5)}

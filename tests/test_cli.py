@@ -137,6 +137,16 @@ BAD = [
     (["run", "--out", "broken.toml/deep"], ["broken.toml/deep", "cannot be written"]),
     (["run", "-mgehl_ksp_monitor", "--out", "here"], ["--out", "PETSc options"]),
     (["frobnicate"], ["frobnicate"]),
+    (["run", "--set", "contact.kind=line"], ["contact.load = ", "means nothing to a line contact"]),
+    (["study"], ["NAME"]),
+    (["study", "frobnicate"], ["frobnicate", "wedge", "schemes"]),
+    (["study", "schemes", "--nodes", "100"], ["grid.nodes = 100", "65 or 129"]),
+    (["study", "schemes", "--nodes", "65,abc"], ["grid.nodes = 'abc'", "whole number"]),
+    (["study", "schemes", "--nodes", "65,"], ["grid.nodes = ''"]),
+    (["study", "schemes", "--nodes", "65.5"], ["grid.nodes = 65.5", "whole number"]),
+    (["study", "schemes", "--set", "grid.nodes=65"], ["--set"]),
+    (["study", "schemes", "--out", "broken.toml"], ["broken.toml", "exists"]),
+    (["study", "schemes", "--out", "broken.toml/deep"], ["broken.toml/deep", "cannot be written"]),
     ([], ["COMMAND"]),
 ]
 
@@ -157,6 +167,20 @@ def test_bad_input_in_a_process_of_its_own(tmp_path):
     assert not list(tmp_path.iterdir())
 
 
+def test_nodes_of_a_study_are_read_as_grid_nodes_are():
+    from mgehl.cli import _nodes
+
+    assert _nodes("65.0,0x81") == (65, 129)
+
+
+def test_every_study_can_be_imported():
+    from importlib import import_module
+
+    from mgehl.cli import STUDIES
+
+    assert all(callable(import_module(f"mgehl.studies.{name}").run) for name in STUDIES)
+
+
 def test_keys_lists_every_key(capsys):
     from dataclasses import fields
 
@@ -170,7 +194,7 @@ def test_keys_lists_every_key(capsys):
 
 
 def test_help(capsys):
-    for arguments in (["--help"], ["run", "--help"], ["run", "-h"]):
+    for arguments in (["--help"], ["run", "--help"], ["run", "-h"], ["study", "--help"]):
         assert exit_status(arguments) == 0
         assert "usage: mgehl" in capsys.readouterr().out
 

@@ -157,17 +157,40 @@ MISTAKES = [
     ('grid.y=["a", 2]', "grid.y = ['a', 2]: ", "two numbers"),
     ("grid.y=[-inf, 2]", "grid.y = [-inf, 2]: ", "two numbers"),
     ("grid.y=wide", "grid.y = 'wide': ", "two numbers"),
-    ("contact.kind=line", "contact.kind = 'line': ", "must be one of point"),
+    ("contact.kind=roller", "contact.kind = 'roller': ", "must be one of point, line, wedge"),
+    ("contact.load_per_length=0", "contact.load_per_length = 0: ", "a number in N/m", "at least 1e-06"),
+    ("wedge.reversed=1", "wedge.reversed = 1: ", "true or false"),
+    ("wedge.blocked_exit=yes", "wedge.blocked_exit = 'yes': ", "true or false"),
+    ('wedge.blocked_exit="true"', "wedge.blocked_exit = 'true': ", "true or false"),
+    ("wedge.pillar=round", "wedge.pillar = 'round': ", "none, square, cylinder"),
+    ("wedge.slope=1 mm", "wedge.slope = '1 mm': ", "wrong unit"),
+    ("wedge.slope=0.2", "wedge.slope = 0.2: ", "above 0", "at most 0.1"),
+    ("discretization.cavitation=0", "discretization.cavitation = 0: ", "true or false"),
+    ("discretization.cavitation=off", "discretization.cavitation = 'off': ", "true or false"),
+    ("discretization.contact_model=mixed", "discretization.contact_model = 'mixed': ", "lcic, unified"),
+    ("discretization.unified_gap=-1 nm", "discretization.unified_gap = '-1 nm': ", "in m", "at least 0"),
+    ("discretization.couette_at_interface=no", "discretization.couette_at_interface", "closed, untreated"),
+    ("solver.method=newton", "solver.method = 'newton': ", "newton-mg, relaxation"),
+    ("solver.cycle_couette=3B", "solver.cycle_couette = '3B': ", "same, 1B, 2B"),
+    ("relaxation.omega=0", "relaxation.omega = 0: ", "above 0", "at most 1"),
+    ("relaxation.contact_share=2", "relaxation.contact_share = 2: ", "above 0", "at most 1"),
+    ("relaxation.stability=0.5", "relaxation.stability = 0.5: ", "at least 1", "at most 1000"),
+    ("relaxation.load_factor=0", "relaxation.load_factor = 0: ", "above 0", "at most 10"),
+    ("relaxation.load_every=1.5", "relaxation.load_every = 1.5: ", "a whole number", "at least 1"),
+    ("relaxation.max_sweeps=0", "relaxation.max_sweeps = 0: ", "a whole number", "at least 1"),
+    ("relaxation.fluid_update=plane", "relaxation.fluid_update = 'plane': ", "line, point"),
+    ("relaxation.contact_update=1", "relaxation.contact_update = 1: ", "line, point"),
+    ("relaxation.load=1", "relaxation.load = 1: ", "unknown key", "did you mean contact.load?"),
     ("discretization.couette=3B", "discretization.couette = '3B': ", "1B, 2B, 2C, S1B, S2C"),
     ("discretization.couette=1", "discretization.couette = 1: ", "1B, 2B, 2C, S1B, S2C"),
     ("discretization.couette=[]", "discretization.couette = []: ", "1B, 2B, 2C, S1B, S2C"),
     ("solver.start=cold", "solver.start = 'cold': ", "film, contact"),
     ("solver.omega=1.5", "solver.omega = 1.5: ", "above 0", "at most 1"),
-    ("solver.max_steps=0", "solver.max_steps = 0: ", "at least 1"),
+    ("solver.max_steps=-1", "solver.max_steps = -1: ", "a whole number", "at least 0"),
     ("grid.nodez=129", "grid.nodez = 129: ", "unknown key", "did you mean grid.nodes?"),
     ("solver.speed=1", "solver.speed = 1: ", "unknown key", "did you mean motion.speed?"),
     ("gird.nodes=129", "gird = {'nodes': 129}: ", "unknown section", "did you mean grid?"),
-    ("qqqq.w=1", "qqqq = {'w': 1}: ", "unknown section", "known are contact, lubricant, motion"),
+    ("qqqq.w=1", "qqqq = {'w': 1}: ", "unknown section", "known are contact, wedge, lubricant, motion"),
     ("grid.nodes", "--set grid.nodes: ", "must be section.key=value"),
     ("nodes=129", "--set nodes=129: ", "must be section.key=value"),
     (".nodes=129", "--set .nodes=129: ", "must be section.key=value"),
@@ -277,10 +300,10 @@ def test_round_trip_through_toml(tables):
 def test_written_tables_name_every_key_that_is_set():
     """Nothing is left to the defaults of a later version; unset keys are absent."""
     written = Config().as_toml_tables()
-    assert "moes" not in written
-    for name, section in SECTIONS.items():
-        if name != "moes":
-            assert set(written[name]) == {key.name for key in fields(section)}
+    assert written.keys() == SECTIONS.keys() - {"moes", "wedge"}
+    for name in written:
+        foreign = {"load_per_length"} if name == "contact" else set()
+        assert set(written[name]) == {key.name for key in fields(SECTIONS[name])} - foreign
     written = config_from_tables(MOES).as_toml_tables()
     assert "motion" not in written and "load" not in written["contact"]
 
@@ -306,3 +329,105 @@ def test_moes_numbers_set_by_hand_replace_the_load_and_speed_of_the_file():
 def test_a_setting_holds_one_value():
     with pytest.raises(ConfigError, match="grid.nodes"):
         load_config(None, ["grid.nodes=65\nx=3"])
+
+
+VALUES = {
+    "contact.load": "800", "contact.load_per_length": "500e3", "contact.radius_x": "0.01",
+    "contact.radius_y": "0.01", "contact.reduced_modulus": "2e11", "lubricant.viscosity_law": "barus",
+    "lubricant.pressure_viscosity": "1e-8", "lubricant.density_law": "constant", "grid.x": "[-2, 2]",
+    "grid.y": "[-2, 2]", "discretization.contact_model": "unified", "discretization.unified_gap": "1e-9",
+    "discretization.film_threshold": "0", "solver.method": "newton-mg", "solver.start": "film",
+    "solver.first_nodes": "65", "solver.inlet_cells": "2", "solver.release_budget": "1",
+}  # fmt: skip
+SECTION_KEYS = {"moes": ["moes.M=20", "moes.L=10"], "wedge": ["wedge.slope=1e-3"],
+                "relaxation": ["relaxation.omega=0.1"]}  # fmt: skip
+FOREIGN_KEYS = [
+    ("point", "contact.load_per_length"), ("point", "wedge"),
+    *(("line", key) for key in ("contact.load", "contact.radius_y", "grid.y", "moes", "wedge")),
+    *(("wedge", key) for key in (*VALUES, "moes", "relaxation")),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("kind, name", FOREIGN_KEYS)
+def test_key_that_the_kind_of_contact_does_not_heed(kind, name):
+    """Even with the value it has by default: whoever gives it expects it to matter."""
+    settings = SECTION_KEYS.get(name) or [f"{name}={VALUES[name]}"]
+    message = error_of(f"contact.kind={kind}", *settings)
+    assert message.startswith(f"{name} = " if "." in name else f"[{name}]: ")
+    assert message.endswith(f": means nothing to a {kind} contact")
+
+
+KINDS = {
+    "point": {"discretization": {"contact_model": "unified", "unified_gap": "1 nm", "cavitation": False}},
+    "relaxed point": {
+        "solver": {"method": "relaxation"},
+        "relaxation": {"omega": 0.1, "contact_update": "point", "stability": 10, "max_sweeps": 100},
+    },
+    "line": {
+        "contact": {"kind": "line", "load_per_length": "1859 N/mm"},
+        "grid": {"x": [-2.5, 1.5]},
+        "solver": {"cycle_couette": "1B"},
+        "discretization": {"couette": "2B"},
+    },
+    "wedge": {
+        "contact": {"kind": "wedge"},
+        "wedge": {"exit": "4 mm", "inlet": "8 mm", "blocked_exit": True, "reversed": True},
+        "discretization": {"couette": "2C", "cavitation": False, "couette_at_interface": "untreated"},
+    },
+}
+
+
+@pytest.mark.parametrize("tables", KINDS.values(), ids=KINDS)
+def test_every_kind_round_trips(tables):
+    """What is written names no key that the kind would refuse when it is read."""
+    config = config_from_tables(tables)
+    written = config.as_toml_tables()
+    again = config_from_tables(tomllib.loads(tomli_w.dumps(written)))
+    assert again == config
+    assert again.as_toml_tables() == written
+
+
+@pytest.mark.parametrize("path", sorted(CONFIGS.glob("*.toml")), ids=lambda path: path.stem)
+def test_every_configuration_of_the_repository_round_trips(path):
+    config = load_config(path)
+    assert config_from_tables(tomllib.loads(tomli_w.dumps(config.as_toml_tables()))) == config
+
+
+def test_every_kind_has_a_configuration_in_the_repository():
+    kinds = {load_config(path).contact.kind for path in CONFIGS.glob("*.toml")}
+    assert kinds == {"point", "line", "wedge"}
+
+
+@pytest.mark.parametrize("inlet", ["20 mm", "19 mm"])
+def test_a_wedge_opens_towards_its_inlet(inlet):
+    message = error_of("contact.kind=wedge", f"wedge.inlet={inlet}")
+    assert message == f"wedge.inlet = {float(inlet[:2]) / 1e3:g}: must be above wedge.exit = 0.02"
+
+
+@pytest.mark.parametrize("text, value", [("true", True), ("false", False)])
+def test_truth_values(text, value):
+    assert with_settings(f"discretization.cavitation={text}").discretization.cavitation is value
+
+
+def test_keys_of_the_discretization_and_the_relaxation():
+    """From the configuration to the records that the solver is given."""
+    from mgehl.solver.from_config import contact_from, settings_from
+
+    config = with_settings(
+        "discretization.cavitation=false", "discretization.couette_at_interface=untreated",
+        "discretization.contact_model=unified", "discretization.unified_gap=1 nm",
+        "solver.method=relaxation", "relaxation.omega=0.1", "relaxation.load_every=4",
+        "solver.tolerance=1e-6",
+    )  # fmt: skip
+    contact = contact_from(config)
+    settings = settings_from(config, contact)
+    scheme, relaxation = settings.scheme, settings.relaxation
+    assert (scheme.cavitation, scheme.couette_at_interface, scheme.motion) == (False, "untreated", 1)
+    assert scheme.gap_floor == pytest.approx(1e-9 / contact.film_scale)
+    assert settings.method == "relaxation"
+    assert (relaxation.omega, relaxation.load_every, relaxation.tolerance) == (0.1, 4, 1e-6)
+    # No gap is small enough to be contact in the unified equations.
+    assert settings.newton.film_threshold == relaxation.film_threshold == -float("inf")
+    lcic = settings_from(with_settings(), contact)
+    assert lcic.scheme.gap_floor is None
+    assert lcic.newton.film_threshold == pytest.approx(0.02e-9 / contact.film_scale)

@@ -8,9 +8,11 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
-LAYERS = ("model", "discretization", "grid", "multigrid", "solver", "output")
+LAYERS = ("model", "discretization", "grid", "multigrid", "solver", "output", "studies")
 """Lowest first. The modules beside them in mgehl (config, run, cli) stand above the layers."""
 USERS_OF_OUTPUT = {"mgehl.run", "mgehl.cli"}
+USED_BY_STUDIES = {"mgehl.run", "mgehl.config"}
+"""Studies make runs: of the modules beside the layers they may use these."""
 
 
 def module_name(path):
@@ -53,7 +55,8 @@ def test_every_package_is_a_known_layer():
 @in_layers
 def test_a_layer_imports_only_lower_layers_and_itself(name):
     allowed = LAYERS[: LAYERS.index(layer(name)) + 1]
-    for imported in imports(name):
+    beside = USED_BY_STUDIES if layer(name) == "studies" else set()
+    for imported in imports(name) - beside:
         if imported.startswith("mgehl."):
             assert layer(imported) in allowed, f"{name} imports {imported}"
 
@@ -66,16 +69,22 @@ def test_the_two_lowest_layers_know_neither_petsc_nor_mpi(name):
 
 def test_configuration_knows_only_the_two_lowest_layers():
     """It validates names against their tables; everything else must be able to do without PETSc."""
-    used = {imported for imported in imports("mgehl.config") if imported.startswith("mgehl.")}
-    used = {each for each in used if not each.startswith("mgehl.config_value")}
-    assert {layer(each) for each in used} <= {"model", "discretization"}
+    parts = {"mgehl.config", "mgehl.config_sections", "mgehl.config_value"}
+    used = {each for part in parts for each in imports(part) if each.startswith("mgehl")} - parts
+    assert used and {layer(each) for each in used} <= {"model", "discretization"}
     assert not any(imported.startswith("mgehl") for imported in imports("mgehl.config_value"))
 
 
 @every_module
-def test_output_is_used_by_the_run_and_the_command_line_only(name):
-    if layer(name) != "output" and name not in USERS_OF_OUTPUT:
+def test_output_is_used_by_the_run_the_command_line_and_the_studies_only(name):
+    if layer(name) not in ("output", "studies") and name not in USERS_OF_OUTPUT:
         assert not any(layer(imported) == "output" for imported in imports(name))
+
+
+@every_module
+def test_studies_are_used_by_the_command_line_only(name):
+    if layer(name) != "studies" and name != "mgehl.cli":
+        assert not any(layer(imported) == "studies" for imported in imports(name))
 
 
 def test_no_import_cycles():

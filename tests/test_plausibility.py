@@ -1,5 +1,7 @@
 """Values that are fine one by one and no contact together."""
 
+import os
+
 import pytest
 
 from mgehl.config import ConfigError, load_config
@@ -28,4 +30,41 @@ def test_one_line_names_the_key(settings, key):
 
 def test_the_paper_s_contact_passes():
     config = load_config()
+    check_contact(config, contact_from(config))
+
+
+LINE, WEDGE = "contact.kind=line", "contact.kind=wedge"
+SQUARE = (WEDGE, "wedge.pillar=square")
+
+
+@pytest.mark.parametrize(
+    "settings, start, words",
+    [
+        ([LINE, "contact.load_per_length=1e9"], "contact.load_per_length: ", ["wide", "half"]),
+        ([LINE, "contact.reduced_modulus=1e6"], "contact.load_per_length: ", ["0.0127 m"]),
+        ([LINE, "grid.x=[-1.000001, 1.5]"], "grid.x", ["begin before"]),
+        ([*SQUARE, "wedge.pillar_x=0.1"], "wedge.pillar_x = 0.1: ", ["exit at 0.02", "inlet at 0.05"]),
+        ([*SQUARE, "wedge.pillar_x=23 mm"], "wedge.pillar_x = 0.023: ", ["pillar of 0.008 m"]),
+        ([*SQUARE, "wedge.pillar_y=7 mm"], "wedge.pillar_y = 0.007: ", ["width of 0.02"]),
+        ([*SQUARE, "wedge.pillar_y=-7 mm"], "wedge.pillar_y = -0.007: ", ["width of 0.02"]),
+        ([*SQUARE, "wedge.pillar_size=20 mm"], "wedge.pillar_y = 0: ", ["pillar of 0.02 m"]),
+        ([WEDGE, "wedge.pillar=cylinder", "wedge.pillar_size=40 mm"], "wedge.pillar_x", ["0.04 m"]),
+    ],
+)
+def test_lines_and_wedges_are_checked_too(settings, start, words):
+    config = load_config(os.devnull, settings)
+    with pytest.raises(ConfigError) as caught:
+        check_contact(config, contact_from(config))
+    message = str(caught.value)
+    assert message.startswith(start) and "\n" not in message
+    assert all(word in message for word in words)
+
+
+@pytest.mark.parametrize(
+    "settings",
+    [[LINE, "motion.speed=0.1"], [WEDGE], [*SQUARE], [WEDGE, "wedge.pillar_x=0.1"]],
+    ids=["line", "wedge", "pillar", "place of no pillar"],
+)
+def test_what_is_fine_passes(settings):
+    config = load_config(os.devnull, settings)
     check_contact(config, contact_from(config))

@@ -2,23 +2,28 @@
 
 import csv
 import json
-from dataclasses import asdict
+from dataclasses import asdict, fields
+from pathlib import Path
 
 import numpy as np
 import pytest
 import xarray
 from mpi4py import MPI
 
+from mgehl.cli import main
 from mgehl.config import config_from_tables, load_config
 from mgehl.discretization.status import CONTACT
-from mgehl.run import run
+from mgehl.output.result import Result
+from mgehl.output.wedge_result import WedgeResult
+from mgehl.run import Solution, run, solve
 
+CONFIGS = Path(__file__).resolve().parent.parent / "configs"
 FILES = {"configuration.toml", "fields.h5", "history.csv", "picture.png", "result.json"}
 FILM = {"motion": {"speed": "1 m/s"}, "grid": {"nodes": 65}}
 DRY = {"motion": {"speed": "0.005 mm/s"}, "grid": {"nodes": 65}, "solver": {"start": "contact"}}
 RESULT_KEYS = {
     "converged", "reason", "central_film_nm", "minimum_film_nm", "max_pressure_GPa", "residual",
-    "load_error", "complementarity_error", "flux_imbalance", "contact", "pressure_inequality",
+    "load_error", "complementarity_error", "flux_imbalance", "contact", "overlap", "pressure_inequality",
     "cavitated_nodes", "resolution", "groups", "moes_film", "formulas", "work", "wall_s", "ranks",
     "versions",
 }  # fmt: skip
@@ -63,7 +68,7 @@ def test_the_history_ends_with_the_result(film):
     assert float(last["residual"]) == result.residual
     assert float(last["central_film_nm"]) == result.central_film_nm
     assert float(last["minimum_film_nm"]) == result.minimum_film_nm
-    assert sum(1 for row in rows if int(row["step"]) > 0) == result.work.newton_steps
+    assert sum(1 for row in rows if int(row["step"]) > 0) == result.work.steps
     work = [float(row["convolutions"]) for row in rows]
     assert work == sorted(work) and work[-1] <= result.work.convolutions
 
@@ -134,3 +139,103 @@ def test_moes_numbers_give_the_reference_film(tmp_path):
     assert result.converged
     assert result.moes_film.central == pytest.approx(4.65234, rel=1e-4)
     assert result.moes_film.minimum == pytest.approx(2.88452, rel=1e-4)
+
+
+KINDS = {
+    "point": (FILM, Result, (65, 65)),
+    "line": (
+        {"contact": {"kind": "line"}, "motion": {"speed": 0.3}, "grid": {"nodes": 257}}, Result, (1, 257)
+    ),
+    "wedge": ({"contact": {"kind": "wedge"}, "grid": {"nodes": 65}}, WedgeResult, (65, 65)),
+    "relaxed point": (
+        FILM | {"solver": {"method": "relaxation"}, "relaxation": {"max_sweeps": 5}}, Result, (65, 65)
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_solving_writes_nothing_and_returns_the_solution(kind, capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    tables, result, shape = KINDS[kind]
+    config = config_from_tables(tables)
+    solution = solve(config, MPI.COMM_SELF)
+    assert isinstance(solution, Solution)
+    assert type(solution.result) is result
+    assert solution.result.converged == (kind != "relaxed point")
+    assert solution.config is config
+    assert (solution.mesh.ny, solution.mesh.nx) == shape
+    for field in fields(solution.fields):
+        assert getattr(solution.fields, field.name).shape == shape
+    assert solution.rows and all(row.keys() == solution.rows[0].keys() for row in solution.rows)
+    assert capsys.readouterr().out == "" and not list(tmp_path.iterdir())
+
+
+WEDGES = ("wedge_blocked_exit", "wedge_open", "wedge_square_pillar", "wedge_cylindrical_pillar")
+
+
+@pytest.mark.parametrize("name", WEDGES)
+def test_wedge_of_the_repository(name, tmp_path):
+    here = tmp_path / "here"
+    assert main(["run", str(CONFIGS / f"{name}.toml"), "--quiet", "--out", str(here)]) == 0
+    assert {path.name for path in here.iterdir()} == FILES | {"centerline.csv"}
+    read = read_json(here)
+    assert read["converged"] is True and read["residual"] <= 1e-10 and read["closed_face_flow"] == 0.0
+    # p dx dy in newtons, P dX dY in mm: eta u/(m^2 mm) mm^2 of 0.096 Pa s, 1 m/s and a slope of 1e-3.
+    assert read["load_N"] == pytest.approx(96.0 * read["load"], rel=1e-12)
+    assert (read["solid_nodes"] > 0) == (name != "wedge_open")
+    with xarray.open_dataset(here / "fields.h5", engine="h5netcdf") as data:
+        assert data["P"].shape == (129, 129)
+        assert float(data["P"].max()) == read["max_P"] and float(data["P"].min()) == read["min_P"]
+        assert np.count_nonzero(data["status"] == CONTACT) == read["solid_nodes"]
+        # The first node lies half a cell outside of the pad.
+        x = data["x"].values
+        assert x[0] < 20e-3 < x[1] and x[-1] == pytest.approx(50e-3)
+        np.testing.assert_allclose(data["film"][0, 1:-1], 1e-3 * x[1:-1], rtol=1e-12)
+        cell = float(data["X"][1] - data["X"][0]) * float(data["Y"][1] - data["Y"][0])
+        assert cell * float(data["P"].sum()) == pytest.approx(read["load"], rel=1e-12)
+        middle = data["P"].sel(y=0.0, method="nearest").values
+    with (here / "centerline.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    X, P = ([float(row[key]) for row in rows] for key in ("X_mm", "P"))
+    assert len(rows) == 129
+    np.testing.assert_array_equal(P, middle)
+    assert X[-1] == pytest.approx(50.0) and X[0] < 20.0 < X[1]
+    with (here / "history.csv").open() as file:
+        iterations = sum(int(row["linear_iterations"]) for row in csv.DictReader(file))
+    assert iterations == read["linear_iterations"] > 0
+    assert load_config(here / "configuration.toml") == load_config(CONFIGS / f"{name}.toml")
+
+
+@pytest.mark.parametrize("name", ["line_contact", "line_dry"])
+def test_line_of_the_repository(name, tmp_path):
+    here = tmp_path / "here"
+    assert main(["run", str(CONFIGS / f"{name}.toml"), "--quiet", "--out", str(here)]) == 0
+    assert {path.name for path in here.iterdir()} == FILES
+    read = read_json(here)
+    nodes = load_config(here / "configuration.toml").grid.nodes
+    assert read["converged"] is True and RESULT_KEYS <= read.keys()
+    assert (read["contact"]["nodes"] > 0) == (name == "line_dry")
+    assert read["contact"]["y_nodes"] is None
+    assert set(read["formulas"]) >= {"dowson_higginson_central_nm", "dowson_higginson_minimum_nm"}
+    with xarray.open_dataset(here / "fields.h5", engine="h5netcdf") as data:
+        assert data["pressure"].shape == (1, nodes)
+        step = float(data["x"][1] - data["x"][0])
+        assert step * float(data["pressure"].sum()) == pytest.approx(1859e3, rel=1e-7)
+        assert 1e-9 * float(data["pressure"].max()) == pytest.approx(read["max_pressure_GPa"])
+
+
+def test_a_wedge_says_what_it_found(tmp_path, capsys):
+    run(load_config(CONFIGS / "wedge_open.toml", ["grid.nodes=65"]), tmp_path, MPI.COMM_SELF)
+    out = capsys.readouterr().out
+    assert "\nCONVERGED: the residual holds" in out
+    assert "flow through closed faces 0.0e+00" in out
+    assert str(tmp_path) in out.splitlines()[-1]
+
+
+def test_force_clears_the_center_line_of_a_wedge_before(tmp_path):
+    """It must not pass for the next run's."""
+    here = tmp_path / "here"
+    assert main(["run", str(CONFIGS / "wedge_open.toml"), "--quiet", "--out", str(here)]) == 0
+    point = ["--set", "grid.nodes=65", "--set", "solver.start=contact"]
+    assert main(["run", *point, "--quiet", "--force", "--out", str(here)]) == 0
+    assert {path.name for path in here.iterdir()} == FILES

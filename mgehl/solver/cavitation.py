@@ -15,6 +15,11 @@ from mgehl.discretization.status import CAVITATED, LUBRICATED
 WEAKLY_COUPLED = 10.0
 """A node is relaxed where its mobility/dX exceeds this multiple of its own influence."""
 
+LONG_WAVES = 0.01
+"""Smallest mobility of a relaxed node on a single line: there the grid is fine enough for waves of
+many cells to be strongly coupled where neighbours are not, and Newton's steps and these would chase
+each other (thick films on 4097 nodes; a plane of 2049 by 2049 nodes does without, in fewer steps)."""
+
 SWEEPS = 40
 """Sweeps over all lines at the most; they end when one changes no status."""
 
@@ -34,7 +39,7 @@ def relax_cavitation_set(problem, state, inflow):
     P, H, status = grid.halo(state.P), grid.halo(state.H), grid.halo_status(state.status)
     eps = fluid_state(P, H, problem.contact, problem.scheme.gap_floor).eps
     along, across = conductances(eps, status, mesh, problem.scheme)
-    movable = weakly_coupled(problem, eps[1:-1], state.status, WEAKLY_COUPLED)
+    movable = _relaxable(problem, eps[1:-1], state.status)
     lubricated = state.status == LUBRICATED
     source = np.zeros(grid.shape)
     flow_sources(inflow, P, along, across, source)
@@ -58,3 +63,11 @@ def weakly_coupled(problem, eps, status, multiple):
     """Fluid nodes whose gap hardly answers to their pressure; all (lines, nx)."""
     fluid = (status == LUBRICATED) | (status == CAVITATED)
     return fluid & (eps > multiple * problem.K00 * problem.grid.mesh.dX)
+
+
+def _relaxable(problem, eps, status):
+    """Nodes that may be relaxed: as weakly coupled as that to waves of any length that matters."""
+    movable = weakly_coupled(problem, eps, status, WEAKLY_COUPLED)
+    if problem.grid.mesh.is_line and problem.K00 > 0.0:
+        movable &= eps > LONG_WAVES
+    return movable

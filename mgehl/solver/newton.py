@@ -109,9 +109,7 @@ class Newton:
     def run(self, state):
         """Solve from `state`, which is not changed; return the `Outcome`."""
         self._outcome = Outcome(state.copy(), False, "")
-        # A diverging iteration says so itself.
-        with np.errstate(all="ignore"):
-            self._snes.solve(None, self._unknown)
+        self._snes.solve(None, self._unknown)
         return self._outcome
 
     def solve(self, snes, _b, x):
@@ -140,6 +138,9 @@ class Newton:
             if released:
                 F, load = self._settle(state, changes)
             linear_iterations = self._correct(snes, state, F, load)
+            if snes.getKSP().getConvergedReason() == PETSc.KSP.ConvergedReason.DIVERGED_NANORINF:
+                outcome.reason = f"singular: no linear solution after {cycle.step} steps"
+                break
             length = self._update(state, changes)
         self._multigrid.space.write(x, state.P, state.H0)
         reasons = PETSc.SNES.ConvergedReason

@@ -131,7 +131,9 @@ class _Relaxation:
         flat = [band.ravel() for band in bands]
         ab = np.zeros((3, rhs.size))
         ab[0, 1:], ab[1], ab[2, :-1] = flat[2][:-1], flat[1], flat[0][1:]
-        return solve_banded((1, 1), ab, rhs.ravel(), overwrite_ab=True).reshape(rhs.shape)
+        return solve_banded((1, 1), ab, rhs.ravel(), overwrite_ab=True, check_finite=False).reshape(
+            rhs.shape
+        )
 
     def move(self, state, change, step):
         """Go the relaxed part of the way; correct H0 when its turn has come."""

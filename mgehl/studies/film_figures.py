@@ -19,7 +19,7 @@ def schemes(path, nodes, films):
     with plt.rc_context(STYLE):
         figure, panels = plt.subplots(1, 2, figsize=(10.5, 4.2), layout="constrained")
         for panel, which, title in zip(panels, (0, 1), ("central film", "minimum film"), strict=True):
-            for (scheme, values), colour, mark in zip(films.items(), COLOURS, MARKS, strict=True):
+            for (scheme, values), colour, mark in zip(films.items(), COLOURS, MARKS, strict=False):
                 heights = [value[which] for value in values]
                 spacing = [1.0 / (n - 1) for n in nodes]
                 panel.plot(spacing, heights, mark + "-", color=colour, markersize=4, label=scheme)

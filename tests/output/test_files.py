@@ -16,6 +16,7 @@ from mgehl.output import files
 from mgehl.output.result import (
     ContactResult,
     InequalityResult,
+    Overlap,
     Resolution,
     Result,
     Work,
@@ -28,7 +29,8 @@ def make_result(**changes):
         "converged": True, "reason": "all holds", "central_film_nm": 12.0, "minimum_film_nm": 1.0,
         "max_pressure_GPa": 2.3, "residual": 1e-9, "load_error": -1e-10, "complementarity_error": 0.0,
         "flux_imbalance": 1e-11, "contact": ContactResult(3, 0.01, (4, 6), None, 0.0),
-        "pressure_inequality": InequalityResult(8, 1, 0.25, [{"i": 6, "j": 3, "size": 0.25}]),
+        "overlap": Overlap(0, 0.0),
+        "pressure_inequality": InequalityResult(8, 1, 0.25, 1.5, [{"i": 6, "j": 3, "size": 0.25}]),
         "cavitated_nodes": 100, "resolution": Resolution(5.0, "resolved"), "groups": {"U": 1e-12},
         "moes_film": {"central": 4.0}, "formulas": {"grubin_nm": 10.0}, "work": Work(80.5, 14),
         "wall_s": 2.0, "ranks": 1, "versions": {"mgehl": "0"},

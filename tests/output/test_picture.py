@@ -1,6 +1,7 @@
 """The picture of a run."""
 
 import warnings
+from types import SimpleNamespace
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -10,7 +11,7 @@ from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
 from mgehl.model.hertz import hertz_pressure
 from mgehl.output.picture import STATUS_COLOURS, draw
-from mgehl.run import Fields
+from mgehl.run import Fields, Solution
 
 
 @pytest.fixture
@@ -29,10 +30,16 @@ def fields(mesh):
 
 
 @pytest.fixture
-def image(tmp_path, mesh, fields, paper_contact):
+def solution(mesh, fields, paper_contact):
+    """What the picture needs of a `Solution`."""
+    return Solution(None, paper_contact(), mesh, fields, [], SimpleNamespace(converged=True))
+
+
+@pytest.fixture
+def image(tmp_path, solution):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        draw(tmp_path / "picture.png", mesh, paper_contact(), fields, "a title")
+        draw(tmp_path / "picture.png", solution)
     return plt.imread(tmp_path / "picture.png")[..., :3]
 
 
@@ -62,9 +69,10 @@ def test_the_curves_are_drawn(image):
         assert share(image, colour) > 5e-4
 
 
-def test_the_map_shows_the_set_that_is_given(tmp_path, mesh, fields, paper_contact, image):
-    fields.status[fields.status == CONTACT] = LUBRICATED
-    draw(tmp_path / "film.png", mesh, paper_contact(), fields, "a title")
+def test_the_map_shows_the_set_that_is_given(tmp_path, solution, image):
+    status = solution.fields.status
+    status[status == CONTACT] = LUBRICATED
+    draw(tmp_path / "film.png", solution)
     film = plt.imread(tmp_path / "film.png")[..., :3]
     assert share(film, STATUS_COLOURS[CONTACT]) < 0.2 * share(image, STATUS_COLOURS[CONTACT])
     assert share(film, STATUS_COLOURS[LUBRICATED]) > share(image, STATUS_COLOURS[LUBRICATED])

@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 from test_files import make_result
 
-from mgehl.output.progress import Progress, trust_block
+from mgehl.output.progress import Progress, newton_line, newton_row, trust_block
 from mgehl.output.result import ContactResult, InequalityResult, Resolution
 from mgehl.solver.nested import LevelSolve
 from mgehl.solver.newton import Changes, Cycle
@@ -19,7 +19,7 @@ def cycle(step):
 
 def test_a_row_for_each_cycle():
     work = iter((1.0, 2.5))
-    progress = Progress(1e-6, lambda: next(work), speak=False)
+    progress = Progress(newton_row, newton_line, 1e-6, lambda: next(work), speak=False)
     progress(LEVEL, cycle(0))
     progress(LEVEL, cycle(1))
     first, second = progress.rows
@@ -34,14 +34,14 @@ def test_a_row_for_each_cycle():
 
 
 def test_newton_steps_are_counted_on_all_grids():
-    progress = Progress(1e-6, lambda: 0.0, speak=False)
+    progress = Progress(newton_row, newton_line, 1e-6, lambda: 0.0, speak=False)
     for step in (0, 1, 2, 0, 1):
         progress(LEVEL, cycle(step))
-    assert progress.newton_steps == 3
+    assert progress.steps == 3
 
 
 def test_it_prints_a_line_for_each_cycle(capsys):
-    progress = Progress(1e-6, lambda: 0.0, speak=True)
+    progress = Progress(newton_row, newton_line, 1e-6, lambda: 0.0, speak=True)
     progress(LEVEL, cycle(0))
     progress(LEVEL, cycle(1))
     lines = capsys.readouterr().out.splitlines()
@@ -51,7 +51,7 @@ def test_it_prints_a_line_for_each_cycle(capsys):
 
 
 def test_a_quiet_one_prints_nothing(capsys):
-    Progress(1e-6, lambda: 0.0, speak=False)(LEVEL, cycle(0))
+    Progress(newton_row, newton_line, 1e-6, lambda: 0.0, speak=False)(LEVEL, cycle(0))
     assert capsys.readouterr() == ("", "")
 
 
@@ -61,7 +61,7 @@ class TestTrustBlock:
         assert lines[0] == "CONVERGED: all holds"
         text = "\n".join(lines)
         for part in ("12.0000 nm", "1.0000 nm", "2.3000 GPa", "1.0e-09", "-1.0e-10", "3 nodes", "1.00 %",
-                     "4..6", "none", "5.00 cells", "80.5", "14 Newton", "1 ranks"):  # fmt: skip
+                     "4..6", "none", "5.00 cells", "80.5", "14 steps", "1 ranks"):  # fmt: skip
             assert part in text
 
     def test_failure_comes_first(self):
@@ -73,7 +73,7 @@ class TestTrustBlock:
 
     def test_a_long_list_is_cut_and_says_so(self):
         nodes = [{"i": k, "j": 1, "size": 0.1} for k in range(1, 51)]
-        result = make_result(pressure_inequality=InequalityResult(60, 50, 0.1, nodes))
+        result = make_result(pressure_inequality=InequalityResult(60, 50, 0.1, 1.2, nodes))
         text = trust_block(result)
         assert text.count("Eq. 2 violated at node") == 20
         assert "30 more" in text

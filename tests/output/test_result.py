@@ -67,7 +67,7 @@ def test_a_good_answer_converges(summary, tiny_problem):
     assert (result.residual, result.load_error) == (pytest.approx(1e-9), -2e-10)
     assert (result.contact.nodes, result.contact.x_nodes, result.contact.y_nodes) == (0, None, None)
     assert result.contact.largest_gap_nm == 0.0
-    assert (result.work.convolutions, result.work.newton_steps) == (12.5, 7)
+    assert (result.work.convolutions, result.work.steps) == (12.5, 7)
     assert (result.wall_s, result.ranks) == (3.0, 1)
 
 

@@ -4,19 +4,28 @@ Every rank runs every test, and collective calls must be reached by all: what is
 rank is sent to all before the assertion.
 """
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from mpi4py import MPI
 
+from mgehl.config import config_from_tables
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
 from mgehl.grid.grid import build_grids
 from mgehl.grid.transfers import PartitionedTransfer
 from mgehl.multigrid.jacobian import BorderedSpace
+from mgehl.run import solve as solve_config
+from mgehl.solver.nested import NestedSettings, SolverSettings, single_loop
+from mgehl.solver.relaxation import RelaxationSettings
 from mgehl.solver.verification import check_pressure_inequality, complementarity_error, flux_imbalance
+from mgehl.studies.study import merged
+from mgehl.studies.wedge import case as wedge_case
 
 pytestmark = pytest.mark.parallel
 
 COMM = MPI.COMM_WORLD
+CONFIGS = Path(__file__).resolve().parents[2] / "configs"
 MESHES = [{"nodes": 65}, {"nodes": 65, "ny": 33, "coarsest": 65}]
 
 
@@ -218,6 +227,99 @@ class TestSolutions:
         )
 
 
+class TestRelaxation:
+    """All lines are relaxed at once, so that it does not matter which rank has them."""
+
+    @pytest.mark.parametrize("case", CASES)
+    @pytest.mark.parametrize("update", ["line", "point"])
+    def test_a_few_sweeps_equal_the_serial_ones(self, pair, paper_contact, case, update):
+        speed, start = CASES[case]
+        contact = paper_contact(speed)
+        settings = SolverSettings(
+            method="relaxation",
+            nested=NestedSettings(start=start),
+            relaxation=RelaxationSettings(
+                fluid_update=update, contact_update=update, omega=0.2, max_sweeps=6, report_every=3
+            ),
+        )
+        told = ([], [])
+        solved = [
+            single_loop(hierarchy, contact, settings, lambda _, sweep, rows=rows: rows.append(sweep))
+            for hierarchy, rows in zip(pair(nodes=65), told, strict=True)
+        ]
+        (problem, together), (_, alone) = solved
+        grid, state, expected = problem.grid, together.state, alone.state
+        np.testing.assert_array_equal(whole(grid, state.status), expected.status)
+        # A convolution differs by rounding, which the mobility at 0.005 mm/s magnifies.
+        digits = 1e-12 if case == "film" else 1e-9
+        np.testing.assert_allclose(whole(grid, state.P), expected.P, rtol=0.0, atol=digits)
+        np.testing.assert_allclose(whole(grid, state.H), expected.H, rtol=0.0, atol=digits)
+        assert state.H0 == pytest.approx(expected.H0, rel=digits)
+        for one, other in zip(*told, strict=True):
+            assert vars(one) == pytest.approx(vars(other), rel=1e-8, abs=digits)
+        assert all(each == told[0] for each in COMM.allgather(told[0]))
+
+
+WEDGES = {
+    "blocked exit": wedge_case("blocked exit", 65),
+    "square pillar, turned, 2B": wedge_case("square pillar", 65, "2B", turned=True),
+    "cylindrical pillar, untreated": wedge_case("cylindrical pillar", 65, interface="untreated"),
+    "square pillar, cavitating": merged(
+        wedge_case("square pillar", 65), {"discretization": {"cavitation": True}}
+    ),
+}
+
+
+class TestOtherKinds:
+    @pytest.mark.parametrize("tables", WEDGES.values(), ids=WEDGES)
+    def test_wedge(self, tables):
+        config = config_from_tables(tables)
+        together, alone = solve_config(config, COMM), solve_config(config, MPI.COMM_SELF)
+        assert together.result.converged and alone.result.converged
+        assert (together.fields.P is None) == (COMM.rank != 0)
+        P, status = COMM.bcast(together.fields.P), COMM.bcast(together.fields.status)
+        np.testing.assert_array_equal(status, alone.fields.status)
+        np.testing.assert_allclose(P, alone.fields.P, rtol=0.0, atol=1e-12)
+        result, expected = together.result, alone.result
+        assert result.ranks == COMM.size
+        assert result.load == pytest.approx(expected.load, rel=1e-11)
+        assert result.residual <= 1e-10 and result.flux_imbalance <= 1e-12
+        assert result.closed_face_flow == pytest.approx(expected.closed_face_flow, rel=1e-12)
+        assert result.solid_nodes == expected.solid_nodes
+        assert result.cavitated_nodes == expected.cavitated_nodes
+        assert all(each == result.load for each in COMM.allgather(result.load))
+
+    @pytest.mark.parametrize("start, speed", [("film", 0.1), ("contact", 1e-4)])
+    def test_line_belongs_to_one_rank_and_every_rank_solves_it(self, start, speed):
+        tables = {
+            "contact": {"kind": "line", "load_per_length": 1859e3},
+            "motion": {"speed": speed},
+            "grid": {"nodes": 257, "x": [-2.5, 1.5]},
+            "solver": {"start": start},
+        }
+        config = config_from_tables(tables)
+        together, alone = solve_config(config, COMM), solve_config(config, MPI.COMM_SELF)
+        assert together.result.converged
+        P = COMM.bcast(alone.fields.P)
+        np.testing.assert_allclose(together.fields.P, P, rtol=0.0, atol=1e-10)
+        np.testing.assert_array_equal(together.fields.status, COMM.bcast(alone.fields.status))
+        assert together.result.work == COMM.bcast(alone.result.work)
+        film = COMM.bcast(alone.result.central_film_nm)
+        assert together.result.central_film_nm == pytest.approx(film, rel=1e-9, abs=1e-5)
+
+    def test_unified_equations(self):
+        tables = {
+            "motion": {"speed": 1.0},
+            "grid": {"nodes": 65},
+            "discretization": {"contact_model": "unified"},
+        }
+        config = config_from_tables(tables)
+        together, alone = solve_config(config, COMM), solve_config(config, MPI.COMM_SELF)
+        assert together.result.converged
+        assert together.result.overlap.nodes == alone.result.overlap.nodes
+        assert together.result.central_film_nm == pytest.approx(alone.result.central_film_nm, rel=1e-9)
+
+
 class TestCommandLine:
     """`main` runs on all ranks of COMM_WORLD."""
 
@@ -242,6 +344,26 @@ class TestCommandLine:
         lines = capsys.readouterr().err.splitlines()
         assert COMM.allgather(status) == [2] * COMM.size
         assert [len(each) for each in COMM.allgather(lines)] == [1] + [0] * (COMM.size - 1)
+
+    @pytest.mark.parametrize("name", ["wedge_square_pillar", "line_contact"])
+    def test_other_kinds_are_written_once(self, directory, capsys, name):
+        from mgehl.cli import main
+
+        here = directory / "here"
+        status = main(["run", str(CONFIGS / f"{name}.toml"), "--set", "grid.nodes=257", "--out", str(here)])
+        out = capsys.readouterr().out
+        assert COMM.allgather(status) == [0] * COMM.size
+        assert COMM.allgather(out.count("\nCONVERGED")) == [1] + [0] * (COMM.size - 1)
+        assert ((here / "centerline.csv").exists()) == name.startswith("wedge")
+
+    def test_bad_nodes_of_a_study_are_said_once(self, directory, capsys):
+        from mgehl.cli import main
+
+        status = main(["study", "schemes", "--nodes", "100", "--out", str(directory / "here")])
+        lines = capsys.readouterr().err.splitlines()
+        assert COMM.allgather(status) == [2] * COMM.size
+        assert [len(each) for each in COMM.allgather(lines)] == [1] + [0] * (COMM.size - 1)
+        assert not (directory / "here").exists()
 
     def test_one_directory_for_all(self, directory, capsys):
         from mgehl.cli import main

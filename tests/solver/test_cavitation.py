@@ -1,11 +1,11 @@
-"""The fluid and its cavities at a gap that is held fixed."""
+"""The cavities at a gap that is held fixed."""
 
 import numpy as np
 import pytest
 
 from mgehl.discretization.fluid import fluid_state
-from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
-from mgehl.solver.cavitation import WEAKLY_COUPLED, RigidGapFluid, relax_cavitation_set, weakly_coupled
+from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
+from mgehl.solver.cavitation import WEAKLY_COUPLED, relax_cavitation_set, weakly_coupled
 
 
 @pytest.fixture
@@ -91,48 +91,3 @@ def test_complementarity_holds_where_it_relaxes(film, spoil):
     assert inflow[cavity].max() < 1e-3 * couette
     np.testing.assert_array_equal(state.P[~nodes], before.P[~nodes])
     np.testing.assert_array_equal(state.status[~nodes], before.status[~nodes])
-
-
-class TestRigidGap:
-    """Newton's method for the fluid around the contact at 0.005 mm/s."""
-
-    @pytest.fixture
-    def dry(self, solve, paper_contact):
-        return solve(paper_contact(5e-6), 65, start="contact")
-
-    @pytest.fixture
-    def fluid(self, dry, make_multigrid):
-        made = []
-        multigrid = make_multigrid(dry.hierarchy, dry.problem, dry.outcome.state, rigid=True)
-        made.append(RigidGapFluid(dry.problem, multigrid, "test_fluid_"))
-        yield made[0]
-        made[0].free()
-
-    def test_it_balances_the_fluid_without_convolutions(self, dry, fluid):
-        problem, solved = dry.problem, dry.outcome.state
-        state = solved.copy()
-        film = state.status == LUBRICATED
-        state.P[film] *= 0.5
-        separable = fluid.separable(state)
-        assert (separable & film).any()
-        before = dry.hierarchy.convolutions
-        fluid.solve(state, 1e-9)
-        assert dry.hierarchy.convolutions == before
-        inflow = problem.inflow(state)
-        kept = np.where(separable & (state.status == LUBRICATED), inflow, 0.0)
-        assert problem.rms(kept) <= 1e-9
-        assert state.P.min() >= 0.0
-        cavity = separable & (state.status == CAVITATED)
-        assert inflow[cavity].max(initial=0.0) <= 1e-9 / problem.grid.mesh.dX
-        np.testing.assert_array_equal(state.status == CONTACT, solved.status == CONTACT)
-        np.testing.assert_array_equal(state.H, solved.H)
-        np.testing.assert_array_equal(state.status == BOUNDARY, problem.boundary)
-
-    def test_it_finds_the_solved_fluid_again(self, dry, fluid):
-        solved = dry.outcome.state
-        state = solved.copy()
-        separable = fluid.separable(state)
-        film = separable & (state.status == LUBRICATED)
-        state.P[film] *= 0.5
-        fluid.solve(state, 1e-10)
-        np.testing.assert_allclose(state.P, solved.P, rtol=0.0, atol=1e-6)

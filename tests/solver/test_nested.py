@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from mgehl.discretization.status import CONTACT, LUBRICATED
-from mgehl.model.point import LOAD
 from mgehl.model.hertz import hertz_pressure
+from mgehl.model.point import LOAD
 from mgehl.solver.verification import check_pressure_inequality
 
 MOES_DOMAIN = {"x": (-4.5, 1.5), "y": (-3.0, 3.0)}

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from mgehl.discretization.kernels import REACH, build_bands, factor_bands
 from mgehl.discretization.status import CAVITATED, LUBRICATED
 from mgehl.solver.nested import first_guess
 from mgehl.solver.newton import Newton, NewtonSettings
@@ -132,7 +133,44 @@ def test_a_residual_that_is_not_finite_ends_it(make_newton):
     guess.P[30, 30] = np.nan
     outcome = newton.run(guess)
     assert not outcome.converged
-    assert "not finite" in outcome.reason
+    assert outcome.reason == "diverged: residual nan after 0 steps"
+
+
+def test_factors_of_a_singular_line_are_not_finite():
+    """Nothing is raised, and the lines beside it keep theirs."""
+    bands = np.zeros((3, 20, 2 * REACH + 1))
+    bands[:, :, REACH] = 2.0
+    bands[1] = 0.0
+    factor_bands(bands)
+    assert not np.all(np.isfinite(bands[1]))
+    np.testing.assert_array_equal(bands[[0, 2], :, REACH], 0.5)
+
+
+def test_a_line_that_becomes_singular_ends_it_with_a_reason(make_newton, monkeypatch):
+    """A node that no pressure can reach leaves a row of zeros in its line: no linear solution, no step."""
+
+    def build_singular(A, B, distributive, kappa, share, bands):
+        build_bands(A, B, distributive, kappa, share, bands)
+        bands[30, 20] = 0.0
+
+    monkeypatch.setattr("mgehl.discretization.bands.build_bands", build_singular)
+    problem, newton = make_newton(max_steps=3)
+    outcome = newton.run(first_guess(problem, "film"))
+    assert not outcome.converged
+    assert outcome.reason.startswith(("residual", "diverged"))
+    assert [cycle.linear_iterations for cycle in outcome.cycles] == [0] * len(outcome.cycles)
+
+
+def test_a_residual_without_a_way_back_ends_it(make_newton):
+    """Long before it overflows."""
+    problem, newton = make_newton()
+    guess = first_guess(problem, "film")
+    guess.H0 += 1e12
+    guess.H += 1e12
+    guess.P[30, 30] += 0.1
+    outcome = newton.run(guess)
+    assert not outcome.converged
+    assert outcome.reason.startswith("diverged: residual") and len(outcome.cycles) == 1
 
 
 def test_petsc_options_reach_snes_and_ksp(make_newton, petsc_options):

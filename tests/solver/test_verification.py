@@ -6,7 +6,12 @@ import pytest
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
 from mgehl.solver.problem import State
-from mgehl.solver.verification import check_pressure_inequality, complementarity_error, flux_imbalance
+from mgehl.solver.verification import (
+    check_pressure_inequality,
+    closed_face_flow,
+    complementarity_error,
+    flux_imbalance,
+)
 
 NODE = (4, 4)
 
@@ -59,6 +64,65 @@ class TestPressureInequality:
         state.P[NODE] = 0.1
         result = check_pressure_inequality(tiny_problem.grid, state.P, state.status)
         assert (result.checked, result.violations) == (8, [])
+
+
+class TestLargestRatio:
+    """Fluid pressure over the contact pressure beside it."""
+
+    def ratio(self, problem, state):
+        return check_pressure_inequality(problem.grid, state.P, state.status).largest_ratio
+
+    def test_without_contact_or_fluid_pressure_it_is_zero(self, tiny_problem, state):
+        assert self.ratio(tiny_problem, state) == 0.0
+        state.status[NODE] = CONTACT
+        assert self.ratio(tiny_problem, state) == 0.0
+
+    def test_of_several_nodes_the_largest_counts_violation_or_not(self, tiny_problem, state):
+        state.status[4, 2] = state.status[4, 6] = CONTACT
+        state.P[4, 2], state.P[4, 1], state.P[3, 2] = 0.5, 0.25, 0.375
+        assert self.ratio(tiny_problem, state) == 0.75
+        state.P[4, 6], state.P[4, 7] = 0.25, 0.5
+        assert self.ratio(tiny_problem, state) == 2.0
+
+    def test_contact_inside_contact_does_not_count(self, tiny_problem, state):
+        state.status[3:6, 3:6], state.P[3:6, 3:6] = CONTACT, 0.5
+        state.P[NODE], state.P[4, 2] = 0.001, 0.25
+        assert self.ratio(tiny_problem, state) == 0.5
+
+    def test_beside_contact_without_pressure_it_is_infinite(self, tiny_problem, state):
+        state.status[NODE], state.P[4, 3] = CONTACT, 1e-9
+        assert self.ratio(tiny_problem, state) == np.inf
+
+
+class TestClosedFaceFlow:
+    """What an untreated Couette flow leaks: 1B carries rho H of the node on the left."""
+
+    @pytest.fixture
+    def leaky_problem(self, make_problem):
+        return make_problem(nodes=9, scheme=Scheme(couette_at_interface="untreated"))
+
+    def test_without_contact_no_face_is_closed(self, leaky_problem, state):
+        assert closed_face_flow(leaky_problem, state) == 0.0
+
+    def test_the_largest_flow_through_a_closed_face_counts(self, tiny_problem, leaky_problem, state):
+        state.status[NODE] = CONTACT
+        state.H[4, 3], state.H[NODE], state.H[4, 6] = 1.5, 0.25, 3.0
+        assert closed_face_flow(leaky_problem, state) == 1.5  # through the west face, not 3 farther on
+        state.H[4, 3] = 0.125
+        assert closed_face_flow(leaky_problem, state) == 0.25  # through the east face, of the solid itself
+        assert closed_face_flow(tiny_problem, state) == 0.0
+
+    def test_motion_against_the_differencing_leaks_as_much(self, make_problem, state):
+        problem = make_problem(nodes=9, scheme=Scheme(couette_at_interface="untreated", motion=-1))
+        state.status[NODE], state.H[4, 3], state.H[NODE] = CONTACT, 1.5, 0.0
+        assert closed_face_flow(problem, state) == 1.5
+
+    def test_poiseuille_flow_is_stopped_in_any_case(self, leaky_problem, state):
+        state.status[NODE], state.H[:] = CONTACT, 0.5
+        state.P[4, 3] = state.P[3, 4] = 0.1
+        P = state.P[4, 3]
+        rho = leaky_problem.contact.lubricant.density_law.density(P, leaky_problem.contact.hertz.p_h)[0]
+        assert closed_face_flow(leaky_problem, state) == pytest.approx(0.5 * rho, rel=1e-14)
 
 
 class TestComplementarity:

@@ -1,0 +1,212 @@
+"""The rigid wedge bearing, solved: against the series where there is one, against section 4.2 elsewhere."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+from mpi4py import MPI
+
+from mgehl.config import config_from_tables
+from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
+from mgehl.grid.hierarchy import Hierarchy
+from mgehl.model.wedge_series import WedgeSeries
+from mgehl.run import solve as solve_config
+from mgehl.solver.from_config import contact_from, cycle_from, mesh_from, scheme_from
+from mgehl.solver.verification import closed_face_flow, complementarity_error, flux_imbalance
+from mgehl.solver.wedge import solve_wedge
+from mgehl.studies.study import merged, observed_order
+from mgehl.studies.wedge import PLACES, case, film_on_center_line, relative_errors
+
+SHAPES = ("blocked exit", "no blockage")
+PILLARS = ("square pillar", "cylindrical pillar")
+
+
+@cache
+def solution(shape, nodes=65, couette="1B", interface="closed", turned=False, pillar_y=0.0):
+    """A solved case of the study."""
+    tables = case(shape, nodes, couette, interface, turned)
+    moved = {"wedge": {"pillar_y": pillar_y}} if pillar_y else {}
+    return solve_config(config_from_tables(merged(tables, moved)), MPI.COMM_SELF)
+
+
+@pytest.fixture
+def solve_tables():
+    """Function that solves nested tables and returns the `WedgeProblem` and its `Outcome`."""
+    made = []
+
+    def run(tables):
+        config = config_from_tables(tables)
+        bearing = contact_from(config)
+        made.append(Hierarchy(mesh_from(config, bearing), 33, None, MPI.COMM_SELF))
+        scheme = scheme_from(config, bearing)
+        return solve_wedge(made[-1], bearing, scheme, cycle_from(config), 1e-10, 60)
+
+    yield run
+    for hierarchy in made:
+        hierarchy.destroy()
+
+
+@cache
+def exact(shape):
+    """The series at `PLACES` on the centre line, and its load."""
+    series = WedgeSeries(20.0, 50.0, 20.0, shape == "blocked exit")
+    return (*series.pressure(np.array(PLACES)), series.load())
+
+
+def errors_and_orders(shape, couette, turned=False):
+    """Relative errors on 129 nodes, and by which power of dX they fell from 65."""
+    coarse, fine = (
+        relative_errors(solution(shape, nodes, couette, turned=turned), exact(shape)) for nodes in (65, 129)
+    )
+    return fine, [observed_order(*pair) for pair in zip(coarse, fine, strict=True)]
+
+
+# Measured on 129 nodes: 0.45 % by 1B at the blocked exit, 0.02 % by the others, 0.1 % at the open one.
+@pytest.mark.parametrize(
+    "shape, couette, largest, order",
+    [
+        ("blocked exit", "1B", 5e-3, 1),
+        ("blocked exit", "2B", 2.5e-4, 2),
+        ("blocked exit", "2C", 2.5e-4, 2),
+        ("no blockage", "1B", 1e-3, 2),
+        ("no blockage", "2B", 1e-3, 2),
+        ("no blockage", "2C", 1e-3, 2),
+    ],
+)
+def test_convergence_to_the_series(shape, couette, largest, order):
+    """1B takes the gap of a face half a cell upstream: first order at a wall. Between open ends the
+    gap is linear, so that the mistake is a constant flow and drops out: second order."""
+    errors, orders = errors_and_orders(shape, couette)
+    assert max(map(abs, errors)) < largest
+    assert orders == pytest.approx([order] * 4, abs=0.1)
+
+
+def test_1b_knows_the_blocked_exit_from_the_other_side_too():
+    """Turned by 180 degrees the gap is taken half a cell on the other side: same order, other errors."""
+    errors, orders = errors_and_orders("blocked exit", "1B", turned=True)
+    assert max(map(abs, errors)) < 5e-3
+    assert orders == pytest.approx([1] * 4, abs=0.1)
+    assert errors[0] > 0.0 > errors_and_orders("blocked exit", "1B")[0][0]
+
+
+@pytest.mark.parametrize("shape", [*SHAPES, *PILLARS])
+def test_turned_bearing_gives_the_mirror_image_by_central_differences(shape):
+    here, turned = (solution(shape, couette="2C", turned=turned) for turned in (False, True))
+    np.testing.assert_array_equal(turned.fields.status, here.fields.status[::-1, ::-1])
+    np.testing.assert_allclose(turned.fields.P, here.fields.P[::-1, ::-1], rtol=0.0, atol=1e-14)
+
+
+@pytest.mark.parametrize("nodes", [65, 129])
+@pytest.mark.parametrize("couette", ["1B", "2B", "2C"])
+@pytest.mark.parametrize("shape", [*SHAPES, *PILLARS])
+def test_residual_flux_and_walls(shape, couette, nodes):
+    result = solution(shape, nodes, couette).result
+    assert result.converged
+    assert result.residual <= 1e-10
+    assert result.flux_imbalance <= 1e-12
+    assert result.closed_face_flow == 0.0
+
+
+def test_verification_is_that_of_the_final_pressures(solve_tables):
+    """The record's numbers once more, from the state itself."""
+    problem, outcome = solve_tables(case("square pillar", 65))
+    state, result = outcome.state, solution("square pillar").result
+    np.testing.assert_array_equal(state.P, solution("square pillar").fields.P)
+    true = problem.rms(problem.residual(state, problem.inflow(state)))
+    assert (true, flux_imbalance(problem, state)) == (result.residual, result.flux_imbalance)
+    assert closed_face_flow(problem, state) == 0.0
+    assert problem.load(state.P) == result.load
+    # The pad's edges are at ambient pressure, and so is what is solid.
+    assert np.all(state.P[problem.boundary | (state.status == CONTACT)] == 0.0)
+
+
+@pytest.mark.parametrize("shape", [*SHAPES, *PILLARS])
+def test_iterations_hardly_grow_with_the_grid(shape):
+    """Of one linear solve by eleven digits: about 20 on 65 nodes and 25 on 257."""
+    most = [max(row["linear_iterations"] for row in solution(shape, n).rows) for n in (65, 129, 257)]
+    assert most[0] <= 23
+    assert max(most) <= 1.45 * most[0]
+
+
+def inlet_and_exit(shape, **options):
+    """Largest P between inlet and pillar and between pillar and exit."""
+    X, P = film_on_center_line(solution(shape, **options))
+    return P[X > 39.0].max(), P[X < 31.0].max()
+
+
+@pytest.mark.parametrize("shape", PILLARS)
+class TestUntreatedCouetteFlow:
+    """Figure 10: "NTCF" with 1B lets Couette flow cross an interface that has film on its left."""
+
+    @pytest.mark.parametrize("turned", [False, True])
+    def test_it_flows_through_the_pillar(self, shape, turned):
+        """1B: rho H of the film on its left, through every face there; the balance does not notice."""
+        solved = solution(shape, interface="untreated", turned=turned)
+        result, solid = solved.result, solved.fields.status == CONTACT
+        assert result.converged and result.residual <= 1e-10 and result.flux_imbalance <= 1e-12
+        left = solid[:, 1:] & ~solid[:, :-1]
+        gaps = np.abs(np.broadcast_to(solved.mesh.X[:-1], left.shape)[left])
+        assert result.closed_face_flow == pytest.approx(gaps.max(), rel=1e-12)
+
+    def test_it_fills_the_film_towards_the_exit_and_spares_the_inlet(self, shape):
+        """Unreversed: "much higher pressures close to the exit", "around the inlet very close"."""
+        (inlet, exit), (inlet_untreated, exit_untreated) = (
+            inlet_and_exit(shape, interface=interface) for interface in ("closed", "untreated")
+        )
+        assert exit_untreated > 5.0 * exit
+        assert inlet_untreated == pytest.approx(inlet, rel=0.05)
+
+    def test_turned_it_takes_the_pressure_before_the_pillar(self, shape):
+        """ "The pressure build-up peak in the inlet zone is much lower"."""
+        (inlet, exit), (inlet_untreated, exit_untreated) = (
+            inlet_and_exit(shape, interface=interface, turned=True) for interface in ("closed", "untreated")
+        )
+        assert inlet_untreated < 0.2 * inlet
+        assert exit_untreated == pytest.approx(exit, rel=0.2)
+
+
+def test_pressures_at_the_inlet_are_in_the_order_of_figure_9():
+    """ "Greater for the square-pillar blockage, followed by the cylinder-pillar, the exit, and none"."""
+    at_45 = [np.interp(45.0, *film_on_center_line(solution(shape))) for shape in (*PILLARS, *SHAPES)]
+    assert at_45 == sorted(at_45, reverse=True)
+
+
+def test_cavitation_leaves_no_tension(solve_tables):
+    """Behind the pillar the film tears: P >= 0, no flow into the cavity, P = 0 there."""
+    problem, outcome = solve_tables(merged(case("square pillar"), {"discretization": {"cavitation": True}}))
+    state = outcome.state
+    assert outcome.converged
+    assert state.P.min() == 0.0
+    cavity = state.status == CAVITATED
+    assert cavity.any() and np.all(problem.inflow(state)[cavity] <= 0.0)
+    assert np.all(state.P[state.status == LUBRICATED] > 0.0)
+    assert complementarity_error(problem, state) <= 1e-12
+    assert flux_imbalance(problem, state) <= 1e-12
+    # Only the side of the exit is torn, where the pressure was below zero.
+    X = np.broadcast_to(problem.grid.X, cavity.shape)
+    assert X[cavity].max() < 39.0
+    assert solution("square pillar", 65).result.min_P < -0.01
+
+
+@pytest.mark.parametrize("shape", PILLARS)
+def test_pillar_off_the_centre(shape):
+    """The film on both sides of it differs; mirrored along Y the pillar mirrors the film."""
+    here, there = (solution(shape, pillar_y=y) for y in (3e-3, -3e-3))
+    assert here.result.converged and here.result.flux_imbalance <= 1e-12
+    P = here.fields.P
+    np.testing.assert_allclose(there.fields.P, P[::-1], rtol=0.0, atol=1e-14)
+    assert np.abs(P - P[::-1]).max() > 0.1 * P.max()
+    # Turned by 180 degrees it is the mirror image along X and along Y.
+    central, turned = (solution(shape, couette="2C", turned=t, pillar_y=3e-3) for t in (False, True))
+    np.testing.assert_allclose(turned.fields.P, central.fields.P[::-1, ::-1], rtol=0.0, atol=1e-14)
+
+
+def test_too_few_steps_are_not_converged():
+    """What is asked for is beyond rounding."""
+    config = config_from_tables(case("blocked exit"))
+    bearing = contact_from(config)
+    hierarchy = Hierarchy(mesh_from(config, bearing), 33, None, MPI.COMM_SELF)
+    scheme = scheme_from(config, bearing)
+    _, outcome = solve_wedge(hierarchy, bearing, scheme, cycle_from(config), 1e-18, 1)
+    hierarchy.destroy()
+    assert not outcome.converged and "residual" in outcome.reason

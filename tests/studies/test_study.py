@@ -1,0 +1,97 @@
+"""What every study uses: orders, limits, merged tables, files."""
+
+import csv
+from math import isnan
+
+import pytest
+from mpi4py import MPI
+
+from mgehl.output.files import OutputError
+from mgehl.studies.study import Study, merged, observed_order, richardson
+
+FILM = {"motion": {"speed": 1.0}, "grid": {"nodes": 65}}
+
+
+@pytest.mark.parametrize("order", [0.5, 1, 2, 3])
+@pytest.mark.parametrize("amplitude", [0.25, -4.0])
+class TestMadeUpSequences:
+    """limit + amplitude dX^order on grids that are each twice as fine."""
+
+    def values(self, amplitude, order, grids=3):
+        return [8.0 + amplitude * 0.5 ** (order * k) for k in range(grids)]
+
+    def test_richardson_finds_limit_and_order(self, amplitude, order):
+        assert richardson(self.values(amplitude, order)) == pytest.approx((8.0, order), rel=1e-12)
+
+    def test_the_last_three_grids_count(self, amplitude, order):
+        values = [1e6, *self.values(amplitude, order)]
+        assert richardson(values) == pytest.approx((8.0, order), rel=1e-12)
+
+    def test_order_of_errors_of_whatever_sign(self, amplitude, order):
+        coarse, fine = (value - 8.0 for value in self.values(amplitude, order, 2))
+        assert observed_order(coarse, fine) == pytest.approx(order, rel=1e-12)
+        assert observed_order(coarse, -fine) == pytest.approx(order, rel=1e-12)
+
+
+@pytest.mark.parametrize("values", [(1, 2, 3), (1, 2, 4), (1, 2, 1.5), (1, 2, 2), (1, 1, 2), (1, 1, 1)])
+def test_without_falling_differences_of_one_sign_there_is_no_limit_to_see(values):
+    limit, order = richardson(values)
+    assert isnan(limit) and isnan(order)
+
+
+@pytest.mark.parametrize("errors", [(0.0, 1.0), (1.0, 0.0), (0.0, 0.0)])
+def test_no_order_without_errors(errors):
+    assert isnan(observed_order(*errors))
+
+
+def test_later_tables_have_authority_and_none_is_changed():
+    first = {"grid": {"nodes": 65, "x": [-2, 2]}}
+    second = {"grid": {"nodes": 129}, "motion": {"speed": 1.0}}
+    assert merged(first, second) == {"grid": {"nodes": 129, "x": [-2, 2]}, "motion": {"speed": 1.0}}
+    assert first == {"grid": {"nodes": 65, "x": [-2, 2]}} and second["grid"] == {"nodes": 129}
+
+
+@pytest.fixture
+def study(tmp_path):
+    return Study(tmp_path, MPI.COMM_SELF, (65,))
+
+
+ROWS = [{"name": "a", "film nm": "1.5"}, {"name": "b", "film nm": ""}]
+
+
+def test_a_table_is_written_twice_and_printed(study, capsys):
+    study.write_table("films", ROWS)
+    with (study.directory / "films.csv").open() as file:
+        assert list(csv.DictReader(file)) == ROWS
+    text = (study.directory / "films.md").read_text()
+    assert text == "| name | film nm |\n| --- | --- |\n| a | 1.5 |\n| b |  |\n"
+    assert text in capsys.readouterr().out
+
+
+def test_a_quiet_study_prints_nothing(study, capsys):
+    study.speak = False
+    study.write_table("films", ROWS)
+    study.draw("picture", lambda path, text: path.write_text(text), "drawn")
+    study.solve("a film", FILM)
+    assert capsys.readouterr().out == ""
+    assert (study.directory / "picture.png").read_text() == "drawn"
+
+
+def test_it_says_what_it_solved_and_what_did_not_converge(study, capsys):
+    study.cases = 2
+    assert study.solve("a film", FILM).result.converged
+    study.solve("too short", merged(FILM, {"solver": {"max_steps": 1}}))
+    first, second = capsys.readouterr().out.splitlines()
+    assert first.startswith("  1/2") and first.endswith("a film")
+    assert second.startswith("  2/2") and "too short  NOT CONVERGED: residual" in second
+
+
+@pytest.mark.parametrize("what", ["table", "picture"])
+def test_a_directory_that_is_gone_is_one_line(tmp_path, what):
+    (tmp_path / "file").touch()
+    study = Study(tmp_path / "file", MPI.COMM_SELF, speak=False)
+    with pytest.raises(OutputError, match="cannot be written"):
+        if what == "table":
+            study.write_table("films", ROWS)
+        else:
+            study.draw("films", lambda path: path.write_text(""))

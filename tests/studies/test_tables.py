@@ -1,0 +1,92 @@
+"""Small studies by the command line, and what their tables say."""
+
+import csv
+from itertools import product
+
+import pytest
+from mpi4py import MPI
+
+from mgehl.cli import main
+from mgehl.config import config_from_tables
+from mgehl.discretization.couette import SCHEMES
+from mgehl.run import solve
+
+
+def read(path):
+    with path.open() as file:
+        return list(csv.DictReader(file))
+
+
+@pytest.fixture(scope="module")
+def study(tmp_path_factory):
+    """Function that runs a study and returns its directory."""
+
+    def run(name, nodes):
+        directory = tmp_path_factory.mktemp("study") / name
+        assert main(["study", name, "--nodes", nodes, "--quiet", "--out", str(directory)]) == 0
+        return directory
+
+    return run
+
+
+class TestWedge:
+    @pytest.fixture(scope="class")
+    def directory(self, study):
+        return study("wedge", "65,129")
+
+    def test_files(self, directory):
+        tables = {f"{name}.{kind}" for name in ("cases", "convergence") for kind in ("csv", "md")}
+        figures = {f"figure_{k}.png" for k in (7, 8, 9, 10)}
+        assert {path.name for path in directory.iterdir()} == tables | figures
+        assert all((directory / name).read_bytes().startswith(b"\x89PNG") for name in figures)
+
+    def test_cases(self, directory):
+        rows = {row["case"]: row for row in read(directory / "cases.csv")}
+        pillars = [f"{shape} pillar" for shape in ("square", "cylindrical")]
+        variants = ("", ", untreated", ", turned", ", turned, untreated")
+        expected = {pillar + variant for pillar in pillars for variant in variants}
+        expected |= {"blocked exit", "no blockage"}
+        assert rows.keys() == expected
+        for name, row in rows.items():
+            leak = float(row["flow through closed faces"])
+            assert (leak > 10.0) if "untreated" in name else (leak == 0.0)
+            assert float(row["residual"]) <= 1e-10 and float(row["flux imbalance"]) <= 1e-12
+        load = {name: float(row["load mm"]) for name, row in rows.items()}
+        assert load["square pillar, untreated"] > load["square pillar"]
+        assert load["square pillar, turned, untreated"] < load["square pillar, turned"]
+        assert load["blocked exit"] > load["no blockage"]
+
+    def test_convergence(self, directory):
+        rows = read(directory / "convergence.csv")
+        keys = [(row["case"], row["couette"], row["nodes"]) for row in rows]
+        shapes, nodes = ("blocked exit", "no blockage"), ("65", "129")
+        assert keys == list(product(shapes, SCHEMES, nodes))
+        for row in rows:
+            orders = [row[f"{place} order"] for place in ("P(22,0)", "P(30,0)", "P(40,0)", "load")]
+            if row["nodes"] == "65":
+                assert orders == [""] * 4
+                continue
+            first = row["case"] == "blocked exit" and row["couette"] in ("1B", "S1B")
+            assert [float(order) for order in orders] == pytest.approx([1 if first else 2] * 4, abs=0.1)
+            assert abs(float(row["load error %"])) < (0.5 if first else 0.05)
+            assert float(row["flow through closed faces"]) == 0.0
+
+    def test_markdown_holds_the_same_rows(self, directory):
+        lines = (directory / "convergence.md").read_text().splitlines()
+        rows = read(directory / "convergence.csv")
+        assert len(lines) == len(rows) + 2
+        assert [cell.strip() for cell in lines[-1].strip("|").split("|")] == list(rows[-1].values())
+
+
+def test_schemes(study):
+    """One grid: every scheme's film on 65 nodes as a run finds it, no limit."""
+    directory = study("schemes", "65")
+    assert {path.name for path in directory.iterdir()} == {"films.csv", "films.md", "films.png"}
+    rows = read(directory / "films.csv")
+    assert [row["couette"] for row in rows] == list(SCHEMES)
+    assert all((row["nodes"], row["converged"]) == ("65", "yes") for row in rows)
+    central = {row["couette"]: float(row["central nm"]) for row in rows}
+    film = {"motion": {"speed": 1.0}, "grid": {"nodes": 65}}
+    expected = solve(config_from_tables(film), MPI.COMM_SELF).result.central_film_nm
+    assert central["1B"] == pytest.approx(expected, abs=1e-4)
+    assert central["2B"] < central["1B"]
