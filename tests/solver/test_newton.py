@@ -157,8 +157,8 @@ def test_a_line_that_becomes_singular_ends_it_with_a_reason(make_newton, monkeyp
     problem, newton = make_newton(max_steps=3)
     outcome = newton.run(first_guess(problem, "film"))
     assert not outcome.converged
-    assert outcome.reason.startswith(("residual", "diverged"))
-    assert [cycle.linear_iterations for cycle in outcome.cycles] == [0] * len(outcome.cycles)
+    assert outcome.reason == "singular: no linear solution after 0 steps"
+    assert len(outcome.cycles) == 1
 
 
 def test_a_residual_without_a_way_back_ends_it(make_newton):

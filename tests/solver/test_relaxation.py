@@ -284,7 +284,7 @@ class TestRuns:
         assert not outcome.converged
         assert outcome.reason.startswith("diverged") and outcome.reason.endswith("after 0 sweeps")
 
-        def test_overflow_between_two_lines_of_the_history_ends_it_too(self, make_hierarchy, paper_contact):
+    def test_overflow_between_two_lines_of_the_history_ends_it_too(self, make_hierarchy, paper_contact):
         wild = {"omega": 1.0, "load_factor": 10.0, "load_every": 1, "max_sweeps": 2000}
         with np.errstate(all="ignore"):
             _, _, outcome, _ = self.run(make_hierarchy, paper_contact(), cavitation=False, **wild)
