@@ -29,7 +29,8 @@ FOREIGN = {
         "lubricant.viscosity_law", "lubricant.density_law", "moes", "grid.x", "grid.y",
         "discretization.contact_model", "discretization.unified_gap", "discretization.film_threshold",
         "solver.method", "solver.start", "solver.first_nodes", "solver.inlet_cells",
-        "solver.release_budget", "relaxation",
+        "solver.release_budget", "solver.linear_tolerance", "solver.sweeps", "solver.omega",
+        "solver.cycle_couette", "relaxation",
     ),
 }  # fmt: skip
 """Sections and keys that a kind of contact has no use for."""

@@ -11,11 +11,18 @@ from petsc4py import PETSc
 import mgehl
 from mgehl.config import COARSEST_NODES
 from mgehl.discretization.mesh import Mesh
+from mgehl.grid.grid import single_grid
 from mgehl.grid.hierarchy import Hierarchy
 from mgehl.output import files, progress
 from mgehl.output.result import Work, summarise
 from mgehl.output.wedge_result import summarise_wedge
-from mgehl.solver.from_config import contact_from, cycle_from, mesh_from, scheme_from, settings_from
+from mgehl.solver.from_config import (
+    OPTIONS_PREFIX,
+    contact_from,
+    mesh_from,
+    scheme_from,
+    settings_from,
+)
 from mgehl.solver.nested import nested_iteration, single_loop
 from mgehl.solver.wedge import solve_wedge
 
@@ -58,20 +65,22 @@ def solve(config, comm, speak=False):
     """
     started = time.perf_counter()
     contact = contact_from(config)
-    kind = config.contact.kind
-    on = MPI.COMM_SELF if kind == "line" else comm
-    hierarchy = Hierarchy(mesh_from(config, contact), COARSEST_NODES, contact.deflection_scale, on)
-    find = _solve_wedge if kind == "wedge" else _solve_loaded
+    kind, mesh = config.contact.kind, mesh_from(config, contact)
+    if kind == "wedge":
+        find, domain = _solve_wedge, single_grid(mesh, comm)
+    else:
+        on = MPI.COMM_SELF if kind == "line" else comm
+        find, domain = _solve_loaded, Hierarchy(mesh, COARSEST_NODES, contact.deflection_scale, on)
     try:
         with np.errstate(all="ignore"):  # an iteration that diverges says so itself
-            found = find(config, contact, hierarchy, started, speak and comm.rank == 0)
+            found = find(config, contact, domain, started, speak and comm.rank == 0)
         problem, state, rows, result = found
         fields = Fields(*(problem.grid.gather(array) for array in (state.P, state.H, state.status)))
     finally:
-        hierarchy.destroy()
+        domain.destroy()
     if kind == "line":
         result = comm.bcast(result)  # ranks may differ in the last bit
-    return Solution(config, contact, problem.grid.mesh, fields, rows, result)
+    return Solution(config, contact, mesh, fields, rows, result)
 
 
 def _solve_loaded(config, contact, hierarchy, started, speak):
@@ -90,11 +99,11 @@ def _solve_loaded(config, contact, hierarchy, started, speak):
     return problem, outcome.state, monitor.rows, result
 
 
-def _solve_wedge(config, bearing, hierarchy, started, speak):
+def _solve_wedge(config, bearing, grid, started, speak):
     """A rigid bearing."""
     scheme, solver = scheme_from(config, bearing), config.solver
     limits = solver.tolerance, solver.max_steps
-    problem, outcome = solve_wedge(hierarchy, bearing, scheme, cycle_from(config), *limits)
+    problem, outcome = solve_wedge(grid, bearing, scheme, OPTIONS_PREFIX, *limits)
     wall = time.perf_counter() - started
     result = summarise_wedge(problem, outcome, wall, versions())
     rows = progress.wedge_rows(problem.grid.mesh.nx, outcome.cycles)

@@ -113,6 +113,11 @@ class Grid:
         return None if parts is None else np.concatenate(parts)
 
 
+def single_grid(mesh, comm):
+    """The grid of a mesh alone, its lines dealt out as by `build_grids`."""
+    return build_grids(mesh, mesh.nx, comm)[0]
+
+
 def build_grids(mesh, coarsest_nodes, comm):
     """Grids from the coarsest to `mesh`, each of every other node of the next.
 

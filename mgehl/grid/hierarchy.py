@@ -8,23 +8,21 @@ from mgehl.grid.transfers import Transfer
 class Hierarchy:
     """Grids, the transfers between neighbours and the deflection operator on each.
 
-    `transfers[l]` leads from grid l to grid l + 1. Without a `deflection_scale` the bodies are rigid
-    and the deflections None.
+    `transfers[l]` leads from grid l to grid l + 1.
     """
 
     def __init__(self, mesh, coarsest_nodes, deflection_scale, comm):
         self.grids = build_grids(mesh, coarsest_nodes, comm)
         self.transfers = [Transfer(*pair) for pair in zip(self.grids[:-1], self.grids[1:], strict=True)]
-        self.deflections = [deflection_scale and Deflection(grid, deflection_scale) for grid in self.grids]
+        self.deflections = [Deflection(grid, deflection_scale) for grid in self.grids]
 
     @property
     def convolutions(self):
         """Convolutions made so far, in equivalents of one on the finest grid (by node ratio)."""
-        made = [deflection for deflection in self.deflections if deflection]
-        work = sum(deflection.count * deflection.grid.mesh.nodes for deflection in made)
+        work = sum(deflection.count * deflection.grid.mesh.nodes for deflection in self.deflections)
         return work / self.grids[-1].mesh.nodes
 
     def destroy(self):
         """Free the PETSc and MPI objects of the grids."""
-        for thing in (*filter(None, self.deflections), *self.grids):
+        for thing in (*self.deflections, *self.grids):
             thing.destroy()

@@ -57,8 +57,6 @@ class WedgeBearing:
 
     lambda_ = 6.0
     """Reynolds coefficient of d(H^3 dP/dX)/dX = 6 dH/dX."""
-    deflection_scale = None
-    """Nothing yields."""
     x_scale = y_scale = MM
     k_e = 1.0
 

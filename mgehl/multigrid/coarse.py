@@ -4,10 +4,9 @@ import warnings
 
 import numpy as np
 from scipy.linalg import LinAlgWarning, lu_factor, lu_solve
-from scipy.sparse import diags
 
 from mgehl.discretization.influence import influence_coefficients
-from mgehl.discretization.residual import WW, C, E, N, S, W
+from mgehl.multigrid.assembled import stencil_rows
 
 
 class CoarseSolve:
@@ -52,19 +51,7 @@ class CoarseSolve:
         """Sparse matrix of a stencil (6, local lines, nx) of all ranks."""
         grid = self._jacobian.grid
         whole = np.concatenate(grid.comm.allgather(stencil), axis=1)
-        return stencil_matrix(whole)
-
-
-def stencil_matrix(stencil):
-    """Sparse matrix of a whole-grid stencil (6, ny, nx)."""
-    _, ny, nx = stencil.shape
-    nodes = nx * ny
-    offsets = {WW: -2, W: -1, C: 0, E: 1, S: -nx, N: nx}
-    diagonals = []
-    for position, offset in offsets.items():
-        rows = stencil[position].ravel()
-        diagonals.append(rows[max(0, -offset) : nodes - max(0, offset)])
-    return diags(diagonals, list(offsets.values()), shape=(nodes, nodes), format="csr")
+        return stencil_rows(whole, 0, grid.mesh.nodes)
 
 
 def dense_influence(mesh, deflection_scale):

@@ -87,17 +87,6 @@ def scheme_from(config, contact):
     )
 
 
-def cycle_from(config):
-    """The settings of the multigrid cycle."""
-    solver = config.solver
-    return CycleSettings(
-        sweeps=solver.sweeps,
-        omega=solver.omega,
-        couette=solver.cycle_couette,
-        options_prefix=OPTIONS_PREFIX,
-    )
-
-
 def settings_from(config, contact):
     """Everything the solver is told."""
     solver, relaxation = config.solver, config.relaxation
@@ -117,7 +106,12 @@ def settings_from(config, contact):
             film_threshold=threshold,
             release_budget=solver.release_budget,
         ),
-        cycle=cycle_from(config),
+        cycle=CycleSettings(
+            sweeps=solver.sweeps,
+            omega=solver.omega,
+            couette=solver.cycle_couette,
+            options_prefix=OPTIONS_PREFIX,
+        ),
         relaxation=RelaxationSettings(
             **asdict(relaxation), tolerance=solver.tolerance, film_threshold=threshold
         ),

@@ -27,7 +27,10 @@ class FluidStep:
 
 
 class RigidGapFluid:
-    """Newton's method for the separable fluid alone; `multigrid` is a rigid-gap solver."""
+    """Newton's method for the separable fluid alone; `multigrid` solves its linear systems.
+
+    That is a rigid-gap `MultigridSolver`, or an `AssembledSolver`.
+    """
 
     def __init__(self, problem, multigrid, options_prefix, linear_tolerance=LINEAR_TOLERANCE):
         self._problem, self._multigrid = problem, multigrid

@@ -3,7 +3,7 @@
 import numpy as np
 
 from mgehl.discretization.status import BOUNDARY, CONTACT, LUBRICATED
-from mgehl.multigrid.cycle import MultigridSolver
+from mgehl.multigrid.assembled import AssembledSolver
 from mgehl.solver.newton import Outcome
 from mgehl.solver.problem import Problem, State
 from mgehl.solver.rigid_gap import RigidGapFluid
@@ -31,15 +31,14 @@ class WedgeProblem(Problem):
         return np.where(state.status == LUBRICATED, inflow, -state.P / self.grid.mesh.dX)
 
 
-def solve_wedge(hierarchy, bearing, scheme, cycle, tolerance, max_steps):
-    """Solve on the finest grid; return the `WedgeProblem` and an `Outcome` of `FluidStep`s.
+def solve_wedge(grid, bearing, scheme, options_prefix, tolerance, max_steps):
+    """Solve on `grid`; return the `WedgeProblem` and an `Outcome` of `FluidStep`s.
 
     `tolerance` is for the rms residual, in which the Couette term of a full film is 1.
     """
-    level = len(hierarchy.grids) - 1
-    problem = WedgeProblem(hierarchy.grids[level], bearing, scheme)
-    multigrid = MultigridSolver(hierarchy, level, bearing, scheme, cycle, rigid=True)
-    fluid = RigidGapFluid(problem, multigrid, cycle.options_prefix, LINEAR_TOLERANCE)
+    problem = WedgeProblem(grid, bearing, scheme)
+    multigrid = AssembledSolver(grid, bearing, scheme, MAX_ITERATIONS)
+    fluid = RigidGapFluid(problem, multigrid, options_prefix, LINEAR_TOLERANCE)
     state = problem.first_guess()
     try:
         steps = fluid.solve(state, tolerance, max_steps)

@@ -6,7 +6,7 @@ from mpi4py import MPI
 
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.status import CONTACT, LUBRICATED
-from mgehl.grid.hierarchy import Hierarchy
+from mgehl.grid.grid import build_grids, single_grid
 
 
 @pytest.fixture
@@ -132,14 +132,11 @@ def test_status_of_many_lines_has_no_walls(hierarchy):
     np.testing.assert_array_equal(grid.halo_status(status), grid.halo(status))
 
 
-@pytest.mark.parametrize("ny", [1, 65])
-def test_rigid_bodies_have_grids_and_transfers_but_no_deflection(ny):
-    mesh = Mesh(65, ny, (0.0, 1.0), (0.0, float(ny > 1)))
-    rigid = Hierarchy(mesh, 33, None, MPI.COMM_SELF)
+def test_a_single_grid_is_dealt_out_as_the_finest_of_many():
+    mesh = Mesh(65, 65, (-1.0, 1.0), (-1.0, 1.0))
+    alone, grids = single_grid(mesh, MPI.COMM_SELF), build_grids(mesh, 33, MPI.COMM_SELF)
     try:
-        assert [grid.mesh.nx for grid in rigid.grids] == [33, 65]
-        assert len(rigid.transfers) == 1
-        assert rigid.deflections == [None, None]
-        assert rigid.convolutions == 0.0
+        assert alone.mesh is mesh and alone.starts.tolist() == grids[-1].starts.tolist()
     finally:
-        rigid.destroy()
+        for grid in (alone, *grids):
+            grid.destroy()

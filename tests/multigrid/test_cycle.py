@@ -7,7 +7,8 @@ from petsc4py import PETSc
 
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
-from mgehl.multigrid.coarse import dense_influence, stencil_matrix
+from mgehl.multigrid.assembled import stencil_rows
+from mgehl.multigrid.coarse import dense_influence
 from mgehl.solver.problem import ContactProblem
 
 SIZES = (65, 129)
@@ -175,7 +176,7 @@ def solve_linear(multigrid, ksp, make_vec, kind, state):
 def dense_jacobian(jacobian):
     """The bordered matrix, from the dense influence of all nodes on all nodes."""
     mesh, linear = jacobian.grid.mesh, jacobian.linearisation
-    A, B = stencil_matrix(linear.A).toarray(), stencil_matrix(linear.B).toarray()
+    A, B = stencil_rows(linear.A, 0, mesh.nodes).toarray(), stencil_rows(linear.B, 0, mesh.nodes).toarray()
     J = A + B @ dense_influence(mesh, jacobian.contact.deflection_scale)
     load = np.full((1, mesh.nodes), jacobian.load_weight)
     return np.block([[J, B.sum(axis=1, keepdims=True)], [load, np.zeros((1, 1))]])

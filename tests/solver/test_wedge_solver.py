@@ -8,10 +8,10 @@ from mpi4py import MPI
 
 from mgehl.config import config_from_tables
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
-from mgehl.grid.hierarchy import Hierarchy
+from mgehl.grid.grid import single_grid
 from mgehl.model.wedge_series import WedgeSeries
 from mgehl.run import solve as solve_config
-from mgehl.solver.from_config import contact_from, cycle_from, mesh_from, scheme_from
+from mgehl.solver.from_config import contact_from, mesh_from, scheme_from
 from mgehl.solver.verification import closed_face_flow, complementarity_error, flux_imbalance
 from mgehl.solver.wedge import solve_wedge
 from mgehl.studies.study import merged, observed_order
@@ -37,13 +37,13 @@ def solve_tables():
     def run(tables):
         config = config_from_tables(tables)
         bearing = contact_from(config)
-        made.append(Hierarchy(mesh_from(config, bearing), 33, None, MPI.COMM_SELF))
+        made.append(single_grid(mesh_from(config, bearing), MPI.COMM_SELF))
         scheme = scheme_from(config, bearing)
-        return solve_wedge(made[-1], bearing, scheme, cycle_from(config), 1e-10, 60)
+        return solve_wedge(made[-1], bearing, scheme, "mgehl_", 1e-10, 60)
 
     yield run
-    for hierarchy in made:
-        hierarchy.destroy()
+    for grid in made:
+        grid.destroy()
 
 
 @cache
@@ -205,8 +205,8 @@ def test_too_few_steps_are_not_converged():
     """What is asked for is beyond rounding."""
     config = config_from_tables(case("blocked exit"))
     bearing = contact_from(config)
-    hierarchy = Hierarchy(mesh_from(config, bearing), 33, None, MPI.COMM_SELF)
+    grid = single_grid(mesh_from(config, bearing), MPI.COMM_SELF)
     scheme = scheme_from(config, bearing)
-    _, outcome = solve_wedge(hierarchy, bearing, scheme, cycle_from(config), 1e-18, 1)
-    hierarchy.destroy()
+    _, outcome = solve_wedge(grid, bearing, scheme, "mgehl_", 1e-18, 1)
+    grid.destroy()
     assert not outcome.converged and "residual" in outcome.reason

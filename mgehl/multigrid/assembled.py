@@ -1,0 +1,77 @@
+"""The Jacobian of a rigid gap as an assembled matrix, for PETSc's algebraic multigrid.
+
+Without deflection the Jacobian is a stencil, and an algebraic multigrid beats the geometric one of
+the line smoother (a wedge of 1025 by 1025 nodes: 7 iterations instead of 30, in a third of the time).
+"""
+
+import numpy as np
+from petsc4py import PETSc
+from scipy.sparse import coo_array
+
+from mgehl.discretization.residual import WW, C, E, N, S, W, linearise
+from mgehl.multigrid.jacobian import BorderedSpace
+
+
+def stencil_rows(stencil, first_row, columns):
+    """Sparse rows of a stencil (6, lines, nx) whose first node is row `first_row` of the whole.
+
+    Nodes are numbered line by line; `columns` is their number, or one more for a border.
+    """
+    _, lines, nx = stencil.shape
+    rows = np.arange(lines * nx)
+    parts = []
+    for position, offset in ((WW, -2), (W, -1), (C, 0), (E, 1), (S, -nx), (N, nx)):
+        values = stencil[position].ravel()
+        used = values != 0.0
+        parts.append((rows[used], first_row + rows[used] + offset, values[used]))
+    row, column, value = (np.concatenate(part) for part in zip(*parts, strict=True))
+    return coo_array((value, (row, column)), shape=(lines * nx, columns)).tocsr()
+
+
+class AssembledSolver:
+    """GMRES with algebraic multigrid for the fluid in a rigid gap; stands in for `MultigridSolver`.
+
+    BoomerAMG where PETSc has hypre, else PETSc's own GAMG; PETSc options may change it.
+    """
+
+    def __init__(self, grid, contact, scheme, max_iterations):
+        self.space = BorderedSpace(grid)
+        self._grid, self._contact, self._scheme = grid, contact, scheme
+        self._max_iterations = max_iterations
+        self._ksp, self._mat = None, None
+
+    def free(self):
+        """Destroy the matrix; the KSP that uses it must be destroyed before."""
+        if self._mat:
+            self._mat.destroy()
+
+    def configure(self, ksp, rtol):
+        """Make a KSP this solver; its options may still change it."""
+        self._ksp = ksp
+        ksp.setType(PETSc.KSP.Type.GMRES)
+        ksp.setPCSide(PETSc.PC.Side.RIGHT)
+        ksp.setTolerances(rtol=rtol, atol=0.0, max_it=self._max_iterations)
+        hypre = PETSc.Sys.hasExternalPackage("hypre")
+        ksp.getPC().setType(PETSc.PC.Type.HYPRE if hypre else PETSc.PC.Type.GAMG)
+        ksp.setFromOptions()
+
+    def linearise(self, P, H, status):
+        """Linearise about a (lines, nx) state and assemble."""
+        grid = self._grid
+        ghosted = grid.halo(P), grid.halo(H), grid.halo_status(status)
+        stencil = linearise(*ghosted, grid.mesh, self._contact, self._scheme, rigid=True).A
+        self.free()
+        self._mat = self._assemble(stencil)
+        self._ksp.setOperators(self._mat)
+
+    def _assemble(self, stencil):
+        """The distributed matrix; the border's row is that of the identity."""
+        grid, nodes = self._grid, self._grid.mesh.nodes
+        rows = stencil_rows(stencil, grid.first * grid.mesh.nx, nodes + 1)
+        size = (self.space.local_size, PETSc.DECIDE)
+        indptr, indices, values = rows.indptr, rows.indices, rows.data
+        if self.space.local_size > rows.shape[0]:
+            indptr = np.append(indptr, indptr[-1] + 1)
+            indices, values = np.append(indices, nodes), np.append(values, 1.0)
+        csr = indptr.astype(PETSc.IntType), indices.astype(PETSc.IntType), values
+        return PETSc.Mat().createAIJ((size, size), csr=csr, comm=grid.comm)

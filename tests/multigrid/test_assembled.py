@@ -1,0 +1,53 @@
+"""The assembled rigid-gap solver against the matrix-free Jacobian and the geometric multigrid."""
+
+import numpy as np
+import pytest
+from petsc4py import PETSc
+
+from mgehl.discretization.status import CONTACT, LUBRICATED
+from mgehl.multigrid.assembled import AssembledSolver, stencil_rows
+
+
+def test_rows_of_a_rank_are_rows_of_the_whole():
+    stencil = np.random.default_rng(1).uniform(1.0, 2.0, (6, 6, 7))
+    stencil[:, [0, -1]] = 0.0
+    stencil[:, :, [0, 1, -1]] = 0.0
+    whole = stencil_rows(stencil, 0, 43).toarray()
+    part = stencil_rows(stencil[:, 2:5], 2 * 7, 43).toarray()
+    np.testing.assert_array_equal(part, whole[14:35])
+
+
+@pytest.fixture
+def assembled(make_problem, rough_state):
+    """A solver linearised about a state with a contact, the KSP it made, problem and state."""
+    problem = make_problem(nodes=33)
+    state = rough_state(problem, contact=True)
+    solver = AssembledSolver(problem.grid, problem.contact, problem.scheme, 100)
+    ksp = PETSc.KSP().create(problem.grid.comm)
+    solver.configure(ksp, 1e-10)
+    solver.linearise(state.P, state.H, state.status)
+    yield solver, ksp, problem, state
+    ksp.destroy()
+    solver.free()
+
+
+def test_matrix_is_the_rigid_jacobian(assembled, make_jacobian, make_vec):
+    solver, ksp, problem, state = assembled
+    jacobian = make_jacobian(problem, state, rigid=True)
+    P = np.random.default_rng(2).random(problem.grid.shape)
+    x, y, z = make_vec(solver.space, P, 0.7), make_vec(solver.space), make_vec(solver.space)
+    jacobian.mat.mult(x, y)
+    ksp.getOperators()[0].mult(x, z)
+    z.axpy(-1.0, y)
+    assert z.norm() <= 1e-12 * y.norm()
+
+
+def test_few_iterations_solve_it(assembled, make_vec):
+    solver, ksp, problem, state = assembled
+    F = np.where(state.status == LUBRICATED, 1.0, 0.0)
+    b, x = make_vec(solver.space, F), make_vec(solver.space)
+    ksp.solve(b, x)
+    assert ksp.getConvergedReason() > 0 and ksp.getIterationNumber() <= 20
+    P, border = solver.space.read(x)
+    assert border == 0.0
+    assert not P[state.status == CONTACT].any() and P[state.status == LUBRICATED].any()
