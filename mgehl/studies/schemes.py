@@ -1,10 +1,17 @@
-"""Every differential scheme on the point contact at 1 m/s: films against grid, and their limit."""
+"""Every differential scheme on the point contact at 1 m/s: films against grid, and their limit.
+
+The central schemes leave the film of the high-pressure zone two-valued, a saw-tooth along the
+motion: where viscosity stops the Poiseuille flow they couple every other node only. Its size is
+listed, and limits are taken of the film with the saw-tooth averaged out.
+"""
 
 from mgehl.discretization.couette import SCHEMES
 from mgehl.studies.study import merged, richardson
 
 NODES = (65, 129, 257, 513)
 BASE = {"motion": {"speed": 1.0}}
+PLAUSIBLE_ORDERS = (0.5, 3.0)
+"""Outside of these the films are not near enough to their limit to tell it."""
 
 
 def run(study):
@@ -13,9 +20,12 @@ def run(study):
     study.cases = len(SCHEMES) * len(nodes)
     rows, films = [], {}
     for couette in SCHEMES:
-        results = [_solve(study, couette, n) for n in nodes]
-        films[couette] = [(result.central_film_nm, result.minimum_film_nm) for result, _ in results]
-        rows += _rows(couette, nodes, results, films[couette])
+        solutions = [_solve(study, couette, n) for n in nodes]
+        if study.first:
+            films[couette] = [_films(solution) for solution in solutions]
+            rows += [_row(couette, *each) for each in zip(solutions, films[couette], strict=True)]
+            if len(nodes) >= 3:
+                rows.append(_limit_row(couette, rows[-1], films[couette]))
     study.write_table("films", rows)
     from mgehl.studies import film_figures
 
@@ -24,29 +34,44 @@ def run(study):
 
 def _solve(study, couette, nodes):
     tables = merged(BASE, {"grid": {"nodes": nodes}, "discretization": {"couette": couette}})
-    solution = study.solve(f"{couette}, {nodes} nodes", tables)
+    return study.solve(f"{couette}, {nodes} nodes", tables)
+
+
+def _films(solution):
+    """Central film with its saw-tooth averaged out, and minimum film, in nm."""
+    return solution.result.central_film_nm - 0.5 * saw_tooth(solution), solution.result.minimum_film_nm
+
+
+def saw_tooth(solution):
+    """Film of the central node above the mean of its neighbours along the motion, in nm."""
+    i, j = solution.mesh.nearest(0.0, 0.0)
+    before, centre, after = solution.fields.H[j, i - 1 : i + 2]
+    return 1e9 * solution.contact.film_scale * (centre - 0.5 * (before + after))
+
+
+def _row(couette, solution, films):
+    result, nodes = solution.result, solution.mesh.nx
     finest = [row for row in solution.rows if row["grid"] == nodes]
-    return solution.result, max(row["linear_iterations"] for row in finest)
+    return {
+        "couette": couette,
+        "nodes": str(nodes),
+        "converged": "yes" if result.converged else "no",
+        "central nm": f"{result.central_film_nm:.4f}",
+        "saw-tooth nm": f"{saw_tooth(solution):.4f}",
+        "central averaged nm": f"{films[0]:.4f}",
+        "minimum nm": f"{films[1]:.4f}",
+        "residual": f"{result.residual:.1e}",
+        "most GMRES iterations": str(max(row["linear_iterations"] for row in finest)),
+        "convolutions": f"{result.work.convolutions:.0f}",
+    }
 
 
-def _rows(couette, nodes, results, films):
-    """A row for each grid and one for the limit."""
-    rows = [
-        {
-            "couette": couette,
-            "nodes": str(n),
-            "converged": "yes" if result.converged else "no",
-            "central nm": f"{result.central_film_nm:.4f}",
-            "minimum nm": f"{result.minimum_film_nm:.4f}",
-            "residual": f"{result.residual:.1e}",
-            "most GMRES iterations": str(iterations),
-            "convolutions": f"{result.work.convolutions:.0f}",
-        }
-        for n, (result, iterations) in zip(nodes, results, strict=True)
-    ]
-    if len(nodes) >= 3:
-        limits = [richardson(values) for values in zip(*films, strict=True)]
-        texts = [f"{limit:.2f} (order {order:.1f})" for limit, order in limits]
-        last = dict.fromkeys(rows[0], "") | {"couette": couette, "nodes": "limit"}
-        rows.append(last | {"central nm": texts[0], "minimum nm": texts[1]})
-    return rows
+def _limit_row(couette, like, films):
+    """Richardson's limits from the three finest grids, where their differences show an order."""
+    texts = []
+    for values in zip(*films, strict=True):
+        limit, order = richardson(values)
+        plausible = PLAUSIBLE_ORDERS[0] <= order <= PLAUSIBLE_ORDERS[1]
+        texts.append(f"{limit:.2f} (order {order:.1f})" if plausible else "not to be told yet")
+    empty = dict.fromkeys(like, "") | {"couette": couette, "nodes": "limit"}
+    return empty | {"central averaged nm": texts[0], "minimum nm": texts[1]}
