@@ -32,14 +32,7 @@ class Progress:
 
 def newton_row(cycle, nm):
     """What history.csv keeps of a Newton cycle."""
-    return {
-        "step": cycle.step,
-        "residual": cycle.residual,
-        "load_error": cycle.load_error,
-        "central_film_nm": cycle.central * nm,
-        "minimum_film_nm": cycle.minimum * nm,
-        "contact_nodes": cycle.contact_nodes,
-        "cavitated_nodes": cycle.cavitated_nodes,
+    return _state_row(cycle, nm) | {
         "changed_nodes": cycle.changes.total,
         "linear_iterations": cycle.linear_iterations,
         "step_length": cycle.step_length,
@@ -53,24 +46,27 @@ def newton_line(row):
 
 def sweep_row(sweep, nm):
     """What history.csv keeps of a relaxation sweep."""
-    return {
-        "step": sweep.step,
-        "residual": sweep.residual,
-        "load_error": sweep.load_error,
-        "central_film_nm": sweep.central * nm,
-        "minimum_film_nm": sweep.minimum * nm,
-        "contact_nodes": sweep.contact_nodes,
-        "cavitated_nodes": sweep.cavitated_nodes,
-        "e_p": sweep.e_p,
-        "e_p_lubr": sweep.e_p_fluid,
-        "e_p_solid": sweep.e_p_solid,
-    }
+    errors = {"e_p": sweep.e_p, "e_p_lubr": sweep.e_p_fluid, "e_p_solid": sweep.e_p_solid}
+    return _state_row(sweep, nm) | errors
 
 
 def sweep_line(row):
     """A relaxation sweep on the terminal."""
     apart = f"lubr. {row['e_p_lubr']:8.2e}, solid {row['e_p_solid']:8.2e}"
     return f"{_state(row)}  e^p {row['e_p']:8.2e} ({apart})"
+
+
+def _state_row(cycle, nm):
+    """The state that a Newton cycle or a sweep starts from."""
+    return {
+        "step": cycle.step,
+        "residual": cycle.residual,
+        "load_error": cycle.load_error,
+        "central_film_nm": cycle.central * nm,
+        "minimum_film_nm": cycle.minimum * nm,
+        "contact_nodes": cycle.contact_nodes,
+        "cavitated_nodes": cycle.cavitated_nodes,
+    }
 
 
 def _state(row):

@@ -131,13 +131,7 @@ def summarise(problem, outcome, tolerance, work, wall_s, versions):
         flux_imbalance=flux_imbalance(problem, state),
         contact=_contact_result(grid, state, nm, contact.contact_area),
         overlap=overlap,
-        pressure_inequality=InequalityResult(
-            inequality.checked,
-            len(inequality.violations),
-            inequality.worst,
-            inequality.largest_ratio,
-            [asdict(violation) for violation in inequality.violations],
-        ),
+        pressure_inequality=_inequality_result(inequality),
         cavitated_nodes=problem.counts(state.status)[1],
         resolution=resolution(contact, grid.mesh),
         groups=contact.groups,
@@ -187,6 +181,13 @@ def _contact_result(grid, state, nm, contact_area):
     y_nodes = np.flatnonzero(np.concatenate(grid.comm.allgather(contact[:, i]))) + 1
     across = None if grid.mesh.is_line else _ends(y_nodes)
     return ContactResult(nodes, nodes * cell / contact_area, _ends(x_nodes), across, largest_gap)
+
+
+def _inequality_result(inequality):
+    nodes = [asdict(violation) for violation in inequality.violations]
+    return InequalityResult(
+        inequality.checked, len(nodes), inequality.worst, inequality.largest_ratio, nodes
+    )
 
 
 def _overlap(grid, state, nm):
