@@ -72,17 +72,18 @@ class RigidGapFluid:
             settled = rms <= tolerance and moved + problem.grid.count(filled) == 0
             if settled or len(steps) == max_steps:
                 return [*steps, FluidStep(rms, 0)]
-            self._correct(state, residual, given=lubricated & ~separable)
+            self._correct(state, residual, lubricated & separable, lubricated & ~separable)
             steps.append(FluidStep(rms, self._ksp.getIterationNumber()))
             if problem.scheme.cavitation:
                 torn = (state.P < 0.0) & separable
                 state.P[torn] = 0.0
                 state.status[torn] = CAVITATED
 
-    def _correct(self, state, residual, given):
-        """One Newton step of the pressure, that of `given` nodes held."""
+    def _correct(self, state, residual, solved, given):
+        """One Newton step of the pressure of `solved` nodes; `given` ones are the other fluid."""
         space = self._multigrid.space
         self._multigrid.linearise(state.P, state.H, np.where(given, BOUNDARY, state.status))
         space.write(self._rhs, -residual, 0.0)
         self._ksp.solve(self._rhs, self._correction)
-        state.P += space.read(self._correction)[0]
+        # Elsewhere the correction is zero but for the rounding of an algebraic multigrid.
+        state.P[solved] += space.read(self._correction)[0][solved]
