@@ -26,6 +26,14 @@ STUDIES = {
     "schemes": "films of the point contact by every differential scheme",
 }
 
+DOUBLING = ("wedge", "schemes")
+"""Studies whose orders and limits need grids of half the spacing of the one before."""
+
+LARGEST_LISTS = {"line": 1, "methods": 0}
+"""Grids that --nodes may name, where not any number."""
+
+_TAKES = {0: "has grids of its own", 1: "takes one grid"}
+
 CONVERGED, NOT_CONVERGED, USAGE = 0, 1, 2
 """Exit statuses."""
 
@@ -161,11 +169,27 @@ def _study(options, comm):
 
     check_ranks(comm.size)
     nodes = _nodes(options.nodes)
+    if options.study in DOUBLING:
+        _check_doubling(nodes)
+    if len(nodes) > LARGEST_LISTS.get(options.study, len(nodes)):
+        raise ConfigError(
+            f"--nodes {options.nodes}: study {options.study} {_TAKES[LARGEST_LISTS[options.study]]}"
+        )
     directory = Path(options.out or Path("runs") / f"study-{options.study}")
     on_first_rank(comm, prepare_directory, directory, options.force)
     study = Study(directory, comm, nodes, speak=not options.quiet)
     import_module(f"mgehl.studies.{options.study}").run(study)
-    return CONVERGED
+    if study.failures and options.quiet and comm.rank == 0:
+        print(f"mgehl: {study.failures} cases of the study did not converge", file=sys.stderr)
+    return NOT_CONVERGED if study.failures else CONVERGED
+
+
+def _check_doubling(nodes):
+    for coarse, fine in zip(nodes[:-1], nodes[1:], strict=True):
+        if fine != 2 * coarse - 1:
+            raise ConfigError(
+                f"--nodes {coarse},{fine}: {2 * coarse - 1} must follow {coarse} in this study"
+            )
 
 
 def _nodes(text):

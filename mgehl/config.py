@@ -92,14 +92,27 @@ def load_config(path=None, settings=()):
     Raises ConfigError for anything that cannot be used.
     """
     tables = _read_toml(Path(path) if path else default_config())
-    if any(setting.strip().startswith("moes.") for setting in settings):
-        # Moes numbers set by hand replace the file's load and speed.
-        for section, key in MOES_REPLACES:
-            if isinstance(tables.get(section), dict):
-                tables[section].pop(key, None)
+    _push_out(tables, settings)
     for setting in settings:
         _apply_setting(tables, setting)
     return config_from_tables(tables)
+
+
+def _push_out(tables, settings):
+    """Drop what the file says and a setting makes meaningless: another kind, or Moes numbers."""
+    names = [setting.partition("=")[0].strip() for setting in settings]
+    kinds = [
+        setting.partition("=")[2].strip().strip("'\"") for setting in settings if "contact.kind" in setting
+    ]
+    replaced = [f"{section}.{key}" for section, key in MOES_REPLACES] * any(
+        n.startswith("moes.") for n in names
+    )
+    for name in [*replaced, *FOREIGN.get(kinds[-1] if kinds else "", ())]:
+        section, _, key = name.partition(".")
+        if not key:
+            tables.pop(section, None)
+        elif isinstance(tables.get(section), dict):
+            tables[section].pop(key, None)
 
 
 def check_ranks(ranks):
@@ -168,9 +181,9 @@ def _check_foreign(kind, tables):
         section, _, key = name.partition(".")
         given = tables.get(section, {})
         if key and key in given:
-            raise ConfigError(f"{name} = {given[key]!r}: means nothing to a {kind} contact")
+            raise ConfigError(f'{name} = {given[key]!r}: means nothing where contact.kind = "{kind}"')
         if not key and given:
-            raise ConfigError(f"[{section}]: means nothing to a {kind} contact")
+            raise ConfigError(f'[{section}]: means nothing where contact.kind = "{kind}"')
 
 
 def _read_toml(path):

@@ -26,20 +26,22 @@ class ContactSection:
 
 @dataclass(frozen=True)
 class WedgeSection:
-    exit: float = key_field(20e-3, "where the pad ends: distance from the line of no gap", "m", above=0.0)
-    inlet: float = key_field(
-        50e-3, "where the pad begins: distance from the line of no gap", "m", above=0.0
+    exit: float = key_field(
+        20e-3, "where the pad ends: distance from the line of no gap", "m", low=1e-6, high=10.0
     )
-    width: float = key_field(20e-3, "width of the pad", "m", above=0.0)
-    slope: float = key_field(1e-3, "slope m of the pad", "", above=0.0, high=0.1)
+    inlet: float = key_field(
+        50e-3, "where the pad begins: distance from the line of no gap", "m", low=1e-6, high=10.0
+    )
+    width: float = key_field(20e-3, "width of the pad", "m", low=1e-6, high=10.0)
+    slope: float = key_field(1e-3, "slope m of the pad", "", low=1e-8, high=0.1)
     reversed: bool = key_field(
         False, "turned by 180 degrees: the plate moves with the differencing", kind=bool
     )
     blocked_exit: bool = key_field(False, "no flow at the exit", kind=bool)
     pillar: str = key_field("none", "rigid pillar between pad and plate", choices=PILLARS, kind=str)
-    pillar_x: float = key_field(35e-3, "centre of the pillar along the motion", "m")
-    pillar_y: float = key_field(0.0, "centre of the pillar across the motion", "m")
-    pillar_size: float = key_field(8e-3, "side or diameter of the pillar", "m", above=0.0)
+    pillar_x: float = key_field(35e-3, "centre of the pillar along the motion", "m", low=0.0, high=10.0)
+    pillar_y: float = key_field(0.0, "centre of the pillar across the motion", "m", low=-10.0, high=10.0)
+    pillar_size: float = key_field(8e-3, "side or diameter of the pillar", "m", low=1e-6, high=10.0)
 
 
 @dataclass(frozen=True)
@@ -90,7 +92,9 @@ class DiscretizationSection:
         "closed", "Couette flow at the edge of contact: none, or as if there were no contact",
         choices=INTERFACES, kind=str,
     )  # fmt: skip
-    cavitation: bool = key_field(True, "whether the film tears where its pressure falls to zero", kind=bool)
+    cavitation: bool | None = key_field(
+        None, "whether the film tears where its pressure falls to zero (unset: not in a wedge)", kind=bool
+    )
     film_threshold: float = key_field(0.02e-9, "gap H_th at which a node is in contact", "m", low=0.0)
 
 

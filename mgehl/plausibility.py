@@ -1,6 +1,7 @@
 """What a valid configuration may still get wrong together: found before anything is written."""
 
 from mgehl.config import ConfigError
+from mgehl.solver.from_config import mesh_from
 
 LARGEST_RADIUS_RATIO = 1e3
 """Of the two radii: a longer ellipse is a line contact."""
@@ -12,10 +13,17 @@ LARGEST_EXPONENT = 200.0
 """alpha p_h: the viscosity must stay a number."""
 
 
+LARGEST_ASPECT = 100.0
+"""Of a pad's length and width."""
+
+FEWEST_CELLS = 2
+"""That a pillar must have, and the gap's way from the exit to nothing."""
+
+
 def check_contact(config, contact):
     """Raise ConfigError where a contact is none."""
     if config.contact.kind == "wedge":
-        _check_pillar(config.wedge)
+        _check_wedge(config, contact)
         return
     if config.contact.kind == "point":
         _check_radii(config.contact)
@@ -60,11 +68,33 @@ def _check_size(config, contact):
         )
 
 
-def _check_pillar(wedge):
-    """A pillar stands within the pad."""
-    if wedge.pillar == "none":
-        return
+def _check_wedge(config, bearing):
+    """The pad must be a plate, its gap and its pillar larger than cells of the grid."""
+    wedge, mesh = config.wedge, mesh_from(config, bearing)
+    length = wedge.inlet - wedge.exit
+    if not 1.0 / LARGEST_ASPECT <= wedge.width / length <= LARGEST_ASPECT:
+        raise ConfigError(
+            f"wedge.width = {wedge.width:g}: must be within a factor of {LARGEST_ASPECT:g} of the pad's "
+            f"length of {length:g}"
+        )
+    dx, dy = mesh.dX * bearing.x_scale, mesh.dY * bearing.y_scale
+    if wedge.exit < FEWEST_CELLS * dx:
+        raise ConfigError(
+            f"wedge.exit = {wedge.exit:g}: must be at least {FEWEST_CELLS} cells from the line of no gap, "
+            f"{FEWEST_CELLS * dx:.3g} with {config.grid.nodes} nodes"
+        )
+    if wedge.pillar != "none":
+        _check_pillar(wedge, FEWEST_CELLS * max(dx, dy), config.grid.nodes)
+
+
+def _check_pillar(wedge, smallest, nodes):
+    """A pillar stands within the pad and is larger than a few cells."""
     half = 0.5 * wedge.pillar_size
+    if wedge.pillar_size < smallest:
+        raise ConfigError(
+            f"wedge.pillar_size = {wedge.pillar_size:g}: must be at least {FEWEST_CELLS} cells, "
+            f"{smallest:.3g} with {nodes} nodes"
+        )
     if not (wedge.exit < wedge.pillar_x - half and wedge.pillar_x + half < wedge.inlet):
         raise ConfigError(
             f"wedge.pillar_x = {wedge.pillar_x:g}: the pillar of {wedge.pillar_size:g} m must stand "

@@ -135,7 +135,7 @@ def _write(directory, solution):
         files.write_history(paths.history, solution.rows)
         files.write_fields(paths.fields, mesh, solution.contact, fields)
         if config.contact.kind == "wedge":
-            files.write_center_line(paths.center_line, mesh, fields.P)
+            files.write_center_line(paths.center_line, mesh, fields)
             wedge_picture.draw(paths.picture, solution)
         else:
             picture.draw(paths.picture, solution)

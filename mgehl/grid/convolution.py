@@ -12,7 +12,8 @@ from mpi4py import MPI
 
 from mgehl.discretization.influence import influence_coefficients
 
-_PLAN = ("FFTW_MEASURE",)
+TIMED, FIXED = ("FFTW_MEASURE",), ("FFTW_ESTIMATE",)
+"""Plans: the fastest of several that are tried, twice as fast on a large plane, or always the same."""
 
 
 class Deflection:
@@ -24,17 +25,18 @@ class Deflection:
         mesh, (lines, nx) = grid.mesh, grid.shape
         self._transpose = Transpose(grid.comm, grid.starts, nx)
         columns = self._transpose.columns
+        plan = FIXED if mesh.is_line else TIMED
         self._x_real = pyfftw.zeros_aligned((lines, 2 * (nx - 1)))
         period_y = max(2 * (mesh.ny - 1), 1)
         self._x_modes = pyfftw.zeros_aligned((lines, nx), dtype=complex)
         self._y_modes = pyfftw.zeros_aligned((period_y, columns), dtype=complex)
-        self._x_forward = pyfftw.FFTW(self._x_real, self._x_modes, axes=(1,), flags=_PLAN)
+        self._x_forward = pyfftw.FFTW(self._x_real, self._x_modes, axes=(1,), flags=plan)
         self._x_backward = pyfftw.FFTW(
-            self._x_modes, self._x_real, axes=(1,), direction="FFTW_BACKWARD", flags=_PLAN
+            self._x_modes, self._x_real, axes=(1,), direction="FFTW_BACKWARD", flags=plan
         )
-        self._y_forward = pyfftw.FFTW(self._y_modes, self._y_modes, axes=(0,), flags=_PLAN)
+        self._y_forward = pyfftw.FFTW(self._y_modes, self._y_modes, axes=(0,), flags=plan)
         self._y_backward = pyfftw.FFTW(
-            self._y_modes, self._y_modes, axes=(0,), direction="FFTW_BACKWARD", flags=_PLAN
+            self._y_modes, self._y_modes, axes=(0,), direction="FFTW_BACKWARD", flags=plan
         )
         self._spectrum = self._transform_kernel(deflection_scale)
 

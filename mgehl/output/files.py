@@ -10,6 +10,7 @@ import h5netcdf
 import tomli_w
 
 from mgehl.discretization import status
+from mgehl.output.center_line import center_line
 
 
 class OutputError(Exception):
@@ -91,13 +92,13 @@ def write_history(path, rows):
         writer.writerows(rows)
 
 
-def write_center_line(path, mesh, P):
-    """centerline.csv of a wedge: X in mm and P  [Liu eq. 44] on the line nearest to Y = 0."""
-    _, j = mesh.nearest(0.0, 0.0)
+def write_center_line(path, mesh, fields):
+    """centerline.csv of a wedge: X in mm and P  [Liu eq. 44] along Y = 0, nan in a pillar."""
+    X, P = center_line(mesh, fields)
     with path.open("w", newline="") as file:
         writer = csv.writer(file)
         writer.writerow(["X_mm", "P"])
-        writer.writerows(zip(mesh.X.tolist(), P[j].tolist(), strict=True))
+        writer.writerows(zip(X.tolist(), P.tolist(), strict=True))
 
 
 def write_fields(path, mesh, contact, fields):

@@ -103,6 +103,7 @@ def wedge_block(result):
             f"{result.max_P:.6f} /mm (at most {result.max_pressure_MPa:.4g} MPa)",
             f"  residual {result.residual:.1e}, flux imbalance {result.flux_imbalance:.1e}, "
             f"flow through closed faces {result.closed_face_flow:.1e}",
+            f"  solid nodes: {result.solid_nodes}, cavitated: {result.cavitated_nodes}",
             f"  work: {result.linear_iterations} iterations, {result.wall_s:.1f} s on {result.ranks} ranks",
         ]
     )
@@ -115,8 +116,8 @@ def trust_block(result):
     verdict = "CONVERGED" if result.converged else "NOT CONVERGED"
     lines = [
         f"{verdict}: {result.reason}",
-        f"  central film {result.central_film_nm:.4f} nm, minimum {result.minimum_film_nm:.4f} nm, "
-        f"largest pressure {result.max_pressure_GPa:.4f} GPa",
+        f"  central film {_number(result.central_film_nm)} nm, minimum "
+        f"{_number(result.minimum_film_nm)} nm, largest pressure {_number(result.max_pressure_GPa)} GPa",
         f"  residual {result.residual:.1e}, load error {result.load_error:.1e}, complementarity "
         f"{result.complementarity_error:.1e}, flux imbalance {result.flux_imbalance:.1e}",
         f"  contact: {contact.nodes} nodes, {100 * contact.area_fraction:.2f} % of the Hertz area; "
@@ -145,6 +146,11 @@ _ADVICE = {
     "coarse": "coarse (below 4): expect the film to change with the grid",
     "grid-determined": "grid-determined (below 1): the contact set is the grid's, not the problem's",
 }
+
+
+def _number(value):
+    """Four digits after the point; of a diverged run four in all."""
+    return f"{value + 0.0:.4f}" if abs(value) < 1e7 else f"{value:.3e}"
 
 
 def _span(ends):

@@ -8,6 +8,7 @@ import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
 import numpy as np  # noqa: E402
 
 from mgehl.discretization.status import CONTACT  # noqa: E402
+from mgehl.output.center_line import center_line  # noqa: E402
 from mgehl.output.picture import PRESSURE, STYLE  # noqa: E402
 
 SOLID = "0.45"
@@ -20,10 +21,9 @@ def draw(path, solution):
         figure, axes = plt.subplots(1, 2, figsize=(10.5, 3.9), layout="constrained")
         image = pressure_map(axes[0], mesh, fields)
         figure.colorbar(image, ax=axes[0], label="P = m$^2$p/($\\eta$u), 1/mm")
-        _, j = mesh.nearest(0.0, 0.0)
-        axes[1].plot(mesh.X, center_line(fields, j), color=PRESSURE)
+        axes[1].plot(*center_line(mesh, fields), color=PRESSURE)
         axes[1].axhline(0.0, color="0.8", linewidth=0.8, zorder=0)
-        axes[1].set(xlabel="X, mm", ylabel="P, 1/mm", title="centre line", xlim=mesh.X[[0, -1]])
+        axes[1].set(xlabel="X, mm", ylabel="P, 1/mm", title="centre line", xlim=mesh.edges)
         figure.suptitle(_title(solution))
         figure.savefig(path)
         plt.close(figure)
@@ -42,14 +42,10 @@ def pressure_map(axes, mesh, fields, limits=None):
     return image
 
 
-def center_line(fields, j):
-    """P along line j with gaps where there is solid."""
-    return np.where(fields.status[j] == CONTACT, np.nan, fields.P[j])
-
-
 def _title(solution):
     bearing, mesh = solution.contact, solution.mesh
     what = "no pillar" if bearing.pillar == "none" else f"{bearing.pillar} pillar"
     exit = "blocked" if bearing.blocked_exit else "open"
     verdict = "converged" if solution.result.converged else "NOT converged"
-    return f"wedge with {what}, exit {exit}, {mesh.nx} x {mesh.ny} nodes: {verdict}"
+    torn = ", film cavitates" if solution.result.cavitated_nodes else ""
+    return f"wedge with {what}, exit {exit}{torn}, {mesh.nx} x {mesh.ny} nodes: {verdict}"

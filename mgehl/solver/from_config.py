@@ -78,12 +78,15 @@ def scheme_from(config, contact):
     """How the Reynolds equation is differenced."""
     section = config.discretization
     unified = section.contact_model == "unified"
+    cavitation = section.cavitation
+    if cavitation is None:
+        cavitation = config.contact.kind != "wedge"
     return Scheme(
         couette=section.couette,
         couette_at_interface=section.couette_at_interface,
         motion=contact.motion,
         gap_floor=section.unified_gap / contact.film_scale if unified else None,
-        cavitation=section.cavitation,
+        cavitation=cavitation,
     )
 
 

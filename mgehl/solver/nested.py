@@ -9,8 +9,8 @@ from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
 from mgehl.model.hertz import hertz_pressure
 from mgehl.multigrid.cycle import CycleSettings, MultigridSolver
-from mgehl.solver.newton import DIVERGED, Newton, NewtonSettings
-from mgehl.solver.problem import ContactProblem
+from mgehl.solver.newton import Newton, NewtonSettings
+from mgehl.solver.problem import DIVERGED, ContactProblem
 from mgehl.solver.relaxation import RelaxationSettings, relax
 from mgehl.solver.rigid_gap import RigidGapFluid
 

@@ -11,17 +11,13 @@ from petsc4py import PETSc
 from mgehl.discretization.status import BOUNDARY, LUBRICATED
 from mgehl.solver.cavitation import relax_cavitation_set
 from mgehl.solver.partition import Changes, Partition
-from mgehl.solver.problem import State
+from mgehl.solver.problem import DIVERGED, State
 
 FLUID_SHARE = 0.3
 """Part of the tolerance that the fluid solved apart may use up: 0.3^2 of the mean square."""
 
 SETTLED_RESIDUAL = 1e-4
 """Residual below which Eq. 2 may decide on the contact set."""
-
-
-DIVERGED = 1e10
-"""Residual from which there is no way back; that of a first guess is below 1e4."""
 
 
 class OptionError(Exception):

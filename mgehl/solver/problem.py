@@ -8,6 +8,9 @@ from mgehl.discretization.influence import influence_coefficients
 from mgehl.discretization.residual import net_inflow, residual
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT
 
+DIVERGED = 1e10
+"""Residual from which there is no way back; that of a first guess is below 1e4."""
+
 
 @dataclass
 class State:

@@ -22,7 +22,8 @@ from mgehl.discretization.status import (
     close_gaps,
     open_x_faces,
 )
-from mgehl.solver.newton import DIVERGED, Outcome
+from mgehl.solver.newton import Outcome
+from mgehl.solver.problem import DIVERGED
 
 
 @dataclass(frozen=True)
@@ -87,7 +88,7 @@ def relax(problem, state, settings, monitor):
                 outcome.reason = f"diverged: residual {cycle.residual:.1e} after {step} sweeps"
                 return outcome
             if max(cycle.residual, abs(cycle.load_error)) <= settings.tolerance:
-                outcome.converged, outcome.reason = True, "residual, load and sets settled"
+                outcome.converged, outcome.reason = True, "residual and load settled"
                 return outcome
         if not last:
             relaxation.move(state, change, step)

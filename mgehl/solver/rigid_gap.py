@@ -8,6 +8,7 @@ from petsc4py import PETSc
 from mgehl.discretization.fluid import fluid_state
 from mgehl.discretization.status import BOUNDARY, CAVITATED, LUBRICATED
 from mgehl.solver.cavitation import relax_cavitation_set, weakly_coupled
+from mgehl.solver.problem import DIVERGED
 
 SEPARABLE = 1e-5
 """A node is solved apart from the gap where its mobility/dX exceeds this multiple of its own
@@ -70,7 +71,7 @@ class RigidGapFluid:
             residual = np.where(separable & lubricated, inflow, 0.0)
             rms = problem.rms(residual)
             settled = rms <= tolerance and moved + problem.grid.count(filled) == 0
-            if settled or len(steps) == max_steps:
+            if settled or len(steps) == max_steps or not rms < DIVERGED:
                 return [*steps, FluidStep(rms, 0)]
             self._correct(state, residual, lubricated & separable, lubricated & ~separable)
             steps.append(FluidStep(rms, self._ksp.getIterationNumber()))

@@ -24,7 +24,7 @@ def load_at(pressure):
 
 def run(study):
     """Solve all; write the table `films` and the picture `films`."""
-    (nodes,) = study.nodes[-1:] or NODES
+    (nodes,) = study.nodes or NODES
     study.cases = len(SPEEDS) * len(PRESSURES)
     rows = []
     for pressure in PRESSURES:
@@ -51,10 +51,11 @@ def _row(pressure, speed, result):
         "converged": "yes" if result.converged else "no",
         "inlet cells": f"{result.resolution.inlet_cells:.1f}",
     }
+    row["contact nodes"] = str(result.contact.nodes) if result.converged else ""
     for film in ("central", "minimum"):
         found = getattr(result, f"{film}_film_nm")
         formula = result.formulas[f"dowson_higginson_{film}_nm"]
-        row[f"{film} nm"] = f"{found:.3f}"
+        row[f"{film} nm"] = f"{found:.3f}" if result.converged else ""
         row[f"{film} formula nm"] = f"{formula:.3f}"
-        row[f"{film} deviation %"] = f"{100 * (found / formula - 1):+.1f}"
+        row[f"{film} deviation %"] = f"{100 * (found / formula - 1):+.1f}" if result.converged else ""
     return row

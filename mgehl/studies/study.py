@@ -24,6 +24,8 @@ class Study:
     speak: bool = True
     cases: int = 0
     """How many there will be; set it before the first to be told the time left."""
+    failures: int = field(default=0, init=False)
+    """Cases that had to converge and did not."""
     _done: int = field(default=0, init=False)
     _started: float = field(default_factory=time.perf_counter, init=False)
 
@@ -32,18 +34,18 @@ class Study:
         """True on the rank that writes; fields of solutions are whole there."""
         return self.comm.rank == 0
 
-    def solve(self, title, tables, is_answer=True):
+    def solve(self, title, tables, must_converge=True):
         """Solve the configuration of nested `tables`; return the `Solution`.
 
-        One that is not meant to be an answer may end unconverged without a word.
+        Where not to converge is an answer, too, it does not make the study a failure.
         """
         solution = solve(config_from_tables(tables), self.comm)
         self._done += 1
+        self.failures += must_converge and not solution.result.converged
         if self.first and self.speak:
             spent = time.perf_counter() - self._started
             left = spent / self._done * max(self.cases - self._done, 0)
-            fine = solution.result.converged or not is_answer
-            verdict = "" if fine else f"  NOT CONVERGED: {solution.result.reason}"
+            verdict = "" if solution.result.converged else f"  NOT CONVERGED: {solution.result.reason}"
             print(f"{self._done:3d}/{self.cases}  {left:5.0f} s left  {title}{verdict}", flush=True)
         return solution
 

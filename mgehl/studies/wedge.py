@@ -4,8 +4,8 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from mgehl.discretization.couette import SCHEMES
-from mgehl.discretization.status import LUBRICATED
 from mgehl.model.wedge_series import WedgeSeries
+from mgehl.output.center_line import center_line
 from mgehl.studies.study import merged, observed_order
 
 BASE = {
@@ -118,20 +118,9 @@ def _convergence(study, shape, couette, nodes, exact):
 
 def relative_errors(solution, exact):
     """Of P at `PLACES` on the centre line, and of the load."""
-    X, P = film_on_center_line(solution)
+    X, P = center_line(solution.mesh, solution.fields)
+    if solution.contact.turned:
+        X, P = -X[::-1], P[::-1]
     at_places = CubicSpline(X, P)(PLACES)
     found = (*at_places, solution.result.load)
     return [value / reference - 1.0 for value, reference in zip(found, exact, strict=True)]
-
-
-def film_on_center_line(solution):
-    """X (counted from where the gap would close) and P of the fluid on Y = 0, edges included."""
-    mesh, fields = solution.mesh, solution.fields
-    _, j = mesh.nearest(0.0, 0.0)
-    X, P = mesh.X.copy(), fields.P[j]
-    fluid = fields.status[j] == LUBRICATED
-    # The boundary's pressure acts at the edge of the pad, not at the node outside.
-    X[[0, -1]] = mesh.edges
-    fluid[[0, -1]] = [fields.status[j, i] == 0 for i in (0, -1)]
-    X, P = X[fluid], P[fluid]
-    return (X, P) if not solution.contact.turned else (-X[::-1], P[::-1])

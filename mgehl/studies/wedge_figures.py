@@ -9,6 +9,7 @@ import numpy as np  # noqa: E402
 
 from mgehl.model.wedge_series import WedgeSeries  # noqa: E402
 from mgehl.output import wedge_picture  # noqa: E402
+from mgehl.output.center_line import center_line  # noqa: E402
 from mgehl.output.picture import STYLE  # noqa: E402
 
 COLOURS = {
@@ -28,7 +29,7 @@ def pressure_map(path, solution):
     with plt.rc_context(STYLE):
         figure, axes = plt.subplots(figsize=(6.2, 3.9), layout="constrained")
         image = wedge_picture.pressure_map(axes, solution.mesh, solution.fields, LIMITS)
-        figure.colorbar(image, ax=axes, label="P, 1/mm", extend="both")
+        figure.colorbar(image, ax=axes, label="P = m$^2$p/($\\eta$u), 1/mm", extend="both")
         axes.set_title(f"{solution.contact.pillar} pillar (grey); the film moves towards small X")
         figure.savefig(path)
         plt.close(figure)
@@ -40,7 +41,12 @@ def center_lines(path, solutions):
         figure, axes = plt.subplots(figsize=(6.8, 4.4), layout="constrained")
         for shape, colour in COLOURS.items():
             style = "--" if shape == "no blockage" else "-"
-            axes.plot(*_line(solutions[shape]), style, color=colour, label=shape)
+            axes.plot(
+                *center_line(solutions[shape].mesh, solutions[shape].fields),
+                style,
+                color=colour,
+                label=shape,
+            )
         X = np.linspace(20.0, 48.0, 15)
         series = WedgeSeries(20.0, 50.0, 20.0, True)
         label = "blocked exit, series"
@@ -57,19 +63,14 @@ def untreated(path, solutions):
         titles = ("(a) film moves against the differencing", "(b) turned: with the differencing")
         for axes, turned, title in zip(panels, ("", ", turned"), titles, strict=True):
             for shape in ("square pillar", "cylindrical pillar"):
-                closed, open_ = f"{shape}{turned}", f"{shape}{turned}, untreated"
-                axes.plot(*_line(solutions[closed]), color=COLOURS[shape], label=shape)
-                axes.plot(*_line(solutions[open_]), "--", color=COLOURS[shape], label=f"{shape}, NTCF")
+                for case, style, label in (("", "-", shape), (", untreated", "--", f"{shape}, NTCF")):
+                    solution = solutions[f"{shape}{turned}{case}"]
+                    line = center_line(solution.mesh, solution.fields)
+                    axes.plot(*line, style, color=COLOURS[shape], label=label)
             _finish(axes, title)
         figure.suptitle("Figure 10: scheme 1B with and without treatment of the Couette flow (NTCF)")
         figure.savefig(path)
         plt.close(figure)
-
-
-def _line(solution):
-    """X and P on the centre line, solid left out."""
-    _, j = solution.mesh.nearest(0.0, 0.0)
-    return solution.mesh.X, wedge_picture.center_line(solution.fields, j)
 
 
 def _finish(axes, title):

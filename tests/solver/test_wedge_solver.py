@@ -10,18 +10,27 @@ from mgehl.config import config_from_tables
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
 from mgehl.grid.grid import single_grid
 from mgehl.model.wedge_series import WedgeSeries
+from mgehl.output.center_line import center_line
 from mgehl.run import solve as solve_config
 from mgehl.solver.from_config import contact_from, mesh_from, scheme_from
 from mgehl.solver.verification import closed_face_flow, complementarity_error, flux_imbalance
 from mgehl.solver.wedge import solve_wedge
 from mgehl.studies.study import merged, observed_order
-from mgehl.studies.wedge import PLACES, case, film_on_center_line, relative_errors
+from mgehl.studies.wedge import PLACES, case, relative_errors
 
 SHAPES = ("blocked exit", "no blockage")
 PILLARS = ("square pillar", "cylindrical pillar")
 
 
 @cache
+def film_on_center_line(solved):
+    """X, counted from where the gap would close, and P of the fluid on Y = 0."""
+    X, P = center_line(solved.mesh, solved.fields)
+    if solved.contact.turned:
+        X, P = -X[::-1], P[::-1]
+    return X[~np.isnan(P)], P[~np.isnan(P)]
+
+
 def solution(shape, nodes=65, couette="1B", interface="closed", turned=False, pillar_y=0.0):
     """A solved case of the study."""
     tables = case(shape, nodes, couette, interface, turned)
