@@ -22,7 +22,6 @@ SHAPES = ("blocked exit", "no blockage")
 PILLARS = ("square pillar", "cylindrical pillar")
 
 
-@cache
 def film_on_center_line(solved):
     """X, counted from where the gap would close, and P of the fluid on Y = 0."""
     X, P = center_line(solved.mesh, solved.fields)
@@ -31,6 +30,7 @@ def film_on_center_line(solved):
     return X[~np.isnan(P)], P[~np.isnan(P)]
 
 
+@cache
 def solution(shape, nodes=65, couette="1B", interface="closed", turned=False, pillar_y=0.0):
     """A solved case of the study."""
     tables = case(shape, nodes, couette, interface, turned)
