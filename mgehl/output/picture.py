@@ -9,12 +9,14 @@ import numpy as np  # noqa: E402
 from matplotlib.colors import BoundaryNorm, ListedColormap  # noqa: E402
 from matplotlib.patches import Patch  # noqa: E402
 
-from mgehl.discretization.status import NAMES  # noqa: E402
+from mgehl.discretization.status import CONTACT, NAMES  # noqa: E402
 from mgehl.model.hertz import hertz_pressure  # noqa: E402
 
 # Colour-blind safe (Okabe and Ito).
 PRESSURE, FILM, HERTZ = "#0072B2", "#D55E00", "0.6"
-STATUS_COLOURS = ("0.85", "#56B4E9", "#F0E442", "#222222")
+STATUS_COLOURS = ("0.85", "#56B4E9", "#F0E442", "#222222", "#D55E00")
+OVERLAP = len(NAMES)
+"""Drawn as a status: nodes outside of contact whose gap is negative."""
 SMALLEST_FILM_RANGE = 10.0
 """Upper end of the film axis, in nm, where solid contact leaves no film to scale it by."""
 STYLE = {"font.size": 9, "axes.titlesize": 9, "figure.dpi": 150}
@@ -35,7 +37,8 @@ def draw(path, solution):
         if not mesh.is_line:
             _centre_line(axes[0, 1], "Y = y/b", mesh.Y, fields.P[:, i], fields.H[:, i] * nm, contact)
             axes[0, 1].set_title("X = 0, across the motion")
-            _status_map(axes[0, 2], mesh, fields.status)
+            overlap = (fields.H < 0.0) & (fields.status != CONTACT)
+            _status_map(axes[0, 2], mesh, np.where(overlap, OVERLAP, fields.status))
         figure.suptitle(_title(solution))
         figure.savefig(path)
         plt.close(figure)
@@ -46,6 +49,8 @@ def _title(solution):
     load = f"{contact.load:.4g} N" + ("/m" if mesh.is_line else "")
     nodes = f"{mesh.nx} nodes" if mesh.is_line else f"{mesh.nx} x {mesh.ny} nodes"
     verdict = "converged" if solution.result.converged else "NOT converged"
+    if solution.result.overlap.nodes:
+        verdict += ", THE BODIES OVERLAP"
     return f"{1e3 * contact.speed:.4g} mm/s, {load}, {nodes}: {verdict}"
 
 
@@ -58,7 +63,8 @@ def _centre_line(axes, label, position, P, film, contact):
     inside = np.abs(position) < 0.8
     top = max(3.0 * float(np.max(film[inside])), SMALLEST_FILM_RANGE)
     gap = films.plot(position, film, color=FILM, label="film")
-    films.set(ylabel="film thickness, nm", ylim=(-0.05 * top, top))
+    bottom = min(-0.05 * top, 1.1 * float(np.min(film)))
+    films.set(ylabel="film thickness, nm", ylim=(bottom, top))
     lines = [*pressure, *dry, *gap]
     labels = [line.get_label() for line in lines]
     axes.legend(lines, labels, loc="upper center", bbox_to_anchor=(0.5, -0.18), ncols=3, frameon=False)
@@ -66,8 +72,10 @@ def _centre_line(axes, label, position, P, film, contact):
 
 def _status_map(axes, mesh, status):
     colours = ListedColormap(STATUS_COLOURS)
-    norm = BoundaryNorm(np.arange(len(NAMES) + 1) - 0.5, colours.N)
+    norm = BoundaryNorm(np.arange(colours.N + 1) - 0.5, colours.N)
     axes.pcolormesh(mesh.X, mesh.Y, status, cmap=colours, norm=norm, rasterized=True)
     axes.set(xlabel="X = x/a", ylabel="Y = y/b", title="status of the nodes", aspect="equal")
     handles = [Patch(color=STATUS_COLOURS[k], label=NAMES[k]) for k in (1, 2, 3)]
-    axes.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, -0.18), ncols=3, frameon=False)
+    if (status == OVERLAP).any():
+        handles.append(Patch(color=STATUS_COLOURS[OVERLAP], label="overlap"))
+    axes.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, -0.18), ncols=4, frameon=False)

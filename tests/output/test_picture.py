@@ -11,6 +11,7 @@ from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
 from mgehl.model.hertz import hertz_pressure
 from mgehl.output.picture import STATUS_COLOURS, draw
+from mgehl.output.result import Overlap
 from mgehl.run import Fields, Solution
 
 
@@ -32,7 +33,9 @@ def fields(mesh):
 @pytest.fixture
 def solution(mesh, fields, paper_contact):
     """What the picture needs of a `Solution`."""
-    return Solution(None, paper_contact(), mesh, fields, [], SimpleNamespace(converged=True))
+    return Solution(
+        None, paper_contact(), mesh, fields, [], SimpleNamespace(converged=True, overlap=Overlap(0, 0.0))
+    )
 
 
 @pytest.fixture
