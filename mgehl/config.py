@@ -100,14 +100,13 @@ def load_config(path=None, settings=()):
 
 def _push_out(tables, settings):
     """Drop what the file says and a setting makes meaningless: another kind, or Moes numbers."""
-    names = [setting.partition("=")[0].strip() for setting in settings]
-    kinds = [
-        setting.partition("=")[2].strip().strip("'\"") for setting in settings if "contact.kind" in setting
-    ]
-    replaced = [f"{section}.{key}" for section, key in MOES_REPLACES] * any(
-        n.startswith("moes.") for n in names
-    )
-    for name in [*replaced, *FOREIGN.get(kinds[-1] if kinds else "", ())]:
+    given = {
+        key.strip(): value.strip(" '\"") for key, _, value in (each.partition("=") for each in settings)
+    }
+    names = list(FOREIGN.get(given.get("contact.kind"), ()))
+    if any(key.startswith("moes.") for key in given):
+        names += [f"{section}.{key}" for section, key in MOES_REPLACES]
+    for name in names:
         section, _, key = name.partition(".")
         if not key:
             tables.pop(section, None)

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from mgehl.discretization.status import CONTACT, LUBRICATED
+from mgehl.discretization.status import CAVITATED, CONTACT
 from mgehl.solver.verification import closed_face_flow, flux_imbalance
 
 
@@ -36,9 +36,6 @@ def summarise_wedge(problem, outcome, wall_s, versions):
     residual = problem.rms(problem.residual(state, problem.inflow(state)))
     load = problem.load(state.P)
     largest = grid.max(state.P)
-    solid = grid.count(state.status == CONTACT)
-    fluid = grid.count(state.status == LUBRICATED)
-    boundary = grid.count(problem.boundary & (state.status != CONTACT))
     return WedgeResult(
         converged=outcome.converged,
         reason=outcome.reason,
@@ -50,8 +47,8 @@ def summarise_wedge(problem, outcome, wall_s, versions):
         residual=residual,
         flux_imbalance=flux_imbalance(problem, state),
         closed_face_flow=closed_face_flow(problem, state),
-        solid_nodes=solid,
-        cavitated_nodes=grid.mesh.nodes - solid - fluid - boundary,
+        solid_nodes=grid.count(state.status == CONTACT),
+        cavitated_nodes=grid.count(state.status == CAVITATED),
         linear_iterations=sum(step.linear_iterations for step in outcome.cycles),
         wall_s=wall_s,
         ranks=grid.comm.size,

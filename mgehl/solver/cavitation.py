@@ -68,6 +68,6 @@ def weakly_coupled(problem, eps, status, multiple):
 def _relaxable(problem, eps, status):
     """Nodes that may be relaxed: as weakly coupled as that to waves of any length that matters."""
     movable = weakly_coupled(problem, eps, status, WEAKLY_COUPLED)
-    if problem.grid.mesh.is_line and problem.K00 > 0.0:
+    if problem.grid.mesh.is_line:
         movable &= eps > LONG_WAVES
     return movable
