@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 from mgehl.config_value import key_field
 from mgehl.discretization.couette import SCHEMES
+from mgehl.discretization.fluid import FACE_MEANS
 from mgehl.discretization.scheme import INTERFACES
 from mgehl.model.lubricant import DENSITY_LAWS, VISCOSITY_LAWS
 from mgehl.model.wedge import PILLARS
@@ -83,6 +84,10 @@ class DiscretizationSection:
     couette: str = key_field(
         "1B", "differential scheme of the Couette flow", choices=tuple(SCHEMES), kind=str
     )
+    face_mobility: str = key_field(
+        "arithmetic", "mean of two nodes' mobilities at the face between them",
+        choices=tuple(FACE_MEANS), kind=str,
+    )  # fmt: skip
     contact_model: str = key_field(
         "lcic", "interface conditions, or the unified equations that have none",
         choices=("lcic", "unified"), kind=str,
@@ -125,6 +130,10 @@ class SolverSection:
     inlet_cells: float = key_field(
         2.0, "cells the inlet gets on coarse grids by raising the speed", low=0.0
     )
+    squeeze: float = key_field(
+        0.0, "rate of implicit time steps that damp Newton's, per residual and cell (continuation: 3)",
+        low=0.0, high=1e6,
+    )  # fmt: skip
     release_budget: int = key_field(
         2, "times a contact node may be released on Eq. 2 after convergence", low=0, high=100, kind=int
     )

@@ -7,7 +7,7 @@ which is the whole of the no-flow half of the interface conditions [Liu eq. 4].
 import numpy as np
 
 from mgehl.discretization.couette import SCHEMES, E, W, add_couette, nodes_of
-from mgehl.discretization.fluid import FACE_MEANS
+from mgehl.discretization.fluid import face_mean
 from mgehl.discretization.status import open_x_faces, open_y_faces
 
 
@@ -68,7 +68,7 @@ def _x_flow(fluid, status, mesh, scheme, terms, near, linearised):
 
 def _add_poiseuille(flow, west, east, spacing, scheme):
     """Add -eps (P_E - P_W)/spacing with eps the face's mean mobility  [Liu eqs. 7, 16, 30]."""
-    eps, by_west, by_east = FACE_MEANS[scheme.face_mobility](west.eps, east.eps)
+    eps, by_west, by_east = face_mean(scheme, west.eps, east.eps)
     gradient = (east.P - west.P) / spacing
     flow.value -= eps * gradient
     if flow.linearised:
@@ -85,7 +85,7 @@ def conductances(eps, status, mesh, scheme):
     `eps` and `status` are ghosted; the results (lines, nx - 1) and (lines + 1, nx). With them the
     Poiseuille flow into a node is a sum over its faces of conductance times pressure difference.
     """
-    mean, inner = FACE_MEANS[scheme.face_mobility], eps[1:-1]
-    along = mean(inner[:, :-1], inner[:, 1:])[0] * open_x_faces(status[1:-1])
-    across = mean(eps[:-1], eps[1:])[0] * open_y_faces(status)
+    inner = eps[1:-1]
+    along = face_mean(scheme, inner[:, :-1], inner[:, 1:])[0] * open_x_faces(status[1:-1])
+    across = face_mean(scheme, eps[:-1], eps[1:])[0] * open_y_faces(status)
     return along / (mesh.pressure_dX * mesh.dX), across * (mesh.k_e / mesh.dY) ** 2

@@ -69,3 +69,17 @@ def _share(part, whole):
 
 
 FACE_MEANS = {"arithmetic": arithmetic_mean, "geometric": geometric_mean, "harmonic": harmonic_mean}
+
+
+def face_mean(scheme, a, b):
+    """A face's mobility by the scheme's mean of its nodes' `a` and `b`, and its two derivatives.
+
+    With a `mobility_share` below 1 the rest is the arithmetic mean.
+    """
+    mean = FACE_MEANS[scheme.face_mobility](a, b)
+    share = scheme.mobility_share
+    if share == 1.0:
+        return mean
+    return tuple(
+        share * own + (1.0 - share) * paper for own, paper in zip(mean, arithmetic_mean(a, b), strict=True)
+    )

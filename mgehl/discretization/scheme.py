@@ -9,6 +9,8 @@ class Scheme:
 
     couette: str = "1B"
     face_mobility: str = "arithmetic"
+    mobility_share: float = 1.0
+    """Part of that mean, the rest arithmetic: the way from the paper's mean to another."""
     couette_at_interface: str = "closed"
     """"closed" as [Liu eq. 4] asks, or "untreated": Poiseuille flow alone stops at contact."""
     motion: int = 1

@@ -49,7 +49,8 @@ class CycleSettings:
     omega: float = 0.8
     couette: str = "same"
     """Couette scheme of the cycle's operators; "same" is the one that is solved."""
-    max_iterations: int = 30
+    max_iterations: int = 100
+    """Of GMRES, which is not restarted: thin films on coarse grids take 40, and 30 at a time never end."""
     options_prefix: str = "mgehl_"
 
 
@@ -91,15 +92,18 @@ class MultigridSolver:
         """Space of the finest grid's vectors."""
         return self.jacobian.space
 
-    def linearise(self, P, H, status):
-        """Linearise on every grid about the finest grid's (lines, nx) state."""
+    def linearise(self, P, H, status, squeeze=0.0):
+        """Linearise on every grid about the finest grid's (lines, nx) state.
+
+        `squeeze` is the rate of an implicit time step; zero for the steady equations.
+        """
         if self.jacobian is not self.jacobians[-1]:
             grid = self.jacobian.grid
-            self.jacobian.linearise(grid.halo(P), grid.halo(H), grid.halo_status(status))
+            self.jacobian.linearise(grid.halo(P), grid.halo(H), grid.halo_status(status), squeeze)
         for level in range(len(self.jacobians) - 1, -1, -1):
             jacobian = self.jacobians[level]
             grid = jacobian.grid
-            jacobian.linearise(grid.halo(P), grid.halo(H), grid.halo_status(status))
+            jacobian.linearise(grid.halo(P), grid.halo(H), grid.halo_status(status), squeeze)
             if level > 0:
                 eps = fluid_state(P, H, self.contact, self._scheme.gap_floor).eps
                 self._smoothers[level - 1].partition(eps, status)
@@ -112,6 +116,7 @@ class MultigridSolver:
         ksp.setType(PETSc.KSP.Type.FGMRES)
         ksp.setOperators(self.jacobian.mat, self.jacobians[-1].mat)
         ksp.setTolerances(rtol=rtol, atol=0.0, max_it=self._settings.max_iterations)
+        ksp.setGMRESRestart(self._settings.max_iterations)
         self._configure_cycle(ksp.getPC())
         ksp.setFromOptions()
 

@@ -67,10 +67,10 @@ class Jacobian:
         self.mat = PETSc.Mat().createPython((size, size), self, comm=grid.comm)
         self.mat.setUp()
 
-    def linearise(self, P, H, status):
-        """Linearise about ghosted P, H and status."""
-        mesh = self.grid.mesh
-        self.linearisation = linearise(P, H, status, mesh, self.contact, self.scheme, self.rigid)
+    def linearise(self, P, H, status, squeeze=0.0):
+        """Linearise about ghosted P, H and status, for a time step 1/`squeeze` long."""
+        how = (self.grid.mesh, self.contact, self.scheme, self.rigid, squeeze)
+        self.linearisation = linearise(P, H, status, *how)
         self.mat.stateIncrease()
 
     def mult(self, _mat, x, y):

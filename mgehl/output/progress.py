@@ -114,6 +114,8 @@ def trust_block(result):
     contact, inequality, resolution = result.contact, result.pressure_inequality, result.resolution
     overlap = result.overlap
     verdict = "CONVERGED" if result.converged else "NOT CONVERGED"
+    if result.settled and not result.converged:
+        verdict = "SETTLED, BUT EQ. 2 IS BROKEN"
     lines = [
         f"{verdict}: {result.reason}",
         f"  central film {_number(result.central_film_nm)} nm, minimum "
@@ -135,6 +137,11 @@ def trust_block(result):
     lines += [
         f"  Eq. 2 violated at node ({each['i']}, {each['j']}) by {each['size']:.2e} p_h"
         for each in inequality.nodes[:20]
+    ]
+    lines += [
+        f"  node ({each['i']}, {each['j']}): as film its gap is {each['film_gap_nm']:.2e} nm, as contact "
+        f"its pressure {each['contact_pressure']:.2e} p_h; beside it {', '.join(each['neighbours'])}"
+        for each in result.contradictions[:20]
     ]
     if inequality.violations > 20:
         lines.append(f"  ... and at {inequality.violations - 20} more nodes, listed in result.json")

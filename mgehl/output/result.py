@@ -74,6 +74,9 @@ class Result:
     """Everything result.json holds."""
 
     converged: bool
+    """`settled`, and the pressure inequality [Liu eq. 2] holds at every interface node."""
+    settled: bool
+    """Sets, residual, load and complementarity hold: a solution of the discrete equations."""
     reason: str
     central_film_nm: float
     minimum_film_nm: float
@@ -85,6 +88,8 @@ class Result:
     contact: ContactResult
     overlap: Overlap
     pressure_inequality: InequalityResult
+    contradictions: list
+    """Nodes that can be neither film nor contact, of an iteration whose sets cycle."""
     cavitated_nodes: int
     resolution: Resolution
     groups: Groups
@@ -111,7 +116,10 @@ def summarise(problem, outcome, tolerance, work, wall_s, versions):
     central, minimum = problem.films(state)
     inequality = check_pressure_inequality(grid, state.P, state.status)
     complementarity = complementarity_error(problem, state)
-    converged, reason = _verdict(outcome, tolerance, residual, load_error, inequality, complementarity)
+    settled, reason = _verdict(outcome, tolerance, residual, load_error, complementarity)
+    converged = settled and not inequality.violations
+    if settled and not converged:
+        reason = _broken_inequality(inequality)
     overlap = _overlap(grid, state, nm)
     if converged and overlap.nodes:
         reason = (
@@ -121,6 +129,7 @@ def summarise(problem, outcome, tolerance, work, wall_s, versions):
     moes = contact.film_scale * contact.moes_scale
     return Result(
         converged=converged,
+        settled=settled,
         reason=reason,
         central_film_nm=central * nm,
         minimum_film_nm=minimum * nm,
@@ -132,6 +141,7 @@ def summarise(problem, outcome, tolerance, work, wall_s, versions):
         contact=_contact_result(grid, state, nm, contact.contact_area),
         overlap=overlap,
         pressure_inequality=_inequality_result(inequality),
+        contradictions=[_contradiction(each, nm) for each in outcome.contradictions],
         cavitated_nodes=problem.counts(state.status)[1],
         resolution=resolution(contact, grid.mesh),
         groups=contact.groups,
@@ -151,8 +161,8 @@ def resolution(contact, mesh):
     return Resolution(cells, verdict)
 
 
-def _verdict(outcome, tolerance, residual, load_error, inequality, complementarity):
-    """Converged only if residual, load, sets, complementarity and Eq. 2 all hold."""
+def _verdict(outcome, tolerance, residual, load_error, complementarity):
+    """Settled only if residual, load, sets and complementarity all hold; and why."""
     if not outcome.converged:
         return False, outcome.reason
     if not residual <= tolerance:
@@ -161,13 +171,25 @@ def _verdict(outcome, tolerance, residual, load_error, inequality, complementari
         return False, f"the load is off by {load_error:.1e}, more than {tolerance:.1e}"
     if not complementarity <= COMPLEMENTARITY_TOLERANCE:
         return False, f"complementarity is broken by {complementarity:.1e}"
-    if inequality.violations:
-        count = len(inequality.violations)
-        return False, (
-            f"contact pressure is below the fluid pressure beside it at {count} of "
-            f"{inequality.checked} interface nodes, by up to {inequality.worst:.1e} p_h"
-        )
     return True, "residual, load, sets, complementarity and the pressure inequality hold"
+
+
+def _broken_inequality(inequality):
+    return (
+        f"contact pressure is below the fluid pressure beside it at {len(inequality.violations)} of "
+        f"{inequality.checked} interface nodes, by up to {inequality.worst:.1e} p_h"
+    )
+
+
+def _contradiction(node, nm):
+    """What result.json says of a node that can be neither."""
+    return {
+        "i": node.i,
+        "j": node.j,
+        "film_gap_nm": nm * node.gap,
+        "contact_pressure": node.pressure,
+        "neighbours": list(node.neighbours),
+    }
 
 
 def _contact_result(grid, state, nm, contact_area):

@@ -83,6 +83,7 @@ def scheme_from(config, contact):
         cavitation = config.contact.kind != "wedge"
     return Scheme(
         couette=section.couette,
+        face_mobility=section.face_mobility,
         couette_at_interface=section.couette_at_interface,
         motion=contact.motion,
         gap_floor=section.unified_gap / contact.film_scale if unified else None,
@@ -108,6 +109,7 @@ def settings_from(config, contact):
             linear_tolerance=solver.linear_tolerance,
             film_threshold=threshold,
             release_budget=solver.release_budget,
+            squeeze=solver.squeeze,
         ),
         cycle=CycleSettings(
             sweeps=solver.sweeps,

@@ -16,8 +16,8 @@ from mgehl.solver.problem import DIVERGED, State
 FLUID_SHARE = 0.3
 """Part of the tolerance that the fluid solved apart may use up: 0.3^2 of the mean square."""
 
-SETTLED_RESIDUAL = 1e-4
-"""Residual below which Eq. 2 may decide on the contact set."""
+RELEASE_STEPS = 8
+"""Steps in which a set must settle again after Eq. 2 released some of it."""
 
 
 class OptionError(Exception):
@@ -36,6 +36,12 @@ class NewtonSettings:
     film_threshold: float = 0.0
     """H_th in units of H."""
     release_budget: int = 2
+    squeeze: float = 0.0
+    """Rate of the implicit time steps per rms residual and cell; 0 for Newton's own steps.
+
+    The squeeze flow d(rho H)/dt keeps a step from closing a film that the steady equations leave
+    open: from one speed to the next the contact set then grows node by node and not in spots.
+    """
 
 
 @dataclass
@@ -62,6 +68,17 @@ class Outcome:
     converged: bool
     reason: str
     cycles: list = field(default_factory=list)
+    contradictions: list = field(default_factory=list)
+    """Nodes that kept turning between film and contact."""
+
+
+@dataclass(frozen=True)
+class Answer:
+    """A state that settled, kept while Eq. 2 is tried on it."""
+
+    state: State
+    reason: str
+    violations: int
 
 
 class Newton:
@@ -112,7 +129,7 @@ class Newton:
         """The nonlinear iteration (called by PETSc)."""
         _, tolerance, _, max_steps = snes.getTolerances()
         problem, outcome = self._problem, self._outcome
-        state, changes = outcome.state, Changes()
+        state, changes, answer, released, entered = outcome.state, Changes(), None, 0, 0
         self._partition.enter_contact(state, changes)
         linear_iterations, length = 0, 0.0
         while True:
@@ -127,17 +144,28 @@ class Newton:
             snes.setIterationNumber(cycle.step)
             snes.setFunctionNorm(cycle.residual)
             snes.monitor(cycle.step, cycle.residual)
+            entered += changes.entered
             changes = Changes()
-            released = self._release(outcome, changes)
-            if self._finished(outcome, tolerance, max_steps, released):
-                break
-            if released:
+            if self._finished(outcome, tolerance, max_steps):
+                answer, released = self._arbitrate(outcome, answer)
+                if not released:
+                    break
+                entered = 0
+                max_steps = min(max_steps, cycle.step + RELEASE_STEPS)
+                changes.released += released
+                state.H = problem.gap(state.P, state.H0)
                 F, load = self._settle(state, changes)
+            elif released and entered >= released:
+                break  # what Eq. 2 let go has closed again: this grid cannot satisfy it
             linear_iterations = self._correct(snes, state, F, load)
             if snes.getKSP().getConvergedReason() == PETSc.KSP.ConvergedReason.DIVERGED_NANORINF:
                 outcome.reason = f"singular: no linear solution after {cycle.step} steps"
                 break
             length = self._update(state, changes)
+        if answer and not outcome.converged:
+            outcome.state, outcome.converged, outcome.reason = answer.state, True, answer.reason
+            outcome.contradictions = []
+        state = outcome.state
         self._multigrid.space.write(x, state.P, state.H0)
         reasons = PETSc.SNES.ConvergedReason
         snes.setConvergedReason(
@@ -165,7 +193,8 @@ class Newton:
         if self._fluid:
             settled = (status == LUBRICATED) & self._fluid.separable(state)
             status, F = np.where(settled, BOUNDARY, status), np.where(settled, 0.0, F)
-        self._multigrid.linearise(state.P, state.H, status)
+        squeeze = self._settings.squeeze * self._problem.rms(F) / self._problem.grid.mesh.dX
+        self._multigrid.linearise(state.P, state.H, status, squeeze)
         self._write_residual(self._rhs, F, load, sign=-1.0)
         ksp = snes.getKSP()
         ksp.solve(self._rhs, self._correction)
@@ -184,33 +213,44 @@ class Newton:
         self._partition.enter_contact(state, changes)
         return length
 
-    def _finished(self, outcome, tolerance, max_steps, released):
+    def _finished(self, outcome, tolerance, max_steps):
         """Decide on the last cycle; sets `converged` and `reason`."""
         cycle = outcome.cycles[-1]
         small = cycle.residual <= tolerance and abs(cycle.load_error) <= tolerance
-        if small and cycle.changes.total == 0 and not released:
-            outcome.converged, outcome.reason = True, "residual, load and sets settled"
-            return True
-        if not cycle.residual < DIVERGED:
+        outcome.converged = small and cycle.changes.total == 0
+        if outcome.converged:
+            outcome.reason = "residual, load and sets settled"
+        elif not cycle.residual < DIVERGED:
             outcome.reason = f"diverged: residual {cycle.residual:.1e} after {cycle.step} steps"
-            return True
-        if cycle.step >= max_steps:
-            settled = "sets still change" if small else f"residual {cycle.residual:.1e} after"
-            outcome.reason = f"{settled} {max_steps} steps"
-            return True
-        return False
+        elif self._partition.restless:
+            outcome.contradictions = self._partition.contradictions(outcome.state.status)
+            outcome.reason = (
+                f"{len(outcome.contradictions)} nodes can be neither film, whose gap closes, nor "
+                f"contact, which is torn open: the sets cycle after {cycle.step} steps"
+            )
+        elif cycle.step >= max_steps:
+            settled = "sets still change after" if small else f"residual {cycle.residual:.1e} after"
+            outcome.reason = f"{settled} {cycle.step} steps"
+        else:
+            return False
+        return True
 
-    def _release(self, outcome, changes):
-        """Release what violates Eq. 2, once the contact set has settled; True if any was.
+    def _arbitrate(self, outcome, answer):
+        """Release from a settled state what breaks Eq. 2; return the answer to keep and how many.
 
-        Contact pressures are known to a few digits long before convergence: no need to wait.
+        Contact pressures jump where a node opens: the state found then may break Eq. 2 at more
+        nodes, or not settle at all. The one that settled with the fewest is the answer.
         """
-        cycle = outcome.cycles[-1]
-        settled = cycle.changes.entered + cycle.changes.released == 0
-        steps_left = cycle.step < self._snes.getTolerances()[3]
-        if steps_left and settled and cycle.residual <= max(SETTLED_RESIDUAL, self._settings.tolerance):
-            changes.released += self._partition.release_violations(outcome.state)
-        return changes.released > 0
+        if not outcome.converged:
+            return answer, 0
+        violations = self._problem.grid.count(self._partition.violations(outcome.state)[0])
+        if answer and violations >= answer.violations:
+            outcome.converged = False
+            return answer, 0
+        kept = Answer(outcome.state.copy(), outcome.reason, violations)
+        released = self._partition.release_violations(outcome.state)
+        outcome.converged = released == 0
+        return kept, released
 
     def _cycle(self, step, state, F, load, changes, linear_iterations, length):
         problem = self._problem

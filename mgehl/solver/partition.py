@@ -9,7 +9,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED, close_gaps, largest_fluid_neighbour
+from mgehl.discretization.status import (
+    CAVITATED,
+    CONTACT,
+    LUBRICATED,
+    NAMES,
+    close_gaps,
+    largest_fluid_neighbour,
+)
+
+RESTLESS = 12
+"""Turns between film and contact after which a node is not expected to settle."""
 
 
 @dataclass
@@ -26,15 +36,33 @@ class Changes:
         return self.cavitated + self.filled + self.entered + self.released
 
 
+@dataclass(frozen=True)
+class Contradiction:
+    """A node that can be neither: a film there closes, a contact there is torn open.
+
+    Nodes count from 1. `gap` is the last H at which it was taken for contact, `pressure` the last
+    P at which it was let go, `neighbours` the statuses west, east, before and after.
+    """
+
+    i: int
+    j: int
+    gap: float
+    pressure: float
+    neighbours: tuple
+
+
 class Partition:
     """Moves nodes of a state between the sets; owns the budget of releases on Eq. 2."""
 
     def __init__(self, problem, film_threshold, release_budget):
         self._problem, self._grid = problem, problem.grid
         self._film_threshold = film_threshold
-        self._budget = np.full(problem.grid.shape, release_budget, dtype=np.int8)
-        self._just_released = np.zeros(problem.grid.shape, dtype=bool)
-        self._was_released = np.zeros(problem.grid.shape, dtype=bool)
+        shape = problem.grid.shape
+        self._budget = np.full(shape, release_budget, dtype=np.int8)
+        self._just_released = np.zeros(shape, dtype=bool)
+        self._was_released = np.zeros(shape, dtype=bool)
+        self._turns = np.zeros(shape, dtype=np.int8)
+        self._closing_gap, self._torn_pressure = np.zeros(shape), np.zeros(shape)
 
     def cut_tension(self, P, status, changes):
         """Set negative pressures to zero in place: fluid cavitates, contact is released."""
@@ -42,6 +70,8 @@ class Partition:
         torn, tensile = negative & (status == LUBRICATED), negative & (status == CONTACT)
         if not self._problem.scheme.cavitation:
             torn[:] = False
+        self._torn_pressure[tensile] = P[tensile]
+        self._turns += tensile
         P[torn | tensile] = 0.0
         # A released node has no gap yet: held at P = 0 for one step, it opens one.
         status[torn | tensile] = CAVITATED
@@ -59,6 +89,8 @@ class Partition:
         fluid = (state.status == LUBRICATED) | (state.status == CAVITATED)
         threshold = np.where(self._was_released, 0.0, self._film_threshold)
         closed = fluid & (state.H <= threshold) & ~self._just_released
+        self._closing_gap[closed] = state.H[closed]
+        self._turns += closed
         state.status[closed] = CONTACT
         changes.entered += self._grid.count(closed)
         changes.entered += int(self._grid.sum(close_gaps(state.status)))
@@ -72,17 +104,40 @@ class Partition:
         state.status[filled] = LUBRICATED
         changes.filled += self._grid.count(filled)
 
+    @property
+    def restless(self):
+        """True when a node has turned between film and contact so often that it will not settle."""
+        return self._grid.max(self._turns, initial=0) >= RESTLESS
+
+    def contradictions(self, status):
+        """The restless nodes that were torn open as often as closed, all ranks' in order."""
+        around = self._grid.halo_status(status)
+        torn = self._torn_pressure < 0.0
+        local = []
+        for j, i in np.argwhere((self._turns >= RESTLESS - 3) & torn):
+            beside = (around[j + 1, i - 1], around[j + 1, i + 1], around[j, i], around[j + 2, i])
+            gap, pressure = float(self._closing_gap[j, i]), float(self._torn_pressure[j, i])
+            names = tuple(NAMES[each] for each in beside)
+            local.append(Contradiction(int(i) + 1, int(j) + self._grid.first + 1, gap, pressure, names))
+        return [each for part in self._grid.comm.allgather(local) for each in part]
+
+    def violations(self, state):
+        """Contact nodes whose pressure is below the fluid's beside them [Liu eq. 2], and that pressure."""
+        ghosted = self._grid.halo(state.P), self._grid.halo_status(state.status)
+        beside = largest_fluid_neighbour(*ghosted)
+        return (state.status == CONTACT) & (state.P < beside), beside
+
     def release_violations(self, state):
         """Release contact nodes that violate Eq. 2 and have budget left; return how many.
 
         The fluid beside such a node would pry it open: it becomes film under that fluid's pressure.
         """
-        ghosted = self._grid.halo(state.P), self._grid.halo_status(state.status)
-        beside = largest_fluid_neighbour(*ghosted)
-        released = (state.status == CONTACT) & (state.P < beside) & (self._budget > 0)
+        released, beside = self.violations(state)
+        released &= self._budget > 0
         self._budget[released] -= 1
         state.status[released] = LUBRICATED
         state.P[released] = beside[released]
         self._just_released = released
         self._was_released |= released
+        self._turns[:] = 0
         return self._grid.count(released)

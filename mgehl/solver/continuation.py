@@ -1,0 +1,102 @@
+"""Continuation: a solution followed in speed, or from one mean of the mobility to another."""
+
+from dataclasses import replace
+from functools import partial
+
+from mgehl.multigrid.cycle import MultigridSolver
+from mgehl.solver.nested import LevelSolve, nested_iteration
+from mgehl.solver.newton import Newton
+from mgehl.solver.problem import ContactProblem
+
+SQUEEZE = 3.0
+"""Least `NewtonSettings.squeeze` of a continuation: without it a step in speed closes films in spots."""
+
+SMALLEST_STEP = 1.0 / 16.0
+"""Part of the way below which a step that failed is not halved again."""
+
+SPEED_RATIO = 2.0
+"""Ratio of speeds that one step may try where nothing says less."""
+
+
+class Continuation:
+    """One contact on the finest grid of a hierarchy at any speed, each solution from another.
+
+    `monitor` is called as by `nested_iteration`. All solves are of the coupled film and contact.
+    """
+
+    def __init__(self, hierarchy, contact, settings, monitor=lambda level, cycle: None):
+        self._hierarchy, self._contact, self._monitor = hierarchy, contact, monitor
+        squeeze = max(settings.newton.squeeze, SQUEEZE)
+        self._settings = replace(settings, newton=replace(settings.newton, squeeze=squeeze))
+
+    def begin(self, speed, start):
+        """Solve at `speed` from nothing: a "film" or a "contact" start."""
+        nested = replace(self._settings.nested, start=start)
+        contact = self._contact.at_speed(speed)
+        settings = replace(self._settings, nested=nested)
+        if start == "contact" or settings.scheme.face_mobility == "arithmetic":
+            return nested_iteration(self._hierarchy, contact, settings, self._monitor)
+        return self._begin_with_mean(contact, settings)
+
+    def at(self, speed, state, share=1.0):
+        """Solve at `speed` from `state`; return the problem and the `Outcome`."""
+        hierarchy, settings = self._hierarchy, self._settings
+        scheme = replace(settings.scheme, mobility_share=share)
+        level, contact = len(hierarchy.grids) - 1, self._contact.at_speed(speed)
+        grid = hierarchy.grids[level]
+        problem = ContactProblem(grid, hierarchy.deflections[level], contact, scheme)
+        state = problem.state(state.P, state.H0, state.status)
+        multigrid = MultigridSolver(hierarchy, level, contact, scheme, settings.cycle)
+        tell = partial(self._monitor, LevelSolve(grid.mesh.nx, speed, True))
+        prefix = settings.cycle.options_prefix
+        newton = Newton(problem, multigrid, settings.newton, None, prefix, tell)
+        try:
+            return problem, newton.run(state)
+        finally:
+            newton.free()
+
+    def follow(self, state, first_speed, last_speed):
+        """Carry the `state` at one speed to another, in steps of equal ratio."""
+
+        def solve(t, state):
+            return self.at(first_speed ** (1.0 - t) * last_speed**t, state)
+
+        return carry(solve, state)
+
+    def _begin_with_mean(self, contact, settings):
+        """Another mean than the arithmetic: turned to gradually where the inlet is resolved.
+
+        From the formula's film Newton's method does not find its way; from the arithmetic mean's
+        solution it does, and from there to the wanted speed.
+        """
+        dX = self._hierarchy.grids[-1].mesh.dX
+        speed = contact.matched_speed(dX, settings.nested.inlet_cells)
+        arithmetic = replace(settings, scheme=replace(settings.scheme, face_mobility="arithmetic"))
+        problem, outcome = nested_iteration(
+            self._hierarchy, contact.at_speed(speed), arithmetic, self._monitor
+        )
+        if outcome.converged:
+            problem, outcome = carry(lambda t, state: self.at(speed, state, t), outcome.state, step=0.25)
+        while outcome.converged and speed != contact.speed:
+            slower = max(contact.speed, speed / SPEED_RATIO)
+            problem, outcome = self.follow(outcome.state, speed, slower)
+            speed = slower
+        return problem, outcome
+
+
+def carry(solve, state, step=1.0):
+    """Carry `state` from t = 0 to 1 with `solve(t, state)`, which returns a problem and an `Outcome`.
+
+    A step that does not converge is halved and tried again from the last state that did. Returns
+    the last solution: at t = 1, or of the smallest step that failed.
+    """
+    reached = 0.0
+    while True:
+        t = min(1.0, reached + step)
+        problem, outcome = solve(t, state)
+        if outcome.converged:
+            reached, state, step = t, outcome.state, 2.0 * step
+        else:
+            step = 0.5 * (t - reached)
+        if reached == 1.0 or step < SMALLEST_STEP:
+            return problem, outcome
