@@ -17,12 +17,17 @@ from dataclasses import fields
 from pathlib import Path
 
 from mgehl.config import SECTIONS, ConfigError, check_ranks, default_config, load_config
+from mgehl.discretization.fluid import FACE_MEANS
 
 STUDIES = {
     "wedge": "the rigid wedge bearing, Figures 7 to 10, convergence to the exact series",
     "line": "line-contact films against the formulas",
     "inlet": "the line contact from under-resolved to resolved inlets, from both starts",
     "methods": "Newton with multigrid beside the paper's relaxation, interface conditions beside none",
+    "transition": "from full film to full contact and back, Figure 14 and Table 1",
+    "grid": "full contact and full film on ever finer grids, Figures 11 to 13",
+    "onset": "the speeds at which contact appears and full contact is lost, against the grid",
+    "bracket": "films by three means of the mobility, which close on the answer with the grid",
     "schemes": "films of the point contact by every differential scheme",
 }
 
@@ -97,9 +102,16 @@ def _parser():
         epilog="; ".join(f"{name}: {text}" for name, text in STUDIES.items()),
     )
     study.add_argument("study", choices=tuple(STUDIES), metavar="NAME", help=", ".join(STUDIES))
-    study.add_argument("--nodes", metavar="N,N,...", help="grids instead of the study's own")
+    study.add_argument("--nodes", "--grid", metavar="N,N,...", help="grids instead of the study's own")
+    study.add_argument("--direction", choices=("down", "up", "both"), default="both",
+                       help="branches that study transition follows")  # fmt: skip
+    study.add_argument("--mean", choices=tuple(FACE_MEANS), default="arithmetic",
+                       help="mean of the mobility that study transition follows")  # fmt: skip
     study.add_argument("--out", metavar="DIR", help="directory of the results (default: runs/study-NAME)")
-    study.add_argument("--force", action="store_true", help="write into a directory that exists")
+    study.add_argument("--force", action="store_true", help="start anew in a directory that exists")
+    study.add_argument(
+        "--resume", action="store_true", help="go on with the points that are finished there"
+    )
     study.add_argument("--quiet", action="store_true", help="print nothing but errors")
     collect = commands.add_parser("collect", help="make one table of several run directories")
     collect.add_argument("runs", nargs="+", metavar="RUN", help="run directory")
@@ -176,10 +188,12 @@ def _study(options, comm):
             f"--nodes {options.nodes}: study {options.study} {_TAKES[LARGEST_LISTS[options.study]]}"
         )
     directory = Path(options.out or Path("runs") / f"study-{options.study}")
-    on_first_rank(comm, prepare_directory, directory, options.force)
-    study = Study(directory, comm, nodes, speak=not options.quiet)
+    on_first_rank(comm, prepare_directory, directory, options.force, options.resume)
+    study = Study(directory, comm, nodes, not options.quiet, branch=options.direction, mean=options.mean)
+    if not options.resume:
+        on_first_rank(comm, study.cache.clear)
     import_module(f"mgehl.studies.{options.study}").run(study)
-    if study.failures and options.quiet and comm.rank == 0:
+    if options.quiet and study.failures and comm.rank == 0:
         print(f"mgehl: {study.failures} cases of the study did not converge", file=sys.stderr)
     return NOT_CONVERGED if study.failures else CONVERGED
 

@@ -1,7 +1,7 @@
 """One run from a configuration to its directory."""
 
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib.metadata import PackageNotFoundError, version
 
 import numpy as np
@@ -46,6 +46,10 @@ class Solution:
     fields: Fields
     rows: list
     result: object
+
+    def shared(self):
+        """What every rank knows."""
+        return replace(self, fields=None)
 
 
 def run(config, directory, comm, speak=True):

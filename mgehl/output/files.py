@@ -45,14 +45,16 @@ class RunFiles:
         ) = (Path(directory) / name for name in NAMES)  # fmt: skip
 
 
-def prepare_directory(path, force):
+def prepare_directory(path, force, resume=False):
     """Create a run directory, or with `force` clear one of an earlier run's files.
+
+    With `resume` a directory that exists is taken as it is.
 
     Raises OutputError if it exists and `force` is not given, or if it cannot be written.
     """
     path = Path(path)
     try:
-        if path.exists() and not force:
+        if path.exists() and not (force or resume):
             raise OutputError(f"{path} exists: add --force to replace it, or choose another with --out")
         path.mkdir(parents=True, exist_ok=True)
         for name in NAMES:

@@ -19,6 +19,8 @@ class ContactResult:
 
     nodes: int
     area_fraction: float
+    load_fraction: float
+    """Part of the load that the contact carries; the fluid carries the rest."""
     x_nodes: tuple | None
     y_nodes: tuple | None
     largest_gap_nm: float
@@ -138,7 +140,7 @@ def summarise(problem, outcome, tolerance, work, wall_s, versions):
         load_error=load_error,
         complementarity_error=complementarity,
         flux_imbalance=flux_imbalance(problem, state),
-        contact=_contact_result(grid, state, nm, contact.contact_area),
+        contact=_contact_result(problem, state, nm),
         overlap=overlap,
         pressure_inequality=_inequality_result(inequality),
         contradictions=[_contradiction(each, nm) for each in outcome.contradictions],
@@ -192,8 +194,10 @@ def _contradiction(node, nm):
     }
 
 
-def _contact_result(grid, state, nm, contact_area):
+def _contact_result(problem, state, nm):
+    grid, contact_area = problem.grid, problem.contact.contact_area
     contact = state.status == CONTACT
+    carried = problem.load(np.where(contact, state.P, 0.0)) / problem.contact.load_integral
     largest_gap = nm * grid.max(np.abs(state.H[contact]), initial=0.0)
     cell = grid.mesh.dX * grid.mesh.dY
     nodes = grid.count(contact)
@@ -202,7 +206,8 @@ def _contact_result(grid, state, nm, contact_area):
     x_nodes = np.flatnonzero(np.logical_or.reduce(grid.comm.allgather(along_x))) + 1
     y_nodes = np.flatnonzero(np.concatenate(grid.comm.allgather(contact[:, i]))) + 1
     across = None if grid.mesh.is_line else _ends(y_nodes)
-    return ContactResult(nodes, nodes * cell / contact_area, _ends(x_nodes), across, largest_gap)
+    ends = _ends(x_nodes), across
+    return ContactResult(nodes, nodes * cell / contact_area, carried, *ends, largest_gap)
 
 
 def _inequality_result(inequality):

@@ -66,9 +66,7 @@ def nested_iteration(hierarchy, contact, settings, monitor):
         grid = hierarchy.grids[level]
         if level < finest:
             speed = contact.matched_speed(grid.mesh.dX, settings.nested.inlet_cells)
-            limits = replace(
-                settings.newton, tolerance=settings.nested.coarse_tolerance, release_budget=0
-            )
+            limits = replace(settings.newton, tolerance=settings.nested.coarse_tolerance, release_budget=0)
         else:
             speed, limits = contact.speed, settings.newton
         problem = ContactProblem(

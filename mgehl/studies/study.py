@@ -2,6 +2,7 @@
 
 import time
 from dataclasses import dataclass, field
+from functools import cached_property
 from math import log2
 from pathlib import Path
 
@@ -11,6 +12,7 @@ from mgehl.config import config_from_tables
 from mgehl.output.files import OutputError, on_first_rank
 from mgehl.output.table import markdown, write_csv
 from mgehl.run import solve
+from mgehl.studies.cache import PointCache, key_of
 
 
 @dataclass
@@ -26,6 +28,10 @@ class Study:
     """How many there will be; set it before the first to be told the time left."""
     failures: int = field(default=0, init=False)
     """Cases that had to converge and did not."""
+    branch: str = "both"
+    """Which branch a study of both is asked for: "down", "up" or "both"."""
+    mean: str = "arithmetic"
+    """Mean of the mobility, for a study that follows one."""
     _done: int = field(default=0, init=False)
     _started: float = field(default_factory=time.perf_counter, init=False)
 
@@ -39,15 +45,30 @@ class Study:
 
         Where not to converge is an answer, too, it does not make the study a failure.
         """
-        solution = solve(config_from_tables(tables), self.comm)
-        self._done += 1
+        config = config_from_tables(tables)
+        key = key_of(config.as_toml_tables())
+        solution = self.cache.load(key)
+        if solution is None:
+            solution = solve(config, self.comm)
+            self.cache.store(key, solution)
         self.failures += must_converge and not solution.result.converged
+        self.tell(title, solution.result)
+        return solution
+
+    @cached_property
+    def cache(self):
+        """Its finished points."""
+        return PointCache(self.directory, self.comm)
+
+    def tell(self, title, result):
+        """Count a finished case and say how long the others will take."""
+        self._done += 1
         if self.first and self.speak:
             spent = time.perf_counter() - self._started
             left = spent / self._done * max(self.cases - self._done, 0)
-            verdict = "" if solution.result.converged else f"  NOT CONVERGED: {solution.result.reason}"
-            print(f"{self._done:3d}/{self.cases}  {left:5.0f} s left  {title}{verdict}", flush=True)
-        return solution
+            print(
+                f"{self._done:3d}/{self.cases}  {left:5.0f} s left  {title}{_verdict(result)}", flush=True
+            )
 
     def write_table(self, name, rows):
         """Write rows (dictionaries of text) as NAME.csv and NAME.md, and print them (collective)."""
@@ -75,6 +96,15 @@ class Study:
             raise OutputError(f"{path}: cannot be written: {error}") from None
         if self.speak:
             print(f"picture {path}", flush=True)
+
+
+def _verdict(result):
+    """Nothing to say of a case that converged; a solution that breaks Eq. 2 is not one without end."""
+    if result.converged:
+        return ""
+    return (
+        f"  {'EQ. 2 IS BROKEN' if getattr(result, 'settled', False) else 'NOT CONVERGED'}: {result.reason}"
+    )
 
 
 def merged(*tables):

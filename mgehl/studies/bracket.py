@@ -1,0 +1,73 @@
+"""Films by three means of the mobility: they bracket the answer, and close on it with the grid."""
+
+from mgehl.studies.branch import Branches
+from mgehl.studies.transition import case
+
+NODES = (129, 257, 513, 1025)
+MEANS = ("arithmetic", "geometric", "harmonic")
+SPEEDS = (0.1, 0.06, 0.034, 0.02, 0.01, 0.0075, 0.004, 0.0015)
+"""m/s, those of the design notes and the paper's."""
+
+AGREEMENT = 0.05
+AGREEMENT_SPEED = 0.0075
+
+
+def run(study):
+    """Follow each mean down on each grid; write the tables `bracket` and `agreement`, and the picture."""
+    nodes = study.nodes or NODES
+    study.cases = len(nodes) * len(MEANS) * len(SPEEDS)
+    rows = [row for n in nodes for mean in MEANS for row in _rows(study, n, mean)]
+    study.write_table("bracket", rows)
+    study.write_table("agreement", [_agreement(rows, str(n)) for n in nodes])
+    from mgehl.studies import transition_figures as figures
+
+    study.draw("bracket", figures.bracket, nodes, rows)
+
+
+def _rows(study, nodes, mean):
+    with Branches(study, case(nodes, mean)) as branches:
+        return [_row(branches, mean, point) for point in branches.walk("down", SPEEDS)]
+
+
+def _row(branches, mean, point):
+    result, formulas = point.result, point.result.formulas
+    return {
+        "grid": str(branches.mesh.nx),
+        "mean": mean,
+        "speed mm/s": f"{1e3 * point.speed:.4g}",
+        "from": point.origin,
+        "settled": "yes" if result.settled else "no",
+        "central nm": f"{result.central_film_nm + 0.0:.3f}",
+        "minimum nm": f"{result.minimum_film_nm + 0.0:.3f}",
+        "contact/Hertz area": f"{result.contact.area_fraction:.4f}",
+        "Eq. 2 broken": str(result.pressure_inequality.violations),
+        "inlet cells": f"{result.resolution.inlet_cells:.2f}",
+        "residual": f"{result.residual:.1e}",
+        "central formula nm": f"{formulas['hamrock_dowson_central_nm']:.3f}",
+        "minimum formula nm": f"{formulas['hamrock_dowson_minimum_nm']:.3f}",
+        "steps": str(result.work.steps),
+        "convolutions": f"{result.work.convolutions:.0f}",
+    }
+
+
+def _agreement(rows, grid):
+    """How far apart the means' films are at the paper's speed, relative to their middle."""
+    speed = f"{1e3 * AGREEMENT_SPEED:.4g}"
+    own = [
+        row
+        for row in rows
+        if row["grid"] == grid and row["speed mm/s"] == speed and row["settled"] == "yes"
+    ]
+    row = {"grid": grid, "speed mm/s": speed, "means": str(len(own))}
+    for film in ("central", "minimum"):
+        heights = [float(each[f"{film} nm"]) for each in own]
+        spread = (
+            (max(heights) - min(heights)) / (0.5 * (max(heights) + min(heights)))
+            if max(heights, default=0.0) > 0.0
+            else float("nan")
+        )
+        row[f"{film} spread"] = f"{100 * spread:.1f} %"
+    row["agree to 5 %"] = (
+        "yes" if len(own) == len(MEANS) and float(row["central spread"][:-2]) <= 100 * AGREEMENT else "no"
+    )
+    return row

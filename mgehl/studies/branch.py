@@ -1,0 +1,181 @@
+"""A contact followed in speed on one grid, every point on disk before the next begins.
+
+    down  from the fastest speed and a full film
+    up    from the slowest speed and full contact
+
+Where a branch ends (no state near the last one solves the equations at the next speed) the point
+is taken from the other branch, or from the other start, and says so.
+"""
+
+import time
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mgehl.config import COARSEST_NODES, config_from_tables
+from mgehl.grid.hierarchy import Hierarchy
+from mgehl.output.result import Work, summarise
+from mgehl.run import Fields, versions
+from mgehl.solver.continuation import Continuation
+from mgehl.solver.from_config import contact_from, mesh_from, settings_from
+from mgehl.solver.problem import State
+from mgehl.solver.relaxation import RelaxationSettings, relax
+from mgehl.studies.cache import key_of
+
+STARTS = {"down": "film", "up": "contact"}
+OTHER = {"down": "up", "up": "down"}
+
+
+@dataclass
+class Point:
+    """One speed on one branch."""
+
+    speed: float
+    branch: str
+    origin: str
+    """"start", "continued", "other branch" or "other start"; "none" without a solution."""
+    result: object
+    fields: Fields | None
+    """On rank 0."""
+    H0: float
+    sweep: tuple
+    """e^p, e^p lubr. and e^p solid of one sweep of the paper's relaxation from here  [Liu eq. 45]."""
+
+    def shared(self):
+        """What every rank knows."""
+        return replace(self, fields=None)
+
+
+class Branches:
+    """Both branches of one configuration's contact; a context manager, for the grids' sake."""
+
+    def __init__(self, study, tables):
+        config = config_from_tables(tables)
+        self._study, self._tables = study, config.as_toml_tables()
+        self.contact = contact_from(config)
+        self.mesh = mesh_from(config, self.contact)
+        self._settings = settings_from(config, self.contact)
+        self._hierarchy = None
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        if self._hierarchy:
+            self._hierarchy.destroy()
+
+    def walk(self, branch, speeds, beside=()):
+        """The points of a branch; `speeds` fast to slow for "down", slow to fast for "up".
+
+        `beside` holds points of the other branch, to go on from where this one ends.
+        """
+        points = []
+        for count in range(1, len(speeds) + 1):
+            settled = [point for point in points if point.result.settled]
+            last = settled[-1] if settled else None
+            points.append(self.point(branch, speeds[:count], last, beside, jump=True))
+        return points
+
+    def bracket(self, branch, speeds, has_turned, precision):
+        """The speeds between which `has_turned(point)` becomes true along a branch.
+
+        (last without, first with), their ratio within 1 + `precision`; None for one that is not
+        among `speeds`.
+        """
+        way, last, turned = [], None, None
+        for speed in speeds:
+            point = self.point(branch, [*way, speed], last)
+            if has_turned(point):
+                turned = point
+                break
+            last, way = point, [*way, speed]
+        while last and turned and abs(np.log(last.speed / turned.speed)) > np.log1p(precision):
+            middle = float(np.sqrt(last.speed * turned.speed))
+            point = self.point(branch, [*way, middle], last)
+            if has_turned(point):
+                turned = point
+            else:
+                last, way = point, [*way, middle]
+        return last, turned
+
+    def point(self, branch, way, last, beside=(), jump=False):
+        """The point at the last speed of the `way` along a branch, from disk or from point `last`."""
+        key = self._key(branch, way, jump, beside)
+        point = self._study.cache.load(key)
+        if point is None:
+            point = self._find(branch, way[-1], last, beside, jump)
+            self._study.cache.store(key, point)
+        self._study.tell(f"{self.mesh.nx} nodes, {branch}, {1e3 * way[-1]:.4g} mm/s", point.result)
+        return point
+
+    def _key(self, branch, way, *how):
+        """What the answer at the end of the `way` depends on."""
+        tables = {name: table for name, table in self._tables.items() if name != "motion"}
+        jump, beside = how
+        return key_of([tables, branch, [float(speed) for speed in way], jump, len(beside)])
+
+    def _find(self, branch, speed, last, beside, jump):
+        """Solve one point by whatever leads to it."""
+        started, before = time.perf_counter(), self._grids.convolutions
+        tried = []
+        for origin, solve in self._ways(branch, speed, last, beside, jump):
+            tried.append((origin, *solve()))
+            if tried[-1][-1].converged:
+                break
+        origin, problem, outcome = tried[-1]
+        if not outcome.converged:
+            _, problem, outcome = tried[0]
+            origin = "none"
+        # Why the branch could not be followed belongs to the point.
+        outcome.contradictions = tried[0][-1].contradictions
+        work = Work(self._grids.convolutions - before, len(outcome.cycles) - 1)
+        return self._finished(branch, speed, origin, problem, outcome, work, started)
+
+    def _ways(self, branch, speed, last, beside, jump):
+        """(Name, function) of what may lead to a point, the best first."""
+        if not last:
+            yield "start", lambda: self._continuation.begin(speed, STARTS[branch])
+        else:
+            yield "continued", lambda: self._follow(last, speed)
+        near = [point for point in beside if point.result.settled]
+        if near:
+            nearest = min(near, key=lambda point: abs(np.log(point.speed / speed)))
+            yield "other branch", lambda: self._follow(nearest, speed)
+        if jump:
+            yield "other start", lambda: self._continuation.begin(speed, STARTS[OTHER[branch]])
+
+    def _follow(self, point, speed):
+        if point.speed == speed:
+            return self._continuation.at(speed, self._state(point))
+        return self._continuation.follow(self._state(point), point.speed, speed)
+
+    def _finished(self, branch, speed, origin, problem, outcome, work, started):
+        """The `Point` of what was found."""
+        wall = time.perf_counter() - started
+        tolerance = self._settings.newton.tolerance
+        result = summarise(problem, outcome, tolerance, work, wall, versions())
+        state = outcome.state
+        fields = Fields(*(problem.grid.gather(array) for array in (state.P, state.H, state.status)))
+        once = RelaxationSettings(max_sweeps=0, film_threshold=self._settings.newton.film_threshold)
+        sweep = relax(problem, state.copy(), once, lambda cycle: None).cycles[-1]
+        errors = (sweep.e_p, sweep.e_p_fluid, sweep.e_p_solid)
+        found = fields if self._study.first else None
+        return Point(speed, branch, origin, result, found, state.H0, errors)
+
+    def _state(self, point):
+        """The local part of a point's state."""
+        comm, grid = self._study.comm, self._grids.grids[-1]
+        fields = comm.bcast(point.fields)
+        lines = slice(grid.first, grid.last)
+        return State(fields.P[lines], point.H0, fields.H[lines], fields.status[lines])
+
+    @property
+    def _grids(self):
+        if self._hierarchy is None:
+            scale, comm = self.contact.deflection_scale, self._study.comm
+            self._hierarchy = Hierarchy(self.mesh, COARSEST_NODES, scale, comm)
+        return self._hierarchy
+
+    @property
+    def _continuation(self):
+        return Continuation(self._grids, self.contact, self._settings)

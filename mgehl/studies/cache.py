@@ -1,0 +1,60 @@
+"""Finished points of a study on disk: what took long is not computed twice, whatever ends a study."""
+
+import hashlib
+import json
+import os
+import pickle
+from pathlib import Path
+
+import mgehl
+from mgehl.output.files import OutputError, on_first_rank
+
+FOLDER = "points"
+
+
+def key_of(description):
+    """Name of a point: a hash of everything its answer depends on, as plain data."""
+    text = json.dumps([mgehl.__version__, description], sort_keys=True, default=str)
+    return hashlib.sha256(text.encode()).hexdigest()[:24]
+
+
+class PointCache:
+    """Points by key in DIRECTORY/points; written and read on rank 0, known to every rank."""
+
+    def __init__(self, directory, comm):
+        self._folder, self._comm = Path(directory) / FOLDER, comm
+
+    def load(self, key):
+        """The point stored under `key` on rank 0, its `shared()` on the others; None without one."""
+        point = self._read(key) if self._comm.rank == 0 else None
+        shared = self._comm.bcast(point.shared() if point else None)
+        return point or shared
+
+    def store(self, key, point):
+        """Put `point` on disk; a kill in between leaves no half of it (collective)."""
+        on_first_rank(self._comm, self._write, key, point)
+
+    def clear(self):
+        """Forget all points (on the rank that writes)."""
+        for point in self._folder.glob("*"):
+            point.unlink()
+
+    def _read(self, key):
+        """None for a point that is not there, or cannot be read: it is computed anew."""
+        try:
+            with (self._folder / key).open("rb") as file:
+                return pickle.load(file)
+        except (OSError, EOFError, pickle.UnpicklingError, AttributeError, ImportError, IndexError):
+            return None
+
+    def _write(self, key, point):
+        unfinished = self._folder / f"{key}.unfinished"
+        try:
+            self._folder.mkdir(exist_ok=True)
+            with unfinished.open("wb") as file:
+                pickle.dump(point, file, protocol=pickle.HIGHEST_PROTOCOL)
+                file.flush()
+                os.fsync(file.fileno())
+            unfinished.replace(self._folder / key)
+        except OSError as error:
+            raise OutputError(f"{self._folder}: cannot be written: {error}") from None

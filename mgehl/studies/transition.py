@@ -1,0 +1,87 @@
+"""From a full film to full contact and back  [Liu fig. 14, table 1], on one grid.
+
+Both branches are followed at the same speeds: where they differ, both are solutions of the same
+discrete equations.
+"""
+
+import numpy as np
+
+from mgehl.studies.branch import Branches
+from mgehl.studies.study import merged
+
+FASTEST, SLOWEST, COUNT = 7.5e-3, 5e-6, 25
+"""m/s: the range of [Liu sec. 4.3]."""
+
+COARSE = 257
+"""Up to this many nodes the range begins at `FASTEST_ON_COARSE`: at the paper's there is no film."""
+
+FASTEST_ON_COARSE = 0.1
+
+PAPER_RADIUS = 19.05e-3
+"""The radius that the paper's labels U belong to; its other numbers belong to 12.7 mm."""
+
+
+def run(study):
+    """Walk the branches; write the table `transition` and the pictures of Figure 14."""
+    nodes = study.nodes or (COARSE,)
+    directions = ("down", "up") if study.branch == "both" else (study.branch,)
+    study.cases = len(nodes) * len(directions) * COUNT
+    for n in nodes:
+        tables = {"grid": {"nodes": n}, "discretization": {"face_mobility": study.mean}}
+        with Branches(study, tables) as branches:
+            points = []
+            for direction in directions:
+                way = speeds(n) if direction == "down" else speeds(n)[::-1]
+                points += branches.walk(direction, way, tuple(points))
+            name = f"transition-{n}" + ("" if study.mean == "arithmetic" else f"-{study.mean}")
+            study.write_table(name, [row(branches, point) for point in points])
+            from mgehl.studies import transition_figures as figures
+
+            study.draw(f"{name}-films", figures.branches, branches, points)
+            study.draw(f"{name}-figure-14", figures.figure_14, branches, points)
+
+
+def speeds(nodes):
+    """The speeds of a grid, fast to slow."""
+    fastest = FASTEST_ON_COARSE if nodes <= COARSE else FASTEST
+    return [float(f"{speed:.4g}") for speed in np.geomspace(fastest, SLOWEST, COUNT)]
+
+
+def case(nodes, mean="arithmetic"):
+    """The tables of the headline contact on a grid."""
+    return merged({"grid": {"nodes": nodes}}, {"discretization": {"face_mobility": mean}})
+
+
+def row(branches, point):
+    """Text of one point: the columns of the paper's Table 1, and ours."""
+    result, contact = point.result, point.result.contact
+    inequality, cells = result.pressure_inequality, result.resolution
+    U = branches.contact.at_speed(point.speed).groups.U
+    e_p, e_p_fluid, e_p_solid = (f"{error:.1e}" for error in point.sweep)
+    return {
+        "grid": str(branches.mesh.nx),
+        "branch": point.branch,
+        "from": point.origin,
+        "speed mm/s": f"{1e3 * point.speed:.4g}",
+        "U of the paper": f"{U * branches.contact.radius_x / PAPER_RADIUS:.3e}",
+        "U": f"{U:.3e}",
+        "iterations": str(result.work.steps),
+        "e^p": e_p,
+        "e^p lubr.": e_p_fluid,
+        "e^p solid": e_p_solid,
+        "load error": f"{result.load_error:.1e}",
+        "settled": "yes" if result.settled else "no",
+        "residual": f"{result.residual:.1e}",
+        "central nm": f"{result.central_film_nm + 0.0:.4f}",
+        "minimum nm": f"{result.minimum_film_nm + 0.0:.4f}",
+        "contact/Hertz area": f"{contact.area_fraction:.4f}",
+        "load on contact": f"{contact.load_fraction:.4f}",
+        "load on fluid": f"{1.0 - contact.load_fraction:.4f}",
+        "Eq. 2 broken": f"{inequality.violations} of {inequality.checked}",
+        "by at most p_h": f"{inequality.worst:.1e}",
+        "nodes that can be neither": str(len(result.contradictions)),
+        "inlet cells": f"{cells.inlet_cells:.2f}",
+        "grid verdict": cells.verdict,
+        "convolutions": f"{result.work.convolutions:.0f}",
+        "wall s": f"{result.wall_s:.1f}",
+    }

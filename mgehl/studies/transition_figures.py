@@ -1,0 +1,149 @@
+"""Pictures of the transition: Figure 14, both branches, the bracket of the means, the onset."""
+
+import matplotlib
+
+matplotlib.use("Agg")
+
+import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
+import numpy as np  # noqa: E402
+
+from mgehl.discretization.status import CONTACT  # noqa: E402
+from mgehl.output.picture import STYLE  # noqa: E402
+from mgehl.studies.film_figures import COLOURS, MARKS  # noqa: E402
+
+PROFILES = (1.5e-3, 1e-3, 5e-4, 1e-4, 5e-5, 1e-5)
+"""m/s: six speeds between full film and full contact, as many as in Figure 14."""
+
+MAP_SPEED = 1e-4
+"""m/s, of Figure 14c."""
+
+
+def branches(path, followed, points):
+    """Films and contact ratio against speed, both branches, with the formulas."""
+    with plt.rc_context(STYLE):
+        figure, (films, ratio) = plt.subplots(1, 2, figsize=(10.5, 4.6), layout="constrained")
+        for branch, colour, mark in zip(("down", "up"), COLOURS, ("v", "^"), strict=True):
+            own = [point for point in points if point.branch == branch and point.result.settled]
+            mm_s = [1e3 * point.speed for point in own]
+            for name, line in (("central", "-"), ("minimum", ":")):
+                film = [getattr(point.result, f"{name}_film_nm") for point in own]
+                label = f"{name}, {branch}"
+                films.plot(mm_s, np.maximum(film, 0.0), mark + line, color=colour, ms=4, label=label)
+            area = [point.result.contact.area_fraction for point in own]
+            ratio.plot(mm_s, area, mark + "-", color=colour, ms=4, label=branch)
+        all_speeds = sorted({point.speed for point in points})
+        formulas = [followed.contact.at_speed(speed).formulas for speed in all_speeds]
+        for name, grey in zip(vars(formulas[0]), ("0.3", "0.55", "0.75", "0.85"), strict=False):
+            heights = [1e9 * getattr(formula, name) for formula in formulas]
+            label = name.replace("_", " ")
+            films.plot(
+                [1e3 * speed for speed in all_speeds], heights, "--", color=grey, lw=0.9, label=label
+            )
+        films.set(xscale="log", xlabel="speed, mm/s", ylabel="film, nm (0: contact)")
+        films.set_yscale("symlog", linthresh=1.0)
+        ratio.set(xscale="log", xlabel="speed, mm/s", ylabel="contact area over Hertz area")
+        for axes in (films, ratio):
+            axes.legend(frameon=False)
+        figure.suptitle(f"{followed.mesh.nx} nodes: film and contact, from both ends")
+        _save(figure, path)
+
+
+def figure_14(path, followed, points):
+    """(a) film across, (b) pressure before the contact, (c) map of the film; of one branch."""
+    branch = points[0].branch
+    own = [point for point in points if point.branch == branch and point.result.settled]
+    mesh, nm = followed.mesh, 1e9 * followed.contact.film_scale
+    i, j = mesh.nearest(0.0, 0.0)
+    with plt.rc_context(STYLE):
+        figure, (across, inlet, film) = plt.subplots(1, 3, figsize=(14.0, 4.4), layout="constrained")
+        shown = list(dict.fromkeys(_nearest(own, speed).speed for speed in PROFILES))
+        for speed, colour in zip(shown, COLOURS, strict=False):
+            point = _nearest(own, speed)
+            label = f"{1e3 * speed:.3g} mm/s"
+            across.plot(mesh.Y, point.fields.H[:, i] * nm, color=colour, lw=1.0, label=label)
+            inlet.plot(mesh.X, point.fields.P[j], color=colour, lw=1.0, label=label)
+        across.set(xlim=(-1.2, 1.2), ylim=(-0.5, 15.0), xlabel="Y = y/b", ylabel="film, nm")
+        across.set_title("a  film at X = 0")
+        inlet.set(xlim=(-1.3, -0.7), ylim=(-0.02, 0.8), xlabel="X = x/a", ylabel="P = p/p$_h$")
+        inlet.set_title("b  pressure at Y = 0 on the inlet side")
+        inlet.legend(frameon=False)
+        _film_map(figure, film, mesh, _nearest(own, MAP_SPEED), nm)
+        figure.suptitle(f"{mesh.nx} nodes, {branch}")
+        _save(figure, path)
+
+
+def _film_map(figure, axes, mesh, point, nm):
+    H = np.ma.masked_where(point.fields.status == CONTACT, point.fields.H * nm)
+    colours = plt.get_cmap("viridis").with_extremes(bad="black")
+    image = axes.pcolormesh(mesh.X, mesh.Y, H, cmap=colours, vmin=0.0, vmax=20.0, rasterized=True)
+    figure.colorbar(image, ax=axes, label="film, nm (black: contact)", extend="max")
+    axes.set(aspect="equal", xlim=(-1.2, 1.2), ylim=(-1.2, 1.2), xlabel="X = x/a", ylabel="Y = y/b")
+    axes.set_title(f"c  film at {1e3 * point.speed:.3g} mm/s")
+
+
+def bracket(path, nodes, rows):
+    """The films of three means on each grid as a band, with the formulas in it."""
+    with plt.rc_context(STYLE):
+        figure, panels = plt.subplots(
+            2, len(nodes), figsize=(3.4 * len(nodes), 6.6), layout="constrained", squeeze=False, sharex=True
+        )
+        for column, n in enumerate(nodes):
+            for panel, film in zip(panels[:, column], ("central", "minimum"), strict=True):
+                for mean, colour, mark in zip(
+                    ("arithmetic", "geometric", "harmonic"), COLOURS, MARKS, strict=False
+                ):
+                    own = [
+                        row
+                        for row in rows
+                        if row["grid"] == str(n) and row["mean"] == mean and row["settled"] == "yes"
+                    ]
+                    x = [float(row["speed mm/s"]) for row in own]
+                    y = [max(float(row[f"{film} nm"]), 1e-3) for row in own]
+                    panel.plot(x, y, mark + "-", color=colour, ms=4, label=mean)
+                speeds, low, high = _band([row for row in rows if row["grid"] == str(n)], film)
+                panel.fill_between(speeds, low, high, color="0.85", zorder=0)
+                formula = {float(row["speed mm/s"]): float(row[f"{film} formula nm"]) for row in rows}
+                panel.plot(sorted(formula), [formula[each] for each in sorted(formula)], "--", color="0.4",
+                           lw=0.9, label="Hamrock-Dowson")  # fmt: skip
+                panel.set(xscale="log", yscale="log", ylim=(1e-2, 200.0), title=f"{n} nodes, {film} film")
+            panels[1, column].set_xlabel("speed, mm/s")
+        for panel in panels[:, 0]:
+            panel.set_ylabel("film, nm (at the bottom: contact)")
+        panels[0, 0].legend(frameon=False)
+        _save(figure, path)
+
+
+def _band(rows, film):
+    """Speeds and the smallest and largest film of the means there."""
+    found = {}
+    for row in rows:
+        if row["settled"] == "yes":
+            found.setdefault(float(row["speed mm/s"]), []).append(max(float(row[f"{film} nm"]), 1e-3))
+    speeds = sorted(found)
+    return speeds, [min(found[each]) for each in speeds], [max(found[each]) for each in speeds]
+
+
+def onset(path, rows, powers):
+    """The critical speeds against the spacing, with the fitted powers."""
+    with plt.rc_context(STYLE):
+        figure, axes = plt.subplots(figsize=(5.6, 4.2), layout="constrained")
+        for (column, power), colour, mark in zip(powers.items(), COLOURS, MARKS, strict=False):
+            own = [row for row in rows if row[column]]
+            dX = [float(row["dX"]) for row in own]
+            speed = [float(row[column]) for row in own]
+            axes.plot(dX, speed, mark, color=colour, label=f"{column}: power {power:.2f}")
+            if len(own) > 1:
+                axes.plot(dX, speed[-1] * (np.array(dX) / dX[-1]) ** power, "--", color=colour, lw=0.9)
+        axes.set(xscale="log", yscale="log", xlabel="spacing dX", ylabel="speed, mm/s")
+        axes.legend(frameon=False)
+        axes.set_title("The grid decides: critical speeds against the spacing")
+        _save(figure, path)
+
+
+def _nearest(points, speed):
+    return min(points, key=lambda point: abs(np.log(point.speed / speed)))
+
+
+def _save(figure, path):
+    figure.savefig(path)
+    plt.close(figure)
