@@ -14,6 +14,9 @@ SQUEEZE = 3.0
 SMALLEST_STEP = 1.0 / 16.0
 """Part of the way below which a step that failed is not halved again."""
 
+BEYOND = 8.0
+"""Ratio of speeds by which a start far from its branch's end is taken."""
+
 SPEED_RATIO = 2.0
 """Ratio of speeds that one step may try where nothing says less."""
 
@@ -37,6 +40,14 @@ class Continuation:
         if start == "contact" or settings.scheme.face_mobility == "arithmetic":
             return nested_iteration(self._hierarchy, contact, settings, self._monitor)
         return self._begin_with_mean(contact, settings)
+
+    def begin_beyond(self, speed, start):
+        """As `begin`, but at a speed where that start is at home, and from there to `speed`."""
+        first = speed * (BEYOND if start == "film" else 1.0 / BEYOND)
+        problem, outcome = self.begin(first, start)
+        if outcome.converged:
+            problem, outcome = self.follow(outcome.state, first, speed)
+        return problem, outcome
 
     def at(self, speed, state, share=1.0):
         """Solve at `speed` from `state`; return the problem and the `Outcome`."""

@@ -158,7 +158,10 @@ class Newton:
             elif released and entered >= released:
                 break  # what Eq. 2 let go has closed again: this grid cannot satisfy it
             linear_iterations = self._correct(snes, state, F, load)
-            if snes.getKSP().getConvergedReason() == PETSc.KSP.ConvergedReason.DIVERGED_NANORINF:
+            reason = snes.getKSP().getConvergedReason()
+            if answer and reason < 0:
+                break  # what Eq. 2 let go leaves no system that can be solved
+            if reason == PETSc.KSP.ConvergedReason.DIVERGED_NANORINF:
                 outcome.reason = f"singular: no linear solution after {cycle.step} steps"
                 break
             length = self._update(state, changes)

@@ -142,7 +142,7 @@ class Branches:
             nearest = min(near, key=lambda point: abs(np.log(point.speed / speed)))
             yield "other branch", lambda: self._follow(nearest, speed)
         if jump:
-            yield "other start", lambda: self._continuation.begin(speed, STARTS[OTHER[branch]])
+            yield "other start", lambda: self._continuation.begin_beyond(speed, STARTS[OTHER[branch]])
 
     def _follow(self, point, speed):
         if point.speed == speed:

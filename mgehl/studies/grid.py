@@ -1,0 +1,134 @@
+"""Full contact and full film on ever finer grids  [Liu figs. 11-13].
+
+What does not change with the grid is the problem's, what does is the grid's.
+"""
+
+import numpy as np
+
+from mgehl.discretization.status import CONTACT
+from mgehl.model.hertz import hertz_pressure
+from mgehl.studies.study import merged, observed_order, richardson
+
+NODES = (257, 513, 1025)
+CONTACT_SPEED, FILM_SPEED = 5e-6, 7.5e-3
+"""m/s: the paper's full contact and its full film."""
+
+INSIDE = 0.9
+"""Radius in a within which the contact pressure is compared: at the edge it is a square root."""
+
+SOLVER = {"solver": {"squeeze": 3.0}}
+
+
+def run(study):
+    """Solve both cases on every grid; write the tables `contact` and `film` and Figures 11 to 13."""
+    nodes = study.nodes or NODES
+    study.cases = 2 * len(nodes)
+    dry = [_solve(study, n, CONTACT_SPEED, "contact") for n in nodes]
+    wet = [_solve(study, n, FILM_SPEED, "film") for n in nodes]
+    profiles = study.comm.bcast([Profile(each) for each in dry] if study.first else None)
+    study.write_table("contact", _contact_rows(dry, profiles))
+    study.write_table("film", _film_rows(wet))
+    from mgehl.studies import grid_figures as figures
+
+    study.draw("figures-11-12", figures.against_hertz, profiles)
+    study.draw("figure-13", figures.before_interface, profiles)
+
+
+class Profile:
+    """Centre lines of a solution in full contact, along X and along Y."""
+
+    def __init__(self, solution):
+        mesh, fields = solution.mesh, solution.fields
+        i, j = mesh.nearest(0.0, 0.0)
+        self.nodes, self.X, self.Y = mesh.nx, mesh.X, mesh.Y
+        nm = 1e9 * solution.contact.film_scale
+        self.P = fields.P[j], fields.P[:, i]
+        self.film = fields.H[j] * nm, fields.H[:, i] * nm
+        self.status = fields.status[j], fields.status[:, i]
+        difference = fields.P - hertz_pressure(mesh.X[None, :], mesh.Y[:, None])
+        self.difference = difference[j], difference[:, i]
+        inside = mesh.X[None, :] ** 2 + mesh.Y[:, None] ** 2 < INSIDE**2
+        self.largest_inside = float(np.abs(difference[inside]).max())
+        self.largest = float(np.abs(difference).max())
+
+
+def _solve(study, nodes, speed, start):
+    case = {"grid": {"nodes": nodes}, "motion": {"speed": speed}, "solver": {"start": start}}
+    tables = merged(SOLVER, case) if start == "film" else case
+    return study.solve(f"{nodes} nodes, {1e3 * speed:g} mm/s, from {start}", tables, must_converge=False)
+
+
+def _contact_rows(solutions, profiles):
+    rows = []
+    for k, (solution, profile) in enumerate(zip(solutions, profiles, strict=True)):
+        result = solution.result
+        order = (
+            observed_order(profiles[k - 1].largest_inside, profile.largest_inside) if k else float("nan")
+        )
+        beside = _before_contact(profile)
+        rows.append(
+            _common(solution)
+            | {
+                "contact on X": _span(result.contact.x_nodes),
+                "on Y": _span(result.contact.y_nodes),
+                "contact/Hertz area": f"{result.contact.area_fraction:.5f}",
+                "load on contact": f"{result.contact.load_fraction:.6f}",
+                "|P - Hertz| inside 0.9 a": f"{profile.largest_inside:.2e}",
+                "order": f"{order:.2f}" if k else "",
+                "anywhere": f"{profile.largest:.2e}",
+                "P before contact": f"{beside:.2e}",
+                "largest gap nm": f"{result.contact.largest_gap_nm:.1e}",
+            }
+        )
+    return rows
+
+
+def _film_rows(solutions):
+    rows = []
+    for k, solution in enumerate(solutions):
+        result = solution.result
+        found = [each.result for each in solutions[max(0, k - 2) : k + 1]]
+        films = [(each.central_film_nm, each.minimum_film_nm) for each in found]
+        limits = [richardson(film) if k > 1 else (float("nan"),) * 2 for film in zip(*films, strict=True)]
+        rows.append(
+            _common(solution)
+            | {
+                "central nm": f"{result.central_film_nm:.4f}",
+                "minimum nm": f"{result.minimum_film_nm:.4f}",
+                "contact nodes": str(result.contact.nodes),
+                "central: limit, order": _limit(limits[0]),
+                "minimum: limit, order": _limit(limits[1]),
+            }
+        )
+    return rows
+
+
+def _common(solution):
+    """Columns of both tables."""
+    result = solution.result
+    inequality, resolution = result.pressure_inequality, result.resolution
+    return {
+        "grid": str(solution.mesh.nx),
+        "settled": "yes" if result.settled else "no",
+        "Eq. 2 broken": f"{inequality.violations} of {inequality.checked}",
+        "inlet cells": f"{resolution.inlet_cells:.2f}",
+        "verdict": resolution.verdict,
+        "residual": f"{result.residual:.1e}",
+        "convolutions": f"{result.work.convolutions:.1f}",
+        "wall s": f"{result.wall_s:.1f}",
+    }
+
+
+def _before_contact(profile):
+    """Fluid pressure at the last node before the contact on Y = 0."""
+    contact = np.flatnonzero(profile.status[0] == CONTACT)
+    return profile.P[0][contact[0] - 1] if len(contact) else float("nan")
+
+
+def _limit(limit):
+    value, order = limit
+    return "" if np.isnan(value) else f"{value:.3f}, {order:.2f}"
+
+
+def _span(ends):
+    return f"{ends[0]}..{ends[1]}" if ends else "none"
