@@ -11,18 +11,18 @@ from mgehl.discretization.status import CONTACT  # noqa: E402
 from mgehl.output.picture import STYLE  # noqa: E402
 from mgehl.studies.film_figures import COLOURS, MARKS  # noqa: E402
 
-PROFILES = (1.5e-3, 1e-3, 5e-4, 1e-4, 5e-5, 1e-5)
-"""m/s: six speeds between full film and full contact, as many as in Figure 14."""
+PROFILES = 6
+"""Speeds in Figure 14a and b, from the last full film to the first full contact."""
 
-MAP_SPEED = 1e-4
-"""m/s, of Figure 14c."""
+FULL = 0.95
+"""Contact over Hertz area from which it is called full."""
 
 
 def branches(path, followed, points):
     """Films and contact ratio against speed, both branches, with the formulas."""
     with plt.rc_context(STYLE):
         figure, (films, ratio) = plt.subplots(1, 2, figsize=(10.5, 4.6), layout="constrained")
-        for branch, colour, mark in zip(("down", "up"), COLOURS, ("v", "^"), strict=True):
+        for branch, colour, mark in zip(("down", "up"), COLOURS, ("v", "^"), strict=False):
             own = [point for point in points if point.branch == branch and point.result.settled]
             mm_s = [1e3 * point.speed for point in own]
             for name, line in (("central", "-"), ("minimum", ":")):
@@ -41,6 +41,7 @@ def branches(path, followed, points):
             )
         films.set(xscale="log", xlabel="speed, mm/s", ylabel="film, nm (0: contact)")
         films.set_yscale("symlog", linthresh=1.0)
+        films.set_ylim(bottom=-0.1)
         ratio.set(xscale="log", xlabel="speed, mm/s", ylabel="contact area over Hertz area")
         for axes in (films, ratio):
             axes.legend(frameon=False)
@@ -56,10 +57,9 @@ def figure_14(path, followed, points):
     i, j = mesh.nearest(0.0, 0.0)
     with plt.rc_context(STYLE):
         figure, (across, inlet, film) = plt.subplots(1, 3, figsize=(14.0, 4.4), layout="constrained")
-        shown = list(dict.fromkeys(_nearest(own, speed).speed for speed in PROFILES))
-        for speed, colour in zip(shown, COLOURS, strict=False):
-            point = _nearest(own, speed)
-            label = f"{1e3 * speed:.3g} mm/s"
+        shown = _between_film_and_contact(own)
+        for point, colour in zip(shown, COLOURS, strict=False):
+            label = f"{1e3 * point.speed:.3g} mm/s"
             across.plot(mesh.Y, point.fields.H[:, i] * nm, color=colour, lw=1.0, label=label)
             inlet.plot(mesh.X, point.fields.P[j], color=colour, lw=1.0, label=label)
         across.set(xlim=(-1.2, 1.2), ylim=(-0.5, 15.0), xlabel="Y = y/b", ylabel="film, nm")
@@ -67,7 +67,8 @@ def figure_14(path, followed, points):
         inlet.set(xlim=(-1.3, -0.7), ylim=(-0.02, 0.8), xlabel="X = x/a", ylabel="P = p/p$_h$")
         inlet.set_title("b  pressure at Y = 0 on the inlet side")
         inlet.legend(frameon=False)
-        _film_map(figure, film, mesh, _nearest(own, MAP_SPEED), nm)
+        mixed = min(own, key=lambda point: abs(point.result.contact.area_fraction - 0.5))
+        _film_map(figure, film, mesh, mixed, nm)
         figure.suptitle(f"{mesh.nx} nodes, {branch}")
         _save(figure, path)
 
@@ -140,8 +141,15 @@ def onset(path, rows, powers):
         _save(figure, path)
 
 
-def _nearest(points, speed):
-    return min(points, key=lambda point: abs(np.log(point.speed / speed)))
+def _between_film_and_contact(points):
+    """Some of a branch's points, from the last without contact to the first in full contact."""
+    points = sorted(points, key=lambda point: -point.speed)
+    area = [point.result.contact.area_fraction for point in points]
+    first = next((k for k, part in enumerate(area) if part > 0.0), len(points))
+    last = next((k for k, part in enumerate(area) if part > FULL), len(points) - 1)
+    span = points[max(0, first - 1) : last + 1]
+    chosen = np.unique(np.linspace(0, len(span) - 1, PROFILES).round().astype(int))
+    return [span[k] for k in chosen]
 
 
 def _save(figure, path):
