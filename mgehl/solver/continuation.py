@@ -11,7 +11,7 @@ from mgehl.solver.problem import ContactProblem
 SQUEEZE = 3.0
 """Least `NewtonSettings.squeeze` of a continuation: without it a step in speed closes films in spots."""
 
-SMALLEST_STEP = 1.0 / 16.0
+SMALLEST_STEP = 0.25
 """Part of the way below which a step that failed is not halved again."""
 
 BEYOND = 8.0

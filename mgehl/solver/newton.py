@@ -128,6 +128,7 @@ class Newton:
     def solve(self, snes, _b, x):
         """The nonlinear iteration (called by PETSc)."""
         _, tolerance, _, max_steps = snes.getTolerances()
+        limit = max_steps
         problem, outcome = self._problem, self._outcome
         state, changes, answer, released, entered = outcome.state, Changes(), None, 0, 0
         self._partition.enter_contact(state, changes)
@@ -146,12 +147,12 @@ class Newton:
             snes.monitor(cycle.step, cycle.residual)
             entered += changes.entered
             changes = Changes()
-            if self._finished(outcome, tolerance, max_steps):
+            if self._finished(outcome, tolerance, limit):
                 answer, released = self._arbitrate(outcome, answer)
                 if not released:
                     break
                 entered = 0
-                max_steps = min(max_steps, cycle.step + RELEASE_STEPS)
+                limit = min(max_steps, cycle.step + RELEASE_STEPS)
                 changes.released += released
                 state.H = problem.gap(state.P, state.H0)
                 F, load = self._settle(state, changes)
@@ -166,8 +167,7 @@ class Newton:
                 break
             length = self._update(state, changes)
         if answer and not outcome.converged:
-            outcome.state, outcome.converged, outcome.reason = answer.state, True, answer.reason
-            outcome.contradictions = []
+            self._restore(outcome, answer)
         state = outcome.state
         self._multigrid.space.write(x, state.P, state.H0)
         reasons = PETSc.SNES.ConvergedReason
@@ -254,6 +254,19 @@ class Newton:
         released = self._partition.release_violations(outcome.state)
         outcome.converged = released == 0
         return kept, released
+
+    def _restore(self, outcome, answer):
+        """Make a kept answer the outcome, and its state the last of the history."""
+        state = answer.state
+        outcome.state, outcome.converged, outcome.reason = state, True, answer.reason
+        outcome.contradictions = []
+        F, load = (
+            self._problem.residual(state, self._problem.inflow(state)),
+            self._problem.load_deficit(state.P),
+        )
+        cycle = self._cycle(len(outcome.cycles), state, F, load, Changes(), 0, 0.0)
+        outcome.cycles.append(cycle)
+        self._monitor(cycle)
 
     def _cycle(self, step, state, F, load, changes, linear_iterations, length):
         problem = self._problem

@@ -11,6 +11,9 @@ from mgehl.output.files import OutputError, on_first_rank
 
 FOLDER = "points"
 
+CHECKSUM = hashlib.sha256().digest_size
+"""Bytes before a point's own, by which a damaged one is known."""
+
 
 def key_of(description):
     """Name of a point: a hash of everything its answer depends on, as plain data."""
@@ -36,23 +39,30 @@ class PointCache:
 
     def clear(self):
         """Forget all points (on the rank that writes)."""
-        for point in self._folder.glob("*"):
-            point.unlink()
+        try:
+            for point in self._folder.glob("*"):
+                point.unlink()
+        except OSError as error:
+            raise OutputError(f"{self._folder}: cannot be cleared: {error}") from None
 
     def _read(self, key):
-        """None for a point that is not there, or cannot be read: it is computed anew."""
+        """None for a point that is not there, damaged, or of other classes: it is computed anew."""
         try:
-            with (self._folder / key).open("rb") as file:
-                return pickle.load(file)
-        except (OSError, EOFError, pickle.UnpicklingError, AttributeError, ImportError, IndexError):
+            stored = (self._folder / key).read_bytes()
+            if hashlib.sha256(stored[CHECKSUM:]).digest() != stored[:CHECKSUM]:
+                return None
+            return pickle.loads(stored[CHECKSUM:])
+        except (OSError, AttributeError, ImportError):
             return None
 
     def _write(self, key, point):
         unfinished = self._folder / f"{key}.unfinished"
         try:
             self._folder.mkdir(exist_ok=True)
+            stored = pickle.dumps(point, protocol=pickle.HIGHEST_PROTOCOL)
             with unfinished.open("wb") as file:
-                pickle.dump(point, file, protocol=pickle.HIGHEST_PROTOCOL)
+                file.write(hashlib.sha256(stored).digest())
+                file.write(stored)
                 file.flush()
                 os.fsync(file.fileno())
             unfinished.replace(self._folder / key)

@@ -73,7 +73,7 @@ def _contact_rows(solutions, profiles):
                 "on Y": _span(result.contact.y_nodes),
                 "contact/Hertz area": f"{result.contact.area_fraction:.5f}",
                 "load on contact": f"{result.contact.load_fraction:.6f}",
-                "|P - Hertz| inside 0.9 a": f"{profile.largest_inside:.2e}",
+                "P - Hertz inside 0.9 a": f"{profile.largest_inside:.2e}",
                 "order": f"{order:.2f}" if k else "",
                 "anywhere": f"{profile.largest:.2e}",
                 "P before contact": f"{beside:.2e}",

@@ -7,7 +7,6 @@ discrete equations.
 import numpy as np
 
 from mgehl.studies.branch import Branches
-from mgehl.studies.study import merged
 
 FASTEST, SLOWEST, COUNT = 7.5e-3, 5e-6, 25
 """m/s: the range of [Liu sec. 4.3]."""
@@ -16,6 +15,9 @@ COARSE = 257
 """Up to this many nodes the range begins at `FASTEST_ON_COARSE`: at the paper's there is no film."""
 
 FASTEST_ON_COARSE = 0.1
+
+STEPS = {"max_steps": 30}
+"""A point that is found takes 10 to 20; one that is not is tried again from nearer by."""
 
 PAPER_RADIUS = 19.05e-3
 """The radius that the paper's labels U belong to; its other numbers belong to 12.7 mm."""
@@ -27,8 +29,7 @@ def run(study):
     directions = ("down", "up") if study.branch == "both" else (study.branch,)
     study.cases = len(nodes) * len(directions) * COUNT
     for n in nodes:
-        tables = {"grid": {"nodes": n}, "discretization": {"face_mobility": study.mean}}
-        with Branches(study, tables) as branches:
+        with Branches(study, case(n, study.mean)) as branches:
             points = []
             for direction in directions:
                 way = speeds(n) if direction == "down" else speeds(n)[::-1]
@@ -49,7 +50,7 @@ def speeds(nodes):
 
 def case(nodes, mean="arithmetic"):
     """The tables of the headline contact on a grid."""
-    return merged({"grid": {"nodes": nodes}}, {"discretization": {"face_mobility": mean}})
+    return {"grid": {"nodes": nodes}, "discretization": {"face_mobility": mean}, "solver": STEPS}
 
 
 def row(branches, point):
