@@ -57,3 +57,18 @@ studies: $(ENVIRONMENT)
 	  cp $$f runs/tables/$$s-$$(basename $$f) || exit 1; done; done
 
 .PHONY: studies
+
+# make transition   run the studies of the transition and write their tables and pictures to runs/tables (an hour)
+TRANSITION := runs/study-
+transition: $(ENVIRONMENT)
+	for n in 257 513 1025; do ( $(ON) mpiexec -n 2 python -m mgehl study transition --grid $$n --resume \
+	  --quiet --out $(TRANSITION)transition-$$n ) || exit 1; done
+	( $(ON) python -m mgehl study transition --grid 257 --mean geometric --resume --quiet \
+	  --out $(TRANSITION)transition-257-geometric )
+	( $(ON) mpiexec -n 2 python -m mgehl study grid --nodes 257,513,1025,2049 --resume --quiet ) || true
+	for s in onset bracket; do ( $(ON) mpiexec -n 2 python -m mgehl study $$s --resume --quiet ) || exit 1; done
+	cp $(TRANSITION)transition-*/transition-*.* runs/tables/
+	for s in grid onset bracket; do for f in $(TRANSITION)$$s/*.md $(TRANSITION)$$s/*.csv $(TRANSITION)$$s/*.png; do \
+	  cp $$f runs/tables/$$s-$$(basename $$f) || exit 1; done; done
+
+.PHONY: transition

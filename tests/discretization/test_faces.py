@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from mgehl.discretization.couette import EE, SCHEMES, WW, E, W
-from mgehl.discretization.faces import x_flows, y_flows
+from mgehl.discretization.faces import conductances, x_flows, y_flows
 from mgehl.discretization.fluid import FACE_MEANS, Fluid, fluid_state
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.scheme import Scheme
@@ -232,6 +232,8 @@ OPTIONS = {
     "against": {"motion": -1},
     "floor": {"gap_floor": 0.1},
     "unified": {"couette_at_interface": "untreated", "motion": -1, "gap_floor": 0.1},
+    "geometric share": {"face_mobility": "geometric", "mobility_share": 0.4},
+    "harmonic share": {"face_mobility": "harmonic", "mobility_share": 0.4},
 }
 """Choices of a `Scheme` beside the two tables; the states' gaps lie on both sides of the floor."""
 
@@ -264,6 +266,22 @@ def test_y_flow_derivatives_of_options(options, state, contact):
         state,
         lambda node, at: (node[0] + W - at, node[1]),
     )
+
+
+@pytest.mark.parametrize("mean", ["geometric", "harmonic"])
+def test_flows_and_conductances_take_their_share_of_the_mean(mean, mixed, contact):
+    """They are linear in the face's mobility: 0.4 of those by the mean and 0.6 of the arithmetic ones."""
+    fluid = fluid_state(mixed.P, mixed.H, contact)
+
+    def parts(name, share=1.0):
+        scheme = Scheme("2B", name, share)
+        leaving, _ = x_flows(fluid, mixed.status, mixed.mesh, scheme)
+        across = y_flows(fluid, mixed.status, mixed.mesh, scheme)
+        return leaving.value, across.value, *conductances(fluid.eps, mixed.status, mixed.mesh, scheme)
+
+    for shared, own, paper in zip(parts(mean, 0.4), parts(mean), parts("arithmetic"), strict=True):
+        np.testing.assert_allclose(shared, 0.4 * own + 0.6 * paper, rtol=1e-13, atol=1e-15)
+        assert np.abs(own - paper).max() > 1e-4 * np.abs(paper).max()
 
 
 @every_scheme

@@ -3,7 +3,8 @@ from math import exp, sqrt
 import numpy as np
 import pytest
 
-from mgehl.discretization.fluid import FACE_MEANS, fluid_state
+from mgehl.discretization.fluid import FACE_MEANS, face_mean, fluid_state
+from mgehl.discretization.scheme import Scheme
 
 
 def test_mobility_is_rho_H3_over_eta_lambda(contact):
@@ -95,6 +96,43 @@ def test_means_are_ordered_and_symmetric():
         # A slope is a pure number up to 2, so rounding is absolute.
         np.testing.assert_allclose(by_a_swapped, by_a, rtol=0.0, atol=5e-16)
         np.testing.assert_allclose(by_b_swapped, by_b, rtol=0.0, atol=5e-16)
+
+
+A, B = np.array([2.0, 1.0, 4.0, 0.0]), np.array([8.0, 30.0, 4.0, 3.0])
+"""Mobilities on the two sides of four faces, one of them closed."""
+
+
+@pytest.mark.parametrize("mean", FACE_MEANS)
+@pytest.mark.parametrize("share", [1.0, 0.0])
+def test_face_mean_at_either_end_of_the_share(mean, share):
+    """All of it is the scheme's mean itself, none of it the arithmetic one."""
+    expected = FACE_MEANS[mean if share else "arithmetic"](A, B)
+    for part, own in zip(face_mean(Scheme("1B", mean, share), A, B), expected, strict=True):
+        np.testing.assert_array_equal(np.broadcast_to(part, A.shape), np.broadcast_to(own, A.shape))
+
+
+def test_the_share_is_all_of_the_mean_unless_another_is_asked_for():
+    for part, own in zip(
+        face_mean(Scheme("1B", "harmonic"), A, B), FACE_MEANS["harmonic"](A, B), strict=True
+    ):
+        np.testing.assert_array_equal(part, own)
+
+
+@pytest.mark.parametrize("mean, value", [("arithmetic", 5.0), ("geometric", 4.6), ("harmonic", 4.28)])
+def test_a_share_of_the_mean_of_two_and_eight(mean, value):
+    """0.4 of 5, 4 or 3.2, and 0.6 of 5."""
+    scheme = Scheme("1B", mean, 0.4)
+    assert face_mean(scheme, A, B)[0][0] == pytest.approx(value, rel=1e-15)
+
+
+@pytest.mark.parametrize("mean", ["geometric", "harmonic"])
+def test_slopes_of_a_shared_mean_match_central_differences(mean):
+    scheme, a, b, d = Scheme("1B", mean, 0.4), A[:3], B[:3], 1e-4
+    _, by_a, by_b = face_mean(scheme, a, b)
+    measured_a = (face_mean(scheme, a + d, b)[0] - face_mean(scheme, a - d, b)[0]) / (2.0 * d)
+    measured_b = (face_mean(scheme, a, b + d)[0] - face_mean(scheme, a, b - d)[0]) / (2.0 * d)
+    np.testing.assert_allclose(by_a, measured_a, rtol=1e-7)
+    np.testing.assert_allclose(by_b, measured_b, rtol=1e-7)
 
 
 def test_gap_floor_is_the_least_gap_of_the_mobility(contact):

@@ -7,7 +7,7 @@ from mgehl.discretization.couette import SCHEMES
 from mgehl.discretization.faces import x_flows, y_flows
 from mgehl.discretization.fluid import FACE_MEANS, fluid_state
 from mgehl.discretization.mesh import Mesh
-from mgehl.discretization.residual import linearise, net_inflow, residual
+from mgehl.discretization.residual import C, linearise, net_inflow, residual
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
 
@@ -174,6 +174,25 @@ def test_linearised_rows_of_given_nodes(mixed, contact):
             assert (stencil[2][rows] == -1.0 / mesh.dX).all()
             assert not stencil[2][given & ~rows].any()
             assert not stencil[[0, 1, 3, 4, 5]][:, given].any()
+
+
+@pytest.mark.parametrize("rigid", [False, True], ids=["deformable", "rigid"])
+@pytest.mark.parametrize("rate", [0.3, 40.0])
+def test_squeeze_adds_the_rate_of_rho_H_to_film_nodes_and_to_nothing_else(rate, rigid, state, contact):
+    """-rate d(rho H)/dP and -rate rho at the centre of lubricated nodes."""
+    arguments = state.P, state.H, state.status, state.mesh, contact, Scheme(), rigid
+    steady, implicit = linearise(*arguments), linearise(*arguments, squeeze=rate)
+    P, H, film, d = state.P[1:-1], state.H[1:-1], state.status[1:-1] == LUBRICATED, 1e-6
+    above, rho, below = (fluid_state(P + s * d, H, contact).rho for s in (1.0, 0.0, -1.0))
+    for before, after, rate_of in (
+        (steady.A, implicit.A, (above - below) * H / (2.0 * d)),
+        (steady.B, implicit.B, rho),
+    ):
+        added, size = after[C] - before[C], np.abs(before[C]).max()
+        np.testing.assert_allclose(added[film], -rate * rate_of[film], rtol=1e-8, atol=1e-14 * size)
+        np.testing.assert_array_equal(after[C][~film], before[C][~film])
+        beside = [position for position in range(6) if position != C]
+        np.testing.assert_array_equal(after[beside], before[beside])
 
 
 def test_residual_of_a_rigid_gap_gives_the_pressure_of_contact_too():

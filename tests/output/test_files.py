@@ -28,7 +28,7 @@ def make_result(**changes):
     values = {
         "converged": True, "reason": "all holds", "central_film_nm": 12.0, "minimum_film_nm": 1.0,
         "max_pressure_GPa": 2.3, "residual": 1e-9, "load_error": -1e-10, "complementarity_error": 0.0,
-        "flux_imbalance": 1e-11, "contact": ContactResult(3, 0.01, (4, 6), None, 0.0),
+        "settled": True, "contradictions": [], "flux_imbalance": 1e-11, "contact": ContactResult(3, 0.01, 0.02, (4, 6), None, 0.0),
         "overlap": Overlap(0, 0.0),
         "pressure_inequality": InequalityResult(8, 1, 0.25, 1.5, [{"i": 6, "j": 3, "size": 0.25}]),
         "cavitated_nodes": 100, "resolution": Resolution(5.0, "resolved"), "groups": {"U": 1e-12},

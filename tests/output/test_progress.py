@@ -65,8 +65,21 @@ class TestTrustBlock:
             assert part in text
 
     def test_failure_comes_first(self):
-        text = trust_block(make_result(converged=False, reason="sets still change 60 steps"))
+        text = trust_block(make_result(converged=False, settled=False, reason="sets still change 60 steps"))
         assert text.startswith("NOT CONVERGED: sets still change 60 steps")
+
+    def test_a_solution_that_breaks_eq_2_is_called_both(self):
+        text = trust_block(make_result(converged=False, reason="pressure below"))
+        assert text.startswith("SETTLED, BUT EQ. 2 IS BROKEN: pressure below")
+
+    def test_a_node_that_can_be_neither_is_named_with_both_reasons(self):
+        node = {
+            "i": 7, "j": 9, "film_gap_nm": -0.6, "contact_pressure": -0.014,
+            "neighbours": ["lubricated", "cavitated", "lubricated", "contact"],
+        }  # fmt: skip
+        text = trust_block(make_result(converged=False, settled=False, contradictions=[node]))
+        assert "node (7, 9): as film its gap is -6.00e-01 nm, as contact its pressure -1.40e-02 p_h" in text
+        assert "lubricated, cavitated, lubricated, contact" in text
 
     def test_a_violation_is_named_with_place_and_size(self):
         assert "(6, 3) by 2.50e-01 p_h" in trust_block(make_result())
@@ -85,5 +98,5 @@ class TestTrustBlock:
         assert advice in trust_block(make_result(resolution=Resolution(0.5, verdict)))
 
     def test_no_contact(self):
-        nothing = replace(make_result(), contact=ContactResult(0, 0.0, None, None, 0.0))
+        nothing = replace(make_result(), contact=ContactResult(0, 0.0, 0.0, None, None, 0.0))
         assert "nodes none on Y = 0, none on X = 0" in trust_block(nothing)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
-from mgehl.solver.partition import Changes, Partition
+from mgehl.solver.partition import RESTLESS, Changes, Contradiction, Partition
 from mgehl.solver.problem import State
 
 THRESHOLD = 1e-3
@@ -186,3 +186,111 @@ class TestPressureInequality:
         partition.enter_contact(state, changes)
         assert state.status[NODE] == LUBRICATED
         only(changes)
+
+    @pytest.mark.parametrize("beside", [(4, 3), (4, 5), (3, 4), (5, 4)], ids=["W", "E", "S", "N"])
+    def test_violations_are_named_with_the_pressure_beside_and_nothing_is_changed(
+        self, make_partition, state, beside
+    ):
+        state.status[NODE], state.P[NODE], state.P[beside] = CONTACT, 0.6, 0.7
+        before = state.copy()
+        found, pressure = make_partition(budget=0).violations(state)
+        assert np.argwhere(found).tolist() == [list(NODE)]
+        assert pressure[NODE] == 0.7
+        np.testing.assert_array_equal(state.P, before.P)
+        np.testing.assert_array_equal(state.status, before.status)
+
+    def test_only_contact_below_the_fluid_beside_it_is_a_violation(self, make_partition, state):
+        """Not film below film, nor contact level with the fluid, nor contact below contact."""
+        state.P[2, 2] = 0.1
+        state.status[NODE] = CONTACT
+        state.status[4:8, 6], state.P[4:8, 6] = CONTACT, 0.9
+        state.P[5, 6] = 0.8
+        assert not make_partition().violations(state)[0].any()
+
+
+class TestRestlessNodes:
+    """Nodes that turn between film and contact, which no grid of theirs will settle."""
+
+    @pytest.fixture
+    def turn(self, state):
+        """Function that closes a node and tears it open again: two turns."""
+
+        def turn(partition, node=NODE, gap=-0.02, pressure=-0.1, times=1):
+            for _ in range(times):
+                close(partition, node, gap)
+                state.P[node] = pressure
+                partition.cut_tension(state.P, state.status, Changes())
+
+        def close(partition, node=NODE, gap=-0.02):
+            partition.cut_tension(state.P, state.status, Changes())  # a step in which nothing is torn
+            state.status[node], state.H[node] = LUBRICATED, gap
+            changes = Changes()
+            partition.enter_contact(state, changes)
+            state.H[node] = 1.0
+            only(changes, entered=1)
+
+        turn.close = close
+        return turn
+
+    def test_a_partition_is_restless_from_that_many_turns_of_one_node(self, make_partition, turn):
+        partition = make_partition()
+        turn(partition, times=(RESTLESS - 1) // 2)
+        turn.close(partition)
+        assert not partition.restless  # 11 of 12
+        turn(partition, times=1)
+        assert partition.restless
+
+    def test_turns_of_many_nodes_do_not_add_up(self, make_partition, turn):
+        partition = make_partition()
+        for node in ((2, 2), (2, 6), (6, 2), (6, 6)):
+            turn(partition, node, times=2)
+        assert not partition.restless
+
+    def test_cavities_that_come_and_go_are_no_turns(self, make_partition, state):
+        partition = make_partition()
+        for _ in range(2 * RESTLESS):
+            state.P[NODE], state.status[NODE] = -0.1, LUBRICATED
+            partition.cut_tension(state.P, state.status, Changes())
+            partition.fill(state, np.ones_like(state.P), Changes())
+        assert not partition.restless and partition.contradictions(state.status) == []
+
+    def test_a_contradiction_says_where_and_by_how_much(self, make_partition, state, turn):
+        """Of gap and pressure the last count; the neighbours are west, east, before and after."""
+        partition, node = make_partition(), (3, 5)
+        turn(partition, node, times=RESTLESS // 2 - 1)
+        turn(partition, node, gap=-0.03, pressure=-0.2)
+        state.status[3, 4], state.status[3, 6] = CONTACT, CAVITATED
+        state.status[2, 5], state.status[4, 5] = BOUNDARY, LUBRICATED
+        assert partition.contradictions(state.status) == [
+            Contradiction(6, 4, -0.03, -0.2, ("contact", "cavitated", "boundary", "lubricated"))
+        ]
+
+    def test_those_about_to_be_restless_are_contradictions_too(self, make_partition, state, turn):
+        """9 turns of 12 are enough, 8 are not; all in the order of the grid."""
+        partition = make_partition()
+        turn(partition, (6, 2), times=5)
+        turn(partition, (2, 6), times=4)
+        turn.close(partition, (2, 6))
+        turn(partition, (2, 2), times=4)
+        assert [(each.i, each.j) for each in partition.contradictions(state.status)] == [(7, 3), (3, 7)]
+
+    def test_a_node_that_was_never_torn_is_no_contradiction(self, make_partition, state, turn):
+        partition = make_partition()
+        for _ in range(RESTLESS):
+            turn.close(partition)
+        assert partition.restless and partition.contradictions(state.status) == []
+
+    @pytest.mark.parametrize("budget", [0, 2])
+    def test_release_on_eq_2_starts_the_count_anew(self, make_partition, state, turn, budget):
+        """What opens then is another problem, and nodes have all their turns again."""
+        partition = make_partition(budget=budget)
+        turn(partition, times=RESTLESS // 2)
+        assert partition.restless and len(partition.contradictions(state.status)) == 1
+        state.status[NODE], state.P[NODE] = LUBRICATED, 0.5
+        state.status[2, 2], state.P[2, 2] = CONTACT, 0.1
+        assert partition.release_violations(state) == (1 if budget else 0)
+        assert not partition.restless and partition.contradictions(state.status) == []
+        turn(partition, times=RESTLESS // 2 - 1)
+        assert not partition.restless
+        turn(partition)
+        assert partition.restless

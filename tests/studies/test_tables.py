@@ -37,7 +37,7 @@ class TestWedge:
     def test_files(self, directory):
         tables = {f"{name}.{kind}" for name in ("cases", "convergence") for kind in ("csv", "md")}
         figures = {f"figure_{k}.png" for k in (7, 8, 9, 10)}
-        assert {path.name for path in directory.iterdir()} == tables | figures
+        assert {path.name for path in directory.iterdir()} == tables | figures | {"points"}
         assert all((directory / name).read_bytes().startswith(b"\x89PNG") for name in figures)
 
     def test_cases(self, directory):

@@ -1,0 +1,200 @@
+"""A solution followed in speed and from mean to mean, beside solutions made from nothing."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from mgehl.discretization.scheme import Scheme
+from mgehl.discretization.status import CONTACT
+from mgehl.solver.continuation import BEYOND, SMALLEST_STEP, Continuation, carry
+from mgehl.solver.nested import SolverSettings
+from mgehl.solver.newton import NewtonSettings, Outcome
+
+
+class Walk:
+    """A fake `solve` for `carry`, whose states are the t at which they were found.
+
+    It converges unless `fails(t, state)`; `tried` lists (t, state it was given).
+    """
+
+    def __init__(self, fails=lambda t, state: False):
+        self._fails, self.tried = fails, []
+
+    def __call__(self, t, state):
+        self.tried.append((t, state))
+        return f"problem at {t}", Outcome(t, not self._fails(t, state), "")
+
+
+class TestCarry:
+    def test_one_step_where_nothing_fails(self):
+        walk = Walk()
+        problem, outcome = carry(walk, 0.0)
+        assert walk.tried == [(1.0, 0.0)]
+        assert problem == "problem at 1.0" and outcome.converged and outcome.state == 1.0
+
+    def test_steps_double_from_the_first(self):
+        walk = Walk()
+        carry(walk, 0.0, step=0.25)
+        assert walk.tried == [(0.25, 0.0), (0.75, 0.25), (1.0, 0.75)]
+
+    def test_a_step_that_fails_is_halved_from_the_last_state_that_converged(self):
+        """No step is longer than 0.3."""
+        walk = Walk(lambda t, state: t - state > 0.3)
+        problem, outcome = carry(walk, 0.0)
+        assert walk.tried == [
+            (1.0, 0.0), (0.5, 0.0), (0.25, 0.0),
+            (0.75, 0.25), (0.5, 0.25),
+            (1.0, 0.5), (0.75, 0.5),
+            (1.0, 0.75),
+        ]  # fmt: skip
+        assert problem == "problem at 1.0" and outcome.converged and outcome.state == 1.0
+
+    def test_it_ends_with_the_failure_of_the_smallest_step(self):
+        """Nothing is found beyond 0.3."""
+        walk = Walk(lambda t, state: t > 0.3)
+        problem, outcome = carry(walk, 0.0)
+        assert walk.tried == [
+            (1.0, 0.0), (0.5, 0.0), (0.25, 0.0),
+            (0.75, 0.25), (0.5, 0.25), (0.375, 0.25), (0.3125, 0.25),
+        ]  # fmt: skip
+        assert problem == "problem at 0.3125"
+        assert not outcome.converged and outcome.state == 0.3125
+
+    def test_a_last_step_that_was_cut_short_is_halved_from_its_own_length(self):
+        walk = Walk(lambda t, state: (t, state) == (1.0, 0.75))
+        carry(walk, 0.0, step=0.25)
+        assert walk.tried[2:] == [(1.0, 0.75), (0.875, 0.75), (1.0, 0.875)]
+
+    def test_the_smallest_step_is_tried_and_none_below_it(self):
+        walk = Walk(lambda t, state: True)
+        _, outcome = carry(walk, 0.0)
+        assert walk.tried[-1] == (SMALLEST_STEP, 0.0)
+        assert not outcome.converged
+
+    def test_a_way_whose_every_step_is_short_is_gone_to_its_end(self):
+        walk = Walk(lambda t, state: t - state > 1.5 * SMALLEST_STEP)
+        _, outcome = carry(walk, 0.0)
+        assert outcome.converged and outcome.state == 1.0
+        reached = [t for t, state in walk.tried if t - state <= SMALLEST_STEP]
+        assert reached == [k * SMALLEST_STEP for k in range(1, 17)]
+
+
+class Followed:
+    """A `Continuation` with its settings and the levels it solved on."""
+
+    def __init__(self, hierarchy, contact, scheme):
+        newton = NewtonSettings(film_threshold=0.02e-9 / contact.film_scale)
+        self.told = []
+        settings = SolverSettings(scheme=scheme, newton=newton)
+        tell = lambda level, cycle: self.told.append(level)  # noqa: E731
+        self.continuation = Continuation(hierarchy, contact, settings, tell)
+
+    @property
+    def speeds(self):
+        """Speeds on the finest grid, in the order they were solved at."""
+        return list(dict.fromkeys(level.speed for level in self.told if level.finest))
+
+
+@pytest.fixture
+def make(make_hierarchy, paper_contact):
+    """Factory of `Followed` for the paper's contact on 65 nodes, made at 1 m/s."""
+
+    def make(**scheme):
+        contact = paper_contact()
+        return Followed(make_hierarchy(contact, 65), contact, Scheme(**scheme))
+
+    return make
+
+
+def true_residual(problem, state):
+    state = problem.state(state.P, state.H0, state.status)
+    return problem.rms(problem.residual(state, problem.inflow(state)))
+
+
+def test_a_film_followed_to_another_speed_is_the_film_of_that_speed(make, solve, paper_contact):
+    followed = make()
+    _, first = followed.continuation.begin(1.0, "film")
+    before = first.state.copy()
+    problem, outcome = followed.continuation.follow(first.state, 1.0, 0.7)
+    assert outcome.converged and problem.contact.speed == 0.7
+    assert followed.speeds == [1.0, 0.7]
+    expected = solve(paper_contact(0.7), 65).outcome.state
+    np.testing.assert_allclose(outcome.state.P, expected.P, rtol=0.0, atol=1e-6)
+    np.testing.assert_allclose(outcome.state.H, expected.H, rtol=0.0, atol=1e-6)
+    np.testing.assert_array_equal(outcome.state.status, expected.status)
+    # What was followed is not changed, and was another film.
+    np.testing.assert_array_equal(first.state.P, before.P)
+    np.testing.assert_array_equal(first.state.status, before.status)
+    assert np.abs(first.state.P - expected.P).max() > 1e-2
+
+
+def test_steps_in_speed_have_equal_ratios(make, monkeypatch):
+    """From 1 to 1/16 m/s, none longer than a half: 1/2, 1/4, ..."""
+
+    def at(continuation, speed, state, share=1.0):
+        tried.append(speed)
+        return None, Outcome(speed, speed > 0.45 * state, "")
+
+    tried = []
+    monkeypatch.setattr(Continuation, "at", at)
+    _, outcome = make().continuation.follow(1.0, 1.0, 0.0625)
+    steps = [0.0625, 0.25, 0.5, 0.125, 0.25, 0.0625, 0.125, 0.0625]
+    assert tried == pytest.approx(steps, rel=1e-14)
+    assert outcome.converged and outcome.state == 0.0625
+
+
+def test_contact_followed_to_another_speed_keeps_its_set(make):
+    """Twice 0.005 mm/s is too slow for the fluid to open a node of the Hertz circle."""
+    followed = make()
+    _, first = followed.continuation.begin(5e-6, "contact")
+    problem, outcome = followed.continuation.follow(first.state, 5e-6, 1e-5)
+    assert first.converged and outcome.converged
+    assert followed.speeds == [5e-6, 1e-5]
+    np.testing.assert_array_equal(outcome.state.status == CONTACT, first.state.status == CONTACT)
+    mesh, nodes = problem.grid.mesh, problem.grid.count(outcome.state.status == CONTACT)
+    assert nodes * mesh.dX * mesh.dY == pytest.approx(np.pi, rel=0.05)
+    assert true_residual(problem, outcome.state) <= 1e-8 < true_residual(problem, first.state)
+
+
+def test_a_start_from_beyond_is_followed_back(make):
+    """Contact is begun at 0.005 mm/s for 0.04 mm/s."""
+    followed = make()
+    problem, outcome = followed.continuation.begin_beyond(4e-5, "contact")
+    assert followed.speeds == pytest.approx([4e-5 / BEYOND, 4e-5], rel=1e-15)
+    assert outcome.converged and problem.contact.speed == 4e-5
+    assert true_residual(problem, outcome.state) <= 1e-8
+
+
+def test_the_arithmetic_mean_is_begun_by_nested_iteration(make, solve, paper_contact):
+    followed = make()
+    _, outcome = followed.continuation.begin(1.0, "film")
+    assert followed.speeds == [1.0]
+    expected = solve(paper_contact(), 65).outcome.state
+    np.testing.assert_allclose(outcome.state.P, expected.P, rtol=0.0, atol=1e-6)
+
+
+def test_another_mean_is_turned_to_gradually(make, solve, paper_contact):
+    """65 nodes have not two cells in the inlet at 1 m/s: it is begun at a speed that has."""
+    followed = make(face_mobility="geometric")
+    problem, outcome = followed.continuation.begin(1.0, "film")
+    assert outcome.converged and problem.contact.speed == 1.0
+    assert problem.scheme == Scheme(face_mobility="geometric")
+    assert true_residual(problem, outcome.state) <= 1e-8
+    matched = paper_contact().matched_speed(problem.grid.mesh.dX, 2.0)
+    assert followed.speeds == [matched, 1.0] and matched > 1.0
+    # Less fluid passes by the geometric mean: it takes a thicker film, by half on this grid.
+    arithmetic = solve(paper_contact(), 65)
+    central, _ = problem.films(outcome.state)
+    assert central > 1.3 * arithmetic.problem.films(arithmetic.outcome.state)[0]
+
+
+def test_without_a_share_any_mean_is_the_arithmetic(make, solve, paper_contact):
+    """The arithmetic solution needs no step; with a share of the mean it is not one."""
+    followed = make(face_mobility="harmonic")
+    state = solve(paper_contact(), 65).outcome.state
+    problem, outcome = followed.continuation.at(1.0, state, share=0.0)
+    assert outcome.converged and len(outcome.cycles) == 1
+    assert problem.scheme == replace(Scheme(), face_mobility="harmonic", mobility_share=0.0)
+    problem, outcome = followed.continuation.at(1.0, state, share=0.1)
+    assert len(outcome.cycles) > 1 and problem.scheme.mobility_share == 0.1

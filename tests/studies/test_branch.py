@@ -1,0 +1,217 @@
+"""Both branches at one speed, studies of the transition on small grids, and what a kill leaves."""
+
+import csv
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+from mpi4py import MPI
+
+from mgehl.cli import main
+from mgehl.discretization.status import CONTACT
+from mgehl.studies import bracket, onset, transition
+from mgehl.studies.branch import Branches
+from mgehl.studies.study import Study
+
+
+def read(path):
+    with path.open() as file:
+        return list(csv.DictReader(file))
+
+
+def run(directory, *words):
+    """A study by the command line; its exit status."""
+    return main(["study", *words, "--quiet", "--out", str(directory)])
+
+
+@pytest.fixture
+def study(tmp_path):
+    return Study(tmp_path, MPI.COMM_SELF, (129,), speak=False)
+
+
+class TestBothBranches:
+    SPEED = 0.03
+
+    @pytest.fixture(scope="class")
+    def points(self, tmp_path_factory):
+        """129 nodes at 30 mm/s, where the grid has two solutions."""
+        study = Study(tmp_path_factory.mktemp("branches"), MPI.COMM_SELF, (129,), speak=False)
+        with Branches(study, transition.case(129)) as branches:
+            down = branches.walk("down", [0.1, 0.055, self.SPEED])
+            up = branches.walk("up", [0.005, 0.01, 0.02, self.SPEED])
+        return down[-1], up[-1]
+
+    def test_both_are_solutions(self, points):
+        for point in points:
+            result = point.result
+            assert point.speed == self.SPEED and point.origin == "continued"
+            assert result.settled and result.residual <= 1e-8 and abs(result.load_error) <= 1e-8
+            assert result.complementarity_error <= 1e-6
+
+    def test_they_are_not_the_same(self, points):
+        down, up = points
+        assert down.result.contact.area_fraction < 0.1 and down.result.central_film_nm > 20.0
+        assert up.result.contact.area_fraction > 0.95 and abs(up.result.central_film_nm) < 1e-6
+        assert up.result.contact.load_fraction > 0.95
+
+    def test_the_contact_of_either_is_pressed(self, points):
+        for point in points:
+            assert point.fields.P[point.fields.status == CONTACT].min() >= 0.0
+
+
+class TestJump:
+    def test_a_branch_that_ends_goes_on_from_the_other_start(self, study):
+        """The film cannot be followed to 8 mm/s on 129 nodes: full contact is what there is."""
+        with Branches(study, transition.case(129)) as branches:
+            film, contact = branches.walk("down", [0.1, 0.008])
+        assert film.origin == "start" and film.result.central_film_nm > 70.0
+        assert contact.origin == "other start" and contact.result.contact.area_fraction > 0.95
+        assert contact.result.settled
+
+
+class TestBracket:
+    def test_ends_are_close_and_on_either_side(self, study):
+        """A made-up property that turns between two speeds of a film."""
+        with Branches(study, {"grid": {"nodes": 65}}) as branches:
+            way = [1.0, 0.8, 0.64]
+            last, turned = branches.bracket("down", way, lambda point: point.speed < 0.7, 0.05)
+        assert last.speed >= 0.7 > turned.speed and last.speed / turned.speed <= 1.05
+
+    @pytest.mark.parametrize(("turned", "expected"), [(True, (None, 1.0)), (False, (0.8, None))])
+    def test_none_where_it_never_or_always_did(self, study, turned, expected):
+        with Branches(study, {"grid": {"nodes": 65}}) as branches:
+            ends = branches.bracket("down", [1.0, 0.8], lambda point: turned, 0.05)
+        assert tuple(end and end.speed for end in ends) == expected
+
+
+class TestPoints:
+    def test_a_second_walk_solves_nothing(self, study, monkeypatch):
+        with Branches(study, {"grid": {"nodes": 65}}) as branches:
+            first = branches.walk("down", [1.0, 0.8])
+        monkeypatch.setattr("mgehl.solver.continuation.Continuation.begin", None)
+        monkeypatch.setattr("mgehl.solver.continuation.Continuation.follow", None)
+        with Branches(study, {"grid": {"nodes": 65}}) as branches:
+            second = branches.walk("down", [1.0, 0.8])
+        assert [point.result for point in first] == [point.result for point in second]
+        assert all(np.array_equal(a.fields.H, b.fields.H) for a, b in zip(first, second, strict=True))
+
+    def test_another_way_is_another_point(self, study):
+        with Branches(study, {"grid": {"nodes": 65}}) as branches:
+            keys = {
+                branches._key(branch, way, False, ())
+                for branch in ("down", "up")
+                for way in ([1.0], [0.8], [1.0, 0.8])
+            }
+        with Branches(study, {"grid": {"nodes": 129}}) as branches:
+            keys.add(branches._key("down", [1.0], False, ()))
+        assert len(keys) == 7
+
+
+class TestStudies:
+    @pytest.fixture(autouse=True)
+    def few(self, monkeypatch):
+        """Few speeds, fast ones: 65 and 129 nodes resolve no others."""
+        monkeypatch.setattr(transition, "COUNT", 4)
+        monkeypatch.setattr(bracket, "SPEEDS", (1.0,))
+        monkeypatch.setattr(bracket, "AGREEMENT_SPEED", 1.0)
+
+    def test_transition(self, tmp_path):
+        assert run(tmp_path / "t", "transition", "--grid", "65") == 0
+        for nodes in (65,):
+            rows = read(tmp_path / "t" / f"transition-{nodes}.csv")
+            assert [row["branch"] for row in rows] == ["down"] * 4 + ["up"] * 4
+            assert all(row["settled"] == "yes" for row in rows)
+            for row in rows:
+                carried = float(row["load on contact"]) + float(row["load on fluid"])
+                assert carried == pytest.approx(1.0, abs=1e-4)
+                assert float(row["U of the paper"]) == pytest.approx(float(row["U"]) * 2.0 / 3.0, rel=1e-3)
+                assert max(float(row[e]) for e in ("e^p", "e^p lubr.", "e^p solid")) < 1e-4
+            slowest = [row for row in rows if row["speed mm/s"] == "0.005"]
+            assert all(float(row["contact/Hertz area"]) > 0.95 for row in slowest)
+            for picture in ("films", "figure-14"):
+                png = tmp_path / "t" / f"transition-{nodes}-{picture}.png"
+                assert png.read_bytes().startswith(b"\x89PNG")
+
+    def test_one_direction_of_another_mean(self, tmp_path, monkeypatch):
+        monkeypatch.setattr(transition, "SLOWEST", 0.05)
+        monkeypatch.setattr(transition, "COUNT", 2)
+        words = ("transition", "--grid", "129", "--direction", "down", "--mean", "geometric")
+        assert run(tmp_path / "t", *words) == 0
+        rows = read(tmp_path / "t" / "transition-129-geometric.csv")
+        assert [(row["branch"], row["contact/Hertz area"]) for row in rows] == [("down", "0.0000")] * 2
+
+    def test_bracket(self, tmp_path):
+        assert run(tmp_path / "b", "bracket", "--nodes", "65,129") == 0
+        rows = read(tmp_path / "b" / "bracket.csv")
+        assert len(rows) == 2 * 3 and all(row["settled"] == "yes" for row in rows)
+        for nodes in ("65", "129"):
+            film = {
+                row["mean"]: float(row["central nm"])
+                for row in rows
+                if row["grid"] == nodes and row["speed mm/s"] == "1000"
+            }
+            assert film["arithmetic"] < film["geometric"] < film["harmonic"]
+        spread = [float(row["central spread"][:-2]) for row in read(tmp_path / "b" / "agreement.csv")]
+        assert spread[1] < 0.5 * spread[0]
+        assert (tmp_path / "b" / "bracket.png").exists()
+
+    def test_onset(self, tmp_path, monkeypatch):
+        monkeypatch.setattr(onset, "PRECISION", 0.3)
+        assert run(tmp_path / "o", "onset", "--nodes", "65,129") == 0
+        rows = read(tmp_path / "o" / "onset.csv")
+        for column in (onset.DOWN, onset.UP):
+            coarse, fine = (float(row[column]) for row in rows)
+            assert coarse > fine > 0.0
+        powers = {
+            row["speed"]: float(row["power of dX"]) for row in read(tmp_path / "o" / "onset-powers.csv")
+        }
+        assert 1.5 < powers[onset.DOWN] < 3.0
+
+    def test_grid(self, tmp_path):
+        assert run(tmp_path / "g", "grid", "--nodes", "65,129") == 0
+        rows = read(tmp_path / "g" / "contact.csv")
+        assert all(row["settled"] == "yes" and row["Eq. 2 broken"].startswith("0 ") for row in rows)
+        assert float(rows[1]["order"]) > 1.0
+        assert len(read(tmp_path / "g" / "film.csv")) == 2
+        assert {"figures-11-12.png", "figure-13.png"} <= {path.name for path in (tmp_path / "g").iterdir()}
+
+
+class TestKill:
+    SCRIPT = (
+        "import sys; from mgehl.studies import transition; transition.COUNT = 6; "
+        "from mgehl.cli import main; sys.exit(main(sys.argv[1:]))"
+    )
+
+    def command(self, directory, *more):
+        study = ("study", "transition", "--grid", "65", "--out", str(directory))
+        return [sys.executable, "-c", self.SCRIPT, *study, *more]
+
+    def test_what_was_finished_is_not_lost(self, tmp_path):
+        """Killed with some points done, gone on with: the table of a study that was left alone."""
+        killed, alone = tmp_path / "killed", tmp_path / "alone"
+        child = subprocess.Popen(self.command(killed), start_new_session=True, stdout=subprocess.DEVNULL)
+        points = killed / "points"
+        deadline = time.monotonic() + 60.0
+        while time.monotonic() < deadline and len(list(points.glob("*"))) < 3:
+            time.sleep(0.02)
+        os.killpg(child.pid, signal.SIGKILL)
+        child.wait()
+        done = {path: path.stat().st_mtime_ns for path in points.glob("*") if not path.suffix}
+        assert 2 <= len(done) < 12 and not (killed / "transition-65.csv").exists()
+        subprocess.run(self.command(killed, "--resume"), check=True, stdout=subprocess.DEVNULL)
+        subprocess.run(self.command(alone), check=True, stdout=subprocess.DEVNULL)
+        assert all(path.stat().st_mtime_ns == when for path, when in done.items())
+        resumed, whole = (read(path / "transition-65.csv") for path in (killed, alone))
+        assert len(resumed) == 12
+        for one, other in zip(resumed, whole, strict=True):
+            assert one["branch"] == other["branch"] and one["from"] == other["from"]
+            assert float(one["central nm"]) == pytest.approx(float(other["central nm"]), abs=1e-3)
+
+    def test_a_directory_that_exists_is_kept(self, tmp_path, capsys):
+        (tmp_path / "t").mkdir()
+        assert run(tmp_path / "t", "transition", "--grid", "65") == 2
+        assert "exists" in capsys.readouterr().err

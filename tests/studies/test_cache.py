@@ -1,0 +1,179 @@
+"""Finished points on disk: whole, or not at all."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pytest
+from mpi4py import MPI
+
+import mgehl
+from mgehl.output.files import OutputError
+from mgehl.studies.cache import FOLDER, PointCache, key_of
+
+
+@dataclass
+class Point:
+    speed: float
+    P: np.ndarray | None
+
+    def shared(self):
+        return replace(self, P=None)
+
+
+POINT = Point(0.7, np.arange(12.0).reshape(3, 4) / 7.0)
+
+
+@pytest.fixture
+def cache(tmp_path):
+    return PointCache(tmp_path, MPI.COMM_SELF)
+
+
+@pytest.fixture
+def folder(tmp_path):
+    return tmp_path / FOLDER
+
+
+def assert_same(point, other):
+    assert point.speed == other.speed
+    np.testing.assert_array_equal(point.P, other.P)
+
+
+class TestPoints:
+    def test_a_point_comes_back_as_it_was(self, cache):
+        cache.store("a", POINT)
+        assert_same(cache.load("a"), POINT)
+
+    def test_another_study_finds_it_in_the_same_directory(self, cache, tmp_path):
+        cache.store("a", POINT)
+        assert_same(PointCache(tmp_path, MPI.COMM_SELF).load("a"), POINT)
+        assert PointCache(tmp_path / "elsewhere", MPI.COMM_SELF).load("a") is None
+
+    def test_points_are_told_apart_by_their_keys(self, cache):
+        cache.store("a", POINT)
+        cache.store("b", replace(POINT, speed=1.0))
+        assert (cache.load("a").speed, cache.load("b").speed) == (0.7, 1.0)
+        assert cache.load("c") is None
+
+    def test_nothing_is_found_before_anything_is_stored(self, cache, folder):
+        assert cache.load("a") is None
+        assert not folder.exists()
+
+    def test_a_point_may_be_stored_again(self, cache):
+        cache.store("a", POINT)
+        cache.store("a", replace(POINT, speed=1.0))
+        assert cache.load("a").speed == 1.0
+
+    def test_all_points_may_be_forgotten(self, cache, folder):
+        cache.clear()
+        cache.store("a", POINT)
+        (folder / "b.unfinished").touch()
+        cache.clear()
+        assert cache.load("a") is None and list(folder.iterdir()) == []
+
+
+class TestKills:
+    def test_a_point_cut_off_at_any_byte_is_missing(self, cache, folder):
+        cache.store("a", POINT)
+        whole = (folder / "a").read_bytes()
+        for length in range(len(whole)):
+            (folder / "a").write_bytes(whole[:length])
+            assert cache.load("a") is None
+        (folder / "a").write_bytes(whole)
+        assert_same(cache.load("a"), POINT)
+
+    @pytest.mark.parametrize("content", [b"", b"text", bytes(100)], ids=["empty", "text", "zeros"])
+    def test_what_is_no_point_is_missing_and_can_be_replaced(self, cache, folder, content):
+        folder.mkdir()
+        (folder / "a").write_bytes(content)
+        assert cache.load("a") is None
+        cache.store("a", POINT)
+        assert_same(cache.load("a"), POINT)
+
+    def test_a_point_whose_class_is_gone_is_missing(self, cache, folder):
+        cache.store("a", POINT)
+        whole = (folder / "a").read_bytes()
+        (folder / "a").write_bytes(whole.replace(b"Point", b"Paint"))
+        assert cache.load("a") is None
+
+    @pytest.mark.parametrize("before", [None, 1.0])
+    def test_a_kill_before_the_rename_leaves_what_was_there(self, cache, folder, monkeypatch, before):
+        """No point, or the one before; the next write is not in the way of what is left."""
+        if before:
+            cache.store("a", replace(POINT, speed=before))
+        with monkeypatch.context() as patch:
+            patch.setattr("pathlib.Path.replace", self.kill)
+            with pytest.raises(KeyboardInterrupt):
+                cache.store("a", POINT)
+        assert (folder / "a.unfinished").stat().st_size > 0
+        assert (folder / "a").exists() == bool(before)
+        found = cache.load("a")
+        assert found.speed == before if before else found is None
+        cache.store("a", POINT)
+        assert_same(cache.load("a"), POINT)
+        assert [path.name for path in folder.iterdir()] == ["a"]
+
+    def test_a_kill_in_the_middle_of_a_write_leaves_no_point(self, cache, folder, monkeypatch):
+        monkeypatch.setattr("os.fsync", self.kill)
+        with pytest.raises(KeyboardInterrupt):
+            cache.store("a", POINT)
+        assert not (folder / "a").exists() and cache.load("a") is None
+
+    def kill(self, *_):
+        raise KeyboardInterrupt
+
+
+DESCRIPTION = [{"grid": {"nodes": 65, "x": [-1.9, 1.3]}, "mean": "arithmetic"}, "down", [1.0, 0.7], True]
+
+
+class TestKeys:
+    def test_equal_descriptions_have_one_key_whatever_the_order_of_their_tables(self):
+        again = [{"mean": "arithmetic", "grid": {"x": [-1.9, 1.3], "nodes": 65}}, "down", [1.0, 0.7], True]
+        assert key_of(again) == key_of(DESCRIPTION)
+        assert key_of(DESCRIPTION).isalnum() and len(key_of(DESCRIPTION)) == 24
+
+    def test_any_value_changes_the_key(self):
+        tables, branch, way, jump = DESCRIPTION
+        grid = tables["grid"]
+        others = [
+            [tables | {"grid": grid | {"nodes": 129}}, branch, way, jump],
+            [tables | {"grid": grid | {"x": [-1.9, 1.3 + 1e-15]}}, branch, way, jump],
+            [tables | {"mean": "harmonic"}, branch, way, jump],
+            [tables | {"more": None}, branch, way, jump],
+            [{"grid": grid}, branch, way, jump],
+            [tables, "up", way, jump],
+            [tables, branch, [0.7, 1.0], jump],
+            [tables, branch, [1.0], jump],
+            [tables, branch, way, False],
+        ]
+        keys = {key_of(each) for each in (DESCRIPTION, *others)}
+        assert len(keys) == 1 + len(others)
+
+    def test_another_version_has_other_keys(self, monkeypatch):
+        key = key_of(DESCRIPTION)
+        monkeypatch.setattr(mgehl, "__version__", mgehl.__version__ + ".1")
+        assert key_of(DESCRIPTION) != key
+
+
+class TestPlacesThatCannotBeWritten:
+    """Files in the place of folders, which stop root, too."""
+
+    def one_line(self, cache):
+        with pytest.raises(OutputError, match="points: cannot be written: ") as caught:
+            cache.store("a", POINT)
+        assert "\n" not in str(caught.value)
+        assert cache.load("a") is None
+
+    def test_a_directory_that_is_a_file(self, tmp_path):
+        (tmp_path / "file").touch()
+        self.one_line(PointCache(tmp_path / "file", MPI.COMM_SELF))
+
+    def test_a_directory_that_is_missing(self, tmp_path):
+        self.one_line(PointCache(tmp_path / "missing", MPI.COMM_SELF))
+
+    def test_a_folder_of_points_that_is_a_file(self, cache, folder):
+        folder.touch()
+        self.one_line(cache)
+
+    def test_a_point_that_is_a_folder(self, cache, folder):
+        (folder / "a").mkdir(parents=True)
+        self.one_line(cache)
