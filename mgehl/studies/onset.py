@@ -13,8 +13,10 @@ STEP = 1.3
 FIRST_CELLS = 2.5
 """Cells in the inlet where the way down begins: above the loss of the film on every grid."""
 
-FIRST_CONTACT = 2e-4
+FIRST_CONTACT = 2.5e-5
 """m/s on a grid of 1025 nodes where the way up begins, more on coarser ones as the loss is."""
+
+STEP_UP = 1.5
 
 LOST = 0.9
 """Contact over Hertz area below which contact is not full any more."""
@@ -50,7 +52,7 @@ def _row(study, nodes):
         fastest = branches.contact.at_speed(1e-9).matched_speed(dX, FIRST_CELLS)
         down = branches.bracket("down", _way(fastest, 1.0 / STEP), _has_contact, PRECISION)
         slowest = FIRST_CONTACT * (1024.0 / (nodes - 1)) ** 2
-        up = branches.bracket("up", _way(slowest, STEP), _has_lost_contact, PRECISION)
+        up = branches.bracket("up", _way(slowest, STEP_UP), _has_lost_contact, PRECISION)
     return {
         "grid": str(nodes),
         "dX": f"{dX:.4e}",
