@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 RUNS = Path(__file__).parents[1] / "runs"
-PAGE = RUNS / "transition.md"
+PAGE = RUNS / "README.md"
 QUOTED = re.compile(r"`([-+]?\d[\d.]*(?:e[-+]?\d+)?)`")
 
 

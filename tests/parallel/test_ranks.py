@@ -4,6 +4,7 @@ Every rank runs every test, and collective calls must be reached by all: what is
 rank is sent to all before the assertion.
 """
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -19,7 +20,8 @@ from mgehl.run import solve as solve_config
 from mgehl.solver.nested import NestedSettings, SolverSettings, single_loop
 from mgehl.solver.relaxation import RelaxationSettings
 from mgehl.solver.verification import check_pressure_inequality, complementarity_error, flux_imbalance
-from mgehl.studies.study import merged
+from mgehl.studies.branch import Branches
+from mgehl.studies.study import Study, merged
 from mgehl.studies.wedge import case as wedge_case
 
 pytestmark = pytest.mark.parallel
@@ -318,6 +320,32 @@ class TestOtherKinds:
         assert together.result.converged
         assert together.result.overlap.nodes == alone.result.overlap.nodes
         assert together.result.central_film_nm == pytest.approx(alone.result.central_film_nm, rel=1e-9)
+
+
+class TestBranches:
+    """A film followed in speed, and full contact, with their points on disk."""
+
+    def test_they_equal_the_serial_ones_and_are_read_again(self, tmp_path):
+        shared = Path(COMM.bcast(str(tmp_path)))
+        together = self.walk(COMM, shared)
+        again = self.walk(COMM, shared)
+        alone = self.walk(MPI.COMM_SELF, tmp_path / "alone")
+        for point, copy, serial in zip(together, again, alone, strict=True):
+            assert point.origin == serial.origin and point.result.settled
+            assert point.result.contact.nodes == serial.result.contact.nodes
+            assert point.result.central_film_nm == pytest.approx(serial.result.central_film_nm, abs=1e-4)
+            assert point.result.minimum_film_nm == pytest.approx(serial.result.minimum_film_nm, abs=1e-4)
+            # Each rank has its own clock; what is on disk is the first one's.
+            assert replace(copy.result, wall_s=0.0) == replace(point.result, wall_s=0.0)
+            assert (point.fields is None) == (copy.fields is None) == (COMM.rank > 0)
+
+    def walk(self, comm, directory):
+        if comm.rank == 0:
+            directory.mkdir(exist_ok=True)
+        comm.barrier()
+        study = Study(directory, comm, (65,), speak=False)
+        with Branches(study, {"grid": {"nodes": 65}}) as branches:
+            return branches.walk("down", [1.0, 0.7]) + branches.walk("up", [0.005, 0.007])
 
 
 class TestCommandLine:

@@ -81,7 +81,7 @@ class TestWedge:
 def test_schemes(study):
     """One grid: every scheme's film on 65 nodes as a run finds it, no limit."""
     directory = study("schemes", "65")
-    assert {path.name for path in directory.iterdir()} == {"films.csv", "films.md", "films.png"}
+    assert {path.name for path in directory.iterdir()} == {"films.csv", "films.md", "films.png", "points"}
     rows = read(directory / "films.csv")
     assert [row["couette"] for row in rows] == list(SCHEMES)
     assert all((row["nodes"], row["converged"]) == ("65", "yes") for row in rows)
