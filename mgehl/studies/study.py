@@ -66,9 +66,9 @@ class Study:
         if self.first and self.speak:
             spent = time.perf_counter() - self._started
             left = spent / self._done * max(self.cases - self._done, 0)
-            print(
-                f"{self._done:3d}/{self.cases}  {left:5.0f} s left  {title}{_verdict(result)}", flush=True
-            )
+            # How many points a bracket takes is not known before.
+            when = f"/{self.cases}  {left:5.0f} s left" if self.cases else f"  after {spent:5.0f} s"
+            print(f"{self._done:3d}{when}  {title}{_verdict(result)}", flush=True)
 
     def write_table(self, name, rows):
         """Write rows (dictionaries of text) as NAME.csv and NAME.md, and print them (collective)."""
