@@ -12,7 +12,7 @@ SQUEEZE = 3.0
 """Least `NewtonSettings.squeeze` of a continuation: without it a step in speed closes films in spots."""
 
 SMALLEST_STEP = 0.25
-"""Part of the way below which a step that failed is not halved again."""
+"""Part of a first step below which one that failed is not halved again."""
 
 BEYOND = 8.0
 """Ratio of speeds by which a start far from its branch's end is taken."""
@@ -101,7 +101,7 @@ def carry(solve, state, step=1.0):
     A step that does not converge is halved and tried again from the last state that did. Returns
     the last solution: at t = 1, or of the smallest step that failed.
     """
-    reached = 0.0
+    reached, smallest = 0.0, SMALLEST_STEP * step
     while True:
         t = min(1.0, reached + step)
         problem, outcome = solve(t, state)
@@ -109,5 +109,5 @@ def carry(solve, state, step=1.0):
             reached, state, step = t, outcome.state, 2.0 * step
         else:
             step = 0.5 * (t - reached)
-        if reached == 1.0 or step < SMALLEST_STEP:
+        if reached == 1.0 or step < smallest:
             return problem, outcome

@@ -7,7 +7,7 @@ import pytest
 
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import CONTACT
-from mgehl.solver.continuation import BEYOND, SMALLEST_STEP, Continuation, carry
+from mgehl.solver.continuation import BEYOND, Continuation, carry
 from mgehl.solver.nested import SolverSettings
 from mgehl.solver.newton import NewtonSettings, Outcome
 
@@ -27,6 +27,13 @@ class Walk:
 
 
 class TestCarry:
+    SMALLEST = 1.0 / 16.0
+
+    @pytest.fixture(autouse=True)
+    def patient(self, monkeypatch):
+        """Four halvings, to see more of them."""
+        monkeypatch.setattr("mgehl.solver.continuation.SMALLEST_STEP", self.SMALLEST)
+
     def test_one_step_where_nothing_fails(self):
         walk = Walk()
         problem, outcome = carry(walk, 0.0)
@@ -69,15 +76,15 @@ class TestCarry:
     def test_the_smallest_step_is_tried_and_none_below_it(self):
         walk = Walk(lambda t, state: True)
         _, outcome = carry(walk, 0.0)
-        assert walk.tried[-1] == (SMALLEST_STEP, 0.0)
+        assert walk.tried[-1] == (self.SMALLEST, 0.0)
         assert not outcome.converged
 
     def test_a_way_whose_every_step_is_short_is_gone_to_its_end(self):
-        walk = Walk(lambda t, state: t - state > 1.5 * SMALLEST_STEP)
+        walk = Walk(lambda t, state: t - state > 1.5 * self.SMALLEST)
         _, outcome = carry(walk, 0.0)
         assert outcome.converged and outcome.state == 1.0
-        reached = [t for t, state in walk.tried if t - state <= SMALLEST_STEP]
-        assert reached == [k * SMALLEST_STEP for k in range(1, 17)]
+        reached = [t for t, state in walk.tried if t - state <= self.SMALLEST]
+        assert reached == [k * self.SMALLEST for k in range(1, 17)]
 
 
 class Followed:
