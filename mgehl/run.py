@@ -16,6 +16,7 @@ from mgehl.grid.hierarchy import Hierarchy
 from mgehl.output import files, progress
 from mgehl.output.result import Work, summarise
 from mgehl.output.wedge_result import summarise_wedge
+from mgehl.solver.continuation import begin
 from mgehl.solver.from_config import (
     OPTIONS_PREFIX,
     contact_from,
@@ -23,7 +24,7 @@ from mgehl.solver.from_config import (
     scheme_from,
     settings_from,
 )
-from mgehl.solver.nested import nested_iteration, single_loop
+from mgehl.solver.nested import single_loop
 from mgehl.solver.wedge import solve_wedge
 
 
@@ -95,7 +96,7 @@ def _solve_loaded(config, contact, hierarchy, started, speak):
     if not by_newton:
         lines = (progress.sweep_row, progress.sweep_line)
     monitor = progress.Progress(*lines, contact.film_scale, lambda: hierarchy.convolutions, speak)
-    method = nested_iteration if by_newton else single_loop
+    method = begin if by_newton else single_loop
     problem, outcome = method(hierarchy, contact, settings, monitor)
     work = Work(hierarchy.convolutions, monitor.steps if by_newton else outcome.cycles[-1].step)
     wall = time.perf_counter() - started

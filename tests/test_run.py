@@ -244,3 +244,18 @@ def test_force_clears_the_center_line_of_a_wedge_before(tmp_path):
     point = ["--set", "grid.nodes=65", "--set", "solver.start=contact"]
     assert main(["run", *point, "--quiet", "--force", "--out", str(here)]) == 0
     assert {path.name for path in here.iterdir()} == FILES
+
+
+def test_another_mean_is_solved_from_a_configuration():
+    """65 nodes at 1 m/s: the means bracket the film."""
+    films = []
+    for mean in ("arithmetic", "geometric", "harmonic"):
+        tables = {
+            "grid": {"nodes": 65},
+            "motion": {"speed": 1.0},
+            "discretization": {"face_mobility": mean},
+        }
+        result = solve(config_from_tables(tables), MPI.COMM_SELF).result
+        assert result.converged and result.residual <= 1e-8
+        films.append(result.central_film_nm)
+    assert films[0] < films[1] < films[2]

@@ -95,6 +95,13 @@ class Continuation:
         return problem, outcome
 
 
+def begin(hierarchy, contact, settings, monitor):
+    """Solve `contact` from nothing, by whatever its mean of the mobility takes; as `nested_iteration`."""
+    if settings.scheme.face_mobility == "arithmetic":
+        return nested_iteration(hierarchy, contact, settings, monitor)
+    return Continuation(hierarchy, contact, settings, monitor).begin(contact.speed, settings.nested.start)
+
+
 def carry(solve, state, step=1.0):
     """Carry `state` from t = 0 to 1 with `solve(t, state)`, which returns a problem and an `Outcome`.
 
