@@ -65,7 +65,7 @@ transition: $(ENVIRONMENT)
 	  --quiet --out $(TRANSITION)transition-$$n ) || exit 1; done
 	( $(ON) python -m mgehl study transition --grid 257 --mean geometric --resume --quiet \
 	  --out $(TRANSITION)transition-257-geometric )
-	( $(ON) mpiexec -n 2 python -m mgehl study grid --nodes 257,513,1025,2049 --resume --quiet ) || true
+	( $(ON) mpiexec -n 2 python -m mgehl study grid --nodes 257,513,1025,2049 --resume --quiet ) || exit 1
 	for s in onset bracket; do ( $(ON) mpiexec -n 2 python -m mgehl study $$s --resume --quiet ) || exit 1; done
 	cp $(TRANSITION)transition-*/transition-*.* runs/tables/
 	for s in grid onset bracket; do for f in $(TRANSITION)$$s/*.md $(TRANSITION)$$s/*.csv $(TRANSITION)$$s/*.png; do \

@@ -27,7 +27,7 @@ def schemes(path, nodes, films):
             panel.set_xlim(left=0.0)
         panels[1].legend(frameon=False)
         figure.suptitle("Point contact at 1 m/s by every differential scheme")
-        _save(figure, path)
+        save(figure, path)
 
 
 def line(path, rows):
@@ -45,7 +45,7 @@ def line(path, rows):
             panel.set(xscale="log", xlabel="speed, mm/s", ylabel="film over formula", title=f"{film} film")
         panels[1].legend(frameon=False)
         figure.suptitle("Line contact over formulas of the Dowson-Higginson type")
-        _save(figure, path)
+        save(figure, path)
 
 
 def inlet(path, rows):
@@ -67,7 +67,7 @@ def inlet(path, rows):
         for axes in (films, ratios):
             axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=2, frameon=False)
         figure.suptitle("Line contact, 2.26 GPa: what the grid decides")
-        _save(figure, path)
+        save(figure, path)
 
 
 def _points(rows, column):
@@ -90,13 +90,14 @@ def histories(path, cases):
             panel.set(xscale="log", yscale="log", xlabel="fine-grid convolutions", title=name)
         panels[0, 0].set_ylabel("true residual (rms)")
         panels[0, 0].legend(frameon=False)
-        _save(figure, path)
+        save(figure, path)
 
 
 def _cells(rows):
     return [float(row["inlet cells"]) for row in rows]
 
 
-def _save(figure, path):
+def save(figure, path):
+    """Write a figure and forget it."""
     figure.savefig(path)
     plt.close(figure)

@@ -9,7 +9,7 @@ import numpy as np  # noqa: E402
 
 from mgehl.discretization.status import CONTACT  # noqa: E402
 from mgehl.output.picture import STYLE  # noqa: E402
-from mgehl.studies.film_figures import COLOURS, MARKS  # noqa: E402
+from mgehl.studies.film_figures import COLOURS, MARKS, save  # noqa: E402
 
 
 def against_hertz(path, profiles):
@@ -31,7 +31,7 @@ def against_hertz(path, profiles):
         panels[1, 0].set_ylabel("gap left in contact, nm")
         panels[0, 0].legend(frameon=False)
         figure.suptitle("0.005 mm/s: contact pressure against Hertz, and the residual gap")
-        _save(figure, path)
+        save(figure, path)
 
 
 def before_interface(path, profiles):
@@ -52,9 +52,4 @@ def before_interface(path, profiles):
         panels[1].set(ylim=(-5.0, 400.0), ylabel="gap, nm", title="b  gap")
         panels[2].set(ylim=(1e-7, 1.0), ylabel="P = p/p$_h$", title="c  with one node in contact")
         panels[0].legend(frameon=False)
-        _save(figure, path)
-
-
-def _save(figure, path):
-    figure.savefig(path)
-    plt.close(figure)
+        save(figure, path)

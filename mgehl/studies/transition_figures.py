@@ -9,7 +9,7 @@ import numpy as np  # noqa: E402
 
 from mgehl.discretization.status import CONTACT  # noqa: E402
 from mgehl.output.picture import STYLE  # noqa: E402
-from mgehl.studies.film_figures import COLOURS, MARKS  # noqa: E402
+from mgehl.studies.film_figures import COLOURS, MARKS, save  # noqa: E402
 
 PROFILES = 6
 """Speeds in Figure 14a and b, from the last full film to the first full contact."""
@@ -24,6 +24,8 @@ def branches(path, followed, points):
         figure, (films, ratio) = plt.subplots(1, 2, figsize=(10.5, 4.6), layout="constrained")
         for branch, colour, mark in zip(("down", "up"), COLOURS, ("v", "^"), strict=False):
             own = [point for point in points if point.branch == branch and point.result.settled]
+            if not own:
+                continue
             mm_s = [1e3 * point.speed for point in own]
             for name, line in (("central", "-"), ("minimum", ":")):
                 film = [getattr(point.result, f"{name}_film_nm") for point in own]
@@ -45,8 +47,9 @@ def branches(path, followed, points):
         ratio.set(xscale="log", xlabel="speed, mm/s", ylabel="contact area over Hertz area")
         for axes in (films, ratio):
             axes.legend(frameon=False)
-        figure.suptitle(f"{followed.mesh.nx} nodes: film and contact, from both ends")
-        _save(figure, path)
+        directions = " and ".join(dict.fromkeys(point.branch for point in points))
+        figure.suptitle(f"{followed.mesh.nx} nodes: film and contact, speed going {directions}")
+        save(figure, path)
 
 
 def figure_14(path, followed, points):
@@ -70,7 +73,7 @@ def figure_14(path, followed, points):
         mixed = min(own, key=lambda point: abs(point.result.contact.area_fraction - 0.5))
         _film_map(figure, film, mesh, mixed, nm)
         figure.suptitle(f"{mesh.nx} nodes, {branch}")
-        _save(figure, path)
+        save(figure, path)
 
 
 def _film_map(figure, axes, mesh, point, nm):
@@ -111,7 +114,7 @@ def bracket(path, nodes, rows):
         for panel in panels[:, 0]:
             panel.set_ylabel("film, nm (at the bottom: contact)")
         panels[0, 0].legend(frameon=False)
-        _save(figure, path)
+        save(figure, path)
 
 
 def _band(rows, film):
@@ -138,7 +141,7 @@ def onset(path, rows, powers):
         axes.set(xscale="log", yscale="log", xlabel="spacing dX", ylabel="speed, mm/s")
         axes.legend(frameon=False)
         axes.set_title("The grid decides: critical speeds against the spacing")
-        _save(figure, path)
+        save(figure, path)
 
 
 def _between_film_and_contact(points):
@@ -150,8 +153,3 @@ def _between_film_and_contact(points):
     span = points[max(0, first - 1) : last + 1]
     chosen = np.unique(np.linspace(0, len(span) - 1, PROFILES).round().astype(int))
     return [span[k] for k in chosen]
-
-
-def _save(figure, path):
-    figure.savefig(path)
-    plt.close(figure)
