@@ -1,5 +1,7 @@
 """mgehl: multigrid for mixed and boundary lubrication of loaded contacts.
 
+    solution = mgehl.solve(mgehl.load("my.toml"))
+
 The layers, lowest first; none imports a higher one (``tests/test_layers.py`` asserts it):
 
 ``model``           what is computed: SI parameters in, dimensionless groups out
@@ -7,7 +9,16 @@ The layers, lowest first; none imports a higher one (``tests/test_layers.py`` as
 ``grid``            PETSc DMDA hierarchy, transfers between grids, distributed convolution
 ``multigrid``       line smoother, coarse solve, PCMG cycle for the bordered Jacobian
 ``solver``          Newton, contact and cavitation partition, nested iteration, verification
-``output``, ``cli`` files, pictures, command line
+``output``          files, pictures, tables, progress
+``studies``         many solves and what they show
+``commands``        the command line, a module for each command
 """
 
-__version__ = "0.1.0"
+from mgehl.api import load, solve
+from mgehl.config import Config
+from mgehl.errors import ConfigError, UserError
+from mgehl.version import VERSION
+
+__version__ = VERSION
+
+__all__ = ["Config", "ConfigError", "UserError", "__version__", "load", "solve"]

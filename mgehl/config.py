@@ -7,11 +7,13 @@ import difflib
 import os
 import sysconfig
 import tomllib
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 
 from mgehl import config_sections as sections
-from mgehl.config_value import ConfigError, read_value
+from mgehl.config_value import read_value
+from mgehl.errors import ConfigError
 from mgehl.model.lubricant import VISCOSITY_LAWS
 
 COARSEST_NODES = 33
@@ -87,22 +89,25 @@ SECTIONS = {section.name: type(section.default) for section in fields(Config)}
 
 
 def load_config(path=None, settings=()):
-    """Read a TOML file (default: the point contact) and apply `key=value` settings.
+    """Read a TOML file (default: the point contact) and apply settings, "key=value" or a mapping.
 
     Raises ConfigError for anything that cannot be used.
     """
     tables = _read_toml(Path(path) if path else default_config())
-    _push_out(tables, settings)
-    for setting in settings:
-        _apply_setting(tables, setting)
+    given = _pairs(settings)
+    _push_out(tables, given)
+    for name, value in given.items():
+        _apply(tables, name, value)
     return config_from_tables(tables)
 
 
-def _push_out(tables, settings):
+def _pairs(settings):
+    """{"section.key": value} of a mapping or of "section.key=value" words, the last one in authority."""
+    return dict(settings) if isinstance(settings, Mapping) else dict(map(_read_setting, settings))
+
+
+def _push_out(tables, given):
     """Drop what the file says and a setting makes meaningless: another kind, or Moes numbers."""
-    given = {
-        key.strip(): value.strip(" '\"") for key, _, value in (each.partition("=") for each in settings)
-    }
     names = list(FOREIGN.get(given.get("contact.kind"), ()))
     if any(key.startswith("moes.") for key in given):
         names += [f"{section}.{key}" for section, key in MOES_REPLACES]
@@ -194,8 +199,8 @@ def _read_toml(path):
         raise ConfigError(f"{path}: not valid TOML: {error}") from None
 
 
-def _apply_setting(tables, setting):
-    """Put one "section.key=value" into the tables; the value is TOML, or else a plain string."""
+def _read_setting(setting):
+    """Name and value of one "section.key=value"; the value is TOML, or else a plain string."""
     key, equals, text = setting.partition("=")
     section, dot, name = (part.strip() for part in key.partition("."))
     if not (equals and dot and section and name):
@@ -207,10 +212,18 @@ def _apply_setting(tables, setting):
         value = parsed["value"] if len(parsed) == 1 else text.strip()
     except tomllib.TOMLDecodeError:
         value = text.strip()
+    return f"{section}.{name}", value
+
+
+def _apply(tables, name, value):
+    """Put the value of "section.key" into the tables."""
+    section, dot, key = str(name).partition(".")
+    if not (dot and section and key):
+        raise ConfigError(f"{name} = {value!r}: must be section.key, such as grid.nodes")
     table = tables.setdefault(section, {})
     if not isinstance(table, dict):
         raise ConfigError(f"{section} = {table!r}: is a section, its keys go under [{section}]")
-    table[name] = value
+    table[key] = value
 
 
 def _closest(name, known):

@@ -5,6 +5,8 @@ import sys
 from dataclasses import field
 from functools import cache
 
+from mgehl.errors import ConfigError
+
 FARTHEST = 100.0
 """Largest distance of the domain's edge, in semi-axes of the contact."""
 
@@ -12,10 +14,6 @@ _UNIT = r"[A-Za-zµ°]+(?:(?:\^|\*\*)-?\d)?"
 _QUANTITY = re.compile(rf"([-+]?[\d.]+(?:[eE][-+]?\d+)?)\s*((?:1\s*)?/)?\s*({_UNIT}(?:[ */]+{_UNIT})*)?")
 _NO_MATCH = re.match("(?P<number>)(?P<per>)(?P<units>)", "")
 """A quantity such as "7.5 mm/s" or "18.2 1/GPa", and one without a number, which no float reads."""
-
-
-class ConfigError(ValueError):
-    """A configuration that cannot be used; the message is one line for the user."""
 
 
 def key_field(default, help, unit=None, above=None, low=None, high=None, choices=None, kind=float):

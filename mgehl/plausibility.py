@@ -1,6 +1,6 @@
 """What a valid configuration may still get wrong together: found before anything is written."""
 
-from mgehl.config import ConfigError
+from mgehl.errors import ConfigError
 from mgehl.solver.from_config import mesh_from
 
 LARGEST_RADIUS_RATIO = 1e3

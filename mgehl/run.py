@@ -1,20 +1,19 @@
 """One run from a configuration to its directory."""
 
 import time
-from dataclasses import dataclass, replace
 from importlib.metadata import PackageNotFoundError, version
 
 import numpy as np
 from mpi4py import MPI
 from petsc4py import PETSc
 
-import mgehl
 from mgehl.config import COARSEST_NODES
-from mgehl.discretization.mesh import Mesh
+from mgehl.errors import OutputError
 from mgehl.grid.grid import single_grid
 from mgehl.grid.hierarchy import Hierarchy
 from mgehl.output import files, progress
 from mgehl.output.result import Work, summarise
+from mgehl.output.solution import Fields, Solution
 from mgehl.output.wedge_result import summarise_wedge
 from mgehl.solver.continuation import begin
 from mgehl.solver.from_config import (
@@ -26,31 +25,7 @@ from mgehl.solver.from_config import (
 )
 from mgehl.solver.nested import single_loop
 from mgehl.solver.wedge import solve_wedge
-
-
-@dataclass
-class Fields:
-    """Whole-grid fields (ny, nx) on rank 0."""
-
-    P: np.ndarray
-    H: np.ndarray
-    status: np.ndarray
-
-
-@dataclass
-class Solution:
-    """What was solved and found; `result` is a `Result` or a `WedgeResult`, `rows` the history."""
-
-    config: object
-    contact: object
-    mesh: Mesh
-    fields: Fields
-    rows: list
-    result: object
-
-    def shared(self):
-        """What every rank knows."""
-        return replace(self, fields=None)
+from mgehl.version import VERSION
 
 
 def run(config, directory, comm, speak=True):
@@ -58,8 +33,7 @@ def run(config, directory, comm, speak=True):
     solution = solve(config, comm, speak)
     files.on_first_rank(comm, _write, directory, solution)
     if speak and comm.rank == 0:
-        block = progress.wedge_block if config.contact.kind == "wedge" else progress.trust_block
-        print(block(solution.result), f"  results in {directory}", sep="\n", flush=True)
+        print(solution, f"  results in {directory}", sep="\n", flush=True)
     return solution.result
 
 
@@ -80,12 +54,13 @@ def solve(config, comm, speak=False):
         with np.errstate(all="ignore"):  # an iteration that diverges says so itself
             found = find(config, contact, domain, started, speak and comm.rank == 0)
         problem, state, rows, result = found
-        fields = Fields(*(problem.grid.gather(array) for array in (state.P, state.H, state.status)))
+        local = Fields(state.P, state.H, state.status)
+        whole = local.gathered(problem.grid)
     finally:
         domain.destroy()
     if kind == "line":
         result = comm.bcast(result)  # ranks may differ in the last bit
-    return Solution(config, contact, mesh, fields, rows, result)
+    return Solution(config, contact, mesh, whole, rows, result, state.H0, local, problem.grid.first)
 
 
 def _solve_loaded(config, contact, hierarchy, started, speak):
@@ -120,7 +95,7 @@ def _solve_wedge(config, bearing, grid, started, speak):
 def versions():
     """Versions of what computes."""
     packages = ("numpy", "scipy", "mpi4py", "petsc4py", "pyfftw", "numba")
-    found = {"mgehl": mgehl.__version__, "petsc": ".".join(map(str, PETSc.Sys.getVersion()))}
+    found = {"mgehl": VERSION, "petsc": ".".join(map(str, PETSc.Sys.getVersion()))}
     for package in packages:
         try:
             found[package] = version(package)
@@ -138,7 +113,7 @@ def _write(directory, solution):
     try:
         files.write_config(paths.configuration, config)
         files.write_history(paths.history, solution.rows)
-        files.write_fields(paths.fields, mesh, solution.contact, fields)
+        files.write_fields(paths.fields, solution)
         if config.contact.kind == "wedge":
             files.write_center_line(paths.center_line, mesh, fields)
             wedge_picture.draw(paths.picture, solution)
@@ -146,4 +121,4 @@ def _write(directory, solution):
             picture.draw(paths.picture, solution)
         files.write_result(paths.result, solution.result)
     except OSError as error:
-        raise files.OutputError(f"{directory}: cannot be written: {error}") from None
+        raise OutputError(f"{directory}: cannot be written: {error}") from None

@@ -171,7 +171,7 @@ def test_bad_input_in_a_process_of_its_own(tmp_path):
 
 
 def test_nodes_of_a_study_are_read_as_grid_nodes_are():
-    from mgehl.cli import _nodes
+    from mgehl.commands.study import _nodes
 
     assert _nodes("65.0,0x81") == (65, 129)
 
@@ -179,7 +179,7 @@ def test_nodes_of_a_study_are_read_as_grid_nodes_are():
 def test_every_study_can_be_imported():
     from importlib import import_module
 
-    from mgehl.cli import STUDIES
+    from mgehl.commands.study import STUDIES
 
     assert all(callable(import_module(f"mgehl.studies.{name}").run) for name in STUDIES)
 

@@ -4,7 +4,8 @@ import os
 
 import pytest
 
-from mgehl.config import ConfigError, load_config
+from mgehl.config import load_config
+from mgehl.errors import ConfigError
 from mgehl.plausibility import check_contact
 from mgehl.solver.from_config import contact_from
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from mgehl.cli import describe_keys
+from mgehl.commands.keys import describe_keys
 from mgehl.config import config_from_tables, load_config
 
 ROOT = Path(__file__).resolve().parent.parent

@@ -3,6 +3,7 @@
 import csv
 import json
 from dataclasses import asdict
+from functools import partial
 from math import isfinite
 from pathlib import Path
 
@@ -10,11 +11,9 @@ import h5netcdf
 import tomli_w
 
 from mgehl.discretization import status
+from mgehl.errors import OutputError
 from mgehl.output.center_line import center_line
-
-
-class OutputError(Exception):
-    """A run directory that cannot be used; the message is one line for the user."""
+from mgehl.version import VERSION
 
 
 def on_first_rank(comm, function, *arguments):
@@ -103,34 +102,26 @@ def write_center_line(path, mesh, fields):
         writer.writerows(zip(X.tolist(), P.tolist(), strict=True))
 
 
-def write_fields(path, mesh, contact, fields):
+def write_fields(path, solution):
     """fields.h5, netCDF-4: pressure, film and status with coordinates, SI and dimensionless."""
+    mesh, contact, fields = solution.mesh, solution.contact, solution.fields
     with h5netcdf.File(path, "w") as file:
         file.dimensions = {"y": mesh.ny, "x": mesh.nx}
-        _put(file, "x", ("x",), mesh.X * contact.x_scale, "m", "distance along the motion")
-        _put(file, "y", ("y",), mesh.Y * contact.y_scale, "m", "distance across the motion")
-        _put(file, "X", ("x",), mesh.X, "1", "x over its unit: Hertz semi-axis a, or mm")
-        _put(file, "Y", ("y",), mesh.Y, "1", "y over its unit: Hertz semi-axis b, or mm")
+        file.attrs["mgehl"] = VERSION
+        file.attrs["H0"] = solution.H0
+        put = partial(_put, file)
+        put("x", ("x",), solution.x, "m", "distance along the motion")
+        put("y", ("y",), solution.y, "m", "distance across the motion")
+        put("X", ("x",), mesh.X, "1", "x over its unit: Hertz semi-axis a, or mm")
+        put("Y", ("y",), mesh.Y, "1", "y over its unit: Hertz semi-axis b, or mm")
         plane = ("y", "x")
-        _put(file, "pressure", plane, fields.P * contact.pressure_scale, "Pa", "fluid or contact pressure")
-        _put(file, "film", plane, fields.H * contact.film_scale, "m", "film thickness or gap")
-        _put(
-            file,
-            "P",
-            plane,
-            fields.P,
-            "1",
-            "pressure over its unit: maximum Hertz pressure, or eta u/(m^2 mm)",
-        )
-        _put(file, "H", plane, fields.H, "1", "gap over its unit: a^2/R_x, or m mm")
-        _put(
-            file,
-            "status",
-            plane,
-            fields.status,
-            "1",
-            ", ".join(f"{k} {n}" for k, n in enumerate(status.NAMES)),
-        )
+        put("pressure", plane, solution.pressure, "Pa", "fluid or contact pressure")
+        put("film", plane, solution.film, "m", "film thickness or gap")
+        unit = f"maximum Hertz pressure, or eta u/(m^2 mm): {contact.pressure_scale:.6g} Pa"
+        put("P", plane, fields.P, "1", f"pressure over its unit, {unit}")
+        put("H", plane, fields.H, "1", f"gap over its unit, a^2/R_x, or m mm: {contact.film_scale:.6g} m")
+        names = ", ".join(f"{k} {name}" for k, name in enumerate(status.NAMES))
+        put("status", plane, fields.status, "1", names)
 
 
 def _put(file, name, dimensions, values, unit, description):

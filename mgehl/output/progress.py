@@ -2,6 +2,8 @@
 
 import time
 
+from mgehl.output.result import Result
+
 
 class Progress:
     """Collects the history of a run and, on the rank that may speak, prints it.
@@ -92,6 +94,11 @@ def wedge_line(row):
         f"grid {row['grid']:5d}  solve {row['step']:2d}  residual {row['residual']:8.2e}  "
         f"iterations {row['linear_iterations']:3d}"
     )
+
+
+def last_words(result):
+    """The answer of a run of any kind, and whether and why it can be trusted."""
+    return trust_block(result) if isinstance(result, Result) else wedge_block(result)
 
 
 def wedge_block(result):

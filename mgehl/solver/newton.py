@@ -9,6 +9,7 @@ import numpy as np
 from petsc4py import PETSc
 
 from mgehl.discretization.status import BOUNDARY, LUBRICATED
+from mgehl.errors import OptionError
 from mgehl.solver.cavitation import relax_cavitation_set
 from mgehl.solver.partition import Changes, Partition
 from mgehl.solver.problem import DIVERGED, State
@@ -18,10 +19,6 @@ FLUID_SHARE = 0.3
 
 RELEASE_STEPS = 8
 """Steps in which a set must settle again after Eq. 2 released some of it."""
-
-
-class OptionError(Exception):
-    """A PETSc option that this solver cannot follow; the message is one line for the user."""
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,8 @@ import numpy as np
 from mgehl.config import COARSEST_NODES, config_from_tables
 from mgehl.grid.hierarchy import Hierarchy
 from mgehl.output.result import Work, summarise
-from mgehl.run import Fields, versions
+from mgehl.output.solution import Fields
+from mgehl.run import versions
 from mgehl.solver.continuation import Continuation
 from mgehl.solver.from_config import contact_from, mesh_from, settings_from
 from mgehl.solver.problem import State
@@ -155,12 +156,11 @@ class Branches:
         tolerance = self._settings.newton.tolerance
         result = summarise(problem, outcome, tolerance, work, wall, versions())
         state = outcome.state
-        fields = Fields(*(problem.grid.gather(array) for array in (state.P, state.H, state.status)))
+        fields = Fields(state.P, state.H, state.status).gathered(problem.grid)
         once = RelaxationSettings(max_sweeps=0, film_threshold=self._settings.newton.film_threshold)
         sweep = relax(problem, state.copy(), once, lambda cycle: None).cycles[-1]
         errors = (sweep.e_p, sweep.e_p_fluid, sweep.e_p_solid)
-        found = fields if self._study.first else None
-        return Point(speed, branch, origin, result, found, state.H0, errors)
+        return Point(speed, branch, origin, result, fields, state.H0, errors)
 
     def _state(self, point):
         """The local part of a point's state."""

@@ -6,8 +6,9 @@ import os
 import pickle
 from pathlib import Path
 
-import mgehl
-from mgehl.output.files import OutputError, on_first_rank
+from mgehl.errors import OutputError
+from mgehl.output.files import on_first_rank
+from mgehl.version import VERSION
 
 FOLDER = "points"
 
@@ -17,7 +18,7 @@ CHECKSUM = hashlib.sha256().digest_size
 
 def key_of(description):
     """Name of a point: a hash of everything its answer depends on, as plain data."""
-    text = json.dumps([mgehl.__version__, description], sort_keys=True, default=str)
+    text = json.dumps([VERSION, description], sort_keys=True, default=str)
     return hashlib.sha256(text.encode()).hexdigest()[:24]
 
 

@@ -9,7 +9,8 @@ from pathlib import Path
 from mpi4py import MPI
 
 from mgehl.config import config_from_tables
-from mgehl.output.files import OutputError, on_first_rank
+from mgehl.errors import OutputError
+from mgehl.output.files import on_first_rank
 from mgehl.output.table import markdown, write_csv
 from mgehl.run import solve
 from mgehl.studies.cache import PointCache, key_of

@@ -6,7 +6,7 @@ import pytest
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.status import BOUNDARY, CONTACT, LUBRICATED
 from mgehl.output.center_line import center_line
-from mgehl.run import Fields
+from mgehl.output.solution import Fields
 
 MESH = Mesh(5, 3, (1.5, 5.5), (-1.0, 1.0), edges=(2.0, 5.5))
 

@@ -12,6 +12,7 @@ import xarray
 from mgehl.config import config_from_tables, load_config
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.status import NAMES
+from mgehl.errors import OutputError
 from mgehl.output import files
 from mgehl.output.result import (
     ContactResult,
@@ -21,14 +22,15 @@ from mgehl.output.result import (
     Result,
     Work,
 )
-from mgehl.run import Fields
+from mgehl.output.solution import Fields, Solution
 
 
 def make_result(**changes):
     values = {
         "converged": True, "reason": "all holds", "central_film_nm": 12.0, "minimum_film_nm": 1.0,
         "max_pressure_GPa": 2.3, "residual": 1e-9, "load_error": -1e-10, "complementarity_error": 0.0,
-        "settled": True, "contradictions": [], "flux_imbalance": 1e-11, "contact": ContactResult(3, 0.01, 0.02, (4, 6), None, 0.0),
+        "settled": True, "contradictions": [], "flux_imbalance": 1e-11,
+        "contact": ContactResult(3, 0.01, 0.02, (4, 6), None, 0.0),
         "overlap": Overlap(0, 0.0),
         "pressure_inequality": InequalityResult(8, 1, 0.25, 1.5, [{"i": 6, "j": 3, "size": 0.25}]),
         "cavitated_nodes": 100, "resolution": Resolution(5.0, "resolved"), "groups": {"U": 1e-12},
@@ -45,7 +47,7 @@ class TestDirectory:
 
     def test_one_that_exists_is_refused(self, tmp_path):
         (tmp_path / "kept.txt").write_text("mine")
-        with pytest.raises(files.OutputError, match="--force"):
+        with pytest.raises(OutputError, match="--force"):
             files.prepare_directory(tmp_path, force=False)
         assert [path.name for path in tmp_path.iterdir()] == ["kept.txt"]
 
@@ -56,19 +58,19 @@ class TestDirectory:
     def test_a_file_in_its_place_is_refused(self, tmp_path, force):
         path = tmp_path / "file"
         path.write_text("mine")
-        with pytest.raises(files.OutputError):
+        with pytest.raises(OutputError):
             files.prepare_directory(path, force)
         assert path.read_text() == "mine"
 
     def test_a_file_among_its_parents_is_refused(self, tmp_path):
         (tmp_path / "file").write_text("mine")
-        with pytest.raises(files.OutputError, match="cannot be written"):
+        with pytest.raises(OutputError, match="cannot be written"):
             files.prepare_directory(tmp_path / "file" / "deep", force=False)
 
     @pytest.mark.skipif(os.geteuid() == 0, reason="root may write anywhere")
     def test_one_that_is_write_protected_is_refused(self, tmp_path):
         tmp_path.chmod(0o500)
-        with pytest.raises(files.OutputError, match="cannot be written"):
+        with pytest.raises(OutputError, match="cannot be written"):
             files.prepare_directory(tmp_path, force=True)
         tmp_path.chmod(0o700)
 
@@ -130,7 +132,8 @@ class TestFields:
 
     @pytest.fixture
     def data(self, tmp_path, mesh, contact, fields):
-        files.write_fields(tmp_path / "fields.h5", mesh, contact, fields)
+        solution = Solution(None, contact, mesh, fields, [], None, H0=-0.5)
+        files.write_fields(tmp_path / "fields.h5", solution)
         with xarray.open_dataset(tmp_path / "fields.h5", engine="h5netcdf") as data:
             yield data
 

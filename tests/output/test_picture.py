@@ -12,7 +12,7 @@ from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
 from mgehl.model.hertz import hertz_pressure
 from mgehl.output.picture import STATUS_COLOURS, draw
 from mgehl.output.result import Overlap
-from mgehl.run import Fields, Solution
+from mgehl.output.solution import Fields, Solution
 
 
 @pytest.fixture

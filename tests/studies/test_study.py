@@ -6,7 +6,7 @@ from math import isnan
 import pytest
 from mpi4py import MPI
 
-from mgehl.output.files import OutputError
+from mgehl.errors import OutputError
 from mgehl.studies.study import Study, merged, observed_order, richardson
 
 FILM = {"motion": {"speed": 1.0}, "grid": {"nodes": 65}}

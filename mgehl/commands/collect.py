@@ -1,0 +1,37 @@
+"""mgehl collect: one table of several run directories."""
+
+from pathlib import Path
+
+from mgehl.commands import CONVERGED
+from mgehl.errors import OutputError, UserError
+
+PARALLEL = False
+
+
+def add(commands):
+    """Add the parser."""
+    parser = commands.add_parser("collect", help="make one table of several run directories")
+    parser.add_argument("runs", nargs="+", metavar="RUN", help="run directory")
+    parser.add_argument("--out", metavar="FILE", help="write the whole table as CSV, too")
+    parser.add_argument("--columns", metavar="A,B", help="print only these columns")
+    return parser
+
+
+def execute(options):
+    """Print the table; write it as CSV, too, where asked to."""
+    from mgehl.output.table import collect, markdown, write_csv
+
+    try:
+        rows = collect(options.runs)
+        if options.out:
+            write_csv(Path(options.out), rows)
+    except OSError as error:
+        raise OutputError(f"{error.filename}: {error.strerror}") from None
+    except (ValueError, KeyError) as error:
+        raise OutputError(f"a file of these runs is damaged: {error}") from None
+    columns = options.columns.split(",") if options.columns else list(rows[0])
+    unknown = [column for column in columns if column not in rows[0]]
+    if unknown:
+        raise UserError(f"--columns {unknown[0]}: known are {', '.join(rows[0])}")
+    print(markdown(rows, columns))
+    return CONVERGED

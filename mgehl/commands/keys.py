@@ -1,0 +1,32 @@
+"""mgehl keys: every configuration key."""
+
+from dataclasses import fields
+
+from mgehl.commands import CONVERGED
+from mgehl.config import SECTIONS
+
+PARALLEL = False
+
+
+def add(commands):
+    """Add the parser."""
+    return commands.add_parser("keys", help="list every configuration key")
+
+
+def execute(_options):
+    """Print the list."""
+    print(describe_keys())
+    return CONVERGED
+
+
+def describe_keys():
+    """Every configuration key with its default, unit and meaning, a line each."""
+    lines = []
+    for name, section in SECTIONS.items():
+        for key in fields(section):
+            rules = key.metadata
+            choices = f" ({', '.join(rules['choices'])})" if rules["choices"] else ""
+            unit = f" {rules['unit']}" if rules["unit"] else ""
+            default = "unset" if key.default is None else f"{key.default}{unit}"
+            lines.append(f"{name + '.' + key.name:32} {rules['help']}{choices} [{default}]")
+    return "\n".join(lines)

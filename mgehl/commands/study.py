@@ -1,0 +1,97 @@
+"""mgehl study: solve the cases of a study."""
+
+import sys
+from importlib import import_module
+from pathlib import Path
+
+from mgehl.commands import CONVERGED, NOT_CONVERGED
+from mgehl.config import check_ranks, load_config
+from mgehl.discretization.fluid import FACE_MEANS
+from mgehl.errors import ConfigError
+
+PARALLEL = True
+
+STUDIES = {
+    "wedge": "the rigid wedge bearing, Figures 7 to 10, convergence to the exact series",
+    "line": "line-contact films against the formulas",
+    "inlet": "the line contact from under-resolved to resolved inlets, from both starts",
+    "methods": "Newton with multigrid beside the paper's relaxation, interface conditions beside none",
+    "transition": "from full film to full contact and back, Figure 14 and Table 1",
+    "grid": "full contact and full film on ever finer grids, Figures 11 to 13",
+    "onset": "the speeds at which contact appears and full contact is lost, against the grid",
+    "bracket": "films by three means of the mobility, which close on the answer with the grid",
+    "schemes": "films of the point contact by every differential scheme",
+}
+
+DOUBLING = ("wedge", "schemes")
+"""Studies whose orders and limits need grids of half the spacing of the one before."""
+
+LARGEST_LISTS = {"line": 1, "methods": 0}
+"""Grids that --nodes may name, where not any number."""
+
+_TAKES = {0: "has grids of its own", 1: "takes one grid"}
+
+
+def add(commands):
+    """Add the parser."""
+    parser = commands.add_parser(
+        "study",
+        help="solve many cases and make tables and pictures of them",
+        allow_abbrev=False,
+        description="Solve the cases of a study; write its tables (CSV, Markdown) and pictures.",
+        epilog="; ".join(f"{name}: {text}" for name, text in STUDIES.items()),
+    )
+    parser.add_argument("study", choices=tuple(STUDIES), metavar="NAME", help=", ".join(STUDIES))
+    parser.add_argument("--nodes", "--grid", metavar="N,N,...", help="grids instead of the study's own")
+    parser.add_argument("--direction", choices=("down", "up", "both"), default="both",
+                       help="branches that study transition follows")  # fmt: skip
+    parser.add_argument("--mean", choices=tuple(FACE_MEANS), default="arithmetic",
+                       help="mean of the mobility that study transition follows")  # fmt: skip
+    parser.add_argument("--out", metavar="DIR", help="directory of the results (default: runs/study-NAME)")
+    parser.add_argument("--force", action="store_true", help="start anew in a directory that exists")
+    parser.add_argument(
+        "--resume", action="store_true", help="go on with the points that are finished there"
+    )
+    parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
+    return parser
+
+
+def execute(options, comm):
+    """Solve all cases on all ranks; write tables and pictures."""
+    from mgehl.output.files import on_first_rank, prepare_directory
+    from mgehl.studies.study import Study
+
+    check_ranks(comm.size)
+    nodes = _nodes(options.nodes)
+    if options.study in DOUBLING:
+        _check_doubling(nodes)
+    if len(nodes) > LARGEST_LISTS.get(options.study, len(nodes)):
+        raise ConfigError(
+            f"--nodes {options.nodes}: study {options.study} {_TAKES[LARGEST_LISTS[options.study]]}"
+        )
+    directory = Path(options.out or Path("runs") / f"study-{options.study}")
+    on_first_rank(comm, prepare_directory, directory, options.force, options.resume)
+    study = Study(directory, comm, nodes, not options.quiet, branch=options.direction, mean=options.mean)
+    if not options.resume:
+        on_first_rank(comm, study.cache.clear)
+    import_module(f"mgehl.studies.{options.study}").run(study)
+    if options.quiet and study.failures and comm.rank == 0:
+        print(f"mgehl: {study.failures} cases of the study did not converge", file=sys.stderr)
+    return NOT_CONVERGED if study.failures else CONVERGED
+
+
+def _check_doubling(nodes):
+    for coarse, fine in zip(nodes[:-1], nodes[1:], strict=True):
+        if fine != 2 * coarse - 1:
+            raise ConfigError(
+                f"--nodes {coarse},{fine}: {2 * coarse - 1} must follow {coarse} in this study"
+            )
+
+
+def _nodes(text):
+    """The grids of --nodes, coarsest first, by the rules of grid.nodes."""
+    if text is None:
+        return ()
+    return tuple(
+        sorted({load_config(settings=[f"grid.nodes={each}"]).grid.nodes for each in text.split(",")})
+    )

@@ -1,0 +1,81 @@
+"""What was solved and found: the object that runs, studies, pictures and users share."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mgehl.discretization.mesh import Mesh
+from mgehl.output.progress import last_words
+from mgehl.output.result import Result
+from mgehl.output.wedge_result import WedgeResult
+
+
+@dataclass
+class Fields:
+    """Dimensionless fields: (ny, nx) of the whole grid, or (lines, nx) of one rank."""
+
+    P: np.ndarray
+    H: np.ndarray
+    status: np.ndarray
+
+    def gathered(self, grid) -> "Fields | None":
+        """The whole grid's on rank 0, None elsewhere (collective)."""
+        whole = [grid.gather(local) for local in (self.P, self.H, self.status)]
+        return None if whole[0] is None else Fields(*whole)
+
+
+@dataclass
+class Solution:
+    """A solved contact; `rows` is the history, a dictionary per cycle.
+
+    Whole-grid fields live on rank 0 and are None on the others; every rank has its own lines in
+    `local`, which begin with line `first_line`.
+    """
+
+    config: object
+    contact: object
+    mesh: Mesh
+    fields: Fields | None
+    rows: list
+    result: Result | WedgeResult
+    H0: float = 0.0
+    """Approach of the bodies in units of H  [Liu eq. 48]; 0 for a wedge."""
+    local: Fields | None = None
+    first_line: int = 0
+
+    @property
+    def film(self) -> np.ndarray | None:
+        """Film thickness or gap h in m, (ny, nx); on rank 0."""
+        return None if self.fields is None else self.fields.H * self.contact.film_scale
+
+    @property
+    def pressure(self) -> np.ndarray | None:
+        """Fluid or contact pressure p in Pa, (ny, nx); on rank 0."""
+        return None if self.fields is None else self.fields.P * self.contact.pressure_scale
+
+    @property
+    def status(self) -> np.ndarray | None:
+        """What each node is, (ny, nx): an index of `mgehl.discretization.status.NAMES`; on rank 0."""
+        return None if self.fields is None else self.fields.status
+
+    @property
+    def x(self) -> np.ndarray:
+        """Distance along the motion in m, (nx,)."""
+        return self.mesh.X * self.contact.x_scale
+
+    @property
+    def y(self) -> np.ndarray:
+        """Distance across the motion in m, (ny,)."""
+        return self.mesh.Y * self.contact.y_scale
+
+    @property
+    def summary(self) -> Result | WedgeResult:
+        """Films, verdicts, contact, formulas and work: what result.json holds."""
+        return self.result
+
+    def shared(self) -> "Solution":
+        """What every rank knows."""
+        return replace(self, fields=None, local=None)
+
+    def __str__(self) -> str:
+        return last_words(self.result)

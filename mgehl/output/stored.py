@@ -1,0 +1,82 @@
+"""A run read back from its directory, for pictures, reports, exports and new starts."""
+
+import csv
+import json
+from pathlib import Path
+
+import dacite
+import h5netcdf
+import numpy as np
+
+from mgehl.config import load_config
+from mgehl.errors import ConfigError, OutputError
+from mgehl.output.files import RunFiles
+from mgehl.output.result import Result
+from mgehl.output.solution import Fields, Solution
+from mgehl.output.wedge_result import WedgeResult
+from mgehl.solver.from_config import contact_from, mesh_from
+
+LENIENT = dacite.Config(check_types=False, cast=[tuple])
+"""JSON knows neither tuples nor numbers that are not finite (they are null)."""
+
+
+def read_run(directory) -> Solution:
+    """The `Solution` that a finished run left in its directory, fields and all, on this rank.
+
+    Raises OutputError where a file is missing, cut off or not a run's.
+    """
+    files = RunFiles(directory)
+    if not Path(directory).is_dir():
+        raise OutputError(f"{directory}: is no run directory")
+    try:
+        config = load_config(files.configuration)
+    except ConfigError as error:
+        raise OutputError(str(error)) from None
+    contact = contact_from(config)
+    mesh = mesh_from(config, contact)
+    fields, H0 = read_fields(files.fields, mesh)
+    kind = WedgeResult if config.contact.kind == "wedge" else Result
+    rows, result = _read_history(files.history), _read_result(files.result, kind)
+    return Solution(config, contact, mesh, fields, rows, result, H0, local=fields)
+
+
+def read_fields(path, mesh):
+    """`Fields` of the whole grid and the approach H0 from a fields.h5 of this mesh."""
+    try:
+        with h5netcdf.File(path, "r") as file:
+            fields = Fields(*(np.asarray(file[name]) for name in ("P", "H", "status")))
+            H0 = float(file.attrs["H0"])
+    except FileNotFoundError:
+        raise OutputError(f"{path}: is not there: the run has not finished") from None
+    except (OSError, KeyError, ValueError, RuntimeError) as error:
+        raise OutputError(f"{path}: is damaged, or no fields of mgehl: {_line(error)}") from None
+    shape = (mesh.ny, mesh.nx)
+    if any(array.shape != shape for array in (fields.P, fields.H, fields.status)):
+        raise OutputError(f"{path}: its fields are not of {mesh.nx} x {mesh.ny} nodes")
+    if not (np.isfinite(fields.P).all() and np.isfinite(H0)):
+        raise OutputError(f"{path}: its pressure is not finite everywhere")
+    return fields, H0
+
+
+def _read_history(path):
+    """Rows of history.csv, numbers as numbers."""
+    try:
+        with path.open(newline="") as file:
+            return [{key: _number(text) for key, text in row.items()} for row in csv.DictReader(file)]
+    except (OSError, ValueError, TypeError, AttributeError) as error:
+        raise OutputError(f"{path}: cannot be read: {_line(error)}") from None
+
+
+def _read_result(path, kind):
+    try:
+        return dacite.from_dict(kind, json.loads(path.read_text()), LENIENT)
+    except (OSError, ValueError, TypeError, dacite.DaciteError) as error:
+        raise OutputError(f"{path}: cannot be read: {_line(error)}") from None
+
+
+def _number(text):
+    return int(text) if text.lstrip("+-").isdigit() else float(text)
+
+
+def _line(error):
+    return " ".join(str(error).split())[:120]
