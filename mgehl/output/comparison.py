@@ -13,11 +13,11 @@ from mgehl.output import wedge_picture
 from mgehl.output.center_line import center_line
 from mgehl.output.history_picture import column, cycles, grids
 from mgehl.output.lines import ACROSS, ALONG, film_range
-from mgehl.output.style import COLOURS, GUIDE, HERTZ, subplots
+from mgehl.output.style import COLOURS, GUIDE, HERTZ, inches, subplots
 from mgehl.output.titles import common_labels, common_title
 
-INCHES_A_LETTER, INCHES_A_HANDLE, INCHES_A_ROW = 0.08, 0.7, 0.2
-"""What a legend takes."""
+HANDLE, ROW = 8, 3
+"""Width of a legend's line and height of its row, in letters."""
 STROKES = ("-", "--", "-.", ":")
 """One for each round through the colours."""
 
@@ -125,8 +125,8 @@ def _finished(figure, axes, what, solutions):
     """The figure with its title and, below all panels, the legend of one of them."""
     named = {line.get_label(): line for line in axes.get_lines() if not line.get_label().startswith("_")}
     width, height = figure.get_size_inches()
-    columns = max(1, int(width / (INCHES_A_LETTER * max(map(len, named)) + INCHES_A_HANDLE)))
-    room = INCHES_A_ROW * (ceil(len(named) / columns) + 1) / height
+    columns = max(1, int(width / inches(HANDLE + max(map(len, named)))))
+    room = inches(ROW) * (ceil(len(named) / columns) + 0.5) / height
     figure.get_layout_engine().set(rect=(0.0, room, 1.0, 1.0 - room))
     figure.legend(named.values(), named, loc="lower center", ncols=columns)
     figure.suptitle(f"{what}, {common_title(solutions)}")

@@ -3,7 +3,7 @@
 import numpy as np
 
 from mgehl.model.hertz import hertz_pressure
-from mgehl.output.style import FILM, HERTZ, PRESSURE, subplots
+from mgehl.output.style import FILM, HERTZ, PRESSURE, legend_below, subplots
 from mgehl.output.titles import position_labels, title
 
 ALONG, ACROSS = "Y = 0, along the motion (left to right)", "X = 0, across the motion"
@@ -66,4 +66,4 @@ def _draw(axes, contact, position, P, H, dry_gap):
     dry = films.plot(position, dry_gap * nm, ":", color=HERTZ, linewidth=1, label="dry contact (Hertz)")
     films.set(ylim=film_range(position, H * nm))
     films.set_ylabel("film thickness, nm", color=FILM)
-    axes.legend(handles=[*pressure, *film, *dry], loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=3)
+    legend_below(axes, [*pressure, *film, *dry])
