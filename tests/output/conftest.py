@@ -39,6 +39,12 @@ def status_of(mesh, contact):
 
 
 @pytest.fixture
+def make_rows():
+    """Factory of histories of Newton's method."""
+    return newton_rows
+
+
+@pytest.fixture
 def make_solution():
     """Factory of `Solution`s of a point contact with a dry pressure over a film, or a disc of contact."""
 
