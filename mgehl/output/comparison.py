@@ -12,7 +12,7 @@ from mgehl.model.wedge import WedgeBearing
 from mgehl.output import wedge_picture
 from mgehl.output.center_line import center_line
 from mgehl.output.history_picture import column, cycles, grids
-from mgehl.output.lines import ACROSS, ALONG, film_range
+from mgehl.output.lines import ACROSS, ALONG, across, along, film_range
 from mgehl.output.style import COLOURS, GUIDE, HERTZ, inches, subplots
 from mgehl.output.titles import common_labels, common_title
 
@@ -29,16 +29,16 @@ def compare_lines(solutions, labels):
     """
     kinds = {(isinstance(each.contact, WedgeBearing), each.mesh.is_line) for each in solutions}
     if len(kinds) > 1:
-        raise UserError("runs of different kinds of contact have no common picture")
+        raise UserError("runs of different kinds of contact have no common picture: plot each")
     wedges, is_line = kinds.pop()
     if wedges:
         return _compare_wedges(solutions, labels)
     columns = 1 if is_line else 2
     figure, axes = subplots(2, columns, size=(1.2 + 4.9 * columns, 7.2), sharex="col", squeeze=False)
-    _compare(axes[:, 0], solutions, labels, _along)
+    _compare(axes[:, 0], solutions, labels, along)
     axes[0, 0].set_title(ALONG)
     if not is_line:
-        _compare(axes[:, 1], solutions, labels, _across)
+        _compare(axes[:, 1], solutions, labels, across)
         axes[0, 1].set_title(ACROSS)
     for panel, name in zip(axes[1], common_labels(solutions), strict=False):
         panel.set_xlabel(name)
@@ -65,18 +65,6 @@ def compare_histories(solutions, labels):
     axes[-1, 0].xaxis.set_major_locator(MaxNLocator(integer=True))
     axes[0, 0].set_title("a ring where a grid begins")
     return _finished(figure, axes[0, 0], "convergence", solutions)
-
-
-def _along(solution):
-    mesh, fields = solution.mesh, solution.fields
-    _, j = mesh.nearest(0.0, 0.0)
-    return mesh.X, fields.P[j], fields.H[j]
-
-
-def _across(solution):
-    mesh, fields = solution.mesh, solution.fields
-    i, _ = mesh.nearest(0.0, 0.0)
-    return mesh.Y, fields.P[:, i], fields.H[:, i]
 
 
 def _compare(axes, solutions, labels, line):
