@@ -6,7 +6,7 @@ from math import pi
 
 from mgehl.model import films
 from mgehl.model.contact import Groups, LoadedContact
-from mgehl.model.hertz import hertz_line_contact
+from mgehl.model.hertz import hertz_line_contact, hertz_line_gap
 from mgehl.model.lubricant import Lubricant
 
 
@@ -48,6 +48,10 @@ class LineContact(LoadedContact):
     def undeformed_gap(self, X, _Y):
         """The parabola x^2/2R in units of H  [Liu eq. 48]."""
         return 0.5 * X**2
+
+    def dry_gap(self, X, _Y):
+        """Gap of the Hertz contact in units of H."""
+        return hertz_line_gap(X)
 
     @property
     def groups(self):

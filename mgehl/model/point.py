@@ -6,7 +6,7 @@ from math import pi
 
 from mgehl.model import films
 from mgehl.model.contact import Groups, LoadedContact
-from mgehl.model.hertz import hertz_contact
+from mgehl.model.hertz import hertz_contact, hertz_gap
 from mgehl.model.lubricant import Lubricant
 
 LOAD = 2.0 * pi / 3.0
@@ -65,6 +65,11 @@ class PointContact(LoadedContact):
         """The paraboloid x^2/2R_x + y^2/2R_y in units of H  [Liu eq. 48]."""
         side = self.radius_x / (self.radius_y * self.k_e**2)
         return 0.5 * X**2 + 0.5 * side * Y**2
+
+    def dry_gap(self, X, Y):
+        """Gap of the Hertz contact in units of H."""
+        x, y = X * self.x_scale, Y * self.y_scale
+        return hertz_gap(self.hertz, self.reduced_modulus, x, y) / self.film_scale
 
     @property
     def groups(self):

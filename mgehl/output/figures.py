@@ -3,7 +3,7 @@
     for picture in figures(read_run("runs/point_contact")):
         print(picture.name, picture.title)
 
-Save them with `mgehl.output.style.save`, or all at once with `draw_all`.
+`draw_all` saves them at once. For another look call both under `style.applied("my.mplstyle")`.
 """
 
 from pathlib import Path
@@ -14,7 +14,9 @@ from matplotlib.figure import Figure
 from mgehl.errors import UserError
 from mgehl.model.wedge import WedgeBearing
 from mgehl.output import style, wedge_picture
+from mgehl.output.comparison import compare_histories, compare_lines
 from mgehl.output.history_picture import history
+from mgehl.output.labels import labels
 from mgehl.output.lines import centre_lines
 from mgehl.output.maps import film_map, pressure_map, status_map
 
@@ -64,6 +66,20 @@ def figures(solution, kinds=None):
             raise UserError(f"no picture {kind!r} of this contact: it has {', '.join(draw)}")
     with style.applied():
         return [Picture(kind, TITLES[kind], draw[kind](solution)) for kind in kinds or draw]
+
+
+def compared(solutions, names):
+    """A list of two `Picture`s that show several runs of one kind of contact, called by `names`.
+
+    Raises UserError where their contacts are of different kinds.
+    """
+    said = labels(solutions, names)
+    with style.applied():
+        lines, histories = compare_lines(solutions, said), compare_histories(solutions, said)
+    return [
+        Picture("compare-lines", "pressure and film on the centre lines of all runs", lines),
+        Picture("compare-history", "how the runs converged", histories),
+    ]
 
 
 def draw_all(solution, directory, formats=("png", "pdf"), kinds=None):

@@ -4,8 +4,9 @@ import numpy as np
 
 from mgehl.model.hertz import hertz_pressure
 from mgehl.output.style import FILM, HERTZ, PRESSURE, subplots
-from mgehl.output.titles import title
+from mgehl.output.titles import position_labels, title
 
+ALONG, ACROSS = "Y = 0, along the motion (left to right)", "X = 0, across the motion"
 SMALLEST_FILM_RANGE = 10.0
 """Upper end of the film axis, in nm, where solid contact leaves no film to scale it by."""
 
@@ -17,26 +18,27 @@ def centre_lines(solution):
     draw_along(axes[0, 0], solution)
     if panels > 1:
         draw_across(axes[0, 1], solution)
-    for panel, name, scale in zip(axes[0], "xy", _scales(solution), strict=False):
+    contact = solution.contact
+    for panel, name, scale in zip(axes[0], "xy", (contact.x_scale, contact.y_scale), strict=False):
         add_millimetres(panel, name, scale)
-    figure.suptitle(title(solution))
+    figure.suptitle(f"centre lines, {title(solution)}")
     return figure
 
 
 def draw_along(axes, solution):
     """The lines along the motion, on Y = 0."""
-    mesh, fields = solution.mesh, solution.fields
+    mesh, fields, contact = solution.mesh, solution.fields, solution.contact
     _, j = mesh.nearest(0.0, 0.0)
-    _draw(axes, mesh.X, fields.P[j], fields.H[j], solution.contact)
-    axes.set(xlabel="X = x/a", title="Y = 0, along the motion (left to right)")
+    _draw(axes, contact, mesh.X, fields.P[j], fields.H[j], contact.dry_gap(mesh.X, 0.0 * mesh.X))
+    axes.set(xlabel=position_labels(solution)[0], title=ALONG)
 
 
 def draw_across(axes, solution):
     """The lines across the motion, on X = 0."""
-    mesh, fields = solution.mesh, solution.fields
+    mesh, fields, contact = solution.mesh, solution.fields, solution.contact
     i, _ = mesh.nearest(0.0, 0.0)
-    _draw(axes, mesh.Y, fields.P[:, i], fields.H[:, i], solution.contact)
-    axes.set(xlabel="Y = y/b", title="X = 0, across the motion")
+    _draw(axes, contact, mesh.Y, fields.P[:, i], fields.H[:, i], contact.dry_gap(0.0 * mesh.Y, mesh.Y))
+    axes.set(xlabel=position_labels(solution)[1], title=ACROSS)
 
 
 def film_range(position, film):
@@ -53,18 +55,15 @@ def add_millimetres(axes, name, scale):
     upper.set_xlabel(f"{name}, mm")
 
 
-def _scales(solution):
-    return solution.contact.x_scale, solution.contact.y_scale
-
-
-def _draw(axes, position, P, H, contact):
-    p_h, film = 1e-9 * contact.pressure_scale, 1e9 * contact.film_scale * H
-    pressure = axes.plot(position, P * p_h, color=PRESSURE, label="pressure")
-    dry = axes.plot(position, hertz_pressure(position, 0.0) * p_h, ":", color=HERTZ, label="Hertz")
-    axes.set(ylabel="pressure, GPa", ylim=(0.0, 1.25 * p_h), xlim=position[[0, -1]])
+def _draw(axes, contact, position, P, H, dry_gap):
+    GPa, nm = 1e-9 * contact.pressure_scale, 1e9 * contact.film_scale
+    pressure = axes.plot(position, P * GPa, color=PRESSURE, label="pressure")
+    axes.plot(position, hertz_pressure(position, 0.0) * GPa, ":", color=HERTZ, linewidth=1)
+    axes.set(ylim=(0.0, 1.25 * max(GPa, GPa * float(np.max(P)))), xlim=position[[0, -1]])
+    axes.set_ylabel("pressure, GPa", color=PRESSURE)
     films = axes.twinx()
-    gap = films.plot(position, film, color=FILM, label="film")
-    films.set(ylabel="film thickness, nm", ylim=film_range(position, film))
-    lines = [*pressure, *dry, *gap]
-    labels = [line.get_label() for line in lines]
-    axes.legend(lines, labels, loc="upper center", bbox_to_anchor=(0.5, -0.18), ncols=3)
+    film = films.plot(position, H * nm, color=FILM, label="film")
+    dry = films.plot(position, dry_gap * nm, ":", color=HERTZ, linewidth=1, label="dry contact (Hertz)")
+    films.set(ylim=film_range(position, H * nm))
+    films.set_ylabel("film thickness, nm", color=FILM)
+    axes.legend(handles=[*pressure, *film, *dry], loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=3)

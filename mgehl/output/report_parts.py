@@ -68,11 +68,14 @@ def pictures(solution):
 
 
 def _picture(drawn, solution):
-    caption = drawn.title[0].upper() + drawn.title[1:]
+    title = _OF_A_WEDGE.get(drawn.name, drawn.title) if _is_wedge(solution.result) else drawn.title
+    caption = title[0].upper() + title[1:]
     alt = f"{caption}. {ALTERNATIVES[drawn.name](solution.result)}"
     content = style.rendered(drawn.figure, "svg")
     return picture(f"{caption}.", alt, content, "image/svg+xml", wide=drawn.name in ("lines", "history"))
 
+
+_OF_A_WEDGE = {"lines": "pressure on the centre line", "pressure": "pressure, the solid in grey"}
 
 ALTERNATIVES = {
     "lines": lambda result: f"The largest pressure is {_largest(result)}.",
@@ -88,13 +91,17 @@ ALTERNATIVES = {
 
 
 def _largest(result):
-    if isinstance(result, WedgeResult):
+    if _is_wedge(result):
         return f"{number(result.max_pressure_MPa, 4)} MPa"
     return f"{number(result.max_pressure_GPa, 4)} GPa"
 
 
 def _solid(result):
-    return result.solid_nodes if isinstance(result, WedgeResult) else result.contact.nodes
+    return result.solid_nodes if _is_wedge(result) else result.contact.nodes
+
+
+def _is_wedge(result):
+    return isinstance(result, WedgeResult)
 
 
 HISTORY_NAMES = {

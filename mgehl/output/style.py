@@ -8,6 +8,7 @@ import io
 import logging
 import os
 from contextlib import contextmanager
+from contextvars import ContextVar
 from importlib import resources
 from pathlib import Path
 
@@ -21,29 +22,41 @@ COLOURS = tuple(f"C{k}" for k in range(7))
 """The style's colours of lines, in order: what is compared takes them one after the other."""
 MARKS = ("o", "s", "^", "v", "D", "<", ">")
 PRESSURE, FILM = COLOURS[:2]
-HERTZ, GUIDE, SOLID = "0.6", "0.8", "0.45"
+HERTZ, GUIDE, SOLID = "0.2", "0.8", "0.45"
 """Greys of the dry contact, of lines to guide the eye and of a wedge's pillar."""
 STATUS_COLOURS = ("0.85", "#56B4E9", "#F0E442", "#222222", "#D55E00")
 """Boundary, lubricated, cavitated, contact and overlap (Okabe and Ito)."""
+CONTACT_EDGE = "#D55E00"
+"""Outline of the contact on the maps."""
 
-FORMATS = ("png", "svg", "pdf")
 _UNDATED = {"png": {}, "svg": {"Date": None}, "pdf": {"CreationDate": None}}
+
+_decided = ContextVar("_decided", default=False)
+"""Whether a style is applied."""
 
 
 @contextmanager
 def applied(overlay=None, dpi=None):
     """Draw and save in mgehl's style, with the style file `overlay` laid over it.
 
-    Raises UserError if that file cannot be read or has a line that means nothing to matplotlib.
+    Within another `applied` nothing changes: the outermost decides. Raises UserError if the file cannot
+    be read or has a line that means nothing to matplotlib.
     """
+    if _decided.get():
+        yield
+        return
     with resources.as_file(resources.files("mgehl.output") / "mgehl.mplstyle") as own:
         layers = [_read(own)]
     if overlay is not None:
         layers.append(_read(overlay))
     if dpi is not None:
-        layers.append({"figure.dpi": dpi})
-    with matplotlib.style.context(layers):
-        yield
+        layers.append({"figure.dpi": dpi, "savefig.dpi": dpi})
+    token = _decided.set(True)
+    try:
+        with matplotlib.style.context(layers):
+            yield
+    finally:
+        _decided.reset(token)
 
 
 def subplots(rows=1, columns=1, *, size, **options):

@@ -4,6 +4,7 @@ import numpy as np
 
 from mgehl.discretization.status import CONTACT
 from mgehl.output import style
+from mgehl.output.blocks import Blocks
 from mgehl.output.center_line import center_line
 from mgehl.output.titles import title
 
@@ -43,10 +44,11 @@ def pressure_picture(solution):
 
 def pressure_map(axes, mesh, fields, limits=None):
     """Draw P over the pad, solid grey; return the image for a colour bar."""
-    solid = fields.status == CONTACT
-    P = np.ma.masked_where(solid, fields.P)
+    blocks = Blocks(mesh.X, mesh.Y)
+    solid = blocks.largest(fields.status) == CONTACT
+    P = np.ma.masked_where(solid, blocks.largest(fields.P))
     low, high = limits or (float(P.min()), float(P.max()))
-    image = axes.pcolormesh(mesh.X, mesh.Y, P, vmin=low, vmax=high, shading="nearest", rasterized=True)
+    image = axes.pcolormesh(blocks.X, blocks.Y, P, vmin=low, vmax=high, shading="nearest", rasterized=True)
     axes.set_facecolor(style.SOLID)
     axes.set(xlabel="X, mm", ylabel="Y, mm", aspect="equal", title="pressure (solid grey)")
     return image
