@@ -5,10 +5,10 @@ from mgehl.output.page import BAD, DOUBTFUL, GOOD, Page, Section, Verdict
 from mgehl.output.report_parts import (
     configuration_section,
     history_section,
-    pictures,
     record_section,
     versions_section,
 )
+from mgehl.output.report_pictures import pictures
 from mgehl.output.result import Result
 
 

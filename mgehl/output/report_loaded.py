@@ -3,7 +3,8 @@
 from math import isfinite
 
 from mgehl.output.page import DOUBTFUL, GOOD, NO_NUMBER, Cell, Section, number, table
-from mgehl.output.report_parts import CARE, CHECK_HEADS, CHECKS, absent, informing, limited, span
+from mgehl.output.report_checks import CARE, CHECK_HEADS, CHECKS, absent, informing, limited
+from mgehl.output.report_parts import span
 from mgehl.output.result import COMPLEMENTARITY_TOLERANCE
 
 FORMULAS = {
@@ -20,11 +21,18 @@ RESOLUTION = {
 
 
 def title(solution):
-    """Kind, speed, load and nodes."""
+    """Kind, speed, load and nodes; numbers and their units stay together."""
     contact, mesh = solution.contact, solution.mesh
-    kind, unit = ("Line", "N/m") if mesh.is_line else ("Point", "N")
-    nodes = f"{mesh.nx}\u00a0nodes" if mesh.is_line else f"{mesh.nx}\u00a0×\u00a0{mesh.ny}\u00a0nodes"
-    return f"{kind} contact, {1e3 * contact.speed:.4g}\u00a0mm/s, {contact.load:.4g}\u00a0{unit}, {nodes}"
+    nodes = f"{mesh.nx} nodes" if mesh.is_line else f"{mesh.nx} × {mesh.ny} nodes"
+    parts = (f"{1e3 * contact.speed:.4g} mm/s", " ".join(_load(solution)), nodes)
+    kind = "Line" if mesh.is_line else "Point"
+    return ", ".join([f"{kind} contact", *(part.replace(" ", "\u00a0") for part in parts)])
+
+
+def _load(solution):
+    """The load and its unit; a line contact's is per length."""
+    load = solution.contact.load
+    return (f"{1e-3 * load:.4g}", "N/mm") if solution.mesh.is_line else (f"{load:.4g}", "N")
 
 
 def highlights(solution):
@@ -154,7 +162,7 @@ def _dimensions(solution):
     contact, mesh, line = solution.contact, solution.mesh, solution.mesh.is_line
     hertz = contact.hertz
     rows = [
-        ("load", number(contact.load), "N/m" if line else "N"),
+        ("load", *_load(solution)),
         ("entrainment speed", number(1e3 * contact.speed), "mm/s"),
         (
             "Hertz half-width a" if line else "Hertz semi-axis a, along the motion",

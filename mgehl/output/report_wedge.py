@@ -1,7 +1,7 @@
 """Sections that the page of a wedge bearing has besides those of every run."""
 
 from mgehl.output.page import Section, number, table
-from mgehl.output.report_parts import CARE, CHECK_HEADS, CHECKS, absent, informing, limited
+from mgehl.output.report_checks import CARE, CHECK_HEADS, CHECKS, absent, informing, limited
 
 
 def title(solution):
