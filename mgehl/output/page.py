@@ -38,7 +38,7 @@ class Cell:
 class Table:
     """Rows of `Cell` under `columns`; a `folded` one is opened by its caption.
 
-    A row of a single cell is the heading of those that follow.
+    A row of one cell under more columns is the heading of those that follow.
     """
 
     block: ClassVar = "table"
@@ -102,7 +102,7 @@ class Page:
 def table(caption, columns, rows, folded=False):
     """A `Table` of rows of text or cells; columns of nothing but numbers become numbers."""
     cells = [[each if isinstance(each, Cell) else Cell(each) for each in row] for row in rows]
-    whole = [row for row in cells if len(row) > 1]
+    whole = [row for row in cells if len(row) == len(columns)]
     numeric = [_is_numeric([row[k] for row in whole]) for k in range(len(columns))]
     heads = _aligned([Cell(name) for name in columns], numeric)
     return Table(caption, heads, tuple(_aligned(row, numeric) for row in cells), folded)

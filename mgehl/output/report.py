@@ -16,11 +16,12 @@ def report(solution, name):
     """The `Page` of a `Solution` on rank 0; `name` is the run's, such as its directory's."""
     parts = report_loaded if isinstance(solution.result, Result) else report_wedge
     drawn = pictures(solution)
-    history = history_section(solution.rows, drawn.pop("history", None))
+    maps_and_lines = [each for kind, each in drawn.items() if kind != "history"]
+    of_history = [each for kind, each in drawn.items() if kind == "history"]
     sections = (
         *parts.answer_sections(solution),
-        Section("pictures", "Pictures", tuple(drawn.values())),
-        history,
+        Section("pictures", "Pictures", tuple(maps_and_lines)),
+        history_section(solution.rows, of_history),
         parts.work_section(solution),
         configuration_section(solution.config),
         versions_section(solution.result.versions),

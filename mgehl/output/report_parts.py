@@ -65,8 +65,8 @@ LONG_HISTORY = 400
 """Cycles on one grid beyond which the page leaves out those in between: relaxation takes thousands."""
 
 
-def history_section(rows, drawn):
-    """The history's picture, the last cycle of every grid, and all cycles, folded."""
+def history_section(rows, drawn=()):
+    """Pictures `drawn` of the history, the last cycle of every grid, and all cycles, folded."""
     if not rows:
         return Section("history", "Convergence history", (Text("No cycle was recorded."),))
     grids = [list(cycles) for _, cycles in groupby(rows, key=lambda row: row["grid"])]
@@ -78,7 +78,7 @@ def history_section(rows, drawn):
         "history",
         "Convergence history",
         (
-            drawn,
+            *drawn,
             table("The last cycle on every grid", heads, last),
             table(every, heads, map(_history_row, shown), folded=True),
         ),

@@ -5,14 +5,15 @@ import re
 from pathlib import Path
 
 from mgehl.errors import OutputError
+from mgehl.output.files import NAMES
 from mgehl.output.page import Cell, Page, Section, Text, picture, table
 from mgehl.output.study_record import read_record
 
 
 def is_study(directory):
-    """True of a directory with tables and no run of its own."""
+    """True of a directory with tables and no file of a run, whose history is a table, too."""
     directory = Path(directory)
-    return any(directory.glob("*.csv")) and not (directory / "configuration.toml").exists()
+    return any(directory.glob("*.csv")) and not any((directory / name).exists() for name in NAMES)
 
 
 def study_report(directory, studies):
