@@ -3,6 +3,7 @@
     mpiexec -n 2 python -m mgehl run [CONFIG] [--set key=value ...] [--out DIR] [PETSc options]
     mpiexec -n 2 python -m mgehl study NAME [--nodes 129,257] [--out DIR] [PETSc options]
     python -m mgehl collect RUN [RUN ...] [--out FILE.csv]
+    python -m mgehl plot RUN [RUN ...] [--kind lines,film] [--format png,svg,pdf]
     python -m mgehl keys
 
 `mgehl --help` lists all commands; `mgehl.commands` holds them, a module each.

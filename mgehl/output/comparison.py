@@ -12,12 +12,12 @@ from mgehl.model.wedge import WedgeBearing
 from mgehl.output import wedge_picture
 from mgehl.output.center_line import center_line
 from mgehl.output.history_picture import column, cycles, grids
-from mgehl.output.lines import ACROSS, ALONG, film_range
-from mgehl.output.style import COLOURS, GUIDE, HERTZ, subplots
+from mgehl.output.lines import ACROSS, ALONG, across, along, film_range
+from mgehl.output.style import COLOURS, GUIDE, HERTZ, inches, subplots
 from mgehl.output.titles import common_labels, common_title
 
-INCHES_A_LETTER, INCHES_A_HANDLE, INCHES_A_ROW = 0.08, 0.7, 0.2
-"""What a legend takes."""
+HANDLE, ROW = 8, 3
+"""Width of a legend's line and height of its row, in letters."""
 STROKES = ("-", "--", "-.", ":")
 """One for each round through the colours."""
 
@@ -29,16 +29,16 @@ def compare_lines(solutions, labels):
     """
     kinds = {(isinstance(each.contact, WedgeBearing), each.mesh.is_line) for each in solutions}
     if len(kinds) > 1:
-        raise UserError("runs of different kinds of contact have no common picture")
+        raise UserError("runs of different kinds of contact have no common picture: plot each")
     wedges, is_line = kinds.pop()
     if wedges:
         return _compare_wedges(solutions, labels)
     columns = 1 if is_line else 2
     figure, axes = subplots(2, columns, size=(1.2 + 4.9 * columns, 7.2), sharex="col", squeeze=False)
-    _compare(axes[:, 0], solutions, labels, _along)
+    _compare(axes[:, 0], solutions, labels, along)
     axes[0, 0].set_title(ALONG)
     if not is_line:
-        _compare(axes[:, 1], solutions, labels, _across)
+        _compare(axes[:, 1], solutions, labels, across)
         axes[0, 1].set_title(ACROSS)
     for panel, name in zip(axes[1], common_labels(solutions), strict=False):
         panel.set_xlabel(name)
@@ -65,18 +65,6 @@ def compare_histories(solutions, labels):
     axes[-1, 0].xaxis.set_major_locator(MaxNLocator(integer=True))
     axes[0, 0].set_title("a ring where a grid begins")
     return _finished(figure, axes[0, 0], "convergence", solutions)
-
-
-def _along(solution):
-    mesh, fields = solution.mesh, solution.fields
-    _, j = mesh.nearest(0.0, 0.0)
-    return mesh.X, fields.P[j], fields.H[j]
-
-
-def _across(solution):
-    mesh, fields = solution.mesh, solution.fields
-    i, _ = mesh.nearest(0.0, 0.0)
-    return mesh.Y, fields.P[:, i], fields.H[:, i]
 
 
 def _compare(axes, solutions, labels, line):
@@ -125,8 +113,8 @@ def _finished(figure, axes, what, solutions):
     """The figure with its title and, below all panels, the legend of one of them."""
     named = {line.get_label(): line for line in axes.get_lines() if not line.get_label().startswith("_")}
     width, height = figure.get_size_inches()
-    columns = max(1, int(width / (INCHES_A_LETTER * max(map(len, named)) + INCHES_A_HANDLE)))
-    room = INCHES_A_ROW * (ceil(len(named) / columns) + 1) / height
+    columns = max(1, int(width / inches(HANDLE + max(map(len, named)))))
+    room = inches(ROW) * (ceil(len(named) / columns) + 0.5) / height
     figure.get_layout_engine().set(rect=(0.0, room, 1.0, 1.0 - room))
     figure.legend(named.values(), named, loc="lower center", ncols=columns)
     figure.suptitle(f"{what}, {common_title(solutions)}")

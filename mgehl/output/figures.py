@@ -6,6 +6,8 @@
 `draw_all` saves them at once. For another look call both under `style.applied("my.mplstyle")`.
 """
 
+from collections.abc import Sequence
+from os import PathLike
 from pathlib import Path
 from typing import NamedTuple
 
@@ -19,6 +21,7 @@ from mgehl.output.history_picture import history
 from mgehl.output.labels import labels
 from mgehl.output.lines import centre_lines
 from mgehl.output.maps import film_map, pressure_map, status_map
+from mgehl.output.solution import Solution
 
 
 class Picture(NamedTuple):
@@ -55,7 +58,7 @@ def drawn_by(solution):
     return _LINE if solution.mesh.is_line else _POINT
 
 
-def figures(solution, kinds=None):
+def figures(solution: Solution, kinds: Sequence[str] | None = None) -> list[Picture]:
     """A list of `Picture`s of a run with whole fields: of these kinds, or all that it has.
 
     Raises UserError for a kind that this contact does not have.
@@ -68,7 +71,7 @@ def figures(solution, kinds=None):
         return [Picture(kind, TITLES[kind], draw[kind](solution)) for kind in kinds or draw]
 
 
-def compared(solutions, names):
+def compared(solutions: Sequence[Solution], names: Sequence[str]) -> list[Picture]:
     """A list of two `Picture`s that show several runs of one kind of contact, called by `names`.
 
     Raises UserError where their contacts are of different kinds.
@@ -82,13 +85,23 @@ def compared(solutions, names):
     ]
 
 
-def draw_all(solution, directory, formats=("png", "pdf"), kinds=None):
-    """Write all pictures of a run as directory/KIND.FORMAT; return their paths."""
+def draw_all(
+    solution: Solution,
+    directory: str | PathLike,
+    formats: Sequence[str] = ("png", "pdf"),
+    kinds: Sequence[str] | None = None,
+) -> list[Path]:
+    """Write all pictures of a run, or these `kinds`, as directory/KIND.FORMAT; return their paths.
+
+    Raises UserError for a kind that this contact does not have, OSError where a file cannot be written.
+    """
     pictures = figures(solution, kinds)
     return write(pictures, directory, formats)
 
 
-def write(pictures, directory, formats=("png", "pdf")):
+def write(
+    pictures: Sequence[Picture], directory: str | PathLike, formats: Sequence[str] = ("png", "pdf")
+) -> list[Path]:
     """Write `Picture`s as directory/NAME.FORMAT, pictures of the same name replaced; return the paths."""
     directory = Path(directory)
     directory.mkdir(parents=True, exist_ok=True)

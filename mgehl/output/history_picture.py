@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.ticker import MaxNLocator
 
 from mgehl.errors import OutputError
-from mgehl.output.style import COLOURS, subplots
+from mgehl.output.style import COLOURS, inches, subplots
 from mgehl.output.titles import title
 
 SETS = {"contact_nodes": "in contact", "cavitated_nodes": "cavitated", "changed_nodes": "changed"}
@@ -89,9 +89,9 @@ def _names(rows, row):
     return [f"{nodes} nodes, {speed:.4g} mm/s", *names] if raised else names
 
 
-def _longest(names, inch):
-    """The first of the names, longest first, that fits into so many inches."""
-    return next(name for name in names if 0.075 * len(name) < inch or not name)
+def _longest(names, room):
+    """The first of the names, longest first, that fits into so many inches of room."""
+    return next(name for name in names if inches(len(name)) < room or not name)
 
 
 def _ends(position):

@@ -3,7 +3,7 @@
 import numpy as np
 
 from mgehl.model.hertz import hertz_pressure
-from mgehl.output.style import FILM, HERTZ, PRESSURE, subplots
+from mgehl.output.style import FILM, HERTZ, PRESSURE, legend_below, subplots
 from mgehl.output.titles import position_labels, title
 
 ALONG, ACROSS = "Y = 0, along the motion (left to right)", "X = 0, across the motion"
@@ -25,19 +25,31 @@ def centre_lines(solution):
     return figure
 
 
-def draw_along(axes, solution):
-    """The lines along the motion, on Y = 0."""
-    mesh, fields, contact = solution.mesh, solution.fields, solution.contact
+def along(solution):
+    """X, P and H along the motion on Y = 0, (nx,) each."""
+    mesh, fields = solution.mesh, solution.fields
     _, j = mesh.nearest(0.0, 0.0)
-    _draw(axes, contact, mesh.X, fields.P[j], fields.H[j], contact.dry_gap(mesh.X, 0.0 * mesh.X))
+    return mesh.X, fields.P[j], fields.H[j]
+
+
+def across(solution):
+    """Y, P and H across the motion on X = 0, (ny,) each."""
+    mesh, fields = solution.mesh, solution.fields
+    i, _ = mesh.nearest(0.0, 0.0)
+    return mesh.Y, fields.P[:, i], fields.H[:, i]
+
+
+def draw_along(axes, solution):
+    """The lines along the motion."""
+    X, P, H = along(solution)
+    _draw(axes, solution.contact, X, P, H, solution.contact.dry_gap(X, 0.0 * X))
     axes.set(xlabel=position_labels(solution)[0], title=ALONG)
 
 
 def draw_across(axes, solution):
-    """The lines across the motion, on X = 0."""
-    mesh, fields, contact = solution.mesh, solution.fields, solution.contact
-    i, _ = mesh.nearest(0.0, 0.0)
-    _draw(axes, contact, mesh.Y, fields.P[:, i], fields.H[:, i], contact.dry_gap(0.0 * mesh.Y, mesh.Y))
+    """The lines across the motion."""
+    Y, P, H = across(solution)
+    _draw(axes, solution.contact, Y, P, H, solution.contact.dry_gap(0.0 * Y, Y))
     axes.set(xlabel=position_labels(solution)[1], title=ACROSS)
 
 
@@ -66,4 +78,4 @@ def _draw(axes, contact, position, P, H, dry_gap):
     dry = films.plot(position, dry_gap * nm, ":", color=HERTZ, linewidth=1, label="dry contact (Hertz)")
     films.set(ylim=film_range(position, H * nm))
     films.set_ylabel("film thickness, nm", color=FILM)
-    axes.legend(handles=[*pressure, *film, *dry], loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=3)
+    legend_below(axes, [*pressure, *film, *dry])

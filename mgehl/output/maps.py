@@ -8,7 +8,8 @@ from matplotlib.ticker import LogLocator, MaxNLocator
 
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, NAMES
 from mgehl.output.blocks import MOST, Blocks
-from mgehl.output.style import CONTACT_EDGE, STATUS_COLOURS, subplots
+from mgehl.output.lines import SMALLEST_FILM_RANGE
+from mgehl.output.style import CONTACT_EDGE, STATUS_COLOURS, legend_below, subplots
 from mgehl.output.titles import position_labels, title
 
 SIDE = 5.2
@@ -21,6 +22,8 @@ DECADES = 1e3
 """Largest ratio of films on one map: thinner ones are drawn as the thinnest."""
 LEAST_OPEN = 0.02
 """Part of the dry contact from which its film, where there is any, makes the scale."""
+UNIFORM = 1.1
+"""Ratio of films below which they are all one on the map."""
 LINEAR_UP_TO = 8.0
 """Ratio of films from which the map's scale is logarithmic."""
 
@@ -78,7 +81,7 @@ def draw_status(axes, solution, most=MOST):
     axes.set(xlabel=X, ylabel=Y, aspect="equal")
     found = [k for k in range(BOUNDARY + 1, OVERLAP + 1) if (status == k).any()]
     handles = [Patch(color=STATUS_COLOURS[k], label=(*NAMES, "overlap")[k]) for k in found]
-    _legend(axes, handles)
+    legend_below(axes, handles)
 
 
 def drawn_status(fields):
@@ -94,7 +97,11 @@ def film_scale(blocks, film, status):
     inside, open_film = _distance(blocks) < 1.0, (status != CONTACT) & (film > 0.0)
     enough = (open_film & inside).sum() > LEAST_OPEN * inside.sum()
     films = film[open_film & inside if enough else open_film]
+    if not len(films):
+        return Normalize(0.0, SMALLEST_FILM_RANGE)
     low, high = float(films.min()), float(np.quantile(films, 0.95))
+    if high < UNIFORM * low:
+        return Normalize(low / UNIFORM, high * UNIFORM)
     if high <= LINEAR_UP_TO * low:
         return Normalize(low, high)
     return LogNorm(max(low, high / DECADES), high)
@@ -123,7 +130,7 @@ def _beyond(film, norm):
 def _levels(norm):
     """Round numbers for lines of equal film."""
     locator = LogLocator(subs=(1.0, 2.0, 5.0)) if isinstance(norm, LogNorm) else MaxNLocator(6)
-    levels = locator.tick_values(norm.vmin, norm.vmax)
+    levels = np.asarray(locator.tick_values(norm.vmin, norm.vmax))
     return levels[(levels > norm.vmin) & (levels < norm.vmax)]
 
 
@@ -134,7 +141,8 @@ def _draw(axes, blocks, values, norm):
 
 def _label_lines(axes, blocks, values, levels):
     """Lines of equal values with their numbers."""
-    if np.nanmin(values) < levels[-1] and np.nanmax(values) > levels[0]:
+    levels = levels[(levels > np.nanmin(values)) & (levels < np.nanmax(values))]
+    if len(levels):
         lines = axes.contour(blocks.X, blocks.Y, values, levels, colors="white", linewidths=0.7)
         axes.clabel(lines, fmt="%g", fontsize="small")
 
@@ -156,7 +164,7 @@ def _outline(axes, blocks, status, filled):
         axes.contour(blocks.X, blocks.Y, cavitated, (0.5,), colors="black", linestyles="--", linewidths=1)
         handles.append(Line2D([], [], color="black", linestyle="--", linewidth=1, label="cavitation"))
     if handles:
-        _legend(axes, handles)
+        legend_below(axes, handles)
 
 
 def _finish(figure, axes, solution, what):
@@ -164,7 +172,3 @@ def _finish(figure, axes, solution, what):
     X, Y = position_labels(solution)
     axes.set(xlabel=X, ylabel=Y)
     figure.suptitle(f"{what}, {title(solution)}")
-
-
-def _legend(axes, handles):
-    axes.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, -0.1), ncols=4)

@@ -28,6 +28,8 @@ STATUS_COLOURS = ("0.85", "#56B4E9", "#F0E442", "#222222", "#D55E00")
 """Boundary, lubricated, cavitated, contact and overlap (Okabe and Ito)."""
 CONTACT_EDGE = "#D55E00"
 """Outline of the contact on the maps."""
+UNDER = 3.9
+"""Height of an axis with its numbers and its name, in letters."""
 
 _UNDATED = {"png": {}, "svg": {"Date": None}, "pdf": {"CreationDate": None}}
 
@@ -63,6 +65,18 @@ def subplots(rows=1, columns=1, *, size, **options):
     """A new figure of `size` inches and its axes, as pyplot's but without pyplot's memory."""
     figure = Figure(figsize=size, layout="constrained")
     return figure, figure.subplots(rows, columns, **options)
+
+
+def legend_below(axes, handles):
+    """The legend of one panel under the name of its axis."""
+    axes.legend(
+        handles=handles, loc="upper center", bbox_to_anchor=(0.5, 0.0), borderaxespad=UNDER, ncols=4
+    )
+
+
+def inches(letters):
+    """About as much as a text of so many letters takes."""
+    return 0.6 * letters * matplotlib.rcParams["font.size"] / 72.0
 
 
 def rendered(figure, form):

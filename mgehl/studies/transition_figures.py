@@ -4,6 +4,7 @@ import matplotlib
 import numpy as np
 
 from mgehl.discretization.status import CONTACT
+from mgehl.output.blocks import Blocks
 from mgehl.output.style import COLOURS, MARKS, applied, save, subplots
 
 PROFILES = 6
@@ -72,9 +73,11 @@ def figure_14(path, followed, points):
 
 
 def _film_map(figure, axes, mesh, point, nm):
-    H = np.ma.masked_where(point.fields.status == CONTACT, point.fields.H * nm)
+    blocks = Blocks(mesh.X, mesh.Y)
+    contact = blocks.largest(point.fields.status) == CONTACT
+    H = np.ma.masked_where(contact, blocks.least(point.fields.H * nm))
     colours = matplotlib.colormaps[matplotlib.rcParams["image.cmap"]].with_extremes(bad="black")
-    image = axes.pcolormesh(mesh.X, mesh.Y, H, cmap=colours, vmin=0.0, vmax=20.0, rasterized=True)
+    image = axes.pcolormesh(blocks.X, blocks.Y, H, cmap=colours, vmin=0.0, vmax=20.0, rasterized=True)
     figure.colorbar(image, ax=axes, label="film, nm (black: contact)", extend="max")
     axes.set(aspect="equal", xlim=(-1.2, 1.2), ylim=(-1.2, 1.2), xlabel="X = x/a", ylabel="Y = y/b")
     axes.set_title(f"c  film at {1e3 * point.speed:.3g} mm/s")
