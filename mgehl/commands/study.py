@@ -59,6 +59,8 @@ def add(commands):
 def execute(options, comm):
     """Solve all cases on all ranks; write tables and pictures."""
     from mgehl.output.files import on_first_rank, prepare_directory
+    from mgehl.output.study_record import StudyRecord, write_record
+    from mgehl.run import versions
     from mgehl.studies.study import Study
 
     check_ranks(comm.size)
@@ -71,6 +73,8 @@ def execute(options, comm):
         )
     directory = Path(options.out or Path("runs") / f"study-{options.study}")
     on_first_rank(comm, prepare_directory, directory, options.force, options.resume)
+    record = StudyRecord(options.study, nodes, options.direction, options.mean, comm.size, versions())
+    on_first_rank(comm, write_record, directory, record)
     study = Study(directory, comm, nodes, not options.quiet, branch=options.direction, mean=options.mean)
     if not options.resume:
         on_first_rank(comm, study.cache.clear)

@@ -44,6 +44,9 @@ NAMES = (
 CHECKPOINT = "checkpoint"
 """Folder of what a run that has not finished has reached."""
 
+REPORT = "report.html"
+"""The page that `mgehl report` makes of a directory where no other file is named."""
+
 
 class RunFiles:
     """Paths of a run directory's files."""
@@ -68,7 +71,7 @@ def prepare_directory(path, force, resume=False):
         if path.exists() and not (force or resume):
             raise OutputError(f"{path} exists: add --force to replace it, or choose another with --out")
         path.mkdir(parents=True, exist_ok=True)
-        for name in NAMES:
+        for name in (*NAMES, REPORT):
             # An old result must not pass for that of a run that was cut off.
             (path / name).unlink(missing_ok=True)
         shutil.rmtree(path / CHECKPOINT, ignore_errors=True)
