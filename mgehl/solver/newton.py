@@ -18,6 +18,12 @@ from mgehl.solver.problem import DIVERGED, State
 FLUID_SHARE = 0.3
 """Part of the tolerance that the fluid solved apart may use up: 0.3^2 of the mean square."""
 
+FLUID_AHEAD = 0.01
+"""Residual of the fluid solved apart beside that of the last cycle."""
+
+FIRST_RESIDUAL = 1e-3
+"""What a contact start is expected to begin with."""
+
 RELEASE_STEPS = 8
 """Steps in which a set must settle again after Eq. 2 released some of it."""
 
@@ -215,7 +221,7 @@ class Newton:
         problem = self._problem
         if self._fluid:
             before = state.status.copy()
-            self._fluid.solve(state, FLUID_SHARE * self._settings.tolerance)
+            self._fluid.solve(state, self._fluid_tolerance)
             changes.cavitated += problem.grid.count(before != state.status)
         inflow = problem.inflow(state)
         moved = relax_cavitation_set(problem, state, inflow)
@@ -224,6 +230,13 @@ class Newton:
             inflow = problem.inflow(state)
         self._partition.fill(state, inflow, changes)
         return problem.residual(state, inflow), problem.load_deficit(state.P)
+
+    @property
+    def _fluid_tolerance(self):
+        """Of the fluid solved apart: well ahead of the rest, whose next step moves the gap anyway."""
+        cycles = self._now.outcome.cycles
+        reached = cycles[-1].residual if cycles else 1.0
+        return max(FLUID_SHARE * self._settings.tolerance, FLUID_AHEAD * min(reached, FIRST_RESIDUAL))
 
     def _correct(self, snes, state, F, load):
         """Solve the linearised bordered system into `_correction`; return the iterations."""
