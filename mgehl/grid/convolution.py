@@ -11,6 +11,7 @@ import pyfftw
 from mpi4py import MPI
 
 from mgehl.discretization.influence import influence_coefficients
+from mgehl.grid.events import DEFLECTION, event
 
 TIMED, FIXED = ("FFTW_MEASURE",), ("FFTW_ESTIMATE",)
 """Plans: the fastest of several that are tried, twice as fast on a large plane, or always the same."""
@@ -44,6 +45,7 @@ class Deflection:
         """Free the MPI datatypes."""
         self._transpose.destroy()
 
+    @event(DEFLECTION)
     def __call__(self, P):
         """Deflection (lines, nx) by the pressure P (lines, nx), zero on boundary nodes.
 

@@ -12,10 +12,12 @@ import tomli_w
 
 from mgehl.discretization import status
 from mgehl.errors import OutputError
+from mgehl.grid.events import FILES, event
 from mgehl.output.center_line import center_line
 from mgehl.version import VERSION
 
 
+@event(FILES)
 def on_first_rank(comm, function, *arguments):
     """Call on rank 0; every rank raises what it raised."""
     error = None

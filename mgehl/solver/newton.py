@@ -10,6 +10,7 @@ from petsc4py import PETSc
 
 from mgehl.discretization.status import BOUNDARY, LUBRICATED
 from mgehl.errors import OptionError
+from mgehl.grid.events import linear_solve
 from mgehl.solver.cavitation import relax_cavitation_set
 from mgehl.solver.partition import Changes, Partition
 from mgehl.solver.problem import DIVERGED, State
@@ -197,7 +198,8 @@ class Newton:
         self._multigrid.linearise(state.P, state.H, status, squeeze)
         self._write_residual(self._rhs, F, load, sign=-1.0)
         ksp = snes.getKSP()
-        ksp.solve(self._rhs, self._correction)
+        with linear_solve():
+            ksp.solve(self._rhs, self._correction)
         return ksp.getIterationNumber()
 
     def _update(self, state, changes):
