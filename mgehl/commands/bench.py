@@ -15,7 +15,7 @@ def add(commands):
         description="Solve fixed cases and print their convolutions, memory, and seconds in every part of "
         "a run. A fixed FFT is timed beside each case; --compare divides by it, so that the load of the "
         "machine matters less.",
-        epilog="example: mpiexec -n 2 python -m mgehl bench --case wedge-257 --repeat 1 --json now.json",
+        epilog="example: mgehl bench --case wedge-257 --repeat 1 --json now.json",
     )
     parser.add_argument("--case", action="append", metavar="NAME", dest="cases",
                         help="time this case only; may be repeated")  # fmt: skip

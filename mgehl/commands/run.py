@@ -16,8 +16,8 @@ def add(commands):
         help="solve one contact",
         allow_abbrev=False,
         description="Solve one contact and write its directory.",
-        epilog="example: mpiexec -n 2 python -m mgehl run --set grid.nodes=513 --set motion.speed='1 m/s'"
-        " --set solver.start=film -mgehl_ksp_monitor",
+        epilog="example: mpiexec -n 2 python -m mgehl run --set grid.nodes=65 --set motion.speed='1 m/s'"
+        " --set solver.start=film --out runs/film -mgehl_ksp_monitor",
     )
     parser.add_argument(
         "config", nargs="?", metavar="CONFIG", help="TOML file (default: the point contact)"
