@@ -14,10 +14,17 @@ SETTINGS = " ".join(f"{name}.{key.name}" for name, section in SECTIONS.items() f
 
 BASH = f"""\
 _mgehl_settings() {{
-  compopt -o nospace 2>/dev/null
   compgen -S = -W "{SETTINGS}" -- "$1"
 }}"""
-"""Function that completes the key of --set KEY=VALUE and leaves the cursor behind the equals sign."""
+"""Completes the key of --set KEY=VALUE."""
+
+BASH_END = """
+_mgehl() {
+  _shtab_mgehl "$@"
+  if [[ ${COMPREPLY[0]-} == *= ]]; then compopt -o nospace; fi
+}
+complete -o bashdefault -F _mgehl mgehl"""
+"""Leaves the cursor behind the equals sign of a key."""
 
 KEY = {
     "bash": "_mgehl_settings",
@@ -25,7 +32,6 @@ KEY = {
     "tcsh": f"({SETTINGS})",
     "preamble": {"bash": BASH},
 }
-
 
 COMPLETES = {"CONFIG": "FILE", "FILE": "FILE", "DIR": "DIR", "RUN": "DIR", "KEY=VALUE": "KEY"}
 """Metavar of an argument, in all commands, and what completes it."""
@@ -49,7 +55,7 @@ def execute(options):
     import shtab
 
     _say_what_completes(options.parser, {"FILE": shtab.FILE, "DIR": shtab.DIRECTORY, "KEY": KEY})
-    print(shtab.complete(options.parser, options.shell))
+    print(shtab.complete(options.parser, options.shell) + (BASH_END if options.shell == "bash" else ""))
     return CONVERGED
 
 

@@ -13,9 +13,14 @@ COMPLETE = """\
 source ./mgehl.bash
 COMP_WORDS=("$@")
 COMP_CWORD=$(( $# - 1 ))
-_shtab_mgehl
-printf '%s\\n' "${COMPREPLY[@]}"
+compopt() { asked="$*"; }
+_mgehl
+printf '%s\\n' "${COMPREPLY[@]}" $asked
 """
+
+
+FILENAMES = ("-o", "filenames")
+"""What completions of files ask bash for."""
 
 
 @pytest.fixture
@@ -49,14 +54,14 @@ def test_commands(completions):
 
 
 def test_keys_of_settings_with_their_equals_sign(completions):
-    assert completions("mgehl", "run", "--set", "motion.") == {"motion.speed="}
+    assert completions("mgehl", "run", "--set", "motion.") == {"motion.speed=", "-o", "nospace"}
     assert "grid.nodes=" in completions("mgehl", "run", "mine.toml", "--set", "grid.")
 
 
 def test_files_directories_and_choices(completions):
-    assert completions("mgehl", "run", "mi") == {"mine.toml"}
-    assert completions("mgehl", "collect", "") == {"runs"}
-    assert completions("mgehl", "run", "--out", "") == {"runs"}
+    assert completions("mgehl", "run", "mi") == {"mine.toml", *FILENAMES}
+    assert completions("mgehl", "collect", "") == {"runs", *FILENAMES}
+    assert completions("mgehl", "run", "--out", "") == {"runs", *FILENAMES}
     assert completions("mgehl", "new", "--kind", "") == {"point", "line", "wedge"}
 
 
