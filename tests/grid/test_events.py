@@ -81,3 +81,23 @@ def test_a_linear_solve_that_fails_leaves_its_stage(spent):
 
     _, parts = spent(fail)
     assert parts["I/O"] >= PAUSE > parts["Krylov"]
+
+
+def test_log_view_names_the_parts(spent, grids, tmp_path):
+    from petsc4py import PETSc
+
+    from mgehl.grid.events import linear_solve
+
+    deflection = grids.deflections[-1]
+
+    def solve():
+        with linear_solve():
+            deflection(np.zeros(deflection.grid.shape))
+
+    spent(solve)
+    viewer = PETSc.Viewer().createASCII(str(tmp_path / "log"), "w", comm=PETSc.COMM_SELF)
+    PETSc.Log.view(viewer)
+    viewer.destroy()
+    log = (tmp_path / "log").read_text()
+    assert "mgehl linear solves" in log
+    assert "mgehlDeflection" in log and "mgehlLinear" in log and "mgehlSetUp" in log
