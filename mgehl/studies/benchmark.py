@@ -19,6 +19,7 @@ import numpy as np
 from mgehl.config import config_from_tables
 from mgehl.errors import OutputError
 from mgehl.grid.events import seconds_by_part, start_logging
+from mgehl.output.whole_file import write_whole
 from mgehl.run import run, versions
 
 
@@ -192,10 +193,7 @@ def _ratios(old, new):
 
 def write_benchmark(path, benchmark):
     """Write a benchmark as JSON. Raises OutputError."""
-    try:
-        Path(path).write_text(json.dumps(asdict(benchmark), indent=2) + "\n")
-    except OSError as error:
-        raise OutputError(f"{path}: cannot be written: {error.strerror}") from None
+    write_whole(path, json.dumps(asdict(benchmark), indent=2) + "\n")
 
 
 def read_benchmark(path):
