@@ -22,7 +22,9 @@ if TYPE_CHECKING:
     from mgehl.output.solution import Solution
 
 
-def load(path: str | PathLike | None = None, settings: Mapping[str, object] | Iterable[str] = ()) -> Config:
+def load(
+    path: str | PathLike[str] | None = None, settings: Mapping[str, object] | Iterable[str] = ()
+) -> Config:
     """Read a configuration (TOML, SI numbers or strings with units); default: the paper's ball.
 
     `settings` override keys of the file: {"grid.nodes": 129, ...} or ["grid.nodes=129", ...].

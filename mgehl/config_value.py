@@ -108,11 +108,12 @@ def _describe_range(rules):
     what = "a whole number" if rules["kind"] is int else "a number"
     if rules["unit"]:
         what += f" in {rules['unit']} (or a string with a unit)"
-    limits = []
-    for word, name in (("above", "above"), ("low", "at least"), ("high", "at most")):
-        if rules[word] is not None:
-            limits.append(f"{name} {rules[word]:g}")
-    return " ".join([what, " and ".join(limits)]).strip()
+    return f"{what} {_describe_limits(rules)}".strip()
+
+
+def _describe_limits(rules):
+    names = (("above", "above"), ("low", "at least"), ("high", "at most"))
+    return " and ".join(f"{name} {rules[word]:g}" for word, name in names if rules[word] is not None)
 
 
 def _interval(key, value):
@@ -123,3 +124,16 @@ def _interval(key, value):
             f"{key} = {value!r}: must be two numbers [first < -1, last > 1] within {FARTHEST:g}"
         )
     return float(value[0]), float(value[1])
+
+
+def describe_rules(rules):
+    """What a key takes, in words: "one of barus, roelands", "N, at least 1e-06 and at most 1e+09"."""
+    if rules["choices"]:
+        return f"one of {', '.join(rules['choices'])}"
+    if rules["kind"] is bool:
+        return "true or false"
+    if rules["kind"] is tuple:
+        return f"two numbers, the first below -1 and the last above 1, within {FARTHEST:g}"
+    if rules["unit"]:
+        return f"{rules['unit']}, {_describe_limits(rules)}"
+    return _describe_range(rules)

@@ -19,11 +19,11 @@ class Stopped(Exception):
     `status` is the exit status: 128 and the signal's number, as a shell has it.
     """
 
-    def __init__(self, message, status):
+    def __init__(self, message: str, status: int) -> None:
         super().__init__(message, status)  # both, so that it can be sent from rank to rank
         self.status = status
 
-    def __str__(self):
+    def __str__(self) -> str:
         return self.args[0]
 
 

@@ -15,7 +15,7 @@ BENEATH = {"mgehl.errors", "mgehl.version"}
 USERS_OF_OUTPUT = {"mgehl.run", "mgehl.api"}
 ABOVE_OUTPUT = ("output", "studies", "commands")
 USED_BESIDE = {
-    "output": {"mgehl.config"},
+    "output": {"mgehl.config", "mgehl.config_value"},
     "studies": {"mgehl.run", "mgehl.config"},
 }
 """Runs are read back with their configuration, studies make runs. Commands use what they need."""

@@ -20,7 +20,7 @@ def add(commands):
         "with --resume, on any number of ranks. SIGTERM, Ctrl-C and --time-limit save it first "
         "(exit status 143, 130 and 143).",
         epilog="example: mpiexec -n 2 python -m mgehl run --set grid.nodes=65 --set motion.speed='1 m/s'"
-        " --set solver.start=film -mgehl_ksp_monitor",
+        " --set solver.start=film --out runs/film -mgehl_ksp_monitor",
     )
     parser.add_argument(
         "config", nargs="?", metavar="CONFIG", help="TOML file (default: the point contact)"

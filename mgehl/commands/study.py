@@ -38,8 +38,9 @@ def add(commands):
         "study",
         help="solve many cases and make tables and pictures of them",
         allow_abbrev=False,
-        description="Solve the cases of a study; write its tables (CSV, Markdown) and pictures.",
-        epilog="; ".join(f"{name}: {text}" for name, text in STUDIES.items()),
+        description="Solve the cases of a study; write its tables (CSV, Markdown) and pictures. "
+        + "; ".join(f"{name}: {text}" for name, text in STUDIES.items()),
+        epilog="example: python -m mgehl study inlet --nodes 129",
     )
     parser.add_argument("study", choices=tuple(STUDIES), metavar="NAME", help=", ".join(STUDIES))
     parser.add_argument("--nodes", "--grid", metavar="N,N,...", help="grids instead of the study's own")

@@ -68,6 +68,11 @@ class LineContact(LoadedContact):
         return LineFormulas(central, minimum, self.grubin_film)
 
     @property
+    def regime(self):
+        """Whether bodies and viscosity answer to the pressure, by Moes' asymptotes."""
+        return films.regime(*films.line_asymptotes(self.groups))
+
+    @property
     def expected_film(self):
         """Central film in metres to start from."""
         return self.formulas.dowson_higginson_central

@@ -87,6 +87,11 @@ class PointContact(LoadedContact):
         return PointFormulas(central, minimum, moes, self.grubin_film)
 
     @property
+    def regime(self):
+        """Whether bodies and viscosity answer to the pressure, by Moes' asymptotes."""
+        return films.regime(*films.point_asymptotes(self.groups, self.radius_x / self.radius_y))
+
+    @property
     def expected_film(self):
         """Central film in metres to start from."""
         return self.formulas.hamrock_dowson_central

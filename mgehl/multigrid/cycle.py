@@ -15,7 +15,6 @@ from mgehl.multigrid.coarse import CoarseSolve
 from mgehl.multigrid.jacobian import Jacobian
 from mgehl.multigrid.smoother import LineSmoother
 
-
 LARGE_GRID, RESTART_OF_LARGE = 10_000_000, 6
 """Nodes from which on GMRES is restarted, after so many iterations: it keeps two vectors of each, and
 PETSc takes ten at a time (4097 nodes a side: 2.4 GiB from the fourth iteration on)."""

@@ -13,11 +13,13 @@ import tomli_w
 
 from mgehl.discretization import status
 from mgehl.errors import OutputError
+from mgehl.grid.events import FILES, event
 from mgehl.output.center_line import center_line
 from mgehl.output.whole_file import whole_file
 from mgehl.version import VERSION
 
 
+@event(FILES)
 def on_first_rank(comm, function, *arguments):
     """Call on rank 0 and return there what it returned, None elsewhere.
 

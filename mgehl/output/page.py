@@ -3,17 +3,15 @@
 The page's looks are report.html.j2 and report.css beside this module, both written into the file.
 """
 
-import os
 import re
 from base64 import b64encode
 from dataclasses import dataclass
 from math import isfinite
-from pathlib import Path
 from typing import ClassVar
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
-from mgehl.errors import OutputError
+from mgehl.output.whole_file import write_whole
 from mgehl.version import VERSION
 
 GOOD, DOUBTFUL, BAD = "good", "doubtful", "bad"
@@ -136,17 +134,7 @@ def write_page(path, page):
 
     Raises OutputError if it cannot be written.
     """
-    path = Path(path)
-    unfinished = path.with_name(f".{path.name}.unfinished")
-    try:
-        with unfinished.open("w", encoding="utf-8") as file:
-            file.write(render(page))
-            file.flush()
-            os.fsync(file.fileno())
-        unfinished.replace(path)
-    except OSError as error:
-        unfinished.unlink(missing_ok=True)
-        raise OutputError(f"{path}: cannot be written: {error.strerror}") from None
+    write_whole(path, render(page))
 
 
 def _aligned(row, numeric):

@@ -7,6 +7,7 @@ from pathlib import Path
 import dacite
 
 from mgehl.errors import OutputError
+from mgehl.output.whole_file import write_whole
 
 NAME = "study.json"
 
@@ -26,11 +27,7 @@ class StudyRecord:
 
 def write_record(directory, record):
     """Write study.json. Raises OutputError where it cannot be written."""
-    path = Path(directory) / NAME
-    try:
-        path.write_text(json.dumps(asdict(record), indent=2) + "\n")
-    except OSError as error:
-        raise OutputError(f"{path}: cannot be written: {error.strerror}") from None
+    write_whole(Path(directory) / NAME, json.dumps(asdict(record), indent=2) + "\n")
 
 
 def read_record(directory):

@@ -6,7 +6,6 @@ saved under `applied`: matplotlib asks for the style of a tick only when it draw
 
 import io
 import logging
-import os
 from contextlib import contextmanager
 from contextvars import ContextVar
 from importlib import resources
@@ -17,6 +16,7 @@ import matplotlib.style
 from matplotlib.figure import Figure
 
 from mgehl.errors import UserError
+from mgehl.output.whole_file import whole_file
 
 COLOURS = tuple(f"C{k}" for k in range(7))
 """The style's colours of lines, in order: what is compared takes them one after the other."""
@@ -88,15 +88,9 @@ def rendered(figure, form):
 
 def save(figure, path):
     """Write a figure in the format of the path's ending, whole or not at all; under `applied`."""
-    path = Path(path)
-    partial = path.with_name(f".{path.name}.part")
-    content = rendered(figure, path.suffix[1:])
-    try:
-        partial.write_bytes(content)
-        os.replace(partial, path)
-    except OSError:
-        partial.unlink(missing_ok=True)
-        raise
+    content = rendered(figure, Path(path).suffix[1:])
+    with whole_file(path) as part:
+        part.write_bytes(content)
 
 
 def _read(path):

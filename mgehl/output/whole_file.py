@@ -4,6 +4,8 @@ import os
 from contextlib import contextmanager
 from pathlib import Path
 
+from mgehl.errors import OutputError
+
 
 @contextmanager
 def whole_file(path):
@@ -21,3 +23,12 @@ def whole_file(path):
         part.replace(path)
     finally:
         part.unlink(missing_ok=True)
+
+
+def write_whole(path, text):
+    """Write `text` as a whole file. Raises OutputError."""
+    try:
+        with whole_file(path) as part:
+            part.write_text(text, encoding="utf-8")
+    except OSError as error:
+        raise OutputError(f"{path}: cannot be written: {error.strerror or error}") from None

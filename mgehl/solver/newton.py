@@ -10,6 +10,7 @@ from petsc4py import PETSc
 
 from mgehl.discretization.status import BOUNDARY, LUBRICATED
 from mgehl.errors import OptionError, Stopped, UserError
+from mgehl.grid.events import linear_solve
 from mgehl.solver.cavitation import relax_cavitation_set
 from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.partition import Changes, Partition, Past
@@ -248,7 +249,8 @@ class Newton:
         self._multigrid.linearise(state.P, state.H, status, squeeze)
         self._write_residual(self._rhs, F, load, sign=-1.0)
         ksp = snes.getKSP()
-        ksp.solve(self._rhs, self._correction)
+        with linear_solve():
+            ksp.solve(self._rhs, self._correction)
         return ksp.getIterationNumber()
 
     def _update(self, state, changes):
