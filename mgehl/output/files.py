@@ -74,14 +74,15 @@ def write_config(path, config):
 
 def write_result(path, result):
     """result.json; numbers that are not finite become null, which JSON can hold."""
-    path.write_text(json.dumps(_finite(asdict(result)), indent=2, allow_nan=False) + "\n")
+    path.write_text(json.dumps(finite(asdict(result)), indent=2, allow_nan=False) + "\n")
 
 
-def _finite(value):
+def finite(value):
+    """A value of plain data with None for every number that is not finite, which JSON cannot hold."""
     if isinstance(value, dict):
-        return {key: _finite(each) for key, each in value.items()}
+        return {key: finite(each) for key, each in value.items()}
     if isinstance(value, list | tuple):
-        return [_finite(each) for each in value]
+        return [finite(each) for each in value]
     return None if isinstance(value, float) and not isfinite(value) else value
 
 
