@@ -185,7 +185,7 @@ MISTAKES = [
     ("discretization.couette=1", "discretization.couette = 1: ", "1B, 2B, 2C, S1B, S2C"),
     ("discretization.couette=[]", "discretization.couette = []: ", "1B, 2B, 2C, S1B, S2C"),
     ("solver.start=cold", "solver.start = 'cold': ", "film, contact"),
-    ("solver.omega=1.5", "solver.omega = 1.5: ", "above 0", "at most 1"),
+    ("solver.omega=1.5", "solver.omega = 1.5: ", "at least 0.1", "at most 1"),
     ("solver.max_steps=-1", "solver.max_steps = -1: ", "a whole number", "at least 0"),
     ("grid.nodez=129", "grid.nodez = 129: ", "unknown key", "did you mean grid.nodes?"),
     ("solver.speed=1", "solver.speed = 1: ", "unknown key", "did you mean motion.speed?"),
