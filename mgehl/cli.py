@@ -18,7 +18,7 @@ import traceback
 from importlib import import_module
 
 from mgehl.commands import COMMANDS, USAGE
-from mgehl.errors import UserError
+from mgehl.errors import Stopped, UserError
 
 
 def main(arguments=None):
@@ -89,6 +89,10 @@ def _on_all_ranks(command, comm):
         if comm.rank == 0:
             print(f"mgehl: {error}", file=sys.stderr)
         return USAGE
+    except Stopped as stopped:
+        if comm.rank == 0:
+            print(f"mgehl: {stopped}", file=sys.stderr)
+        return stopped.status
     except PETSc.Error as error:
         # Mostly an option that this matrix-free solver cannot serve, such as -mgehl_pc_type lu.
         print(f"mgehl: PETSc: {' '.join(str(error).split())[:200]}", file=sys.stderr, flush=True)

@@ -55,6 +55,16 @@ def read_value(key, rules, value):
     return number
 
 
+def read_quantity(name, text, unit, above=0.0):
+    """The SI number that the word of a command line stands for. Raises ConfigError."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = text
+    limits = {"above": above, "low": None, "high": None}
+    return read_value(name, limits | {"choices": None, "kind": float, "unit": unit}, value)
+
+
 def _number(key, rules, value):
     if isinstance(value, str) and rules["unit"] is not None:
         value = _with_unit(key, rules["unit"], value)

@@ -19,5 +19,19 @@ class OptionError(UserError):
     """A PETSc option that this solver cannot follow."""
 
 
+class Stopped(Exception):
+    """A run that was told to end before its time; what it had reached is on disk.
+
+    `status` is the exit status: 128 and the signal's number, as a shell has it.
+    """
+
+    def __init__(self, message, status):
+        super().__init__(message, status)  # both, so that it can be sent from rank to rank
+        self.status = status
+
+    def __str__(self):
+        return self.args[0]
+
+
 class OutputError(UserError):
     """A file or a directory that cannot be read or written."""

@@ -1,31 +1,16 @@
 """Exports: formats, names of files, and what stays where one cannot be written."""
 
-import resource
-import signal
-from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
 import pytest
+from full_disk import files_of_at_most
 from made_solution import make_solution
 
 from mgehl.errors import OutputError, UserError
 from mgehl.output.export import WRITERS, export, read_formats, targets
 
 every_format = pytest.mark.parametrize("name", WRITERS)
-
-
-@contextmanager
-def files_of_at_most(size):
-    """As on a full disk: no file of this process grows beyond `size` bytes."""
-    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
-    handler = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-    resource.setrlimit(resource.RLIMIT_FSIZE, (size, limits[1]))
-    try:
-        yield
-    finally:
-        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
-        signal.signal(signal.SIGXFSZ, handler)
 
 
 class TestFormats:
