@@ -10,6 +10,9 @@ from mgehl.errors import ConfigError
 FARTHEST = 100.0
 """Largest distance of the domain's edge, in semi-axes of the contact."""
 
+LONGEST_SHOWN = 100
+"""Characters of a wrong value that a message repeats."""
+
 _UNIT = r"[A-Za-zµ°]+(?:(?:\^|\*\*)-?\d)?"
 _QUANTITY = re.compile(rf"([-+]?[\d.]+(?:[eE][-+]?\d+)?)\s*((?:1\s*)?/)?\s*({_UNIT}(?:[ */]+{_UNIT})*)?")
 _NO_MATCH = re.match("(?P<number>)(?P<per>)(?P<units>)", "")
@@ -25,21 +28,30 @@ def key_field(default, help, unit=None, above=None, low=None, high=None, choices
     return field(default=default, metadata=rules)
 
 
+def shown(value):
+    """A value as it stands in a message: no longer than a line."""
+    try:
+        text = repr(value)
+    except (ValueError, RecursionError):
+        return f"<{type(value).__name__} too long to show>"  # a number of 5000 digits, for one
+    return text if len(text) <= LONGEST_SHOWN else f"{text[:LONGEST_SHOWN]}..."
+
+
 def read_value(key, rules, value):
     """The value that `value`, as read from TOML, stands for. Raises ConfigError."""
     if rules["choices"]:
-        if value not in rules["choices"]:
-            raise ConfigError(f"{key} = {value!r}: must be one of {', '.join(rules['choices'])}")
+        if not isinstance(value, str) or value not in rules["choices"]:
+            raise ConfigError(f"{key} = {shown(value)}: must be one of {', '.join(rules['choices'])}")
         return value
     if rules["kind"] is tuple:
         return _interval(key, value)
     if rules["kind"] is bool:
         if not isinstance(value, bool):
-            raise ConfigError(f"{key} = {value!r}: must be true or false")
+            raise ConfigError(f"{key} = {shown(value)}: must be true or false")
         return value
     number = _number(key, rules, value)
     if not _in_range(rules, number):
-        raise ConfigError(f"{key} = {value!r}: must be {_describe_range(rules)}")
+        raise ConfigError(f"{key} = {shown(value)}: must be {_describe_range(rules)}")
     return number
 
 
@@ -57,10 +69,10 @@ def _number(key, rules, value):
     if isinstance(value, str) and rules["unit"] is not None:
         value = _with_unit(key, rules["unit"], value)
     if not _is_number(value):
-        raise ConfigError(f"{key} = {value!r}: must be {_describe_range(rules)}")
+        raise ConfigError(f"{key} = {shown(value)}: must be {_describe_range(rules)}")
     if rules["kind"] is int:
         if value != int(value):
-            raise ConfigError(f"{key} = {value!r}: must be {_describe_range(rules)}")
+            raise ConfigError(f"{key} = {shown(value)}: must be {_describe_range(rules)}")
         return int(value)
     return float(value)
 
@@ -83,9 +95,9 @@ def _with_unit(key, unit, text):
         quantity = float(number) * _units()(f"{'1/' if per else ''}{units or 'dimensionless'}")
         return float(quantity.to(unit or "dimensionless").magnitude)
     except pint.DimensionalityError:
-        raise ConfigError(f"{key} = {text!r}: wrong unit; must be {example}") from None
+        raise ConfigError(f"{key} = {shown(text)}: wrong unit; must be {example}") from None
     except Exception:
-        raise ConfigError(f"{key} = {text!r}: not understood; must be {example}") from None
+        raise ConfigError(f"{key} = {shown(text)}: not understood; must be {example}") from None
 
 
 @cache
@@ -121,7 +133,7 @@ def _interval(key, value):
     numbers = numbers and all(_is_number(end) for end in value)
     if not numbers or not (-FARTHEST <= value[0] < -1.0 and 1.0 < value[1] <= FARTHEST):
         raise ConfigError(
-            f"{key} = {value!r}: must be two numbers [first < -1, last > 1] within {FARTHEST:g}"
+            f"{key} = {shown(value)}: must be two numbers [first < -1, last > 1] within {FARTHEST:g}"
         )
     return float(value[0]), float(value[1])
 

@@ -2,7 +2,13 @@
 
 
 class UserError(Exception):
-    """A mistake in the input or in the surroundings; the message is one line for the user."""
+    """A mistake in the input or in the surroundings; the message is one line for the user.
+
+    Names that users give may hold line breaks: these become spaces.
+    """
+
+    def __init__(self, message):
+        super().__init__(" ".join(str(message).splitlines()))
 
 
 class ConfigError(UserError, ValueError):

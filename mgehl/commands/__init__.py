@@ -6,7 +6,8 @@ Both return the exit status.
 """
 
 COMMANDS = (
-    "run", "study", "collect", "plot", "report", "check", "new", "keys", "info", "bench", "completion",
+    "run", "study", "collect", "plot", "report", "export",
+    "check", "new", "keys", "info", "bench", "completion",
 )  # fmt: skip
 """In the order of the help."""
 

@@ -8,13 +8,13 @@ from functools import partial
 from math import isfinite
 from pathlib import Path
 
-import h5netcdf
 import tomli_w
 
 from mgehl.discretization import status
 from mgehl.errors import OutputError
 from mgehl.grid.events import FILES, event
 from mgehl.output.center_line import center_line
+from mgehl.output.memory_file import netcdf_file
 from mgehl.output.whole_file import whole_file
 from mgehl.version import VERSION
 
@@ -129,7 +129,7 @@ def write_center_line(path, mesh, fields):
 def write_fields(path, solution):
     """fields.h5, netCDF-4: pressure, film and status with coordinates, SI and dimensionless."""
     mesh, contact, fields = solution.mesh, solution.contact, solution.fields
-    with whole_file(path) as part, h5netcdf.File(part, "w") as file:
+    with whole_file(path) as part, netcdf_file(part) as file:
         file.dimensions = {"y": mesh.ny, "x": mesh.nx}
         file.attrs["mgehl"] = VERSION
         file.attrs["H0"] = solution.H0
