@@ -1,11 +1,16 @@
 """What README shows is what the code and the runs' files say."""
 
+import os
 import re
+import shlex
+import subprocess
+import sys
 import tomllib
 from pathlib import Path
 
 import pytest
 
+from mgehl.cli import read
 from mgehl.commands.keys import describe_keys
 from mgehl.config import config_from_tables, load_config
 
@@ -34,3 +39,62 @@ def test_shipped_configurations_are_valid(path):
 @pytest.mark.parametrize("path", re.findall(r"configs/\w+\.toml", README))
 def test_named_configurations_exist(path):
     assert (ROOT / path).exists()
+
+
+SHELL = [
+    line.split("  #")[0].strip()
+    for block in re.findall(r"```sh\n(.*?)```", README, flags=re.DOTALL)
+    for line in block.splitlines()
+]
+COMMANDS = [line for line in SHELL if "mgehl" in line and not line.startswith(("make", "eval"))]
+STUDIES = [line for line in COMMANDS if " study " in line or " bench" in line]
+
+
+@pytest.mark.parametrize("line", STUDIES)
+def test_studies_are_read_as_they_are_written(line):
+    """Tests of their own run them; here their words are read."""
+    words = shlex.split(line)
+    read(words[words.index("mgehl") + 1 :])
+
+
+@pytest.fixture(scope="module")
+def place(tmp_path_factory):
+    """A directory with the first case's my.toml and the configurations."""
+    path = tmp_path_factory.mktemp("readme")
+    (block,) = re.findall(r"```toml\n(.*?)```", README, flags=re.DOTALL)
+    (path / "my.toml").write_text(block)
+    (path / "configs").symlink_to(ROOT / "configs")
+    return path
+
+
+def small(line):
+    """The command on 65 nodes."""
+    line = re.sub(r"grid\.nodes=\d+", "grid.nodes=65", line)
+    if " run " in line and "--resume" not in line and "grid.nodes" not in line:
+        line = re.sub(r"(run \S+)", r"\1 --set grid.nodes=65", line)
+    return re.sub(r"^mgehl ", f"{shlex.quote(sys.executable)} -m mgehl ", line)
+
+
+def test_commands_run_in_their_order(place):
+    """Each as it stands, but on 65 nodes; a command leaves behind what the next one reads."""
+    environment = {k: v for k, v in os.environ.items() if not k.startswith(("OMPI_COMM", "PMIX_", "PRTE_"))}
+    lines = [line for line in COMMANDS if line not in STUDIES]
+    assert len(lines) >= 10
+    for line in lines:
+        done = subprocess.run(
+            shlex.split(small(line)),
+            cwd=place,
+            env=environment,
+            capture_output=True,
+            text=True,
+            timeout=120,
+        )
+        assert done.returncode == 0, f"{small(line)}\n{done.stdout}{done.stderr}"
+
+
+def test_python_runs(place, monkeypatch, capsys):
+    """The example, in the same directory."""
+    monkeypatch.chdir(place)
+    (block,) = re.findall(r"```python\n(import mgehl.*?)```", README, flags=re.DOTALL)
+    exec(compile(block, "README.md", "exec"), {})
+    assert "CONVERGED" in capsys.readouterr().out
