@@ -68,13 +68,13 @@ def prepare_directory(path, force, resume=False):
         if path.exists() and not (force or resume):
             raise OutputError(f"{path} exists: add --force to replace it, or choose another with --out")
         path.mkdir(parents=True, exist_ok=True)
+        probe = path / ".writable"
+        probe.touch()
+        probe.unlink()
         for name in NAMES:
             # An old result must not pass for that of a run that was cut off.
             (path / name).unlink(missing_ok=True)
         shutil.rmtree(path / CHECKPOINT, ignore_errors=True)
-        probe = path / ".writable"
-        probe.touch()
-        probe.unlink()
     except OSError as error:
         raise OutputError(f"{path}: cannot be written: {error.strerror}") from None
     return path

@@ -1,9 +1,10 @@
 """Where the words of a run go: nowhere, to plain lines, to JSON lines, or to a live terminal."""
 
 import json
+import os
 import sys
 from dataclasses import asdict
-from math import ceil, log
+from math import ceil, isfinite, log
 
 from mgehl.output.files import finite
 
@@ -91,7 +92,15 @@ def speaker(quiet=False, json_lines=False, stream=None):
         return Quiet()
     if json_lines:
         return JsonLines()
-    return Live() if (stream or sys.stdout).isatty() else Lines()
+    return Live() if _shows(stream or sys.stdout) else Lines()
+
+
+def _shows(stream):
+    """Whether it is a terminal that can show a bar.
+
+    Open MPI gives its ranks one without width, wherever their words go from there.
+    """
+    return stream.isatty() and os.get_terminal_size(stream.fileno()).columns > 0
 
 
 STEPS_A_GRID = 8
@@ -105,7 +114,7 @@ def seconds_left(rows, finest, tolerance):
     steps, each four times as long.
     """
     here = [row for row in rows if row["grid"] == rows[-1]["grid"]]
-    if len(here) < 2:
+    if len(here) < 2 or not isfinite(here[-1]["residual"]):
         return None
     each = (here[-1]["seconds"] - here[0]["seconds"]) / (len(here) - 1)
     last = here[-4:]
