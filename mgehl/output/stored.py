@@ -71,7 +71,10 @@ def _read_history(path):
         with path.open(newline="") as file:
             lines = csv.reader(file)
             names = next(lines, [])
-            return [dict(zip(names, map(_number, line), strict=True)) for line in lines]
+            rows = [dict(zip(names, map(_number, line), strict=True)) for line in lines]
+        if not rows or "residual" not in names:
+            raise ValueError("it is no history of a run")
+        return rows
     except (OSError, ValueError, csv.Error) as error:
         raise OutputError(f"{path}: cannot be read: {one_line(error)}") from None
 
