@@ -1,6 +1,7 @@
 """Files of a run directory: configuration, result, history, fields."""
 
 import csv
+import io
 import json
 import shutil
 from dataclasses import asdict
@@ -123,8 +124,16 @@ def write_center_line(path, mesh, fields):
 
 def write_fields(path, solution):
     """fields.h5, netCDF-4: pressure, film and status with coordinates, SI and dimensionless."""
+    image = io.BytesIO()  # HDF5 itself does not survive a full disk
+    _fill(image, solution)
+    with whole_file(path) as part:
+        part.write_bytes(image.getbuffer())
+
+
+def _fill(image, solution):
+    """Write the fields to a file in memory."""
     mesh, contact, fields = solution.mesh, solution.contact, solution.fields
-    with whole_file(path) as part, h5netcdf.File(part, "w") as file:
+    with h5netcdf.File(image, "w") as file:
         file.dimensions = {"y": mesh.ny, "x": mesh.nx}
         file.attrs["mgehl"] = VERSION
         file.attrs["H0"] = solution.H0

@@ -37,7 +37,7 @@ def read_run(directory) -> Solution:
     try:
         config = load_config(files.configuration)
     except ConfigError as error:
-        raise OutputError(str(error)) from None
+        raise OutputError(f"{directory}: {error}") from None
     contact = contact_from(config)
     mesh = mesh_from(config, contact)
     fields, H0 = read_fields(files.fields, mesh)
