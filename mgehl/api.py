@@ -44,7 +44,8 @@ def solve(
 
     Returns the `Solution`, whether or not it converged: ask `.summary.converged`. Raises
     `mgehl.ConfigError` where the contact is none. `start` is another `Solution` to start from, of
-    whatever grid or speed, with its fields on rank 0; `speak` prints a line per cycle there.
+    whatever grid or speed, with its fields on rank 0 (`mgehl.UserError` where it is of another
+    kind of contact); `speak` prints a line per cycle there.
     """
     from mpi4py import MPI
 
@@ -53,8 +54,11 @@ def solve(
     from mgehl.run import Watch
     from mgehl.run import solve as solve_run
     from mgehl.solver.from_config import contact_from
+    from mgehl.solver.restart import check_start
 
     comm = MPI.COMM_WORLD if comm is None else comm
     check_ranks(comm.size)
     check_contact(config, contact_from(config))
+    if start:
+        check_start(start, config.contact.kind)
     return solve_run(config, comm, Watch(Lines() if speak else SILENT), start)

@@ -17,30 +17,28 @@ mgehl_fluid_ for the fluid solved apart), global ones none (-log_view). Unused o
 """
 
 import argparse
+import signal
 import sys
+import time
 import traceback
 from importlib import import_module
 
 from mgehl.commands import COMMANDS, USAGE
 from mgehl.errors import Stopped, UserError
 
+PATIENCE = 5.0
+"""Seconds after which a rank with an error ends the job if the others do not join it."""
+
 
 def main(arguments=None):
     """Run the command line; return the exit status."""
     own, petsc = split_options(sys.argv[1:] if arguments is None else arguments)
     command = read(own, petsc)
-    if not command.module.PARALLEL:
-        try:
-            return command.module.execute(command)
-        except UserError as error:
-            print(f"mgehl: {error}", file=sys.stderr)
-            return USAGE
-    import petsc4py  # after the arguments are known to be good: it starts MPI
-
-    petsc4py.init([sys.argv[0], *petsc, *(["-options_left"] if petsc else [])])
-    from mpi4py import MPI
-
-    return _on_all_ranks(command, MPI.COMM_WORLD)
+    try:
+        return _in_parallel(command, petsc) if command.module.PARALLEL else _alone(command)
+    except KeyboardInterrupt:  # of a command that keeps nothing, or not yet
+        print("mgehl: stopped by Ctrl-C", file=sys.stderr)
+        return 128 + signal.SIGINT
 
 
 class _Help(argparse.HelpFormatter):
@@ -93,15 +91,38 @@ def split_options(arguments):
     return arguments, []
 
 
+def _alone(command):
+    """Execute a command that starts no MPI."""
+    try:
+        return command.module.execute(command)
+    except UserError as error:
+        print(f"mgehl: {error}", file=sys.stderr)
+        return USAGE
+
+
+def _in_parallel(command, petsc):
+    """Start MPI and PETSc, the arguments being good, and execute."""
+    import petsc4py
+
+    petsc4py.init([sys.argv[0], *petsc, *(["-options_left"] if petsc else [])])
+    from mpi4py import MPI
+
+    return _on_all_ranks(command, MPI.COMM_WORLD)
+
+
 def _on_all_ranks(command, comm):
     """Execute on all ranks; errors of the user's making end in one line and status 2."""
     from petsc4py import PETSc
 
+    apart = comm.Dup()  # for errors: on `comm` the other ranks may be at something else
     try:
         return command.module.execute(command, comm)
     except UserError as error:
-        if comm.rank == 0:
-            print(f"mgehl: {error}", file=sys.stderr)
+        together = _meet(apart)
+        if comm.rank == 0 or not together:
+            print(f"mgehl: {error}", file=sys.stderr, flush=True)
+        if not together:
+            comm.Abort(USAGE)
         return USAGE
     except Stopped as stopped:
         if comm.rank == 0:
@@ -117,3 +138,13 @@ def _on_all_ranks(command, comm):
         traceback.print_exc()
         sys.stderr.flush()
         comm.Abort(1)
+
+
+def _meet(comm):
+    """Whether all ranks come here soon; they do where all have met the same error (collective)."""
+    all_here, deadline = comm.Ibarrier(), time.monotonic() + PATIENCE
+    while not all_here.Test():
+        if time.monotonic() > deadline:
+            return False
+        time.sleep(0.01)
+    return True

@@ -1,6 +1,11 @@
 """What a user can mend: one line on standard error, exit status 2."""
 
 
+def one_line(error, width=120):
+    """What an exception says, cut to one line."""
+    return " ".join(str(error).split())[:width]
+
+
 class UserError(Exception):
     """A mistake in the input or in the surroundings; the message is one line for the user.
 

@@ -27,7 +27,7 @@ from mgehl.solver.from_config import (
     scheme_from,
     settings_from,
 )
-from mgehl.solver.journal import NOTHING_KEPT
+from mgehl.solver.journal import NOTHING_KEPT, told_to_stop
 from mgehl.solver.nested import single_loop
 from mgehl.solver.restart import solve_from
 from mgehl.solver.wedge import solve_wedge
@@ -95,7 +95,7 @@ def _solve_loaded(config, contact, mesh, comm, watch, start=None):
             method = partial(solve_from, start=start)
         journal = NOTHING_KEPT
         if watch.directory:
-            journal = Checkpoint(watch.directory, monitor, watch.save_every, watch.stop)
+            journal = Checkpoint(watch.directory, config, monitor, watch.save_every, watch.stop)
         problem, outcome = method(hierarchy, contact, settings, monitor=monitor, journal=journal)
         work = Work(monitor.convolutions, monitor.steps if by_newton else outcome.cycles[-1].step)
         result = summarise(problem, outcome, tolerance, work, monitor.seconds, versions())
@@ -108,10 +108,16 @@ def _solve_wedge(config, bearing, mesh, comm, watch):
     """A rigid bearing."""
     started = time.perf_counter()
     scheme, solver = scheme_from(config, bearing), config.solver
+
+    def stop_if_told():
+        """Nothing is kept of a wedge: it is solved in seconds."""
+        if stopped := told_to_stop(comm, watch.stop):
+            raise stopped
+
     grid = single_grid(mesh, comm)
     try:
         problem, outcome = solve_wedge(
-            grid, bearing, scheme, OPTIONS_PREFIX, solver.tolerance, solver.max_steps
+            grid, bearing, scheme, OPTIONS_PREFIX, solver.tolerance, solver.max_steps, stop_if_told
         )
         result = summarise_wedge(problem, outcome, time.perf_counter() - started, versions())
         rows = progress.wedge_rows(mesh.nx, outcome.cycles)

@@ -1,6 +1,7 @@
 """mgehl run: solve one contact."""
 
 from pathlib import Path
+from shlex import quote
 
 from mgehl.commands import CONVERGED, NOT_CONVERGED
 from mgehl.config import check_ranks, default_config, load_config
@@ -46,19 +47,24 @@ def execute(options, comm):
     check_ranks(comm.size)
     save_every = read_quantity("--save-every", options.save_every, "s")
     limit = options.time_limit and read_quantity("--time-limit", options.time_limit, "s")
-    taken_up = _taken_up if options.resume else _new
-    found = taken_up(options, comm)
-    if found is None:
-        return CONVERGED
+    if options.resume and _has_finished(options):
+        result = _finished(options, comm)
+    else:
+        config, directory, start = (_taken_up if options.resume else _new)(options, comm)
+        result = _run(config, directory, comm, start, options, save_every, limit)
+    return CONVERGED if result.converged else NOT_CONVERGED
+
+
+def _run(config, directory, comm, start, options, save_every, limit):
+    """Solve, watched by whoever may stop it."""
     from mgehl.output.terminal import SILENT, speaker
     from mgehl.run import Watch, run
     from mgehl.stopping import StopWhenTold
 
-    config, directory, start = found
     words = speaker(options.quiet, options.json_lines) if comm.rank == 0 else SILENT
-    with StopWhenTold(f"go on with: mgehl run --resume {directory}", limit) as stop, words:
-        result = run(config, directory, comm, Watch(words, save_every=save_every, stop=stop), start)
-    return CONVERGED if result.converged else NOT_CONVERGED
+    hint = f"go on with: mgehl run --resume {quote(str(directory))}"
+    with StopWhenTold(hint, limit) as stop, words:
+        return run(config, directory, comm, Watch(words, save_every=save_every, stop=stop), start)
 
 
 def _new(options, comm):
@@ -81,9 +87,8 @@ def _new(options, comm):
     return config, directory, start
 
 
-def _taken_up(options, comm):
-    """The same of a run that goes on; None of one that has finished."""
-    from mgehl.output.checkpoint import start_of
+def _has_finished(options):
+    """Whether the run to go on with has a result. Raises UserError where there is none to go on with."""
     from mgehl.output.files import RunFiles
 
     given = [
@@ -96,12 +101,31 @@ def _taken_up(options, comm):
         raise OutputError(
             f"--resume {options.resume}: is no run directory: {files.configuration} is missing"
         )
-    if files.result.exists():
-        if comm.rank == 0 and not options.quiet:
+    return files.result.exists()
+
+
+def _finished(options, comm):
+    """The result of a run that has finished; what a kill left of its checkpoint goes."""
+    from mgehl.output.checkpoint import clear
+    from mgehl.output.files import RunFiles
+    from mgehl.output.stored import read_result
+
+    files = RunFiles(options.resume)
+    result = read_result(files, load_config(files.configuration))
+    if comm.rank == 0:
+        clear(files.directory)
+        if not (options.quiet or options.json_lines):
             print(f"mgehl: {options.resume} has finished: its results are there")
-        return None
-    config = load_config(files.configuration)
-    start = start_of(files.directory)
+    return result
+
+
+def _taken_up(options, comm):
+    """Configuration, directory and start of a run that goes on."""
+    from mgehl.output.checkpoint import start_of
+    from mgehl.output.files import RunFiles
+
+    files = RunFiles(options.resume)
+    config, start = load_config(files.configuration), start_of(files.directory)
     return config, files.directory, _start(start, config, comm) if start.is_dir() else None
 
 
@@ -118,9 +142,11 @@ def _start(directory, config, comm):
     """The `Solution` of another run, whole on every rank; it must be of the same kind."""
     from mgehl.output.files import on_first_rank
     from mgehl.output.stored import read_run
+    from mgehl.solver.restart import check_start
 
     start = on_first_rank(comm, read_run, directory) or read_run(directory)
-    kind = start.config.contact.kind
-    if kind != config.contact.kind or kind == "wedge":
-        raise UserError(f"--start-from {directory}: a {kind} is no start for a {config.contact.kind}")
+    try:
+        check_start(start, config.contact.kind)
+    except UserError as error:
+        raise UserError(f"--start-from {directory}: {error}") from None
     return start

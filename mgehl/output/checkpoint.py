@@ -5,40 +5,44 @@ RUN/checkpoint/
     solve-0000.npz, ...   finished solves, in order: a grid of the nested iteration each, or a step in speed
     under-way.npz         where the next one stands, saved every so many seconds
 
-Every file is whole (`whole_file`) and says by which version it was written. A run that goes on walks
-the same way again: what is finished is read instead of solved.
+Every file is whole (`whole_file`) and says by which version and for which configuration it was
+written: a record in JSON with arrays beside it, zipped as numpy does. A run that goes on walks the
+same way again: what is finished is read instead of solved.
 """
 
+import io
 import json
 import shutil
 import time
-import zipfile
+from contextlib import suppress
+from zipfile import ZipFile
 
-import numpy as np
+from numpy.lib import format as npy
 
-from mgehl.errors import OutputError
-from mgehl.output.files import RunFiles, on_first_rank
+from mgehl.errors import OutputError, one_line
+from mgehl.output.files import START, RunFiles, clear_checkpoint, on_first_rank
 from mgehl.output.records import Reader, Writer
 from mgehl.output.whole_file import whole_file
-from mgehl.solver.journal import Journal
+from mgehl.solver.journal import Journal, told_to_stop
 from mgehl.version import VERSION
 
-START = "start"
-"""Folder in it of the run that was started from: that one may be gone by then."""
 UNDER_WAY = "under-way.npz"
+RECORD = "record.json"
+"""Member of a file; the others are its arrays."""
 FORMAT = 1
 """Of the files; another one is not read."""
 
 
 class Checkpoint(Journal):
-    """Keeps a run's way in DIRECTORY/checkpoint, every `seconds` and after each solve.
+    """Keeps the way of the run of `config` in DIRECTORY/checkpoint, every `seconds` and after each solve.
 
     `progress` has the history, which is kept with it. `stop` is asked before every step; it
     returns None or the `Stopped` to raise, once the present position is saved.
     """
 
-    def __init__(self, directory, progress, seconds, stop=lambda: None):
+    def __init__(self, directory, config, progress, seconds, stop=lambda: None):
         self._folder, self._progress = RunFiles(directory).checkpoint, progress
+        self._configuration = json.dumps(config.as_toml_tables())
         self._seconds, self._stop = seconds, stop
         self._solved = 0
         self._saved = time.monotonic()
@@ -56,13 +60,11 @@ class Checkpoint(Journal):
 
     def step(self, grid, position):
         """Save the position where it is time, or time to stop (collective)."""
-        due = time.monotonic() - self._saved >= self._seconds
-        stopped = self._stop()
-        # Clocks differ and a signal may reach one rank only: all do what one has to.
-        if grid.max([2.0 if stopped else 1.0 if due else 0.0]) == 0.0:
-            return
-        self._write(grid, self._folder / UNDER_WAY, position)
-        stopped = next((each for each in grid.comm.allgather(stopped) if each), None)
+        stopped = told_to_stop(grid.comm, self._stop)
+        # Clocks differ: all save when it is time for one.
+        due = grid.max([time.monotonic() - self._saved]) >= self._seconds
+        if stopped or due:
+            self._write(grid, self._folder / UNDER_WAY, position)
         if stopped:
             raise stopped
 
@@ -79,6 +81,7 @@ class Checkpoint(Journal):
         record = {
             "format": FORMAT,
             "mgehl": VERSION,
+            "configuration": self._configuration,
             "solve": self._solved,
             "progress": self._progress.record(),
             "thing": writer.plain(thing),
@@ -88,7 +91,7 @@ class Checkpoint(Journal):
 
     def _read(self, grid, path):
         """What a file holds, if it is there and about the next solve; the history goes on from it."""
-        found = on_first_rank(grid.comm, load, path)
+        found = on_first_rank(grid.comm, load, path, self._configuration)
         record, arrays = found or (None, None)
         record = grid.comm.bcast(record)
         if record is None or record["solve"] != self._solved:
@@ -99,7 +102,8 @@ class Checkpoint(Journal):
 
 def clear(directory):
     """Forget a run's way: it has arrived."""
-    shutil.rmtree(RunFiles(directory).checkpoint, ignore_errors=True)
+    with suppress(OSError):  # what stays is not read: the result is there
+        clear_checkpoint(directory)
 
 
 def keep_start(directory, start):
@@ -121,27 +125,38 @@ def start_of(directory):
 
 def save(path, record, arrays):
     """Write a record and its arrays as one whole file. Raises OutputError."""
-    text = np.frombuffer(json.dumps(record).encode(), dtype=np.uint8)
     try:
         path.parent.mkdir(exist_ok=True)
-        with whole_file(path) as part:
-            np.savez(part, record=text, **arrays)
+        with whole_file(path) as part, ZipFile(part, "w") as archive:
+            archive.writestr(RECORD, json.dumps(record))
+            for name, array in arrays.items():
+                with archive.open(f"{name}.npy", "w", force_zip64=True) as member:
+                    npy.write_array(member, array, allow_pickle=False)
     except OSError as error:
         raise OutputError(f"{path}: cannot be written: {error.strerror or error}") from None
 
 
-def load(path):
-    """(record, arrays) of a file, None where there is none. Raises OutputError where it is damaged."""
+def load(path, configuration):
+    """(record, arrays) of a file, None where there is none.
+
+    Raises OutputError where it is damaged, of another version or of another configuration.
+    """
     try:
-        with np.load(path, allow_pickle=False) as file:
-            record = json.loads(file["record"].tobytes())
-            arrays = {name: file[name] for name in file.files if name != "record"}
+        with ZipFile(path) as archive:
+            members = {name: archive.read(name) for name in archive.namelist()}
+        record = dict(json.loads(members.pop(RECORD)))
+        arrays = {
+            name.removesuffix(".npy"): npy.read_array(io.BytesIO(member), allow_pickle=False)
+            for name, member in members.items()
+        }
     except FileNotFoundError:
         return None
-    except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile) as error:
-        raise OutputError(f"{path}: is damaged, or no checkpoint: {error}; without it, the run "
+    except Exception as error:  # what a damaged file raises is anybody's guess
+        raise OutputError(f"{path}: is damaged, or no checkpoint: {one_line(error)}; without it, the run "
                           "begins earlier") from None  # fmt: skip
     by = record.get("mgehl")
     if record.get("format") != FORMAT or by != VERSION:
         raise OutputError(f"{path}: was written by mgehl {by}, and {VERSION} cannot go on with it")
+    if record.get("configuration") != configuration:
+        raise OutputError(f"{path}: was written for another configuration than the run has now")
     return record, arrays

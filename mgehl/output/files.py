@@ -2,9 +2,10 @@
 
 import csv
 import json
-import shutil
+from contextlib import suppress
 from dataclasses import asdict
 from functools import partial
+from itertools import chain
 from math import isfinite
 from pathlib import Path
 
@@ -43,8 +44,8 @@ NAMES = (
 """The files of a run directory, in the order of `RunFiles`; the last is a wedge's."""
 
 
-CHECKPOINT = "checkpoint"
-"""Folder of what a run that has not finished has reached."""
+CHECKPOINT, START = "checkpoint", "start"
+"""Folder of what a run that has not finished has reached; in it that of the run it started from."""
 
 REPORT = "report.html"
 """The page that `mgehl report` makes of a directory where no other file is named."""
@@ -73,16 +74,28 @@ def prepare_directory(path, force, resume=False):
         if path.exists() and not (force or resume):
             raise OutputError(f"{path} exists: add --force to replace it, or choose another with --out")
         path.mkdir(parents=True, exist_ok=True)
-        for name in (*NAMES, REPORT):
-            # An old result must not pass for that of a run that was cut off.
-            (path / name).unlink(missing_ok=True)
-        shutil.rmtree(path / CHECKPOINT, ignore_errors=True)
         probe = path / ".writable"
         probe.touch()
         probe.unlink()
+        for name in (*NAMES, REPORT):
+            # An old result must not pass for that of a run that was cut off.
+            (path / name).unlink(missing_ok=True)
+        clear_checkpoint(path)
     except OSError as error:
         raise OutputError(f"{path}: cannot be written: {error.strerror}") from None
     return path
+
+
+def clear_checkpoint(directory):
+    """Forget what a run had reached: its own files only, whatever else lies in that folder."""
+    folder = RunFiles(directory).checkpoint
+    own = [folder.glob(pattern) for pattern in ("solve-*.npz", "under-way.npz", ".part-*")]
+    start = folder / START
+    for path in (*chain(*own), *(start / name for name in NAMES)):
+        path.unlink(missing_ok=True)
+    for each in (start, folder):
+        with suppress(OSError):  # not there, or somebody else's
+            each.rmdir()
 
 
 def write_config(path, config):

@@ -31,7 +31,9 @@ class Writer:
             name = f"array{len(self.arrays)}"
             self.arrays[name] = self._grid.gather(value)
             return {"array": name}
-        if isinstance(value, list | tuple):
+        if isinstance(value, tuple):
+            return {"tuple": [self.plain(each) for each in value]}
+        if isinstance(value, list):
             return [self.plain(each) for each in value]
         return value.item() if isinstance(value, np.generic) else value
 
@@ -47,6 +49,8 @@ class Reader:
         if isinstance(plain, dict) and "kind" in plain:
             inside = {name: self.alive(value) for name, value in plain["fields"].items()}
             return KINDS[plain["kind"]](**inside)
+        if isinstance(plain, dict) and "tuple" in plain:
+            return tuple(self.alive(each) for each in plain["tuple"])
         if isinstance(plain, dict):
             return self._grid.scatter(self._arrays[plain["array"]] if self._arrays else None)
         if isinstance(plain, list):

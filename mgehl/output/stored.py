@@ -2,6 +2,7 @@
 
 import csv
 import json
+from math import nan
 from pathlib import Path
 
 import dacite
@@ -9,14 +10,19 @@ import h5netcdf
 import numpy as np
 
 from mgehl.config import load_config
-from mgehl.errors import ConfigError, OutputError
+from mgehl.discretization.status import NAMES
+from mgehl.errors import ConfigError, OutputError, one_line
 from mgehl.output.files import RunFiles
 from mgehl.output.result import Result
 from mgehl.output.solution import Fields, Solution
 from mgehl.output.wedge_result import WedgeResult
 from mgehl.solver.from_config import contact_from, mesh_from
 
-LENIENT = dacite.Config(check_types=False, cast=[tuple])
+LENIENT = dacite.Config(
+    check_types=False,
+    cast=[tuple],
+    type_hooks={float: lambda value: nan if value is None else float(value)},
+)
 """JSON knows neither tuples nor numbers that are not finite (they are null)."""
 
 
@@ -31,12 +37,11 @@ def read_run(directory) -> Solution:
     try:
         config = load_config(files.configuration)
     except ConfigError as error:
-        raise OutputError(str(error)) from None
+        raise OutputError(f"{directory}: {error}") from None
     contact = contact_from(config)
     mesh = mesh_from(config, contact)
     fields, H0 = read_fields(files.fields, mesh)
-    kind = WedgeResult if config.contact.kind == "wedge" else Result
-    rows, result = _read_history(files.history), _read_result(files.result, kind)
+    rows, result = _read_history(files.history), read_result(files, config)
     return Solution(config, contact, mesh, fields, rows, result, H0, local=fields)
 
 
@@ -48,13 +53,15 @@ def read_fields(path, mesh):
             H0 = float(file.attrs["H0"])
     except FileNotFoundError:
         raise OutputError(f"{path}: is not there: the run has not finished") from None
-    except (OSError, KeyError, ValueError, RuntimeError) as error:
-        raise OutputError(f"{path}: is damaged, or no fields of mgehl: {_line(error)}") from None
+    except Exception as error:  # what a damaged file raises is anybody's guess
+        raise OutputError(f"{path}: is damaged, or no fields of mgehl: {one_line(error)}") from None
     shape = (mesh.ny, mesh.nx)
     if any(array.shape != shape for array in (fields.P, fields.H, fields.status)):
         raise OutputError(f"{path}: its fields are not of {mesh.nx} x {mesh.ny} nodes")
-    if not (np.isfinite(fields.P).all() and np.isfinite(H0)):
-        raise OutputError(f"{path}: its pressure is not finite everywhere")
+    if not all(np.isfinite(each).all() for each in (fields.P, fields.H, H0)):
+        raise OutputError(f"{path}: its fields are not finite everywhere")
+    if not np.isin(fields.status, range(len(NAMES))).all():
+        raise OutputError(f"{path}: has nodes of a status that there is not")
     return fields, H0
 
 
@@ -62,21 +69,27 @@ def _read_history(path):
     """Rows of history.csv, numbers as numbers."""
     try:
         with path.open(newline="") as file:
-            return [{key: _number(text) for key, text in row.items()} for row in csv.DictReader(file)]
-    except (OSError, ValueError, TypeError, AttributeError) as error:
-        raise OutputError(f"{path}: cannot be read: {_line(error)}") from None
+            lines = csv.reader(file)
+            names = next(lines, [])
+            rows = [dict(zip(names, map(_number, line), strict=True)) for line in lines]
+        if not rows or "residual" not in names:
+            raise ValueError("it is no history of a run")
+        return rows
+    except (OSError, ValueError, csv.Error) as error:
+        raise OutputError(f"{path}: cannot be read: {one_line(error)}") from None
 
 
-def _read_result(path, kind):
+def read_result(files, config):
+    """The `Result` or `WedgeResult` of result.json; its numbers that are null are nan.
+
+    Raises OutputError where it is missing, or cut off.
+    """
+    path, kind = files.result, WedgeResult if config.contact.kind == "wedge" else Result
     try:
         return dacite.from_dict(kind, json.loads(path.read_text()), LENIENT)
-    except (OSError, ValueError, TypeError, dacite.DaciteError) as error:
-        raise OutputError(f"{path}: cannot be read: {_line(error)}") from None
+    except (OSError, ValueError, TypeError, AttributeError, dacite.DaciteError) as error:
+        raise OutputError(f"{path}: cannot be read: {one_line(error)}") from None
 
 
 def _number(text):
     return int(text) if text.lstrip("+-").isdigit() else float(text)
-
-
-def _line(error):
-    return " ".join(str(error).split())[:120]

@@ -1,9 +1,10 @@
 """Where the words of a run go: nowhere, to plain lines, to JSON lines, or to a live terminal."""
 
 import json
+import os
 import sys
 from dataclasses import asdict
-from math import ceil, log
+from math import ceil, inf, isfinite, log
 
 from mgehl.output.files import finite
 
@@ -91,7 +92,15 @@ def speaker(quiet=False, json_lines=False, stream=None):
         return Quiet()
     if json_lines:
         return JsonLines()
-    return Live() if (stream or sys.stdout).isatty() else Lines()
+    return Live() if _shows(stream or sys.stdout) else Lines()
+
+
+def _shows(stream):
+    """Whether it is a terminal that can show a bar.
+
+    Open MPI gives its ranks one without width, wherever their words go from there.
+    """
+    return stream.isatty() and os.get_terminal_size(stream.fileno()).columns > 0
 
 
 STEPS_A_GRID = 8
@@ -105,20 +114,21 @@ def seconds_left(rows, finest, tolerance):
     steps, each four times as long.
     """
     here = [row for row in rows if row["grid"] == rows[-1]["grid"]]
-    if len(here) < 2:
+    if len(here) < 2 or not isfinite(here[-1]["residual"]):
         return None
     each = (here[-1]["seconds"] - here[0]["seconds"]) / (len(here) - 1)
-    last = here[-4:]
-    decades = log(last[0]["residual"] / last[-1]["residual"]) / (len(last) - 1) if _falls(last) else 0.0
-    to_go = log(max(last[-1]["residual"] / tolerance, 1.0))
-    steps = to_go / decades if decades > 0.0 else STEPS_A_GRID
-    left, nodes = steps * each, rows[-1]["grid"]
+    left, nodes = _steps_left(here[-4:], tolerance) * each, rows[-1]["grid"]
     while nodes < finest:
         nodes, each = 2 * nodes - 1, 4.0 * each
         left += STEPS_A_GRID * each
     return left
 
 
-def _falls(rows):
-    """Whether the residuals are numbers and have fallen."""
-    return 0.0 < rows[-1]["residual"] < rows[0]["residual"] < float("inf")
+def _steps_left(rows, tolerance):
+    """Steps until the residual is within `tolerance`, falling as it did in these rows."""
+    first, last = rows[0]["residual"], rows[-1]["residual"]
+    if last <= tolerance:
+        return 0.0
+    if not last < first < inf:
+        return STEPS_A_GRID
+    return log(last / tolerance) / log(first / last) * (len(rows) - 1)

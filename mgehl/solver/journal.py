@@ -25,4 +25,12 @@ class Journal:
         """Take note of a solve's `Outcome`."""
 
 
+def told_to_stop(comm, stop):
+    """The `Stopped` that `stop` returns on any rank, else None (collective).
+
+    A signal may reach one rank only, and clocks differ.
+    """
+    return next((each for each in comm.allgather(stop()) if each), None)
+
+
 NOTHING_KEPT = Journal()

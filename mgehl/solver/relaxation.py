@@ -80,7 +80,7 @@ def relax(problem, state, settings, monitor, journal=NOTHING_KEPT):
     """Relax `state` in place until its true residual and load hold; return the `Outcome`.
 
     One convolution a sweep. `monitor` is called with a `Sweep` every `report_every` sweeps. The
-    `journal` is told as often, and may know this solve or its first part already.
+    `journal` is told of every sweep, and may know this solve or its first part already.
     """
     outcome = journal.recall(problem.grid)
     if outcome is None:
@@ -95,9 +95,8 @@ def _relax(problem, standing, settings, monitor, journal):
     relaxation = _Relaxation(problem, settings)
     outcome, state = standing.outcome, standing.outcome.state
     for step in range(standing.step, settings.max_sweeps + 1):
-        if step % settings.report_every == 0:
-            standing.step = step
-            journal.step(problem.grid, standing)
+        standing.step = step
+        journal.step(problem.grid, standing)
         relaxation.mark_contact(state)
         inflow = problem.inflow(state)
         relaxation.mark_cavities(state, inflow)

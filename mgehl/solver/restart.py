@@ -1,12 +1,23 @@
 """A start from the fields of another run: another grid, another speed, another load."""
 
+from functools import partial
+
 import numpy as np
 from scipy.interpolate import RegularGridInterpolator
 
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
+from mgehl.errors import UserError
 from mgehl.solver.continuation import Continuation
+from mgehl.solver.nested import LevelSolve
 from mgehl.solver.problem import ContactProblem
 from mgehl.solver.relaxation import relax
+
+
+def check_start(start, kind):
+    """Raise UserError where a `Solution` is no start for a contact of this kind."""
+    other = start.config.contact.kind
+    if other != kind or kind == "wedge":
+        raise UserError(f"a {other} is no start for a {kind}")
 
 
 def solve_from(hierarchy, contact, settings, start, monitor, journal):
@@ -18,7 +29,8 @@ def solve_from(hierarchy, contact, settings, start, monitor, journal):
     problem = ContactProblem(hierarchy.grids[-1], hierarchy.deflections[-1], contact, settings.scheme)
     state = interpolated(problem, start)
     if settings.method != "newton-mg":
-        return problem, relax(problem, state, settings.relaxation, monitor, journal)
+        tell = partial(monitor, LevelSolve(problem.grid.mesh.nx, contact.speed, True))
+        return problem, relax(problem, state, settings.relaxation, tell, journal)
     continuation = Continuation(hierarchy, contact, settings, monitor, journal)
     speed = start.contact.speed
     if speed == contact.speed:

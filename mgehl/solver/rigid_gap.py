@@ -53,11 +53,12 @@ class RigidGapFluid:
         eps = fluid_state(state.P, state.H, problem.contact, problem.scheme.gap_floor).eps
         return weakly_coupled(problem, eps, state.status, SEPARABLE)
 
-    def solve(self, state, tolerance, max_steps=30):
+    def solve(self, state, tolerance, max_steps=30, before_step=lambda: None):
         """Bring the fluid of `state` into balance at its gap, in place; return the `FluidStep`s.
 
         Ends when the rms inflow is below `tolerance` and the set has settled, or after
         `max_steps`; the last step is the residual that is left, without an iteration.
+        `before_step` is called before each and may raise what ends it.
         """
         problem, steps = self._problem, []
         separable = self.separable(state)
@@ -74,6 +75,7 @@ class RigidGapFluid:
             settled = rms <= tolerance and moved + problem.grid.count(filled) == 0
             if settled or len(steps) == max_steps or not rms < DIVERGED:
                 return [*steps, FluidStep(rms, 0)]
+            before_step()
             self._correct(state, residual, lubricated & separable, lubricated & ~separable)
             steps.append(FluidStep(rms, self._ksp.getIterationNumber()))
             if problem.scheme.cavitation:

@@ -31,17 +31,18 @@ class WedgeProblem(Problem):
         return np.where(state.status == LUBRICATED, inflow, -state.P / self.grid.mesh.dX)
 
 
-def solve_wedge(grid, bearing, scheme, options_prefix, tolerance, max_steps):
+def solve_wedge(grid, bearing, scheme, options_prefix, tolerance, max_steps, before_step=lambda: None):
     """Solve on `grid`; return the `WedgeProblem` and an `Outcome` of `FluidStep`s.
 
     `tolerance` is for the rms residual, in which the Couette term of a full film is 1.
+    `before_step` is called before each linear solve and may raise what ends the run.
     """
     problem = WedgeProblem(grid, bearing, scheme)
     multigrid = AssembledSolver(grid, bearing, scheme, MAX_ITERATIONS)
     fluid = RigidGapFluid(problem, multigrid, options_prefix, LINEAR_TOLERANCE)
     state = problem.first_guess()
     try:
-        steps = fluid.solve(state, tolerance, max_steps)
+        steps = fluid.solve(state, tolerance, max_steps, before_step)
         # Once more: what the tolerance left would show in the flow balance.
         if steps[-1].residual <= tolerance:
             steps = steps[:-1] + fluid.solve(state, 0.0, 1)

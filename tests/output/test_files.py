@@ -51,6 +51,18 @@ class TestDirectory:
             files.prepare_directory(tmp_path, force=False)
         assert [path.name for path in tmp_path.iterdir()] == ["kept.txt"]
 
+    def test_force_clears_a_checkpoint_and_nothing_else_in_that_folder(self, tmp_path):
+        folder = tmp_path / "checkpoint"
+        (folder / "start").mkdir(parents=True)
+        for name in ("solve-0000.npz", "under-way.npz", "start/fields.h5", "start/result.json"):
+            (folder / name).write_text("old")
+        files.prepare_directory(tmp_path, force=True)
+        assert not folder.exists()
+        folder.mkdir()
+        (folder / "epoch-7.pt").write_text("somebody else's")
+        files.prepare_directory(tmp_path, force=True)
+        assert [path.name for path in folder.iterdir()] == ["epoch-7.pt"]
+
     def test_force_accepts_it(self, tmp_path):
         assert files.prepare_directory(tmp_path, force=True) == tmp_path
 

@@ -1,12 +1,15 @@
 """What a run says."""
 
+import json
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
 from test_files import make_result
 
-from mgehl.output.progress import Progress, newton_line, newton_row, trust_block
+from mgehl.output.progress import NEWTON, Progress, trust_block
 from mgehl.output.result import ContactResult, InequalityResult, Resolution
+from mgehl.output.terminal import SILENT, Silent
 from mgehl.solver.nested import LevelSolve
 from mgehl.solver.newton import Changes, Cycle
 
@@ -17,11 +20,26 @@ def cycle(step):
     return Cycle(step, 1.5e-5, -2e-7, 2e-3, 1e-3, 11, 222, Changes(cavitated=3, released=1), 4, 0.5)
 
 
+class Told(Silent):
+    """Keeps what it is told."""
+
+    def __init__(self):
+        self.told = []
+
+    def row(self, row, line, left=None):
+        self.told.append((row, line, left))
+
+
+def make_progress(speaker=SILENT, convolutions=0.0):
+    """Of a film scale of a micrometre, on a hierarchy of one grid of 129 nodes."""
+    grid = SimpleNamespace(mesh=SimpleNamespace(nx=129))
+    return Progress(NEWTON, 1e-6, SimpleNamespace(grids=[grid], convolutions=convolutions), 1e-8, speaker)
+
+
 def test_a_row_for_each_cycle():
-    work = iter((1.0, 2.5))
-    progress = Progress(newton_row, newton_line, 1e-6, lambda: next(work), speak=False)
-    progress(LEVEL, cycle(0))
-    progress(LEVEL, cycle(1))
+    progress = make_progress()
+    for progress._hierarchy.convolutions in (1.0, 2.5):
+        progress(LEVEL, cycle(len(progress.rows)))
     first, second = progress.rows
     expected = {
         "grid": 129, "speed_mm_s": 7.5, "step": 1, "residual": 1.5e-5, "load_error": -2e-7,
@@ -34,25 +52,36 @@ def test_a_row_for_each_cycle():
 
 
 def test_newton_steps_are_counted_on_all_grids():
-    progress = Progress(newton_row, newton_line, 1e-6, lambda: 0.0, speak=False)
+    progress = make_progress()
     for step in (0, 1, 2, 0, 1):
         progress(LEVEL, cycle(step))
     assert progress.steps == 3
 
 
-def test_it_prints_a_line_for_each_cycle(capsys):
-    progress = Progress(newton_row, newton_line, 1e-6, lambda: 0.0, speak=True)
+def test_it_tells_the_speaker_of_each_cycle():
+    speaker = Told()
+    progress = make_progress(speaker)
     progress(LEVEL, cycle(0))
     progress(LEVEL, cycle(1))
-    lines = capsys.readouterr().out.splitlines()
-    assert len(lines) == 2
+    (_, _, first), (row, line, left) = speaker.told
+    assert row is progress.rows[1] and first is None and left >= 0.0
     for word in ("129", "7.5 mm/s", "step  1", "1.50e-05", "-2.0e-07", "2.0000", "1.0000 nm", "11", "222"):
-        assert word in lines[1]
+        assert word in line
 
 
-def test_a_quiet_one_prints_nothing(capsys):
-    Progress(newton_row, newton_line, 1e-6, lambda: 0.0, speak=False)(LEVEL, cycle(0))
-    assert capsys.readouterr() == ("", "")
+def test_it_goes_on_from_its_record():
+    before = make_progress(convolutions=30.0)
+    before(LEVEL, cycle(0))
+    record = json.loads(json.dumps(before.record()))
+    record["seconds"] += 100.0
+    after = make_progress(convolutions=4.0)
+    after.go_on(record)
+    assert after.rows == before.rows and after.convolutions == 30.0
+    assert 100.0 <= after.seconds < 200.0
+    after._hierarchy.convolutions += 2.0
+    after(LEVEL, cycle(1))
+    assert after.rows[1]["convolutions"] == 32.0 and after.rows[1]["seconds"] >= 100.0
+    assert len(before.rows) == 1 and after.steps == 1
 
 
 class TestTrustBlock:

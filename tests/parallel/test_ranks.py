@@ -13,11 +13,15 @@ from mpi4py import MPI
 
 from mgehl.config import config_from_tables
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
+from mgehl.errors import OutputError, Stopped
 from mgehl.grid.grid import build_grids
 from mgehl.grid.transfers import PartitionedTransfer
 from mgehl.multigrid.jacobian import BorderedSpace
+from mgehl.output.records import Reader, Writer
+from mgehl.run import Watch
 from mgehl.run import solve as solve_config
 from mgehl.solver.nested import NestedSettings, SolverSettings, single_loop
+from mgehl.solver.problem import State
 from mgehl.solver.relaxation import RelaxationSettings
 from mgehl.solver.verification import check_pressure_inequality, complementarity_error, flux_imbalance
 from mgehl.studies.branch import Branches
@@ -349,6 +353,72 @@ class TestBranches:
         study = Study(directory, comm, (65,), speak=False)
         with Branches(study, {"grid": {"nodes": 65}}) as branches:
             return branches.walk("down", [1.0, 0.7]) + branches.walk("up", [0.005, 0.007])
+
+
+class TestCheckpoints:
+    """What some ranks have kept others take up."""
+
+    FILM = {"motion": {"speed": 0.12}, "grid": {"nodes": 65}, "solver": {"start": "film"}}
+    STEPS = 5
+
+    @pytest.mark.parametrize("before, after", [(COMM, MPI.COMM_SELF), (MPI.COMM_SELF, COMM)])
+    def test_a_run_goes_on_on_another_number_of_ranks(self, tmp_path, before, after):
+        config = config_from_tables(self.FILM)
+        directory = Path(COMM.bcast(str(tmp_path)))
+        if before is COMM or COMM.rank == 0:
+            self.stopped(config, before, directory)
+        COMM.barrier()
+        solution = None
+        if after is COMM or COMM.rank == 0:
+            solution = solve_config(config, after, Watch(directory=directory))
+        alone = solve_config(config, MPI.COMM_SELF)
+        same = True
+        if COMM.rank == 0:
+            same = (
+                np.array_equal(solution.fields.status, alone.fields.status)
+                and np.allclose(solution.fields.P, alone.fields.P, rtol=0.0, atol=1e-10)
+                and np.allclose(solution.fields.H, alone.fields.H, rtol=0.0, atol=1e-10)
+                and len(solution.rows) == len(alone.rows)
+            )
+        assert COMM.bcast(same)
+
+    def stopped(self, config, comm, directory):
+        """Run until the last rank of all wants to stop."""
+        asked = iter(range(100))
+
+        def stop():
+            last = comm.rank == comm.size - 1
+            return Stopped("enough", 143) if next(asked) == self.STEPS and last else None
+
+        with pytest.raises(Stopped, match="enough"):
+            solve_config(config, comm, Watch(directory=directory, save_every=1e9, stop=stop))
+        assert (directory / "checkpoint" / "under-way.npz").exists()
+
+    def test_records_are_the_same_on_any_number_of_ranks(self, pair):
+        together, alone = (hierarchy.grids[-1] for hierarchy in pair(nodes=65))
+        values = random(alone)
+        state = State(
+            lines(together, values), 0.1 + 0.2, lines(together, values), lines(together, values) > 0
+        )
+        writer = Writer(together)
+        plain = COMM.bcast(writer.plain(state))
+        arrays = COMM.bcast(writer.arrays)
+        whole_state = Reader(alone, arrays).alive(plain)
+        np.testing.assert_array_equal(whole_state.P, values)
+        np.testing.assert_array_equal(whole_state.status, values > 0)
+        back = Reader(together, arrays if COMM.rank == 0 else None).alive(plain)
+        np.testing.assert_array_equal(back.P, state.P)
+        assert back.H0 == 0.1 + 0.2 and back.status.dtype == bool
+
+    def test_a_damaged_one_is_refused_on_every_rank(self, tmp_path):
+        directory = Path(COMM.bcast(str(tmp_path)))
+        config = config_from_tables(self.FILM)
+        self.stopped(config, COMM, directory)
+        if COMM.rank == 0:
+            (directory / "checkpoint" / "under-way.npz").write_bytes(b"PK")
+        COMM.barrier()
+        with pytest.raises(OutputError, match="is damaged"):
+            solve_config(config, COMM, Watch(directory=directory))
 
 
 class TestCommandLine:

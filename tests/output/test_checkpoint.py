@@ -1,0 +1,323 @@
+"""A run's way on disk: what is kept comes back, what is damaged is refused, nothing is lost on the way."""
+
+import json
+from dataclasses import replace
+from itertools import count
+from math import inf
+from zipfile import ZipFile
+
+import numpy as np
+import pytest
+from mpi4py import MPI
+
+from mgehl.config import config_from_tables
+from mgehl.errors import OutputError, Stopped
+from mgehl.output import checkpoint
+from mgehl.output.checkpoint import UNDER_WAY, Checkpoint, clear, keep_start, load, save, start_of
+from mgehl.output.files import write_config
+from mgehl.run import Watch, solve
+from mgehl.solver.nested import first_guess
+from mgehl.solver.newton import Outcome
+from mgehl.solver.problem import State
+from mgehl.solver.relaxation import Standing
+
+STOPPED = Stopped("told to", 143)
+CONFIG = config_from_tables({})
+CONFIGURATION = json.dumps(CONFIG.as_toml_tables())
+
+
+class History:
+    """What a checkpoint needs of a `Progress`."""
+
+    def __init__(self, steps=0):
+        self.steps = steps
+
+    def record(self):
+        return {"steps": self.steps}
+
+    def go_on(self, record):
+        self.steps = record["steps"]
+
+
+@pytest.fixture
+def grid(tiny_problem):
+    return tiny_problem.grid
+
+
+@pytest.fixture
+def standing(tiny_problem):
+    return Standing(Outcome(first_guess(tiny_problem, "film"), False, ""), 5)
+
+
+class TestKeeping:
+    def make(self, directory, seconds=inf, stop=lambda: None, steps=0, config=CONFIG):
+        return Checkpoint(directory, config, History(steps), seconds, stop)
+
+    def names(self, directory):
+        return sorted(path.name for path in (directory / "checkpoint").glob("*"))
+
+    def test_nothing_is_known_of_a_new_run(self, tmp_path, grid):
+        kept = self.make(tmp_path)
+        assert kept.recall(grid) is None and kept.standing(grid) is None
+
+    def test_a_position_is_saved_when_it_is_time(self, tmp_path, grid, standing):
+        self.make(tmp_path, seconds=inf).step(grid, standing)
+        assert self.names(tmp_path) == []
+        self.make(tmp_path, seconds=0.0, steps=7).step(grid, standing)
+        assert self.names(tmp_path) == [UNDER_WAY]
+        again = self.make(tmp_path)
+        back = again.standing(grid)
+        np.testing.assert_array_equal(back.outcome.state.P, standing.outcome.state.P)
+        assert back.step == 5 and again._progress.steps == 7
+
+    def test_it_stops_when_all_is_saved(self, tmp_path, grid, standing):
+        with pytest.raises(Stopped) as stopped:
+            self.make(tmp_path, stop=lambda: STOPPED).step(grid, standing)
+        assert (str(stopped.value), stopped.value.status) == ("told to", 143)
+        assert self.make(tmp_path).standing(grid).step == 5
+
+    def test_finished_solves_are_recalled_in_order(self, tmp_path, grid, standing):
+        kept, outcome = self.make(tmp_path), standing.outcome
+        for reason in ("first", "second"):
+            kept.finish(grid, replace(outcome, reason=reason))
+        assert self.names(tmp_path) == ["solve-0000.npz", "solve-0001.npz"]
+        again = self.make(tmp_path)
+        assert [again.recall(grid).reason for _ in range(2)] == ["first", "second"]
+        assert again.recall(grid) is None
+        again.finish(grid, replace(outcome, reason="third"))
+        assert self.names(tmp_path)[-1] == "solve-0002.npz"
+
+    def test_what_was_under_way_is_behind_once_its_solve_is_finished(self, tmp_path, grid, standing):
+        """A kill may leave both."""
+        kept = self.make(tmp_path, seconds=0.0, steps=3)
+        kept.step(grid, standing)
+        kept.finish(grid, standing.outcome)
+        again = self.make(tmp_path)
+        assert again.standing(grid).step == 5
+        assert again.recall(grid) is not None
+        assert again.standing(grid) is None
+
+    def test_another_configuration_is_refused(self, tmp_path, grid, standing):
+        self.make(tmp_path, seconds=0.0).step(grid, standing)
+        other = self.make(tmp_path, config=config_from_tables({"motion": {"speed": 2.0}}))
+        with pytest.raises(OutputError, match="another configuration"):
+            other.standing(grid)
+
+    def test_it_is_cleared_with_all_that_is_in_it(self, tmp_path, grid, standing):
+        self.make(tmp_path, seconds=0.0).step(grid, standing)
+        clear(tmp_path)
+        clear(tmp_path)
+        assert not list(tmp_path.iterdir())
+
+
+class TestStart:
+    FILES = ("configuration.toml", "fields.h5", "history.csv", "result.json")
+
+    def test_it_is_kept_beside(self, tmp_path):
+        source, target = tmp_path / "source", tmp_path / "target"
+        for directory in (source, target):
+            directory.mkdir()
+        for name in self.FILES:
+            (source / name).write_text(name)
+        keep_start(target, source)
+        kept = start_of(target)
+        assert {path.name: path.read_text() for path in kept.iterdir()} == {n: n for n in self.FILES}
+
+    def test_one_that_lacks_a_file_is_one_line(self, tmp_path):
+        write_config(tmp_path / "configuration.toml", CONFIG)
+        with pytest.raises(OutputError, match="cannot be written: No such file"):
+            keep_start(tmp_path / "target", tmp_path)
+
+
+class TestFile:
+    """`save` and `load`."""
+
+    RECORD = {"format": checkpoint.FORMAT, "mgehl": checkpoint.VERSION, "configuration": CONFIGURATION}
+    ARRAYS = {"array0": np.linspace(0.0, 1.0, 12).reshape(3, 4), "array1": np.eye(3, dtype=np.int8)}
+
+    @pytest.fixture
+    def path(self, tmp_path):
+        path = tmp_path / "folder" / "solve-0000.npz"
+        save(path, self.RECORD | {"thing": [None, 0.1]}, self.ARRAYS)
+        return path
+
+    def refused(self, path):
+        with pytest.raises(OutputError) as error:
+            load(path, CONFIGURATION)
+        text = str(error.value)
+        assert text.startswith(f"{path}: ") and "\n" not in text
+        return text
+
+    def test_it_reads_back(self, path):
+        record, arrays = load(path, CONFIGURATION)
+        assert record["thing"] == [None, 0.1]
+        assert arrays.keys() == self.ARRAYS.keys()
+        for name, array in arrays.items():
+            assert array.dtype == self.ARRAYS[name].dtype
+            np.testing.assert_array_equal(array, self.ARRAYS[name])
+
+    def test_numpy_reads_it_too(self, path):
+        with np.load(path) as file:
+            np.testing.assert_array_equal(file["array0"], self.ARRAYS["array0"])
+
+    def test_one_that_is_not_there_is_none(self, tmp_path):
+        assert load(tmp_path / "solve-0000.npz", CONFIGURATION) is None
+
+    def test_cut_off_anywhere(self, path):
+        whole = path.read_bytes()
+        for length in range(len(whole)):
+            path.write_bytes(whole[:length])
+            assert "damaged" in self.refused(path)
+
+    def test_a_byte_changed_anywhere_is_refused_or_does_no_harm(self, path):
+        """Dates and the like of the zip format are of no matter, all else is summed."""
+        whole = bytearray(path.read_bytes())
+        refused = 0
+        for position in range(len(whole)):
+            for flipped in (0xFF, 0x01):
+                whole[position] ^= flipped
+                path.write_bytes(whole)
+                whole[position] ^= flipped
+                try:
+                    record, arrays = load(path, CONFIGURATION)
+                except OutputError as error:
+                    refused += 1
+                    assert "\n" not in str(error)
+                else:
+                    assert record["thing"] == [None, 0.1]
+                    for name, array in arrays.items():
+                        np.testing.assert_array_equal(array, self.ARRAYS[name])
+        assert refused > len(whole)
+
+    def test_another_version(self, path, monkeypatch):
+        monkeypatch.setattr(checkpoint, "VERSION", "99.0")
+        text = self.refused(path)
+        assert f"written by mgehl {self.RECORD['mgehl']}, and 99.0 cannot" in text
+
+    def test_another_format(self, path, monkeypatch):
+        monkeypatch.setattr(checkpoint, "FORMAT", 2)
+        assert "cannot go on with it" in self.refused(path)
+
+    def test_foreign_files(self, path):
+        for write in (
+            lambda: np.savez(path, a=np.eye(3)),
+            lambda: np.savez(path, record=np.array([{"a": 1}], dtype=object)),
+            lambda: np.save(path.open("wb"), np.eye(3)),
+            lambda: path.write_text("no archive\nat all"),
+            lambda: path.write_bytes(b""),
+        ):
+            write()
+            assert "no checkpoint" in self.refused(path)
+
+    def test_nothing_is_unpickled(self, path):
+        with ZipFile(path, "a") as archive, archive.open("array2.npy", "w") as member:
+            np.lib.format.write_array(member, np.array([print], dtype=object))
+        assert "pickle" in self.refused(path).lower() or "allow_pickle" in self.refused(path)
+
+    @pytest.mark.parametrize("record", ["[]", "3", "null", '"text"', "{", "{}"])
+    def test_a_record_that_is_none(self, path, record):
+        with ZipFile(path, "w") as archive:
+            archive.writestr("record.json", record)
+        self.refused(path)
+
+    def test_a_directory_in_its_place(self, tmp_path):
+        assert "damaged" in self.refused(tmp_path)
+
+    def test_a_file_in_place_of_the_folder(self, tmp_path):
+        (tmp_path / "checkpoint").write_text("mine")
+        with pytest.raises(OutputError, match="cannot be written"):
+            save(tmp_path / "checkpoint" / UNDER_WAY, self.RECORD, self.ARRAYS)
+        assert (tmp_path / "checkpoint").read_text() == "mine"
+
+    def test_a_failure_leaves_the_one_before(self, path):
+        before = path.read_bytes()
+        with pytest.raises(ValueError):
+            save(path, self.RECORD, {"array0": np.array([print], dtype=object)})
+        assert path.read_bytes() == before
+        assert [each.name for each in path.parent.iterdir()] == [path.name]
+
+
+FILM = {"motion": {"speed": 0.5}, "solver": {"start": "film"}}
+CASES = {
+    "film": FILM,
+    "film on two grids": FILM | {"grid": {"nodes": 129}},
+    "film that Eq. 2 is tried on": {"motion": {"speed": 0.12}, "solver": {"start": "film"}},
+    "contact": {"motion": {"speed": 5e-6}, "solver": {"start": "contact"}},
+    "contact and film": {"motion": {"speed": 5e-4}, "solver": {"start": "contact"}},
+    "geometric mean": FILM | {"motion": {"speed": 1.2}, "discretization": {"face_mobility": "geometric"}},
+    "relaxation": FILM
+    | {"solver": {"start": "film", "method": "relaxation"}, "relaxation": {"max_sweeps": 12}},
+    "line": FILM | {"contact": {"kind": "line"}, "motion": {"speed": 0.3}, "grid": {"nodes": 257}},
+}
+
+
+class TestStoppedAtEveryStep:
+    """Each part of the run makes one step, is stopped before the next and taken up from disk."""
+
+    @pytest.mark.parametrize("name", CASES)
+    def test_it_ends_as_one_that_was_never_stopped(self, name, tmp_path):
+        config = config_from_tables({"grid": {"nodes": 65}} | CASES[name])
+        plain = solve(config, MPI.COMM_SELF)
+        parted, stops = self.in_parts(config, tmp_path)
+        # A stop before each step but the first of all; the last row of a sweep's history is no step.
+        steps = plain.result.work.steps if name == "relaxation" else len(plain.rows) - 1
+        assert stops in (steps, steps - 1)
+        for field in ("P", "H", "status"):
+            np.testing.assert_array_equal(getattr(parted.fields, field), getattr(plain.fields, field))
+        assert parted.H0 == plain.H0
+        assert self.timeless(parted.rows) == self.timeless(plain.rows)
+        assert parted.result.work.convolutions == pytest.approx(plain.result.work.convolutions, rel=1e-12)
+        untimed = {"wall_s": 0.0, "work": None}
+        assert replace(parted.result, **untimed) == replace(plain.result, **untimed)
+
+    def in_parts(self, config, directory):
+        """The `Solution`, and how often the run was stopped."""
+        stops = 0
+        while True:
+            asked = count()
+            watch = Watch(
+                directory=directory,
+                save_every=inf,
+                stop=lambda asked=asked: STOPPED if next(asked) == 1 else None,
+            )
+            try:
+                return solve(config, MPI.COMM_SELF, watch), stops
+            except Stopped:
+                stops += 1
+
+    def timeless(self, rows):
+        """The rows without seconds, sums of convolutions to rounding."""
+        return [
+            {key: value for key, value in row.items() if key != "seconds"}
+            | {"convolutions": round(row["convolutions"], 9)}
+            for row in rows
+        ]
+
+
+def test_seconds_go_on_where_they_were(tmp_path):
+    """Of all parts, and not of the time between them."""
+    config = config_from_tables({"grid": {"nodes": 65}} | FILM)
+    asked = count()
+    with pytest.raises(Stopped):
+        solve(
+            config,
+            MPI.COMM_SELF,
+            Watch(directory=tmp_path, stop=lambda: STOPPED if next(asked) == 3 else None),
+        )
+    path = tmp_path / "checkpoint" / UNDER_WAY
+    record, arrays = load(path, json.dumps(config.as_toml_tables()))
+    record["progress"]["seconds"] += 1000.0
+    save(path, record, arrays)
+    solution = solve(config, MPI.COMM_SELF, Watch(directory=tmp_path))
+    seconds = [row["seconds"] for row in solution.rows]
+    assert seconds == sorted(seconds) and seconds[2] < 900.0 < 1000.0 < seconds[3]
+    assert 1000.0 < solution.result.wall_s < 1900.0
+
+
+def test_a_state_is_of_its_own_kind(tiny_problem, tmp_path):
+    """The class of what comes back is the class that went in."""
+    kept = Checkpoint(tmp_path, CONFIG, History(), 0.0)
+    state = first_guess(tiny_problem, "contact")
+    kept.finish(tiny_problem.grid, Outcome(state, True, "", [], []))
+    back = Checkpoint(tmp_path, CONFIG, History(), 0.0).recall(tiny_problem.grid)
+    assert isinstance(back, Outcome) and isinstance(back.state, State) and back.converged is True

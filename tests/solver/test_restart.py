@@ -1,0 +1,157 @@
+"""A start from the fields of another run."""
+
+import numpy as np
+import pytest
+from mpi4py import MPI
+
+import mgehl
+from mgehl.config import config_from_tables
+from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
+from mgehl.errors import UserError
+from mgehl.grid.hierarchy import Hierarchy
+from mgehl.run import solve
+from mgehl.solver.from_config import contact_from, mesh_from, settings_from
+from mgehl.solver.problem import ContactProblem
+from mgehl.solver.restart import check_start, interpolated
+
+FILM = {"motion": {"speed": 0.5}, "grid": {"nodes": 65}, "solver": {"start": "film"}}
+LINE = {"contact": {"kind": "line"}, "motion": {"speed": 0.3}, "grid": {"nodes": 129}}
+DRY = {"motion": {"speed": 5e-6}, "grid": {"nodes": 65}, "solver": {"start": "contact"}}
+
+
+def solved(*tables, start=None):
+    """The `Solution` of tables laid over each other."""
+    return solve(config_of(*tables), MPI.COMM_SELF, start=start)
+
+
+def config_of(*tables):
+    merged = {}
+    for table in tables:
+        for section, keys in table.items():
+            merged[section] = merged.get(section, {}) | keys
+    return config_from_tables(merged)
+
+
+@pytest.fixture(scope="module")
+def film():
+    """0.5 m/s on 65 nodes."""
+    return solved(FILM)
+
+
+@pytest.fixture(scope="module")
+def dry():
+    """Full contact on 65 nodes."""
+    return solved(DRY)
+
+
+@pytest.fixture
+def onto():
+    """Function: the fields of a solution on the problem of other tables, and that problem."""
+    made = []
+
+    def make(start, *tables):
+        config = config_of(*tables)
+        contact = contact_from(config)
+        made.append(Hierarchy(mesh_from(config, contact), 33, contact.deflection_scale, MPI.COMM_SELF))
+        grid, deflection = made[-1].grids[-1], made[-1].deflections[-1]
+        problem = ContactProblem(grid, deflection, contact, settings_from(config, contact).scheme)
+        return interpolated(problem, start), problem
+
+    yield make
+    for hierarchy in made:
+        hierarchy.destroy()
+
+
+class TestInterpolated:
+    def test_onto_its_own_grid_it_is_the_same(self, film, onto):
+        state, _ = onto(film, FILM)
+        np.testing.assert_allclose(state.P, film.fields.P, rtol=0.0, atol=1e-14)
+        np.testing.assert_allclose(state.H, film.fields.H, rtol=0.0, atol=1e-12)
+        assert state.H0 == film.H0
+        fluid = (film.fields.P > 0.0) & (film.fields.status == LUBRICATED)
+        assert (state.status[fluid] == LUBRICATED).all()
+        assert (state.status[film.fields.status == CAVITATED] == CAVITATED).all()
+
+    def test_onto_a_finer_grid_the_common_nodes_keep_their_pressure(self, film, onto):
+        state, problem = onto(film, FILM, {"grid": {"nodes": 129}})
+        assert state.P.shape == (129, 129)
+        np.testing.assert_allclose(state.P[::2, ::2], film.fields.P, rtol=0.0, atol=1e-13)
+        between = 0.5 * (film.fields.P[:, 1:] + film.fields.P[:, :-1])
+        np.testing.assert_allclose(state.P[::2, 1::2], between, rtol=0.0, atol=1e-13)
+        np.testing.assert_allclose(state.H, problem.gap(state.P, film.H0), rtol=0.0, atol=1e-12)
+
+    def test_outside_of_what_was_solved_there_is_no_pressure(self, film, onto):
+        state, problem = onto(film, FILM, {"grid": {"x": [-4.0, 2.0]}})
+        x = problem.grid.mesh.X
+        outside = (x < film.mesh.X[0]) | (x > film.mesh.X[-1])
+        assert outside.sum() > 20 and not state.P[:, outside].any()
+        assert state.P.max() == pytest.approx(film.fields.P.max(), rel=0.05)
+
+    def test_contact_stays_contact(self, dry, onto):
+        state, problem = onto(dry, DRY, {"grid": {"nodes": 129}})
+        share = np.count_nonzero(state.status == CONTACT) / np.count_nonzero(dry.fields.status == CONTACT)
+        assert share == pytest.approx(4.0, rel=0.03)
+        assert not (state.status[problem.boundary] == CONTACT).any()
+
+    def test_without_interface_conditions_there_is_no_contact(self, dry, onto):
+        state, _ = onto(dry, DRY, {"discretization": {"contact_model": "unified"}})
+        assert not (state.status == CONTACT).any()
+
+
+class TestSolveFrom:
+    """Its answer is that of a start from nothing, found in fewer steps, all on the finest grid."""
+
+    CASES = {
+        "itself": (FILM, {}),
+        "a coarser grid": (FILM, {"grid": {"nodes": 129}}),
+        "another domain": (
+            FILM | {"motion": {"speed": 1.0}},
+            {"grid": {"x": [-2.2, 1.4], "y": [-1.7, 1.7]}},
+        ),
+        "another speed": (FILM, {"motion": {"speed": 0.6}}),
+        "a line": (LINE, {}),
+        "a line of a coarser grid": (LINE, {"grid": {"nodes": 257}}),
+        "contact": (DRY, {}),
+    }
+
+    @pytest.mark.parametrize("name", CASES)
+    def test_from(self, name):
+        before, change = self.CASES[name]
+        plain = solved(before, change)
+        started = solved(before, change, start=solved(before))
+        assert started.result.converged and plain.result.converged
+        np.testing.assert_allclose(started.fields.P, plain.fields.P, rtol=0.0, atol=1e-6)
+        np.testing.assert_allclose(started.fields.H, plain.fields.H, rtol=0.0, atol=1e-6)
+        np.testing.assert_array_equal(started.fields.status, plain.fields.status)
+        assert started.result.work.steps < plain.result.work.steps
+        assert {row["grid"] for row in started.rows} == {plain.mesh.nx}
+
+    def test_a_far_speed_is_reached_in_steps(self, film):
+        started = solved(FILM, {"motion": {"speed": 4.0}}, start=film)
+        plain = solved(FILM, {"motion": {"speed": 4.0}})
+        assert started.result.converged
+        np.testing.assert_allclose(started.fields.H, plain.fields.H, rtol=0.0, atol=1e-6)
+        assert started.rows[-1]["speed_mm_s"] == 4000.0
+
+    def test_by_relaxation(self, film):
+        """One sweep sees that there is nothing to do."""
+        relaxed = {"solver": {"method": "relaxation", "tolerance": 1e-6}, "relaxation": {"max_sweeps": 3}}
+        started = solved(FILM, relaxed, start=film)
+        assert started.result.settled and started.result.work.steps == 0
+        assert started.rows[0]["grid"] == 65 and started.rows[0]["speed_mm_s"] == 500.0
+
+
+class TestOfAnotherKind:
+    @pytest.mark.parametrize("kind", ["line", "wedge"])
+    def test_it_is_refused(self, film, kind):
+        with pytest.raises(UserError, match=f"a point is no start for a {kind}"):
+            check_start(film, kind)
+
+    def test_a_wedge_starts_nothing(self):
+        wedge = solved({"contact": {"kind": "wedge"}, "grid": {"nodes": 65}})
+        with pytest.raises(UserError, match="a wedge is no start for a wedge"):
+            check_start(wedge, "wedge")
+
+    def test_the_python_interface_refuses_it_too(self, film):
+        with pytest.raises(UserError, match="a point is no start for a line"):
+            mgehl.solve(config_of(LINE), MPI.COMM_SELF, start=film)

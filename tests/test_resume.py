@@ -1,0 +1,460 @@
+"""Stop and resume, end to end: kills, signals, limits, full disks, failing ranks; nothing is lost."""
+
+import json
+import os
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+from mpi4py import MPI
+
+from mgehl.cli import main
+from mgehl.config import load_config
+from mgehl.output.checkpoint import load
+from mgehl.output.stored import read_run
+from mgehl.run import solve
+
+FILES = {"configuration.toml", "fields.h5", "history.csv", "picture.png", "result.json"}
+FILM = ["--set", "grid.nodes=129", "--set", "motion.speed=0.5", "--set", "solver.start=film"]
+"""Eight steps on 65 nodes, seven on 129."""
+SMALL = ["--set", "grid.nodes=65", "--set", "motion.speed=0.5", "--set", "solver.start=film"]
+ALWAYS = ["--save-every", "0.001"]
+
+
+@pytest.fixture(autouse=True)
+def empty_directory(tmp_path, monkeypatch):
+    """Every test starts in an empty directory."""
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.fixture(scope="module")
+def uninterrupted():
+    """Function: the solution of settings, by a run that nothing stopped."""
+    made = {}
+
+    def make(settings):
+        key = tuple(settings)
+        if key not in made:
+            made[key] = solve(load_config(None, settings[1::2]), MPI.COMM_SELF)
+        return made[key]
+
+    return make
+
+
+def start(arguments, ranks=1):
+    """A process of `mgehl run`, without MPI variables of this one."""
+    environment = {k: v for k, v in os.environ.items() if not k.startswith(("OMPI_COMM", "PMIX_", "PRTE_"))}
+    words = [sys.executable, "-m", "mgehl", "run", *arguments]
+    if ranks > 1:
+        words = ["mpiexec", "-n", str(ranks), *words]
+    return subprocess.Popen(
+        words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment
+    )
+
+
+def end(process):
+    """(exit status, what mgehl itself said on stderr, line by line)."""
+    _, err = process.communicate(timeout=120)
+    return process.returncode, [line for line in err.splitlines() if line.startswith("mgehl: ")]
+
+
+def exit_status(*arguments):
+    """What `main` returns for a quiet run in this process."""
+    try:
+        return main(["run", *arguments, "--quiet"])
+    except SystemExit as stop:
+        return stop.code
+
+
+def children(pid):
+    """Processes that a process started."""
+    return [int(each) for each in Path(f"/proc/{pid}/task/{pid}/children").read_text().split()]
+
+
+def assert_nothing_is_half_written(directory):
+    """What is there under a name of its own can be read."""
+    if not (directory / "configuration.toml").exists():
+        assert not directory.exists() or not any(directory.iterdir())
+        return
+    config = load_config(directory / "configuration.toml")
+    names = {path.name for path in directory.iterdir() if not path.name.startswith(".part-")}
+    assert names <= FILES | {"checkpoint"}
+    if "result.json" in names:
+        assert names >= FILES
+        read_run(directory)
+    for path in (directory / "checkpoint").glob("[!.]*.npz"):
+        assert load(path, json.dumps(config.as_toml_tables()))
+
+
+def assert_same(directory, solution):
+    """Films to 1e-9 of the largest, the same status map."""
+    read = read_run(directory)
+    np.testing.assert_array_equal(read.status, solution.status)
+    np.testing.assert_allclose(read.film, solution.film, rtol=0.0, atol=1e-9 * solution.film.max())
+    np.testing.assert_allclose(
+        read.pressure, solution.pressure, rtol=0.0, atol=1e-9 * solution.pressure.max()
+    )
+    assert len(read.rows) == len(solution.rows)
+    assert read.result.converged == solution.result.converged
+    assert {path.name for path in directory.iterdir()} == FILES
+
+
+class TestKills:
+    """SIGKILL, twenty times at random moments: whenever a line or two have been said, and a while later."""
+
+    @pytest.mark.parametrize("kills, ranks, seed", [(15, 1, 1), (5, 2, 2)])
+    def test_nothing_is_lost(self, uninterrupted, tmp_path, kills, ranks, seed):
+        chance, here, runs = random.Random(seed), tmp_path / "0", 1
+        while kills:
+            killed = self.killed(here, ranks, chance)
+            assert_nothing_is_half_written(here)
+            kills -= killed
+            if not killed:  # it was faster
+                assert_same(here, uninterrupted(FILM))
+                here, runs = tmp_path / str(runs), runs + 1
+        if not (here / "configuration.toml").exists():
+            assert exit_status(*FILM, "--out", str(here)) == 0
+        assert exit_status("--resume", str(here)) == 0  # on one rank, whatever it was before
+        assert_same(here, uninterrupted(FILM))
+
+    def killed(self, here, ranks, chance):
+        """Whether a run, or one that goes on, was killed on its way."""
+        began = (here / "configuration.toml").exists()
+        arguments = ["--resume", str(here)] if began else [*FILM, "--out", str(here)]
+        process = start([*arguments, *ALWAYS, "--json-lines"], ranks)
+        for _ in range(chance.choice([0, 1, 1, 2])):
+            process.stdout.readline()
+        time.sleep(chance.uniform(0.0, 0.15))
+        # Ranks have process groups of their own; where one is killed, mpiexec ends the others.
+        os.kill(chance.choice((ranks > 1 and children(process.pid)) or [process.pid]), signal.SIGKILL)
+        process.communicate(timeout=60)
+        return process.returncode != 0
+
+    def test_a_run_of_one_rank_goes_on_on_two(self, uninterrupted, tmp_path):
+        here = tmp_path / "here"
+        assert exit_status(*SMALL, "--out", str(here), "--time-limit", "1e-9") == 143
+        assert end(start(["--resume", str(here), "--quiet"], ranks=2)) == (0, [])
+        assert_same(here, uninterrupted(SMALL))
+
+
+class TestStops:
+    def test_signals(self, uninterrupted, tmp_path):
+        """One after the other: nothing of what was reached is done again."""
+        here, cycles = tmp_path / "here", 0
+        arguments = [*FILM, "--out", str(here)]
+        for number, name, status in ((signal.SIGTERM, "SIGTERM", 143), (signal.SIGINT, "Ctrl-C", 130)):
+            process = start([*arguments, "--json-lines"])
+            first = json.loads(process.stdout.readline())["cycle"]
+            process.send_signal(number)
+            said, err = process.communicate(timeout=60)
+            line = f"mgehl: stopped by {name}; go on with: mgehl run --resume {here}\n"
+            assert (process.returncode, err) == (status, line)
+            rows = load(here / "checkpoint" / "under-way.npz", self.configuration(here))[0]["progress"][
+                "rows"
+            ]
+            assert rows[cycles] == first and len(rows) == cycles + 1 + len(said.splitlines())
+            cycles, arguments = len(rows), ["--resume", str(here)]
+        assert exit_status("--resume", str(here)) == 0
+        assert_same(here, uninterrupted(FILM))
+
+    def configuration(self, here):
+        return json.dumps(load_config(here / "configuration.toml").as_toml_tables())
+
+    def test_ctrl_c_before_anything_began(self):
+        """The import of what computes takes a while."""
+        process = start([*SMALL, "--out", "here"])
+        time.sleep(0.2)
+        process.send_signal(signal.SIGINT)
+        _, err = process.communicate(timeout=60)
+        assert process.returncode in (130, -signal.SIGINT)
+        assert process.returncode == -signal.SIGINT or len(err.splitlines()) == 1
+
+    def test_a_limit_of_time(self, uninterrupted, tmp_path, capsys):
+        here = tmp_path / "with a space"
+        assert exit_status(*SMALL, "--out", str(here), "--time-limit", "1e-9") == 143
+        for _ in range(2):
+            assert exit_status("--resume", str(here), "--time-limit", "1e-6 ms") == 143
+        err = capsys.readouterr().err.splitlines()
+        assert len(err) == 3
+        assert err[0].endswith(f"after 1e-09 s; go on with: mgehl run --resume '{here}'")
+        assert exit_status("--resume", str(here)) == 0
+        assert_same(here, uninterrupted(SMALL))
+
+    def test_a_limit_of_time_on_two_ranks(self, tmp_path):
+        status, said = end(start([*SMALL, "--out", "here", "--time-limit", "1e-9"], ranks=2))
+        assert status == 143 and len(said) == 1 and "stopped by --time-limit" in said[0]
+        assert (tmp_path / "here" / "checkpoint" / "under-way.npz").exists()
+
+    @pytest.mark.parametrize("name", ["wedge", "line", "relaxation"])
+    def test_of_another_kind(self, name, tmp_path):
+        settings = {
+            "wedge": ["--set", "contact.kind=wedge", "--set", "grid.nodes=65"],
+            "line": [*SMALL, "--set", "contact.kind=line"],
+            "relaxation": [*SMALL, "--set", "solver.method=relaxation", "--set", "relaxation.max_sweeps=5"],
+        }[name]
+        assert exit_status(*settings, "--out", "here", "--time-limit", "1e-9") == 143
+        assert exit_status("--resume", "here") == (name == "relaxation")
+        assert FILES <= {path.name for path in (tmp_path / "here").iterdir()}
+        read_run("here")
+
+    @pytest.mark.parametrize("limit", ["0", "-1", "nan", "inf", "soon", "1 m"])
+    def test_a_limit_that_is_none(self, limit, capsys):
+        for option in ("--time-limit", "--save-every"):
+            assert exit_status(*SMALL, "--out", "here", f"{option}={limit}") == 2
+            err = capsys.readouterr().err.splitlines()
+            assert len(err) == 1 and option in err[0]
+        assert not Path("here").exists()
+
+
+class TestResume:
+    def refused(self, capsys, *arguments):
+        """The one line that is said of arguments."""
+        assert exit_status(*arguments) == 2
+        out, err = capsys.readouterr()
+        assert out == "" and len(err.splitlines()) == 1, err
+        return err
+
+    def test_a_run_that_has_finished(self, tmp_path, capsys):
+        assert exit_status(*SMALL, "--out", "here") == 0
+        (tmp_path / "here" / "checkpoint").mkdir()  # a kill at the very end
+        before = (tmp_path / "here" / "fields.h5").stat().st_mtime_ns
+        capsys.readouterr()
+        assert main(["run", "--resume", "here"]) == 0
+        assert "here has finished" in capsys.readouterr().out
+        assert (tmp_path / "here" / "fields.h5").stat().st_mtime_ns == before
+        assert {path.name for path in (tmp_path / "here").iterdir()} == FILES
+
+    def test_a_run_that_has_finished_and_did_not_converge(self, capsys):
+        assert exit_status(*SMALL, "--set", "solver.max_steps=1", "--out", "here") == 1
+        assert exit_status("--resume", "here") == 1
+
+    def test_no_run(self, tmp_path, capsys):
+        assert "is no run directory" in self.refused(capsys, "--resume", "nowhere")
+        (tmp_path / "empty").mkdir()
+        assert "configuration.toml is missing" in self.refused(capsys, "--resume", "empty")
+        assert not list((tmp_path / "empty").iterdir())
+
+    @pytest.mark.parametrize("more", [["my.toml"], ["--set", "grid.nodes=65"], ["--out", "b"], ["--force"],
+                                      ["--start-from", "b"]])  # fmt: skip
+    def test_what_does_not_go_with_it(self, more, capsys):
+        assert "goes on as it began" in self.refused(capsys, *more, "--resume", "here")
+
+    def test_checkpoints_that_cannot_be_gone_on_with(self, tmp_path, capsys, monkeypatch):
+        here, kept = tmp_path / "here", tmp_path / "here" / "checkpoint" / "under-way.npz"
+        assert exit_status(*SMALL, "--out", "here", "--time-limit", "1e-9") == 143
+        capsys.readouterr()
+        whole = kept.read_bytes()
+        kept.write_bytes(whole[:-100])
+        assert "is damaged" in self.refused(capsys, "--resume", "here")
+        assert kept.read_bytes() == whole[:-100]
+        kept.write_bytes(whole)
+        configuration = (here / "configuration.toml").read_text()
+        (here / "configuration.toml").write_text(configuration.replace("nodes = 65", "nodes = 129"))
+        assert "another configuration" in self.refused(capsys, "--resume", "here")
+        (here / "configuration.toml").write_text(configuration)
+        with monkeypatch.context() as change:
+            change.setattr("mgehl.output.checkpoint.VERSION", "99.0")
+            assert "99.0 cannot go on with it" in self.refused(capsys, "--resume", "here")
+        assert exit_status("--resume", "here") == 0
+
+
+class TestStartFrom:
+    @pytest.fixture
+    def before(self, tmp_path):
+        """A finished film of 0.5 m/s on 65 nodes."""
+        assert exit_status(*SMALL, "--out", "before") == 0
+        return tmp_path / "before"
+
+    @pytest.mark.parametrize("change", ["grid.nodes=129", "motion.speed=0.6"])
+    def test_another_grid_and_another_speed(self, before, tmp_path, uninterrupted, change):
+        settings = [*SMALL, "--set", change]
+        assert exit_status(*settings, "--start-from", "before", "--out", "after") == 0
+        read, plain = read_run("after"), uninterrupted(settings)
+        np.testing.assert_array_equal(read.status, plain.status)
+        np.testing.assert_allclose(read.film, plain.film, rtol=0.0, atol=1e-6 * plain.film.max())
+        assert read.result.work.steps < plain.result.work.steps
+        assert {path.name for path in (tmp_path / "after").iterdir()} == FILES
+
+    def test_it_goes_on_though_the_other_run_is_gone(self, before, uninterrupted):
+        settings = [*SMALL, "--set", "motion.speed=0.6"]
+        starting = [*settings, "--start-from", "before"]
+        assert exit_status(*starting, "--out", "after") == 0
+        assert exit_status(*starting, "--out", "parted", "--time-limit", "1e-9") == 143
+        shutil.rmtree(before)
+        assert exit_status("--resume", "parted") == 0
+        whole, parted = read_run("after"), read_run("parted")
+        np.testing.assert_array_equal(parted.fields.H, whole.fields.H)
+        assert len(parted.rows) == len(whole.rows)
+
+    @pytest.mark.parametrize(
+        "arguments, part",
+        [
+            (["--start-from", "nowhere", "--out", "new"], "nowhere: is no run directory"),
+            (["--start-from", "before", "--out", "before", "--force"], "is the run's own directory"),
+            (["--start-from", "before", "--set", "contact.kind=line", "--out", "new"],
+             "--start-from before: a point is no start for a line"),
+            (["--start-from", "before", "--set", "contact.kind=wedge", "--out", "new"],
+             "--start-from before: a point is no start for a wedge"),
+        ],
+    )  # fmt: skip
+    def test_what_is_no_start(self, before, tmp_path, capsys, arguments, part):
+        assert exit_status(*arguments) == 2
+        err = capsys.readouterr().err
+        assert part in err and len(err.splitlines()) == 1
+        assert {path.name for path in before.iterdir()} == FILES and not (tmp_path / "new").exists()
+
+    @pytest.mark.parametrize("name", ["fields.h5", "result.json", "history.csv", "configuration.toml"])
+    def test_a_damaged_one(self, before, tmp_path, capsys, name):
+        whole = (before / name).read_bytes()
+        (before / name).write_bytes(whole[: len(whole) // 2 - 7])
+        assert exit_status(*SMALL, "--start-from", "before", "--out", "new") == 2
+        err = capsys.readouterr().err
+        assert "before" in err and len(err.splitlines()) == 1
+        assert not (tmp_path / "new").exists()
+
+
+def mounted(*words):
+    """Whether root may mount here."""
+    try:
+        return subprocess.run(["mount", *words], capture_output=True).returncode == 0
+    except FileNotFoundError:
+        return False
+
+
+class TestFullDisk:
+    """A small disk; what was good before stays, and with more room the run goes on."""
+
+    @pytest.fixture
+    def disk(self, tmp_path):
+        """Function that makes a disk of a size, or gives it another."""
+        path = tmp_path / "disk"
+        path.mkdir()
+        options = ["-t", "tmpfs", "-o"]
+        if not mounted(*options, "size=1m", "tmpfs", str(path)):
+            pytest.skip("a small disk needs the right to mount one")
+
+        def resize(size):
+            assert mounted("-o", f"remount,size={size}", "tmpfs", str(path))
+            return path
+
+        yield resize
+        subprocess.run(["umount", str(path)], check=True)
+
+    @pytest.mark.parametrize(
+        "size, save_every, there",
+        [
+            ("40k", "0.001", {"configuration.toml"}),
+            ("300k", "0.001", {"configuration.toml", "under-way.npz"}),
+            ("152k", "60", {"configuration.toml", "history.csv", "solve-0000.npz"}),
+            ("248k", "60", {"configuration.toml", "history.csv", "fields.h5", "solve-0000.npz"}),
+        ],
+    )
+    def test_it_is_one_line_and_the_run_goes_on_later(self, disk, uninterrupted, size, save_every, there):
+        here = disk(size) / "here"
+        process = start([*SMALL, "--out", str(here), "--quiet", "--save-every", save_every])
+        _, err = process.communicate(timeout=60)
+        lines = [line for line in err.splitlines() if not line.startswith("[")]  # MPI's own
+        assert process.returncode == 2 and len(lines) == 1, err
+        assert lines[0].startswith(f"mgehl: {here}") and "No space left on device" in lines[0]
+        assert {path.name for path in here.rglob("*") if path.is_file()} == there
+        assert_nothing_is_half_written(here)
+        disk("4m")
+        assert exit_status("--resume", str(here)) == 0
+        assert_same(here, uninterrupted(SMALL))
+
+    def test_a_run_to_be_replaced_stays_where_nothing_can_be_written(self, disk, tmp_path, capsys):
+        path = disk("4m")
+        assert exit_status(*SMALL, "--out", str(path / "here")) == 0
+        if not mounted("-o", "remount,ro", "tmpfs", str(path)):
+            pytest.skip("a read-only disk needs the right to mount one")
+        for arguments in (["--out", str(path / "here"), "--force"], ["--out", str(path / "new")]):
+            assert exit_status(*SMALL, *arguments) == 2
+            err = capsys.readouterr().err
+            assert "cannot be written: Read-only file system" in err and len(err.splitlines()) == 1
+        assert {each.name for each in (path / "here").iterdir()} == FILES
+        read_run(path / "here")
+
+    def test_a_run_stopped_cannot_go_on_where_nothing_can_be_written(self, disk, capsys):
+        path = disk("4m")
+        assert exit_status(*SMALL, "--out", str(path / "here"), "--time-limit", "1e-9") == 143
+        capsys.readouterr()
+        if not mounted("-o", "remount,ro", "tmpfs", str(path)):
+            pytest.skip("a read-only disk needs the right to mount one")
+        assert exit_status("--resume", str(path / "here")) == 2
+        err = capsys.readouterr().err
+        assert "cannot be written: Read-only file system" in err and len(err.splitlines()) == 1
+        assert_nothing_is_half_written(path / "here")
+
+
+def test_a_file_in_place_of_the_checkpoint(tmp_path, capsys):
+    assert exit_status(*SMALL, "--out", "here", "--time-limit", "1e-9") == 143
+    capsys.readouterr()
+    shutil.rmtree("here/checkpoint")
+    Path("here/checkpoint").write_text("mine")
+    assert exit_status("--resume", "here") == 2
+    err = capsys.readouterr().err
+    assert "here/checkpoint" in err and len(err.splitlines()) == 1
+
+
+class TestFailingRank:
+    """One rank of two meets an error of its own at the third step; the other waits for it."""
+
+    DRIVER = (
+        "import os, signal, sys\n"
+        "from mpi4py import MPI\n"
+        "from mgehl import cli, errors\n"
+        "from mgehl.solver.newton import Newton\n"
+        "def correct(newton, *arguments, correct=Newton._correct):\n"
+        "    if MPI.COMM_WORLD.rank == 1 and newton._now.outcome.cycles[-1].step == 2:\n"
+        "        {what}\n"
+        "    return correct(newton, *arguments)\n"
+        "Newton._correct = correct\n"
+        "sys.exit(cli.main(sys.argv[1:]))\n"
+    )
+
+    def run(self, tmp_path, what):
+        """(exit status, stderr, seconds) of a run in which rank 1 does `what`."""
+        (tmp_path / "driver.py").write_text(self.DRIVER.format(what=what))
+        environment = {
+            k: v for k, v in os.environ.items() if not k.startswith(("OMPI_COMM", "PMIX_", "PRTE_"))
+        }
+        words = [
+            "mpiexec",
+            "-n",
+            "2",
+            sys.executable,
+            "driver.py",
+            "run",
+            *SMALL,
+            "--quiet",
+            "--out",
+            "here",
+        ]
+        began = time.monotonic()
+        done = subprocess.run(words, capture_output=True, text=True, env=environment, timeout=60)
+        return done.returncode, done.stderr, time.monotonic() - began
+
+    def test_an_error_ends_all_with_its_message(self, tmp_path):
+        status, err, seconds = self.run(tmp_path, "raise ArithmeticError('the second rank is ill')")
+        assert status == 1 and seconds < 45.0
+        assert "mgehl: rank 1 failed\n" in err and "ArithmeticError: the second rank is ill\n" in err
+        assert "rank 0 failed" not in err
+
+    def test_so_does_one_that_a_user_can_mend(self, tmp_path):
+        status, err, _ = self.run(tmp_path, "raise errors.OutputError('only here')")
+        assert status == 2 and "Traceback" not in err
+        assert [line for line in err.splitlines() if line.startswith("mgehl")] == ["mgehl: only here"]
+
+    def test_a_signal_to_one_rank_stops_both(self, tmp_path):
+        status, err, _ = self.run(tmp_path, "os.kill(os.getpid(), signal.SIGTERM)")
+        assert status == 143
+        (line,) = [line for line in err.splitlines() if line.startswith("mgehl")]
+        assert line == "mgehl: stopped by SIGTERM; go on with: mgehl run --resume here"
+        assert exit_status("--resume", "here") == 0
