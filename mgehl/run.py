@@ -49,7 +49,7 @@ def solve(config, comm, speak=False):
         find, domain = _solve_wedge, single_grid(mesh, comm)
     else:
         on = MPI.COMM_SELF if kind == "line" else comm
-        find, domain = _solve_loaded, Hierarchy(mesh, COARSEST_NODES, contact.deflection_scale, on)
+        find, domain = _solve_loaded, Hierarchy(mesh, COARSEST_NODES, contact.kernel, on)
     try:
         with np.errstate(all="ignore"):  # an iteration that diverges says so itself
             found = find(config, contact, domain, started, speak and comm.rank == 0)

@@ -190,7 +190,12 @@ MISTAKES = [
     ("grid.nodez=129", "grid.nodez = 129: ", "unknown key", "did you mean grid.nodes?"),
     ("solver.speed=1", "solver.speed = 1: ", "unknown key", "did you mean motion.speed?"),
     ("gird.nodes=129", "gird = {'nodes': 129}: ", "unknown section", "did you mean grid?"),
-    ("qqqq.w=1", "qqqq = {'w': 1}: ", "unknown section", "known are contact, wedge, lubricant, motion"),
+    (
+        "qqqq.w=1",
+        "qqqq = {'w': 1}: ",
+        "unknown section",
+        "known are contact, coating, wedge, lubricant, motion",
+    ),
     ("grid.nodes", "--set grid.nodes: ", "must be section.key=value"),
     ("nodes=129", "--set nodes=129: ", "must be section.key=value"),
     (".nodes=129", "--set .nodes=129: ", "must be section.key=value"),
@@ -300,9 +305,11 @@ def test_round_trip_through_toml(tables):
 def test_written_tables_name_every_key_that_is_set():
     """Nothing is left to the defaults of a later version; unset keys are absent."""
     written = Config().as_toml_tables()
-    assert written.keys() == SECTIONS.keys() - {"moes", "wedge"}
+    assert written.keys() == SECTIONS.keys() - {"moes", "coating", "wedge"}
     for name in written:
-        foreign = {"contact": {"load_per_length"}, "discretization": {"cavitation"}}.get(name, set())
+        foreign = {"contact": {"load_per_length", "surface"}, "discretization": {"cavitation"}}.get(
+            name, set()
+        )
         assert set(written[name]) == {key.name for key in fields(SECTIONS[name])} - foreign
     written = config_from_tables(MOES).as_toml_tables()
     assert "motion" not in written and "load" not in written["contact"]
