@@ -1,9 +1,7 @@
 """What a valid configuration may still get wrong together: found before anything is written."""
 
-import numpy as np
-
 from mgehl.errors import ConfigError
-from mgehl.model import images
+from mgehl.model.images import wave_numbers
 from mgehl.model.own_laws import OwnCompliance, OwnDensity, OwnViscosity
 from mgehl.solver.from_config import mesh_from
 
@@ -50,9 +48,9 @@ def _check_deformation(config, contact):
     """A user's own must be positive, and any must be a sum of images."""
     deformation = contact.deformation
     if isinstance(deformation, OwnCompliance):
-        deformation.check(np.geomspace(*images.RANGE) / contact.hertz.a)
+        deformation.check(wave_numbers() / contact.hertz.a)
     try:
-        contact.kernel  # noqa: B018
+        _ = contact.kernel
     except ValueError as error:
         raise ConfigError(f"contact.deformation = {config.contact.deformation!r}: {error}") from None
 
@@ -69,18 +67,23 @@ def _check_own_laws(config, contact):
 
 
 def _check_domain(grid, contact):
-    """The inlet and the contact, as wide as layers on the bodies make it, must lie in the domain."""
-    inlet = contact.widening + contact.inlet_length
+    """The inlet and the contact must lie in the domain.
+
+    The widening by a soft layer is estimated, and low by up to a third.
+    """
+    width = contact.widening
+    reach = width if width <= 1.0 else min(width**2, 1.3 * width)
+    inlet = reach + contact.inlet_length
     if inlet > -grid.x[0]:
         raise ConfigError(
             f"grid.x = {list(grid.x)!r}: must begin before {-inlet:.3g}, where the inlet that builds the "
             "film begins"
         )
     for name, ends in (("x", grid.x), ("y", grid.y)):
-        if min(-ends[0], ends[1]) <= contact.widening:
+        if min(-ends[0], ends[1]) <= reach:
             raise ConfigError(
-                f"grid.{name} = {list(ends)!r}: must reach beyond {contact.widening:.3g} on both sides, as "
-                "far as the contact is expected to"
+                f"grid.{name} = {list(ends)!r}: must reach beyond {reach:.3g} on both sides, as far as the "
+                "contact may on a layer so soft"
             )
 
 

@@ -32,11 +32,12 @@ class LoadedContact:
     motion = 1
     """The surfaces move towards +X."""
 
-    deformation = None
     surface = None
-    """An `OwnSurface` on the body that stands still."""
+    """An `OwnSurface` of the body that stands still."""
+    deformation = None
+    """What the bodies are in depth, where they are not half-spaces."""
     widening = 1.0
-    """Estimate of the dry contact's width over that of Hertz."""
+    """Width of the dry contact over that of Hertz; where bodies are layered an estimate."""
 
     def undeformed_gap(self, X, Y):
         """Gap of the undeformed bodies in units of H, whatever is on their surface."""
@@ -50,8 +51,8 @@ class LoadedContact:
         """True of smooth half-spaces, whose dry contact is that of Hertz."""
         return self.surface is None and self.deformation is None
 
-    def dry_pressure(self, X, Y):
-        """Pressure to start from: that of Hertz, as wide as the dry contact will be."""
+    def guessed_pressure(self, X, Y):
+        """Pressure to start from: that of Hertz, `widening` times as wide."""
         wide = self.widening
         return hertz_pressure(X / wide, Y / wide) / wide**2
 

@@ -11,7 +11,6 @@ half-space felt at the depth d_j below its surface. Their integrals over rectang
 """
 
 from dataclasses import dataclass
-from functools import cache
 
 import numpy as np
 
@@ -21,7 +20,7 @@ RANGE = (1e-3, 1e5)
 SAMPLES = 801
 
 CHANGE = 0.01
-"""Part of the whole change of c(k) at which it is taken to begin and to end."""
+"""Part of c(k), or of its whole change, that it must differ by from one of its ends to be another."""
 
 PER_OCTAVE = (2, 3, 4, 6, 8)
 """Images per factor of two in depth that are tried, until `ACCURACY` is reached."""
@@ -44,10 +43,10 @@ class Images:
     """Largest relative error of c(k) over `RANGE`."""
 
     def widening(self, radius=1.0):
-        """Radius s of the dry contact over `radius`, that of Hertz on half-spaces; an estimate.
+        """Radius s of the dry contact over `radius`, that of Hertz on half-spaces: an estimate.
 
-        Hertz pressures of radius s hold the same load where s^3 is the mean of c(k) that their
-        elastic energy makes.
+        Half-spaces c times as compliant make it c^(1/3) times as wide; c is the mean of c(k) that the
+        elastic energy of a Hertz pressure of that width makes.
         """
         xi = np.linspace(0.0, 40.0, 4001)[1:]
         energy = ((np.sin(xi) - xi * np.cos(xi)) / xi**3) ** 2
@@ -61,25 +60,24 @@ class Images:
         return self.surface + np.exp(-np.multiply.outer(k, self.depths)) @ self.strengths
 
 
-@cache
-def images_of(deformation, a):
-    """`fit_images` of an object's `compliance(k)`, k in 1/m, with `a` in m; made once."""
-    return fit_images(lambda k: deformation.compliance(k / a))
+def wave_numbers():
+    """Those in 1/a at which `fit_images` asks for a compliance."""
+    return np.geomspace(*RANGE, SAMPLES)
 
 
 def fit_images(compliance):
-    """`Images` of a compliance, a function of arrays of wave numbers in 1/a.
+    """`Images` of a compliance, a function of an array of wave numbers in 1/a.
 
     By least squares on depths in geometric sequence. Raises ValueError where c(k) cannot be had to
     within `WORST`: it grows without end, jumps or oscillates.
     """
-    k = np.geomspace(*RANGE, SAMPLES)
+    k = wave_numbers()
     c = compliance(k)
     surface, rest = c[-1], c - c[-1]
     if np.ptp(c) <= 1e-12 * surface:
         return Images(surface, np.zeros(0), np.zeros(0), 0.0)
     # An image of depth d works below k = 1/d.
-    shallow, deep = 0.3 / k[_last(rest)], 10.0 / k[_first(c - c[0])]
+    shallow, deep = 0.3 / k[_changed(c, c[-1])[-1]], 10.0 / k[_changed(c, c[0])[0]]
     best = None
     for per_octave in PER_OCTAVE:
         depths = np.geomspace(shallow, deep, int(per_octave * np.log2(deep / shallow)) + 1)
@@ -95,9 +93,6 @@ def fit_images(compliance):
     return best
 
 
-def _first(change):
-    return np.flatnonzero(np.abs(change) > CHANGE * np.ptp(change))[0]
-
-
-def _last(change):
-    return np.flatnonzero(np.abs(change) > CHANGE * np.ptp(change))[-1]
+def _changed(c, end):
+    """Where c(k) differs from that at one of its ends."""
+    return np.flatnonzero(np.abs(c - end) > CHANGE * min(end, np.ptp(c)))

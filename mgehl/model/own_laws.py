@@ -47,10 +47,10 @@ class OwnViscosity:
         """Raise ConfigError unless it is a law with its derivative from 0 to `p_max` in Pa."""
         self.function.check_arguments("p", "viscosity", "pressure_viscosity")
         p = np.linspace(0.0, p_max, CHECKED_PRESSURES)
-        eta = self._law(p)[0]
+        eta = _as_nodes(self._law)(p)[0]
         _check_positive(self.function, eta, p, "Pa")
         _check_ambient(self.function, eta[0], self.viscosity, "lubricant.viscosity in Pa s")
-        _check_slope(self.function, self._log_law, p, "d ln(eta)/dp")
+        _check_slope(self.function, _as_nodes(self._log_law), p, "d ln(eta)/dp")
 
     def _log_law(self, p):
         """ln(eta*) and d ln(eta*)/dp at `p` in Pa."""
@@ -77,10 +77,10 @@ class OwnDensity:
         """Raise ConfigError unless it is a law with its derivative from 0 to `p_max` in Pa."""
         self.function.check_arguments("p")
         p = np.linspace(0.0, p_max, CHECKED_PRESSURES)
-        rho = self._law(p)[0]
+        rho = _as_nodes(self._law)(p)[0]
         _check_positive(self.function, rho, p, "Pa")
         _check_ambient(self.function, rho[0], 1.0, "the density over that at p = 0")
-        _check_slope(self.function, self._law, p, "d rho/dp")
+        _check_slope(self.function, _as_nodes(self._law), p, "d rho/dp")
 
     def _law(self, p):
         return self.function.pair(np.shape(p), p)
@@ -101,7 +101,7 @@ class OwnSurface:
         """Raise ConfigError unless every height at (x[i], y[j]) is a number of at most `highest`."""
         self.function.check_arguments("x", "y")
         for line in y:
-            height = self.height(x, line)
+            height = self.height(x[None, :], line)[0]
             wrong = ~(np.abs(height) <= highest)
             if wrong.any():
                 i = int(wrong.argmax())
@@ -125,6 +125,11 @@ class OwnCompliance:
         """Raise ConfigError unless it is positive at all `k` in 1/m."""
         self.function.check_arguments("k")
         _check_positive(self.function, self.compliance(k), k, "1/m")
+
+
+def _as_nodes(law):
+    """The law of an array (n,), asked as nodes are: (n, 1)."""
+    return lambda p: [each[:, 0] for each in law(p[:, None])]
 
 
 def _check_positive(function, values, at, unit):

@@ -1,6 +1,6 @@
 """The lubricated point contact: SI parameters in, dimensionless problem out (Y = y/b)."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from math import pi, sqrt
 
@@ -9,7 +9,7 @@ from mgehl.model.coating import Coating
 from mgehl.model.contact import Groups, LoadedContact
 from mgehl.model.deformation import HalfSpace, LayeredHalfSpace
 from mgehl.model.hertz import hertz_contact
-from mgehl.model.images import images_of
+from mgehl.model.images import fit_images
 from mgehl.model.lubricant import Lubricant
 from mgehl.model.own_laws import OwnCompliance, OwnSurface
 
@@ -75,9 +75,9 @@ class PointContact(LoadedContact):
             return HalfSpace(self.deflection_scale)
         return LayeredHalfSpace(self.deflection_scale, self._images)
 
-    @property
+    @cached_property
     def _images(self):
-        return images_of(self.deformation, self.hertz.a)
+        return fit_images(lambda k: self.deformation.compliance(k / self.hertz.a))
 
     @cached_property
     def widening(self):
@@ -85,6 +85,18 @@ class PointContact(LoadedContact):
         if self.deformation is None:
             return 1.0
         return self._images.widening(1.0 / sqrt(self.k_e))
+
+    @cached_property
+    def _likeness(self):
+        """The contact of half-spaces that is as wide: what formulas can say of layered bodies."""
+        if self.deformation is None:
+            return self
+        return replace(self, reduced_modulus=self.reduced_modulus / self.widening**3, deformation=None)
+
+    @property
+    def inlet_length(self):
+        """As that of any contact, in units of a; of layered bodies an estimate."""
+        return super(PointContact, self._likeness).inlet_length * self.widening
 
     def smooth_gap(self, X, Y):
         """The paraboloid x^2/2R_x + y^2/2R_y in units of H  [Liu eq. 48]."""
@@ -109,4 +121,4 @@ class PointContact(LoadedContact):
     @property
     def expected_film(self):
         """Central film in metres to start from."""
-        return self.formulas.hamrock_dowson_central
+        return self._likeness.formulas.hamrock_dowson_central

@@ -8,6 +8,7 @@ import numpy as np
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
 from mgehl.multigrid.cycle import CycleSettings, MultigridSolver
+from mgehl.solver.dry import dry_pressure
 from mgehl.solver.newton import Newton, NewtonSettings
 from mgehl.solver.problem import DIVERGED, ContactProblem
 from mgehl.solver.relaxation import RelaxationSettings, relax
@@ -94,7 +95,9 @@ def single_loop(hierarchy, contact, settings, monitor):
 def first_guess(problem, start):
     """Hertz pressure with a film of the formula's thickness, or with the ellipse in contact."""
     grid, contact = problem.grid, problem.contact
-    P = contact.dry_pressure(grid.X, grid.Y)
+    P = contact.guessed_pressure(grid.X, grid.Y)
+    if contact.deformation is not None and start == "film":
+        P = dry_pressure(problem, P)
     H0 = problem.touching(P)
     if start == "film":
         film = contact.expected_film / contact.film_scale
