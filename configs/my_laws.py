@@ -26,16 +26,16 @@ def volume(p):
 
 def doolittle(p, viscosity, _pressure_viscosity):
     """lubricant.viscosity_law: eta in Pa s and d eta/dp; `viscosity` is lubricant.viscosity."""
-    V, dV_dp = volume(p)
-    free = V - OCCUPIED
+    ratio, slope = volume(p)
+    free = ratio - OCCUPIED
     eta = viscosity * np.exp(DOOLITTLE * OCCUPIED * (1.0 / free - 1.0 / (1.0 - OCCUPIED)))
-    return eta, -eta * DOOLITTLE * OCCUPIED / free**2 * dV_dp
+    return eta, -eta * DOOLITTLE * OCCUPIED / free**2 * slope
 
 
 def tait(p):
     """lubricant.density_law: the density over that at p = 0, and its derivative by p."""
-    V, dV_dp = volume(p)
-    return 1.0 / V, -dV_dp / V**2
+    ratio, slope = volume(p)
+    return 1.0 / ratio, -slope / ratio**2
 
 
 def waves(x, _y):

@@ -9,6 +9,17 @@ from mgehl.errors import ConfigError
 from mgehl.model.own_function import OwnFunction, absolute, is_own
 
 SHAPE = (2, 3)
+WITH_A_DATACLASS = """
+from __future__ import annotations
+from dataclasses import dataclass
+
+@dataclass
+class Constant:
+    value: float
+
+def law(p):
+    return Constant(2.0).value, 0.0
+"""
 
 
 @pytest.fixture
@@ -111,14 +122,7 @@ def test_nothing_is_left_beside_the_file(own, tmp_path):
 
 
 def test_dataclasses_and_pickles(own):
-    text = "from __future__ import annotations
-from dataclasses import dataclass
-"
-    text += "@dataclass
-class A:
-  x: int
-def law(p): return A(2).x, 0"
-    function = own(text)
+    function = own(WITH_A_DATACLASS)
     copy = pickle.loads(pickle.dumps(function))
     assert copy == function and hash(copy) == hash(function)
     assert copy.pair((), 0.0)[0] == 2.0
