@@ -158,9 +158,9 @@ def test_waves_on_the_surface_show_in_the_film(laws):
 DRY = {"solver.start": "contact", "motion.speed": 1e-9}
 
 
-@pytest.mark.parametrize("thickness, tolerance", [(1e-3, 0.01), (30.0, 0.03)], ids=["thin", "thick"])
+@pytest.mark.parametrize("thickness", [1e-3, 30.0], ids=["thin", "thick"])
 @pytest.mark.parametrize("modulus", [50e9, 800e9], ids=["soft", "hard"])
-def test_a_dry_coated_contact_tends_to_hertz(modulus, thickness, tolerance):
+def test_a_dry_coated_contact_tends_to_hertz(modulus, thickness):
     """To that of the bare bodies, or of a body of the coating's material and the other one."""
     bare = 2.0 * 0.91 / 200e9
     layer = bare if thickness < 1.0 else 0.91 / 200e9 + 0.91 / modulus
@@ -168,9 +168,9 @@ def test_a_dry_coated_contact_tends_to_hertz(modulus, thickness, tolerance):
     solution = coated(modulus, thickness, DRY, nodes=129)
     summary = solution.summary
     assert summary.converged
-    assert summary.max_pressure_GPa == pytest.approx(1e-9 * hertz.p_h, rel=tolerance)
+    assert summary.max_pressure_GPa == pytest.approx(1e-9 * hertz.p_h, rel=0.01)
     radius = np.sqrt(summary.contact.area_fraction) * solution.contact.hertz.a
-    assert radius == pytest.approx(hertz.a, rel=tolerance)
+    assert radius == pytest.approx(hertz.a, rel=0.01)
 
 
 @pytest.mark.parametrize("modulus, thickness", [(800e9, 0.1), (800e9, 1.0), (50e9, 0.1), (50e9, 1.0)])
