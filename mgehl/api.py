@@ -22,7 +22,9 @@ if TYPE_CHECKING:
     from mgehl.output.solution import Solution
 
 
-def load(path: str | PathLike | None = None, settings: Mapping[str, object] | Iterable[str] = ()) -> Config:
+def load(
+    path: str | PathLike[str] | None = None, settings: Mapping[str, object] | Iterable[str] = ()
+) -> Config:
     """Read a configuration (TOML, SI numbers or strings with units); default: the paper's ball.
 
     `settings` override keys of the file: {"grid.nodes": 129, ...} or ["grid.nodes=129", ...].
@@ -31,19 +33,28 @@ def load(path: str | PathLike | None = None, settings: Mapping[str, object] | It
     return load_config(path, settings)
 
 
-def solve(config: Config, comm: "MPI.Comm | None" = None, *, speak: bool = False) -> "Solution":
+def solve(
+    config: Config,
+    comm: "MPI.Comm | None" = None,
+    *,
+    start: "Solution | None" = None,
+    speak: bool = False,
+) -> "Solution":
     """Solve a configuration on the ranks of `comm` (default: all); collective.
 
     Returns the `Solution`, whether or not it converged: ask `.summary.converged`. Raises
-    `mgehl.ConfigError` where the contact is none. `speak` prints a line per cycle on rank 0.
+    `mgehl.ConfigError` where the contact is none. `start` is another `Solution` to start from, of
+    whatever grid or speed, with its fields on rank 0; `speak` prints a line per cycle there.
     """
     from mpi4py import MPI
 
+    from mgehl.output.terminal import SILENT, Lines
     from mgehl.plausibility import check_contact
+    from mgehl.run import Watch
     from mgehl.run import solve as solve_run
     from mgehl.solver.from_config import contact_from
 
     comm = MPI.COMM_WORLD if comm is None else comm
     check_ranks(comm.size)
     check_contact(config, contact_from(config))
-    return solve_run(config, comm, speak)
+    return solve_run(config, comm, Watch(Lines() if speak else SILENT), start)

@@ -3,7 +3,11 @@
     mpiexec -n 2 python -m mgehl run [CONFIG] [--set key=value ...] [--out DIR] [PETSc options]
     mpiexec -n 2 python -m mgehl study NAME [--nodes 129,257] [--out DIR] [PETSc options]
     python -m mgehl collect RUN [RUN ...] [--out FILE.csv]
-    python -m mgehl keys
+    python -m mgehl plot RUN [RUN ...] [--kind lines,film] [--format png,svg,pdf]
+    python -m mgehl report RUN
+    python -m mgehl check CONFIG [--set key=value ...] [--ranks N]
+    python -m mgehl new NAME [--kind point|line|wedge]
+    python -m mgehl keys | info | bench | completion
 
 `mgehl --help` lists all commands; `mgehl.commands` holds them, a module each.
 
@@ -18,7 +22,7 @@ import traceback
 from importlib import import_module
 
 from mgehl.commands import COMMANDS, USAGE
-from mgehl.errors import UserError
+from mgehl.errors import Stopped, UserError
 
 
 def main(arguments=None):
@@ -39,8 +43,18 @@ def main(arguments=None):
     return _on_all_ranks(command, MPI.COMM_WORLD)
 
 
+class _Help(argparse.HelpFormatter):
+    """Wraps everything but examples, which are to be copied."""
+
+    def _fill_text(self, text, width, indent):
+        return text if text.startswith("example: ") else super()._fill_text(text, width, indent)
+
+
 class _Parser(argparse.ArgumentParser):
     """Says in one line what is wrong."""
+
+    def __init__(self, *arguments, **named):
+        super().__init__(*arguments, **{"formatter_class": _Help} | named)
 
     def error(self, message):
         from mpi4py import MPI
@@ -51,14 +65,14 @@ class _Parser(argparse.ArgumentParser):
 
 
 def parser():
-    """The parser of all commands; the options it reads name their command's `module`."""
+    """The parser of all commands; the options it reads name their command's `module` and the `parser`."""
     top = _Parser(
         prog="mgehl", description="Multigrid for mixed and boundary lubrication of loaded contacts."
     )
     commands = top.add_subparsers(dest="command", required=True, metavar="COMMAND")
     for name in COMMANDS:
         module = import_module(f"mgehl.commands.{name}")
-        module.add(commands).set_defaults(module=module)
+        module.add(commands).set_defaults(module=module, parser=top)
     return top
 
 
@@ -89,6 +103,10 @@ def _on_all_ranks(command, comm):
         if comm.rank == 0:
             print(f"mgehl: {error}", file=sys.stderr)
         return USAGE
+    except Stopped as stopped:
+        if comm.rank == 0:
+            print(f"mgehl: {stopped}", file=sys.stderr)
+        return stopped.status
     except PETSc.Error as error:
         # Mostly an option that this matrix-free solver cannot serve, such as -mgehl_pc_type lu.
         print(f"mgehl: PETSc: {' '.join(str(error).split())[:200]}", file=sys.stderr, flush=True)

@@ -12,7 +12,7 @@ from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 
 from mgehl import config_sections as sections
-from mgehl.config_value import read_value
+from mgehl.config_value import read_value, shown
 from mgehl.errors import ConfigError
 from mgehl.model.coating import Coating
 from mgehl.model.lubricant import VISCOSITY_LAWS
@@ -116,12 +116,14 @@ def load_config(path=None, settings=()):
 
 def _pairs(settings):
     """{"section.key": value} of a mapping or of "section.key=value" words, the last one in authority."""
-    return dict(settings) if isinstance(settings, Mapping) else dict(map(_read_setting, settings))
+    if isinstance(settings, Mapping):
+        return {str(name): value for name, value in settings.items()}
+    return dict(map(_read_setting, settings))
 
 
 def _push_out(tables, given):
     """Drop what the file says and a setting makes meaningless: another kind, Moes numbers, no coating."""
-    names = list(FOREIGN.get(given.get("contact.kind"), ()))
+    names = list(FOREIGN.get(str(given.get("contact.kind")), ()))
     if "contact.deformation" in given:
         names += _without_coating(given["contact.deformation"])
     if any(key.startswith("moes.") for key in given):
@@ -155,9 +157,9 @@ def config_from_tables(tables):
     sections = {}
     for name, table in tables.items():
         if name not in SECTIONS:
-            raise ConfigError(f"{name} = {table!r}: unknown section{_closest(name, SECTIONS)}")
+            raise ConfigError(f"{name} = {shown(table)}: unknown section{_closest(name, SECTIONS)}")
         if not isinstance(table, dict):
-            raise ConfigError(f"{name} = {table!r}: is a section, its keys go under [{name}]")
+            raise ConfigError(f"{name} = {shown(table)}: is a section, its keys go under [{name}]")
         sections[name] = _section(name, table)
     config = Config(**sections)
     _check_together(config, tables)
@@ -168,7 +170,7 @@ def _section(name, table):
     known = {key.name: key for key in fields(SECTIONS[name])}
     for key in table:
         if key not in known:
-            raise ConfigError(f"{name}.{key} = {table[key]!r}: unknown key{_closest_key(name, key)}")
+            raise ConfigError(f"{name}.{key} = {shown(table[key])}: unknown key{_closest_key(name, key)}")
     return SECTIONS[name](
         **{key: read_value(f"{name}.{key}", known[key].metadata, table[key]) for key in table}
     )
@@ -187,9 +189,8 @@ def _check_together(config, tables):
     if config.moes.M is not None:
         for section, key in MOES_REPLACES:
             if key in tables.get(section, {}):
-                raise ConfigError(
-                    f"{section}.{key} = {tables[section][key]!r}: cannot be given with moes.M and moes.L"
-                )
+                value = shown(tables[section][key])
+                raise ConfigError(f"{section}.{key} = {value}: cannot be given with moes.M and moes.L")
     wedge = config.wedge
     if not wedge.exit < wedge.inlet:
         raise ConfigError(f"wedge.inlet = {wedge.inlet:g}: must be above wedge.exit = {wedge.exit:g}")
@@ -201,7 +202,7 @@ def _check_together(config, tables):
             config.lubricant.viscosity, config.lubricant.pressure_viscosity
         )
     except ValueError as error:
-        raise ConfigError(f"lubricant.viscosity = {config.lubricant.viscosity!r}: {error}") from None
+        raise ConfigError(f"lubricant.viscosity = {shown(config.lubricant.viscosity)}: {error}") from None
 
 
 def _check_coating(config, tables):
@@ -225,7 +226,7 @@ def _check_foreign(kind, tables):
         section, _, key = name.partition(".")
         given = tables.get(section, {})
         if key and key in given:
-            raise ConfigError(f'{name} = {given[key]!r}: means nothing where contact.kind = "{kind}"')
+            raise ConfigError(f'{name} = {shown(given[key])}: means nothing where contact.kind = "{kind}"')
         if not key and given:
             raise ConfigError(f'[{section}]: means nothing where contact.kind = "{kind}"')
 
@@ -235,7 +236,7 @@ def _read_toml(path):
         return tomllib.loads(path.read_text())
     except OSError as error:
         raise ConfigError(f"{path}: cannot be read: {error.strerror}") from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+    except (ValueError, RecursionError) as error:  # no TOML or no text, or a number or a nest too long
         raise ConfigError(f"{path}: not valid TOML: {error}") from None
 
 
@@ -250,19 +251,19 @@ def _read_setting(setting):
     try:
         parsed = tomllib.loads(f"value = {text}")
         value = parsed["value"] if len(parsed) == 1 else text.strip()
-    except tomllib.TOMLDecodeError:
+    except (ValueError, RecursionError):
         value = text.strip()
     return f"{section}.{name}", value
 
 
 def _apply(tables, name, value):
     """Put the value of "section.key" into the tables."""
-    section, dot, key = str(name).partition(".")
+    section, dot, key = name.partition(".")
     if not (dot and section and key):
-        raise ConfigError(f"{name} = {value!r}: must be section.key, such as grid.nodes")
+        raise ConfigError(f"{name} = {shown(value)}: must be section.key, such as grid.nodes")
     table = tables.setdefault(section, {})
     if not isinstance(table, dict):
-        raise ConfigError(f"{section} = {table!r}: is a section, its keys go under [{section}]")
+        raise ConfigError(f"{section} = {shown(table)}: is a section, its keys go under [{section}]")
     table[key] = value
 
 

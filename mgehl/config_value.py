@@ -13,6 +13,9 @@ FARTHEST = 100.0
 OWN = "FILE.py:FUNCTION"
 """How a user's own function is named."""
 
+LONGEST_SHOWN = 100
+"""Characters of a wrong value that a message repeats."""
+
 _UNIT = r"[A-Za-zµ°]+(?:(?:\^|\*\*)-?\d)?"
 _QUANTITY = re.compile(rf"([-+]?[\d.]+(?:[eE][-+]?\d+)?)\s*((?:1\s*)?/)?\s*({_UNIT}(?:[ */]+{_UNIT})*)?")
 _NO_MATCH = re.match("(?P<number>)(?P<per>)(?P<units>)", "")
@@ -35,6 +38,15 @@ def key_field(
     return field(default=default, metadata=rules)
 
 
+def shown(value):
+    """A value as it stands in a message: no longer than a line."""
+    try:
+        text = repr(value)
+    except (ValueError, RecursionError):
+        return f"<{type(value).__name__} too long to show>"  # a number of 5000 digits, for one
+    return text if len(text) <= LONGEST_SHOWN else f"{text[:LONGEST_SHOWN]}..."
+
+
 def read_value(key, rules, value):
     """The value that `value`, as read from TOML, stands for. Raises ConfigError."""
     if rules["kind"] is str:
@@ -43,32 +55,41 @@ def read_value(key, rules, value):
         return _interval(key, value)
     if rules["kind"] is bool:
         if not isinstance(value, bool):
-            raise ConfigError(f"{key} = {value!r}: must be true or false")
+            raise ConfigError(f"{key} = {shown(value)}: must be true or false")
         return value
     number = _number(key, rules, value)
     if not _in_range(rules, number):
-        raise ConfigError(f"{key} = {value!r}: must be {_describe_range(rules)}")
+        raise ConfigError(f"{key} = {shown(value)}: must be {_describe_range(rules)}")
     return number
 
 
 def _word(key, rules, value):
-    read = rules["own"]
-    if value in (rules["choices"] or ()):
+    if isinstance(value, str) and value in (rules["choices"] or ()):
         return value
-    if read and (own := read(value)):
+    if rules["own"] and (own := rules["own"](value)):
         return own
     one_of = "one of " if len(rules["words"]) > 1 else ""
-    raise ConfigError(f"{key} = {value!r}: must be {one_of}{', '.join(rules['words'])}")
+    raise ConfigError(f"{key} = {shown(value)}: must be {one_of}{', '.join(rules['words'])}")
+
+
+def read_quantity(name, text, unit, above=0.0):
+    """The SI number that the word of a command line stands for. Raises ConfigError."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = text
+    limits = {"above": above, "low": None, "high": None}
+    return read_value(name, limits | {"choices": None, "kind": float, "unit": unit}, value)
 
 
 def _number(key, rules, value):
     if isinstance(value, str) and rules["unit"] is not None:
         value = _with_unit(key, rules["unit"], value)
     if not _is_number(value):
-        raise ConfigError(f"{key} = {value!r}: must be {_describe_range(rules)}")
+        raise ConfigError(f"{key} = {shown(value)}: must be {_describe_range(rules)}")
     if rules["kind"] is int:
         if value != int(value):
-            raise ConfigError(f"{key} = {value!r}: must be {_describe_range(rules)}")
+            raise ConfigError(f"{key} = {shown(value)}: must be {_describe_range(rules)}")
         return int(value)
     return float(value)
 
@@ -91,9 +112,9 @@ def _with_unit(key, unit, text):
         quantity = float(number) * _units()(f"{'1/' if per else ''}{units or 'dimensionless'}")
         return float(quantity.to(unit or "dimensionless").magnitude)
     except pint.DimensionalityError:
-        raise ConfigError(f"{key} = {text!r}: wrong unit; must be {example}") from None
+        raise ConfigError(f"{key} = {shown(text)}: wrong unit; must be {example}") from None
     except Exception:
-        raise ConfigError(f"{key} = {text!r}: not understood; must be {example}") from None
+        raise ConfigError(f"{key} = {shown(text)}: not understood; must be {example}") from None
 
 
 @cache
@@ -116,11 +137,12 @@ def _describe_range(rules):
     what = "a whole number" if rules["kind"] is int else "a number"
     if rules["unit"]:
         what += f" in {rules['unit']} (or a string with a unit)"
-    limits = []
-    for word, name in (("above", "above"), ("low", "at least"), ("high", "at most")):
-        if rules[word] is not None:
-            limits.append(f"{name} {rules[word]:g}")
-    return " ".join([what, " and ".join(limits)]).strip()
+    return f"{what} {_describe_limits(rules)}".strip()
+
+
+def _describe_limits(rules):
+    names = (("above", "above"), ("low", "at least"), ("high", "at most"))
+    return " and ".join(f"{name} {rules[word]:g}" for word, name in names if rules[word] is not None)
 
 
 def _interval(key, value):
@@ -128,6 +150,19 @@ def _interval(key, value):
     numbers = numbers and all(_is_number(end) for end in value)
     if not numbers or not (-FARTHEST <= value[0] < -1.0 and 1.0 < value[1] <= FARTHEST):
         raise ConfigError(
-            f"{key} = {value!r}: must be two numbers [first < -1, last > 1] within {FARTHEST:g}"
+            f"{key} = {shown(value)}: must be two numbers [first < -1, last > 1] within {FARTHEST:g}"
         )
     return float(value[0]), float(value[1])
+
+
+def describe_rules(rules):
+    """What a key takes, in words: "one of barus, roelands", "N, at least 1e-06 and at most 1e+09"."""
+    if rules["choices"]:
+        return f"one of {', '.join(rules['choices'])}"
+    if rules["kind"] is bool:
+        return "true or false"
+    if rules["kind"] is tuple:
+        return f"two numbers, the first below -1 and the last above 1, within {FARTHEST:g}"
+    if rules["unit"]:
+        return f"{rules['unit']}, {_describe_limits(rules)}"
+    return _describe_range(rules)

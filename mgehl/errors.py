@@ -2,7 +2,13 @@
 
 
 class UserError(Exception):
-    """A mistake in the input or in the surroundings; the message is one line for the user."""
+    """A mistake in the input or in the surroundings; the message is one line for the user.
+
+    Names that users give may hold line breaks: these become spaces.
+    """
+
+    def __init__(self, message):
+        super().__init__(" ".join(str(message).splitlines()))
 
 
 class ConfigError(UserError, ValueError):
@@ -11,6 +17,20 @@ class ConfigError(UserError, ValueError):
 
 class OptionError(UserError):
     """A PETSc option that this solver cannot follow."""
+
+
+class Stopped(Exception):
+    """A run that was told to end before its time; what it had reached is on disk.
+
+    `status` is the exit status: 128 and the signal's number, as a shell has it.
+    """
+
+    def __init__(self, message: str, status: int) -> None:
+        super().__init__(message, status)  # both, so that it can be sent from rank to rank
+        self.status = status
+
+    def __str__(self) -> str:
+        return self.args[0]
 
 
 class OutputError(UserError):

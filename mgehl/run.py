@@ -1,7 +1,10 @@
 """One run from a configuration to its directory."""
 
 import time
+from dataclasses import dataclass, replace
+from functools import partial
 from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
 
 import numpy as np
 from mpi4py import MPI
@@ -11,7 +14,8 @@ from mgehl.config import COARSEST_NODES
 from mgehl.errors import OutputError
 from mgehl.grid.grid import single_grid
 from mgehl.grid.hierarchy import Hierarchy
-from mgehl.output import files, progress
+from mgehl.output import files, progress, terminal
+from mgehl.output.checkpoint import Checkpoint, clear
 from mgehl.output.result import Work, summarise
 from mgehl.output.solution import Fields, Solution
 from mgehl.output.wedge_result import summarise_wedge
@@ -23,73 +27,107 @@ from mgehl.solver.from_config import (
     scheme_from,
     settings_from,
 )
+from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.nested import single_loop
+from mgehl.solver.restart import solve_from
 from mgehl.solver.wedge import solve_wedge
 from mgehl.version import VERSION
 
 
-def run(config, directory, comm, speak=True):
-    """Solve `config` on `comm`, write `directory` (from rank 0), return the result."""
-    solution = solve(config, comm, speak)
-    files.on_first_rank(comm, _write, directory, solution)
-    if speak and comm.rank == 0:
-        print(solution, f"  results in {directory}", sep="\n", flush=True)
+@dataclass(frozen=True)
+class Watch:
+    """What accompanies a solve: who speaks of it, where it is kept, what may stop it."""
+
+    speaker: object = terminal.SILENT
+    """Told of every cycle, on rank 0."""
+    directory: Path | None = None
+    """Whose checkpoint is kept; None for none."""
+    save_every: float = 60.0
+    """Seconds from one save to the next."""
+    stop: object = lambda: None
+    """Asked before every step; returns None or the `Stopped` to raise when all is saved."""
+
+
+def run(config, directory, comm, watch=Watch(), start=None):
+    """Solve `config` on `comm`, write `directory` (from rank 0), return the result.
+
+    What was reached is kept in the directory's checkpoint until the results are; a run that finds
+    one goes on from it. `start` is a `Solution` to start from, with fields on rank 0.
+    """
+    paths = files.RunFiles(directory)
+    files.on_first_rank(comm, files.write_config, paths.configuration, config)
+    solution = solve(config, comm, replace(watch, directory=directory), start)
+    files.on_first_rank(comm, _write, paths, solution)
+    if comm.rank == 0:
+        watch.speaker.end(solution, directory)
     return solution.result
 
 
-def solve(config, comm, speak=False):
+def solve(config, comm, watch=Watch(), start=None):
     """Solve `config` on `comm`; return the `Solution`.
 
-    A line contact has a single line, which belongs to one rank: every rank solves all of it.
+    A line contact is a single line: rank 0 solves it and tells the others.
     """
-    started = time.perf_counter()
     contact = contact_from(config)
     kind, mesh = config.contact.kind, mesh_from(config, contact)
-    if kind == "wedge":
-        find, domain = _solve_wedge, single_grid(mesh, comm)
-    else:
-        on = MPI.COMM_SELF if kind == "line" else comm
-        find, domain = _solve_loaded, Hierarchy(mesh, COARSEST_NODES, contact.kernel, on)
-    try:
-        with np.errstate(all="ignore"):  # an iteration that diverges says so itself
-            found = find(config, contact, domain, started, speak and comm.rank == 0)
-        problem, state, rows, result = found
-        local = Fields(state.P, state.H, state.status)
-        whole = local.gathered(problem.grid)
-    finally:
-        domain.destroy()
-    if kind == "line":
-        result = comm.bcast(result)  # ranks may differ in the last bit
-    return Solution(config, contact, mesh, whole, rows, result, state.H0, local, problem.grid.first)
+    watch = watch if comm.rank == 0 else replace(watch, speaker=terminal.SILENT)
+    find = _solve_wedge if kind == "wedge" else partial(_solve_loaded, start=start)
+    with np.errstate(all="ignore"):  # an iteration that diverges says so itself
+        if kind != "line":
+            return find(config, contact, mesh, comm, watch)
+        alone = files.on_first_rank(comm, find, config, contact, mesh, MPI.COMM_SELF, watch)
+    # A user's own laws cannot be sent: every rank has read them itself.
+    told = comm.bcast(alone and replace(alone.shared(), config=None, contact=None))
+    return alone or replace(told, config=config, contact=contact)
 
 
-def _solve_loaded(config, contact, hierarchy, started, speak):
+def _solve_loaded(config, contact, mesh, comm, watch, start=None):
     """A point or a line contact, by either method."""
     settings = settings_from(config, contact)
     by_newton = settings.method == "newton-mg"
-    lines = (progress.newton_row, progress.newton_line)
-    if not by_newton:
-        lines = (progress.sweep_row, progress.sweep_line)
-    monitor = progress.Progress(*lines, contact.film_scale, lambda: hierarchy.convolutions, speak)
-    method = begin if by_newton else single_loop
-    problem, outcome = method(hierarchy, contact, settings, monitor)
-    work = Work(hierarchy.convolutions, monitor.steps if by_newton else outcome.cycles[-1].step)
-    wall = time.perf_counter() - started
-    result = summarise(problem, outcome, settings.newton.tolerance, work, wall, versions())
-    return problem, outcome.state, monitor.rows, result
+    tolerance = settings.newton.tolerance
+    hierarchy = Hierarchy(mesh, COARSEST_NODES, contact.kernel, comm)
+    try:
+        kind = progress.NEWTON if by_newton else progress.RELAXATION
+        monitor = progress.Progress(kind, contact.film_scale, hierarchy, tolerance, watch.speaker)
+        method = begin if by_newton else single_loop
+        if start:
+            method = partial(solve_from, start=start)
+        journal = NOTHING_KEPT
+        if watch.directory:
+            journal = Checkpoint(watch.directory, monitor, watch.save_every, watch.stop)
+        problem, outcome = method(hierarchy, contact, settings, monitor=monitor, journal=journal)
+        work = Work(monitor.convolutions, monitor.steps if by_newton else outcome.cycles[-1].step)
+        result = summarise(problem, outcome, tolerance, work, monitor.seconds, versions())
+        return _solution(config, contact, problem, outcome.state, monitor.rows, result)
+    finally:
+        hierarchy.destroy()
 
 
-def _solve_wedge(config, bearing, grid, started, speak):
+def _solve_wedge(config, bearing, mesh, comm, watch):
     """A rigid bearing."""
+    started = time.perf_counter()
     scheme, solver = scheme_from(config, bearing), config.solver
-    limits = solver.tolerance, solver.max_steps
-    problem, outcome = solve_wedge(grid, bearing, scheme, OPTIONS_PREFIX, *limits)
-    wall = time.perf_counter() - started
-    result = summarise_wedge(problem, outcome, wall, versions())
-    rows = progress.wedge_rows(problem.grid.mesh.nx, outcome.cycles)
-    if speak:
-        print(*map(progress.wedge_line, rows), sep="\n", flush=True)
-    return problem, outcome.state, rows, result
+    grid = single_grid(mesh, comm)
+    try:
+        problem, outcome = solve_wedge(
+            grid, bearing, scheme, OPTIONS_PREFIX, solver.tolerance, solver.max_steps
+        )
+        result = summarise_wedge(problem, outcome, time.perf_counter() - started, versions())
+        rows = progress.wedge_rows(mesh.nx, outcome.cycles)
+        for row in rows:
+            watch.speaker.row(row, progress.wedge_line(row))
+        return _solution(config, bearing, problem, outcome.state, rows, result)
+    finally:
+        grid.destroy()
+
+
+def _solution(config, contact, problem, state, rows, result):
+    """The `Solution` of a final state (collective)."""
+    local = Fields(state.P, state.H, state.status)
+    grid = problem.grid
+    whole = local.gathered(grid)
+    return Solution(config, contact, grid.mesh, whole, rows, result, state.H0, local, grid.first)
 
 
 def versions():
@@ -104,21 +142,19 @@ def versions():
     return found
 
 
-def _write(directory, solution):
-    """Write all files; raise OutputError if the disk does not take them."""
+def _write(paths, solution):
+    """Write all files, the result last; raise OutputError if the disk does not take them."""
     from mgehl.output import picture, wedge_picture  # matplotlib is slow to import
 
-    paths = files.RunFiles(directory)
-    config, mesh, fields = solution.config, solution.mesh, solution.fields
     try:
-        files.write_config(paths.configuration, config)
         files.write_history(paths.history, solution.rows)
         files.write_fields(paths.fields, solution)
-        if config.contact.kind == "wedge":
-            files.write_center_line(paths.center_line, mesh, fields)
+        if solution.config.contact.kind == "wedge":
+            files.write_center_line(paths.center_line, solution.mesh, solution.fields)
             wedge_picture.draw(paths.picture, solution)
         else:
             picture.draw(paths.picture, solution)
         files.write_result(paths.result, solution.result)
     except OSError as error:
-        raise OutputError(f"{directory}: cannot be written: {error}") from None
+        raise OutputError(f"{paths.directory}: cannot be written: {error.strerror or error}") from None
+    clear(paths.directory)

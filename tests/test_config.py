@@ -185,7 +185,7 @@ MISTAKES = [
     ("discretization.couette=1", "discretization.couette = 1: ", "1B, 2B, 2C, S1B, S2C"),
     ("discretization.couette=[]", "discretization.couette = []: ", "1B, 2B, 2C, S1B, S2C"),
     ("solver.start=cold", "solver.start = 'cold': ", "film, contact"),
-    ("solver.omega=1.5", "solver.omega = 1.5: ", "above 0", "at most 1"),
+    ("solver.omega=1.5", "solver.omega = 1.5: ", "at least 0.1", "at most 1"),
     ("solver.max_steps=-1", "solver.max_steps = -1: ", "a whole number", "at least 0"),
     ("grid.nodez=129", "grid.nodez = 129: ", "unknown key", "did you mean grid.nodes?"),
     ("solver.speed=1", "solver.speed = 1: ", "unknown key", "did you mean motion.speed?"),
@@ -218,6 +218,50 @@ def test_mistake_is_one_line_with_key_value_and_what_is_allowed(setting, start, 
 )
 def test_whole_number_beyond_every_float_is_refused_too(setting):
     error_of(setting)
+
+
+@pytest.mark.parametrize(
+    "setting, start",
+    [
+        ("grid.nodes=" + 5000 * "1", "grid.nodes = '11"),  # more digits than Python reads
+        ("grid.nodes=0x" + 5000 * "f", "grid.nodes = <int too long to show>: "),  # or shows
+        ("grid.x=" + 5000 * "[", "grid.x = '[["),  # deeper than it recurses
+        ("motion.speed=" + 5000 * "1 ", "motion.speed = '1 1"),
+    ],
+    ids=["digits", "hexadecimal", "nest", "text"],
+)
+def test_what_is_too_long_is_refused_and_cut_short(setting, start):
+    message = error_of(setting)
+    assert message.startswith(start) and len(message) < 300
+
+
+@pytest.mark.parametrize("content", [f"x = {5000 * '1'}", f"x = {5000 * '['}"], ids=["digits", "nest"])
+def test_file_that_toml_itself_does_not_survive(tmp_path, content):
+    path = tmp_path / "long.toml"
+    path.write_text(content)
+    with pytest.raises(ConfigError, match=re.escape(f"{path}: not valid TOML: ")):
+        load_config(path)
+
+
+@pytest.mark.parametrize("value", [[1], {"a": 1}, 1.5, None])
+@pytest.mark.parametrize("key", ["contact.kind", "wedge.pillar", "solver.method"])
+def test_a_choice_is_a_word(key, value):
+    """A list is not one of a table's keys, nor can it be looked up there."""
+    with pytest.raises(ConfigError, match=re.escape(f"{key} = {value!r}: must be one of ")):
+        load_config(os.devnull, {key: value})
+
+
+@pytest.mark.parametrize(
+    "tables", [{"new\nline": {}}, {"grid": {"new\r\nline": 1}}, {"wedge": {"\x85": 1}}]
+)
+def test_names_with_line_breaks_stay_on_the_line(tables):
+    message = error_of(tables=tables)
+    assert len(message.splitlines()) == 1 and "unknown" in message
+
+
+def test_names_of_settings_are_taken_for_text():
+    with pytest.raises(ConfigError, match="1 = 2: must be section.key"):
+        load_config(os.devnull, {1: 2})
 
 
 @pytest.mark.parametrize("tables", [{"grid": 5}, {"motion": "fast"}, {"contact": [1]}])

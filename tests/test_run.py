@@ -15,8 +15,9 @@ from mgehl.config import config_from_tables, load_config
 from mgehl.discretization.status import CONTACT
 from mgehl.output.result import Result
 from mgehl.output.solution import Solution
+from mgehl.output.terminal import Lines
 from mgehl.output.wedge_result import WedgeResult
-from mgehl.run import run, solve
+from mgehl.run import Watch, run, solve
 
 CONFIGS = Path(__file__).resolve().parent.parent / "configs"
 FILES = {"configuration.toml", "fields.h5", "history.csv", "picture.png", "result.json"}
@@ -31,7 +32,7 @@ RESULT_KEYS = {
 
 
 def run_quietly(tables, directory):
-    return run(config_from_tables(tables), directory, MPI.COMM_SELF, speak=False)
+    return run(config_from_tables(tables), directory, MPI.COMM_SELF)
 
 
 def read_json(directory):
@@ -87,7 +88,7 @@ def test_the_fields_hold_the_films(film):
 def test_the_configuration_runs_again_to_the_same_films(film, tmp_path):
     directory, result = film
     config = load_config(directory / "configuration.toml")
-    again = run(config, tmp_path, MPI.COMM_SELF, speak=False)
+    again = run(config, tmp_path, MPI.COMM_SELF)
     assert again.central_film_nm == pytest.approx(result.central_film_nm, rel=1e-12)
     assert again.minimum_film_nm == pytest.approx(result.minimum_film_nm, rel=1e-12)
 
@@ -116,7 +117,7 @@ def test_a_run_that_does_not_converge_still_leaves_everything(tmp_path):
 
 
 def test_it_says_what_it_does_and_whether_to_trust_it(tmp_path, capsys):
-    run(config_from_tables(FILM), tmp_path, MPI.COMM_SELF)
+    run(config_from_tables(FILM), tmp_path, MPI.COMM_SELF, Watch(Lines()))
     out = capsys.readouterr().out
     assert "grid    65" in out
     assert "\nCONVERGED" in out
@@ -231,7 +232,9 @@ def test_line_of_the_repository(name, tmp_path):
 
 
 def test_a_wedge_says_what_it_found(tmp_path, capsys):
-    run(load_config(CONFIGS / "wedge_open.toml", ["grid.nodes=65"]), tmp_path, MPI.COMM_SELF)
+    run(
+        load_config(CONFIGS / "wedge_open.toml", ["grid.nodes=65"]), tmp_path, MPI.COMM_SELF, Watch(Lines())
+    )
     out = capsys.readouterr().out
     assert "\nCONVERGED: the residual holds" in out
     assert "flow through closed faces 0.0e+00" in out

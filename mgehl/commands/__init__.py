@@ -5,7 +5,10 @@ or where `PARALLEL` is true of the options and the communicator, on every rank, 
 Both return the exit status.
 """
 
-COMMANDS = ("run", "study", "collect", "keys")
+COMMANDS = (
+    "run", "study", "collect", "plot", "report", "export",
+    "check", "new", "keys", "info", "bench", "completion",
+)  # fmt: skip
 """In the order of the help."""
 
 CONVERGED, NOT_CONVERGED, USAGE = 0, 1, 2

@@ -10,7 +10,12 @@ PARALLEL = False
 
 def add(commands):
     """Add the parser."""
-    parser = commands.add_parser("collect", help="make one table of several run directories")
+    parser = commands.add_parser(
+        "collect",
+        help="make one table of several run directories",
+        description="Print a Markdown table with a row for each run directory.",
+        epilog="example: mgehl collect runs/try --columns 'run,nodes,central nm' --out runs/try.csv",
+    )
     parser.add_argument("runs", nargs="+", metavar="RUN", help="run directory")
     parser.add_argument("--out", metavar="FILE", help="write the whole table as CSV, too")
     parser.add_argument("--columns", metavar="A,B", help="print only these columns")

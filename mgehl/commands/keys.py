@@ -10,7 +10,12 @@ PARALLEL = False
 
 def add(commands):
     """Add the parser."""
-    return commands.add_parser("keys", help="list every configuration key")
+    return commands.add_parser(
+        "keys",
+        help="list every configuration key",
+        description="List every configuration key with its meaning, choices, default and unit.",
+        epilog="example: mgehl keys",
+    )
 
 
 def execute(_options):

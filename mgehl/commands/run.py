@@ -1,10 +1,11 @@
 """mgehl run: solve one contact."""
 
-import sys
 from pathlib import Path
 
 from mgehl.commands import CONVERGED, NOT_CONVERGED
 from mgehl.config import check_ranks, default_config, load_config
+from mgehl.config_value import read_quantity
+from mgehl.errors import OutputError, UserError
 
 PARALLEL = True
 
@@ -15,36 +16,111 @@ def add(commands):
         "run",
         help="solve one contact",
         allow_abbrev=False,
-        description="Solve one contact and write its directory.",
-        epilog="example: mpiexec -n 2 python -m mgehl run --set grid.nodes=513 --set motion.speed='1 m/s'"
-        " --set solver.start=film -mgehl_ksp_monitor",
+        description="Solve one contact and write its directory. A run that was stopped, or killed, goes on "
+        "with --resume, on any number of ranks. SIGTERM, Ctrl-C and --time-limit save it first "
+        "(exit status 143, 130 and 143).",
+        epilog="example: mpiexec -n 2 python -m mgehl run --set grid.nodes=65 --set motion.speed='1 m/s'"
+        " --set solver.start=film --out runs/film -mgehl_ksp_monitor",
     )
     parser.add_argument(
         "config", nargs="?", metavar="CONFIG", help="TOML file (default: the point contact)"
     )
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", dest="settings",
-                     help="set a key, such as grid.nodes=513; may be repeated")  # fmt: skip
+                        help="set a key, such as grid.nodes=513; may be repeated")  # fmt: skip
     parser.add_argument("--out", metavar="DIR", help="directory of the results (default: runs/NAME)")
     parser.add_argument("--force", action="store_true", help="write into a directory that exists")
-    parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
+    parser.add_argument("--resume", metavar="RUN", help="go on with the run of this directory")
+    parser.add_argument("--start-from", metavar="RUN", help="start from the fields of a finished run")
+    parser.add_argument(
+        "--save-every", metavar="T", default="60", help="seconds between saves (default: 60)"
+    )
+    parser.add_argument("--time-limit", metavar="T", help="save and stop after so long, such as '2 hours'")
+    how = parser.add_mutually_exclusive_group()
+    how.add_argument("--quiet", action="store_true", help="print nothing but errors")
+    how.add_argument("--json-lines", action="store_true", help="print a JSON object per cycle")
     return parser
 
 
 def execute(options, comm):
     """Solve on all ranks and write the directory."""
+    check_ranks(comm.size)
+    save_every = read_quantity("--save-every", options.save_every, "s")
+    limit = options.time_limit and read_quantity("--time-limit", options.time_limit, "s")
+    taken_up = _taken_up if options.resume else _new
+    found = taken_up(options, comm)
+    if found is None:
+        return CONVERGED
+    from mgehl.output.terminal import SILENT, speaker
+    from mgehl.run import Watch, run
+    from mgehl.stopping import StopWhenTold
+
+    config, directory, start = found
+    words = speaker(options.quiet, options.json_lines) if comm.rank == 0 else SILENT
+    with StopWhenTold(f"go on with: mgehl run --resume {directory}", limit) as stop, words:
+        result = run(config, directory, comm, Watch(words, save_every=save_every, stop=stop), start)
+    return CONVERGED if result.converged else NOT_CONVERGED
+
+
+def _new(options, comm):
+    """Configuration, directory and start of a new run, its directory made."""
+    from mgehl.output.checkpoint import keep_start
     from mgehl.output.files import on_first_rank, prepare_directory
     from mgehl.plausibility import check_contact
     from mgehl.solver.from_config import contact_from
 
     config = load_config(options.config, options.settings)
-    check_ranks(comm.size)
     check_contact(config, contact_from(config))
+    start = _start(options.start_from, config, comm) if options.start_from else None
     name = Path(options.config or default_config()).stem
     directory = Path(options.out or Path("runs") / name)
+    if start and directory.resolve() == Path(options.start_from).resolve():
+        raise UserError(f"--start-from {directory}: is the run's own directory; choose another with --out")
     on_first_rank(comm, prepare_directory, directory, options.force)
-    from mgehl.run import run
+    if start:
+        on_first_rank(comm, keep_start, directory, options.start_from)
+    return config, directory, start
 
-    result = run(config, directory, comm, speak=not options.quiet)
-    if options.quiet and not result.converged and comm.rank == 0:
-        print(f"mgehl: not converged: {result.reason}", file=sys.stderr)
-    return CONVERGED if result.converged else NOT_CONVERGED
+
+def _taken_up(options, comm):
+    """The same of a run that goes on; None of one that has finished."""
+    from mgehl.output.checkpoint import start_of
+    from mgehl.output.files import RunFiles
+
+    given = [
+        name for name in ("config", "settings", "out", "force", "start_from") if getattr(options, name)
+    ]
+    if given:
+        raise UserError(f"--resume {options.resume}: goes on as it began, without {_WORDS[given[0]]}")
+    files = RunFiles(options.resume)
+    if not files.configuration.exists():
+        raise OutputError(
+            f"--resume {options.resume}: is no run directory: {files.configuration} is missing"
+        )
+    if files.result.exists():
+        if comm.rank == 0 and not options.quiet:
+            print(f"mgehl: {options.resume} has finished: its results are there")
+        return None
+    config = load_config(files.configuration)
+    start = start_of(files.directory)
+    return config, files.directory, _start(start, config, comm) if start.is_dir() else None
+
+
+_WORDS = {
+    "config": "CONFIG",
+    "settings": "--set",
+    "out": "--out",
+    "force": "--force",
+    "start_from": "--start-from",
+}
+
+
+def _start(directory, config, comm):
+    """The `Solution` of another run, whole on every rank; it must be of the same kind."""
+    from mgehl.output.files import on_first_rank
+    from mgehl.output.stored import read_run
+
+    start = on_first_rank(comm, read_run, directory) or read_run(directory)
+    kind = start.config.contact.kind
+    if kind != config.contact.kind or kind == "wedge":
+        raise UserError(f"--start-from {directory}: a {kind} is no start for a {config.contact.kind}")
+    return start

@@ -38,8 +38,9 @@ def add(commands):
         "study",
         help="solve many cases and make tables and pictures of them",
         allow_abbrev=False,
-        description="Solve the cases of a study; write its tables (CSV, Markdown) and pictures.",
-        epilog="; ".join(f"{name}: {text}" for name, text in STUDIES.items()),
+        description="Solve the cases of a study; write its tables (CSV, Markdown) and pictures. "
+        + "; ".join(f"{name}: {text}" for name, text in STUDIES.items()),
+        epilog="example: python -m mgehl study inlet --nodes 129",
     )
     parser.add_argument("study", choices=tuple(STUDIES), metavar="NAME", help=", ".join(STUDIES))
     parser.add_argument("--nodes", "--grid", metavar="N,N,...", help="grids instead of the study's own")
@@ -59,6 +60,8 @@ def add(commands):
 def execute(options, comm):
     """Solve all cases on all ranks; write tables and pictures."""
     from mgehl.output.files import on_first_rank, prepare_directory
+    from mgehl.output.study_record import StudyRecord, write_record
+    from mgehl.run import versions
     from mgehl.studies.study import Study
 
     check_ranks(comm.size)
@@ -71,6 +74,8 @@ def execute(options, comm):
         )
     directory = Path(options.out or Path("runs") / f"study-{options.study}")
     on_first_rank(comm, prepare_directory, directory, options.force, options.resume)
+    record = StudyRecord(options.study, nodes, options.direction, options.mean, comm.size, versions())
+    on_first_rank(comm, write_record, directory, record)
     study = Study(directory, comm, nodes, not options.quiet, branch=options.direction, mean=options.mean)
     if not options.resume:
         on_first_rank(comm, study.cache.clear)

@@ -11,6 +11,10 @@ import pyfftw
 from mpi4py import MPI
 
 from mgehl.discretization.influence import influence_coefficients
+from mgehl.grid.events import DEFLECTION, event
+
+THREADS = 1
+"""Of an FFT: the ranks share the work."""
 
 TIMED, FIXED = ("FFTW_MEASURE",), ("FFTW_ESTIMATE",)
 """Plans: the fastest of several that are tried, twice as fast on a large plane, or always the same."""
@@ -25,18 +29,18 @@ class Deflection:
         mesh, (lines, nx) = grid.mesh, grid.shape
         self._transpose = Transpose(grid.comm, grid.starts, nx)
         columns = self._transpose.columns
-        plan = FIXED if mesh.is_line else TIMED
+        plan = {"flags": FIXED if mesh.is_line else TIMED, "threads": THREADS}
         self._x_real = pyfftw.zeros_aligned((lines, 2 * (nx - 1)))
         period_y = max(2 * (mesh.ny - 1), 1)
         self._x_modes = pyfftw.zeros_aligned((lines, nx), dtype=complex)
         self._y_modes = pyfftw.zeros_aligned((period_y, columns), dtype=complex)
-        self._x_forward = pyfftw.FFTW(self._x_real, self._x_modes, axes=(1,), flags=plan)
+        self._x_forward = pyfftw.FFTW(self._x_real, self._x_modes, axes=(1,), **plan)
         self._x_backward = pyfftw.FFTW(
-            self._x_modes, self._x_real, axes=(1,), direction="FFTW_BACKWARD", flags=plan
+            self._x_modes, self._x_real, axes=(1,), direction="FFTW_BACKWARD", **plan
         )
-        self._y_forward = pyfftw.FFTW(self._y_modes, self._y_modes, axes=(0,), flags=plan)
+        self._y_forward = pyfftw.FFTW(self._y_modes, self._y_modes, axes=(0,), **plan)
         self._y_backward = pyfftw.FFTW(
-            self._y_modes, self._y_modes, axes=(0,), direction="FFTW_BACKWARD", flags=plan
+            self._y_modes, self._y_modes, axes=(0,), direction="FFTW_BACKWARD", **plan
         )
         self._spectrum = self._transform(kernel)
 
@@ -44,6 +48,7 @@ class Deflection:
         """Free the MPI datatypes."""
         self._transpose.destroy()
 
+    @event(DEFLECTION)
     def __call__(self, P):
         """Deflection (lines, nx) by the pressure P (lines, nx), zero on boundary nodes.
 

@@ -112,6 +112,15 @@ class Grid:
         parts = self.comm.gather(np.ascontiguousarray(array))
         return None if parts is None else np.concatenate(parts)
 
+    def scatter(self, whole):
+        """The local lines of a whole array that rank 0 has."""
+        parts = None
+        if self.comm.rank == 0:
+            parts = [
+                whole[first:last] for first, last in zip(self.starts[:-1], self.starts[1:], strict=True)
+            ]
+        return np.array(self.comm.scatter(parts))
+
 
 def single_grid(mesh, comm):
     """The grid of a mesh alone, its lines dealt out as by `build_grids`."""

@@ -1,6 +1,7 @@
 """The grids of a run, coarsest first, with what connects them and the count of convolutions."""
 
 from mgehl.grid.convolution import Deflection
+from mgehl.grid.events import SETUP, event
 from mgehl.grid.grid import build_grids
 from mgehl.grid.transfers import Transfer
 
@@ -11,6 +12,7 @@ class Hierarchy:
     `transfers[l]` leads from grid l to grid l + 1.
     """
 
+    @event(SETUP)
     def __init__(self, mesh, coarsest_nodes, kernel, comm):
         self.grids = build_grids(mesh, coarsest_nodes, comm)
         self.transfers = [Transfer(*pair) for pair in zip(self.grids[:-1], self.grids[1:], strict=True)]

@@ -3,6 +3,7 @@
 import numpy as np
 
 from mgehl.discretization.status import CONTACT, LUBRICATED
+from mgehl.grid.events import TRANSFERS, event
 
 
 class Transfer:
@@ -13,10 +14,12 @@ class Transfer:
         self._lines = 2 * np.arange(coarse.first, coarse.last) - fine.first
         self._odd = fine.first % 2
 
+    @event(TRANSFERS)
     def inject(self, fine):
         """Values at the nodes that both grids share."""
         return np.ascontiguousarray(fine[self._lines, ::2])
 
+    @event(TRANSFERS)
     def full_weighting(self, fine):
         """Weighted mean of the nine fine values around each inner coarse node, on a single line of three.
 
@@ -33,6 +36,7 @@ class Transfer:
         beside = ghosted[first : last + 1 : 2] + ghosted[first + 2 : last + 3 : 2]
         return 0.5 * ghosted[first + 1 : last + 2 : 2] + 0.25 * beside
 
+    @event(TRANSFERS)
     def bilinear(self, coarse):
         """Bilinear interpolation to the fine grid."""
         ghosted = self.coarse.halo(coarse)
@@ -60,6 +64,7 @@ class PartitionedTransfer:
     def __init__(self, transfer):
         self._transfer = transfer
 
+    @event(TRANSFERS)
     def partition(self, coarse_status, fine_status):
         """Take the partitions of both grids."""
         transfer = self._transfer
@@ -74,6 +79,7 @@ class PartitionedTransfer:
             self._prolong_contact = _inverse(spread, where=fine_contact)
             self._prolong_film = _inverse(1.0 - spread, where=self._fine_film)
 
+    @event(TRANSFERS)
     def restrict(self, fine):
         """Residual (lines, nx) of the fine grid to the coarse one."""
         transfer = self._transfer
@@ -82,6 +88,7 @@ class PartitionedTransfer:
             coarse += transfer.full_weighting(fine * self._fine_contact) * self._restrict_contact
         return coarse
 
+    @event(TRANSFERS)
     def prolong(self, coarse):
         """Correction (lines, nx) of the coarse grid to the fine one."""
         transfer = self._transfer

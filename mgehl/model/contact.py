@@ -25,8 +25,9 @@ class LoadedContact:
     """Scales, film and inlet of a body pressed on a lubricated flat, all values in SI units.
 
     A kind of contact adds `load`, `radius_x`, `reduced_modulus`, `speed`, `lubricant`, the dry
-    `hertz` contact, `groups`, `smooth_gap`, the `kernel` of the deformation, the `load_integral` of P
-    and the `contact_area` in units of X and Y. `speed` is u of the Couette flow rho u h.
+    `hertz` contact, `groups`, `smooth_gap`, `dry_gap`, the `kernel` of the deformation, the
+    `load_integral` of P and the `contact_area` in units of X and Y. `speed` is u of the Couette flow
+    rho u h.
     """
 
     motion = 1

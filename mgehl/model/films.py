@@ -21,18 +21,38 @@ def dowson_higginson(groups, radius_x):
 
 def nijenbanning_venner_moes(groups, radius_x, radius_y):
     """Central film of Nijenbanning, Venner and Moes for every regime."""
-    M, L, D = groups.M, groups.L, radius_x / radius_y
-    shape = 1.0 + 0.006 * log(D) + 0.63 * D ** (4 / 7)
-    RI = 145.0 * (1.0 + 0.796 * D ** (14 / 15)) ** (-15 / 7) / D * M**-2.0
-    EI = 3.18 * shape ** (-14 / 25) * D ** (-1 / 15) * M ** (-2 / 15)
-    RP = 1.29 * (1.0 + 0.691 * D) ** (-2 / 3) * L ** (2 / 3)
-    EP = 1.48 * shape ** (-7 / 20) * D ** (-1 / 24) * M ** (-1 / 12) * L**0.75
+    D = radius_x / radius_y
+    RI, EI, RP, EP = point_asymptotes(groups, D)
     H00 = 1.8 / D
     s = 1.5 * (1.0 + exp(-1.2 * EI / RI))
     isoviscous = RI**1.5 + (EI**-4.0 + H00**-4.0) ** (-3 / 8)
     piezoviscous = RP**-8.0 + EP**-8.0
     H = (isoviscous ** (2 * s / 3) + piezoviscous ** (-s / 8)) ** (1.0 / s)
     return H * radius_x * sqrt(2.0 * groups.U)
+
+
+def point_asymptotes(groups, D):
+    """H_Moes of a point contact of D = R_x/R_y: rigid and elastic isoviscous, the same piezoviscous."""
+    M, L = groups.M, groups.L
+    shape = 1.0 + 0.006 * log(D) + 0.63 * D ** (4 / 7)
+    RI = 145.0 * (1.0 + 0.796 * D ** (14 / 15)) ** (-15 / 7) / D * M**-2.0
+    EI = 3.18 * shape ** (-14 / 25) * D ** (-1 / 15) * M ** (-2 / 15)
+    RP = 1.29 * (1.0 + 0.691 * D) ** (-2 / 3) * L ** (2 / 3)
+    EP = 1.48 * shape ** (-7 / 20) * D ** (-1 / 24) * M ** (-1 / 12) * L**0.75
+    return RI, EI, RP, EP
+
+
+def line_asymptotes(groups):
+    """The same of a line contact [Moes 1992]."""
+    M, L = groups.M, groups.L
+    return 3.0 / M, 2.621 * M**-0.2, 1.287 * L ** (2 / 3), 1.311 * M**-0.125 * L**0.75
+
+
+def regime(RI, EI, RP, EP):
+    """Name of the asymptote that a film is nearest to; a piezoviscous one is bounded by elasticity."""
+    isoviscous = (RI, "rigid isoviscous") if RI > EI else (EI, "elastic isoviscous")
+    piezoviscous = (RP, "rigid piezoviscous") if RP < EP else (EP, "elastic piezoviscous")
+    return max(isoviscous, piezoviscous)[1]
 
 
 def grubin(pressure_viscosity, viscosity, speed, a, gap_coefficient):

@@ -7,7 +7,7 @@ from math import pi
 from mgehl.model import films
 from mgehl.model.contact import Groups, LoadedContact
 from mgehl.model.deformation import HalfPlane
-from mgehl.model.hertz import hertz_line_contact
+from mgehl.model.hertz import hertz_line_contact, hertz_line_gap
 from mgehl.model.lubricant import Lubricant
 from mgehl.model.own_laws import OwnSurface
 
@@ -57,6 +57,10 @@ class LineContact(LoadedContact):
         """The parabola x^2/2R in units of H  [Liu eq. 48]."""
         return 0.5 * X**2
 
+    def dry_gap(self, X, _Y):
+        """Gap of the Hertz contact in units of H."""
+        return hertz_line_gap(X)
+
     @property
     def groups(self):
         """U, W, G from the dimensional values, and Moes' M and L of the line contact."""
@@ -70,6 +74,11 @@ class LineContact(LoadedContact):
         """What the film formulas say of this contact."""
         central, minimum = films.dowson_higginson(self.groups, self.radius_x)
         return LineFormulas(central, minimum, self.grubin_film)
+
+    @property
+    def regime(self):
+        """Whether bodies and viscosity answer to the pressure, by Moes' asymptotes."""
+        return films.regime(*films.line_asymptotes(self.groups))
 
     @property
     def expected_film(self):

@@ -8,7 +8,7 @@ from mgehl.model import films
 from mgehl.model.coating import Coating
 from mgehl.model.contact import Groups, LoadedContact
 from mgehl.model.deformation import HalfSpace, LayeredHalfSpace
-from mgehl.model.hertz import hertz_contact
+from mgehl.model.hertz import hertz_contact, hertz_gap
 from mgehl.model.images import fit_images
 from mgehl.model.lubricant import Lubricant
 from mgehl.model.own_laws import OwnCompliance, OwnSurface
@@ -103,6 +103,11 @@ class PointContact(LoadedContact):
         side = self.radius_x / (self.radius_y * self.k_e**2)
         return 0.5 * X**2 + 0.5 * side * Y**2
 
+    def dry_gap(self, X, Y):
+        """Gap of the Hertz contact in units of H."""
+        x, y = X * self.x_scale, Y * self.y_scale
+        return hertz_gap(self.hertz, self.reduced_modulus, x, y) / self.film_scale
+
     @property
     def groups(self):
         """U, W, G from the dimensional values, and Moes' M and L."""
@@ -117,6 +122,11 @@ class PointContact(LoadedContact):
         central, minimum = films.hamrock_dowson(self.groups, self.radius_x, 1.0 / self.k_e)
         moes = films.nijenbanning_venner_moes(self.groups, self.radius_x, self.radius_y)
         return PointFormulas(central, minimum, moes, self.grubin_film)
+
+    @property
+    def regime(self):
+        """Whether bodies and viscosity answer to the pressure, by Moes' asymptotes."""
+        return films.regime(*films.point_asymptotes(self.groups, self.radius_x / self.radius_y))
 
     @property
     def expected_film(self):

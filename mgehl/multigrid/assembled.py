@@ -9,6 +9,7 @@ from petsc4py import PETSc
 from scipy.sparse import coo_array
 
 from mgehl.discretization.residual import WW, C, E, N, S, W, linearise
+from mgehl.grid.events import ASSEMBLY, event
 from mgehl.multigrid.jacobian import BorderedSpace
 
 
@@ -55,6 +56,7 @@ class AssembledSolver:
         ksp.getPC().setType(PETSc.PC.Type.HYPRE if hypre else PETSc.PC.Type.GAMG)
         ksp.setFromOptions()
 
+    @event(ASSEMBLY)
     def linearise(self, P, H, status):
         """Linearise about a (lines, nx) state and assemble."""
         grid = self._grid

@@ -6,6 +6,7 @@ import numpy as np
 from scipy.linalg import LinAlgWarning, lu_factor, lu_solve
 
 from mgehl.discretization.influence import influence_coefficients
+from mgehl.grid.events import COARSE, event
 from mgehl.multigrid.assembled import stencil_rows
 
 
@@ -17,6 +18,7 @@ class CoarseSolve:
         if not jacobian.rigid:
             self._K = dense_influence(jacobian.grid.mesh, jacobian.contact.kernel)
 
+    @event(COARSE)
     def setUp(self, _pc):
         """Gather the stencils, form the dense matrix and factor it."""
         jacobian = self._jacobian
@@ -35,6 +37,7 @@ class CoarseSolve:
             warnings.simplefilter("ignore", LinAlgWarning)
             self._factors = lu_factor(matrix, overwrite_a=True, check_finite=False)
 
+    @event(COARSE)
     def apply(self, _pc, x, y):
         """y = J^-1 x."""
         space, grid = self._jacobian.space, self._jacobian.grid

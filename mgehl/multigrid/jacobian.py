@@ -12,6 +12,7 @@ from petsc4py import PETSc
 
 from mgehl.discretization.kernels import apply_jacobian, apply_stencil
 from mgehl.discretization.residual import linearise
+from mgehl.grid.events import ASSEMBLY, event
 
 
 class BorderedSpace:
@@ -67,6 +68,7 @@ class Jacobian:
         self.mat = PETSc.Mat().createPython((size, size), self, comm=grid.comm)
         self.mat.setUp()
 
+    @event(ASSEMBLY)
     def linearise(self, P, H, status, squeeze=0.0):
         """Linearise about ghosted P, H and status, for a time step 1/`squeeze` long."""
         how = (self.grid.mesh, self.contact, self.scheme, self.rigid, squeeze)

@@ -5,6 +5,7 @@ import numpy as np
 from mgehl.discretization.bands import LineBands, distributive_nodes, given_nodes, influence_of_columns
 from mgehl.discretization.influence import influence_coefficients
 from mgehl.discretization.kernels import REACH, distribute
+from mgehl.grid.events import LINES, event
 
 
 class LineSmoother:
@@ -25,17 +26,20 @@ class LineSmoother:
         self._ghosted_w = np.zeros(grid.ghosted_shape)
         self._out = np.zeros(grid.shape)
 
+    @event(LINES)
     def partition(self, eps, status):
         """Choose the distributive nodes; `eps` and `status` (lines, nx)."""
         grid = self._jacobian.grid
         self._distributive = grid.halo(distributive_nodes(eps, status, grid.mesh.dX, self._K00))
         self._given = given_nodes(status)
 
+    @event(LINES)
     def setUp(self, _pc):
         """Factor the bands of the present linearisation."""
         bands, linearisation = self._bands, self._jacobian.linearisation
         bands.factor(linearisation, self._distributive[1:-1], self._kappa, self._share)
 
+    @event(LINES)
     def apply(self, _pc, x, y):
         """One relaxation from zero; the border is left alone."""
         space = self._jacobian.space

@@ -2,31 +2,39 @@
 
 import csv
 import json
+import shutil
 from dataclasses import asdict
 from functools import partial
 from math import isfinite
 from pathlib import Path
 
-import h5netcdf
 import tomli_w
 
 from mgehl.discretization import status
 from mgehl.errors import OutputError
+from mgehl.grid.events import FILES, event
 from mgehl.output.center_line import center_line
+from mgehl.output.memory_file import netcdf_file
+from mgehl.output.whole_file import whole_file
 from mgehl.version import VERSION
 
 
+@event(FILES)
 def on_first_rank(comm, function, *arguments):
-    """Call on rank 0; every rank raises what it raised."""
-    error = None
+    """Call on rank 0 and return there what it returned, None elsewhere.
+
+    Every rank raises what it raised.
+    """
+    result = error = None
     if comm.rank == 0:
         try:
-            function(*arguments)
+            result = function(*arguments)
         except Exception as caught:
             error = caught
     error = comm.bcast(error)
     if error is not None:
         raise error
+    return result
 
 
 NAMES = (
@@ -35,13 +43,22 @@ NAMES = (
 """The files of a run directory, in the order of `RunFiles`; the last is a wedge's."""
 
 
+CHECKPOINT = "checkpoint"
+"""Folder of what a run that has not finished has reached."""
+
+REPORT = "report.html"
+"""The page that `mgehl report` makes of a directory where no other file is named."""
+
+
 class RunFiles:
     """Paths of a run directory's files."""
 
     def __init__(self, directory):
+        self.directory = Path(directory)
         (
             self.configuration, self.result, self.history, self.fields, self.picture, self.center_line,
-        ) = (Path(directory) / name for name in NAMES)  # fmt: skip
+        ) = (self.directory / name for name in NAMES)  # fmt: skip
+        self.checkpoint = self.directory / CHECKPOINT
 
 
 def prepare_directory(path, force, resume=False):
@@ -56,9 +73,10 @@ def prepare_directory(path, force, resume=False):
         if path.exists() and not (force or resume):
             raise OutputError(f"{path} exists: add --force to replace it, or choose another with --out")
         path.mkdir(parents=True, exist_ok=True)
-        for name in NAMES:
+        for name in (*NAMES, REPORT):
             # An old result must not pass for that of a run that was cut off.
             (path / name).unlink(missing_ok=True)
+        shutil.rmtree(path / CHECKPOINT, ignore_errors=True)
         probe = path / ".writable"
         probe.touch()
         probe.unlink()
@@ -69,25 +87,31 @@ def prepare_directory(path, force, resume=False):
 
 def write_config(path, config):
     """The resolved configuration, as TOML that `mgehl run` reads."""
-    path.write_text(tomli_w.dumps(config.as_toml_tables()))
+    try:
+        with whole_file(path) as part:
+            part.write_text(tomli_w.dumps(config.as_toml_tables()))
+    except OSError as error:
+        raise OutputError(f"{path}: cannot be written: {error.strerror}") from None
 
 
 def write_result(path, result):
     """result.json; numbers that are not finite become null, which JSON can hold."""
-    path.write_text(json.dumps(_finite(asdict(result)), indent=2, allow_nan=False) + "\n")
+    with whole_file(path) as part:
+        part.write_text(json.dumps(finite(asdict(result)), indent=2, allow_nan=False) + "\n")
 
 
-def _finite(value):
+def finite(value):
+    """A value of plain data with None for every number that is not finite, which JSON cannot hold."""
     if isinstance(value, dict):
-        return {key: _finite(each) for key, each in value.items()}
+        return {key: finite(each) for key, each in value.items()}
     if isinstance(value, list | tuple):
-        return [_finite(each) for each in value]
+        return [finite(each) for each in value]
     return None if isinstance(value, float) and not isfinite(value) else value
 
 
 def write_history(path, rows):
     """history.csv: a row per cycle from dictionaries of one shape."""
-    with path.open("w", newline="") as file:
+    with whole_file(path) as part, part.open("w", newline="") as file:
         writer = csv.DictWriter(file, fieldnames=list(rows[0]) if rows else [])
         writer.writeheader()
         writer.writerows(rows)
@@ -96,7 +120,7 @@ def write_history(path, rows):
 def write_center_line(path, mesh, fields):
     """centerline.csv of a wedge: X in mm and P  [Liu eq. 44] along Y = 0, nan in a pillar."""
     X, P = center_line(mesh, fields)
-    with path.open("w", newline="") as file:
+    with whole_file(path) as part, part.open("w", newline="") as file:
         writer = csv.writer(file)
         writer.writerow(["X_mm", "P"])
         writer.writerows(zip(X.tolist(), P.tolist(), strict=True))
@@ -105,7 +129,7 @@ def write_center_line(path, mesh, fields):
 def write_fields(path, solution):
     """fields.h5, netCDF-4: pressure, film and status with coordinates, SI and dimensionless."""
     mesh, contact, fields = solution.mesh, solution.contact, solution.fields
-    with h5netcdf.File(path, "w") as file:
+    with whole_file(path) as part, netcdf_file(part) as file:
         file.dimensions = {"y": mesh.ny, "x": mesh.nx}
         file.attrs["mgehl"] = VERSION
         file.attrs["H0"] = solution.H0

@@ -1,35 +1,57 @@
 """What a run says: a line per cycle and a last block on whether to trust the answer."""
 
 import time
+from dataclasses import dataclass
 
 from mgehl.output.result import Result
+from mgehl.output.terminal import seconds_left
 
 
 class Progress:
-    """Collects the history of a run and, on the rank that may speak, prints it.
+    """Collects the history of a run and tells the speaker of it, with the time that is left.
 
-    `row` and `line` say what is kept and what is printed of a cycle (`newton_row`, `newton_line`
-    or those of another method). The monitor of `nested_iteration` and its like.
+    The monitor of `nested_iteration` and its like. `kind` says what is kept and told of a cycle.
+    A run that goes on begins with what its checkpoint had of all this (`record`, `go_on`).
     """
 
-    def __init__(self, row, line, film_scale, work, speak):
-        self._row, self._line = row, line
-        self._nm, self._work, self._speak = 1e9 * film_scale, work, speak
-        self._started = time.perf_counter()
+    def __init__(self, kind, film_scale, hierarchy, tolerance, speaker):
+        self._kind, self._nm, self._hierarchy, self._speaker = kind, 1e9 * film_scale, hierarchy, speaker
+        self._finest, self._tolerance = hierarchy.grids[-1].mesh.nx, tolerance
+        self._started, self._convolutions_before = time.perf_counter(), 0.0
         self.rows = []
 
     def __call__(self, level, cycle):
         """Take one cycle."""
-        row = {"grid": level.nodes, "speed_mm_s": 1e3 * level.speed} | self._row(cycle, self._nm)
-        row |= {"convolutions": self._work(), "seconds": time.perf_counter() - self._started}
+        row = {"grid": level.nodes, "speed_mm_s": 1e3 * level.speed} | self._kind.row(cycle, self._nm)
+        row |= {"convolutions": self.convolutions, "seconds": self.seconds}
         self.rows.append(row)
-        if self._speak:
-            print(self._line(row), flush=True)
+        left = seconds_left(self.rows, self._finest, self._tolerance)
+        self._speaker.row(row, self._kind.line(row), left)
+
+    @property
+    def convolutions(self):
+        """In equivalents of one on the finest grid, those of the part before included."""
+        return self._convolutions_before + self._hierarchy.convolutions
+
+    @property
+    def seconds(self):
+        """Of work, that of the part before included."""
+        return time.perf_counter() - self._started
 
     @property
     def steps(self):
         """Newton steps or sweeps on all grids."""
         return sum(1 for row in self.rows if row["step"] > 0)
+
+    def record(self):
+        """All of it as plain data."""
+        return {"rows": self.rows, "convolutions": self.convolutions, "seconds": self.seconds}
+
+    def go_on(self, record):
+        """Begin where a `record` was made."""
+        self.rows = list(record["rows"])
+        self._convolutions_before = record["convolutions"] - self._hierarchy.convolutions
+        self._started = time.perf_counter() - record["seconds"]
 
 
 def newton_row(cycle, nm):
@@ -56,6 +78,18 @@ def sweep_line(row):
     """A relaxation sweep on the terminal."""
     apart = f"lubr. {row['e_p_lubr']:8.2e}, solid {row['e_p_solid']:8.2e}"
     return f"{_state(row)}  e^p {row['e_p']:8.2e} ({apart})"
+
+
+@dataclass(frozen=True)
+class Kind:
+    """What history.csv keeps of a cycle and what the terminal shows of that."""
+
+    row: object
+    line: object
+
+
+NEWTON = Kind(newton_row, newton_line)
+RELAXATION = Kind(sweep_row, sweep_line)
 
 
 def _state_row(cycle, nm):

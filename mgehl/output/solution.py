@@ -3,22 +3,29 @@
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
+from mgehl.config import Config
 from mgehl.discretization.mesh import Mesh
+from mgehl.grid.grid import Grid
+from mgehl.model.contact import LoadedContact
+from mgehl.model.wedge import WedgeBearing
 from mgehl.output.progress import last_words
 from mgehl.output.result import Result
 from mgehl.output.wedge_result import WedgeResult
+
+Reals = NDArray[np.float64]
 
 
 @dataclass
 class Fields:
     """Dimensionless fields: (ny, nx) of the whole grid, or (lines, nx) of one rank."""
 
-    P: np.ndarray
-    H: np.ndarray
-    status: np.ndarray
+    P: Reals
+    H: Reals
+    status: NDArray[np.int8]
 
-    def gathered(self, grid) -> "Fields | None":
+    def gathered(self, grid: Grid) -> "Fields | None":
         """The whole grid's on rank 0, None elsewhere (collective)."""
         whole = [grid.gather(local) for local in (self.P, self.H, self.status)]
         return None if whole[0] is None else Fields(*whole)
@@ -32,11 +39,11 @@ class Solution:
     `local`, which begin with line `first_line`.
     """
 
-    config: object
-    contact: object
+    config: Config
+    contact: LoadedContact | WedgeBearing
     mesh: Mesh
     fields: Fields | None
-    rows: list
+    rows: list[dict[str, float]]
     result: Result | WedgeResult
     H0: float = 0.0
     """Approach of the bodies in units of H  [Liu eq. 48]; 0 for a wedge."""
@@ -44,27 +51,27 @@ class Solution:
     first_line: int = 0
 
     @property
-    def film(self) -> np.ndarray | None:
+    def film(self) -> Reals | None:
         """Film thickness or gap h in m, (ny, nx); on rank 0."""
         return None if self.fields is None else self.fields.H * self.contact.film_scale
 
     @property
-    def pressure(self) -> np.ndarray | None:
+    def pressure(self) -> Reals | None:
         """Fluid or contact pressure p in Pa, (ny, nx); on rank 0."""
         return None if self.fields is None else self.fields.P * self.contact.pressure_scale
 
     @property
-    def status(self) -> np.ndarray | None:
+    def status(self) -> NDArray[np.int8] | None:
         """What each node is, (ny, nx): an index of `mgehl.discretization.status.NAMES`; on rank 0."""
         return None if self.fields is None else self.fields.status
 
     @property
-    def x(self) -> np.ndarray:
+    def x(self) -> Reals:
         """Distance along the motion in m, (nx,)."""
         return self.mesh.X * self.contact.x_scale
 
     @property
-    def y(self) -> np.ndarray:
+    def y(self) -> Reals:
         """Distance across the motion in m, (ny,)."""
         return self.mesh.Y * self.contact.y_scale
 

@@ -4,6 +4,7 @@ from dataclasses import replace
 from functools import partial
 
 from mgehl.multigrid.cycle import MultigridSolver
+from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.nested import LevelSolve, nested_iteration
 from mgehl.solver.newton import Newton
 from mgehl.solver.problem import ContactProblem
@@ -27,8 +28,11 @@ class Continuation:
     `monitor` is called as by `nested_iteration`. All solves are of the coupled film and contact.
     """
 
-    def __init__(self, hierarchy, contact, settings, monitor=lambda level, cycle: None):
-        self._hierarchy, self._contact, self._monitor = hierarchy, contact, monitor
+    def __init__(
+        self, hierarchy, contact, settings, monitor=lambda level, cycle: None, journal=NOTHING_KEPT
+    ):
+        self._hierarchy, self._contact = hierarchy, contact
+        self._monitor, self._journal = monitor, journal
         squeeze = max(settings.newton.squeeze, SQUEEZE)
         self._settings = replace(settings, newton=replace(settings.newton, squeeze=squeeze))
 
@@ -38,7 +42,7 @@ class Continuation:
         contact = self._contact.at_speed(speed)
         settings = replace(self._settings, nested=nested)
         if start == "contact" or settings.scheme.face_mobility == "arithmetic":
-            return nested_iteration(self._hierarchy, contact, settings, self._monitor)
+            return nested_iteration(self._hierarchy, contact, settings, self._monitor, self._journal)
         return self._begin_with_mean(contact, settings)
 
     def begin_beyond(self, speed, start):
@@ -62,7 +66,7 @@ class Continuation:
         prefix = settings.cycle.options_prefix
         newton = Newton(problem, multigrid, settings.newton, None, prefix, tell)
         try:
-            return problem, newton.run(state)
+            return problem, newton.run(state, self._journal)
         finally:
             newton.free()
 
@@ -84,7 +88,7 @@ class Continuation:
         speed = contact.matched_speed(dX, settings.nested.inlet_cells)
         arithmetic = replace(settings, scheme=replace(settings.scheme, face_mobility="arithmetic"))
         problem, outcome = nested_iteration(
-            self._hierarchy, contact.at_speed(speed), arithmetic, self._monitor
+            self._hierarchy, contact.at_speed(speed), arithmetic, self._monitor, self._journal
         )
         if outcome.converged:
             problem, outcome = carry(lambda t, state: self.at(speed, state, t), outcome.state, step=0.25)
@@ -95,11 +99,12 @@ class Continuation:
         return problem, outcome
 
 
-def begin(hierarchy, contact, settings, monitor):
+def begin(hierarchy, contact, settings, monitor, journal=NOTHING_KEPT):
     """Solve `contact` from nothing, by whatever its mean of the mobility takes; as `nested_iteration`."""
     if settings.scheme.face_mobility == "arithmetic":
-        return nested_iteration(hierarchy, contact, settings, monitor)
-    return Continuation(hierarchy, contact, settings, monitor).begin(contact.speed, settings.nested.start)
+        return nested_iteration(hierarchy, contact, settings, monitor, journal)
+    continuation = Continuation(hierarchy, contact, settings, monitor, journal)
+    return continuation.begin(contact.speed, settings.nested.start)
 
 
 def carry(solve, state, step=1.0):

@@ -9,6 +9,7 @@ from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
 from mgehl.multigrid.cycle import CycleSettings, MultigridSolver
 from mgehl.solver.dry import dry_pressure
+from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.newton import Newton, NewtonSettings
 from mgehl.solver.problem import DIVERGED, ContactProblem
 from mgehl.solver.relaxation import RelaxationSettings, relax
@@ -55,7 +56,7 @@ class LevelSolve:
     finest: bool
 
 
-def nested_iteration(hierarchy, contact, settings, monitor):
+def nested_iteration(hierarchy, contact, settings, monitor, journal=NOTHING_KEPT):
     """Solve `contact` on the finest grid; return its `ContactProblem` and its `Outcome`.
 
     `monitor(level, cycle)` is called with a `LevelSolve` and the `Cycle` for every cycle.
@@ -77,19 +78,19 @@ def nested_iteration(hierarchy, contact, settings, monitor):
         else:
             state = interpolate(hierarchy.transfers[level - 1], problem, outcome.state)
         tell = partial(monitor, LevelSolve(grid.mesh.nx, speed, level == finest))
-        outcome = _solve_level(hierarchy, level, problem, state, limits, settings, tell)
+        outcome = _solve_level(hierarchy, level, problem, state, limits, settings, tell, journal)
         if not outcome.cycles[-1].residual < DIVERGED:
             break  # nothing to start the next grid from; the outcome says why
     return problem, outcome
 
 
-def single_loop(hierarchy, contact, settings, monitor):
+def single_loop(hierarchy, contact, settings, monitor, journal=NOTHING_KEPT):
     """Solve by the paper's relaxation, on the finest grid alone; otherwise as `nested_iteration`."""
     grid = hierarchy.grids[-1]
     problem = ContactProblem(grid, hierarchy.deflections[-1], contact, settings.scheme)
     state = first_guess(problem, settings.nested.start)
     tell = partial(monitor, LevelSolve(grid.mesh.nx, contact.speed, True))
-    return problem, relax(problem, state, settings.relaxation, tell)
+    return problem, relax(problem, state, settings.relaxation, tell, journal)
 
 
 def first_guess(problem, start):
@@ -124,7 +125,7 @@ def _levels(grids, settings):
     return [level for level in range(finest) if grids[level].mesh.nx >= settings.first_nodes] + [finest]
 
 
-def _solve_level(hierarchy, level, problem, state, limits, settings, tell):
+def _solve_level(hierarchy, level, problem, state, limits, settings, tell, journal):
     def multigrid(rigid):
         return MultigridSolver(hierarchy, level, problem.contact, problem.scheme, settings.cycle, rigid)
 
@@ -134,7 +135,7 @@ def _solve_level(hierarchy, level, problem, state, limits, settings, tell):
     try:
         newton = Newton(problem, multigrid(rigid=False), limits, fluid, prefix, tell)
         try:
-            return newton.run(state)
+            return newton.run(state, journal)
         finally:
             newton.free()
     finally:

@@ -9,13 +9,21 @@ import numpy as np
 from petsc4py import PETSc
 
 from mgehl.discretization.status import BOUNDARY, LUBRICATED
-from mgehl.errors import OptionError
+from mgehl.errors import OptionError, Stopped, UserError
+from mgehl.grid.events import linear_solve
 from mgehl.solver.cavitation import relax_cavitation_set
-from mgehl.solver.partition import Changes, Partition
+from mgehl.solver.journal import NOTHING_KEPT
+from mgehl.solver.partition import Changes, Partition, Past
 from mgehl.solver.problem import DIVERGED, State
 
 FLUID_SHARE = 0.3
 """Part of the tolerance that the fluid solved apart may use up: 0.3^2 of the mean square."""
+
+FLUID_AHEAD = 0.01
+"""Residual of the fluid solved apart beside that of the last cycle."""
+
+FIRST_RESIDUAL = 1e-3
+"""What a contact start is expected to begin with."""
 
 RELEASE_STEPS = 8
 """Steps in which a set must settle again after Eq. 2 released some of it."""
@@ -78,6 +86,25 @@ class Answer:
     violations: int
 
 
+@dataclass
+class Position:
+    """Where the iteration stands before a step: all that the way from here depends on."""
+
+    outcome: Outcome
+    """So far: its state is the present one."""
+    past: Past
+    limit: int
+    """Step at which to give up."""
+    changes: Changes = field(default_factory=Changes)
+    """Of the sets since the last cycle."""
+    linear_iterations: int = 0
+    step_length: float = 0.0
+    answer: Answer | None = None
+    released: int = 0
+    """Nodes that Eq. 2 released when it was last tried, and nodes that closed since."""
+    entered: int = 0
+
+
 class Newton:
     """Solves one `ContactProblem` with a `MultigridSolver`.
 
@@ -116,68 +143,86 @@ class Newton:
             thing.destroy()
         self._multigrid.free()
 
-    def run(self, state):
-        """Solve from `state`, which is not changed; return the `Outcome`."""
-        self._outcome = Outcome(state.copy(), False, "")
-        self._snes.solve(None, self._unknown)
-        return self._outcome
+    def run(self, state, journal=NOTHING_KEPT):
+        """Solve from `state`, which is not changed; return the `Outcome`.
+
+        The `journal` is told of every step, and may know this solve or its first part already.
+        """
+        grid, self._journal = self._problem.grid, journal
+        outcome = journal.recall(grid)
+        if outcome is None:
+            self._now = journal.standing(grid) or self._beginning(state.copy())
+            self._partition.past = self._now.past
+            self._halted = None
+            self._snes.solve(None, self._unknown)
+            if self._halted:
+                raise self._halted
+            outcome = self._now.outcome
+            journal.finish(grid, outcome)
+        return outcome
+
+    def _beginning(self, state):
+        """The `Position` before anything was done."""
+        limit = self._snes.getTolerances()[3]
+        now = Position(Outcome(state, False, ""), self._partition.past, limit)
+        self._partition.enter_contact(state, now.changes)
+        return now
 
     def solve(self, snes, _b, x):
-        """The nonlinear iteration (called by PETSc)."""
+        """The nonlinear iteration (called by PETSc, through which no exception should pass)."""
+        reasons = PETSc.SNES.ConvergedReason
+        try:
+            self._iterate(snes)
+        except (Stopped, UserError) as halted:
+            self._halted = halted
+        outcome = self._now.outcome
+        self._multigrid.space.write(x, outcome.state.P, outcome.state.H0)
+        snes.setConvergedReason(
+            reasons.CONVERGED_FNORM_ABS if outcome.converged else reasons.DIVERGED_MAX_IT
+        )
+
+    def _iterate(self, snes):
+        """Go on from the present position to the end."""
         _, tolerance, _, max_steps = snes.getTolerances()
-        limit = max_steps
-        problem, outcome = self._problem, self._outcome
-        state, changes, answer, released, entered = outcome.state, Changes(), None, 0, 0
-        self._partition.enter_contact(state, changes)
-        linear_iterations, length = 0, 0.0
+        now, problem = self._now, self._problem
+        outcome = now.outcome
         while True:
-            F, load = self._settle(state, changes)
-            if self._fluid and changes.total == 0 and problem.rms(F) <= tolerance:
+            self._journal.step(problem.grid, now)
+            state = outcome.state
+            F, load = self._settle(state, now.changes)
+            if self._fluid and now.changes.total == 0 and problem.rms(F) <= tolerance:
                 # The fluid was solved at the gap before: what counts is F at its own.
                 state.H = problem.gap(state.P, state.H0)
                 F = problem.residual(state, problem.inflow(state))
-            cycle = self._cycle(len(outcome.cycles), state, F, load, changes, linear_iterations, length)
-            outcome.cycles.append(cycle)
-            self._monitor(cycle)
-            snes.setIterationNumber(cycle.step)
-            snes.setFunctionNorm(cycle.residual)
-            snes.monitor(cycle.step, cycle.residual)
-            entered += changes.entered
-            changes = Changes()
-            if self._finished(outcome, tolerance, limit):
-                answer, released = self._arbitrate(outcome, answer)
-                if not released:
+            cycle = self._tell(F, load)
+            now.entered += now.changes.entered
+            now.changes = Changes()
+            if self._finished(outcome, tolerance, now.limit):
+                self._arbitrate(now)
+                if not now.released:
                     break
-                entered = 0
-                limit = min(max_steps, cycle.step + RELEASE_STEPS)
-                changes.released += released
+                now.limit = min(max_steps, cycle.step + RELEASE_STEPS)
                 state.H = problem.gap(state.P, state.H0)
-                F, load = self._settle(state, changes)
-            elif released and entered >= released:
+                F, load = self._settle(state, now.changes)
+            elif now.released and now.entered >= now.released:
                 break  # what Eq. 2 let go has closed again: this grid cannot satisfy it
-            linear_iterations = self._correct(snes, state, F, load)
+            now.linear_iterations = self._correct(snes, state, F, load)
             reason = snes.getKSP().getConvergedReason()
-            if answer and reason < 0:
+            if now.answer and reason < 0:
                 break  # what Eq. 2 let go leaves no system that can be solved
             if reason == PETSc.KSP.ConvergedReason.DIVERGED_NANORINF:
                 outcome.reason = f"singular: no linear solution after {cycle.step} steps"
                 break
-            length = self._update(state, changes)
-        if answer and not outcome.converged:
-            self._restore(outcome, answer)
-        state = outcome.state
-        self._multigrid.space.write(x, state.P, state.H0)
-        reasons = PETSc.SNES.ConvergedReason
-        snes.setConvergedReason(
-            reasons.CONVERGED_FNORM_ABS if outcome.converged else reasons.DIVERGED_MAX_IT
-        )
+            now.step_length = self._update(state, now.changes)
+        if now.answer and not outcome.converged:
+            self._restore(now)
 
     def _settle(self, state, changes):
         """Settle the fluid at the present gap; return the residual and the load deficit."""
         problem = self._problem
         if self._fluid:
             before = state.status.copy()
-            self._fluid.solve(state, FLUID_SHARE * self._settings.tolerance)
+            self._fluid.solve(state, self._fluid_tolerance)
             changes.cavitated += problem.grid.count(before != state.status)
         inflow = problem.inflow(state)
         moved = relax_cavitation_set(problem, state, inflow)
@@ -186,6 +231,13 @@ class Newton:
             inflow = problem.inflow(state)
         self._partition.fill(state, inflow, changes)
         return problem.residual(state, inflow), problem.load_deficit(state.P)
+
+    @property
+    def _fluid_tolerance(self):
+        """Of the fluid solved apart: well ahead of the rest, whose next step moves the gap anyway."""
+        cycles = self._now.outcome.cycles
+        reached = cycles[-1].residual if cycles else 1.0
+        return max(FLUID_SHARE * self._settings.tolerance, FLUID_AHEAD * min(reached, FIRST_RESIDUAL))
 
     def _correct(self, snes, state, F, load):
         """Solve the linearised bordered system into `_correction`; return the iterations."""
@@ -197,7 +249,8 @@ class Newton:
         self._multigrid.linearise(state.P, state.H, status, squeeze)
         self._write_residual(self._rhs, F, load, sign=-1.0)
         ksp = snes.getKSP()
-        ksp.solve(self._rhs, self._correction)
+        with linear_solve():
+            ksp.solve(self._rhs, self._correction)
         return ksp.getIterationNumber()
 
     def _update(self, state, changes):
@@ -235,55 +288,59 @@ class Newton:
             return False
         return True
 
-    def _arbitrate(self, outcome, answer):
-        """Release from a settled state what breaks Eq. 2; return the answer to keep and how many.
+    def _arbitrate(self, now):
+        """Release from a settled state what breaks Eq. 2; sets `answer` and `released`.
 
         Contact pressures jump where a node opens: the state found then may break Eq. 2 at more
         nodes, or not settle at all. The one that settled with the fewest is the answer.
         """
+        outcome, now.released = now.outcome, 0
         if not outcome.converged:
-            return answer, 0
+            return
         violations = self._problem.grid.count(self._partition.violations(outcome.state)[0])
-        if answer and violations >= answer.violations:
+        if now.answer and violations >= now.answer.violations:
             outcome.converged = False
-            return answer, 0
-        kept = Answer(outcome.state.copy(), outcome.reason, violations)
-        released = self._partition.release_violations(outcome.state)
-        outcome.converged = released == 0
-        return kept, released
+            return
+        now.answer = Answer(outcome.state.copy(), outcome.reason, violations)
+        now.released, now.entered = self._partition.release_violations(outcome.state), 0
+        now.changes.released += now.released
+        outcome.converged = now.released == 0
 
-    def _restore(self, outcome, answer):
+    def _restore(self, now):
         """Make a kept answer the outcome, and its state the last of the history."""
-        state = answer.state
-        outcome.state, outcome.converged, outcome.reason = state, True, answer.reason
+        outcome, state = now.outcome, now.answer.state
+        outcome.state, outcome.converged, outcome.reason = state, True, now.answer.reason
         outcome.contradictions = []
-        F, load = (
-            self._problem.residual(state, self._problem.inflow(state)),
-            self._problem.load_deficit(state.P),
-        )
-        cycle = self._cycle(len(outcome.cycles), state, F, load, Changes(), 0, 0.0)
-        outcome.cycles.append(cycle)
-        self._monitor(cycle)
+        now.changes, now.linear_iterations, now.step_length = Changes(), 0, 0.0
+        F = self._problem.residual(state, self._problem.inflow(state))
+        self._tell(F, self._problem.load_deficit(state.P))
 
-    def _cycle(self, step, state, F, load, changes, linear_iterations, length):
-        problem = self._problem
-        counts = problem.counts(state.status)
-        central, minimum = problem.films(state)
-        return Cycle(
-            step, problem.rms(F), load, central, minimum, *counts, changes, linear_iterations, length
-        )
+    def _tell(self, F, load):
+        """Add the present state to the history, tell the monitors; return the `Cycle`."""
+        now, problem, snes = self._now, self._problem, self._snes
+        cycles, state = now.outcome.cycles, now.outcome.state
+        cycle = Cycle(
+            len(cycles), problem.rms(F), load, *problem.films(state), *problem.counts(state.status),
+            now.changes, now.linear_iterations, now.step_length,
+        )  # fmt: skip
+        cycles.append(cycle)
+        self._monitor(cycle)
+        snes.setIterationNumber(cycle.step)
+        snes.setFunctionNorm(cycle.residual)
+        snes.monitor(cycle.step, cycle.residual)
+        return cycle
 
     def _form_function(self, _snes, x, f):
         """f = bordered residual at x for the present partition."""
         P, H0 = self._multigrid.space.read(x)
-        state = self._problem.state(P, H0, self._outcome.state.status)
+        state = self._problem.state(P, H0, self._now.outcome.state.status)
         F = self._problem.residual(state, self._problem.inflow(state))
         self._write_residual(f, F, self._problem.load_deficit(P))
 
     def _form_jacobian(self, _snes, x, _J, _preconditioner):
         """Linearise at x for the present partition."""
         P, H0 = self._multigrid.space.read(x)
-        state = self._problem.state(P, H0, self._outcome.state.status)
+        state = self._problem.state(P, H0, self._now.outcome.state.status)
         self._multigrid.linearise(state.P, state.H, state.status)
 
     def _write_residual(self, vec, F, load, sign=1.0):

@@ -51,18 +51,39 @@ class Contradiction:
     neighbours: tuple
 
 
+@dataclass
+class Past:
+    """What the nodes went through, all (lines, nx): it decides what they may do next."""
+
+    budget: np.ndarray
+    """Releases on Eq. 2 that are left."""
+    just_released: np.ndarray
+    was_released: np.ndarray
+    turns: np.ndarray
+    """Between film and contact."""
+    closing_gap: np.ndarray
+    torn_pressure: np.ndarray
+
+    @classmethod
+    def none(cls, shape, release_budget):
+        """Of nodes that went through nothing yet."""
+        return cls(
+            budget=np.full(shape, release_budget, dtype=np.int8),
+            just_released=np.zeros(shape, dtype=bool),
+            was_released=np.zeros(shape, dtype=bool),
+            turns=np.zeros(shape, dtype=np.int8),
+            closing_gap=np.zeros(shape),
+            torn_pressure=np.zeros(shape),
+        )
+
+
 class Partition:
-    """Moves nodes of a state between the sets; owns the budget of releases on Eq. 2."""
+    """Moves nodes of a state between the sets; `past` is the nodes' own, and may be put back."""
 
     def __init__(self, problem, film_threshold, release_budget):
         self._problem, self._grid = problem, problem.grid
         self._film_threshold = film_threshold
-        shape = problem.grid.shape
-        self._budget = np.full(shape, release_budget, dtype=np.int8)
-        self._just_released = np.zeros(shape, dtype=bool)
-        self._was_released = np.zeros(shape, dtype=bool)
-        self._turns = np.zeros(shape, dtype=np.int8)
-        self._closing_gap, self._torn_pressure = np.zeros(shape), np.zeros(shape)
+        self.past = Past.none(problem.grid.shape, release_budget)
 
     def cut_tension(self, P, status, changes):
         """Set negative pressures to zero in place: fluid cavitates, contact is released."""
@@ -70,13 +91,13 @@ class Partition:
         torn, tensile = negative & (status == LUBRICATED), negative & (status == CONTACT)
         if not self._problem.scheme.cavitation:
             torn[:] = False
-        self._torn_pressure[tensile] = P[tensile]
-        self._turns += tensile
+        self.past.torn_pressure[tensile] = P[tensile]
+        self.past.turns += tensile
         P[torn | tensile] = 0.0
         # A released node has no gap yet: held at P = 0 for one step, it opens one.
         status[torn | tensile] = CAVITATED
-        self._just_released = tensile
-        self._was_released |= tensile
+        self.past.just_released = tensile
+        self.past.was_released |= tensile
         changes.cavitated += self._grid.count(torn)
         changes.released += self._grid.count(tensile)
 
@@ -87,10 +108,10 @@ class Partition:
         between 0 and H_th it would be torn off and put back for ever.
         """
         fluid = (state.status == LUBRICATED) | (state.status == CAVITATED)
-        threshold = np.where(self._was_released, 0.0, self._film_threshold)
-        closed = fluid & (state.H <= threshold) & ~self._just_released
-        self._closing_gap[closed] = state.H[closed]
-        self._turns += closed
+        threshold = np.where(self.past.was_released, 0.0, self._film_threshold)
+        closed = fluid & (state.H <= threshold) & ~self.past.just_released
+        self.past.closing_gap[closed] = state.H[closed]
+        self.past.turns += closed
         state.status[closed] = CONTACT
         changes.entered += self._grid.count(closed)
         changes.entered += int(self._grid.sum(close_gaps(state.status)))
@@ -107,16 +128,16 @@ class Partition:
     @property
     def restless(self):
         """True when a node has turned between film and contact so often that it will not settle."""
-        return self._grid.max(self._turns, initial=0) >= RESTLESS
+        return self._grid.max(self.past.turns, initial=0) >= RESTLESS
 
     def contradictions(self, status):
         """The restless nodes that were torn open as often as closed, all ranks' in order."""
         around = self._grid.halo_status(status)
-        torn = self._torn_pressure < 0.0
+        torn = self.past.torn_pressure < 0.0
         local = []
-        for j, i in np.argwhere((self._turns >= RESTLESS - 3) & torn):
+        for j, i in np.argwhere((self.past.turns >= RESTLESS - 3) & torn):
             beside = (around[j + 1, i - 1], around[j + 1, i + 1], around[j, i], around[j + 2, i])
-            gap, pressure = float(self._closing_gap[j, i]), float(self._torn_pressure[j, i])
+            gap, pressure = float(self.past.closing_gap[j, i]), float(self.past.torn_pressure[j, i])
             names = tuple(NAMES[each] for each in beside)
             local.append(Contradiction(int(i) + 1, int(j) + self._grid.first + 1, gap, pressure, names))
         return [each for part in self._grid.comm.allgather(local) for each in part]
@@ -133,11 +154,11 @@ class Partition:
         The fluid beside such a node would pry it open: it becomes film under that fluid's pressure.
         """
         released, beside = self.violations(state)
-        released &= self._budget > 0
-        self._budget[released] -= 1
+        released &= self.past.budget > 0
+        self.past.budget[released] -= 1
         state.status[released] = LUBRICATED
         state.P[released] = beside[released]
-        self._just_released = released
-        self._was_released |= released
-        self._turns[:] = 0
+        self.past.just_released = released
+        self.past.was_released |= released
+        self.past.turns[:] = 0
         return self._grid.count(released)

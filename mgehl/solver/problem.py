@@ -7,6 +7,7 @@ import numpy as np
 from mgehl.discretization.influence import influence_coefficients
 from mgehl.discretization.residual import net_inflow, residual
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT
+from mgehl.grid.events import ASSEMBLY, event
 
 DIVERGED = 1e10
 """Residual from which there is no way back; that of a first guess is below 1e4."""
@@ -35,6 +36,7 @@ class Problem:
         self.grid, self.contact, self.scheme = grid, contact, scheme
         self.boundary = grid.boundary()
 
+    @event(ASSEMBLY)
     def inflow(self, state):
         """Net inflow/(dX dY) of every node  [Liu eq. 35]."""
         halo = self.grid.halo

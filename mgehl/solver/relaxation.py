@@ -22,6 +22,7 @@ from mgehl.discretization.status import (
     close_gaps,
     open_x_faces,
 )
+from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.newton import Outcome
 from mgehl.solver.problem import DIVERGED
 
@@ -67,14 +68,36 @@ class Sweep:
     e_p_solid: float
 
 
-def relax(problem, state, settings, monitor):
+@dataclass
+class Standing:
+    """Where the relaxation stands before a sweep; the state is the outcome's."""
+
+    outcome: Outcome
+    step: int = 0
+
+
+def relax(problem, state, settings, monitor, journal=NOTHING_KEPT):
     """Relax `state` in place until its true residual and load hold; return the `Outcome`.
 
-    One convolution a sweep. `monitor` is called with a `Sweep` every `report_every` sweeps.
+    One convolution a sweep. `monitor` is called with a `Sweep` every `report_every` sweeps. The
+    `journal` is told as often, and may know this solve or its first part already.
     """
+    outcome = journal.recall(problem.grid)
+    if outcome is None:
+        standing = journal.standing(problem.grid) or Standing(Outcome(state, False, ""))
+        outcome = _relax(problem, standing, settings, monitor, journal)
+        journal.finish(problem.grid, outcome)
+    return outcome
+
+
+def _relax(problem, standing, settings, monitor, journal):
+    """The sweeps from `standing` on."""
     relaxation = _Relaxation(problem, settings)
-    outcome = Outcome(state, False, "")
-    for step in range(settings.max_sweeps + 1):
+    outcome, state = standing.outcome, standing.outcome.state
+    for step in range(standing.step, settings.max_sweeps + 1):
+        if step % settings.report_every == 0:
+            standing.step = step
+            journal.step(problem.grid, standing)
         relaxation.mark_contact(state)
         inflow = problem.inflow(state)
         relaxation.mark_cavities(state, inflow)

@@ -7,6 +7,7 @@ from petsc4py import PETSc
 
 from mgehl.discretization.fluid import fluid_state
 from mgehl.discretization.status import BOUNDARY, CAVITATED, LUBRICATED
+from mgehl.grid.events import linear_solve
 from mgehl.solver.cavitation import relax_cavitation_set, weakly_coupled
 from mgehl.solver.problem import DIVERGED
 
@@ -85,6 +86,7 @@ class RigidGapFluid:
         space = self._multigrid.space
         self._multigrid.linearise(state.P, state.H, np.where(given, BOUNDARY, state.status))
         space.write(self._rhs, -residual, 0.0)
-        self._ksp.solve(self._rhs, self._correction)
+        with linear_solve():
+            self._ksp.solve(self._rhs, self._correction)
         # Elsewhere the correction is zero but for the rounding of an algebraic multigrid.
         state.P[solved] += space.read(self._correction)[0][solved]

@@ -1,23 +1,12 @@
 """Pictures of the studies of films and methods."""
 
-import matplotlib
-
-matplotlib.use("Agg")
-
-import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
-
-from mgehl.output.picture import STYLE  # noqa: E402
-
-COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#555555")
-"""Colour-blind safe (Okabe and Ito)."""
-
-MARKS = ("o", "s", "^", "v", "D", "<", ">")
+from mgehl.output.style import COLOURS, MARKS, applied, save, subplots
 
 
 def schemes(path, nodes, films):
     """Central and minimum film against the spacing, a line for each scheme."""
-    with plt.rc_context(STYLE):
-        figure, panels = plt.subplots(1, 2, figsize=(10.5, 4.2), layout="constrained")
+    with applied():
+        figure, panels = subplots(1, 2, size=(10.5, 4.2))
         for panel, which, title in zip(panels, (0, 1), ("central film", "minimum film"), strict=True):
             for (scheme, values), colour, mark in zip(films.items(), COLOURS, MARKS, strict=False):
                 heights = [value[which] for value in values]
@@ -32,8 +21,8 @@ def schemes(path, nodes, films):
 
 def line(path, rows):
     """Central and minimum film over the formulas' against speed, a line for each pressure."""
-    with plt.rc_context(STYLE):
-        figure, panels = plt.subplots(1, 2, figsize=(10.5, 4.2), layout="constrained")
+    with applied():
+        figure, panels = subplots(1, 2, size=(10.5, 4.2))
         pressures = list(dict.fromkeys(row["p_h GPa"] for row in rows))
         for panel, film in zip(panels, ("central", "minimum"), strict=True):
             for pressure, colour, mark in zip(pressures, COLOURS, MARKS, strict=False):
@@ -50,8 +39,8 @@ def line(path, rows):
 
 def inlet(path, rows):
     """Central film and the pressure ratio at the interface against the cells in the inlet."""
-    with plt.rc_context(STYLE):
-        figure, (films, ratios) = plt.subplots(1, 2, figsize=(10.5, 4.6), layout="constrained")
+    with applied():
+        figure, (films, ratios) = subplots(1, 2, size=(10.5, 4.6))
         for speed, colour in zip(dict.fromkeys(row["speed mm/s"] for row in rows), COLOURS, strict=False):
             own = [row for row in rows if row["speed mm/s"] == speed]
             for start, mark in (("film", "o"), ("contact", "x")):
@@ -78,10 +67,8 @@ def _points(rows, column):
 
 def histories(path, cases):
     """True residual against convolutions, by both methods."""
-    with plt.rc_context(STYLE):
-        figure, panels = plt.subplots(
-            1, len(cases), figsize=(4.2 * len(cases), 3.9), layout="constrained", squeeze=False
-        )
+    with applied():
+        figure, panels = subplots(1, len(cases), size=(4.2 * len(cases), 3.9), squeeze=False)
         for panel, (name, methods) in zip(panels[0], cases.items(), strict=True):
             for (method, rows), colour in zip(methods.items(), COLOURS, strict=False):
                 finest = [row for row in rows if row["grid"] == rows[-1]["grid"]]
@@ -95,9 +82,3 @@ def histories(path, cases):
 
 def _cells(rows):
     return [float(row["inlet cells"]) for row in rows]
-
-
-def save(figure, path):
-    """Write a figure and forget it."""
-    figure.savefig(path)
-    plt.close(figure)

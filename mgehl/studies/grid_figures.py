@@ -1,21 +1,15 @@
 """Pictures of the grid study: Figures 11, 12 and 13."""
 
-import matplotlib
+import numpy as np
 
-matplotlib.use("Agg")
-
-import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
-import numpy as np  # noqa: E402
-
-from mgehl.discretization.status import CONTACT  # noqa: E402
-from mgehl.output.picture import STYLE  # noqa: E402
-from mgehl.studies.film_figures import COLOURS, MARKS, save  # noqa: E402
+from mgehl.discretization.status import CONTACT
+from mgehl.output.style import COLOURS, MARKS, applied, save, subplots
 
 
 def against_hertz(path, profiles):
     """Pressure minus Hertz and the residual gap in the contact, along X and along Y."""
-    with plt.rc_context(STYLE):
-        figure, panels = plt.subplots(2, 2, figsize=(10.5, 6.4), layout="constrained", sharex="col")
+    with applied():
+        figure, panels = subplots(2, 2, size=(10.5, 6.4), sharex="col")
         for line, name in enumerate(("X = x/a, at Y = 0", "Y = y/b, at X = 0")):
             difference, gap = panels[:, line]
             for profile, colour in zip(profiles, COLOURS, strict=False):
@@ -36,8 +30,8 @@ def against_hertz(path, profiles):
 
 def before_interface(path, profiles):
     """Pressure and gap before the contact on Y = 0, pressure on linear and logarithmic axes."""
-    with plt.rc_context(STYLE):
-        figure, panels = plt.subplots(1, 3, figsize=(13.0, 4.2), layout="constrained")
+    with applied():
+        figure, panels = subplots(1, 3, size=(13.0, 4.2))
         for profile, colour, mark in zip(profiles, COLOURS, MARKS, strict=False):
             contact = np.flatnonzero(profile.status[0] == CONTACT)
             shown = slice(0, contact[0] + 1)

@@ -1,15 +1,11 @@
 """Pictures of the transition: Figure 14, both branches, the bracket of the means, the onset."""
 
 import matplotlib
+import numpy as np
 
-matplotlib.use("Agg")
-
-import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
-import numpy as np  # noqa: E402
-
-from mgehl.discretization.status import CONTACT  # noqa: E402
-from mgehl.output.picture import STYLE  # noqa: E402
-from mgehl.studies.film_figures import COLOURS, MARKS, save  # noqa: E402
+from mgehl.discretization.status import CONTACT
+from mgehl.output.blocks import Blocks
+from mgehl.output.style import COLOURS, MARKS, applied, save, subplots
 
 PROFILES = 6
 """Speeds in Figure 14a and b, from the last full film to the first full contact."""
@@ -20,8 +16,8 @@ FULL = 0.95
 
 def branches(path, followed, points):
     """Films and contact ratio against speed, both branches, with the formulas."""
-    with plt.rc_context(STYLE):
-        figure, (films, ratio) = plt.subplots(1, 2, figsize=(10.5, 4.6), layout="constrained")
+    with applied():
+        figure, (films, ratio) = subplots(1, 2, size=(10.5, 4.6))
         for branch, colour, mark in zip(("down", "up"), COLOURS, ("v", "^"), strict=False):
             own = [point for point in points if point.branch == branch and point.result.settled]
             if not own:
@@ -58,8 +54,8 @@ def figure_14(path, followed, points):
     own = [point for point in points if point.branch == branch and point.result.settled]
     mesh, nm = followed.mesh, 1e9 * followed.contact.film_scale
     i, j = mesh.nearest(0.0, 0.0)
-    with plt.rc_context(STYLE):
-        figure, (across, inlet, film) = plt.subplots(1, 3, figsize=(14.0, 4.4), layout="constrained")
+    with applied():
+        figure, (across, inlet, film) = subplots(1, 3, size=(14.0, 4.4))
         shown = _between_film_and_contact(own)
         for point, colour in zip(shown, COLOURS, strict=False):
             label = f"{1e3 * point.speed:.3g} mm/s"
@@ -77,9 +73,11 @@ def figure_14(path, followed, points):
 
 
 def _film_map(figure, axes, mesh, point, nm):
-    H = np.ma.masked_where(point.fields.status == CONTACT, point.fields.H * nm)
-    colours = plt.get_cmap("viridis").with_extremes(bad="black")
-    image = axes.pcolormesh(mesh.X, mesh.Y, H, cmap=colours, vmin=0.0, vmax=20.0, rasterized=True)
+    blocks = Blocks(mesh.X, mesh.Y)
+    contact = blocks.largest(point.fields.status) == CONTACT
+    H = np.ma.masked_where(contact, blocks.least(point.fields.H * nm))
+    colours = matplotlib.colormaps[matplotlib.rcParams["image.cmap"]].with_extremes(bad="black")
+    image = axes.pcolormesh(blocks.X, blocks.Y, H, cmap=colours, vmin=0.0, vmax=20.0, rasterized=True)
     figure.colorbar(image, ax=axes, label="film, nm (black: contact)", extend="max")
     axes.set(aspect="equal", xlim=(-1.2, 1.2), ylim=(-1.2, 1.2), xlabel="X = x/a", ylabel="Y = y/b")
     axes.set_title(f"c  film at {1e3 * point.speed:.3g} mm/s")
@@ -87,10 +85,8 @@ def _film_map(figure, axes, mesh, point, nm):
 
 def bracket(path, nodes, rows):
     """The films of three means on each grid as a band, with the formulas in it."""
-    with plt.rc_context(STYLE):
-        figure, panels = plt.subplots(
-            2, len(nodes), figsize=(3.4 * len(nodes), 6.6), layout="constrained", squeeze=False, sharex=True
-        )
+    with applied():
+        figure, panels = subplots(2, len(nodes), size=(3.4 * len(nodes), 6.6), squeeze=False, sharex=True)
         for column, n in enumerate(nodes):
             for panel, film in zip(panels[:, column], ("central", "minimum"), strict=True):
                 for mean, colour, mark in zip(
@@ -129,8 +125,8 @@ def _band(rows, film):
 
 def onset(path, rows, powers):
     """The critical speeds against the spacing, with the fitted powers."""
-    with plt.rc_context(STYLE):
-        figure, axes = plt.subplots(figsize=(5.6, 4.2), layout="constrained")
+    with applied():
+        figure, axes = subplots(size=(5.6, 4.2))
         for (column, power), colour, mark in zip(powers.items(), COLOURS, MARKS, strict=False):
             own = [row for row in rows if row[column]]
             dX = [float(row["dX"]) for row in own]

@@ -1,24 +1,13 @@
 """Figures 7 to 10 of the paper, drawn from the wedge study's solutions."""
 
-import matplotlib
+import numpy as np
 
-matplotlib.use("Agg")
+from mgehl.model.wedge_series import WedgeSeries
+from mgehl.output import style, wedge_picture
+from mgehl.output.center_line import center_line
 
-import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
-import numpy as np  # noqa: E402
-
-from mgehl.model.wedge_series import WedgeSeries  # noqa: E402
-from mgehl.output import wedge_picture  # noqa: E402
-from mgehl.output.center_line import center_line  # noqa: E402
-from mgehl.output.picture import STYLE  # noqa: E402
-
-COLOURS = {
-    "square pillar": "#0072B2",
-    "cylindrical pillar": "#D55E00",
-    "blocked exit": "#009E73",
-    "no blockage": "#555555",
-}
-"""Colour-blind safe (Okabe and Ito)."""
+SHAPES = ("square pillar", "cylindrical pillar", "blocked exit", "no blockage")
+COLOURS = dict(zip(SHAPES, (*style.COLOURS[:3], style.COLOURS[-1]), strict=True))
 
 LIMITS = (-0.026, 0.018)
 """P of both pressure maps, as one colour scale."""
@@ -26,24 +15,23 @@ LIMITS = (-0.026, 0.018)
 
 def pressure_map(path, solution):
     """Figures 7 and 8: the pressure over the pad."""
-    with plt.rc_context(STYLE):
-        figure, axes = plt.subplots(figsize=(6.2, 3.9), layout="constrained")
+    with style.applied():
+        figure, axes = style.subplots(size=(6.2, 3.9))
         image = wedge_picture.pressure_map(axes, solution.mesh, solution.fields, LIMITS)
         figure.colorbar(image, ax=axes, label="P = m$^2$p/($\\eta$u), 1/mm", extend="both")
         axes.set_title(f"{solution.contact.pillar} pillar (grey); the film moves towards small X")
-        figure.savefig(path)
-        plt.close(figure)
+        style.save(figure, path)
 
 
 def center_lines(path, solutions):
     """Figure 9: all four cases on Y = 0, the blocked exit's series as marks."""
-    with plt.rc_context(STYLE):
-        figure, axes = plt.subplots(figsize=(6.8, 4.4), layout="constrained")
+    with style.applied():
+        figure, axes = style.subplots(size=(6.8, 4.4))
         for shape, colour in COLOURS.items():
-            style = "--" if shape == "no blockage" else "-"
+            dash = "--" if shape == "no blockage" else "-"
             axes.plot(
                 *center_line(solutions[shape].mesh, solutions[shape].fields),
-                style,
+                dash,
                 color=colour,
                 label=shape,
             )
@@ -52,25 +40,23 @@ def center_lines(path, solutions):
         label = "blocked exit, series"
         axes.plot(X, series.pressure(X), "s", color=COLOURS["blocked exit"], markersize=4, label=label)
         _finish(axes, "Figure 9: pressure on Y = 0")
-        figure.savefig(path)
-        plt.close(figure)
+        style.save(figure, path)
 
 
 def untreated(path, solutions):
     """Figure 10: what an untreated Couette flow does, in both orientations."""
-    with plt.rc_context(STYLE):
-        figure, panels = plt.subplots(1, 2, figsize=(11.5, 4.4), layout="constrained")
+    with style.applied():
+        figure, panels = style.subplots(1, 2, size=(11.5, 4.4))
         titles = ("(a) film moves against the differencing", "(b) turned: with the differencing")
         for axes, turned, title in zip(panels, ("", ", turned"), titles, strict=True):
             for shape in ("square pillar", "cylindrical pillar"):
-                for case, style, label in (("", "-", shape), (", untreated", "--", f"{shape}, NTCF")):
+                for case, dash, label in (("", "-", shape), (", untreated", "--", f"{shape}, NTCF")):
                     solution = solutions[f"{shape}{turned}{case}"]
                     line = center_line(solution.mesh, solution.fields)
-                    axes.plot(*line, style, color=COLOURS[shape], label=label)
+                    axes.plot(*line, dash, color=COLOURS[shape], label=label)
             _finish(axes, title)
         figure.suptitle("Figure 10: scheme 1B with and without treatment of the Couette flow (NTCF)")
-        figure.savefig(path)
-        plt.close(figure)
+        style.save(figure, path)
 
 
 def _finish(axes, title):

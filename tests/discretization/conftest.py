@@ -45,7 +45,7 @@ def mixed(film):
     contact = [(0, 4), (2, 3), (2, 4), (3, 3), (3, 1), (5, 5)]
     cavitated = [(2, 5), (3, 6), (4, 6), (6, 2), (1, 2)]
     for nodes, kind in ((contact, CONTACT), (cavitated, CAVITATED)):
-        film.status[tuple(zip(*nodes))] = kind
+        film.status[tuple(zip(*nodes, strict=True))] = kind
     film.P[film.status == CAVITATED] = 0.0
     # The gap of a contact node is zero when converged, and of either sign on the way there.
     film.H[film.status == CONTACT] = [0.0, 1e-3, -2e-3, 0.0, 3e-3, -1e-3]

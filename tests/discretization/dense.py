@@ -21,7 +21,7 @@ def dense_stencil(stencil):
     """Matrix (lines nx, (lines + 2) nx) from ghosted nodes to rows."""
     _, lines, nx = stencil.shape
     matrix = np.zeros((lines, nx, lines + 2, nx))
-    for (dj, di), coefficient in zip(OFFSETS, stencil):
+    for (dj, di), coefficient in zip(OFFSETS, stencil, strict=True):
         for j, i in np.argwhere(coefficient != 0.0):
             matrix[j, i, j + 1 + dj, i + di] = coefficient[j, i]
     return matrix.reshape(lines * nx, -1)

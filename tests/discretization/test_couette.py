@@ -120,7 +120,7 @@ def test_nothing_is_extrapolated_from_the_far_side_of_a_contact(scheme, flow):
 def test_motion_against_the_differencing_turns_every_flow_round():
     for scheme in SCHEMES:
         with_it, against = couette_flows(scheme), couette_flows(scheme, motion=-1)
-        for one, other in zip(with_it, against):
+        for one, other in zip(with_it, against, strict=True):
             np.testing.assert_array_equal(one.value, -other.value)
 
 
@@ -141,7 +141,7 @@ def test_schemes_of_a_difference_of_rho_H_are_conservative():
     ],
 )
 def test_derivatives_through_an_inner_face(scheme, leaves, enters):
-    for flow, terms in zip(couette_flows(scheme, linearised=True), (leaves, enters)):
+    for flow, terms in zip(couette_flows(scheme, linearised=True), (leaves, enters), strict=True):
         by_P, by_H = np.zeros(4), np.zeros(4)
         for c, a, b in terms:
             # Nodes 0 to 3 are WW, W, E, EE of the face between nodes 1 and 2.

@@ -68,7 +68,9 @@ def test_contact_closes_a_face_for_both_flows_and_all_derivatives(scheme, mixed,
         return (*x_flows(fluid, status, mixed.mesh, Scheme(scheme), True), across)
 
     without = flows(np.where(x, LUBRICATED, mixed.status))
-    for flow, free, closed in zip(flows(mixed.status), without, (closed_x, closed_x, closed_y)):
+    for flow, free, closed in zip(
+        flows(mixed.status), without, (closed_x, closed_x, closed_y), strict=True
+    ):
         unlike = closed | reaches_across(flow, x)
         for array, free_array in zip(arrays_of(flow), arrays_of(free), strict=True):
             assert (array[closed] == 0.0).all()
@@ -164,7 +166,7 @@ def assert_derivatives(flow, function, state, faces_of):
             expected = np.zeros(shape)
             for position in listed:
                 face = faces_of(node, position)
-                if all(0 <= index < length for index, length in zip(face, shape)):
+                if all(0 <= index < length for index, length in zip(face, shape, strict=True)):
                     expected[face] = listed[position][face]
             measured = differences_by_node(function, state.P, state.H, name, node)
             np.testing.assert_allclose(measured, expected, rtol=1e-6, atol=1e-8 * scale)

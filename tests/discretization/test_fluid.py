@@ -89,7 +89,7 @@ def test_means_are_ordered_and_symmetric():
     assert (means["harmonic"] <= means["geometric"] * (1 + 1e-15)).all()
     assert (means["geometric"] <= means["arithmetic"] * (1 + 1e-15)).all()
     assert means["geometric"][0] == pytest.approx(sqrt(2.0), rel=1e-15)
-    for name, mean in FACE_MEANS.items():
+    for mean in FACE_MEANS.values():
         value, by_a, by_b = mean(a, b)
         swapped, by_b_swapped, by_a_swapped = mean(b, a)
         np.testing.assert_allclose(swapped, value, rtol=1e-15)

@@ -101,7 +101,7 @@ def test_banded_solve_against_dense(nx, rng):
     r, w = rng.standard_normal((lines, nx)), np.full((lines, nx), np.nan)
     factor_bands(bands)
     solve_bands(bands, r, w)
-    expected = [np.linalg.solve(matrix, line) for matrix, line in zip(dense, r)]
+    expected = [np.linalg.solve(matrix, line) for matrix, line in zip(dense, r, strict=True)]
     np.testing.assert_allclose(w, expected, rtol=1e-12, atol=1e-14)
 
 

@@ -3,6 +3,8 @@ from types import SimpleNamespace
 
 import pytest
 
+from mgehl.model import films
+from mgehl.model.contact import Groups
 from mgehl.model.films import dowson_higginson, grubin, hamrock_dowson, nijenbanning_venner_moes
 from mgehl.model.lubricant import Barus, DowsonHigginson, Lubricant
 from mgehl.model.point import PointContact
@@ -81,3 +83,27 @@ def test_dowson_higginson():
     central = 3.06 * exp(0.69 * log(1e-11) + 0.56 * log(4500.0) - 0.10 * log(1e-4))
     minimum = 2.65 * exp(0.70 * log(1e-11) + 0.54 * log(4500.0) - 0.13 * log(1e-4))
     assert dowson_higginson(groups, 0.02) == pytest.approx((0.02 * central, 0.02 * minimum), rel=1e-13)
+
+
+@pytest.mark.parametrize(
+    "M, L, name",
+    [
+        (1.0, 0.1, "rigid isoviscous"),
+        (1000.0, 0.1, "elastic isoviscous"),
+        (3.0, 20.0, "rigid piezoviscous"),
+        (2000.0, 10.0, "elastic piezoviscous"),
+    ],
+)
+@pytest.mark.parametrize(
+    "asymptotes", [lambda groups: films.point_asymptotes(groups, 1.0), films.line_asymptotes]
+)
+def test_regime_is_the_corner_of_moes_chart(asymptotes, M, L, name):
+    assert films.regime(*asymptotes(Groups(0.0, 0.0, 0.0, M=M, L=L))) == name
+
+
+def test_heavily_loaded_line_contact_is_near_its_asymptote():
+    """Moes' elastic piezoviscous asymptote beside the formula of the type of Dowson and Higginson."""
+    U, L, M = 1e-11, 10.0, 100.0
+    groups = Groups(U, M * (2.0 * U) ** 0.5, L * (2.0 * U) ** -0.25, M=M, L=L)
+    central, _ = films.dowson_higginson(groups, 1.0)
+    assert films.line_asymptotes(groups)[3] * (2.0 * U) ** 0.5 == pytest.approx(central, rel=0.1)

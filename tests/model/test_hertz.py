@@ -1,11 +1,19 @@
-from math import acos, cos, pi, sin, sqrt
+from math import acos, cos, pi, sin, sqrt, tan
 
 import numpy as np
 import pytest
 from scipy.integrate import dblquad, quad
+from scipy.optimize import brentq
 from scipy.special import elliprd, elliprf
 
-from mgehl.model.hertz import edge_gap_coefficient, hertz_contact, hertz_line_contact, hertz_pressure
+from mgehl.model.hertz import (
+    edge_gap_coefficient,
+    hertz_contact,
+    hertz_gap,
+    hertz_line_contact,
+    hertz_line_gap,
+    hertz_pressure,
+)
 
 E = 219.78e9
 
@@ -185,3 +193,51 @@ def test_edge_gap_of_a_line():
     r = 1.0 + 1e-4
     gap = 0.5 * contact.a**2 / R * (r * sqrt(r * r - 1.0) - np.arccosh(r))
     assert C * 1e-4**1.5 == pytest.approx(gap, rel=1e-4)
+
+
+def test_gap_of_a_circle():
+    """h = (a^2/(pi R)) ((r^2 - 2) arccos(1/r) + sqrt(r^2 - 1)), in every direction; none inside."""
+    R = 12.7e-3
+    contact = hertz_contact(800.0, R, R, E)
+    r = np.array([1.001, 1.1, 1.9, 5.0])
+    exact = contact.a**2 / (pi * R) * ((r * r - 2.0) * np.arccos(1.0 / r) + np.sqrt(r * r - 1.0))
+    for angle in (0.0, 0.7, pi / 2):
+        x, y = contact.a * r * cos(angle), contact.a * r * sin(angle)
+        np.testing.assert_allclose(hertz_gap(contact, E, x, y), exact, rtol=1e-9)
+    inside = contact.a * np.array([0.0, 0.5, -0.99])
+    assert (hertz_gap(contact, E, inside, 0.1 * inside) == 0.0).all()
+
+
+@ellipses
+@pytest.mark.parametrize("X, Y", [(1.3, 0.0), (0.0, -1.3), (0.8, 0.9)])
+def test_gap_of_an_ellipse(radius_x, radius_y, X, Y):
+    """Undeformed gap, less the approach, and the deflection outside: that integral from the confocal
+    ellipse outwards, where `hertz_gap` goes inwards [Johnson 1985, sec. 3.5]."""
+    contact = hertz_contact(800.0, radius_x, radius_y, E)
+    a, b, x, y = contact.a, contact.b, X * contact.a, Y * contact.b
+    w = brentq(lambda w: x**2 / (a**2 + w) + y**2 / (b**2 + w) - 1.0, 0.0, 4.0 * (x**2 + y**2), xtol=1e-22)
+
+    def integrand(v):  # w = a b tan^2 v
+        t = sqrt(a * b) * tan(v)
+        inside = 1.0 - x**2 / (a**2 + t**2) - y**2 / (b**2 + t**2)
+        return inside / sqrt((a**2 + t**2) * (b**2 + t**2)) * sqrt(a * b) / cos(v) ** 2
+
+    first = np.arctan(sqrt(w / (a * b)))
+    deflection = contact.p_h * a * b * 2.0 / E * quad(integrand, first, pi / 2, epsrel=1e-11)[0]
+    gap = x**2 / (2 * radius_x) + y**2 / (2 * radius_y) + deflection - contact.approach
+    scale = contact.a**2 / radius_x
+    found = hertz_gap(contact, E, np.array([x]), np.array([y]))[0]
+    assert found / scale == pytest.approx(gap / scale, rel=1e-6, abs=1e-8)
+
+
+def test_gap_of_a_line():
+    """Tends to C s^(3/2) at the edge and to the parabola, less what the contact took, far away."""
+    R = 0.02
+    contact = hertz_line_contact(1e5, R, E)
+    C = edge_gap_coefficient(contact, E) * R / contact.a**2
+    X = np.array([-1.0 - 1e-4, 1.0 + 1e-4])
+    np.testing.assert_allclose(hertz_line_gap(X), C * 1e-4**1.5, rtol=1e-4)
+    assert (hertz_line_gap(np.array([-1.0, 0.0, 0.7])) == 0.0).all()
+    # Its slope is that of the parabola less the line load's: d h/dX = sqrt(X^2 - 1).
+    far = np.array([2.9999, 3.0001])
+    assert np.diff(hertz_line_gap(far))[0] / 2e-4 == pytest.approx(sqrt(8.0), rel=1e-6)

@@ -6,11 +6,13 @@ from types import SimpleNamespace
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
+from matplotlib.colors import to_rgb
 
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
 from mgehl.model.hertz import hertz_pressure
-from mgehl.output.picture import STATUS_COLOURS, draw
+from mgehl.output import style
+from mgehl.output.picture import draw
 from mgehl.output.result import Overlap
 from mgehl.output.solution import Fields, Solution
 
@@ -48,10 +50,8 @@ def image(tmp_path, solution):
 
 def share(image, colour):
     """Part of the pixels that have a colour."""
-    if colour.startswith("#"):
-        rgb = np.array([int(colour[k : k + 2], 16) for k in (1, 3, 5)]) / 255
-    else:
-        rgb = np.full(3, float(colour))
+    with style.applied():
+        rgb = np.array(to_rgb(colour))
     return float(np.mean(np.all(np.abs(image - rgb) < 0.01, axis=-1)))
 
 
@@ -62,13 +62,11 @@ def test_it_is_a_wide_image(image):
 
 def test_every_status_on_the_map_has_its_colour(image):
     for status in (LUBRICATED, CAVITATED, CONTACT):
-        assert share(image, STATUS_COLOURS[status]) > 0.005
+        assert share(image, style.STATUS_COLOURS[status]) > 0.005
 
 
 def test_the_curves_are_drawn(image):
-    from mgehl.output.picture import FILM, PRESSURE
-
-    for colour in (PRESSURE, FILM):
+    for colour in (style.PRESSURE, style.FILM):
         assert share(image, colour) > 5e-4
 
 
@@ -77,8 +75,8 @@ def test_the_map_shows_the_set_that_is_given(tmp_path, solution, image):
     status[status == CONTACT] = LUBRICATED
     draw(tmp_path / "film.png", solution)
     film = plt.imread(tmp_path / "film.png")[..., :3]
-    assert share(film, STATUS_COLOURS[CONTACT]) < 0.2 * share(image, STATUS_COLOURS[CONTACT])
-    assert share(film, STATUS_COLOURS[LUBRICATED]) > share(image, STATUS_COLOURS[LUBRICATED])
+    assert share(film, style.STATUS_COLOURS[CONTACT]) < 0.2 * share(image, style.STATUS_COLOURS[CONTACT])
+    assert share(film, style.STATUS_COLOURS[LUBRICATED]) > share(image, style.STATUS_COLOURS[LUBRICATED])
 
 
 def test_no_figure_stays_open_and_no_style_is_left(image):

@@ -37,7 +37,7 @@ class TestWedge:
     def test_files(self, directory):
         tables = {f"{name}.{kind}" for name in ("cases", "convergence") for kind in ("csv", "md")}
         figures = {f"figure_{k}.png" for k in (7, 8, 9, 10)}
-        assert {path.name for path in directory.iterdir()} == tables | figures | {"points"}
+        assert {path.name for path in directory.iterdir()} == tables | figures | {"points", "study.json"}
         assert all((directory / name).read_bytes().startswith(b"\x89PNG") for name in figures)
 
     def test_cases(self, directory):
@@ -81,7 +81,13 @@ class TestWedge:
 def test_schemes(study):
     """One grid: every scheme's film on 65 nodes as a run finds it, no limit."""
     directory = study("schemes", "65")
-    assert {path.name for path in directory.iterdir()} == {"films.csv", "films.md", "films.png", "points"}
+    assert {path.name for path in directory.iterdir()} == {
+        "films.csv",
+        "films.md",
+        "films.png",
+        "points",
+        "study.json",
+    }
     rows = read(directory / "films.csv")
     assert [row["couette"] for row in rows] == list(SCHEMES)
     assert all((row["nodes"], row["converged"]) == ("65", "yes") for row in rows)

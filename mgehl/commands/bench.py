@@ -1,0 +1,98 @@
+"""mgehl bench: time fixed cases, to compare two commits on one machine."""
+
+from mgehl.commands import CONVERGED, NOT_CONVERGED
+from mgehl.errors import UserError
+
+PARALLEL = True
+
+
+def add(commands):
+    """Add the parser."""
+    parser = commands.add_parser(
+        "bench",
+        help="time fixed cases, part by part",
+        allow_abbrev=False,
+        description="Solve fixed cases and print their convolutions, memory, and seconds in every part of "
+        "a run. A fixed FFT is timed beside each case; --compare divides by it, so that the load of the "
+        "machine matters less.",
+        epilog="example: mgehl bench --case wedge-257 --repeat 1 --json now.json",
+    )
+    parser.add_argument("--case", action="append", metavar="NAME", dest="cases",
+                        help="time this case only; may be repeated")  # fmt: skip
+    parser.add_argument("--large", action="store_true", help="time cases of 513 and 1025 nodes, too")
+    parser.add_argument("--repeat", type=int, default=2, metavar="N",
+                        help="times each case is solved; the median counts (default: 2)")  # fmt: skip
+    parser.add_argument("--json", metavar="FILE", help="write everything as JSON, too")
+    parser.add_argument("--compare", metavar="FILE", help="JSON of another commit: print what has changed")
+    return parser
+
+
+def execute(options, comm):
+    """Time the cases on all ranks; print, write, compare."""
+    from mgehl.studies.benchmark import measure, ratios, read_benchmark, write_benchmark
+
+    names = _names(options)
+    old = read_benchmark(options.compare) if options.compare else None
+    if old and old.ranks != comm.size:
+        raise UserError(f"--compare {options.compare}: is of {old.ranks} ranks, and these are {comm.size}")
+    speaks = comm.rank == 0
+    found = measure(names, options.repeat, comm, _tell if speaks else lambda timing: None)
+    if speaks:
+        print(f"\n{_table(_columns(found))}")
+        if old:
+            print(f"\ntimes those of {options.compare}:\n{_table(ratios(old, found))}")
+        if options.json:
+            write_benchmark(options.json, found)
+    return CONVERGED if all(timing.converged for timing in found.timings) else NOT_CONVERGED
+
+
+def _names(options):
+    """The cases asked for, each once. Raises UserError."""
+    from mgehl.studies.benchmark import CASES, LARGE
+
+    if options.repeat < 1:
+        raise UserError(f"--repeat {options.repeat}: must be at least 1")
+    known = CASES | LARGE
+    for name in options.cases or ():
+        if name not in known:
+            raise UserError(f"--case {name}: known are {', '.join(known)}")
+    return list(dict.fromkeys(options.cases or (known if options.large else CASES)))
+
+
+def _tell(timing):
+    print(
+        f"{timing.case:13} {timing.time.wall:7.2f} s, on the processor {timing.time.cpu:7.2f} s or "
+        f"{timing.relative.cpu:5.0f} reference FFTs{'' if timing.converged else ', NOT CONVERGED'}",
+        flush=True,
+    )
+
+
+def _columns(benchmark):
+    """What is printed of every case; the times of parts are on the wall."""
+    return {
+        timing.case: {
+            "convolutions": timing.convolutions,
+            "steps": timing.steps,
+            "memory MiB": timing.memory_MiB,
+            "cpu s": timing.time.cpu,
+            "wall s": timing.time.wall,
+        }
+        | timing.parts
+        for timing in benchmark.timings
+    }
+
+
+def _table(columns):
+    """Numbers by {column: {row: number}}, aligned; rows in the order of their first mention."""
+    names = dict.fromkeys(name for column in columns.values() for name in column)
+    lines = [" " * 14 + "".join(f"{name:>13}" for name in columns)]
+    for name in names:
+        cells = (_cell(column.get(name)) for column in columns.values())
+        lines.append(f"{name:14}" + "".join(f"{cell:>13}" for cell in cells))
+    return "\n".join(lines)
+
+
+def _cell(number):
+    if number is None:
+        return "-"
+    return f"{number:.0f}" if number >= 1000.0 else f"{number:.3g}" if number >= 100.0 else f"{number:.2f}"

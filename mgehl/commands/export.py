@@ -1,0 +1,34 @@
+"""mgehl export: a run's fields for ParaView, xarray, NumPy or a spreadsheet."""
+
+from mgehl.commands import CONVERGED
+
+PARALLEL = False
+
+
+def add(commands):
+    """Add the parser."""
+    parser = commands.add_parser(
+        "export",
+        help="write a run's fields for other programs",
+        allow_abbrev=False,
+        description="Write pressure, film and status of a finished run in SI units: vts for ParaView, nc "
+        "(NetCDF-4, CF conventions) for xarray, npz for NumPy, csv for anything.",
+        epilog="example: mgehl export runs/point_contact --to vts,nc",
+    )
+    parser.add_argument("run", metavar="RUN", help="run directory")
+    parser.add_argument("--to", required=True, metavar="FORMAT,...", help="vts, nc, npz, csv, or several")
+    parser.add_argument("--out", metavar="FILE", help="file, its ending optional (default: RUN/fields)")
+    parser.add_argument("--force", action="store_true", help="replace files that exist")
+    return parser
+
+
+def execute(options):
+    """Write the files and name them."""
+    from mgehl.output.export import export, read_formats, targets
+    from mgehl.output.stored import read_run  # starts PETSc, which vts needs
+
+    paths = targets(read_formats(options.to), options.run, options.out)
+    export(read_run(options.run), paths, options.force)
+    for path in paths.values():
+        print(path)
+    return CONVERGED

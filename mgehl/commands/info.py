@@ -1,0 +1,68 @@
+"""mgehl info: what runs here, for a report of a bug or a paper."""
+
+import json
+from dataclasses import asdict
+from pathlib import Path
+
+from mgehl.commands import CONVERGED
+from mgehl.config import default_config, load_config
+
+PARALLEL = True
+"""MPI tells how many ranks there are."""
+
+LONG = ("configured",)
+"""What only --json prints: PETSc's configure options fill a screen."""
+
+
+def add(commands):
+    """Add the parser."""
+    parser = commands.add_parser(
+        "info",
+        help="print versions, libraries, threads and the machine",
+        allow_abbrev=False,
+        description="Print what a run would run on, and which configuration it would read.",
+        epilog="example: mgehl info --json",
+    )
+    parser.add_argument(
+        "config", nargs="?", metavar="CONFIG", help="TOML file (default: the point contact)"
+    )
+    parser.add_argument("--json", action="store_true", help="print as JSON")
+    return parser
+
+
+def execute(options, comm):
+    """Print it on rank 0."""
+    from mgehl.output.surroundings import surroundings
+
+    found = {"configuration": _configuration(options.config)} | asdict(surroundings(comm))
+    if comm.rank == 0:
+        print(json.dumps(found, indent=2) if options.json else "\n".join(_lines(found)))
+    return CONVERGED
+
+
+def _configuration(path):
+    """Where the configuration of a run with these words would come from."""
+    config = load_config(path)
+    return {
+        "file": str(Path(path or default_config()).resolve()),
+        "chosen": "on the command line" if path else "by default",
+        "kind": config.contact.kind,
+        "nodes": config.grid.nodes,
+    }
+
+
+def _lines(sections):
+    """A line for each value, aligned; a section's name stands before its first."""
+    for name, section in sections.items():
+        for position, (key, value) in enumerate(section.items()):
+            words = key if key.isupper() else key.replace("_", " ")
+            if key not in LONG:
+                yield f"{name if position == 0 else '':14} {words:21} {_text(value)}"
+
+
+def _text(value):
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if value is None or value == "":
+        return "none"
+    return f"{value:.1f}" if isinstance(value, float) else str(value)

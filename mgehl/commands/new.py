@@ -1,0 +1,39 @@
+"""mgehl new: a commented configuration to begin with."""
+
+from pathlib import Path
+
+from mgehl.commands import CONVERGED
+from mgehl.config import FOREIGN
+from mgehl.errors import OutputError
+
+PARALLEL = False
+
+
+def add(commands):
+    """Add the parser."""
+    parser = commands.add_parser(
+        "new",
+        help="write a commented configuration",
+        description="Write NAME.toml: every key with its meaning, unit, range and default, the essential "
+        "ones live.",
+        epilog="example: mgehl new bearing --kind wedge",
+    )
+    parser.add_argument("name", metavar="NAME", help="name of the file, with or without .toml")
+    parser.add_argument(
+        "--kind", choices=tuple(FOREIGN), default="point", help="kind of contact (default: point)"
+    )
+    parser.add_argument("--force", action="store_true", help="replace a file that exists")
+    return parser
+
+
+def execute(options):
+    """Write the file."""
+    from mgehl.output.template import template
+    from mgehl.output.whole_file import write_whole
+
+    path = Path(options.name.removesuffix(".toml") + ".toml")
+    if path.exists() and not options.force:
+        raise OutputError(f"{path} exists: add --force to replace it, or choose another name")
+    write_whole(path, template(options.kind, path))
+    print(f"{path}: change what differs in your case, then: mpiexec -n 2 python -m mgehl run {path}")
+    return CONVERGED

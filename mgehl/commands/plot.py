@@ -1,0 +1,91 @@
+"""mgehl plot: pictures of finished runs, and of several in comparison."""
+
+from pathlib import Path
+
+from mgehl.commands import CONVERGED
+from mgehl.errors import OutputError, UserError
+
+PARALLEL = False
+
+KINDS = ("all", "lines", "film", "pressure", "status", "history", "compare")
+FORMATS = ("png", "svg", "pdf")
+DEFAULT_FORMATS = ("png", "pdf")
+
+
+def add(commands):
+    """Add the parser."""
+    parser = commands.add_parser(
+        "plot",
+        help="draw finished runs, or compare several",
+        allow_abbrev=False,
+        description="Draw finished runs: centre lines against Hertz, maps of film, pressure and status, "
+        "history of the convergence; of several runs one picture of their centre lines and one of their "
+        "histories. Pictures of an earlier time are replaced. A line contact has no maps, a wedge no map "
+        "of its film, which is a plane.",
+        epilog="example: python -m mgehl plot runs/point_contact --kind lines,film --format png,svg",
+    )
+    parser.add_argument("runs", nargs="+", metavar="RUN", help="run directory")
+    parser.add_argument("--kind", action="append", metavar="K,K,...", help=f"pictures: {', '.join(KINDS)} "
+                     "(default: all; of several runs compare); may be repeated")  # fmt: skip
+    parser.add_argument("--out", metavar="DIR", help="directory of the pictures (default: RUN/plots, of "
+                     "comparisons plots); with it each of several runs gets DIR/RUN")  # fmt: skip
+    parser.add_argument("--format", action="append", metavar="F,F,...",
+                     help="png, svg, pdf (default: png,pdf); may be repeated")  # fmt: skip
+    parser.add_argument("--style", metavar="FILE", help="matplotlib style file laid over mgehl's own, "
+                     "mgehl/output/mgehl.mplstyle, which says how")  # fmt: skip
+    parser.add_argument("--dpi", type=int, metavar="N", help="dots to the inch of bitmaps (default: 150)")
+    return parser
+
+
+def execute(options):
+    """Read all runs, then draw, then write."""
+    kinds = _words("--kind", options.kind, KINDS, ("all" if len(options.runs) == 1 else "compare",))
+    formats = _words("--format", options.format, FORMATS, DEFAULT_FORMATS)
+    if options.dpi is not None and not 30 <= options.dpi <= 1200:
+        raise UserError(f"--dpi {options.dpi}: must be between 30 and 1200")
+    if "compare" in kinds and len(options.runs) == 1:
+        raise UserError("--kind compare: needs more than one run")
+    from mgehl.output import style
+
+    with style.applied(options.style, options.dpi):
+        for pictures, directory in _drawn(options, kinds):
+            _write(pictures, directory, formats)
+    return CONVERGED
+
+
+def _words(option, given, known, default):
+    """The words of an option that takes lists and may be repeated, each once."""
+    words = [word.strip() for text in given or () for word in text.split(",")]
+    for word in words:
+        if word not in known:
+            raise UserError(f"{option} {word}: known are {', '.join(known)}")
+    return tuple(dict.fromkeys(words)) or default
+
+
+def _drawn(options, kinds):
+    """Lists of pictures, each with its directory."""
+    from mgehl.output.figures import compared, figures
+    from mgehl.output.labels import run_names
+    from mgehl.output.stored import read_run
+
+    names = run_names(options.runs)
+    solutions = [read_run(run) for run in options.runs]
+    several, drawn = len(solutions) > 1, []
+    own = None if "all" in kinds else [kind for kind in kinds if kind != "compare"]
+    if own is None or own:
+        for run, name, solution in zip(options.runs, names, solutions, strict=True):
+            out = Path(options.out or Path(run) / "plots")
+            drawn.append((figures(solution, own), out / name if several and options.out else out))
+    if several and ("all" in kinds or "compare" in kinds):
+        drawn.append((compared(solutions, names), Path(options.out or "plots")))
+    return drawn
+
+
+def _write(pictures, directory, formats):
+    from mgehl.output.figures import write
+
+    try:
+        paths = write(pictures, directory, formats)
+    except OSError as error:
+        raise OutputError(f"{directory}: cannot be written: {error}") from None
+    print(*paths, sep="\n")

@@ -1,0 +1,51 @@
+"""mgehl report: one HTML page of a run or a study."""
+
+from pathlib import Path
+
+from mgehl.commands import CONVERGED
+from mgehl.commands.study import STUDIES
+from mgehl.errors import OutputError
+
+PARALLEL = False
+
+
+def add(commands):
+    """Add the parser."""
+    parser = commands.add_parser(
+        "report",
+        help="make one HTML page of a run or a study",
+        description="Write a run or a study as one HTML page that needs no other file and no network: "
+        "verdict, films, checks, pictures, history, configuration, versions. Without --out the page is "
+        "report.html in the directory, and one that is there is replaced.",
+        epilog="example: python -m mgehl report runs/point_contact --out point_contact.html",
+    )
+    parser.add_argument("directory", metavar="RUN|STUDY", help="directory of a run or a study")
+    parser.add_argument(
+        "--out", metavar="FILE.html", help="the page (default: report.html beside the results)"
+    )
+    parser.add_argument("--force", action="store_true", help="replace the file of --out where it exists")
+    return parser
+
+
+def execute(options):
+    """Write the page and say where it is."""
+    from mgehl.output.files import REPORT
+    from mgehl.output.page import write_page
+
+    directory = Path(options.directory)
+    path = Path(options.out) if options.out else directory / REPORT
+    if options.out and path.exists() and not options.force:
+        raise OutputError(f"{path} exists: add --force to replace it, or choose another with --out")
+    write_page(path, _page(directory))
+    print(f"report {path}")
+    return CONVERGED
+
+
+def _page(directory):
+    from mgehl.output.report import report
+    from mgehl.output.stored import read_run
+    from mgehl.output.study_report import is_study, study_report
+
+    if is_study(directory):
+        return study_report(directory, STUDIES)
+    return report(read_run(directory), directory.resolve().name)

@@ -1,0 +1,47 @@
+"""Fields of a run for programs without NetCDF: NumPy's archive and a table of text."""
+
+import csv
+import json
+from dataclasses import asdict
+from io import BytesIO
+
+import numpy as np
+
+from mgehl.discretization.status import NAMES
+from mgehl.output.files import finite
+
+COLUMNS = ("x_m", "y_m", "pressure_Pa", "film_m", "status")
+
+
+def write_npz(path, solution):
+    """Write x, y, pressure and film in SI units, P, H, status and its names, and two texts of JSON.
+
+    The texts `result` and `configuration` are strings; nothing in the file is pickled.
+    """
+    fields = solution.fields
+    memory = BytesIO()  # zipfile complains at length where the disk is full
+    np.savez_compressed(
+        memory,
+        x=solution.x,
+        y=solution.y,
+        pressure=solution.pressure,
+        film=solution.film,
+        P=fields.P,
+        H=fields.H,
+        status=fields.status,
+        status_names=np.array(NAMES),
+        result=json.dumps(finite(asdict(solution.result)), allow_nan=False),
+        configuration=json.dumps(solution.config.as_toml_tables()),
+    )
+    path.write_bytes(memory.getbuffer())
+
+
+def write_csv(path, solution):
+    """Write a row for each node, x running fastest; numbers read back to the last bit."""
+    x, y = np.meshgrid(solution.x, solution.y)
+    numbers = [each.ravel().tolist() for each in (x, y, solution.pressure, solution.film)]
+    names = [NAMES[k] for k in solution.status.ravel().tolist()]
+    with path.open("w", newline="") as file:
+        writer = csv.writer(file)
+        writer.writerow(COLUMNS)
+        writer.writerows(zip(*numbers, names, strict=True))

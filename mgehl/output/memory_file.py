@@ -1,0 +1,19 @@
+"""NetCDF-4 files that are put together in memory: HDF5 crashes where the disk is full."""
+
+from contextlib import contextmanager
+from io import BytesIO
+
+import h5netcdf
+
+
+@contextmanager
+def netcdf_file(path):
+    """An `h5netcdf.File` to write to, whose bytes go to `path` at the end, if nothing failed.
+
+    HDF5 writes when it closes a file or a data set; where it cannot, the process ends with a
+    segmentation fault. A write of plain bytes raises OSError.
+    """
+    memory = BytesIO()
+    with h5netcdf.File(memory, "w") as file:
+        yield file
+    path.write_bytes(memory.getbuffer())

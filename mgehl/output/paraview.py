@@ -1,0 +1,85 @@
+"""Fields of a run for ParaView: a VTK structured grid, written by PETSc's own viewer."""
+
+import os
+
+import numpy as np
+from petsc4py import PETSc
+
+_COORDINATES = 3
+"""Numbers per node that VTK takes for its position."""
+
+_SHORT_OFFSETS_UNTIL = (3, 19)
+"""PETSc counts the bytes of the file in 64 bits from this version on."""
+
+_SHORT_LIMIT = 2**31
+
+_END = b"</VTKFile>\n"
+
+
+def write_vts(path, solution):
+    """Write pressure_Pa, film_m, P, H and status on x and y in metres; `path` must end in .vts.
+
+    Serial. Raises OSError where the file cannot be written, or is too large for this PETSc.
+    """
+    fields = solution.fields
+    values = {
+        "pressure_Pa": solution.pressure,
+        "film_m": solution.film,
+        "P": fields.P,
+        "H": fields.H,
+        "status": fields.status,
+    }
+    _check_size(solution.mesh.nodes * (_COORDINATES + len(values)))
+    path.touch()  # a place that cannot be written shows here
+    plane = _plane(solution)
+    viewer = PETSc.Viewer().createVTK(str(path), mode="w", comm=PETSc.COMM_SELF)
+    for name, array in values.items():
+        _add(viewer, plane, name, array)
+    _write(viewer, path)
+    plane.destroy()
+
+
+def _plane(solution):
+    """A DMDA of the nodes, one line of them for a line contact, at their places in metres."""
+    mesh = solution.mesh
+    plane = PETSc.DMDA().create(sizes=(mesh.nx, mesh.ny), dof=1, stencil_width=0, comm=PETSc.COMM_SELF)
+    plane.setUniformCoordinates()
+    places = plane.getCoordinates()
+    X, Y = np.meshgrid(solution.x, solution.y)
+    places.setArray(np.stack([X, Y], axis=-1).ravel())
+    return plane
+
+
+def _add(viewer, plane, name, array):
+    """Hand a copy of a field, (ny, nx), to the viewer."""
+    vec = plane.createGlobalVec()
+    vec.setName(name)
+    vec.setArray(np.asarray(array, dtype=float).ravel())
+    vec.view(viewer)
+    vec.destroy()
+
+
+def _write(viewer, path):
+    """Let the viewer write its file, header and all fields at once, which it does when destroyed."""
+    try:
+        viewer.destroy()
+    except PETSc.Error as error:
+        # PETSc would try again when it ends, and complain at length: let it, into nothing.
+        path.unlink()
+        path.symlink_to(os.devnull)
+        viewer.destroy()
+        raise OSError(f"PETSc's viewer failed with error {error.ierr}: is the disk full?") from None
+    _check_end(path)
+
+
+def _check_end(path):
+    """What fails when the viewer closes the file, it does not say."""
+    with path.open("rb") as file:
+        file.seek(-min(len(_END), path.stat().st_size), os.SEEK_END)
+        if file.read() != _END:
+            raise OSError("PETSc's viewer wrote a part of it only: is the disk full?")
+
+
+def _check_size(numbers):
+    if PETSc.Sys.getVersion() < _SHORT_OFFSETS_UNTIL and 8 * numbers >= _SHORT_LIMIT:
+        raise OSError("over 2 GB, too large for the viewer of PETSc before 3.19; nc has no such limit")

@@ -1,0 +1,158 @@
+"""What a run would run on: versions, PETSc and MPI as they were built, threads, FFTs, the machine."""
+
+import os
+import platform
+import tempfile
+from dataclasses import dataclass
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+
+import petsc4py
+from mpi4py import MPI
+from petsc4py import PETSc
+
+from mgehl.discretization.kernels import distribute
+from mgehl.grid.convolution import FIXED, THREADS, TIMED
+from mgehl.version import VERSION
+
+PACKAGES = (
+    "numpy", "scipy", "numba", "pyfftw", "mpi4py", "petsc4py", "h5netcdf", "matplotlib", "pint", "dacite",
+)  # fmt: skip
+
+THREAD_VARIABLES = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
+
+
+@dataclass(frozen=True)
+class Petsc:
+    """How PETSc was built."""
+
+    version: str
+    directory: str
+    arch: str
+    precision: str
+    integers: str
+    debug: bool
+    """Whether it checks itself, which makes it slow."""
+    configured: str
+    """The options that it was configured with."""
+    hypre: bool
+    """Whether a wedge's algebraic multigrid is BoomerAMG; else it is GAMG."""
+
+
+@dataclass(frozen=True)
+class Mpi:
+    """The MPI library and this job's ranks."""
+
+    library: str
+    standard: str
+    ranks: int
+
+
+@dataclass(frozen=True)
+class Fft:
+    """How the convolutions' FFTs are planned."""
+
+    planner: str
+    planner_of_lines: str
+    threads: int
+
+
+@dataclass(frozen=True)
+class Machine:
+    """Cores that this process may use, and the memory of all."""
+
+    system: str
+    cores: int
+    cores_allowed: int
+    memory_GiB: float
+
+
+@dataclass(frozen=True)
+class Compiled:
+    """Where numba keeps the kernels that it has compiled."""
+
+    numba_cache: str
+
+
+@dataclass(frozen=True)
+class Surroundings:
+    """Everything together."""
+
+    versions: dict
+    """Name and version of mgehl, python and the packages; None where one is not installed."""
+    petsc: Petsc
+    mpi: Mpi
+    threads: dict
+    """Environment variables that say how many; None where one is not set."""
+    fft: Fft
+    compiled: Compiled
+    machine: Machine
+
+
+def surroundings(comm):
+    """The `Surroundings` of the ranks of `comm` (collective)."""
+    return Surroundings(
+        versions={"mgehl": VERSION, "python": platform.python_version()}
+        | {package: _version(package) for package in PACKAGES},
+        petsc=_petsc(comm),
+        mpi=Mpi(
+            MPI.Get_library_version().splitlines()[0].strip("\0 "),
+            ".".join(map(str, MPI.Get_version())),
+            comm.size,
+        ),
+        threads={name: os.environ.get(name) for name in THREAD_VARIABLES},
+        fft=Fft(" ".join(TIMED), " ".join(FIXED), THREADS),
+        compiled=Compiled(distribute.stats.cache_path),
+        machine=Machine(
+            f"{platform.system()} {platform.release()} {platform.machine()}",
+            os.cpu_count() or 1,
+            cores_allowed(),
+            memory_GiB(),
+        ),
+    )
+
+
+def cores_allowed():
+    """Cores that this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+def memory_GiB():
+    """Memory of the machine in GiB."""
+    return os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") / 2**30
+
+
+def _version(package):
+    try:
+        return version(package)
+    except PackageNotFoundError:
+        return None
+
+
+def _petsc(comm):
+    where, log = petsc4py.get_config(), _log(comm)
+    scalar = PETSc.ScalarType()
+    return Petsc(
+        version=".".join(map(str, PETSc.Sys.getVersion())),
+        directory=where["PETSC_DIR"],
+        arch=where.get("PETSC_ARCH", ""),
+        precision=f"{scalar.dtype.name}, {scalar.itemsize} bytes",
+        integers=f"{8 * PETSc.IntType().itemsize} bits",
+        debug="compiled with a debugging option" in log,
+        configured=log.partition("Configure options:")[2].partition("\n")[0].strip(),
+        hypre=bool(PETSc.Sys.hasExternalPackage("hypre")),
+    )
+
+
+def _log(comm):
+    """What -log_view would print: the only place where PETSc tells how it was configured."""
+    with tempfile.TemporaryDirectory() as directory:
+        path = Path(comm.bcast(directory)) / "log"
+        PETSc.Log.begin()
+        viewer = PETSc.Viewer().createASCII(str(path), "w", comm=comm)
+        PETSc.Log.view(viewer)
+        viewer.destroy()
+        text = path.read_text() if comm.rank == 0 else ""
+    return comm.bcast(text)

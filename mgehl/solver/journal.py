@@ -1,0 +1,28 @@
+"""What a run has reached, told to whoever keeps it."""
+
+
+class Journal:
+    """Keeps nothing. `output.checkpoint.Checkpoint` is the one that keeps everything on disk.
+
+    A run is a row of solves. Each asks first whether it was finished before (`recall`), then
+    whether it was under way (`standing`); it tells of every step and of its end. All methods are
+    collective on the communicator of `grid`.
+    """
+
+    def recall(self, grid):
+        """The `Outcome` of the next solve where it is finished, else None."""
+
+    def standing(self, grid):
+        """Where the next solve stood when the run was stopped; None at its beginning."""
+
+    def step(self, grid, position):
+        """Take note of the `position` before a step: all that the way from here depends on.
+
+        Raises `errors.Stopped` when the run is to end here.
+        """
+
+    def finish(self, grid, outcome):
+        """Take note of a solve's `Outcome`."""
+
+
+NOTHING_KEPT = Journal()

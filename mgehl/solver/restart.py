@@ -1,0 +1,52 @@
+"""A start from the fields of another run: another grid, another speed, another load."""
+
+import numpy as np
+from scipy.interpolate import RegularGridInterpolator
+
+from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
+from mgehl.solver.continuation import Continuation
+from mgehl.solver.problem import ContactProblem
+from mgehl.solver.relaxation import relax
+
+
+def solve_from(hierarchy, contact, settings, start, monitor, journal):
+    """Solve on the finest grid from another run's fields; otherwise as `nested_iteration`.
+
+    `start` is a `Solution` whose whole fields rank 0 has. From another speed the solution is
+    carried here, in smaller steps where one is too large.
+    """
+    problem = ContactProblem(hierarchy.grids[-1], hierarchy.deflections[-1], contact, settings.scheme)
+    state = interpolated(problem, start)
+    if settings.method != "newton-mg":
+        return problem, relax(problem, state, settings.relaxation, monitor, journal)
+    continuation = Continuation(hierarchy, contact, settings, monitor, journal)
+    speed = start.contact.speed
+    if speed == contact.speed:
+        return continuation.at(speed, state)
+    return continuation.follow(state, speed, contact.speed)
+
+
+def interpolated(problem, start):
+    """The fields of a `Solution` as a `State` of this problem (collective).
+
+    P is bilinear in X and Y, zero outside of what was solved; a node is in contact where most of
+    its surroundings were.
+    """
+    grid, mesh = problem.grid, problem.grid.mesh
+    P = status = None
+    if grid.comm.rank == 0:
+        in_contact = (start.fields.status == CONTACT).astype(float)
+        P = _onto(mesh, start.mesh, start.fields.P)
+        film = np.where((P > 0.0) | (not problem.scheme.cavitation), LUBRICATED, CAVITATED)
+        touching = (_onto(mesh, start.mesh, in_contact) > 0.5) & (problem.scheme.gap_floor is None)
+        status = np.where(touching, CONTACT, film).astype(np.int8)
+    H0 = grid.comm.bcast(start.H0)
+    return problem.state(grid.scatter(P), H0, grid.scatter(status))
+
+
+def _onto(mesh, old, values):
+    """Values of the `old` mesh's nodes at those of `mesh`."""
+    if old.is_line:
+        return np.interp(mesh.X, old.X, values[0], left=0.0, right=0.0)[None, :]
+    function = RegularGridInterpolator((old.Y, old.X), values, bounds_error=False, fill_value=0.0)
+    return function(tuple(np.meshgrid(mesh.Y, mesh.X, indexing="ij")))

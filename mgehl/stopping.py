@@ -1,0 +1,40 @@
+"""What may end a run before its time: a signal, Ctrl-C or a limit of time."""
+
+import signal
+import time
+
+from mgehl.errors import Stopped
+
+SIGNALS = {signal.SIGTERM: "SIGTERM", signal.SIGINT: "Ctrl-C"}
+
+
+class StopWhenTold:
+    """Turns the first signal into a request, asked for by calling; the second ends the process.
+
+    A context manager: outside of it signals do what they did. `hint` tells how to go on.
+    """
+
+    def __init__(self, hint, time_limit=None):
+        self._hint, self._limit = hint, time_limit
+        self._started, self._signal, self._before = time.monotonic(), None, {}
+
+    def __enter__(self):
+        self._before = {number: signal.signal(number, self._take) for number in SIGNALS}
+        return self
+
+    def __exit__(self, *_):
+        for number, handler in self._before.items():
+            signal.signal(number, handler)
+
+    def __call__(self):
+        """None, or the `Stopped` to raise as soon as everything is on disk."""
+        if self._signal is not None:
+            return Stopped(f"stopped by {SIGNALS[self._signal]}; {self._hint}", 128 + self._signal)
+        if self._limit is not None and time.monotonic() - self._started >= self._limit:
+            status = 128 + signal.SIGTERM
+            return Stopped(f"stopped by --time-limit after {self._limit:g} s; {self._hint}", status)
+        return None
+
+    def _take(self, number, _frame):
+        self._signal = number
+        signal.signal(number, signal.SIG_DFL)

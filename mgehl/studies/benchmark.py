@@ -1,0 +1,206 @@
+"""Fixed cases with their work, time, memory and time per part, to compare two commits on one machine.
+
+A machine that others use is now faster, now slower. So a fixed FFT is timed beside every case, and
+what is compared are times in units of that reference.
+"""
+
+import json
+import resource
+import sys
+import tempfile
+import time
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from statistics import mean, median_low
+
+import dacite
+import numpy as np
+
+from mgehl.config import config_from_tables
+from mgehl.errors import OutputError
+from mgehl.grid.events import seconds_by_part, start_logging
+from mgehl.output.whole_file import write_whole
+from mgehl.run import run, versions
+
+
+def _point(nodes, speed, start="film"):
+    return {"grid": {"nodes": nodes}, "motion": {"speed": speed}, "solver": {"start": start}}
+
+
+_PILLAR = {"contact": {"kind": "wedge"}, "wedge": {"pillar": "square"}, "motion": {"speed": 1.0}}
+
+CASES = {
+    "film-257": _point(257, 0.5),
+    "contact-257": _point(257, 5e-6, "contact"),
+    "line-4097": {"contact": {"kind": "line"}, "motion": {"speed": 0.1}, "grid": {"nodes": 4097}},
+    "wedge-257": _PILLAR | {"grid": {"nodes": 257}},
+}
+"""Name and configuration (nested tables) of every case: film and contact of the paper's ball, a line
+contact, a wedge with a pillar. Every other key has its default."""
+
+LARGE = {
+    "film-513": _point(513, 0.03),
+    "contact-513": _point(513, 5e-6, "contact"),
+    "film-1025": _point(1025, 0.0075),
+    "contact-1025": _point(1025, 5e-6, "contact"),
+}
+"""Cases of a minute or so together."""
+
+WARM_UP = (_point(65, 5e-6, "contact"), _PILLAR | {"grid": {"nodes": 65}})
+"""Solved first and not timed: they compile and import what the first case would pay for."""
+
+REFERENCE_NODES, REFERENCE_SECONDS = 256, 0.3
+"""Side of the plane whose FFT is the reference, and how long it is repeated before and after a case."""
+
+
+NEGLIGIBLE = 0.01
+"""Part of the whole below which a comparison says nothing."""
+
+
+@dataclass(frozen=True)
+class Clocks:
+    """Seconds on the wall and of the processor, which a machine that is shared disturbs less."""
+
+    wall: float
+    cpu: float
+
+    @classmethod
+    def now(cls):
+        return cls(time.perf_counter(), time.process_time())
+
+    def since(self, start, parts=1):
+        """The time from `start` to this, or a part of it."""
+        return Clocks((self.wall - start.wall) / parts, (self.cpu - start.cpu) / parts)
+
+
+@dataclass(frozen=True)
+class Timing:
+    """One case: work, and seconds (means over the ranks) of the whole and of its parts."""
+
+    case: str
+    converged: bool
+    convolutions: float
+    """In equivalents of one on the finest grid; 0 of a wedge."""
+    steps: int
+    """Newton steps on all grids, or a wedge's linear iterations."""
+    time: Clocks
+    reference: Clocks
+    """Of one reference FFT beside this case."""
+    memory_MiB: float
+    """Largest memory of a rank since the program began: a later case shows only what it takes more."""
+    parts: dict
+    """Name of a part and its seconds of wall time; "other" is the rest."""
+
+    @property
+    def relative(self):
+        """Times in units of the reference."""
+        return Clocks(self.time.wall / self.reference.wall, self.time.cpu / self.reference.cpu)
+
+
+@dataclass(frozen=True)
+class Benchmark:
+    """All timings of one commit on one machine: what the JSON file holds."""
+
+    ranks: int
+    versions: dict
+    timings: list[Timing]
+
+
+def measure(names, repeats, comm, tell=lambda timing: None):
+    """Time the named cases on all ranks, the median of `repeats` times each; collective."""
+    cases = CASES | LARGE
+    start_logging()
+    for tables in WARM_UP:
+        _run(tables, comm)
+    timings = []
+    for name in names:
+        runs = [_time(name, cases[name], comm) for _ in range(repeats)]
+        typical = median_low(timing.relative.cpu for timing in runs)
+        timings.append(next(timing for timing in runs if timing.relative.cpu == typical))
+        tell(timings[-1])
+    return Benchmark(comm.size, versions(), timings)
+
+
+def _time(name, tables, comm):
+    """Solve one case between two timings of the reference; collective."""
+    references, before = [_reference()], seconds_by_part()
+    comm.Barrier()
+    started = Clocks.now()
+    result = _run(tables, comm)
+    elapsed = Clocks.now().since(started)
+    parts = {part: total - before[part] for part, total in seconds_by_part().items()}
+    parts["other"] = elapsed.wall - sum(parts.values())
+    references.append(_reference())
+    work = getattr(result, "work", None)
+    return Timing(
+        case=name,
+        converged=result.converged,
+        convolutions=work.convolutions if work else 0.0,
+        steps=work.steps if work else result.linear_iterations,
+        time=_mean(comm.allgather(elapsed)),
+        reference=_mean([each for pair in comm.allgather(references) for each in pair]),
+        memory_MiB=max(comm.allgather(_peak_memory())),
+        parts={part: comm.allreduce(seconds) / comm.size for part, seconds in parts.items()},
+    )
+
+
+def _mean(clocks):
+    return Clocks(mean(each.wall for each in clocks), mean(each.cpu for each in clocks))
+
+
+def _run(tables, comm):
+    """Solve and write everything, as a run does, into a directory that does not stay."""
+    with tempfile.TemporaryDirectory() as directory:
+        return run(config_from_tables(tables), Path(directory), comm, speak=False)
+
+
+def _reference():
+    """Mean time of the reference FFT, now."""
+    plane = np.random.default_rng(1).random((REFERENCE_NODES, REFERENCE_NODES))
+    started, repeats = Clocks.now(), 0
+    while Clocks.now().since(started).wall < REFERENCE_SECONDS:
+        np.fft.irfft2(np.fft.rfft2(plane))
+        repeats += 1
+    return Clocks.now().since(started, repeats)
+
+
+def _peak_memory():
+    """MiB that this rank has held at the most."""
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return peak / (2**20 if sys.platform == "darwin" else 2**10)
+
+
+def ratios(old, new):
+    """{case: {quantity: new/old}} of the cases that both have; seconds in units of the reference.
+
+    A part of less than `NEGLIGIBLE` in both is left out: its ratio is noise.
+    """
+    before = {timing.case: timing for timing in old.timings}
+    return {now.case: _ratios(before[now.case], now) for now in new.timings if now.case in before}
+
+
+def _ratios(old, new):
+    wall = new.relative.wall / old.relative.wall
+    found = {"convolutions": new.convolutions / old.convolutions} if old.convolutions else {}
+    found |= {"memory": new.memory_MiB / old.memory_MiB, "wall": wall}
+    found["cpu"] = new.relative.cpu / old.relative.cpu
+    for part in [part for part in new.parts if part in old.parts]:
+        shares = [timing.parts[part] / timing.time.wall for timing in (old, new)]
+        if max(shares) > NEGLIGIBLE and min(shares) > 0.0:
+            found[part] = shares[1] / shares[0] * wall
+    return found
+
+
+def write_benchmark(path, benchmark):
+    """Write a benchmark as JSON. Raises OutputError."""
+    write_whole(path, json.dumps(asdict(benchmark), indent=2) + "\n")
+
+
+def read_benchmark(path):
+    """A benchmark that `write_benchmark` wrote. Raises OutputError."""
+    try:
+        return dacite.from_dict(Benchmark, json.loads(Path(path).read_text()))
+    except OSError as error:
+        raise OutputError(f"{path}: cannot be read: {error.strerror}") from None
+    except (ValueError, TypeError, dacite.DaciteError) as error:
+        raise OutputError(f"{path}: no benchmark of mgehl: {' '.join(str(error).split())[:120]}") from None

@@ -1,0 +1,47 @@
+"""mgehl bench: what it prints, writes and refuses."""
+
+import json
+
+import pytest
+
+from mgehl.cli import main
+
+
+@pytest.fixture(autouse=True)
+def empty_directory(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+
+WEDGE = ["bench", "--case", "wedge-257", "--repeat", "1"]
+
+
+def test_a_benchmark_is_printed_written_and_compared(capsys, tmp_path):
+    assert main([*WEDGE, "--json", "old.json"]) == 0
+    out = capsys.readouterr().out
+    for word in ("wedge-257", "convolutions", "memory MiB", "deflection", "Krylov", "I/O"):
+        assert word in out
+    (timing,) = json.loads((tmp_path / "old.json").read_text())["timings"]
+    assert timing["case"] == "wedge-257" and timing["time"]["wall"] > 0.0
+
+    assert main([*WEDGE, "--compare", "old.json"]) == 0
+    table = capsys.readouterr().out.split("times those of old.json:\n")[1].splitlines()
+    assert table[0].split() == ["wedge-257"]
+    assert {line.split()[0] for line in table[1:]} >= {"memory", "wall", "cpu", "Krylov"}
+    assert 0.5 < float(next(line.split()[-1] for line in table if line.startswith("memory"))) < 2.0
+
+
+@pytest.mark.parametrize(
+    "arguments, parts",
+    [
+        (["--case", "frobnicate"], ["--case frobnicate", "film-257"]),
+        (["--repeat", "0"], ["--repeat 0"]),
+        (["--compare", "missing.json"], ["missing.json", "cannot be read"]),
+        (["--compare", "two.json"], ["two.json", "2 ranks"]),
+    ],
+)
+def test_mistakes_are_one_line_before_anything_is_timed(capsys, tmp_path, arguments, parts):
+    (tmp_path / "two.json").write_text('{"ranks": 2, "versions": {}, "timings": []}')
+    assert main(["bench", *arguments]) == 2
+    out, err = capsys.readouterr()
+    assert out == "" and len(err.splitlines()) == 1
+    assert all(part in err for part in parts)

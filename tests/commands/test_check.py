@@ -1,0 +1,85 @@
+"""mgehl check: valid configurations are described, the rest is one line; nothing is solved."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from mgehl.cli import main
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+@pytest.fixture
+def told(capsys, tmp_path, monkeypatch):
+    """Function that checks a shipped configuration and returns what was printed."""
+    monkeypatch.chdir(tmp_path)
+
+    def run(name, *words):
+        assert main(["check", str(ROOT / "configs" / name), *words]) == 0
+        assert not list(tmp_path.iterdir())
+        return capsys.readouterr().out
+
+    return run
+
+
+def number(text, pattern):
+    return float(re.search(pattern, text)[1])
+
+
+def test_a_point_contact_is_described(told):
+    text = told("full_film.toml", "--ranks", "2")
+    assert "valid, a point contact" in text
+    assert number(text, r"Hertz +a ([\d.]+) mm") == pytest.approx(0.4108, rel=1e-3)
+    assert number(text, r"p_h ([\d.]+) GPa") == pytest.approx(2.263, rel=1e-3)
+    assert number(text, r"hamrock dowson central ([\d.]+)") == pytest.approx(14.74, rel=1e-3)
+    assert "elastic piezoviscous" in text
+    assert "on 2 ranks" in text and "timed just now" in text
+
+
+def test_each_grid_has_its_cells_and_the_grid_that_resolves_is_recommended(told):
+    text = told("full_film.toml")
+    cells = [float(each) for each in re.findall(r"grid +\d+ +([\d.]+) cells", text)]
+    assert len(cells) == 6 and cells[-1] == pytest.approx(2.64, abs=0.01)
+    assert "recommended: grid.nodes=2049" in text
+    assert "this grid does" in told("full_film.toml", "--set", "grid.nodes=2049")
+
+
+def test_a_speed_that_no_grid_resolves_is_said(told):
+    assert "no grid up to 16385 does" in told("full_film.toml", "--set", "motion.speed=1e-9")
+
+
+def test_a_run_that_the_machine_cannot_hold_is_said(told, monkeypatch):
+    monkeypatch.setattr("mgehl.output.surroundings.memory_GiB", lambda: 1.0)
+    assert "MORE THAN THIS MACHINE'S 1.0" in told("full_film.toml")
+    assert "this machine has 1.0" in told("full_film.toml", "--set", "grid.nodes=65")
+
+
+def test_a_line_contact_is_described(told):
+    text = told("line_contact.toml")
+    assert "valid, a line contact" in text and "dowson higginson central 103.4" in text
+    assert " b " not in next(line for line in text.splitlines() if line.startswith("Hertz"))
+
+
+def test_a_wedge_is_described(told):
+    text = told("wedge_square_pillar.toml")
+    assert "20 um at the exit, 50 um at the inlet" in text
+    assert "pillar     square, 34.0 by 51.2 cells" in text
+    assert "no convolutions" in text and "inlet zone" not in text
+
+
+@pytest.mark.parametrize(
+    "words, parts",
+    [
+        (["missing.toml"], ["missing.toml", "cannot be read"]),
+        (["--set", "grid.nodes=66"], ["grid.nodes = 66"]),
+        (["--set", "contact.load=1e9"], ["contact.load"]),
+        (["--ranks", "0"], ["--ranks 0"]),
+        (["--ranks", "17"], ["17 ranks"]),
+    ],
+)
+def test_what_would_not_run_is_one_line_and_status_2(words, parts, capsys):
+    assert main(["check", *words]) == 2
+    out, err = capsys.readouterr()
+    assert out == "" and len(err.splitlines()) == 1
+    assert all(part in err for part in parts)

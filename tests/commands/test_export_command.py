@@ -1,0 +1,150 @@
+"""mgehl export: from a run's directory to files of other programs."""
+
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import h5netcdf
+import numpy as np
+import pytest
+import xarray
+
+from mgehl.cli import main
+from mgehl.output.stored import read_run
+
+ROOT = Path(__file__).resolve().parents[2]
+RUNS = {
+    "point": ["--set", "grid.nodes=65", "--set", "motion.speed=0.5 m/s", "--set", "solver.start=film"],
+    "line": [str(ROOT / "configs/line_contact.toml"), "--set", "grid.nodes=129"],
+    "wedge": [str(ROOT / "configs/wedge_square_pillar.toml"), "--set", "grid.nodes=65"],
+}
+
+
+@pytest.fixture(scope="module")
+def runs(tmp_path_factory):
+    """Function that returns the directory of a run, made once for each kind of contact."""
+    here = tmp_path_factory.mktemp("runs")
+
+    def directory(kind):
+        if not (here / kind).exists():
+            main(["run", *RUNS[kind], "--quiet", "--out", str(here / kind)])
+        return here / kind
+
+    return directory
+
+
+@pytest.fixture
+def run(runs, tmp_path):
+    """Function that copies such a directory, to be spoilt."""
+
+    def copy(kind):
+        return Path(shutil.copytree(runs(kind), tmp_path / "run"))
+
+    return copy
+
+
+@pytest.mark.parametrize("kind", RUNS)
+def test_all_formats_of_a_run(kind, run, capsys):
+    directory = run(kind)
+    before = {path.name: path.read_bytes() for path in directory.iterdir()}
+    assert main(["export", str(directory), "--to", "vts,nc,npz,csv"]) == 0
+    written = [f"fields.{each}" for each in ("vts", "nc", "npz", "csv")]
+    assert capsys.readouterr().out.split() == [str(directory / name) for name in written]
+    assert {path.name for path in directory.iterdir()} == before.keys() | set(written)
+    assert all((directory / name).read_bytes() == content for name, content in before.items())
+    solution = read_run(directory)
+    with xarray.open_dataset(directory / "fields.nc", engine="h5netcdf") as data:
+        np.testing.assert_array_equal(data.film, solution.film)
+    with np.load(directory / "fields.npz") as data:
+        np.testing.assert_array_equal(data["film"], solution.film)
+    table = np.genfromtxt(directory / "fields.csv", delimiter=",", skip_header=1, usecols=3)
+    np.testing.assert_array_equal(table, solution.film.ravel())
+
+
+def test_a_process_of_its_own_writes_for_paraview(runs, tmp_path):
+    """PETSc wakes up without mpiexec and says nothing when it ends."""
+    command = [sys.executable, "-m", "mgehl", "export", str(runs("wedge")), "--to", "vts"]
+    done = subprocess.run([*command, "--out", tmp_path / "a"], capture_output=True, text=True, timeout=60)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout.split() == [str(tmp_path / "a.vts")]
+    assert b"<StructuredGrid" in (tmp_path / "a.vts").read_bytes()
+
+
+ON_A_FULL_DISK = """
+import resource, signal, sys
+from petsc4py import PETSc  # MPI has files of its own
+from mgehl.cli import main
+signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+resource.setrlimit(resource.RLIMIT_FSIZE, (50000, 50000))
+sys.exit(main(sys.argv[1:]))
+"""
+
+
+@pytest.mark.parametrize("name", ["vts", "nc", "npz", "csv"])
+def test_a_full_disk_is_one_line_to_the_end_of_the_process(name, runs, tmp_path):
+    """Of 65 x 65 nodes, more than any buffer holds. (PETSc's viewer and HDF5 have last words of theirs.)"""
+    (tmp_path / f"a.{name}").write_text("mine")
+    command = [sys.executable, "-c", ON_A_FULL_DISK, "export", str(runs("point")), "--to", name]
+    command += ["--force", "--out", str(tmp_path / "a")]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=60)
+    assert done.returncode == 2, done.stderr
+    assert "cannot be written" in done.stderr and done.stderr.count("\n") == 1
+    assert [path.read_text() for path in tmp_path.iterdir()] == ["mine"]
+
+
+def spoil_film(directory):
+    with h5netcdf.File(directory / "fields.h5", "r+") as file:
+        file["H"][3, 4] = np.nan
+
+
+def cut_fields(directory):
+    whole = (directory / "fields.h5").read_bytes()
+    (directory / "fields.h5").write_bytes(whole[: len(whole) // 2])
+
+
+def cut_result(directory):
+    (directory / "result.json").write_text('{"converged": tr')
+
+
+def no_fields(directory):
+    (directory / "fields.h5").unlink()
+
+
+def no_run(directory):
+    shutil.rmtree(directory)
+
+
+@pytest.mark.parametrize("damage", [spoil_film, cut_fields, cut_result, no_fields, no_run])
+def test_a_damaged_run_is_one_line(damage, run, capsys):
+    directory = run("wedge")
+    damage(directory)
+    before = sorted(directory.parent.rglob("*"))
+    assert main(["export", str(directory), "--to", "nc"]) == 2
+    said = capsys.readouterr()
+    assert said.out == "" and said.err.startswith("mgehl: ") and said.err.count("\n") == 1
+    assert sorted(directory.parent.rglob("*")) == before
+
+
+@pytest.mark.parametrize(
+    "words, said",
+    [
+        (["--to", "vtk"], "none of vts, nc, npz, csv"),
+        (["--to", "vts", "--out", "a.nc"], "--out a.nc"),
+        (["--to", "csv"], "exists: add --force"),
+    ],
+)
+def test_mistakes_are_one_line(words, said, run, capsys):
+    directory = run("wedge")
+    (directory / "fields.csv").write_text("mine")
+    assert main(["export", str(directory), *words]) == 2
+    err = capsys.readouterr().err
+    assert said in err and err.count("\n") == 1
+    assert (directory / "fields.csv").read_text() == "mine"
+
+
+def test_force_replaces(run):
+    directory = run("wedge")
+    (directory / "fields.csv").write_text("mine")
+    assert main(["export", str(directory), "--to", "csv", "--force"]) == 0
+    assert (directory / "fields.csv").read_text().startswith("x_m,y_m,")

@@ -1,0 +1,124 @@
+"""mgehl plot."""
+
+import pytest
+
+from mgehl.cli import main
+from mgehl.output.figures import TITLES
+
+RUN = ["run", "--quiet", "--set", "grid.nodes=65", "--out"]
+
+
+@pytest.fixture(scope="module")
+def runs(tmp_path_factory):
+    """Directory of two runs of a dry contact and one of a wedge."""
+    directory = tmp_path_factory.mktemp("runs")
+    assert main([*RUN, str(directory / "dry")]) == 0
+    assert main([*RUN, str(directory / "light"), "--set", "contact.load=400 N"]) == 0
+    wedge = ["--set", "contact.kind=wedge", "--set", "wedge.pillar=square"]
+    assert main([*RUN, str(directory / "wedge"), *wedge]) == 0
+    return directory
+
+
+@pytest.fixture
+def plot(runs, tmp_path, monkeypatch):
+    """Function that plots runs by their names, from an empty directory; returns the exit status."""
+    monkeypatch.chdir(tmp_path)
+
+    def run(names, *options):
+        return main(["plot", *(str(runs / name) for name in names.split()), *options])
+
+    return run
+
+
+def files(directory):
+    return {str(path.relative_to(directory)) for path in directory.rglob("*") if path.is_file()}
+
+
+def test_a_run_has_its_pictures_beside_it_as_bitmaps_and_vectors(plot, runs, capsys):
+    assert plot("dry") == 0
+    plots = runs / "dry" / "plots"
+    assert files(plots) == {f"{kind}.{form}" for kind in TITLES for form in ("png", "pdf")}
+    assert set(capsys.readouterr().out.split()) == {str(plots / name) for name in files(plots)}
+
+
+def test_kinds_formats_and_directory(plot, tmp_path):
+    options = ["--kind", "lines,history", "--kind", "lines", "--format", "svg", "--format", "pdf"]
+    assert plot("wedge", *options, "--out", "here") == 0
+    expected = {f"here/{kind}.{form}" for kind in ("lines", "history") for form in ("svg", "pdf")}
+    assert files(tmp_path) == expected
+
+
+def test_several_runs_are_compared(plot, tmp_path):
+    assert plot("dry light", "--format", "svg", "--dpi", "80") == 0
+    assert files(tmp_path) == {"plots/compare-lines.svg", "plots/compare-history.svg"}
+
+
+def test_all_of_several_runs(plot, tmp_path):
+    assert plot("dry light", "--kind", "lines,compare", "--format", "png", "--out", "o") == 0
+    expected = {"o/dry/lines.png", "o/light/lines.png", "o/compare-lines.png", "o/compare-history.png"}
+    assert files(tmp_path) == expected
+
+
+def test_a_style_file_is_laid_over(plot, tmp_path):
+    (tmp_path / "own.mplstyle").write_text("figure.facecolor: 123456\n")
+    assert (
+        plot("wedge", "--kind", "history", "--format", "svg", "--style", "own.mplstyle", "--out", "o") == 0
+    )
+    assert "#123456" in (tmp_path / "o" / "history.svg").read_text()
+
+
+@pytest.mark.parametrize(
+    "names, options, said",
+    [
+        ("dry", ["--kind", "films"], "--kind films: known are all, lines, film, pressure, status"),
+        ("dry", ["--format", "png,gif"], "--format gif: known are png, svg, pdf"),
+        ("dry", ["--kind", "compare"], "--kind compare: needs more than one run"),
+        ("dry", ["--dpi", "9"], "--dpi 9: must be between 30 and 1200"),
+        ("dry", ["--style", "none.mplstyle"], "none.mplstyle: cannot be read: No such file or directory"),
+        ("wedge", ["--kind", "film"], "no picture 'film' of this contact: it has lines, pressure"),
+        ("dry wedge", [], "runs of different kinds of contact have no common picture"),
+        ("dry dry", [], "is given twice"),
+        ("none", [], "none: is no run directory"),
+    ],
+)
+def test_mistakes_end_in_one_line_and_nothing_is_written(plot, tmp_path, capsys, names, options, said):
+    assert plot(names, *options, "--out", "o") == 2
+    error = capsys.readouterr().err
+    assert error.startswith("mgehl: ") and error.count("\n") == 1 and said in error
+    assert files(tmp_path) == set()
+
+
+def cut(whole):
+    return whole[: len(whole) // 3]
+
+
+def cut_in_the_last_row(whole):
+    return whole.rpartition(b",")[0]
+
+
+@pytest.mark.parametrize(
+    "name, damage",
+    [
+        ("fields.h5", cut),
+        ("history.csv", cut_in_the_last_row),
+        ("result.json", cut),
+        ("configuration.toml", cut),
+    ],
+)
+def test_a_damaged_run(plot, runs, tmp_path, capsys, name, damage):
+    whole = (runs / "light" / name).read_bytes()
+    try:
+        (runs / "light" / name).write_bytes(damage(whole))
+        status = plot("dry light", "--out", "o")
+    finally:
+        (runs / "light" / name).write_bytes(whole)
+    error = capsys.readouterr().err
+    assert status == 2 and error.count("\n") == 1
+    assert files(tmp_path) == set()
+
+
+def test_a_directory_that_cannot_be_written(plot, tmp_path, capsys):
+    (tmp_path / "file").write_text("mine")
+    assert plot("wedge", "--kind", "history", "--out", "file") == 2
+    assert "file: cannot be written" in capsys.readouterr().err
+    assert (tmp_path / "file").read_text() == "mine"

@@ -1,0 +1,122 @@
+"""mgehl report: where the page goes, what is replaced, what is refused in one line."""
+
+import pytest
+
+from mgehl.cli import main
+from mgehl.commands.study import STUDIES
+from mgehl.output.study_record import StudyRecord, write_record
+
+RUN = ["run", "--set", "grid.nodes=65", "--set", "solver.start=contact", "--quiet", "--out", "dry"]
+
+
+@pytest.fixture(scope="module")
+def finished(tmp_path_factory):
+    """A directory with one finished run, "dry"."""
+    directory = tmp_path_factory.mktemp("report")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(directory)
+        assert main(RUN) == 0
+    return directory
+
+
+@pytest.fixture(autouse=True)
+def quick(monkeypatch):
+    """Pages without pictures, which take the time."""
+    monkeypatch.setattr("mgehl.output.report.pictures", lambda solution: {})
+
+
+@pytest.fixture
+def here(finished, tmp_path, monkeypatch):
+    """A copy to work in, the working directory."""
+    (tmp_path / "dry").mkdir()
+    for path in (finished / "dry").iterdir():
+        (tmp_path / "dry" / path.name).write_bytes(path.read_bytes())
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def refused(arguments, capsys):
+    """The one line with which the command refuses."""
+    assert main(["report", *arguments]) == 2
+    out, err = capsys.readouterr()
+    assert out == "" and err.startswith("mgehl: ") and err.count("\n") == 1
+    return err
+
+
+def names(directory):
+    return {path.name for path in directory.iterdir()}
+
+
+def test_beside_the_results(here, capsys):
+    before = names(here / "dry")
+    assert main(["report", "dry"]) == 0
+    assert names(here / "dry") == before | {"report.html"}
+    assert capsys.readouterr().out == "report dry/report.html\n"
+    html = (here / "dry" / "report.html").read_text(encoding="utf-8")
+    assert html.startswith("<!DOCTYPE html>") and "Run dry" in html and "Converged" in html
+
+
+def test_the_page_beside_the_results_is_replaced(here):
+    (here / "dry" / "report.html").write_text("old")
+    assert main(["report", "dry/"]) == 0
+    assert (here / "dry" / "report.html").read_text(encoding="utf-8") != "old"
+
+
+def test_another_file_is_replaced_only_with_force(here, capsys):
+    page = here / "page.html"
+    page.write_text("mine")
+    assert "page.html exists: add --force" in refused(["dry", "--out", "page.html"], capsys)
+    assert page.read_text() == "mine"
+    assert main(["report", "dry", "--out", "page.html", "--force"]) == 0
+    assert page.read_text(encoding="utf-8").startswith("<!DOCTYPE html>")
+    assert "report.html" not in names(here / "dry")
+
+
+def test_the_run_may_be_the_working_directory(here, monkeypatch):
+    monkeypatch.chdir(here / "dry")
+    assert main(["report", "."]) == 0
+    assert "Run dry" in (here / "dry" / "report.html").read_text(encoding="utf-8")
+
+
+def test_a_new_run_clears_the_page_of_the_old_one(here):
+    (here / "dry" / "report.html").write_text("old")
+    assert main([*RUN, "--force"]) == 0
+    assert "report.html" not in names(here / "dry")
+
+
+@pytest.mark.parametrize("name", ["fields.h5", "result.json", "history.csv", "configuration.toml"])
+@pytest.mark.parametrize("damage", ["missing", "cut off"])
+def test_a_damaged_run_is_refused_and_writes_nothing(here, capsys, name, damage):
+    path = here / "dry" / name
+    if damage == "missing":
+        path.unlink()
+    else:
+        path.write_bytes(path.read_bytes()[:-40])
+    before = names(here / "dry")
+    if (name, damage) == ("history.csv", "cut off"):
+        path.write_bytes(b"grid,step\n65,x\n")
+    refused(["dry"], capsys)
+    assert names(here / "dry") == before
+
+
+@pytest.mark.parametrize("place", ["none", "empty", "file"])
+def test_what_is_neither_run_nor_study(here, capsys, place):
+    (here / "empty").mkdir()
+    (here / "file").touch()
+    assert place in refused([place], capsys)
+
+
+def test_a_page_that_cannot_be_written(here, capsys):
+    assert "none/page.html: cannot be written" in refused(["dry", "--out", "none/page.html"], capsys)
+    assert "exists" in refused(["dry", "--out", "dry"], capsys)
+    assert "cannot be written" in refused(["dry", "--out", "dry", "--force"], capsys)
+
+
+def test_a_study(here):
+    (here / "mine").mkdir()
+    (here / "mine" / "films.csv").write_text("couette,central nm\nS2B-vi,393.0\n")
+    write_record(here / "mine", StudyRecord("schemes", (65,), "both", "arithmetic", 1, {"petsc": "3.18.5"}))
+    assert main(["report", "mine"]) == 0
+    html = (here / "mine" / "report.html").read_text(encoding="utf-8")
+    assert "<h1>Study schemes</h1>" in html and STUDIES["schemes"] in html
+    assert "S2B-vi" in html and "3.18.5" in html

@@ -1,0 +1,127 @@
+"""What is foretold agrees with what runs do, as far as it claims to."""
+
+import numpy as np
+import pytest
+
+from mgehl.config import load_config
+from mgehl.discretization.mesh import Mesh
+from mgehl.output import forecast as module
+from mgehl.output.forecast import (
+    expectation,
+    expected_work,
+    forecast,
+    inlet_grids,
+    resolving_nodes,
+    time_convolution,
+)
+from mgehl.output.result import resolution
+from mgehl.solver.from_config import contact_from, mesh_from
+
+
+def film(nodes=257, speed=0.0075, **changes):
+    settings = {"grid.nodes": nodes, "motion.speed": speed, "solver.start": "film"} | changes
+    return load_config(settings=settings)
+
+
+@pytest.fixture
+def one_second(monkeypatch):
+    """A machine on which the timed convolution takes a second."""
+    monkeypatch.setattr(module, "time_convolution", lambda mesh: 1.0)
+    monkeypatch.setattr(module, "cores_allowed", lambda: 2)
+
+
+def foretold(config, ranks=1):
+    contact = contact_from(config)
+    return forecast(config, contact, mesh_from(config, contact), ranks)
+
+
+def test_inlet_cells_are_those_of_a_result():
+    config = film()
+    contact = contact_from(config)
+    grids = inlet_grids(config, contact)
+    assert [grid.nodes for grid in grids] == [33, 65, 129, 257]
+    assert grids[-1].cells == pytest.approx(resolution(contact, mesh_from(config, contact)).inlet_cells)
+
+
+def test_speeds_are_those_that_the_nested_iteration_solves_at():
+    from mpi4py import MPI
+
+    from mgehl.run import solve
+
+    config = film(nodes=129, speed=0.2)
+    grids = inlet_grids(config, contact_from(config))
+    rows = solve(config, MPI.COMM_SELF).rows
+    solved = {row["grid"]: row["speed_mm_s"] for row in rows}
+    assert solved == {grid.nodes: pytest.approx(1e3 * grid.speed) for grid in grids if grid.speed}
+
+
+def test_from_contact_only_the_finest_grid_is_solved():
+    config = film(**{"solver.start": "contact"})
+    assert [grid.speed is None for grid in inlet_grids(config, contact_from(config))] == [True] * 3 + [
+        False
+    ]
+
+
+def test_the_recommended_grid_is_the_first_that_resolves():
+    config = film()
+    nodes = resolving_nodes(config, contact_from(config))
+    fine, coarse = film(nodes=nodes), film(nodes=(nodes + 1) // 2)
+    verdicts = [
+        resolution(contact_from(each), mesh_from(each, contact_from(each))).verdict
+        for each in (fine, coarse)
+    ]
+    assert verdicts == ["resolved", "coarse"]
+
+
+@pytest.mark.parametrize(
+    "cells, start, words",
+    [
+        (4.0, "film", "resolves"),
+        (2.0, "contact", "changes with the grid"),
+        (1.0, "film", "side by side"),
+        (0.5, "film", "side by side"),
+        (0.5, "contact", "full contact"),
+    ],
+)
+def test_what_is_expected_follows_from_cells_and_start(cells, start, words):
+    assert words in expectation(cells, start)
+
+
+def test_work_is_that_of_the_kind_of_run():
+    assert expected_work(film()) == module.WORK["film"]
+    assert expected_work(film(**{"solver.start": "contact"})) == module.WORK["contact"]
+    assert expected_work(film(**{"discretization.face_mobility": "harmonic"})) == module.WORK["mean"]
+    sweeps = {"solver.method": "relaxation", "relaxation.max_sweeps": 7}
+    assert expected_work(film(**sweeps)).convolutions == (7.0, 7.0)
+
+
+def test_time_is_that_of_the_convolutions_on_the_cores_there_are(one_second):
+    low, high = module.WORK["film"].convolutions
+    factor = module.WORK["film"].times_convolution
+    one, two, three = (foretold(film(), ranks) for ranks in (1, 2, 3))
+    assert one.seconds == pytest.approx(tuple(module.START_SECONDS + n * factor for n in (low, high)))
+    assert [found.workers for found in (one, two, three)] == [1, 2, 2]
+    assert two.seconds[0] - module.START_SECONDS == pytest.approx(0.5 * low * factor)
+
+
+def test_a_convolution_grows_by_n_log_n_from_the_grid_that_was_timed(one_second):
+    found = foretold(film(nodes=2049))
+    n, timed = 2049**2, 513**2
+    assert found.timed_nodes == 513
+    assert found.convolution_seconds == pytest.approx(n * np.log(n) / (timed * np.log(timed)))
+
+
+def test_memory_is_that_of_the_run_that_was_measured(one_second):
+    """A film on 4097 by 4097 nodes took 20.8 GiB on two ranks."""
+    assert foretold(film(nodes=4097), 2).memory / 2**30 == pytest.approx(20.8, rel=0.05)
+
+
+def test_a_line_contact_is_solved_whole_on_every_rank(one_second):
+    line = load_config(settings={"contact.kind": "line", "motion.speed": 0.1, "grid.nodes": 4097})
+    one, two = foretold(line, 1), foretold(line, 2)
+    assert two.memory == pytest.approx(2 * one.memory) and two.seconds == one.seconds
+
+
+def test_a_convolution_is_timed_on_this_machine():
+    small, large = (time_convolution(Mesh(n, n, (-2.0, 2.0), (-2.0, 2.0))) for n in (65, 257))
+    assert 0.0 < small < large < 10.0
