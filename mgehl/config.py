@@ -66,12 +66,17 @@ class Config:
     solver: sections.SolverSection = sections.SolverSection()
     relaxation: sections.RelaxationSection = sections.RelaxationSection()
 
+    @property
+    def unused(self):
+        """Sections and keys that this contact has no use for."""
+        return *FOREIGN[self.contact.kind], *_without_coating(self.contact.deformation)
+
     def as_toml_tables(self):
         """Nested plain values, without the keys that are not set: what a TOML file can hold."""
         tables = {name: _without_none(section) for name, section in asdict(self).items()}
         if self.moes.M is not None:
             del tables["contact"]["load"], tables["motion"]["speed"]
-        for name in (*FOREIGN[self.contact.kind], *_without_coating(self.contact.deformation)):
+        for name in self.unused:
             section, _, key = name.partition(".")
             if key:
                 tables[section].pop(key, None)

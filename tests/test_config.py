@@ -522,6 +522,7 @@ def test_a_deformation_that_is_set_pushes_out_the_coating_of_the_file():
     assert load_config(CONFIGS / "coated.toml").coating.thickness == pytest.approx(40e-6)
     config = load_config(CONFIGS / "coated.toml", ["contact.deformation=half-space"])
     assert config.coating == Config().coating
+    assert "coating" in config.unused and "coating" not in load_config(CONFIGS / "coated.toml").unused
     assert "coating" not in config.as_toml_tables()
 
 
