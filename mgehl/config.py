@@ -14,7 +14,9 @@ from pathlib import Path
 from mgehl import config_sections as sections
 from mgehl.config_value import read_value, shown
 from mgehl.errors import ConfigError
+from mgehl.model.coating import Coating
 from mgehl.model.lubricant import VISCOSITY_LAWS
+from mgehl.model.own_function import absolute, is_own
 
 COARSEST_NODES = 33
 """Nodes along each side of the coarsest grid, which is solved directly."""
@@ -24,10 +26,13 @@ MOES_REPLACES = (("contact", "load"), ("motion", "speed"))
 
 FOREIGN = {
     "point": ("contact.load_per_length", "wedge"),
-    "line": ("contact.load", "contact.radius_y", "grid.y", "moes", "wedge"),
+    "line": (
+        "contact.load", "contact.radius_y", "contact.deformation", "coating", "grid.y", "moes", "wedge",
+    ),
     "wedge": (
         "contact.load", "contact.load_per_length", "contact.radius_x", "contact.radius_y",
-        "contact.reduced_modulus", "lubricant.pressure_viscosity",
+        "contact.reduced_modulus", "contact.deformation", "contact.surface", "coating",
+        "lubricant.pressure_viscosity",
         "lubricant.viscosity_law", "lubricant.density_law", "moes", "grid.x", "grid.y",
         "discretization.contact_model", "discretization.unified_gap", "discretization.film_threshold",
         "solver.method", "solver.start", "solver.first_nodes", "solver.inlet_cells",
@@ -51,6 +56,7 @@ class Config:
     """A validated configuration."""
 
     contact: sections.ContactSection = sections.ContactSection()
+    coating: sections.CoatingSection = sections.CoatingSection()
     wedge: sections.WedgeSection = sections.WedgeSection()
     lubricant: sections.LubricantSection = sections.LubricantSection()
     motion: sections.MotionSection = sections.MotionSection()
@@ -60,18 +66,28 @@ class Config:
     solver: sections.SolverSection = sections.SolverSection()
     relaxation: sections.RelaxationSection = sections.RelaxationSection()
 
+    @property
+    def unused(self):
+        """Sections and keys that this contact has no use for."""
+        return *FOREIGN[self.contact.kind], *_without_coating(self.contact.deformation)
+
     def as_toml_tables(self):
         """Nested plain values, without the keys that are not set: what a TOML file can hold."""
         tables = {name: _without_none(section) for name, section in asdict(self).items()}
         if self.moes.M is not None:
             del tables["contact"]["load"], tables["motion"]["speed"]
-        for name in FOREIGN[self.contact.kind]:
+        for name in self.unused:
             section, _, key = name.partition(".")
             if key:
                 tables[section].pop(key, None)
             else:
-                tables.pop(section)
+                tables.pop(section, None)
         return {name: table for name, table in tables.items() if table}
+
+
+def _without_coating(deformation):
+    """Sections that a deformation has no use for."""
+    return () if deformation == "coated" else ("coating",)
 
 
 def _without_none(section):
@@ -93,7 +109,9 @@ def load_config(path=None, settings=()):
 
     Raises ConfigError for anything that cannot be used.
     """
-    tables = _read_toml(Path(path) if path else default_config())
+    path = Path(path) if path else default_config()
+    tables = _read_toml(path)
+    _anchor(tables, path.parent)
     given = _pairs(settings)
     _push_out(tables, given)
     for name, value in given.items():
@@ -109,8 +127,10 @@ def _pairs(settings):
 
 
 def _push_out(tables, given):
-    """Drop what the file says and a setting makes meaningless: another kind, or Moes numbers."""
+    """Drop what the file says and a setting makes meaningless: another kind, Moes numbers, no coating."""
     names = list(FOREIGN.get(str(given.get("contact.kind")), ()))
+    if "contact.deformation" in given:
+        names += _without_coating(given["contact.deformation"])
     if any(key.startswith("moes.") for key in given):
         names += [f"{section}.{key}" for section, key in MOES_REPLACES]
     for name in names:
@@ -119,6 +139,13 @@ def _push_out(tables, given):
             tables.pop(section, None)
         elif isinstance(tables.get(section), dict):
             tables[section].pop(key, None)
+
+
+def _anchor(tables, directory):
+    """Count the paths of a file's own functions from where that file is."""
+    for table in tables.values():
+        for key, value in table.items() if isinstance(table, dict) else ():
+            table[key] = absolute(value, directory) or value
 
 
 def check_ranks(ranks):
@@ -172,12 +199,30 @@ def _check_together(config, tables):
     wedge = config.wedge
     if not wedge.exit < wedge.inlet:
         raise ConfigError(f"wedge.inlet = {wedge.inlet:g}: must be above wedge.exit = {wedge.exit:g}")
+    _check_coating(config, tables)
+    if is_own(config.lubricant.viscosity_law):
+        return
     try:
         VISCOSITY_LAWS[config.lubricant.viscosity_law](
             config.lubricant.viscosity, config.lubricant.pressure_viscosity
         )
     except ValueError as error:
         raise ConfigError(f"lubricant.viscosity = {shown(config.lubricant.viscosity)}: {error}") from None
+
+
+def _check_coating(config, tables):
+    deformation, coating = config.contact.deformation, config.coating
+    if deformation != "coated":
+        if tables.get("coating"):
+            raise ConfigError(f'[coating]: means nothing where contact.deformation = "{deformation}"')
+        return
+    for key in ("thickness", "modulus"):
+        if getattr(coating, key) is None:
+            raise ConfigError(f'coating.{key}: must be given where contact.deformation = "coated"')
+    try:
+        Coating(**asdict(coating), reduced_modulus=config.contact.reduced_modulus)
+    except ValueError as error:
+        raise ConfigError(f"coating.substrate_modulus = {coating.substrate_modulus!r}: {error}") from None
 
 
 def _check_foreign(kind, tables):

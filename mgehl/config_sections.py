@@ -7,6 +7,7 @@ from mgehl.discretization.couette import SCHEMES
 from mgehl.discretization.fluid import FACE_MEANS
 from mgehl.discretization.scheme import INTERFACES
 from mgehl.model.lubricant import DENSITY_LAWS, VISCOSITY_LAWS
+from mgehl.model.own_function import absolute
 from mgehl.model.wedge import PILLARS
 
 
@@ -21,8 +22,28 @@ class ContactSection:
     radius_x: float = key_field(12.7e-3, "reduced radius along the motion", "m", low=1e-6, high=100.0)
     radius_y: float = key_field(12.7e-3, "reduced radius across the motion", "m", low=1e-6, high=100.0)
     reduced_modulus: float = key_field(
-        219.78e9, "E' of 2/E' = sum of (1 - nu^2)/E", "Pa", low=1e6, high=1e13
+        219.78e9, "E' of 2/E' = sum of (1 - nu^2)/E, without coating", "Pa", low=1e6, high=1e13
     )
+    deformation: str = key_field(
+        "half-space", "what a point contact's bodies are in depth",
+        choices=("half-space", "coated"), kind=str, own=absolute,
+    )  # fmt: skip
+    surface: str | None = key_field(None, "height that adds to the smooth gap", kind=str, own=absolute)
+
+
+@dataclass(frozen=True)
+class CoatingSection:
+    thickness: float | None = key_field(
+        None, "thickness of the layer on one body, where contact.deformation = coated",
+        "m", low=1e-9, high=1.0,
+    )  # fmt: skip
+    modulus: float | None = key_field(None, "Young's modulus of the layer", "Pa", low=1e6, high=1e13)
+    poisson: float = key_field(0.3, "Poisson's ratio of the layer", low=0.0, high=0.5)
+    substrate_modulus: float | None = key_field(
+        None, "Young's modulus beneath it (unset: half of the compliance 2/E' is that body's)",
+        "Pa", low=1e6, high=1e13,
+    )  # fmt: skip
+    substrate_poisson: float = key_field(0.3, "Poisson's ratio beneath it", low=0.0, high=0.5)
 
 
 @dataclass(frozen=True)
@@ -49,13 +70,13 @@ class WedgeSection:
 class LubricantSection:
     viscosity: float = key_field(0.096, "viscosity at ambient pressure", "Pa*s", low=1e-6, high=1e4)
     viscosity_law: str = key_field(
-        "barus", "viscosity-pressure law", choices=tuple(VISCOSITY_LAWS), kind=str
+        "barus", "viscosity-pressure law", choices=tuple(VISCOSITY_LAWS), kind=str, own=absolute
     )
     pressure_viscosity: float = key_field(
         18.2e-9, "pressure-viscosity coefficient", "1/Pa", low=1e-10, high=1e-6
     )
     density_law: str = key_field(
-        "dowson-higginson", "density-pressure law", choices=tuple(DENSITY_LAWS), kind=str
+        "dowson-higginson", "density-pressure law", choices=tuple(DENSITY_LAWS), kind=str, own=absolute
     )
 
 

@@ -10,6 +10,9 @@ from mgehl.errors import ConfigError
 FARTHEST = 100.0
 """Largest distance of the domain's edge, in semi-axes of the contact."""
 
+OWN = "FILE.py:FUNCTION"
+"""How a user's own function is named."""
+
 LONGEST_SHOWN = 100
 """Characters of a wrong value that a message repeats."""
 
@@ -19,11 +22,18 @@ _NO_MATCH = re.match("(?P<number>)(?P<per>)(?P<units>)", "")
 """A quantity such as "7.5 mm/s" or "18.2 1/GPa", and one without a number, which no float reads."""
 
 
-def key_field(default, help, unit=None, above=None, low=None, high=None, choices=None, kind=float):
-    """A dataclass field that carries its rules as metadata."""
+def key_field(
+    default, help, unit=None, above=None, low=None, high=None, choices=None, kind=float, own=None
+):
+    """A dataclass field that carries its rules as metadata.
+
+    `own`, of a word, reads what is none of the choices, a function of the user's own; it returns None
+    for what it cannot read.
+    """
     rules = {
         "help": help, "unit": unit, "above": above, "low": low, "high": high,
-        "choices": choices, "kind": kind,
+        "choices": choices, "kind": kind, "own": own,
+        "words": (*(choices or ()), *([OWN] if own else [])),
     }  # fmt: skip
     return field(default=default, metadata=rules)
 
@@ -39,10 +49,8 @@ def shown(value):
 
 def read_value(key, rules, value):
     """The value that `value`, as read from TOML, stands for. Raises ConfigError."""
-    if rules["choices"]:
-        if not isinstance(value, str) or value not in rules["choices"]:
-            raise ConfigError(f"{key} = {shown(value)}: must be one of {', '.join(rules['choices'])}")
-        return value
+    if rules["kind"] is str:
+        return _word(key, rules, value)
     if rules["kind"] is tuple:
         return _interval(key, value)
     if rules["kind"] is bool:
@@ -53,6 +61,15 @@ def read_value(key, rules, value):
     if not _in_range(rules, number):
         raise ConfigError(f"{key} = {shown(value)}: must be {_describe_range(rules)}")
     return number
+
+
+def _word(key, rules, value):
+    if isinstance(value, str) and value in (rules["choices"] or ()):
+        return value
+    if rules["own"] and (own := rules["own"](value)):
+        return own
+    one_of = "one of " if len(rules["words"]) > 1 else ""
+    raise ConfigError(f"{key} = {shown(value)}: must be {one_of}{', '.join(rules['words'])}")
 
 
 def read_quantity(name, text, unit, above=0.0):

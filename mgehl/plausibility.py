@@ -1,6 +1,8 @@
 """What a valid configuration may still get wrong together: found before anything is written."""
 
 from mgehl.errors import ConfigError
+from mgehl.model.images import wave_numbers
+from mgehl.model.own_laws import OwnCompliance, OwnDensity, OwnViscosity
 from mgehl.solver.from_config import mesh_from
 
 LARGEST_RADIUS_RATIO = 1e3
@@ -12,6 +14,8 @@ LARGEST_CONTACT = 0.5
 LARGEST_EXPONENT = 200.0
 """alpha p_h: the viscosity must stay a number."""
 
+CHECKED_PRESSURE = 2.0
+"""Pressure up to which a user's own laws are checked, over that of Hertz."""
 
 LARGEST_ASPECT = 100.0
 """Of a pad's length and width."""
@@ -27,7 +31,9 @@ def check_contact(config, contact):
         return
     if config.contact.kind == "point":
         _check_radii(config.contact)
+    _check_deformation(config, contact)
     _check_size(config, contact)
+    _check_own_laws(config, contact)
     exponent = contact.lubricant.pressure_viscosity * contact.hertz.p_h
     if exponent > LARGEST_EXPONENT:
         raise ConfigError(
@@ -35,11 +41,50 @@ def check_contact(config, contact):
             f"pressure of {contact.hertz.p_h:.2g} Pa it must be at most {LARGEST_EXPONENT:g}, "
             f"is {exponent:.2g}"
         )
-    if 1.0 + contact.inlet_length > -config.grid.x[0]:
+    _check_domain(config.grid, contact)
+
+
+def _check_deformation(config, contact):
+    """A user's own must be positive, and any must be a sum of images."""
+    deformation = contact.deformation
+    if isinstance(deformation, OwnCompliance):
+        deformation.check(wave_numbers() / contact.hertz.a)
+    try:
+        _ = contact.kernel
+    except ValueError as error:
+        raise ConfigError(f"contact.deformation = {config.contact.deformation!r}: {error}") from None
+
+
+def _check_own_laws(config, contact):
+    """A user's own laws must hold with their derivatives, the surface must be heights."""
+    highest = CHECKED_PRESSURE * contact.hertz.p_h
+    for law in (contact.lubricant.viscosity_law, contact.lubricant.density_law):
+        if isinstance(law, OwnViscosity | OwnDensity):
+            law.check(highest)
+    if contact.surface is not None:
+        mesh = mesh_from(config, contact)
+        contact.surface.check(mesh.X * contact.x_scale, mesh.Y * contact.y_scale, contact.hertz.a)
+
+
+def _check_domain(grid, contact):
+    """The inlet and the contact must lie in the domain.
+
+    The widening by a soft layer is estimated, and low by up to a third.
+    """
+    width = contact.widening
+    reach = width if width <= 1.0 else min(width**2, 1.3 * width)
+    inlet = reach + contact.inlet_length
+    if inlet > -grid.x[0]:
         raise ConfigError(
-            f"grid.x = {list(config.grid.x)!r}: must begin before {-1.0 - contact.inlet_length:.3g}, "
-            "where the inlet that builds the film begins"
+            f"grid.x = {list(grid.x)!r}: must begin before {-inlet:.3g}, where the inlet that builds the "
+            "film begins"
         )
+    for name, ends in (("x", grid.x), ("y", grid.y)):
+        if min(-ends[0], ends[1]) <= reach:
+            raise ConfigError(
+                f"grid.{name} = {list(ends)!r}: must reach beyond {reach:.3g} on both sides, as far as the "
+                "contact may on a layer so soft"
+            )
 
 
 def _check_radii(section):
@@ -53,15 +98,15 @@ def _check_radii(section):
 
 def _check_size(config, contact):
     """The bodies must be half-spaces."""
-    section, hertz = config.contact, contact.hertz
+    section, hertz, wide = config.contact, contact.hertz, contact.widening
     if config.contact.kind == "line":
         name, size, radii = "contact.load_per_length", f"{hertz.a:.2g} m", f"{section.radius_x:g} m"
         part = hertz.a / section.radius_x
     else:
         name = "moes.M" if config.moes.M is not None else "contact.load"
-        size = f"{hertz.a:.2g} m by {hertz.b:.2g} m"
+        size = f"{wide * hertz.a:.2g} m by {wide * hertz.b:.2g} m"
         radii = f"{section.radius_x:g} m and {section.radius_y:g} m"
-        part = max(hertz.a / section.radius_x, hertz.b / section.radius_y)
+        part = wide * max(hertz.a / section.radius_x, hertz.b / section.radius_y)
     if part > LARGEST_CONTACT:
         raise ConfigError(
             f"{name}: the contact would be {size} wide on radii of {radii}; it must be below half of them"

@@ -86,7 +86,7 @@ def _solve_loaded(config, contact, mesh, comm, watch, start=None):
     settings = settings_from(config, contact)
     by_newton = settings.method == "newton-mg"
     tolerance = settings.newton.tolerance
-    hierarchy = Hierarchy(mesh, COARSEST_NODES, contact.deflection_scale, comm)
+    hierarchy = Hierarchy(mesh, COARSEST_NODES, contact.kernel, comm)
     try:
         kind = progress.NEWTON if by_newton else progress.RELAXATION
         monitor = progress.Progress(kind, contact.film_scale, hierarchy, tolerance, watch.speaker)

@@ -51,7 +51,7 @@ def make_hierarchy():
 
     def make(contact, nodes=65, coarsest=33, comm=MPI.COMM_SELF, x=DOMAIN["x"], y=DOMAIN["y"], ny=None):
         mesh = Mesh(nodes, ny or nodes, x, y, contact.k_e)
-        made.append(Hierarchy(mesh, coarsest, contact.deflection_scale, comm))
+        made.append(Hierarchy(mesh, coarsest, contact.kernel, comm))
         return made[-1]
 
     yield make

@@ -190,7 +190,12 @@ MISTAKES = [
     ("grid.nodez=129", "grid.nodez = 129: ", "unknown key", "did you mean grid.nodes?"),
     ("solver.speed=1", "solver.speed = 1: ", "unknown key", "did you mean motion.speed?"),
     ("gird.nodes=129", "gird = {'nodes': 129}: ", "unknown section", "did you mean grid?"),
-    ("qqqq.w=1", "qqqq = {'w': 1}: ", "unknown section", "known are contact, wedge, lubricant, motion"),
+    (
+        "qqqq.w=1",
+        "qqqq = {'w': 1}: ",
+        "unknown section",
+        "known are contact, coating, wedge, lubricant, motion",
+    ),
     ("grid.nodes", "--set grid.nodes: ", "must be section.key=value"),
     ("nodes=129", "--set nodes=129: ", "must be section.key=value"),
     (".nodes=129", "--set .nodes=129: ", "must be section.key=value"),
@@ -344,9 +349,11 @@ def test_round_trip_through_toml(tables):
 def test_written_tables_name_every_key_that_is_set():
     """Nothing is left to the defaults of a later version; unset keys are absent."""
     written = Config().as_toml_tables()
-    assert written.keys() == SECTIONS.keys() - {"moes", "wedge"}
+    assert written.keys() == SECTIONS.keys() - {"moes", "coating", "wedge"}
     for name in written:
-        foreign = {"contact": {"load_per_length"}, "discretization": {"cavitation"}}.get(name, set())
+        foreign = {"contact": {"load_per_length", "surface"}, "discretization": {"cavitation"}}.get(
+            name, set()
+        )
         assert set(written[name]) == {key.name for key in fields(SECTIONS[name])} - foreign
     written = config_from_tables(MOES).as_toml_tables()
     assert "motion" not in written and "load" not in written["contact"]
@@ -377,18 +384,21 @@ def test_a_setting_holds_one_value():
 
 VALUES = {
     "contact.load": "800", "contact.load_per_length": "500e3", "contact.radius_x": "0.01",
-    "contact.radius_y": "0.01", "contact.reduced_modulus": "2e11", "lubricant.viscosity_law": "barus",
+    "contact.radius_y": "0.01", "contact.reduced_modulus": "2e11", "contact.surface": "laws.py:waves",
+    "contact.deformation": "half-space", "lubricant.viscosity_law": "barus",
     "lubricant.pressure_viscosity": "1e-8", "lubricant.density_law": "constant", "grid.x": "[-2, 2]",
     "grid.y": "[-2, 2]", "discretization.contact_model": "unified", "discretization.unified_gap": "1e-9",
     "discretization.film_threshold": "0", "solver.method": "newton-mg", "solver.start": "film",
     "solver.first_nodes": "65", "solver.inlet_cells": "2", "solver.release_budget": "1",
 }  # fmt: skip
-SECTION_KEYS = {"moes": ["moes.M=20", "moes.L=10"], "wedge": ["wedge.slope=1e-3"],
+SECTION_KEYS = {"moes": ["moes.M=20", "moes.L=10"], "coating": ["coating.poisson=0.3"],
+                 "wedge": ["wedge.slope=1e-3"],
                 "relaxation": ["relaxation.omega=0.1"]}  # fmt: skip
 FOREIGN_KEYS = [
     ("point", "contact.load_per_length"), ("point", "wedge"),
-    *(("line", key) for key in ("contact.load", "contact.radius_y", "grid.y", "moes", "wedge")),
-    *(("wedge", key) for key in (*VALUES, "moes", "relaxation")),
+    *(("line", key) for key in ("contact.load", "contact.radius_y", "grid.y", "moes", "wedge",
+                                "contact.deformation", "coating")),
+    *(("wedge", key) for key in (*VALUES, "moes", "coating", "relaxation")),
 ]  # fmt: skip
 
 
@@ -407,8 +417,16 @@ KINDS = {
         "solver": {"method": "relaxation"},
         "relaxation": {"omega": 0.1, "contact_update": "point", "stability": 10, "max_sweeps": 100},
     },
+    "coated point": {
+        "contact": {"deformation": "coated"},
+        "coating": {"thickness": "10 um", "modulus": "4 GPa", "substrate_modulus": "200 GPa"},
+    },
+    "point of one's own": {
+        "contact": {"deformation": "/there/mine.py:layers", "surface": "/there/mine.py:waves"},
+        "lubricant": {"viscosity_law": "/there/mine.py:eta", "density_law": "/there/mine.py:rho"},
+    },
     "line": {
-        "contact": {"kind": "line", "load_per_length": "1859 N/mm"},
+        "contact": {"kind": "line", "load_per_length": "1859 N/mm", "surface": "/there/mine.py:waves"},
         "grid": {"x": [-2.5, 1.5]},
         "solver": {"cycle_couette": "1B"},
         "discretization": {"couette": "2B"},
@@ -483,3 +501,63 @@ def test_a_kind_that_is_set_pushes_out_what_the_file_says_of_another(kind):
     config = load_config(settings=[f"contact.kind={kind}", "grid.nodes=65"])
     assert config.contact.kind == kind
     assert config.contact.load == Config().contact.load
+
+
+COATED = ("contact.deformation=coated", "coating.thickness=10 um", "coating.modulus=400 GPa")
+
+
+@pytest.mark.parametrize("left", ["thickness", "modulus"])
+def test_a_coating_has_a_thickness_and_a_modulus(left):
+    message = error_of(*(setting for setting in COATED if left not in setting))
+    assert message == f'coating.{left}: must be given where contact.deformation = "coated"'
+
+
+@pytest.mark.parametrize("deformation", ["half-space", "/there/mine.py:layers"])
+def test_a_coating_without_a_coated_contact_is_a_mistake(deformation):
+    message = error_of(f"contact.deformation={deformation}", "coating.poisson=0.2")
+    assert message == f'[coating]: means nothing where contact.deformation = "{deformation}"'
+
+
+def test_a_deformation_that_is_set_pushes_out_the_coating_of_the_file():
+    assert load_config(CONFIGS / "coated.toml").coating.thickness == pytest.approx(40e-6)
+    config = load_config(CONFIGS / "coated.toml", ["contact.deformation=half-space"])
+    assert config.coating == Config().coating
+    assert "coating" in config.unused and "coating" not in load_config(CONFIGS / "coated.toml").unused
+    assert "coating" not in config.as_toml_tables()
+
+
+def test_a_substrate_softer_than_both_bodies():
+    message = error_of(*COATED, "coating.substrate_modulus=50 GPa")
+    assert message.startswith("coating.substrate_modulus = 50000000000.0: both bodies without the coating")
+    assert message.endswith("so that the substrate's modulus is at least 1e+11 Pa")
+
+
+def test_own_functions_of_a_file_are_found_from_the_file(tmp_path, monkeypatch):
+    (tmp_path / "mine.toml").write_text('[contact]\nsurface = "laws/mine.py:waves"\n')
+    (tmp_path / "elsewhere").mkdir()
+    monkeypatch.chdir(tmp_path / "elsewhere")
+    config = load_config("../mine.toml", ["lubricant.density_law=mine.py:rho"])
+    assert config.contact.surface == f"{tmp_path}/laws/mine.py:waves"
+    assert config.lubricant.density_law == f"{tmp_path}/elsewhere/mine.py:rho"
+
+
+def test_objects_of_one_s_own():
+    """From the configuration to the contact, without a look at the files."""
+    from mgehl.model.coating import Coating
+    from mgehl.model.own_function import OwnFunction
+    from mgehl.model.own_laws import OwnCompliance, OwnDensity, OwnSurface, OwnViscosity
+    from mgehl.solver.from_config import contact_from
+
+    own = {"viscosity_law": "/there/mine.py:eta", "density_law": "/there/mine.py:rho"}
+    tables = {"contact": {"surface": "/m.py:s", "deformation": "/m.py:c"}, "lubricant": own, **MOES}
+    contact = contact_from(config_from_tables(tables))
+    lubricant = contact.lubricant
+    function = OwnFunction("lubricant.viscosity_law", own["viscosity_law"])
+    assert lubricant.viscosity_law == OwnViscosity(0.096, 18.2e-9, function)
+    assert lubricant.density_law == OwnDensity(OwnFunction("lubricant.density_law", own["density_law"]))
+    assert contact.surface == OwnSurface(OwnFunction("contact.surface", "/m.py:s"))
+    assert contact.deformation == OwnCompliance(OwnFunction("contact.deformation", "/m.py:c"))
+    line = contact_from(config_from_tables({"contact": {"kind": "line", "surface": "/m.py:s"}}))
+    assert line.surface == contact.surface and line.deformation is None
+    coated = contact_from(with_settings(*COATED, "coating.poisson=0.2"))
+    assert coated.deformation == Coating(pytest.approx(10e-6), 400e9, 0.2, None, 0.3, 219.78e9)

@@ -30,8 +30,8 @@ def describe_keys():
     for name, section in SECTIONS.items():
         for key in fields(section):
             rules = key.metadata
-            choices = f" ({', '.join(rules['choices'])})" if rules["choices"] else ""
+            choices = f" ({', '.join(rules['words'])})" if rules["words"] else ""
             unit = f" {rules['unit']}" if rules["unit"] else ""
-            default = "unset" if key.default is None else f"{key.default}{unit}"
+            default = f"unset{unit and ','}{unit}" if key.default is None else f"{key.default}{unit}"
             lines.append(f"{name + '.' + key.name:32} {rules['help']}{choices} [{default}]")
     return "\n".join(lines)

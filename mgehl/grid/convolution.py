@@ -1,4 +1,4 @@
-"""Deflection of the half-space: a distributed convolution by FFT  [Liu eq. 51].
+"""Deflection of the surfaces: a distributed convolution by FFT  [Liu eq. 51].
 
 Boundary nodes carry no pressure, so the offsets between n - 2 sources and n nodes number
 2n - 3 and a period of 2(n - 1), a power of two, holds them all without overlap. A single line
@@ -23,7 +23,7 @@ TIMED, FIXED = ("FFTW_MEASURE",), ("FFTW_ESTIMATE",)
 class Deflection:
     """D = K * P on one grid; `count` tells how many convolutions were made."""
 
-    def __init__(self, grid, deflection_scale):
+    def __init__(self, grid, kernel):
         self.grid = grid
         self.count = 0
         mesh, (lines, nx) = grid.mesh, grid.shape
@@ -42,7 +42,7 @@ class Deflection:
         self._y_backward = pyfftw.FFTW(
             self._y_modes, self._y_modes, axes=(0,), direction="FFTW_BACKWARD", **plan
         )
-        self._spectrum = self._transform_kernel(deflection_scale)
+        self._spectrum = self._transform(kernel)
 
     def destroy(self):
         """Free the MPI datatypes."""
@@ -68,12 +68,12 @@ class Deflection:
         self._x_backward.execute()
         return self._x_real[:, :nx]
 
-    def _transform_kernel(self, deflection_scale):
+    def _transform(self, kernel):
         """Spectrum of the even kernel on this rank's columns, with the scale of the FFTs: real."""
         nx, ny = self.grid.mesh.nx, self.grid.mesh.ny
-        kernel = influence_coefficients(self.grid.mesh, deflection_scale, self.grid.first, self.grid.last)
-        self._x_real[:, :nx] = kernel
-        self._x_real[:, nx:] = kernel[:, -2:0:-1]
+        K = influence_coefficients(self.grid.mesh, kernel, self.grid.first, self.grid.last)
+        self._x_real[:, :nx] = K
+        self._x_real[:, nx:] = K[:, -2:0:-1]
         self._x_forward.execute()
         self._transpose.to_columns(self._x_modes, self._y_modes[:ny])
         self._y_modes[ny:] = self._y_modes[ny - 2 : 0 : -1]

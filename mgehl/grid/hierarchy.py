@@ -13,10 +13,10 @@ class Hierarchy:
     """
 
     @event(SETUP)
-    def __init__(self, mesh, coarsest_nodes, deflection_scale, comm):
+    def __init__(self, mesh, coarsest_nodes, kernel, comm):
         self.grids = build_grids(mesh, coarsest_nodes, comm)
         self.transfers = [Transfer(*pair) for pair in zip(self.grids[:-1], self.grids[1:], strict=True)]
-        self.deflections = [Deflection(grid, deflection_scale) for grid in self.grids]
+        self.deflections = [Deflection(grid, kernel) for grid in self.grids]
 
     @property
     def convolutions(self):

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from math import sqrt
 
 from mgehl.model import films
-from mgehl.model.hertz import edge_gap_coefficient
+from mgehl.model.hertz import edge_gap_coefficient, hertz_pressure
 
 
 @dataclass(frozen=True)
@@ -25,12 +25,37 @@ class LoadedContact:
     """Scales, film and inlet of a body pressed on a lubricated flat, all values in SI units.
 
     A kind of contact adds `load`, `radius_x`, `reduced_modulus`, `speed`, `lubricant`, the dry
-    `hertz` contact, `groups`, `undeformed_gap`, `dry_gap`, `deflection_scale`, the `load_integral` of P and
-    the `contact_area` in units of X and Y. `speed` is u of the Couette flow rho u h.
+    `hertz` contact, `groups`, `smooth_gap`, `dry_gap`, the `kernel` of the deformation, the
+    `load_integral` of P and the `contact_area` in units of X and Y. `speed` is u of the Couette flow
+    rho u h.
     """
 
     motion = 1
     """The surfaces move towards +X."""
+
+    surface = None
+    """An `OwnSurface` of the body that stands still."""
+    deformation = None
+    """What the bodies are in depth, where they are not half-spaces."""
+    widening = 1.0
+    """Width of the dry contact over that of Hertz; where bodies are layered an estimate."""
+
+    def undeformed_gap(self, X, Y):
+        """Gap of the undeformed bodies in units of H, whatever is on their surface."""
+        smooth = self.smooth_gap(X, Y)
+        if self.surface is None:
+            return smooth
+        return smooth + self.surface.height(X * self.x_scale, Y * self.y_scale) / self.film_scale
+
+    @property
+    def is_hertzian(self):
+        """True of smooth half-spaces, whose dry contact is that of Hertz."""
+        return self.surface is None and self.deformation is None
+
+    def guessed_pressure(self, X, Y):
+        """Pressure to start from: that of Hertz, `widening` times as wide."""
+        wide = self.widening
+        return hertz_pressure(X / wide, Y / wide) / wide**2
 
     def at_speed(self, speed):
         """The same contact at another entrainment speed (m/s)."""

@@ -6,8 +6,10 @@ from math import pi
 
 from mgehl.model import films
 from mgehl.model.contact import Groups, LoadedContact
+from mgehl.model.deformation import HalfPlane
 from mgehl.model.hertz import hertz_line_contact, hertz_line_gap
 from mgehl.model.lubricant import Lubricant
+from mgehl.model.own_laws import OwnSurface
 
 
 @dataclass(frozen=True)
@@ -28,6 +30,7 @@ class LineContact(LoadedContact):
     reduced_modulus: float
     speed: float
     lubricant: Lubricant
+    surface: OwnSurface | None = None
 
     load_integral = pi / 2.0
     """The integral of P over X: that of sqrt(1 - X^2)."""
@@ -45,7 +48,12 @@ class LineContact(LoadedContact):
         """Factor of the integral of -P ln|x/a|: 4 p_h R/(pi E' a), which is 1/pi."""
         return 4.0 * self.hertz.p_h * self.radius_x / (pi * self.reduced_modulus * self.hertz.a)
 
-    def undeformed_gap(self, X, _Y):
+    @property
+    def kernel(self):
+        """The deformation: that of two half-planes."""
+        return HalfPlane(self.deflection_scale)
+
+    def smooth_gap(self, X, _Y):
         """The parabola x^2/2R in units of H  [Liu eq. 48]."""
         return 0.5 * X**2
 

@@ -9,6 +9,8 @@ from math import log
 
 import numpy as np
 
+from mgehl.model.own_laws import OwnDensity, OwnViscosity
+
 ROELANDS_PRESSURE = 1.0 / 5.1e-9
 """Pressure constant of Roelands' law in Pa."""
 
@@ -94,8 +96,8 @@ DENSITY_LAWS = {"dowson-higginson": DowsonHigginson, "constant": ConstantDensity
 class Lubricant:
     """A viscosity law and a density law."""
 
-    viscosity_law: Barus | Roelands | ConstantViscosity
-    density_law: DowsonHigginson | ConstantDensity
+    viscosity_law: Barus | Roelands | ConstantViscosity | OwnViscosity
+    density_law: DowsonHigginson | ConstantDensity | OwnDensity
 
     @property
     def viscosity(self):

@@ -1,13 +1,17 @@
 """The lubricated point contact: SI parameters in, dimensionless problem out (Y = y/b)."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
-from math import pi
+from math import pi, sqrt
 
 from mgehl.model import films
+from mgehl.model.coating import Coating
 from mgehl.model.contact import Groups, LoadedContact
+from mgehl.model.deformation import HalfSpace, LayeredHalfSpace
 from mgehl.model.hertz import hertz_contact, hertz_gap
+from mgehl.model.images import fit_images
 from mgehl.model.lubricant import Lubricant
+from mgehl.model.own_laws import OwnCompliance, OwnSurface
 
 LOAD = 2.0 * pi / 3.0
 """Dimensionless load: the integral of P over X and Y  [Liu eq. 50]."""
@@ -33,18 +37,21 @@ class PointContact(LoadedContact):
     reduced_modulus: float
     speed: float
     lubricant: Lubricant
+    surface: OwnSurface | None = None
+    deformation: Coating | OwnCompliance | None = None
+    """What the bodies are in depth, if not half-spaces of the reduced modulus."""
 
     load_integral = LOAD
     contact_area = pi
     """Of the Hertz ellipse in units of X and Y."""
 
     @classmethod
-    def from_moes(cls, M, L, radius_x, radius_y, reduced_modulus, lubricant):
+    def from_moes(cls, M, L, radius_x, radius_y, reduced_modulus, lubricant, **more):
         """The contact with Moes numbers M and L: load and speed follow from the rest."""
         two_U = (L / (lubricant.pressure_viscosity * reduced_modulus)) ** 4
         load = M * two_U**0.75 * reduced_modulus * radius_x**2
         speed = 0.5 * two_U * reduced_modulus * radius_x / lubricant.viscosity
-        return cls(load, radius_x, radius_y, reduced_modulus, speed, lubricant)
+        return cls(load, radius_x, radius_y, reduced_modulus, speed, lubricant, **more)
 
     @cached_property
     def hertz(self):
@@ -61,7 +68,37 @@ class PointContact(LoadedContact):
         """Factor of the integral of P/r over x/a and y/a: 2 p_h R_x/(pi E' a)  [Liu eq. 49]."""
         return 2.0 * self.hertz.p_h * self.radius_x / (pi * self.reduced_modulus * self.hertz.a)
 
-    def undeformed_gap(self, X, Y):
+    @property
+    def kernel(self):
+        """The deformation, in units of a, p_h and H."""
+        if self.deformation is None:
+            return HalfSpace(self.deflection_scale)
+        return LayeredHalfSpace(self.deflection_scale, self._images)
+
+    @cached_property
+    def _images(self):
+        return fit_images(lambda k: self.deformation.compliance(k / self.hertz.a))
+
+    @cached_property
+    def widening(self):
+        """Estimate of the dry contact's width over that of Hertz: 1 for half-spaces."""
+        if self.deformation is None:
+            return 1.0
+        return self._images.widening(1.0 / sqrt(self.k_e))
+
+    @cached_property
+    def _likeness(self):
+        """The contact of half-spaces that is as wide: what formulas can say of layered bodies."""
+        if self.deformation is None:
+            return self
+        return replace(self, reduced_modulus=self.reduced_modulus / self.widening**3, deformation=None)
+
+    @property
+    def inlet_length(self):
+        """As that of any contact, in units of a; of layered bodies an estimate."""
+        return super(PointContact, self._likeness).inlet_length * self.widening
+
+    def smooth_gap(self, X, Y):
         """The paraboloid x^2/2R_x + y^2/2R_y in units of H  [Liu eq. 48]."""
         side = self.radius_x / (self.radius_y * self.k_e**2)
         return 0.5 * X**2 + 0.5 * side * Y**2
@@ -94,4 +131,4 @@ class PointContact(LoadedContact):
     @property
     def expected_film(self):
         """Central film in metres to start from."""
-        return self.formulas.hamrock_dowson_central
+        return self._likeness.formulas.hamrock_dowson_central

@@ -16,7 +16,7 @@ class CoarseSolve:
     def __init__(self, jacobian):
         self._jacobian = jacobian
         if not jacobian.rigid:
-            self._K = dense_influence(jacobian.grid.mesh, jacobian.contact.deflection_scale)
+            self._K = dense_influence(jacobian.grid.mesh, jacobian.contact.kernel)
 
     @event(COARSE)
     def setUp(self, _pc):
@@ -57,10 +57,10 @@ class CoarseSolve:
         return stencil_rows(whole, 0, grid.mesh.nodes)
 
 
-def dense_influence(mesh, deflection_scale):
+def dense_influence(mesh, kernel):
     """Influence of every node on every node, (nodes, nodes)."""
-    kernel = influence_coefficients(mesh, deflection_scale)
+    nearby = influence_coefficients(mesh, kernel)
     distance_y = np.abs(np.subtract.outer(np.arange(mesh.ny), np.arange(mesh.ny)))
     distance_x = np.abs(np.subtract.outer(np.arange(mesh.nx), np.arange(mesh.nx)))
-    K = kernel[distance_y[:, None, :, None], distance_x[None, :, None, :]]
+    K = nearby[distance_y[:, None, :, None], distance_x[None, :, None, :]]
     return K.reshape(mesh.nodes, mesh.nodes)

@@ -59,4 +59,4 @@ def _influence_nearby(jacobian):
     if jacobian.rigid:
         return np.zeros((3, REACH + 2))
     mesh = jacobian.grid.mesh
-    return influence_coefficients(mesh, jacobian.contact.deflection_scale, 0, 3)[:, : REACH + 2]
+    return influence_coefficients(mesh, jacobian.contact.kernel, 0, 3)[:, : REACH + 2]

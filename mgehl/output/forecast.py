@@ -15,6 +15,7 @@ from mgehl.config import COARSEST_NODES, SECTIONS
 from mgehl.discretization.mesh import Mesh
 from mgehl.grid.convolution import Deflection
 from mgehl.grid.grid import single_grid
+from mgehl.model.deformation import HalfPlane, HalfSpace
 from mgehl.output.surroundings import cores_allowed
 
 RESOLVED_CELLS = 4.0
@@ -163,7 +164,7 @@ def expected_work(config):
 def time_convolution(mesh, repeats=5):
     """Seconds of one convolution on a mesh, on one core of this machine: the quickest of a few."""
     grid = single_grid(mesh, MPI.COMM_SELF)
-    deflection = Deflection(grid, 1.0)
+    deflection = Deflection(grid, HalfPlane(1.0) if mesh.is_line else HalfSpace(1.0))
     try:
         pressure, seconds = np.zeros(grid.shape), []
         for _ in range(repeats):

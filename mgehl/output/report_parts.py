@@ -3,7 +3,7 @@
 from dataclasses import asdict, fields
 from itertools import groupby
 
-from mgehl.config import FOREIGN, MOES_REPLACES, SECTIONS
+from mgehl.config import MOES_REPLACES, SECTIONS
 from mgehl.output.page import Cell, Section, Text, number, table
 
 
@@ -21,7 +21,7 @@ def configuration_section(config):
 
 
 def _key_rows(name, section, config):
-    unused = set(FOREIGN[config.contact.kind])
+    unused = set(config.unused)
     if config.moes.M is not None:
         unused |= {".".join(pair) for pair in MOES_REPLACES}
     if name in unused:

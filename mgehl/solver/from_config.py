@@ -5,8 +5,11 @@ from math import inf
 
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.scheme import Scheme
+from mgehl.model.coating import Coating
 from mgehl.model.line import LineContact
 from mgehl.model.lubricant import DENSITY_LAWS, VISCOSITY_LAWS, Lubricant
+from mgehl.model.own_function import OwnFunction, is_own
+from mgehl.model.own_laws import OwnCompliance, OwnDensity, OwnSurface, OwnViscosity
 from mgehl.model.point import PointContact
 from mgehl.model.wedge import WedgeBearing
 from mgehl.multigrid.cycle import CycleSettings
@@ -25,23 +28,48 @@ def contact_from(config):
 
 def _lubricant_from(config):
     section = config.lubricant
-    viscosity = VISCOSITY_LAWS[section.viscosity_law](section.viscosity, section.pressure_viscosity)
-    return Lubricant(viscosity, DENSITY_LAWS[section.density_law]())
+    ambient = section.viscosity, section.pressure_viscosity
+    if is_own(section.viscosity_law):
+        viscosity = OwnViscosity(*ambient, OwnFunction("lubricant.viscosity_law", section.viscosity_law))
+    else:
+        viscosity = VISCOSITY_LAWS[section.viscosity_law](*ambient)
+    if is_own(section.density_law):
+        density = OwnDensity(OwnFunction("lubricant.density_law", section.density_law))
+    else:
+        density = DENSITY_LAWS[section.density_law]()
+    return Lubricant(viscosity, density)
+
+
+def _surface_from(config):
+    name = config.contact.surface
+    return OwnSurface(OwnFunction("contact.surface", name)) if name else None
+
+
+def _deformation_from(config):
+    """What the bodies are in depth; None for half-spaces."""
+    section = config.contact
+    if section.deformation == "coated":
+        return Coating(**asdict(config.coating), reduced_modulus=section.reduced_modulus)
+    if is_own(section.deformation):
+        return OwnCompliance(OwnFunction("contact.deformation", section.deformation))
+    return None
 
 
 def _point_from(config):
     section, moes = config.contact, config.moes
     body = (section.radius_x, section.radius_y, section.reduced_modulus)
     lubricant = _lubricant_from(config)
+    more = {"surface": _surface_from(config), "deformation": _deformation_from(config)}
     if moes.M is not None:
-        return PointContact.from_moes(moes.M, moes.L, *body, lubricant)
-    return PointContact(section.load, *body, config.motion.speed, lubricant)
+        return PointContact.from_moes(moes.M, moes.L, *body, lubricant, **more)
+    return PointContact(section.load, *body, config.motion.speed, lubricant, **more)
 
 
 def _line_from(config):
     section, lubricant = config.contact, _lubricant_from(config)
     body = (section.radius_x, section.reduced_modulus)
-    return LineContact(section.load_per_length, *body, config.motion.speed, lubricant)
+    speed, surface = config.motion.speed, _surface_from(config)
+    return LineContact(section.load_per_length, *body, speed, lubricant, surface)
 
 
 def _wedge_from(config):

@@ -7,8 +7,8 @@ import numpy as np
 
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
-from mgehl.model.hertz import hertz_pressure
 from mgehl.multigrid.cycle import CycleSettings, MultigridSolver
+from mgehl.solver.dry import dry_pressure
 from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.newton import Newton, NewtonSettings
 from mgehl.solver.problem import DIVERGED, ContactProblem
@@ -96,13 +96,16 @@ def single_loop(hierarchy, contact, settings, monitor, journal=NOTHING_KEPT):
 def first_guess(problem, start):
     """Hertz pressure with a film of the formula's thickness, or with the ellipse in contact."""
     grid, contact = problem.grid, problem.contact
-    P = hertz_pressure(grid.X, grid.Y)
+    P = contact.guessed_pressure(grid.X, grid.Y)
+    if contact.deformation is not None and start == "film":
+        P = dry_pressure(problem, P)
+    H0 = problem.touching(P)
     if start == "film":
         film = contact.expected_film / contact.film_scale
-        return problem.state(P, film - contact.approach, np.full(grid.shape, LUBRICATED))
-    pressed = (grid.X**2 + grid.Y**2 <= 1.0) & (problem.scheme.gap_floor is None)
+        return problem.state(P, film + H0, np.full(grid.shape, LUBRICATED))
+    pressed = (grid.X**2 + grid.Y**2 <= contact.widening**2) & (problem.scheme.gap_floor is None)
     status = np.where(pressed, CONTACT, LUBRICATED)
-    return problem.state(P, -contact.approach, status)
+    return problem.state(P, H0, status)
 
 
 def interpolate(transfer, problem, coarse):

@@ -59,12 +59,19 @@ class ContactProblem(Problem):
     def __init__(self, grid, deflection, contact, scheme):
         super().__init__(grid, contact, scheme)
         self.deflection = deflection
-        self.K00 = influence_coefficients(grid.mesh, contact.deflection_scale, 0, 1)[0, 0]
+        self.K00 = influence_coefficients(grid.mesh, contact.kernel, 0, 1)[0, 0]
         self._undeformed = contact.undeformed_gap(grid.X, grid.Y)
 
     def gap(self, P, H0):
         """H of [Liu eq. 48] under the pressure P; one convolution."""
         return self.deflection(P) + (self._undeformed + H0)
+
+    def touching(self, P):
+        """H0 with which the dry bodies would touch under the first guess P of a pressure."""
+        if self.contact.is_hertzian:
+            return -self.contact.approach
+        gap = self.gap(np.where(self.boundary, 0.0, P), 0.0)
+        return -self.grid.min(gap[P > 0.0])
 
     def state(self, P, H0, status):
         """The state of a given pressure, with its gap; boundary nodes are set."""

@@ -123,7 +123,7 @@ class _Relaxation:
 
     def __init__(self, problem, settings):
         self._problem, self._settings = problem, settings
-        self._D = influence_coefficients(problem.grid.mesh, problem.contact.deflection_scale, 0, 1)[0, :3]
+        self._D = influence_coefficients(problem.grid.mesh, problem.contact.kernel, 0, 1)[0, :3]
 
     def mark_contact(self, state):
         """Contact where the gap is closed, film elsewhere; without interface conditions all film."""

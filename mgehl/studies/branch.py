@@ -172,8 +172,8 @@ class Branches:
     @property
     def _grids(self):
         if self._hierarchy is None:
-            scale, comm = self.contact.deflection_scale, self._study.comm
-            self._hierarchy = Hierarchy(self.mesh, COARSEST_NODES, scale, comm)
+            kernel, comm = self.contact.kernel, self._study.comm
+            self._hierarchy = Hierarchy(self.mesh, COARSEST_NODES, kernel, comm)
         return self._hierarchy
 
     @property

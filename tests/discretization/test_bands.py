@@ -14,9 +14,10 @@ from mgehl.discretization.kernels import REACH, build_bands
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.residual import C, Linearisation, W
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
+from mgehl.model.deformation import HalfPlane, HalfSpace
 
 MESH = Mesh(15, 11, (-1.9, 1.3), (-1.5, 1.5), k_e=0.6)
-K = influence_coefficients(MESH, 0.2)
+K = influence_coefficients(MESH, HalfSpace(0.2))
 every_share = pytest.mark.parametrize("share", [0.25, 0.5])
 
 
@@ -72,10 +73,11 @@ def test_distributed_column_hardly_reaches_beyond_the_band():
     a line half the second difference of -ln|x|, which is 1/(2 x^2).
     """
     square = Mesh(33, 33, (-1.6, 1.6), (-1.6, 1.6))
-    _, distributed = influence_of_columns(influence_coefficients(square, 1.0), 0.25)[:, 0, REACH]
+    _, distributed = influence_of_columns(influence_coefficients(square, HalfSpace(1.0)), 0.25)[:, 0, REACH]
     assert distributed == pytest.approx(-square.dX / (4.0 * REACH**3), rel=0.15)
     line = Mesh(33, 1, (-1.6, 1.6), (0.0, 0.0))
-    _, distributed = influence_of_columns(influence_coefficients(line, 1.0, 0, 3), 0.5)[:, 0, REACH]
+    nearby = influence_coefficients(line, HalfPlane(1.0), 0, 3)
+    _, distributed = influence_of_columns(nearby, 0.5)[:, 0, REACH]
     assert distributed == pytest.approx(-line.dX / (2.0 * REACH**2), rel=0.1)
 
 
@@ -114,7 +116,7 @@ def wedge_term(nx):
 
 def line_table():
     """Table of the logarithmic kernel."""
-    near = influence_coefficients(Mesh(257, 1, (-4.0, 2.0), (0.0, 0.0)), 1.0 / np.pi, 0, 3)
+    near = influence_coefficients(Mesh(257, 1, (-4.0, 2.0), (0.0, 0.0)), HalfPlane(1.0 / np.pi), 0, 3)
     return influence_of_columns(near, 0.5)
 
 

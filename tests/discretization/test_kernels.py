@@ -20,6 +20,7 @@ from mgehl.discretization.kernels import (
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.residual import linearise, net_inflow
 from mgehl.discretization.scheme import Scheme
+from mgehl.model.deformation import HalfSpace
 
 
 @pytest.fixture
@@ -68,7 +69,7 @@ def test_build_bands_is_the_band_of_J_Q(distributed, k_e, share, rng):
     """Entry (i, m) of each line is that of (A + B K) Q with dense K and Q, up to REACH nodes away."""
     mesh = Mesh(15, 11, (-1.9, 1.3), (-1.5, 1.5), k_e)
     lines, nx = 3, mesh.nx
-    K = influence_coefficients(mesh, 0.2)
+    K = influence_coefficients(mesh, HalfSpace(0.2))
     A, B = line_stencils(rng, lines, nx)
     distributive = rng.random((lines, nx)) < distributed
     # A line's ends are given; their column would reach outside the domain.

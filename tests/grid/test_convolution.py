@@ -7,14 +7,14 @@ from mgehl.discretization.influence import influence_coefficients
 from mgehl.model.hertz import hertz_pressure
 
 
-def double_sum(mesh, deflection_scale, P):
+def double_sum(mesh, kernel, P):
     """Deflection of every node by the pressure at every node, without any transform."""
-    kernel = influence_coefficients(mesh, deflection_scale)
+    K = influence_coefficients(mesh, kernel)
     j, i = np.arange(mesh.ny), np.arange(mesh.nx)
     along = np.abs(i[:, None] - i)
     deflection = np.zeros_like(P)
     for line in j:
-        lines = kernel[np.abs(j - line)]
+        lines = K[np.abs(j - line)]
         deflection[line] = np.einsum("lik,lk->i", lines[:, along], P)
     return deflection
 
@@ -43,7 +43,7 @@ def test_convolution_is_the_double_sum(paper_contact, make_hierarchy, ratio, gri
     hierarchy = make_hierarchy(contact, **grid)
     mesh = hierarchy.grids[-1].mesh
     P = random_pressure(mesh)
-    expected = double_sum(mesh, contact.deflection_scale, P)
+    expected = double_sum(mesh, contact.kernel, P)
     deflection = hierarchy.deflections[-1](P)
     assert np.max(np.abs(deflection - expected)) < 1e-12 * np.max(np.abs(expected))
 
@@ -79,7 +79,7 @@ def test_hertz_pressure_flattens_the_ball(paper_contact, make_hierarchy):
 def test_convolution_on_one_line_is_the_dense_product(line_contact, make_line, nodes):
     """With the logarithmic kernel, which reaches from end to end of the line and changes sign."""
     hierarchy = make_line(nodes)
-    K = influence_coefficients(hierarchy.grids[-1].mesh, line_contact.deflection_scale)[0]
+    K = influence_coefficients(hierarchy.grids[-1].mesh, line_contact.kernel)[0]
     i = np.arange(nodes)
     P = np.random.default_rng(4).random((1, nodes))
     P[:, [0, -1]] = 0.0

@@ -71,7 +71,7 @@ def test_it_follows_the_linearisation(make_problem, states, make_jacobian, inver
 def test_dense_influence_is_the_convolution(make_problem):
     problem = make_problem(nodes=NODES)
     P = np.where(problem.boundary, 0.0, np.random.default_rng(9).random(problem.grid.shape))
-    K = dense_influence(problem.grid.mesh, problem.contact.deflection_scale)
+    K = dense_influence(problem.grid.mesh, problem.contact.kernel)
     expected = problem.deflection(P)
     np.testing.assert_allclose((K @ P.ravel()).reshape(P.shape), expected, rtol=0.0, atol=1e-13)
 

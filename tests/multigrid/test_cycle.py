@@ -177,7 +177,7 @@ def dense_jacobian(jacobian):
     """The bordered matrix, from the dense influence of all nodes on all nodes."""
     mesh, linear = jacobian.grid.mesh, jacobian.linearisation
     A, B = stencil_rows(linear.A, 0, mesh.nodes).toarray(), stencil_rows(linear.B, 0, mesh.nodes).toarray()
-    J = A + B @ dense_influence(mesh, jacobian.contact.deflection_scale)
+    J = A + B @ dense_influence(mesh, jacobian.contact.kernel)
     load = np.full((1, mesh.nodes), jacobian.load_weight)
     return np.block([[J, B.sum(axis=1, keepdims=True)], [load, np.zeros((1, 1))]])
 

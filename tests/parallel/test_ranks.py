@@ -329,6 +329,35 @@ class TestOtherKinds:
         assert together.result.central_film_nm == pytest.approx(alone.result.central_film_nm, rel=1e-9)
 
 
+LAWS = CONFIGS / "my_laws.py"
+OWN = {
+    "coated": {
+        "contact": {"deformation": "coated"},
+        "coating": {"modulus": 50e9, "thickness": 40e-6},
+        "grid": {"nodes": 65, "x": [-2.2, 1.6]},
+    },
+    "functions": {
+        "contact": {"load": 20.0, "surface": f"{LAWS}:waves"},
+        "lubricant": {"viscosity_law": f"{LAWS}:doolittle", "density_law": f"{LAWS}:tait"},
+        "grid": {"nodes": 65, "x": [-2.5, 1.5]},
+    },
+}
+
+
+class TestOwnFunctionsAndCoatings:
+    @pytest.mark.parametrize("tables", OWN.values(), ids=OWN)
+    def test_they_equal_the_serial_ones(self, tables):
+        config = config_from_tables(merged({"motion": {"speed": 3.0}}, tables))
+        together, alone = solve_config(config, COMM), solve_config(config, MPI.COMM_SELF)
+        assert together.result.converged and alone.result.converged
+        fields, expected = COMM.bcast(together.fields), alone.fields
+        np.testing.assert_array_equal(fields.status, expected.status)
+        np.testing.assert_allclose(fields.P, expected.P, rtol=0.0, atol=1e-8)
+        scale = np.abs(expected.H).max()
+        np.testing.assert_allclose(fields.H, expected.H, rtol=0.0, atol=1e-9 * scale)
+        assert together.result.work.steps == alone.result.work.steps
+
+
 class TestBranches:
     """A film followed in speed, and full contact, with their points on disk."""
 
@@ -433,6 +462,20 @@ class TestCommandLine:
         from mgehl.cli import main
 
         status = main(["run", "--set", "grid.nodes=66", "--out", str(directory / "here")])
+        lines = capsys.readouterr().err.splitlines()
+        assert COMM.allgather(status) == [2] * COMM.size
+        assert [len(each) for each in COMM.allgather(lines)] == [1] + [0] * (COMM.size - 1)
+        assert not (directory / "here").exists()
+
+    def test_a_wrong_law_is_refused_on_every_rank_and_said_once(self, directory, capsys):
+        from mgehl.cli import main
+
+        law = directory / "law.py"
+        if COMM.rank == 0:
+            law.write_text("def law(p): return 1.0 + 1e-10 * p, 1e-9")
+        COMM.barrier()
+        setting = f"lubricant.density_law={law}:law"
+        status = main(["run", "--set", setting, "--out", str(directory / "here")])
         lines = capsys.readouterr().err.splitlines()
         assert COMM.allgather(status) == [2] * COMM.size
         assert [len(each) for each in COMM.allgather(lines)] == [1] + [0] * (COMM.size - 1)

@@ -60,7 +60,7 @@ def close(state, *nodes):
 
 def influence(problem):
     """D_k,0 of the paper."""
-    return influence_coefficients(problem.grid.mesh, problem.contact.deflection_scale, 0, 1)[0]
+    return influence_coefficients(problem.grid.mesh, problem.contact.kernel, 0, 1)[0]
 
 
 def printed(problem, state, node):

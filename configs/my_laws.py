@@ -1,0 +1,59 @@
+"""Functions of one's own: a configuration names them as "my_laws.py:NAME", see wavy.toml beside it.
+
+Each takes arrays and returns arrays of the same shape, all in SI units. A law returns its value and
+the derivative by p, which is compared to differences of the value before a run: a slip of the pen is
+one line, not an iteration that will not converge.
+"""
+
+import numpy as np
+
+# Squalane at 40 degrees Celsius: Tait's equation of state and Doolittle's free volume.
+BULK_MODULUS = 1.19e9  # Pa
+BULK_SLOPE = 11.74
+DOOLITTLE = 4.71
+OCCUPIED = 0.6568
+
+AMPLITUDE = 15e-9  # m
+WAVELENGTH = 60e-6  # m
+
+
+def volume(p):
+    """V/V0 by Tait's equation of state, and its derivative by p."""
+    stiffness = BULK_MODULUS / (1.0 + BULK_SLOPE)
+    value = 1.0 - np.log1p(p / stiffness) / (1.0 + BULK_SLOPE)
+    return value, -1.0 / ((1.0 + BULK_SLOPE) * (stiffness + p))
+
+
+def doolittle(p, viscosity, _pressure_viscosity):
+    """lubricant.viscosity_law: eta in Pa s and d eta/dp; `viscosity` is lubricant.viscosity."""
+    ratio, slope = volume(p)
+    free = ratio - OCCUPIED
+    eta = viscosity * np.exp(DOOLITTLE * OCCUPIED * (1.0 / free - 1.0 / (1.0 - OCCUPIED)))
+    return eta, -eta * DOOLITTLE * OCCUPIED / free**2 * slope
+
+
+def tait(p):
+    """lubricant.density_law: the density over that at p = 0, and its derivative by p."""
+    ratio, slope = volume(p)
+    return 1.0 / ratio, -slope / ratio**2
+
+
+def waves(x, _y):
+    """contact.surface: height in m that adds to the gap, here waves along the motion.
+
+    They belong to the body that stands still; x and y are counted from the centre of the contact.
+    """
+    return AMPLITUDE * np.cos(2.0 * np.pi * x / WAVELENGTH)
+
+
+def liner(k):
+    """contact.deformation: deflection at wave number k in 1/m over that of half-spaces.
+
+    Of an elastic liner, 0.2 mm thick, bonded to a rigid base; contact.reduced_modulus is then
+    2 E/(1 - nu^2) of the liner, which is also what a half-space of it would have.
+    """
+    thickness, poisson = 0.2e-3, 0.4
+    kt, s = k * thickness, 3.0 - 4.0 * poisson
+    decay = np.exp(-2.0 * kt)
+    above = s * (1.0 - decay**2) - 4.0 * kt * decay
+    return above / (s * (1.0 + decay**2) + (1.0 + s**2 + 4.0 * kt**2) * decay)

@@ -1,0 +1,116 @@
+"""A function of a user's own file, named "FILE.py:FUNCTION" in a configuration."""
+
+import inspect
+import re
+import sys
+import traceback
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from types import ModuleType
+
+import numpy as np
+
+from mgehl.errors import ConfigError
+
+_NAME = re.compile(r"(?P<file>.+\.py):(?P<function>[^\W\d]\w*)")
+
+
+def is_own(value):
+    """True of "FILE.py:FUNCTION"."""
+    return isinstance(value, str) and _NAME.fullmatch(value) is not None
+
+
+def absolute(value, directory="."):
+    """The same function, the path of its file counted from `directory`; None of anything else."""
+    if not is_own(value):
+        return None
+    match = _NAME.fullmatch(value)
+    return f"{(Path(directory) / match['file']).resolve()}:{match['function']}"
+
+
+@dataclass(frozen=True)
+class OwnFunction:
+    """Runs the file when the function is first called; what goes wrong is a ConfigError of one line."""
+
+    key: str
+    """Of the configuration, for messages."""
+    value: str
+    """FILE.py:FUNCTION"""
+
+    def array(self, shape, *arguments):
+        """Call it; its result as doubles of the `shape`."""
+        return self._shaped(shape, self._call(arguments))
+
+    def pair(self, shape, *arguments):
+        """Call it; a value and its derivative as doubles of the `shape`."""
+        results = self._call(arguments)
+        if not isinstance(results, tuple | list) or len(results) != 2:
+            raise self.error("must return two arrays, the value and its derivative")
+        return [self._shaped(shape, each) for each in results]
+
+    def check_arguments(self, *names):
+        """Refuse a function that cannot be called with these arguments by position.
+
+        The file is read anew: in a notebook it may have changed since the last run.
+        """
+        _run.cache_clear()
+        try:
+            inspect.signature(self._function()).bind(*names)
+        except TypeError:
+            raise self.error(f"must take {len(names)} arguments: {', '.join(names)}") from None
+        except ValueError:
+            pass  # compiled ones may not tell
+
+    def error(self, what):
+        """A ConfigError that names key and value."""
+        return ConfigError(f"{self.key} = {self.value!r}: {what}")
+
+    def _shaped(self, shape, result):
+        try:
+            return np.broadcast_to(np.asarray(result, dtype=float), shape)
+        except (TypeError, ValueError):
+            found = f"{type(result).__name__} of shape {np.shape(result)}"
+            raise self.error(f"must return numbers of shape {shape}, returns {found}") from None
+
+    def _call(self, arguments):
+        function = self._function()
+        try:
+            with np.errstate(all="ignore"):
+                return function(*arguments)
+        except (Exception, SystemExit) as error:
+            raise self.error(f"raises {self._describe(error)}") from None
+
+    def _function(self):
+        match = _NAME.fullmatch(self.value)
+        try:
+            module = _run(match["file"])
+        except OSError as error:
+            raise self.error(f"cannot be read: {error.strerror or error}") from None
+        except (Exception, SystemExit) as error:
+            raise self.error(f"the file cannot be run: {self._describe(error)}") from None
+        function = getattr(module, match["function"], None)
+        if not callable(function):
+            raise self.error(f"the file has no function {match['function']}")
+        return function
+
+    def _describe(self, error):
+        """An error and the line of the file that it comes from."""
+        file = _NAME.fullmatch(self.value)["file"]
+        frames = traceback.extract_tb(error.__traceback__)
+        lines = [frame.lineno for frame in frames if frame.filename == file]
+        if isinstance(error, SyntaxError):
+            lines = [error.lineno]
+        where = f" (line {lines[-1]})" if lines else ""
+        return f"{type(error).__name__}: {' '.join(str(error).split())[:200]}{where}"
+
+
+@cache
+def _run(file):
+    """The module of a file. (Importing it would leave a cache beside it, and may read a stale one.)"""
+    module = ModuleType(f"mgehl own {file}")
+    module.__file__ = file
+    code = compile(Path(file).read_bytes(), file, "exec")
+    sys.modules[module.__name__] = module  # where dataclasses look for the names of their fields
+    exec(code, module.__dict__)
+    return module

@@ -1,0 +1,161 @@
+"""What a user may put in place of a built-in law, surface or deformation by a function of their own.
+
+    lubricant.viscosity_law   law(p, viscosity, pressure_viscosity) -> eta in Pa s, d eta/dp
+    lubricant.density_law     law(p) -> rho/rho_0, its derivative by p
+    contact.surface           surface(x, y) -> height in m that adds to the gap
+    contact.deformation       compliance(k) -> deflection at wave number k over that of half-spaces
+
+Arguments and results are arrays of one shape: p in Pa and never negative, x and y in m from the
+centre, k in 1/m. `check` asks for values before a run does.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mgehl.model.own_function import OwnFunction
+
+CHECKED_PRESSURES = 101
+
+SLOPE_STEP = 1e-5
+"""Step of the central differences that a derivative is compared to, over the highest pressure."""
+
+SLOPE_TOLERANCE = 1e-3
+"""Of a derivative, relative to the largest at any pressure."""
+
+NO_SLOPE = 1e-6
+"""Change over the whole range of pressures that is none."""
+
+AMBIENT_TOLERANCE = 1e-3
+"""Of a law at p = 0, relative."""
+
+
+@dataclass(frozen=True)
+class OwnViscosity:
+    """A viscosity law. Below p = 0, where the function is not asked, ln(eta) goes on as a line."""
+
+    viscosity: float
+    pressure_viscosity: float
+    function: OwnFunction
+
+    def log_viscosity(self, P, p_h):
+        """Return ln(eta*) and d ln(eta*)/dP, shapes as P."""
+        value, slope = self._log_law(np.maximum(P, 0.0) * p_h)
+        return value + slope * p_h * np.minimum(P, 0.0), slope * p_h
+
+    def check(self, p_max):
+        """Raise ConfigError unless it is a law with its derivative from 0 to `p_max` in Pa."""
+        self.function.check_arguments("p", "viscosity", "pressure_viscosity")
+        p = np.linspace(0.0, p_max, CHECKED_PRESSURES)
+        eta = _as_nodes(self._law)(p)[0]
+        _check_positive(self.function, eta, p, "Pa")
+        _check_ambient(self.function, eta[0], self.viscosity, "lubricant.viscosity in Pa s")
+        _check_slope(self.function, _as_nodes(self._log_law), p, "d ln(eta)/dp")
+
+    def _log_law(self, p):
+        """ln(eta*) and d ln(eta*)/dp at `p` in Pa."""
+        eta, slope = self._law(p)
+        with np.errstate(all="ignore"):  # what is not positive shows as nan
+            return np.log(eta / self.viscosity), slope / eta
+
+    def _law(self, p):
+        return self.function.pair(np.shape(p), p, self.viscosity, self.pressure_viscosity)
+
+
+@dataclass(frozen=True)
+class OwnDensity:
+    """A density law. Below p = 0, where the function is not asked, the density goes on as a line."""
+
+    function: OwnFunction
+
+    def density(self, P, p_h):
+        """Return rho* and d rho*/dP, shapes as P."""
+        rho, slope = self._law(np.maximum(P, 0.0) * p_h)
+        return rho + slope * p_h * np.minimum(P, 0.0), slope * p_h
+
+    def check(self, p_max):
+        """Raise ConfigError unless it is a law with its derivative from 0 to `p_max` in Pa."""
+        self.function.check_arguments("p")
+        p = np.linspace(0.0, p_max, CHECKED_PRESSURES)
+        rho = _as_nodes(self._law)(p)[0]
+        _check_positive(self.function, rho, p, "Pa")
+        _check_ambient(self.function, rho[0], 1.0, "the density over that at p = 0")
+        _check_slope(self.function, _as_nodes(self._law), p, "d rho/dp")
+
+    def _law(self, p):
+        return self.function.pair(np.shape(p), p)
+
+
+@dataclass(frozen=True)
+class OwnSurface:
+    """The surface of the body that stands still: its height adds to the gap of the smooth bodies."""
+
+    function: OwnFunction
+
+    def height(self, x, y):
+        """Height in m at `x` and `y` in m, in the shape of both together."""
+        x, y = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(y, dtype=float))
+        return self.function.array(x.shape, x, y)
+
+    def check(self, x, y, highest):
+        """Raise ConfigError unless every height at (x[i], y[j]) is a number of at most `highest`."""
+        self.function.check_arguments("x", "y")
+        for line in y:
+            height = self.height(x[None, :], line)[0]
+            wrong = ~(np.abs(height) <= highest)
+            if wrong.any():
+                i = int(wrong.argmax())
+                raise self.function.error(
+                    f"returns {height[i]:.3g} at x = {x[i]:.3g} m, y = {line:.3g} m; must be a height in "
+                    f"m of at most {highest:.3g}"
+                )
+
+
+@dataclass(frozen=True)
+class OwnCompliance:
+    """The deflection of both bodies by a pressure wave, over that of half-spaces of the reduced modulus."""
+
+    function: OwnFunction
+
+    def compliance(self, k):
+        """At the wave numbers `k` in 1/m; shape as `k`."""
+        return self.function.array(np.shape(k), k)
+
+    def check(self, k):
+        """Raise ConfigError unless it is positive at all `k` in 1/m."""
+        self.function.check_arguments("k")
+        _check_positive(self.function, self.compliance(k), k, "1/m")
+
+
+def _as_nodes(law):
+    """The law of an array (n,), asked as nodes are: (n, 1)."""
+    return lambda p: [each[:, 0] for each in law(p[:, None])]
+
+
+def _check_positive(function, values, at, unit):
+    wrong = ~((values > 0.0) & np.isfinite(values))
+    if wrong.any():
+        i = int(wrong.argmax())
+        raise function.error(f"returns {values[i]:.3g} at {at[i]:.3g} {unit}; must be a positive number")
+
+
+def _check_ambient(function, found, expected, meaning):
+    if not abs(found - expected) <= AMBIENT_TOLERANCE * expected:
+        raise function.error(f"returns {found:.4g} at p = 0; must be {expected:.4g}, {meaning}")
+
+
+def _check_slope(function, law, p, name):
+    """The derivative of a `law` must be that of its value, to within a small part of the largest."""
+    step = SLOPE_STEP * p[-1]
+    given, inner = law(p)[1], p[1:]
+    change = (law(inner + step)[0] - law(inner - step)[0]) / (2.0 * step)
+    # At p = 0 there is nothing below to compare to.
+    change = np.append(np.where(np.isfinite(given[0]), given[0], 0.0), change)
+    allowed = SLOPE_TOLERANCE * np.abs(change[1:]).max() + NO_SLOPE / p[-1]
+    off = np.abs(given - change)
+    if not (off <= allowed).all():
+        i = int(off.argmax())
+        raise function.error(
+            f"its derivative is wrong: {name} = {given[i]:.4g} at {p[i]:.3g} Pa, where differences of "
+            f"the value give {change[i]:.4g}"
+        )

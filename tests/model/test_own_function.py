@@ -1,0 +1,133 @@
+"""A user's file: how it is named, what goes wrong with it."""
+
+import pickle
+
+import numpy as np
+import pytest
+
+from mgehl.errors import ConfigError
+from mgehl.model.own_function import OwnFunction, absolute, is_own
+
+SHAPE = (2, 3)
+WITH_A_DATACLASS = """
+from __future__ import annotations
+from dataclasses import dataclass
+
+@dataclass
+class Constant:
+    value: float
+
+def law(p):
+    return Constant(2.0).value, 0.0
+"""
+
+
+@pytest.fixture
+def own(tmp_path):
+    """Function that writes a file and names its function `law`."""
+
+    def make(text, name="law"):
+        (tmp_path / "mine.py").write_text(text)
+        return OwnFunction("lubricant.density_law", f"{tmp_path}/mine.py:{name}")
+
+    return make
+
+
+def refusal(function, *arguments):
+    """The one line after key and value."""
+    with pytest.raises(ConfigError) as caught:
+        function.check_arguments(*arguments)
+        function.pair(SHAPE, *(np.zeros(SHAPE) for _ in arguments))
+    start, _, what = str(caught.value).partition("mine.py:law': ")
+    assert start.startswith("lubricant.density_law = '") and "\n" not in what
+    return what
+
+
+def test_names():
+    assert is_own("a/b c.py:law") and is_own("/x/a.py:_f2")
+    for value in (
+        "barus",
+        "a.py",
+        "a.py:",
+        ":law",
+        "a.txt:law",
+        "a.py:2f",
+        "a.py:f.g",
+        None,
+        3,
+        ["a.py:f"],
+    ):
+        assert not is_own(value) and absolute(value) is None
+
+
+def test_paths_are_counted_from_a_directory(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert absolute("laws.py:f") == f"{tmp_path}/laws.py:f"
+    assert absolute("../laws.py:f", "here") == f"{tmp_path}/laws.py:f"
+    assert absolute("/there/laws.py:f", "here") == "/there/laws.py:f"
+
+
+def test_pairs_are_doubles_of_the_asked_shape(own):
+    value, slope = own("def law(p): return p.astype(int), 3").pair(SHAPE, np.full(SHAPE, 2.0))
+    assert value.dtype == slope.dtype == float
+    assert value.tolist() == [[2.0] * 3] * 2 and slope.tolist() == [[3.0] * 3] * 2
+
+
+@pytest.mark.parametrize(
+    "text, words",
+    [
+        ("x = 1", "the file has no function law"),
+        ("law = 1", "the file has no function law"),
+        ("def law(p:\n", "the file cannot be run: SyntaxError: "),
+        (
+            "\nimport no_such_module_at_all",
+            "ModuleNotFoundError: No module named 'no_such_module_at_all' (line 2)",
+        ),
+        ("import sys\nsys.exit('over')", "the file cannot be run: SystemExit: over (line 2)"),
+        ("def law(): return 1, 2", "must take 1 arguments: p"),
+        ("def law(p, q): return 1, 2", "must take 1 arguments: p"),
+        ("def law(p):\n  q = 0\n  return 1 / q, 0", "raises ZeroDivisionError: division by zero (line 3)"),
+        ("def law(p): return p", "must return two arrays, the value and its derivative"),
+        ("def law(p): return p, p, p", "must return two arrays, the value and its derivative"),
+        (
+            "def law(p): return p, p[0, :2]",
+            "must return numbers of shape (2, 3), returns ndarray of shape (2,)",
+        ),
+        ("def law(p): return p, 'x'", "must return numbers of shape (2, 3), returns str of shape ()"),
+    ],
+)
+def test_what_goes_wrong_is_one_line(own, text, words):
+    assert words in refusal(own(text), "p")
+
+
+def test_a_file_that_is_not_there(own, tmp_path):
+    function = own("")
+    (tmp_path / "mine.py").unlink()
+    assert refusal(function, "p") == "cannot be read: No such file or directory"
+
+
+def test_a_file_that_changed_is_read_anew_at_the_next_start(own):
+    function = own("def law(p): return 1.0, 0.0")
+    function.check_arguments("p")
+    assert function.pair((), 0.0)[0] == 1.0
+    own("def law(p): return 2.0, 0.0")
+    assert function.pair((), 0.0)[0] == 1.0  # not in the middle of a run
+    function.check_arguments("p")
+    assert function.pair((), 0.0)[0] == 2.0
+
+
+def test_nothing_is_left_beside_the_file(own, tmp_path):
+    own("def law(p): return p, p").check_arguments("p")
+    assert [path.name for path in tmp_path.iterdir()] == ["mine.py"]
+
+
+def test_dataclasses_and_pickles(own):
+    function = own(WITH_A_DATACLASS)
+    copy = pickle.loads(pickle.dumps(function))
+    assert copy == function and hash(copy) == hash(function)
+    assert copy.pair((), 0.0)[0] == 2.0
+
+
+def test_warnings_of_the_users_arithmetic_stay_silent(own, recwarn):
+    value, _ = own("import numpy as np\ndef law(p): return np.log(p), 1 / p").pair((1,), np.zeros(1))
+    assert value[0] == -np.inf and not recwarn.list

@@ -1,0 +1,172 @@
+"""A user's laws, surface and deformation: units, and what is refused before a run."""
+
+import numpy as np
+import pytest
+
+from mgehl.errors import ConfigError
+from mgehl.model.lubricant import Barus, DowsonHigginson
+from mgehl.model.own_function import OwnFunction
+from mgehl.model.own_laws import OwnCompliance, OwnDensity, OwnSurface, OwnViscosity
+
+P_H = 0.8e9
+P = np.array([[0.0, 0.25, 1.0, 1.7]])
+BARUS = """
+import numpy as np
+def law(p, viscosity, pressure_viscosity):
+    eta = viscosity * np.exp(pressure_viscosity * p)
+    return eta, SLOPE
+"""
+DOWSON = """
+def law(p):
+    return 1.0 + 0.6e-9 * p / (1.0 + 1.7e-9 * p), SLOPE
+"""
+
+
+@pytest.fixture
+def own(tmp_path):
+    def make(text, key="lubricant.viscosity_law"):
+        (tmp_path / "mine.py").write_text(text)
+        return OwnFunction(key, f"{tmp_path}/mine.py:law")
+
+    return make
+
+
+@pytest.fixture
+def viscosity(own):
+    return lambda text, slope="pressure_viscosity * eta": OwnViscosity(
+        0.05, 18e-9, own(text.replace("SLOPE", slope))
+    )
+
+
+@pytest.fixture
+def density(own):
+    return lambda text, slope="0.6e-9 / (1.0 + 1.7e-9 * p) ** 2": OwnDensity(
+        own(text.replace("SLOPE", slope))
+    )
+
+
+def refusal(check, *arguments):
+    with pytest.raises(ConfigError) as caught:
+        check(*arguments)
+    message = str(caught.value)
+    assert "mine.py:law': " in message and "\n" not in message
+    return message.partition("mine.py:law': ")[2]
+
+
+def test_viscosity_of_one_s_own_is_the_built_in_one(viscosity):
+    law = viscosity(BARUS)
+    law.check(2.0 * P_H)
+    value, slope = law.log_viscosity(P, P_H)
+    expected, expected_slope = Barus(0.05, 18e-9).log_viscosity(P, P_H)
+    np.testing.assert_allclose(value, expected, rtol=1e-13, atol=1e-15)
+    np.testing.assert_allclose(slope, expected_slope, rtol=1e-13)
+    assert (law.viscosity, law.pressure_viscosity) == (0.05, 18e-9)
+
+
+def test_density_of_one_s_own_is_the_built_in_one(density):
+    law = density(DOWSON)
+    law.check(2.0 * P_H)
+    for found, expected in zip(law.density(P, P_H), DowsonHigginson().density(P, P_H), strict=True):
+        np.testing.assert_allclose(found, expected, rtol=1e-14)
+
+
+def test_below_ambient_pressure_a_viscosity_goes_on_as_a_line(viscosity):
+    """The function is asked for p = 0 there: what it may not hold for, it is not asked."""
+    value, slope = viscosity(BARUS).log_viscosity(np.array([-2.0]), P_H)
+    assert value[0] == pytest.approx(-2.0 * 18e-9 * P_H, rel=1e-14)
+    assert slope[0] == pytest.approx(18e-9 * P_H, rel=1e-14)
+
+
+def test_below_ambient_pressure_a_density_goes_on_as_a_line(density):
+    rho, rise = density(DOWSON).density(np.array([-0.5]), P_H)
+    assert rho[0] == pytest.approx(1.0 - 0.5 * 0.6e-9 * P_H, rel=1e-14)
+    assert rise[0] == pytest.approx(0.6e-9 * P_H, rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    "slope, words",
+    [
+        ("pressure_viscosity", "its derivative is wrong: d ln(eta)/dp = "),
+        ("1.01 * pressure_viscosity * eta", "= 1.818e-08 at "),
+        ("np.where(p > 1.2e9, 0.0, pressure_viscosity * eta)", "differences of the value give 1.8e-08"),
+        ("np.where(p > 0.0, pressure_viscosity * eta, np.nan)", "= nan at 0 Pa"),
+    ],
+    ids=["forgotten factor", "a hundredth too much", "wrong at high pressure", "none at ambient"],
+)
+def test_a_wrong_derivative_is_refused_with_its_place_and_size(viscosity, slope, words):
+    assert words in refusal(viscosity(BARUS, slope).check, 2.0 * P_H)
+
+
+@pytest.mark.parametrize("law", ["viscosity", "density"])
+def test_constant_laws_pass(viscosity, density, law):
+    if law == "viscosity":
+        viscosity("def law(p, viscosity, alpha): return viscosity, 0.0").check(P_H)
+    else:
+        density("def law(p): return 1.0, 0.0").check(P_H)
+
+
+def test_a_density_s_wrong_derivative_is_refused(density):
+    message = refusal(density(DOWSON, "0.6e-9 / (1.0 + 1.7e-9 * p)").check, 2.0 * P_H)
+    assert message.startswith("its derivative is wrong: d rho/dp = ")
+
+
+@pytest.mark.parametrize(
+    "text, words",
+    [
+        (
+            "def law(p, v, a): return v * (1.0 - p / 1e9), -v / 1e9",
+            "at 1.01e+09 Pa; must be a positive number",
+        ),
+        ("def law(p, v, a): return v * (p - p) / (p - p), 0.0", "returns nan at 0 Pa; must be a positive"),
+        (
+            "def law(p, v, a): return 1e3 * v, 0.0",
+            "returns 50 at p = 0; must be 0.05, lubricant.viscosity in Pa s",
+        ),
+        ("def law(p): return p, p", "must take 3 arguments: p, viscosity, pressure_viscosity"),
+    ],
+)
+def test_what_is_no_viscosity_is_refused(viscosity, text, words):
+    assert words in refusal(viscosity(text).check, 2.0 * P_H)
+
+
+def test_a_density_in_kg_is_refused(density):
+    assert "returns 870 at p = 0; must be 1" in refusal(density("def law(p): return 870.0, 0.0").check, P_H)
+
+
+def test_a_law_that_cannot_take_a_plane_of_nodes_is_refused(density):
+    """Nodes come as (lines, nx), and so does what is checked."""
+    text = "def law(p): return [1.0 + 0.0 * float(each) for each in range(len(p))], 0.0"
+    assert "must return numbers of shape (101, 1)" in refusal(density(text).check, P_H)
+
+
+def test_heights_are_those_of_the_nodes(own):
+    surface = OwnSurface(own("def law(x, y): return 2.0 * x + y**2", "contact.surface"))
+    x, y = np.array([[1.0, 2.0, 3.0]]), np.array([[0.0], [5.0]])
+    assert surface.height(x, y).tolist() == [[2.0, 4.0, 6.0], [27.0, 29.0, 31.0]]
+    surface.check(x[0], y[:, 0], 31.0)
+
+
+@pytest.mark.parametrize(
+    "text, words",
+    [
+        (
+            "def law(x, y): return x + 0.0 * y",
+            "returns 3 at x = 3 m, y = 0 m; must be a height in m of at most 2.5",
+        ),
+        ("def law(x, y): return x / (y - 5.0) / 1e3 ", "returns inf at x = 1 m, y = 5 m"),
+        ("def law(x, y): return (x, y)", "must return numbers of shape (1, 3)"),
+        ("def law(x): return x", "must take 2 arguments: x, y"),
+    ],
+)
+def test_what_is_no_surface_is_refused(own, text, words):
+    surface = OwnSurface(own(text, "contact.surface"))
+    assert words in refusal(surface.check, np.array([1.0, 2.0, 3.0]), np.array([0.0, 5.0]), 2.5)
+
+
+def test_a_compliance_is_positive(own):
+    k = np.array([1.0, 10.0, 100.0])
+    good = OwnCompliance(own("def law(k): return 1.0 + 1.0 / k", "contact.deformation"))
+    good.check(k)
+    assert good.compliance(k).tolist() == [2.0, 1.1, 1.01]
+    bad = OwnCompliance(own("def law(k): return 50.0 - k", "contact.deformation"))
+    assert refusal(bad.check, k) == "returns -50 at 100 1/m; must be a positive number"

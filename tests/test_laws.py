@@ -1,0 +1,192 @@
+"""Runs with a user's own functions and with layered bodies, from configuration to result."""
+
+import os
+from math import pi
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import mgehl
+from mgehl.cli import main
+from mgehl.config import load_config
+from mgehl.errors import ConfigError
+from mgehl.model.hertz import hertz_contact
+from mgehl.output.stored import read_run
+
+CONFIGS = Path(__file__).resolve().parent.parent / "configs"
+FILM = {"grid.nodes": 65, "motion.speed": 1.0, "solver.start": "film"}
+A = 0.4108e-3
+"""Hertz radius of the paper's ball in m."""
+
+LAWS = """
+import numpy as np
+
+def barus(p, viscosity, pressure_viscosity):
+    eta = viscosity * np.exp(pressure_viscosity * p)
+    return eta, pressure_viscosity * eta
+
+def slipped(p, viscosity, pressure_viscosity):
+    eta = viscosity * np.exp(pressure_viscosity * p)
+    return eta, pressure_viscosity * viscosity
+
+def dowson_higginson(p):
+    return 1.0 + 0.6e-9 * p / (1.0 + 1.7e-9 * p), 0.6e-9 / (1.0 + 1.7e-9 * p) ** 2
+
+def flat(x, y):
+    return 0.0 * x * y
+
+def nowhere(x, y):
+    return x * np.nan
+
+def same(k):
+    return np.ones_like(k)
+
+def jump(k):
+    return np.where(k < 1e4, 1.0, 2.0)
+"""
+
+
+@pytest.fixture
+def laws(tmp_path):
+    """Path of a file of functions."""
+    path = tmp_path / "laws.py"
+    path.write_text(LAWS)
+    return path
+
+
+@pytest.fixture(scope="module")
+def built_in():
+    """The film of the built-in laws."""
+    return mgehl.solve(mgehl.load(os.devnull, FILM))
+
+
+def coated(modulus, thickness, more, nodes=65):
+    """A contact with a coating; `thickness` in units of a."""
+    settings = {
+        "grid.nodes": nodes, "grid.x": [-2.8, 1.8], "grid.y": [-2.2, 2.2],
+        "contact.deformation": "coated", "coating.modulus": modulus, "coating.thickness": thickness * A,
+    }  # fmt: skip
+    return mgehl.solve(mgehl.load(os.devnull, settings | more))
+
+
+def test_own_functions_that_repeat_what_is_built_in_give_the_same_film(laws, built_in):
+    own = {
+        "lubricant.viscosity_law": f"{laws}:barus",
+        "lubricant.density_law": f"{laws}:dowson_higginson",
+        "contact.surface": f"{laws}:flat",
+        "contact.deformation": f"{laws}:same",
+    }
+    solution = mgehl.solve(mgehl.load(os.devnull, FILM | own))
+    assert solution.summary.converged and built_in.summary.converged
+    np.testing.assert_array_equal(solution.status, built_in.status)
+    # Both have converged to 1e-8; a law alone changes only rounding.
+    np.testing.assert_allclose(solution.fields.H, built_in.fields.H, rtol=0.0, atol=1e-7)
+
+
+def test_a_law_alone_repeats_the_film_to_rounding(laws, built_in):
+    solution = mgehl.solve(mgehl.load(os.devnull, FILM | {"lubricant.viscosity_law": f"{laws}:barus"}))
+    np.testing.assert_allclose(solution.film, built_in.film, rtol=1e-10)
+    assert solution.summary.work == built_in.summary.work
+
+
+REFUSED = {
+    "lubricant.viscosity_law=laws.py:slipped": "its derivative is wrong: d ln(eta)/dp = ",
+    "lubricant.density_law=laws.py:none": "the file has no function none",
+    "lubricant.density_law=other.py:none": "cannot be read: No such file or directory",
+    "contact.surface=laws.py:nowhere": "must be a height in m of at most 0.000411",
+    "contact.deformation=laws.py:jump": "as a sum of images",
+    "contact.deformation=laws.py:flat": "must take 1 arguments: k",
+    "contact.surface=laws.txt:flat": "must be FILE.py:FUNCTION",
+    "lubricant.viscosity_law=newton": "must be one of barus, roelands, FILE.py:FUNCTION",
+}
+
+
+@pytest.mark.parametrize("setting, words", REFUSED.items(), ids=REFUSED)
+def test_what_cannot_be_used_is_one_line_before_anything_is_written(
+    laws, setting, words, monkeypatch, capsys
+):
+    monkeypatch.chdir(laws.parent)
+    assert main(["run", "--set", "grid.nodes=65", "--set", setting, "--out", "here"]) == 2
+    out, err = capsys.readouterr()
+    key, _, value = setting.partition("=")
+    assert out == "" and err.count("\n") == 1 and words in err
+    assert err.startswith(f"mgehl: {key} = '") and value in err
+    assert not Path("here").exists()
+
+
+def test_a_run_with_own_laws_runs_again_from_its_configuration(laws, monkeypatch, tmp_path):
+    """Paths of a file are counted from the file, those of --set from here; both are written absolute."""
+    (tmp_path / "mine.toml").write_text(
+        '[lubricant]\nviscosity_law = "laws.py:barus"\n[motion]\nspeed = 1.0\n[grid]\nnodes = 65\n'
+    )
+    elsewhere = tmp_path / "elsewhere"
+    elsewhere.mkdir()
+    monkeypatch.chdir(elsewhere)
+    setting = "lubricant.density_law=../laws.py:dowson_higginson"
+    assert main(["run", "../mine.toml", "--set", setting, "--out", "first", "--quiet"]) == 0
+    monkeypatch.chdir(tmp_path)
+    written = load_config("elsewhere/first/configuration.toml").lubricant
+    assert written.viscosity_law == f"{laws}:barus"
+    assert written.density_law == f"{laws}:dowson_higginson"
+    assert main(["run", "elsewhere/first/configuration.toml", "--out", "second", "--quiet"]) == 0
+    first, second = read_run("elsewhere/first"), read_run("second")
+    np.testing.assert_array_equal(first.film, second.film)
+    laws.unlink()  # what is done can be looked at without
+    assert read_run("second").summary.converged
+
+
+def test_waves_on_the_surface_show_in_the_film(laws):
+    """Nothing solid where the film is thicker than they are high, and their wavelength in the film."""
+    smooth, wavy = (
+        mgehl.solve(mgehl.load(CONFIGS / "wavy.toml", {"grid.nodes": 129} | more))
+        for more in ({"contact.surface": f"{laws}:flat"}, {})
+    )
+    assert smooth.summary.converged and wavy.summary.converged and wavy.summary.contact.nodes == 0
+    j = np.abs(wavy.y).argmin()
+    inside = np.abs(wavy.x) < 0.8 * wavy.contact.hertz.a
+    x = wavy.x[inside]
+    wave = np.exp(2j * pi * x / 60e-6)
+    ripple = (wavy.film - smooth.film)[j, inside]
+    amplitude = 2.0 * np.abs(np.mean((ripple - ripple.mean()) * wave))
+    # Elastic flattening leaves part of the 15 nm in the film, the rest goes into the pressure.
+    assert 1e-9 < amplitude < 15e-9
+    swing = np.ptp((wavy.pressure - smooth.pressure)[j, inside])
+    assert swing > 0.02 * wavy.contact.hertz.p_h
+
+
+DRY = {"solver.start": "contact", "motion.speed": 1e-9}
+
+
+@pytest.mark.parametrize("thickness", [1e-3, 30.0], ids=["thin", "thick"])
+@pytest.mark.parametrize("modulus", [50e9, 800e9], ids=["soft", "hard"])
+def test_a_dry_coated_contact_tends_to_hertz(modulus, thickness):
+    """To that of the bare bodies, or of a body of the coating's material and the other one."""
+    bare = 2.0 * 0.91 / 200e9
+    layer = bare if thickness < 1.0 else 0.91 / 200e9 + 0.91 / modulus
+    hertz = hertz_contact(800.0, 12.7e-3, 12.7e-3, 2.0 / layer)
+    solution = coated(modulus, thickness, DRY, nodes=129)
+    summary = solution.summary
+    assert summary.converged
+    assert summary.max_pressure_GPa == pytest.approx(1e-9 * hertz.p_h, rel=0.01)
+    radius = np.sqrt(summary.contact.area_fraction) * solution.contact.hertz.a
+    assert radius == pytest.approx(hertz.a, rel=0.01)
+
+
+@pytest.mark.parametrize("modulus, thickness", [(800e9, 0.1), (800e9, 1.0), (50e9, 0.1), (50e9, 1.0)])
+def test_a_coated_film_takes_no_more_iterations_than_a_bare_one(modulus, thickness):
+    fast = {"motion.speed": 5.0, "solver.start": "film"}
+    solution, bare = coated(modulus, thickness, fast), coated(200e9, thickness, fast)
+    assert solution.summary.converged and bare.summary.converged
+    # A layer of the substrate's material is none; the dry contact it starts from is counted, too.
+    iterations, of_bare = (sum(row["linear_iterations"] for row in each.rows) for each in (solution, bare))
+    assert iterations <= 1.5 * of_bare
+    pressure, of_bare = solution.summary.max_pressure_GPa, bare.summary.max_pressure_GPa
+    assert (pressure > of_bare) == (modulus > 200e9)
+
+
+def test_coatings_that_the_domain_cannot_hold_are_refused():
+    settings = {"contact.deformation": "coated", "coating.modulus": "1 GPa", "coating.thickness": "0.2 mm"}
+    config = mgehl.load(os.devnull, settings)
+    with pytest.raises(ConfigError, match=r"^grid.x = \[-1.9, 1.3\]: must "):
+        mgehl.solve(config)
