@@ -221,6 +221,16 @@ def test_a_solver_type_that_cannot_be_followed_is_one_line(tmp_path):
     assert done.stderr.startswith("mgehl: -mgehl_snes_type") and len(done.stderr.splitlines()) == 1
 
 
+@pytest.mark.parametrize("arguments, where", [(["keys"], "commands.keys.execute"), (DRY, "run.run")])
+def test_ctrl_c_where_nothing_is_kept_is_one_line(capsys, monkeypatch, arguments, where):
+    def interrupted(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(f"mgehl.{where}", interrupted)
+    assert exit_status(arguments) == 130
+    assert_one_line(capsys, "stopped by Ctrl-C")
+
+
 def test_a_looser_option_does_not_loosen_the_verdict(tmp_path):
     done = mgehl(*DRY, "--out", "here", "-mgehl_snes_atol", "1e30")
     assert done.returncode == 1

@@ -167,15 +167,6 @@ class TestStops:
     def configuration(self, here):
         return json.dumps(load_config(here / "configuration.toml").as_toml_tables())
 
-    def test_ctrl_c_before_anything_began(self):
-        """The import of what computes takes a while."""
-        process = start([*SMALL, "--out", "here"])
-        time.sleep(0.2)
-        process.send_signal(signal.SIGINT)
-        _, err = process.communicate(timeout=60)
-        assert process.returncode in (130, -signal.SIGINT)
-        assert process.returncode == -signal.SIGINT or len(err.splitlines()) == 1
-
     def test_a_limit_of_time(self, uninterrupted, tmp_path, capsys):
         here = tmp_path / "with a space"
         assert exit_status(*SMALL, "--out", str(here), "--time-limit", "1e-9") == 143

@@ -212,7 +212,7 @@ class TestFile:
     def test_nothing_is_unpickled(self, path):
         with ZipFile(path, "a") as archive, archive.open("array2.npy", "w") as member:
             np.lib.format.write_array(member, np.array([print], dtype=object))
-        assert "pickle" in self.refused(path).lower() or "allow_pickle" in self.refused(path)
+        assert "allow_pickle=False" in self.refused(path)
 
     @pytest.mark.parametrize("record", ["[]", "3", "null", '"text"', "{", "{}"])
     def test_a_record_that_is_none(self, path, record):
