@@ -1,7 +1,7 @@
 """What a user can mend: one line on standard error, exit status 2."""
 
 
-def one_line(error, width=120):
+def one_line(error: Exception, width: int = 120) -> str:
     """What an exception says, cut to one line."""
     return " ".join(str(error).split())[:width]
 
@@ -12,7 +12,7 @@ class UserError(Exception):
     Names that users give may hold line breaks: these become spaces.
     """
 
-    def __init__(self, message):
+    def __init__(self, message: object) -> None:
         super().__init__(" ".join(str(message).splitlines()))
 
 
