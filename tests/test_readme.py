@@ -3,6 +3,7 @@
 import os
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 import tomllib
@@ -10,12 +11,13 @@ from pathlib import Path
 
 import pytest
 
-from mgehl.cli import read
+from mgehl.cli import main, read
 from mgehl.commands.keys import describe_keys
 from mgehl.config import config_from_tables, load_config
 
 ROOT = Path(__file__).resolve().parent.parent
 README = (ROOT / "README.md").read_text()
+FIRST_CASE, OWN_LAWS = re.findall(r"```toml\n(.*?)```", README, flags=re.DOTALL)
 
 
 def test_keys_are_those_of_the_code():
@@ -27,8 +29,15 @@ def test_table_is_the_one_the_runs_wrote():
 
 
 def test_first_case_is_a_valid_configuration():
-    (block,) = re.findall(r"```toml\n(.*?)```", README, flags=re.DOTALL)
-    assert config_from_tables(tomllib.loads(block)).contact.load == pytest.approx(250.0)
+    assert config_from_tables(tomllib.loads(FIRST_CASE)).contact.load == pytest.approx(250.0)
+
+
+def test_own_laws_are_a_valid_configuration(tmp_path, capsys):
+    """They are compared with their differences before a run, and by `mgehl check`."""
+    shutil.copy(ROOT / "configs" / "my_laws.py", tmp_path)
+    (tmp_path / "own.toml").write_text(OWN_LAWS)
+    assert main(["check", str(tmp_path / "own.toml"), "--set", "grid.nodes=65"]) == 0
+    assert "valid, a point contact" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("path", sorted((ROOT / "configs").glob("*.toml")), ids=lambda path: path.stem)
@@ -46,7 +55,7 @@ SHELL = [
     for block in re.findall(r"```sh\n(.*?)```", README, flags=re.DOTALL)
     for line in block.splitlines()
 ]
-COMMANDS = [line for line in SHELL if "mgehl" in line and not line.startswith(("make", "eval"))]
+COMMANDS = [line for line in SHELL if "mgehl" in line and not line.startswith(("make", "eval", "pip"))]
 STUDIES = [line for line in COMMANDS if " study " in line or " bench" in line]
 
 
@@ -61,8 +70,7 @@ def test_studies_are_read_as_they_are_written(line):
 def place(tmp_path_factory):
     """A directory with the first case's my.toml and the configurations."""
     path = tmp_path_factory.mktemp("readme")
-    (block,) = re.findall(r"```toml\n(.*?)```", README, flags=re.DOTALL)
-    (path / "my.toml").write_text(block)
+    (path / "my.toml").write_text(FIRST_CASE)
     (path / "configs").symlink_to(ROOT / "configs")
     return path
 
