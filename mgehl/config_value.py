@@ -68,8 +68,7 @@ def _word(key, rules, value):
         return value
     if rules["own"] and (own := rules["own"](value)):
         return own
-    one_of = "one of " if len(rules["words"]) > 1 else ""
-    raise ConfigError(f"{key} = {shown(value)}: must be {one_of}{', '.join(rules['words'])}")
+    raise ConfigError(f"{key} = {shown(value)}: must be {describe_rules(rules)}")
 
 
 def read_quantity(name, text, unit, above=0.0):
@@ -157,8 +156,9 @@ def _interval(key, value):
 
 def describe_rules(rules):
     """What a key takes, in words: "one of barus, roelands", "N, at least 1e-06 and at most 1e+09"."""
-    if rules["choices"]:
-        return f"one of {', '.join(rules['choices'])}"
+    if rules["words"]:
+        one_of = "one of " if len(rules["words"]) > 1 else ""
+        return one_of + ", ".join(rules["words"])
     if rules["kind"] is bool:
         return "true or false"
     if rules["kind"] is tuple:
