@@ -13,7 +13,7 @@ def add(commands):
         allow_abbrev=False,
         description="Write pressure, film and status of a finished run in SI units: vts for ParaView, nc "
         "(NetCDF-4, CF conventions) for xarray, npz for NumPy, csv for anything.",
-        epilog="example: mgehl export runs/point_contact --to vts,nc",
+        epilog="example: mgehl export runs/try --to vts,nc",
     )
     parser.add_argument("run", metavar="RUN", help="run directory")
     parser.add_argument("--to", required=True, metavar="FORMAT,...", help="vts, nc, npz, csv, or several")

@@ -22,7 +22,7 @@ def add(commands):
         "history of the convergence; of several runs one picture of their centre lines and one of their "
         "histories. Pictures of an earlier time are replaced. A line contact has no maps, a wedge no map "
         "of its film, which is a plane.",
-        epilog="example: python -m mgehl plot runs/point_contact --kind lines,film --format png,svg",
+        epilog="example: python -m mgehl plot runs/try --kind lines,film --format png,svg",
     )
     parser.add_argument("runs", nargs="+", metavar="RUN", help="run directory")
     parser.add_argument("--kind", action="append", metavar="K,K,...", help=f"pictures: {', '.join(KINDS)} "

@@ -17,7 +17,7 @@ def add(commands):
         description="Write a run or a study as one HTML page that needs no other file and no network: "
         "verdict, films, checks, pictures, history, configuration, versions. Without --out the page is "
         "report.html in the directory, and one that is there is replaced.",
-        epilog="example: python -m mgehl report runs/point_contact --out point_contact.html",
+        epilog="example: python -m mgehl report runs/try --out try.html",
     )
     parser.add_argument("directory", metavar="RUN|STUDY", help="directory of a run or a study")
     parser.add_argument(

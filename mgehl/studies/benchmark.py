@@ -151,7 +151,7 @@ def _mean(clocks):
 def _run(tables, comm):
     """Solve and write everything, as a run does, into a directory that does not stay."""
     with tempfile.TemporaryDirectory() as directory:
-        return run(config_from_tables(tables), Path(directory), comm, speak=False)
+        return run(config_from_tables(tables), Path(directory), comm)
 
 
 def _reference():
