@@ -150,7 +150,7 @@ def versions():
 
 def _write(paths, solution):
     """Write all files, the result last; raise OutputError if the disk does not take them."""
-    from mgehl.output import picture, wedge_picture  # matplotlib is slow to import
+    from mgehl.output.pictures import picture, wedge_picture  # matplotlib is slow to import
 
     try:
         files.write_history(paths.history, solution.rows)

@@ -24,7 +24,7 @@ def add(commands):
 
 def execute(options):
     """Write the files and name them."""
-    from mgehl.output.export import export, read_formats, targets
+    from mgehl.output.export.export import export, read_formats, targets
     from mgehl.output.stored import read_run  # starts PETSc, which vts needs
 
     paths = targets(read_formats(options.to), options.run, options.out)

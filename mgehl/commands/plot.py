@@ -45,7 +45,7 @@ def execute(options):
         raise UserError(f"--dpi {options.dpi}: must be between 30 and 1200")
     if "compare" in kinds and len(options.runs) == 1:
         raise UserError("--kind compare: needs more than one run")
-    from mgehl.output import style
+    from mgehl.output.pictures import style
 
     with style.applied(options.style, options.dpi):
         for pictures, directory in _drawn(options, kinds):
@@ -64,8 +64,8 @@ def _words(option, given, known, default):
 
 def _drawn(options, kinds):
     """Lists of pictures, each with its directory."""
-    from mgehl.output.figures import compared, figures
-    from mgehl.output.labels import run_names
+    from mgehl.output.pictures.figures import compared, figures
+    from mgehl.output.pictures.labels import run_names
     from mgehl.output.stored import read_run
 
     names = run_names(options.runs)
@@ -82,7 +82,7 @@ def _drawn(options, kinds):
 
 
 def _write(pictures, directory, formats):
-    from mgehl.output.figures import write
+    from mgehl.output.pictures.figures import write
 
     try:
         paths = write(pictures, directory, formats)

@@ -30,7 +30,7 @@ def add(commands):
 def execute(options):
     """Write the page and say where it is."""
     from mgehl.output.files import REPORT
-    from mgehl.output.page import write_page
+    from mgehl.output.report.page import write_page
 
     directory = Path(options.directory)
     path = Path(options.out) if options.out else directory / REPORT
@@ -42,9 +42,9 @@ def execute(options):
 
 
 def _page(directory):
-    from mgehl.output.report import report
+    from mgehl.output.report.run_report import report
+    from mgehl.output.report.study_report import is_study, study_report
     from mgehl.output.stored import read_run
-    from mgehl.output.study_report import is_study, study_report
 
     if is_study(directory):
         return study_report(directory, STUDIES)

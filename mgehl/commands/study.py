@@ -60,7 +60,7 @@ def add(commands):
 def execute(options, comm):
     """Solve all cases on all ranks; write tables and pictures."""
     from mgehl.output.files import on_first_rank, prepare_directory
-    from mgehl.output.study_record import StudyRecord, write_record
+    from mgehl.output.report.study_record import StudyRecord, write_record
     from mgehl.run import versions
     from mgehl.studies.study import Study
 

@@ -1,6 +1,6 @@
 """Pictures of the studies of films and methods."""
 
-from mgehl.output.style import COLOURS, MARKS, applied, save, subplots
+from mgehl.output.pictures.style import COLOURS, MARKS, applied, save, subplots
 
 
 def schemes(path, nodes, films):

@@ -3,7 +3,7 @@
 import numpy as np
 
 from mgehl.discretization.status import CONTACT
-from mgehl.output.style import COLOURS, MARKS, applied, save, subplots
+from mgehl.output.pictures.style import COLOURS, MARKS, applied, save, subplots
 
 
 def against_hertz(path, profiles):

@@ -4,8 +4,8 @@ import matplotlib
 import numpy as np
 
 from mgehl.discretization.status import CONTACT
-from mgehl.output.blocks import Blocks
-from mgehl.output.style import COLOURS, MARKS, applied, save, subplots
+from mgehl.output.pictures.blocks import Blocks
+from mgehl.output.pictures.style import COLOURS, MARKS, applied, save, subplots
 
 PROFILES = 6
 """Speeds in Figure 14a and b, from the last full film to the first full contact."""

@@ -3,8 +3,8 @@
 import numpy as np
 
 from mgehl.model.wedge_series import WedgeSeries
-from mgehl.output import style, wedge_picture
 from mgehl.output.center_line import center_line
+from mgehl.output.pictures import style, wedge_picture
 
 SHAPES = ("square pillar", "cylindrical pillar", "blocked exit", "no blockage")
 COLOURS = dict(zip(SHAPES, (*style.COLOURS[:3], style.COLOURS[-1]), strict=True))

@@ -3,7 +3,7 @@
 import pytest
 
 from mgehl.cli import main
-from mgehl.output.figures import TITLES
+from mgehl.output.pictures.figures import TITLES
 
 RUN = ["run", "--quiet", "--set", "grid.nodes=65", "--out"]
 

@@ -4,7 +4,7 @@ import pytest
 
 from mgehl.cli import main
 from mgehl.commands.study import STUDIES
-from mgehl.output.study_record import StudyRecord, write_record
+from mgehl.output.report.study_record import StudyRecord, write_record
 
 RUN = ["run", "--set", "grid.nodes=65", "--set", "solver.start=contact", "--quiet", "--out", "dry"]
 
@@ -22,7 +22,7 @@ def finished(tmp_path_factory):
 @pytest.fixture(autouse=True)
 def quick(monkeypatch):
     """Pages without pictures, which take the time."""
-    monkeypatch.setattr("mgehl.output.report.pictures", lambda solution: {})
+    monkeypatch.setattr("mgehl.output.report.run_report.pictures", lambda solution: {})
 
 
 @pytest.fixture

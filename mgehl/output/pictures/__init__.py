@@ -1,0 +1,1 @@
+"""Pictures of runs: centre lines, maps, histories, comparisons; one style."""

@@ -1,0 +1,87 @@
+"""What tells runs apart that are shown together: the keys in which their configurations differ."""
+
+from dataclasses import fields
+from pathlib import Path
+
+from mgehl.config import SECTIONS
+from mgehl.errors import UserError
+from mgehl.output.pictures.titles import speed, verdict
+
+MOST_KEYS = 3
+"""Keys that a label may name; runs that differ in more are called by their directories."""
+
+_SHORT = {
+    "grid.nodes": lambda nodes: f"{nodes} nodes",
+    "motion.speed": speed,
+    "contact.load": lambda load: f"{load:.4g} N",
+    "contact.load_per_length": lambda load: f"{1e-3 * load:.4g} N/mm",
+    "discretization.face_mobility": lambda mean: f"{mean} mean",
+    "discretization.couette": lambda scheme: f"scheme {scheme}",
+    "solver.start": lambda start: f"from {start}",
+    "solver.method": str,
+    "wedge.blocked_exit": lambda blocked: "exit blocked" if blocked else "exit open",
+    "wedge.pillar": lambda pillar: "no pillar" if pillar == "none" else f"{pillar} pillar",
+}
+"""Keys whose values speak for themselves."""
+
+
+def run_names(directories):
+    """The last part of each run directory's path, or as many as tell them apart.
+
+    Raises UserError where a directory is given twice.
+    """
+    parts = [Path(directory).resolve().parts for directory in directories]
+    for each, directory in zip(parts, directories, strict=True):
+        if parts.count(each) > 1:
+            raise UserError(f"{directory}: is given twice")
+    depth = 1
+    while len({each[-depth:] for each in parts}) < len(parts):
+        depth += 1
+    return ["/".join(each[-depth:]) for each in parts]
+
+
+def labels(solutions, names):
+    """A label for each run: what differs of its configuration, or its name where that says too much.
+
+    A run that did not converge says so.
+    """
+    results = [solution.result for solution in solutions]
+    return [_judged(each, result) for each, result in zip(_said(solutions, names), results, strict=True)]
+
+
+def _judged(text, result):
+    return text if result.converged else f"{text} ({verdict(result)})"
+
+
+def _said(solutions, names):
+    tables = [_flat(solution.config) for solution in solutions]
+    keys = [key for key in dict.fromkeys(key for table in tables for key in table) if _differs(tables, key)]
+    said = [", ".join(_say(key, table[key]) for key in keys if key in table) for table in tables]
+    if not keys or len(keys) > MOST_KEYS or len(set(said)) < len(said):
+        return list(names)
+    return said
+
+
+def _flat(config):
+    return {
+        f"{section}.{key}": value
+        for section, table in config.as_toml_tables().items()
+        for key, value in table.items()
+    }
+
+
+def _differs(tables, key):
+    return any(table.get(key) != tables[0].get(key) for table in tables)
+
+
+def _say(key, value):
+    """A key and its value, in a few words with the unit."""
+    if key in _SHORT:
+        return _SHORT[key](value)
+    text = f"{value:.6g}" if isinstance(value, float) else str(value).lower()
+    return f"{key} {text} {_unit(key)}".rstrip()
+
+
+def _unit(key):
+    section, _, name = key.partition(".")
+    return next(each.metadata["unit"] for each in fields(SECTIONS[section]) if each.name == name) or ""

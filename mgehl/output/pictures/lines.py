@@ -1,0 +1,81 @@
+"""Centre lines of pressure and film of one run, against the dry contact."""
+
+import numpy as np
+
+from mgehl.model.hertz import hertz_pressure
+from mgehl.output.pictures.style import FILM, HERTZ, PRESSURE, legend_below, subplots
+from mgehl.output.pictures.titles import position_labels, title
+
+ALONG, ACROSS = "Y = 0, along the motion (left to right)", "X = 0, across the motion"
+SMALLEST_FILM_RANGE = 10.0
+"""Upper end of the film axis, in nm, where solid contact leaves no film to scale it by."""
+
+
+def centre_lines(solution):
+    """Figure of pressure (GPa) and film (nm) along the motion and, of a point contact, across it."""
+    panels = 1 if solution.mesh.is_line else 2
+    figure, axes = subplots(1, panels, size=(1.2 + 4.9 * panels, 4.6), squeeze=False)
+    draw_along(axes[0, 0], solution)
+    if panels > 1:
+        draw_across(axes[0, 1], solution)
+    contact = solution.contact
+    for panel, name, scale in zip(axes[0], "xy", (contact.x_scale, contact.y_scale), strict=False):
+        add_millimetres(panel, name, scale)
+    figure.suptitle(f"centre lines, {title(solution)}")
+    return figure
+
+
+def along(solution):
+    """X, P and H along the motion on Y = 0, (nx,) each."""
+    mesh, fields = solution.mesh, solution.fields
+    _, j = mesh.nearest(0.0, 0.0)
+    return mesh.X, fields.P[j], fields.H[j]
+
+
+def across(solution):
+    """Y, P and H across the motion on X = 0, (ny,) each."""
+    mesh, fields = solution.mesh, solution.fields
+    i, _ = mesh.nearest(0.0, 0.0)
+    return mesh.Y, fields.P[:, i], fields.H[:, i]
+
+
+def draw_along(axes, solution):
+    """The lines along the motion."""
+    X, P, H = along(solution)
+    _draw(axes, solution.contact, X, P, H, solution.contact.dry_gap(X, 0.0 * X))
+    axes.set(xlabel=position_labels(solution)[0], title=ALONG)
+
+
+def draw_across(axes, solution):
+    """The lines across the motion."""
+    Y, P, H = across(solution)
+    _draw(axes, solution.contact, Y, P, H, solution.contact.dry_gap(0.0 * Y, Y))
+    axes.set(xlabel=position_labels(solution)[1], title=ACROSS)
+
+
+def film_range(position, film):
+    """Lower and upper end of a film axis: readable inside the dry contact, in the film's unit."""
+    inside = np.abs(position) < 0.8
+    top = max(3.0 * float(np.max(film[inside])), SMALLEST_FILM_RANGE)
+    return min(-0.05 * top, 1.1 * float(np.min(film))), top
+
+
+def add_millimetres(axes, name, scale):
+    """The position in mm along the upper side; `scale` is metres per unit of X or Y."""
+    mm = 1e3 * scale
+    upper = axes.secondary_xaxis("top", functions=(lambda X: X * mm, lambda x: x / mm))
+    upper.set_xlabel(f"{name}, mm")
+
+
+def _draw(axes, contact, position, P, H, dry_gap):
+    GPa, nm = 1e-9 * contact.pressure_scale, 1e9 * contact.film_scale
+    pressure = axes.plot(position, P * GPa, color=PRESSURE, label="pressure")
+    axes.plot(position, hertz_pressure(position, 0.0) * GPa, ":", color=HERTZ, linewidth=1)
+    axes.set(ylim=(0.0, 1.25 * max(GPa, GPa * float(np.max(P)))), xlim=position[[0, -1]])
+    axes.set_ylabel("pressure, GPa", color=PRESSURE)
+    films = axes.twinx()
+    film = films.plot(position, H * nm, color=FILM, label="film")
+    dry = films.plot(position, dry_gap * nm, ":", color=HERTZ, linewidth=1, label="dry contact (Hertz)")
+    films.set(ylim=film_range(position, H * nm))
+    films.set_ylabel("film thickness, nm", color=FILM)
+    legend_below(axes, [*pressure, *film, *dry])

@@ -1,0 +1,174 @@
+"""Maps of a run: film, pressure and status of the nodes, contact and cavitation outlined."""
+
+import numpy as np
+from matplotlib.colors import BoundaryNorm, ListedColormap, LogNorm, Normalize
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+from matplotlib.ticker import LogLocator, MaxNLocator
+
+from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, NAMES
+from mgehl.output.pictures.blocks import MOST, Blocks
+from mgehl.output.pictures.lines import SMALLEST_FILM_RANGE
+from mgehl.output.pictures.style import CONTACT_EDGE, STATUS_COLOURS, legend_below, subplots
+from mgehl.output.pictures.titles import position_labels, title
+
+SIDE = 5.2
+"""Inches of the longer side of a map, which is drawn true to scale."""
+OVERLAP = len(NAMES)
+"""Drawn as a status: nodes outside of contact whose gap is negative."""
+WINDOW = 1.35
+"""How far from the centre, in X and Y, the map of the film shows: the dry contact ends at 1."""
+DECADES = 1e3
+"""Largest ratio of films on one map: thinner ones are drawn as the thinnest."""
+LEAST_OPEN = 0.02
+"""Part of the dry contact from which its film, where there is any, makes the scale."""
+UNIFORM = 1.1
+"""Ratio of films below which they are all one on the map."""
+LINEAR_UP_TO = 8.0
+"""Ratio of films from which the map's scale is logarithmic."""
+
+
+def film_map(solution):
+    """Figure of the film in nm about the dry contact, on a scale of the film inside it."""
+    mesh, fields = solution.mesh, solution.fields
+    i, j = _near(mesh.X), _near(mesh.Y)
+    blocks = Blocks(mesh.X[i], mesh.Y[j])
+    film = blocks.least(1e9 * solution.contact.film_scale * fields.H[j, i])
+    status = blocks.largest(drawn_status(fields)[j, i])
+    norm = film_scale(blocks, film, status)
+    figure, axes = _map(blocks)
+    image = _draw(axes, blocks, np.maximum(film, norm.vmin), norm)
+    levels = _levels(norm)
+    bar = figure.colorbar(image, ax=axes, label="film thickness, nm", extend=_beyond(film, norm))
+    bar.set_ticks(levels, labels=[f"{level:g}" for level in levels], minor=False)
+    bar.minorticks_off()
+    _label_lines(axes, blocks, np.where(_distance(blocks) < 1.0, film, np.nan), levels)
+    _outline(axes, blocks, status, filled=True)
+    _finish(figure, axes, solution, "film thickness")
+    return figure
+
+
+def pressure_map(solution):
+    """Figure of the pressure in GPa."""
+    mesh, fields = solution.mesh, solution.fields
+    blocks = Blocks(mesh.X, mesh.Y)
+    pressure = blocks.largest(1e-9 * solution.contact.pressure_scale * fields.P)
+    figure, axes = _map(blocks)
+    image = _draw(axes, blocks, pressure, None)
+    figure.colorbar(image, ax=axes, label="pressure, GPa")
+    _outline(axes, blocks, blocks.largest(drawn_status(fields)), filled=False)
+    _finish(figure, axes, solution, "pressure")
+    return figure
+
+
+def status_map(solution):
+    """Figure of what each node is."""
+    mesh = solution.mesh
+    figure, axes = _map(Blocks(mesh.X, mesh.Y))
+    draw_status(axes, solution)
+    figure.suptitle(f"status of the nodes, {title(solution)}")
+    return figure
+
+
+def draw_status(axes, solution, most=MOST):
+    """The map of the status with its legend, at most `most` blocks along a side."""
+    blocks = Blocks(solution.mesh.X, solution.mesh.Y, most)
+    status = blocks.largest(drawn_status(solution.fields))
+    colours = ListedColormap(STATUS_COLOURS)
+    norm = BoundaryNorm(np.arange(colours.N + 1) - 0.5, colours.N)
+    axes.pcolormesh(blocks.X, blocks.Y, status, cmap=colours, norm=norm, shading="nearest", rasterized=True)
+    X, Y = position_labels(solution)
+    axes.set(xlabel=X, ylabel=Y, aspect="equal")
+    found = [k for k in range(BOUNDARY + 1, OVERLAP + 1) if (status == k).any()]
+    handles = [Patch(color=STATUS_COLOURS[k], label=(*NAMES, "overlap")[k]) for k in found]
+    legend_below(axes, handles)
+
+
+def drawn_status(fields):
+    """The status of each node, with nodes whose gap is negative without contact as OVERLAP."""
+    return np.where((fields.H < 0.0) & (fields.status != CONTACT), OVERLAP, fields.status)
+
+
+def film_scale(blocks, film, status):
+    """Norm of the film inside the dry contact; about it, where all of that is in contact.
+
+    Logarithmic where the film spans more than LINEAR_UP_TO, and over DECADES at the most.
+    """
+    inside, open_film = _distance(blocks) < 1.0, (status != CONTACT) & (film > 0.0)
+    enough = (open_film & inside).sum() > LEAST_OPEN * inside.sum()
+    films = film[open_film & inside if enough else open_film]
+    if not len(films):
+        return Normalize(0.0, SMALLEST_FILM_RANGE)
+    low, high = float(films.min()), float(np.quantile(films, 0.95))
+    if high < UNIFORM * low:
+        return Normalize(low / UNIFORM, high * UNIFORM)
+    if high <= LINEAR_UP_TO * low:
+        return Normalize(low, high)
+    return LogNorm(max(low, high / DECADES), high)
+
+
+def _map(blocks):
+    """A figure for a map of the blocks, with room for a colour bar and a legend."""
+    width, height = np.ptp(blocks.X), np.ptp(blocks.Y)
+    inch = SIDE / max(width, height)
+    return subplots(size=(inch * width + 2.2, inch * height + 1.3))
+
+
+def _near(line):
+    return slice(*np.searchsorted(line, (-WINDOW, WINDOW)))
+
+
+def _distance(blocks):
+    return np.hypot(blocks.X[None, :], blocks.Y[:, None])
+
+
+def _beyond(film, norm):
+    below, above = film.min() < norm.vmin, film.max() > norm.vmax
+    return {(0, 0): "neither", (1, 0): "min", (0, 1): "max", (1, 1): "both"}[below, above]
+
+
+def _levels(norm):
+    """Round numbers for lines of equal film."""
+    locator = LogLocator(subs=(1.0, 2.0, 5.0)) if isinstance(norm, LogNorm) else MaxNLocator(6)
+    levels = np.asarray(locator.tick_values(norm.vmin, norm.vmax))
+    return levels[(levels > norm.vmin) & (levels < norm.vmax)]
+
+
+def _draw(axes, blocks, values, norm):
+    axes.set_aspect("equal")
+    return axes.pcolormesh(blocks.X, blocks.Y, values, norm=norm, shading="nearest", rasterized=True)
+
+
+def _label_lines(axes, blocks, values, levels):
+    """Lines of equal values with their numbers."""
+    levels = levels[(levels > np.nanmin(values)) & (levels < np.nanmax(values))]
+    if len(levels):
+        lines = axes.contour(blocks.X, blocks.Y, values, levels, colors="white", linewidths=0.7)
+        axes.clabel(lines, fmt="%g", fontsize="small")
+
+
+def _outline(axes, blocks, status, filled):
+    """Contact and cavitation outlined, with their legend; contact black where it is `filled`."""
+    handles = []
+    contact = status == CONTACT
+    if contact.any():
+        face = STATUS_COLOURS[CONTACT] if filled else "none"
+        axes.contourf(blocks.X, blocks.Y, contact, (0.5, 1.5), colors=[face])
+        axes.contour(blocks.X, blocks.Y, contact, (0.5,), colors=CONTACT_EDGE, linewidths=0.9)
+        handles.append(Patch(facecolor=face, edgecolor=CONTACT_EDGE, label="contact"))
+    # The boundary's pressure is given: it is no end of the cavity.
+    cavitated = np.ma.masked_where(status == BOUNDARY, status == CAVITATED)
+    if cavitated.any():
+        # Black on white is seen on the darkest and on the brightest of the map's colours.
+        axes.contour(blocks.X, blocks.Y, cavitated, (0.5,), colors="white", linewidths=2.2)
+        axes.contour(blocks.X, blocks.Y, cavitated, (0.5,), colors="black", linestyles="--", linewidths=1)
+        handles.append(Line2D([], [], color="black", linestyle="--", linewidth=1, label="cavitation"))
+    if handles:
+        legend_below(axes, handles)
+
+
+def _finish(figure, axes, solution, what):
+    """Names of the axes with their units, and the title."""
+    X, Y = position_labels(solution)
+    axes.set(xlabel=X, ylabel=Y)
+    figure.suptitle(f"{what}, {title(solution)}")

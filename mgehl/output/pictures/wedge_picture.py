@@ -1,0 +1,61 @@
+"""Pictures of a wedge bearing: map of the pressure and its centre line."""
+
+import numpy as np
+
+from mgehl.discretization.status import CONTACT
+from mgehl.output.center_line import center_line
+from mgehl.output.pictures import style
+from mgehl.output.pictures.blocks import Blocks
+from mgehl.output.pictures.titles import title
+
+UNIT = "P = m$^2$p/($\\eta$u), 1/mm"
+
+
+def draw(path, solution):
+    """Write the picture that a run leaves, of a `Solution`, to `path`."""
+    with style.applied():
+        figure, axes = style.subplots(1, 2, size=(10.5, 3.9))
+        image = pressure_map(axes[0], solution.mesh, solution.fields)
+        figure.colorbar(image, ax=axes[0], label=UNIT)
+        _draw_line(axes[1], solution)
+        figure.suptitle(title(solution))
+        style.save(figure, path)
+
+
+def centre_line(solution):
+    """Figure of the pressure on Y = 0, as P and in MPa."""
+    figure, axes = style.subplots(size=(6.8, 4.2))
+    _draw_line(axes, solution)
+    MPa = 1e-6 * solution.contact.pressure_scale
+    right = axes.secondary_yaxis("right", functions=(lambda P: P * MPa, lambda p: p / MPa))
+    right.set_ylabel("pressure, MPa")
+    figure.suptitle(title(solution))
+    return figure
+
+
+def pressure_picture(solution):
+    """Figure of the map of the pressure over the pad."""
+    figure, axes = style.subplots(size=(7.4, 4.6))
+    image = pressure_map(axes, solution.mesh, solution.fields)
+    figure.colorbar(image, ax=axes, label=UNIT)
+    figure.suptitle(title(solution))
+    return figure
+
+
+def pressure_map(axes, mesh, fields, limits=None):
+    """Draw P over the pad, solid grey; return the image for a colour bar."""
+    blocks = Blocks(mesh.X, mesh.Y)
+    solid = blocks.largest(fields.status) == CONTACT
+    P = np.ma.masked_where(solid, blocks.largest(fields.P))
+    low, high = limits or (float(P.min()), float(P.max()))
+    image = axes.pcolormesh(blocks.X, blocks.Y, P, vmin=low, vmax=high, shading="nearest", rasterized=True)
+    axes.set_facecolor(style.SOLID)
+    axes.set(xlabel="X, mm", ylabel="Y, mm", aspect="equal", title="pressure (solid grey)")
+    return image
+
+
+def _draw_line(axes, solution):
+    mesh = solution.mesh
+    axes.plot(*center_line(mesh, solution.fields), color=style.PRESSURE)
+    axes.axhline(0.0, color=style.GUIDE, linewidth=0.8, zorder=0)
+    axes.set(xlabel="X, mm", ylabel=UNIT, title="centre line", xlim=mesh.edges)

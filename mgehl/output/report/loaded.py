@@ -1,0 +1,210 @@
+"""Sections that the page of a point or line contact has besides those of every run."""
+
+from math import isfinite
+
+from mgehl.output.report.checks import CARE, CHECK_HEADS, CHECKS, absent, informing, limited
+from mgehl.output.report.page import DOUBTFUL, GOOD, NO_NUMBER, Cell, Section, number, table
+from mgehl.output.report.parts import span
+from mgehl.output.result import COMPLEMENTARITY_TOLERANCE
+
+FORMULAS = {
+    "hamrock_dowson": "Hamrock and Dowson",
+    "nijenbanning_venner_moes": "Nijenbanning, Venner and Moes",
+    "dowson_higginson": "of the Dowson-Higginson type",
+    "grubin": "Ertel and Grubin",
+}
+RESOLUTION = {
+    "resolved": Cell("resolved", GOOD),
+    "coarse": Cell("coarse: expect the film to change with the grid", DOUBTFUL),
+    "grid-determined": Cell("grid-determined: the contact set is the grid's", DOUBTFUL),
+}
+
+
+def title(solution):
+    """Kind, speed, load and nodes; numbers and their units stay together."""
+    contact, mesh = solution.contact, solution.mesh
+    nodes = f"{mesh.nx} nodes" if mesh.is_line else f"{mesh.nx} × {mesh.ny} nodes"
+    parts = (f"{1e3 * contact.speed:.4g} mm/s", " ".join(_load(solution)), nodes)
+    kind = "Line" if mesh.is_line else "Point"
+    return ", ".join([f"{kind} contact", *(part.replace(" ", "\u00a0") for part in parts)])
+
+
+def _load(solution):
+    """The load and its unit; a line contact's is per length."""
+    load = solution.contact.load
+    return (f"{1e-3 * load:.4g}", "N/mm") if solution.mesh.is_line else (f"{load:.4g}", "N")
+
+
+def highlights(solution):
+    """The numbers that most readers come for."""
+    result = solution.result
+    return (
+        ("central film", f"{film(result.central_film_nm)} nm"),
+        ("minimum film", f"{film(result.minimum_film_nm)} nm"),
+        ("largest pressure", f"{number(result.max_pressure_GPa, 4)} GPa"),
+        ("contact / Hertz area", number(result.contact.area_fraction, 4)),
+        ("cells in the inlet", f"{number(result.resolution.inlet_cells, 3)}"),
+    )
+
+
+def answer_sections(solution):
+    """Films, checks, contact and groups."""
+    result = solution.result
+    return (
+        Section("films", "Films", (_films(result),)),
+        Section("checks", "Can it be trusted", (_checks(solution),)),
+        Section("contact", "Contact and Eq. 2", tuple(_contact(result))),
+        Section("groups", "The contact in numbers", (_dimensions(solution), _groups(solution))),
+    )
+
+
+def _films(result):
+    own = {"central": result.central_film_nm, "minimum": result.minimum_film_nm}
+    formulas = {}
+    for name, nm in result.formulas.items():
+        name = name.removesuffix("_nm")
+        which = "minimum" if name.endswith("_minimum") else "central"
+        formulas.setdefault(name.removesuffix(f"_{which}"), {})[which] = nm
+    rows = [("computed", film(own["central"]), "", film(own["minimum"]), "")]
+    rows += [_formula_row(name, films, own) for name, films in formulas.items()]
+    heads = ("film", "central, nm", "computed / formula", "minimum, nm", "computed / formula")
+    return table("Computed films beside those of formulas for a full film", heads, rows)
+
+
+def _formula_row(name, films, own):
+    cells = [FORMULAS.get(name, name.replace("_", " "))]
+    for which in ("central", "minimum"):
+        known = which in films
+        cells += [film(films[which]), _ratio(own[which], films[which])] if known else ["", ""]
+    return cells
+
+
+def film(nm):
+    """A film in nm as on the terminal: four digits after the point, of a diverged run four in all."""
+    plain = nm is not None and abs(nm) < 1e7
+    return _fixed(nm, 4) if plain else number(nm, 4)
+
+
+def _ratio(computed, formula):
+    return _fixed(computed / formula, 3) if computed is not None and formula else NO_NUMBER
+
+
+def _fixed(value, decimals):
+    return f"{round(value, decimals) + 0.0:.{decimals}f}" if isfinite(value) else NO_NUMBER
+
+
+def _checks(solution):
+    result, tolerance = solution.result, solution.config.solver.tolerance
+    inequality, overlap, resolution = result.pressure_inequality, result.overlap, result.resolution
+    broken = f"{inequality.violations} of {inequality.checked}"
+    rows = [
+        limited("residual of the equations, rms", result.residual, tolerance),
+        limited("load error", result.load_error, tolerance),
+        limited("complementarity", result.complementarity_error, COMPLEMENTARITY_TOLERANCE),
+        absent("nodes that can be neither film nor contact", len(result.contradictions)),
+        absent("interface nodes that break Eq. 2", inequality.violations, found=broken),
+        absent("nodes where the bodies overlap", overlap.nodes, otherwise=CARE),
+        informing("imbalance of the flux", result.flux_imbalance),
+        (
+            "cells in the inlet",
+            number(resolution.inlet_cells, 3),
+            "at least 4",
+            RESOLUTION[resolution.verdict],
+        ),
+    ]
+    return table(CHECKS, CHECK_HEADS, rows)
+
+
+def _contact(result):
+    """Contact, then the lists of nodes that break Eq. 2 or can be neither, folded."""
+    contact, inequality = result.contact, result.pressure_inequality
+    rows = [
+        ("nodes in contact", str(contact.nodes)),
+        ("contact over Hertz area", number(contact.area_fraction)),
+        ("part of the load on contact", number(contact.load_fraction)),
+        ("contact nodes on Y = 0, counted from 1", span(contact.x_nodes)),
+        ("contact nodes on X = 0, counted from 1", span(contact.y_nodes)),
+        ("largest |gap| in contact, nm", number(contact.largest_gap_nm, 3)),
+        ("largest overlap outside of contact, nm", number(result.overlap.largest_nm, 3)),
+        ("cavitated nodes", str(result.cavitated_nodes)),
+        ("interface nodes checked on Eq. 2", str(inequality.checked)),
+        ("of them break it", str(inequality.violations)),
+        ("largest violation, p_h", number(inequality.worst, 3)),
+        ("largest fluid over contact pressure", number(inequality.largest_ratio, 3)),
+    ]
+    yield table(
+        "Solid contact, and fluid against contact pressure across its edge", ("quantity", "value"), rows
+    )
+    if inequality.nodes:
+        nodes = [(str(n["i"]), str(n["j"]), number(n["size"], 3)) for n in inequality.nodes]
+        yield table("Nodes that break Eq. 2, counted from 1", ("i", "j", "by, p_h"), nodes, folded=True)
+    if result.contradictions:
+        yield _contradictions(result.contradictions)
+
+
+def _contradictions(nodes):
+    heads = (
+        "i",
+        "j",
+        "gap as film, nm",
+        "pressure as contact, p_h",
+        "beside it: west, east, before, after",
+    )
+    rows = [
+        (str(n["i"]), str(n["j"]), number(n["film_gap_nm"], 3), number(n["contact_pressure"], 3),
+         ", ".join(n["neighbours"]))
+        for n in nodes
+    ]  # fmt: skip
+    return table("Nodes that can be neither film nor contact, counted from 1", heads, rows, folded=True)
+
+
+def _dimensions(solution):
+    contact, mesh, line = solution.contact, solution.mesh, solution.mesh.is_line
+    hertz = contact.hertz
+    rows = [
+        ("load", *_load(solution)),
+        ("entrainment speed", number(1e3 * contact.speed), "mm/s"),
+        (
+            "Hertz half-width a" if line else "Hertz semi-axis a, along the motion",
+            number(1e6 * hertz.a),
+            "µm",
+        ),
+        ("largest Hertz pressure p_h", number(1e-9 * hertz.p_h), "GPa"),
+        ("unit of the gap, a²/R_x", number(1e6 * contact.film_scale), "µm"),
+        ("length of the inlet zone", number(1e6 * contact.inlet_length * hertz.a), "µm"),
+        ("cells of the grid in it", number(solution.result.resolution.inlet_cells, 3), ""),
+        ("spacing of the grid along the motion", number(1e6 * mesh.dX * hertz.a), "µm"),
+    ]
+    if not line:
+        rows.insert(3, ("Hertz semi-axis b, across the motion", number(1e6 * hertz.b), "µm"))
+        rows.insert(5, ("Hertz approach", number(1e6 * hertz.approach), "µm"))
+    return table("Scales of the dry contact and of the grid", ("quantity", "value", "unit"), rows)
+
+
+def _groups(solution):
+    result, line = solution.result, solution.mesh.is_line
+    load, power = ("load/(E′R_x)", "-1/2") if line else ("load/(E′R_x²)", "-3/4")
+    meanings = {
+        "U": "η₀u/(E′R_x)",
+        "W": load,
+        "G": "αE′",
+        "M": f"W(2U)^({power}), of Moes",
+        "L": "G(2U)^(1/4), of Moes",
+    }
+    rows = [(name, number(getattr(result.groups, name)), text) for name, text in meanings.items()]
+    film = "film as (h/R_x)(2U)^(-1/2)"
+    rows.append(("H central", number(result.moes_film.central), f"computed central {film}"))
+    rows.append(("H minimum", number(result.moes_film.minimum), f"computed minimum {film}"))
+    return table("Dimensionless groups", ("quantity", "value", "meaning"), rows)
+
+
+def work_section(solution):
+    """What the run took."""
+    result = solution.result
+    rows = [
+        ("convolutions, in those of the finest grid", number(result.work.convolutions)),
+        ("Newton steps or sweeps on all grids", number(result.work.steps)),
+        ("wall time, s", number(result.wall_s, 4)),
+        ("ranks", str(result.ranks)),
+    ]
+    return Section("work", "Work and time", (table("What the run took", ("quantity", "value"), rows),))

@@ -1,0 +1,108 @@
+"""Exports: formats, names of files, and what stays where one cannot be written."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from full_disk import files_of_at_most
+from made_solution import make_solution
+
+from mgehl.errors import OutputError, UserError
+from mgehl.output.export.export import WRITERS, export, read_formats, targets
+
+every_format = pytest.mark.parametrize("name", WRITERS)
+
+
+class TestFormats:
+    def test_a_list_names_each_once(self):
+        assert read_formats("nc, vts,nc") == ["nc", "vts"]
+
+    @pytest.mark.parametrize("text", ["vtk", "", "nc,,vts", "NC"])
+    def test_others_are_refused(self, text):
+        with pytest.raises(UserError, match="is none of vts, nc, npz, csv"):
+            read_formats(text)
+
+
+class TestTargets:
+    @pytest.mark.parametrize(
+        "formats, out, names",
+        [
+            (["nc"], None, ["run/fields.nc"]),
+            (["vts", "csv"], None, ["run/fields.vts", "run/fields.csv"]),
+            (["nc"], "here/mine.nc", ["here/mine.nc"]),
+            (["nc"], "here/mine", ["here/mine.nc"]),
+            (["nc", "npz"], "a.v2", ["a.v2.nc", "a.v2.npz"]),
+        ],
+    )
+    def test_names(self, formats, out, names):
+        assert targets(formats, "run", out) == dict(zip(formats, map(Path, names), strict=True))
+
+    def test_a_directory_gets_the_default_name(self, tmp_path):
+        assert targets(["nc"], "run", str(tmp_path)) == {"nc": tmp_path / "fields.nc"}
+
+    @pytest.mark.parametrize("formats", [["vts"], ["nc", "vts"]])
+    def test_the_ending_of_another_format_is_refused(self, formats):
+        with pytest.raises(UserError, match="--out mine.nc: its ending"):
+            targets(formats, "run", "mine.nc")
+
+
+class TestExport:
+    @every_format
+    def test_it_leaves_the_file_and_nothing_else(self, name, tmp_path):
+        path = tmp_path / "deep" / f"mine.{name}"
+        export(make_solution("point"), {name: path})
+        assert [each.name for each in path.parent.iterdir()] == [path.name]
+        assert path.stat().st_size > 1000
+
+    @every_format
+    def test_one_that_exists_stays_without_force(self, name, tmp_path):
+        path = tmp_path / f"mine.{name}"
+        path.write_text("mine")
+        with pytest.raises(OutputError, match="exists: add --force"):
+            export(make_solution("point"), {name: path})
+        assert path.read_text() == "mine"
+        export(make_solution("point"), {name: path}, force=True)
+        assert path.stat().st_size > 1000
+
+    def test_all_are_looked_at_before_the_first_is_written(self, tmp_path):
+        (tmp_path / "a.csv").write_text("mine")
+        with pytest.raises(OutputError, match="exists"):
+            export(make_solution("point"), {"npz": tmp_path / "a.npz", "csv": tmp_path / "a.csv"})
+        assert not (tmp_path / "a.npz").exists()
+
+    @every_format
+    def test_a_full_disk_leaves_what_was_there(self, name, tmp_path):
+        path = tmp_path / f"mine.{name}"
+        path.write_text("mine")
+        with files_of_at_most(1000), pytest.raises(OutputError, match="cannot be written") as caught:
+            export(make_solution("point"), {name: path}, force=True)
+        assert "\n" not in str(caught.value) and str(path) in str(caught.value)
+        assert path.read_text() == "mine" and len(list(tmp_path.iterdir())) == 1
+
+    @every_format
+    @pytest.mark.parametrize("place", ["a file", "a directory"])
+    def test_a_place_that_cannot_be_written_is_one_line(self, name, place, tmp_path):
+        path = tmp_path / "taken" / f"mine.{name}"
+        if place == "a file":
+            (tmp_path / "taken").write_text("mine")
+        else:
+            path.mkdir(parents=True)
+        with pytest.raises(OutputError, match="cannot be written") as caught:
+            export(make_solution("point"), {name: path}, force=True)
+        assert "\n" not in str(caught.value)
+        assert len(list(tmp_path.rglob("*"))) == (1 if place == "a file" else 2)
+
+    @pytest.mark.parametrize("field, word", [("P", "pressure"), ("H", "film")])
+    @pytest.mark.parametrize("value", [np.nan, np.inf])
+    def test_a_field_that_is_not_finite_is_refused(self, field, word, value, tmp_path):
+        solution = make_solution("line")
+        getattr(solution.fields, field)[0, 3] = value
+        with pytest.raises(OutputError, match=f"the {word} of this run is not finite at 1 nodes"):
+            export(solution, {"csv": tmp_path / "a.csv"})
+        assert not list(tmp_path.iterdir())
+
+    def test_a_status_that_is_none_is_refused(self, tmp_path):
+        solution = make_solution("line")
+        solution.fields.status[0, 3] = 4
+        with pytest.raises(OutputError, match="status of this run is damaged"):
+            export(solution, {"csv": tmp_path / "a.csv"})

@@ -1,0 +1,102 @@
+"""Fields for ParaView: read back without VTK, and by VTK, which is what ParaView reads with."""
+
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+from made_solution import SHAPES, make_solution
+
+from mgehl.output.export import paraview
+from mgehl.output.export.paraview import write_vts
+
+NAMES = ("pressure_Pa", "film_m", "P", "H", "status")
+
+every_kind = pytest.mark.parametrize("kind", SHAPES)
+
+
+def values_of(solution):
+    fields = solution.fields
+    return dict(
+        zip(NAMES, (solution.pressure, solution.film, fields.P, fields.H, fields.status), strict=True)
+    )
+
+
+def places_of(solution):
+    """Position of every node, x fastest, as VTK has it."""
+    x, y = np.meshgrid(solution.x, solution.y)
+    return np.stack([x.ravel(), y.ravel(), np.zeros(x.size)], axis=1)
+
+
+def read_plainly(path):
+    """Extent of the grid and its arrays by name, by the text of VTK's format alone."""
+    header, data = path.read_bytes().split(b'<AppendedData encoding="raw">\n_', 1)
+    root = ElementTree.fromstring(header + b"</VTKFile>")
+    order = {"LittleEndian": "<", "BigEndian": ">"}[root.get("byte_order")]
+    # PETSc says so of eight bytes from 3.19 on.
+    length = np.dtype(order + {"UInt32": "u4", "UInt64": "u8"}[root.get("header_type", "UInt32")])
+    arrays = {}
+    for each in root.iter("DataArray"):
+        assert (each.get("type"), each.get("format")) == ("Float64", "appended")
+        offset = int(each.get("offset"))
+        size = int(np.frombuffer(data, length, 1, offset)[0])
+        arrays[each.get("Name")] = np.frombuffer(data, order + "f8", size // 8, offset + length.itemsize)
+    return root.find("StructuredGrid").get("WholeExtent"), arrays
+
+
+@every_kind
+def test_every_value_is_in_the_file(kind, tmp_path):
+    solution = make_solution(kind)
+    write_vts(tmp_path / "a.vts", solution)
+    extent, arrays = read_plainly(tmp_path / "a.vts")
+    ny, nx = SHAPES[kind]
+    assert extent == f"0 {nx - 1} 0 {ny - 1} 0 0"
+    assert tuple(arrays) == ("Position", *NAMES)
+    np.testing.assert_array_equal(arrays["Position"].reshape(-1, 3), places_of(solution))
+    for name, field in values_of(solution).items():
+        np.testing.assert_array_equal(arrays[name], field.ravel())
+
+
+@every_kind
+def test_vtk_reads_it(kind, tmp_path):
+    reading = pytest.importorskip("vtkmodules.vtkIOXML", reason="vtk is not installed")
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    solution = make_solution(kind)
+    write_vts(tmp_path / "a.vts", solution)
+    reader = reading.vtkXMLStructuredGridReader()
+    reader.SetFileName(str(tmp_path / "a.vts"))
+    reader.Update()
+    grid, (ny, nx) = reader.GetOutput(), SHAPES[kind]
+    assert grid.GetExtent() == (0, nx - 1, 0, ny - 1, 0, 0)
+    np.testing.assert_array_equal(vtk_to_numpy(grid.GetPoints().GetData()), places_of(solution))
+    data = grid.GetPointData()
+    assert [data.GetArrayName(k) for k in range(data.GetNumberOfArrays())] == list(NAMES)
+    for name, field in values_of(solution).items():
+        np.testing.assert_array_equal(vtk_to_numpy(data.GetArray(name)), field.ravel())
+
+
+def test_one_too_large_for_this_petsc_is_refused(tmp_path, monkeypatch):
+    """Its offsets would wrap around; the limit is lowered to that of a small file."""
+    monkeypatch.setattr(paraview, "_SHORT_OFFSETS_UNTIL", (99, 0))
+    monkeypatch.setattr(paraview, "_SHORT_LIMIT", 5 * 7 * 8 * 8)
+    with pytest.raises(OSError, match="over 2 GB"):
+        write_vts(tmp_path / "a.vts", make_solution("point"))
+    assert not list(tmp_path.iterdir())
+    monkeypatch.setattr(paraview, "_SHORT_LIMIT", 5 * 7 * 8 * 8 + 1)
+    write_vts(tmp_path / "a.vts", make_solution("point"))
+
+
+def test_a_place_that_cannot_be_written_is_found_before_petsc_does(tmp_path):
+    """Its viewer would try again when PETSc ends."""
+    with pytest.raises(FileNotFoundError):
+        write_vts(tmp_path / "missing" / "a.vts", make_solution("point"))
+
+
+@pytest.mark.parametrize("kept", [0, 5, 1000, -1])
+def test_one_that_is_cut_off_is_noticed(kept, tmp_path):
+    path = tmp_path / "a.vts"
+    write_vts(path, make_solution("point"))
+    paraview._check_end(path)
+    path.write_bytes(path.read_bytes()[:kept])
+    with pytest.raises(OSError, match="a part of it only"):
+        paraview._check_end(path)

@@ -1,0 +1,63 @@
+"""What tells compared runs apart."""
+
+from types import SimpleNamespace
+
+import pytest
+
+from mgehl.config import load_config
+from mgehl.errors import UserError
+from mgehl.output.pictures.labels import labels, run_names
+
+
+def runs(*settings, converged=True):
+    result = SimpleNamespace(converged=converged)
+    return [SimpleNamespace(config=load_config(settings=each), result=result) for each in settings]
+
+
+@pytest.mark.parametrize(
+    "one, other, said",
+    [
+        (["motion.speed=0.5 m/s"], ["motion.speed=20 mm/s"], ["500 mm/s", "20 mm/s"]),
+        (["grid.nodes=65"], ["grid.nodes=129"], ["65 nodes", "129 nodes"]),
+        (["discretization.face_mobility=harmonic"], [], ["harmonic mean", "arithmetic mean"]),
+        (["solver.tolerance=1e-6"], [], ["solver.tolerance 1e-06", "solver.tolerance 1e-08"]),
+        (["contact.radius_y=20 mm"], [], ["contact.radius_y 0.02 m", "contact.radius_y 0.0127 m"]),
+        (["grid.nodes=65", "solver.start=film"], ["grid.nodes=129", "solver.start=film"],
+         ["65 nodes", "129 nodes"]),
+        (["moes.M=20", "moes.L=10"], ["moes.M=200", "moes.L=10"], ["moes.M 20", "moes.M 200"]),
+    ],
+)  # fmt: skip
+def test_they_say_the_keys_that_differ(one, other, said):
+    assert labels(runs(one, other), ["a", "b"]) == said
+
+
+def test_several_keys_in_the_order_of_the_configuration():
+    three = runs(["grid.nodes=65"], ["motion.speed=0.1"], ["grid.nodes=65", "motion.speed=0.1"])
+    assert labels(three, "abc") == ["0.005 mm/s, 65 nodes", "100 mm/s, 257 nodes", "100 mm/s, 65 nodes"]
+
+
+def test_equal_runs_have_their_names():
+    assert labels(runs([], []), ["a", "b"]) == ["a", "b"]
+    assert labels(runs([], [], ["grid.nodes=65"]), "abc") == ["a", "b", "c"]
+
+
+def test_runs_that_differ_in_too_much_have_their_names():
+    other = ["grid.nodes=65", "motion.speed=0.1", "contact.load=100", "solver.tolerance=1e-6"]
+    assert labels(runs([], other), ["a", "b"]) == ["a", "b"]
+
+
+def test_a_run_that_did_not_converge_says_so():
+    good, bad = *runs(["grid.nodes=65"]), *runs(["grid.nodes=129"], converged=False)
+    assert labels([good, bad], "ab") == ["65 nodes", "129 nodes (NOT converged)"]
+
+
+def test_names_of_runs(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert run_names(["x/one", "y/two"]) == ["one", "two"]
+    assert run_names(["x/one", "y/one", "y/two"]) == ["x/one", "y/one", "y/two"]
+    assert run_names(["x/."]) == ["x"]
+
+
+def test_a_run_given_twice():
+    with pytest.raises(UserError, match="x/one/: is given twice"):
+        run_names(["x/one/", "x/one"])
