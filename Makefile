@@ -44,6 +44,8 @@ tables: $(ENVIRONMENT)
 	  done; done; done
 	for r in 1 2 3; do ( $(ON) mpiexec -n $$r python -m mgehl run --force --quiet configs/full_film.toml \
 	  --set grid.nodes=513 --set motion.speed=0.03 --out $(TABLE)/ranks-$$r ) || exit 1; done
+	$(ON) mgehl plot $(TABLE)/full-film --kind film --format png && cp $(TABLE)/full-film/plots/film.png \
+	  runs/tables/full-film-film.png
 	$(ON) mgehl collect $(TABLE)/* --out runs/tables/acceptance.csv > runs/tables/acceptance.md
 	$(ON) mgehl collect $(TABLE)/* --columns "$(SHORT)" > runs/tables/short.md
 

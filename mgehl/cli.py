@@ -106,7 +106,9 @@ def _in_parallel(command, petsc):
 
     petsc4py.init([sys.argv[0], *petsc, *(["-options_left"] if petsc else [])])
     from mpi4py import MPI
+    from petsc4py import PETSc  # noqa: F401  (wakes it: it takes over the signals)
 
+    signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # a reader that has read enough, as in "| head"
     return _on_all_ranks(command, MPI.COMM_WORLD)
 
 

@@ -2,6 +2,8 @@
 
 import json
 import os
+import shlex
+import signal
 import subprocess
 import sys
 
@@ -45,6 +47,16 @@ def test_a_run_in_a_process_of_its_own(tmp_path):
     assert "\nCONVERGED" in done.stdout
     assert {path.name for path in (tmp_path / "here").iterdir()} == FILES
     assert [path.name for path in tmp_path.iterdir()] == ["here"]
+
+
+def test_a_reader_that_has_read_enough_ends_a_run_without_a_word():
+    command = shlex.join([sys.executable, "-m", "mgehl", *DRY, "--out", "here"])
+    environment = {k: v for k, v in os.environ.items() if not k.startswith(("OMPI_COMM", "PMIX_", "PRTE_"))}
+    piped = ["bash", "-c", f"{command} | head -n 1; exit ${{PIPESTATUS[0]}}"]
+    done = subprocess.run(piped, capture_output=True, text=True, timeout=60, env=environment)
+    assert done.stdout.startswith("grid    65") and done.stdout.count("\n") == 1
+    assert done.returncode == 128 + signal.SIGPIPE
+    assert "PETSC" not in done.stderr and "Traceback" not in done.stderr
 
 
 def test_petsc_options_reach_the_solver_and_unknown_ones_are_reported():
