@@ -52,7 +52,7 @@ def onto():
     def make(start, *tables):
         config = config_of(*tables)
         contact = contact_from(config)
-        made.append(Hierarchy(mesh_from(config, contact), 33, contact.deflection_scale, MPI.COMM_SELF))
+        made.append(Hierarchy(mesh_from(config, contact), 33, contact.kernel, MPI.COMM_SELF))
         grid, deflection = made[-1].grids[-1], made[-1].deflections[-1]
         problem = ContactProblem(grid, deflection, contact, settings_from(config, contact).scheme)
         return interpolated(problem, start), problem
