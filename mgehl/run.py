@@ -75,7 +75,7 @@ def solve(config, comm, watch=Watch(), start=None):
     with np.errstate(all="ignore"):  # an iteration that diverges says so itself
         if kind != "line":
             return find(config, contact, mesh, comm, watch)
-        alone = files.on_first_rank(comm, find, config, contact, mesh, MPI.COMM_SELF, watch)
+        alone = files.from_first_rank(comm, find, config, contact, mesh, MPI.COMM_SELF, watch)
     # A user's own laws cannot be sent: every rank has read them itself.
     told = comm.bcast(alone and replace(alone.shared(), config=None, contact=None))
     return alone or replace(told, config=config, contact=contact)

@@ -22,6 +22,11 @@ from mgehl.version import VERSION
 
 @event(FILES)
 def on_first_rank(comm, function, *arguments):
+    """As `from_first_rank`, for what reads or writes files."""
+    return from_first_rank(comm, function, *arguments)
+
+
+def from_first_rank(comm, function, *arguments):
     """Call on rank 0 and return there what it returned, None elsewhere.
 
     Every rank raises what it raised.
