@@ -76,9 +76,8 @@ def solve(config, comm, watch=Watch(), start=None):
         if kind != "line":
             return find(config, contact, mesh, comm, watch)
         alone = files.from_first_rank(comm, find, config, contact, mesh, MPI.COMM_SELF, watch)
-    # A user's own laws cannot be sent: every rank has read them itself.
-    told = comm.bcast(alone and replace(alone.shared(), config=None, contact=None))
-    return alone or replace(told, config=config, contact=contact)
+    told = comm.bcast(alone and alone.shared())
+    return alone or told
 
 
 def _solve_loaded(config, contact, mesh, comm, watch, start=None):
