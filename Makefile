@@ -72,7 +72,7 @@ TRANSITION := runs/study-
 transition: $(ENVIRONMENT)
 	for n in 257 513 1025; do ( $(ON) mpiexec -n 2 python -m mgehl study transition --grid $$n --resume \
 	  --quiet --out $(TRANSITION)transition-$$n ) || exit 1; done
-	( $(ON) python -m mgehl study transition --grid 257 --mean geometric --resume --quiet \
+	( $(ON) python -m mgehl study transition --grid 257 --mean geometric --direction down --resume --quiet \
 	  --out $(TRANSITION)transition-257-geometric )
 	( $(ON) mpiexec -n 2 python -m mgehl study grid --nodes 257,513,1025,2049 --resume --quiet ) || exit 1
 	for s in onset bracket; do ( $(ON) mpiexec -n 2 python -m mgehl study $$s --resume --quiet ) || exit 1; done
