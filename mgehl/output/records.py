@@ -4,7 +4,7 @@ from dataclasses import fields, is_dataclass
 
 import numpy as np
 
-from mgehl.solver.newton import Answer, Cycle, Outcome, Position
+from mgehl.solver.outcome import Answer, Cycle, Outcome, Position
 from mgehl.solver.partition import Changes, Contradiction, Past
 from mgehl.solver.problem import State
 from mgehl.solver.relaxation import Standing, Sweep

@@ -3,7 +3,7 @@
 A python-type SNES, so that PETSc's options, monitors and viewers of SNES, KSP and PC apply.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 from petsc4py import PETSc
@@ -13,8 +13,9 @@ from mgehl.errors import OptionError, Stopped, UserError
 from mgehl.grid.events import linear_solve
 from mgehl.solver.cavitation import relax_cavitation_set
 from mgehl.solver.journal import NOTHING_KEPT
-from mgehl.solver.partition import Changes, Partition, Past
-from mgehl.solver.problem import DIVERGED, State
+from mgehl.solver.outcome import Answer, Cycle, Outcome, Position
+from mgehl.solver.partition import Changes, Partition
+from mgehl.solver.problem import DIVERGED
 
 FLUID_SHARE = 0.3
 """Part of the tolerance that the fluid solved apart may use up: 0.3^2 of the mean square."""
@@ -47,62 +48,6 @@ class NewtonSettings:
     The squeeze flow d(rho H)/dt keeps a step from closing a film that the steady equations leave
     open: from one speed to the next the contact set then grows node by node and not in spots.
     """
-
-
-@dataclass
-class Cycle:
-    """One line of the history: the state before a Newton step and what led to it."""
-
-    step: int
-    residual: float
-    load_error: float
-    central: float
-    minimum: float
-    contact_nodes: int
-    cavitated_nodes: int
-    changes: Changes
-    linear_iterations: int = 0
-    step_length: float = 1.0
-
-
-@dataclass
-class Outcome:
-    """How Newton's method ended."""
-
-    state: State
-    converged: bool
-    reason: str
-    cycles: list = field(default_factory=list)
-    contradictions: list = field(default_factory=list)
-    """Nodes that kept turning between film and contact."""
-
-
-@dataclass(frozen=True)
-class Answer:
-    """A state that settled, kept while Eq. 2 is tried on it."""
-
-    state: State
-    reason: str
-    violations: int
-
-
-@dataclass
-class Position:
-    """Where the iteration stands before a step: all that the way from here depends on."""
-
-    outcome: Outcome
-    """So far: its state is the present one."""
-    past: Past
-    limit: int
-    """Step at which to give up."""
-    changes: Changes = field(default_factory=Changes)
-    """Of the sets since the last cycle."""
-    linear_iterations: int = 0
-    step_length: float = 0.0
-    answer: Answer | None = None
-    released: int = 0
-    """Nodes that Eq. 2 released when it was last tried, and nodes that closed since."""
-    entered: int = 0
 
 
 class Newton:

@@ -23,7 +23,7 @@ from mgehl.discretization.status import (
     open_x_faces,
 )
 from mgehl.solver.journal import NOTHING_KEPT
-from mgehl.solver.newton import Outcome
+from mgehl.solver.outcome import Outcome
 from mgehl.solver.problem import DIVERGED
 
 

@@ -4,7 +4,7 @@ import numpy as np
 
 from mgehl.discretization.status import BOUNDARY, CONTACT, LUBRICATED
 from mgehl.multigrid.assembled import AssembledSolver
-from mgehl.solver.newton import Outcome
+from mgehl.solver.outcome import Outcome
 from mgehl.solver.problem import Problem, State
 from mgehl.solver.rigid_gap import RigidGapFluid
 

@@ -17,7 +17,7 @@ from mgehl.output.checkpoint import UNDER_WAY, Checkpoint, clear, keep_start, lo
 from mgehl.output.files import write_config
 from mgehl.run import Watch, solve
 from mgehl.solver.nested import first_guess
-from mgehl.solver.newton import Outcome
+from mgehl.solver.outcome import Outcome
 from mgehl.solver.problem import State
 from mgehl.solver.relaxation import Standing
 

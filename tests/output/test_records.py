@@ -9,7 +9,7 @@ import pytest
 
 from mgehl.output.records import Reader, Writer
 from mgehl.solver.nested import first_guess
-from mgehl.solver.newton import Answer, Cycle, Outcome, Position
+from mgehl.solver.outcome import Answer, Cycle, Outcome, Position
 from mgehl.solver.partition import Changes, Contradiction, Past
 from mgehl.solver.problem import State
 from mgehl.solver.relaxation import Standing, Sweep
