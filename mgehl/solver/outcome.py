@@ -7,16 +7,23 @@ from mgehl.solver.problem import State
 
 
 @dataclass
-class Cycle:
-    """One line of the history: the state before a Newton step and what led to it."""
+class Line:
+    """One line of the history: the state before a step, in units of P and H."""
 
     step: int
     residual: float
+    """The true one, of film, cavity and contact."""
     load_error: float
     central: float
     minimum: float
     contact_nodes: int
     cavitated_nodes: int
+
+
+@dataclass
+class Cycle(Line):
+    """The state before a Newton step and what led to it."""
+
     changes: Changes
     linear_iterations: int = 0
     step_length: float = 1.0

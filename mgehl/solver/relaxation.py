@@ -23,7 +23,7 @@ from mgehl.discretization.status import (
     open_x_faces,
 )
 from mgehl.solver.journal import NOTHING_KEPT
-from mgehl.solver.outcome import Outcome
+from mgehl.solver.outcome import Line, Outcome
 from mgehl.solver.problem import DIVERGED
 
 
@@ -51,17 +51,9 @@ class RelaxationSettings:
 
 
 @dataclass
-class Sweep:
-    """One line of the history: the state before a sweep and how far that wants to move it."""
+class Sweep(Line):
+    """The state before a sweep and how far that wants to move it."""
 
-    step: int
-    residual: float
-    """The true one, of film, cavity and contact."""
-    load_error: float
-    central: float
-    minimum: float
-    contact_nodes: int
-    cavitated_nodes: int
     e_p: float
     """[Liu eq. 45], of all nodes; then of the fluid and of the solid alone."""
     e_p_fluid: float
