@@ -9,6 +9,10 @@ STIFF = 0.3
 """A node is distributive where its mobility/dX is below this part of its own influence."""
 
 
+REACH_OF_RIGID = 3
+"""All that the stencil of a rigid gap and the distribution Q couple."""
+
+
 def given_nodes(status):
     """Nodes whose pressure is given: boundary and cavitated; shape as `status`."""
     return (status == BOUNDARY) | (status == CAVITATED)
@@ -45,10 +49,10 @@ def influence_of_columns(K, share):
 
 
 class LineBands:
-    """Factored banded systems of all local lines."""
+    """Factored banded systems of all local lines, each node coupled to `reach` on each side."""
 
-    def __init__(self, lines, nx):
-        self._factors = np.zeros((lines, nx, 2 * REACH + 1))
+    def __init__(self, lines, nx, reach=REACH):
+        self._factors = np.zeros((lines, nx, 2 * reach + 1))
 
     def factor(self, linearisation, distributive, kappa, share):
         """Build and factor the bands of J Q for the present linearisation."""

@@ -9,7 +9,7 @@ from numba import njit
 from mgehl.discretization.residual import WW, C, E, N, S, W
 
 REACH = 5
-"""Neighbours on each side that a line's band couples."""
+"""Neighbours on each side that a line's band couples where the gap is elastic."""
 
 
 @njit(cache=True, fastmath={"contract"})
@@ -52,20 +52,21 @@ def apply_stencil(A, dP, out):
 
 @njit(cache=True, fastmath={"contract"})
 def build_bands(A, B, distributive, kappa, share, bands):
-    """Fill `bands` (lines, nx, 2 REACH + 1) with each line's part of J Q.
+    """Fill `bands` (lines, nx, 2 reach + 1) with each line's part of J Q.
 
     Column m of Q is 1 at node m and, where `distributive[j, m]`, -share at its neighbours.
     `kappa[d, l, k]` is the deflection k nodes along and l lines beside a unit column of kind d.
     """
     lines, nx, width = bands.shape
+    reach = width // 2
     for j in range(lines):
         for i in range(nx):
             across_A = A[S, j, i] + A[N, j, i]
             across_B = B[S, j, i] + B[N, j, i]
-            for k in range(-REACH, REACH + 1):
+            for k in range(-reach, reach + 1):
                 m = i + k
                 if m < 0 or m >= nx:
-                    bands[j, i, k + REACH] = 0.0
+                    bands[j, i, k + reach] = 0.0
                     continue
                 d = 1 if distributive[j, m] else 0
                 along, across = kappa[d, 0], kappa[d, 1]
@@ -86,7 +87,7 @@ def build_bands(A, B, distributive, kappa, share, bands):
                         entry += _column_of_Q(A[E, j, i], k - 1, d, share)
                     if k == 0 and d == 1:
                         entry -= share * across_A
-                bands[j, i, k + REACH] = entry
+                bands[j, i, k + reach] = entry
 
 
 @njit(cache=True, inline="always")
@@ -105,35 +106,37 @@ def factor_bands(bands):
     A singular line gives factors that are not finite: the iteration that made it ends by itself.
     """
     lines, nx, width = bands.shape
+    reach = width // 2
     for j in range(lines):
         band = bands[j]
         for i in range(nx):
-            pivot = 1.0 / band[i, REACH]
-            band[i, REACH] = pivot
-            for below in range(1, min(REACH, nx - 1 - i) + 1):
+            pivot = 1.0 / band[i, reach]
+            band[i, reach] = pivot
+            for below in range(1, min(reach, nx - 1 - i) + 1):
                 row = i + below
-                factor = band[row, REACH - below] * pivot
-                band[row, REACH - below] = factor
-                for k in range(1, REACH + 1):
-                    band[row, REACH - below + k] -= factor * band[i, REACH + k]
+                factor = band[row, reach - below] * pivot
+                band[row, reach - below] = factor
+                for k in range(1, reach + 1):
+                    band[row, reach - below + k] -= factor * band[i, reach + k]
 
 
 @njit(cache=True, fastmath={"contract"})
 def solve_bands(bands, r, w):
     """Solve every line with the factors of `factor_bands`; `r` and `w` are (lines, nx)."""
     lines, nx, width = bands.shape
+    reach = width // 2
     for j in range(lines):
         band = bands[j]
         for i in range(nx):
             value = r[j, i]
-            for k in range(max(-REACH, -i), 0):
-                value -= band[i, REACH + k] * w[j, i + k]
+            for k in range(max(-reach, -i), 0):
+                value -= band[i, reach + k] * w[j, i + k]
             w[j, i] = value
         for i in range(nx - 1, -1, -1):
             value = w[j, i]
-            for k in range(1, min(REACH, nx - 1 - i) + 1):
-                value -= band[i, REACH + k] * w[j, i + k]
-            w[j, i] = value * band[i, REACH]
+            for k in range(1, min(reach, nx - 1 - i) + 1):
+                value -= band[i, reach + k] * w[j, i + k]
+            w[j, i] = value * band[i, reach]
 
 
 @njit(cache=True, fastmath={"contract"})

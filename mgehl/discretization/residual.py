@@ -63,8 +63,8 @@ def residual(inflow, P, H, status, mesh, rigid=False):
 def linearise(P, H, status, mesh, contact, scheme, rigid=False, squeeze=0.0):
     """Derivatives of `residual` by P (A) and by H (B); arguments ghosted.
 
-    With `squeeze`, a rate in 1/time step, they are those of an implicit step of d(rho H)/dt: the
-    smaller the time step, the less the gap of a film can change in it.
+    With `squeeze`, a rate in 1/time step or one for each node, they are those of an implicit step
+    of d(rho H)/dt: the smaller the time step, the less the gap of a film can change in it.
     """
     fluid = fluid_state(P, H, contact, scheme.gap_floor)
     inner = status[1:-1]
@@ -73,7 +73,7 @@ def linearise(P, H, status, mesh, contact, scheme, rigid=False, squeeze=0.0):
     lubricated = inner == LUBRICATED
     A = _difference(leaving.by_P, entering.by_P, across.by_P, mesh)
     B = _difference(leaving.by_H, entering.by_H, across.by_H, mesh)
-    if squeeze:
+    if np.any(squeeze):
         A[C] -= squeeze * (fluid.drho_dP * fluid.H)[1:-1]
         B[C] -= squeeze * fluid.rho[1:-1]
     A *= lubricated

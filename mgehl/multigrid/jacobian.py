@@ -70,7 +70,7 @@ class Jacobian:
 
     @event(ASSEMBLY)
     def linearise(self, P, H, status, squeeze=0.0):
-        """Linearise about ghosted P, H and status, for a time step 1/`squeeze` long."""
+        """Linearise about ghosted P, H and status, for time steps 1/`squeeze` long."""
         how = (self.grid.mesh, self.contact, self.scheme, self.rigid, squeeze)
         self.linearisation = linearise(P, H, status, *how)
         self.mat.stateIncrease()

@@ -2,7 +2,13 @@
 
 import numpy as np
 
-from mgehl.discretization.bands import LineBands, distributive_nodes, given_nodes, influence_of_columns
+from mgehl.discretization.bands import (
+    REACH_OF_RIGID,
+    LineBands,
+    distributive_nodes,
+    given_nodes,
+    influence_of_columns,
+)
 from mgehl.discretization.influence import influence_coefficients
 from mgehl.discretization.kernels import REACH, distribute
 from mgehl.grid.events import LINES, event
@@ -21,7 +27,8 @@ class LineSmoother:
         near = _influence_nearby(jacobian)
         self._share = 0.5 if grid.mesh.is_line else 0.25
         self._K00, self._kappa = near[0, 0], influence_of_columns(near, self._share)
-        self._bands = LineBands(*grid.shape)
+        self._reach = REACH_OF_RIGID if jacobian.rigid else REACH
+        self._bands = LineBands(*grid.shape, self._reach)
         self._w = np.zeros(grid.shape)
         self._ghosted_w = np.zeros(grid.ghosted_shape)
         self._out = np.zeros(grid.shape)
@@ -51,7 +58,7 @@ class LineSmoother:
         space.write(y, self._out, 0.0)
 
     def view(self, _pc, viewer):
-        viewer.printfASCII(f"  distributive x-line Jacobi, omega {self._omega}, {REACH} neighbours\n")
+        viewer.printfASCII(f"  distributive x-line Jacobi, omega {self._omega}, {self._reach} neighbours\n")
 
 
 def _influence_nearby(jacobian):

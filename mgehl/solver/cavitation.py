@@ -5,6 +5,8 @@ Where Poiseuille flow dominates, H hardly depends on P, so the complementarity p
 P >= 0, net inflow <= 0 can be solved there at the present gap, by projected line sweeps.
 """
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from mgehl.discretization.faces import conductances
@@ -27,6 +29,40 @@ PASSES = 2
 """Set iterations on a line in each sweep."""
 
 
+@dataclass(frozen=True)
+class SplitFlow:
+    """The net inflow of the nodes as source + L P, with the Poiseuille flow's L at the present state."""
+
+    P: np.ndarray
+    """Ghosted, a copy."""
+    eps: np.ndarray
+    """Mobility, (lines, nx)."""
+    along: np.ndarray
+    across: np.ndarray
+    """Conductances of the x and y faces, as `conductances` gives them."""
+    source: np.ndarray
+    """What the surfaces carry in, (lines, nx)."""
+
+    @property
+    def conductance(self):
+        """Sum over the faces of every node, (lines, nx)."""
+        total = self.across[:-1] + self.across[1:]
+        total[:, 1:] += self.along
+        total[:, :-1] += self.along
+        return total
+
+
+def split_flow(problem, state, inflow):
+    """The `inflow` of a state split into what the surfaces carry and what the pressure drives."""
+    grid = problem.grid
+    P, H, status = grid.halo(state.P), grid.halo(state.H), grid.halo_status(state.status)
+    eps = fluid_state(P, H, problem.contact, problem.scheme.gap_floor).eps
+    along, across = conductances(eps, status, grid.mesh, problem.scheme)
+    source = np.zeros(grid.shape)
+    flow_sources(inflow, P, along, across, source)
+    return SplitFlow(P, eps[1:-1], along, across, source)
+
+
 def relax_cavitation_set(problem, state, inflow):
     """Relax P and status of the weakly coupled fluid; return the number of nodes that changed.
 
@@ -35,19 +71,16 @@ def relax_cavitation_set(problem, state, inflow):
     """
     if not problem.scheme.cavitation:
         return 0
-    grid, mesh = problem.grid, problem.grid.mesh
-    P, H, status = grid.halo(state.P), grid.halo(state.H), grid.halo_status(state.status)
-    eps = fluid_state(P, H, problem.contact, problem.scheme.gap_floor).eps
-    along, across = conductances(eps, status, mesh, problem.scheme)
-    movable = _relaxable(problem, eps[1:-1], state.status)
+    grid = problem.grid
+    flow = split_flow(problem, state, inflow)
+    P, faces = flow.P, (flow.source, flow.along, flow.across)
+    movable = _relaxable(problem, flow.eps, state.status)
     lubricated = state.status == LUBRICATED
-    source = np.zeros(grid.shape)
-    flow_sources(inflow, P, along, across, source)
     for _ in range(SWEEPS):
         changes = 0
         for colour in (0, 1):
             first = (colour + grid.first) % 2
-            changes += relax_cavitation(first, P, lubricated, movable, source, along, across, PASSES)
+            changes += relax_cavitation(first, P, lubricated, movable, *faces, PASSES)
             grid.refresh(P)
         if grid.sum(changes) == 0:
             break

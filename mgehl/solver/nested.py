@@ -9,6 +9,7 @@ from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
 from mgehl.multigrid.cycle import CycleSettings, MultigridSolver
 from mgehl.solver.dry import dry_pressure
+from mgehl.solver.fluid_guess import guess_fluid
 from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.newton import Newton, NewtonSettings
 from mgehl.solver.problem import DIVERGED, ContactProblem
@@ -131,6 +132,7 @@ def _solve_level(hierarchy, level, problem, state, limits, settings, tell, journ
 
     prefix, fluid = settings.cycle.options_prefix, None
     if settings.nested.start == "contact" and problem.scheme.gap_floor is None:
+        guess_fluid(hierarchy, level, problem, state, settings)
         fluid = RigidGapFluid(problem, multigrid(rigid=True), prefix + "fluid_")
     try:
         newton = Newton(problem, multigrid(rigid=False), limits, fluid, prefix, tell)

@@ -177,9 +177,12 @@ def test_linearised_rows_of_given_nodes(mixed, contact):
 
 
 @pytest.mark.parametrize("rigid", [False, True], ids=["deformable", "rigid"])
-@pytest.mark.parametrize("rate", [0.3, 40.0])
+@pytest.mark.parametrize("rate", [0.3, 40.0, "each its own"])
 def test_squeeze_adds_the_rate_of_rho_H_to_film_nodes_and_to_nothing_else(rate, rigid, state, contact):
     """-rate d(rho H)/dP and -rate rho at the centre of lubricated nodes."""
+    inner = state.P[1:-1].shape
+    rate = np.arange(1.0, 1.0 + state.P[1:-1].size).reshape(inner) if rate == "each its own" else rate
+    rates = np.broadcast_to(rate, inner)
     arguments = state.P, state.H, state.status, state.mesh, contact, Scheme(), rigid
     steady, implicit = linearise(*arguments), linearise(*arguments, squeeze=rate)
     P, H, film, d = state.P[1:-1], state.H[1:-1], state.status[1:-1] == LUBRICATED, 1e-6
@@ -189,7 +192,7 @@ def test_squeeze_adds_the_rate_of_rho_H_to_film_nodes_and_to_nothing_else(rate, 
         (steady.B, implicit.B, rho),
     ):
         added, size = after[C] - before[C], np.abs(before[C]).max()
-        np.testing.assert_allclose(added[film], -rate * rate_of[film], rtol=1e-8, atol=1e-14 * size)
+        np.testing.assert_allclose(added[film], -rates[film] * rate_of[film], rtol=1e-8, atol=1e-14 * size)
         np.testing.assert_array_equal(after[C][~film], before[C][~film])
         beside = [position for position in range(6) if position != C]
         np.testing.assert_array_equal(after[beside], before[beside])
