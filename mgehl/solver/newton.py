@@ -32,6 +32,10 @@ SQUEEZE_OF_NODES = 0.1
 THINNEST = 1e-9
 """Film of which a node's own squeeze rate is reckoned where H_th does not say more."""
 
+STALLS = 4
+"""Linear systems that GMRES may leave unsolved: where no state is near (a film that ends, a node at a
+fold) all that follow cost as much as they can and lead nowhere."""
+
 EARLY = 1e-5
 """Residual of resting sets from which Eq. 2 is asked where the fluid is solved apart."""
 
@@ -251,12 +255,19 @@ class Newton:
                 f"{len(outcome.contradictions)} nodes can be neither film, whose gap closes, nor "
                 f"contact, which is torn open: the sets cycle after {cycle.step} steps"
             )
+        elif self._stalls(outcome) >= STALLS:
+            outcome.reason = f"{STALLS} linear systems in {cycle.step} steps could not be solved"
         elif cycle.step >= max_steps:
             settled = "sets still change after" if small else f"residual {cycle.residual:.1e} after"
             outcome.reason = f"{settled} {cycle.step} steps"
         else:
             return False
         return True
+
+    def _stalls(self, outcome):
+        """Linear systems so far that were given up."""
+        limit = self._multigrid.max_iterations
+        return sum(cycle.linear_iterations >= limit for cycle in outcome.cycles)
 
     def _arbitrate(self, now):
         """Release from a settled state what breaks Eq. 2; sets `answer` and `released`.
