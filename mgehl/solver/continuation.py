@@ -9,9 +9,6 @@ from mgehl.solver.nested import LevelSolve, nested_iteration
 from mgehl.solver.newton import Newton
 from mgehl.solver.problem import ContactProblem
 
-SQUEEZE = 3.0
-"""Least `NewtonSettings.squeeze` of a continuation: without it a step in speed closes films in spots."""
-
 SMALLEST_STEP = 0.25
 """Part of a first step below which one that failed is not halved again."""
 
@@ -33,8 +30,7 @@ class Continuation:
     ):
         self._hierarchy, self._contact = hierarchy, contact
         self._monitor, self._journal = monitor, journal
-        squeeze = max(settings.newton.squeeze, SQUEEZE)
-        self._settings = replace(settings, newton=replace(settings.newton, squeeze=squeeze))
+        self._settings = replace(settings, newton=settings.newton.squeezed())
 
     def begin(self, speed, start):
         """Solve at `speed` from nothing: a "film" or a "contact" start."""

@@ -34,10 +34,12 @@ def guess_fluid(hierarchy, level, problem, state, settings):
     coarse = State(P, state.H0, H, status)
     guess_fluid(hierarchy, level - 1, coarse_problem, coarse, settings)
     _solve(hierarchy, level - 1, coarse_problem, coarse, settings)
-    beside_contact = transfer.bilinear((coarse.status == CONTACT).astype(float)) > 0.0
+    beside_contact, empty = (
+        transfer.bilinear((coarse.status == kind).astype(float)) > 0.0 for kind in (CONTACT, CAVITATED)
+    )
     film = (state.status == LUBRICATED) & ~beside_contact
     state.P[film] = transfer.bilinear(coarse.P)[film]
-    state.status[film & (state.P == 0.0)] = CAVITATED
+    state.status[film & empty & (state.P == 0.0)] = CAVITATED
 
 
 def _solve(hierarchy, level, problem, state, settings):

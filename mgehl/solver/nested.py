@@ -132,6 +132,7 @@ def _solve_level(hierarchy, level, problem, state, limits, settings, tell, journ
 
     prefix, fluid = settings.cycle.options_prefix, None
     if settings.nested.start == "contact" and problem.scheme.gap_floor is None:
+        limits = limits.squeezed()
         guess_fluid(hierarchy, level, problem, state, settings)
         fluid = RigidGapFluid(problem, multigrid(rigid=True), prefix + "fluid_")
     try:

@@ -3,7 +3,7 @@
 A python-type SNES, so that PETSc's options, monitors and viewers of SNES, KSP and PC apply.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from petsc4py import PETSc
@@ -25,6 +25,9 @@ FLUID_AHEAD = 0.1
 
 FIRST_RESIDUAL = 1e-3
 """What a contact start is expected to begin with."""
+
+SQUEEZE = 3.0
+"""Least `NewtonSettings.squeeze` of contact starts and continuation."""
 
 SQUEEZE_OF_NODES = 0.1
 """Part of the squeeze rate that goes by a node's own residual and film, beside the rate of all."""
@@ -63,6 +66,10 @@ class NewtonSettings:
     tenth of it is each node's own, by its residual over its film: a film of an atom's height that
     fluid flows into opens by a few of its heights a step, and no further.
     """
+
+    def squeezed(self):
+        """The same with a squeeze of `SQUEEZE` at the least."""
+        return replace(self, squeeze=max(self.squeeze, SQUEEZE))
 
 
 class Newton:

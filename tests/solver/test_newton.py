@@ -6,7 +6,7 @@ import pytest
 from mgehl.discretization.kernels import REACH, build_bands, factor_bands
 from mgehl.discretization.status import CAVITATED, LUBRICATED
 from mgehl.solver.nested import first_guess
-from mgehl.solver.newton import EARLY, Newton, NewtonSettings
+from mgehl.solver.newton import EARLY, STALLS, Newton, NewtonSettings
 from mgehl.solver.partition import Partition
 from mgehl.solver.problem import ContactProblem
 from mgehl.solver.verification import check_pressure_inequality, complementarity_error
@@ -183,6 +183,16 @@ def test_petsc_options_reach_snes_and_ksp(make_newton, petsc_options):
     assert not outcome.converged
     assert outcome.cycles[-1].step == 2
     assert [cycle.linear_iterations for cycle in outcome.cycles[1:]] == [1, 1]
+
+
+def test_it_gives_up_when_linear_systems_stay_unsolved(make_newton, monkeypatch):
+    """With GMRES limited to one iteration every system of the film counts as given up."""
+    monkeypatch.setattr("mgehl.multigrid.cycle.MultigridSolver.max_iterations", 1)
+    problem, newton = make_newton()
+    outcome = newton.run(first_guess(problem, "film"))
+    assert not outcome.converged
+    assert outcome.cycles[-1].step == STALLS
+    assert outcome.reason == f"{STALLS} linear systems in {STALLS} steps could not be solved"
 
 
 @pytest.mark.parametrize("speed", [1.0, 0.12])
