@@ -7,7 +7,7 @@ from the coarser grids' 4.
 
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
 from mgehl.multigrid.cycle import MultigridSolver
-from mgehl.solver.problem import Problem, State
+from mgehl.solver.problem import ContactProblem, State
 from mgehl.solver.rigid_gap import RigidGapFluid
 
 FEWEST_NODES = 65
@@ -29,7 +29,8 @@ def guess_fluid(hierarchy, level, problem, state, settings):
     if coarse_grid is None or coarse_grid.mesh.nx < FEWEST_NODES or not problem.scheme.cavitation:
         return
     transfer = hierarchy.transfers[level - 1]
-    coarse_problem = Problem(coarse_grid, problem.contact, problem.scheme)
+    deflection = hierarchy.deflections[level - 1]
+    coarse_problem = ContactProblem(coarse_grid, deflection, problem.contact, problem.scheme)
     P, H, status = (transfer.inject(array) for array in (state.P, state.H, state.status))
     coarse = State(P, state.H0, H, status)
     guess_fluid(hierarchy, level - 1, coarse_problem, coarse, settings)

@@ -35,12 +35,15 @@ SQUEEZE_OF_NODES = 0.1
 THINNEST = 1e-9
 """Film of which a node's own squeeze rate is reckoned where H_th does not say more."""
 
-STALLS = 4
+STALLS = 3
 """Linear systems that GMRES may leave unsolved: where no state is near (a film that ends, a node at a
 fold) all that follow cost as much as they can and lead nowhere."""
 
 EARLY = 1e-5
 """Residual from which Eq. 2 is asked where the fluid is solved apart."""
+
+EARLY_ROUNDS = 3
+"""Releases before the last digits: 2049 nodes take two; an edge that opens node by node has no end."""
 
 RELEASE_STEPS = 8
 """Steps in which a set must settle again after Eq. 2 released some of it."""
@@ -300,9 +303,10 @@ class Newton:
         Where all of the ellipse is in contact and the fluid is solved apart, what breaks Eq. 2 is
         known long before them, while a few nodes still turn: a round of release saves 3 to 5 steps.
         """
-        if cycle.residual > EARLY:
+        if cycle.residual > EARLY or now.early_rounds == EARLY_ROUNDS:
             return 0
         released = self._partition.release_violations(now.outcome.state)
+        now.early_rounds += released > 0
         now.changes.released += released
         return released
 

@@ -67,3 +67,5 @@ class Position:
     released: int = 0
     """Nodes that Eq. 2 released when it was last tried, and nodes that closed since."""
     entered: int = 0
+    early_rounds: int = 0
+    """Releases on Eq. 2 before the last digits."""

@@ -7,7 +7,7 @@ from petsc4py import PETSc
 
 from mgehl.discretization.status import BOUNDARY, CAVITATED, LUBRICATED
 from mgehl.grid.events import linear_solve
-from mgehl.solver.cavitation import relax_cavitation_set, split_flow, weakly_coupled
+from mgehl.solver.cavitation import driven, relax_cavitation_set, split_flow, weakly_coupled
 from mgehl.solver.problem import DIVERGED
 
 SEPARABLE = 1e-5
@@ -15,10 +15,8 @@ SEPARABLE = 1e-5
 influence: not films under contact pressure, whose viscosity makes them stiff (measured: the
 smaller, the fewer steps; 0.01 to 10 work too)."""
 
-LIFTED = 0.1
-"""Nor is a node whose blocked flow lifts its own gap by more than this part: beside contact gap and
-pressure would take turns for ever (2049 nodes: 0.35 a step), and by a mean of the mobility that
-vanishes with the film's no pressure at all drives the flow out of the gap as it is."""
+LARGEST_STEP = 0.3
+"""Of a pressure beside an elastic gap, in p_h, as Newton's: near a fold there is none too large."""
 
 LINEAR_TOLERANCE = 0.03
 """Of the linear systems of a rigid gap."""
@@ -51,25 +49,32 @@ class RigidGapFluid:
             thing.destroy()
         self._multigrid.free()
 
-    def separable(self, state):
-        """Fluid nodes that this solver answers for: (lines, nx) bool."""
+    def separable(self, state, inflow=None):
+        """Fluid nodes that this solver answers for: (lines, nx) bool; their `inflow` if it is known."""
         problem = self._problem
-        fluid = split_flow(problem, state, problem.inflow(state))
-        driven = problem.K00 * np.abs(fluid.source) <= LIFTED * state.H * fluid.conductance
-        return driven & weakly_coupled(problem, fluid.eps, state.status, SEPARABLE)
+        fluid = split_flow(problem, state, problem.inflow(state) if inflow is None else inflow)
+        weak = weakly_coupled(problem, fluid.eps, state.status, SEPARABLE)
+        return weak & driven(problem, fluid, state.H)
 
     def solve(self, state, tolerance, max_steps=30, before_step=lambda: None):
         """Bring the fluid of `state` into balance at its gap, in place; return the `FluidStep`s.
 
         Ends when the rms inflow is below `tolerance` and the set has settled, or after
         `max_steps`; the last step is the residual that is left, without an iteration.
-        `before_step` is called before each and may raise what ends it.
+        `before_step` is called before each and may raise what ends it. A node whose pressure rises
+        until it is separable no more is given back as it was, to whoever moves its gap.
         """
         problem, steps = self._problem, []
-        separable = self.separable(state)
+        separable, before = self.separable(state), state.P.copy()
         while True:
             inflow = problem.inflow(state)
-            moved = relax_cavitation_set(problem, state, inflow)
+            given_back = separable & ~self.separable(state, inflow) if steps else np.False_
+            moved = problem.grid.count(given_back)
+            if moved:
+                separable &= ~given_back
+                state.P[given_back] = before[given_back]
+                inflow = problem.inflow(state)
+            moved += relax_cavitation_set(problem, state, inflow)
             if moved:
                 inflow = problem.inflow(state)
             filled = separable & (state.status == CAVITATED) & (inflow > 0.0)
@@ -96,4 +101,5 @@ class RigidGapFluid:
         with linear_solve():
             self._ksp.solve(self._rhs, self._correction)
         # Elsewhere the correction is zero but for the rounding of an algebraic multigrid.
-        state.P[solved] += space.read(self._correction)[0][solved]
+        step = space.read(self._correction)[0][solved]
+        state.P[solved] += np.clip(step, -LARGEST_STEP, LARGEST_STEP) if self._problem.K00 else step

@@ -39,7 +39,7 @@ def test_a_node_that_its_flow_would_lift_is_not_solved_apart(contact_start):
 
 
 def test_solved_apart_it_would_turn_for_ever(contact_start, monkeypatch):
-    monkeypatch.setattr("mgehl.solver.rigid_gap.LIFTED", 1e9)
+    monkeypatch.setattr("mgehl.solver.cavitation.LIFTED", 1e9)
     outcome, *_ = contact_start(15)
     assert not outcome.converged and outcome.cycles[-1].residual > 1e-8
 
@@ -47,7 +47,7 @@ def test_solved_apart_it_would_turn_for_ever(contact_start, monkeypatch):
 @pytest.mark.parametrize("own, converges", [(0.1, True), (0.0, False)])
 def test_its_own_squeeze_opens_it_step_by_step(contact_start, monkeypatch, own, converges):
     """Coupled: with one rate for all nodes its pressure shoots over the fold, and its neighbours open."""
-    monkeypatch.setattr("mgehl.solver.rigid_gap.LIFTED", 1e9)
+    monkeypatch.setattr("mgehl.solver.cavitation.LIFTED", 1e9)
     monkeypatch.setattr("mgehl.solver.newton.SQUEEZE_OF_NODES", own)
     outcome, hierarchy, contact, settings = contact_start(4)
     state = outcome.state
