@@ -67,13 +67,13 @@ studies: $(ENVIRONMENT)
 
 .PHONY: studies
 
-# make transition   run the studies of the transition and write their tables and pictures to runs/tables (an hour)
+# make transition   run the studies of the transition and write their tables and pictures to runs/tables (hours)
 TRANSITION := runs/study-
 transition: $(ENVIRONMENT)
 	for n in 257 513 1025; do ( $(ON) mpiexec -n 2 python -m mgehl study transition --grid $$n --resume \
 	  --quiet --out $(TRANSITION)transition-$$n ) || exit 1; done
-	( $(ON) python -m mgehl study transition --grid 257 --mean geometric --direction down --resume --quiet \
-	  --out $(TRANSITION)transition-257-geometric )
+	for n in 257 513 1025; do ( $(ON) mpiexec -n 2 python -m mgehl study transition --grid $$n --resume \
+	  --mean geometric --quiet --out $(TRANSITION)transition-$$n-geometric ) || exit 1; done
 	( $(ON) mpiexec -n 2 python -m mgehl study grid --nodes 257,513,1025,2049 --resume --quiet ) || exit 1
 	for s in onset bracket; do ( $(ON) mpiexec -n 2 python -m mgehl study $$s --resume --quiet ) || exit 1; done
 	cp $(TRANSITION)transition-*/transition-*.* runs/tables/

@@ -16,6 +16,7 @@ from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.outcome import Answer, Cycle, Outcome, Position
 from mgehl.solver.partition import Changes, Partition
 from mgehl.solver.problem import DIVERGED
+from mgehl.solver.squeeze import SQUEEZE, squeeze_rates
 
 FLUID_SHARE = 0.3
 """Part of the tolerance that the fluid solved apart may use up: 0.3^2 of the mean square."""
@@ -25,15 +26,6 @@ FLUID_AHEAD = 0.1
 
 FIRST_RESIDUAL = 1e-3
 """What a contact start is expected to begin with."""
-
-SQUEEZE = 3.0
-"""Least `NewtonSettings.squeeze` of contact starts and continuation."""
-
-SQUEEZE_OF_NODES = 0.1
-"""Part of the squeeze rate that goes by a node's own residual and film, beside the rate of all."""
-
-THINNEST = 1e-9
-"""Film of which a node's own squeeze rate is reckoned where H_th does not say more."""
 
 STALLS = 3
 """Linear systems that GMRES may leave unsolved: where no state is near (a film that ends, a node at a
@@ -62,13 +54,7 @@ class NewtonSettings:
     """H_th in units of H."""
     release_budget: int = 2
     squeeze: float = 0.0
-    """Rate of the implicit time steps per rms residual and cell; 0 for Newton's own steps.
-
-    The squeeze flow d(rho H)/dt keeps a step from closing a film that the steady equations leave
-    open: from one speed to the next the contact set then grows node by node and not in spots. A
-    tenth of it is each node's own, by its residual over its film: a film of an atom's height that
-    fluid flows into opens by a few of its heights a step, and no further.
-    """
+    """Rate of implicit time steps per rms residual and cell (`solver.squeeze`); 0 for Newton's own."""
 
     def squeezed(self):
         """The same with a squeeze of `SQUEEZE` at the least."""
@@ -221,21 +207,13 @@ class Newton:
         if self._fluid:
             settled = (status == LUBRICATED) & self._fluid.separable(state)
             status, F = np.where(settled, BOUNDARY, status), np.where(settled, 0.0, F)
-        self._multigrid.linearise(state.P, state.H, status, self._squeeze_rates(state.H, F))
+        rates = squeeze_rates(self._problem, state.H, F, self._settings)
+        self._multigrid.linearise(state.P, state.H, status, rates)
         self._write_residual(self._rhs, F, load, sign=-1.0)
         ksp = snes.getKSP()
         with linear_solve():
             ksp.solve(self._rhs, self._correction)
         return ksp.getIterationNumber()
-
-    def _squeeze_rates(self, H, F):
-        """1/time step of every node, (lines, nx); 0.0 without squeeze."""
-        settings, problem = self._settings, self._problem
-        if settings.squeeze == 0.0:
-            return 0.0
-        floor = max(settings.film_threshold, problem.scheme.gap_floor or 0.0, THINNEST)
-        own = SQUEEZE_OF_NODES * np.abs(F) / np.maximum(H, floor)
-        return settings.squeeze * (problem.rms(F) / problem.grid.mesh.dX + own)
 
     def _update(self, state, changes):
         """Take the step, cut tension, let gaps close; return the step length."""

@@ -57,6 +57,8 @@ class Branches:
         self.mesh = mesh_from(config, self.contact)
         self._settings = settings_from(config, self.contact)
         self._hierarchy = None
+        self.name = f"{self.mesh.nx} nodes, {config.discretization.face_mobility} mean"
+        """As a title has it."""
 
     def __enter__(self):
         return self

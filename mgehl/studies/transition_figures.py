@@ -44,7 +44,7 @@ def branches(path, followed, points):
         for axes in (films, ratio):
             axes.legend(frameon=False)
         directions = " and ".join(dict.fromkeys(point.branch for point in points))
-        figure.suptitle(f"{followed.mesh.nx} nodes: film and contact, speed going {directions}")
+        figure.suptitle(f"{followed.name}: film and contact, speed going {directions}")
         save(figure, path)
 
 
@@ -68,7 +68,7 @@ def figure_14(path, followed, points):
         inlet.legend(frameon=False)
         mixed = min(own, key=lambda point: abs(point.result.contact.area_fraction - 0.5))
         _film_map(figure, film, mesh, mixed, nm)
-        figure.suptitle(f"{mesh.nx} nodes, {branch}")
+        figure.suptitle(f"{followed.name}, {branch}")
         save(figure, path)
 
 

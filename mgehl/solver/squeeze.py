@@ -1,0 +1,28 @@
+"""Implicit time steps with the squeeze flow d(rho H)/dt, longer as the residual falls.
+
+The squeeze flow keeps a Newton step from closing a film that the steady equations leave open: from
+one speed to the next the contact set then grows node by node and not in spots. A part of it is each
+node's own, by its residual over its film: a film of an atom's height that fluid flows into opens by
+a few of its heights a step. Without that its pressure shoots over the fold beyond which, by a mean of
+the mobility that vanishes with the film, more pressure drives less flow.
+"""
+
+import numpy as np
+
+SQUEEZE = 3.0
+"""Rate, per rms residual and cell, that contact starts and continuation take at the least."""
+
+OF_NODES = 0.1
+"""Part of the rate that goes by a node's own residual and film."""
+
+THINNEST = 1e-9
+"""Film of which a node's own rate is reckoned where H_th does not say more."""
+
+
+def squeeze_rates(problem, H, F, settings):
+    """1/time step of every node, (lines, nx), at gap `H` and residual `F`; 0.0 without squeeze."""
+    if settings.squeeze == 0.0:
+        return 0.0
+    floor = max(settings.film_threshold, problem.scheme.gap_floor or 0.0, THINNEST)
+    own = OF_NODES * np.abs(F) / np.maximum(H, floor)
+    return settings.squeeze * (problem.rms(F) / problem.grid.mesh.dX + own)
