@@ -68,11 +68,8 @@ class RigidGapFluid:
         separable, before = self.separable(state), state.P.copy()
         while True:
             inflow = problem.inflow(state)
-            given_back = separable & ~self.separable(state, inflow) if steps else np.False_
-            moved = problem.grid.count(given_back)
+            moved = self._give_back(state, separable, before, inflow) if steps else 0
             if moved:
-                separable &= ~given_back
-                state.P[given_back] = before[given_back]
                 inflow = problem.inflow(state)
             moved += relax_cavitation_set(problem, state, inflow)
             if moved:
@@ -92,6 +89,13 @@ class RigidGapFluid:
                 torn = (state.P < 0.0) & separable
                 state.P[torn] = 0.0
                 state.status[torn] = CAVITATED
+
+    def _give_back(self, state, separable, before, inflow):
+        """Take out of `separable`, in place, what is so no more, its P as `before`; return how many."""
+        lost = separable & ~self.separable(state, inflow)
+        separable[lost] = False
+        state.P[lost] = before[lost]
+        return self._problem.grid.count(lost)
 
     def _correct(self, state, residual, solved, given):
         """One Newton step of the pressure of `solved` nodes; `given` ones are the other fluid."""
