@@ -68,12 +68,15 @@ def read_fields(path, mesh):
 def _read_history(path):
     """Rows of history.csv, numbers as numbers."""
     try:
-        with path.open(newline="") as file:
-            lines = csv.reader(file)
-            names = next(lines, [])
-            rows = [dict(zip(names, map(_number, line), strict=True)) for line in lines]
+        text = path.read_text()
+        lines = csv.reader(text.splitlines())
+        names = next(lines, [])
+        rows = [dict(zip(names, map(_number, line), strict=True)) for line in lines]
         if not rows or "residual" not in names:
             raise ValueError("it is no history of a run")
+        if not text.endswith("\n"):
+            # A last number that is cut short is a number, too.
+            raise ValueError("its last line is cut off")
         return rows
     except (OSError, ValueError, csv.Error) as error:
         raise OutputError(f"{path}: cannot be read: {one_line(error)}") from None

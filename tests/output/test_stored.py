@@ -132,9 +132,11 @@ def test_a_file_cut_off(copy, name):
         assert path.name in refused(copy.directory)
 
 
-def test_a_history_cut_off_within_a_row(copy):
+@pytest.mark.parametrize("more", [0, 1, 2, 3])
+def test_a_history_cut_off_within_a_row(copy, more):
+    """Before its last number, or within that: what is left of it is a number, too."""
     whole = copy.history.read_bytes()
-    copy.history.write_bytes(whole[: whole.rindex(b",")])
+    copy.history.write_bytes(whole[: whole.rindex(b",") + more])
     assert "history.csv" in refused(copy.directory)
 
 
