@@ -35,7 +35,8 @@ def _rows(study, nodes, mean):
 
 
 def _row(branches, mean, point):
-    result, formulas = point.result, point.result.formulas
+    # Of this speed: a point that did not settle may have been left at another on the way.
+    result, formulas = point.result, branches.contact.at_speed(point.speed).formulas
     return {
         "grid": str(branches.mesh.nx),
         "mean": mean,
@@ -48,8 +49,8 @@ def _row(branches, mean, point):
         "Eq. 2 broken": str(result.pressure_inequality.violations),
         "inlet cells": f"{result.resolution.inlet_cells:.2f}",
         "residual": f"{result.residual:.1e}",
-        "central formula nm": f"{formulas['hamrock_dowson_central_nm']:.3f}",
-        "minimum formula nm": f"{formulas['hamrock_dowson_minimum_nm']:.3f}",
+        "central formula nm": f"{1e9 * formulas.hamrock_dowson_central:.3f}",
+        "minimum formula nm": f"{1e9 * formulas.hamrock_dowson_minimum:.3f}",
         "steps": str(result.work.steps),
         "convolutions": f"{result.work.convolutions:.0f}",
     }
