@@ -152,7 +152,7 @@ class SolverSection:
         2.0, "cells the inlet gets on coarse grids by raising the speed", low=0.0
     )
     squeeze: float = key_field(
-        0.0, "rate of implicit time steps that damp Newton's, per residual and cell (continuation: 3)",
+        0.0, "rate of implicit time steps, per residual and cell (contact, continuation: at least 3)",
         low=0.0, high=1e6,
     )  # fmt: skip
     release_budget: int = key_field(

@@ -101,11 +101,6 @@ class MultigridSolver:
         """Space of the finest grid's vectors."""
         return self.jacobian.space
 
-    @property
-    def max_iterations(self):
-        """At which GMRES gives a system up."""
-        return self._settings.max_iterations
-
     def linearise(self, P, H, status, squeeze=0.0):
         """Linearise on every grid about the finest grid's (lines, nx) state.
 
@@ -141,7 +136,7 @@ class MultigridSolver:
     def _restart(self):
         """Iterations that GMRES remembers: all, but where memory is short."""
         large = self.jacobian.grid.mesh.nodes > LARGE_GRID
-        return RESTART_OF_LARGE if large else self.max_iterations
+        return RESTART_OF_LARGE if large else self._settings.max_iterations
 
     def _configure_cycle(self, pc):
         pc.setType(PETSc.PC.Type.MG)

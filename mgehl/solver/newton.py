@@ -167,6 +167,7 @@ class Newton:
             reason = snes.getKSP().getConvergedReason()
             if now.answer and reason < 0:
                 break  # what Eq. 2 let go leaves no system that can be solved
+            now.stalls += reason == PETSc.KSP.ConvergedReason.DIVERGED_MAX_IT
             if reason == PETSc.KSP.ConvergedReason.DIVERGED_NANORINF:
                 outcome.reason = f"singular: no linear solution after {cycle.step} steps"
                 break
@@ -243,7 +244,7 @@ class Newton:
                 f"{len(outcome.contradictions)} nodes can be neither film, whose gap closes, nor "
                 f"contact, which is torn open: the sets cycle after {cycle.step} steps"
             )
-        elif self._stalls(outcome) >= STALLS:
+        elif self._now.stalls == STALLS:
             outcome.reason = f"{STALLS} linear systems in {cycle.step} steps could not be solved"
         elif cycle.step >= max_steps:
             settled = "sets still change after" if small else f"residual {cycle.residual:.1e} after"
@@ -251,11 +252,6 @@ class Newton:
         else:
             return False
         return True
-
-    def _stalls(self, outcome):
-        """Linear systems so far that were given up."""
-        limit = self._multigrid.max_iterations
-        return sum(cycle.linear_iterations >= limit for cycle in outcome.cycles)
 
     def _arbitrate(self, now):
         """Release from a settled state what breaks Eq. 2; sets `answer` and `released`.

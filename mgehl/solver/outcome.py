@@ -69,3 +69,5 @@ class Position:
     entered: int = 0
     early_rounds: int = 0
     """Releases on Eq. 2 before the last digits."""
+    stalls: int = 0
+    """Linear systems that were given up."""
