@@ -105,8 +105,8 @@ class Solution:
 def solve(make_hierarchy):
     """Function that solves a contact by nested iteration and returns a `Solution`."""
     from mgehl.discretization.scheme import Scheme
-    from mgehl.solver.nested import NestedSettings, SolverSettings, nested_iteration
-    from mgehl.solver.newton import NewtonSettings
+    from mgehl.solver.nested import nested_iteration
+    from mgehl.solver.settings import NestedSettings, NewtonSettings, SolverSettings
 
     def run(contact, nodes, start="film", couette="1B", newton=None, **grid):
         # H_th is the configuration's default, 0.02 nm.

@@ -8,7 +8,6 @@ from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT
 STIFF = 0.3
 """A node is distributive where its mobility/dX is below this part of its own influence."""
 
-
 REACH_OF_RIGID = 3
 """All that the stencil of a rigid gap and the distribution Q couple."""
 

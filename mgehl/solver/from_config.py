@@ -13,9 +13,8 @@ from mgehl.model.own_laws import OwnCompliance, OwnDensity, OwnSurface, OwnVisco
 from mgehl.model.point import PointContact
 from mgehl.model.wedge import WedgeBearing
 from mgehl.multigrid.cycle import CycleSettings
-from mgehl.solver.nested import NestedSettings, SolverSettings
-from mgehl.solver.newton import NewtonSettings
 from mgehl.solver.relaxation import RelaxationSettings
+from mgehl.solver.settings import NestedSettings, NewtonSettings, SolverSettings
 
 OPTIONS_PREFIX = "mgehl_"
 """Prefix under which PETSc options reach the solvers of a run."""

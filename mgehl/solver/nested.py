@@ -1,51 +1,19 @@
 """Nested iteration: from a coarse grid to the finest, at speeds that each grid can resolve."""
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
 
-from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
-from mgehl.multigrid.cycle import CycleSettings, MultigridSolver
+from mgehl.multigrid.cycle import MultigridSolver
 from mgehl.solver.dry import dry_pressure
 from mgehl.solver.fluid_guess import guess_fluid
 from mgehl.solver.journal import NOTHING_KEPT
-from mgehl.solver.newton import Newton, NewtonSettings
+from mgehl.solver.newton import Newton
 from mgehl.solver.problem import DIVERGED, ContactProblem
-from mgehl.solver.relaxation import RelaxationSettings, relax
+from mgehl.solver.relaxation import relax
 from mgehl.solver.rigid_gap import RigidGapFluid
-
-
-@dataclass(frozen=True)
-class NestedSettings:
-    """How the finest grid's first guess is made."""
-
-    start: str = "film"
-    """"film" from a full film on a coarse grid, "contact" from the Hertz ellipse in contact."""
-    first_nodes: int = 65
-    """Nodes along X of the first grid of the nested iteration."""
-    inlet_cells: float = 2.0
-    """Cells that the inlet must have on the coarse grids: the speed is raised until it has.
-
-    Fewer lead to spurious contact that poisons the finer grids (full film is lost near 1.4),
-    more to a longer way back to the wanted speed.
-    """
-    coarse_tolerance: float = 1e-4
-    """Residual at which a coarse grid has served its purpose."""
-
-
-@dataclass(frozen=True)
-class SolverSettings:
-    """All that the solver may be told."""
-
-    method: str = "newton-mg"
-    """"newton-mg", or the paper's "relaxation" on the finest grid alone."""
-    scheme: Scheme = field(default_factory=Scheme)
-    nested: NestedSettings = field(default_factory=NestedSettings)
-    newton: NewtonSettings = field(default_factory=NewtonSettings)
-    cycle: CycleSettings = field(default_factory=CycleSettings)
-    relaxation: RelaxationSettings = field(default_factory=RelaxationSettings)
 
 
 @dataclass(frozen=True)

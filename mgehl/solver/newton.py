@@ -3,8 +3,6 @@
 A python-type SNES, so that PETSc's options, monitors and viewers of SNES, KSP and PC apply.
 """
 
-from dataclasses import dataclass, replace
-
 import numpy as np
 from petsc4py import PETSc
 
@@ -16,7 +14,7 @@ from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.outcome import Answer, Cycle, Outcome, Position
 from mgehl.solver.partition import Changes, Partition
 from mgehl.solver.problem import DIVERGED
-from mgehl.solver.squeeze import SQUEEZE, squeeze_rates
+from mgehl.solver.squeeze import squeeze_rates
 
 FLUID_SHARE = 0.3
 """Part of the tolerance that the fluid solved apart may use up: 0.3^2 of the mean square."""
@@ -39,26 +37,6 @@ EARLY_ROUNDS = 3
 
 RELEASE_STEPS = 8
 """Steps in which a set must settle again after Eq. 2 released some of it."""
-
-
-@dataclass(frozen=True)
-class NewtonSettings:
-    """Tolerances and limits of Newton's method on one grid."""
-
-    tolerance: float = 1e-8
-    """For the rms residual and the load error."""
-    max_steps: int = 60
-    linear_tolerance: float = 0.1
-    max_pressure_step: float = 0.3
-    film_threshold: float = 0.0
-    """H_th in units of H."""
-    release_budget: int = 2
-    squeeze: float = 0.0
-    """Rate of implicit time steps per rms residual and cell (`solver.squeeze`); 0 for Newton's own."""
-
-    def squeezed(self):
-        """The same with a squeeze of `SQUEEZE` at the least."""
-        return replace(self, squeeze=max(self.squeeze, SQUEEZE))
 
 
 class Newton:

@@ -20,7 +20,7 @@ THINNEST = 1e-9
 
 
 def squeeze_rates(problem, H, F, settings):
-    """1/time step of every node, (lines, nx), at gap `H` and residual `F`; 0.0 without squeeze."""
+    """1/time step of every node, (lines, nx), at gap `H` and residual `F`; 0.0 if `settings` have none."""
     if settings.squeeze == 0.0:
         return 0.0
     floor = max(settings.film_threshold, problem.scheme.gap_floor or 0.0, THINNEST)

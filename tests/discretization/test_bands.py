@@ -3,6 +3,7 @@ import pytest
 from dense import dense_K, dense_Q, dense_stencil, held_beyond, line_stencils
 
 from mgehl.discretization.bands import (
+    REACH_OF_RIGID,
     STIFF,
     LineBands,
     distributive_nodes,
@@ -79,6 +80,23 @@ def test_distributed_column_hardly_reaches_beyond_the_band():
     nearby = influence_coefficients(line, HalfPlane(1.0), 0, 3)
     _, distributed = influence_of_columns(nearby, 0.5)[:, 0, REACH]
     assert distributed == pytest.approx(-line.dX / (2.0 * REACH**2), rel=0.1)
+
+
+@every_share
+def test_bands_of_a_rigid_gap_need_no_more_than_their_reach(share):
+    """Without deflection all that lies further out is zero: the wide bands give the same."""
+    rng = np.random.default_rng(6)
+    lines, nx = 3, MESH.nx
+    A, _ = line_stencils(rng, lines, nx)
+    distributive = rng.random((lines, nx)) < 0.5
+    distributive[:, [0, -1]] = False
+    r, solutions = rng.standard_normal((lines, nx)), []
+    for reach in (REACH_OF_RIGID, REACH):
+        bands, w = LineBands(lines, nx, reach), np.empty((lines, nx))
+        bands.factor(Linearisation(A, np.zeros_like(A)), distributive, np.zeros((2, 2, REACH + 3)), share)
+        bands.solve(r, w)
+        solutions.append(w)
+    np.testing.assert_allclose(*solutions, rtol=1e-12, atol=0.0)
 
 
 @every_share

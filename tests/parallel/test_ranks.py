@@ -20,9 +20,10 @@ from mgehl.multigrid.jacobian import BorderedSpace
 from mgehl.output.records import Reader, Writer
 from mgehl.run import Watch
 from mgehl.run import solve as solve_config
-from mgehl.solver.nested import NestedSettings, SolverSettings, single_loop
+from mgehl.solver.nested import single_loop
 from mgehl.solver.problem import State
 from mgehl.solver.relaxation import RelaxationSettings
+from mgehl.solver.settings import NestedSettings, SolverSettings
 from mgehl.solver.verification import check_pressure_inequality, complementarity_error, flux_imbalance
 from mgehl.studies.branch import Branches
 from mgehl.studies.study import Study, merged

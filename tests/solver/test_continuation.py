@@ -8,9 +8,8 @@ import pytest
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import CONTACT
 from mgehl.solver.continuation import BEYOND, Continuation, carry
-from mgehl.solver.nested import SolverSettings
-from mgehl.solver.newton import NewtonSettings
 from mgehl.solver.outcome import Outcome
+from mgehl.solver.settings import NewtonSettings, SolverSettings
 
 
 class Walk:

@@ -5,9 +5,10 @@ import pytest
 
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
 from mgehl.solver.fluid_guess import guess_fluid
-from mgehl.solver.nested import SolverSettings, first_guess
+from mgehl.solver.nested import first_guess
 from mgehl.solver.problem import ContactProblem
 from mgehl.solver.rigid_gap import RigidGapFluid
+from mgehl.solver.settings import SolverSettings
 
 
 @pytest.fixture

@@ -6,9 +6,10 @@ import pytest
 from mgehl.discretization.kernels import REACH, build_bands, factor_bands
 from mgehl.discretization.status import CAVITATED, LUBRICATED
 from mgehl.solver.nested import first_guess
-from mgehl.solver.newton import EARLY, STALLS, Newton, NewtonSettings
+from mgehl.solver.newton import EARLY, STALLS, Newton
 from mgehl.solver.partition import Partition
 from mgehl.solver.problem import ContactProblem
+from mgehl.solver.settings import NewtonSettings
 from mgehl.solver.verification import check_pressure_inequality, complementarity_error
 
 

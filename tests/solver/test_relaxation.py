@@ -10,9 +10,10 @@ from mgehl.discretization.influence import influence_coefficients
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
 from mgehl.model.line import LineContact
-from mgehl.solver.nested import SolverSettings, single_loop
+from mgehl.solver.nested import single_loop
 from mgehl.solver.problem import State
 from mgehl.solver.relaxation import RelaxationSettings, relax
+from mgehl.solver.settings import SolverSettings
 
 WHOLE_WAY = RelaxationSettings(omega=1.0, contact_share=1.0, max_sweeps=1, load_every=1000)
 """One sweep that takes every node all of the way to its new pressure."""

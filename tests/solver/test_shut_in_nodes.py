@@ -11,8 +11,8 @@ import pytest
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import LUBRICATED
 from mgehl.solver.continuation import Continuation
-from mgehl.solver.nested import NestedSettings, SolverSettings, nested_iteration
-from mgehl.solver.newton import NewtonSettings
+from mgehl.solver.nested import nested_iteration
+from mgehl.solver.settings import NestedSettings, NewtonSettings, SolverSettings
 
 LINE, NODE = 63, 100
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mgehl.solver.newton import NewtonSettings
+from mgehl.solver.settings import NewtonSettings
 from mgehl.solver.squeeze import OF_NODES, SQUEEZE, THINNEST, squeeze_rates
 
 SETTINGS = NewtonSettings(squeeze=3.0, film_threshold=1e-6)

@@ -1,0 +1,59 @@
+"""All that the solver may be told: of the first guess, of Newton's method, and together."""
+
+from dataclasses import dataclass, field, replace
+
+from mgehl.discretization.scheme import Scheme
+from mgehl.multigrid.cycle import CycleSettings
+from mgehl.solver.relaxation import RelaxationSettings
+from mgehl.solver.squeeze import SQUEEZE
+
+
+@dataclass(frozen=True)
+class NestedSettings:
+    """How the finest grid's first guess is made."""
+
+    start: str = "film"
+    """"film" from a full film on a coarse grid, "contact" from the Hertz ellipse in contact."""
+    first_nodes: int = 65
+    """Nodes along X of the first grid of the nested iteration."""
+    inlet_cells: float = 2.0
+    """Cells that the inlet must have on the coarse grids: the speed is raised until it has.
+
+    Fewer lead to spurious contact that poisons the finer grids (full film is lost near 1.4),
+    more to a longer way back to the wanted speed.
+    """
+    coarse_tolerance: float = 1e-4
+    """Residual at which a coarse grid has served its purpose."""
+
+
+@dataclass(frozen=True)
+class NewtonSettings:
+    """Tolerances and limits of Newton's method on one grid."""
+
+    tolerance: float = 1e-8
+    """For the rms residual and the load error."""
+    max_steps: int = 60
+    linear_tolerance: float = 0.1
+    max_pressure_step: float = 0.3
+    film_threshold: float = 0.0
+    """H_th in units of H."""
+    release_budget: int = 2
+    squeeze: float = 0.0
+    """Rate of implicit time steps per rms residual and cell (`solver.squeeze`); 0 for Newton's own."""
+
+    def squeezed(self):
+        """The same with a squeeze of `SQUEEZE` at the least."""
+        return replace(self, squeeze=max(self.squeeze, SQUEEZE))
+
+
+@dataclass(frozen=True)
+class SolverSettings:
+    """All that the solver may be told."""
+
+    method: str = "newton-mg"
+    """"newton-mg", or the paper's "relaxation" on the finest grid alone."""
+    scheme: Scheme = field(default_factory=Scheme)
+    nested: NestedSettings = field(default_factory=NestedSettings)
+    newton: NewtonSettings = field(default_factory=NewtonSettings)
+    cycle: CycleSettings = field(default_factory=CycleSettings)
+    relaxation: RelaxationSettings = field(default_factory=RelaxationSettings)
