@@ -15,6 +15,9 @@ SMALLEST_STEP = 0.25
 BEYOND = 8.0
 """Ratio of speeds by which a start far from its branch's end is taken."""
 
+FIRST_SHARE = 0.25
+"""Share of another mean than the arithmetic that is taken first."""
+
 SPEED_RATIO = 2.0
 """Ratio of speeds that one step may try where nothing says less."""
 
@@ -74,6 +77,10 @@ class Continuation:
 
         return carry(solve, state)
 
+    def turn(self, speed, state):
+        """Turn the `state` that solves the arithmetic mean's equations at `speed` to the scheme's mean."""
+        return carry(lambda t, state: self.at(speed, state, t), state, FIRST_SHARE)
+
     def _begin_with_mean(self, contact, settings):
         """Another mean than the arithmetic: turned to gradually where the inlet is resolved.
 
@@ -87,7 +94,7 @@ class Continuation:
             self._hierarchy, contact.at_speed(speed), arithmetic, self._monitor, self._journal
         )
         if outcome.converged:
-            problem, outcome = carry(lambda t, state: self.at(speed, state, t), outcome.state, step=0.25)
+            problem, outcome = self.turn(speed, outcome.state)
         while outcome.converged and speed != contact.speed:
             slower = max(contact.speed, speed / SPEED_RATIO)
             problem, outcome = self.follow(outcome.state, speed, slower)

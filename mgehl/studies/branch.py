@@ -4,7 +4,9 @@
     up    from the slowest speed and full contact
 
 Where a branch ends (no state near the last one solves the equations at the next speed) the point
-is taken from the other branch, or from the other start, and says so.
+is taken from the other branch, or from the other start, and says so. By another mean of the mobility a
+full film is begun from the arithmetic mean's at that speed, where that is known: on fine grids the two
+are close, and films of neighbouring speeds are not.
 """
 
 import time
@@ -34,7 +36,7 @@ class Point:
     speed: float
     branch: str
     origin: str
-    """"start", "continued", "other branch" or "other start"; "none" without a solution."""
+    """Of "start", "continued", "arithmetic mean", "other branch", "other start"; "none" if unsolved."""
     result: object
     fields: Fields | None
     """On rank 0."""
@@ -67,16 +69,18 @@ class Branches:
         if self._hierarchy:
             self._hierarchy.destroy()
 
-    def walk(self, branch, speeds, beside=()):
+    def walk(self, branch, speeds, beside=(), arithmetic=()):
         """The points of a branch; `speeds` fast to slow for "down", slow to fast for "up".
 
-        `beside` holds points of the other branch, to go on from where this one ends.
+        `beside` holds points of the other branch, to go on from where this one ends, and `arithmetic`
+        those of the arithmetic mean, to turn to this one's.
         """
         points = []
         for count in range(1, len(speeds) + 1):
             settled = [point for point in points if point.result.settled]
             last = settled[-1] if settled else None
-            points.append(self.point(branch, speeds[:count], last, beside, jump=True))
+            other = film_at(speeds[count - 1], arithmetic)
+            points.append(self.point(branch, speeds[:count], last, beside, jump=True, arithmetic=other))
         return points
 
     def bracket(self, branch, speeds, has_turned, precision):
@@ -101,27 +105,28 @@ class Branches:
                 last, way = point, [*way, middle]
         return last, turned
 
-    def point(self, branch, way, last, beside=(), jump=False):
+    def point(self, branch, way, last, beside=(), jump=False, arithmetic=None):
         """The point at the last speed of the `way` along a branch, from disk or from point `last`."""
-        key = self._key(branch, way, jump, beside)
+        key = self._key(branch, way, jump, beside, arithmetic)
         point = self._study.cache.load(key)
         if point is None:
-            point = self._find(branch, way[-1], last, beside, jump)
+            ways = self._ways(branch, way[-1], last, beside, jump, arithmetic)
+            point = self._find(branch, way[-1], ways)
             self._study.cache.store(key, point)
         self._study.tell(f"{self.mesh.nx} nodes, {branch}, {1e3 * way[-1]:.4g} mm/s", point.result)
         return point
 
-    def _key(self, branch, way, *how):
+    def _key(self, branch, way, jump, beside, arithmetic):
         """What the answer at the end of the `way` depends on."""
         tables = {name: table for name, table in self._tables.items() if name != "motion"}
-        jump, beside = how
-        return key_of([tables, branch, [float(speed) for speed in way], jump, len(beside)])
+        turned = ["arithmetic mean"] if arithmetic else []
+        return key_of([tables, branch, [float(speed) for speed in way], jump, len(beside), *turned])
 
-    def _find(self, branch, speed, last, beside, jump):
-        """Solve one point by whatever leads to it."""
+    def _find(self, branch, speed, ways):
+        """Solve one point by whatever of the `ways` leads to it."""
         started, before = time.perf_counter(), self._grids.convolutions
         tried = []
-        for origin, solve in self._ways(branch, speed, last, beside, jump):
+        for origin, solve in ways:
             tried.append((origin, *solve()))
             if tried[-1][-1].converged:
                 break
@@ -134,8 +139,10 @@ class Branches:
         work = Work(self._grids.convolutions - before, len(outcome.cycles) - 1)
         return self._finished(branch, speed, origin, problem, outcome, work, started)
 
-    def _ways(self, branch, speed, last, beside, jump):
+    def _ways(self, branch, speed, last, beside, jump, arithmetic):
         """(Name, function) of what may lead to a point, the best first."""
+        if arithmetic:
+            yield "arithmetic mean", lambda: self._continuation.turn(speed, self._state(arithmetic))
         if not last:
             yield "start", lambda: self._continuation.begin(speed, STARTS[branch])
         else:
@@ -181,3 +188,11 @@ class Branches:
     @property
     def _continuation(self):
         return Continuation(self._grids, self.contact, self._settings)
+
+
+def film_at(speed, points):
+    """The one of `points` at a speed that settled without contact; None if there is none."""
+    for point in points:
+        if point.speed == speed and point.result.settled and point.result.contact.area_fraction == 0.0:
+            return point
+    return None

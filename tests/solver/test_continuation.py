@@ -196,6 +196,16 @@ def test_another_mean_is_turned_to_gradually(make, solve, paper_contact):
     assert central > 1.3 * arithmetic.problem.films(arithmetic.outcome.state)[0]
 
 
+def test_a_film_is_turned_to_another_mean_at_its_speed(make, solve, paper_contact):
+    """Where the grid resolves the inlet the means are close: nine steps at the most."""
+    followed, speed = make(face_mobility="geometric"), 3.0
+    state = solve(paper_contact(speed), 65).outcome.state
+    problem, outcome = followed.continuation.turn(speed, state)
+    assert outcome.converged and problem.scheme == Scheme(face_mobility="geometric")
+    assert followed.speeds == [speed] and len(outcome.cycles) <= 12
+    assert true_residual(problem, outcome.state) <= 1e-8
+
+
 def test_by_the_harmonic_mean_single_nodes_do_not_hold_up_the_rest(make):
     """Short time steps of their own take them past their folds in 16 steps; as the other means 85."""
     followed = make(face_mobility="harmonic")

@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 import time
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -14,7 +15,7 @@ from mpi4py import MPI
 from mgehl.cli import main
 from mgehl.discretization.status import CONTACT
 from mgehl.studies import bracket, onset, transition
-from mgehl.studies.branch import Branches
+from mgehl.studies.branch import Branches, film_at
 from mgehl.studies.study import Study
 
 
@@ -73,6 +74,32 @@ class TestJump:
         assert contact.result.settled
 
 
+class TestTurned:
+    """Another mean where the arithmetic mean's points are known."""
+
+    @pytest.fixture
+    def arithmetic(self, study):
+        with Branches(study, transition.case(129)) as branches:
+            return branches.walk("down", [0.3])
+
+    def test_a_full_film_is_turned_to_the_other_mean(self, study, arithmetic):
+        with Branches(study, transition.case(129, "harmonic")) as branches:
+            (turned,) = branches.walk("down", [0.3], arithmetic=arithmetic)
+            keys = {branches._key("down", [0.3], True, (), other) for other in (None, arithmetic[0])}
+        assert arithmetic[0].result.contact.area_fraction == 0.0
+        assert turned.origin == "arithmetic mean" and turned.result.settled
+        assert turned.result.central_film_nm > 1.05 * arithmetic[0].result.central_film_nm
+        assert len(keys) == 2
+
+    def test_only_a_settled_full_film_at_the_same_speed_is(self, study, arithmetic):
+        film = arithmetic[0]
+        contact = replace(film.result.contact, area_fraction=0.01)
+        with_contact = replace(film, result=replace(film.result, contact=contact))
+        unsettled = replace(film, result=replace(film.result, settled=False))
+        assert film_at(0.3, [with_contact, unsettled, film]) is film
+        assert film_at(0.3, [with_contact, unsettled]) is None and film_at(0.2, [film]) is None
+
+
 class TestBracket:
     def test_ends_are_close_and_on_either_side(self, study):
         """A made-up property that turns between two speeds of a film."""
@@ -102,12 +129,12 @@ class TestPoints:
     def test_another_way_is_another_point(self, study):
         with Branches(study, {"grid": {"nodes": 65}}) as branches:
             keys = {
-                branches._key(branch, way, False, ())
+                branches._key(branch, way, False, (), None)
                 for branch in ("down", "up")
                 for way in ([1.0], [0.8], [1.0, 0.8])
             }
         with Branches(study, {"grid": {"nodes": 129}}) as branches:
-            keys.add(branches._key("down", [1.0], False, ()))
+            keys.add(branches._key("down", [1.0], False, (), None))
         assert len(keys) == 7
 
 
