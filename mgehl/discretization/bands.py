@@ -3,13 +3,14 @@
 import numpy as np
 
 from mgehl.discretization.kernels import REACH, build_bands, factor_bands, solve_bands
+from mgehl.discretization.residual import WW, C, E, W
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT
 
 STIFF = 0.3
 """A node is distributive where its mobility/dX is below this part of its own influence."""
 
-REACH_OF_RIGID = 3
-"""All that the stencil of a rigid gap and the distribution Q couple."""
+REACH_OF_STENCIL = 2
+"""What a stencil couples along its line: two nodes upstream."""
 
 
 def given_nodes(status):
@@ -56,6 +57,13 @@ class LineBands:
     def factor(self, linearisation, distributive, kappa, share):
         """Build and factor the bands of J Q for the present linearisation."""
         build_bands(linearisation.A, linearisation.B, distributive, kappa, share, self._factors)
+        factor_bands(self._factors)
+
+    def factor_stencil(self, A):
+        """Factor what the stencil `A` of a rigid gap, (6, lines, nx), couples along the lines."""
+        for k, position in enumerate((WW, W, C, E)):
+            self._factors[:, :, k] = A[position]
+        self._factors[:, :, REACH_OF_STENCIL + 2 :] = 0.0
         factor_bands(self._factors)
 
     def solve(self, r, w):

@@ -103,6 +103,7 @@ def _add_products(flow, terms, fluid, start, stop, weight):
         rho, H = fluid.rho[:, at_a], fluid.H[:, at_b]
         signed = c * weight
         flow.value[:, start:stop] += signed * rho * H
-        if flow.linearised:
+        if flow.by_P:
             flow.by_P[a][:, start:stop] += signed * fluid.drho_dP[:, at_a] * H
+        if flow.by_H:
             flow.by_H[b][:, start:stop] += signed * rho

@@ -31,7 +31,10 @@ class Linearisation:
     """Stencil coefficients of the Jacobian, each (6, lines, nx), ordered as `STENCIL`."""
 
     A: np.ndarray
-    B: np.ndarray
+    B: np.ndarray | None
+    """None of a rigid gap."""
+    eps: np.ndarray
+    """The nodes' mobility, (lines, nx): it tells a smoother where the Poiseuille flow is weak."""
 
 
 def net_inflow(P, H, status, mesh, contact, scheme):
@@ -61,27 +64,31 @@ def residual(inflow, P, H, status, mesh, rigid=False):
 
 
 def linearise(P, H, status, mesh, contact, scheme, rigid=False, squeeze=0.0):
-    """Derivatives of `residual` by P (A) and by H (B); arguments ghosted.
+    """Derivatives of `residual` by P (A) and, unless the gap is `rigid`, by H (B); arguments ghosted.
 
     With `squeeze`, a rate in 1/time step or one for each node, they are those of an implicit step
     of d(rho H)/dt: the smaller the time step, the less the gap of a film can change in it.
     """
     fluid = fluid_state(P, H, contact, scheme.gap_floor)
     inner = status[1:-1]
-    leaving, entering = x_flows(fluid[1:-1], inner, mesh, scheme, linearised=True)
-    across = y_flows(fluid, status, mesh, scheme, linearised=True)
-    lubricated = inner == LUBRICATED
+    leaving, entering = x_flows(fluid[1:-1], inner, mesh, scheme, True, rigid)
+    across = y_flows(fluid, status, mesh, scheme, True, rigid)
+    film, gap_given = inner == LUBRICATED, (inner == CONTACT) & (not rigid)
     A = _difference(leaving.by_P, entering.by_P, across.by_P, mesh)
+    _set_rows(A, squeeze, (fluid.drho_dP * fluid.H)[1:-1], film, ~(film | gap_given), mesh)
+    if rigid:
+        return Linearisation(A, None, fluid.eps[1:-1])
     B = _difference(leaving.by_H, entering.by_H, across.by_H, mesh)
+    _set_rows(B, squeeze, fluid.rho[1:-1], film, gap_given, mesh)
+    return Linearisation(A, B, fluid.eps[1:-1])
+
+
+def _set_rows(stencil, squeeze, stored, film, given, mesh):
+    """In place: rows of the `film` also lose squeeze times what is `stored`, `given` ones are -1/dX."""
     if np.any(squeeze):
-        A[C] -= squeeze * (fluid.drho_dP * fluid.H)[1:-1]
-        B[C] -= squeeze * fluid.rho[1:-1]
-    A *= lubricated
-    B *= lubricated
-    contact_nodes = (inner == CONTACT) & (not rigid)
-    A[C] -= ~(lubricated | contact_nodes) / mesh.dX
-    B[C] -= contact_nodes / mesh.dX
-    return Linearisation(A, B)
+        stencil[C] -= squeeze * stored
+    stencil *= film
+    stencil[C] -= given / mesh.dX
 
 
 def _difference(leaving, entering, across, mesh):

@@ -13,11 +13,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from petsc4py import PETSc
 
-from mgehl.discretization.fluid import fluid_state
 from mgehl.grid.transfers import PartitionedTransfer
 from mgehl.multigrid.coarse import CoarseSolve
 from mgehl.multigrid.jacobian import Jacobian
-from mgehl.multigrid.smoother import LineSmoother
+from mgehl.multigrid.smoother import LineSmoother, RigidLineSmoother
 
 LARGE_GRID, RESTART_OF_LARGE = 10_000_000, 6
 """Nodes from which on GMRES is restarted, after so many iterations: it keeps two vectors of each, and
@@ -87,7 +86,8 @@ class MultigridSolver:
             self.jacobian = Jacobian(grids[-1], deflections[-1], contact, scheme)
         self._transfers = hierarchy.transfers[:level]
         self._partitioned = [PartitionedTransfer(transfer) for transfer in self._transfers]
-        self._smoothers = [LineSmoother(jacobian, settings.omega) for jacobian in self.jacobians[1:]]
+        smoother = RigidLineSmoother if rigid else LineSmoother
+        self._smoothers = [smoother(jacobian, settings.omega) for jacobian in self.jacobians[1:]]
         self._transfer_mats = []
 
     def free(self):
@@ -115,8 +115,7 @@ class MultigridSolver:
             grid = jacobian.grid
             jacobian.linearise(grid.halo(P), grid.halo(H), grid.halo_status(status), squeeze)
             if level > 0:
-                eps = fluid_state(P, H, self.contact, self._scheme.gap_floor).eps
-                self._smoothers[level - 1].partition(eps, status)
+                self._smoothers[level - 1].partition(status)
                 inject = self._transfers[level - 1].inject
                 fine_status, status = status, inject(status)
                 self._partitioned[level - 1].partition(status, fine_status)

@@ -3,7 +3,7 @@
 import numpy as np
 
 from mgehl.discretization.bands import (
-    REACH_OF_RIGID,
+    REACH_OF_STENCIL,
     LineBands,
     distributive_nodes,
     given_nodes,
@@ -27,16 +27,15 @@ class LineSmoother:
         near = _influence_nearby(jacobian)
         self._share = 0.5 if grid.mesh.is_line else 0.25
         self._K00, self._kappa = near[0, 0], influence_of_columns(near, self._share)
-        self._reach = REACH_OF_RIGID if jacobian.rigid else REACH
-        self._bands = LineBands(*grid.shape, self._reach)
+        self._bands = LineBands(*grid.shape)
         self._w = np.zeros(grid.shape)
         self._ghosted_w = np.zeros(grid.ghosted_shape)
         self._out = np.zeros(grid.shape)
 
     @event(LINES)
-    def partition(self, eps, status):
-        """Choose the distributive nodes; `eps` and `status` (lines, nx)."""
-        grid = self._jacobian.grid
+    def partition(self, status):
+        """Choose the distributive nodes of the present linearisation; `status` (lines, nx)."""
+        grid, eps = self._jacobian.grid, self._jacobian.linearisation.eps
         self._distributive = grid.halo(distributive_nodes(eps, status, grid.mesh.dX, self._K00))
         self._given = given_nodes(status)
 
@@ -58,12 +57,41 @@ class LineSmoother:
         space.write(y, self._out, 0.0)
 
     def view(self, _pc, viewer):
-        viewer.printfASCII(f"  distributive x-line Jacobi, omega {self._omega}, {self._reach} neighbours\n")
+        viewer.printfASCII(f"  distributive x-line Jacobi, omega {self._omega}, {REACH} neighbours\n")
+
+
+class RigidLineSmoother:
+    """The same of a rigid gap, y = omega T^-1 x: without K there is nothing to distribute."""
+
+    def __init__(self, jacobian, omega):
+        self._jacobian, self._omega = jacobian, omega
+        self._bands = LineBands(*jacobian.grid.shape, REACH_OF_STENCIL)
+        self._out = np.zeros(jacobian.grid.shape)
+
+    def partition(self, status):
+        """Remember where the pressure is given; `status` (lines, nx)."""
+        self._given = given_nodes(status)
+
+    @event(LINES)
+    def setUp(self, _pc):
+        """Factor the lines of the present linearisation."""
+        self._bands.factor_stencil(self._jacobian.linearisation.A)
+
+    @event(LINES)
+    def apply(self, _pc, x, y):
+        """One relaxation from zero; the border is left alone."""
+        space = self._jacobian.space
+        r, _ = space.read(x)
+        self._bands.solve(r, self._out)
+        self._out *= self._omega
+        self._out[self._given] = 0.0
+        space.write(y, self._out, 0.0)
+
+    def view(self, _pc, viewer):
+        viewer.printfASCII(f"  x-line Jacobi of a rigid gap, omega {self._omega}\n")
 
 
 def _influence_nearby(jacobian):
-    """Influence coefficients of the few nearest nodes, [l, k]; none of a rigid gap's."""
-    if jacobian.rigid:
-        return np.zeros((3, REACH + 2))
+    """Influence coefficients of the few nearest nodes, [l, k]."""
     mesh = jacobian.grid.mesh
     return influence_coefficients(mesh, jacobian.contact.kernel, 0, 3)[:, : REACH + 2]

@@ -68,16 +68,16 @@ def split_flow(problem, state, inflow):
     return SplitFlow(P, eps[1:-1], along, across, source)
 
 
-def relax_cavitation_set(problem, state, inflow):
+def relax_cavitation_set(problem, state, flow):
     """Relax P and status of the weakly coupled fluid; return the number of nodes that changed.
 
-    Updates `state` in place, but only if the set moved: otherwise Newton's pressures stand.
-    Zebra order by global line number, so the number of ranks does not matter.
+    `flow` is the `SplitFlow` of `state`, whose pressures it uses up. Updates `state` in place, but
+    only if the set moved: otherwise Newton's pressures stand. Zebra order by global line number, so
+    the number of ranks does not matter.
     """
     if not problem.scheme.cavitation:
         return 0
     grid = problem.grid
-    flow = split_flow(problem, state, inflow)
     P, faces = flow.P, (flow.source, flow.along, flow.across)
     movable = _relaxable(problem, flow, state)
     lubricated = state.status == LUBRICATED

@@ -9,7 +9,7 @@ from petsc4py import PETSc
 from mgehl.discretization.status import BOUNDARY, LUBRICATED
 from mgehl.errors import OptionError, Stopped, UserError
 from mgehl.grid.events import linear_solve
-from mgehl.solver.cavitation import relax_cavitation_set
+from mgehl.solver.cavitation import relax_cavitation_set, split_flow
 from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.outcome import Answer, Cycle, Outcome, Position
 from mgehl.solver.partition import Changes, Partition
@@ -161,7 +161,7 @@ class Newton:
             self._fluid.solve(state, self._fluid_tolerance)
             changes.cavitated += problem.grid.count(before != state.status)
         inflow = problem.inflow(state)
-        moved = relax_cavitation_set(problem, state, inflow)
+        moved = relax_cavitation_set(problem, state, split_flow(problem, state, inflow))
         if moved:
             changes.cavitated += moved
             inflow = problem.inflow(state)
@@ -184,7 +184,8 @@ class Newton:
         """Solve the linearised bordered system into `_correction`; return the iterations."""
         status = state.status
         if self._fluid:
-            settled = (status == LUBRICATED) & self._fluid.separable(state)
+            film = status == LUBRICATED  # whose F is the inflow
+            settled = film & self._fluid.separable(state, split_flow(self._problem, state, F))
             status, F = np.where(settled, BOUNDARY, status), np.where(settled, 0.0, F)
         rates = squeeze_rates(self._problem, state.H, F, self._settings)
         self._multigrid.linearise(state.P, state.H, status, rates)

@@ -49,12 +49,10 @@ class RigidGapFluid:
             thing.destroy()
         self._multigrid.free()
 
-    def separable(self, state, inflow=None):
-        """Fluid nodes that this solver answers for: (lines, nx) bool; their `inflow` if it is known."""
-        problem = self._problem
-        fluid = split_flow(problem, state, problem.inflow(state) if inflow is None else inflow)
-        weak = weakly_coupled(problem, fluid.eps, state.status, SEPARABLE)
-        return weak & driven(problem, fluid, state.H)
+    def separable(self, state, flow):
+        """Fluid nodes that this solver answers for, by the `SplitFlow` of a state: (lines, nx) bool."""
+        weak = weakly_coupled(self._problem, flow.eps, state.status, SEPARABLE)
+        return weak & driven(self._problem, flow, state.H)
 
     def solve(self, state, tolerance, max_steps=30, before_step=lambda: None):
         """Bring the fluid of `state` into balance at its gap, in place; return the `FluidStep`s.
@@ -64,14 +62,17 @@ class RigidGapFluid:
         `before_step` is called before each and may raise what ends it. A node whose pressure rises
         until it is separable no more is given back as it was, to whoever moves its gap.
         """
-        problem, steps = self._problem, []
-        separable, before = self.separable(state), state.P.copy()
+        problem, steps, separable, before = self._problem, [], None, state.P.copy()
         while True:
-            inflow = problem.inflow(state)
-            moved = self._give_back(state, separable, before, inflow) if steps else 0
+            inflow, flow = self._flow(state)
+            moved = 0
+            if separable is None:
+                separable = self.separable(state, flow)
+            else:
+                moved = self._give_back(state, separable, before, flow)
             if moved:
-                inflow = problem.inflow(state)
-            moved += relax_cavitation_set(problem, state, inflow)
+                inflow, flow = self._flow(state)
+            moved += relax_cavitation_set(problem, state, flow)
             if moved:
                 inflow = problem.inflow(state)
             filled = separable & (state.status == CAVITATED) & (inflow > 0.0)
@@ -90,9 +91,14 @@ class RigidGapFluid:
                 state.P[torn] = 0.0
                 state.status[torn] = CAVITATED
 
-    def _give_back(self, state, separable, before, inflow):
+    def _flow(self, state):
+        """The net inflow of every node, (lines, nx), and its `SplitFlow`."""
+        inflow = self._problem.inflow(state)
+        return inflow, split_flow(self._problem, state, inflow)
+
+    def _give_back(self, state, separable, before, flow):
         """Take out of `separable`, in place, what is so no more, its P as `before`; return how many."""
-        lost = separable & ~self.separable(state, inflow)
+        lost = separable & ~self.separable(state, flow)
         separable[lost] = False
         state.P[lost] = before[lost]
         return self._problem.grid.count(lost)

@@ -3,7 +3,7 @@ import pytest
 from dense import dense_K, dense_Q, dense_stencil, held_beyond, line_stencils
 
 from mgehl.discretization.bands import (
-    REACH_OF_RIGID,
+    REACH_OF_STENCIL,
     STIFF,
     LineBands,
     distributive_nodes,
@@ -82,21 +82,18 @@ def test_distributed_column_hardly_reaches_beyond_the_band():
     assert distributed == pytest.approx(-line.dX / (2.0 * REACH**2), rel=0.1)
 
 
-@every_share
-def test_bands_of_a_rigid_gap_need_no_more_than_their_reach(share):
-    """Without deflection all that lies further out is zero: the wide bands give the same."""
+def test_line_bands_solve_the_lines_of_a_stencil():
+    """A rigid gap: factor_stencil against numpy.linalg.solve, twice with the same bands."""
     rng = np.random.default_rng(6)
     lines, nx = 3, MESH.nx
-    A, _ = line_stencils(rng, lines, nx)
-    distributive = rng.random((lines, nx)) < 0.5
-    distributive[:, [0, -1]] = False
-    r, solutions = rng.standard_normal((lines, nx)), []
-    for reach in (REACH_OF_RIGID, REACH):
-        bands, w = LineBands(lines, nx, reach), np.empty((lines, nx))
-        bands.factor(Linearisation(A, np.zeros_like(A)), distributive, np.zeros((2, 2, REACH + 3)), share)
+    r, w = rng.standard_normal((lines, nx)), np.empty((lines, nx))
+    bands = LineBands(lines, nx, REACH_OF_STENCIL)
+    for A in line_stencils(rng, lines, nx):
+        bands.factor_stencil(A)
         bands.solve(r, w)
-        solutions.append(w)
-    np.testing.assert_allclose(*solutions, rtol=1e-12, atol=0.0)
+        J = dense_stencil(A).reshape(lines, nx, lines + 2, nx)
+        for j in range(lines):
+            np.testing.assert_allclose(w[j], np.linalg.solve(J[j, :, j + 1], r[j]), rtol=1e-11, atol=1e-13)
 
 
 @every_share
@@ -114,7 +111,7 @@ def test_line_bands_solve_the_band_of_J_Q(share):
     bands = LineBands(lines, nx)
     # A second factorisation must not see the first.
     for stencils in ((B, A), (A, B)):
-        bands.factor(Linearisation(*stencils), distributive, influence_of_columns(K, share), share)
+        bands.factor(Linearisation(*stencils, None), distributive, influence_of_columns(K, share), share)
     bands.solve(r, w)
     offset = np.subtract.outer(np.arange(nx), np.arange(nx))
     for j in range(lines):
@@ -129,7 +126,7 @@ def wedge_term(nx):
     B[C, :, 1:-1], B[W, :, 1:-1] = -1.0, 1.0
     distributive = np.ones((1, nx), bool)
     distributive[:, [0, -1]] = False
-    return Linearisation(A, B), distributive
+    return Linearisation(A, B, None), distributive
 
 
 def line_table():
