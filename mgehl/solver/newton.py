@@ -187,7 +187,7 @@ class Newton:
             film = status == LUBRICATED  # whose F is the inflow
             settled = film & self._fluid.separable(state, split_flow(self._problem, state, F))
             status, F = np.where(settled, BOUNDARY, status), np.where(settled, 0.0, F)
-        rates = squeeze_rates(self._problem, state.H, F, self._settings)
+        rates = squeeze_rates(self._problem, state, F, self._settings)
         self._multigrid.linearise(state.P, state.H, status, rates)
         self._write_residual(self._rhs, F, load, sign=-1.0)
         ksp = snes.getKSP()

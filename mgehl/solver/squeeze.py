@@ -3,32 +3,54 @@
 The squeeze flow keeps a Newton step from closing a film that the steady equations leave open: from
 one speed to the next the contact set then grows node by node and not in spots. A part of it is each
 node's own, by its residual over its film: a film of an atom's height that fluid flows into opens by
-a few of its heights a step. Without that its pressure shoots over the fold beyond which, by a mean of
-the mobility that vanishes with the film, more pressure drives less flow.
+a few of its heights a step.
+
+By a mean of the mobility that vanishes with the film, or with a viscosity that rises with the pressure,
+more pressure at a node may drive less flow out of it: beyond that fold its pressure runs away, and
+Newton's step near it is as good as random. There the time step is so short that the node is stable by
+itself: it passes the fold slowly, the residual hardly falling, and the rest follows.
 """
 
 import numpy as np
 
+from mgehl.discretization.residual import C, linearise
+from mgehl.discretization.status import LUBRICATED
+
 SQUEEZE = 3.0
 """Rate, per rms residual and cell, that contact starts and continuation take at the least."""
 
-OF_NODES = {"arithmetic": 0.1, "geometric": 0.1, "harmonic": 5.0}
-"""Part of the rate that goes by a node's own residual and film, by the mean of the mobility.
+OF_NODES = {"arithmetic": 0.1, "geometric": 0.1, "harmonic": 1.0}
+"""Part of the rate that goes by a node's own residual and film, by the mean of the mobility."""
 
-By the harmonic mean the flow falls again from half the pressure difference on that it takes by the
-geometric one, and single nodes come to folds everywhere: with no film growing by more than a
-fifteenth a step, of 21 points on 129 nodes all are reached from their neighbours in speed (0.1: 11
-of 21, 30: 5 in 100 steps). The other means take more steps with more.
-"""
+FOLDING = ("geometric", "harmonic")
+"""Means by which the flow through a face falls again where its nodes differ by much."""
+
+STABLE = 1.0
+"""Rate per cell by which a node is kept from its fold: its neighbours bring it nearer."""
+
+LAST_STEPS = 1e-6
+"""Rms residual below which it is kept so by less and less: Newton's own steps end the solve."""
 
 THINNEST = 1e-9
 """Film of which a node's own rate is reckoned where H_th does not say more."""
 
 
-def squeeze_rates(problem, H, F, settings):
-    """1/time step of every node, (lines, nx), at gap `H` and residual `F`; 0.0 if `settings` have none."""
+def squeeze_rates(problem, state, F, settings):
+    """1/time step of every node, (lines, nx), at a `state` of residual `F`; 0.0 if `settings` have none."""
     if settings.squeeze == 0.0:
         return 0.0
+    mean, rms = problem.scheme.face_mobility, problem.rms(F)
     floor = max(settings.film_threshold, problem.scheme.gap_floor or 0.0, THINNEST)
-    own = OF_NODES[problem.scheme.face_mobility] * np.abs(F) / np.maximum(H, floor)
-    return settings.squeeze * (problem.rms(F) / problem.grid.mesh.dX + own)
+    own = OF_NODES[mean] * np.abs(F) / np.maximum(state.H, floor)
+    rates = settings.squeeze * (rms / problem.grid.mesh.dX + own)
+    return np.maximum(rates, _stable_rates(problem, state, rms)) if mean in FOLDING else rates
+
+
+def _stable_rates(problem, state, rms):
+    """Rates with which the inflow of each film node falls as its own pressure lifts it: (lines, nx)."""
+    grid = problem.grid
+    ghosted = grid.halo(state.P), grid.halo(state.H), grid.halo_status(state.status)
+    steady = linearise(*ghosted, grid.mesh, problem.contact, problem.scheme)
+    by_own_gap = steady.A[C] / problem.K00 + steady.B[C]
+    margin = STABLE * min(1.0, rms / LAST_STEPS) / grid.mesh.dX
+    return np.where(state.status == LUBRICATED, np.maximum(by_own_gap + margin, 0.0), 0.0)

@@ -207,11 +207,11 @@ def test_a_film_is_turned_to_another_mean_at_its_speed(make, solve, paper_contac
 
 
 def test_by_the_harmonic_mean_single_nodes_do_not_hold_up_the_rest(make):
-    """Short time steps of their own take them past their folds in 16 steps; as the other means 85."""
+    """Short time steps of their own take them past their folds: 12 steps, without 85."""
     followed = make(face_mobility="harmonic")
     problem, outcome = followed.continuation.begin(0.3, "film")
     assert outcome.converged and true_residual(problem, outcome.state) <= 1e-8
-    assert len(outcome.cycles) <= 25
+    assert len(outcome.cycles) <= 20
 
 
 def test_without_a_share_any_mean_is_the_arithmetic(make, solve, paper_contact):

@@ -48,7 +48,7 @@ def test_solved_apart_it_would_turn_for_ever(contact_start, monkeypatch):
 def test_its_own_squeeze_opens_it_step_by_step(contact_start, monkeypatch, own, converges):
     """Coupled: with one rate for all nodes its pressure shoots over the fold, and its neighbours open."""
     monkeypatch.setattr("mgehl.solver.cavitation.LIFTED", 1e9)
-    monkeypatch.setattr("mgehl.solver.squeeze.OF_NODES", own)
+    monkeypatch.setattr("mgehl.solver.squeeze.OF_NODES", {"geometric": own})
     outcome, hierarchy, contact, settings = contact_start(4)
     state = outcome.state
     assert state.status[LINE, NODE] == LUBRICATED
