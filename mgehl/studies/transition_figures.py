@@ -13,6 +13,12 @@ PROFILES = 6
 FULL = 0.95
 """Contact over Hertz area from which it is called full."""
 
+INSIDE = 0.9
+"""Part of the ellipse whose films must fit into a picture."""
+
+SMALLEST_AXIS = 1.0
+"""nm."""
+
 
 def branches(path, followed, points):
     """Films and contact ratio against speed, both branches, with the formulas."""
@@ -61,7 +67,8 @@ def figure_14(path, followed, points):
             label = f"{1e3 * point.speed:.3g} mm/s"
             across.plot(mesh.Y, point.fields.H[:, i] * nm, color=colour, lw=1.0, label=label)
             inlet.plot(mesh.X, point.fields.P[j], color=colour, lw=1.0, label=label)
-        across.set(xlim=(-1.2, 1.2), ylim=(-0.5, 15.0), xlabel="Y = y/b", ylabel="film, nm")
+        top = max(_top(point, mesh, nm) for point in shown)
+        across.set(xlim=(-1.2, 1.2), ylim=(-0.03 * top, top), xlabel="Y = y/b", ylabel="film, nm")
         across.set_title("a  film at X = 0")
         inlet.set(xlim=(-1.3, -0.7), ylim=(-0.02, 0.8), xlabel="X = x/a", ylabel="P = p/p$_h$")
         inlet.set_title("b  pressure at Y = 0 on the inlet side")
@@ -72,12 +79,18 @@ def figure_14(path, followed, points):
         save(figure, path)
 
 
+def _top(point, mesh, nm):
+    """Where an axis of films should end, nm: a little above those inside the Hertz ellipse."""
+    inside = mesh.X**2 + mesh.Y[:, None] ** 2 < INSIDE**2
+    return max(SMALLEST_AXIS, 1.2 * nm * point.fields.H[inside].max())
+
+
 def _film_map(figure, axes, mesh, point, nm):
-    blocks = Blocks(mesh.X, mesh.Y)
+    top, blocks = _top(point, mesh, nm), Blocks(mesh.X, mesh.Y)
     contact = blocks.largest(point.fields.status) == CONTACT
     H = np.ma.masked_where(contact, blocks.least(point.fields.H * nm))
     colours = matplotlib.colormaps[matplotlib.rcParams["image.cmap"]].with_extremes(bad="black")
-    image = axes.pcolormesh(blocks.X, blocks.Y, H, cmap=colours, vmin=0.0, vmax=20.0, rasterized=True)
+    image = axes.pcolormesh(blocks.X, blocks.Y, H, cmap=colours, vmin=0.0, vmax=top, rasterized=True)
     figure.colorbar(image, ax=axes, label="film, nm (black: contact)", extend="max")
     axes.set(aspect="equal", xlim=(-1.2, 1.2), ylim=(-1.2, 1.2), xlabel="X = x/a", ylabel="Y = y/b")
     axes.set_title(f"c  film at {1e3 * point.speed:.3g} mm/s")

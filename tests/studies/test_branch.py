@@ -74,6 +74,16 @@ class TestJump:
         assert contact.result.settled
 
 
+class TestStart:
+    def test_a_start_may_take_twice_the_steps(self, tmp_path):
+        """18 from nothing at 0.2 m/s on 65 nodes, in a study whose points may take ten."""
+        study = Study(tmp_path, MPI.COMM_SELF, (65,), speak=False)
+        with Branches(study, {"grid": {"nodes": 65}, "solver": {"max_steps": 10}}) as branches:
+            (start,) = branches.walk("down", [0.2])
+        assert start.origin == "start" and start.result.settled
+        assert 10 < start.result.work.steps <= 20
+
+
 class TestTurned:
     """Another mean where the arithmetic mean's points are known."""
 
