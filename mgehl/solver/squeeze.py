@@ -25,8 +25,9 @@ OF_NODES = {"arithmetic": 0.1, "geometric": 0.1, "harmonic": 1.0}
 FOLDING = ("geometric", "harmonic")
 """Means by which the flow through a face falls again where its nodes differ by much."""
 
-STABLE = 1.0
-"""Rate per cell by which a node is kept from its fold: its neighbours bring it nearer."""
+STABLE = 0.6
+"""Rate per cell by which a node is kept from its fold: its neighbours bring it nearer. (Points on 129 nodes
+by the harmonic mean from their neighbours in speed: 21 of 21; with 0.3 18, with 1 20 in more steps.)"""
 
 LAST_STEPS = 1e-6
 """Rms residual below which it is kept so by less and less: Newton's own steps end the solve."""
