@@ -62,17 +62,11 @@ class RigidGapFluid:
         `before_step` is called before each and may raise what ends it. A node whose pressure rises
         until it is separable no more is given back as it was, to whoever moves its gap.
         """
-        problem, steps, separable, before = self._problem, [], None, state.P.copy()
+        problem, steps, before = self._problem, [], state.P.copy()
+        inflow, flow = self._flow(state)
+        separable, given_back = self.separable(state, flow), 0
         while True:
-            inflow, flow = self._flow(state)
-            moved = 0
-            if separable is None:
-                separable = self.separable(state, flow)
-            else:
-                moved = self._give_back(state, separable, before, flow)
-            if moved:
-                inflow, flow = self._flow(state)
-            moved += relax_cavitation_set(problem, state, flow)
+            moved = relax_cavitation_set(problem, state, flow)
             if moved:
                 inflow = problem.inflow(state)
             filled = separable & (state.status == CAVITATED) & (inflow > 0.0)
@@ -80,7 +74,7 @@ class RigidGapFluid:
             lubricated = state.status == LUBRICATED
             residual = np.where(separable & lubricated, inflow, 0.0)
             rms = problem.rms(residual)
-            settled = rms <= tolerance and moved + problem.grid.count(filled) == 0
+            settled = rms <= tolerance and given_back + moved + problem.grid.count(filled) == 0
             if settled or len(steps) == max_steps or not rms < DIVERGED:
                 return [*steps, FluidStep(rms, 0)]
             before_step()
@@ -90,6 +84,10 @@ class RigidGapFluid:
                 torn = (state.P < 0.0) & separable
                 state.P[torn] = 0.0
                 state.status[torn] = CAVITATED
+            inflow, flow = self._flow(state)
+            given_back = self._give_back(state, separable, before, flow)
+            if given_back:
+                inflow, flow = self._flow(state)
 
     def _flow(self, state):
         """The net inflow of every node, (lines, nx), and its `SplitFlow`."""

@@ -12,6 +12,7 @@ import pytest
 from mpi4py import MPI
 
 from mgehl.config import config_from_tables
+from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
 from mgehl.errors import OutputError, Stopped
 from mgehl.grid.grid import build_grids
@@ -21,9 +22,10 @@ from mgehl.output.records import Reader, Writer
 from mgehl.run import Watch
 from mgehl.run import solve as solve_config
 from mgehl.solver.nested import single_loop
-from mgehl.solver.problem import State
+from mgehl.solver.problem import ContactProblem, State
 from mgehl.solver.relaxation import RelaxationSettings
-from mgehl.solver.settings import NestedSettings, SolverSettings
+from mgehl.solver.settings import NestedSettings, NewtonSettings, SolverSettings
+from mgehl.solver.squeeze import squeeze_rates
 from mgehl.solver.verification import check_pressure_inequality, complementarity_error, flux_imbalance
 from mgehl.studies.branch import Branches
 from mgehl.studies.study import Study, merged
@@ -234,6 +236,22 @@ class TestSolutions:
         assert sorted((v.i, v.j, v.size) for v in serial.violations) == sorted(
             (v.i, v.j, v.size) for v in result.violations
         )
+
+
+class TestTimeSteps:
+    def test_a_node_beside_another_rank_s_line_has_the_same(self, pair, paper_contact):
+        """By the harmonic mean they ask for the neighbours' pressure."""
+        settings, contact = NewtonSettings(film_threshold=1e-6).squeezed(), paper_contact()
+        found = []
+        for hierarchy in pair(nodes=65):
+            grid, deflection = hierarchy.grids[-1], hierarchy.deflections[-1]
+            problem = ContactProblem(grid, deflection, contact, Scheme(face_mobility="harmonic"))
+            P, F = (lines(grid, random(grid, seed)) for seed in (1, 2))
+            state = State(0.1 * np.abs(P), 0.0, 0.5 + 0.0 * P, np.full(grid.shape, LUBRICATED))
+            found.append(whole(grid, squeeze_rates(problem, state, 1e-4 * F, settings)))
+        shared = settings.squeeze * problem.rms(1e-4 * F) / grid.mesh.dX
+        assert (found[1] > 10.0 * shared).any()
+        np.testing.assert_allclose(*found, rtol=1e-10)
 
 
 class TestRelaxation:
