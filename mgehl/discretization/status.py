@@ -22,6 +22,15 @@ def open_y_faces(status):
     return ~(contact[:-1] | contact[1:])
 
 
+def beside_contact(status):
+    """Nodes with one of their four faces closed by contact; `status` ghosted, the result (lines, nx)."""
+    x_faces, y_faces = open_x_faces(status[1:-1]), open_y_faces(status)
+    closed = ~(y_faces[:-1] & y_faces[1:])
+    closed[:, 1:] |= ~x_faces
+    closed[:, :-1] |= ~x_faces
+    return closed
+
+
 def enclosed(status):
     """Fluid nodes whose west and east faces are both closed: they belong to the contact.
 

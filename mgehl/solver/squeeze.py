@@ -14,7 +14,7 @@ itself: it passes the fold slowly, the residual hardly falling, and the rest fol
 import numpy as np
 
 from mgehl.discretization.residual import C, linearise
-from mgehl.discretization.status import LUBRICATED
+from mgehl.discretization.status import LUBRICATED, beside_contact
 
 SQUEEZE = 3.0
 """Rate, per rms residual and cell, that contact starts and continuation take at the least."""
@@ -48,10 +48,15 @@ def squeeze_rates(problem, state, F, settings):
 
 
 def _stable_rates(problem, state, rms):
-    """Rates with which the inflow of each film node falls as its own pressure lifts it: (lines, nx)."""
+    """Rates with which the inflow of each film node falls as its own pressure lifts it: (lines, nx).
+
+    Not of nodes beside contact, which holds them down: they lift by less than their own influence,
+    and half of the rate that would do is worse than none.
+    """
     grid = problem.grid
-    ghosted = grid.halo(state.P), grid.halo(state.H), grid.halo_status(state.status)
-    steady = linearise(*ghosted, grid.mesh, problem.contact, problem.scheme)
+    P, H, status = grid.halo(state.P), grid.halo(state.H), grid.halo_status(state.status)
+    steady = linearise(P, H, status, grid.mesh, problem.contact, problem.scheme)
     by_own_gap = steady.A[C] / problem.K00 + steady.B[C]
     margin = STABLE * min(1.0, rms / LAST_STEPS) / grid.mesh.dX
-    return np.where(state.status == LUBRICATED, np.maximum(by_own_gap + margin, 0.0), 0.0)
+    free = (state.status == LUBRICATED) & ~beside_contact(status)
+    return np.where(free, np.maximum(by_own_gap + margin, 0.0), 0.0)

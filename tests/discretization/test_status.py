@@ -7,6 +7,7 @@ from mgehl.discretization.status import (
     CONTACT,
     LUBRICATED,
     NAMES,
+    beside_contact,
     close_gaps,
     enclosed,
     largest_fluid_neighbour,
@@ -99,6 +100,16 @@ def test_enclosed_leaves_the_status_alone():
     before = status.copy()
     assert np.argwhere(enclosed(status)).tolist() == [[1, 2]]
     assert (status == before).all()
+
+
+def test_nodes_beside_contact_have_a_closed_face():
+    """A contact node in the middle, and one in the line of a ghost: each with its four neighbours."""
+    status = np.full((6, 5), LUBRICATED)
+    status[2, 2] = status[0, 4] = CONTACT
+    near = np.zeros((4, 5), bool)
+    near[1, 1:4] = near[[0, 2], 2] = True
+    near[0, 4] = True
+    np.testing.assert_array_equal(beside_contact(status), near)
 
 
 def test_largest_fluid_neighbour_of_hand_made_lines():

@@ -131,3 +131,13 @@ class TestFold:
             problem, state = folded(mean, 0.2, at_node)
             F = np.full(problem.grid.shape, self.AT_REST)
             assert squeeze_rates(problem, state, F, SETTINGS)[self.LINE, self.NODE] < 1e-200
+
+    def test_a_node_beside_contact_has_none(self, folded):
+        """Contact holds it down."""
+        problem, state = folded("harmonic", 0.2)
+        F = np.full(problem.grid.shape, self.AT_REST)
+        assert squeeze_rates(problem, state, F, SETTINGS)[self.LINE, self.NODE] > 0.1
+        for line, node in ((0, 1), (0, -1), (1, 0), (-1, 0)):
+            touched = replace(state, status=state.status.copy())
+            touched.status[self.LINE + line, self.NODE + node] = CONTACT
+            assert squeeze_rates(problem, touched, F, SETTINGS)[self.LINE, self.NODE] < 1e-200
