@@ -5,9 +5,9 @@ one speed to the next the contact set then grows node by node and not in spots. 
 node's own, by its residual over its film: a film of an atom's height that fluid flows into opens by
 a few of its heights a step.
 
-By a mean of the mobility that vanishes with the film, or with a viscosity that rises with the pressure,
-more pressure at a node may drive less flow out of it: beyond that fold its pressure runs away, and
-Newton's step near it is as good as random. There the time step is so short that the node is stable by
+By a mean of the mobility that vanishes with either side, more pressure at a node, which makes its fluid
+stiffer, may drive less flow out of it: beyond that fold its pressure runs away, and Newton's step near
+it is as good as random. There the time step is so short that the node is stable by
 itself: it passes the fold slowly, the residual hardly falling, and the rest follows.
 """
 
