@@ -184,8 +184,8 @@ class Newton:
         """Solve the linearised bordered system into `_correction`; return the iterations."""
         status = state.status
         if self._fluid:
-            film = status == LUBRICATED  # whose F is the inflow
-            settled = film & self._fluid.separable(state, split_flow(self._problem, state, F))
+            flow = split_flow(self._problem, state, F)  # F is the inflow of the film
+            settled = (status == LUBRICATED) & self._fluid.separable(state, flow)
             status, F = np.where(settled, BOUNDARY, status), np.where(settled, 0.0, F)
         rates = squeeze_rates(self._problem, state, F, self._settings)
         self._multigrid.linearise(state.P, state.H, status, rates)

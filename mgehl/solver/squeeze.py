@@ -7,8 +7,8 @@ a few of its heights a step.
 
 By a mean of the mobility that vanishes with either side, more pressure at a node, which makes its fluid
 stiffer, may drive less flow out of it: beyond that fold its pressure runs away, and Newton's step near
-it is as good as random. There the time step is so short that the node is stable by
-itself: it passes the fold slowly, the residual hardly falling, and the rest follows.
+it is as good as random. There the time step is so short that the node is stable by itself: it passes
+the fold slowly, the residual hardly falling, and the rest follows.
 """
 
 import numpy as np
