@@ -9,9 +9,10 @@ from petsc4py import PETSc
 from mgehl.discretization.status import BOUNDARY, LUBRICATED
 from mgehl.errors import OptionError, Stopped, UserError
 from mgehl.grid.events import linear_solve
+from mgehl.solver.arbiter import arbitrate, closed_again, release_early, restore_answer
 from mgehl.solver.cavitation import relax_cavitation_set, split_flow
 from mgehl.solver.journal import NOTHING_KEPT
-from mgehl.solver.outcome import Answer, Cycle, Outcome, Position
+from mgehl.solver.outcome import Cycle, Outcome, Position
 from mgehl.solver.partition import Changes, Partition
 from mgehl.solver.problem import DIVERGED
 from mgehl.solver.squeeze import squeeze_rates
@@ -28,15 +29,6 @@ FIRST_RESIDUAL = 1e-3
 STALLS = 3
 """Linear systems that GMRES may leave unsolved: where no state is near (a film that ends, a node at a
 fold) all that follow cost as much as they can and lead nowhere."""
-
-EARLY = 1e-5
-"""Residual from which Eq. 2 is asked where the fluid is solved apart."""
-
-EARLY_ROUNDS = 3
-"""Releases before the last digits: 2049 nodes take two; an edge that opens node by node has no end."""
-
-RELEASE_STEPS = 8
-"""Steps in which a set must settle again after Eq. 2 released some of it."""
 
 
 class Newton:
@@ -132,15 +124,13 @@ class Newton:
             now.entered += now.changes.entered
             now.changes = Changes()
             if self._finished(outcome, tolerance, now.limit):
-                self._arbitrate(now)
-                if not now.released:
+                if not arbitrate(self._partition, now, max_steps):
                     break
-                now.limit = min(max_steps, cycle.step + RELEASE_STEPS)
                 F, load = self._settle_released(state, now.changes)
-            elif self._fluid and self._release_early(cycle, now):
+            elif self._fluid and release_early(self._partition, now):
                 F, load = self._settle_released(state, now.changes)
-            elif now.released and now.entered >= now.released:
-                break  # what Eq. 2 let go has closed again: this grid cannot satisfy it
+            elif closed_again(now):
+                break
             now.linear_iterations = self._correct(snes, state, F, load)
             reason = snes.getKSP().getConvergedReason()
             if now.answer and reason < 0:
@@ -232,42 +222,10 @@ class Newton:
             return False
         return True
 
-    def _arbitrate(self, now):
-        """Release from a settled state what breaks Eq. 2; sets `answer` and `released`.
-
-        Contact pressures jump where a node opens: the state found then may break Eq. 2 at more
-        nodes, or not settle at all. The one that settled with the fewest is the answer.
-        """
-        outcome, now.released = now.outcome, 0
-        if not outcome.converged:
-            return
-        violations = self._problem.grid.count(self._partition.violations(outcome.state)[0])
-        if now.answer and violations >= now.answer.violations:
-            outcome.converged = False
-            return
-        now.answer = Answer(outcome.state.copy(), outcome.reason, violations)
-        now.released, now.entered = self._partition.release_violations(outcome.state), 0
-        now.changes.released += now.released
-        outcome.converged = now.released == 0
-
-    def _release_early(self, cycle, now):
-        """Release what breaks Eq. 2 before the last digits; return how many nodes.
-
-        Where all of the ellipse is in contact and the fluid is solved apart, what breaks Eq. 2 is
-        known long before them, while a few nodes still turn: a round of release saves 3 to 5 steps.
-        """
-        if cycle.residual > EARLY or now.early_rounds == EARLY_ROUNDS:
-            return 0
-        released = self._partition.release_violations(now.outcome.state)
-        now.early_rounds += released > 0
-        now.changes.released += released
-        return released
-
     def _restore(self, now):
         """Make a kept answer the outcome, and its state the last of the history."""
-        outcome, state = now.outcome, now.answer.state
-        outcome.state, outcome.converged, outcome.reason = state, True, now.answer.reason
-        outcome.contradictions = []
+        restore_answer(now)
+        state = now.outcome.state
         now.changes, now.linear_iterations, now.step_length = Changes(), 0, 0.0
         F = self._problem.residual(state, self._problem.inflow(state))
         self._tell(F, self._problem.load_deficit(state.P))

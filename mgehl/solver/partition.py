@@ -148,6 +148,10 @@ class Partition:
         beside = largest_fluid_neighbour(*ghosted)
         return (state.status == CONTACT) & (state.P < beside), beside
 
+    def count_violations(self, state):
+        """How many contact nodes break Eq. 2, over all ranks."""
+        return self._grid.count(self.violations(state)[0])
+
     def release_violations(self, state):
         """Release contact nodes that violate Eq. 2 and have budget left; return how many.
 

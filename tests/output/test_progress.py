@@ -11,8 +11,8 @@ from mgehl.output.progress import NEWTON, Progress, trust_block
 from mgehl.output.result import ContactResult, InequalityResult, Resolution
 from mgehl.output.terminal import SILENT, Silent
 from mgehl.solver.nested import LevelSolve
-from mgehl.solver.newton import Changes
 from mgehl.solver.outcome import Cycle
+from mgehl.solver.partition import Changes
 
 LEVEL = LevelSolve(129, 7.5e-3, True)
 

@@ -8,8 +8,8 @@ import pytest
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.status import BOUNDARY, CONTACT, LUBRICATED
 from mgehl.output.result import Work, resolution, summarise
-from mgehl.solver.newton import Changes
 from mgehl.solver.outcome import Cycle, Outcome
+from mgehl.solver.partition import Changes
 from mgehl.solver.problem import State
 
 

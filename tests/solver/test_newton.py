@@ -6,11 +6,9 @@ import pytest
 from mgehl.discretization.kernels import REACH, build_bands, factor_bands
 from mgehl.discretization.status import CAVITATED, LUBRICATED
 from mgehl.solver.nested import first_guess
-from mgehl.solver.newton import EARLY, STALLS, Newton
-from mgehl.solver.partition import Partition
+from mgehl.solver.newton import STALLS, Newton
 from mgehl.solver.problem import ContactProblem
 from mgehl.solver.settings import NewtonSettings
-from mgehl.solver.verification import check_pressure_inequality, complementarity_error
 
 
 @pytest.fixture
@@ -217,113 +215,3 @@ def test_implicit_time_steps_end_in_the_steady_solution(solve, paper_contact, sp
     np.testing.assert_array_equal(implicit.state.status, steady.state.status)
     ways = ([cycle.residual for cycle in outcome.cycles] for outcome in (steady, implicit))
     assert next(ways)[1:3] != pytest.approx(next(ways)[1:3], rel=1e-3)
-
-
-class TestArbitrationOnEq2:
-    """Coarse grids settle with contact nodes that the fluid beside them would pry open."""
-
-    @pytest.fixture
-    def plain(self, solve, paper_contact):
-        """65 nodes at 0.12 m/s as they settle first: 28 of 42 contact nodes break Eq. 2."""
-        return solve(paper_contact(0.12), 65, newton={"release_budget": 0})
-
-    def broken(self, solution):
-        """How many contact nodes violate Eq. 2."""
-        state = solution.outcome.state
-        return len(check_pressure_inequality(solution.problem.grid, state.P, state.status).violations)
-
-    def assert_settled(self, solution):
-        problem, outcome = solution.problem, solution.outcome
-        state = problem.state(outcome.state.P, outcome.state.H0, outcome.state.status)
-        assert outcome.converged and outcome.reason == "residual, load and sets settled"
-        assert problem.rms(problem.residual(state, problem.inflow(state))) <= 1e-8
-        assert abs(problem.load_deficit(state.P)) <= 1e-8
-        assert complementarity_error(problem, state) <= 1e-8
-        assert outcome.contradictions == []
-
-    def assert_same(self, solution, other):
-        state, other = solution.outcome.state, other.outcome.state
-        np.testing.assert_array_equal(state.status, other.status)
-        np.testing.assert_allclose(state.P, other.P, rtol=0.0, atol=1e-12)
-        assert state.H0 == pytest.approx(other.H0, rel=1e-12)
-
-    def released(self, solution):
-        return sum(cycle.changes.released for cycle in solution.outcome.cycles)
-
-    def test_of_two_settled_states_the_one_with_fewer_violations_is_kept(self, solve, paper_contact):
-        """129 nodes at 60 mm/s: 40 of 64 contact nodes are let go, and fewer close again."""
-        plain = solve(paper_contact(0.06), 129, newton={"release_budget": 0})
-        tried = solve(paper_contact(0.06), 129)
-        self.assert_settled(plain)
-        self.assert_settled(tried)
-        assert 0 < self.broken(tried) < self.broken(plain)
-        assert self.released(tried) >= self.released(plain) + self.broken(plain)
-
-    def test_what_cannot_be_improved_stays_as_it_settled(self, solve, paper_contact, plain):
-        """Everything that is let go closes again."""
-        tried = solve(paper_contact(0.12), 65)
-        self.assert_settled(tried)
-        self.assert_same(tried, plain)
-        assert self.released(tried) >= self.broken(plain) > 0
-        # It gives up in the step in which the last of them does; the history ends with the answer.
-        *trial, last = tried.outcome.cycles[len(plain.outcome.cycles) :]
-        entered = [cycle.changes.entered for cycle in trial]
-        assert last.residual <= 1e-8 and last.contact_nodes == plain.outcome.cycles[-1].contact_nodes
-        assert sum(entered[:-1]) < self.broken(plain) <= sum(entered)
-
-    def test_running_out_of_steps_while_trying_is_no_failure(self, solve, paper_contact, plain):
-        """The settled state is in hand when the last step is reached."""
-        last = plain.finest_steps + 1
-        tried = solve(paper_contact(0.12), 65, newton={"max_steps": last})
-        assert tried.finest_steps == last + 1  # the answer itself is the last line
-        self.assert_settled(tried)
-        self.assert_same(tried, plain)
-
-    @pytest.mark.parametrize("fault", ["singular", "too few iterations"])
-    def test_a_system_without_solution_while_trying_is_no_failure(
-        self, solve, paper_contact, plain, monkeypatch, fault
-    ):
-        """The first one after the release ends it."""
-
-        def release(partition, state):
-            released = release_violations(partition, state)
-            if released and fault == "singular":
-                monkeypatch.setattr("mgehl.discretization.bands.build_bands", build_singular)
-            elif released:
-                monkeypatch.setattr(Newton, "_correct", correct_little)
-            return released
-
-        def build_singular(A, B, distributive, kappa, share, bands):
-            build_bands(A, B, distributive, kappa, share, bands)
-            bands[30, 20] = 0.0
-
-        def correct_little(newton, snes, *arguments):
-            snes.getKSP().setTolerances(max_it=1)
-            return correct(newton, snes, *arguments)
-
-        release_violations, correct = Partition.release_violations, Newton._correct
-        monkeypatch.setattr(Partition, "release_violations", release)
-        tried = solve(paper_contact(0.12), 65)
-        assert tried.finest_steps == plain.finest_steps + 1  # the answer itself is the last line
-        self.assert_settled(tried)
-        self.assert_same(tried, plain)
-
-    def test_a_film_without_contact_has_nothing_to_try(self, solve, paper_contact):
-        tried = solve(paper_contact(), 65)
-        plain = solve(paper_contact(), 65, newton={"release_budget": 0})
-        assert self.broken(tried) == self.released(tried) == 0
-        assert tried.finest_steps == plain.finest_steps
-        self.assert_same(tried, plain)
-
-    def test_full_contact_meets_eq_2_in_a_second_state(self, solve, paper_contact):
-        """129 nodes at 0.5 mm/s: two nodes are let go, and what settles without them breaks nothing.
-
-        The fluid is solved apart: they are let go as soon as the sets rest, not after the last digit.
-        """
-        solution = solve(paper_contact(5e-4), 129, start="contact")
-        self.assert_settled(solution)
-        assert self.broken(solution) == 0
-        cycles = solution.outcome.cycles
-        (release,) = [step for step, cycle in enumerate(cycles) if cycle.changes.released == 2]
-        assert 1e-8 < cycles[release - 1].residual <= EARLY
-        assert cycles[-1].contact_nodes == cycles[release - 1].contact_nodes - 2
