@@ -156,7 +156,7 @@ class SolverSection:
         low=0.0, high=1e6,
     )  # fmt: skip
     release_budget: int = key_field(
-        2, "times a contact node may be released on Eq. 2 after convergence", low=0, high=100, kind=int
+        2, "times a contact node may be released on Eq. 2", low=0, high=100, kind=int
     )
 
 

@@ -1,4 +1,4 @@
-"""Numbers on the page of results stand in tables that a study wrote."""
+"""Numbers on the page of results stand in the tables that are linked beside them."""
 
 import csv
 import re
@@ -8,28 +8,44 @@ import pytest
 
 RUNS = Path(__file__).parents[1] / "runs"
 PAGE = RUNS / "README.md"
-QUOTED = re.compile(r"`([-+]?\d[\d.]*(?:e[-+]?\d+)?)`")
+NUMBER = r"[-+]?\d[\d.]*(?:e[-+]?\d+)?"
+QUOTED = re.compile(rf"`({NUMBER})`")
+LINK = re.compile(r"\]\((tables/[^)]+)\)")
 
 
-@pytest.fixture(scope="module")
-def cells():
-    """Every number of every table, as it is written there."""
-    texts = set()
-    for table in (RUNS / "tables").glob("*.csv"):
-        with table.open() as file:
-            for row in csv.reader(file):
-                for cell in row:
-                    texts.update(re.findall(r"[-+]?\d[\d.]*(?:e[-+]?\d+)?", cell))
-    return texts
+def passages(text):
+    """Rows of tables, bullets and paragraphs: what is read in one go."""
+    return [part for part in re.split(r"\n(?=\||- )|\n\n", text) if QUOTED.search(part)]
 
 
-def test_every_number_quoted_is_in_a_table(cells):
-    quoted = QUOTED.findall(PAGE.read_text())
-    assert len(quoted) > 20
-    assert [number for number in quoted if number not in cells] == []
+def tables(passage):
+    """The CSV files that a passage links to, a picture's being those of its study."""
+    found = set()
+    for link in LINK.findall(passage):
+        path = RUNS / link
+        stem = re.sub(r"-(films|figure-\d+\w?|figures-\d+-\d+)$", "", path.stem)
+        own = path.with_suffix(".csv")
+        found |= {own} if own.exists() else set(path.parent.glob(f"{stem}*.csv"))
+    return sorted(found)
+
+
+def numbers(path):
+    """Every number of a table, as it is written there."""
+    with path.open() as file:
+        return {text for row in csv.reader(file) for cell in row for text in re.findall(NUMBER, cell)}
+
+
+@pytest.mark.parametrize("passage", passages(PAGE.read_text()), ids=lambda text: text[:40].strip("|- "))
+def test_every_number_quoted_is_in_a_table_linked_beside_it(passage):
+    known = set().union(*(numbers(path) for path in tables(passage)))
+    assert [number for number in QUOTED.findall(passage) if number not in known] == []
+
+
+def test_the_page_quotes_numbers():
+    assert len(QUOTED.findall(PAGE.read_text())) > 20
 
 
 def test_every_file_linked_is_there():
-    links = re.findall(r"\]\((tables/[^)]+)\)", PAGE.read_text())
+    links = LINK.findall(PAGE.read_text())
     assert len(links) > 5
     assert [link for link in links if not (RUNS / link).exists()] == []

@@ -2,7 +2,7 @@
 
 cavitated  enters when P < 0, leaves when fluid flows in
 contact    enters when H <= H_th, leaves when P < 0 (always) or when its P is below the fluid
-           pressure beside it [Liu eq. 2] (after convergence, and a finite number of times)
+           pressure beside it [Liu eq. 2] (when the sets have settled, a finite number of times)
 """
 
 from dataclasses import dataclass
@@ -162,7 +162,6 @@ class Partition:
         self.past.budget[released] -= 1
         state.status[released] = LUBRICATED
         state.P[released] = beside[released]
-        self.past.just_released = released
         self.past.was_released |= released
         self.past.turns[:] = 0
         return self._grid.count(released)

@@ -1,4 +1,4 @@
-"""Films by three means of the mobility: they bracket the answer, and close on it with the grid."""
+"""Films by three means of the mobility: what the mobility's error makes of them, grid by grid."""
 
 from mgehl.studies.branch import Branches
 from mgehl.studies.study import merged
@@ -71,14 +71,15 @@ def _agreement(rows, grid):
     ]
     row = {"grid": grid, "speed mm/s": speed, "means": str(len(own))}
     for film in ("central", "minimum"):
-        heights = [float(each[f"{film} nm"]) for each in own]
-        spread = (
-            (max(heights) - min(heights)) / (0.5 * (max(heights) + min(heights)))
-            if max(heights, default=0.0) > 0.0
-            else float("nan")
-        )
-        row[f"{film} spread"] = f"{100 * spread:.1f} %"
-    row["agree to 5 %"] = (
-        "yes" if len(own) == len(MEANS) and float(row["central spread"][:-2]) <= 100 * AGREEMENT else "no"
-    )
+        apart = _spread([float(each[f"{film} nm"]) for each in own])
+        agree = len(own) == len(MEANS) and apart <= AGREEMENT
+        row[f"{film} spread"] = f"{100 * apart:.1f} %"
+        row[f"{film} agrees to 5 %"] = "yes" if agree else "no"
     return row
+
+
+def _spread(heights):
+    """Largest less smallest over their middle, NaN without a film."""
+    if not heights or max(heights) <= 0.0:
+        return float("nan")
+    return 2.0 * (max(heights) - min(heights)) / (max(heights) + min(heights))

@@ -46,6 +46,8 @@ class Point:
     H0: float
     sweep: tuple
     """e^p, e^p lubr. and e^p solid of one sweep of the paper's relaxation from here  [Liu eq. 45]."""
+    obstacle: str
+    """Why it could not be reached the way that was tried first; empty where it could."""
 
     def shared(self):
         """What every rank knows."""
@@ -138,9 +140,13 @@ class Branches:
             _, problem, outcome = tried[0]
             origin = "none"
         # Why the branch could not be followed belongs to the point.
-        outcome.contradictions = tried[0][-1].contradictions
+        first = tried[0][-1]
+        outcome.contradictions = first.contradictions
+        obstacle = "" if first.converged else first.reason
         work = Work(self._grids.convolutions - before, len(outcome.cycles) - 1)
-        return self._finished(branch, speed, origin, problem, outcome, work, started)
+        result, errors = self._judged(problem, outcome, work, time.perf_counter() - started)
+        fields = Fields(outcome.state.P, outcome.state.H, outcome.state.status).gathered(problem.grid)
+        return Point(speed, branch, origin, result, fields, outcome.state.H0, errors, obstacle)
 
     def _ways(self, branch, speed, last, beside, jump, arithmetic):
         """(Name, function) of what may lead to a point, the best first."""
@@ -162,17 +168,13 @@ class Branches:
             return self._continuation.at(speed, self._state(point))
         return self._continuation.follow(self._state(point), point.speed, speed)
 
-    def _finished(self, branch, speed, origin, problem, outcome, work, started):
-        """The `Point` of what was found."""
-        wall = time.perf_counter() - started
-        tolerance = self._settings.newton.tolerance
-        result = summarise(problem, outcome, tolerance, work, wall, versions())
-        state = outcome.state
-        fields = Fields(state.P, state.H, state.status).gathered(problem.grid)
-        once = RelaxationSettings(max_sweeps=0, film_threshold=self._settings.newton.film_threshold)
-        sweep = relax(problem, state.copy(), once, lambda cycle: None).cycles[-1]
-        errors = (sweep.e_p, sweep.e_p_fluid, sweep.e_p_solid)
-        return Point(speed, branch, origin, result, fields, state.H0, errors)
+    def _judged(self, problem, outcome, work, wall):
+        """What was found, and by how much a sweep of the paper's relaxation would change it."""
+        newton = self._settings.newton
+        result = summarise(problem, outcome, newton.tolerance, work, wall, versions())
+        once = RelaxationSettings(max_sweeps=0, film_threshold=newton.film_threshold)
+        sweep = relax(problem, outcome.state.copy(), once, lambda cycle: None).cycles[-1]
+        return result, (sweep.e_p, sweep.e_p_fluid, sweep.e_p_solid)
 
     def _state(self, point):
         """The local part of a point's state."""

@@ -4,6 +4,7 @@ import hashlib
 import json
 import os
 import pickle
+from functools import cache
 from pathlib import Path
 
 from mgehl.errors import OutputError
@@ -12,14 +13,29 @@ from mgehl.version import VERSION
 
 FOLDER = "points"
 
+COMPUTING = ("model", "discretization", "grid", "multigrid", "solver", "run.py", "output/result.py",
+             "studies/branch.py")  # fmt: skip
+"""Layers and modules that make a point: one that other code made is computed anew."""
+
 CHECKSUM = hashlib.sha256().digest_size
 """Bytes before a point's own, by which a damaged one is known."""
 
 
 def key_of(description):
-    """Name of a point: a hash of everything its answer depends on, as plain data."""
-    text = json.dumps([VERSION, description], sort_keys=True, default=str)
+    """Name of a point: a hash of everything its answer depends on, as plain data, and of the code."""
+    text = json.dumps([VERSION, code(), description], sort_keys=True, default=str)
     return hashlib.sha256(text.encode()).hexdigest()[:24]
+
+
+@cache
+def code():
+    """A hash of what is `COMPUTING`."""
+    root, digest = Path(__file__).parents[1], hashlib.sha256()
+    for name in COMPUTING:
+        path = root / name
+        for module in sorted(path.glob("*.py")) if path.is_dir() else [path]:
+            digest.update(module.read_bytes())
+    return digest.hexdigest()
 
 
 class PointCache:

@@ -7,7 +7,7 @@ import numpy as np
 
 from mgehl.discretization.status import CONTACT
 from mgehl.model.hertz import hertz_pressure
-from mgehl.studies.study import merged, observed_order, richardson
+from mgehl.studies.study import merged, observed_order, plausible, richardson
 
 NODES = (257, 513, 1025)
 CONTACT_SPEED, FILM_SPEED = 5e-6, 7.5e-3
@@ -88,16 +88,14 @@ def _film_rows(solutions):
     for k, solution in enumerate(solutions):
         result = solution.result
         found = [each.result for each in solutions[max(0, k - 2) : k + 1]]
-        films = [(each.central_film_nm, each.minimum_film_nm) for each in found]
-        limits = [richardson(film) if k > 1 else (float("nan"),) * 2 for film in zip(*films, strict=True)]
         rows.append(
             _common(solution)
             | {
                 "central nm": f"{result.central_film_nm:.4f}",
                 "minimum nm": f"{result.minimum_film_nm:.4f}",
                 "contact nodes": str(result.contact.nodes),
-                "central: limit, order": _limit(limits[0]),
-                "minimum: limit, order": _limit(limits[1]),
+                "central: limit, order": _limit(found, "central_film_nm"),
+                "minimum: limit, order": _limit(found, "minimum_film_nm"),
             }
         )
     return rows
@@ -125,9 +123,12 @@ def _before_contact(profile):
     return profile.P[0][contact[0] - 1] if len(contact) else float("nan")
 
 
-def _limit(limit):
-    value, order = limit
-    return "" if np.isnan(value) else f"{value:.3f}, {order:.2f}"
+def _limit(found, film):
+    """Richardson's limit and order from three grids, if all have a full film and the order is one."""
+    if len(found) < 3 or any(each.contact.nodes for each in found):
+        return ""
+    value, order = richardson([getattr(each, film) for each in found])
+    return f"{value:.3f}, {order:.2f}" if plausible(order) else "not to be told yet"
 
 
 def _span(ends):

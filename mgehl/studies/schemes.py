@@ -6,12 +6,10 @@ listed, and limits are taken of the film with the saw-tooth averaged out.
 """
 
 from mgehl.discretization.couette import SCHEMES
-from mgehl.studies.study import merged, richardson
+from mgehl.studies.study import merged, plausible, richardson
 
 NODES = (65, 129, 257, 513)
 BASE = {"motion": {"speed": 1.0}}
-PLAUSIBLE_ORDERS = (0.5, 3.0)
-"""Outside of these the films are not near enough to their limit to tell it."""
 
 
 def run(study):
@@ -71,7 +69,6 @@ def _limit_row(couette, like, films):
     texts = []
     for values in zip(*films, strict=True):
         limit, order = richardson(values)
-        plausible = PLAUSIBLE_ORDERS[0] <= order <= PLAUSIBLE_ORDERS[1]
-        texts.append(f"{limit:.2f} (order {order:.1f})" if plausible else "not to be told yet")
+        texts.append(f"{limit:.2f} (order {order:.1f})" if plausible(order) else "not to be told yet")
     empty = dict.fromkeys(like, "") | {"couette": couette, "nodes": "limit"}
     return empty | {"central averaged nm": texts[0], "minimum nm": texts[1]}

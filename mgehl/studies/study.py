@@ -15,6 +15,9 @@ from mgehl.output.table import markdown, write_csv
 from mgehl.run import solve
 from mgehl.studies.cache import PointCache, key_of
 
+PLAUSIBLE_ORDERS = (0.5, 3.0)
+"""Outside of these, values are not near enough to their limit to tell it."""
+
 
 @dataclass
 class Study:
@@ -133,3 +136,8 @@ def richardson(values):
         return float("nan"), float("nan")
     ratio = first / second
     return fine + second / (ratio - 1.0), log2(ratio)
+
+
+def plausible(order):
+    """True of an observed order that a second-order code may have on its way to the limit."""
+    return PLAUSIBLE_ORDERS[0] <= order <= PLAUSIBLE_ORDERS[1]

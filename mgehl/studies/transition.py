@@ -80,6 +80,7 @@ def row(branches, point):
         "load on fluid": f"{1.0 - contact.load_fraction:.4f}",
         "Eq. 2 broken": f"{inequality.violations} of {inequality.checked}",
         "by at most p_h": f"{inequality.worst:.1e}",
+        "not continued because": point.obstacle,
         "nodes that can be neither": str(len(result.contradictions)),
         "inlet cells": f"{cells.inlet_cells:.2f}",
         "grid verdict": cells.verdict,

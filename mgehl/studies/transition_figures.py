@@ -136,21 +136,31 @@ def _band(rows, film):
     return speeds, [min(found[each]) for each in speeds], [max(found[each]) for each in speeds]
 
 
-def onset(path, rows, powers):
-    """The critical speeds against the spacing, with the fitted powers."""
+def onset(path, rows, sides, powers):
+    """The critical speeds against the spacing, with the fitted powers; a band for where the sides lie."""
     with applied():
         figure, axes = subplots(size=(5.6, 4.2))
-        for (column, power), colour, mark in zip(powers.items(), COLOURS, MARKS, strict=False):
-            own = [row for row in rows if row[column]]
-            dX = [float(row["dX"]) for row in own]
-            speed = [float(row[column]) for row in own]
+        grids = list(dict.fromkeys(row["dX"] for row in sides))
+        (down, _), *_ = powers.items()
+        ends = [_ends([float(row[down]) for row in sides if row["dX"] == dX and row[down]]) for dX in grids]
+        axes.fill_between([float(dX) for dX in grids], *zip(*ends, strict=True), color="0.85", zorder=0,
+                          label="wherever the side cuts a cell")  # fmt: skip
+        for (column, power), colour, mark in zip(list(powers.items())[:2], COLOURS, MARKS, strict=False):
+            found = [row for row in rows if row[column]]
+            dX = [float(row["dX"]) for row in found]
+            speed = [float(row[column]) for row in found]
             axes.plot(dX, speed, mark, color=colour, label=f"{column}: power {power:.2f}")
-            if len(own) > 1:
+            if len(found) > 1:
                 axes.plot(dX, speed[-1] * (np.array(dX) / dX[-1]) ** power, "--", color=colour, lw=0.9)
         axes.set(xscale="log", yscale="log", xlabel="spacing dX", ylabel="speed, mm/s")
         axes.legend(frameon=False)
         axes.set_title("The grid decides: critical speeds against the spacing")
         save(figure, path)
+
+
+def _ends(values):
+    """(smallest, largest), NaN of none."""
+    return (min(values), max(values)) if values else (np.nan, np.nan)
 
 
 def _between_film_and_contact(points):

@@ -179,14 +179,6 @@ class TestPressureInequality:
         state.status[2, 2], state.P[2, 2] = CONTACT, 0.1
         assert partition.release_violations(state) == 1
 
-    def test_a_released_node_is_not_put_back_at_once(self, make_partition, state):
-        partition, changes = make_partition(), Changes()
-        state.status[NODE], state.P[NODE], state.H[NODE] = CONTACT, 0.1, 0.0
-        assert partition.release_violations(state) == 1
-        partition.enter_contact(state, changes)
-        assert state.status[NODE] == LUBRICATED
-        only(changes)
-
     @pytest.mark.parametrize("beside", [(4, 3), (4, 5), (3, 4), (5, 4)], ids=["W", "E", "S", "N"])
     def test_violations_are_named_with_the_pressure_beside_and_nothing_is_changed(
         self, make_partition, state, beside

@@ -49,5 +49,7 @@ def test_it_finds_the_solved_fluid_again(dry, fluid):
     separable = fluid.separable(state, split_flow(dry.problem, state, dry.problem.inflow(state)))
     film = separable & (state.status == LUBRICATED)
     state.P[film] *= 0.5
-    fluid.solve(state, 1e-10)
-    np.testing.assert_allclose(state.P, solved.P, rtol=0.0, atol=1e-6)
+    fluid.solve(state, 1e-12)
+    largest = solved.P[film].max()
+    np.testing.assert_allclose(state.P[film], solved.P[film], rtol=0.0, atol=1e-3 * largest)
+    np.testing.assert_array_equal(state.P[~film], solved.P[~film])

@@ -7,6 +7,7 @@ import subprocess
 import sys
 import time
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -14,7 +15,7 @@ from mpi4py import MPI
 
 from mgehl.cli import main
 from mgehl.discretization.status import CONTACT
-from mgehl.studies import bracket, onset, transition
+from mgehl.studies import bracket, grid, onset, transition
 from mgehl.studies.branch import Branches, film_at
 from mgehl.studies.study import Study
 
@@ -70,6 +71,7 @@ class TestJump:
         with Branches(study, transition.case(129)) as branches:
             film, contact = branches.walk("down", [0.1, 0.008])
         assert film.origin == "start" and film.result.central_film_nm > 70.0
+        assert film.obstacle == "" and contact.obstacle != ""  # why it ended, kept with the point
         assert contact.origin == "other start" and contact.result.contact.area_fraction > 0.95
         assert contact.result.settled
 
@@ -192,17 +194,29 @@ class TestStudies:
     def test_the_means_close_with_the_grid(self, tmp_path, monkeypatch):
         monkeypatch.setattr(bracket, "MEANS", ("arithmetic", "geometric"))
         assert run(tmp_path / "b", "bracket", "--nodes", "65,129") == 0
-        spread = [float(row["central spread"][:-2]) for row in read(tmp_path / "b" / "agreement.csv")]
+        rows = read(tmp_path / "b" / "agreement.csv")
+        spread = [float(row["central spread"][:-2]) for row in rows]
         assert spread[1] < 0.6 * spread[0]
+        for row in rows:
+            for film in ("central", "minimum"):
+                close = float(row[f"{film} spread"][:-2]) <= 5.0
+                assert row[f"{film} agrees to 5 %"] == ("yes" if close else "no")
 
     def test_onset(self, tmp_path, monkeypatch):
         monkeypatch.setattr(onset, "PRECISION", 0.3)
+        monkeypatch.setattr(onset, "BEYOND", (1 / 3, 2 / 3))
         assert run(tmp_path / "o", "onset", "--nodes", "65") == 0
         (row,) = read(tmp_path / "o" / "onset.csv")
         for column in (onset.DOWN, onset.UP):
             low, high = (float(each) for each in row[f"{column}: between"].split(" and "))
             assert low < float(row[column]) < high <= 1.301 * low
+        assert row[f"{onset.DOWN}: found there"].startswith("contact at ")
         assert float(row["inlet cells there"]) < 2.5
+        own, other = read(tmp_path / "o" / "sides.csv")
+        assert own[onset.DOWN] == row[onset.DOWN]  # the side of 65 nodes lies a third beyond a line
+        assert float(other[onset.DOWN]) > 1.1 * float(own[onset.DOWN])
+        _, Y = (float(each) for each in own["first contact at"].split(", "))
+        assert 1.0 - 2.0 * 3.0 / 64 < Y < 1.0
 
     def test_grid(self, tmp_path):
         assert run(tmp_path / "g", "grid", "--nodes", "65,129") == 0
@@ -210,7 +224,36 @@ class TestStudies:
         assert all(row["settled"] == "yes" and row["Eq. 2 broken"].startswith("0 ") for row in rows)
         assert float(rows[1]["order"]) > 1.0
         assert len(read(tmp_path / "g" / "film.csv")) == 2
+        assert {row["central: limit, order"] for row in read(tmp_path / "g" / "film.csv")} == {""}
         assert {"figures-11-12.png", "figure-13.png"} <= {path.name for path in (tmp_path / "g").iterdir()}
+
+
+@pytest.mark.parametrize("nodes, own", [(65, 1 / 3), (129, 2 / 3), (257, 1 / 3), (513, 2 / 3)])
+def test_grids_whose_lines_lie_anywhere_beside_the_side(nodes, own):
+    assert onset.across(nodes, own) == (-1.5, 1.5)
+    for beyond in (0.1, 0.25, 0.5, 0.75, 0.9):
+        low, high = onset.across(nodes, beyond)
+        # Half a cell in the half-width of 1 more or less.
+        assert low == -high and high == pytest.approx(1.5, rel=1.6 / (nodes - 1))
+        assert (0.5 * (nodes - 1) / high) % 1.0 == pytest.approx(beyond, abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("films", "contact", "text"),
+    [
+        ((9.0, 8.25, 8.0625), (0, 0, 0), "8.000, 2.00"),
+        ((9.0, 8.25, 8.0625), (5, 0, 0), ""),
+        ((12.4364, 12.0798, 11.77), (0, 0, 0), "not to be told yet"),
+        ((9.0, 8.25), (0, 0), ""),
+    ],
+    ids=["second order", "contact on the first", "order 0.2", "two grids"],
+)
+def test_a_limit_is_that_of_three_full_films(films, contact, text):
+    found = [
+        SimpleNamespace(film=film, contact=SimpleNamespace(nodes=nodes))
+        for film, nodes in zip(films, contact, strict=True)
+    ]
+    assert grid._limit(found, "film") == text
 
 
 def test_the_power_of_made_up_critical_speeds():

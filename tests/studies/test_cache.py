@@ -1,6 +1,7 @@
 """Finished points on disk: whole, or not at all."""
 
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -152,6 +153,44 @@ class TestKeys:
         key = key_of(DESCRIPTION)
         monkeypatch.setattr(cache_module, "VERSION", "0.0.0")
         assert key_of(DESCRIPTION) != key
+
+
+class TestCode:
+    """What other code found is no point of this one."""
+
+    @pytest.fixture
+    def package(self, tmp_path, monkeypatch):
+        root = tmp_path / "mgehl"
+        for name in cache_module.COMPUTING:
+            path = root / name
+            if path.suffix != ".py":
+                path = path / "module.py"
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text("x = 1\n")
+        monkeypatch.setattr(cache_module, "__file__", str(root / "studies" / "cache.py"))
+        return root
+
+    def key(self):
+        cache_module.code.cache_clear()
+        return key_of(DESCRIPTION)
+
+    def test_a_change_of_any_module_that_computes_is_another_key(self, package):
+        keys = {self.key()}
+        for module in sorted(package.rglob("*.py")):
+            module.write_text("x = 2\n")
+            keys.add(self.key())
+        assert len(keys) == 1 + len(cache_module.COMPUTING)
+        cache_module.code.cache_clear()
+
+    def test_pictures_do_not_count(self, package):
+        before = self.key()
+        (package / "studies" / "figures.py").write_text("x = 1\n")
+        assert self.key() == before
+        cache_module.code.cache_clear()
+
+    def test_all_of_it_is_there(self):
+        root = Path(cache_module.__file__).parents[1]
+        assert all((root / name).exists() for name in cache_module.COMPUTING)
 
 
 class TestPlacesThatCannotBeWritten:
