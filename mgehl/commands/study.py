@@ -19,7 +19,7 @@ STUDIES = {
     "transition": "from full film to full contact and back, Figure 14 and Table 1",
     "grid": "full contact and full film on ever finer grids, Figures 11 to 13",
     "onset": "the speeds at which contact appears and full contact is lost, against the grid",
-    "bracket": "films by three means of the mobility, which close on the answer with the grid",
+    "bracket": "films by three means of the mobility, grid by grid",
     "schemes": "films of the point contact by every differential scheme",
 }
 
