@@ -14,7 +14,7 @@ from mgehl.version import VERSION
 FOLDER = "points"
 
 COMPUTING = ("model", "discretization", "grid", "multigrid", "solver", "run.py", "output/result.py",
-             "studies/branch.py")  # fmt: skip
+             "output/solution.py", "studies/branch.py")  # fmt: skip
 """Layers and modules that make a point: one that other code made is computed anew."""
 
 CHECKSUM = hashlib.sha256().digest_size

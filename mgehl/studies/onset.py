@@ -43,11 +43,13 @@ def run(study):
     sides = [_side_row(study, n, beyond) for beyond in BEYOND for n in nodes]
     study.write_table("sides", sides)
     powers = {column: power(rows, column) for column in (DOWN, UP)}
-    for beyond in BEYOND:
-        name = f"{DOWN}, side {beyond:.2f} cells beyond a line"
-        powers[name] = power(_of_side(sides, beyond), DOWN)
+    at_one_place = {
+        f"{DOWN}, side {beyond:.2f} cells beyond a line": power(_of_side(sides, beyond), DOWN)
+        for beyond in BEYOND
+    }
     study.write_table(
-        "onset-powers", [{"speed": name, "power of dX": f"{p:.2f}"} for name, p in powers.items()]
+        "onset-powers",
+        [{"speed": name, "power of dX": f"{p:.2f}"} for name, p in (powers | at_one_place).items()],
     )
     from mgehl.studies import transition_figures as figures
 

@@ -137,15 +137,15 @@ def _band(rows, film):
 
 
 def onset(path, rows, sides, powers):
-    """The critical speeds against the spacing, with the fitted powers; a band for where the sides lie."""
+    """Critical speeds against the spacing, with the fitted powers; the first one's band over `sides`."""
     with applied():
         figure, axes = subplots(size=(5.6, 4.2))
         grids = list(dict.fromkeys(row["dX"] for row in sides))
-        (down, _), *_ = powers.items()
+        down, _ = powers
         ends = [_ends([float(row[down]) for row in sides if row["dX"] == dX and row[down]]) for dX in grids]
         axes.fill_between([float(dX) for dX in grids], *zip(*ends, strict=True), color="0.85", zorder=0,
                           label="wherever the side cuts a cell")  # fmt: skip
-        for (column, power), colour, mark in zip(list(powers.items())[:2], COLOURS, MARKS, strict=False):
+        for (column, power), colour, mark in zip(powers.items(), COLOURS, MARKS, strict=False):
             found = [row for row in rows if row[column]]
             dX = [float(row["dX"]) for row in found]
             speed = [float(row[column]) for row in found]
