@@ -3,22 +3,20 @@
 import numpy as np
 
 from mgehl.discretization.kernels import REACH, build_bands, factor_bands, solve_bands
-from mgehl.discretization.residual import WW, C, E, W
-from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT
+from mgehl.discretization.rows import GAP, PRESSURE
 
 STIFF = 0.3
 """A node is distributive where its mobility/dX is below this part of its own influence."""
 
 REACH_OF_STENCIL = 2
-"""What a stencil couples along its line: two nodes upstream."""
+"""What a stencil couples along its line: two nodes upstream, one downstream."""
 
 
-def given_nodes(status):
-    """Nodes whose pressure is given: boundary and cavitated; shape as `status`."""
-    return (status == BOUNDARY) | (status == CAVITATED)
+LINES_BESIDE = 2
+"""Lines on each side that a stencil couples a line to."""
 
 
-def distributive_nodes(eps, status, dX, K00):
+def distributive_nodes(eps, rows, dX, K00):
     """Where corrections are distributed: contact and weak Poiseuille flow; all (lines, nx).
 
     What such a node would hand to a given one is dropped. (Keeping the correction of a node
@@ -26,21 +24,21 @@ def distributive_nodes(eps, status, dX, K00):
     amplifies: twice the iterations at 513 nodes, and more on finer grids.)
     """
     stiff = eps < STIFF * K00 * dX
-    return (stiff | (status == CONTACT)) & ~given_nodes(status)
+    return (stiff | (rows == GAP)) & (rows != PRESSURE)
 
 
 def influence_of_columns(K, share):
     """Table kappa[d, l, k]: deflection k nodes along and l lines beside a column of Q.
 
     d = 0 is a single unit pressure, d = 1 the distributed one (1, and -`share` at its neighbours).
-    `K` holds influence coefficients [l, k] for l <= 2, k <= REACH + 1. Beyond REACH the table keeps
-    its last value: the rows of a band difference it, and one that fell to zero would leave them
+    `K` holds influence coefficients [l, k] for l <= LINES_BESIDE + 1, k <= REACH + 1. Beyond REACH the
+    table keeps its last value: the rows of a band difference it, and one that fell to zero would leave them
     with a sum. That acts as a source along the line, whose solution grows as exp(c nx): no
     convergence from 4097 nodes on for the logarithmic kernel of a line contact. (Rows of 2B reach one
     node further and keep a thousandth of their diagonal.)
     """
-    kappa = np.zeros((2, 2, REACH + 3))
-    for line in (0, 1):
+    kappa = np.zeros((2, LINES_BESIDE + 1, REACH + 3))
+    for line in range(LINES_BESIDE + 1):
         for k in range(REACH + 1):
             neighbours = K[line, abs(k - 1)] + K[line, k + 1] + K[abs(line - 1), k] + K[line + 1, k]
             kappa[:, line, k] = K[line, k], K[line, k] - share * neighbours
@@ -56,14 +54,16 @@ class LineBands:
 
     def factor(self, linearisation, distributive, kappa, share):
         """Build and factor the bands of J Q for the present linearisation."""
-        build_bands(linearisation.A, linearisation.B, distributive, kappa, share, self._factors)
+        lin = linearisation
+        build_bands(lin.offsets, lin.A, lin.B, distributive, kappa, share, self._factors)
         factor_bands(self._factors)
 
-    def factor_stencil(self, A):
-        """Factor what the stencil `A` of a rigid gap, (6, lines, nx), couples along the lines."""
-        for k, position in enumerate((WW, W, C, E)):
-            self._factors[:, :, k] = A[position]
-        self._factors[:, :, REACH_OF_STENCIL + 2 :] = 0.0
+    def factor_stencil(self, linearisation):
+        """Factor what the stencil A of a rigid gap couples along the lines."""
+        self._factors[:] = 0.0
+        for (beside, ahead), A in zip(linearisation.offsets, linearisation.A, strict=True):
+            if beside == 0:
+                self._factors[:, :, REACH_OF_STENCIL + ahead] = A
         factor_bands(self._factors)
 
     def solve(self, r, w):

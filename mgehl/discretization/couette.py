@@ -6,12 +6,13 @@ two sides, WW beyond W and EE beyond E. Value and linearisation come from the sa
 
 from dataclasses import dataclass
 
-from mgehl.discretization.status import CONTACT
+import numpy as np
 
 WW, W, E, EE = 0, 1, 2, 3
-"""Node positions relative to the face between W and E."""
+"""Node positions relative to the face between W and E, along whichever axis."""
 
-_SHIFT = {WW: -1, W: 0, E: 1, EE: 2}
+SHIFT = {WW: -1, W: 0, E: 1, EE: 2}
+"""How many nodes they lie beyond W."""
 
 
 @dataclass(frozen=True)
@@ -73,37 +74,37 @@ def nodes_of(terms):
     return {node for _, a, b in terms for node in (a, b)}
 
 
-def add_couette(flow, terms, near, fluid, status, motion=1):
-    """Add to `flow` through the x faces (lines, nx - 1) the Couette flow by `terms`.
+def add_couette(flow, terms, near, fluid, solid, axis):
+    """Add to `flow` through the faces along an axis the Couette flow by `terms`.
 
-    `fluid` is (lines, nx). With a `status` (lines, nx) the products `near` are used where a far
-    node is in contact; with None only where there is none. `motion` is its sign along X.
+    `fluid` and `solid` are ghosted. The products `near` are used where a far node is solid, or is not
+    there.
     """
     far = nodes_of(terms) & {WW, EE}
-    faces = flow.value.shape[1]
-    start, stop = int(WW in far), faces - int(EE in far)
-    _add_products(flow, near, fluid, 0, start, motion)
-    _add_products(flow, near, fluid, stop, faces, motion)
-    solid = False
-    if status is not None:
-        for node in far:
-            solid = solid | (status[:, start + _SHIFT[node] : stop + _SHIFT[node]] == CONTACT)
-    if solid is False or not solid.any():
-        _add_products(flow, terms, fluid, start, stop, motion)
+    faces = axis.faces(solid)
+    first, last = axis.reachable(solid, [SHIFT[node] for node in far])
+    _add_products(flow, near, fluid, axis, 0, first, axis.couette)
+    _add_products(flow, near, fluid, axis, last, faces, axis.couette)
+    blocked = [axis.at(solid, SHIFT[node], first, last) for node in sorted(far)]
+    if not any(each.any() for each in blocked):
+        _add_products(flow, terms, fluid, axis, first, last, axis.couette)
     else:
-        _add_products(flow, terms, fluid, start, stop, motion * ~solid)
-        _add_products(flow, near, fluid, start, stop, motion * solid)
+        beside = np.logical_or.reduce(blocked)
+        _add_products(flow, terms, fluid, axis, first, last, axis.couette * ~beside)
+        _add_products(flow, near, fluid, axis, first, last, axis.couette * beside)
 
 
-def _add_products(flow, terms, fluid, start, stop, weight):
-    """Add weight c rho_a H_b through the faces start..stop-1, with its derivatives if asked for."""
-    for c, a, b in terms if start < stop else ():
-        at_a = slice(start + _SHIFT[a], stop + _SHIFT[a])
-        at_b = slice(start + _SHIFT[b], stop + _SHIFT[b])
-        rho, H = fluid.rho[:, at_a], fluid.H[:, at_b]
+def _add_products(flow, terms, fluid, axis, first, last, weight):
+    """Add weight c rho_a H_b through the faces first ... last - 1, with its derivatives if asked for."""
+
+    def here(array):
+        return axis.of_faces(array, first, last)
+
+    for c, a, b in terms if first < last else ():
+        rho, H = axis.at(fluid.rho, SHIFT[a], first, last), axis.at(fluid.H, SHIFT[b], first, last)
         signed = c * weight
-        flow.value[:, start:stop] += signed * rho * H
+        here(flow.value)[:] += signed * rho * H
         if flow.by_P:
-            flow.by_P[a][:, start:stop] += signed * fluid.drho_dP[:, at_a] * H
+            here(flow.by_P[a])[:] += signed * axis.at(fluid.drho_dP, SHIFT[a], first, last) * H
         if flow.by_H:
-            flow.by_H[b][:, start:stop] += signed * rho
+            here(flow.by_H[b])[:] += signed * rho

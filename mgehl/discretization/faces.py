@@ -1,22 +1,21 @@
 """Flow through the faces of the control volumes, with its linearisation  [Liu eqs. 27-34].
 
-This is the only place where a flow is computed. Contact closes a face for both kinds of flow,
-which is the whole of the no-flow half of the interface conditions [Liu eq. 4].
+This is the only place where a flow is computed, along X and Y by the same lines. Contact closes a face
+for both kinds of flow, which is the whole of the no-flow half of the interface conditions [Liu eq. 4].
 """
 
 import numpy as np
 
-from mgehl.discretization.couette import SCHEMES, E, W, add_couette, nodes_of
+from mgehl.discretization.couette import SCHEMES, SHIFT, E, W, add_couette, nodes_of
 from mgehl.discretization.fluid import face_mean
-from mgehl.discretization.status import open_x_faces, open_y_faces
+from mgehl.discretization.status import WALL, is_solid, open_faces
 
 
 class Flow:
-    """A flow through faces and its derivatives by P and H at the `nodes` it depends on.
+    """A flow through the faces along an axis and its derivatives by P and H at the nodes it depends on.
 
     `by_P` and `by_H` map node positions (WW, W, E, EE) to arrays of the flow's shape; no nodes,
-    no derivatives, and none by H of a `rigid` gap. For faces between lines W stands for the line
-    before and E for the line after.
+    no derivatives, and none by H of a `rigid` gap.
     """
 
     def __init__(self, shape, nodes=(), rigid=False):
@@ -30,64 +29,63 @@ class Flow:
             array *= is_open
 
 
-def x_flows(fluid, status, mesh, scheme, linearised=False, rigid=False):
-    """Flows (leaving W, entering E) through the x faces of lines: rho H - eps dP/dX.
+def flows(fluid, status, axis, scheme, linearised=False, rigid=False):
+    """Flows (leaving W, entering E) through the faces along an axis: couette rho H - eps dP/distance.
 
-    `fluid` and `status` are (lines, nx), the flows (lines, nx - 1). Both are one object for a
-    conservative scheme. Derivatives only if they are to be `linearised`, by H unless `rigid`.
+    `fluid` and `status` are ghosted; the two are one object for a conservative scheme. Derivatives only
+    if they are to be `linearised`, by H unless `rigid`.
     """
     table, derivatives = SCHEMES[scheme.couette], (linearised, rigid)
-    leaving = _x_flow(fluid, status, mesh, scheme, table.leaving, table.near, *derivatives)
-    if table.conservative:
+    leaving = _flow(fluid, status, axis, scheme, table.leaving, table.near, *derivatives)
+    if table.conservative or not axis.couette:
         return leaving, leaving
-    return leaving, _x_flow(fluid, status, mesh, scheme, table.entering, table.near, *derivatives)
+    return leaving, _flow(fluid, status, axis, scheme, table.entering, table.near, *derivatives)
 
 
-def y_flows(fluid, status, mesh, scheme, linearised=False, rigid=False):
-    """Flow k_e^2 (-eps dP/dY) through the faces between consecutive lines, (lines - 1, nx)."""
-    lines, nx = status.shape
-    flow = Flow((lines - 1, nx), {W, E} if linearised else (), rigid)
-    _add_poiseuille(flow, fluid[:-1], fluid[1:], mesh.dY / mesh.k_e**2, scheme)
-    flow.close(open_y_faces(status))
-    return flow
-
-
-def _x_flow(fluid, status, mesh, scheme, terms, near, linearised, rigid):
-    """One flow through the x faces, its Couette part by `terms`."""
-    lines, nx = status.shape
-    nodes = {W, E} | nodes_of(terms) | nodes_of(near) if linearised else ()
-    flow = Flow((lines, nx - 1), nodes, rigid)
-    _add_poiseuille(flow, fluid[:, :-1], fluid[:, 1:], mesh.pressure_dX, scheme)
-    if scheme.couette_at_interface == "closed":
-        add_couette(flow, terms, near, fluid, status, scheme.motion)
-        flow.close(open_x_faces(status))
+def _flow(fluid, status, axis, scheme, terms, near, linearised, rigid):
+    """One flow, its Couette part by `terms`, beside what is solid by `near`."""
+    is_open = open_faces(status, axis)
+    nodes = {W, E}
+    if axis.couette:
+        nodes |= nodes_of(terms) | nodes_of(near)
+    flow = Flow(is_open.shape, nodes if linearised else (), rigid)
+    _add_poiseuille(flow, fluid, axis, scheme)
+    if not axis.couette:
+        flow.close(is_open)
+    elif scheme.couette_at_interface == "closed":
+        add_couette(flow, terms, near, fluid, is_solid(status), axis)
+        flow.close(is_open)
     else:
-        flow.close(open_x_faces(status))
-        add_couette(flow, terms, near, fluid, None, scheme.motion)
+        flow.close(is_open)
+        add_couette(flow, terms, near, fluid, status == WALL, axis)
     return flow
 
 
-def _add_poiseuille(flow, west, east, spacing, scheme):
-    """Add -eps (P_E - P_W)/spacing with eps the face's mean mobility  [Liu eqs. 7, 16, 30]."""
-    eps, by_west, by_east = face_mean(scheme, west.eps, east.eps)
-    gradient = (east.P - west.P) / spacing
+def _add_poiseuille(flow, fluid, axis, scheme):
+    """Add -eps (P_E - P_W)/distance with eps the face's mean mobility  [Liu eqs. 7, 16, 30]."""
+    (west, east), distance = (_on_side(fluid, axis, side) for side in (W, E)), axis.distance
+    eps, by_west, by_east = face_mean(scheme, west("eps"), east("eps"))
+    gradient = (east("P") - west("P")) / distance
     flow.value -= eps * gradient
     if flow.by_P:
-        conductance = eps / spacing
-        flow.by_P[W] += conductance - gradient * by_west * west.deps_dP
-        flow.by_P[E] -= conductance + gradient * by_east * east.deps_dP
+        conductance = eps / distance
+        flow.by_P[W] += conductance - gradient * by_west * west("deps_dP")
+        flow.by_P[E] -= conductance + gradient * by_east * east("deps_dP")
     if flow.by_H:
-        flow.by_H[W] -= gradient * by_west * west.deps_dH
-        flow.by_H[E] -= gradient * by_east * east.deps_dH
+        flow.by_H[W] -= gradient * by_west * west("deps_dH")
+        flow.by_H[E] -= gradient * by_east * east("deps_dH")
 
 
-def conductances(eps, status, mesh, scheme):
-    """Mobility of the x faces over dX^2 and of the y faces over dY^2, zero where closed.
+def _on_side(fluid, axis, side):
+    """A part of the fluid, by its name, at the nodes on one side of the faces."""
+    return lambda name: axis.at(getattr(fluid, name), SHIFT[side])
 
-    `eps` and `status` are ghosted; the results (lines, nx - 1) and (lines + 1, nx). With them the
-    Poiseuille flow into a node is a sum over its faces of conductance times pressure difference.
+
+def conductances(fluid, status, axis, scheme):
+    """Mobility of the faces along an axis over cell times distance, zero where closed.
+
+    With them the Poiseuille flow into a node is a sum over its faces of conductance times pressure
+    difference. `fluid` and `status` are ghosted.
     """
-    inner = eps[1:-1]
-    along = face_mean(scheme, inner[:, :-1], inner[:, 1:])[0] * open_x_faces(status[1:-1])
-    across = face_mean(scheme, eps[:-1], eps[1:])[0] * open_y_faces(status)
-    return along / (mesh.pressure_dX * mesh.dX), across * (mesh.k_e / mesh.dY) ** 2
+    eps = face_mean(scheme, axis.at(fluid.eps, SHIFT[W]), axis.at(fluid.eps, SHIFT[E]))[0]
+    return eps * open_faces(status, axis) / (axis.distance * axis.cell)

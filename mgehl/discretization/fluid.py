@@ -25,23 +25,21 @@ class Fluid:
         return Fluid(*(getattr(self, name)[part] for name in self.__dataclass_fields__))
 
 
-def fluid_state(P, H, contact, gap_floor=None):
+def fluid_state(P, H, contact, contact_law):
     """Evaluate the constitutive laws at nodes of pressure `P` and gap `H`.
 
-    `contact` gives the lubricant, the unit of P and lambda. H must be positive wherever the node
-    can exchange fluid; contact nodes may carry any H, their faces are closed. With a `gap_floor`
-    (the unified equations) the mobility is that of a gap not below it; the fluid carried along is
-    that of H, of whatever sign.
+    `contact` gives the lubricant, the unit of P and lambda; the `contact_law` the gap that the
+    Poiseuille flow sees. H must be positive wherever the node can exchange fluid; contact nodes may
+    carry any H, their faces are closed.
     """
     lubricant, p_h = contact.lubricant, contact.pressure_scale
     rho, drho_dP = lubricant.density_law.density(P, p_h)
     log_eta, dlog_eta_dP = lubricant.viscosity_law.log_viscosity(P, p_h)
     by_H3 = rho * np.exp(-log_eta) / contact.lambda_
-    open_gap = H if gap_floor is None else np.maximum(H, gap_floor)
-    by_H2 = by_H3 * open_gap * open_gap
-    eps = by_H2 * open_gap
-    deps_dH = 3.0 * by_H2 if gap_floor is None else 3.0 * by_H2 * (H > gap_floor)
-    return Fluid(P, H, rho, drho_dP, eps, eps * (drho_dP / rho - dlog_eta_dP), deps_dH)
+    gap, dgap_dH = contact_law.flow_gap(H)
+    by_H2 = by_H3 * gap * gap
+    eps = by_H2 * gap
+    return Fluid(P, H, rho, drho_dP, eps, eps * (drho_dP / rho - dlog_eta_dP), 3.0 * by_H2 * dgap_dH)
 
 
 def arithmetic_mean(a, b):

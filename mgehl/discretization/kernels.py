@@ -6,52 +6,38 @@ Each has a numpy twin in the tests that says the same thing slowly.
 import numpy as np
 from numba import njit
 
-from mgehl.discretization.residual import WW, C, E, N, S, W
+from mgehl.discretization.axes import HALO
 
 REACH = 5
 """Neighbours on each side that a line's band couples where the gap is elastic."""
 
 
 @njit(cache=True, fastmath={"contract"})
-def apply_jacobian(A, B, dP, dH, dH0, out):
-    """out = A dP + B (dH + dH0); stencils (6, lines, nx), `dP` and `dH` ghosted."""
+def apply_jacobian(offsets, A, B, dP, dH, dH0, out):
+    """out = A dP + B (dH + dH0); stencils (offsets, lines, nx), `dP` and `dH` ghosted."""
     lines, nx = out.shape
     for j in range(lines):
-        for i in range(nx):
-            out[j, i] = (
-                A[C, j, i] * dP[j + 1, i]
-                + A[S, j, i] * dP[j, i]
-                + A[N, j, i] * dP[j + 2, i]
-                + B[C, j, i] * (dH[j + 1, i] + dH0)
-                + B[S, j, i] * (dH[j, i] + dH0)
-                + B[N, j, i] * (dH[j + 2, i] + dH0)
-            )
-        for i in range(1, nx - 1):
-            out[j, i] += (
-                A[W, j, i] * dP[j + 1, i - 1]
-                + A[E, j, i] * dP[j + 1, i + 1]
-                + B[W, j, i] * (dH[j + 1, i - 1] + dH0)
-                + B[E, j, i] * (dH[j + 1, i + 1] + dH0)
-            )
-        for i in range(2, nx - 1):
-            out[j, i] += A[WW, j, i] * dP[j + 1, i - 2] + B[WW, j, i] * (dH[j + 1, i - 2] + dH0)
+        out[j] = 0.0
+        for k in range(len(offsets)):
+            line, node = j + HALO + offsets[k, 0], offsets[k, 1]
+            for i in range(max(0, -node), min(nx, nx - node)):
+                out[j, i] += A[k, j, i] * dP[line, i + node] + B[k, j, i] * (dH[line, i + node] + dH0)
 
 
 @njit(cache=True, fastmath={"contract"})
-def apply_stencil(A, dP, out):
+def apply_stencil(offsets, A, dP, out):
     """out = A dP, the Jacobian of a rigid gap; `dP` ghosted."""
     lines, nx = out.shape
     for j in range(lines):
-        for i in range(nx):
-            out[j, i] = A[C, j, i] * dP[j + 1, i] + A[S, j, i] * dP[j, i] + A[N, j, i] * dP[j + 2, i]
-        for i in range(1, nx - 1):
-            out[j, i] += A[W, j, i] * dP[j + 1, i - 1] + A[E, j, i] * dP[j + 1, i + 1]
-        for i in range(2, nx - 1):
-            out[j, i] += A[WW, j, i] * dP[j + 1, i - 2]
+        out[j] = 0.0
+        for k in range(len(offsets)):
+            line, node = j + HALO + offsets[k, 0], offsets[k, 1]
+            for i in range(max(0, -node), min(nx, nx - node)):
+                out[j, i] += A[k, j, i] * dP[line, i + node]
 
 
 @njit(cache=True, fastmath={"contract"})
-def build_bands(A, B, distributive, kappa, share, bands):
+def build_bands(offsets, A, B, distributive, kappa, share, bands):
     """Fill `bands` (lines, nx, 2 reach + 1) with each line's part of J Q.
 
     Column m of Q is 1 at node m and, where `distributive[j, m]`, -share at its neighbours.
@@ -60,43 +46,19 @@ def build_bands(A, B, distributive, kappa, share, bands):
     lines, nx, width = bands.shape
     reach = width // 2
     for j in range(lines):
-        for i in range(nx):
-            across_A = A[S, j, i] + A[N, j, i]
-            across_B = B[S, j, i] + B[N, j, i]
-            for k in range(-reach, reach + 1):
-                m = i + k
-                if m < 0 or m >= nx:
-                    bands[j, i, k + reach] = 0.0
-                    continue
-                d = 1 if distributive[j, m] else 0
-                along, across = kappa[d, 0], kappa[d, 1]
-                entry = (
-                    B[WW, j, i] * along[abs(k + 2)]
-                    + B[W, j, i] * along[abs(k + 1)]
-                    + B[C, j, i] * along[abs(k)]
-                    + B[E, j, i] * along[abs(k - 1)]
-                    + across_B * across[abs(k)]
-                )
-                if -3 <= k <= 2:
-                    if i > 1:
-                        entry += _column_of_Q(A[WW, j, i], k + 2, d, share)
-                    if i > 0:
-                        entry += _column_of_Q(A[W, j, i], k + 1, d, share)
-                    entry += _column_of_Q(A[C, j, i], k, d, share)
-                    if i < nx - 1:
-                        entry += _column_of_Q(A[E, j, i], k - 1, d, share)
-                    if k == 0 and d == 1:
-                        entry -= share * across_A
-                bands[j, i, k + reach] = entry
-
-
-@njit(cache=True, inline="always")
-def _column_of_Q(coefficient, distance, d, share):
-    if distance == 0:
-        return coefficient
-    if d == 1 and (distance == 1 or distance == -1):
-        return -share * coefficient
-    return 0.0
+        bands[j] = 0.0
+        for o in range(len(offsets)):
+            beside, ahead = abs(offsets[o, 0]), offsets[o, 1]
+            for i in range(nx):
+                a, b = A[o, j, i], B[o, j, i]
+                for k in range(max(-reach, -i), min(reach, nx - 1 - i) + 1):
+                    d, distance = distributive[j, i + k], abs(k - ahead)
+                    entry = b * kappa[int(d), beside, distance]
+                    if beside + distance == 0:
+                        entry += a
+                    elif d and beside + distance == 1:
+                        entry -= share * a
+                    bands[j, i, k + reach] += entry
 
 
 @njit(cache=True, fastmath={"contract"}, error_model="numpy")
@@ -145,12 +107,13 @@ def distribute(w, distributive, share, omega, out):
     lines, nx = out.shape
     for j in range(lines):
         for i in range(nx):
-            spread = w[j, i] * distributive[j, i] + w[j + 2, i] * distributive[j + 2, i]
+            g = j + HALO
+            spread = w[g - 1, i] * distributive[g - 1, i] + w[g + 1, i] * distributive[g + 1, i]
             if i > 0:
-                spread += w[j + 1, i - 1] * distributive[j + 1, i - 1]
+                spread += w[g, i - 1] * distributive[g, i - 1]
             if i < nx - 1:
-                spread += w[j + 1, i + 1] * distributive[j + 1, i + 1]
-            out[j, i] = omega * (w[j + 1, i] - share * spread)
+                spread += w[g, i + 1] * distributive[g, i + 1]
+            out[j, i] = omega * (w[g, i] - share * spread)
 
 
 @njit(cache=True, fastmath={"contract"})
@@ -163,12 +126,13 @@ def flow_sources(inflow, P, along, across, source):
     lines, nx = source.shape
     for j in range(lines):
         for i in range(1, nx - 1):
-            centre = P[j + 1, i]
+            g = j + HALO
+            centre = P[g, i]
             source[j, i] = inflow[j, i] - (
-                along[j, i - 1] * (P[j + 1, i - 1] - centre)
-                + along[j, i] * (P[j + 1, i + 1] - centre)
-                + across[j, i] * (P[j, i] - centre)
-                + across[j + 1, i] * (P[j + 2, i] - centre)
+                along[j, i - 1] * (P[g, i - 1] - centre)
+                + along[j, i] * (P[g, i + 1] - centre)
+                + across[j, i] * (P[g - 1, i] - centre)
+                + across[j + 1, i] * (P[g + 1, i] - centre)
             )
 
 
@@ -184,40 +148,41 @@ def relax_cavitation(first, P, lubricated, movable, source, along, across, passe
     upper, value = np.zeros(nx), np.zeros(nx)
     changes = 0
     for j in range(first, lines, 2):
+        g = j + HALO
         for _ in range(passes):
             changed = 0
-            value[0] = P[j + 1, 0]
+            value[0] = P[g, 0]
             for i in range(1, nx - 1):
                 upper[i] = 0.0
-                value[i] = P[j + 1, i]
+                value[i] = P[g, i]
                 if movable[j, i]:
                     value[i] = 0.0
                     if lubricated[j, i]:
                         west, east = along[j, i - 1], along[j, i]
                         south, north = across[j, i], across[j + 1, i]
-                        known = source[j, i] + south * P[j, i] + north * P[j + 2, i]
+                        known = source[j, i] + south * P[g - 1, i] + north * P[g + 1, i]
                         diagonal = west + east + south + north - west * upper[i - 1]
                         if diagonal > 0.0:  # else shut in on all four sides: its P stays 0
                             value[i] = (known + west * value[i - 1]) / diagonal
                             upper[i] = east / diagonal
             for i in range(nx - 2, 0, -1):
                 if movable[j, i]:
-                    P[j + 1, i] = value[i] + upper[i] * P[j + 1, i + 1]
+                    P[g, i] = value[i] + upper[i] * P[g, i + 1]
             for i in range(1, nx - 1):
                 if not movable[j, i]:
                     continue
                 if lubricated[j, i]:
-                    if P[j + 1, i] < 0.0:
-                        P[j + 1, i] = 0.0
+                    if P[g, i] < 0.0:
+                        P[g, i] = 0.0
                         lubricated[j, i] = False
                         changed += 1
                 else:
                     filled = (
                         source[j, i]
-                        + along[j, i - 1] * P[j + 1, i - 1]
-                        + along[j, i] * P[j + 1, i + 1]
-                        + across[j, i] * P[j, i]
-                        + across[j + 1, i] * P[j + 2, i]
+                        + along[j, i - 1] * P[g, i - 1]
+                        + along[j, i] * P[g, i + 1]
+                        + across[j, i] * P[g - 1, i]
+                        + across[j + 1, i] * P[g + 1, i]
                     )
                     if filled > 0.0:
                         lubricated[j, i] = True

@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass
 
+from mgehl.discretization.contact_law import ContactLaw, InterfaceConditions
+
 
 @dataclass(frozen=True)
 class Scheme:
@@ -13,10 +15,11 @@ class Scheme:
     """Part of that mean, the rest arithmetic: the way from the paper's mean to another."""
     couette_at_interface: str = "closed"
     """"closed" as [Liu eq. 4] asks, or "untreated": Poiseuille flow alone stops at contact."""
-    motion: int = 1
-    """+1 where the surfaces move towards +X, with the differencing; -1 where they move against it."""
-    gap_floor: float | None = None
-    """Smallest gap of the Poiseuille flow in the unified equations; None with interface conditions."""
+    motion: tuple[float, float] = (1.0, 0.0)
+    """The surfaces' velocity along X and Y in units of the speed. The differencing looks upstream of +X
+    and +Y; (-1, 0) is a wedge's plate that moves against it."""
+    contact_law: ContactLaw = InterfaceConditions()
+    """What happens where a gap closes."""
     cavitation: bool = True
     """False lets the fluid's pressure be negative."""
 

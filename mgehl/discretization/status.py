@@ -1,65 +1,73 @@
-"""The one status of a node, and what contact closes.
+"""What a node is: film, cavity, solid contact or boundary; and which faces contact closes.
 
 All fourteen neighbourhoods of [Liu sec. 3.2.2-3.2.5] are one rule: a face is closed, for
-Poiseuille and Couette flow alike, when either of its two nodes is in solid contact.
+Poiseuille and Couette flow alike, when either of its two nodes is solid. What equation a node
+has at the moment is another matter (`rows`).
 """
 
 import numpy as np
 
-BOUNDARY, LUBRICATED, CAVITATED, CONTACT = np.int8(0), np.int8(1), np.int8(2), np.int8(3)
+from mgehl.discretization.axes import own
+
+BOUNDARY, LUBRICATED, CAVITATED, CONTACT, WALL = (np.int8(kind) for kind in range(5))
+"""WALL is beyond the domain: the ghost lines outside of it. Nothing flows there."""
 NAMES = ("boundary", "lubricated", "cavitated", "contact")
 
 
-def open_x_faces(status):
-    """True where the face between nodes i and i+1 lets fluid through: (..., nx - 1)."""
-    contact = status == CONTACT
-    return ~(contact[..., :-1] | contact[..., 1:])
+def is_fluid(status):
+    """Nodes with a gap that fluid may fill: film and cavities."""
+    return (status == LUBRICATED) | (status == CAVITATED)
 
 
-def open_y_faces(status):
-    """True where the face between lines j and j+1 lets fluid through: (lines - 1, nx)."""
-    contact = status == CONTACT
-    return ~(contact[:-1] | contact[1:])
+def is_solid(status):
+    """Nodes that let nothing through."""
+    return status >= CONTACT
 
 
-def beside_contact(status):
-    """Nodes with one of their four faces closed by contact; `status` ghosted, the result (lines, nx)."""
-    x_faces, y_faces = open_x_faces(status[1:-1]), open_y_faces(status)
-    closed = ~(y_faces[:-1] & y_faces[1:])
-    closed[:, 1:] |= ~x_faces
-    closed[:, :-1] |= ~x_faces
-    return closed
+def open_faces(status, axis):
+    """True where a face along `axis` lets fluid through; `status` ghosted."""
+    solid = is_solid(status)
+    return ~(axis.at(solid, 0) | axis.at(solid, 1))
 
 
-def enclosed(status):
-    """Fluid nodes whose west and east faces are both closed: they belong to the contact.
+def beside_contact(status, axes):
+    """Nodes with one of their faces closed by contact; `status` ghosted, the result (lines, nx)."""
+    return _any_neighbour(status == CONTACT, axes) | (own(status) == CONTACT)
 
-    [Liu sec. 3.2.5, last paragraph]. `status` may have any number of lines.
+
+def _any_neighbour(ghosted, axes):
+    """Nodes of which a neighbour is True: (lines, nx)."""
+    result = np.zeros(own(ghosted).shape, dtype=bool)
+    for axis in axes:
+        axis.inner(result)[:] |= axis.neighbour(ghosted, -1) | axis.neighbour(ghosted, 1)
+    return result
+
+
+def enclosed(status, axes):
+    """Fluid nodes shut in from both sides along every axis of motion: they belong to the contact.
+
+    [Liu sec. 3.2.5, last paragraph]. `status` ghosted, the result (lines, nx).
     """
-    contact = status == CONTACT
-    shut = np.zeros_like(contact)
-    shut[..., 1:-1] = contact[..., :-2] & contact[..., 2:]
-    return shut & ((status == LUBRICATED) | (status == CAVITATED))
+    solid = status == CONTACT
+    shut = is_fluid(own(status))
+    for axis in axes:
+        if axis.couette:
+            between = np.zeros_like(shut)
+            axis.inner(between)[:] = axis.neighbour(solid, -1) & axis.neighbour(solid, 1)
+            shut &= between
+    return shut
 
 
-def close_gaps(status):
-    """Turn enclosed fluid nodes into contact, in place; return how many were turned.
+def largest_fluid_neighbour(P, status, axes):
+    """Largest pressure of the fluid neighbours of each node, -inf without any.
 
-    One pass suffices: a turned node has contact on both sides already, so it encloses no other.
+    `P` and `status` are ghosted, the result is (lines, nx). Boundary nodes count as fluid: their
+    pressure is known. This is the right-hand side of [Liu eq. 2].
     """
-    shut = enclosed(status)
-    status[shut] = CONTACT
-    return int(shut.sum())
-
-
-def largest_fluid_neighbour(P, status):
-    """Largest pressure of the four fluid neighbours of each node, -inf without any.
-
-    `P` and `status` are ghosted, (lines + 2, nx); the result is (lines, nx). Boundary nodes
-    count as fluid: their pressure is known. This is the right-hand side of [Liu eq. 2].
-    """
-    fluid = np.where(status == CONTACT, -np.inf, P)
-    result = np.maximum(fluid[:-2], fluid[2:])
-    result[:, 1:] = np.maximum(result[:, 1:], fluid[1:-1, :-1])
-    result[:, :-1] = np.maximum(result[:, :-1], fluid[1:-1, 1:])
+    fluid = np.where(is_solid(status), -np.inf, P)
+    result = np.full(own(status).shape, -np.inf)
+    for axis in axes:
+        for side in (-1, 1):
+            part = axis.inner(result)
+            np.maximum(part, axis.neighbour(fluid, side), out=part)
     return result

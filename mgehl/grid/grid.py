@@ -4,7 +4,8 @@ import numpy as np
 from mpi4py import MPI
 from petsc4py import PETSc
 
-from mgehl.discretization.status import CONTACT
+from mgehl.discretization.axes import HALO
+from mgehl.discretization.status import WALL
 
 
 class Grid:
@@ -19,7 +20,7 @@ class Grid:
         self.starts = np.asarray(starts)
         self.first, self.last = int(self.starts[comm.rank]), int(self.starts[comm.rank + 1])
         self.shape = (self.last - self.first, mesh.nx)
-        self.ghosted_shape = (self.shape[0] + 2, mesh.nx)
+        self.ghosted_shape = (self.shape[0] + 2 * HALO, mesh.nx)
         self.dm = PETSc.DMDA().create(
             dim=2,
             dof=1,
@@ -28,7 +29,7 @@ class Grid:
             ownership_ranges=((mesh.nx,), tuple(np.diff(self.starts))),
             boundary_type=(PETSc.DM.BoundaryType.NONE, PETSc.DM.BoundaryType.GHOSTED),
             stencil_type=PETSc.DMDA.StencilType.STAR,
-            stencil_width=1,
+            stencil_width=HALO,
             comm=comm,
         )
         self._global = self.dm.createGlobalVec()
@@ -52,7 +53,7 @@ class Grid:
     def halo(self, array, out=None):
         """Copy of `array` with the neighbours' lines around it; outside the domain zero.
 
-        `array` is (lines, nx) of any type that a double holds, the result (lines + 2, nx).
+        `array` is (lines, nx) of any type that a double holds, the result (lines + 2 HALO, nx).
         """
         values = np.ascontiguousarray(array, dtype=float)
         ghosted = np.zeros(self.ghosted_shape) if out is None else out
@@ -64,11 +65,12 @@ class Grid:
         return ghosted if ghosted.dtype == array.dtype or out is not None else ghosted.astype(array.dtype)
 
     def halo_status(self, status):
-        """As `halo` for node statuses: a single line runs between two walls, which are as solid as
-        contact."""
+        """As `halo` for node statuses: what is outside the domain is WALL."""
         ghosted = self.halo(status)
-        if self.mesh.is_line:
-            ghosted[[0, -1]] = CONTACT
+        if self.first == 0:
+            ghosted[:HALO] = WALL
+        if self.last == self.mesh.ny:
+            ghosted[-HALO:] = WALL
         return ghosted
 
     def refresh(self, ghosted):

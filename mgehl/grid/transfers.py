@@ -2,7 +2,9 @@
 
 import numpy as np
 
-from mgehl.discretization.status import CONTACT, LUBRICATED
+from mgehl.discretization.axes import HALO, own
+from mgehl.discretization.rows import FLOW
+from mgehl.discretization.status import CONTACT
 from mgehl.grid.events import TRANSFERS, event
 
 
@@ -32,19 +34,19 @@ class Transfer:
 
     def _weighted_lines(self, ghosted):
         """Every other line with half of the lines beside it, of a ghosted fine array."""
-        first, last = self._lines[0], self._lines[-1]
-        beside = ghosted[first : last + 1 : 2] + ghosted[first + 2 : last + 3 : 2]
-        return 0.5 * ghosted[first + 1 : last + 2 : 2] + 0.25 * beside
+        first, last = self._lines[0] + HALO, self._lines[-1] + HALO
+        beside = ghosted[first - 1 : last : 2] + ghosted[first + 1 : last + 2 : 2]
+        return 0.5 * ghosted[first : last + 1 : 2] + 0.25 * beside
 
     @event(TRANSFERS)
     def bilinear(self, coarse):
         """Bilinear interpolation to the fine grid."""
         ghosted = self.coarse.halo(coarse)
         # Coarse lines that bracket the local odd ones; an odd first line needs the ghost before.
-        lines = ghosted if self._odd else ghosted[1:]
+        lines = ghosted[HALO - 1 :] if self._odd else ghosted[HALO:]
         fine = np.empty(self.fine.shape)
         even, odd = self._odd, 1 - self._odd
-        fine[even::2, ::2] = ghosted[1:-1]
+        fine[even::2, ::2] = own(ghosted)
         between = fine[odd::2, ::2]
         between[:] = 0.5 * (lines[: len(between)] + lines[1 : len(between) + 1])
         fine[:, 1::2] = 0.5 * (fine[:, :-2:2] + fine[:, 2::2])
@@ -65,11 +67,11 @@ class PartitionedTransfer:
         self._transfer = transfer
 
     @event(TRANSFERS)
-    def partition(self, coarse_status, fine_status):
-        """Take the partitions of both grids."""
+    def partition(self, coarse, fine):
+        """Take the (status, rows) of both grids: rows of the film, and contact."""
         transfer = self._transfer
-        self._fine_film, self._coarse_film = fine_status == LUBRICATED, coarse_status == LUBRICATED
-        fine_contact, coarse_contact = fine_status == CONTACT, coarse_status == CONTACT
+        self._fine_film, self._coarse_film = fine[1] == FLOW, coarse[1] == FLOW
+        fine_contact, coarse_contact = fine[0] == CONTACT, coarse[0] == CONTACT
         self._any_contact = transfer.coarse.count(coarse_contact) > 0
         if self._any_contact:
             self._fine_contact, self._coarse_contact = fine_contact, coarse_contact

@@ -30,7 +30,7 @@ class LoadedContact:
     rho u h.
     """
 
-    motion = 1
+    motion = (1.0, 0.0)
     """The surfaces move towards +X."""
 
     surface = None

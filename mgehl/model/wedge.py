@@ -62,8 +62,8 @@ class WedgeBearing:
 
     @property
     def motion(self):
-        """Direction of the plate along X."""
-        return 1 if self.turned else -1
+        """The plate's velocity along X and Y, in units of its speed."""
+        return (1.0 if self.turned else -1.0, 0.0)
 
     @property
     def lubricant(self):

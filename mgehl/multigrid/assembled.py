@@ -8,23 +8,22 @@ import numpy as np
 from petsc4py import PETSc
 from scipy.sparse import coo_array
 
-from mgehl.discretization.residual import WW, C, E, N, S, W, linearise
+from mgehl.discretization.residual import linearise
 from mgehl.grid.events import ASSEMBLY, event
 from mgehl.multigrid.jacobian import BorderedSpace
 
 
-def stencil_rows(stencil, first_row, columns):
-    """Sparse rows of a stencil (6, lines, nx) whose first node is row `first_row` of the whole.
+def stencil_rows(offsets, stencil, first_row, columns):
+    """Sparse rows of a stencil (offsets, lines, nx) whose first node is row `first_row` of the whole.
 
     Nodes are numbered line by line; `columns` is their number, or one more for a border.
     """
     _, lines, nx = stencil.shape
     rows = np.arange(lines * nx)
     parts = []
-    for position, offset in ((WW, -2), (W, -1), (C, 0), (E, 1), (S, -nx), (N, nx)):
-        values = stencil[position].ravel()
+    for (line, node), values in zip(offsets, stencil.reshape(len(offsets), -1), strict=True):
         used = values != 0.0
-        parts.append((rows[used], first_row + rows[used] + offset, values[used]))
+        parts.append((rows[used], first_row + rows[used] + line * nx + node, values[used]))
     row, column, value = (np.concatenate(part) for part in zip(*parts, strict=True))
     return coo_array((value, (row, column)), shape=(lines * nx, columns)).tocsr()
 
@@ -35,9 +34,9 @@ class AssembledSolver:
     BoomerAMG where PETSc has hypre, else PETSc's own GAMG; PETSc options may change it.
     """
 
-    def __init__(self, grid, contact, scheme, max_iterations):
+    def __init__(self, grid, max_iterations):
         self.space = BorderedSpace(grid)
-        self._grid, self._contact, self._scheme = grid, contact, scheme
+        self._grid = grid
         self._max_iterations = max_iterations
         self._ksp, self._mat = None, None
 
@@ -57,19 +56,18 @@ class AssembledSolver:
         ksp.setFromOptions()
 
     @event(ASSEMBLY)
-    def linearise(self, P, H, status):
-        """Linearise about a (lines, nx) state and assemble."""
-        grid = self._grid
-        ghosted = grid.halo(P), grid.halo(H), grid.halo_status(status)
-        stencil = linearise(*ghosted, grid.mesh, self._contact, self._scheme, rigid=True).A
+    def linearise(self, evaluation, rows):
+        """Linearise about an evaluated state with these kinds of `rows`, and assemble."""
+        linearisation = linearise(evaluation, rows, rigid=True)
         self.free()
-        self._mat = self._assemble(stencil)
+        self._mat = self._assemble(linearisation)
         self._ksp.setOperators(self._mat)
 
-    def _assemble(self, stencil):
+    def _assemble(self, linearisation):
         """The distributed matrix; the border's row is that of the identity."""
         grid, nodes = self._grid, self._grid.mesh.nodes
-        rows = stencil_rows(stencil, grid.first * grid.mesh.nx, nodes + 1)
+        first_row = grid.first * grid.mesh.nx
+        rows = stencil_rows(linearisation.offsets, linearisation.A, first_row, nodes + 1)
         size = (self.space.local_size, PETSc.DECIDE)
         indptr, indices, values = rows.indptr, rows.indices, rows.data
         if self.space.local_size > rows.shape[0]:

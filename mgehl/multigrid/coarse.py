@@ -51,10 +51,10 @@ class CoarseSolve:
         viewer.printfASCII("  dense LU with the border, redundant on every rank\n")
 
     def _gather(self, stencil):
-        """Sparse matrix of a stencil (6, local lines, nx) of all ranks."""
+        """Sparse matrix of a stencil (offsets, local lines, nx) of all ranks."""
         grid = self._jacobian.grid
         whole = np.concatenate(grid.comm.allgather(stencil), axis=1)
-        return stencil_rows(whole, 0, grid.mesh.nodes)
+        return stencil_rows(self._jacobian.linearisation.offsets, whole, 0, grid.mesh.nodes)
 
 
 def dense_influence(mesh, kernel):

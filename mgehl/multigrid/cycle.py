@@ -13,6 +13,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from petsc4py import PETSc
 
+from mgehl.discretization.axes import own
+from mgehl.discretization.evaluation import Evaluation
 from mgehl.grid.transfers import PartitionedTransfer
 from mgehl.multigrid.coarse import CoarseSolve
 from mgehl.multigrid.jacobian import Jacobian
@@ -101,26 +103,25 @@ class MultigridSolver:
         """Space of the finest grid's vectors."""
         return self.jacobian.space
 
-    def linearise(self, P, H, status, squeeze=0.0):
-        """Linearise on every grid about the finest grid's (lines, nx) state.
+    def linearise(self, evaluation, rows, rate=0.0):
+        """Linearise on every grid about the finest grid's evaluated state, with its kinds of `rows`.
 
-        `squeeze` is the rate of an implicit time step, or one for each node, (lines, nx); zero for
-        the steady equations.
+        `rate` is 1/time step of an implicit step, or one for each node, (lines, nx); zero for the
+        steady equations.
         """
         if self.jacobian is not self.jacobians[-1]:
-            grid = self.jacobian.grid
-            self.jacobian.linearise(grid.halo(P), grid.halo(H), grid.halo_status(status), squeeze)
-        for level in range(len(self.jacobians) - 1, -1, -1):
-            jacobian = self.jacobians[level]
-            grid = jacobian.grid
-            jacobian.linearise(grid.halo(P), grid.halo(H), grid.halo_status(status), squeeze)
-            if level > 0:
-                self._smoothers[level - 1].partition(status)
-                inject = self._transfers[level - 1].inject
-                fine_status, status = status, inject(status)
-                self._partitioned[level - 1].partition(status, fine_status)
-                P, H = inject(P), inject(H)
-                squeeze = inject(squeeze) if np.ndim(squeeze) else squeeze
+            self.jacobian.linearise(evaluation, rows, rate)
+        self.jacobians[-1].linearise(evaluation, rows, rate)
+        fine = [own(ghosted) for ghosted in (evaluation.P, evaluation.H, evaluation.status)]
+        for level in range(len(self.jacobians) - 1, 0, -1):
+            inject, jacobian = self._transfers[level - 1].inject, self.jacobians[level - 1]
+            coarse = [inject(array) for array in fine]
+            status, coarse_rows = coarse[-1], inject(rows)
+            rate = inject(rate) if np.ndim(rate) else rate
+            jacobian.linearise(_evaluate(jacobian, *coarse), coarse_rows, rate)
+            self._smoothers[level - 1].partition(rows)
+            self._partitioned[level - 1].partition((status, coarse_rows), (fine[-1], rows))
+            fine, rows = coarse, coarse_rows
 
     def configure(self, ksp, rtol):
         """Make a KSP (of a SNES, say) this solver; its options may still change it."""
@@ -167,3 +168,10 @@ class MultigridSolver:
         mat.setUp()
         self._transfer_mats.append(mat)
         return mat
+
+
+def _evaluate(jacobian, P, H, status):
+    """The state of a coarse grid, evaluated as its Jacobian's scheme asks."""
+    grid = jacobian.grid
+    ghosted = grid.halo(P), grid.halo(H), grid.halo_status(status)
+    return Evaluation(*ghosted, grid.mesh, jacobian.contact, jacobian.scheme)

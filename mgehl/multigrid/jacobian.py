@@ -12,6 +12,7 @@ from petsc4py import PETSc
 
 from mgehl.discretization.kernels import apply_jacobian, apply_stencil
 from mgehl.discretization.residual import linearise
+from mgehl.discretization.storage import Storage
 from mgehl.grid.events import ASSEMBLY, event
 
 
@@ -34,12 +35,19 @@ class BorderedSpace:
         border = float(values[-1]) if self._owns_border else None
         return self._lines(values), self.grid.comm.bcast(border, root=self._last)
 
+    def read_pressure(self, vec):
+        """The pressure part alone, a view (lines, nx): no rank needs to ask another."""
+        return self._lines(vec.getArray(readonly=True))
+
     def write(self, vec, P, border):
         """Set a vector from its pressure part and its border entry."""
-        values = vec.getArray()
-        self._lines(values)[:] = P
+        self.write_pressure(vec, P)
         if self._owns_border:
-            values[-1] = border
+            vec.getArray()[-1] = border
+
+    def write_pressure(self, vec, P):
+        """Set the pressure part alone."""
+        self._lines(vec.getArray())[:] = P
 
     def _lines(self, values):
         return values[: self.grid.shape[0] * self.grid.shape[1]].reshape(self.grid.shape)
@@ -69,10 +77,10 @@ class Jacobian:
         self.mat.setUp()
 
     @event(ASSEMBLY)
-    def linearise(self, P, H, status, squeeze=0.0):
-        """Linearise about ghosted P, H and status, for time steps 1/`squeeze` long."""
-        how = (self.grid.mesh, self.contact, self.scheme, self.rigid, squeeze)
-        self.linearisation = linearise(P, H, status, *how)
+    def linearise(self, evaluation, rows, rate=0.0):
+        """Linearise about an evaluated state with these kinds of rows, for time steps 1/`rate` long."""
+        storage = Storage.begun(evaluation.fluid, rate)
+        self.linearisation = linearise(evaluation.by(self.scheme), rows, storage, self.rigid)
         self.mat.stateIncrease()
 
     def mult(self, _mat, x, y):
@@ -81,9 +89,9 @@ class Jacobian:
         grid, lin = self.grid, self.linearisation
         grid.halo(dP, out=self._dP)
         if self.rigid:
-            apply_stencil(lin.A, self._dP, self._out)
+            apply_stencil(lin.offsets, lin.A, self._dP, self._out)
             self.space.write(y, self._out, dH0)
         else:
             grid.halo(self.deflection(dP), out=self._dH)
-            apply_jacobian(lin.A, lin.B, self._dP, self._dH, dH0, self._out)
+            apply_jacobian(lin.offsets, lin.A, lin.B, self._dP, self._dH, dH0, self._out)
             self.space.write(y, self._out, self.load_weight * grid.sum(dP.sum()))

@@ -2,15 +2,17 @@
 
 import numpy as np
 
+from mgehl.discretization.axes import own
 from mgehl.discretization.bands import (
+    LINES_BESIDE,
     REACH_OF_STENCIL,
     LineBands,
     distributive_nodes,
-    given_nodes,
     influence_of_columns,
 )
 from mgehl.discretization.influence import influence_coefficients
 from mgehl.discretization.kernels import REACH, distribute
+from mgehl.discretization.rows import PRESSURE
 from mgehl.grid.events import LINES, event
 
 
@@ -33,23 +35,23 @@ class LineSmoother:
         self._out = np.zeros(grid.shape)
 
     @event(LINES)
-    def partition(self, status):
-        """Choose the distributive nodes of the present linearisation; `status` (lines, nx)."""
+    def partition(self, rows):
+        """Choose the distributive nodes of the present linearisation; `rows` (lines, nx)."""
         grid, eps = self._jacobian.grid, self._jacobian.linearisation.eps
-        self._distributive = grid.halo(distributive_nodes(eps, status, grid.mesh.dX, self._K00))
-        self._given = given_nodes(status)
+        self._distributive = grid.halo(distributive_nodes(eps, rows, grid.mesh.dX, self._K00))
+        self._given = rows == PRESSURE
 
     @event(LINES)
     def setUp(self, _pc):
         """Factor the bands of the present linearisation."""
         bands, linearisation = self._bands, self._jacobian.linearisation
-        bands.factor(linearisation, self._distributive[1:-1], self._kappa, self._share)
+        bands.factor(linearisation, own(self._distributive), self._kappa, self._share)
 
     @event(LINES)
     def apply(self, _pc, x, y):
         """One relaxation from zero; the border is left alone."""
         space = self._jacobian.space
-        r, _ = space.read(x)
+        r = space.read_pressure(x)
         self._bands.solve(r, self._w)
         self._jacobian.grid.halo(self._w, out=self._ghosted_w)
         distribute(self._ghosted_w, self._distributive, self._share, self._omega, self._out)
@@ -68,20 +70,20 @@ class RigidLineSmoother:
         self._bands = LineBands(*jacobian.grid.shape, REACH_OF_STENCIL)
         self._out = np.zeros(jacobian.grid.shape)
 
-    def partition(self, status):
-        """Remember where the pressure is given; `status` (lines, nx)."""
-        self._given = given_nodes(status)
+    def partition(self, rows):
+        """Remember where the pressure is given; `rows` (lines, nx)."""
+        self._given = rows == PRESSURE
 
     @event(LINES)
     def setUp(self, _pc):
         """Factor the lines of the present linearisation."""
-        self._bands.factor_stencil(self._jacobian.linearisation.A)
+        self._bands.factor_stencil(self._jacobian.linearisation)
 
     @event(LINES)
     def apply(self, _pc, x, y):
         """One relaxation from zero; the border is left alone."""
         space = self._jacobian.space
-        r, _ = space.read(x)
+        r = space.read_pressure(x)
         self._bands.solve(r, self._out)
         self._out *= self._omega
         self._out[self._given] = 0.0
@@ -94,4 +96,4 @@ class RigidLineSmoother:
 def _influence_nearby(jacobian):
     """Influence coefficients of the few nearest nodes, [l, k]."""
     mesh = jacobian.grid.mesh
-    return influence_coefficients(mesh, jacobian.contact.kernel, 0, 3)[:, : REACH + 2]
+    return influence_coefficients(mesh, jacobian.contact.kernel, 0, LINES_BESIDE + 2)[:, : REACH + 2]

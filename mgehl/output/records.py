@@ -4,14 +4,27 @@ from dataclasses import fields, is_dataclass
 
 import numpy as np
 
-from mgehl.solver.outcome import Answer, Cycle, Outcome, Position
+from mgehl.solver.outcome import Cycle, Outcome
 from mgehl.solver.partition import Changes, Contradiction, Past
+from mgehl.solver.position import Position, Step, Trial
 from mgehl.solver.problem import State
 from mgehl.solver.relaxation import Standing, Sweep
 
 KINDS = {
     kind.__name__: kind
-    for kind in (Answer, Changes, Contradiction, Cycle, Outcome, Past, Position, Standing, State, Sweep)
+    for kind in (
+        Changes,
+        Contradiction,
+        Cycle,
+        Outcome,
+        Past,
+        Position,
+        Standing,
+        State,
+        Step,
+        Sweep,
+        Trial,
+    )  # fmt: skip
 }
 """What a record may hold: nothing else comes to life when one is read."""
 

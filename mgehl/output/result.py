@@ -112,12 +112,13 @@ def summarise(problem, outcome, tolerance, work, wall_s, versions):
     """
     grid, contact = problem.grid, problem.contact
     state = outcome.state = problem.state(outcome.state.P, outcome.state.H0, outcome.state.status)
-    residual = problem.rms(problem.residual(state, problem.inflow(state)))
+    evaluation = problem.evaluate(state)
+    residual = problem.rms(problem.residual(evaluation, state.status))
     load_error = problem.load_deficit(state.P)
     nm = 1e9 * contact.film_scale
     central, minimum = problem.films(state)
-    inequality = check_pressure_inequality(grid, state.P, state.status)
-    complementarity = complementarity_error(problem, state)
+    inequality = check_pressure_inequality(problem, state)
+    complementarity = complementarity_error(problem, state, evaluation)
     settled, reason = _verdict(outcome, tolerance, residual, load_error, complementarity)
     converged = settled and not inequality.violations
     if settled and not converged:
@@ -139,7 +140,7 @@ def summarise(problem, outcome, tolerance, work, wall_s, versions):
         residual=residual,
         load_error=load_error,
         complementarity_error=complementarity,
-        flux_imbalance=flux_imbalance(problem, state),
+        flux_imbalance=flux_imbalance(problem, evaluation),
         contact=_contact_result(problem, state, nm),
         overlap=overlap,
         pressure_inequality=_inequality_result(inequality),

@@ -33,7 +33,8 @@ class WedgeResult:
 def summarise_wedge(problem, outcome, wall_s, versions):
     """Evaluate the final state and put the `WedgeResult` together (collective)."""
     grid, bearing, state = problem.grid, problem.contact, outcome.state
-    residual = problem.rms(problem.residual(state, problem.inflow(state)))
+    evaluation = problem.evaluate(state)
+    residual = problem.rms(problem.residual(evaluation, state.status))
     load = problem.load(state.P)
     largest = grid.max(state.P)
     return WedgeResult(
@@ -45,8 +46,8 @@ def summarise_wedge(problem, outcome, wall_s, versions):
         min_P=grid.min(state.P),
         max_pressure_MPa=1e-6 * bearing.pressure_scale * largest,
         residual=residual,
-        flux_imbalance=flux_imbalance(problem, state),
-        closed_face_flow=closed_face_flow(problem, state),
+        flux_imbalance=flux_imbalance(problem, evaluation),
+        closed_face_flow=closed_face_flow(problem, evaluation),
         solid_nodes=grid.count(state.status == CONTACT),
         cavitated_nodes=grid.count(state.status == CAVITATED),
         linear_iterations=sum(step.linear_iterations for step in outcome.cycles),

@@ -2,10 +2,11 @@
 
 A state that settled is an answer. What breaks Eq. 2 in it is let go and the sets settle again: contact
 pressures jump where a node opens, so the state found then may break Eq. 2 at more nodes, or not settle
-at all. The one that settled with the fewest is the answer.
+at all. The one that settled with the fewest is the answer. Nothing is changed here: the ruling says
+what is to be done.
 """
 
-from mgehl.solver.outcome import Answer
+from enum import Enum
 
 RELEASE_STEPS = 8
 """Steps in which a set must settle again after Eq. 2 released some of it."""
@@ -17,48 +18,42 @@ EARLY_ROUNDS = 3
 """Releases before the last digits: 2049 nodes take two; an edge that opens node by node has no end."""
 
 
-def arbitrate(partition, now, max_steps):
-    """Release what breaks Eq. 2 at the end of an iteration; True where it has to settle again.
+class Ruling(Enum):
+    """What follows from a verdict and Eq. 2."""
 
-    `now.answer` becomes the state that is settled, if it is better than the one before.
-    """
-    outcome, now.released = now.outcome, 0
-    if not outcome.converged:
-        return False
-    violations = partition.count_violations(outcome.state)
-    if now.answer and violations >= now.answer.violations:
-        outcome.converged = False
-        return False
-    now.answer = Answer(outcome.state.copy(), outcome.reason, violations)
-    now.released, now.entered = partition.release_violations(outcome.state), 0
-    now.changes.released += now.released
-    now.limit = min(max_steps, outcome.cycles[-1].step + RELEASE_STEPS)
-    outcome.converged = now.released == 0
-    return now.released > 0
+    GO_ON = "take a step"
+    TRY_RELEASE = "keep this answer, let go what breaks Eq. 2 in it and settle again"
+    RELEASE_EARLY = "let go what breaks Eq. 2, and go on"
+    ACCEPT = "the present state is the answer"
+    KEEP = "the answer kept before is better"
+    GIVE_UP = "there is no answer"
+
+    @property
+    def ends(self):
+        """True where the iteration is over."""
+        return self in (Ruling.ACCEPT, Ruling.KEEP, Ruling.GIVE_UP)
 
 
-def release_early(partition, now):
-    """Release what breaks Eq. 2 before the last digits; True where it did.
+def rule(position, verdict, partition, fluid_apart):
+    """The `Ruling` on a position (collective); `fluid_apart` where fluid is solved apart from the gap."""
+    state, trial = position.state, position.trial
+    if verdict.converged:
+        if trial and partition.count_violations(state) >= trial.violations:
+            return Ruling.KEEP
+        return Ruling.TRY_RELEASE if partition.count_releasable(state) else Ruling.ACCEPT
+    if verdict.ends:
+        return Ruling.KEEP if trial else Ruling.GIVE_UP
+    if fluid_apart and _is_time_for_an_early_release(position) and partition.count_releasable(state):
+        return Ruling.RELEASE_EARLY
+    if trial and trial.released <= trial.entered:
+        return Ruling.KEEP  # as many nodes closed as Eq. 2 let go: this grid cannot satisfy it
+    return Ruling.GO_ON
+
+
+def _is_time_for_an_early_release(position):
+    """Whether Eq. 2 may be asked before the last digits.
 
     Where all of the ellipse is in contact and the fluid is solved apart, what breaks Eq. 2 is
     known long before them, while a few nodes still turn: a round of release saves 3 to 5 steps.
     """
-    outcome = now.outcome
-    if outcome.cycles[-1].residual > EARLY or now.early_rounds == EARLY_ROUNDS:
-        return False
-    released = partition.release_violations(outcome.state)
-    now.early_rounds += released > 0
-    now.changes.released += released
-    return released > 0
-
-
-def closed_again(now):
-    """True where as many nodes closed as Eq. 2 let go: this grid cannot satisfy it."""
-    return 0 < now.released <= now.entered
-
-
-def restore_answer(now):
-    """Make the kept answer the outcome."""
-    outcome, answer = now.outcome, now.answer
-    outcome.state, outcome.converged, outcome.reason = answer.state, True, answer.reason
-    outcome.contradictions = []
+    return position.cycles[-1].residual <= EARLY and position.early_rounds < EARLY_ROUNDS

@@ -5,14 +5,11 @@ Where Poiseuille flow dominates, H hardly depends on P, so the complementarity p
 P >= 0, net inflow <= 0 can be solved there at the present gap, by projected line sweeps.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
-from mgehl.discretization.faces import conductances
-from mgehl.discretization.fluid import fluid_state
-from mgehl.discretization.kernels import flow_sources, relax_cavitation
-from mgehl.discretization.status import CAVITATED, LUBRICATED
+from mgehl.discretization.axes import own
+from mgehl.discretization.kernels import relax_cavitation
+from mgehl.discretization.status import CAVITATED, LUBRICATED, is_fluid
 
 WEAKLY_COUPLED = 10.0
 """A node is relaxed where its mobility/dX exceeds this multiple of its own influence."""
@@ -34,52 +31,17 @@ PASSES = 2
 """Set iterations on a line in each sweep."""
 
 
-@dataclass(frozen=True)
-class SplitFlow:
-    """The net inflow of the nodes as source + L P, with the Poiseuille flow's L at the present state."""
-
-    P: np.ndarray
-    """Ghosted, a copy."""
-    eps: np.ndarray
-    """Mobility, (lines, nx)."""
-    along: np.ndarray
-    across: np.ndarray
-    """Conductances of the x and y faces, as `conductances` gives them."""
-    source: np.ndarray
-    """What the surfaces carry in, (lines, nx)."""
-
-    @property
-    def conductance(self):
-        """Sum over the faces of every node, (lines, nx)."""
-        total = self.across[:-1] + self.across[1:]
-        total[:, 1:] += self.along
-        total[:, :-1] += self.along
-        return total
-
-
-def split_flow(problem, state, inflow):
-    """The `inflow` of a state split into what the surfaces carry and what the pressure drives."""
-    grid = problem.grid
-    P, H, status = grid.halo(state.P), grid.halo(state.H), grid.halo_status(state.status)
-    eps = fluid_state(P, H, problem.contact, problem.scheme.gap_floor).eps
-    along, across = conductances(eps, status, grid.mesh, problem.scheme)
-    source = np.zeros(grid.shape)
-    flow_sources(inflow, P, along, across, source)
-    return SplitFlow(P, eps[1:-1], along, across, source)
-
-
-def relax_cavitation_set(problem, state, flow):
+def relax_cavitation_set(problem, state, evaluation):
     """Relax P and status of the weakly coupled fluid; return the number of nodes that changed.
 
-    `flow` is the `SplitFlow` of `state`, whose pressures it uses up. Updates `state` in place, but
-    only if the set moved: otherwise Newton's pressures stand. Zebra order by global line number, so
-    the number of ranks does not matter.
+    `evaluation` is that of `state`. Updates `state` in place, but only if the set moved: otherwise
+    Newton's pressures stand. Zebra order by global line number, so the number of ranks does not matter.
     """
     if not problem.scheme.cavitation:
         return 0
-    grid = problem.grid
-    P, faces = flow.P, (flow.source, flow.along, flow.across)
-    movable = _relaxable(problem, flow, state)
+    grid, P = problem.grid, evaluation.P.copy()
+    faces = evaluation.source, *evaluation.conductances
+    movable = _relaxable(problem, evaluation, state)
     lubricated = state.status == LUBRICATED
     for _ in range(SWEEPS):
         changes = 0
@@ -92,25 +54,26 @@ def relax_cavitation_set(problem, state, flow):
     relaxed = np.where(movable, np.where(lubricated, LUBRICATED, CAVITATED), state.status)
     moved = grid.count(relaxed != state.status)
     if moved:
-        state.P[:] = P[1:-1]
+        state.P[:] = own(P)
         state.status[:] = relaxed
     return moved
 
 
-def weakly_coupled(problem, eps, status, multiple):
+def weakly_coupled(problem, evaluation, status, multiple):
     """Fluid nodes whose gap hardly answers to their pressure; all (lines, nx)."""
-    fluid = (status == LUBRICATED) | (status == CAVITATED)
-    return fluid & (eps > multiple * problem.K00 * problem.grid.mesh.dX)
+    mobility = own(evaluation.fluid.eps)
+    return is_fluid(status) & (mobility > multiple * problem.K00 * problem.grid.mesh.dX)
 
 
-def driven(problem, flow, H):
+def driven(problem, evaluation):
     """Nodes whose flow the pressure drives out of the gap as it is, hardly lifting it: (lines, nx)."""
-    return problem.K00 * np.abs(flow.source) <= LIFTED * H * flow.conductance
+    lift = problem.K00 * np.abs(evaluation.source)
+    return lift <= LIFTED * own(evaluation.H) * evaluation.conductance
 
 
-def _relaxable(problem, flow, state):
+def _relaxable(problem, evaluation, state):
     """Nodes that may be relaxed: as weakly coupled as that to waves of any length that matters."""
-    movable = weakly_coupled(problem, flow.eps, state.status, WEAKLY_COUPLED)
+    movable = weakly_coupled(problem, evaluation, state.status, WEAKLY_COUPLED)
     if problem.grid.mesh.is_line:
-        movable &= flow.eps > LONG_WAVES
-    return movable & driven(problem, flow, state.H)
+        movable &= own(evaluation.fluid.eps) > LONG_WAVES
+    return movable & driven(problem, evaluation)

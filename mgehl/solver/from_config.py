@@ -1,8 +1,8 @@
 """From a configuration to the objects of a run."""
 
 from dataclasses import asdict
-from math import inf
 
+from mgehl.discretization.contact_law import InterfaceConditions, UnifiedEquations
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.scheme import Scheme
 from mgehl.model.coating import Coating
@@ -104,7 +104,6 @@ def mesh_from(config, contact):
 def scheme_from(config, contact):
     """How the Reynolds equation is differenced."""
     section = config.discretization
-    unified = section.contact_model == "unified"
     cavitation = section.cavitation
     if cavitation is None:
         cavitation = config.contact.kind != "wedge"
@@ -113,17 +112,21 @@ def scheme_from(config, contact):
         face_mobility=section.face_mobility,
         couette_at_interface=section.couette_at_interface,
         motion=contact.motion,
-        gap_floor=section.unified_gap / contact.film_scale if unified else None,
+        contact_law=CONTACT_LAWS[section.contact_model](section, contact),
         cavitation=cavitation,
     )
+
+
+CONTACT_LAWS = {
+    "lcic": lambda section, contact: InterfaceConditions(section.film_threshold / contact.film_scale),
+    "unified": lambda section, contact: UnifiedEquations(section.unified_gap / contact.film_scale),
+}
+"""By discretization.contact_model."""
 
 
 def settings_from(config, contact):
     """Everything the solver is told."""
     solver, relaxation = config.solver, config.relaxation
-    unified = config.discretization.contact_model == "unified"
-    # Without interface conditions no gap is small enough to be contact.
-    threshold = -inf if unified else config.discretization.film_threshold / contact.film_scale
     return SolverSettings(
         method=solver.method,
         scheme=scheme_from(config, contact),
@@ -134,7 +137,6 @@ def settings_from(config, contact):
             tolerance=solver.tolerance,
             max_steps=solver.max_steps,
             linear_tolerance=solver.linear_tolerance,
-            film_threshold=threshold,
             release_budget=solver.release_budget,
             squeeze=solver.squeeze,
         ),
@@ -144,7 +146,5 @@ def settings_from(config, contact):
             couette=solver.cycle_couette,
             options_prefix=OPTIONS_PREFIX,
         ),
-        relaxation=RelaxationSettings(
-            **asdict(relaxation), tolerance=solver.tolerance, film_threshold=threshold
-        ),
+        relaxation=RelaxationSettings(**asdict(relaxation), tolerance=solver.tolerance),
     )

@@ -72,7 +72,7 @@ def first_guess(problem, start):
     if start == "film":
         film = contact.expected_film / contact.film_scale
         return problem.state(P, film + H0, np.full(grid.shape, LUBRICATED))
-    pressed = (grid.X**2 + grid.Y**2 <= contact.widening**2) & (problem.scheme.gap_floor is None)
+    pressed = (grid.X**2 + grid.Y**2 <= contact.widening**2) & problem.scheme.contact_law.has_contact
     status = np.where(pressed, CONTACT, LUBRICATED)
     return problem.state(P, H0, status)
 
@@ -99,7 +99,7 @@ def _solve_level(hierarchy, level, problem, state, limits, settings, tell, journ
         return MultigridSolver(hierarchy, level, problem.contact, problem.scheme, settings.cycle, rigid)
 
     prefix, fluid = settings.cycle.options_prefix, None
-    if settings.nested.start == "contact" and problem.scheme.gap_floor is None:
+    if settings.nested.start == "contact" and problem.scheme.contact_law.has_contact:
         limits = limits.squeezed()
         guess_fluid(hierarchy, level, problem, state, settings)
         fluid = RigidGapFluid(problem, multigrid(rigid=True), prefix + "fluid_")

@@ -1,8 +1,8 @@
-"""How an iteration stands and how it ends."""
+"""What a solve leaves: its history line by line, and how it ended."""
 
 from dataclasses import dataclass, field
 
-from mgehl.solver.partition import Changes, Past
+from mgehl.solver.partition import Changes
 from mgehl.solver.problem import State
 
 
@@ -31,7 +31,7 @@ class Cycle(Line):
 
 @dataclass
 class Outcome:
-    """How Newton's method ended."""
+    """How a solve ended."""
 
     state: State
     converged: bool
@@ -39,35 +39,3 @@ class Outcome:
     cycles: list = field(default_factory=list)
     contradictions: list = field(default_factory=list)
     """Nodes that kept turning between film and contact."""
-
-
-@dataclass(frozen=True)
-class Answer:
-    """A state that settled, kept while Eq. 2 is tried on it."""
-
-    state: State
-    reason: str
-    violations: int
-
-
-@dataclass
-class Position:
-    """Where the iteration stands before a step: all that the way from here depends on."""
-
-    outcome: Outcome
-    """So far: its state is the present one."""
-    past: Past
-    limit: int
-    """Step at which to give up."""
-    changes: Changes = field(default_factory=Changes)
-    """Of the sets since the last cycle."""
-    linear_iterations: int = 0
-    step_length: float = 0.0
-    answer: Answer | None = None
-    released: int = 0
-    """Nodes that Eq. 2 released when it was last tried, and nodes that closed since."""
-    entered: int = 0
-    early_rounds: int = 0
-    """Releases on Eq. 2 before the last digits."""
-    stalls: int = 0
-    """Linear systems that were given up."""

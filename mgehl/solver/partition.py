@@ -9,12 +9,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mgehl.discretization.axes import HALO
 from mgehl.discretization.status import (
     CAVITATED,
     CONTACT,
     LUBRICATED,
     NAMES,
-    close_gaps,
+    enclosed,
+    is_fluid,
     largest_fluid_neighbour,
 )
 
@@ -80,9 +82,9 @@ class Past:
 class Partition:
     """Moves nodes of a state between the sets; `past` is the nodes' own, and may be put back."""
 
-    def __init__(self, problem, film_threshold, release_budget):
+    def __init__(self, problem, release_budget):
         self._problem, self._grid = problem, problem.grid
-        self._film_threshold = film_threshold
+        self._contact_law = problem.scheme.contact_law
         self.past = Past.none(problem.grid.shape, release_budget)
 
     def cut_tension(self, P, status, changes):
@@ -94,7 +96,7 @@ class Partition:
         self.past.torn_pressure[tensile] = P[tensile]
         self.past.turns += tensile
         P[torn | tensile] = 0.0
-        # A released node has no gap yet: held at P = 0 for one step, it opens one.
+        # Bodies that are torn apart leave an empty gap: a cavity, until fluid flows in.
         status[torn | tensile] = CAVITATED
         self.past.just_released = tensile
         self.past.was_released |= tensile
@@ -104,24 +106,20 @@ class Partition:
     def enter_contact(self, state, changes):
         """Nodes whose gap is closed, and fluid shut in from west and east, become contact.
 
-        A node that was released before comes back only when the bodies would overlap: with a gap
-        between 0 and H_th it would be torn off and put back for ever.
+        One pass is enough: what was shut in had contact on both sides already, so it shuts in no other.
         """
-        fluid = (state.status == LUBRICATED) | (state.status == CAVITATED)
-        threshold = np.where(self.past.was_released, 0.0, self._film_threshold)
-        closed = fluid & (state.H <= threshold) & ~self.past.just_released
+        may_close = is_fluid(state.status) & ~self.past.just_released
+        closed = may_close & self._contact_law.closed(state.H, self.past.was_released)
         self.past.closing_gap[closed] = state.H[closed]
         self.past.turns += closed
         state.status[closed] = CONTACT
-        changes.entered += self._grid.count(closed)
-        changes.entered += int(self._grid.sum(close_gaps(state.status)))
+        shut_in = enclosed(self._grid.halo_status(state.status), self._problem.axes)
+        state.status[shut_in] = CONTACT
+        changes.entered += self._grid.count(closed | shut_in)
 
     def fill(self, state, inflow, changes):
         """Cavitated nodes that fluid flows into become lubricated."""
-        filled = (state.status == CAVITATED) & (inflow > 0.0)
-        # A node without a gap cannot take part in the flow (but in the unified equations it does).
-        if self._problem.scheme.gap_floor is None:
-            filled &= state.H > 0.0
+        filled = (state.status == CAVITATED) & (inflow > 0.0) & self._contact_law.takes_fluid(state.H)
         state.status[filled] = LUBRICATED
         changes.filled += self._grid.count(filled)
 
@@ -136,7 +134,8 @@ class Partition:
         torn = self.past.torn_pressure < 0.0
         local = []
         for j, i in np.argwhere((self.past.turns >= RESTLESS - 3) & torn):
-            beside = (around[j + 1, i - 1], around[j + 1, i + 1], around[j, i], around[j + 2, i])
+            g = j + HALO
+            beside = (around[g, i - 1], around[g, i + 1], around[g - 1, i], around[g + 1, i])
             gap, pressure = float(self.past.closing_gap[j, i]), float(self.past.torn_pressure[j, i])
             names = tuple(NAMES[each] for each in beside)
             local.append(Contradiction(int(i) + 1, int(j) + self._grid.first + 1, gap, pressure, names))
@@ -145,15 +144,19 @@ class Partition:
     def violations(self, state):
         """Contact nodes whose pressure is below the fluid's beside them [Liu eq. 2], and that pressure."""
         ghosted = self._grid.halo(state.P), self._grid.halo_status(state.status)
-        beside = largest_fluid_neighbour(*ghosted)
+        beside = largest_fluid_neighbour(*ghosted, self._problem.axes)
         return (state.status == CONTACT) & (state.P < beside), beside
 
     def count_violations(self, state):
         """How many contact nodes break Eq. 2, over all ranks."""
         return self._grid.count(self.violations(state)[0])
 
-    def release_violations(self, state):
-        """Release contact nodes that violate Eq. 2 and have budget left; return how many.
+    def count_releasable(self, state):
+        """How many of them may still be let go."""
+        return self._grid.count(self.violations(state)[0] & (self.past.budget > 0))
+
+    def release_violations(self, state, changes):
+        """Release contact nodes that violate Eq. 2 and have budget left.
 
         The fluid beside such a node would pry it open: it becomes film under that fluid's pressure.
         """
@@ -164,4 +167,4 @@ class Partition:
         state.P[released] = beside[released]
         self.past.was_released |= released
         self.past.turns[:] = 0
-        return self._grid.count(released)
+        changes.released += self._grid.count(released)

@@ -4,8 +4,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mgehl.discretization.axes import axes_of
+from mgehl.discretization.evaluation import Evaluation
 from mgehl.discretization.influence import influence_coefficients
-from mgehl.discretization.residual import net_inflow, residual
+from mgehl.discretization.residual import residual
+from mgehl.discretization.rows import rows_of
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT
 from mgehl.grid.events import ASSEMBLY, event
 
@@ -27,21 +30,37 @@ class State:
 
 
 class Problem:
-    """The fluid of a contact on one grid, in whatever gap."""
+    """The fluid of a contact on one grid, in a gap that is given: `ContactProblem` has an elastic one."""
 
+    is_elastic = False
     K00 = 0.0
     """Deflection of a node by its own pressure: none in a rigid gap."""
 
     def __init__(self, grid, contact, scheme):
         self.grid, self.contact, self.scheme = grid, contact, scheme
+        self.axes = axes_of(grid.mesh, scheme.motion)
         self.boundary = grid.boundary()
 
     @event(ASSEMBLY)
-    def inflow(self, state):
-        """Net inflow/(dX dY) of every node  [Liu eq. 35]."""
-        halo = self.grid.halo
-        ghosted = halo(state.P), halo(state.H), self.grid.halo_status(state.status)
-        return net_inflow(*ghosted, self.grid.mesh, self.contact, self.scheme)
+    def evaluate(self, state):
+        """The `Evaluation` of a state as it is now, its net inflow known  [Liu eq. 35]."""
+        ghosted = self.ghosted(state)
+        evaluation = Evaluation(*ghosted, self.grid.mesh, self.contact, self.scheme)
+        _ = evaluation.inflow
+        return evaluation
+
+    def ghosted(self, state):
+        """P, H and status of a state with the neighbours' lines."""
+        grid = self.grid
+        return grid.halo(state.P), grid.halo(state.H), grid.halo_status(state.status)
+
+    def rows(self, status, frozen=None):
+        """The kind of row of every node, (lines, nx); where `frozen` the pressure is held."""
+        return rows_of(status, not self.is_elastic, frozen)
+
+    def residual(self, evaluation, status):
+        """Rows of the nonlinear residual, (lines, nx), by what the nodes are now."""
+        return residual(evaluation, self.rows(status))
 
     def rms(self, F):
         """Root mean square of a residual over all nodes."""
@@ -55,6 +74,8 @@ class Problem:
 
 class ContactProblem(Problem):
     """Gap, residual and load balance of a loaded contact on one grid."""
+
+    is_elastic = True
 
     def __init__(self, grid, deflection, contact, scheme):
         super().__init__(grid, contact, scheme)
@@ -78,10 +99,6 @@ class ContactProblem(Problem):
         P = np.where(self.boundary, 0.0, P)
         status = np.where(self.boundary, BOUNDARY, status).astype(np.int8)
         return State(P, H0, self.gap(P, H0), status)
-
-    def residual(self, state, inflow):
-        """Rows of the nonlinear residual."""
-        return residual(inflow, state.P, state.H, state.status, self.grid.mesh)
 
     def load_deficit(self, P):
         """Integral of P minus the load  [Liu eq. 50]."""

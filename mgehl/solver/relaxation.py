@@ -10,18 +10,10 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import solve_banded
 
-from mgehl.discretization.bands import given_nodes
-from mgehl.discretization.faces import conductances
-from mgehl.discretization.fluid import fluid_state
+from mgehl.discretization.axes import own
 from mgehl.discretization.influence import influence_coefficients
-from mgehl.discretization.status import (
-    BOUNDARY,
-    CAVITATED,
-    CONTACT,
-    LUBRICATED,
-    close_gaps,
-    open_x_faces,
-)
+from mgehl.discretization.rows import PRESSURE
+from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED, enclosed, open_faces
 from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.outcome import Line, Outcome
 from mgehl.solver.problem import DIVERGED
@@ -47,7 +39,6 @@ class RelaxationSettings:
     report_every: int = 100
     """Sweeps from one line of the history to the next."""
     tolerance: float = 1e-8
-    film_threshold: float = 0.0
 
 
 @dataclass
@@ -90,12 +81,12 @@ def _relax(problem, standing, settings, monitor, journal):
         standing.step = step
         journal.step(problem.grid, standing)
         relaxation.mark_contact(state)
-        inflow = problem.inflow(state)
-        relaxation.mark_cavities(state, inflow)
-        change = relaxation.change(state, inflow)
+        evaluation = problem.evaluate(state)
+        relaxation.mark_cavities(state, evaluation)
+        change = relaxation.change(state, evaluation)
         last = step == settings.max_sweeps
         if last or step % settings.report_every == 0:
-            cycle = relaxation.sweep(step, state, inflow, change)
+            cycle = relaxation.sweep(step, state, evaluation, change)
             outcome.cycles.append(cycle)
             monitor(cycle)
             if not cycle.residual < DIVERGED:
@@ -120,28 +111,26 @@ class _Relaxation:
     def mark_contact(self, state):
         """Contact where the gap is closed, film elsewhere; without interface conditions all film."""
         problem = self._problem
-        closed = state.H <= self._settings.film_threshold
-        if problem.scheme.gap_floor is not None:
-            closed[:] = False
+        closed = problem.scheme.contact_law.closed(state.H, was_released=False)
         state.status[:] = np.where(closed, CONTACT, LUBRICATED)
         state.status[problem.boundary] = BOUNDARY
-        close_gaps(state.status)
+        state.status[enclosed(problem.grid.halo_status(state.status), problem.axes)] = CONTACT
 
-    def mark_cavities(self, state, inflow):
+    def mark_cavities(self, state, evaluation):
         """Film without pressure that no fluid flows into is a cavity, whose pressure stays.
 
         (Cutting negative pressures alone settles with a residual beside the cavity: a line's new
         pressures there answer to those that are cut.)
         """
-        empty = (state.status == LUBRICATED) & (state.P <= 0.0) & (inflow <= 0.0)
+        empty = (state.status == LUBRICATED) & (state.P <= 0.0) & (evaluation.inflow <= 0.0)
         state.status[empty & self._problem.scheme.cavitation] = CAVITATED
 
-    def change(self, state, inflow):
+    def change(self, state, evaluation):
         """P_new - P_old of every node."""
-        contact = state.status == CONTACT
-        bands = self._line_bands(state, contact)
-        rhs = np.where(contact, -state.H, -inflow)
-        rhs[given_nodes(state.status)] = 0.0
+        contact, given = state.status == CONTACT, self._problem.rows(state.status) == PRESSURE
+        bands = self._line_bands(evaluation, contact, given)
+        rhs = np.where(contact, -state.H, -evaluation.inflow)
+        rhs[given] = 0.0
         # The lines follow each other in one system: their ends are boundary and couple nothing.
         flat = [band.ravel() for band in bands]
         ab = np.zeros((3, rhs.size))
@@ -161,10 +150,10 @@ class _Relaxation:
             state.H0 += settings.load_factor * problem.load_deficit(state.P)
         state.H = problem.gap(state.P, state.H0)
 
-    def sweep(self, step, state, inflow, change):
+    def sweep(self, step, state, evaluation, change):
         """The state before a sweep, as a line of the history."""
         problem, grid = self._problem, self._problem.grid
-        residual = problem.rms(problem.residual(state, inflow))
+        residual = problem.rms(problem.residual(evaluation, state.status))
         contact = state.status == CONTACT
         moved, new = np.abs(change), np.maximum(state.P + change, 0.0)
         errors = []
@@ -175,10 +164,10 @@ class _Relaxation:
         load = problem.load_deficit(state.P)
         return Sweep(step, residual, load, *problem.films(state), *counts, *errors)
 
-    def _line_bands(self, state, contact):
+    def _line_bands(self, evaluation, contact, given):
         """Coefficients of P_i-1, P_i, P_i+1 in the equation of node i, each (lines, nx)."""
         settings, D = self._settings, self._D
-        alpha, beta, gamma = self._fluid_bands(state)
+        alpha, beta, gamma = self._fluid_bands(evaluation)
         if settings.fluid_update == "point":
             alpha, gamma = np.zeros_like(beta), np.zeros_like(beta)
         # By points a contact node answers to the one before it. (Eq. 42 has the line before in it,
@@ -187,19 +176,15 @@ class _Relaxation:
         alpha = np.where(contact, D[1], alpha)
         beta = np.where(contact, settings.stability * D[0], beta)
         gamma = np.where(contact, after, gamma)
-        given = given_nodes(state.status)
         alpha[given], beta[given], gamma[given] = 0.0, 1.0, 0.0
         return alpha, beta, gamma
 
-    def _fluid_bands(self, state):
+    def _fluid_bands(self, evaluation):
         """alpha, beta, gamma of [Liu eq. 52]: mobility held, the gap answering to P."""
-        problem, D = self._problem, self._D
-        grid, mesh, scheme = problem.grid, problem.grid.mesh, problem.scheme
-        P, H, status = grid.halo(state.P), grid.halo(state.H), grid.halo_status(state.status)
-        fluid = fluid_state(P, H, problem.contact, scheme.gap_floor)
-        along, across = conductances(fluid.eps, status, mesh, scheme)
-        is_open = open_x_faces(state.status)
-        carried = fluid.rho[1:-1] / mesh.dX
+        grid, D = self._problem.grid, self._D
+        along, across = evaluation.conductances
+        is_open = open_faces(evaluation.status, evaluation.axes[0])
+        carried = own(evaluation.fluid.rho) / grid.mesh.dX
         west, east = (np.zeros(grid.shape) for _ in range(2))
         west[:, 1:], east[:, :-1] = along, along
         entering, leaving = (np.zeros(grid.shape) for _ in range(2))

@@ -50,7 +50,7 @@ def interpolated(problem, start):
         in_contact = (start.fields.status == CONTACT).astype(float)
         P = _onto(mesh, start.mesh, start.fields.P)
         film = np.where((P > 0.0) | (not problem.scheme.cavitation), LUBRICATED, CAVITATED)
-        touching = (_onto(mesh, start.mesh, in_contact) > 0.5) & (problem.scheme.gap_floor is None)
+        touching = (_onto(mesh, start.mesh, in_contact) > 0.5) & problem.scheme.contact_law.has_contact
         status = np.where(touching, CONTACT, film).astype(np.int8)
     H0 = grid.comm.bcast(start.H0)
     return problem.state(grid.scatter(P), H0, grid.scatter(status))

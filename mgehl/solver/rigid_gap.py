@@ -5,9 +5,11 @@ from dataclasses import dataclass
 import numpy as np
 from petsc4py import PETSc
 
-from mgehl.discretization.status import BOUNDARY, CAVITATED, LUBRICATED
+from mgehl.discretization.evaluation import Evaluation
+from mgehl.discretization.rows import rows_of
+from mgehl.discretization.status import CAVITATED, LUBRICATED
 from mgehl.grid.events import linear_solve
-from mgehl.solver.cavitation import driven, relax_cavitation_set, split_flow, weakly_coupled
+from mgehl.solver.cavitation import driven, relax_cavitation_set, weakly_coupled
 from mgehl.solver.problem import DIVERGED
 
 SEPARABLE = 1e-5
@@ -30,6 +32,14 @@ class FluidStep:
     linear_iterations: int
 
 
+@dataclass(frozen=True)
+class SettledFluid:
+    """How the fluid came into balance, and the evaluation of its last state."""
+
+    steps: list
+    evaluation: Evaluation
+
+
 class RigidGapFluid:
     """Newton's method for the separable fluid alone; `multigrid` solves its linear systems.
 
@@ -49,13 +59,13 @@ class RigidGapFluid:
             thing.destroy()
         self._multigrid.free()
 
-    def separable(self, state, flow):
-        """Fluid nodes that this solver answers for, by the `SplitFlow` of a state: (lines, nx) bool."""
-        weak = weakly_coupled(self._problem, flow.eps, state.status, SEPARABLE)
-        return weak & driven(self._problem, flow, state.H)
+    def separable(self, evaluation, status):
+        """Fluid nodes that this solver answers for: (lines, nx) bool."""
+        weak = weakly_coupled(self._problem, evaluation, status, SEPARABLE)
+        return weak & driven(self._problem, evaluation)
 
     def solve(self, state, tolerance, max_steps=30, before_step=lambda: None):
-        """Bring the fluid of `state` into balance at its gap, in place; return the `FluidStep`s.
+        """Bring the fluid of `state` into balance at its gap, in place; return the `SettledFluid`.
 
         Ends when the rms inflow is below `tolerance` and the set has settled, or after
         `max_steps`; the last step is the residual that is left, without an iteration.
@@ -63,51 +73,47 @@ class RigidGapFluid:
         until it is separable no more is given back as it was, to whoever moves its gap.
         """
         problem, steps, before = self._problem, [], state.P.copy()
-        inflow, flow = self._flow(state)
-        separable, given_back = self.separable(state, flow), 0
+        evaluation = problem.evaluate(state)
+        separable, given_back = self.separable(evaluation, state.status), 0
         while True:
-            moved = relax_cavitation_set(problem, state, flow)
+            moved = relax_cavitation_set(problem, state, evaluation)
             if moved:
-                inflow = problem.inflow(state)
-            filled = separable & (state.status == CAVITATED) & (inflow > 0.0)
+                evaluation = problem.evaluate(state)
+            filled = separable & (state.status == CAVITATED) & (evaluation.inflow > 0.0)
             state.status[filled] = LUBRICATED
             lubricated = state.status == LUBRICATED
-            residual = np.where(separable & lubricated, inflow, 0.0)
+            residual = np.where(separable & lubricated, evaluation.inflow, 0.0)
             rms = problem.rms(residual)
             settled = rms <= tolerance and given_back + moved + problem.grid.count(filled) == 0
             if settled or len(steps) == max_steps or not rms < DIVERGED:
-                return [*steps, FluidStep(rms, 0)]
+                return SettledFluid([*steps, FluidStep(rms, 0)], evaluation)
             before_step()
-            self._correct(state, residual, lubricated & separable, lubricated & ~separable)
+            self._correct(state, evaluation, residual, separable)
             steps.append(FluidStep(rms, self._ksp.getIterationNumber()))
             if problem.scheme.cavitation:
                 torn = (state.P < 0.0) & separable
                 state.P[torn] = 0.0
                 state.status[torn] = CAVITATED
-            inflow, flow = self._flow(state)
-            given_back = self._give_back(state, separable, before, flow)
+            evaluation = problem.evaluate(state)
+            given_back = self._give_back(state, separable, before, evaluation)
             if given_back:
-                inflow, flow = self._flow(state)
+                evaluation = problem.evaluate(state)
 
-    def _flow(self, state):
-        """The net inflow of every node, (lines, nx), and its `SplitFlow`."""
-        inflow = self._problem.inflow(state)
-        return inflow, split_flow(self._problem, state, inflow)
-
-    def _give_back(self, state, separable, before, flow):
+    def _give_back(self, state, separable, before, evaluation):
         """Take out of `separable`, in place, what is so no more, its P as `before`; return how many."""
-        lost = separable & ~self.separable(state, flow)
+        lost = separable & ~self.separable(evaluation, state.status)
         separable[lost] = False
         state.P[lost] = before[lost]
         return self._problem.grid.count(lost)
 
-    def _correct(self, state, residual, solved, given):
-        """One Newton step of the pressure of `solved` nodes; `given` ones are the other fluid."""
-        space = self._multigrid.space
-        self._multigrid.linearise(state.P, state.H, np.where(given, BOUNDARY, state.status))
+    def _correct(self, state, evaluation, residual, separable):
+        """One Newton step of the pressure of `separable` film; the other fluid's is held."""
+        space, film = self._multigrid.space, state.status == LUBRICATED
+        self._multigrid.linearise(evaluation, rows_of(state.status, True, film & ~separable))
         space.write(self._rhs, -residual, 0.0)
         with linear_solve():
             self._ksp.solve(self._rhs, self._correction)
         # Elsewhere the correction is zero but for the rounding of an algebraic multigrid.
-        step = space.read(self._correction)[0][solved]
-        state.P[solved] += np.clip(step, -LARGEST_STEP, LARGEST_STEP) if self._problem.K00 else step
+        solved = film & separable
+        step = space.read_pressure(self._correction)[solved]
+        state.P[solved] += np.clip(step, -LARGEST_STEP, LARGEST_STEP) if self._problem.is_elastic else step

@@ -35,8 +35,6 @@ class NewtonSettings:
     max_steps: int = 60
     linear_tolerance: float = 0.1
     max_pressure_step: float = 0.3
-    film_threshold: float = 0.0
-    """H_th in units of H."""
     release_budget: int = 2
     squeeze: float = 0.0
     """Rate of implicit time steps per rms residual and cell (`solver.squeeze`); 0 for Newton's own."""

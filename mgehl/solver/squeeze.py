@@ -13,8 +13,10 @@ the fold slowly, the residual hardly falling, and the rest follows.
 
 import numpy as np
 
-from mgehl.discretization.residual import C, linearise
-from mgehl.discretization.status import LUBRICATED, beside_contact
+from mgehl.discretization.axes import own
+from mgehl.discretization.residual import linearise
+from mgehl.discretization.rows import FLOW
+from mgehl.discretization.status import beside_contact
 
 SQUEEZE = 3.0
 """Rate, per rms residual and cell, that contact starts and continuation take at the least."""
@@ -36,27 +38,25 @@ THINNEST = 1e-9
 """Film of which a node's own rate is reckoned where H_th does not say more."""
 
 
-def squeeze_rates(problem, state, F, settings):
-    """1/time step of every node, (lines, nx), at a `state` of residual `F`; 0.0 if `settings` have none."""
+def squeeze_rates(problem, evaluation, rows, F, settings):
+    """1/time step of every node, (lines, nx), at a state of residual `F`; 0.0 where there is no squeeze."""
     if settings.squeeze == 0.0:
         return 0.0
     mean, rms = problem.scheme.face_mobility, problem.rms(F)
-    floor = max(settings.film_threshold, problem.scheme.gap_floor or 0.0, THINNEST)
-    own = OF_NODES[mean] * np.abs(F) / np.maximum(state.H, floor)
-    rates = settings.squeeze * (rms / problem.grid.mesh.dX + own)
-    return np.maximum(rates, _stable_rates(problem, state, rms)) if mean in FOLDING else rates
+    floor = max(problem.scheme.contact_law.thinnest, THINNEST)
+    own_part = OF_NODES[mean] * np.abs(F) / np.maximum(own(evaluation.H), floor)
+    rates = settings.squeeze * (rms / problem.grid.mesh.dX + own_part)
+    return np.maximum(rates, _stable_rates(problem, evaluation, rows, rms)) if mean in FOLDING else rates
 
 
-def _stable_rates(problem, state, rms):
+def _stable_rates(problem, evaluation, rows, rms):
     """Rates with which the inflow of each film node falls as its own pressure lifts it: (lines, nx).
 
     Not of nodes beside contact, which holds them down: they lift by less than their own influence,
     and half of the rate that would do is worse than none.
     """
-    grid = problem.grid
-    P, H, status = grid.halo(state.P), grid.halo(state.H), grid.halo_status(state.status)
-    steady = linearise(P, H, status, grid.mesh, problem.contact, problem.scheme)
-    by_own_gap = steady.A[C] / problem.K00 + steady.B[C]
-    margin = STABLE * min(1.0, rms / LAST_STEPS) / grid.mesh.dX
-    free = (state.status == LUBRICATED) & ~beside_contact(status)
+    steady = linearise(evaluation, rows)
+    by_own_gap = steady.A[0] / problem.K00 + steady.B[0]
+    margin = STABLE * min(1.0, rms / LAST_STEPS) / problem.grid.mesh.dX
+    free = (rows == FLOW) & ~beside_contact(evaluation.status, evaluation.axes)
     return np.where(free, np.maximum(by_own_gap + margin, 0.0), 0.0)

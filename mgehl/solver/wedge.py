@@ -26,10 +26,6 @@ class WedgeProblem(Problem):
         H = np.where(solid, 0.0, np.broadcast_to(bearing.gap(grid.X), grid.shape))
         return State(np.zeros(grid.shape), 0.0, H, status.astype(np.int8))
 
-    def residual(self, state, inflow):
-        """Rows of the residual; the pressure of contact nodes is given, zero."""
-        return np.where(state.status == LUBRICATED, inflow, -state.P / self.grid.mesh.dX)
-
 
 def solve_wedge(grid, bearing, scheme, options_prefix, tolerance, max_steps, before_step=lambda: None):
     """Solve on `grid`; return the `WedgeProblem` and an `Outcome` of `FluidStep`s.
@@ -38,17 +34,17 @@ def solve_wedge(grid, bearing, scheme, options_prefix, tolerance, max_steps, bef
     `before_step` is called before each linear solve and may raise what ends the run.
     """
     problem = WedgeProblem(grid, bearing, scheme)
-    multigrid = AssembledSolver(grid, bearing, scheme, MAX_ITERATIONS)
+    multigrid = AssembledSolver(grid, MAX_ITERATIONS)
     fluid = RigidGapFluid(problem, multigrid, options_prefix, LINEAR_TOLERANCE)
     state = problem.first_guess()
     try:
-        steps = fluid.solve(state, tolerance, max_steps, before_step)
+        steps = fluid.solve(state, tolerance, max_steps, before_step).steps
         # Once more: what the tolerance left would show in the flow balance.
         if steps[-1].residual <= tolerance:
-            steps = steps[:-1] + fluid.solve(state, 0.0, 1)
+            steps = steps[:-1] + fluid.solve(state, 0.0, 1).steps
     finally:
         fluid.free()
-    left = problem.rms(problem.residual(state, problem.inflow(state)))
+    left = problem.rms(problem.residual(problem.evaluate(state), state.status))
     converged = bool(left <= tolerance)
     reason = "the residual holds" if converged else f"residual {left:.1e} after {len(steps) - 1} solves"
     return problem, Outcome(state, converged, reason, steps)

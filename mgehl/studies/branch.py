@@ -172,7 +172,7 @@ class Branches:
         """What was found, and by how much a sweep of the paper's relaxation would change it."""
         newton = self._settings.newton
         result = summarise(problem, outcome, newton.tolerance, work, wall, versions())
-        once = RelaxationSettings(max_sweeps=0, film_threshold=newton.film_threshold)
+        once = RelaxationSettings(max_sweeps=0)
         sweep = relax(problem, outcome.state.copy(), once, lambda cycle: None).cycles[-1]
         return result, (sweep.e_p, sweep.e_p_fluid, sweep.e_p_solid)
 

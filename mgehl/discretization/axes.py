@@ -1,0 +1,86 @@
+"""The faces of the control volumes along X and along Y: the same words for both.
+
+A ghosted array is (lines + 2 HALO, nx): the rank's own lines with those of its neighbours around them.
+Along X the faces are those between the nodes of its own lines, (lines, nx - 1); along Y those between its
+own lines and to the ones before and after, (lines + 1, nx). W and E are the nodes on both sides of a
+face, for Y the line before and the line after.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+HALO = 2
+"""Ghost lines on each side: a face of the second-order schemes looks two lines upstream."""
+
+
+def own(ghosted):
+    """The rank's own lines of a ghosted array (a view)."""
+    return ghosted[HALO:-HALO]
+
+
+@dataclass(frozen=True)
+class Axis:
+    """One direction: its faces, and what flows through them for a gradient and for a density one."""
+
+    number: int
+    """Of the arrays' axis: 1 for X, 0 for Y."""
+    cell: float
+    """Side of a control volume."""
+    distance: float | np.ndarray
+    """Of the pressures on both sides of a face, so that the Poiseuille flow is -eps dP/distance."""
+    couette: float
+    """The surfaces' velocity along the axis in units of the speed, k_e times it along Y  [Liu eq. 26]."""
+
+    def faces(self, ghosted):
+        """How many faces lie behind each other along the axis, for a ghosted array."""
+        return ghosted.shape[1] - 1 if self.number else len(ghosted) - 2 * HALO + 1
+
+    def at(self, ghosted, shift=0, first=0, last=None):
+        """View at the nodes `shift` beyond W (0: W, 1: E) of the faces first ... last - 1."""
+        last = self.faces(ghosted) if last is None else last
+        start = shift if self.number else shift + HALO - 1
+        nodes = slice(start + first, start + last)
+        return ghosted[HALO:-HALO, nodes] if self.number else ghosted[nodes]
+
+    def reachable(self, ghosted, shifts):
+        """The faces first, last between which all nodes at the `shifts` beyond W are in the array."""
+        length = ghosted.shape[1] if self.number else len(ghosted)
+        start, faces = (0 if self.number else HALO - 1), self.faces(ghosted)
+        first = max((-start - shift for shift in shifts), default=0)
+        last = min((length - start - shift for shift in shifts), default=faces)
+        return max(first, 0), min(last, faces)
+
+    def of_faces(self, array, first=0, last=None):
+        """View of the faces first ... last - 1 of an array of faces."""
+        return array[:, first:last] if self.number else array[first:last]
+
+    def inner(self, array):
+        """View of the nodes (lines, nx) between two faces: all but the ends of lines along X."""
+        return array[..., 1:-1] if self.number else array
+
+    def neighbour(self, ghosted, shift):
+        """View at the nodes `shift` along the axis from those of `inner`."""
+        if self.number:
+            return ghosted[HALO:-HALO, 1 + shift : ghosted.shape[1] - 1 + shift]
+        return ghosted[HALO + shift : len(ghosted) - HALO + shift]
+
+    def entered(self, array):
+        """Of an array of faces those through which fluid enters the nodes of `inner`, going along."""
+        return array[:, :-1] if self.number else array[:-1]
+
+    def left(self, array):
+        """Of an array of faces those through which it leaves them."""
+        return array[:, 1:] if self.number else array[1:]
+
+    def offset(self, shift):
+        """(lines, nodes) from a node to the one `shift` along the axis."""
+        return (0, shift) if self.number else (shift, 0)
+
+
+def axes_of(mesh, motion):
+    """The `Axis` along X and, of a plane mesh, the one along Y; `motion` are the velocity's parts."""
+    along_x = Axis(1, mesh.dX, mesh.pressure_dX, motion[0])
+    if mesh.is_line:
+        return (along_x,)
+    return along_x, Axis(0, mesh.dY, mesh.dY / mesh.k_e**2, mesh.k_e * motion[1])

@@ -1,0 +1,80 @@
+"""What happens where a gap closes: the laws of contact that a run may choose between."""
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+
+import numpy as np
+
+
+class ContactLaw(ABC):
+    """How small gaps let fluid through, and when they are closed; gaps in units of H."""
+
+    has_contact: bool
+    """Whether bodies touch: without it no node is ever in contact, and bodies may overlap."""
+
+    @abstractmethod
+    def flow_gap(self, H):
+        """The gap that the Poiseuille flow sees, and its derivative by H."""
+
+    @abstractmethod
+    def closed(self, H, was_released):
+        """Where fluid of gap H comes into contact; `was_released` of nodes that contact let go before."""
+
+    @abstractmethod
+    def takes_fluid(self, H):
+        """Where a cavity of gap H may fill with fluid."""
+
+    @property
+    @abstractmethod
+    def thinnest(self):
+        """The thinnest film this law knows, 0 where it names none."""
+
+
+@dataclass(frozen=True)
+class InterfaceConditions(ContactLaw):
+    """The lubrication-contact interface conditions: contact where the gap is closed  [Liu eqs. 1-4]."""
+
+    threshold: float = 0.0
+    """H_th: a smaller gap is closed."""
+
+    has_contact = True
+
+    def flow_gap(self, H):
+        return H, 1.0
+
+    def closed(self, H, was_released):
+        """Below H_th; a node that was let go comes back only when the bodies would overlap.
+
+        With a gap between 0 and H_th it would be torn off and put back for ever.
+        """
+        return np.where(was_released, 0.0, self.threshold) >= H
+
+    def takes_fluid(self, H):
+        """A node without a gap cannot take part in the flow."""
+        return H > 0.0
+
+    @property
+    def thinnest(self):
+        return self.threshold
+
+
+@dataclass(frozen=True)
+class UnifiedEquations(ContactLaw):
+    """Reynolds' equation everywhere, no interface conditions; its Poiseuille flow has a smallest gap."""
+
+    smallest_gap: float = 0.0
+
+    has_contact = False
+
+    def flow_gap(self, H):
+        return np.maximum(H, self.smallest_gap), H > self.smallest_gap
+
+    def closed(self, H, was_released):
+        return np.zeros(np.shape(H), dtype=bool)
+
+    def takes_fluid(self, H):
+        return np.ones(np.shape(H), dtype=bool)
+
+    @property
+    def thinnest(self):
+        return self.smallest_gap

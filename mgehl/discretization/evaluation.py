@@ -1,0 +1,71 @@
+"""One state on one grid, evaluated: each quantity once, when it is first asked for."""
+
+from functools import cached_property
+
+import numpy as np
+
+from mgehl.discretization.axes import axes_of, own
+from mgehl.discretization.faces import conductances, flows
+from mgehl.discretization.fluid import fluid_state
+from mgehl.discretization.kernels import flow_sources
+
+
+class Evaluation:
+    """What the pressure, gap and status of a state mean for the flow; the three are ghosted.
+
+    Whoever needs a part of it is handed the whole. It holds what the state was when it was made:
+    a state that has changed is evaluated anew.
+    """
+
+    def __init__(self, P, H, status, mesh, contact, scheme, fluid=None):
+        self.P, self.H, self.status = P, H, status
+        self.mesh, self.contact, self.scheme = mesh, contact, scheme
+        self.axes = axes_of(mesh, scheme.motion)
+        self.fluid = fluid_state(P, H, contact, scheme.contact_law) if fluid is None else fluid
+
+    def by(self, scheme):
+        """The same state and fluid, differenced by another scheme of the same contact law."""
+        if scheme == self.scheme:
+            return self
+        parts = self.P, self.H, self.status, self.mesh, self.contact
+        return Evaluation(*parts, scheme, self.fluid)
+
+    @cached_property
+    def flows(self):
+        """(leaving W, entering E) along each axis."""
+        return [flows(self.fluid, self.status, axis, self.scheme) for axis in self.axes]
+
+    @cached_property
+    def inflow(self):
+        """Net inflow/(dX dY) of every node, whatever its status: (lines, nx); zero on the ends of lines."""
+        inflow = np.zeros(own(self.P).shape)
+        for axis, (leaving, entering) in zip(self.axes, self.flows, strict=True):
+            net = axis.entered(entering.value) - axis.left(leaving.value)
+            axis.inner(inflow)[:] += net / axis.cell
+        inflow[:, [0, -1]] = 0.0
+        return inflow
+
+    @cached_property
+    def conductances(self):
+        """Of the faces along X, (lines, nx - 1), and Y, (lines + 1, nx); these zero on a single line."""
+        found = [conductances(self.fluid, self.status, axis, self.scheme) for axis in self.axes]
+        if self.mesh.is_line:
+            lines, nx = own(self.P).shape
+            found.append(np.zeros((lines + 1, nx)))
+        return found
+
+    @cached_property
+    def conductance(self):
+        """Sum over the faces of every node, (lines, nx)."""
+        along, across = self.conductances
+        total = across[:-1] + across[1:]
+        total[:, 1:] += along
+        total[:, :-1] += along
+        return total
+
+    @cached_property
+    def source(self):
+        """What the surfaces carry into a node: its inflow without the Poiseuille flow, (lines, nx)."""
+        source = np.zeros(self.inflow.shape)
+        flow_sources(self.inflow, self.P, *self.conductances, source)
+        return source

@@ -1,0 +1,26 @@
+"""Which equation each node has at the moment: the kinds of rows of the nonlinear residual.
+
+    FLOW      net inflow/(dX dY) = 0   film                           [Liu eq. 35]
+    PRESSURE  -P/dX = 0                boundary, cavity: P is given
+    GAP       -H/dX = 0                contact (the scale of the Couette term)
+
+Mostly the status says which. But fluid that is settled apart from the gap is *frozen* in the linear
+system of the rest, and in a rigid gap the pressure of a contact node is given, too.
+"""
+
+import numpy as np
+
+from mgehl.discretization.status import CONTACT, LUBRICATED
+
+FLOW, PRESSURE, GAP = np.int8(0), np.int8(1), np.int8(2)
+
+
+def rows_of(status, rigid=False, frozen=None):
+    """The kind of row of every node, shape as `status`; those that are `frozen` keep their pressure."""
+    rows = np.full(status.shape, PRESSURE)
+    rows[status == LUBRICATED] = FLOW
+    if not rigid:
+        rows[status == CONTACT] = GAP
+    if frozen is not None:
+        rows[frozen] = PRESSURE
+    return rows

@@ -1,0 +1,37 @@
+"""What a control volume stores: the squeeze flow d(rho H)/dt of an implicit time step."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mgehl.discretization.axes import own
+
+
+@dataclass(frozen=True)
+class Storage:
+    """The term -rate (rho H - before) of the film's rows, by backward Euler; arrays (lines, nx).
+
+    The smaller the time step 1/rate, the less the gap of a film can change in it.
+    """
+
+    rate: float | np.ndarray
+    """1/time step, in units in which the Couette flow of a full film is 1."""
+    before: np.ndarray
+    """rho H at the beginning of the step."""
+
+    @classmethod
+    def begun(cls, fluid, rate):
+        """A time step that begins with this ghosted `fluid`; None where there is no rate at all."""
+        return cls(rate, own(fluid.rho) * own(fluid.H)) if np.any(rate) else None
+
+    def outflow(self, fluid):
+        """What is stored instead of flowing on."""
+        return self.rate * (own(fluid.rho) * own(fluid.H) - self.before)
+
+    def by_P(self, fluid):
+        """Derivative of `outflow` by the node's own P, its H held."""
+        return self.rate * own(fluid.drho_dP) * own(fluid.H)
+
+    def by_H(self, fluid):
+        """Derivative of `outflow` by the node's own H."""
+        return self.rate * own(fluid.rho)

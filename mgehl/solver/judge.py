@@ -1,0 +1,63 @@
+"""Whether an iteration has come to its end, and why: looks at a position, changes nothing."""
+
+from dataclasses import dataclass
+
+from petsc4py import PETSc
+
+from mgehl.solver.problem import DIVERGED
+
+STALLS = 3
+"""Linear systems that GMRES may leave unsolved: where no state is near (a film that ends, a node at a
+fold) all that follow cost as much as they can and lead nowhere."""
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """Of a position: go on, settled, or given up."""
+
+    ends: bool
+    converged: bool = False
+    reason: str = ""
+    contradictions: tuple = ()
+    """Nodes that can be neither film nor contact."""
+
+
+GO_ON = Verdict(ends=False)
+
+
+def judge(position, partition, tolerance, max_steps):
+    """The `Verdict` on a position whose last cycle has just been measured (collective)."""
+    cycle = position.cycles[-1]
+    limit = position.trial.limit if position.trial else max_steps
+    small = cycle.residual <= tolerance and abs(cycle.load_error) <= tolerance
+    if small and cycle.changes.total == 0:
+        return Verdict(True, True, "residual, load and sets settled")
+    if not cycle.residual < DIVERGED:
+        return Verdict(True, reason=f"diverged: residual {cycle.residual:.1e} after {cycle.step} steps")
+    if partition.restless:
+        return _never_settling(partition.contradictions(position.state.status), cycle.step)
+    if position.stalls == STALLS:
+        return Verdict(True, reason=f"{STALLS} linear systems in {cycle.step} steps could not be solved")
+    if cycle.step >= limit:
+        settled = "sets still change after" if small else f"residual {cycle.residual:.1e} after"
+        return Verdict(True, reason=f"{settled} {cycle.step} steps")
+    return GO_ON
+
+
+def judge_system(reason, position):
+    """The `Verdict` on a linear system that was solved, or not, with this KSP's `reason`."""
+    if position.trial and reason < 0:
+        return Verdict(True, reason="what Eq. 2 let go leaves no linear system that can be solved")
+    if reason == PETSc.KSP.ConvergedReason.DIVERGED_NANORINF:
+        step = position.cycles[-1].step
+        return Verdict(True, reason=f"singular: no linear solution after {step} steps")
+    return GO_ON
+
+
+def _never_settling(nodes, step):
+    """The verdict on sets that cycle."""
+    reason = (
+        f"{len(nodes)} nodes can be neither film, whose gap closes, nor contact, which is torn open: "
+        f"the sets cycle after {step} steps"
+    )
+    return Verdict(True, reason=reason, contradictions=tuple(nodes))
