@@ -1,6 +1,6 @@
 """Nodal state of the lubricant and the mobility of a face between two nodes."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 
@@ -20,9 +20,14 @@ class Fluid:
     deps_dP: np.ndarray
     deps_dH: np.ndarray
 
-    def __getitem__(self, part):
-        """The same fluid on a part of the nodes (views)."""
-        return Fluid(*(getattr(self, name)[part] for name in self.__dataclass_fields__))
+    def with_part(self, nodes, part):
+        """A copy that is another fluid, `part`, on the `nodes` of a mask."""
+        parts = []
+        for field in fields(self):
+            array = getattr(self, field.name).copy()
+            array[nodes] = getattr(part, field.name)
+            parts.append(array)
+        return Fluid(*parts)
 
 
 def fluid_state(P, H, contact, contact_law):

@@ -32,13 +32,14 @@ PASSES = 2
 
 
 def relax_cavitation_set(problem, state, evaluation):
-    """Relax P and status of the weakly coupled fluid; return the number of nodes that changed.
+    """Relax P and status of the weakly coupled fluid; return how many nodes changed, and the evaluation.
 
-    `evaluation` is that of `state`. Updates `state` in place, but only if the set moved: otherwise
-    Newton's pressures stand. Zebra order by global line number, so the number of ranks does not matter.
+    `evaluation` is that of `state`, what is returned that of the state after. Updates `state` in place,
+    but only if the set moved: otherwise Newton's pressures stand. Zebra order by global line number, so
+    the number of ranks does not matter.
     """
     if not problem.scheme.cavitation:
-        return 0
+        return 0, evaluation
     grid, P = problem.grid, evaluation.P.copy()
     faces = evaluation.source, *evaluation.conductances
     movable = _relaxable(problem, evaluation, state)
@@ -56,7 +57,8 @@ def relax_cavitation_set(problem, state, evaluation):
     if moved:
         state.P[:] = own(P)
         state.status[:] = relaxed
-    return moved
+        evaluation = problem.evaluate_moved(evaluation, P)
+    return moved, evaluation
 
 
 def weakly_coupled(problem, evaluation, status, multiple):

@@ -130,12 +130,9 @@ class Newton:
             changes.cavitated += problem.grid.count(before != state.status)
         else:
             evaluation = problem.evaluate(state)
-        moved = relax_cavitation_set(problem, state, evaluation)
-        if moved:
-            changes.cavitated += moved
-            evaluation = problem.evaluate(state)
-        self._partition.fill(state, evaluation.inflow, changes)
-        self._evaluation = evaluation
+        moved, self._evaluation = relax_cavitation_set(problem, state, evaluation)
+        changes.cavitated += moved
+        self._partition.fill(state, self._evaluation.inflow, changes)
 
     @property
     def _fluid_tolerance(self):

@@ -49,6 +49,13 @@ class Problem:
         _ = evaluation.inflow
         return evaluation
 
+    @event(ASSEMBLY)
+    def evaluate_moved(self, evaluation, P):
+        """As `evaluate`, where only the fluid's pressure has changed since, to the ghosted `P`."""
+        evaluation = evaluation.with_pressure(P)
+        _ = evaluation.inflow
+        return evaluation
+
     def ghosted(self, state):
         """P, H and status of a state with the neighbours' lines."""
         grid = self.grid
