@@ -5,7 +5,7 @@ from importlib import import_module
 from pathlib import Path
 
 from mgehl.commands import CONVERGED, NOT_CONVERGED
-from mgehl.config import check_ranks, load_config
+from mgehl.config import load_config
 from mgehl.discretization.fluid import FACE_MEANS
 from mgehl.errors import ConfigError
 
@@ -64,7 +64,6 @@ def execute(options, comm):
     from mgehl.run import versions
     from mgehl.studies.study import Study
 
-    check_ranks(comm.size)
     nodes = _nodes(options.nodes)
     if options.study in DOUBLING:
         _check_doubling(nodes)

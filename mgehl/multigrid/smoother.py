@@ -49,7 +49,7 @@ class LineSmoother:
     def apply(self, _pc, x, y):
         """One relaxation from zero; the border is left alone."""
         space = self._jacobian.space
-        r, _ = space.read(x)
+        r, _ = space.read_own(x)
         self._bands.solve(r, self._w)
         self._jacobian.grid.halo(self._w, out=self._ghosted_w)
         distribute(self._ghosted_w, self._distributive, self._share, self._omega, self._out)
@@ -81,7 +81,7 @@ class RigidLineSmoother:
     def apply(self, _pc, x, y):
         """One relaxation from zero; the border is left alone."""
         space = self._jacobian.space
-        r, _ = space.read(x)
+        r, _ = space.read_own(x)
         self._bands.solve(r, self._out)
         self._out *= self._omega
         self._out[self._given] = 0.0
