@@ -142,9 +142,10 @@ class Grid:
         return self.comm.allreduce(mine, MPI.SUM)
 
     def gather(self, array):
-        """The whole (ny, nx) array on rank 0, None elsewhere."""
-        parts = self.comm.gather(np.ascontiguousarray(array))
-        return None if parts is None else np.concatenate(parts)
+        """The whole (ny, nx) array on rank 0, None elsewhere: for what is written or shown."""
+        whole = np.empty((self.mesh.ny, self.mesh.nx), array.dtype) if self.comm.rank == 0 else None
+        self.comm.Gatherv(np.ascontiguousarray(array), self._parts_of(whole))
+        return whole
 
     def whole_of_team(self, array):
         """The whole (ny, nx) array on every rank of the team: for a coarsest grid only."""
@@ -155,12 +156,13 @@ class Grid:
 
     def scatter(self, whole):
         """The local lines of a whole array that rank 0 has."""
-        parts = None
-        if self.comm.rank == 0:
-            parts = [
-                whole[first:last] for first, last in zip(self.starts[:-1], self.starts[1:], strict=True)
-            ]
-        return np.array(self.comm.scatter(parts))
+        local = np.empty(self.shape, self.comm.bcast(None if whole is None else whole.dtype))
+        self.comm.Scatterv(self._parts_of(whole), local)
+        return local
+
+    def _parts_of(self, whole):
+        """What MPI takes for the whole array that rank 0 has, dealt out in lines."""
+        return None if whole is None else (np.ascontiguousarray(whole), np.diff(self.starts) * self.mesh.nx)
 
 
 def single_grid(mesh, comm):
