@@ -21,6 +21,7 @@ STUDIES = {
     "onset": "the speeds at which contact appears and full contact is lost, against the grid",
     "bracket": "films by three means of the mobility, grid by grid",
     "schemes": "films of the point contact by every differential scheme",
+    "ranks": "messages, bytes, flops and time of an iteration on this run's ranks, and on many more",
 }
 
 DOUBLING = ("wedge", "schemes")

@@ -6,7 +6,7 @@ from petsc4py import PETSc
 
 from mgehl.discretization.mesh import HALO
 from mgehl.discretization.status import CONTACT
-from mgehl.grid.ownership import active_ranks, coarsened, deal_out, regrouped
+from mgehl.grid.ownership import active_ranks, ownerships
 
 
 class Grid:
@@ -179,7 +179,5 @@ def build_grids(mesh, coarsest_nodes, comm):
     meshes = [mesh]
     while meshes[-1].nx > coarsest_nodes and meshes[-1].nx % 2 and meshes[-1].ny % 2:
         meshes.append(meshes[-1].coarsened())
-    starts = [deal_out(mesh.ny, comm.size)]
-    for _ in meshes[1:]:
-        starts.append(regrouped(coarsened(starts[-1])))
+    starts = ownerships(mesh.ny, len(meshes), comm.size)
     return [Grid(*each, comm) for each in zip(meshes, starts, strict=True)][::-1]

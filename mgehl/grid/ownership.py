@@ -12,6 +12,14 @@ README's section on ranks 4 to 8 are fastest: with fewer, a rank waits longer fo
 neighbour would compute for it."""
 
 
+def ownerships(lines, grids, ranks):
+    """Of so many grids, the finest first: a line stays with its rank as long as that has enough to do."""
+    found = [deal_out(lines, ranks)]
+    for _ in range(grids - 1):
+        found.append(regrouped(coarsened(found[-1])))
+    return found
+
+
 def deal_out(lines, ranks):
     """Ownership of a finest grid: all ranks share it, or as many of the last ones as have enough to do."""
     return _shared_by(np.arange(ranks)[-_most_ranks(lines) :], lines, ranks)

@@ -1,20 +1,19 @@
 """Which rank holds which lines."""
 
+from math import log2
+
 import numpy as np
 import pytest
 
-from mgehl.grid.ownership import MIN_LINES, active_ranks, coarsened, deal_out, regrouped
+from mgehl.grid.ownership import MIN_LINES, active_ranks, coarsened, deal_out, ownerships, regrouped
 
 LINES = (5, 9, 65, 129, 1025)
 RANKS = (1, 2, 3, 7, 16, 20, 40, 600)
 
 
 def chain(lines, ranks):
-    """Ownerships from the finest grid to one of few lines."""
-    owned = [deal_out(lines, ranks)]
-    while owned[-1][-1] > 5:
-        owned.append(regrouped(coarsened(owned[-1])))
-    return owned
+    """Ownerships from the finest grid to one of five lines."""
+    return ownerships(lines, int(log2((lines - 1) / 4)) + 1, ranks)
 
 
 @pytest.mark.parametrize("lines", LINES)

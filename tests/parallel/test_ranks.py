@@ -381,6 +381,20 @@ class TestRelaxation:
             assert vars(one) == pytest.approx(vars(other), rel=1e-8, abs=digits)
         assert all(each == told[0] for each in COMM.allgather(told[0]))
 
+    def test_a_rank_without_lines_takes_part(self, pair, paper_contact):
+        """Five lines are one rank's."""
+        settings = SolverSettings(
+            method="relaxation", relaxation=RelaxationSettings(max_sweeps=3, report_every=1)
+        )
+        (problem, together), (_, alone) = (
+            single_loop(hierarchy, paper_contact(), settings, lambda *_: None)
+            for hierarchy in pair(nodes=5, coarsest=5)
+        )
+        np.testing.assert_allclose(
+            whole(problem.grid, together.state.P), alone.state.P, rtol=0.0, atol=1e-12
+        )
+        assert COMM.allgather(together.state.H0) == [together.state.H0] * COMM.size
+
 
 WEDGES = {
     "blocked exit": wedge_case("blocked exit", 65),
