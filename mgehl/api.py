@@ -14,7 +14,7 @@ from collections.abc import Iterable, Mapping
 from os import PathLike
 from typing import TYPE_CHECKING
 
-from mgehl.config import Config, check_ranks, load_config
+from mgehl.config import Config, load_config
 
 if TYPE_CHECKING:
     from mpi4py import MPI
@@ -57,7 +57,6 @@ def solve(
     from mgehl.solver.restart import check_start
 
     comm = MPI.COMM_WORLD if comm is None else comm
-    check_ranks(comm.size)
     check_contact(config, contact_from(config))
     if start:
         check_start(start, config.contact.kind)

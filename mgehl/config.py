@@ -148,15 +148,6 @@ def _anchor(tables, directory):
             table[key] = absolute(value, directory) or value
 
 
-def check_ranks(ranks):
-    """Raise ConfigError if the lines of the coarsest grid cannot be shared by so many ranks."""
-    most = (COARSEST_NODES - 1) // 2
-    if ranks > most:
-        raise ConfigError(
-            f"{ranks} ranks: at most {most} can share the coarsest grid of {COARSEST_NODES} lines"
-        )
-
-
 def config_from_tables(tables):
     """Validate nested values as read from TOML."""
     sections = {}

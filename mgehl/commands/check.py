@@ -3,7 +3,7 @@
 from dataclasses import asdict
 
 from mgehl.commands import CONVERGED
-from mgehl.config import check_ranks, default_config, load_config
+from mgehl.config import default_config, load_config
 from mgehl.errors import UserError
 
 PARALLEL = False
@@ -37,7 +37,6 @@ def execute(options):
     config = load_config(options.config, options.settings)
     if options.ranks < 1:
         raise UserError(f"--ranks {options.ranks}: must be at least 1")
-    check_ranks(options.ranks)
     from mgehl.plausibility import check_contact
     from mgehl.solver.from_config import contact_from, mesh_from
 

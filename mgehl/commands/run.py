@@ -4,7 +4,7 @@ from pathlib import Path
 from shlex import quote
 
 from mgehl.commands import CONVERGED, NOT_CONVERGED
-from mgehl.config import check_ranks, default_config, load_config
+from mgehl.config import default_config, load_config
 from mgehl.config_value import read_quantity
 from mgehl.errors import OutputError, UserError
 
@@ -44,7 +44,6 @@ def add(commands):
 
 def execute(options, comm):
     """Solve on all ranks and write the directory."""
-    check_ranks(comm.size)
     save_every = read_quantity("--save-every", options.save_every, "s")
     limit = options.time_limit and read_quantity("--time-limit", options.time_limit, "s")
     if options.resume and _has_finished(options):

@@ -6,7 +6,7 @@ Each has a numpy twin in the tests that says the same thing slowly.
 import numpy as np
 from numba import njit
 
-from mgehl.discretization.axes import HALO
+from mgehl.discretization.mesh import HALO
 
 REACH = 5
 """Neighbours on each side that a line's band couples where the gap is elastic."""

@@ -5,6 +5,9 @@ from functools import cached_property
 
 import numpy as np
 
+HALO = 2
+"""Lines of its neighbours, on each side, that a ghosted array carries around a rank's own."""
+
 
 @dataclass(frozen=True)
 class Mesh:

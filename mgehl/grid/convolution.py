@@ -26,8 +26,30 @@ class Deflection:
     def __init__(self, grid, kernel):
         self.grid = grid
         self.count = 0
+        self._convolution = _Convolution(grid, kernel) if grid.has_lines else None
+
+    def destroy(self):
+        """Free the MPI datatypes."""
+        if self._convolution:
+            self._convolution.destroy()
+
+    @event(DEFLECTION)
+    def __call__(self, P):
+        """Deflection (lines, nx) by the pressure P (lines, nx), zero on boundary nodes.
+
+        The result is a view that the next call overwrites. Ranks without lines take no part.
+        """
+        self.count += 1
+        return self._convolution(P) if self._convolution else np.zeros(self.grid.shape)
+
+
+class _Convolution:
+    """The transforms of a rank with lines, planned, and the kernel's spectrum."""
+
+    def __init__(self, grid, kernel):
+        self.grid = grid
         mesh, (lines, nx) = grid.mesh, grid.shape
-        self._transpose = Transpose(grid.comm, grid.starts, nx)
+        self._transpose = Transpose(grid.team, grid.team_starts, nx)
         columns = self._transpose.columns
         plan = {"flags": FIXED if mesh.is_line else TIMED, "threads": THREADS}
         self._x_real = pyfftw.zeros_aligned((lines, 2 * (nx - 1)))
@@ -38,32 +60,24 @@ class Deflection:
         self._x_backward = pyfftw.FFTW(
             self._x_modes, self._x_real, axes=(1,), direction="FFTW_BACKWARD", **plan
         )
-        self._y_forward = pyfftw.FFTW(self._y_modes, self._y_modes, axes=(0,), **plan)
-        self._y_backward = pyfftw.FFTW(
-            self._y_modes, self._y_modes, axes=(0,), direction="FFTW_BACKWARD", **plan
-        )
+        self._y_forward = _along_y(self._y_modes, "FFTW_FORWARD", plan)
+        self._y_backward = _along_y(self._y_modes, "FFTW_BACKWARD", plan)
         self._spectrum = self._transform(kernel)
 
     def destroy(self):
         """Free the MPI datatypes."""
         self._transpose.destroy()
 
-    @event(DEFLECTION)
     def __call__(self, P):
-        """Deflection (lines, nx) by the pressure P (lines, nx), zero on boundary nodes.
-
-        The result is a view that the next call overwrites.
-        """
         nx, ny = self.grid.mesh.nx, self.grid.mesh.ny
-        self.count += 1
         self._x_real[:, :nx] = P
         self._x_real[:, nx:] = 0.0
         self._x_forward.execute()
         self._transpose.to_columns(self._x_modes, self._y_modes[:ny])
         self._y_modes[ny:] = 0.0
-        self._y_forward.execute()
+        self._y_forward()
         self._y_modes *= self._spectrum
-        self._y_backward.execute()
+        self._y_backward()
         self._transpose.to_lines(self._y_modes[:ny], self._x_modes)
         self._x_backward.execute()
         return self._x_real[:, :nx]
@@ -77,8 +91,15 @@ class Deflection:
         self._x_forward.execute()
         self._transpose.to_columns(self._x_modes, self._y_modes[:ny])
         self._y_modes[ny:] = self._y_modes[ny - 2 : 0 : -1]
-        self._y_forward.execute()
+        self._y_forward()
         return self._y_modes.real / (self._x_real.shape[1] * self._y_modes.shape[0])
+
+
+def _along_y(modes, direction, plan):
+    """Function that transforms all columns in place; of no column, nothing is planned."""
+    if modes.shape[1] == 0:
+        return lambda: None
+    return pyfftw.FFTW(modes, modes, axes=(0,), direction=direction, **plan).execute
 
 
 class Transpose:

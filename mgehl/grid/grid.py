@@ -4,14 +4,17 @@ import numpy as np
 from mpi4py import MPI
 from petsc4py import PETSc
 
-from mgehl.discretization.axes import HALO
+from mgehl.discretization.mesh import HALO
 from mgehl.discretization.status import WALL
+from mgehl.grid.ownership import active_ranks, ownerships
 
 
 class Grid:
     """A `Mesh` decomposed along Y only; `shape` is (local lines, nx).
 
-    `starts` are the first lines of all ranks and, last, the number of lines.
+    `starts` are the first lines of all ranks and, last, the number of lines. On a coarse grid some
+    ranks hold no line; the others are its `team`, a communicator, and exchange lines among
+    themselves. What is not said to be the team's is called by all ranks of `comm`.
     """
 
     def __init__(self, mesh, starts, comm):
@@ -21,24 +24,44 @@ class Grid:
         self.first, self.last = int(self.starts[comm.rank]), int(self.starts[comm.rank + 1])
         self.shape = (self.last - self.first, mesh.nx)
         self.ghosted_shape = (self.shape[0] + 2 * HALO, mesh.nx)
-        self.dm = PETSc.DMDA().create(
+        self.has_lines = self.first < self.last
+        active = active_ranks(self.starts)
+        self._all_are_active = len(active) == comm.size
+        self.team = self._split()
+        self.team_starts = np.append(self.starts[active], mesh.ny)
+        if self.has_lines:
+            self._create_dm()
+
+    def _split(self):
+        """The communicator of the ranks with lines; MPI's null on the others."""
+        if self._all_are_active:
+            return self.comm
+        return self.comm.Split(0 if self.has_lines else MPI.UNDEFINED, self.comm.rank)
+
+    def _create_dm(self):
+        """PETSc's objects for the exchange of lines, on the team."""
+        nx, ny = self.mesh.nx, self.mesh.ny
+        self._dm = PETSc.DMDA().create(
             dim=2,
             dof=1,
-            sizes=(mesh.nx, mesh.ny),
-            proc_sizes=(1, comm.size),
-            ownership_ranges=((mesh.nx,), tuple(np.diff(self.starts))),
+            sizes=(nx, ny),
+            proc_sizes=(1, self.team.size),
+            ownership_ranges=((nx,), tuple(np.diff(self.team_starts))),
             boundary_type=(PETSc.DM.BoundaryType.NONE, PETSc.DM.BoundaryType.GHOSTED),
             stencil_type=PETSc.DMDA.StencilType.STAR,
             stencil_width=HALO,
-            comm=comm,
+            comm=self.team,
         )
-        self._global = self.dm.createGlobalVec()
-        self._local = self.dm.createLocalVec()
+        self._global = self._dm.createGlobalVec()
+        self._local = self._dm.createLocalVec()
 
     def destroy(self):
-        """Free the PETSc objects (cyclic garbage collection can deadlock in parallel)."""
-        for thing in (self._global, self._local, self.dm):
-            thing.destroy()
+        """Free the PETSc and MPI objects (cyclic garbage collection can deadlock in parallel)."""
+        if self.has_lines:
+            for thing in (self._global, self._local, self._dm):
+                thing.destroy()
+            if not self._all_are_active:
+                self.team.Free()
 
     @property
     def X(self):
@@ -53,15 +76,17 @@ class Grid:
     def halo(self, array, out=None):
         """Copy of `array` with the neighbours' lines around it; outside the domain zero.
 
-        `array` is (lines, nx) of any type that a double holds, the result (lines + 2 HALO, nx).
+        `array` is (lines, nx) of any type that a double holds, the result (lines + 2 HALO, nx). The
+        team's: a rank without lines is sent nothing, and may be elsewhere.
         """
-        values = np.ascontiguousarray(array, dtype=float)
         ghosted = np.zeros(self.ghosted_shape) if out is None else out
-        self._global.placeArray(values.ravel())
-        self._local.placeArray(ghosted.ravel())
-        self.dm.globalToLocal(self._global, self._local)
-        self._local.resetArray()
-        self._global.resetArray()
+        if self.has_lines:
+            values = np.ascontiguousarray(array, dtype=float)
+            self._global.placeArray(values.ravel())
+            self._local.placeArray(ghosted.ravel())
+            self._dm.globalToLocal(self._global, self._local)
+            self._local.resetArray()
+            self._global.resetArray()
         return ghosted if ghosted.dtype == array.dtype or out is not None else ghosted.astype(array.dtype)
 
     def halo_status(self, status):
@@ -74,10 +99,11 @@ class Grid:
         return ghosted
 
     def refresh(self, ghosted):
-        """Fetch the neighbours' lines into a ghosted array of doubles, in place."""
-        self._local.placeArray(ghosted.ravel())
-        self.dm.localToLocal(self._local, self._local)
-        self._local.resetArray()
+        """Fetch the neighbours' lines into a ghosted array of doubles, in place (the team's)."""
+        if self.has_lines:
+            self._local.placeArray(ghosted.ravel())
+            self._dm.localToLocal(self._local, self._local)
+            self._local.resetArray()
 
     def boundary(self):
         """True on the outermost nodes of the domain: (lines, nx)."""
@@ -91,6 +117,13 @@ class Grid:
     def sum(self, value):
         """Sum of one number per rank."""
         return self.comm.allreduce(float(value), MPI.SUM)
+
+    def sum_of_team(self, value):
+        """As `sum`, over the team alone: the same but for rounding, known to ranks with lines only."""
+        total = np.array(value, dtype=float)
+        if self.has_lines:
+            self.team.Allreduce(MPI.IN_PLACE, total)
+        return float(total)
 
     def max(self, array, initial=-np.inf):
         """Largest value over all ranks' arrays."""
@@ -110,18 +143,27 @@ class Grid:
         return self.comm.allreduce(mine, MPI.SUM)
 
     def gather(self, array):
-        """The whole (ny, nx) array on rank 0, None elsewhere."""
-        parts = self.comm.gather(np.ascontiguousarray(array))
-        return None if parts is None else np.concatenate(parts)
+        """The whole (ny, nx) array on rank 0, None elsewhere: for what is written or shown."""
+        whole = np.empty((self.mesh.ny, self.mesh.nx), array.dtype) if self.comm.rank == 0 else None
+        self.comm.Gatherv(np.ascontiguousarray(array), self._parts_of(whole))
+        return whole
+
+    def whole_of_team(self, array):
+        """The whole (ny, nx) array on every rank of the team: for a coarsest grid only."""
+        whole = np.empty((self.mesh.ny, self.mesh.nx), dtype=array.dtype)
+        sizes = np.diff(self.team_starts) * self.mesh.nx
+        self.team.Allgatherv(np.ascontiguousarray(array), (whole, sizes))
+        return whole
 
     def scatter(self, whole):
         """The local lines of a whole array that rank 0 has."""
-        parts = None
-        if self.comm.rank == 0:
-            parts = [
-                whole[first:last] for first, last in zip(self.starts[:-1], self.starts[1:], strict=True)
-            ]
-        return np.array(self.comm.scatter(parts))
+        local = np.empty(self.shape, self.comm.bcast(None if whole is None else whole.dtype))
+        self.comm.Scatterv(self._parts_of(whole), local)
+        return local
+
+    def _parts_of(self, whole):
+        """What MPI takes for the whole array that rank 0 has, dealt out in lines."""
+        return None if whole is None else (np.ascontiguousarray(whole), np.diff(self.starts) * self.mesh.nx)
 
 
 def single_grid(mesh, comm):
@@ -132,17 +174,11 @@ def single_grid(mesh, comm):
 def build_grids(mesh, coarsest_nodes, comm):
     """Grids from the coarsest to `mesh`, each of every other node of the next.
 
-    A coarse line belongs to the rank that owns the same fine line, so that every transfer needs
-    one ghost line only. Raises ValueError when a rank would be left without lines.
+    A coarse line belongs to the rank that owns the same fine line, so that a transfer needs ghost
+    lines only; where that would leave the ranks too few lines, fewer ranks share the coarse grid.
     """
     meshes = [mesh]
     while meshes[-1].nx > coarsest_nodes and meshes[-1].nx % 2 and meshes[-1].ny % 2:
         meshes.append(meshes[-1].coarsened())
-    starts = [rank * (mesh.ny // comm.size) + min(rank, mesh.ny % comm.size) for rank in range(comm.size)]
-    all_starts = [np.array([*starts, mesh.ny])]
-    for _ in meshes[1:]:
-        all_starts.append((all_starts[-1] + 1) // 2)
-    if comm.size > 1 and np.any(np.diff(all_starts[-1]) < 2):
-        raise ValueError(f"{comm.size} ranks are too many for a coarsest grid of {meshes[-1].ny} lines")
-    grids = [Grid(mesh, starts, comm) for mesh, starts in zip(meshes, all_starts, strict=True)]
-    return grids[::-1]
+    starts = ownerships(mesh.ny, len(meshes), comm.size)
+    return [Grid(*each, comm) for each in zip(meshes, starts, strict=True)][::-1]

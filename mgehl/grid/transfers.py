@@ -2,24 +2,33 @@
 
 import numpy as np
 
-from mgehl.discretization.axes import HALO, own
+from mgehl.discretization.axes import own
+from mgehl.discretization.mesh import HALO
 from mgehl.discretization.rows import FLOW
 from mgehl.discretization.status import CONTACT
 from mgehl.grid.events import TRANSFERS, event
+from mgehl.grid.ownership import coarsened
+from mgehl.grid.regroup import Aligned, Regrouped
 
 
 class Transfer:
-    """Between a `coarse` and a `fine` Grid; arrays are the local lines of either."""
+    """Between a `coarse` and a `fine` Grid; arrays are the local lines of either.
+
+    A rank reckons with the coarse lines beside its fine ones; where others work on those, they move.
+    """
 
     def __init__(self, coarse, fine):
         self.coarse, self.fine = coarse, fine
-        self._lines = 2 * np.arange(coarse.first, coarse.last) - fine.first
+        beside = coarsened(fine.starts)
+        aligned = np.array_equal(beside, coarse.starts)
+        self._ranks = Aligned(coarse) if aligned else Regrouped(coarse, beside)
         self._odd = fine.first % 2
+        """The first local line that the coarse grid has, too."""
 
     @event(TRANSFERS)
     def inject(self, fine):
         """Values at the nodes that both grids share."""
-        return np.ascontiguousarray(fine[self._lines, ::2])
+        return self._ranks.collect(np.ascontiguousarray(fine[self._odd :: 2, ::2]))
 
     @event(TRANSFERS)
     def full_weighting(self, fine):
@@ -28,22 +37,22 @@ class Transfer:
         Zero on the ends of lines; elsewhere a quarter (a half) of the adjoint of `bilinear`.
         """
         along_y = fine if self.fine.mesh.is_line else self._weighted_lines(self.fine.halo(fine))
-        coarse = np.zeros(self.coarse.shape)
+        coarse = np.zeros((len(along_y), self.coarse.mesh.nx))
         coarse[:, 1:-1] = 0.5 * along_y[:, 2:-2:2] + 0.25 * (along_y[:, 1:-3:2] + along_y[:, 3:-1:2])
-        return coarse
+        return self._ranks.collect(coarse)
 
     def _weighted_lines(self, ghosted):
         """Every other line with half of the lines beside it, of a ghosted fine array."""
-        first, last = self._lines[0] + HALO, self._lines[-1] + HALO
-        beside = ghosted[first - 1 : last : 2] + ghosted[first + 1 : last + 2 : 2]
-        return 0.5 * ghosted[first : last + 1 : 2] + 0.25 * beside
+        first, end = self._odd + HALO, self.fine.shape[0] + HALO
+        beside = ghosted[first - 1 : end - 1 : 2] + ghosted[first + 1 : end + 1 : 2]
+        return 0.5 * ghosted[first:end:2] + 0.25 * beside
 
     @event(TRANSFERS)
     def bilinear(self, coarse):
         """Bilinear interpolation to the fine grid."""
-        ghosted = self.coarse.halo(coarse)
+        ghosted = self._ranks.spread(coarse)
         # Coarse lines that bracket the local odd ones; an odd first line needs the ghost before.
-        lines = ghosted[HALO - 1 :] if self._odd else ghosted[HALO:]
+        lines = ghosted[HALO - self._odd :]
         fine = np.empty(self.fine.shape)
         even, odd = self._odd, 1 - self._odd
         fine[even::2, ::2] = own(ghosted)

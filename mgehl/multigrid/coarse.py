@@ -1,4 +1,4 @@
-"""Direct solve of the bordered Jacobian on the coarsest grid, redundantly on every rank."""
+"""Direct solve of the bordered Jacobian on the coarsest grid, redundantly on every rank that has lines."""
 
 import warnings
 
@@ -11,16 +11,20 @@ from mgehl.multigrid.assembled import stencil_rows
 
 
 class CoarseSolve:
-    """Python context of a PC: dense LU of J with its border."""
+    """Python context of a PC: dense LU of J with its border; ranks without lines have nothing to do."""
 
     def __init__(self, jacobian):
         self._jacobian = jacobian
-        if not jacobian.rigid:
+        if jacobian.grid.has_lines and not jacobian.rigid:
             self._K = dense_influence(jacobian.grid.mesh, jacobian.contact.kernel)
 
     @event(COARSE)
     def setUp(self, _pc):
         """Gather the stencils, form the dense matrix and factor it."""
+        if self._jacobian.grid.has_lines:
+            self._factor()
+
+    def _factor(self):
         jacobian = self._jacobian
         nodes = jacobian.grid.mesh.nodes
         matrix = np.zeros((nodes + 1, nodes + 1))
@@ -41,20 +45,22 @@ class CoarseSolve:
     def apply(self, _pc, x, y):
         """y = J^-1 x."""
         space, grid = self._jacobian.space, self._jacobian.grid
-        r, load = space.read(x)
-        whole = np.append(np.concatenate(grid.comm.allgather(np.array(r))).ravel(), load)
+        if not grid.has_lines:
+            return
+        r, load = space.read_in_team(x)
+        whole = np.append(grid.whole_of_team(r).ravel(), load)
         solution = lu_solve(self._factors, whole, check_finite=False)
         lines = solution[:-1].reshape(grid.mesh.ny, grid.mesh.nx)
         space.write(y, lines[grid.first : grid.last], solution[-1])
 
     def view(self, _pc, viewer):
-        viewer.printfASCII("  dense LU with the border, redundant on every rank\n")
+        viewer.printfASCII("  dense LU with the border, redundant on every rank with lines\n")
 
     def _gather(self, stencil):
-        """Sparse matrix of a stencil (offsets, local lines, nx) of all ranks."""
-        grid = self._jacobian.grid
-        whole = np.concatenate(grid.comm.allgather(stencil), axis=1)
-        return stencil_rows(self._jacobian.linearisation.offsets, whole, 0, grid.mesh.nodes)
+        """Sparse matrix of a stencil (offsets, local lines, nx) of all ranks with lines."""
+        grid, offsets = self._jacobian.grid, self._jacobian.linearisation.offsets
+        whole = np.stack([grid.whole_of_team(position) for position in stencil])
+        return stencil_rows(offsets, whole, 0, grid.mesh.nodes)
 
 
 def dense_influence(mesh, kernel):

@@ -34,7 +34,7 @@ class _Restriction:
 
     def mult(self, _mat, x, y):
         """y = R x from the fine to the coarse space."""
-        r, load = self._fine.read(x)
+        r, load = self._fine.read_own(x)
         self._coarse.write(y, self._transfer.restrict(r), load * self._load_ratio)
 
 
@@ -46,7 +46,7 @@ class _Interpolation:
 
     def mult(self, _mat, x, y):
         """y = P x from the coarse to the fine space."""
-        correction, dH0 = self._coarse.read(x)
+        correction, dH0 = self._coarse.read_own(x)
         self._fine.write(y, self._transfer.prolong(correction), dH0)
 
 

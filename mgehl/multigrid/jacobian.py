@@ -17,12 +17,11 @@ from mgehl.grid.events import ASSEMBLY, event
 
 
 class BorderedSpace:
-    """Vectors (P, H0) on a grid."""
+    """Vectors (P, H0) on a grid: of all ranks, though some may have no line. The last one always has."""
 
     def __init__(self, grid):
         self.grid = grid
-        self._last = grid.comm.size - 1
-        self._owns_border = grid.comm.rank == self._last
+        self._owns_border = grid.comm.rank == grid.comm.size - 1
         self.local_size = grid.shape[0] * grid.shape[1] + int(self._owns_border)
 
     def create_vec(self):
@@ -31,9 +30,18 @@ class BorderedSpace:
 
     def read(self, vec):
         """Return the pressure part, a view (lines, nx), and the border entry on every rank."""
+        P, border = self.read_own(vec)
+        return P, _sent_from_last(self.grid.comm, border)
+
+    def read_in_team(self, vec):
+        """As `read` where only ranks with lines ask for the border; 0 on the others."""
+        P, border = self.read_own(vec)
+        return P, _sent_from_last(self.grid.team, border) if self.grid.has_lines else border
+
+    def read_own(self, vec):
+        """As `read` without a message: the border entry is 0 but on the last rank."""
         values = vec.getArray(readonly=True)
-        border = float(values[-1]) if self._owns_border else None
-        return self._lines(values), self.grid.comm.bcast(border, root=self._last)
+        return self._lines(values), float(values[-1]) if self._owns_border else 0.0
 
     def read_pressure(self, vec):
         """The pressure part alone, a view (lines, nx): no rank needs to ask another."""
@@ -51,6 +59,13 @@ class BorderedSpace:
 
     def _lines(self, values):
         return values[: self.grid.shape[0] * self.grid.shape[1]].reshape(self.grid.shape)
+
+
+def _sent_from_last(comm, number):
+    """The last rank's number on all."""
+    sent = np.array(number)
+    comm.Bcast(sent, root=comm.size - 1)
+    return float(sent)
 
 
 class Jacobian:
@@ -85,7 +100,7 @@ class Jacobian:
 
     def mult(self, _mat, x, y):
         """y = J x; one convolution unless the gap is rigid."""
-        dP, dH0 = self.space.read(x)
+        dP, dH0 = self.space.read_in_team(x)
         grid, lin = self.grid, self.linearisation
         grid.halo(dP, out=self._dP)
         if self.rigid:
@@ -94,4 +109,4 @@ class Jacobian:
         else:
             grid.halo(self.deflection(dP), out=self._dH)
             apply_jacobian(lin.offsets, lin.A, lin.B, self._dP, self._dH, dH0, self._out)
-            self.space.write(y, self._out, self.load_weight * grid.sum(dP.sum()))
+            self.space.write(y, self._out, self.load_weight * grid.sum_of_team(dP.sum()))

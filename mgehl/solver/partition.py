@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mgehl.discretization.axes import HALO
+from mgehl.discretization.mesh import HALO
 from mgehl.discretization.status import (
     CAVITATED,
     CONTACT,

@@ -131,6 +131,8 @@ class _Relaxation:
         bands = self._line_bands(evaluation, contact, given)
         rhs = np.where(contact, -state.H, -evaluation.inflow)
         rhs[given] = 0.0
+        if not rhs.size:
+            return rhs  # a rank without lines: scipy takes no empty system
         # The lines follow each other in one system: their ends are boundary and couple nothing.
         flat = [band.ravel() for band in bands]
         ab = np.zeros((3, rhs.size))

@@ -178,10 +178,10 @@ class Branches:
 
     def _state(self, point):
         """The local part of a point's state."""
-        comm, grid = self._study.comm, self._grids.grids[-1]
-        fields = comm.bcast(point.fields)
-        lines = slice(grid.first, grid.last)
-        return State(fields.P[lines], point.H0, fields.H[lines], fields.status[lines])
+        grid, fields = self._grids.grids[-1], point.fields
+        whole = (fields.P, fields.H, fields.status) if fields else (None, None, None)
+        P, H, status = map(grid.scatter, whole)
+        return State(P, point.H0, H, status)
 
     @property
     def _grids(self):

@@ -75,7 +75,6 @@ def test_a_wedge_is_described(told):
         (["--set", "grid.nodes=66"], ["grid.nodes = 66"]),
         (["--set", "contact.load=1e9"], ["contact.load"]),
         (["--ranks", "0"], ["--ranks 0"]),
-        (["--ranks", "17"], ["17 ranks"]),
     ],
 )
 def test_what_would_not_run_is_one_line_and_status_2(words, parts, capsys):

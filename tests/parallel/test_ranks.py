@@ -12,10 +12,11 @@ import pytest
 from mpi4py import MPI
 
 from mgehl.config import config_from_tables
+from mgehl.discretization.mesh import HALO
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
 from mgehl.errors import OutputError, Stopped
-from mgehl.grid.grid import build_grids
+from mgehl.grid.regroup import Move
 from mgehl.grid.transfers import PartitionedTransfer
 from mgehl.multigrid.jacobian import BorderedSpace
 from mgehl.output.records import Reader, Writer
@@ -125,11 +126,105 @@ class TestGrid:
         grid = together.grids[-1]
         np.testing.assert_array_equal(whole(grid, grid.boundary()), alone.grids[-1].boundary())
 
-    @pytest.mark.skipif(COMM.size == 1, reason="one rank is never too many")
-    def test_too_many_ranks_for_a_grid_are_refused_on_all(self, pair):
-        together, _ = pair(nodes=9)
-        with pytest.raises(ValueError, match="too many"):
-            build_grids(together.grids[-1].mesh, 3, COMM)
+
+SMALL = {"nodes": 33, "coarsest": 5}
+"""Down to a grid whose lines are too few for two ranks, by way of one that is too small for three."""
+
+
+class TestCoarseGridsOnFewerRanks:
+    def test_the_coarsest_is_one_rank_s_and_its_halo_is_too(self, pair):
+        together, _ = pair(**SMALL)
+        coarsest, finest = together.grids[0], together.grids[-1]
+        assert COMM.allgather(coarsest.shape[0]) == [0] * (COMM.size - 1) + [5]
+        assert COMM.allgather(finest.has_lines) == [True] * COMM.size
+        values = random(coarsest)
+        ghosted = coarsest.halo(lines(coarsest, values))
+        assert ghosted.shape == coarsest.ghosted_shape
+        np.testing.assert_array_equal(ghosted[HALO:-HALO], lines(coarsest, values))
+
+    def test_what_all_ranks_ask_is_known_to_all(self, pair):
+        together, alone = pair(**SMALL)
+        grid, values = together.grids[0], random(together.grids[0])
+        mine = lines(grid, values)
+        assert grid.max(mine) == values.max() and grid.min(mine) == values.min()
+        assert grid.count(mine > 0.0) == np.count_nonzero(values > 0.0)
+        assert grid.value_at(mine, 1, 2) == values[2, 1]
+        assert grid.sum(mine.sum()) == pytest.approx(values.sum(), rel=1e-12)
+        np.testing.assert_array_equal(whole(grid, mine), values)
+        np.testing.assert_array_equal(grid.scatter(values if COMM.rank == 0 else None), mine)
+        np.testing.assert_array_equal(whole(grid, grid.boundary()), alone.grids[0].boundary())
+
+    @pytest.mark.parametrize("kind", [float, np.int8, bool])
+    def test_lines_move_to_the_coarse_ranks_and_back(self, pair, kind):
+        together, alone = pair(**SMALL)
+        for shared, serial in zip(together.transfers, alone.transfers, strict=True):
+            fine = (random(serial.fine) > 0.0).astype(kind)
+            injected = shared.inject(lines(shared.fine, fine))
+            assert injected.dtype == kind
+            np.testing.assert_array_equal(injected, lines(shared.coarse, fine[::2, ::2]))
+
+    def test_transfers_equal_the_serial_ones(self, pair):
+        together, alone = pair(**SMALL)
+        for shared, serial in zip(together.transfers, alone.transfers, strict=True):
+            fine, coarse = random(serial.fine, 1), random(serial.coarse, 2)
+            down = whole(shared.coarse, shared.full_weighting(lines(shared.fine, fine)))
+            up = whole(shared.fine, shared.bilinear(lines(shared.coarse, coarse)))
+            np.testing.assert_allclose(down, serial.full_weighting(fine), rtol=0.0, atol=1e-14)
+            np.testing.assert_allclose(up, serial.bilinear(coarse), rtol=0.0, atol=1e-14)
+
+    def test_convolutions_equal_the_serial_ones(self, pair):
+        together, alone = pair(**SMALL)
+        for shared, serial in zip(together.deflections, alone.deflections, strict=True):
+            P = np.where(serial.grid.boundary(), 0.0, random(serial.grid))
+            expected = serial(P).copy()
+            found = whole(shared.grid, shared(lines(shared.grid, P)).copy())
+            assert np.max(np.abs(found - expected)) < 1e-12 * np.max(np.abs(expected))
+        assert COMM.allgather(together.convolutions) == [alone.convolutions] * COMM.size
+
+    def test_the_border_is_known_to_whom_it_concerns(self, pair, make_vec):
+        together, _ = pair(**SMALL)
+        grid = together.grids[0]
+        space, values = BorderedSpace(grid), random(grid)
+        vec = make_vec(space, lines(grid, values), 2.5)
+        assert vec.getSize() == grid.mesh.nodes + 1
+        assert space.read(vec)[1] == 2.5
+        assert space.read_in_team(vec)[1] == (2.5 if grid.has_lines else 0.0)
+        assert COMM.allgather(space.read_own(vec)[1]) == [0.0] * (COMM.size - 1) + [2.5]
+
+    @pytest.mark.parametrize("start, speed", [("film", 1.0), ("contact", 5e-6)])
+    def test_cycles_over_them_solve_as_on_one_rank(self, solve, paper_contact, start, speed):
+        together, alone = (
+            solve(paper_contact(speed), 33, start, coarsest=5, comm=comm) for comm in (COMM, MPI.COMM_SELF)
+        )
+        found, expected = together.outcome, alone.outcome
+        assert found.converged and expected.converged
+        work = [[cycle.linear_iterations for cycle in each.cycles] for each in (found, expected)]
+        assert work[0] == work[1]
+        H = whole(together.problem.grid, found.state.H)
+        scale = np.abs(expected.state.H).max()
+        np.testing.assert_allclose(H, expected.state.H, rtol=0.0, atol=1e-9 * scale)
+
+
+class TestMove:
+    """Lines 0, 1, ... of ten, wanted from elsewhere."""
+
+    @pytest.mark.parametrize("kind", [float, np.int8, bool])
+    def test_lines_reach_all_that_want_them_and_zeros_whom_they_do_not(self, kind):
+        values = np.arange(1, 31).reshape(10, 3).astype(kind)
+        last = COMM.size - 1
+        held = [(0, 0)] * last + [(0, 10)]
+        wanted = [(rank - 1, rank + 3) for rank in range(COMM.size)]
+        mine = values[slice(*held[COMM.rank])]
+        moved = Move(COMM, held, wanted)(mine)
+        padded = np.zeros((12, 3), dtype=kind)
+        padded[1:-1] = values
+        assert moved.dtype == kind
+        np.testing.assert_array_equal(moved, padded[COMM.rank : COMM.rank + 4])
+
+    def test_who_wants_nothing_gets_nothing(self):
+        held = [(0, 4)] + [(4, 4)] * (COMM.size - 1)
+        moved = Move(COMM, held, held[::-1])(np.ones((held[COMM.rank][1] - held[COMM.rank][0], 2)))
+        assert moved.shape == (4 if COMM.rank == COMM.size - 1 else 0, 2)
 
 
 class TestConvolution:
@@ -285,6 +380,20 @@ class TestRelaxation:
         for one, other in zip(*told, strict=True):
             assert vars(one) == pytest.approx(vars(other), rel=1e-8, abs=digits)
         assert all(each == told[0] for each in COMM.allgather(told[0]))
+
+    def test_a_rank_without_lines_takes_part(self, pair, paper_contact):
+        """Five lines are one rank's."""
+        settings = SolverSettings(
+            method="relaxation", relaxation=RelaxationSettings(max_sweeps=3, report_every=1)
+        )
+        (problem, together), (_, alone) = (
+            single_loop(hierarchy, paper_contact(), settings, lambda *_: None)
+            for hierarchy in pair(nodes=5, coarsest=5)
+        )
+        np.testing.assert_allclose(
+            whole(problem.grid, together.state.P), alone.state.P, rtol=0.0, atol=1e-12
+        )
+        assert COMM.allgather(together.state.H0) == [together.state.H0] * COMM.size
 
 
 WEDGES = {

@@ -1,0 +1,153 @@
+"""What one iteration of GMRES with its cycle costs a rank: messages, bytes, flops, and so time.
+
+Counted from the algorithm, for a film on n by n nodes; only the `Constants` are measured. With contact each
+transfer has two halos instead of one. Collectives count as the textbook's: a broadcast or a sum takes log2
+of the ranks in messages one after the other, the exchange of a transform a message to each other rank.
+"""
+
+from dataclasses import astuple, dataclass
+from math import ceil, log2
+
+import numpy as np
+
+from mgehl.discretization.kernels import REACH
+from mgehl.discretization.mesh import HALO
+from mgehl.grid.ownership import ownerships
+
+REAL, COMPLEX = 8, 16
+"""Bytes of a number."""
+
+COARSEST = 33
+"""Nodes along each side of the coarsest grid."""
+
+
+@dataclass(frozen=True)
+class Constants:
+    """Of a machine, and of this code on it."""
+
+    latency: float
+    """Seconds that a short message takes."""
+    exchange: float
+    """Seconds that each short message of a transform's exchange takes."""
+    bandwidth: float
+    """Bytes per second, one rank to another."""
+    transforms: float
+    """Flops per second of a rank's Fourier transforms."""
+    sweeps: float
+    """Flops per second in all the rest."""
+    calls: float
+    """Seconds that calls take on each grid, however few nodes it has."""
+
+
+@dataclass(frozen=True)
+class Cost:
+    """Of the rank that has most to do."""
+
+    halos: float = 0.0
+    """Messages to the two neighbours, and of lines that move to other ranks."""
+    exchanged: float = 0.0
+    """Messages of the transforms' exchanges."""
+    collective: float = 0.0
+    """Messages of broadcasts and sums, one after the other."""
+    bytes: float = 0.0
+    transforms: float = 0.0
+    """Flops of Fourier transforms."""
+    sweeps: float = 0.0
+    """Flops of all the rest."""
+    grids: float = 0.0
+    """Grids on which it has lines."""
+
+    def __add__(self, other):
+        return Cost(*(a + b for a, b in zip(astuple(self), astuple(other), strict=True)))
+
+    def __rmul__(self, times):
+        return Cost(*(times * each for each in astuple(self)))
+
+    @property
+    def messages(self):
+        return self.halos + self.exchanged + self.collective
+
+    def seconds(self, constants):
+        """(waiting for messages, moving bytes, transforms, the rest, calls)."""
+        waiting = (self.halos + self.collective) * constants.latency + self.exchanged * constants.exchange
+        moving = self.bytes / constants.bandwidth
+        transforms, sweeps = self.transforms / constants.transforms, self.sweeps / constants.sweeps
+        return waiting, moving, transforms, sweeps, self.grids * constants.calls
+
+
+@dataclass(frozen=True)
+class Level:
+    """A grid of n by n nodes whose lines so many ranks share."""
+
+    nodes: int
+    ranks: int
+
+    @property
+    def lines(self):
+        return ceil(self.nodes / self.ranks)
+
+    @property
+    def mine(self):
+        """Nodes of a rank."""
+        return self.lines * self.nodes
+
+    def halo(self):
+        neighbours = min(self.ranks - 1, 2)
+        return Cost(halos=neighbours, bytes=neighbours * HALO * self.nodes * REAL)
+
+    def everyone(self):
+        """A number that all are told, or a sum that all make."""
+        hops = log2(self.ranks)
+        return Cost(collective=hops, bytes=hops * REAL)
+
+    def convolution(self):
+        """Real transforms of 2(n - 1) along x, complex ones along y, there and back; two exchanges."""
+        others, doublings = self.ranks - 1, log2(2 * (self.nodes - 1))
+        flops = self.mine * (2 * 5 * doublings + 2 * 10 * doublings + 4)
+        sent = 2 * COMPLEX * self.mine * others / self.ranks
+        return Cost(exchanged=2 * others, bytes=sent, transforms=flops)
+
+    def product(self):
+        """The Jacobian times a vector: two stencils of six nodes."""
+        return 2 * self.halo() + 2 * self.everyone() + self.convolution() + Cost(sweeps=30 * self.mine)
+
+    def relaxation(self):
+        """All lines' bands solved, and what they give distributed."""
+        return self.halo() + Cost(sweeps=(4 * REACH + 2 + 8) * self.mine)
+
+    def transfers(self, coarse):
+        """Restriction and interpolation; lines of a coarse grid on fewer ranks move to and fro."""
+        flops = Cost(sweeps=(8 + 4) * self.mine)
+        if coarse.ranks == self.ranks:
+            return self.halo() + coarse.halo() + flops
+        between = max(coarse.lines // max(self.lines // 2, 1), 1) + 1
+        moved = coarse.mine + 2 * HALO * coarse.nodes
+        return self.halo() + Cost(halos=2 * between, bytes=2 * REAL * moved) + flops
+
+    def direct(self):
+        """The dense factors applied to what all ranks of the coarsest grid gather."""
+        hops, unknowns = log2(self.ranks), self.nodes**2 + 1
+        gathered = Cost(collective=hops, bytes=REAL * (unknowns - self.mine), sweeps=2.0 * unknowns**2)
+        return self.everyone() + gathered + Cost(grids=1)
+
+
+def levels(nodes, ranks):
+    """The `Level`s of a hierarchy, coarsest first."""
+    depth = int(log2((nodes - 1) // (COARSEST - 1))) + 1
+    owned = ownerships(nodes, depth, ranks)
+    return [Level(int(starts[-1]), int(np.count_nonzero(np.diff(starts)))) for starts in owned[::-1]]
+
+
+def cycle(grids):
+    """One V-cycle, a relaxation before and one after the coarse grids."""
+    total = grids[0].direct()
+    for coarse, fine in zip(grids[:-1], grids[1:], strict=True):
+        total += 2 * fine.product() + 2 * fine.relaxation() + fine.transfers(coarse) + Cost(grids=1)
+    return total
+
+
+def iteration(nodes, ranks):
+    """One iteration of GMRES: a cycle, a product on the finest grid, two sums against what it keeps."""
+    grids = levels(nodes, ranks)
+    finest = grids[-1]
+    return cycle(grids) + finest.product() + 2 * finest.everyone() + Cost(sweeps=20 * finest.mine)

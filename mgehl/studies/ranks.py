@@ -1,0 +1,207 @@
+"""What messages, bytes and flops an iteration takes on how many ranks: measured here, reckoned elsewhere.
+
+The constants are measured on the ranks of this run, at best two of one machine. The table of iterations
+sets times beside what the model says with them; the forecast says it for ranks that nobody has here.
+"""
+
+import time
+from dataclasses import astuple
+from statistics import mean
+
+import numpy as np
+from mpi4py import MPI
+from petsc4py import PETSc
+
+from mgehl.config import COARSEST_NODES, config_from_tables
+from mgehl.grid.convolution import Transpose
+from mgehl.grid.hierarchy import Hierarchy
+from mgehl.multigrid.cycle import MultigridSolver
+from mgehl.solver.from_config import contact_from, mesh_from, scheme_from, settings_from
+from mgehl.solver.nested import first_guess
+from mgehl.solver.problem import ContactProblem
+from mgehl.studies import rank_model
+from mgehl.studies.rank_model import Constants, Cost
+
+NODES = (257, 513, 1025)
+"""Grids whose iterations are timed; the work's constants are those of the last."""
+
+FORECAST = {4097: (2, 16, 64), 16385: (1, 64, 512)}
+"""Nodes along each side and ranks."""
+
+SHORT, LONG = 8, 2**22
+"""Bytes of a message that is all latency, and of one that is all bandwidth."""
+
+ITERATIONS, REPEATS = 6, 5
+"""Of GMRES in one timing, and timings; the shortest counts, on a machine that others use."""
+
+
+def run(study):
+    """Write the tables `constants`, `iterations` and `forecast`."""
+    nodes = study.nodes or NODES
+    constants = _constants(study.comm, nodes[-1])
+    study.write_table("constants", _constant_rows(constants))
+    study.write_table("iterations", [_iteration_row(study.comm, each, constants) for each in nodes])
+    rows = [_forecast_row(n, ranks, constants) for n, many in FORECAST.items() for ranks in many]
+    study.write_table("forecast", rows)
+    study.write_table("levels", _level_rows(max(FORECAST), FORECAST[max(FORECAST)][-1]))
+
+
+def _constants(comm, nodes):
+    """`Constants` of messages between this run's ranks and of the work of one rank alone."""
+    latency = _shortest(comm, lambda: _to_and_fro(comm, SHORT, 200)) / 400
+    long = _shortest(comm, lambda: _to_and_fro(comm, LONG, 4)) / 8
+    exchange = _shortest(comm, lambda: _exchange(comm, 50)) / 50 / max(comm.size - 1, 1)
+    small, large = (_Iterations(MPI.COMM_SELF, each) for each in (COARSEST_NODES * 2 - 1, nodes))
+    try:
+        transforms = rank_model.Level(nodes, 1).convolution().transforms
+        transform = _shortest(comm, large.convolve)
+        cost = rank_model.iteration(nodes, 1)
+        rest = large.seconds(comm) - cost.transforms * transform / transforms
+        work = Constants(latency, exchange, LONG / long, transforms / transform, cost.sweeps / rest, 0.0)
+        few = rank_model.iteration(COARSEST_NODES * 2 - 1, 1)
+        calls = (small.seconds(comm) - sum(few.seconds(work))) / few.grids
+    finally:
+        small.destroy()
+        large.destroy()
+    return Constants(*astuple(work)[:-1], max(calls, 0.0))
+
+
+def _shortest(comm, function):
+    """Seconds of a call that all ranks make, the shortest of some; the mean over the ranks."""
+    function()
+    best = np.inf
+    for _ in range(REPEATS):
+        comm.Barrier()
+        started = time.perf_counter()
+        function()
+        best = min(best, mean(comm.allgather(time.perf_counter() - started)))
+    return best
+
+
+def _to_and_fro(comm, size, times):
+    """Ranks 0 and 1 send each other so many bytes, in turn; one rank has nobody to send to."""
+    message = np.zeros(size, dtype=np.uint8)
+    for _ in range(times if comm.size > 1 else 0):
+        if comm.rank == 0:
+            comm.Send(message, 1)
+            comm.Recv(message, 1)
+        elif comm.rank == 1:
+            comm.Recv(message, 0)
+            comm.Send(message, 0)
+
+
+def _exchange(comm, times):
+    """The exchange of transforms of a line for each rank: next to nothing but messages."""
+    transpose = Transpose(comm, np.arange(comm.size + 1), comm.size)
+    lines, columns = np.zeros((1, comm.size), dtype=complex), np.zeros((comm.size, 1), dtype=complex)
+    for _ in range(times):
+        transpose.to_columns(lines, columns)
+    transpose.destroy()
+
+
+class _Iterations:
+    """GMRES with its cycle on a film that is being solved, to be timed."""
+
+    def __init__(self, comm, nodes):
+        config = config_from_tables({"grid": {"nodes": nodes}, "motion": {"speed": 1.0}})
+        contact = contact_from(config)
+        mesh, scheme = mesh_from(config, contact), scheme_from(config, contact)
+        self._hierarchy = grids = Hierarchy(mesh, COARSEST_NODES, contact.kernel, comm)
+        problem = ContactProblem(grids.grids[-1], grids.deflections[-1], contact, scheme)
+        state = first_guess(problem, "film")
+        settings = settings_from(config, contact)
+        self._multigrid = MultigridSolver(grids, len(grids.grids) - 1, contact, scheme, settings.cycle)
+        self._multigrid.linearise(state.P, state.H, state.status)
+        self._ksp = PETSc.KSP().create(comm)
+        self._multigrid.configure(self._ksp, rtol=1e-30)
+        self._ksp.setTolerances(max_it=ITERATIONS)
+        self._rhs, self._x = (self._multigrid.space.create_vec() for _ in range(2))
+        residual = problem.residual(state, problem.inflow(state))
+        self._multigrid.space.write(self._rhs, -residual, 0.0)
+        self.convolve = lambda: problem.deflection(state.P)
+
+    def seconds(self, comm):
+        """Of one iteration; all ranks of `comm` do it at once."""
+        return _shortest(comm, lambda: self._ksp.solve(self._rhs, self._x)) / self._ksp.getIterationNumber()
+
+    def destroy(self):
+        """Free the PETSc and MPI objects."""
+        for thing in (self._ksp, self._rhs, self._x):
+            thing.destroy()
+        self._multigrid.free()
+        self._hierarchy.destroy()
+
+
+def _constant_rows(constants):
+    named = {
+        "latency of a message": f"{1e6 * constants.latency:.2g} us",
+        "a message of an exchange": f"{1e6 * constants.exchange:.2g} us",
+        "bandwidth of a rank": f"{1e-9 * constants.bandwidth:.2g} GB/s",
+        "Fourier transforms": f"{1e-9 * constants.transforms:.2g} Gflop/s",
+        "sweeps, products, transfers": f"{1e-9 * constants.sweeps:.2g} Gflop/s",
+        "calls on each grid": f"{1e6 * constants.calls:.0f} us",
+    }
+    return [{"constant": name, "measured": value} for name, value in named.items()]
+
+
+def _iteration_row(comm, nodes, constants):
+    """An iteration of this run's ranks, timed, beside the model."""
+    iterations = _Iterations(comm, nodes)
+    try:
+        seconds = iterations.seconds(comm)
+    finally:
+        iterations.destroy()
+    cost = rank_model.iteration(nodes, comm.size)
+    return {
+        "nodes": str(nodes),
+        "ranks": str(comm.size),
+        **_counted(cost),
+        "model ms": f"{1e3 * sum(cost.seconds(constants)):.3g}",
+        "measured ms": f"{1e3 * seconds:.3g}",
+    }
+
+
+def _forecast_row(nodes, ranks, constants):
+    """An iteration of ranks that are not there, and where its time goes."""
+    cost, alone = (rank_model.iteration(nodes, many) for many in (ranks, 1))
+    waiting, moving, transforms, rest, calls = cost.seconds(constants)
+    total, serial = sum(cost.seconds(constants)), sum(alone.seconds(constants))
+    return {
+        "nodes": str(nodes),
+        "ranks": str(ranks),
+        "lines": str(rank_model.Level(nodes, ranks).lines),
+        **_counted(cost),
+        "waiting ms": f"{1e3 * waiting:.3g}",
+        "bytes ms": f"{1e3 * moving:.3g}",
+        "transforms ms": f"{1e3 * transforms:.3g}",
+        "rest ms": f"{1e3 * (rest + calls):.3g}",
+        "whole ms": f"{1e3 * total:.3g}",
+        "efficiency": f"{serial / total / ranks:.0%}",
+    }
+
+
+def _counted(cost: Cost):
+    """Of one rank and iteration."""
+    return {
+        "halo messages": f"{cost.halos:.0f}",
+        "exchange messages": f"{cost.exchanged:.0f}",
+        "collective messages": f"{cost.collective:.0f}",
+        "MB": f"{1e-6 * cost.bytes:.3g}",
+        "Mflop": f"{1e-6 * (cost.transforms + cost.sweeps):.4g}",
+    }
+
+
+def _level_rows(nodes, ranks):
+    """Who works on which grid, and how long the messages of an exchange are."""
+    rows = []
+    for level in rank_model.levels(nodes, ranks)[::-1]:
+        length = rank_model.COMPLEX * level.mine / level.ranks
+        rows.append(
+            {
+                "nodes": str(level.nodes),
+                "ranks at work": str(level.ranks),
+                "lines each": str(level.lines),
+                "bytes of an exchange's message": f"{length:.0f}",
+            }
+        )
+    return rows
