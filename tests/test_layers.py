@@ -8,17 +8,31 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
-LAYERS = ("model", "discretization", "grid", "multigrid", "solver", "output", "studies", "commands")
+LAYERS = (
+    "model",
+    "discretization",
+    "kinds",
+    "grid",
+    "multigrid",
+    "solver",
+    "output",
+    "studies",
+    "commands",
+)
 """Lowest first. The modules beside them in mgehl (config, run, cli) stand above the layers."""
 BENEATH = {"mgehl.errors", "mgehl.version"}
 """What every layer may use; they use nothing."""
 USERS_OF_OUTPUT = {"mgehl.run", "mgehl.api"}
 ABOVE_OUTPUT = ("output", "studies", "commands")
 USED_BESIDE = {
+    "kinds": {"mgehl.config_value"},
     "output": {"mgehl.config", "mgehl.config_value"},
     "studies": {"mgehl.run", "mgehl.config"},
 }
-"""Runs are read back with their configuration, studies make runs. Commands use what they need."""
+"""Kinds declare keys, runs are read back with their configuration, studies make runs. Commands use what
+they need."""
+READS_A_CONFIGURATION = "mgehl.solver.from_config"
+"""The module of the solver that may know the configuration."""
 
 
 def module_name(path):
@@ -62,6 +76,8 @@ def test_every_package_is_a_known_layer():
 def test_a_layer_imports_only_lower_layers_and_itself(name):
     allowed = LAYERS[: LAYERS.index(layer(name)) + 1]
     beside = BENEATH | USED_BESIDE.get(layer(name), set())
+    if name == READS_A_CONFIGURATION:
+        beside = beside | {"mgehl.config"}
     if layer(name) == "commands":
         beside = {each for each in MODULES if layer(each) is None} - {
             "mgehl",
@@ -73,17 +89,17 @@ def test_a_layer_imports_only_lower_layers_and_itself(name):
             assert layer(imported) in allowed, f"{name} imports {imported}"
 
 
-@pytest.mark.parametrize("name", [name for name in MODULES if layer(name) in ("model", "discretization")])
-def test_the_two_lowest_layers_know_neither_petsc_nor_mpi(name):
+@pytest.mark.parametrize("name", [name for name in MODULES if layer(name) in LAYERS[:3]])
+def test_the_three_lowest_layers_know_neither_petsc_nor_mpi(name):
     roots = {imported.split(".")[0] for imported in imports(name)}
     assert not roots & {"petsc4py", "mpi4py", "mpi4py_fft", "slepc4py"}
 
 
-def test_configuration_knows_only_the_two_lowest_layers():
+def test_configuration_knows_only_the_three_lowest_layers():
     """It validates names against their tables; everything else must be able to do without PETSc."""
     parts = {"mgehl.config", "mgehl.config_sections", "mgehl.config_value"}
     used = {each for part in parts for each in imports(part) if each.startswith("mgehl")} - parts - BENEATH
-    assert used and {layer(each) for each in used} <= {"model", "discretization"}
+    assert used and {layer(each) for each in used} <= set(LAYERS[:3])
     assert not {each for each in imports("mgehl.config_value") if each.startswith("mgehl")} - BENEATH
 
 

@@ -69,10 +69,9 @@ def _run(config, directory, comm, start, options, save_every, limit):
 
 def _new(options, comm):
     """Configuration, directory and start of a new run, its directory made."""
+    from mgehl.kinds import check_contact, contact_from
     from mgehl.output.checkpoint import keep_start
     from mgehl.output.files import on_first_rank, prepare_directory
-    from mgehl.plausibility import check_contact
-    from mgehl.solver.from_config import contact_from
 
     config = load_config(options.config, options.settings)
     check_contact(config, contact_from(config))
