@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from mgehl.config_value import key_field
 from mgehl.discretization.couette import SCHEMES
 from mgehl.discretization.fluid import FACE_MEANS
-from mgehl.discretization.scheme import INTERFACES
+from mgehl.discretization.scheme import INTERFACES, Scheme
 from mgehl.kinds import KINDS
 from mgehl.model.lubricant import DENSITY_LAWS, VISCOSITY_LAWS
 from mgehl.model.own_function import absolute
@@ -63,10 +63,10 @@ class GridSection:
 @dataclass(frozen=True)
 class DiscretizationSection:
     couette: str = key_field(
-        "1B", "differential scheme of the Couette flow", choices=tuple(SCHEMES), kind=str
+        Scheme.couette, "differential scheme of the Couette flow", choices=tuple(SCHEMES), kind=str
     )
     face_mobility: str = key_field(
-        "arithmetic", "mean of two nodes' mobilities at the face between them",
+        Scheme.face_mobility, "mean of two nodes' mobilities at the face between them",
         choices=tuple(FACE_MEANS), kind=str,
     )  # fmt: skip
     contact_model: str = key_field(
@@ -75,7 +75,8 @@ class DiscretizationSection:
     )  # fmt: skip
     unified_gap: float = key_field(0.0, "smallest gap of the unified Poiseuille flow", "m", low=0.0)
     couette_at_interface: str = key_field(
-        "closed", "Couette flow at the edge of contact: none, or as if there were no contact",
+        Scheme.couette_at_interface,
+        "Couette flow at the edge of contact: none, or as if there were no contact",
         choices=INTERFACES, kind=str,
     )  # fmt: skip
     cavitation: bool | None = key_field(

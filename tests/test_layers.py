@@ -26,11 +26,13 @@ USERS_OF_OUTPUT = {"mgehl.run", "mgehl.api"}
 ABOVE_OUTPUT = ("output", "studies", "commands")
 USED_BESIDE = {
     "kinds": {"mgehl.config_value"},
+    "multigrid": {"mgehl.config_sections"},
+    "solver": {"mgehl.config_sections"},
     "output": {"mgehl.config", "mgehl.config_value"},
     "studies": {"mgehl.run", "mgehl.config"},
 }
-"""Kinds declare keys, runs are read back with their configuration, studies make runs. Commands use what
-they need."""
+"""Kinds declare keys, settings take the keys' defaults, runs are read back with their configuration,
+studies make runs. Commands use what they need."""
 READS_A_CONFIGURATION = "mgehl.solver.from_config"
 """The module of the solver that may know the configuration."""
 

@@ -1,6 +1,6 @@
 """mgehl check: what a configuration means and what its run will take, without solving anything."""
 
-from mgehl.commands import CONVERGED
+from mgehl.commands import CONVERGED, add_configuration, add_settings
 from mgehl.config import check_ranks, default_config, load_config
 from mgehl.errors import UserError
 
@@ -19,11 +19,8 @@ def add(commands):
         "each grid resolves the inlet, and estimate memory and time. Nothing is solved.",
         epilog="example: mgehl check --set grid.nodes=1025 --set motion.speed='7.5 mm/s' --ranks 2",
     )
-    parser.add_argument(
-        "config", nargs="?", metavar="CONFIG", help="TOML file (default: the point contact)"
-    )
-    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", dest="settings",
-                     help="set a key, such as grid.nodes=513; may be repeated")  # fmt: skip
+    add_configuration(parser)
+    add_settings(parser)
     parser.add_argument("--ranks", type=int, default=1, metavar="N", help="ranks of the run (default: 1)")
     return parser
 

@@ -1,7 +1,8 @@
 """The kinds of contact. Each module says which keys it takes, what it builds of them, what it is called.
 
 A new kind is its physics in `mgehl.model`, a module here with its own section of keys, its name in
-`KINDS` and its section in `mgehl.config.Config`.
+`KINDS` and its section in `mgehl.config.Config`. A key that only some kinds take is foreign to the
+others without a word of theirs.
 """
 
 from mgehl.kinds.line import LINE

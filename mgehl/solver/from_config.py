@@ -14,9 +14,6 @@ from mgehl.multigrid.cycle import CycleSettings
 from mgehl.solver.relaxation import RelaxationSettings
 from mgehl.solver.settings import NestedSettings, NewtonSettings, SolverSettings
 
-OPTIONS_PREFIX = "mgehl_"
-"""Prefix under which PETSc options reach the solvers of a run."""
-
 
 @dataclass(frozen=True)
 class SetUp:
@@ -72,12 +69,7 @@ def settings_from(config, contact):
             release_budget=solver.release_budget,
             squeeze=solver.squeeze,
         ),
-        cycle=CycleSettings(
-            sweeps=solver.sweeps,
-            omega=solver.omega,
-            couette=solver.cycle_couette,
-            options_prefix=OPTIONS_PREFIX,
-        ),
+        cycle=CycleSettings(sweeps=solver.sweeps, omega=solver.omega, couette=solver.cycle_couette),
         relaxation=RelaxationSettings(
             **asdict(relaxation), tolerance=solver.tolerance, film_threshold=threshold
         ),
