@@ -2,10 +2,13 @@
 
 import ast
 import re
+from dataclasses import fields
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 import pytest
+
+from mgehl.config import SECTIONS
 
 ROOT = Path(__file__).resolve().parent.parent
 LAYERS = (
@@ -115,6 +118,30 @@ def test_output_is_used_by_the_run_the_command_line_and_the_studies_only(name):
 def test_studies_are_used_by_the_command_line_only(name):
     if layer(name) not in ("studies", "commands"):
         assert not any(layer(imported) == "studies" for imported in imports(name))
+
+
+def all_imports(name):
+    """Modules of mgehl that a module cannot do without, through all that it imports."""
+    found, ahead = set(), {name}
+    while ahead:
+        found |= ahead
+        ahead = {each for one in ahead for each in imports(one) & set(MODULES)} - found
+    return found - {name}
+
+
+def test_a_solution_and_its_words_know_no_terminal_and_it_does_not_know_them():
+    speaking = {"mgehl.output.terminal", "mgehl.output.progress"}
+    assert not all_imports("mgehl.output.solution") & speaking
+    assert "mgehl.output.words" in all_imports("mgehl.output.solution")
+    assert "mgehl.output.words" not in all_imports("mgehl.output.terminal")
+
+
+@pytest.mark.parametrize("name", [name for name in MODULES if layer(name) == "model"])
+def test_the_model_says_no_key_of_the_configuration(name):
+    keys = {f"{section}.{key.name}" for section, kind in SECTIONS.items() for key in fields(kind)}
+    said = [node.value for node in ast.walk(ast.parse(MODULES[name].read_text()))
+            if isinstance(node, ast.Constant) and isinstance(node.value, str)]  # fmt: skip
+    assert [(key, text) for text in said for key in keys if key in text] == []
 
 
 def test_no_import_cycles():

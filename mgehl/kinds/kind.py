@@ -72,6 +72,10 @@ class Kind:
         """The `Effort` of such a run."""
         raise NotImplementedError
 
+    def nodes(self, mesh, times="x"):
+        """The nodes of a mesh in words."""
+        return f"{mesh.nx} {times} {mesh.ny} nodes"
+
     def lines(self, config, contact, mesh):
         """Lines of text that tell what was configured."""
         raise NotImplementedError
@@ -91,3 +95,8 @@ class Kind:
     def scalars(self, solution):
         """What a run comes to, {name: (value, unit, meaning)}, as NetCDF's conventions have it."""
         raise NotImplementedError
+
+
+def kept_together(text):
+    """A text that is not broken into lines."""
+    return text.replace(" ", "\u00a0")

@@ -5,7 +5,7 @@ from dataclasses import asdict, replace
 from mgehl.config_value import shown
 from mgehl.errors import ConfigError
 from mgehl.kinds import loaded_checks
-from mgehl.kinds.kind import Effort, Kind
+from mgehl.kinds.kind import Effort, Kind, kept_together
 from mgehl.model.lubricant import DENSITY_LAWS, VISCOSITY_LAWS, Lubricant
 from mgehl.model.own_function import OwnFunction, is_own
 from mgehl.model.own_laws import OwnDensity, OwnViscosity
@@ -64,10 +64,6 @@ class LoadedKind(Kind):
         """Size of the dry contact."""
         return f"a {1e3 * hertz.a:.4g} mm"
 
-    def nodes(self, mesh, times="x"):
-        """The nodes of a mesh in words."""
-        return f"{mesh.nx} {times} {mesh.ny} nodes"
-
     def lines(self, config, contact, mesh):
         """Groups, dry contact, films of formulas, load and speed."""
         hertz = contact.hertz
@@ -83,16 +79,14 @@ class LoadedKind(Kind):
             f"load       {contact.load:.6g} {self.load_unit}   speed {contact.speed:.6g} m/s",
         ]
 
-    def parts(self, solution):
+    def parts(self, solution, times="x"):
         """Speed, load and nodes."""
-        contact = solution.contact
-        return [speed_words(contact.speed), " ".join(self.load(contact)), self.nodes(solution.mesh)]
+        contact, nodes = solution.contact, self.nodes(solution.mesh, times)
+        return [speed_words(contact.speed), " ".join(self.load(contact)), nodes]
 
     def heading(self, solution):
         """Kind, speed, load and nodes."""
-        contact, nodes = solution.contact, self.nodes(solution.mesh, times="×")
-        parts = (speed_words(contact.speed), " ".join(self.load(contact)), nodes)
-        return ", ".join([self.noun.capitalize(), *(part.replace(" ", "\u00a0") for part in parts)])
+        return ", ".join([self.noun.capitalize(), *map(kept_together, self.parts(solution, times="×"))])
 
     def position_labels(self, contact):
         """Over the semi-axes of the dry contact."""

@@ -74,7 +74,8 @@ class PointKind(LoadedKind):
 
     def pushed_out(self, given):
         """As `unused`, by what the settings say."""
-        coating = _without_coating(given.get("contact.deformation", "coated"))
+        said = "contact.deformation" in given
+        coating = _without_coating(given["contact.deformation"]) if said else ()
         moes = MOES_REPLACES if any(key.startswith("moes.") for key in given) else ()
         return *coating, *moes
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from mgehl.config_value import key_field
 from mgehl.discretization.mesh import Mesh
 from mgehl.errors import ConfigError
-from mgehl.kinds.kind import Effort, Kind
+from mgehl.kinds.kind import Effort, Kind, kept_together
 from mgehl.model.wedge import PILLARS, WedgeBearing
 
 LARGEST_ASPECT = 100.0
@@ -138,16 +138,15 @@ class WedgeKind(Kind):
 
     def parts(self, solution):
         """What stands in the film, the exit, cavitation, the nodes."""
-        bearing, mesh = solution.contact, solution.mesh
         torn = ["film cavitates"] if solution.result.cavitated_nodes else []
-        stands, leaves = pillar_words(bearing.pillar), exit_words(bearing.blocked_exit)
-        return [f"wedge with {stands}", leaves, *torn, f"{mesh.nx} x {mesh.ny} nodes"]
+        stands, leaves = _pad(solution.contact)
+        return [f"wedge with {stands}", leaves, *torn, self.nodes(solution.mesh)]
 
     def heading(self, solution):
         """What stands in the film, the exit, the nodes."""
-        bearing, mesh = solution.contact, solution.mesh
-        stands, leaves = pillar_words(bearing.pillar), exit_words(bearing.blocked_exit)
-        return f"Wedge bearing with {stands}, {leaves}, {mesh.nx}\u00a0×\u00a0{mesh.ny}\u00a0nodes"
+        stands, leaves = _pad(solution.contact)
+        nodes = kept_together(self.nodes(solution.mesh, times="×"))
+        return ", ".join([f"Wedge bearing with {stands}", leaves, nodes])
 
     def position_labels(self, contact):
         """In mm."""
@@ -164,6 +163,11 @@ class WedgeKind(Kind):
 
 
 WEDGE = WedgeKind()
+
+
+def _pad(bearing):
+    """What stands in the film, and what the exit is."""
+    return pillar_words(bearing.pillar), exit_words(bearing.blocked_exit)
 
 
 def _cell(bearing, mesh):
