@@ -49,11 +49,10 @@ def solve(
     """
     from mpi4py import MPI
 
+    from mgehl.kinds import check_contact, contact_from
     from mgehl.output.terminal import SILENT, Lines
-    from mgehl.plausibility import check_contact
     from mgehl.run import Watch
     from mgehl.run import solve as solve_run
-    from mgehl.solver.from_config import contact_from
     from mgehl.solver.restart import check_start
 
     comm = MPI.COMM_WORLD if comm is None else comm

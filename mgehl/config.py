@@ -14,33 +14,13 @@ from pathlib import Path
 from mgehl import config_sections as sections
 from mgehl.config_value import read_value, shown
 from mgehl.errors import ConfigError
-from mgehl.model.coating import Coating
-from mgehl.model.lubricant import VISCOSITY_LAWS
-from mgehl.model.own_function import absolute, is_own
+from mgehl.kinds import KINDS
+from mgehl.kinds.point import CoatingSection, MoesSection
+from mgehl.kinds.wedge import WedgeSection
+from mgehl.model.own_function import absolute
 
 COARSEST_NODES = 33
 """Nodes along each side of the coarsest grid, which is solved directly."""
-
-MOES_REPLACES = (("contact", "load"), ("motion", "speed"))
-"""Keys that moes.M and moes.L stand for."""
-
-FOREIGN = {
-    "point": ("contact.load_per_length", "wedge"),
-    "line": (
-        "contact.load", "contact.radius_y", "contact.deformation", "coating", "grid.y", "moes", "wedge",
-    ),
-    "wedge": (
-        "contact.load", "contact.load_per_length", "contact.radius_x", "contact.radius_y",
-        "contact.reduced_modulus", "contact.deformation", "contact.surface", "coating",
-        "lubricant.pressure_viscosity",
-        "lubricant.viscosity_law", "lubricant.density_law", "moes", "grid.x", "grid.y",
-        "discretization.contact_model", "discretization.unified_gap", "discretization.film_threshold",
-        "solver.method", "solver.start", "solver.first_nodes", "solver.inlet_cells",
-        "solver.release_budget", "solver.linear_tolerance", "solver.sweeps", "solver.omega",
-        "solver.cycle_couette", "relaxation",
-    ),
-}  # fmt: skip
-"""Sections and keys that a kind of contact has no use for."""
 
 _INSTALLED = Path("share") / "mgehl" / "configs"
 _CONFIG_DIRECTORIES = (
@@ -56,38 +36,41 @@ class Config:
     """A validated configuration."""
 
     contact: sections.ContactSection = sections.ContactSection()
-    coating: sections.CoatingSection = sections.CoatingSection()
-    wedge: sections.WedgeSection = sections.WedgeSection()
+    coating: CoatingSection = CoatingSection()
+    wedge: WedgeSection = WedgeSection()
     lubricant: sections.LubricantSection = sections.LubricantSection()
     motion: sections.MotionSection = sections.MotionSection()
-    moes: sections.MoesSection = sections.MoesSection()
+    moes: MoesSection = MoesSection()
     grid: sections.GridSection = sections.GridSection()
     discretization: sections.DiscretizationSection = sections.DiscretizationSection()
     solver: sections.SolverSection = sections.SolverSection()
     relaxation: sections.RelaxationSection = sections.RelaxationSection()
 
     @property
+    def kind(self):
+        """The `Kind` of contact."""
+        return KINDS[self.contact.kind]
+
+    @property
     def unused(self):
         """Sections and keys that this contact has no use for."""
-        return *FOREIGN[self.contact.kind], *_without_coating(self.contact.deformation)
+        return *FOREIGN[self.contact.kind], *self.kind.unused(self)
 
     def as_toml_tables(self):
         """Nested plain values, without the keys that are not set: what a TOML file can hold."""
         tables = {name: _without_none(section) for name, section in asdict(self).items()}
-        if self.moes.M is not None:
-            del tables["contact"]["load"], tables["motion"]["speed"]
-        for name in self.unused:
-            section, _, key = name.partition(".")
-            if key:
-                tables[section].pop(key, None)
-            else:
-                tables.pop(section, None)
+        _remove(tables, self.unused)
         return {name: table for name, table in tables.items() if table}
 
 
-def _without_coating(deformation):
-    """Sections that a deformation has no use for."""
-    return () if deformation == "coated" else ("coating",)
+def _remove(tables, names):
+    """Take sections and keys out of nested tables, where they are there."""
+    for name in names:
+        section, _, key = name.partition(".")
+        if not key:
+            tables.pop(section, None)
+        elif isinstance(tables.get(section), dict):
+            tables[section].pop(key, None)
 
 
 def _without_none(section):
@@ -102,6 +85,18 @@ def default_config():
 
 
 SECTIONS = {section.name: type(section.default) for section in fields(Config)}
+
+
+def _foreign(kind):
+    """Sections of which a kind takes no key, and of the others the keys that it does not take."""
+    for name, section in SECTIONS.items():
+        keys = [f"{name}.{key.name}" for key in fields(section)]
+        not_taken = [key for key in keys if not {name, key} & {"contact.kind", *kind.takes}]
+        yield from [name] if not_taken == keys else not_taken
+
+
+FOREIGN = {name: tuple(_foreign(kind)) for name, kind in KINDS.items()}
+"""Sections and keys that a kind of contact has no use for."""
 
 
 def load_config(path=None, settings=()):
@@ -128,17 +123,9 @@ def _pairs(settings):
 
 def _push_out(tables, given):
     """Drop what the file says and a setting makes meaningless: another kind, Moes numbers, no coating."""
-    names = list(FOREIGN.get(str(given.get("contact.kind")), ()))
-    if "contact.deformation" in given:
-        names += _without_coating(given["contact.deformation"])
-    if any(key.startswith("moes.") for key in given):
-        names += [f"{section}.{key}" for section, key in MOES_REPLACES]
-    for name in names:
-        section, _, key = name.partition(".")
-        if not key:
-            tables.pop(section, None)
-        elif isinstance(tables.get(section), dict):
-            tables[section].pop(key, None)
+    _remove(tables, FOREIGN.get(str(given.get("contact.kind")), ()))
+    for kind in KINDS.values():
+        _remove(tables, kind.pushed_out(given))
 
 
 def _anchor(tables, directory):
@@ -179,41 +166,7 @@ def _check_together(config, tables):
         lower = 2 ** ((nodes - 1).bit_length() - 1) + 1
         raise ConfigError(f"grid.nodes = {nodes}: must be 2^k + 1, such as {lower} or {2 * lower - 1}")
     _check_foreign(config.contact.kind, tables)
-    if (config.moes.M is None) != (config.moes.L is None):
-        missing = "moes.L" if config.moes.L is None else "moes.M"
-        raise ConfigError(f"{missing}: must be given too, moes.M and moes.L go together")
-    if config.moes.M is not None:
-        for section, key in MOES_REPLACES:
-            if key in tables.get(section, {}):
-                value = shown(tables[section][key])
-                raise ConfigError(f"{section}.{key} = {value}: cannot be given with moes.M and moes.L")
-    wedge = config.wedge
-    if not wedge.exit < wedge.inlet:
-        raise ConfigError(f"wedge.inlet = {wedge.inlet:g}: must be above wedge.exit = {wedge.exit:g}")
-    _check_coating(config, tables)
-    if is_own(config.lubricant.viscosity_law):
-        return
-    try:
-        VISCOSITY_LAWS[config.lubricant.viscosity_law](
-            config.lubricant.viscosity, config.lubricant.pressure_viscosity
-        )
-    except ValueError as error:
-        raise ConfigError(f"lubricant.viscosity = {shown(config.lubricant.viscosity)}: {error}") from None
-
-
-def _check_coating(config, tables):
-    deformation, coating = config.contact.deformation, config.coating
-    if deformation != "coated":
-        if tables.get("coating"):
-            raise ConfigError(f'[coating]: means nothing where contact.deformation = "{deformation}"')
-        return
-    for key in ("thickness", "modulus"):
-        if getattr(coating, key) is None:
-            raise ConfigError(f'coating.{key}: must be given where contact.deformation = "coated"')
-    try:
-        Coating(**asdict(coating), reduced_modulus=config.contact.reduced_modulus)
-    except ValueError as error:
-        raise ConfigError(f"coating.substrate_modulus = {coating.substrate_modulus!r}: {error}") from None
+    config.kind.check_keys(config, tables)
 
 
 def _check_foreign(kind, tables):

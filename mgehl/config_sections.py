@@ -1,21 +1,24 @@
-"""The sections of a configuration and their keys, each with default, unit, range and meaning."""
+"""The sections that several kinds of contact read: keys with default, unit, range and meaning.
+
+Those that one kind alone takes are in its module of `mgehl.kinds`.
+"""
 
 from dataclasses import dataclass
 
 from mgehl.config_value import key_field
 from mgehl.discretization.couette import SCHEMES
 from mgehl.discretization.fluid import FACE_MEANS
-from mgehl.discretization.scheme import INTERFACES
+from mgehl.discretization.scheme import INTERFACES, Scheme
+from mgehl.kinds import KINDS
 from mgehl.model.lubricant import DENSITY_LAWS, VISCOSITY_LAWS
 from mgehl.model.own_function import absolute
-from mgehl.model.wedge import PILLARS
 
 
 @dataclass(frozen=True)
 class ContactSection:
     kind: str = key_field(
         "point", "loaded point or line contact, or a rigid wedge bearing",
-        choices=("point", "line", "wedge"), kind=str,
+        choices=tuple(KINDS), kind=str,
     )  # fmt: skip
     load: float = key_field(800.0, "normal load of a point contact", "N", low=1e-6, high=1e9)
     load_per_length: float = key_field(500e3, "load of a line contact", "N/m", low=1e-6, high=1e12)
@@ -29,41 +32,6 @@ class ContactSection:
         choices=("half-space", "coated"), kind=str, own=absolute,
     )  # fmt: skip
     surface: str | None = key_field(None, "height that adds to the smooth gap", kind=str, own=absolute)
-
-
-@dataclass(frozen=True)
-class CoatingSection:
-    thickness: float | None = key_field(
-        None, "thickness of the layer on one body, where contact.deformation = coated",
-        "m", low=1e-9, high=1.0,
-    )  # fmt: skip
-    modulus: float | None = key_field(None, "Young's modulus of the layer", "Pa", low=1e6, high=1e13)
-    poisson: float = key_field(0.3, "Poisson's ratio of the layer", low=0.0, high=0.5)
-    substrate_modulus: float | None = key_field(
-        None, "Young's modulus beneath it (unset: half of the compliance 2/E' is that body's)",
-        "Pa", low=1e6, high=1e13,
-    )  # fmt: skip
-    substrate_poisson: float = key_field(0.3, "Poisson's ratio beneath it", low=0.0, high=0.5)
-
-
-@dataclass(frozen=True)
-class WedgeSection:
-    exit: float = key_field(
-        20e-3, "where the pad ends: distance from the line of no gap", "m", low=1e-6, high=10.0
-    )
-    inlet: float = key_field(
-        50e-3, "where the pad begins: distance from the line of no gap", "m", low=1e-6, high=10.0
-    )
-    width: float = key_field(20e-3, "width of the pad", "m", low=1e-6, high=10.0)
-    slope: float = key_field(1e-3, "slope m of the pad", "", low=1e-8, high=0.1)
-    reversed: bool = key_field(
-        False, "turned by 180 degrees: the plate moves with the differencing", kind=bool
-    )
-    blocked_exit: bool = key_field(False, "no flow at the exit", kind=bool)
-    pillar: str = key_field("none", "rigid pillar between pad and plate", choices=PILLARS, kind=str)
-    pillar_x: float = key_field(35e-3, "centre of the pillar along the motion", "m", low=0.0, high=10.0)
-    pillar_y: float = key_field(0.0, "centre of the pillar across the motion", "m", low=-10.0, high=10.0)
-    pillar_size: float = key_field(8e-3, "side or diameter of the pillar", "m", low=1e-6, high=10.0)
 
 
 @dataclass(frozen=True)
@@ -86,14 +54,6 @@ class MotionSection:
 
 
 @dataclass(frozen=True)
-class MoesSection:
-    M: float | None = key_field(None, "Moes load number, instead of load and speed", "", low=1.0, high=1e7)
-    L: float | None = key_field(
-        None, "Moes material number, instead of load and speed", "", low=0.1, high=100.0
-    )
-
-
-@dataclass(frozen=True)
 class GridSection:
     nodes: int = key_field(257, "nodes along each side, 2^k + 1", low=65, high=16385, kind=int)
     x: tuple = key_field((-1.9, 1.3), "domain along x in units of the Hertz semi-axis a", kind=tuple)
@@ -103,10 +63,10 @@ class GridSection:
 @dataclass(frozen=True)
 class DiscretizationSection:
     couette: str = key_field(
-        "1B", "differential scheme of the Couette flow", choices=tuple(SCHEMES), kind=str
+        Scheme.couette, "differential scheme of the Couette flow", choices=tuple(SCHEMES), kind=str
     )
     face_mobility: str = key_field(
-        "arithmetic", "mean of two nodes' mobilities at the face between them",
+        Scheme.face_mobility, "mean of two nodes' mobilities at the face between them",
         choices=tuple(FACE_MEANS), kind=str,
     )  # fmt: skip
     contact_model: str = key_field(
@@ -115,7 +75,8 @@ class DiscretizationSection:
     )  # fmt: skip
     unified_gap: float = key_field(0.0, "smallest gap of the unified Poiseuille flow", "m", low=0.0)
     couette_at_interface: str = key_field(
-        "closed", "Couette flow at the edge of contact: none, or as if there were no contact",
+        Scheme.couette_at_interface,
+        "Couette flow at the edge of contact: none, or as if there were no contact",
         choices=INTERFACES, kind=str,
     )  # fmt: skip
     cavitation: bool | None = key_field(

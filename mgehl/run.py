@@ -10,23 +10,16 @@ import numpy as np
 from mpi4py import MPI
 from petsc4py import PETSc
 
-from mgehl.config import COARSEST_NODES
 from mgehl.errors import OutputError
 from mgehl.grid.grid import single_grid
-from mgehl.grid.hierarchy import Hierarchy
+from mgehl.kinds.own import naming_keys
 from mgehl.output import files, progress, terminal
 from mgehl.output.checkpoint import Checkpoint, clear
 from mgehl.output.result import Work, summarise
 from mgehl.output.solution import Fields, Solution
 from mgehl.output.wedge_result import summarise_wedge
 from mgehl.solver.continuation import begin
-from mgehl.solver.from_config import (
-    OPTIONS_PREFIX,
-    contact_from,
-    mesh_from,
-    scheme_from,
-    settings_from,
-)
+from mgehl.solver.from_config import set_up
 from mgehl.solver.journal import NOTHING_KEPT, told_to_stop
 from mgehl.solver.nested import single_loop
 from mgehl.solver.restart import solve_from
@@ -66,26 +59,30 @@ def run(config, directory, comm, watch=Watch(), start=None):
 def solve(config, comm, watch=Watch(), start=None):
     """Solve `config` on `comm`; return the `Solution`.
 
-    A line contact is a single line: rank 0 solves it and tells the others.
+    A single line of nodes, as of a line contact, rank 0 solves and tells the others.
     """
-    contact = contact_from(config)
-    kind, mesh = config.contact.kind, mesh_from(config, contact)
+    parts = set_up(config)
     watch = watch if comm.rank == 0 else replace(watch, speaker=terminal.SILENT)
-    find = _solve_wedge if kind == "wedge" else partial(_solve_loaded, start=start)
-    with np.errstate(all="ignore"):  # an iteration that diverges says so itself
-        if kind != "line":
-            return find(config, contact, mesh, comm, watch)
-        alone = files.from_first_rank(comm, find, config, contact, mesh, MPI.COMM_SELF, watch)
+    if not parts.mesh.is_line:
+        return _find(config, parts, comm, watch, start)
+    alone = files.from_first_rank(comm, _find, config, parts, MPI.COMM_SELF, watch, start)
     told = comm.bcast(alone and alone.shared())
     return alone or told
 
 
-def _solve_loaded(config, contact, mesh, comm, watch, start=None):
-    """A point or a line contact, by either method."""
-    settings = settings_from(config, contact)
+def _find(config, parts, comm, watch, start):
+    """The `Solution` of a `SetUp` (collective)."""
+    find = partial(_solve_loaded, start=start) if parts.contact.is_loaded else _solve_bearing
+    with naming_keys(parts.contact), np.errstate(all="ignore"):  # what diverges says so itself
+        return find(config, parts, comm, watch)
+
+
+def _solve_loaded(config, parts, comm, watch, start):
+    """A loaded contact, by either method."""
+    contact, settings = parts.contact, parts.settings
     by_newton = settings.method == "newton-mg"
     tolerance = settings.newton.tolerance
-    hierarchy = Hierarchy(mesh, COARSEST_NODES, contact.kernel, comm)
+    hierarchy = parts.hierarchy(comm)
     try:
         kind = progress.NEWTON if by_newton else progress.RELAXATION
         monitor = progress.Progress(kind, contact.film_scale, hierarchy, tolerance, watch.speaker)
@@ -103,23 +100,23 @@ def _solve_loaded(config, contact, mesh, comm, watch, start=None):
         hierarchy.destroy()
 
 
-def _solve_wedge(config, bearing, mesh, comm, watch):
+def _solve_bearing(config, parts, comm, watch):
     """A rigid bearing."""
     started = time.perf_counter()
-    scheme, solver = scheme_from(config, bearing), config.solver
+    bearing, settings = parts.contact, parts.settings
+    limits = settings.newton.tolerance, settings.newton.max_steps
 
     def stop_if_told():
-        """Nothing is kept of a wedge: it is solved in seconds."""
+        """Nothing is kept of a bearing: it is solved in seconds."""
         if stopped := told_to_stop(comm, watch.stop):
             raise stopped
 
-    grid = single_grid(mesh, comm)
+    grid = single_grid(parts.mesh, comm)
     try:
-        problem, outcome = solve_wedge(
-            grid, bearing, scheme, OPTIONS_PREFIX, solver.tolerance, solver.max_steps, stop_if_told
-        )
+        prefix = settings.cycle.options_prefix
+        problem, outcome = solve_wedge(grid, bearing, settings.scheme, prefix, *limits, stop_if_told)
         result = summarise_wedge(problem, outcome, time.perf_counter() - started, versions())
-        rows = progress.wedge_rows(mesh.nx, outcome.cycles)
+        rows = progress.wedge_rows(parts.mesh.nx, outcome.cycles)
         for row in rows:
             watch.speaker.row(row, progress.wedge_line(row))
         return _solution(config, bearing, problem, outcome.state, rows, result)
@@ -154,11 +151,11 @@ def _write(paths, solution):
     try:
         files.write_history(paths.history, solution.rows)
         files.write_fields(paths.fields, solution)
-        if solution.config.contact.kind == "wedge":
+        if solution.contact.is_loaded:
+            picture.draw(paths.picture, solution)
+        else:
             files.write_center_line(paths.center_line, solution.mesh, solution.fields)
             wedge_picture.draw(paths.picture, solution)
-        else:
-            picture.draw(paths.picture, solution)
         files.write_result(paths.result, solution.result)
     except OSError as error:
         raise OutputError(f"{paths.directory}: cannot be written: {error.strerror or error}") from None

@@ -155,11 +155,11 @@ def solvable_tables(draw):
         anywhere = draw(st.integers(0, 9)) == 0
         values = right_values(rules) if anywhere else usual_values(rules, default)
         put(tables, section, key, draw(values))
-    if kind == "point" and draw(st.integers(0, 5)) == 0:
+    if belongs(kind, "moes", "M") and draw(st.integers(0, 5)) == 0:
         use_moes_numbers(draw, tables)
     put(tables, "grid", "nodes", 65)
     put(tables, "solver", "max_steps", draw(st.sampled_from(STEPS)))
-    if kind != "wedge":
+    if belongs(kind, "relaxation", "max_sweeps"):
         put(tables, "relaxation", "max_sweeps", draw(st.integers(1, 5)))
     return tables
 

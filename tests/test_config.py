@@ -552,11 +552,11 @@ def test_objects_of_one_s_own():
     tables = {"contact": {"surface": "/m.py:s", "deformation": "/m.py:c"}, "lubricant": own, **MOES}
     contact = contact_from(config_from_tables(tables))
     lubricant = contact.lubricant
-    function = OwnFunction("lubricant.viscosity_law", own["viscosity_law"])
+    function = OwnFunction(own["viscosity_law"])
     assert lubricant.viscosity_law == OwnViscosity(0.096, 18.2e-9, function)
-    assert lubricant.density_law == OwnDensity(OwnFunction("lubricant.density_law", own["density_law"]))
-    assert contact.surface == OwnSurface(OwnFunction("contact.surface", "/m.py:s"))
-    assert contact.deformation == OwnCompliance(OwnFunction("contact.deformation", "/m.py:c"))
+    assert lubricant.density_law == OwnDensity(OwnFunction(own["density_law"]))
+    assert contact.surface == OwnSurface(OwnFunction("/m.py:s"))
+    assert contact.deformation == OwnCompliance(OwnFunction("/m.py:c"))
     line = contact_from(config_from_tables({"contact": {"kind": "line", "surface": "/m.py:s"}}))
     assert line.surface == contact.surface and line.deformation is None
     coated = contact_from(with_settings(*COATED, "coating.poisson=0.2"))

@@ -28,10 +28,9 @@ from mpi4py import MPI
 from mgehl import solve
 from mgehl.config import SECTIONS, config_from_tables, load_config
 from mgehl.errors import ConfigError, OutputError
+from mgehl.kinds import check_contact, contact_from
 from mgehl.output.stored import read_run
-from mgehl.plausibility import check_contact
 from mgehl.run import run
-from mgehl.solver.from_config import contact_from
 
 THOROUGH = bool(os.environ.get("MGEHL_THOROUGH"))
 SOLVED, RUN = (1000, 100) if THOROUGH else (300, 15)

@@ -2,23 +2,42 @@
 
 import ast
 import re
+from dataclasses import fields
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 import pytest
 
+from mgehl.config import SECTIONS
+
 ROOT = Path(__file__).resolve().parent.parent
-LAYERS = ("model", "discretization", "grid", "multigrid", "solver", "output", "studies", "commands")
+LAYERS = (
+    "model",
+    "discretization",
+    "kinds",
+    "grid",
+    "multigrid",
+    "solver",
+    "output",
+    "studies",
+    "commands",
+)
 """Lowest first. The modules beside them in mgehl (config, run, cli) stand above the layers."""
 BENEATH = {"mgehl.errors", "mgehl.version"}
 """What every layer may use; they use nothing."""
 USERS_OF_OUTPUT = {"mgehl.run", "mgehl.api"}
 ABOVE_OUTPUT = ("output", "studies", "commands")
 USED_BESIDE = {
+    "kinds": {"mgehl.config_value"},
+    "multigrid": {"mgehl.config_sections"},
+    "solver": {"mgehl.config_sections"},
     "output": {"mgehl.config", "mgehl.config_value"},
     "studies": {"mgehl.run", "mgehl.config"},
 }
-"""Runs are read back with their configuration, studies make runs. Commands use what they need."""
+"""Kinds declare keys, settings take the keys' defaults, runs are read back with their configuration,
+studies make runs. Commands use what they need."""
+READS_A_CONFIGURATION = "mgehl.solver.from_config"
+"""The module of the solver that may know the configuration."""
 
 
 def module_name(path):
@@ -62,6 +81,8 @@ def test_every_package_is_a_known_layer():
 def test_a_layer_imports_only_lower_layers_and_itself(name):
     allowed = LAYERS[: LAYERS.index(layer(name)) + 1]
     beside = BENEATH | USED_BESIDE.get(layer(name), set())
+    if name == READS_A_CONFIGURATION:
+        beside = beside | {"mgehl.config"}
     if layer(name) == "commands":
         beside = {each for each in MODULES if layer(each) is None} - {
             "mgehl",
@@ -73,17 +94,17 @@ def test_a_layer_imports_only_lower_layers_and_itself(name):
             assert layer(imported) in allowed, f"{name} imports {imported}"
 
 
-@pytest.mark.parametrize("name", [name for name in MODULES if layer(name) in ("model", "discretization")])
-def test_the_two_lowest_layers_know_neither_petsc_nor_mpi(name):
+@pytest.mark.parametrize("name", [name for name in MODULES if layer(name) in LAYERS[:3]])
+def test_the_three_lowest_layers_know_neither_petsc_nor_mpi(name):
     roots = {imported.split(".")[0] for imported in imports(name)}
     assert not roots & {"petsc4py", "mpi4py", "mpi4py_fft", "slepc4py"}
 
 
-def test_configuration_knows_only_the_two_lowest_layers():
+def test_configuration_knows_only_the_three_lowest_layers():
     """It validates names against their tables; everything else must be able to do without PETSc."""
     parts = {"mgehl.config", "mgehl.config_sections", "mgehl.config_value"}
     used = {each for part in parts for each in imports(part) if each.startswith("mgehl")} - parts - BENEATH
-    assert used and {layer(each) for each in used} <= {"model", "discretization"}
+    assert used and {layer(each) for each in used} <= set(LAYERS[:3])
     assert not {each for each in imports("mgehl.config_value") if each.startswith("mgehl")} - BENEATH
 
 
@@ -97,6 +118,30 @@ def test_output_is_used_by_the_run_the_command_line_and_the_studies_only(name):
 def test_studies_are_used_by_the_command_line_only(name):
     if layer(name) not in ("studies", "commands"):
         assert not any(layer(imported) == "studies" for imported in imports(name))
+
+
+def all_imports(name):
+    """Modules of mgehl that a module cannot do without, through all that it imports."""
+    found, ahead = set(), {name}
+    while ahead:
+        found |= ahead
+        ahead = {each for one in ahead for each in imports(one) & set(MODULES)} - found
+    return found - {name}
+
+
+def test_a_solution_and_its_words_know_no_terminal_and_it_does_not_know_them():
+    speaking = {"mgehl.output.terminal", "mgehl.output.progress"}
+    assert not all_imports("mgehl.output.solution") & speaking
+    assert "mgehl.output.words" in all_imports("mgehl.output.solution")
+    assert "mgehl.output.words" not in all_imports("mgehl.output.terminal")
+
+
+@pytest.mark.parametrize("name", [name for name in MODULES if layer(name) == "model"])
+def test_the_model_says_no_key_of_the_configuration(name):
+    keys = {f"{section}.{key.name}" for section, kind in SECTIONS.items() for key in fields(kind)}
+    said = [node.value for node in ast.walk(ast.parse(MODULES[name].read_text()))
+            if isinstance(node, ast.Constant) and isinstance(node.value, str)]  # fmt: skip
+    assert [(key, text) for text in said for key in keys if key in text] == []
 
 
 def test_no_import_cycles():

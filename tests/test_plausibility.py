@@ -6,8 +6,7 @@ import pytest
 
 from mgehl.config import load_config
 from mgehl.errors import ConfigError
-from mgehl.plausibility import check_contact
-from mgehl.solver.from_config import contact_from
+from mgehl.kinds import check_contact, contact_from
 
 
 @pytest.mark.parametrize(

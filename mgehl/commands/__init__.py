@@ -13,3 +13,16 @@ COMMANDS = (
 
 CONVERGED, NOT_CONVERGED, USAGE = 0, 1, 2
 """Exit statuses: done; not converged, or failed on the way; a mistake in the input."""
+
+
+def add_configuration(parser):
+    """Add the words that name a configuration."""
+    parser.add_argument(
+        "config", nargs="?", metavar="CONFIG", help="TOML file (default: the point contact)"
+    )
+
+
+def add_settings(parser):
+    """Add the option that overrides its keys."""
+    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", dest="settings",
+                        help="set a key, such as grid.nodes=513; may be repeated")  # fmt: skip

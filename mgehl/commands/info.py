@@ -4,7 +4,7 @@ import json
 from dataclasses import asdict
 from pathlib import Path
 
-from mgehl.commands import CONVERGED
+from mgehl.commands import CONVERGED, add_configuration
 from mgehl.config import default_config, load_config
 
 PARALLEL = True
@@ -23,9 +23,7 @@ def add(commands):
         description="Print what a run would run on, and which configuration it would read.",
         epilog="example: mgehl info --json",
     )
-    parser.add_argument(
-        "config", nargs="?", metavar="CONFIG", help="TOML file (default: the point contact)"
-    )
+    add_configuration(parser)
     parser.add_argument("--json", action="store_true", help="print as JSON")
     return parser
 

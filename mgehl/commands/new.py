@@ -3,8 +3,8 @@
 from pathlib import Path
 
 from mgehl.commands import CONVERGED
-from mgehl.config import FOREIGN
 from mgehl.errors import OutputError
+from mgehl.kinds import KINDS
 
 PARALLEL = False
 
@@ -20,7 +20,7 @@ def add(commands):
     )
     parser.add_argument("name", metavar="NAME", help="name of the file, with or without .toml")
     parser.add_argument(
-        "--kind", choices=tuple(FOREIGN), default="point", help="kind of contact (default: point)"
+        "--kind", choices=tuple(KINDS), default="point", help="kind of contact (default: point)"
     )
     parser.add_argument("--force", action="store_true", help="replace a file that exists")
     return parser

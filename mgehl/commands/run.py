@@ -3,7 +3,7 @@
 from pathlib import Path
 from shlex import quote
 
-from mgehl.commands import CONVERGED, NOT_CONVERGED
+from mgehl.commands import CONVERGED, NOT_CONVERGED, add_configuration, add_settings
 from mgehl.config import default_config, load_config
 from mgehl.config_value import read_quantity
 from mgehl.errors import OutputError, UserError
@@ -23,11 +23,8 @@ def add(commands):
         epilog="example: mpiexec -n 2 python -m mgehl run --set grid.nodes=65 --set motion.speed='1 m/s'"
         " --set solver.start=film --out runs/film -mgehl_ksp_monitor",
     )
-    parser.add_argument(
-        "config", nargs="?", metavar="CONFIG", help="TOML file (default: the point contact)"
-    )
-    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", dest="settings",
-                        help="set a key, such as grid.nodes=513; may be repeated")  # fmt: skip
+    add_configuration(parser)
+    add_settings(parser)
     parser.add_argument("--out", metavar="DIR", help="directory of the results (default: runs/NAME)")
     parser.add_argument("--force", action="store_true", help="write into a directory that exists")
     parser.add_argument("--resume", metavar="RUN", help="go on with the run of this directory")
@@ -68,10 +65,9 @@ def _run(config, directory, comm, start, options, save_every, limit):
 
 def _new(options, comm):
     """Configuration, directory and start of a new run, its directory made."""
+    from mgehl.kinds import check_contact, contact_from
     from mgehl.output.checkpoint import keep_start
     from mgehl.output.files import on_first_rank, prepare_directory
-    from mgehl.plausibility import check_contact
-    from mgehl.solver.from_config import contact_from
 
     config = load_config(options.config, options.settings)
     check_contact(config, contact_from(config))

@@ -30,6 +30,8 @@ class LoadedContact:
     rho u h.
     """
 
+    is_loaded = True
+    """The gap answers to the pressure, whose integral is a load."""
     motion = (1.0, 0.0)
     """The surfaces move towards +X."""
 

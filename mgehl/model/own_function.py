@@ -11,7 +11,7 @@ from types import ModuleType
 
 import numpy as np
 
-from mgehl.errors import ConfigError
+from mgehl.errors import UserError
 
 _NAME = re.compile(r"(?P<file>.+\.py):(?P<function>[^\W\d]\w*)")
 
@@ -29,12 +29,21 @@ def absolute(value, directory="."):
     return f"{(Path(directory) / match['file']).resolve()}:{match['function']}"
 
 
+class OwnFunctionError(UserError):
+    """What is wrong with a `function` of the user's, in one line: it begins with file and name."""
+
+    def __init__(self, function, what):
+        super().__init__(f"{function.value!r}: {what}")
+        self.function, self._what = function, what
+
+    def __reduce__(self):
+        return OwnFunctionError, (self.function, self._what)  # it may go from rank to rank
+
+
 @dataclass(frozen=True)
 class OwnFunction:
-    """Runs the file when the function is first called; what goes wrong is a ConfigError of one line."""
+    """Runs the file when the function is first called; what goes wrong is an OwnFunctionError."""
 
-    key: str
-    """Of the configuration, for messages."""
     value: str
     """FILE.py:FUNCTION"""
 
@@ -63,8 +72,8 @@ class OwnFunction:
             pass  # compiled ones may not tell
 
     def error(self, what):
-        """A ConfigError that names key and value."""
-        return ConfigError(f"{self.key} = {self.value!r}: {what}")
+        """The error that says what is wrong with this function."""
+        return OwnFunctionError(self, what)
 
     def _shaped(self, shape, result):
         try:

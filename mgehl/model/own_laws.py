@@ -1,9 +1,9 @@
 """What a user may put in place of a built-in law, surface or deformation by a function of their own.
 
-    lubricant.viscosity_law   law(p, viscosity, pressure_viscosity) -> eta in Pa s, d eta/dp
-    lubricant.density_law     law(p) -> rho/rho_0, its derivative by p
-    contact.surface           surface(x, y) -> height in m that adds to the gap
-    contact.deformation       compliance(k) -> deflection at wave number k over that of half-spaces
+    viscosity     law(p, viscosity, pressure_viscosity) -> eta in Pa s, d eta/dp
+    density       law(p) -> rho/rho_0, its derivative by p
+    surface       surface(x, y) -> height in m that adds to the gap
+    deformation   compliance(k) -> deflection at wave number k over that of half-spaces
 
 Arguments and results are arrays of one shape: p in Pa and never negative, x and y in m from the
 centre, k in 1/m. `check` asks for values before a run does.
@@ -43,13 +43,16 @@ class OwnViscosity:
         value, slope = self._log_law(np.maximum(P, 0.0) * p_h)
         return value + slope * p_h * np.minimum(P, 0.0), slope * p_h
 
-    def check(self, p_max):
-        """Raise ConfigError unless it is a law with its derivative from 0 to `p_max` in Pa."""
+    def check(self, p_max, ambient="the viscosity that it is given"):
+        """Raise OwnFunctionError unless it is a law with its derivative from 0 to `p_max` in Pa.
+
+        `ambient` says in the message what the viscosity at p = 0 must be.
+        """
         self.function.check_arguments("p", "viscosity", "pressure_viscosity")
         p = np.linspace(0.0, p_max, CHECKED_PRESSURES)
         eta = _as_nodes(self._law)(p)[0]
         _check_positive(self.function, eta, p, "Pa")
-        _check_ambient(self.function, eta[0], self.viscosity, "lubricant.viscosity in Pa s")
+        _check_ambient(self.function, eta[0], self.viscosity, ambient)
         _check_slope(self.function, _as_nodes(self._log_law), p, "d ln(eta)/dp")
 
     def _log_law(self, p):
@@ -74,7 +77,7 @@ class OwnDensity:
         return rho + slope * p_h * np.minimum(P, 0.0), slope * p_h
 
     def check(self, p_max):
-        """Raise ConfigError unless it is a law with its derivative from 0 to `p_max` in Pa."""
+        """Raise OwnFunctionError unless it is a law with its derivative from 0 to `p_max` in Pa."""
         self.function.check_arguments("p")
         p = np.linspace(0.0, p_max, CHECKED_PRESSURES)
         rho = _as_nodes(self._law)(p)[0]
@@ -98,7 +101,7 @@ class OwnSurface:
         return self.function.array(x.shape, x, y)
 
     def check(self, x, y, highest):
-        """Raise ConfigError unless every height at (x[i], y[j]) is a number of at most `highest`."""
+        """Raise OwnFunctionError unless every height at (x[i], y[j]) is a number of at most `highest`."""
         self.function.check_arguments("x", "y")
         for line in y:
             height = self.height(x[None, :], line)[0]
@@ -122,7 +125,7 @@ class OwnCompliance:
         return self.function.array(np.shape(k), k)
 
     def check(self, k):
-        """Raise ConfigError unless it is positive at all `k` in 1/m."""
+        """Raise OwnFunctionError unless it is positive at all `k` in 1/m."""
         self.function.check_arguments("k")
         _check_positive(self.function, self.compliance(k), k, "1/m")
 

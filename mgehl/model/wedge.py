@@ -55,6 +55,8 @@ class WedgeBearing:
     pillar_y: float = 0.0
     pillar_size: float = 0.0
 
+    is_loaded = False
+    """The gap is given."""
     lambda_ = 6.0
     """Reynolds coefficient of d(H^3 dP/dX)/dX = 6 dH/dX."""
     x_scale = y_scale = MM

@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from petsc4py import PETSc
 
+from mgehl.config_sections import SolverSection
 from mgehl.discretization.axes import own
 from mgehl.discretization.evaluation import Evaluation
 from mgehl.grid.transfers import PartitionedTransfer
@@ -54,13 +55,14 @@ class _Interpolation:
 class CycleSettings:
     """The linear solver: relaxations before and after the coarse grids, and GMRES limits."""
 
-    sweeps: int = 1
-    omega: float = 0.8
-    couette: str = "same"
+    sweeps: int = SolverSection.sweeps
+    omega: float = SolverSection.omega
+    couette: str = SolverSection.cycle_couette
     """Couette scheme of the cycle's operators; "same" is the one that is solved."""
     max_iterations: int = 60
     """Of GMRES, which is not restarted: thin films on coarse grids take 40, and 30 at a time never end."""
     options_prefix: str = "mgehl_"
+    """Under which PETSc options reach the solvers of a run."""
 
 
 class MultigridSolver:

@@ -6,6 +6,8 @@ import numpy as np
 
 from mgehl.discretization.status import CONTACT
 from mgehl.model.contact import Groups
+from mgehl.output.resolution import Resolution, resolution
+from mgehl.output.words import loaded_words
 from mgehl.solver.verification import check_pressure_inequality, complementarity_error, flux_imbalance
 
 COMPLEMENTARITY_TOLERANCE = 1e-6
@@ -45,14 +47,6 @@ class InequalityResult:
     largest_ratio: float
     """Largest fluid pressure over the contact pressure beside it."""
     nodes: list
-
-
-@dataclass(frozen=True)
-class Resolution:
-    """Cells in the inlet zone that builds the film, and what follows from their number."""
-
-    inlet_cells: float
-    verdict: str
 
 
 @dataclass(frozen=True)
@@ -102,6 +96,9 @@ class Result:
     wall_s: float
     ranks: int
     versions: dict
+
+    def __str__(self):
+        return loaded_words(self)
 
 
 def summarise(problem, outcome, tolerance, work, wall_s, versions):
@@ -155,13 +152,6 @@ def summarise(problem, outcome, tolerance, work, wall_s, versions):
         ranks=grid.comm.size,
         versions=versions,
     )
-
-
-def resolution(contact, mesh):
-    """How well a mesh resolves the inlet: below 1 cell the contact set is the grid's."""
-    cells = contact.inlet_length / mesh.dX
-    verdict = "resolved" if cells >= 4.0 else "coarse" if cells >= 1.0 else "grid-determined"
-    return Resolution(cells, verdict)
 
 
 def _verdict(outcome, tolerance, residual, load_error, complementarity):

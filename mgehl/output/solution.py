@@ -10,7 +10,6 @@ from mgehl.discretization.mesh import Mesh
 from mgehl.grid.grid import Grid
 from mgehl.model.contact import LoadedContact
 from mgehl.model.wedge import WedgeBearing
-from mgehl.output.progress import last_words
 from mgehl.output.result import Result
 from mgehl.output.wedge_result import WedgeResult
 
@@ -85,4 +84,4 @@ class Solution:
         return replace(self, fields=None, local=None)
 
     def __str__(self) -> str:
-        return last_words(self.result)
+        return str(self.result)

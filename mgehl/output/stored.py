@@ -12,11 +12,11 @@ import numpy as np
 from mgehl.config import load_config
 from mgehl.discretization.status import NAMES
 from mgehl.errors import ConfigError, OutputError, one_line
+from mgehl.kinds import contact_from, mesh_from
 from mgehl.output.files import RunFiles
 from mgehl.output.result import Result
 from mgehl.output.solution import Fields, Solution
 from mgehl.output.wedge_result import WedgeResult
-from mgehl.solver.from_config import contact_from, mesh_from
 
 LENIENT = dacite.Config(
     check_types=False,
@@ -87,7 +87,7 @@ def read_result(files, config):
 
     Raises OutputError where it is missing, or cut off.
     """
-    path, kind = files.result, WedgeResult if config.contact.kind == "wedge" else Result
+    path, kind = files.result, Result if config.kind.is_loaded else WedgeResult
     try:
         return dacite.from_dict(kind, json.loads(path.read_text()), LENIENT)
     except (OSError, ValueError, TypeError, AttributeError, dacite.DaciteError) as error:

@@ -5,6 +5,8 @@ import json
 import tomllib
 from pathlib import Path
 
+from mgehl.output.words import span
+
 
 def collect(directories):
     """A row (dict of text) for each run directory. Raises OSError if one cannot be read."""
@@ -46,8 +48,8 @@ def _row(directory):
         "H_Moes minimum": f"{result['moes_film']['minimum']:.5f}",
         "residual": f"{result['residual']:.1e}",
         "load error": f"{result['load_error']:.1e}",
-        "contact nodes on X": _span(contact["x_nodes"]),
-        "on Y": _span(contact["y_nodes"]),
+        "contact nodes on X": span(contact["x_nodes"]),
+        "on Y": span(contact["y_nodes"]),
         "largest gap in contact nm": f"{contact['largest_gap_nm']:.1e}",
         "Eq. 2 violations": f"{inequality['violations']} of {inequality['checked']}",
         "inlet cells": f"{result['resolution']['inlet_cells']:.2f}",
@@ -64,7 +66,3 @@ def _seconds_per_step(finest):
     if len(finest) < 2:
         return 0.0
     return (float(finest[-1]["seconds"]) - float(finest[0]["seconds"])) / (len(finest) - 1)
-
-
-def _span(ends):
-    return f"{ends[0]}..{ends[1]}" if ends else "none"

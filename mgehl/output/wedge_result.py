@@ -3,6 +3,8 @@
 from dataclasses import dataclass
 
 from mgehl.discretization.status import CAVITATED, CONTACT
+from mgehl.output.result import Overlap
+from mgehl.output.words import bearing_words
 from mgehl.solver.verification import closed_face_flow, flux_imbalance
 
 
@@ -28,6 +30,19 @@ class WedgeResult:
     wall_s: float
     ranks: int
     versions: dict
+
+    @property
+    def settled(self):
+        """As `converged`: there is no inequality besides the equations."""
+        return self.converged
+
+    @property
+    def overlap(self):
+        """None: the gap is given."""
+        return Overlap(0, 0.0)
+
+    def __str__(self):
+        return bearing_words(self)
 
 
 def summarise_wedge(problem, outcome, wall_s, versions):

@@ -30,23 +30,17 @@ def nested_iteration(hierarchy, contact, settings, monitor, journal=NOTHING_KEPT
 
     `monitor(level, cycle)` is called with a `LevelSolve` and the `Cycle` for every cycle.
     """
-    finest = len(hierarchy.grids) - 1
+    coarse = replace(settings.newton, tolerance=settings.nested.coarse_tolerance, release_budget=0)
     outcome = None
-    for level in _levels(hierarchy.grids, settings.nested):
-        grid = hierarchy.grids[level]
-        if level < finest:
-            speed = contact.matched_speed(grid.mesh.dX, settings.nested.inlet_cells)
-            limits = replace(settings.newton, tolerance=settings.nested.coarse_tolerance, release_budget=0)
-        else:
-            speed, limits = contact.speed, settings.newton
-        problem = ContactProblem(
-            grid, hierarchy.deflections[level], contact.at_speed(speed), settings.scheme
-        )
+    for level, solve in planned_solves([grid.mesh for grid in hierarchy.grids], contact, settings):
+        limits = settings.newton if solve.finest else coarse
+        at_speed, deflection = contact.at_speed(solve.speed), hierarchy.deflections[level]
+        problem = ContactProblem(hierarchy.grids[level], deflection, at_speed, settings.scheme)
         if outcome is None:
             state = first_guess(problem, settings.nested.start)
         else:
             state = interpolate(hierarchy.transfers[level - 1], problem, outcome.state)
-        tell = partial(monitor, LevelSolve(grid.mesh.nx, speed, level == finest))
+        tell = partial(monitor, solve)
         outcome = _solve_level(hierarchy, level, problem, state, limits, settings, tell, journal)
         if not outcome.cycles[-1].residual < DIVERGED:
             break  # nothing to start the next grid from; the outcome says why
@@ -86,12 +80,19 @@ def interpolate(transfer, problem, coarse):
     return problem.state(P, coarse.H0, status)
 
 
-def _levels(grids, settings):
-    """Grids to solve on: a film grows from the coarse ones, contact starts on the finest."""
-    finest = len(grids) - 1
-    if settings.start == "contact":
-        return [finest]
-    return [level for level in range(finest) if grids[level].mesh.nx >= settings.first_nodes] + [finest]
+def planned_solves(meshes, contact, settings):
+    """(Level, `LevelSolve`) of what is solved on which of the `meshes`, coarsest first, and how fast.
+
+    A film grows from the coarse grids, at speeds that they resolve; a start from contact, and the
+    relaxation, know the finest alone.
+    """
+    finest, nested = len(meshes) - 1, settings.nested
+    alone = nested.start == "contact" or settings.method == "relaxation"
+    for level, mesh in enumerate(meshes):
+        if level == finest:
+            yield level, LevelSolve(mesh.nx, contact.speed, True)
+        elif mesh.nx >= nested.first_nodes and not alone:
+            yield level, LevelSolve(mesh.nx, contact.matched_speed(mesh.dX, nested.inlet_cells), False)
 
 
 def _solve_level(hierarchy, level, problem, state, limits, settings, tell, journal):

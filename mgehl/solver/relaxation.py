@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import solve_banded
 
+from mgehl.config_sections import RelaxationSection, SolverSection
 from mgehl.discretization.axes import own
 from mgehl.discretization.influence import influence_coefficients
 from mgehl.discretization.rows import PRESSURE
@@ -23,22 +24,22 @@ from mgehl.solver.problem import DIVERGED
 class RelaxationSettings:
     """Factors and limits of the relaxation."""
 
-    fluid_update: str = "line"
+    fluid_update: str = RelaxationSection.fluid_update
     """"line" [Liu eq. 37], or "point" [Liu eq. 36]."""
-    contact_update: str = "line"
+    contact_update: str = RelaxationSection.contact_update
     """"line" [Liu eq. 41], or "point" [Liu eq. 42]."""
-    omega: float = 0.02
-    contact_share: float = 1.0 / 3.0
+    omega: float = RelaxationSection.omega
+    contact_share: float = RelaxationSection.contact_share
     """Part of omega that contact nodes get."""
-    stability: float = 1.0
+    stability: float = RelaxationSection.stability
     """C_c of [Liu eqs. 40-42]."""
-    load_factor: float = 0.05
+    load_factor: float = RelaxationSection.load_factor
     """omega_w of [Liu eq. 54]."""
-    load_every: int = 2
-    max_sweeps: int = 20000
+    load_every: int = RelaxationSection.load_every
+    max_sweeps: int = RelaxationSection.max_sweeps
     report_every: int = 100
     """Sweeps from one line of the history to the next."""
-    tolerance: float = 1e-8
+    tolerance: float = SolverSection.tolerance
 
 
 @dataclass

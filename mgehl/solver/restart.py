@@ -16,7 +16,7 @@ from mgehl.solver.relaxation import relax
 def check_start(start, kind):
     """Raise UserError where a `Solution` is no start for a contact of this kind."""
     other = start.config.contact.kind
-    if other != kind or kind == "wedge":
+    if other != kind or not start.contact.is_loaded:
         raise UserError(f"a {other} is no start for a {kind}")
 
 

@@ -1,7 +1,11 @@
-"""All that the solver may be told: of the first guess, of Newton's method, and together."""
+"""All that the solver may be told: of the first guess, of Newton's method, and together.
+
+What is a key of the configuration, too, has that key's default.
+"""
 
 from dataclasses import dataclass, field, replace
 
+from mgehl.config_sections import SolverSection
 from mgehl.discretization.scheme import Scheme
 from mgehl.multigrid.cycle import CycleSettings
 from mgehl.solver.relaxation import RelaxationSettings
@@ -12,11 +16,11 @@ from mgehl.solver.squeeze import SQUEEZE
 class NestedSettings:
     """How the finest grid's first guess is made."""
 
-    start: str = "film"
+    start: str = SolverSection.start
     """"film" from a full film on a coarse grid, "contact" from the Hertz ellipse in contact."""
-    first_nodes: int = 65
+    first_nodes: int = SolverSection.first_nodes
     """Nodes along X of the first grid of the nested iteration."""
-    inlet_cells: float = 2.0
+    inlet_cells: float = SolverSection.inlet_cells
     """Cells that the inlet must have on the coarse grids: the speed is raised until it has.
 
     Fewer lead to spurious contact that poisons the finer grids (full film is lost near 1.4),
@@ -30,13 +34,13 @@ class NestedSettings:
 class NewtonSettings:
     """Tolerances and limits of Newton's method on one grid."""
 
-    tolerance: float = 1e-8
+    tolerance: float = SolverSection.tolerance
     """For the rms residual and the load error."""
-    max_steps: int = 60
-    linear_tolerance: float = 0.1
+    max_steps: int = SolverSection.max_steps
+    linear_tolerance: float = SolverSection.linear_tolerance
     max_pressure_step: float = 0.3
-    release_budget: int = 2
-    squeeze: float = 0.0
+    release_budget: int = SolverSection.release_budget
+    squeeze: float = SolverSection.squeeze
     """Rate of implicit time steps per rms residual and cell (`solver.squeeze`); 0 for Newton's own."""
 
     def squeezed(self):
@@ -48,7 +52,7 @@ class NewtonSettings:
 class SolverSettings:
     """All that the solver may be told."""
 
-    method: str = "newton-mg"
+    method: str = SolverSection.method
     """"newton-mg", or the paper's "relaxation" on the finest grid alone."""
     scheme: Scheme = field(default_factory=Scheme)
     nested: NestedSettings = field(default_factory=NestedSettings)

@@ -14,13 +14,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mgehl.config import COARSEST_NODES, config_from_tables
-from mgehl.grid.hierarchy import Hierarchy
+from mgehl.config import config_from_tables
 from mgehl.output.result import Work, summarise
 from mgehl.output.solution import Fields
 from mgehl.run import versions
 from mgehl.solver.continuation import Continuation
-from mgehl.solver.from_config import contact_from, mesh_from, settings_from
+from mgehl.solver.from_config import set_up
 from mgehl.solver.problem import State
 from mgehl.solver.relaxation import RelaxationSettings, relax
 from mgehl.studies.cache import key_of
@@ -60,9 +59,9 @@ class Branches:
     def __init__(self, study, tables):
         config = config_from_tables(tables)
         self._study, self._tables = study, config.as_toml_tables()
-        self.contact = contact_from(config)
-        self.mesh = mesh_from(config, self.contact)
-        self._settings = settings_from(config, self.contact)
+        self._parts = set_up(config)
+        self.contact, self.mesh = self._parts.contact, self._parts.mesh
+        self._settings = self._parts.settings
         self._hierarchy = None
         self.name = f"{self.mesh.nx} nodes, {config.discretization.face_mobility} mean"
         """As a title has it."""
@@ -186,8 +185,7 @@ class Branches:
     @property
     def _grids(self):
         if self._hierarchy is None:
-            kernel, comm = self.contact.kernel, self._study.comm
-            self._hierarchy = Hierarchy(self.mesh, COARSEST_NODES, kernel, comm)
+            self._hierarchy = self._parts.hierarchy(self._study.comm)
         return self._hierarchy
 
     @property

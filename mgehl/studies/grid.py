@@ -7,6 +7,7 @@ import numpy as np
 
 from mgehl.discretization.status import CONTACT
 from mgehl.model.hertz import hertz_pressure
+from mgehl.output.words import span
 from mgehl.studies.study import merged, observed_order, plausible, richardson
 
 NODES = (257, 513, 1025)
@@ -69,8 +70,8 @@ def _contact_rows(solutions, profiles):
         rows.append(
             _common(solution)
             | {
-                "contact on X": _span(result.contact.x_nodes),
-                "on Y": _span(result.contact.y_nodes),
+                "contact on X": span(result.contact.x_nodes),
+                "on Y": span(result.contact.y_nodes),
                 "contact/Hertz area": f"{result.contact.area_fraction:.5f}",
                 "load on contact": f"{result.contact.load_fraction:.6f}",
                 "P - Hertz inside 0.9 a": f"{profile.largest_inside:.2e}",
@@ -129,7 +130,3 @@ def _limit(found, film):
         return ""
     value, order = richardson([getattr(each, film) for each in found])
     return f"{value:.3f}, {order:.2f}" if plausible(order) else "not to be told yet"
-
-
-def _span(ends):
-    return f"{ends[0]}..{ends[1]}" if ends else "none"

@@ -7,9 +7,7 @@ import pytest
 
 from mgehl.cli import main
 from mgehl.config import FOREIGN, SECTIONS, load_config
-from mgehl.output.template import ESSENTIAL
-
-KINDS = tuple(FOREIGN)
+from mgehl.kinds import KINDS
 
 
 @pytest.fixture(autouse=True)
@@ -40,7 +38,7 @@ def test_the_file_is_a_valid_configuration_of_its_kind(kind, written, capsys):
 def test_essential_keys_are_live_and_no_others(kind, written):
     tables = tomllib.loads(written(kind))
     live = {f"{name}.{key}" for name, table in tables.items() for key in table}
-    assert live == set(ESSENTIAL[kind])
+    assert live == set(KINDS[kind].essential)
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -5,8 +5,8 @@ import pickle
 import numpy as np
 import pytest
 
-from mgehl.errors import ConfigError
-from mgehl.model.own_function import OwnFunction, absolute, is_own
+from mgehl.errors import UserError
+from mgehl.model.own_function import OwnFunction, OwnFunctionError, absolute, is_own
 
 SHAPE = (2, 3)
 WITH_A_DATACLASS = """
@@ -28,18 +28,18 @@ def own(tmp_path):
 
     def make(text, name="law"):
         (tmp_path / "mine.py").write_text(text)
-        return OwnFunction("lubricant.density_law", f"{tmp_path}/mine.py:{name}")
+        return OwnFunction(f"{tmp_path}/mine.py:{name}")
 
     return make
 
 
 def refusal(function, *arguments):
-    """The one line after key and value."""
-    with pytest.raises(ConfigError) as caught:
+    """The one line after file and name."""
+    with pytest.raises(OwnFunctionError) as caught:
         function.check_arguments(*arguments)
         function.pair(SHAPE, *(np.zeros(SHAPE) for _ in arguments))
     start, _, what = str(caught.value).partition("mine.py:law': ")
-    assert start.startswith("lubricant.density_law = '") and "\n" not in what
+    assert start.startswith("'/") and caught.value.function is function and "\n" not in what
     return what
 
 
@@ -119,6 +119,12 @@ def test_a_file_that_changed_is_read_anew_at_the_next_start(own):
 def test_nothing_is_left_beside_the_file(own, tmp_path):
     own("def law(p): return p, p").check_arguments("p")
     assert [path.name for path in tmp_path.iterdir()] == ["mine.py"]
+
+
+def test_an_error_goes_from_rank_to_rank(own):
+    error = own("").error("must be other\nthan this")
+    copy = pickle.loads(pickle.dumps(error))
+    assert isinstance(copy, UserError) and str(copy) == str(error) and copy.function == error.function
 
 
 def test_dataclasses_and_pickles(own):

@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 
-from mgehl.errors import ConfigError
 from mgehl.model.lubricant import Barus, DowsonHigginson
-from mgehl.model.own_function import OwnFunction
+from mgehl.model.own_function import OwnFunction, OwnFunctionError
 from mgehl.model.own_laws import OwnCompliance, OwnDensity, OwnSurface, OwnViscosity
 
 P_H = 0.8e9
@@ -24,9 +23,9 @@ def law(p):
 
 @pytest.fixture
 def own(tmp_path):
-    def make(text, key="lubricant.viscosity_law"):
+    def make(text):
         (tmp_path / "mine.py").write_text(text)
-        return OwnFunction(key, f"{tmp_path}/mine.py:law")
+        return OwnFunction(f"{tmp_path}/mine.py:law")
 
     return make
 
@@ -46,7 +45,7 @@ def density(own):
 
 
 def refusal(check, *arguments):
-    with pytest.raises(ConfigError) as caught:
+    with pytest.raises(OwnFunctionError) as caught:
         check(*arguments)
     message = str(caught.value)
     assert "mine.py:law': " in message and "\n" not in message
@@ -120,7 +119,7 @@ def test_a_density_s_wrong_derivative_is_refused(density):
         ("def law(p, v, a): return v * (p - p) / (p - p), 0.0", "returns nan at 0 Pa; must be a positive"),
         (
             "def law(p, v, a): return 1e3 * v, 0.0",
-            "returns 50 at p = 0; must be 0.05, lubricant.viscosity in Pa s",
+            "returns 50 at p = 0; must be 0.05, the viscosity that it is given",
         ),
         ("def law(p): return p, p", "must take 3 arguments: p, viscosity, pressure_viscosity"),
     ],
@@ -140,7 +139,7 @@ def test_a_law_that_cannot_take_a_plane_of_nodes_is_refused(density):
 
 
 def test_heights_are_those_of_the_nodes(own):
-    surface = OwnSurface(own("def law(x, y): return 2.0 * x + y**2", "contact.surface"))
+    surface = OwnSurface(own("def law(x, y): return 2.0 * x + y**2"))
     x, y = np.array([[1.0, 2.0, 3.0]]), np.array([[0.0], [5.0]])
     assert surface.height(x, y).tolist() == [[2.0, 4.0, 6.0], [27.0, 29.0, 31.0]]
     surface.check(x[0], y[:, 0], 31.0)
@@ -159,14 +158,14 @@ def test_heights_are_those_of_the_nodes(own):
     ],
 )
 def test_what_is_no_surface_is_refused(own, text, words):
-    surface = OwnSurface(own(text, "contact.surface"))
+    surface = OwnSurface(own(text))
     assert words in refusal(surface.check, np.array([1.0, 2.0, 3.0]), np.array([0.0, 5.0]), 2.5)
 
 
 def test_a_compliance_is_positive(own):
     k = np.array([1.0, 10.0, 100.0])
-    good = OwnCompliance(own("def law(k): return 1.0 + 1.0 / k", "contact.deformation"))
+    good = OwnCompliance(own("def law(k): return 1.0 + 1.0 / k"))
     good.check(k)
     assert good.compliance(k).tolist() == [2.0, 1.1, 1.01]
-    bad = OwnCompliance(own("def law(k): return 50.0 - k", "contact.deformation"))
+    bad = OwnCompliance(own("def law(k): return 50.0 - k"))
     assert refusal(bad.check, k) == "returns -50 at 100 1/m; must be a positive number"

@@ -98,7 +98,7 @@ def make_wedge():
             {"grid": nodes, "step": k, "residual": 10.0 ** (-6 * k), "linear_iterations": 3}
             for k in range(3)
         ]
-        result = SimpleNamespace(converged=True, cavitated_nodes=0)
+        result = SimpleNamespace(converged=True, settled=True, overlap=Overlap(0, 0.0), cavitated_nodes=0)
         return Solution(config, body, mesh, Fields(P, body.gap(X) + 0.0 * Y, status), rows, result)
 
     return make

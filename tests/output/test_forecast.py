@@ -5,17 +5,11 @@ import pytest
 
 from mgehl.config import load_config
 from mgehl.discretization.mesh import Mesh
+from mgehl.kinds import contact_from, mesh_from
+from mgehl.kinds.point import FILM
 from mgehl.output import forecast as module
-from mgehl.output.forecast import (
-    expectation,
-    expected_work,
-    forecast,
-    inlet_grids,
-    resolving_nodes,
-    time_convolution,
-)
-from mgehl.output.result import resolution
-from mgehl.solver.from_config import contact_from, mesh_from
+from mgehl.output.forecast import forecast, inlet_grids, time_convolution
+from mgehl.output.resolution import resolution
 
 
 def film(nodes=257, speed=0.0075, **changes):
@@ -62,42 +56,9 @@ def test_from_contact_only_the_finest_grid_is_solved():
     ]
 
 
-def test_the_recommended_grid_is_the_first_that_resolves():
-    config = film()
-    nodes = resolving_nodes(config, contact_from(config))
-    fine, coarse = film(nodes=nodes), film(nodes=(nodes + 1) // 2)
-    verdicts = [
-        resolution(contact_from(each), mesh_from(each, contact_from(each))).verdict
-        for each in (fine, coarse)
-    ]
-    assert verdicts == ["resolved", "coarse"]
-
-
-@pytest.mark.parametrize(
-    "cells, start, words",
-    [
-        (4.0, "film", "resolves"),
-        (2.0, "contact", "changes with the grid"),
-        (1.0, "film", "side by side"),
-        (0.5, "film", "side by side"),
-        (0.5, "contact", "full contact"),
-    ],
-)
-def test_what_is_expected_follows_from_cells_and_start(cells, start, words):
-    assert words in expectation(cells, start)
-
-
-def test_work_is_that_of_the_kind_of_run():
-    assert expected_work(film()) == module.WORK["film"]
-    assert expected_work(film(**{"solver.start": "contact"})) == module.WORK["contact"]
-    assert expected_work(film(**{"discretization.face_mobility": "harmonic"})) == module.WORK["mean"]
-    sweeps = {"solver.method": "relaxation", "relaxation.max_sweeps": 7}
-    assert expected_work(film(**sweeps)).convolutions == (7.0, 7.0)
-
-
 def test_time_is_that_of_the_convolutions_on_the_cores_there_are(one_second):
-    low, high = module.WORK["film"].convolutions
-    factor = module.WORK["film"].times_convolution
+    low, high = FILM.convolutions
+    factor = FILM.times_convolution
     one, two, three = (foretold(film(), ranks) for ranks in (1, 2, 3))
     assert one.seconds == pytest.approx(tuple(module.START_SECONDS + n * factor for n in (low, high)))
     assert [found.workers for found in (one, two, three)] == [1, 2, 2]

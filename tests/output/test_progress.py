@@ -1,14 +1,11 @@
-"""What a run says."""
+"""What a run says while it runs."""
 
 import json
-from dataclasses import replace
 from types import SimpleNamespace
 
 import pytest
-from test_files import make_result
 
-from mgehl.output.progress import NEWTON, Progress, trust_block
-from mgehl.output.result import ContactResult, InequalityResult, Resolution
+from mgehl.output.progress import NEWTON, Progress
 from mgehl.output.terminal import SILENT, Silent
 from mgehl.solver.nested import LevelSolve
 from mgehl.solver.outcome import Cycle
@@ -83,50 +80,3 @@ def test_it_goes_on_from_its_record():
     after(LEVEL, cycle(1))
     assert after.rows[1]["convolutions"] == 32.0 and after.rows[1]["seconds"] >= 100.0
     assert len(before.rows) == 1 and after.steps == 1
-
-
-class TestTrustBlock:
-    def test_the_answer_and_what_it_rests_on(self):
-        lines = trust_block(make_result()).splitlines()
-        assert lines[0] == "CONVERGED: all holds"
-        text = "\n".join(lines)
-        for part in ("12.0000 nm", "1.0000 nm", "2.3000 GPa", "1.0e-09", "-1.0e-10", "3 nodes", "1.00 %",
-                     "4..6", "none", "5.00 cells", "80.5", "14 steps", "1 ranks"):  # fmt: skip
-            assert part in text
-
-    def test_failure_comes_first(self):
-        text = trust_block(make_result(converged=False, settled=False, reason="sets still change 60 steps"))
-        assert text.startswith("NOT CONVERGED: sets still change 60 steps")
-
-    def test_a_solution_that_breaks_eq_2_is_called_both(self):
-        text = trust_block(make_result(converged=False, reason="pressure below"))
-        assert text.startswith("SETTLED, BUT EQ. 2 IS BROKEN: pressure below")
-
-    def test_a_node_that_can_be_neither_is_named_with_both_reasons(self):
-        node = {
-            "i": 7, "j": 9, "film_gap_nm": -0.6, "contact_pressure": -0.014,
-            "neighbours": ["lubricated", "cavitated", "lubricated", "contact"],
-        }  # fmt: skip
-        text = trust_block(make_result(converged=False, settled=False, contradictions=[node]))
-        assert "node (7, 9): as film its gap is -6.00e-01 nm, as contact its pressure -1.40e-02 p_h" in text
-        assert "lubricated, cavitated, lubricated, contact" in text
-
-    def test_a_violation_is_named_with_place_and_size(self):
-        assert "(6, 3) by 2.50e-01 p_h" in trust_block(make_result())
-
-    def test_a_long_list_is_cut_and_says_so(self):
-        nodes = [{"i": k, "j": 1, "size": 0.1} for k in range(1, 51)]
-        result = make_result(pressure_inequality=InequalityResult(60, 50, 0.1, 1.2, nodes))
-        text = trust_block(result)
-        assert text.count("Eq. 2 violated at node") == 20
-        assert "30 more" in text
-
-    @pytest.mark.parametrize(
-        "verdict, advice", [("coarse", "expect the film to change"), ("grid-determined", "the grid's")]
-    )
-    def test_a_coarse_inlet_is_a_warning(self, verdict, advice):
-        assert advice in trust_block(make_result(resolution=Resolution(0.5, verdict)))
-
-    def test_no_contact(self):
-        nothing = replace(make_result(), contact=ContactResult(0, 0.0, 0.0, None, None, 0.0))
-        assert "nodes none on Y = 0, none on X = 0" in trust_block(nothing)

@@ -3,9 +3,12 @@
 import numpy as np
 import pytest
 
+from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.status import CONTACT, LUBRICATED
 from mgehl.model.hertz import hertz_pressure
 from mgehl.model.point import LOAD
+from mgehl.solver.nested import planned_solves
+from mgehl.solver.settings import NestedSettings, SolverSettings
 from mgehl.solver.verification import check_pressure_inequality
 
 MOES_DOMAIN = {"x": (-4.5, 1.5), "y": (-3.0, 3.0)}
@@ -103,6 +106,26 @@ def test_slow_contact_raises_the_speed_on_coarse_grids(solve, paper_contact):
     assert speeds[129] == contact.speed < speeds[65]
     cells = contact.at_speed(speeds[65]).inlet_length / (3.2 / 64)
     assert cells == pytest.approx(2.0)
+
+
+@pytest.mark.parametrize(
+    "method, start, nodes",
+    [
+        ("newton-mg", "film", [65, 129]),
+        ("newton-mg", "contact", [129]),
+        ("relaxation", "film", [129]),
+        ("relaxation", "contact", [129]),
+    ],
+)
+def test_what_is_planned_ends_on_the_finest_grid_at_the_wanted_speed(paper_contact, method, start, nodes):
+    meshes = [Mesh(n, n, (-1.9, 1.3), (-1.5, 1.5)) for n in (33, 65, 129)]
+    contact = paper_contact(1e-3)
+    settings = SolverSettings(method=method, nested=NestedSettings(start=start, first_nodes=65))
+    solves = list(planned_solves(meshes, contact, settings))
+    assert [solve.nodes for _, solve in solves] == nodes == [meshes[level].nx for level, _ in solves]
+    assert [solve.finest for _, solve in solves] == [n == 129 for n in nodes]
+    assert solves[-1][1].speed == contact.speed
+    assert all(solve.speed > contact.speed for _, solve in solves[:-1])
 
 
 def test_contact_starts_on_the_finest_grid(solve, paper_contact):

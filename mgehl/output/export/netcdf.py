@@ -23,43 +23,15 @@ def write_netcdf(path, solution):
         put = partial(_put, file)
         _put_coordinates(put, solution)
         _put_fields(put, solution)
-        for name, (value, unit, meaning) in scalars(solution).items():
+        for name, (value, unit, meaning) in solution.config.kind.scalars(solution).items():
             put(name, (), np.float64(value), units=unit, long_name=meaning)
-
-
-def scalars(solution):
-    """What a run comes to, {name: (value, unit, meaning)}; a wedge has no groups and no central film."""
-    contact, result = solution.contact, solution.result
-    speed = {"speed": (contact.speed, "m s-1", "entrainment speed")}
-    if _is_wedge(solution):
-        return speed | {
-            "normal_load": (result.load_N, "N", "load that the pressure carries"),
-            "maximum_pressure": (1e6 * result.max_pressure_MPa, "Pa", "largest pressure"),
-        }
-    load_unit, groups = "N m-1" if solution.mesh.is_line else "N", contact.groups
-    return speed | {
-        "normal_load": (contact.load, load_unit, "normal load"),
-        "central_film": (1e-9 * result.central_film_nm, "m", "film at the centre of the contact"),
-        "minimum_film": (1e-9 * result.minimum_film_nm, "m", "smallest film"),
-        "maximum_pressure": (1e9 * result.max_pressure_GPa, "Pa", "largest pressure"),
-        "group_U": (groups.U, "1", "speed parameter U"),
-        "group_W": (groups.W, "1", "load parameter W"),
-        "group_G": (groups.G, "1", "material parameter G"),
-        "moes_M": (groups.M, "1", "load number M of Moes"),
-        "moes_L": (groups.L, "1", "material number L of Moes"),
-    }
-
-
-def _is_wedge(solution):
-    return solution.config.contact.kind == "wedge"
 
 
 def _global_attributes(solution):
     """Those that CF asks for, the verdict, and the configuration as `mgehl run` reads it."""
-    kind = "wedge bearing" if _is_wedge(solution) else f"{solution.config.contact.kind} contact"
     return {
         "Conventions": CONVENTIONS,
-        "title": f"Pressure and film of a lubricated {kind}",
+        "title": f"Pressure and film of a lubricated {solution.config.kind.noun}",
         "source": f"mgehl {VERSION}",
         "history": f"{datetime.now(UTC):%Y-%m-%dT%H:%M:%SZ} mgehl export",
         "converged": "yes" if solution.result.converged else "no",

@@ -8,7 +8,6 @@ from matplotlib.ticker import MaxNLocator
 
 from mgehl.errors import UserError
 from mgehl.model.hertz import hertz_pressure
-from mgehl.model.wedge import WedgeBearing
 from mgehl.output.center_line import center_line
 from mgehl.output.pictures import wedge_picture
 from mgehl.output.pictures.history_picture import column, cycles, grids
@@ -27,12 +26,12 @@ def compare_lines(solutions, labels):
 
     Raises UserError where the contacts are not of one kind.
     """
-    kinds = {(isinstance(each.contact, WedgeBearing), each.mesh.is_line) for each in solutions}
+    kinds = {each.config.contact.kind for each in solutions}
     if len(kinds) > 1:
         raise UserError("runs of different kinds of contact have no common picture: plot each")
-    wedges, is_line = kinds.pop()
-    if wedges:
-        return _compare_wedges(solutions, labels)
+    if not solutions[0].contact.is_loaded:
+        return _compare_bearings(solutions, labels)
+    is_line = solutions[0].mesh.is_line
     columns = 1 if is_line else 2
     figure, axes = subplots(2, columns, size=(1.2 + 4.9 * columns, 7.2), sharex="col", squeeze=False)
     _compare(axes[:, 0], solutions, labels, along)
@@ -92,7 +91,7 @@ def _widest(reach):
     return first.min(), last.max()
 
 
-def _compare_wedges(solutions, labels):
+def _compare_bearings(solutions, labels):
     figure, axes = subplots(size=(7.4, 4.8))
     for solution, label, style in zip(solutions, labels, _styles(), strict=False):
         axes.plot(*center_line(solution.mesh, solution.fields), label=label, **style)

@@ -14,7 +14,6 @@ from typing import NamedTuple
 from matplotlib.figure import Figure
 
 from mgehl.errors import UserError
-from mgehl.model.wedge import WedgeBearing
 from mgehl.output.pictures import style, wedge_picture
 from mgehl.output.pictures.comparison import compare_histories, compare_lines
 from mgehl.output.pictures.history_picture import history
@@ -43,7 +42,7 @@ TITLES = {
 
 _POINT = dict(zip(TITLES, (centre_lines, film_map, pressure_map, status_map, history), strict=True))
 _LINE = {"lines": centre_lines, "history": history}
-_WEDGE = {
+_BEARING = {
     "lines": wedge_picture.centre_line,
     "pressure": wedge_picture.pressure_picture,
     "status": status_map,
@@ -52,9 +51,9 @@ _WEDGE = {
 
 
 def drawn_by(solution):
-    """The functions that draw a run, by kind of picture: a line contact has no maps."""
-    if isinstance(solution.contact, WedgeBearing):
-        return _WEDGE
+    """The functions that draw a run, by kind of picture: a single line has no maps."""
+    if not solution.contact.is_loaded:
+        return _BEARING
     return _LINE if solution.mesh.is_line else _POINT
 
 

@@ -5,23 +5,21 @@ from pathlib import Path
 
 from mgehl.config import SECTIONS
 from mgehl.errors import UserError
-from mgehl.output.pictures.titles import speed, verdict
+from mgehl.kinds import KINDS
+from mgehl.kinds.loaded import speed_words
+from mgehl.output.pictures.titles import verdict
 
 MOST_KEYS = 3
 """Keys that a label may name; runs that differ in more are called by their directories."""
 
 _SHORT = {
     "grid.nodes": lambda nodes: f"{nodes} nodes",
-    "motion.speed": speed,
-    "contact.load": lambda load: f"{load:.4g} N",
-    "contact.load_per_length": lambda load: f"{1e-3 * load:.4g} N/mm",
+    "motion.speed": speed_words,
     "discretization.face_mobility": lambda mean: f"{mean} mean",
     "discretization.couette": lambda scheme: f"scheme {scheme}",
     "solver.start": lambda start: f"from {start}",
     "solver.method": str,
-    "wedge.blocked_exit": lambda blocked: "exit blocked" if blocked else "exit open",
-    "wedge.pillar": lambda pillar: "no pillar" if pillar == "none" else f"{pillar} pillar",
-}
+} | {key: words for kind in KINDS.values() for key, words in kind.short.items()}
 """Keys whose values speak for themselves."""
 
 

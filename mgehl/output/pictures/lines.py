@@ -56,7 +56,7 @@ def draw_across(axes, solution):
 def film_range(position, film):
     """Lower and upper end of a film axis: readable inside the dry contact, in the film's unit."""
     inside = np.abs(position) < 0.8
-    top = max(3.0 * float(np.max(film[inside])), SMALLEST_FILM_RANGE)
+    top = max(3.0 * float(np.max(film[inside], initial=0.0)), SMALLEST_FILM_RANGE)
     return min(-0.05 * top, 1.1 * float(np.min(film))), top
 
 

@@ -5,6 +5,7 @@ from math import isfinite
 from mgehl.output.report.checks import CARE, CHECK_HEADS, CHECKS, absent, informing, limited
 from mgehl.output.report.page import DOUBTFUL, GOOD, NO_NUMBER, Cell, Section, number, table
 from mgehl.output.report.parts import span
+from mgehl.output.resolution import RESOLVED_CELLS
 from mgehl.output.result import COMPLEMENTARITY_TOLERANCE
 
 FORMULAS = {
@@ -13,26 +14,14 @@ FORMULAS = {
     "dowson_higginson": "of the Dowson-Higginson type",
     "grubin": "Ertel and Grubin",
 }
+PICTURES = {}
+"""Titles of pictures that are not those of `pictures.figures`."""
+
 RESOLUTION = {
     "resolved": Cell("resolved", GOOD),
     "coarse": Cell("coarse: expect the film to change with the grid", DOUBTFUL),
     "grid-determined": Cell("grid-determined: the contact set is the grid's", DOUBTFUL),
 }
-
-
-def title(solution):
-    """Kind, speed, load and nodes; numbers and their units stay together."""
-    contact, mesh = solution.contact, solution.mesh
-    nodes = f"{mesh.nx} nodes" if mesh.is_line else f"{mesh.nx} × {mesh.ny} nodes"
-    parts = (f"{1e3 * contact.speed:.4g} mm/s", " ".join(_load(solution)), nodes)
-    kind = "Line" if mesh.is_line else "Point"
-    return ", ".join([f"{kind} contact", *(part.replace(" ", "\u00a0") for part in parts)])
-
-
-def _load(solution):
-    """The load and its unit; a line contact's is per length."""
-    load = solution.contact.load
-    return (f"{1e-3 * load:.4g}", "N/mm") if solution.mesh.is_line else (f"{load:.4g}", "N")
 
 
 def highlights(solution):
@@ -56,6 +45,19 @@ def answer_sections(solution):
         Section("contact", "Contact and Eq. 2", tuple(_contact(result))),
         Section("groups", "The contact in numbers", (_dimensions(solution), _groups(solution))),
     )
+
+
+def alternatives(result):
+    """What a reader who does not see a picture is told besides its title, by kind of picture."""
+    largest = f"{number(result.max_pressure_GPa, 4)} GPa"
+    return {
+        "lines": f"The largest pressure is {largest}.",
+        "film": f"The film is {number(result.central_film_nm, 4)} nm in the centre and "
+        f"{number(result.minimum_film_nm, 4)} nm at its thinnest.",
+        "pressure": f"Its maximum is {largest}.",
+        "status": f"{result.contact.nodes} nodes are solid, {result.cavitated_nodes} are cavitated.",
+        "history": f"The last residual is {number(result.residual, 2)}.",
+    }
 
 
 def _films(result):
@@ -108,7 +110,7 @@ def _checks(solution):
         (
             "cells in the inlet",
             number(resolution.inlet_cells, 3),
-            "at least 4",
+            f"at least {RESOLVED_CELLS:g}",
             RESOLUTION[resolution.verdict],
         ),
     ]
@@ -162,7 +164,7 @@ def _dimensions(solution):
     contact, mesh, line = solution.contact, solution.mesh, solution.mesh.is_line
     hertz = contact.hertz
     rows = [
-        ("load", *_load(solution)),
+        ("load", *solution.config.kind.load(contact)),
         ("entrainment speed", number(1e3 * contact.speed), "mm/s"),
         (
             "Hertz half-width a" if line else "Hertz semi-axis a, along the motion",

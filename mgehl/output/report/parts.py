@@ -3,7 +3,7 @@
 from dataclasses import asdict, fields
 from itertools import groupby
 
-from mgehl.config import MOES_REPLACES, SECTIONS
+from mgehl.config import SECTIONS
 from mgehl.output.report.page import Cell, Section, Text, number, table
 
 
@@ -22,8 +22,6 @@ def configuration_section(config):
 
 def _key_rows(name, section, config):
     unused = set(config.unused)
-    if config.moes.M is not None:
-        unused |= {".".join(pair) for pair in MOES_REPLACES}
     if name in unused:
         return []
     keys = [key for key in fields(section) if f"{name}.{key.name}" not in unused]

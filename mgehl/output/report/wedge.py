@@ -3,13 +3,8 @@
 from mgehl.output.report.checks import CARE, CHECK_HEADS, CHECKS, absent, informing, limited
 from mgehl.output.report.page import Section, number, table
 
-
-def title(solution):
-    """What stands in the film, the exit, the nodes."""
-    bearing, mesh = solution.contact, solution.mesh
-    what = "no pillar" if bearing.pillar == "none" else f"{bearing.pillar} pillar"
-    exit = "blocked" if bearing.blocked_exit else "open"
-    return f"Wedge bearing with {what}, exit {exit}, {mesh.nx}\u00a0×\u00a0{mesh.ny}\u00a0nodes"
+PICTURES = {"lines": "pressure on the centre line", "pressure": "pressure, the solid in grey"}
+"""Titles of pictures that are not those of `pictures.figures`."""
 
 
 def highlights(solution):
@@ -29,6 +24,17 @@ def answer_sections(solution):
         Section("answer", "Load and pressure", (_answer(solution),)),
         Section("checks", "Can it be trusted", (_checks(solution),)),
     )
+
+
+def alternatives(result):
+    """What a reader who does not see a picture is told besides its title, by kind of picture."""
+    largest = f"{number(result.max_pressure_MPa, 4)} MPa"
+    return {
+        "lines": f"The largest pressure is {largest}.",
+        "pressure": f"Its maximum is {largest}.",
+        "status": f"{result.solid_nodes} nodes are solid, {result.cavitated_nodes} are cavitated.",
+        "history": f"The last residual is {number(result.residual, 2)}.",
+    }
 
 
 def _answer(solution):

@@ -7,10 +7,11 @@ import pytest
 from mgehl.config import load_config
 from mgehl.errors import UserError
 from mgehl.output.pictures.labels import labels, run_names
+from mgehl.output.result import Overlap
 
 
 def runs(*settings, converged=True):
-    result = SimpleNamespace(converged=converged)
+    result = SimpleNamespace(converged=converged, settled=converged, overlap=Overlap(0, 0.0))
     return [SimpleNamespace(config=load_config(settings=each), result=result) for each in settings]
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from mgehl.output.pictures import style
-from mgehl.output.pictures.lines import centre_lines, film_range
+from mgehl.output.pictures.lines import SMALLEST_FILM_RANGE, centre_lines, film_range
 
 
 @pytest.fixture
@@ -84,3 +84,8 @@ def test_the_range_of_the_film_shows_what_is_inside_and_below():
     assert film_range(X, film) == pytest.approx((-6.0, 120.0))
     assert film_range(X, np.zeros(41)) == pytest.approx((-0.5, 10.0))
     assert film_range(X, film - 100.0 * (X == 0.0)) == pytest.approx((-66.0, 120.0))
+
+
+def test_a_film_axis_of_a_grid_so_coarse_that_no_node_is_inside_the_dry_contact():
+    position = np.array([-3.0, -1.0, 1.0, 3.0])
+    assert film_range(position, np.array([900.0, 40.0, 40.0, 900.0])) == (-0.5, SMALLEST_FILM_RANGE)

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from matplotlib.colors import to_rgb
 
+from mgehl.config import config_from_tables
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
 from mgehl.model.hertz import hertz_pressure
@@ -36,7 +37,12 @@ def fields(mesh):
 def solution(mesh, fields, paper_contact):
     """What the picture needs of a `Solution`."""
     return Solution(
-        None, paper_contact(), mesh, fields, [], SimpleNamespace(converged=True, overlap=Overlap(0, 0.0))
+        config_from_tables({}),
+        paper_contact(),
+        mesh,
+        fields,
+        [],
+        SimpleNamespace(converged=True, settled=True, overlap=Overlap(0, 0.0)),
     )
 
 

@@ -1,0 +1,102 @@
+"""What a kind of contact has to say: which keys it takes, what it builds of them, and what it is called.
+
+A kind is one object of a class of this family, in a module of its own, and in `mgehl.kinds.KINDS`. How
+an answer is found, stored and drawn depends on whether its contact `is_loaded`, never on its name.
+"""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Effort:
+    """What runs of some sort took where it was measured."""
+
+    convolutions: tuple[float, float]
+    """Fewest and most, in equivalents of one on the finest grid."""
+    times_convolution: float
+    """The whole time of a run in units of its convolutions' time."""
+    bytes_per_node: float
+    measured: str
+    counted: bool = True
+    """False where a run makes none: they stand for its time alone."""
+
+
+class Kind:
+    """A kind of contact; `config` is a `Config` of this kind throughout."""
+
+    name: str
+    """The value of contact.kind."""
+    noun: str
+    """As in "a point contact"."""
+    about: str
+    """A sentence for the head of a new configuration."""
+    model: type
+    """Class of the contact."""
+    takes: tuple
+    """Sections ("motion") and keys ("motion.speed") that it heeds; every other one is foreign to it."""
+    essential: dict
+    """Keys that a case is made of, with values that converge in seconds."""
+    short: dict = {}
+    """Keys whose values speak for themselves: functions from the value to a few words."""
+    cavitates = True
+    """Whether its film tears where nothing is said of that."""
+
+    @property
+    def is_loaded(self):
+        """True where bodies are pressed together by a load, False where the gap is given."""
+        return self.model.is_loaded
+
+    def unused(self, config):
+        """Sections and keys that it takes, but that the values of others make meaningless."""
+        return ()
+
+    def pushed_out(self, given):
+        """Sections and keys of a file that settings, {"section.key": value}, make meaningless."""
+        return ()
+
+    def check_keys(self, config, tables):
+        """Raise ConfigError where values contradict each other; `tables` has only what was given."""
+
+    def contact(self, config):
+        """The contact, as the model has it."""
+        raise NotImplementedError
+
+    def mesh(self, config, contact):
+        """The finest mesh."""
+        raise NotImplementedError
+
+    def check(self, config, contact):
+        """Raise ConfigError where values that are fine one by one make no contact together."""
+
+    def effort(self, config):
+        """The `Effort` of such a run."""
+        raise NotImplementedError
+
+    def nodes(self, mesh, times="x"):
+        """The nodes of a mesh in words."""
+        return f"{mesh.nx} {times} {mesh.ny} nodes"
+
+    def lines(self, config, contact, mesh):
+        """Lines of text that tell what was configured."""
+        raise NotImplementedError
+
+    def parts(self, solution):
+        """The parts of a picture's title."""
+        raise NotImplementedError
+
+    def heading(self, solution):
+        """The title of a page; numbers and their units stay together."""
+        raise NotImplementedError
+
+    def position_labels(self, contact):
+        """What the axes along and across the motion show, with its unit."""
+        raise NotImplementedError
+
+    def scalars(self, solution):
+        """What a run comes to, {name: (value, unit, meaning)}, as NetCDF's conventions have it."""
+        raise NotImplementedError
+
+
+def kept_together(text):
+    """A text that is not broken into lines."""
+    return text.replace(" ", "\u00a0")

@@ -1,0 +1,59 @@
+"""The loaded line contact: a cylinder on a flat, per length."""
+
+from mgehl.discretization.mesh import Mesh
+from mgehl.kinds.kind import Effort
+from mgehl.kinds.loaded import LoadedKind, lubricant_from
+from mgehl.kinds.own import surface_from
+from mgehl.model.line import LineContact
+
+EFFORT = Effort((60.0, 200.0), 10.0, 2500.0, "line contacts on 1025 to 16385 nodes took 60 to 180")
+
+
+class LineKind(LoadedKind):
+    """A cylinder on a flat, pressed by a force per length."""
+
+    name, noun, model = "line", "line contact", LineContact
+    about = "A lubricated line contact: a cylinder on a flat, per length."
+    load_unit = "N/m"
+    takes = (
+        "contact.load_per_length", "contact.radius_x", "contact.reduced_modulus", "contact.surface",
+        "lubricant", "motion.speed", "grid.nodes", "grid.x", "discretization", "solver", "relaxation",
+    )  # fmt: skip
+    essential = {
+        "contact.kind": "line", "contact.load_per_length": "1859 N/mm",
+        "contact.radius_x": "12.7 mm", "contact.reduced_modulus": "219.78 GPa",
+        "lubricant.viscosity": "0.096 Pa*s", "lubricant.pressure_viscosity": "18.2 1/GPa",
+        "motion.speed": "100 mm/s", "grid.nodes": 1025, "grid.x": [-2.5, 1.6], "solver.start": "film",
+    }  # fmt: skip
+    short = {"contact.load_per_length": lambda load: f"{1e-3 * load:.4g} N/mm"}
+
+    def contact(self, config):
+        """A `LineContact`."""
+        section, speed = config.contact, config.motion.speed
+        body = (section.radius_x, section.reduced_modulus)
+        lubricant, surface = lubricant_from(config), surface_from(config)
+        return LineContact(section.load_per_length, *body, speed, lubricant, surface)
+
+    def mesh(self, config, contact):
+        """A single line of nodes."""
+        return Mesh(config.grid.nodes, 1, config.grid.x, (0.0, 0.0))
+
+    def size(self, config, contact):
+        """The half-width."""
+        a, radius = contact.hertz.a, config.contact.radius_x
+        return "contact.load_per_length", f"{a:.2g} m", f"{radius:g} m", a / radius
+
+    def newton_effort(self, config):
+        """The same from every start."""
+        return EFFORT
+
+    def load(self, contact):
+        """In N/mm."""
+        return f"{1e-3 * contact.load:.4g}", "N/mm"
+
+    def nodes(self, mesh, times="x"):
+        """Of the one line."""
+        return f"{mesh.nx} nodes"
+
+
+LINE = LineKind()

@@ -1,0 +1,131 @@
+"""What point and line contacts have in common: a body pressed on a lubricated flat."""
+
+from dataclasses import asdict, replace
+
+from mgehl.config_value import shown
+from mgehl.errors import ConfigError
+from mgehl.kinds import loaded_checks
+from mgehl.kinds.kind import Effort, Kind, kept_together
+from mgehl.model.lubricant import DENSITY_LAWS, VISCOSITY_LAWS, Lubricant
+from mgehl.model.own_function import OwnFunction, is_own
+from mgehl.model.own_laws import OwnDensity, OwnViscosity
+
+RELAXATION = Effort(
+    (2e4, 2e4), 4.6, 500.0, "the relaxation has one a sweep, up to relaxation.max_sweeps"
+)  # fmt: skip
+
+
+class LoadedKind(Kind):
+    """A contact whose film and pressure answer to a load."""
+
+    load_unit: str
+    """In SI."""
+
+    def check_keys(self, config, tables):
+        """The viscosity law must have a meaning."""
+        if is_own(config.lubricant.viscosity_law):
+            return
+        try:
+            lubricant_from(config)
+        except ValueError as error:
+            viscosity = shown(config.lubricant.viscosity)
+            raise ConfigError(f"lubricant.viscosity = {viscosity}: {error}") from None
+
+    def check(self, config, contact):
+        """The bodies must be half-spaces, the laws numbers, the domain large enough."""
+        loaded_checks.check_deformation(config, contact)
+        loaded_checks.check_size(*self.size(config, contact))
+        loaded_checks.check_own_laws(contact)
+        if contact.surface is not None:
+            loaded_checks.check_surface(contact, self.mesh(config, contact))
+        loaded_checks.check_exponent(contact)
+        loaded_checks.check_domain(config.grid, contact)
+
+    def size(self, config, contact):
+        """The key that the dry contact's size follows from, size and radii in words, and their ratio."""
+        raise NotImplementedError
+
+    def effort(self, config):
+        """That of the relaxation or of Newton's method."""
+        if config.solver.method != "relaxation":
+            return self.newton_effort(config)
+        sweeps = float(config.relaxation.max_sweeps)
+        return replace(RELAXATION, convolutions=(sweeps, sweeps))
+
+    def newton_effort(self, config):
+        """The `Effort` of a run by Newton's method."""
+        raise NotImplementedError
+
+    def load(self, contact):
+        """The load and its unit as people say it."""
+        raise NotImplementedError
+
+    def hertz_words(self, hertz):
+        """Size of the dry contact."""
+        return f"a {1e3 * hertz.a:.4g} mm"
+
+    def lines(self, config, contact, mesh):
+        """Groups, dry contact, films of formulas, load and speed."""
+        hertz = contact.hertz
+        groups = "   ".join(f"{name} {value:.4g}" for name, value in asdict(contact.groups).items())
+        films = "   ".join(
+            f"{name.replace('_', ' ')} {1e9 * film:.4g}" for name, film in asdict(contact.formulas).items()
+        )
+        return [
+            f"groups     {groups}",
+            f"regime     {contact.regime} (Moes)",
+            f"Hertz      {self.hertz_words(hertz)}   p_h {1e-9 * hertz.p_h:.4g} GPa",
+            f"films, nm  {films}",
+            f"load       {contact.load:.6g} {self.load_unit}   speed {contact.speed:.6g} m/s",
+        ]
+
+    def parts(self, solution, times="x"):
+        """Speed, load and nodes."""
+        contact, nodes = solution.contact, self.nodes(solution.mesh, times)
+        return [speed_words(contact.speed), " ".join(self.load(contact)), nodes]
+
+    def heading(self, solution):
+        """Kind, speed, load and nodes."""
+        return ", ".join([self.noun.capitalize(), *map(kept_together, self.parts(solution, times="×"))])
+
+    def position_labels(self, contact):
+        """Over the semi-axes of the dry contact."""
+        a, b = 1e3 * contact.x_scale, 1e3 * contact.y_scale
+        return f"X = x/a, a = {a:.4g} mm", f"Y = y/b, b = {b:.4g} mm"
+
+    def scalars(self, solution):
+        """Load, films, pressure and groups."""
+        contact, result, groups = solution.contact, solution.result, solution.contact.groups
+        unit = self.load_unit.replace("/m", " m-1")
+        return {
+            "speed": (contact.speed, "m s-1", "entrainment speed"),
+            "normal_load": (contact.load, unit, "normal load"),
+            "central_film": (1e-9 * result.central_film_nm, "m", "film at the centre of the contact"),
+            "minimum_film": (1e-9 * result.minimum_film_nm, "m", "smallest film"),
+            "maximum_pressure": (1e9 * result.max_pressure_GPa, "Pa", "largest pressure"),
+            "group_U": (groups.U, "1", "speed parameter U"),
+            "group_W": (groups.W, "1", "load parameter W"),
+            "group_G": (groups.G, "1", "material parameter G"),
+            "moes_M": (groups.M, "1", "load number M of Moes"),
+            "moes_L": (groups.L, "1", "material number L of Moes"),
+        }
+
+
+def speed_words(u):
+    """A speed in mm/s."""
+    return f"{1e3 * u:.4g} mm/s"
+
+
+def lubricant_from(config):
+    """The lubricant, by built-in laws or the user's own. Raises ValueError where a law has no meaning."""
+    section = config.lubricant
+    ambient = section.viscosity, section.pressure_viscosity
+    if is_own(section.viscosity_law):
+        viscosity = OwnViscosity(*ambient, OwnFunction(section.viscosity_law))
+    else:
+        viscosity = VISCOSITY_LAWS[section.viscosity_law](*ambient)
+    if is_own(section.density_law):
+        density = OwnDensity(OwnFunction(section.density_law))
+    else:
+        density = DENSITY_LAWS[section.density_law]()
+    return Lubricant(viscosity, density)

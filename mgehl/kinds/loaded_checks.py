@@ -1,0 +1,80 @@
+"""What values that are fine one by one may get wrong together in a loaded contact."""
+
+from mgehl.errors import ConfigError
+from mgehl.model.images import wave_numbers
+from mgehl.model.own_laws import OwnCompliance, OwnDensity, OwnViscosity
+
+LARGEST_CONTACT = 0.5
+"""Semi-axis over radius up to which a body is taken for a half-space and a paraboloid."""
+
+LARGEST_EXPONENT = 200.0
+"""alpha p_h: the viscosity must stay a number."""
+
+CHECKED_PRESSURE = 2.0
+"""Pressure up to which a user's own laws are checked, over that of Hertz."""
+
+
+def check_deformation(config, contact):
+    """A user's own must be positive, and any must be a sum of images."""
+    deformation = contact.deformation
+    if isinstance(deformation, OwnCompliance):
+        deformation.check(wave_numbers() / contact.hertz.a)
+    try:
+        _ = contact.kernel
+    except ValueError as error:
+        raise ConfigError(f"contact.deformation = {config.contact.deformation!r}: {error}") from None
+
+
+def check_size(key, size, radii, part):
+    """The bodies must be half-spaces: `part` is the size of the dry contact over their radii."""
+    if part > LARGEST_CONTACT:
+        raise ConfigError(
+            f"{key}: the contact would be {size} wide on radii of {radii}; it must be below half of them"
+        )
+
+
+def check_own_laws(contact):
+    """A user's own laws must hold with their derivatives."""
+    highest = CHECKED_PRESSURE * contact.hertz.p_h
+    viscosity, density = contact.lubricant.viscosity_law, contact.lubricant.density_law
+    if isinstance(viscosity, OwnViscosity):
+        viscosity.check(highest, "lubricant.viscosity in Pa s")
+    if isinstance(density, OwnDensity):
+        density.check(highest)
+
+
+def check_surface(contact, mesh):
+    """A user's own surface must be heights."""
+    contact.surface.check(mesh.X * contact.x_scale, mesh.Y * contact.y_scale, contact.hertz.a)
+
+
+def check_exponent(contact):
+    """The viscosity must stay a number."""
+    exponent = contact.lubricant.pressure_viscosity * contact.hertz.p_h
+    if exponent > LARGEST_EXPONENT:
+        raise ConfigError(
+            f"lubricant.pressure_viscosity = {contact.lubricant.pressure_viscosity:g}: times the Hertz "
+            f"pressure of {contact.hertz.p_h:.2g} Pa it must be at most {LARGEST_EXPONENT:g}, "
+            f"is {exponent:.2g}"
+        )
+
+
+def check_domain(grid, contact):
+    """The inlet and the contact must lie in the domain.
+
+    The widening by a soft layer is estimated, and low by up to a third.
+    """
+    width = contact.widening
+    reach = width if width <= 1.0 else min(width**2, 1.3 * width)
+    inlet = reach + contact.inlet_length
+    if inlet > -grid.x[0]:
+        raise ConfigError(
+            f"grid.x = {list(grid.x)!r}: must begin before {-inlet:.3g}, where the inlet that builds the "
+            "film begins"
+        )
+    for name, ends in (("x", grid.x), ("y", grid.y)):
+        if min(-ends[0], ends[1]) <= reach:
+            raise ConfigError(
+                f"grid.{name} = {list(ends)!r}: must reach beyond {reach:.3g} on both sides, as far as the "
+                "contact may on a layer so soft"
+            )

@@ -1,0 +1,40 @@
+"""A user's own functions: built from their keys, and the key named where one of them fails."""
+
+from contextlib import contextmanager
+
+from mgehl.errors import ConfigError
+from mgehl.model.own_function import OwnFunction, OwnFunctionError, is_own
+from mgehl.model.own_laws import OwnCompliance, OwnSurface
+
+
+def surface_from(config):
+    """The user's surface; None without one."""
+    name = config.contact.surface
+    return OwnSurface(OwnFunction(name)) if name else None
+
+
+def compliance_from(config):
+    """The user's deformation; None where it is built in."""
+    name = config.contact.deformation
+    return OwnCompliance(OwnFunction(name)) if is_own(name) else None
+
+
+@contextmanager
+def naming_keys(contact):
+    """Turn what goes wrong in an own function of a contact into a ConfigError that names its key."""
+    try:
+        yield
+    except OwnFunctionError as error:
+        for key, place in _PLACES.items():
+            if getattr(place(contact), "function", None) is error.function:
+                raise ConfigError(f"{key} = {error}") from None
+        raise
+
+
+_PLACES = {
+    "lubricant.viscosity_law": lambda contact: contact.lubricant.viscosity_law,
+    "lubricant.density_law": lambda contact: contact.lubricant.density_law,
+    "contact.surface": lambda contact: contact.surface,
+    "contact.deformation": lambda contact: contact.deformation,
+}
+"""Where a contact has what a key describes."""

@@ -1,0 +1,177 @@
+"""The loaded point contact: a ball or an ellipsoid on a flat."""
+
+from dataclasses import asdict, dataclass
+
+from mgehl.config_value import key_field, shown
+from mgehl.discretization.mesh import Mesh
+from mgehl.errors import ConfigError
+from mgehl.kinds.kind import Effort
+from mgehl.kinds.loaded import LoadedKind, lubricant_from
+from mgehl.kinds.own import compliance_from, surface_from
+from mgehl.model.coating import Coating
+from mgehl.model.point import PointContact
+
+LARGEST_RADIUS_RATIO = 1e3
+"""Of the two radii: a longer ellipse is a line contact."""
+
+MOES_REPLACES = ("contact.load", "motion.speed")
+"""Keys that moes.M and moes.L stand for."""
+
+FILM = Effort((90.0, 240.0), 3.3, 1300.0, "full films on 65 to 4097 nodes took 90 to 233")
+CONTACT = Effort((25.0, 250.0), 20.0, 1800.0, "full contact on 65 to 2049 nodes took 24 to 254")
+MEAN = Effort(
+    (1000.0, 4000.0), 3.3, 1300.0, "other means of the mobility took 1354 and 3617 on 129 nodes"
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class CoatingSection:
+    thickness: float | None = key_field(
+        None, "thickness of the layer on one body, where contact.deformation = coated",
+        "m", low=1e-9, high=1.0,
+    )  # fmt: skip
+    modulus: float | None = key_field(None, "Young's modulus of the layer", "Pa", low=1e6, high=1e13)
+    poisson: float = key_field(0.3, "Poisson's ratio of the layer", low=0.0, high=0.5)
+    substrate_modulus: float | None = key_field(
+        None, "Young's modulus beneath it (unset: half of the compliance 2/E' is that body's)",
+        "Pa", low=1e6, high=1e13,
+    )  # fmt: skip
+    substrate_poisson: float = key_field(0.3, "Poisson's ratio beneath it", low=0.0, high=0.5)
+
+
+@dataclass(frozen=True)
+class MoesSection:
+    M: float | None = key_field(None, "Moes load number, instead of load and speed", "", low=1.0, high=1e7)
+    L: float | None = key_field(
+        None, "Moes material number, instead of load and speed", "", low=0.1, high=100.0
+    )
+
+
+class PointKind(LoadedKind):
+    """A paraboloid on a flat, pressed by a force."""
+
+    name, noun, model = "point", "point contact", PointContact
+    about = "A lubricated point contact: a ball or an ellipsoid on a flat."
+    load_unit = "N"
+    takes = (
+        "contact.load", "contact.radius_x", "contact.radius_y", "contact.reduced_modulus",
+        "contact.deformation", "contact.surface", "coating", "lubricant", "motion", "moes", "grid",
+        "discretization", "solver", "relaxation",
+    )  # fmt: skip
+    essential = {
+        "contact.kind": "point", "contact.load": "800 N",
+        "contact.radius_x": "12.7 mm", "contact.radius_y": "12.7 mm",
+        "contact.reduced_modulus": "219.78 GPa",
+        "lubricant.viscosity": "0.096 Pa*s", "lubricant.pressure_viscosity": "18.2 1/GPa",
+        "motion.speed": "0.5 m/s", "grid.nodes": 129, "solver.start": "film",
+    }  # fmt: skip
+    short = {"contact.load": lambda load: f"{load:.4g} N"}
+
+    def unused(self, config):
+        """The coating of bodies without one, and what Moes numbers stand for."""
+        moes = MOES_REPLACES if config.moes.M is not None else ()
+        return *_without_coating(config.contact.deformation), *moes
+
+    def pushed_out(self, given):
+        """As `unused`, by what the settings say."""
+        said = "contact.deformation" in given
+        coating = _without_coating(given["contact.deformation"]) if said else ()
+        moes = MOES_REPLACES if any(key.startswith("moes.") for key in given) else ()
+        return *coating, *moes
+
+    def check_keys(self, config, tables):
+        """Moes numbers come as two and alone; a coating belongs to coated bodies."""
+        _check_moes(config.moes, tables)
+        _check_coating(config, tables)
+        super().check_keys(config, tables)
+
+    def contact(self, config):
+        """A `PointContact`, by load and speed or by Moes numbers."""
+        section, moes, lubricant = config.contact, config.moes, lubricant_from(config)
+        body = (section.radius_x, section.radius_y, section.reduced_modulus)
+        more = {"surface": surface_from(config), "deformation": _deformation_from(config)}
+        if moes.M is not None:
+            return PointContact.from_moes(moes.M, moes.L, *body, lubricant, **more)
+        return PointContact(section.load, *body, config.motion.speed, lubricant, **more)
+
+    def mesh(self, config, contact):
+        """A square of nodes over the ellipse."""
+        grid = config.grid
+        return Mesh(grid.nodes, grid.nodes, grid.x, grid.y, contact.k_e)
+
+    def check(self, config, contact):
+        """Besides what holds for any loaded contact the radii must not be too different."""
+        _check_radii(config.contact)
+        super().check(config, contact)
+
+    def size(self, config, contact):
+        """That of the ellipse, as wide as a soft layer makes it."""
+        section, hertz, wide = config.contact, contact.hertz, contact.widening
+        key = "moes.M" if config.moes.M is not None else "contact.load"
+        size = f"{wide * hertz.a:.2g} m by {wide * hertz.b:.2g} m"
+        radii = f"{section.radius_x:g} m and {section.radius_y:g} m"
+        return key, size, radii, wide * max(hertz.a / section.radius_x, hertz.b / section.radius_y)
+
+    def newton_effort(self, config):
+        """By the start and the mean of the mobility."""
+        if config.solver.start == "contact":
+            return CONTACT
+        return FILM if config.discretization.face_mobility == "arithmetic" else MEAN
+
+    def load(self, contact):
+        """In N."""
+        return f"{contact.load:.4g}", "N"
+
+    def hertz_words(self, hertz):
+        """Both semi-axes."""
+        return f"{super().hertz_words(hertz)}   b {1e3 * hertz.b:.4g} mm"
+
+
+POINT = PointKind()
+
+
+def _without_coating(deformation):
+    """Sections that a deformation has no use for."""
+    return () if deformation == "coated" else ("coating",)
+
+
+def _deformation_from(config):
+    """What the bodies are in depth; None for half-spaces."""
+    if config.contact.deformation == "coated":
+        return Coating(**asdict(config.coating), reduced_modulus=config.contact.reduced_modulus)
+    return compliance_from(config)
+
+
+def _check_moes(moes, tables):
+    if (moes.M is None) != (moes.L is None):
+        missing = "moes.L" if moes.L is None else "moes.M"
+        raise ConfigError(f"{missing}: must be given too, moes.M and moes.L go together")
+    for name in MOES_REPLACES if moes.M is not None else ():
+        section, _, key = name.partition(".")
+        if key in tables.get(section, {}):
+            value = shown(tables[section][key])
+            raise ConfigError(f"{name} = {value}: cannot be given with moes.M and moes.L")
+
+
+def _check_coating(config, tables):
+    deformation, coating = config.contact.deformation, config.coating
+    if deformation != "coated":
+        if tables.get("coating"):
+            raise ConfigError(f'[coating]: means nothing where contact.deformation = "{deformation}"')
+        return
+    for key in ("thickness", "modulus"):
+        if getattr(coating, key) is None:
+            raise ConfigError(f'coating.{key}: must be given where contact.deformation = "coated"')
+    try:
+        _deformation_from(config)
+    except ValueError as error:
+        raise ConfigError(f"coating.substrate_modulus = {coating.substrate_modulus!r}: {error}") from None
+
+
+def _check_radii(section):
+    ratio = max(section.radius_x, section.radius_y) / min(section.radius_x, section.radius_y)
+    if ratio > LARGEST_RADIUS_RATIO:
+        raise ConfigError(
+            f"contact.radius_y = {section.radius_y:g}: must be within a factor of "
+            f"{LARGEST_RADIUS_RATIO:g} of contact.radius_x = {section.radius_x:g}"
+        )

@@ -1,0 +1,8 @@
+"""What only pages of loaded contacts have, or only those of rigid bearings."""
+
+from mgehl.output.report import loaded, wedge
+
+
+def family(solution):
+    """The module that describes such a solution."""
+    return loaded if solution.contact.is_loaded else wedge

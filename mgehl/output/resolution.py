@@ -1,0 +1,50 @@
+"""How well a grid resolves the inlet that builds the film, and what to expect of that."""
+
+from dataclasses import dataclass
+
+from mgehl.config import COARSEST_NODES
+
+RESOLVED_CELLS = 4.0
+"""Cells in the inlet from which on the film does not change with the grid."""
+
+SEEN_CELLS = 1.0
+"""Cells in the inlet below which the contact set is the grid's, not the problem's."""
+
+FILM_TOUCHES, CONTACT_OPENS = 1.5, 0.75
+"""Cells in the inlet below which a film start has had contact, and above which a contact start has lost
+full contact: `study onset` on 129 to 513 nodes, arithmetic mean."""
+
+
+@dataclass(frozen=True)
+class Resolution:
+    """Cells in the inlet zone that builds the film, and what follows from their number."""
+
+    inlet_cells: float
+    verdict: str
+
+
+def resolution(contact, mesh):
+    """The `Resolution` of a loaded contact's inlet by a mesh."""
+    cells = contact.inlet_length / mesh.dX
+    if cells >= RESOLVED_CELLS:
+        return Resolution(cells, "resolved")
+    return Resolution(cells, "coarse" if cells >= SEEN_CELLS else "grid-determined")
+
+
+def resolving_nodes(config, contact):
+    """Nodes along each side, 2^k + 1, that give the inlet `RESOLVED_CELLS`."""
+    length, nodes = config.grid.x[1] - config.grid.x[0], COARSEST_NODES
+    while contact.inlet_length * (nodes - 1) / length < RESOLVED_CELLS:
+        nodes = 2 * nodes - 1
+    return nodes
+
+
+def expectation(cells, start):
+    """What a run finds with so many cells in its inlet."""
+    if cells >= RESOLVED_CELLS:
+        return "a film that the grid resolves"
+    if cells >= FILM_TOUCHES:
+        return "a film that changes with the grid"
+    if start == "contact" and cells < CONTACT_OPENS:
+        return "full contact, whose inlet the grid does not see"
+    return "film and contact side by side; where they meet is decided by the grid"

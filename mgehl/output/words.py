@@ -1,0 +1,75 @@
+"""A result in words: what a run, a `Solution` and a script print of it."""
+
+from mgehl.output.resolution import RESOLVED_CELLS, SEEN_CELLS
+
+
+def bearing_words(result):
+    """The answer of a rigid bearing, and whether it can be trusted."""
+    return "\n".join(
+        [
+            f"{'CONVERGED' if result.converged else 'NOT CONVERGED'}: {result.reason}",
+            f"  load {result.load:.6f} mm ({result.load_N:.4g} N), P from {result.min_P:.6f} to "
+            f"{result.max_P:.6f} /mm (at most {result.max_pressure_MPa:.4g} MPa)",
+            f"  residual {result.residual:.1e}, flux imbalance {result.flux_imbalance:.1e}, "
+            f"flow through closed faces {result.closed_face_flow:.1e}",
+            f"  solid nodes: {result.solid_nodes}, cavitated: {result.cavitated_nodes}",
+            f"  work: {result.linear_iterations} iterations, {result.wall_s:.1f} s on {result.ranks} ranks",
+        ]
+    )
+
+
+def loaded_words(result):
+    """The answer of a loaded contact, and whether and why it can be trusted."""
+    contact, inequality, resolution = result.contact, result.pressure_inequality, result.resolution
+    overlap = result.overlap
+    verdict = "CONVERGED" if result.converged else "NOT CONVERGED"
+    if result.settled and not result.converged:
+        verdict = "SETTLED, BUT EQ. 2 IS BROKEN"
+    lines = [
+        f"{verdict}: {result.reason}",
+        f"  central film {_number(result.central_film_nm)} nm, minimum "
+        f"{_number(result.minimum_film_nm)} nm, largest pressure {_number(result.max_pressure_GPa)} GPa",
+        f"  residual {result.residual:.1e}, load error {result.load_error:.1e}, complementarity "
+        f"{result.complementarity_error:.1e}, flux imbalance {result.flux_imbalance:.1e}",
+        f"  contact: {contact.nodes} nodes, {100 * contact.area_fraction:.2f} % of the Hertz area; "
+        f"nodes {span(contact.x_nodes)} on Y = 0, {span(contact.y_nodes)} on X = 0; "
+        f"largest gap {contact.largest_gap_nm:.1e} nm",
+        f"  pressure inequality broken at {inequality.violations} of {inequality.checked} interface nodes",
+        f"  inlet: {resolution.inlet_cells:.2f} cells, {ADVICE[resolution.verdict]}",
+        f"  work: {result.work.convolutions:.1f} fine-grid convolutions, {result.work.steps} steps, "
+        f"{result.wall_s:.1f} s on {result.ranks} ranks",
+    ]
+    if overlap.nodes:
+        lines.insert(
+            4, f"  THE BODIES OVERLAP at {overlap.nodes} nodes by up to {overlap.largest_nm:.2e} nm"
+        )
+    lines += [
+        f"  Eq. 2 violated at node ({each['i']}, {each['j']}) by {each['size']:.2e} p_h"
+        for each in inequality.nodes[:20]
+    ]
+    lines += [
+        f"  node ({each['i']}, {each['j']}): as film its gap is {each['film_gap_nm']:.2e} nm, as contact "
+        f"its pressure {each['contact_pressure']:.2e} p_h; beside it {', '.join(each['neighbours'])}"
+        for each in result.contradictions[:20]
+    ]
+    if inequality.violations > 20:
+        lines.append(f"  ... and at {inequality.violations - 20} more nodes, listed in result.json")
+    return "\n".join(lines)
+
+
+ADVICE = {
+    "resolved": "resolved",
+    "coarse": f"coarse (below {RESOLVED_CELLS:g}): expect the film to change with the grid",
+    "grid-determined": f"grid-determined (below {SEEN_CELLS:g}): the contact set is the grid's, "
+    "not the problem's",
+}
+
+
+def _number(value):
+    """Four digits after the point; of a diverged run four in all."""
+    return f"{value + 0.0:.4f}" if abs(value) < 1e7 else f"{value:.3e}"
+
+
+def span(ends):
+    """First and last node of a stretch."""
+    return f"{ends[0]}..{ends[1]}" if ends else "none"

@@ -1,0 +1,30 @@
+"""What a run takes is known by its kind, start, mean and method."""
+
+import pytest
+
+from mgehl.config import load_config
+from mgehl.kinds import line, loaded, point, wedge
+
+
+@pytest.mark.parametrize(
+    "settings, effort",
+    [
+        ({"solver.start": "film"}, point.FILM),
+        ({"solver.start": "contact"}, point.CONTACT),
+        ({"solver.start": "film", "discretization.face_mobility": "harmonic"}, point.MEAN),
+        ({"contact.kind": "line"}, line.EFFORT),
+        ({"contact.kind": "wedge"}, wedge.EFFORT),
+    ],
+    ids=["film", "contact", "mean", "line", "wedge"],
+)
+def test_effort_is_that_of_such_runs(settings, effort):
+    config = load_config(settings=settings)
+    assert config.kind.effort(config) == effort
+
+
+@pytest.mark.parametrize("kind", ["point", "line"])
+def test_the_relaxation_makes_a_convolution_a_sweep(kind):
+    sweeps = {"contact.kind": kind, "solver.method": "relaxation", "relaxation.max_sweeps": 7}
+    config = load_config(settings=sweeps)
+    effort = config.kind.effort(config)
+    assert effort.convolutions == (7.0, 7.0) and effort.measured == loaded.RELAXATION.measured

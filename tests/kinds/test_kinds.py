@@ -1,0 +1,57 @@
+"""Kinds of contact: what they take, and that a new one is known everywhere from its own words."""
+
+from dataclasses import fields
+
+import pytest
+
+from mgehl.config import FOREIGN, SECTIONS, config_from_tables
+from mgehl.kinds import KINDS, contact_from, mesh_from
+
+EVERY_KEY = {f"{name}.{key.name}" for name, section in SECTIONS.items() for key in fields(section)}
+
+every_kind = pytest.mark.parametrize("kind", KINDS.values(), ids=KINDS)
+
+
+def config_of(kind):
+    return config_from_tables({"contact": {"kind": kind.name}, "grid": {"nodes": 65}})
+
+
+@every_kind
+def test_what_a_kind_takes_exists(kind):
+    assert set(kind.takes) <= EVERY_KEY | set(SECTIONS)
+    assert set(kind.essential) <= EVERY_KEY and set(kind.short) <= EVERY_KEY
+
+
+@every_kind
+def test_every_key_is_taken_or_foreign(kind):
+    for key in EVERY_KEY - {"contact.kind"}:
+        either = {key, key.partition(".")[0]}
+        assert bool(either & set(kind.takes)) != bool(either & set(FOREIGN[kind.name])), key
+
+
+def test_every_key_is_of_use_to_some_kind():
+    taken = {name for kind in KINDS.values() for name in kind.takes} | {"contact.kind"}
+    assert [key for key in EVERY_KEY if not {key, key.partition(".")[0]} & taken] == []
+
+
+def test_a_section_of_which_nothing_is_taken_is_foreign_as_a_whole():
+    assert {"coating", "moes", "relaxation"} <= set(FOREIGN["wedge"])
+    assert {"motion", "solver", "contact"}.isdisjoint(FOREIGN["wedge"])
+
+
+@every_kind
+def test_it_is_found_by_its_name_and_builds_its_model(kind):
+    config = config_of(kind)
+    contact = contact_from(config)
+    assert config.kind is kind
+    assert type(contact) is kind.model and contact.is_loaded == kind.is_loaded
+    assert mesh_from(config, contact).nx == 65
+
+
+@every_kind
+def test_the_essentials_are_a_contact_of_that_kind(kind):
+    tables = {}
+    for name, value in kind.essential.items():
+        section, _, key = name.partition(".")
+        tables.setdefault(section, {})[key] = value
+    assert config_from_tables(tables).kind is kind

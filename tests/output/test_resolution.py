@@ -1,0 +1,36 @@
+"""How well a grid resolves the inlet, and which one does."""
+
+import pytest
+
+from mgehl.config import load_config
+from mgehl.kinds import contact_from, mesh_from
+from mgehl.output.resolution import expectation, resolution, resolving_nodes
+
+
+def film(nodes=257):
+    return load_config(settings={"grid.nodes": nodes, "motion.speed": 0.0075, "solver.start": "film"})
+
+
+def test_the_recommended_grid_is_the_first_that_resolves():
+    config = film()
+    nodes = resolving_nodes(config, contact_from(config))
+    fine, coarse = film(nodes=nodes), film(nodes=(nodes + 1) // 2)
+    verdicts = [
+        resolution(contact_from(each), mesh_from(each, contact_from(each))).verdict
+        for each in (fine, coarse)
+    ]
+    assert verdicts == ["resolved", "coarse"]
+
+
+@pytest.mark.parametrize(
+    "cells, start, words",
+    [
+        (4.0, "film", "resolves"),
+        (2.0, "contact", "changes with the grid"),
+        (1.0, "film", "side by side"),
+        (0.5, "film", "side by side"),
+        (0.5, "contact", "full contact"),
+    ],
+)
+def test_what_is_expected_follows_from_cells_and_start(cells, start, words):
+    assert words in expectation(cells, start)

@@ -1,0 +1,19 @@
+"""The solver's settings and the configuration's keys have the same defaults."""
+
+from mgehl.config import config_from_tables
+from mgehl.solver.from_config import set_up
+from mgehl.solver.settings import SolverSettings
+
+
+def test_what_is_not_configured_is_the_default():
+    """All but the film threshold, which is a length there and a part of the gap's unit here."""
+    config = config_from_tables({"discretization": {"film_threshold": 0.0}})
+    assert set_up(config).settings == SolverSettings()
+
+
+def test_what_is_configured_is_told():
+    solver = {"tolerance": 1e-6, "start": "contact", "sweeps": 2, "inlet_cells": 3.0, "squeeze": 5.0}
+    settings = set_up(config_from_tables({"solver": solver})).settings
+    assert settings.newton.tolerance == settings.relaxation.tolerance == 1e-6
+    assert (settings.nested.start, settings.nested.inlet_cells) == ("contact", 3.0)
+    assert settings.cycle.sweeps == 2 and settings.newton.squeeze == 5.0
