@@ -80,6 +80,13 @@ def tiny_problem(make_problem):
     return make_problem(nodes=9)
 
 
+def usual_contact_law(contact):
+    """The interface conditions with the configuration's default H_th, 0.02 nm."""
+    from mgehl.discretization.contact_law import InterfaceConditions
+
+    return InterfaceConditions(0.02e-9 / contact.film_scale)
+
+
 @dataclass
 class Solution:
     """A nested iteration that was run, with what it told its monitor."""
@@ -109,10 +116,10 @@ def solve(make_hierarchy):
     from mgehl.solver.settings import NestedSettings, NewtonSettings, SolverSettings
 
     def run(contact, nodes, start="film", couette="1B", newton=None, **grid):
-        # H_th is the configuration's default, 0.02 nm.
-        limits = {"film_threshold": 0.02e-9 / contact.film_scale} | (newton or {})
         settings = SolverSettings(
-            scheme=Scheme(couette), nested=NestedSettings(start=start), newton=NewtonSettings(**limits)
+            scheme=Scheme(couette, contact_law=usual_contact_law(contact)),
+            nested=NestedSettings(start=start),
+            newton=NewtonSettings(**(newton or {})),
         )
         hierarchy, told = make_hierarchy(contact, nodes, **grid), []
         problem, outcome = nested_iteration(hierarchy, contact, settings, lambda *each: told.append(each))
@@ -177,16 +184,18 @@ def rough_state():
 
 @pytest.fixture
 def make_multigrid():
-    """Factory of `MultigridSolver`s linearised about a state; freed after the test."""
+    """Factory of `MultigridSolver`s linearised about a state, by its rows or others; freed in the end."""
+    from mgehl.discretization.rows import rows_of
     from mgehl.multigrid.cycle import CycleSettings, MultigridSolver
 
     made = []
 
-    def make(hierarchy, problem, state, rigid=False, **settings):
+    def make(hierarchy, problem, state, rigid=False, rows=None, **settings):
         level = hierarchy.grids.index(problem.grid)
         settings = CycleSettings(**settings)
         made.append(MultigridSolver(hierarchy, level, problem.contact, problem.scheme, settings, rigid))
-        made[-1].linearise(state.P, state.H, state.status)
+        rows = rows_of(state.status, rigid) if rows is None else rows
+        made[-1].linearise(problem.evaluate(state), rows)
         return made[-1]
 
     yield make
@@ -197,6 +206,7 @@ def make_multigrid():
 @pytest.fixture
 def make_jacobian():
     """Factory of the `Jacobian` of a problem about a state; its Mat is destroyed after the test."""
+    from mgehl.discretization.rows import rows_of
     from mgehl.multigrid.jacobian import Jacobian
 
     made = []
@@ -205,8 +215,7 @@ def make_jacobian():
         deflection = None if rigid else problem.deflection
         jacobian = Jacobian(problem.grid, deflection, problem.contact, problem.scheme)
         made.append(jacobian)
-        grid = problem.grid
-        jacobian.linearise(grid.halo(state.P), grid.halo(state.H), grid.halo_status(state.status))
+        jacobian.linearise(problem.evaluate(state), rows_of(state.status, rigid))
         return jacobian
 
     yield make

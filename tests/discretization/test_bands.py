@@ -1,57 +1,53 @@
 import numpy as np
 import pytest
-from dense import dense_K, dense_Q, dense_stencil, held_beyond, line_stencils
+from dense import ALONG_X, BOTH_WAYS, dense_JQ, dense_stencil, line_stencils
 
+from mgehl.discretization.axes import HALO
 from mgehl.discretization.bands import (
+    LINES_BESIDE,
     REACH_OF_STENCIL,
     STIFF,
     LineBands,
     distributive_nodes,
-    given_nodes,
     influence_of_columns,
 )
 from mgehl.discretization.influence import influence_coefficients
 from mgehl.discretization.kernels import REACH, build_bands
 from mgehl.discretization.mesh import Mesh
-from mgehl.discretization.residual import C, Linearisation, W
-from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
+from mgehl.discretization.residual import Linearisation
+from mgehl.discretization.rows import FLOW, GAP, PRESSURE
 from mgehl.model.deformation import HalfPlane, HalfSpace
 
 MESH = Mesh(15, 11, (-1.9, 1.3), (-1.5, 1.5), k_e=0.6)
 K = influence_coefficients(MESH, HalfSpace(0.2))
+every_stencil = pytest.mark.parametrize("offsets", [ALONG_X, BOTH_WAYS], ids=["along x", "both ways"])
 every_share = pytest.mark.parametrize("share", [0.25, 0.5])
 
 
 @pytest.mark.parametrize(
-    "status, mobility, distributed",
+    "row, mobility, distributed",
     [
-        (LUBRICATED, 0.99, True),
-        (LUBRICATED, 1.01, False),
-        (CONTACT, 0.0, True),
-        (CONTACT, -1.0, True),
-        (CONTACT, 50.0, True),
-        (BOUNDARY, 0.0, False),
-        (CAVITATED, 0.0, False),
+        (FLOW, 0.99, True),
+        (FLOW, 1.01, False),
+        (GAP, 0.0, True),
+        (GAP, -1.0, True),
+        (GAP, 50.0, True),
+        (PRESSURE, 0.0, False),
+        (PRESSURE, 50.0, False),
     ],
 )
-def test_distributive_in_contact_and_where_poiseuille_flow_is_weak(status, mobility, distributed):
+def test_distributive_in_contact_and_where_poiseuille_flow_is_weak(row, mobility, distributed):
     """`mobility` in units of the threshold eps = STIFF K00 dX; given pressures never distribute."""
     dX, K00 = 0.25, 0.4
-    kinds = np.full((5, 7), LUBRICATED)
-    eps = np.full((5, 7), 10.0)
-    kinds[2, 3], eps[2, 3] = status, mobility * STIFF * K00 * dX
+    rows, eps = np.full((5, 7), FLOW), np.full((5, 7), 10.0)
+    rows[2, 3], eps[2, 3] = row, mobility * STIFF * K00 * dX
     expected = np.zeros((5, 7), bool)
     expected[2, 3] = distributed
-    assert (distributive_nodes(eps, kinds, dX, K00) == expected).all()
-
-
-def test_given_pressures_are_those_of_boundary_and_cavity():
-    status = np.array([[BOUNDARY, LUBRICATED, CAVITATED, CONTACT]])
-    assert given_nodes(status).tolist() == [[True, False, True, False]]
+    assert (distributive_nodes(eps, rows, dX, K00) == expected).all()
 
 
 @every_share
-@pytest.mark.parametrize("line", [0, 1])
+@pytest.mark.parametrize("line", range(LINES_BESIDE + 1))
 @pytest.mark.parametrize("k", range(REACH + 3))
 def test_influence_of_a_column_of_Q(line, k, share):
     """A unit pressure, and one less its share on each of its four neighbours; held beyond REACH."""
@@ -59,8 +55,8 @@ def test_influence_of_a_column_of_Q(line, k, share):
     def at(line, k):
         return K[abs(line), abs(k)]
 
-    kappa = influence_of_columns(K[:3, : REACH + 2], share)
-    assert kappa.shape == (2, 2, REACH + 3)
+    kappa = influence_of_columns(K[: LINES_BESIDE + 2, : REACH + 2], share)
+    assert kappa.shape == (2, LINES_BESIDE + 1, REACH + 3)
     near = min(k, REACH)
     spread = at(line, near - 1) + at(line, near + 1) + at(line - 1, near) + at(line + 1, near)
     assert kappa[0, line, k] == at(line, near)
@@ -77,41 +73,43 @@ def test_distributed_column_hardly_reaches_beyond_the_band():
     _, distributed = influence_of_columns(influence_coefficients(square, HalfSpace(1.0)), 0.25)[:, 0, REACH]
     assert distributed == pytest.approx(-square.dX / (4.0 * REACH**3), rel=0.15)
     line = Mesh(33, 1, (-1.6, 1.6), (0.0, 0.0))
-    nearby = influence_coefficients(line, HalfPlane(1.0), 0, 3)
+    nearby = influence_coefficients(line, HalfPlane(1.0), 0, LINES_BESIDE + 2)
     _, distributed = influence_of_columns(nearby, 0.5)[:, 0, REACH]
     assert distributed == pytest.approx(-line.dX / (2.0 * REACH**2), rel=0.1)
 
 
-def test_line_bands_solve_the_lines_of_a_stencil():
+@every_stencil
+def test_line_bands_solve_the_lines_of_a_stencil(offsets):
     """A rigid gap: factor_stencil against numpy.linalg.solve, twice with the same bands."""
     rng = np.random.default_rng(6)
     lines, nx = 3, MESH.nx
     r, w = rng.standard_normal((lines, nx)), np.empty((lines, nx))
     bands = LineBands(lines, nx, REACH_OF_STENCIL)
-    for A in line_stencils(rng, lines, nx):
-        bands.factor_stencil(A)
+    for A in line_stencils(rng, offsets, lines, nx):
+        A[0] += 8.0
+        bands.factor_stencil(Linearisation(np.array(offsets), A, None, None))
         bands.solve(r, w)
-        J = dense_stencil(A).reshape(lines, nx, lines + 2, nx)
+        J = dense_stencil(offsets, A).reshape(lines, nx, lines + 2 * HALO, nx)
         for j in range(lines):
-            np.testing.assert_allclose(w[j], np.linalg.solve(J[j, :, j + 1], r[j]), rtol=1e-11, atol=1e-13)
+            line = J[j, :, j + HALO]
+            np.testing.assert_allclose(w[j], np.linalg.solve(line, r[j]), rtol=1e-11, atol=1e-13)
 
 
 @every_share
-def test_line_bands_solve_the_band_of_J_Q(share):
+@every_stencil
+def test_line_bands_solve_the_band_of_J_Q(offsets, share):
     """LineBands against numpy.linalg.solve on the dense lines of (A + B K) Q cut to the band."""
     rng = np.random.default_rng(5)
     lines, nx = 3, MESH.nx
-    A, B = line_stencils(rng, lines, nx)
+    A, B = line_stencils(rng, offsets, lines, nx)
     distributive = rng.random((lines, nx)) < 0.5
     distributive[:, [0, -1]] = False
-    Q = dense_Q(distributive, share)
-    K_Q = held_beyond(dense_K(K, lines + 2, nx) @ Q, lines, nx, REACH)
-    JQ = (dense_stencil(A) @ Q + dense_stencil(B) @ K_Q).reshape(lines, nx, lines, nx)
+    JQ = dense_JQ(offsets, A, B, K, distributive, share, REACH)
     r, w = rng.standard_normal((lines, nx)), np.empty((lines, nx))
-    bands = LineBands(lines, nx)
+    bands, kappa = LineBands(lines, nx), influence_of_columns(K, share)
     # A second factorisation must not see the first.
     for stencils in ((B, A), (A, B)):
-        bands.factor(Linearisation(*stencils, None), distributive, influence_of_columns(K, share), share)
+        bands.factor(Linearisation(np.array(offsets), *stencils, None), distributive, kappa, share)
     bands.solve(r, w)
     offset = np.subtract.outer(np.arange(nx), np.arange(nx))
     for j in range(lines):
@@ -121,17 +119,20 @@ def test_line_bands_solve_the_band_of_J_Q(share):
 
 def wedge_term(nx):
     """Stencils of a pure Couette flow by 1B, d H/dX of a line in steps of 1; its ends are given."""
-    A, B = np.zeros((2, 6, 1, nx))
-    A[C, :, [0, -1]] = -1.0
-    B[C, :, 1:-1], B[W, :, 1:-1] = -1.0, 1.0
+    here, upstream = 0, 1
+    A, B = np.zeros((2, 2, 1, nx))
+    A[here, :, [0, -1]] = -1.0
+    B[here, :, 1:-1], B[upstream, :, 1:-1] = -1.0, 1.0
     distributive = np.ones((1, nx), bool)
     distributive[:, [0, -1]] = False
-    return Linearisation(A, B, None), distributive
+    return Linearisation(np.array([(0, 0), (0, -1)]), A, B, None), distributive
 
 
 def line_table():
     """Table of the logarithmic kernel."""
-    near = influence_coefficients(Mesh(257, 1, (-4.0, 2.0), (0.0, 0.0)), HalfPlane(1.0 / np.pi), 0, 3)
+    near = influence_coefficients(
+        Mesh(257, 1, (-4.0, 2.0), (0.0, 0.0)), HalfPlane(1.0 / np.pi), 0, LINES_BESIDE + 2
+    )
     return influence_of_columns(near, 0.5)
 
 
@@ -150,7 +151,7 @@ def test_rows_of_a_differenced_gap_sum_to_zero(kind):
 
     def row_sums(kappa):
         bands = np.empty((1, nx, 2 * REACH + 1))
-        build_bands(linear.A, linear.B, distributive & bool(kind), kappa, 0.5, bands)
+        build_bands(linear.offsets, linear.A, linear.B, distributive & bool(kind), kappa, 0.5, bands)
         # A row that reaches a line's end meets the end's column, which is never distributed.
         return bands[0, REACH + 1 : -REACH - 1].sum(axis=1)
 

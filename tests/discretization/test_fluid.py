@@ -3,8 +3,11 @@ from math import exp, sqrt
 import numpy as np
 import pytest
 
+from mgehl.discretization.contact_law import InterfaceConditions, UnifiedEquations
 from mgehl.discretization.fluid import FACE_MEANS, face_mean, fluid_state
 from mgehl.discretization.scheme import Scheme
+
+LCIC = InterfaceConditions()
 
 
 def test_mobility_is_rho_H3_over_eta_lambda(contact):
@@ -13,7 +16,7 @@ def test_mobility_is_rho_H3_over_eta_lambda(contact):
     rho = 1.0 + 0.6e-9 * p / (1.0 + 1.7e-9 * p)
     a, p_h = contact.hertz.a, contact.hertz.p_h
     reynolds = 12.0 * 0.1 * 0.096 * 12.7e-3**2 / (a**3 * p_h)
-    fluid = fluid_state(np.array([0.5]), np.array([0.1]), contact)
+    fluid = fluid_state(np.array([0.5]), np.array([0.1]), contact, LCIC)
     assert fluid.rho[0] == pytest.approx(rho, rel=1e-14)
     assert fluid.eps[0] == pytest.approx(rho * 0.1**3 * exp(-3e-9 * p) / reynolds, rel=1e-13)
 
@@ -23,7 +26,7 @@ def test_mobility_is_the_paper_s_in_its_own_units(contact):
     a, p_h, R = contact.hertz.a, contact.hertz.p_h, contact.radius_x
     gap = 0.1 * contact.film_scale
     paper = a * p_h / (12.0 * contact.speed * 0.096) * (gap / a) ** 3
-    eps = fluid_state(np.array([0.0]), np.array([0.1]), contact).eps[0]
+    eps = fluid_state(np.array([0.0]), np.array([0.1]), contact, LCIC).eps[0]
     assert eps * a / R == pytest.approx(paper, rel=1e-13)
 
 
@@ -31,15 +34,15 @@ def test_mobility_is_the_paper_s_in_its_own_units(contact):
 def test_derivatives_match_central_differences(contact, name, by):
     P, H, d = np.linspace(0.0, 1.2, 5), np.linspace(0.03, 0.2, 5), 1e-6
     dP, dH = (d, 0.0) if by == "P" else (0.0, d)
-    above = getattr(fluid_state(P + dP, H + dH, contact), name)
-    below = getattr(fluid_state(P - dP, H - dH, contact), name)
-    derivative = getattr(fluid_state(P, H, contact), f"d{name}_d{by}")
+    above = getattr(fluid_state(P + dP, H + dH, contact, LCIC), name)
+    below = getattr(fluid_state(P - dP, H - dH, contact, LCIC), name)
+    derivative = getattr(fluid_state(P, H, contact, LCIC), f"d{name}_d{by}")
     np.testing.assert_allclose(derivative, (above - below) / (2.0 * d), rtol=1e-7)
 
 
 def test_part_of_a_fluid_keeps_every_field(contact):
     P, H = np.linspace(0.1, 0.6, 6).reshape(3, 2), np.linspace(0.1, 0.2, 6).reshape(3, 2)
-    fluid = fluid_state(P, H, contact)
+    fluid = fluid_state(P, H, contact, LCIC)
     part = fluid[1:, 1]
     for name in ("P", "H", "rho", "drho_dP", "eps", "deps_dP", "deps_dH"):
         assert (getattr(part, name) == getattr(fluid, name)[1:, 1]).all()
@@ -135,10 +138,10 @@ def test_slopes_of_a_shared_mean_match_central_differences(mean):
     np.testing.assert_allclose(by_b, measured_b, rtol=1e-7)
 
 
-def test_gap_floor_is_the_least_gap_of_the_mobility(contact):
-    """At and below the floor eps is that of the floor and ignores H; above it nothing changes."""
-    P, H, floor = np.full(5, 0.4), np.array([-0.2, 0.0, 0.05, 0.1, 0.3]), 0.1
-    floored, free = fluid_state(P, H, contact, floor), fluid_state(P, H, contact)
+def test_the_smallest_gap_of_the_unified_equations_is_the_least_of_the_mobility(contact):
+    """At and below it eps is its own and ignores H; above it nothing changes."""
+    P, H, smallest = np.full(5, 0.4), np.array([-0.2, 0.0, 0.05, 0.1, 0.3]), 0.1
+    floored, free = (fluid_state(P, H, contact, law) for law in (UnifiedEquations(smallest), LCIC))
     below, above = slice(0, 4), slice(4, 5)
     for name in ("eps", "deps_dP"):
         np.testing.assert_array_equal(getattr(floored, name)[below], getattr(free, name)[3])
@@ -148,10 +151,10 @@ def test_gap_floor_is_the_least_gap_of_the_mobility(contact):
         np.testing.assert_array_equal(getattr(floored, name)[above], getattr(free, name)[above])
 
 
-def test_gap_floor_leaves_the_fluid_carried_along_alone(contact):
-    """rho and H, of whatever sign, are those without a floor."""
+def test_the_smallest_gap_leaves_the_fluid_carried_along_alone(contact):
+    """rho and H, of whatever sign, are those of the interface conditions."""
     P, H = np.linspace(0.1, 0.9, 4), np.array([-0.2, 0.0, 0.05, 0.3])
-    floored, free = fluid_state(P, H, contact, 0.1), fluid_state(P, H, contact)
+    floored, free = (fluid_state(P, H, contact, law) for law in (UnifiedEquations(0.1), LCIC))
     for name in ("P", "H", "rho", "drho_dP"):
         np.testing.assert_array_equal(getattr(floored, name), getattr(free, name))
 
@@ -160,6 +163,7 @@ def test_gap_floor_leaves_the_fluid_carried_along_alone(contact):
 def test_floored_mobility_matches_central_differences(contact, by):
     P, H, d = np.linspace(0.0, 1.2, 6), np.array([-0.1, 0.03, 0.09, 0.11, 0.2, 0.3]), 1e-6
     dP, dH = (d, 0.0) if by == "P" else (0.0, d)
-    above, below = (fluid_state(P + s * dP, H + s * dH, contact, 0.1).eps for s in (1.0, -1.0))
-    derivative = getattr(fluid_state(P, H, contact, 0.1), f"deps_d{by}")
+    law = UnifiedEquations(0.1)
+    above, below = (fluid_state(P + s * dP, H + s * dH, contact, law).eps for s in (1.0, -1.0))
+    derivative = getattr(fluid_state(P, H, contact, law), f"deps_d{by}")
     np.testing.assert_allclose(derivative, (above - below) / (2.0 * d), rtol=1e-7)

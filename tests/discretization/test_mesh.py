@@ -1,8 +1,10 @@
 import numpy as np
 import pytest
+from handmade import ghosted, walled
 
+from mgehl.discretization.axes import axes_of
 from mgehl.discretization.couette import E, W
-from mgehl.discretization.faces import x_flows
+from mgehl.discretization.faces import flows
 from mgehl.discretization.fluid import Fluid
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.scheme import Scheme
@@ -44,7 +46,7 @@ def test_an_edge_between_nodes_shortens_the_first_and_the_last_distance():
 
 
 def dirichlet_error(cells, half_cells, edges):
-    """Largest error of P at inner nodes of H - (1 + X) P' = const, P = 0 at 0 and 1, by x_flows.
+    """Largest error of P at inner nodes of H - (1 + X) P' = const, P = 0 at 0 and 1, by the flows.
 
     H = (1 + X) P' of P = sin(pi X). `half_cells` of the two ends lie outside, (first, last).
     """
@@ -54,11 +56,13 @@ def dirichlet_error(cells, half_cells, edges):
     mesh = Mesh(nx, 1, x, (0.0, 0.0), edges=(0.0, 1.0) if edges else None)
     X = mesh.X[None, :]
     assert mesh.dX == pytest.approx(dX, rel=1e-12)
-    zero, eps = np.zeros((1, nx)), 1.0 + X
-    fluid = Fluid(zero, eps * np.pi * np.cos(np.pi * X), zero + 1.0, zero, eps, zero, zero)
+    eps = ghosted(1.0 + X)
+    zero = np.zeros_like(eps)
+    fluid = Fluid(zero, eps * np.pi * np.cos(np.pi * mesh.X), zero + 1.0, zero, eps, zero, zero)
     status = np.full((1, nx), LUBRICATED)
     status[:, [0, -1]] = BOUNDARY
-    flow, _ = x_flows(fluid, status, mesh, Scheme("2C"), linearised=True)
+    (axis,), scheme = axes_of(mesh, (1.0, 0.0)), Scheme("2C")
+    flow, _ = flows(fluid, walled(status), axis, scheme, linearised=True)
     # Flow in less flow out of the inner nodes, linear in their pressures.
     faces, matrix = np.arange(nx - 1), np.zeros((nx - 1, nx))
     matrix[faces, faces], matrix[faces, faces + 1] = flow.by_P[W][0], flow.by_P[E][0]

@@ -1,19 +1,27 @@
 import numpy as np
 import pytest
+from handmade import walled
 
+from mgehl.discretization.axes import HALO, axes_of, own
+from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.status import (
     BOUNDARY,
     CAVITATED,
     CONTACT,
     LUBRICATED,
     NAMES,
+    WALL,
     beside_contact,
-    close_gaps,
     enclosed,
+    is_fluid,
+    is_solid,
     largest_fluid_neighbour,
-    open_x_faces,
-    open_y_faces,
+    open_faces,
 )
+
+MESH = Mesh(5, 3, (0.0, 4.0), (0.0, 2.0))
+ALONG_X, ALONG_Y = axes_of(MESH, (1.0, 0.0))
+X_AND_Y = ALONG_X, ALONG_Y
 
 # Number, label and closed faces of the neighbourhoods of Liu sec. 3.2.2-3.2.5. A label says on
 # which side of the contact the node lies (1-8), or which border is open (11-14).
@@ -61,61 +69,94 @@ def test_codes_index_the_names():
 @neighbourhoods
 def test_closed_faces_of_each_neighbourhood(number, closed):
     """Exactly the faces that the paper's case lists are closed."""
-    status = neighbourhood(closed)
-    x, y = open_x_faces(status)[1], open_y_faces(status)[:, 2]
-    is_open = {"west": x[1], "east": x[2], "south": y[0], "north": y[1]}
+    status = walled(neighbourhood(closed))
+    x, y = open_faces(status, ALONG_X)[1], open_faces(status, ALONG_Y)[:, 2]
+    is_open = {"west": x[1], "east": x[2], "south": y[1], "north": y[2]}
     assert {face for face, through in is_open.items() if not through} == closed
 
 
+MOTIONS = {
+    "along x": ((1.0, 0.0), {10, 13, 14}),
+    "against x": ((-1.0, 0.0), {10, 13, 14}),
+    "along y": ((0.0, 1.0), {9, 11, 12}),
+    "at an angle": ((0.8, -0.6), set()),
+}
+"""The neighbourhoods of NEIGHBOURHOODS that are shut in, by the motion's direction."""
+
+
 @neighbourhoods
+@pytest.mark.parametrize("motion, shut_in", MOTIONS.values(), ids=MOTIONS)
 @pytest.mark.parametrize("centre", [LUBRICATED, CAVITATED])
-def test_only_nodes_shut_in_from_west_and_east_become_contact(number, closed, centre):
+def test_fluid_is_shut_in_from_both_sides_along_the_motion(number, closed, motion, shut_in, centre):
     """Cases 10, 13 and 14 are processed as solid contact (sec. 3.2.5, last paragraph)."""
     status = neighbourhood(closed, centre)
-    turned = close_gaps(status)
-    shut_in = number in (10, 13, 14)
-    assert turned == shut_in
-    assert status[1, 2] == (CONTACT if shut_in else centre)
+    expected = np.zeros(status.shape, bool)
+    expected[1, 2] = number in shut_in
+    found = enclosed(walled(status), axes_of(MESH, motion))
+    np.testing.assert_array_equal(found, expected)
 
 
-def test_face_is_closed_by_either_node_and_by_contact_only():
-    line = np.array([[BOUNDARY, CONTACT, CONTACT, CAVITATED, LUBRICATED, BOUNDARY]])
+@pytest.mark.parametrize("motion", [motion for motion, _ in MOTIONS.values()], ids=MOTIONS)
+def test_fluid_with_four_closed_faces_is_shut_in_by_any_motion(motion):
+    status = walled(neighbourhood({"west", "east", "south", "north"}))
+    assert np.argwhere(enclosed(status, axes_of(MESH, motion))).tolist() == [[1, 2]]
+
+
+def test_face_is_closed_by_either_node_and_by_what_is_solid_only():
+    row = np.array([BOUNDARY, CONTACT, CONTACT, CAVITATED, LUBRICATED, BOUNDARY])
     expected = [False, False, False, True, True]
-    assert open_x_faces(line)[0].tolist() == expected
-    assert open_y_faces(line.T)[:, 0].tolist() == expected
+    assert open_faces(walled(row[None]), ALONG_X)[0].tolist() == expected
+    assert open_faces(walled(row[:, None]), ALONG_Y)[:, 0].tolist() == [False, *expected, False]
 
 
-def test_close_gaps_turns_every_gap_of_one_node_in_one_pass():
-    """Gaps of two nodes stay, line ends stay, boundary nodes stay; a second pass finds nothing."""
+def test_contact_and_walls_are_solid_film_and_cavities_fluid():
+    every = np.array([BOUNDARY, LUBRICATED, CAVITATED, CONTACT, WALL])
+    assert is_solid(every).tolist() == [False, False, False, True, True]
+    assert is_fluid(every).tolist() == [False, True, True, False, False]
+
+
+def test_gaps_of_one_node_are_shut_in_wider_ones_and_the_boundary_s_are_not():
+    """What is shut in has contact on both sides already: a second pass finds nothing."""
     K, F, V, B = CONTACT, LUBRICATED, CAVITATED, BOUNDARY
-    status = np.array([[F, K, F, K, V, K, F, F, K, F], [B, K, B, K, F, F, V, K, V, B]])
-    assert close_gaps(status) == 2
-    assert status.tolist() == [[F, K, K, K, K, K, F, F, K, F], [B, K, B, K, F, F, V, K, V, B]]
-    assert close_gaps(status) == 0
-    assert not enclosed(status).any()
-
-
-def test_enclosed_leaves_the_status_alone():
-    status = neighbourhood({"west", "east"})
+    status = walled(np.array([[F, K, F, K, V, K, F, F, K, F], [B, K, B, K, F, F, V, K, V, B]]))
     before = status.copy()
-    assert np.argwhere(enclosed(status)).tolist() == [[1, 2]]
-    assert (status == before).all()
+    shut_in = enclosed(status, (ALONG_X,))
+    assert np.argwhere(shut_in).tolist() == [[0, 2], [0, 4]]
+    np.testing.assert_array_equal(status, before)
+    own(status)[shut_in] = CONTACT
+    assert not enclosed(status, (ALONG_X,)).any()
+
+
+def test_a_wall_shuts_nothing_in():
+    """One node of film between contact and the end of the domain, or between two walls."""
+    status = walled(np.array([[LUBRICATED] * 3, [CONTACT] * 3]))
+    assert not enclosed(status, axes_of(MESH, (0.0, 1.0))).any()
+    assert not enclosed(walled(np.full((1, 3), LUBRICATED)), axes_of(MESH, (0.0, 1.0))).any()
 
 
 def test_nodes_beside_contact_have_a_closed_face():
     """A contact node in the middle, and one in the line of a ghost: each with its four neighbours."""
-    status = np.full((6, 5), LUBRICATED)
-    status[2, 2] = status[0, 4] = CONTACT
+    status = np.full((4 + 2 * HALO, 5), LUBRICATED)
+    status[HALO + 1, 2] = status[HALO - 1, 4] = CONTACT
     near = np.zeros((4, 5), bool)
     near[1, 1:4] = near[[0, 2], 2] = True
     near[0, 4] = True
-    np.testing.assert_array_equal(beside_contact(status), near)
+    np.testing.assert_array_equal(beside_contact(status, X_AND_Y), near)
+
+
+def test_nodes_beside_a_wall_are_not_beside_contact():
+    assert not beside_contact(walled(np.full((1, 5), LUBRICATED)), X_AND_Y).any()
 
 
 def test_largest_fluid_neighbour_of_hand_made_lines():
     """Contact never counts, boundary and cavitated nodes do, and line ends have three neighbours."""
     K, F, V, B = CONTACT, LUBRICATED, CAVITATED, BOUNDARY
-    status = np.array([[B, F, K, B], [B, K, K, K], [B, V, K, F]])
-    P = np.array([[0.0, 5.0, 9.0, 1.0], [2.0, 7.0, 8.0, 3.0], [0.0, 0.0, 9.0, 4.0]])
-    result = largest_fluid_neighbour(P, status)
-    assert result.tolist() == [[0.0, 5.0, -np.inf, 4.0]]
+    status = walled(np.array([[B, F, K, B], [B, K, K, K], [B, V, K, F]]))
+    P = np.pad([[0.0, 5.0, 9.0, 1.0], [2.0, 7.0, 8.0, 3.0], [0.0, 0.0, 9.0, 4.0]], ((HALO, HALO), (0, 0)))
+    result = largest_fluid_neighbour(P, status, X_AND_Y)
+    assert result[1].tolist() == [0.0, 5.0, -np.inf, 4.0]
+
+
+def test_pressure_beyond_a_wall_is_no_neighbour_s():
+    status, P = walled(np.full((1, 3), CONTACT)), np.full((1 + 2 * HALO, 3), 9.0)
+    assert (largest_fluid_neighbour(P, status, X_AND_Y) == -np.inf).all()

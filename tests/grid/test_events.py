@@ -41,12 +41,14 @@ def test_a_convolution_is_deflection_and_nothing_else(spent, grids):
 
 
 def test_transfers_that_call_each_other_count_once(spent, grids):
+    from mgehl.discretization.rows import rows_of
     from mgehl.discretization.status import CONTACT
     from mgehl.grid.transfers import PartitionedTransfer
 
     transfer = grids.transfers[-1]
     statuses = [np.full(grid.shape, CONTACT) for grid in (transfer.coarse, transfer.fine)]
-    wall, parts = spent(lambda: PartitionedTransfer(transfer).partition(*statuses))
+    kinds = [(status, rows_of(status)) for status in statuses]
+    wall, parts = spent(lambda: PartitionedTransfer(transfer).partition(*kinds))
     assert 0.0 < parts.pop("transfers") <= wall
     assert not any(parts.values())
 

@@ -4,14 +4,20 @@ import numpy as np
 import pytest
 from mpi4py import MPI
 
+from mgehl.discretization.axes import HALO, own
 from mgehl.discretization.mesh import Mesh
-from mgehl.discretization.status import CONTACT, LUBRICATED
+from mgehl.discretization.status import LUBRICATED, WALL
 from mgehl.grid.grid import build_grids, single_grid
 
 
 @pytest.fixture
 def hierarchy(paper_contact, make_hierarchy):
     return make_hierarchy(paper_contact(), 129)
+
+
+def beyond(ghosted):
+    """The ghost lines."""
+    return np.concatenate([ghosted[:HALO], ghosted[-HALO:]])
 
 
 def test_hierarchy_halves_the_grids_down_to_the_coarsest(hierarchy):
@@ -41,9 +47,9 @@ def test_halo_surrounds_with_zero_lines_outside_the_domain(hierarchy):
     grid = hierarchy.grids[0]
     values = np.arange(33.0 * 33.0).reshape(33, 33) + 1.0
     ghosted = grid.halo(values)
-    assert ghosted.shape == (35, 33)
-    np.testing.assert_array_equal(ghosted[1:-1], values)
-    np.testing.assert_array_equal(ghosted[[0, -1]], 0.0)
+    assert ghosted.shape == (33 + 2 * HALO, 33)
+    np.testing.assert_array_equal(own(ghosted), values)
+    np.testing.assert_array_equal(beyond(ghosted), 0.0)
 
 
 @pytest.mark.parametrize("kind", [bool, np.int8, float])
@@ -52,23 +58,23 @@ def test_halo_keeps_the_type(hierarchy, kind):
     values = (np.arange(33 * 33).reshape(33, 33) % 2).astype(kind)
     ghosted = grid.halo(values)
     assert ghosted.dtype == kind
-    np.testing.assert_array_equal(ghosted[1:-1], values)
+    np.testing.assert_array_equal(own(ghosted), values)
 
 
 def test_halo_fills_a_given_array_and_leaves_its_argument_alone(hierarchy):
     grid = hierarchy.grids[0]
     values, out = np.ones(grid.shape, dtype=bool), np.full(grid.ghosted_shape, 7.0)
     assert grid.halo(values, out=out) is out
-    np.testing.assert_array_equal(out[1:-1], 1.0)
+    np.testing.assert_array_equal(own(out), 1.0)
     np.testing.assert_array_equal(values, True)
 
 
 def test_refresh_keeps_the_own_lines(hierarchy):
     grid = hierarchy.grids[0]
     ghosted = np.random.default_rng(0).random(grid.ghosted_shape)
-    own = ghosted[1:-1].copy()
+    before = own(ghosted).copy()
     grid.refresh(ghosted)
-    np.testing.assert_array_equal(ghosted[1:-1], own)
+    np.testing.assert_array_equal(own(ghosted), before)
 
 
 def test_boundary_is_the_outermost_ring(hierarchy):
@@ -113,23 +119,22 @@ def test_boundary_of_one_line_is_its_two_ends(make_line):
     assert np.argwhere(boundary).tolist() == [[0, 0], [0, 32]]
 
 
-def test_one_line_runs_between_two_solid_walls(make_line):
-    """Contact in both ghost lines of a status; no pressure and no gap beyond the walls."""
-    grid = make_line(33).grids[0]
-    status = np.full(grid.shape, LUBRICATED)
-    ghosted = grid.halo_status(status)
-    assert ghosted.dtype == status.dtype and ghosted.shape == (3, 33)
-    np.testing.assert_array_equal(ghosted[1:-1], status)
-    np.testing.assert_array_equal(ghosted[[0, -1]], CONTACT)
-    for array in (np.ones(grid.shape), np.ones(grid.shape, dtype=bool)):
-        np.testing.assert_array_equal(grid.halo(array)[[0, -1]], 0)
-        np.testing.assert_array_equal(grid.halo(array)[1:-1], array)
+@pytest.fixture(params=["plane", "line"])
+def any_grid(request, hierarchy, make_line):
+    """A grid of 33 lines, and one of a single line."""
+    return hierarchy.grids[0] if request.param == "plane" else make_line(33).grids[0]
 
 
-def test_status_of_many_lines_has_no_walls(hierarchy):
-    grid = hierarchy.grids[0]
-    status = np.full(grid.shape, LUBRICATED)
-    np.testing.assert_array_equal(grid.halo_status(status), grid.halo(status))
+def test_beyond_the_domain_are_walls(any_grid):
+    """In the ghost lines of a status; no pressure and no gap is beyond them."""
+    status = np.full(any_grid.shape, LUBRICATED)
+    ghosted = any_grid.halo_status(status)
+    assert ghosted.dtype == status.dtype and ghosted.shape == any_grid.ghosted_shape
+    np.testing.assert_array_equal(own(ghosted), status)
+    np.testing.assert_array_equal(beyond(ghosted), WALL)
+    for array in (np.ones(any_grid.shape), np.ones(any_grid.shape, dtype=bool)):
+        np.testing.assert_array_equal(beyond(any_grid.halo(array)), 0)
+        np.testing.assert_array_equal(own(any_grid.halo(array)), array)
 
 
 def test_a_single_grid_is_dealt_out_as_the_finest_of_many():

@@ -3,10 +3,16 @@
 import numpy as np
 import pytest
 
+from mgehl.discretization.rows import PRESSURE, rows_of
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
 from mgehl.grid.transfers import PartitionedTransfer
 
 INNER = (slice(1, -1), slice(1, -1))
+
+
+def kinds(*status):
+    """The (status, rows) of a coarse and a fine grid."""
+    return tuple((each, rows_of(each)) for each in status)
 
 
 @pytest.fixture
@@ -68,7 +74,7 @@ class TestPartitioned:
     @pytest.fixture
     def partitioned(self, transfer, status, coarse_status):
         partitioned = PartitionedTransfer(transfer)
-        partitioned.partition(coarse_status, status)
+        partitioned.partition(*kinds(coarse_status, status))
         return partitioned
 
     @pytest.mark.parametrize("kind, other", [(LUBRICATED, CONTACT), (CONTACT, LUBRICATED)])
@@ -111,7 +117,7 @@ class TestPartitioned:
         for each in (status, coarse_status):
             each[each == CONTACT] = LUBRICATED
         partitioned = PartitionedTransfer(transfer)
-        partitioned.partition(coarse_status, status)
+        partitioned.partition(*kinds(coarse_status, status))
         random = np.random.default_rng(3)
         film, coarse_film = status == LUBRICATED, coarse_status == LUBRICATED
         fine, coarse = film * random.random(film.shape), coarse_film * random.random(coarse_film.shape)
@@ -119,10 +125,20 @@ class TestPartitioned:
         np.testing.assert_array_equal(partitioned.restrict(fine), weighted)
         np.testing.assert_array_equal(partitioned.prolong(coarse), transfer.bilinear(coarse) * film)
 
+    def test_frozen_film_has_no_part_in_it(self, transfer, status, coarse_status):
+        """Its pressure is given: what it has is neither gathered nor corrected."""
+        rows, coarse_rows = (rows_of(each, frozen=each == LUBRICATED) for each in (status, coarse_status))
+        partitioned = PartitionedTransfer(transfer)
+        partitioned.partition((coarse_status, coarse_rows), (status, rows))
+        ones, coarse_ones = np.ones(status.shape), np.ones(coarse_status.shape)
+        np.testing.assert_array_equal(partitioned.restrict(ones)[coarse_rows == PRESSURE], 0.0)
+        np.testing.assert_array_equal(partitioned.prolong(coarse_ones)[rows == PRESSURE], 0.0)
+        assert (partitioned.prolong(coarse_ones)[status == CONTACT] > 0.0).all()
+
     def test_contact_that_disappears_is_forgotten(self, partitioned, status, coarse_status):
         film = np.where(status == CONTACT, LUBRICATED, status)
         coarse_film = np.where(coarse_status == CONTACT, LUBRICATED, coarse_status)
-        partitioned.partition(coarse_film, film)
+        partitioned.partition(*kinds(coarse_film, film))
         coarse = partitioned.restrict(np.where(film == LUBRICATED, 1.0, 0.0))
         np.testing.assert_allclose(coarse[16, 16], 1.0, rtol=1e-13)
 
@@ -160,7 +176,7 @@ class TestOneLine:
         fine = np.array([[BOUNDARY] + 3 * [LUBRICATED] + 3 * [CONTACT] + [LUBRICATED, BOUNDARY]])
         coarse = transfer.inject(fine)
         partitioned = PartitionedTransfer(transfer)
-        partitioned.partition(coarse, fine)
+        partitioned.partition(*kinds(coarse, fine))
         assert partitioned.restrict(4.0 * (fine == CONTACT)).tolist() == [[0.0, 0.0, 2.0, 2.0, 0.0]]
         corrected = partitioned.prolong(5.0 * (coarse == CONTACT))
         np.testing.assert_array_equal(corrected, 5.0 * (fine == CONTACT))

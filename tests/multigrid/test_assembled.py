@@ -6,6 +6,7 @@ from mpi4py import MPI
 from petsc4py import PETSc
 
 from mgehl.discretization.mesh import Mesh
+from mgehl.discretization.rows import rows_of
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import CONTACT, LUBRICATED
 from mgehl.grid.grid import single_grid
@@ -15,11 +16,12 @@ from mgehl.solver.wedge import WedgeProblem
 
 
 def test_rows_of_a_rank_are_rows_of_the_whole():
-    stencil = np.random.default_rng(1).uniform(1.0, 2.0, (6, 6, 7))
-    stencil[:, [0, -1]] = 0.0
+    offsets = [(0, 0), (0, -2), (0, -1), (0, 1), (-2, 0), (-1, 0), (1, 0)]
+    stencil = np.random.default_rng(1).uniform(1.0, 2.0, (len(offsets), 6, 7))
+    stencil[:, [0, 1, -1]] = 0.0
     stencil[:, :, [0, 1, -1]] = 0.0
-    whole = stencil_rows(stencil, 0, 43).toarray()
-    part = stencil_rows(stencil[:, 2:5], 2 * 7, 43).toarray()
+    whole = stencil_rows(offsets, stencil, 0, 43).toarray()
+    part = stencil_rows(offsets, stencil[:, 2:5], 2 * 7, 43).toarray()
     np.testing.assert_array_equal(part, whole[14:35])
 
 
@@ -28,10 +30,10 @@ def assembled(make_problem, rough_state):
     """A solver linearised about a state with a contact, the KSP it made, problem and state."""
     problem = make_problem(nodes=33)
     state = rough_state(problem, contact=True)
-    solver = AssembledSolver(problem.grid, problem.contact, problem.scheme, 100)
+    solver = AssembledSolver(problem.grid, 100)
     ksp = PETSc.KSP().create(problem.grid.comm)
     solver.configure(ksp, 1e-10)
-    solver.linearise(state.P, state.H, state.status)
+    solver.linearise(problem.evaluate(state), rows_of(state.status, rigid=True))
     yield solver, ksp, problem, state
     ksp.destroy()
     solver.free()
@@ -53,10 +55,11 @@ def test_few_iterations_solve_a_wedge(make_vec):
     bearing = WedgeBearing(20e-3, 50e-3, 20e-3, 1e-3, 0.1, 1.0, blocked_exit=True)
     x_range, edges = bearing.placement(65)
     grid = single_grid(Mesh(65, 65, x_range, (-10.0, 10.0), edges=edges), MPI.COMM_SELF)
-    state = WedgeProblem(grid, bearing, Scheme(motion=-1)).first_guess()
-    solver, ksp = AssembledSolver(grid, bearing, Scheme(), 100), PETSc.KSP().create(MPI.COMM_SELF)
+    problem = WedgeProblem(grid, bearing, Scheme(motion=(-1.0, 0.0)))
+    state = problem.first_guess()
+    solver, ksp = AssembledSolver(grid, 100), PETSc.KSP().create(MPI.COMM_SELF)
     solver.configure(ksp, 1e-10)
-    solver.linearise(state.P, state.H, state.status)
+    solver.linearise(problem.evaluate(state), problem.rows(state.status))
     film = state.status == LUBRICATED
     b, x = make_vec(solver.space, np.where(film, -1.0, 0.0)), make_vec(solver.space)
     ksp.solve(b, x)

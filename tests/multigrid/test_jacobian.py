@@ -3,8 +3,11 @@
 import numpy as np
 import pytest
 
+from mgehl.discretization.residual import residual
+from mgehl.discretization.rows import FLOW, PRESSURE
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import CAVITATED, CONTACT
+from mgehl.discretization.storage import Storage
 from mgehl.solver.problem import State
 
 STEP = 1e-6
@@ -21,7 +24,7 @@ def rows(problem, state, dP, dH0, step, rigid=False):
     P, H0 = state.P + step * dP, state.H0 + step * dH0
     H = state.H if rigid else problem.gap(P, H0)
     moved = State(P, H0, H, state.status)
-    return problem.residual(moved, problem.inflow(moved)), problem.load_deficit(P)
+    return problem.residual(problem.evaluate(moved), moved.status), problem.load_deficit(P)
 
 
 def differences(problem, state, dP, dH0, rigid=False):
@@ -51,6 +54,12 @@ def test_schemes(make_problem, rough_state, make_jacobian, make_vec, couette, co
     assert_consistent(problem, rough_state(problem, contact), make_jacobian, make_vec)
 
 
+@pytest.mark.parametrize("couette", ["1B", "2B", "S2B-v"])
+def test_motion_at_an_angle(make_problem, rough_state, make_jacobian, make_vec, couette):
+    problem = make_problem(nodes=33, scheme=Scheme(couette, motion=(0.6, 0.8)))
+    assert_consistent(problem, rough_state(problem, contact=True), make_jacobian, make_vec)
+
+
 @pytest.mark.parametrize("contact", [False, True], ids=["film", "contact"])
 @pytest.mark.parametrize("mobility", ["geometric", "harmonic"])
 def test_face_mobilities(make_problem, rough_state, make_jacobian, make_vec, mobility, contact):
@@ -75,6 +84,44 @@ def assert_consistent(problem, state, make_jacobian, make_vec):
             assert_close(r[kind], expected[kind])
     assert border == pytest.approx(load * jacobian.load_scale, rel=1e-6)
     assert border == pytest.approx(jacobian.load_weight * dP.sum(), rel=1e-12)
+
+
+def test_frozen_film_has_the_row_of_the_identity(make_problem, rough_state, make_jacobian, make_vec):
+    problem = make_problem(nodes=33)
+    state = rough_state(problem, contact=True)
+    jacobian, frozen = make_jacobian(problem, state), problem.grid.X < 0.0
+    rows = problem.rows(state.status, np.broadcast_to(frozen, problem.grid.shape))
+    free, _ = apply(jacobian, make_vec, *direction(problem))
+    jacobian.linearise(problem.evaluate(state), rows)
+    held, _ = apply(jacobian, make_vec, *direction(problem))
+    dP, _ = direction(problem)
+    given = rows == PRESSURE
+    np.testing.assert_allclose(held[given], -dP[given] / problem.grid.mesh.dX, rtol=1e-12)
+    np.testing.assert_array_equal(held[~given], free[~given])
+
+
+@pytest.mark.parametrize("rate", [20.0, "each its own"])
+def test_a_time_step_stores_in_the_film_what_flows_in(
+    make_problem, rough_state, make_jacobian, make_vec, rate
+):
+    """Against differences of the residual of the step."""
+    problem = make_problem(nodes=33)
+    state, (dP, dH0) = rough_state(problem, contact=True), direction(problem)
+    rate = np.abs(dP) + 1.0 if rate == "each its own" else rate
+    rows, now = problem.rows(state.status), problem.evaluate(state)
+    jacobian, storage = make_jacobian(problem, state), Storage.begun(now.fluid, rate)
+    jacobian.linearise(now, rows, rate)
+    r, _ = apply(jacobian, make_vec, dP, dH0)
+    ahead, behind = (
+        residual(
+            problem.evaluate(problem.state(state.P + s * dP, state.H0 + s * dH0, state.status)),
+            rows,
+            storage,
+        )
+        for s in (STEP, -STEP)
+    )
+    film = rows == FLOW
+    assert_close(r[film], ((ahead - behind) / (2.0 * STEP))[film])
 
 
 def test_response_to_h0_alone(make_problem, rough_state, make_jacobian, make_vec):
