@@ -52,10 +52,18 @@ class LineBands:
     def __init__(self, lines, nx, reach=REACH):
         self._factors = np.zeros((lines, nx, 2 * reach + 1))
 
-    def factor(self, linearisation, distributive, kappa, share):
-        """Build and factor the bands of J Q for the present linearisation."""
+    def build(self, linearisation, distributive, kappa, share):
+        """Fill the bands with those of J Q for a linearisation; `factor` comes next."""
         lin = linearisation
         build_bands(lin.offsets, lin.A, lin.B, distributive, kappa, share, self._factors)
+
+    @property
+    def diagonal(self):
+        """Of bands that are not factored yet: (lines, nx)."""
+        return self._factors[:, :, self._factors.shape[2] // 2]
+
+    def factor(self):
+        """Factor the bands in place."""
         factor_bands(self._factors)
 
     def factor_stencil(self, linearisation):

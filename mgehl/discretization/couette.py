@@ -69,6 +69,31 @@ SCHEMES = {
 """S2B-v and S2B-vi: rho and H apart with 2B, their other factor the mean of i - 1 and i + 1, or at i."""
 
 
+_3B = ((2 / 6, E, E), (5 / 6, W, W), (-1 / 6, WW, WW))
+"""Third order, upwind biased."""
+
+FIRST_ORDER = ("1B", "S1B")
+
+
+def couette_scheme(name, coarsenings=0):
+    """The `CouetteScheme` of a name; on a grid `coarsenings` times coarser one with the same error.
+
+    The leading error of a scheme of order p grows by 2^p a coarsening. So that it does not, 2^-p of the
+    scheme is taken, and the rest of one whose order is higher.
+    """
+    scheme = SCHEMES[name]
+    if coarsenings == 0:
+        return scheme
+    share = (2.0 if name in FIRST_ORDER else 4.0) ** -coarsenings
+    near = _blended(scheme.near or scheme.leaving, _2C, share)
+    return CouetteScheme(_blended(scheme.leaving, _3B, share), _blended(scheme.entering, _3B, share), near)
+
+
+def _blended(terms, others, share):
+    """Terms of `share` of a flow and the rest of another."""
+    return (*((share * c, a, b) for c, a, b in terms), *(((1.0 - share) * c, a, b) for c, a, b in others))
+
+
 def nodes_of(terms):
     """Node positions at which a flow depends on pressure or gap."""
     return {node for _, a, b in terms for node in (a, b)}

@@ -6,7 +6,7 @@ for both kinds of flow, which is the whole of the no-flow half of the interface 
 
 import numpy as np
 
-from mgehl.discretization.couette import SCHEMES, SHIFT, E, W, add_couette, nodes_of
+from mgehl.discretization.couette import SHIFT, E, W, add_couette, couette_scheme, nodes_of
 from mgehl.discretization.fluid import face_mean
 from mgehl.discretization.status import WALL, is_solid, open_faces
 
@@ -35,7 +35,7 @@ def flows(fluid, status, axis, scheme, linearised=False, rigid=False):
     `fluid` and `status` are ghosted; the two are one object for a conservative scheme. Derivatives only
     if they are to be `linearised`, by H unless `rigid`.
     """
-    table, derivatives = SCHEMES[scheme.couette], (linearised, rigid)
+    table, derivatives = couette_scheme(scheme.couette, scheme.coarsenings), (linearised, rigid)
     leaving = _flow(fluid, status, axis, scheme, table.leaving, table.near, *derivatives)
     if table.conservative or not axis.couette:
         return leaving, leaving

@@ -25,6 +25,12 @@ class Linearisation:
     eps: np.ndarray
     """The nodes' mobility, (lines, nx): it tells a smoother where the Poiseuille flow is weak."""
 
+    def turned(self, turn):
+        """That of an elastic gap with X and Y exchanged; `turn` does that to an array of nodes."""
+        offsets = np.ascontiguousarray(self.offsets[:, ::-1])
+        A, B = (np.stack([turn(array) for array in stencil]) for stencil in (self.A, self.B))
+        return Linearisation(offsets, A, B, turn(self.eps))
+
 
 def residual(evaluation, rows, storage=None):
     """The row of the nonlinear residual that each node has, (lines, nx) as `rows`.

@@ -20,8 +20,16 @@ class Scheme:
     and +Y; (-1, 0) is a wedge's plate that moves against it."""
     contact_law: ContactLaw = InterfaceConditions()
     """What happens where a gap closes."""
+    coarsenings: int = 0
+    """How many times coarser than the grid it approximates the grid is, where the truncation error of the
+    Couette flow is to be that grid's (`couette.couette_scheme`)."""
     cavitation: bool = True
     """False lets the fluid's pressure be negative."""
+
+    @property
+    def is_oblique(self):
+        """True where the surfaces move at an angle to both axes."""
+        return self.motion[0] != 0.0 and self.motion[1] != 0.0
 
 
 INTERFACES = ("closed", "untreated")

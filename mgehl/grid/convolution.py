@@ -12,6 +12,7 @@ from mpi4py import MPI
 
 from mgehl.discretization.influence import influence_coefficients
 from mgehl.grid.events import DEFLECTION, event
+from mgehl.grid.transpose import Transpose
 
 THREADS = 1
 """Of an FFT: the ranks share the work."""
@@ -49,7 +50,7 @@ class _Convolution:
     def __init__(self, grid, kernel):
         self.grid = grid
         mesh, (lines, nx) = grid.mesh, grid.shape
-        self._transpose = Transpose(grid.team, grid.team_starts, nx)
+        self._transpose = Transpose(grid, MPI.COMPLEX16)
         columns = self._transpose.columns
         plan = {"flags": FIXED if mesh.is_line else TIMED, "threads": THREADS}
         self._x_real = pyfftw.zeros_aligned((lines, 2 * (nx - 1)))
@@ -100,51 +101,3 @@ def _along_y(modes, direction, plan):
     if modes.shape[1] == 0:
         return lambda: None
     return pyfftw.FFTW(modes, modes, axes=(0,), direction=direction, **plan).execute
-
-
-class Transpose:
-    """Between lines (all columns of some lines) and columns (all lines of some columns).
-
-    The lines follow the multigrid hierarchy's ownership, which block-distributing transpose
-    libraries cannot express; the exchange itself is one MPI_Alltoallw.
-    """
-
-    def __init__(self, comm, line_starts, columns):
-        self._comm = comm
-        bounds = np.linspace(0, columns, comm.size + 1).astype(int)
-        lines = np.diff(line_starts)
-        my_lines, my_columns = int(lines[comm.rank]), int(bounds[comm.rank + 1] - bounds[comm.rank])
-        self.columns = my_columns
-        whole_lines, whole_columns = (my_lines, columns), (int(line_starts[-1]), my_columns)
-        self._line_parts, self._column_parts = [], []
-        for rank in range(comm.size):
-            width = int(bounds[rank + 1] - bounds[rank])
-            self._line_parts.append(_part(whole_lines, (my_lines, width), (0, int(bounds[rank]))))
-            height = int(lines[rank])
-            self._column_parts.append(
-                _part(whole_columns, (height, my_columns), (int(line_starts[rank]), 0))
-            )
-
-    def destroy(self):
-        """Free the MPI datatypes."""
-        for part in (*self._line_parts, *self._column_parts):
-            part.Free()
-
-    def to_columns(self, by_lines, by_columns):
-        """Send lines, receive columns: (my lines, columns) to (all lines, my columns)."""
-        self._exchange(by_lines, self._line_parts, by_columns, self._column_parts)
-
-    def to_lines(self, by_columns, by_lines):
-        """The way back."""
-        self._exchange(by_columns, self._column_parts, by_lines, self._line_parts)
-
-    def _exchange(self, source, source_parts, target, target_parts):
-        if self._comm.size == 1:
-            np.copyto(target, source)
-        else:
-            ones, zeros = [1] * self._comm.size, [0] * self._comm.size
-            self._comm.Alltoallw([source, ones, zeros, source_parts], [target, ones, zeros, target_parts])
-
-
-def _part(whole, part, start):
-    return MPI.COMPLEX16.Create_subarray(whole, part, start).Commit()

@@ -3,7 +3,10 @@
 Coarse operators are rediscretised with P, H and status injected from the fine grid, and always
 with the arithmetic mean of the mobility: coarse neighbours differ by so much that a mean which
 vanishes with either side closes faces the fine grid has open (measured: thin films by the
-geometric mean take 4 iterations so, and 21 with its own mean on every grid). The
+geometric mean take 4 iterations so, and 21 with its own mean on every grid). Where the
+surfaces move at an angle to the lines, coarse Couette flows have the finest grid's truncation error:
+waves across the motion would be carried along otherwise than there, and a coarse grid's correction of
+them would be a fraction of what it should be. The
 border travels with the residual, so H0 is corrected by the direct solve on the coarsest grid
 and the cycle needs no second solve for its column.
 """
@@ -19,7 +22,7 @@ from mgehl.discretization.evaluation import Evaluation
 from mgehl.grid.transfers import PartitionedTransfer
 from mgehl.multigrid.coarse import CoarseSolve
 from mgehl.multigrid.jacobian import Jacobian
-from mgehl.multigrid.smoother import LineSmoother, RigidLineSmoother
+from mgehl.multigrid.smoother import CrossedLineSmoother, LineSmoother, RigidLineSmoother
 
 LARGE_GRID, RESTART_OF_LARGE = 10_000_000, 6
 """Nodes from which on GMRES is restarted, after so many iterations: it keeps two vectors of each, and
@@ -78,10 +81,9 @@ class MultigridSolver:
         grids, deflections = hierarchy.grids[: level + 1], hierarchy.deflections[: level + 1]
         if rigid:
             deflections = [None] * len(grids)
-        coarse = replace(self._scheme, face_mobility="arithmetic")
         self.jacobians = [
-            Jacobian(grid, deflection, contact, self._scheme if grid is grids[-1] else coarse)
-            for grid, deflection in zip(grids, deflections, strict=True)
+            Jacobian(grid, deflection, contact, self._scheme_of(level - number))
+            for number, (grid, deflection) in enumerate(zip(grids, deflections, strict=True))
         ]
         """Of the cycle's grids, coarsest first."""
         self.jacobian = self.jacobians[-1]
@@ -90,12 +92,23 @@ class MultigridSolver:
             self.jacobian = Jacobian(grids[-1], deflections[-1], contact, scheme)
         self._transfers = hierarchy.transfers[:level]
         self._partitioned = [PartitionedTransfer(transfer) for transfer in self._transfers]
-        smoother = RigidLineSmoother if rigid else LineSmoother
+        smoother = (
+            RigidLineSmoother if rigid else CrossedLineSmoother if scheme.is_oblique else LineSmoother
+        )
         self._smoothers = [smoother(jacobian, settings.omega) for jacobian in self.jacobians[1:]]
         self._transfer_mats = []
 
+    def _scheme_of(self, coarsenings):
+        """The scheme of the cycle's operator on a grid so many times coarser than the finest."""
+        if coarsenings == 0:
+            return self._scheme
+        coarse = replace(self._scheme, face_mobility="arithmetic")
+        return replace(coarse, coarsenings=coarsenings) if self._scheme.is_oblique else coarse
+
     def free(self):
-        """Destroy the Mats; the KSP that uses them must be destroyed before."""
+        """Destroy Mats and MPI datatypes; the KSP that uses them must be destroyed before."""
+        for smoother in self._smoothers:
+            smoother.free()
         mats = [jacobian.mat for jacobian in (*self.jacobians, self.jacobian)]
         for mat in (*self._transfer_mats, *mats):
             mat.destroy()
@@ -146,8 +159,10 @@ class MultigridSolver:
         pc.setMGType(PETSc.PC.MGType.MULTIPLICATIVE)
         self._configure_level(pc.getMGCoarseSolve(), 0, PETSc.KSP.Type.PREONLY, 1)
         for level in range(1, len(self.jacobians)):
-            smoother = pc.getMGSmoother(level)
-            self._configure_level(smoother, level, PETSc.KSP.Type.RICHARDSON, self._settings.sweeps)
+            smoother, visits = pc.getMGSmoother(level), self._smoothers[level - 1].visits
+            self._configure_level(
+                smoother, level, PETSc.KSP.Type.RICHARDSON, visits * self._settings.sweeps
+            )
             pc.setMGRestriction(level, self._transfer_mat(level, _Restriction))
             pc.setMGInterpolation(level, self._transfer_mat(level, _Interpolation))
 
