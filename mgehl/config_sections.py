@@ -51,6 +51,9 @@ class LubricantSection:
 @dataclass(frozen=True)
 class MotionSection:
     speed: float = key_field(5e-6, "entrainment speed u of the flow rho u h", "m/s", low=1e-12, high=1e3)
+    angle: float = key_field(
+        0.0, "direction in which both surfaces move, from +x towards +y", "deg", low=-360.0, high=360.0
+    )
 
 
 @dataclass(frozen=True)

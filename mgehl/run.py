@@ -17,6 +17,7 @@ from mgehl.output import files, progress, terminal
 from mgehl.output.checkpoint import Checkpoint, clear
 from mgehl.output.result import Work, summarise
 from mgehl.output.solution import Fields, Solution
+from mgehl.output.users_axes import in_users_axes
 from mgehl.output.wedge_result import summarise_wedge
 from mgehl.solver.continuation import begin
 from mgehl.solver.from_config import set_up
@@ -88,14 +89,14 @@ def _solve_loaded(config, parts, comm, watch, start):
         monitor = progress.Progress(kind, contact.film_scale, hierarchy, tolerance, watch.speaker)
         method = begin if by_newton else single_loop
         if start:
-            method = partial(solve_from, start=start)
+            method = partial(solve_from, start=start, frame=parts.frame)
         journal = NOTHING_KEPT
         if watch.directory:
             journal = Checkpoint(watch.directory, config, monitor, watch.save_every, watch.stop)
         problem, outcome = method(hierarchy, contact, settings, monitor=monitor, journal=journal)
         work = Work(monitor.convolutions, monitor.steps if by_newton else outcome.cycles[-1].step)
         result = summarise(problem, outcome, tolerance, work, monitor.seconds, versions())
-        return _solution(config, contact, problem, outcome.state, monitor.rows, result)
+        return _solution(config, parts, problem, outcome.state, monitor.rows, result)
     finally:
         hierarchy.destroy()
 
@@ -119,17 +120,18 @@ def _solve_bearing(config, parts, comm, watch):
         rows = progress.wedge_rows(parts.mesh.nx, outcome.cycles)
         for row in rows:
             watch.speaker.row(row, progress.wedge_line(row))
-        return _solution(config, bearing, problem, outcome.state, rows, result)
+        return _solution(config, parts, problem, outcome.state, rows, result)
     finally:
         grid.destroy()
 
 
-def _solution(config, contact, problem, state, rows, result):
+def _solution(config, parts, problem, state, rows, result):
     """The `Solution` of a final state (collective)."""
     local = Fields(state.P, state.H, state.status)
     grid = problem.grid
     whole = local.gathered(grid)
-    return Solution(config, contact, grid.mesh, whole, rows, result, state.H0, local, grid.first)
+    solution = Solution(config, parts.contact, grid.mesh, whole, rows, result, state.H0, local, grid.first)
+    return in_users_axes(solution, parts.frame, grid)
 
 
 def versions():

@@ -45,10 +45,10 @@ def _described(config, contact, mesh):
     yield from config.kind.lines(config, contact, mesh)
     if contact.is_loaded:
         yield ""
-        yield from _inlet(config, contact)
+        yield from _inlet(config, contact, mesh)
 
 
-def _inlet(config, contact):
+def _inlet(config, contact, mesh):
     """Lines about the inlet on every grid."""
     from mgehl.output.forecast import LARGEST_NODES, inlet_grids
     from mgehl.output.resolution import RESOLVED_CELLS, expectation, resolving_nodes
@@ -57,7 +57,7 @@ def _inlet(config, contact):
     for grid in grids:
         at = "" if grid.speed is None else f"   solved at {1e3 * grid.speed:.4g} mm/s"
         yield f"grid {grid.nodes:5d}   {grid.cells:8.2f} cells in the inlet{at}"
-    needed = resolving_nodes(config, contact)
+    needed = resolving_nodes(contact, mesh)
     cells, start = grids[-1].cells, config.solver.start
     yield ""
     yield f"expected   from a {start} start, {expectation(cells, start)}"

@@ -65,6 +65,12 @@ class Mesh:
         """The mesh of every other node."""
         return replace(self, nx=(self.nx + 1) // 2, ny=(self.ny + 1) // 2)
 
+    def in_frame(self, frame):
+        """The same nodes in a `Frame`."""
+        x, y = frame.intervals(self.x, self.y)
+        nx, ny = frame.pair(self.nx, self.ny)
+        return replace(self, nx=nx, ny=ny, x=x, y=y, k_e=1.0 / self.k_e if frame.exchanged else self.k_e)
+
     def nearest(self, X, Y):
         """Indices (i, j) of the node nearest to a point."""
         return int(np.abs(self.X - X).argmin()), int(np.abs(self.Y - Y).argmin())

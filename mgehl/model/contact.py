@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from math import sqrt
 
 from mgehl.model import films
+from mgehl.model.frame import Frame
 from mgehl.model.hertz import edge_gap_coefficient, hertz_pressure
 
 
@@ -35,6 +36,8 @@ class LoadedContact:
     motion = (1.0, 0.0)
     """The surfaces move towards +X."""
 
+    frame = Frame()
+    """The axes in which it is solved."""
     surface = None
     """An `OwnSurface` of the body that stands still."""
     deformation = None
@@ -58,6 +61,10 @@ class LoadedContact:
         """Pressure to start from: that of Hertz, `widening` times as wide."""
         wide = self.widening
         return hertz_pressure(X / wide, Y / wide) / wide**2
+
+    def in_frame(self, frame):
+        """The same contact, described in a `Frame`."""
+        return self
 
     def at_speed(self, speed):
         """The same contact at another entrainment speed (m/s)."""
@@ -116,9 +123,17 @@ class LoadedContact:
         """Length of the zone that builds the film, in units of a: s* = (h/C)^(2/3)."""
         return (self.grubin_film / self._edge_gap) ** (2.0 / 3.0)
 
-    def matched_speed(self, dX, cells):
-        """Lowest speed not below `speed` that keeps `cells` cells of size dX in the inlet.
+    def cell_along_motion(self, mesh):
+        """Length of a mesh's cell in units of a, as the truncation error along the motion has it."""
+        return mesh.dX
+
+    def inlet_cells(self, mesh):
+        """Cells of a mesh that the inlet is long."""
+        return self.inlet_length / self.cell_along_motion(mesh)
+
+    def matched_speed(self, mesh, cells):
+        """Lowest speed not below `speed` that keeps `cells` cells of a mesh in the inlet.
 
         s* grows with the square root of u, so the speed follows in one step.
         """
-        return self.speed * max(1.0, (cells * dX / self.inlet_length) ** 2)
+        return self.speed * max(1.0, (cells / self.inlet_cells(mesh)) ** 2)

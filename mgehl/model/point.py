@@ -2,12 +2,13 @@
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import pi, sqrt
+from math import cos, pi, radians, sin, sqrt
 
 from mgehl.model import films
 from mgehl.model.coating import Coating
 from mgehl.model.contact import Groups, LoadedContact
 from mgehl.model.deformation import HalfSpace, LayeredHalfSpace
+from mgehl.model.frame import Frame, SurfaceInFrame, direction
 from mgehl.model.hertz import hertz_contact, hertz_gap
 from mgehl.model.images import fit_images
 from mgehl.model.lubricant import Lubricant
@@ -15,6 +16,16 @@ from mgehl.model.own_laws import OwnCompliance, OwnSurface
 
 LOAD = 2.0 * pi / 3.0
 """Dimensionless load: the integral of P over X and Y  [Liu eq. 50]."""
+
+
+def radii_along(angle, radius_x, radius_y):
+    """Radii of curvature along and across a direction, an angle in degrees from x."""
+    if radius_x == radius_y:
+        return radius_x, radius_y
+    frame, acute = Frame.of(angle)
+    first, second = frame.pair(radius_x, radius_y)
+    c, s = cos(radians(acute)) ** 2, sin(radians(acute)) ** 2
+    return 1.0 / (c / first + s / second), 1.0 / (s / first + c / second)
 
 
 @dataclass(frozen=True)
@@ -40,18 +51,48 @@ class PointContact(LoadedContact):
     surface: OwnSurface | None = None
     deformation: Coating | OwnCompliance | None = None
     """What the bodies are in depth, if not half-spaces of the reduced modulus."""
+    angle: float = 0.0
+    """Direction of the motion in degrees, from +x towards +y."""
 
     load_integral = LOAD
     contact_area = pi
     """Of the Hertz ellipse in units of X and Y."""
 
     @classmethod
-    def from_moes(cls, M, L, radius_x, radius_y, reduced_modulus, lubricant, **more):
+    def from_moes(cls, M, L, radius_x, radius_y, reduced_modulus, lubricant, angle=0.0, **more):
         """The contact with Moes numbers M and L: load and speed follow from the rest."""
         two_U = (L / (lubricant.pressure_viscosity * reduced_modulus)) ** 4
-        load = M * two_U**0.75 * reduced_modulus * radius_x**2
-        speed = 0.5 * two_U * reduced_modulus * radius_x / lubricant.viscosity
-        return cls(load, radius_x, radius_y, reduced_modulus, speed, lubricant, **more)
+        along, _ = radii_along(angle, radius_x, radius_y)
+        load = M * two_U**0.75 * reduced_modulus * along**2
+        speed = 0.5 * two_U * reduced_modulus * along / lubricant.viscosity
+        return cls(load, radius_x, radius_y, reduced_modulus, speed, lubricant, angle=angle, **more)
+
+    @property
+    def motion(self):
+        """Parts of the surfaces' velocity along x and y, in units of the speed."""
+        return direction(self.angle)
+
+    @property
+    def frame(self):
+        """The `Frame` in which it is solved."""
+        return Frame.of(self.angle)[0]
+
+    @cached_property
+    def aligned(self):
+        """The contact with the same curvatures along and across the motion: what formulas know."""
+        if self.angle == 0.0:
+            return self
+        along, across = radii_along(self.angle, self.radius_x, self.radius_y)
+        return replace(self, radius_x=along, radius_y=across, angle=0.0)
+
+    def in_frame(self, frame):
+        """The same contact described in a `Frame` in which the motion has an angle of 0 to 45 degrees."""
+        if frame == Frame():
+            return self
+        radius_x, radius_y = frame.pair(self.radius_x, self.radius_y)
+        surface = self.surface and SurfaceInFrame(self.surface, frame)
+        angle = Frame.of(self.angle)[1]
+        return replace(self, radius_x=radius_x, radius_y=radius_y, surface=surface, angle=angle)
 
     @cached_property
     def hertz(self):
@@ -96,7 +137,13 @@ class PointContact(LoadedContact):
     @property
     def inlet_length(self):
         """As that of any contact, in units of a; of layered bodies an estimate."""
-        return super(PointContact, self._likeness).inlet_length * self.widening
+        like = self.aligned._likeness
+        return super(PointContact, like).inlet_length * self.widening * like.hertz.a / self.hertz.a
+
+    def cell_along_motion(self, mesh):
+        """|c|^3 dX + |s|^3 dY/k_e of a motion along (c, s): twice the diffusion along it of scheme 1B."""
+        c, s = (abs(part) for part in self.motion)
+        return c**3 * mesh.dX + s**3 * mesh.dY / self.k_e
 
     def smooth_gap(self, X, Y):
         """The paraboloid x^2/2R_x + y^2/2R_y in units of H  [Liu eq. 48]."""
@@ -110,25 +157,33 @@ class PointContact(LoadedContact):
 
     @property
     def groups(self):
-        """U, W, G from the dimensional values, and Moes' M and L."""
-        U = self.lubricant.viscosity * self.speed / (self.reduced_modulus * self.radius_x)
-        W = self.load / (self.reduced_modulus * self.radius_x**2)
+        """U, W, G by the radius along the motion, and Moes' M and L."""
+        radius = self.aligned.radius_x
+        U = self.lubricant.viscosity * self.speed / (self.reduced_modulus * radius)
+        W = self.load / (self.reduced_modulus * radius**2)
         G = self.lubricant.pressure_viscosity * self.reduced_modulus
         return Groups(U, W, G, M=W * (2.0 * U) ** -0.75, L=G * (2.0 * U) ** 0.25)
 
     @property
     def formulas(self):
         """What the film formulas say of this contact."""
-        central, minimum = films.hamrock_dowson(self.groups, self.radius_x, 1.0 / self.k_e)
-        moes = films.nijenbanning_venner_moes(self.groups, self.radius_x, self.radius_y)
-        return PointFormulas(central, minimum, moes, self.grubin_film)
+        like = self.aligned
+        central, minimum = films.hamrock_dowson(self.groups, like.radius_x, 1.0 / like.k_e)
+        moes = films.nijenbanning_venner_moes(self.groups, like.radius_x, like.radius_y)
+        return PointFormulas(central, minimum, moes, like.grubin_film)
+
+    @property
+    def moes_scale(self):
+        """H_Moes = (h/R)(2U)^(-1/2) per metre of film, R the radius along the motion."""
+        return super(PointContact, self.aligned).moes_scale
 
     @property
     def regime(self):
         """Whether bodies and viscosity answer to the pressure, by Moes' asymptotes."""
-        return films.regime(*films.point_asymptotes(self.groups, self.radius_x / self.radius_y))
+        like = self.aligned
+        return films.regime(*films.point_asymptotes(self.groups, like.radius_x / like.radius_y))
 
     @property
     def expected_film(self):
         """Central film in metres to start from."""
-        return self._likeness.formulas.hamrock_dowson_central
+        return self.aligned._likeness.formulas.hamrock_dowson_central

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mgehl.model.frame import Frame
 from mgehl.model.lubricant import ConstantDensity, ConstantViscosity, Lubricant
 
 MM = 1e-3
@@ -61,6 +62,11 @@ class WedgeBearing:
     """Reynolds coefficient of d(H^3 dP/dX)/dX = 6 dH/dX."""
     x_scale = y_scale = MM
     k_e = 1.0
+    frame = Frame()
+
+    def in_frame(self, frame):
+        """Itself: a bearing is solved in the user's axes."""
+        return self
 
     @property
     def motion(self):

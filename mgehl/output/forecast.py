@@ -74,7 +74,7 @@ def inlet_grids(config, contact):
         meshes.insert(0, meshes[0].coarsened())
     solves = planned_solves(meshes, contact, settings_from(config, contact))
     speeds = {solve.nodes: solve.speed for _, solve in solves}
-    return [InletGrid(mesh.nx, contact.inlet_length / mesh.dX, speeds.get(mesh.nx)) for mesh in meshes]
+    return [InletGrid(mesh.nx, contact.inlet_cells(mesh), speeds.get(mesh.nx)) for mesh in meshes]
 
 
 def forecast(config, contact, mesh, ranks):

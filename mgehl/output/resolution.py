@@ -25,16 +25,16 @@ class Resolution:
 
 def resolution(contact, mesh):
     """The `Resolution` of a loaded contact's inlet by a mesh."""
-    cells = contact.inlet_length / mesh.dX
+    cells = contact.inlet_cells(mesh)
     if cells >= RESOLVED_CELLS:
         return Resolution(cells, "resolved")
     return Resolution(cells, "coarse" if cells >= SEEN_CELLS else "grid-determined")
 
 
-def resolving_nodes(config, contact):
-    """Nodes along each side, 2^k + 1, that give the inlet `RESOLVED_CELLS`."""
-    length, nodes = config.grid.x[1] - config.grid.x[0], COARSEST_NODES
-    while contact.inlet_length * (nodes - 1) / length < RESOLVED_CELLS:
+def resolving_nodes(contact, mesh):
+    """Nodes along each side, 2^k + 1, that give the inlet `RESOLVED_CELLS` on the domain of a mesh."""
+    nodes = COARSEST_NODES
+    while contact.inlet_cells(mesh) * (nodes - 1) / (mesh.nx - 1) < RESOLVED_CELLS:
         nodes = 2 * nodes - 1
     return nodes
 

@@ -87,8 +87,8 @@ class Continuation:
         From the formula's film Newton's method does not find its way; from the arithmetic mean's
         solution it does, and from there to the wanted speed.
         """
-        dX = self._hierarchy.grids[-1].mesh.dX
-        speed = contact.matched_speed(dX, settings.nested.inlet_cells)
+        mesh = self._hierarchy.grids[-1].mesh
+        speed = contact.matched_speed(mesh, settings.nested.inlet_cells)
         arithmetic = replace(settings, scheme=replace(settings.scheme, face_mobility="arithmetic"))
         problem, outcome = nested_iteration(
             self._hierarchy, contact.at_speed(speed), arithmetic, self._monitor, self._journal

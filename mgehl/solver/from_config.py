@@ -9,6 +9,7 @@ from mgehl.discretization.scheme import Scheme
 from mgehl.grid.hierarchy import Hierarchy
 from mgehl.kinds import contact_from, mesh_from
 from mgehl.model.contact import LoadedContact
+from mgehl.model.frame import Frame
 from mgehl.model.wedge import WedgeBearing
 from mgehl.multigrid.cycle import CycleSettings
 from mgehl.solver.relaxation import RelaxationSettings
@@ -17,11 +18,13 @@ from mgehl.solver.settings import NestedSettings, NewtonSettings, SolverSettings
 
 @dataclass(frozen=True)
 class SetUp:
-    """All that a configuration says of a solve."""
+    """All that a configuration says of a solve, in the axes in which it is solved."""
 
     contact: LoadedContact | WedgeBearing
     mesh: Mesh
     settings: SolverSettings
+    frame: Frame
+    """Those axes, beside the user's."""
 
     def hierarchy(self, comm):
         """The grids of a loaded contact on `comm` (collective); the caller destroys them."""
@@ -31,7 +34,9 @@ class SetUp:
 def set_up(config):
     """The `SetUp` of a `Config`."""
     contact = contact_from(config)
-    return SetUp(contact, mesh_from(config, contact), settings_from(config, contact))
+    frame, mesh = contact.frame, mesh_from(config, contact)
+    contact = contact.in_frame(frame)
+    return SetUp(contact, mesh.in_frame(frame), settings_from(config, contact), frame)
 
 
 def scheme_from(config, contact):

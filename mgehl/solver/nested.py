@@ -92,7 +92,7 @@ def planned_solves(meshes, contact, settings):
         if level == finest:
             yield level, LevelSolve(mesh.nx, contact.speed, True)
         elif mesh.nx >= nested.first_nodes and not alone:
-            yield level, LevelSolve(mesh.nx, contact.matched_speed(mesh.dX, nested.inlet_cells), False)
+            yield level, LevelSolve(mesh.nx, contact.matched_speed(mesh, nested.inlet_cells), False)
 
 
 def _solve_level(hierarchy, level, problem, state, limits, settings, tell, journal):

@@ -20,14 +20,14 @@ def check_start(start, kind):
         raise UserError(f"a {other} is no start for a {kind}")
 
 
-def solve_from(hierarchy, contact, settings, start, monitor, journal):
+def solve_from(hierarchy, contact, settings, start, frame, monitor, journal):
     """Solve on the finest grid from another run's fields; otherwise as `nested_iteration`.
 
-    `start` is a `Solution` whose whole fields rank 0 has. From another speed the solution is
-    carried here, in smaller steps where one is too large.
+    `start` is a `Solution` whose whole fields rank 0 has; the contact is one in a `Frame`. From another
+    speed it is carried here, in smaller steps where one is too large.
     """
     problem = ContactProblem(hierarchy.grids[-1], hierarchy.deflections[-1], contact, settings.scheme)
-    state = interpolated(problem, start)
+    state = interpolated(problem, start, frame)
     if settings.method != "newton-mg":
         tell = partial(monitor, LevelSolve(problem.grid.mesh.nx, contact.speed, True))
         return problem, relax(problem, state, settings.relaxation, tell, journal)
@@ -38,8 +38,8 @@ def solve_from(hierarchy, contact, settings, start, monitor, journal):
     return continuation.follow(state, speed, contact.speed)
 
 
-def interpolated(problem, start):
-    """The fields of a `Solution` as a `State` of this problem (collective).
+def interpolated(problem, start, frame):
+    """The fields of a `Solution` as a `State` of this problem in a `Frame` (collective).
 
     P is bilinear in X and Y, zero outside of what was solved; a node is in contact where most of
     its surroundings were.
@@ -47,12 +47,14 @@ def interpolated(problem, start):
     grid, mesh = problem.grid, problem.grid.mesh
     P = status = None
     if grid.comm.rank == 0:
-        in_contact = (start.fields.status == CONTACT).astype(float)
-        P = _onto(mesh, start.mesh, start.fields.P)
+        old = start.mesh.in_frame(frame)
+        in_contact = frame.array((start.fields.status == CONTACT).astype(float))
+        P = _onto(mesh, old, frame.array(start.fields.P))
         film = np.where((P > 0.0) | (not problem.scheme.cavitation), LUBRICATED, CAVITATED)
-        touching = (_onto(mesh, start.mesh, in_contact) > 0.5) & problem.scheme.contact_law.has_contact
+        touching = (_onto(mesh, old, in_contact) > 0.5) & problem.scheme.contact_law.has_contact
         status = np.where(touching, CONTACT, film).astype(np.int8)
-    H0 = grid.comm.bcast(start.H0)
+    scale = start.contact.film_scale / start.contact.in_frame(frame).film_scale
+    H0 = scale * grid.comm.bcast(start.H0)
     return problem.state(grid.scatter(P), H0, grid.scatter(status))
 
 

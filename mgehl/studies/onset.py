@@ -109,7 +109,7 @@ def _of_side(rows, beyond):
 
 def _down(branches):
     """The bracket of the speed at which contact appears."""
-    fastest = branches.contact.at_speed(1e-9).matched_speed(branches.mesh.dX, FIRST_CELLS)
+    fastest = branches.contact.at_speed(1e-9).matched_speed(branches.mesh, FIRST_CELLS)
     return branches.bracket("down", _way(fastest, 1.0 / STEP), _has_contact, PRECISION)
 
 

@@ -1,0 +1,53 @@
+"""What was solved in a `Frame` as the user sees it: his axes, his scales, his nodes."""
+
+from dataclasses import replace
+
+from mgehl.kinds import contact_from, mesh_from
+from mgehl.model.frame import Frame
+from mgehl.output.solution import Fields
+
+
+def in_users_axes(solution, frame, grid):
+    """A `Solution` found in a frame, on `grid`, in the user's axes (collective)."""
+    if frame == Frame():
+        return solution
+    contact = contact_from(solution.config)
+    scale = solution.contact.film_scale / contact.film_scale
+    fields = None
+    if solution.fields is not None:
+        P, H, status = map(frame.users_array, _arrays(solution.fields))
+        fields = Fields(P, scale * H, status)
+    # A point contact has as many lines as nodes in a line: they are dealt out as before.
+    local = Fields(*(grid.scatter(array) for array in (_arrays(fields) if fields else 3 * (None,))))
+    return replace(
+        solution,
+        contact=contact,
+        mesh=mesh_from(solution.config, contact),
+        fields=fields,
+        result=_result(solution.result, frame, solution.mesh),
+        H0=scale * solution.H0,
+        local=local,
+    )
+
+
+def _arrays(fields):
+    return fields.P, fields.H, fields.status
+
+
+def _result(result, frame, mesh):
+    """The `Result` with the numbers of nodes that the user counts."""
+
+    def at(node):
+        i, j = node["i"], node["j"]
+        x, y = frame.users_node(i, j, mesh.nx, mesh.ny)
+        sides = node.get("neighbours")
+        return node | {"i": x, "j": y} | ({"neighbours": list(frame.users_sides(*sides))} if sides else {})
+
+    x_nodes, y_nodes = frame.users_ranges(result.contact.x_nodes, result.contact.y_nodes, mesh.nx, mesh.ny)
+    inequality = result.pressure_inequality
+    return replace(
+        result,
+        contact=replace(result.contact, x_nodes=x_nodes, y_nodes=y_nodes),
+        pressure_inequality=replace(inequality, nodes=[at(node) for node in inequality.nodes]),
+        contradictions=[at(node) for node in result.contradictions],
+    )
