@@ -80,11 +80,12 @@ def tiny_problem(make_problem):
     return make_problem(nodes=9)
 
 
-def usual_contact_law(contact):
-    """The interface conditions with the configuration's default H_th, 0.02 nm."""
+@pytest.fixture
+def usual_law():
+    """Function: a contact's interface conditions with the configuration's default H_th, 0.02 nm."""
     from mgehl.discretization.contact_law import InterfaceConditions
 
-    return InterfaceConditions(0.02e-9 / contact.film_scale)
+    return lambda contact: InterfaceConditions(0.02e-9 / contact.film_scale)
 
 
 @dataclass
@@ -109,7 +110,7 @@ class Solution:
 
 
 @pytest.fixture
-def solve(make_hierarchy):
+def solve(make_hierarchy, usual_law):
     """Function that solves a contact by nested iteration and returns a `Solution`."""
     from mgehl.discretization.scheme import Scheme
     from mgehl.solver.nested import nested_iteration
@@ -117,7 +118,7 @@ def solve(make_hierarchy):
 
     def run(contact, nodes, start="film", couette="1B", newton=None, **grid):
         settings = SolverSettings(
-            scheme=Scheme(couette, contact_law=usual_contact_law(contact)),
+            scheme=Scheme(couette, contact_law=usual_law(contact)),
             nested=NestedSettings(start=start),
             newton=NewtonSettings(**(newton or {})),
         )

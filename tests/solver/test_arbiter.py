@@ -1,115 +1,101 @@
 """Eq. 2 as the arbiter between settled partitions."""
 
+from copy import deepcopy
+
 import numpy as np
 import pytest
 
 from mgehl.discretization.kernels import build_bands
 from mgehl.discretization.status import BOUNDARY, CONTACT, LUBRICATED
-from mgehl.solver.arbiter import (
-    EARLY,
-    EARLY_ROUNDS,
-    RELEASE_STEPS,
-    arbitrate,
-    closed_again,
-    release_early,
-    restore_answer,
-)
-from mgehl.solver.newton import Newton
-from mgehl.solver.outcome import Answer, Cycle, Outcome, Position
-from mgehl.solver.partition import Changes, Contradiction, Partition
+from mgehl.multigrid.cycle import MultigridSolver
+from mgehl.solver.arbiter import EARLY, EARLY_ROUNDS, Ruling, rule
+from mgehl.solver.judge import GO_ON, Verdict
+from mgehl.solver.outcome import Cycle
+from mgehl.solver.partition import Changes, Partition
+from mgehl.solver.position import Position, Trial
 from mgehl.solver.problem import State
 from mgehl.solver.verification import check_pressure_inequality, complementarity_error
 
 NODES = [(3, 3), (3, 4), (5, 5)]
 """Contact in a film of P = 0.5: the first two lie under it, the third above."""
 
-
-@pytest.fixture
-def partition(tiny_problem):
-    return Partition(tiny_problem, 0.0, 1)
+SETTLED, GIVEN_UP = Verdict(True, True, "settled"), Verdict(True, False, "given up")
 
 
 @pytest.fixture
-def make_position(tiny_problem, partition):
-    """Factory of the position of a solve with three contact nodes, two of which break Eq. 2."""
+def ruling(tiny_problem):
+    """Function: the ruling on a solve with three contact nodes, two of which break Eq. 2.
 
-    def make(converged=True, residual=1e-9, step=7, **fields):
+    `before` are the violations of an answer kept from before; nothing is changed by asking.
+    """
+
+    def ask(verdict, before=None, budget=1, residual=1e-9, released=2, entered=0, apart=False, **fields):
+        partition = Partition(tiny_problem, budget)
         status = np.where(tiny_problem.boundary, BOUNDARY, LUBRICATED).astype(np.int8)
         P = np.where(tiny_problem.boundary, 0.0, 0.5)
         for node, pressure in zip(NODES, (0.4, 0.4, 0.6), strict=True):
             status[node], P[node] = CONTACT, pressure
-        outcome = Outcome(State(P, 0.0, np.ones(P.shape), status), converged, "settled")
-        outcome.cycles.append(Cycle(step, residual, 0.0, 1.0, 1.0, 3, 0, Changes()))
-        return Position(outcome, partition.past, 60, **fields)
+        state = State(P, 0.0, np.ones(P.shape), status)
+        cycle = Cycle(7, residual, 0.0, 1.0, 1.0, 3, 0, Changes())
+        trial = None if before is None else Trial(state.copy(), "before", before, released, 15, entered)
+        position = Position(state, partition.past, [cycle], trial=trial, **fields)
+        kept = deepcopy(position)
+        found = rule(position, verdict, partition, apart)
+        np.testing.assert_array_equal(position.state.status, kept.state.status)
+        np.testing.assert_array_equal(position.state.P, kept.state.P)
+        np.testing.assert_array_equal(position.past.budget, kept.past.budget)
+        assert (position.changes, position.early_rounds) == (kept.changes, kept.early_rounds)
+        return found
 
-    return make
+    return ask
 
 
 class TestAfterTheLastDigit:
-    def test_what_breaks_eq_2_is_let_go_and_the_state_is_kept(self, partition, make_position):
-        now = make_position(entered=5)
-        settled = now.outcome.state.copy()
-        assert arbitrate(partition, now, 60)
-        assert (now.answer.violations, now.answer.reason) == (2, "settled")
-        np.testing.assert_array_equal(now.answer.state.status, settled.status)
-        assert [now.outcome.state.status[node] for node in NODES] == [LUBRICATED, LUBRICATED, CONTACT]
-        assert (now.released, now.entered, now.changes.released) == (2, 0, 2)
-        assert not now.outcome.converged
-        assert now.limit == 7 + RELEASE_STEPS
+    def test_what_breaks_eq_2_is_to_be_let_go(self, ruling):
+        assert ruling(SETTLED) is Ruling.TRY_RELEASE
 
-    def test_never_for_more_steps_than_the_solve_has(self, partition, make_position):
-        now = make_position(step=55)
-        assert arbitrate(partition, now, 60) and now.limit == 60
+    def test_without_budget_it_is_accepted(self, ruling):
+        assert ruling(SETTLED, budget=0) is Ruling.ACCEPT
 
-    def test_what_is_not_settled_is_no_answer(self, partition, make_position):
-        now = make_position(converged=False, released=4)
-        assert not arbitrate(partition, now, 60)
-        assert now.answer is None and now.released == 0 and now.changes.total == 0
+    @pytest.mark.parametrize(
+        "before, expected", [(1, Ruling.KEEP), (2, Ruling.KEEP), (3, Ruling.TRY_RELEASE)]
+    )
+    def test_the_answer_is_the_one_with_fewer_violations(self, ruling, before, expected):
+        assert ruling(SETTLED, before) is expected
 
-    @pytest.mark.parametrize("before, kept", [(1, 1), (2, 2), (3, 2)])
-    def test_the_answer_is_the_one_with_fewer_violations(self, partition, make_position, before, kept):
-        now = make_position()
-        now.answer = Answer(now.outcome.state.copy(), "before", before)
-        better = arbitrate(partition, now, 60)
-        assert better == (before == 3)
-        assert now.answer.violations == kept
-        assert (now.answer.reason == "before") == (not better)
-        assert not now.outcome.converged
+    def test_the_better_one_is_accepted_where_nothing_may_be_let_go(self, ruling):
+        assert ruling(SETTLED, 3, budget=0) is Ruling.ACCEPT
 
-    def test_without_budget_it_ends_there(self, tiny_problem, make_position):
-        now = make_position()
-        assert not arbitrate(Partition(tiny_problem, 0.0, 0), now, 60)
-        assert now.outcome.converged and now.answer.violations == 2
+    def test_what_did_not_settle_is_no_answer(self, ruling):
+        assert ruling(GIVEN_UP) is Ruling.GIVE_UP
+        assert ruling(GIVEN_UP, before=3) is Ruling.KEEP
 
 
-class TestBeforeTheLastDigits:
+class TestOnTheWay:
+    def test_it_goes_on(self, ruling):
+        assert ruling(GO_ON) is Ruling.GO_ON
+
+    @pytest.mark.parametrize("apart", [True, False])
+    def test_where_the_fluid_is_solved_apart_eq_2_is_asked_early(self, ruling, apart):
+        expected = Ruling.RELEASE_EARLY if apart else Ruling.GO_ON
+        assert ruling(GO_ON, residual=0.5 * EARLY, apart=apart) is expected
+
     @pytest.mark.parametrize("residual, rounds", [(2.0 * EARLY, 0), (0.5 * EARLY, EARLY_ROUNDS)])
-    def test_not_too_early_and_not_for_ever(self, partition, make_position, residual, rounds):
-        now = make_position(residual=residual, early_rounds=rounds)
-        assert not release_early(partition, now)
-        assert now.changes.total == 0 and now.early_rounds == rounds
+    def test_not_too_early_and_not_for_ever(self, ruling, residual, rounds):
+        assert ruling(GO_ON, residual=residual, apart=True, early_rounds=rounds) is Ruling.GO_ON
 
-    def test_a_round_is_counted_where_something_was_let_go(self, partition, make_position):
-        now = make_position(residual=0.5 * EARLY)
-        assert release_early(partition, now)
-        assert (now.early_rounds, now.changes.released, now.answer) == (1, 2, None)
-        assert not release_early(partition, now)  # the third node satisfies it
-        assert (now.early_rounds, now.changes.released) == (1, 2)
+    def test_not_where_nothing_may_be_let_go(self, ruling):
+        assert ruling(GO_ON, residual=0.5 * EARLY, apart=True, budget=0) is Ruling.GO_ON
 
-
-@pytest.mark.parametrize("released, entered, closed", [(0, 0, False), (3, 2, False), (3, 3, True)])
-def test_what_was_let_go_has_closed_again(make_position, released, entered, closed):
-    assert closed_again(make_position(released=released, entered=entered)) == closed
+    @pytest.mark.parametrize("released, entered, closed", [(3, 0, False), (3, 2, False), (3, 3, True)])
+    def test_a_trial_ends_when_what_was_let_go_has_closed_again(self, ruling, released, entered, closed):
+        found = ruling(GO_ON, 2, released=released, entered=entered)
+        assert found is (Ruling.KEEP if closed else Ruling.GO_ON)
 
 
-def test_a_kept_answer_becomes_the_outcome(make_position):
-    now = make_position(converged=False)
-    now.outcome.contradictions = [Contradiction(4, 4, 0.0, -0.1, ("film",) * 4)]
-    now.answer = Answer(now.outcome.state.copy(), "settled before", 2)
-    restore_answer(now)
-    outcome = now.outcome
-    assert outcome.state is now.answer.state
-    assert (outcome.converged, outcome.reason, outcome.contradictions) == (True, "settled before", [])
+@pytest.mark.parametrize("each", Ruling)
+def test_a_ruling_ends_it_or_says_what_to_do(each):
+    assert each.ends == (each in (Ruling.ACCEPT, Ruling.KEEP, Ruling.GIVE_UP))
 
 
 class TestInASolve:
@@ -123,15 +109,15 @@ class TestInASolve:
     def broken(self, solution):
         """How many contact nodes violate Eq. 2."""
         state = solution.outcome.state
-        return len(check_pressure_inequality(solution.problem.grid, state.P, state.status).violations)
+        return len(check_pressure_inequality(solution.problem, state).violations)
 
     def assert_settled(self, solution):
         problem, outcome = solution.problem, solution.outcome
         state = problem.state(outcome.state.P, outcome.state.H0, outcome.state.status)
         assert outcome.converged and outcome.reason == "residual, load and sets settled"
-        assert problem.rms(problem.residual(state, problem.inflow(state))) <= 1e-8
+        assert problem.rms(problem.residual(problem.evaluate(state), state.status)) <= 1e-8
         assert abs(problem.load_deficit(state.P)) <= 1e-8
-        assert complementarity_error(problem, state) <= 1e-8
+        assert complementarity_error(problem, state, problem.evaluate(state)) <= 1e-8
         assert outcome.contradictions == []
 
     def assert_same(self, solution, other):
@@ -178,23 +164,26 @@ class TestInASolve:
     ):
         """The first one after the release ends it."""
 
-        def release(partition, state):
-            released = release_violations(partition, state)
-            if released and fault == "singular":
-                monkeypatch.setattr("mgehl.discretization.bands.build_bands", build_singular)
-            elif released:
-                monkeypatch.setattr(Newton, "_correct", correct_little)
-            return released
+        ksps = []
 
-        def build_singular(A, B, distributive, kappa, share, bands):
-            build_bands(A, B, distributive, kappa, share, bands)
+        def configure(multigrid, ksp, rtol):
+            configured(multigrid, ksp, rtol)
+            ksps.append(ksp)
+
+        def release(partition, state, changes):
+            released(partition, state, changes)
+            if changes.released and fault == "singular":
+                monkeypatch.setattr("mgehl.discretization.bands.build_bands", build_singular)
+            elif changes.released:
+                ksps[-1].setTolerances(max_it=1)
+
+        def build_singular(*arguments):
+            build_bands(*arguments)
+            *_, bands = arguments
             bands[30, 20] = 0.0
 
-        def correct_little(newton, snes, *arguments):
-            snes.getKSP().setTolerances(max_it=1)
-            return correct(newton, snes, *arguments)
-
-        release_violations, correct = Partition.release_violations, Newton._correct
+        released, configured = Partition.release_violations, MultigridSolver.configure
+        monkeypatch.setattr(MultigridSolver, "configure", configure)
         monkeypatch.setattr(Partition, "release_violations", release)
         tried = solve(paper_contact(0.12), 65)
         assert tried.finest_steps == plain.finest_steps + 1  # the answer itself is the last line

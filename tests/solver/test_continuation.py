@@ -9,7 +9,7 @@ from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import CONTACT
 from mgehl.solver.continuation import BEYOND, Continuation, carry
 from mgehl.solver.outcome import Outcome
-from mgehl.solver.settings import NewtonSettings, SolverSettings
+from mgehl.solver.settings import SolverSettings
 
 
 class Walk:
@@ -91,9 +91,8 @@ class Followed:
     """A `Continuation` with its settings and the levels it solved on."""
 
     def __init__(self, hierarchy, contact, scheme):
-        newton = NewtonSettings(film_threshold=0.02e-9 / contact.film_scale)
         self.told = []
-        settings = SolverSettings(scheme=scheme, newton=newton)
+        settings = SolverSettings(scheme=scheme)
         tell = lambda level, cycle: self.told.append(level)  # noqa: E731
         self.continuation = Continuation(hierarchy, contact, settings, tell)
 
@@ -104,19 +103,20 @@ class Followed:
 
 
 @pytest.fixture
-def make(make_hierarchy, paper_contact):
+def make(make_hierarchy, paper_contact, usual_law):
     """Factory of `Followed` for the paper's contact on 65 nodes, made at 1 m/s."""
 
     def make(**scheme):
         contact = paper_contact()
-        return Followed(make_hierarchy(contact, 65), contact, Scheme(**scheme))
+        law = usual_law(contact)
+        return Followed(make_hierarchy(contact, 65), contact, Scheme(**scheme, contact_law=law))
 
     return make
 
 
 def true_residual(problem, state):
     state = problem.state(state.P, state.H0, state.status)
-    return problem.rms(problem.residual(state, problem.inflow(state)))
+    return problem.rms(problem.residual(problem.evaluate(state), state.status))
 
 
 def test_a_film_followed_to_another_speed_is_the_film_of_that_speed(make, solve, paper_contact):

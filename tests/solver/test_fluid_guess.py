@@ -26,7 +26,7 @@ def steps_of_first_solve(start, make_multigrid, state):
     hierarchy, problem, _, _ = start
     fluid = RigidGapFluid(problem, make_multigrid(hierarchy, problem, state, rigid=True), "test_fluid_")
     try:
-        return len(fluid.solve(state, 1e-10)) - 1
+        return len(fluid.solve(state, 1e-10).steps) - 1
     finally:
         fluid.free()
 
@@ -40,7 +40,7 @@ def test_the_fluid_is_found_in_few_steps_and_is_the_same(start, make_multigrid):
     assert steps_of_first_solve(start, make_multigrid, guessed) <= 5
     # But for nodes beside contact, that are not solved apart and that Newton's next step fills.
     other = guessed.status != plain.status
-    assert other.sum() <= 4 and (problem.inflow(guessed)[other] > 0.0).all()
+    assert other.sum() <= 4 and (problem.evaluate(guessed).inflow[other] > 0.0).all()
     np.testing.assert_allclose(guessed.P, plain.P, rtol=0.0, atol=2e-6)
 
 

@@ -7,8 +7,7 @@ import pytest
 from mpi4py import MPI
 
 from mgehl.config import config_from_tables
-from mgehl.discretization.faces import x_flows
-from mgehl.discretization.fluid import fluid_state
+from mgehl.discretization.axes import own
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
 from mgehl.model.hertz import hertz_pressure
 from mgehl.model.line import LineContact
@@ -109,7 +108,7 @@ class TestBlockedInlet:
     def test_fluid_pressure_stays_below_contact_pressure(self, blocked):
         """[Liu eq. 25]: p_f <= p_d on both sides of the interface."""
         problem, state = blocked
-        inequality = check_pressure_inequality(problem.grid, state.P, state.status)
+        inequality = check_pressure_inequality(problem, state)
         assert inequality.violations == [] and inequality.checked == 2
         i = int(np.flatnonzero(state.status[0] == CONTACT)[0])
         p_f, p_d = state.P[0, i - 1], state.P[0, i]
@@ -121,20 +120,20 @@ class TestBlockedInlet:
         (eps_i + eps_i+1)/2 (P_i+1 - P_i)/dX = rho_i H_i  [Liu eqs. 7, 31]."""
         problem, state = blocked
         mesh = problem.grid.mesh
-        fluid = fluid_state(state.P, state.H, problem.contact)
+        evaluation = problem.evaluate(state)
         first = int(np.flatnonzero(state.status[0] == CONTACT)[0])
         assert np.all(state.status[0, 1:first] == LUBRICATED)
-        leaving, entering = x_flows(fluid, state.status, mesh, problem.scheme)
-        carried = fluid.rho * state.H
+        ((leaving, _),) = evaluation.flows
+        carried = own(evaluation.fluid.rho) * state.H
         np.testing.assert_allclose(leaving.value[0, :first] / carried[0, :first], 0.0, atol=1e-7)
-        eps, P = fluid.eps[0, :first], state.P[0, :first]
+        eps, P = own(evaluation.fluid.eps)[0, :first], state.P[0, :first]
         back = 0.5 * (eps[:-1] + eps[1:]) * np.diff(P) / mesh.dX
         np.testing.assert_allclose(back, carried[0, : first - 1], rtol=1e-7)
         assert leaving.value[0, first - 1] == 0.0
-        assert closed_face_flow(problem, state) == 0.0
+        assert closed_face_flow(problem, evaluation) == 0.0
 
     def test_behind_it_there_is_a_cavity(self, blocked):
         problem, state = blocked
         last = int(np.flatnonzero(state.status[0] == CONTACT)[-1])
         assert np.all(state.status[0, last + 1 : -1] == CAVITATED)
-        assert complementarity_error(problem, state) <= 1e-9
+        assert complementarity_error(problem, state, problem.evaluate(state)) <= 1e-9

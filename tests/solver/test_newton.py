@@ -1,31 +1,41 @@
 """Newton's method on one grid."""
 
+import subprocess
+import sys
+from pathlib import Path
+
 import numpy as np
 import pytest
+from mpi4py import MPI
 
+from mgehl.config import load_config
 from mgehl.discretization.kernels import REACH, build_bands, factor_bands
+from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import CAVITATED, LUBRICATED
+from mgehl.errors import Stopped
+from mgehl.model.lubricant import Barus
+from mgehl.multigrid.cycle import MultigridSolver
+from mgehl.run import solve as solve_config
+from mgehl.solver.journal import Journal
+from mgehl.solver.judge import STALLS
 from mgehl.solver.nested import first_guess
-from mgehl.solver.newton import STALLS, Newton
+from mgehl.solver.newton import Newton
 from mgehl.solver.problem import ContactProblem
 from mgehl.solver.settings import NewtonSettings
 
 
 @pytest.fixture
 def make_newton(make_hierarchy, paper_contact):
-    """Factory of (problem, Newton) for the film at 1 m/s on 65 nodes; freed after the test."""
-    from mgehl.discretization.scheme import Scheme
-    from mgehl.multigrid.cycle import MultigridSolver
-
+    """Factory of (problem, Newton) on 65 nodes, for the film at 1 m/s; freed after the test."""
     made = []
 
-    def make(monitor=None, options_prefix="test_", **limits):
-        contact, scheme = paper_contact(), Scheme()
+    def make(monitor=None, options_prefix="test_", kind=Newton, contact=None, scheme=None, **limits):
+        contact, scheme = contact or paper_contact(), scheme or Scheme()
         hierarchy = make_hierarchy(contact, 65)
         problem = ContactProblem(hierarchy.grids[-1], hierarchy.deflections[-1], contact, scheme)
         multigrid = MultigridSolver(hierarchy, 1, contact, scheme)
         settings = NewtonSettings(**limits)
-        made.append(Newton(problem, multigrid, settings, None, options_prefix, monitor))
+        made.append(kind(problem, multigrid, settings, None, options_prefix, monitor))
         return problem, made[-1]
 
     yield make
@@ -41,7 +51,7 @@ def test_it_solves_from_the_hertz_pressure(make_newton):
     assert last.step <= 15
     assert last.residual <= 1e-8 and abs(last.load_error) <= 1e-8
     # The outcome's own words are checked against the equations.
-    F = problem.residual(state, problem.inflow(state))
+    F = problem.residual(problem.evaluate(state), state.status)
     assert problem.rms(F) <= 1e-8
     assert abs(problem.load_deficit(state.P)) <= 1e-8
     np.testing.assert_allclose(state.H, problem.gap(state.P, state.H0), rtol=0.0, atol=1e-12)
@@ -150,8 +160,9 @@ def test_factors_of_a_singular_line_are_not_finite():
 def test_a_line_that_becomes_singular_ends_it_with_a_reason(make_newton, monkeypatch):
     """A node that no pressure can reach leaves a row of zeros in its line: no linear solution, no step."""
 
-    def build_singular(A, B, distributive, kappa, share, bands):
-        build_bands(A, B, distributive, kappa, share, bands)
+    def build_singular(*arguments):
+        build_bands(*arguments)
+        *_, bands = arguments
         bands[30, 20] = 0.0
 
     monkeypatch.setattr("mgehl.discretization.bands.build_bands", build_singular)
@@ -215,3 +226,282 @@ def test_implicit_time_steps_end_in_the_steady_solution(solve, paper_contact, sp
     np.testing.assert_array_equal(implicit.state.status, steady.state.status)
     ways = ([cycle.residual for cycle in outcome.cycles] for outcome in (steady, implicit))
     assert next(ways)[1:3] != pytest.approx(next(ways)[1:3], rel=1e-3)
+
+
+class Rewired(Newton):
+    """A `Newton` whose SNES has callbacks of the test's own, made of the true ones."""
+
+    wrap_function = wrap_jacobian = None
+    """Of (newton, callback), giving the callback that SNES is to have."""
+
+    def solve(self, snes, b, x):
+        if self.wrap_function:
+            f, (form, *_) = snes.getFunction()
+            snes.setFunction(self.wrap_function(form), f)
+        if self.wrap_jacobian:
+            J, preconditioner, (form, *_) = snes.getJacobian()
+            snes.setJacobian(self.wrap_jacobian(form), J, preconditioner)
+        super().solve(snes, b, x)
+
+
+def rewired(function=None, jacobian=None):
+    """A kind of `Newton` with these wrappers."""
+    wrappers = {"wrap_function": function, "wrap_jacobian": jacobian}
+    return type(
+        "Rewired", (Rewired,), {name: each and staticmethod(each) for name, each in wrappers.items()}
+    )
+
+
+def then(change):
+    """Wrapper of a callback: the true one, then a change of what it made."""
+
+    def wrap(form):
+        def formed(snes, x, *made):
+            form(snes, x, *made)
+            change(*made)
+
+        return formed
+
+    return wrap
+
+
+class TestItAsksSnes:
+    """What SNES's callbacks say is what is solved."""
+
+    @pytest.mark.parametrize(
+        "change",
+        [lambda f: f.scale(-1.0), lambda f: f.shift(1e-3), lambda f: f.scale(3.0)],
+        ids=["turned round", "shifted", "three times as large"],
+    )
+    def test_with_another_residual_there_is_no_solution(self, make_newton, change):
+        problem, newton = make_newton(kind=rewired(function=then(change)), max_steps=20)
+        assert not newton.run(first_guess(problem, "film")).converged
+
+    def test_where_the_residual_says_zero_nothing_is_done(self, make_newton):
+        problem, newton = make_newton(kind=rewired(function=then(lambda f: f.set(0.0))), max_steps=20)
+        outcome = newton.run(first_guess(problem, "film"))
+        assert [cycle.residual for cycle in outcome.cycles] == [0.0] * len(outcome.cycles)
+        assert problem.rms(problem.residual(problem.evaluate(outcome.state), outcome.state.status)) > 1e-3
+
+    def test_with_another_jacobian_there_is_no_solution(self, make_newton):
+        """Turned round on the finest grid, in place."""
+
+        def turn_round(J, _):
+            linearisation = J.getPythonContext().linearisation
+            linearisation.A *= -1.0
+            linearisation.B *= -1.0
+
+        problem, newton = make_newton(kind=rewired(jacobian=then(turn_round)), max_steps=20)
+        assert not newton.run(first_guess(problem, "film")).converged
+
+    def test_with_the_jacobian_of_the_first_state_it_is_not_newton_s_method(self, make_newton):
+        def once(form):
+            formed = []
+
+            def first(snes, *arguments):
+                if not formed:
+                    formed.append(form(snes, *arguments))
+
+            return first
+
+        problem, newton = make_newton(kind=rewired(jacobian=once), max_steps=20)
+        assert not newton.run(first_guess(problem, "film")).converged
+
+    def test_without_one_there_is_nothing_to_solve_with(self, make_newton):
+        problem, newton = make_newton(kind=rewired(jacobian=lambda form: lambda *_: None))
+        with pytest.raises(AttributeError):
+            newton.run(first_guess(problem, "film"))
+
+    def test_monitors_see_what_the_outcome_says(self, make_newton):
+        seen = []
+
+        class Watched(Newton):
+            def solve(self, snes, b, x):
+                snes.setMonitor(lambda snes, step, norm: seen.append((step, norm)))
+                super().solve(snes, b, x)
+                seen.append((snes.getIterationNumber(), snes.getFunctionNorm()))
+                assert snes.getConvergedReason() > 0
+
+        problem, newton = make_newton(kind=Watched)
+        cycles = newton.run(first_guess(problem, "film")).cycles
+        told = [(cycle.step, cycle.residual) for cycle in cycles]
+        assert seen == [*told, told[-1]]
+
+
+class TestJacobianThroughSnes:
+    """What SNES's Jacobian does to a direction, against differences of SNES's function."""
+
+    STEP = 1e-3
+
+    @pytest.mark.parametrize(
+        "couette, motion, speed",
+        [("1B", (1.0, 0.0), 0.3), ("S1B", (0.0, 1.0), 0.3), ("1B", (0.8, 0.6), 0.12)],
+        ids=["along x", "along y", "at an angle"],
+    )
+    def test_rest_is_of_second_order(self, make_newton, paper_contact, usual_law, couette, motion, speed):
+        """Half the step, a quarter of what the linearisation leaves; and hardly anything of the whole.
+
+        (In a settled state: where cavities have just moved, the function at the present state is
+        still that of the gap before.)
+        """
+        contact = paper_contact(speed)
+        scheme = Scheme(couette, motion=motion, contact_law=usual_law(contact))
+        problem, newton = make_newton(contact=contact, scheme=scheme, release_budget=0)
+        settled = newton.run(first_guess(problem, "film"))
+        assert settled.converged and set(np.unique(settled.state.status)) == set(range(4))
+        found = []
+
+        def measure(form):
+            def formed(snes, x, J, preconditioner):
+                form(snes, x, J, preconditioner)
+                found.append(self.rests(snes, x, J, problem.boundary))
+
+            return formed
+
+        kind = rewired(jacobian=measure)
+        _, newton = make_newton(kind=kind, contact=contact, scheme=scheme, tolerance=0.0, max_steps=1)
+        newton.run(settled.state)
+        ((jump, whole, half, change),) = found
+        assert jump < 1e-6 * whole
+        assert half == pytest.approx(0.25 * whole, rel=0.05)
+        assert 0.0 < whole < 1e-3 * change
+
+    def rests(self, snes, x, J, boundary):
+        """Norms of f(x + h d) - f(x) - h J d for h = 0+, h and h/2, and of h J d."""
+        d, here, there, product = x.duplicate(), *(snes.getFunction()[0].duplicate() for _ in range(3))
+        noise = np.random.default_rng(3).standard_normal(boundary.shape)
+        P = x.getArray(readonly=True)[:-1].reshape(boundary.shape)
+        d.setArray(np.append(np.where(boundary, 0.0, noise * P), 0.01))
+        J.mult(d, product)
+        snes.computeFunction(x, here)
+        norms = []
+        for h in (1e-12, self.STEP, 0.5 * self.STEP):
+            moved = x.copy()
+            moved.axpy(h, d)
+            snes.computeFunction(moved, there)
+            there.axpy(-1.0, here)
+            there.axpy(-h, product)
+            norms.append(there.norm())
+            moved.destroy()
+        norms.append(self.STEP * product.norm())
+        for vec in (d, here, there, product):
+            vec.destroy()
+        return norms
+
+
+RAISES_INSIDE = """
+from mgehl.config import load_config
+from mgehl.grid.convolution import Deflection
+from mgehl.run import solve
+from mpi4py import MPI
+
+products = 0
+
+def fail(true):
+    def call(deflection, P):
+        global products
+        products += 1
+        if products > 20:
+            raise RuntimeError("as it was")
+        return true(deflection, P)
+    return call
+
+Deflection.__call__ = fail(Deflection.__call__)
+try:
+    solve(load_config(None, ["grid.nodes=65"]), MPI.COMM_SELF)
+except RuntimeError as error:
+    print(error)
+print("freed")
+"""
+
+
+class TestExceptions:
+    """They come out of a solve as themselves, and leave a `Newton` that can be freed."""
+
+    class Mine(Exception):
+        pass
+
+    def raise_mine(self, *_):
+        raise self.Mine("as it was")
+
+    def assert_raised(self, problem, newton):
+        with pytest.raises(self.Mine, match="^as it was$"):
+            newton.run(first_guess(problem, "film"))
+
+    def test_of_a_monitor(self, make_newton):
+        self.assert_raised(*make_newton(self.raise_mine))
+
+    def test_of_snes_s_own_monitor(self, make_newton):
+        raise_mine = self.raise_mine
+
+        class Watched(Newton):
+            def solve(self, snes, b, x):
+                snes.setMonitor(raise_mine)
+                super().solve(snes, b, x)
+
+        self.assert_raised(*make_newton(kind=Watched))
+
+    @pytest.mark.parametrize("which", ["function", "jacobian"])
+    def test_of_a_callback(self, make_newton, which):
+        self.assert_raised(*make_newton(kind=rewired(**{which: lambda form: self.raise_mine})))
+
+    def test_of_a_law_that_a_callback_asks(self, make_newton, monkeypatch):
+        problem, newton = make_newton()
+        guess, calls, log_viscosity = first_guess(problem, "film"), [], Barus.log_viscosity
+
+        def later(*arguments):
+            calls.append(1)
+            return self.raise_mine() if len(calls) > 3 else log_viscosity(*arguments)
+
+        monkeypatch.setattr(Barus, "log_viscosity", later)
+        with pytest.raises(self.Mine, match="^as it was$"):
+            newton.run(guess)
+
+    @pytest.mark.xfail(
+        strict=True, reason="BUG: PETSc's multigrid cannot be destroyed after an error inside it"
+    )
+    def test_of_a_product_inside_the_linear_solver(self):
+        """In a process of its own, which dies of it."""
+        done = subprocess.run([sys.executable, "-c", RAISES_INSIDE], capture_output=True, text=True)
+        assert (done.returncode, done.stdout) == (0, "as it was\nfreed\n"), done.stderr
+
+    def test_of_the_journal(self, make_newton):
+        class Ends(Journal):
+            def step(self, grid, position):
+                if len(position.cycles) == 2:
+                    raise Stopped("enough", 130)
+
+        problem, newton = make_newton()
+        with pytest.raises(Stopped, match="enough"):
+            newton.run(first_guess(problem, "film"), Ends())
+
+    def test_after_one_it_solves_again(self, make_newton):
+        told = []
+
+        def interrupt(cycle):
+            told.append(cycle)
+            if len(told) == 3:
+                self.raise_mine()
+
+        problem, newton = make_newton(interrupt)
+        self.assert_raised(problem, newton)
+        assert newton.run(first_guess(problem, "film")).converged
+
+
+@pytest.mark.xfail(strict=True, reason="TO MEND: 15, five of them after the cavities have moved")
+def test_a_step_evaluates_the_fluid_hardly_more_than_once(monkeypatch):
+    """A full film on 257 nodes in 8 steps: at most 12 times on the finest grid, with that of the result."""
+    path = Path(__file__).parents[2] / "configs" / "full_film.toml"
+    config = load_config(path, ["motion.speed=1 m/s", "grid.nodes=257"])
+    shapes, log_viscosity = [], Barus.log_viscosity
+
+    def counted(law, P, p_h):
+        shapes.append(np.shape(P))
+        return log_viscosity(law, P, p_h)
+
+    monkeypatch.setattr(Barus, "log_viscosity", counted)
+    solved = solve_config(config, MPI.COMM_SELF)
+    steps = max(row["step"] for row in solved.rows if row["grid"] == 257)
+    assert solved.result.converged and steps <= 8
+    finest = [shape for shape in shapes if shape and shape[0] >= 257]
+    assert len(finest) <= 12

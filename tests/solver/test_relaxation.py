@@ -5,6 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from mgehl.discretization.axes import own
+from mgehl.discretization.contact_law import InterfaceConditions, UnifiedEquations
 from mgehl.discretization.fluid import fluid_state
 from mgehl.discretization.influence import influence_coefficients
 from mgehl.discretization.scheme import Scheme
@@ -70,7 +72,8 @@ def printed(problem, state, node):
     Terms of a face beside contact (H <= 0) are left out, whatever flows through it.
     """
     (j, i), mesh, D = node, problem.grid.mesh, influence(problem)
-    fluid, (P, H) = fluid_state(state.P, state.H, problem.contact), (state.P, state.H)
+    P, H = state.P, state.H
+    fluid = fluid_state(P, H, problem.contact, problem.scheme.contact_law)
     rho, west, east = fluid.rho, float(H[j, i - 1] > 0.0), float(H[j, i + 1] > 0.0)
     dX = mesh.dX
     eps_west = west * 0.5 * (fluid.eps[j, i - 1] + fluid.eps[j, i])
@@ -110,9 +113,9 @@ class TestFluidNodes:
         for node in interior(line_problem):
             assert_line_equation(line_problem, state, new, node)
         # The state is not one where a part of them would go unnoticed.
-        fluid = fluid_state(state.P, state.H, line_problem.contact)
-        poiseuille = fluid.eps[0, 4] / line_problem.grid.mesh.dX
-        assert 0.05 < poiseuille / (fluid.rho[0, 4] * influence(line_problem)[0]) < 100.0
+        fluid = line_problem.evaluate(state).fluid
+        poiseuille = own(fluid.eps)[0, 4] / line_problem.grid.mesh.dX
+        assert 0.05 < poiseuille / (own(fluid.rho)[0, 4] * influence(line_problem)[0]) < 100.0
 
     def test_flow_across_is_that_of_the_pressures_before_the_sweep(self, problem):
         state = rough(problem)
@@ -134,7 +137,7 @@ class TestFluidNodes:
         """[Liu eq. 36], with the gap's answer to P_i in its denominator."""
         state = rough(problem)
         new = one_sweep(problem, state, replace(WHOLE_WAY, fluid_update="point"))
-        inflow = problem.inflow(state)
+        inflow = problem.evaluate(state).inflow
         for node in interior(problem):
             _, beta, _, _ = printed(problem, state, node)
             assert new.P[node] - state.P[node] == pytest.approx(-inflow[node] / beta, rel=1e-11)
@@ -168,7 +171,7 @@ class TestContactNodes:
         assert state.status[NODE] == CONTACT and state.status[2, 2] == LUBRICATED
 
     def test_without_interface_conditions_there_is_none(self, make_problem):
-        problem = make_problem(nodes=9, scheme=Scheme(cavitation=False, gap_floor=0.0))
+        problem = make_problem(nodes=9, scheme=Scheme(cavitation=False, contact_law=UnifiedEquations()))
         state = close(rough(problem), NODE)
         relax(problem, state, replace(WHOLE_WAY, max_sweeps=0), lambda sweep: None)
         assert not np.any(state.status == CONTACT)
@@ -223,7 +226,7 @@ class TestCavities:
 
     def test_they_keep_no_pressure_and_the_film_beside_them_knows_it(self, torn):
         problem, state = torn
-        assert problem.inflow(state)[4, 6] < 0.0
+        assert problem.evaluate(state).inflow[4, 6] < 0.0
         new = one_sweep(problem, state)
         np.testing.assert_array_equal(new.P[1:-1, 6:], 0.0)
         for j in range(2, 7):
@@ -233,7 +236,7 @@ class TestCavities:
 
     def test_they_are_told_from_film_by_their_inflow(self, torn):
         problem, state = torn
-        inflow = problem.inflow(state)
+        inflow = problem.evaluate(state).inflow
         relax(problem, state, replace(WHOLE_WAY, max_sweeps=0), lambda sweep: None)
         expected = ~problem.boundary & (state.P <= 0.0) & (inflow <= 0.0)
         assert expected.any()
@@ -245,10 +248,10 @@ class TestRuns:
 
     def run(self, make_hierarchy, contact, cavitation=True, **settings):
         hierarchy, told = make_hierarchy(contact, 65), []
-        limits = RelaxationSettings(film_threshold=0.02e-9 / contact.film_scale, **settings)
-        everything = SolverSettings(
-            method="relaxation", scheme=Scheme(cavitation=cavitation), relaxation=limits
-        )
+        limits = RelaxationSettings(**settings)
+        law = InterfaceConditions(0.02e-9 / contact.film_scale)
+        scheme = Scheme(cavitation=cavitation, contact_law=law)
+        everything = SolverSettings(method="relaxation", scheme=scheme, relaxation=limits)
         problem, outcome = single_loop(hierarchy, contact, everything, lambda *each: told.append(each))
         return hierarchy, problem, outcome, told
 
@@ -258,7 +261,7 @@ class TestRuns:
         hierarchy, problem, outcome, told = self.run(make_hierarchy, contact, omega=omega, tolerance=1e-6)
         assert outcome.converged
         state, last = outcome.state, outcome.cycles[-1]
-        true = problem.rms(problem.residual(state, problem.inflow(state)))
+        true = problem.rms(problem.residual(problem.evaluate(state), state.status))
         assert true <= 1e-6 and abs(problem.load_deficit(state.P)) <= 1e-6
         newton = solve(contact, 65)
         nm = 1e9 * contact.film_scale

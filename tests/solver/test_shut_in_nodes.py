@@ -18,14 +18,14 @@ LINE, NODE = 63, 100
 
 
 @pytest.fixture
-def contact_start(paper_contact, make_hierarchy):
+def contact_start(paper_contact, make_hierarchy, usual_law):
     """Function: outcome, hierarchy, contact and settings of full contact at 0.005 mm/s."""
 
     def start(max_steps):
         contact = paper_contact(5e-6)
-        newton = NewtonSettings(film_threshold=0.02e-9 / contact.film_scale, max_steps=max_steps)
-        nested = NestedSettings(start="contact")
-        settings = SolverSettings(scheme=Scheme(face_mobility="geometric"), nested=nested, newton=newton)
+        scheme = Scheme(face_mobility="geometric", contact_law=usual_law(contact))
+        nested, newton = NestedSettings(start="contact"), NewtonSettings(max_steps=max_steps)
+        settings = SolverSettings(scheme=scheme, nested=nested, newton=newton)
         hierarchy = make_hierarchy(contact, 257)
         _, outcome = nested_iteration(hierarchy, contact, settings, lambda *each: None)
         return outcome, hierarchy, contact, settings

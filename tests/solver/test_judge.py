@@ -1,0 +1,129 @@
+"""The verdict on a position; looking at it changes nothing."""
+
+import copy
+
+import numpy as np
+import pytest
+from petsc4py import PETSc
+
+from mgehl.discretization.status import BOUNDARY, LUBRICATED
+from mgehl.solver.judge import GO_ON, STALLS, judge, judge_system
+from mgehl.solver.outcome import Cycle
+from mgehl.solver.partition import RESTLESS, Changes, Partition
+from mgehl.solver.position import Position, Trial
+from mgehl.solver.problem import DIVERGED, State
+
+TOLERANCE, MAX_STEPS = 1e-8, 20
+REASONS = PETSc.KSP.ConvergedReason
+
+
+@pytest.fixture
+def partition(tiny_problem):
+    return Partition(tiny_problem, 0)
+
+
+@pytest.fixture
+def make_position(tiny_problem, partition):
+    """Factory of the position of a film whose last cycle is given."""
+
+    def make(residual=1e-3, load_error=0.0, step=7, changes=None, trial_until=None, **fields):
+        status = np.where(tiny_problem.boundary, BOUNDARY, LUBRICATED).astype(np.int8)
+        state = State(np.zeros(status.shape), 0.0, np.ones(status.shape), status)
+        trial = trial_until and Trial(state.copy(), "settled before", 2, 2, trial_until)
+        cycle = Cycle(step, residual, load_error, 1.0, 1.0, 0, 0, changes or Changes())
+        return Position(state, partition.past, [cycle], trial=trial, **fields)
+
+    return make
+
+
+@pytest.fixture
+def verdict(partition, make_position):
+    """Function: the verdict on a position, which must be left as it was."""
+
+    def ask(**fields):
+        position = make_position(**fields)
+        before = copy.deepcopy(vars(position))
+        found = judge(position, partition, TOLERANCE, MAX_STEPS)
+        for name, value in vars(position).items():
+            if name not in ("state", "past", "trial"):
+                assert value == before[name]
+        np.testing.assert_array_equal(position.state.status, before["state"].status)
+        np.testing.assert_array_equal(position.past.turns, before["past"].turns)
+        return found
+
+    return ask
+
+
+def test_on_the_way_it_goes_on(verdict):
+    assert verdict() is GO_ON and not GO_ON.ends
+
+
+def test_settled(verdict):
+    found = verdict(residual=TOLERANCE, load_error=-TOLERANCE)
+    assert found.ends and found.converged and "settled" in found.reason
+
+
+@pytest.mark.parametrize(
+    "missing",
+    [{"residual": 2.0 * TOLERANCE}, {"load_error": -2.0 * TOLERANCE}, {"changes": Changes(filled=1)}],
+    ids=["residual", "load", "sets"],
+)
+def test_all_three_must_be(verdict, missing):
+    assert verdict(**({"residual": 0.0, "load_error": 0.0} | missing)) is GO_ON
+
+
+@pytest.mark.parametrize("residual", [DIVERGED, np.inf, np.nan])
+def test_no_way_back(verdict, residual):
+    found = verdict(residual=residual)
+    assert found.ends and not found.converged
+    assert found.reason.startswith("diverged") and found.reason.endswith("after 7 steps")
+
+
+@pytest.mark.parametrize("until, ends", [(None, False), (7, True), (8, False)])
+def test_a_trial_has_its_own_last_step(verdict, until, ends):
+    assert verdict(trial_until=until).ends == ends
+
+
+@pytest.mark.parametrize(
+    "fields, said",
+    [({}, "residual 1.0e-03"), ({"residual": 0.0, "changes": Changes(entered=1)}, "sets still change")],
+)
+def test_the_last_step_says_what_was_left(verdict, fields, said):
+    found = verdict(step=MAX_STEPS, **fields)
+    assert found.ends and not found.converged
+    assert found.reason.startswith(said) and found.reason.endswith(f"after {MAX_STEPS} steps")
+
+
+def test_a_settled_state_is_settled_at_the_last_step_too(verdict):
+    assert verdict(residual=0.0, step=MAX_STEPS).converged
+
+
+def test_linear_systems_that_stay_unsolved(verdict):
+    assert verdict(stalls=STALLS - 1) is GO_ON
+    found = verdict(stalls=STALLS)
+    assert found.ends and not found.converged and "could not be solved" in found.reason
+
+
+def test_sets_that_cycle_name_their_nodes(verdict, partition):
+    partition.past.turns[4, 4], partition.past.torn_pressure[4, 4] = RESTLESS, -0.2
+    found = verdict()
+    assert found.ends and not found.converged and "the sets cycle after 7 steps" in found.reason
+    assert [(each.i, each.j, each.pressure) for each in found.contradictions] == [(5, 5, -0.2)]
+
+
+class TestSystem:
+    """A linear system that was solved, or not."""
+
+    @pytest.mark.parametrize("reason", [REASONS.CONVERGED_RTOL, REASONS.DIVERGED_MAX_IT])
+    def test_it_goes_on_with_what_it_got(self, make_position, reason):
+        assert judge_system(reason, make_position()) is GO_ON
+
+    def test_a_singular_one_ends_it(self, make_position):
+        found = judge_system(REASONS.DIVERGED_NANORINF, make_position())
+        assert found.ends and not found.converged and found.reason.startswith("singular")
+
+    @pytest.mark.parametrize("reason", [REASONS.DIVERGED_MAX_IT, REASONS.DIVERGED_NANORINF])
+    def test_a_trial_has_no_patience(self, make_position, reason):
+        found = judge_system(reason, make_position(trial_until=15))
+        assert found.ends and not found.converged
+        assert judge_system(REASONS.CONVERGED_RTOL, make_position(trial_until=15)) is GO_ON
