@@ -35,6 +35,8 @@ class Constants:
     """Flops per second of a rank's Fourier transforms."""
     sweeps: float
     """Flops per second in all the rest."""
+    direct: float
+    """Seconds of the coarsest grid's direct solve, which every rank there repeats."""
     calls: float
     """Seconds that calls take on each grid, however few nodes it has."""
 
@@ -54,6 +56,8 @@ class Cost:
     """Flops of Fourier transforms."""
     sweeps: float = 0.0
     """Flops of all the rest."""
+    direct: float = 0.0
+    """Direct solves on the coarsest grid."""
     grids: float = 0.0
     """Grids on which it has lines."""
 
@@ -68,11 +72,12 @@ class Cost:
         return self.halos + self.exchanged + self.collective
 
     def seconds(self, constants):
-        """(waiting for messages, moving bytes, transforms, the rest, calls)."""
+        """(waiting for messages, moving bytes, transforms, sweeps, the direct solve, calls)."""
         waiting = (self.halos + self.collective) * constants.latency + self.exchanged * constants.exchange
         moving = self.bytes / constants.bandwidth
         transforms, sweeps = self.transforms / constants.transforms, self.sweeps / constants.sweeps
-        return waiting, moving, transforms, sweeps, self.grids * constants.calls
+        fixed = self.direct * constants.direct, self.grids * constants.calls
+        return waiting, moving, transforms, sweeps, *fixed
 
 
 @dataclass(frozen=True)
@@ -127,8 +132,8 @@ class Level:
     def direct(self):
         """The dense factors applied to what all ranks of the coarsest grid gather."""
         hops, unknowns = log2(self.ranks), self.nodes**2 + 1
-        gathered = Cost(collective=hops, bytes=REAL * (unknowns - self.mine), sweeps=2.0 * unknowns**2)
-        return self.everyone() + gathered + Cost(grids=1)
+        gathered = Cost(collective=hops, bytes=REAL * (unknowns - self.mine))
+        return self.everyone() + gathered + Cost(direct=1, grids=1)
 
 
 def levels(nodes, ranks):

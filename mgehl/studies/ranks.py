@@ -5,12 +5,13 @@ sets times beside what the model says with them; the forecast says it for ranks 
 """
 
 import time
-from dataclasses import astuple
+from dataclasses import replace
 from statistics import mean
 
 import numpy as np
 from mpi4py import MPI
 from petsc4py import PETSc
+from scipy.linalg import lu_factor, lu_solve
 
 from mgehl.config import COARSEST_NODES, config_from_tables
 from mgehl.errors import UserError
@@ -58,19 +59,21 @@ def _constants(comm, nodes):
     exchange = _seconds_of_exchange(comm, comm.size) / (2 * (comm.size - 1))
     sent = rank_model.Level(nodes, comm.size).convolution().bytes
     bandwidth = sent / _seconds_of_exchange(comm, nodes)
+    direct = _shortest(comm, _direct_solve())
     small, large = (_Iterations(MPI.COMM_SELF, each) for each in (COARSEST_NODES * 2 - 1, nodes))
     try:
         transforms = rank_model.Level(nodes, 1).convolution().transforms
         transform = _shortest(comm, large.convolve)
         cost = rank_model.iteration(nodes, 1)
-        rest = large.seconds(comm) - cost.transforms * transform / transforms
-        work = Constants(latency, exchange, bandwidth, transforms / transform, cost.sweeps / rest, 0.0)
+        rest = large.seconds(comm) - cost.transforms * transform / transforms - direct
+        speeds = transforms / transform, cost.sweeps / rest
+        work = Constants(latency, exchange, bandwidth, *speeds, direct, 0.0)
         few = rank_model.iteration(COARSEST_NODES * 2 - 1, 1)
         calls = (small.seconds(comm) - sum(few.seconds(work))) / few.grids
     finally:
         small.destroy()
         large.destroy()
-    return Constants(*astuple(work)[:-1], max(calls, 0.0))
+    return replace(work, calls=max(calls, 0.0))
 
 
 def _shortest(comm, function):
@@ -113,6 +116,13 @@ def _seconds_of_exchange(comm, nodes):
     return seconds
 
 
+def _direct_solve():
+    """Function that solves a system as large as the coarsest grid's."""
+    size = COARSEST_NODES**2 + 1
+    factors, right = lu_factor(np.eye(size) + 1.0 / size), np.ones(size)
+    return lambda: lu_solve(factors, right, check_finite=False)
+
+
 class _Iterations:
     """GMRES with its cycle on a film that is being solved, to be timed."""
 
@@ -153,6 +163,7 @@ def _constant_rows(constants):
         "bytes of an exchange, packed and unpacked": f"{1e-9 * constants.bandwidth:.2g} GB/s",
         "Fourier transforms": f"{1e-9 * constants.transforms:.2g} Gflop/s",
         "sweeps, products, transfers": f"{1e-9 * constants.sweeps:.2g} Gflop/s",
+        "direct solve on the coarsest grid": f"{1e3 * constants.direct:.2g} ms",
         "calls on each grid": f"{1e6 * constants.calls:.0f} us",
     }
     return [{"constant": name, "measured": value} for name, value in named.items()]
@@ -178,7 +189,7 @@ def _iteration_row(comm, nodes, constants):
 def _forecast_row(nodes, ranks, constants):
     """An iteration of ranks that are not there, and where its time goes."""
     cost, alone = (rank_model.iteration(nodes, many) for many in (ranks, 1))
-    waiting, moving, transforms, rest, calls = cost.seconds(constants)
+    waiting, moving, transforms, sweeps, direct, calls = cost.seconds(constants)
     total, serial = sum(cost.seconds(constants)), sum(alone.seconds(constants))
     return {
         "nodes": str(nodes),
@@ -188,7 +199,8 @@ def _forecast_row(nodes, ranks, constants):
         "waiting ms": f"{1e3 * waiting:.3g}",
         "bytes ms": f"{1e3 * moving:.3g}",
         "transforms ms": f"{1e3 * transforms:.3g}",
-        "rest ms": f"{1e3 * (rest + calls):.3g}",
+        "sweeps ms": f"{1e3 * sweeps:.3g}",
+        "direct and calls ms": f"{1e3 * (direct + calls):.3g}",
         "whole ms": f"{1e3 * total:.3g}",
         "efficiency": f"{serial / total / ranks:.0%}",
     }

@@ -8,8 +8,8 @@ from mgehl.cli import main
 from mgehl.studies.rank_model import Constants, iteration, levels
 
 COUNTED = {(129, 4): (36, 30), (257, 8): (52, 98), (65, 16): (18 + 6, 90)}
-"""Messages of an iteration, of the rank that sends most: halos by -log_view (and lines that move), exchanges
-by Open MPI's pml_monitoring, each the difference of 7 and 2 iterations over 5."""
+"""Messages of an iteration, of the rank that sends most: halos by -log_view (and lines that move),
+exchanges by Open MPI's pml_monitoring, each the difference of 7 and 2 iterations over 5."""
 
 
 @pytest.mark.parametrize("case", COUNTED)
@@ -41,7 +41,7 @@ def test_coarse_grids_are_shared_by_fewer():
 
 
 def test_what_nothing_delays_takes_the_time_of_its_flops():
-    ideal = Constants(0.0, 0.0, 1e30, 1e9, 1e9, 0.0)
+    ideal = Constants(0.0, 0.0, 1e30, 1e9, 1e9, 0.0, 0.0)
     cost = iteration(257, 4)
     assert sum(cost.seconds(ideal)) == pytest.approx(1e-9 * (cost.transforms + cost.sweeps), rel=1e-9)
     slow = replace(ideal, latency=1e-3)
