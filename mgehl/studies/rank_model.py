@@ -10,15 +10,13 @@ from math import ceil, log2
 
 import numpy as np
 
+from mgehl.config import COARSEST_NODES
 from mgehl.discretization.kernels import REACH
 from mgehl.discretization.mesh import HALO
 from mgehl.grid.ownership import ownerships
 
 REAL, COMPLEX = 8, 16
 """Bytes of a number."""
-
-COARSEST = 33
-"""Nodes along each side of the coarsest grid."""
 
 
 @dataclass(frozen=True)
@@ -138,7 +136,7 @@ class Level:
 
 def levels(nodes, ranks):
     """The `Level`s of a hierarchy, coarsest first."""
-    depth = int(log2((nodes - 1) // (COARSEST - 1))) + 1
+    depth = int(log2((nodes - 1) // (COARSEST_NODES - 1))) + 1
     owned = ownerships(nodes, depth, ranks)
     return [Level(int(starts[-1]), int(np.count_nonzero(np.diff(starts)))) for starts in owned[::-1]]
 
