@@ -10,15 +10,13 @@ from math import ceil, log2
 
 import numpy as np
 
+from mgehl.config import COARSEST_NODES
 from mgehl.discretization.kernels import REACH
 from mgehl.discretization.mesh import HALO
 from mgehl.grid.ownership import ownerships
 
 REAL, COMPLEX = 8, 16
 """Bytes of a number."""
-
-COARSEST = 33
-"""Nodes along each side of the coarsest grid."""
 
 
 @dataclass(frozen=True)
@@ -35,6 +33,8 @@ class Constants:
     """Flops per second of a rank's Fourier transforms."""
     sweeps: float
     """Flops per second in all the rest."""
+    direct: float
+    """Seconds of the coarsest grid's direct solve, which every rank there repeats."""
     calls: float
     """Seconds that calls take on each grid, however few nodes it has."""
 
@@ -54,6 +54,8 @@ class Cost:
     """Flops of Fourier transforms."""
     sweeps: float = 0.0
     """Flops of all the rest."""
+    direct: float = 0.0
+    """Direct solves on the coarsest grid."""
     grids: float = 0.0
     """Grids on which it has lines."""
 
@@ -68,11 +70,12 @@ class Cost:
         return self.halos + self.exchanged + self.collective
 
     def seconds(self, constants):
-        """(waiting for messages, moving bytes, transforms, the rest, calls)."""
+        """(waiting for messages, moving bytes, transforms, sweeps, the direct solve, calls)."""
         waiting = (self.halos + self.collective) * constants.latency + self.exchanged * constants.exchange
         moving = self.bytes / constants.bandwidth
         transforms, sweeps = self.transforms / constants.transforms, self.sweeps / constants.sweeps
-        return waiting, moving, transforms, sweeps, self.grids * constants.calls
+        fixed = self.direct * constants.direct, self.grids * constants.calls
+        return waiting, moving, transforms, sweeps, *fixed
 
 
 @dataclass(frozen=True)
@@ -127,13 +130,13 @@ class Level:
     def direct(self):
         """The dense factors applied to what all ranks of the coarsest grid gather."""
         hops, unknowns = log2(self.ranks), self.nodes**2 + 1
-        gathered = Cost(collective=hops, bytes=REAL * (unknowns - self.mine), sweeps=2.0 * unknowns**2)
-        return self.everyone() + gathered + Cost(grids=1)
+        gathered = Cost(collective=hops, bytes=REAL * (unknowns - self.mine))
+        return self.everyone() + gathered + Cost(direct=1, grids=1)
 
 
 def levels(nodes, ranks):
     """The `Level`s of a hierarchy, coarsest first."""
-    depth = int(log2((nodes - 1) // (COARSEST - 1))) + 1
+    depth = int(log2((nodes - 1) // (COARSEST_NODES - 1))) + 1
     owned = ownerships(nodes, depth, ranks)
     return [Level(int(starts[-1]), int(np.count_nonzero(np.diff(starts)))) for starts in owned[::-1]]
 
