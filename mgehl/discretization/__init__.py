@@ -1,6 +1,6 @@
 """Finite volumes on one uniform grid: plain arrays in and out, no PETSc, no MPI.
 
 Arrays are lines by nodes, ``[j, i]``: j counts along Y, i along X (contiguous). A *ghosted*
-array carries one line more on each side in Y: the neighbouring ranks' lines, or outside the
-domain an unused one.
+array carries `HALO` lines more on each side in Y: the neighbouring ranks' lines, or outside the
+domain unused ones.
 """

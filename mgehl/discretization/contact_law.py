@@ -32,7 +32,7 @@ class ContactLaw(ABC):
 
 @dataclass(frozen=True)
 class InterfaceConditions(ContactLaw):
-    """The lubrication-contact interface conditions: contact where the gap is closed  [Liu eqs. 1-4]."""
+    """The lubrication-contact interface conditions: contact where the gap is closed  [Liu eqs. 2, 4]."""
 
     threshold: float = 0.0
     """H_th: a smaller gap is closed."""
