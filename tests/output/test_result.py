@@ -48,7 +48,9 @@ def test_a_final_state_beyond_the_tolerance_is_not_converged_whatever_newton_sai
 def test_gap_residual_and_load_are_evaluated_anew(tiny_problem, outcome):
     result = summarise(tiny_problem, outcome, 1e-8, Work(12.5, 7), 3.0, {})
     state = tiny_problem.state(outcome.state.P, 0.0, outcome.state.status)
-    assert result.residual == tiny_problem.rms(tiny_problem.residual(tiny_problem.evaluate(state), state.status))
+    assert result.residual == tiny_problem.rms(
+        tiny_problem.residual(tiny_problem.evaluate(state), state.status)
+    )
     assert result.load_error == tiny_problem.load_deficit(state.P)
     assert not result.converged
 
