@@ -490,8 +490,10 @@ class TestExceptions:
 
 
 def test_a_step_evaluates_the_fluid_hardly_more_than_once(monkeypatch):
-    """A full film on 257 nodes in 8 steps: its laws are asked for at most 12 times as many nodes as the
-    finest grid has, that of the result included."""
+    """A full film on 257 nodes in 8 steps: 10 evaluations of the finest grid, that of the result included.
+
+    Where the cavities move, only the fluid that moved with them is evaluated again: less than half.
+    """
     path = Path(__file__).parents[2] / "configs" / "full_film.toml"
     config = load_config(path, ["motion.speed=1 m/s", "grid.nodes=257"])
     shapes, log_viscosity = [], Barus.log_viscosity
@@ -506,5 +508,6 @@ def test_a_step_evaluates_the_fluid_hardly_more_than_once(monkeypatch):
     assert solved.result.converged and steps <= 8
     whole = (257 + 2 * HALO, 257)
     on_finest = shapes[shapes.index(whole) :]  # among them the cycle's, of coarser grids
-    asked = [np.prod(shape) for shape in on_finest if shape == whole or len(shape) == 1]
-    assert sum(asked) <= 12 * np.prod(whole)
+    moved = [shape[0] for shape in on_finest if len(shape) == 1]
+    assert on_finest.count(whole) <= steps + 2
+    assert max(moved, default=0) < 0.5 * np.prod(whole)
