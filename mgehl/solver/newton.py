@@ -87,7 +87,10 @@ class Newton:
         if outcome is None:
             self._position = journal.standing(grid) or self._beginning(state.copy())
             self._partition.past = self._position.past
+            self._outcome, self._stopped = None, None
             self._snes.solve(None, self._unknown)
+            if self._stopped:
+                raise self._stopped
             outcome = self._outcome
             journal.finish(grid, outcome)
         return outcome
@@ -99,7 +102,15 @@ class Newton:
         return position
 
     def solve(self, snes, _b, x):
-        """One solve from top to bottom (called by PETSc)."""
+        """Called by PETSc. An exception waits here for `run`: PETSc could not free what it passed through."""
+        try:
+            self._iterate(snes, x)
+        except Exception as stopped:
+            self._stopped = stopped
+            snes.setConvergedReason(PETSc.SNES.ConvergedReason.DIVERGED_INNER)
+
+    def _iterate(self, snes, x):
+        """One solve from top to bottom."""
         position, partition = self._position, self._partition
         _, tolerance, _, max_steps = snes.getTolerances()
         while True:
