@@ -102,7 +102,7 @@ class Newton:
         return position
 
     def solve(self, snes, _b, x):
-        """Called by PETSc. An exception waits here for `run`: PETSc could not free what it passed through."""
+        """Called by PETSc. Exceptions wait for `run`: PETSc cannot free what one has passed through."""
         try:
             self._iterate(snes, x)
         except Exception as stopped:

@@ -458,11 +458,8 @@ class TestExceptions:
         with pytest.raises(self.Mine, match="^as it was$"):
             newton.run(guess)
 
-    @pytest.mark.xfail(
-        strict=True, reason="BUG: PETSc's multigrid cannot be destroyed after an error inside it"
-    )
     def test_of_a_product_inside_the_linear_solver(self):
-        """In a process of its own, which dies of it."""
+        """In a process of its own, which would die of it."""
         done = subprocess.run([sys.executable, "-c", RAISES_INSIDE], capture_output=True, text=True)
         assert (done.returncode, done.stdout) == (0, "as it was\nfreed\n"), done.stderr
 
