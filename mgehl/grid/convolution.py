@@ -50,7 +50,7 @@ class _Convolution:
     def __init__(self, grid, kernel):
         self.grid = grid
         mesh, (lines, nx) = grid.mesh, grid.shape
-        self._transpose = Transpose(grid, MPI.COMPLEX16)
+        self._transpose = Transpose(grid.team, grid.team_starts, nx, MPI.COMPLEX16)
         columns = self._transpose.columns
         plan = {"flags": FIXED if mesh.is_line else TIMED, "threads": THREADS}
         self._x_real = pyfftw.zeros_aligned((lines, 2 * (nx - 1)))

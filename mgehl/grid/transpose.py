@@ -14,9 +14,8 @@ class Transpose:
     libraries cannot express; the exchange itself is one MPI_Alltoallw.
     """
 
-    def __init__(self, grid, kind):
-        """Between arrays of `kind`, an MPI datatype, on a grid whose rank has lines."""
-        comm, line_starts, columns = grid.team, grid.team_starts, grid.mesh.nx
+    def __init__(self, comm, line_starts, columns, kind):
+        """Of arrays of `kind`, an MPI datatype; every rank of `comm` has lines, from `line_starts` on."""
         self._comm, self._kind = comm, kind
         bounds = np.linspace(0, columns, comm.size + 1).astype(int)
         lines = np.diff(line_starts)
@@ -60,7 +59,7 @@ class YLines:
     """The same nodes dealt out by lines along Y: arrays (my columns, ny), contiguous along Y."""
 
     def __init__(self, grid):
-        self._transpose = Transpose(grid, MPI.DOUBLE)
+        self._transpose = Transpose(grid.team, grid.team_starts, grid.mesh.nx, MPI.DOUBLE)
         self._exchanged = np.zeros((grid.mesh.ny, self._transpose.columns))
         self.shape = self._exchanged.shape[::-1]
 

@@ -110,7 +110,7 @@ def _to_and_fro(comm, size, times):
 def _seconds_of_exchange(comm, nodes):
     """Of a convolution's transforms of nodes by nodes, there and back."""
     starts = np.linspace(0, nodes, comm.size + 1).astype(int)
-    transpose = Transpose(comm, starts, nodes)
+    transpose = Transpose(comm, starts, nodes, MPI.COMPLEX16)
     lines = np.zeros((int(np.diff(starts)[comm.rank]), nodes), dtype=complex)
     columns = np.zeros((nodes, transpose.columns), dtype=complex)
 
