@@ -404,7 +404,7 @@ class TestFailingRank:
         "from mgehl import cli, errors\n"
         "from mgehl.solver.newton import Newton\n"
         "def correct(newton, *arguments, correct=Newton._correct):\n"
-        "    if MPI.COMM_WORLD.rank == 1 and newton._now.outcome.cycles[-1].step == 2:\n"
+        "    if MPI.COMM_WORLD.rank == 1 and newton._position.cycles[-1].step == 2:\n"
         "        {what}\n"
         "    return correct(newton, *arguments)\n"
         "Newton._correct = correct\n"

@@ -6,6 +6,7 @@ PC see what is solved.
 """
 
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from petsc4py import PETSc
@@ -83,9 +84,10 @@ class Newton:
         The `journal` is told of every step, and may know this solve or its first part already.
         """
         grid, self._journal = self._problem.grid, journal
-        outcome = journal.recall(grid)
+        outcome = journal.recall(grid, partial(Outcome.from_record, line=Cycle))
         if outcome is None:
-            self._position = journal.standing(grid) or self._beginning(state.copy())
+            standing = journal.standing(grid, Position.from_record)
+            self._position = standing or self._beginning(state.copy())
             self._partition.past = self._position.past
             self._snes.solve(None, self._unknown)
             outcome = self._outcome
