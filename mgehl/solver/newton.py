@@ -7,6 +7,7 @@ PC see what is solved.
 
 from dataclasses import dataclass, replace
 from functools import partial
+from traceback import clear_frames
 
 import numpy as np
 from petsc4py import PETSc
@@ -89,7 +90,12 @@ class Newton:
             standing = journal.standing(grid, Position.from_record)
             self._position = standing or self._beginning(state.copy())
             self._partition.past = self._position.past
-            self._snes.solve(None, self._unknown)
+            try:
+                self._snes.solve(None, self._unknown)
+            except BaseException as error:
+                # Its frames hold the SNES, which would outlive `free`, and Python itself.
+                clear_frames(error.__traceback__)
+                raise
             outcome = self._outcome
             journal.finish(grid, outcome)
         return outcome
