@@ -88,17 +88,20 @@ class Newton:
         outcome = journal.recall(grid, partial(Outcome.from_record, line=Cycle))
         if outcome is None:
             standing = journal.standing(grid, Position.from_record)
-            self._position = standing or self._beginning(state.copy())
-            self._partition.past = self._position.past
-            try:
-                self._snes.solve(None, self._unknown)
-            except BaseException as error:
-                # Its frames hold the SNES, which would outlive `free`, and Python itself.
-                clear_frames(error.__traceback__)
-                raise
-            outcome = self._outcome
+            outcome = self._go_on(standing or self._beginning(state.copy()))
             journal.finish(grid, outcome)
         return outcome
+
+    def _go_on(self, position):
+        """Let SNES solve from a position; return the `Outcome`."""
+        self._position, self._partition.past = position, position.past
+        try:
+            self._snes.solve(None, self._unknown)
+        except BaseException as error:
+            # Its frames hold the SNES: it would outlive `free`, and call Python when that has ended.
+            clear_frames(error.__traceback__)
+            raise
+        return self._outcome
 
     def _beginning(self, state):
         """The `Position` before anything was done."""
