@@ -9,7 +9,7 @@ Every file is whole (`whole_file`): record.json with arrays beside it, zipped as
 `numpy.load` reads them, too. The record has
 
     format, mgehl       the version of this layout, and of the program
-    configuration       for which it was written, as JSON
+    configuration       for which it was written
     solve               the number of the solve
     progress            the history of the run until then, its convolutions and seconds
     values              what the solver kept beside its arrays, by name
@@ -91,7 +91,7 @@ class Checkpoint(Journal):
         record = {
             "format": FORMAT,
             "mgehl": VERSION,
-            "configuration": self._configuration,
+            "configuration": json.loads(self._configuration),
             "solve": self._solved,
             "progress": self._progress.record(),
             "values": kept.values,
@@ -170,7 +170,7 @@ def damaged(path, error):
 
 
 def load(path, configuration):
-    """(record, arrays) of a file, None where there is none.
+    """(record, arrays) of a file, None where there is none; `configuration` is the run's as JSON.
 
     Raises OutputError where it is damaged, of another version or of another configuration.
     """
@@ -189,6 +189,6 @@ def load(path, configuration):
     by = record.get("mgehl")
     if record.get("format") != FORMAT or by != VERSION:
         raise OutputError(f"{path}: was written by mgehl {by}, and {VERSION} cannot go on with it")
-    if record.get("configuration") != configuration:
+    if json.dumps(record.get("configuration")) != configuration:
         raise OutputError(f"{path}: was written for another configuration than the run has now")
     return record, arrays

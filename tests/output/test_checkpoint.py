@@ -126,6 +126,7 @@ class TestKeeping:
             np.testing.assert_array_equal(file["P"], left.P)
             record = json.loads(file["record.json"])
         assert record["values"] == {"step": 5, "reason": ""}
+        assert record["configuration"]["motion"]["speed"] == CONFIG.motion.speed
 
     def test_another_configuration_is_refused(self, tmp_path, grid, left):
         self.make(tmp_path, seconds=0.0).step(grid, left)
@@ -177,7 +178,11 @@ class TestStart:
 class TestFile:
     """`save` and `load`."""
 
-    RECORD = {"format": checkpoint.FORMAT, "mgehl": checkpoint.VERSION, "configuration": CONFIGURATION}
+    RECORD = {
+        "format": checkpoint.FORMAT,
+        "mgehl": checkpoint.VERSION,
+        "configuration": json.loads(CONFIGURATION),
+    }
     ARRAYS = {"array0": np.linspace(0.0, 1.0, 12).reshape(3, 4), "array1": np.eye(3, dtype=np.int8)}
 
     @pytest.fixture
