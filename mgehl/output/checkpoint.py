@@ -5,9 +5,18 @@ RUN/checkpoint/
     solve-0000.npz, ...   finished solves, in order: a grid of the nested iteration each, or a step in speed
     under-way.npz         where the next one stands, saved every so many seconds
 
-Every file is whole (`whole_file`) and says by which version and for which configuration it was
-written: a record in JSON with arrays beside it, zipped as numpy does. A run that goes on walks the
-same way again: what is finished is read instead of solved.
+Every file is whole (`whole_file`): record.json with arrays beside it, zipped as numpy does, so that
+`numpy.load` reads them, too. The record has
+
+    format, mgehl       the version of this layout, and of the program
+    configuration       for which it was written
+    solve               the number of the solve
+    progress            the history of the run until then, its convolutions and seconds
+    values              what the solver kept beside its arrays, by name
+
+The names of values and arrays are described in `solver.record`; here nothing is known of them. An
+array in a file is of the whole grid, (ny, nx). A run that goes on walks the same way again: what is
+finished is read instead of solved.
 """
 
 import io
@@ -21,16 +30,16 @@ from numpy.lib import format as npy
 
 from mgehl.errors import OutputError, one_line
 from mgehl.output.files import START, RunFiles, clear_checkpoint, on_first_rank
-from mgehl.output.records import Reader, Writer
 from mgehl.output.whole_file import whole_file
 from mgehl.solver.journal import Journal, told_to_stop
+from mgehl.solver.record import Record
 from mgehl.version import VERSION
 
 UNDER_WAY = "under-way.npz"
 RECORD = "record.json"
 """Member of a file; the others are its arrays."""
-FORMAT = 1
-"""Of the files; another one is not read."""
+FORMAT = 2
+"""Of the files, goes up with every change of the layout or of a name; another one is not read."""
 
 
 class Checkpoint(Journal):
@@ -47,16 +56,16 @@ class Checkpoint(Journal):
         self._solved = 0
         self._saved = time.monotonic()
 
-    def recall(self, grid):
-        """The `Outcome` of the next solve where its file is there, else None (collective)."""
-        outcome = self._read(grid, self._finished(self._solved))
+    def recall(self, grid, made):
+        """The end of the next solve where its file is there, else None (collective)."""
+        outcome = self._read(grid, self._finished(self._solved), made)
         if outcome is not None:
             self._solved += 1
         return outcome
 
-    def standing(self, grid):
+    def standing(self, grid, made):
         """Where the next solve stood, else None (collective)."""
-        return self._read(grid, self._folder / UNDER_WAY)
+        return self._read(grid, self._folder / UNDER_WAY, made)
 
     def step(self, grid, position):
         """Save the position where it is time, or time to stop (collective)."""
@@ -76,28 +85,47 @@ class Checkpoint(Journal):
     def _finished(self, number):
         return self._folder / f"solve-{number:04d}.npz"
 
-    def _write(self, grid, path, thing):
-        writer = Writer(grid)
+    def _write(self, grid, path, kept):
+        """Write what `kept.record()` has, the arrays gathered."""
+        kept = kept.record()
         record = {
             "format": FORMAT,
             "mgehl": VERSION,
-            "configuration": self._configuration,
+            "configuration": json.loads(self._configuration),
             "solve": self._solved,
             "progress": self._progress.record(),
-            "thing": writer.plain(thing),
+            "values": kept.values,
         }
-        on_first_rank(grid.comm, save, path, record, writer.arrays)
+        arrays = {name: grid.gather(array) for name, array in kept.arrays.items()}
+        on_first_rank(grid.comm, save, path, record, arrays)
         self._saved = time.monotonic()
 
-    def _read(self, grid, path):
-        """What a file holds, if it is there and about the next solve; the history goes on from it."""
+    def _read(self, grid, path, made):
+        """What is `made` of a file that is there and about the next solve; the history goes on from it."""
         found = on_first_rank(grid.comm, load, path, self._configuration)
-        record, arrays = found or (None, None)
+        record, arrays = found or (None, {})
         record = grid.comm.bcast(record)
         if record is None or record["solve"] != self._solved:
             return None
+        try:
+            kept = made(Record(record["values"], scattered(grid, arrays)))
+        except (KeyError, TypeError, ValueError) as error:
+            raise OutputError(damaged(path, error)) from None
         self._progress.go_on(record["progress"])
-        return Reader(grid, arrays).alive(record["thing"])
+        return kept
+
+
+def scattered(grid, arrays):
+    """Every rank's lines of the whole arrays that rank 0 has (collective).
+
+    Raises ValueError, on all, where one is not of this grid.
+    """
+    whole = (grid.mesh.ny, grid.mesh.nx)
+    shapes = grid.comm.bcast({name: array.shape for name, array in arrays.items()})
+    for name, shape in shapes.items():
+        if shape != whole:
+            raise ValueError(f"{name} is not of {whole[1]} x {whole[0]} nodes")
+    return {name: grid.scatter(arrays.get(name)) for name in shapes}
 
 
 def clear(directory):
@@ -136,8 +164,13 @@ def save(path, record, arrays):
         raise OutputError(f"{path}: cannot be written: {error.strerror or error}") from None
 
 
+def damaged(path, error):
+    """What is said of a file in which an `error` was met."""
+    return f"{path}: is damaged, or no checkpoint: {one_line(error)}; without it, the run begins earlier"
+
+
 def load(path, configuration):
-    """(record, arrays) of a file, None where there is none.
+    """(record, arrays) of a file, None where there is none; `configuration` is the run's as JSON.
 
     Raises OutputError where it is damaged, of another version or of another configuration.
     """
@@ -152,11 +185,10 @@ def load(path, configuration):
     except FileNotFoundError:
         return None
     except Exception as error:  # what a damaged file raises is anybody's guess
-        raise OutputError(f"{path}: is damaged, or no checkpoint: {one_line(error)}; without it, the run "
-                          "begins earlier") from None  # fmt: skip
+        raise OutputError(damaged(path, error)) from None
     by = record.get("mgehl")
     if record.get("format") != FORMAT or by != VERSION:
         raise OutputError(f"{path}: was written by mgehl {by}, and {VERSION} cannot go on with it")
-    if record.get("configuration") != configuration:
+    if json.dumps(record.get("configuration")) != configuration:
         raise OutputError(f"{path}: was written for another configuration than the run has now")
     return record, arrays

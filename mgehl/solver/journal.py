@@ -5,14 +5,15 @@ class Journal:
     """Keeps nothing. `output.checkpoint.Checkpoint` is the one that keeps everything on disk.
 
     A run is a row of solves. Each asks first whether it was finished before (`recall`), then
-    whether it was under way (`standing`); it tells of every step and of its end. All methods are
-    collective on the communicator of `grid`.
+    whether it was under way (`standing`); it tells of every step and of its end. What it tells of
+    has a `record()`, and `made` makes the like of a `Record` again (`solver.record`). All methods
+    are collective on the communicator of `grid`.
     """
 
-    def recall(self, grid):
-        """The `Outcome` of the next solve where it is finished, else None."""
+    def recall(self, grid, made):
+        """The end of the next solve where it is finished, else None."""
 
-    def standing(self, grid):
+    def standing(self, grid, made):
         """Where the next solve stood when the run was stopped; None at its beginning."""
 
     def step(self, grid, position):
@@ -22,7 +23,7 @@ class Journal:
         """
 
     def finish(self, grid, outcome):
-        """Take note of a solve's `Outcome`."""
+        """Take note of the `outcome`, the end of a solve."""
 
 
 def told_to_stop(comm, stop):

@@ -6,6 +6,7 @@ PC see what is solved.
 """
 
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from petsc4py import PETSc
@@ -83,17 +84,21 @@ class Newton:
         The `journal` is told of every step, and may know this solve or its first part already.
         """
         grid, self._journal = self._problem.grid, journal
-        outcome = journal.recall(grid)
+        outcome = journal.recall(grid, partial(Outcome.from_record, line=Cycle))
         if outcome is None:
-            self._position = journal.standing(grid) or self._beginning(state.copy())
-            self._partition.past = self._position.past
-            self._outcome, self._stopped = None, None
-            self._snes.solve(None, self._unknown)
-            if self._stopped:
-                raise self._stopped
-            outcome = self._outcome
+            standing = journal.standing(grid, Position.from_record)
+            outcome = self._go_on(standing or self._beginning(state.copy()))
             journal.finish(grid, outcome)
         return outcome
+
+    def _go_on(self, position):
+        """Let SNES solve from a position; return the `Outcome`."""
+        self._position, self._partition.past = position, position.past
+        self._outcome, self._stopped = None, None
+        self._snes.solve(None, self._unknown)
+        if self._stopped:
+            raise self._stopped
+        return self._outcome
 
     def _beginning(self, state):
         """The `Position` before anything was done."""

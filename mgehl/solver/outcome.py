@@ -2,12 +2,13 @@
 
 from dataclasses import dataclass, field
 
-from mgehl.solver.partition import Changes
+from mgehl.solver.partition import Changes, Contradiction
 from mgehl.solver.problem import State
+from mgehl.solver.record import Kept, Record
 
 
 @dataclass
-class Line:
+class Line(Kept):
     """One line of the history: the state before a step, in units of P and H."""
 
     step: int
@@ -28,9 +29,14 @@ class Cycle(Line):
     linear_iterations: int = 0
     step_length: float = 1.0
 
+    @classmethod
+    def from_record(cls, record):
+        changes = Changes.from_record(record.part("changes"))
+        return cls(**record.without("changes").values, changes=changes)
+
 
 @dataclass
-class Outcome:
+class Outcome(Kept):
     """How a solve ended."""
 
     state: State
@@ -39,3 +45,23 @@ class Outcome:
     cycles: list = field(default_factory=list)
     contradictions: list = field(default_factory=list)
     """Nodes that kept turning between film and contact."""
+
+    def record(self):
+        return Record.of(
+            state=self.state,
+            converged=self.converged,
+            reason=self.reason,
+            history=Record.table(self.cycles),
+            contradictions=Record.table(self.contradictions),
+        )
+
+    @classmethod
+    def from_record(cls, record, line):
+        """As `Kept.from_record`; `line` is the kind of its history's lines."""
+        return cls(
+            State.from_record(record.part("state")),
+            record.values["converged"],
+            record.values["reason"],
+            [line.from_record(each) for each in record.part("history").rows()],
+            [Contradiction.from_record(each) for each in record.part("contradictions").rows()],
+        )

@@ -19,13 +19,14 @@ from mgehl.discretization.status import (
     is_fluid,
     largest_fluid_neighbour,
 )
+from mgehl.solver.record import Kept
 
 RESTLESS = 12
 """Turns between film and contact after which a node is not expected to settle."""
 
 
 @dataclass
-class Changes:
+class Changes(Kept):
     """Nodes that changed status, over all ranks."""
 
     cavitated: int = 0
@@ -39,7 +40,7 @@ class Changes:
 
 
 @dataclass(frozen=True)
-class Contradiction:
+class Contradiction(Kept):
     """A node that can be neither: a film there closes, a contact there is torn open.
 
     Nodes count from 1. `gap` is the last H at which it was taken for contact, `pressure` the last
@@ -52,9 +53,14 @@ class Contradiction:
     pressure: float
     neighbours: tuple
 
+    @classmethod
+    def from_record(cls, record):
+        neighbours = tuple(record.values["neighbours"])  # JSON knows lists only
+        return cls(**record.values | {"neighbours": neighbours})
+
 
 @dataclass
-class Past:
+class Past(Kept):
     """What the nodes went through, all (lines, nx): it decides what they may do next."""
 
     budget: np.ndarray

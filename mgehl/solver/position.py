@@ -2,12 +2,14 @@
 
 from dataclasses import dataclass, field
 
+from mgehl.solver.outcome import Cycle
 from mgehl.solver.partition import Changes, Past
 from mgehl.solver.problem import State
+from mgehl.solver.record import Kept, Record
 
 
 @dataclass(frozen=True)
-class Step:
+class Step(Kept):
     """What the last Newton step took."""
 
     linear_iterations: int = 0
@@ -16,7 +18,7 @@ class Step:
 
 
 @dataclass
-class Trial:
+class Trial(Kept):
     """Eq. 2 tried on a state that settled: what was let go must settle again."""
 
     answer: State
@@ -30,9 +32,14 @@ class Trial:
     entered: int = 0
     """Nodes that came into contact since."""
 
+    @classmethod
+    def from_record(cls, record):
+        answer = State.from_record(record.part("answer"))
+        return cls(answer, **record.without("answer").values)
+
 
 @dataclass
-class Position:
+class Position(Kept):
     """The present state and what is remembered of the way; written by `Newton` alone."""
 
     state: State
@@ -47,3 +54,29 @@ class Position:
     """Releases on Eq. 2 before the last digits."""
     stalls: int = 0
     """Linear systems that were given up."""
+
+    def record(self):
+        return Record.of(
+            state=self.state,
+            past=self.past,
+            history=Record.table(self.cycles),
+            changes=self.changes,
+            step=self.step,
+            trial=self.trial,
+            early_rounds=self.early_rounds,
+            stalls=self.stalls,
+        )
+
+    @classmethod
+    def from_record(cls, record):
+        trial = record.part("trial")
+        return cls(
+            State.from_record(record.part("state")),
+            Past.from_record(record.part("past")),
+            [Cycle.from_record(each) for each in record.part("history").rows()],
+            Changes.from_record(record.part("changes")),
+            Step.from_record(record.part("step")),
+            Trial.from_record(trial) if trial else None,
+            record.values["early_rounds"],
+            record.values["stalls"],
+        )

@@ -11,13 +11,14 @@ from mgehl.discretization.residual import residual
 from mgehl.discretization.rows import rows_of
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT
 from mgehl.grid.events import ASSEMBLY, event
+from mgehl.solver.record import Kept
 
 DIVERGED = 1e10
 """Residual from which there is no way back; that of a first guess is below 1e4."""
 
 
 @dataclass
-class State:
+class State(Kept):
     """A solution on one grid: local lines of pressure, gap and status, and the approach H0."""
 
     P: np.ndarray

@@ -5,7 +5,9 @@ Every sweep marks contact by the gap, solves each x-line for new pressures (flui
 [Liu eq. 53, whose sign is mended] and every few sweeps corrects H0 by the load [Liu eq. 54].
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import partial
+from itertools import count
 
 import numpy as np
 from scipy.linalg import solve_banded
@@ -25,7 +27,8 @@ from mgehl.discretization.status import (
 )
 from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.outcome import Line, Outcome
-from mgehl.solver.problem import DIVERGED
+from mgehl.solver.problem import DIVERGED, State
+from mgehl.solver.record import Kept, Record
 
 
 @dataclass(frozen=True)
@@ -61,11 +64,25 @@ class Sweep(Line):
 
 
 @dataclass
-class Standing:
-    """Where the relaxation stands before a sweep; the state is the outcome's."""
+class Standing(Kept):
+    """Where the relaxation stands before a sweep."""
 
-    outcome: Outcome
+    state: State
+    cycles: list = field(default_factory=list)
+    """The history, a `Sweep` every so many."""
     step: int = 0
+    """Number of the next sweep."""
+
+    def record(self):
+        return Record.of(state=self.state, history=Record.table(self.cycles), next_sweep=self.step)
+
+    @classmethod
+    def from_record(cls, record):
+        return cls(
+            State.from_record(record.part("state")),
+            [Sweep.from_record(each) for each in record.part("history").rows()],
+            record.values["next_sweep"],
+        )
 
 
 def relax(problem, state, settings, monitor, journal=NOTHING_KEPT):
@@ -74,40 +91,45 @@ def relax(problem, state, settings, monitor, journal=NOTHING_KEPT):
     One convolution a sweep. `monitor` is called with a `Sweep` every `report_every` sweeps. The
     `journal` is told of every sweep, and may know this solve or its first part already.
     """
-    outcome = journal.recall(problem.grid)
+    grid = problem.grid
+    outcome = journal.recall(grid, partial(Outcome.from_record, line=Sweep))
     if outcome is None:
-        standing = journal.standing(problem.grid) or Standing(Outcome(state, False, ""))
-        outcome = _relax(problem, standing, settings, monitor, journal)
-        journal.finish(problem.grid, outcome)
+        standing = journal.standing(grid, Standing.from_record) or Standing(state)
+        converged, reason = _relax(problem, standing, settings, monitor, journal)
+        outcome = Outcome(standing.state, converged, reason, standing.cycles)
+        journal.finish(grid, outcome)
     return outcome
 
 
 def _relax(problem, standing, settings, monitor, journal):
-    """The sweeps from `standing` on."""
-    relaxation = _Relaxation(problem, settings)
-    outcome, state = standing.outcome, standing.outcome.state
-    for step in range(standing.step, settings.max_sweeps + 1):
+    """The sweeps from `standing` on; whether they converged, and why they ended."""
+    relaxation, state = _Relaxation(problem, settings), standing.state
+    for step in count(standing.step):
         standing.step = step
         journal.step(problem.grid, standing)
         relaxation.mark_contact(state)
         evaluation = problem.evaluate(state)
         relaxation.mark_cavities(state, evaluation)
         change = relaxation.change(state, evaluation)
-        last = step == settings.max_sweeps
-        if last or step % settings.report_every == 0:
-            cycle = relaxation.sweep(step, state, evaluation, change)
-            outcome.cycles.append(cycle)
-            monitor(cycle)
-            if not cycle.residual < DIVERGED:
-                outcome.reason = f"diverged: residual {cycle.residual:.1e} after {step} sweeps"
-                return outcome
-            if max(cycle.residual, abs(cycle.load_error)) <= settings.tolerance:
-                outcome.converged, outcome.reason = True, "residual and load settled"
-                return outcome
-        if not last:
-            relaxation.move(state, change, step)
-    outcome.reason = f"residual {cycle.residual:.1e} after {settings.max_sweeps} sweeps"
-    return outcome
+        if step == settings.max_sweeps or step % settings.report_every == 0:
+            sweep = relaxation.sweep(step, state, evaluation, change)
+            standing.cycles.append(sweep)
+            monitor(sweep)
+            end = _end(sweep, settings)
+            if end:
+                return end
+        relaxation.move(state, change, step)
+
+
+def _end(sweep, settings):
+    """(Converged, reason) where the relaxation ends before this sweep, else None."""
+    if not sweep.residual < DIVERGED:
+        return False, f"diverged: residual {sweep.residual:.1e} after {sweep.step} sweeps"
+    if max(sweep.residual, abs(sweep.load_error)) <= settings.tolerance:
+        return True, "residual and load settled"
+    if sweep.step == settings.max_sweeps:
+        return False, f"residual {sweep.residual:.1e} after {sweep.step} sweeps"
+    return None
 
 
 class _Relaxation:

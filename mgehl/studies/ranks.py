@@ -15,8 +15,8 @@ from scipy.linalg import lu_factor, lu_solve
 
 from mgehl.config import COARSEST_NODES, config_from_tables
 from mgehl.errors import UserError
-from mgehl.grid.convolution import Transpose
 from mgehl.grid.hierarchy import Hierarchy
+from mgehl.grid.transpose import Transpose
 from mgehl.multigrid.cycle import MultigridSolver
 from mgehl.solver.from_config import contact_from, mesh_from, scheme_from, settings_from
 from mgehl.solver.nested import first_guess

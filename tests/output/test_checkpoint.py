@@ -1,7 +1,7 @@
 """A run's way on disk: what is kept comes back, what is damaged is refused, nothing is lost on the way."""
 
 import json
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import count
 from math import inf
 from zipfile import ZipFile
@@ -16,10 +16,7 @@ from mgehl.output import checkpoint
 from mgehl.output.checkpoint import UNDER_WAY, Checkpoint, clear, keep_start, load, save, start_of
 from mgehl.output.files import write_config
 from mgehl.run import Watch, solve
-from mgehl.solver.nested import first_guess
-from mgehl.solver.outcome import Outcome
-from mgehl.solver.problem import State
-from mgehl.solver.relaxation import Standing
+from mgehl.solver.record import Kept
 
 STOPPED = Stopped("told to", 143)
 CONFIG = config_from_tables({})
@@ -44,9 +41,26 @@ def grid(tiny_problem):
     return tiny_problem.grid
 
 
+@dataclass
+class Left(Kept):
+    """What a solve leaves; a checkpoint knows nothing of it but its record."""
+
+    P: np.ndarray
+    step: int = 5
+    reason: str = ""
+
+
 @pytest.fixture
-def standing(tiny_problem):
-    return Standing(Outcome(first_guess(tiny_problem, "film"), False, ""), 5)
+def left(grid):
+    return Left(np.random.default_rng(1).random(grid.shape))
+
+
+def recalled(kept, grid):
+    return kept.recall(grid, Left.from_record)
+
+
+def standing(kept, grid):
+    return kept.standing(grid, Left.from_record)
 
 
 class TestKeeping:
@@ -58,53 +72,85 @@ class TestKeeping:
 
     def test_nothing_is_known_of_a_new_run(self, tmp_path, grid):
         kept = self.make(tmp_path)
-        assert kept.recall(grid) is None and kept.standing(grid) is None
+        assert recalled(kept, grid) is None and standing(kept, grid) is None
 
-    def test_a_position_is_saved_when_it_is_time(self, tmp_path, grid, standing):
-        self.make(tmp_path, seconds=inf).step(grid, standing)
+    def test_a_position_is_saved_when_it_is_time(self, tmp_path, grid, left):
+        self.make(tmp_path, seconds=inf).step(grid, left)
         assert self.names(tmp_path) == []
-        self.make(tmp_path, seconds=0.0, steps=7).step(grid, standing)
+        self.make(tmp_path, seconds=0.0, steps=7).step(grid, left)
         assert self.names(tmp_path) == [UNDER_WAY]
         again = self.make(tmp_path)
-        back = again.standing(grid)
-        np.testing.assert_array_equal(back.outcome.state.P, standing.outcome.state.P)
+        back = standing(again, grid)
+        np.testing.assert_array_equal(back.P, left.P)
         assert back.step == 5 and again._progress.steps == 7
 
-    def test_it_stops_when_all_is_saved(self, tmp_path, grid, standing):
+    def test_it_stops_when_all_is_saved(self, tmp_path, grid, left):
         with pytest.raises(Stopped) as stopped:
-            self.make(tmp_path, stop=lambda: STOPPED).step(grid, standing)
+            self.make(tmp_path, stop=lambda: STOPPED).step(grid, left)
         assert (str(stopped.value), stopped.value.status) == ("told to", 143)
-        assert self.make(tmp_path).standing(grid).step == 5
+        assert standing(self.make(tmp_path), grid).step == 5
 
-    def test_finished_solves_are_recalled_in_order(self, tmp_path, grid, standing):
-        kept, outcome = self.make(tmp_path), standing.outcome
+    def test_finished_solves_are_recalled_in_order(self, tmp_path, grid, left):
+        kept = self.make(tmp_path)
         for reason in ("first", "second"):
-            kept.finish(grid, replace(outcome, reason=reason))
+            kept.finish(grid, replace(left, reason=reason))
         assert self.names(tmp_path) == ["solve-0000.npz", "solve-0001.npz"]
         again = self.make(tmp_path)
-        assert [again.recall(grid).reason for _ in range(2)] == ["first", "second"]
-        assert again.recall(grid) is None
-        again.finish(grid, replace(outcome, reason="third"))
+        assert [recalled(again, grid).reason for _ in range(2)] == ["first", "second"]
+        assert recalled(again, grid) is None
+        again.finish(grid, replace(left, reason="third"))
         assert self.names(tmp_path)[-1] == "solve-0002.npz"
 
-    def test_what_was_under_way_is_behind_once_its_solve_is_finished(self, tmp_path, grid, standing):
+    def test_what_was_under_way_is_behind_once_its_solve_is_finished(self, tmp_path, grid, left):
         """A kill may leave both."""
         kept = self.make(tmp_path, seconds=0.0, steps=3)
-        kept.step(grid, standing)
-        kept.finish(grid, standing.outcome)
+        kept.step(grid, left)
+        kept.finish(grid, left)
         again = self.make(tmp_path)
-        assert again.standing(grid).step == 5
-        assert again.recall(grid) is not None
-        assert again.standing(grid) is None
+        assert standing(again, grid).step == 5
+        assert recalled(again, grid) is not None
+        assert standing(again, grid) is None
 
-    def test_another_configuration_is_refused(self, tmp_path, grid, standing):
-        self.make(tmp_path, seconds=0.0).step(grid, standing)
+    @pytest.mark.parametrize("dtype", [float, np.int8, bool])
+    def test_arrays_are_of_their_type_and_no_views(self, tmp_path, grid, left, dtype):
+        array = left.P > 0.5 if dtype is bool else (100.0 * left.P).astype(dtype)
+        self.make(tmp_path).finish(grid, Left(array))
+        back = recalled(self.make(tmp_path), grid).P
+        assert back.dtype == dtype and back.flags.writeable
+        np.testing.assert_array_equal(back, array)
+
+    def test_a_file_names_what_it_keeps(self, tmp_path, grid, left):
+        """Whoever opens it needs no class of ours."""
+        self.make(tmp_path, seconds=0.0).step(grid, left)
+        with np.load(tmp_path / "checkpoint" / UNDER_WAY) as file:
+            np.testing.assert_array_equal(file["P"], left.P)
+            record = json.loads(file["record.json"])
+        assert record["values"] == {"step": 5, "reason": ""}
+        assert record["configuration"]["motion"]["speed"] == CONFIG.motion.speed
+
+    def test_another_configuration_is_refused(self, tmp_path, grid, left):
+        self.make(tmp_path, seconds=0.0).step(grid, left)
         other = self.make(tmp_path, config=config_from_tables({"motion": {"speed": 2.0}}))
         with pytest.raises(OutputError, match="another configuration"):
-            other.standing(grid)
+            standing(other, grid)
 
-    def test_it_is_cleared_with_all_that_is_in_it(self, tmp_path, grid, standing):
-        self.make(tmp_path, seconds=0.0).step(grid, standing)
+    def test_names_of_something_else_are_refused(self, tmp_path, grid, left):
+        @dataclass
+        class Other(Kept):
+            H: np.ndarray
+
+        self.make(tmp_path, seconds=0.0).step(grid, Other(left.P))
+        with pytest.raises(OutputError, match="is damaged, or no checkpoint: .*'H'"):
+            standing(self.make(tmp_path), grid)
+
+    def test_arrays_of_another_grid_are_refused(self, tmp_path, grid, left, make_hierarchy, paper_contact):
+        self.make(tmp_path, seconds=0.0).step(grid, left)
+        other = make_hierarchy(paper_contact(), nodes=17, coarsest=9).grids[-1]
+        with pytest.raises(OutputError, match="P is not of 17 x 17 nodes"):
+            standing(self.make(tmp_path), other)
+
+    def test_it_is_cleared_with_all_that_is_in_it(self, tmp_path, grid, left):
+        self.make(tmp_path, seconds=0.0).step(grid, left)
         clear(tmp_path)
         clear(tmp_path)
         assert not list(tmp_path.iterdir())
@@ -132,13 +178,17 @@ class TestStart:
 class TestFile:
     """`save` and `load`."""
 
-    RECORD = {"format": checkpoint.FORMAT, "mgehl": checkpoint.VERSION, "configuration": CONFIGURATION}
+    RECORD = {
+        "format": checkpoint.FORMAT,
+        "mgehl": checkpoint.VERSION,
+        "configuration": json.loads(CONFIGURATION),
+    }
     ARRAYS = {"array0": np.linspace(0.0, 1.0, 12).reshape(3, 4), "array1": np.eye(3, dtype=np.int8)}
 
     @pytest.fixture
     def path(self, tmp_path):
         path = tmp_path / "folder" / "solve-0000.npz"
-        save(path, self.RECORD | {"thing": [None, 0.1]}, self.ARRAYS)
+        save(path, self.RECORD | {"values": [None, 0.1]}, self.ARRAYS)
         return path
 
     def refused(self, path):
@@ -150,7 +200,7 @@ class TestFile:
 
     def test_it_reads_back(self, path):
         record, arrays = load(path, CONFIGURATION)
-        assert record["thing"] == [None, 0.1]
+        assert record["values"] == [None, 0.1]
         assert arrays.keys() == self.ARRAYS.keys()
         for name, array in arrays.items():
             assert array.dtype == self.ARRAYS[name].dtype
@@ -184,7 +234,7 @@ class TestFile:
                     refused += 1
                     assert "\n" not in str(error)
                 else:
-                    assert record["thing"] == [None, 0.1]
+                    assert record["values"] == [None, 0.1]
                     for name, array in arrays.items():
                         np.testing.assert_array_equal(array, self.ARRAYS[name])
         assert refused > len(whole)
@@ -195,7 +245,7 @@ class TestFile:
         assert f"written by mgehl {self.RECORD['mgehl']}, and 99.0 cannot" in text
 
     def test_another_format(self, path, monkeypatch):
-        monkeypatch.setattr(checkpoint, "FORMAT", 2)
+        monkeypatch.setattr(checkpoint, "FORMAT", checkpoint.FORMAT + 1)
         assert "cannot go on with it" in self.refused(path)
 
     def test_foreign_files(self, path):
@@ -312,12 +362,3 @@ def test_seconds_go_on_where_they_were(tmp_path):
     seconds = [row["seconds"] for row in solution.rows]
     assert seconds == sorted(seconds) and seconds[2] < 900.0 < 1000.0 < seconds[3]
     assert 1000.0 < solution.result.wall_s < 1900.0
-
-
-def test_a_state_is_of_its_own_kind(tiny_problem, tmp_path):
-    """The class of what comes back is the class that went in."""
-    kept = Checkpoint(tmp_path, CONFIG, History(), 0.0)
-    state = first_guess(tiny_problem, "contact")
-    kept.finish(tiny_problem.grid, Outcome(state, True, "", [], []))
-    back = Checkpoint(tmp_path, CONFIG, History(), 0.0).recall(tiny_problem.grid)
-    assert isinstance(back, Outcome) and isinstance(back.state, State) and back.converged is True

@@ -6,6 +6,7 @@ rank is sent to all before the assertion.
 
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -21,7 +22,7 @@ from mgehl.errors import OutputError, Stopped
 from mgehl.grid.regroup import Move
 from mgehl.grid.transfers import PartitionedTransfer
 from mgehl.multigrid.jacobian import BorderedSpace
-from mgehl.output.records import Reader, Writer
+from mgehl.output.checkpoint import Checkpoint
 from mgehl.run import Watch
 from mgehl.run import solve as solve_config
 from mgehl.solver.nested import single_loop
@@ -586,21 +587,32 @@ class TestCheckpoints:
             solve_config(config, comm, Watch(directory=directory, save_every=1e9, stop=stop))
         assert (directory / "checkpoint" / "under-way.npz").exists()
 
-    def test_records_are_the_same_on_any_number_of_ranks(self, pair):
+    def test_arrays_come_back_on_any_number_of_ranks(self, pair, tmp_path):
         together, alone = (hierarchy.grids[-1] for hierarchy in pair(nodes=65))
         values = random(alone)
-        state = State(
-            lines(together, values), 0.1 + 0.2, lines(together, values), lines(together, values) > 0
-        )
-        writer = Writer(together)
-        plain = COMM.bcast(writer.plain(state))
-        arrays = COMM.bcast(writer.arrays)
-        whole_state = Reader(alone, arrays).alive(plain)
+        mine = lines(together, values)
+        directory, config = Path(COMM.bcast(str(tmp_path))), config_from_tables(self.FILM)
+        self.kept(directory, config).finish(together, State(mine, 0.1 + 0.2, mine, mine > 0))
+        back = self.kept(directory, config).recall(together, State.from_record)
+        whole_state = self.kept(directory, config).recall(alone, State.from_record)
         np.testing.assert_array_equal(whole_state.P, values)
         np.testing.assert_array_equal(whole_state.status, values > 0)
-        back = Reader(together, arrays if COMM.rank == 0 else None).alive(plain)
-        np.testing.assert_array_equal(back.P, state.P)
+        np.testing.assert_array_equal(back.P, mine)
         assert back.H0 == 0.1 + 0.2 and back.status.dtype == bool
+
+    def kept(self, directory, config):
+        """A checkpoint, its run without history."""
+        progress = SimpleNamespace(record=dict, go_on=lambda record: None)
+        return Checkpoint(directory, config, progress, seconds=1e9)
+
+    def test_arrays_of_another_grid_are_refused_on_every_rank(self, pair, tmp_path):
+        hierarchy, _ = pair(nodes=65, coarsest=33)
+        coarse, fine = hierarchy.grids[-2:]
+        directory, config = Path(COMM.bcast(str(tmp_path))), config_from_tables(self.FILM)
+        P = np.zeros(coarse.shape)
+        self.kept(directory, config).finish(coarse, State(P, 0.0, P, P))
+        with pytest.raises(OutputError, match="P is not of 65 x 65 nodes"):
+            self.kept(directory, config).recall(fine, State.from_record)
 
     def test_a_damaged_one_is_refused_on_every_rank(self, tmp_path):
         directory = Path(COMM.bcast(str(tmp_path)))

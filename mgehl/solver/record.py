@@ -1,0 +1,128 @@
+"""What is kept of a solve: named values and named arrays, which anybody can read.
+
+A `Record` knows no class of the solver. What is kept turns itself into one (`record`) and is made
+from one again (`from_record`). A dot parts the name of a whole from that of its part. These are all
+names; a new one, or one that is no more, is another `output.checkpoint.FORMAT`.
+
+Of every solve:
+
+    state.P state.H state.status
+        Arrays (lines, nx): pressure and gap in units of P and H, what the nodes are.
+    state.H0
+        Approach of the bodies in units of H.
+    history.step history.residual history.load_error history.central history.minimum
+    history.contact_nodes history.cavitated_nodes
+        Lists with an entry for each line of the history, the state before a step or a sweep.
+
+Of one by Newton's method:
+
+    history.changes.cavitated history.changes.filled history.changes.entered history.changes.released
+        Nodes that changed their status since the line before.
+    history.linear_iterations history.step_length
+        What the step to this line took, and how much of it was gone.
+
+Of one by relaxation:
+
+    history.e_p history.e_p_fluid history.e_p_solid
+        How far the sweep wants to move the pressures.
+
+Of one that has ended:
+
+    converged reason
+        Whether it has its answer, and why it ended.
+    contradictions.i contradictions.j contradictions.gap contradictions.pressure
+    contradictions.neighbours
+        Lists: nodes that can be neither film nor contact, if any.
+
+Of Newton's method under way:
+
+    past.budget past.just_released past.was_released past.turns past.closing_gap past.torn_pressure
+        Arrays: what the nodes went through.
+    changes.cavitated changes.filled changes.entered changes.released
+        Nodes that changed their status since the last line of the history.
+    step.linear_iterations step.length
+        What the last step took, and how much of it was gone.
+    early_rounds stalls
+        How often Eq. 2 was asked before the last digits; linear systems that were given up.
+    trial.answer.P trial.answer.H trial.answer.status trial.answer.H0
+        While Eq. 2 is tried: the state that had settled.
+    trial.reason trial.violations trial.released trial.limit trial.entered
+        Why it had, how many nodes break Eq. 2 there, and what became of them since.
+
+Of the relaxation under way:
+
+    next_sweep
+        Its number.
+"""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class Record:
+    """Values that JSON can hold, and arrays of this rank's lines, (lines, nx), by their names."""
+
+    values: dict = field(default_factory=dict)
+    arrays: dict = field(default_factory=dict)
+
+    @classmethod
+    def of(cls, **named):
+        """Of values, arrays and parts: a `Record`, or what is `Kept`. What is None is left out."""
+        record = cls()
+        for name, each in named.items():
+            if isinstance(each, Kept):
+                each = each.record()
+            if isinstance(each, Record):
+                record.values.update({f"{name}.{key}": value for key, value in each.values.items()})
+                record.arrays.update({f"{name}.{key}": array for key, array in each.arrays.items()})
+            elif isinstance(each, np.ndarray):
+                record.arrays[name] = each
+            elif each is not None:
+                record.values[name] = each.item() if isinstance(each, np.generic) else each
+        return record
+
+    @classmethod
+    def table(cls, rows):
+        """Of many that keep the same values: a list of each; of none, nothing."""
+        records = [row.record().values for row in rows]
+        return cls({name: [values[name] for values in records] for name in records[0]} if records else {})
+
+    def rows(self):
+        """The `Record` of each row of a `table`."""
+        columns = zip(*self.values.values(), strict=True)
+        return [Record(dict(zip(self.values, row, strict=True))) for row in columns]
+
+    def part(self, name):
+        """What is kept of a part, without its name; empty where it is not there."""
+        start = f"{name}."
+        return Record(
+            {key.removeprefix(start): each for key, each in self.values.items() if key.startswith(start)},
+            {key.removeprefix(start): each for key, each in self.arrays.items() if key.startswith(start)},
+        )
+
+    def without(self, name):
+        """The rest, without that part."""
+        start = f"{name}."
+        return Record(
+            {key: each for key, each in self.values.items() if not key.startswith(start)},
+            {key: each for key, each in self.arrays.items() if not key.startswith(start)},
+        )
+
+    def __bool__(self):
+        """Whether anything is kept."""
+        return bool(self.values or self.arrays)
+
+
+class Kept:
+    """A dataclass of values and arrays: what it keeps has the names of its fields."""
+
+    def record(self):
+        """The `Record` of it, whose arrays are its own and no copies."""
+        return Record.of(**vars(self))
+
+    @classmethod
+    def from_record(cls, record):
+        """The one that a `Record` was made of. KeyError or TypeError where it is another's."""
+        return cls(**record.values, **record.arrays)

@@ -1,0 +1,152 @@
+"""What is kept of a solve: names and values as described, and back to what they were made of."""
+
+import json
+import re
+from dataclasses import dataclass, fields, is_dataclass
+from functools import partial
+from math import inf, nan
+
+import numpy as np
+import pytest
+
+from mgehl.solver import record as described
+from mgehl.solver.nested import first_guess
+from mgehl.solver.outcome import Cycle, Outcome
+from mgehl.solver.partition import Changes, Contradiction, Past
+from mgehl.solver.position import Position, Step, Trial
+from mgehl.solver.problem import State
+from mgehl.solver.record import Kept, Record
+from mgehl.solver.relaxation import Standing, Sweep
+
+CYCLE = Cycle(3, nan, -inf, 0.1 + 0.2, 5e-324, 11, 222, Changes(1, 2, 3, 4), 5, 1.0 / 3.0)
+SWEEP = Sweep(100, 1e-3, 0.0, 0.1, 0.2, 3, 4, 0.5, 0.25, 0.125)
+NODE = Contradiction(1, 2, -1e-17, -0.1, ("lubricated", "contact"))
+
+
+def assert_equal(one, other):
+    """Of the same types (numpy's numbers have become plain), arrays bitwise, NaN equal to NaN."""
+    other = other.item() if isinstance(other, np.generic) else other
+    assert type(one) is type(other)
+    if is_dataclass(one):
+        for field in fields(one):
+            assert_equal(getattr(one, field.name), getattr(other, field.name))
+    elif isinstance(one, np.ndarray):
+        assert one.dtype == other.dtype
+        np.testing.assert_array_equal(one, other)
+    elif isinstance(one, list | tuple):
+        assert len(one) == len(other)
+        for pair in zip(one, other, strict=True):
+            assert_equal(*pair)
+    else:
+        assert one == other or (one != one and other != other)
+
+
+def back(kept, made=None):
+    """What is made of a record that has been JSON."""
+    record = kept.record()
+    values = json.loads(json.dumps(record.values))
+    return (made or type(kept).from_record)(Record(values, record.arrays))
+
+
+@pytest.fixture
+def state(tiny_problem):
+    return first_guess(tiny_problem, "film")
+
+
+@pytest.fixture
+def position(state):
+    """One of Newton's method while Eq. 2 is tried."""
+    past = Past.none(state.P.shape, 2)
+    past.turns[4, 4], past.was_released[3, 3], past.closing_gap[4, 4] = 7, True, nan
+    answer = State(2.0 * state.P, -0.3, state.H, state.status)
+    trial = Trial(answer, "settled", 17, 12, 40, 3)
+    return Position(state, past, [CYCLE, CYCLE], Changes(5), Step(12, 0.7), trial, 3, 1)
+
+
+@pytest.fixture
+def standing(state):
+    return Standing(state, [SWEEP, SWEEP], 137)
+
+
+@pytest.fixture
+def ended(state):
+    """Function: an `Outcome` with lines of one kind in its history."""
+    return lambda line: Outcome(state, False, "why", [line, line], [NODE])
+
+
+class TestThereAndBack:
+    def test_a_position_of_newton(self, position):
+        assert_equal(back(position), position)
+
+    def test_a_position_without_a_trial(self, state):
+        position = Position(state, Past.none(state.P.shape, 0))
+        assert not position.record().part("trial")
+        assert_equal(back(position), position)
+
+    def test_a_standing_of_the_relaxation(self, standing):
+        assert_equal(back(standing), standing)
+
+    def test_a_standing_before_the_first_sweep(self, state):
+        assert_equal(back(Standing(state)), Standing(state))
+
+    @pytest.mark.parametrize("line", [CYCLE, SWEEP], ids=["Cycle", "Sweep"])
+    def test_an_outcome(self, ended, line):
+        outcome = ended(line)
+        assert_equal(back(outcome, partial(Outcome.from_record, line=type(line))), outcome)
+
+    def test_an_outcome_without_contradictions(self, state):
+        outcome = Outcome(state, True, "settled", [CYCLE])
+        assert_equal(back(outcome, partial(Outcome.from_record, line=Cycle)), outcome)
+
+    def test_one_is_not_made_of_the_other(self, position, standing):
+        with pytest.raises((KeyError, TypeError)):
+            Position.from_record(standing.record())
+        with pytest.raises((KeyError, TypeError)):
+            Standing.from_record(position.record())
+
+
+def test_the_names_are_those_described(position, standing, ended):
+    """Who changes a name changes the format: the description, and its number in `output.checkpoint`."""
+    names = set()
+    for kept in (position, standing, ended(CYCLE), ended(SWEEP)):
+        names |= kept.record().values.keys() | kept.record().arrays.keys()
+    lines = re.findall(r"^    (\S.*)$", described.__doc__, re.MULTILINE)
+    listed = [name for line in lines for name in line.split()]
+    assert sorted(listed) == sorted(names)
+
+
+@dataclass
+class Flat(Kept):
+    number: object
+    array: object = None
+
+
+class TestRecord:
+    def test_values_arrays_and_parts(self):
+        array = np.eye(2)
+        record = Record.of(number=1, flat=Flat(2.0, array), part=Record({"word": "a"}), missing=None)
+        assert record.values == {"number": 1, "flat.number": 2.0, "part.word": "a"}
+        assert record.arrays.keys() == {"flat.array"} and record.arrays["flat.array"] is array
+
+    def test_a_part_and_the_rest(self):
+        record = Record.of(a=Record.of(b=Flat(1), c=2), ab=3)
+        assert record.part("a").values == {"b.number": 1, "c": 2}
+        assert record.part("a").part("b").values == {"number": 1}
+        assert record.without("a").values == {"ab": 3}
+        assert record.part("a") and not record.part("b")
+
+    def test_numbers_of_numpy_become_plain(self):
+        values = Record.of(a=np.float64(0.1), b=np.int8(3), c=np.bool_(True)).values
+        assert_equal(list(values.values()), [0.1, 3, True])
+
+    def test_a_table_has_a_list_for_each_name(self):
+        table = Record.table([Flat(1), Flat(2), Flat(3)])
+        assert table.values == {"number": [1, 2, 3]}
+        assert [row.values for row in table.rows()] == [{"number": each} for each in (1, 2, 3)]
+
+    def test_a_table_of_nothing_is_empty(self):
+        assert not Record.table([]) and Record.table([]).rows() == []
+
+    def test_columns_of_different_lengths_are_no_table(self):
+        with pytest.raises(ValueError):
+            Record({"a": [1, 2], "b": [1]}).rows()
