@@ -482,6 +482,7 @@ def test_truth_values(text, value):
 
 def test_keys_of_the_discretization_and_the_relaxation():
     """From the configuration to the records that the solver is given."""
+    from mgehl.discretization.contact_law import InterfaceConditions, UnifiedEquations
     from mgehl.solver.from_config import contact_from, settings_from
 
     config = with_settings(
@@ -493,15 +494,18 @@ def test_keys_of_the_discretization_and_the_relaxation():
     contact = contact_from(config)
     settings = settings_from(config, contact)
     scheme, relaxation = settings.scheme, settings.relaxation
-    assert (scheme.cavitation, scheme.couette_at_interface, scheme.motion) == (False, "untreated", 1)
-    assert scheme.gap_floor == pytest.approx(1e-9 / contact.film_scale)
+    assert (scheme.cavitation, scheme.couette_at_interface, scheme.motion) == (
+        False,
+        "untreated",
+        (1.0, 0.0),
+    )
+    assert isinstance(scheme.contact_law, UnifiedEquations)
+    assert scheme.contact_law.smallest_gap == pytest.approx(1e-9 / contact.film_scale)
     assert settings.method == "relaxation"
     assert (relaxation.omega, relaxation.load_every, relaxation.tolerance) == (0.1, 4, 1e-6)
-    # No gap is small enough to be contact in the unified equations.
-    assert settings.newton.film_threshold == relaxation.film_threshold == -float("inf")
-    lcic = settings_from(with_settings(), contact)
-    assert lcic.scheme.gap_floor is None
-    assert lcic.newton.film_threshold == pytest.approx(0.02e-9 / contact.film_scale)
+    law = settings_from(with_settings(), contact).scheme.contact_law
+    assert isinstance(law, InterfaceConditions)
+    assert law.threshold == pytest.approx(0.02e-9 / contact.film_scale)
 
 
 @pytest.mark.parametrize("kind", ["line", "wedge"])

@@ -402,12 +402,12 @@ class TestFailingRank:
         "import os, signal, sys\n"
         "from mpi4py import MPI\n"
         "from mgehl import cli, errors\n"
-        "from mgehl.solver.newton import Newton\n"
-        "def correct(newton, *arguments, correct=Newton._correct):\n"
-        "    if MPI.COMM_WORLD.rank == 1 and newton._now.outcome.cycles[-1].step == 2:\n"
+        "from mgehl.output.checkpoint import Checkpoint\n"
+        "def step(checkpoint, grid, position, step=Checkpoint.step):\n"
+        "    if MPI.COMM_WORLD.rank == 1 and len(position.cycles) == 3:\n"
         "        {what}\n"
-        "    return correct(newton, *arguments)\n"
-        "Newton._correct = correct\n"
+        "    step(checkpoint, grid, position)\n"
+        "Checkpoint.step = step\n"
         "sys.exit(cli.main(sys.argv[1:]))\n"
     )
 

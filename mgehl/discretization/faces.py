@@ -44,20 +44,22 @@ def flows(fluid, status, axis, scheme, linearised=False, rigid=False):
 
 def _flow(fluid, status, axis, scheme, terms, near, linearised, rigid):
     """One flow, its Couette part by `terms`, beside what is solid by `near`."""
-    is_open = open_faces(status, axis)
+    is_open = open_faces(is_solid(status), axis)
     nodes = {W, E}
     if axis.couette:
         nodes |= nodes_of(terms) | nodes_of(near)
     flow = Flow(is_open.shape, nodes if linearised else (), rigid)
     _add_poiseuille(flow, fluid, axis, scheme)
-    if not axis.couette:
+    if scheme.couette_at_interface == "untreated":
+        # Contact stops the pressure flow alone; nothing passes a wall.
         flow.close(is_open)
-    elif scheme.couette_at_interface == "closed":
-        add_couette(flow, terms, near, fluid, is_solid(status), axis)
-        flow.close(is_open)
+        stops = status == WALL
+        is_open = open_faces(stops, axis)
     else:
-        flow.close(is_open)
-        add_couette(flow, terms, near, fluid, status == WALL, axis)
+        stops = is_solid(status)
+    if axis.couette:
+        add_couette(flow, terms, near, fluid, stops, axis)
+    flow.close(is_open)
     return flow
 
 
@@ -88,4 +90,4 @@ def conductances(fluid, status, axis, scheme):
     difference. `fluid` and `status` are ghosted.
     """
     eps = face_mean(scheme, axis.at(fluid.eps, SHIFT[W]), axis.at(fluid.eps, SHIFT[E]))[0]
-    return eps * open_faces(status, axis) / (axis.distance * axis.cell)
+    return eps * open_faces(is_solid(status), axis) / (axis.distance * axis.cell)

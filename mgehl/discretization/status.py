@@ -24,9 +24,8 @@ def is_solid(status):
     return status >= CONTACT
 
 
-def open_faces(status, axis):
-    """True where a face along `axis` lets fluid through; `status` ghosted."""
-    solid = is_solid(status)
+def open_faces(solid, axis):
+    """True where a face along `axis` lets fluid through: neither of its nodes is `solid`, ghosted."""
     return ~(axis.at(solid, 0) | axis.at(solid, 1))
 
 

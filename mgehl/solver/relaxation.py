@@ -14,7 +14,15 @@ from mgehl.config_sections import RelaxationSection, SolverSection
 from mgehl.discretization.axes import own
 from mgehl.discretization.influence import influence_coefficients
 from mgehl.discretization.rows import PRESSURE
-from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED, enclosed, open_faces
+from mgehl.discretization.status import (
+    BOUNDARY,
+    CAVITATED,
+    CONTACT,
+    LUBRICATED,
+    enclosed,
+    is_solid,
+    open_faces,
+)
 from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.outcome import Line, Outcome
 from mgehl.solver.problem import DIVERGED
@@ -186,7 +194,7 @@ class _Relaxation:
         """alpha, beta, gamma of [Liu eq. 52]: mobility held, the gap answering to P."""
         grid, D = self._problem.grid, self._D
         along, across = evaluation.conductances
-        is_open = open_faces(evaluation.status, evaluation.axes[0])
+        is_open = open_faces(is_solid(evaluation.status), evaluation.axes[0])
         carried = own(evaluation.fluid.rho) / grid.mesh.dX
         west, east = (np.zeros(grid.shape) for _ in range(2))
         west[:, 1:], east[:, :-1] = along, along

@@ -11,6 +11,7 @@ from mgehl.discretization.status import (
     LUBRICATED,
     enclosed,
     is_fluid,
+    is_solid,
     largest_fluid_neighbour,
     open_faces,
 )
@@ -106,6 +107,6 @@ def closed_face_flow(problem, evaluation):
     """Largest flow through a face that contact closes: what leaks through solid  [Liu eq. 4]."""
     leaks = []
     for axis, both in zip(evaluation.axes, evaluation.flows, strict=True):
-        shut = ~open_faces(evaluation.status, axis)
+        shut = ~open_faces(is_solid(evaluation.status), axis)
         leaks += [flow.value[shut] for flow in both]
     return max(problem.grid.max(np.abs(leak), initial=0.0) for leak in leaks)

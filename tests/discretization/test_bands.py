@@ -109,7 +109,8 @@ def test_line_bands_solve_the_band_of_J_Q(offsets, share):
     bands, kappa = LineBands(lines, nx), influence_of_columns(K, share)
     # A second factorisation must not see the first.
     for stencils in ((B, A), (A, B)):
-        bands.factor(Linearisation(np.array(offsets), *stencils, None), distributive, kappa, share)
+        bands.build(Linearisation(np.array(offsets), *stencils, None), distributive, kappa, share)
+        bands.factor()
     bands.solve(r, w)
     offset = np.subtract.outer(np.arange(nx), np.arange(nx))
     for j in range(lines):
@@ -166,7 +167,8 @@ def test_long_lines_of_a_differenced_gap_have_a_bounded_solution():
     def largest(kappa, nx):
         linear, distributive = wedge_term(nx)
         bands, r, w = LineBands(1, nx), np.zeros((1, nx)), np.empty((1, nx))
-        bands.factor(linear, distributive, kappa, 0.5)
+        bands.build(linear, distributive, kappa, 0.5)
+        bands.factor()
         r[0, nx // 4] = 1.0
         bands.solve(r, w)
         return np.abs(w).max()

@@ -329,11 +329,8 @@ def test_untreated_interface_stops_poiseuille_flow_only(couette, motion, mixed):
             assert (free.value != couette_flow.value)[closed].all()
 
 
-LEAKS = pytest.mark.xfail(strict=True, reason="BUG: an untreated Couette flow passes the walls along Y")
-
-
 @every_scheme
-@pytest.mark.parametrize("interface", ["closed", pytest.param("untreated", marks=LEAKS)])
+@pytest.mark.parametrize("interface", ["closed", "untreated"])
 def test_nothing_passes_a_wall(couette, interface):
     """Not even an untreated Couette flow, and nothing is extrapolated from beyond."""
     row, scheme = Row("y"), Scheme(couette, couette_at_interface=interface)

@@ -70,7 +70,7 @@ def test_codes_index_the_names():
 def test_closed_faces_of_each_neighbourhood(number, closed):
     """Exactly the faces that the paper's case lists are closed."""
     status = walled(neighbourhood(closed))
-    x, y = open_faces(status, ALONG_X)[1], open_faces(status, ALONG_Y)[:, 2]
+    x, y = open_faces(is_solid(status), ALONG_X)[1], open_faces(is_solid(status), ALONG_Y)[:, 2]
     is_open = {"west": x[1], "east": x[2], "south": y[1], "north": y[2]}
     assert {face for face, through in is_open.items() if not through} == closed
 
@@ -105,8 +105,8 @@ def test_fluid_with_four_closed_faces_is_shut_in_by_any_motion(motion):
 def test_face_is_closed_by_either_node_and_by_what_is_solid_only():
     row = np.array([BOUNDARY, CONTACT, CONTACT, CAVITATED, LUBRICATED, BOUNDARY])
     expected = [False, False, False, True, True]
-    assert open_faces(walled(row[None]), ALONG_X)[0].tolist() == expected
-    assert open_faces(walled(row[:, None]), ALONG_Y)[:, 0].tolist() == [False, *expected, False]
+    assert open_faces(is_solid(walled(row[None])), ALONG_X)[0].tolist() == expected
+    assert open_faces(is_solid(walled(row[:, None])), ALONG_Y)[:, 0].tolist() == [False, *expected, False]
 
 
 def test_contact_and_walls_are_solid_film_and_cavities_fluid():

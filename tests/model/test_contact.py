@@ -23,7 +23,7 @@ def test_scales_are_those_of_the_dry_contact(contact):
     assert (contact.x_scale, contact.y_scale, contact.pressure_scale) == (hertz.a, hertz.b, hertz.p_h)
     assert contact.film_scale == pytest.approx(hertz.a**2 / 12.7e-3, rel=1e-15)
     assert contact.approach * contact.film_scale == pytest.approx(hertz.approach, rel=1e-15)
-    assert contact.motion == 1
+    assert contact.motion == (1.0, 0.0)
 
 
 @every_contact

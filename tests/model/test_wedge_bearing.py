@@ -34,7 +34,7 @@ def test_turned_bearing_is_the_mirror_image():
     np.testing.assert_allclose(turned, -X[::-1], rtol=1e-15)
     assert TURNED.placement(65)[1] == (-8.0, -4.0)
     np.testing.assert_allclose(TURNED.gap(turned), BEARING.gap(X)[::-1], rtol=1e-15)
-    assert (BEARING.motion, TURNED.motion) == (-1, 1)
+    assert (BEARING.motion, TURNED.motion) == ((-1.0, 0.0), (1.0, 0.0))
 
 
 def test_gap_is_the_slope_times_the_distance():

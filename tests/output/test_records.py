@@ -9,8 +9,9 @@ import pytest
 
 from mgehl.output.records import Reader, Writer
 from mgehl.solver.nested import first_guess
-from mgehl.solver.outcome import Answer, Cycle, Outcome, Position
+from mgehl.solver.outcome import Cycle, Outcome
 from mgehl.solver.partition import Changes, Contradiction, Past
+from mgehl.solver.position import Position, Step, Trial
 from mgehl.solver.problem import State
 from mgehl.solver.relaxation import Standing, Sweep
 
@@ -57,17 +58,22 @@ NODE = Contradiction(1, 2, -1e-17, -0.1, ("lubricated", "contact"))
 def test_a_position_of_newton(there_and_back, state):
     past = Past.none(state.P.shape, 2)
     past.turns[4, 4], past.was_released[3, 3], past.closing_gap[4, 4] = 7, True, nan
-    outcome = Outcome(state, False, "why", [CYCLE, CYCLE], [NODE])
-    answer = Answer(State(2.0 * state.P, -0.3, state.H, state.status), "settled", 17)
-    position = Position(outcome, past, 60, Changes(5), 12, 0.7, answer, 3, 1)
+    answer = State(2.0 * state.P, -0.3, state.H, state.status)
+    trial = Trial(answer, "settled", violations=17, released=3, limit=60, entered=1)
+    position = Position(state, past, [CYCLE, CYCLE], Changes(5), Step(12, 0.7), trial, 2, 1)
     assert_equal(there_and_back(position), position)
 
 
-def test_a_position_without_an_answer(there_and_back, state):
-    position = Position(Outcome(state, False, ""), Past.none(state.P.shape, 0), 60)
+def test_a_position_without_a_trial(there_and_back, state):
+    position = Position(state, Past.none(state.P.shape, 0))
     back = there_and_back(position)
-    assert back.answer is None
+    assert back.trial is None
     assert_equal(back, position)
+
+
+def test_an_outcome(there_and_back, state):
+    outcome = Outcome(state, False, "why", [CYCLE, CYCLE], [NODE])
+    assert_equal(there_and_back(outcome), outcome)
 
 
 def test_a_standing_of_the_relaxation(there_and_back, state):

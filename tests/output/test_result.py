@@ -29,9 +29,7 @@ def summary(tiny_problem, outcome, monkeypatch):
 
     def make(residual=1e-9, load=-2e-10):
         monkeypatch.setattr(tiny_problem, "state", lambda P, H0, status: outcome.state)
-        monkeypatch.setattr(
-            tiny_problem, "residual", lambda state, inflow: np.full(state.P.shape, residual)
-        )
+        monkeypatch.setattr(tiny_problem, "residual", lambda _, status: np.full(status.shape, residual))
         monkeypatch.setattr(tiny_problem, "load_deficit", lambda P: load)
         return summarise(tiny_problem, outcome, 1e-8, Work(12.5, 7), 3.0, {"mgehl": "0"})
 
@@ -48,7 +46,9 @@ def test_a_final_state_beyond_the_tolerance_is_not_converged_whatever_newton_sai
 def test_gap_residual_and_load_are_evaluated_anew(tiny_problem, outcome):
     result = summarise(tiny_problem, outcome, 1e-8, Work(12.5, 7), 3.0, {})
     state = tiny_problem.state(outcome.state.P, 0.0, outcome.state.status)
-    assert result.residual == tiny_problem.rms(tiny_problem.residual(tiny_problem.evaluate(state), state.status))
+    assert result.residual == tiny_problem.rms(
+        tiny_problem.residual(tiny_problem.evaluate(state), state.status)
+    )
     assert result.load_error == tiny_problem.load_deficit(state.P)
     assert not result.converged
 

@@ -12,9 +12,11 @@ import pytest
 from mpi4py import MPI
 
 from mgehl.config import config_from_tables
+from mgehl.discretization.axes import own
 from mgehl.discretization.mesh import HALO
+from mgehl.discretization.rows import rows_of
 from mgehl.discretization.scheme import Scheme
-from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
+from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED, WALL
 from mgehl.errors import OutputError, Stopped
 from mgehl.grid.regroup import Move
 from mgehl.grid.transfers import PartitionedTransfer
@@ -72,6 +74,11 @@ def mixed_status(grid):
     return np.where(grid.boundary(), BOUNDARY, status).astype(np.int8)
 
 
+def problem_of(hierarchy, contact, scheme=None):
+    """The `ContactProblem` on the finest grid."""
+    return ContactProblem(hierarchy.grids[-1], hierarchy.deflections[-1], contact, scheme or Scheme())
+
+
 class TestGrid:
     def test_lines_are_dealt_out_to_all_ranks(self, pair):
         together, _ = pair(nodes=129)
@@ -86,23 +93,27 @@ class TestGrid:
         together, _ = pair(nodes=65)
         grid = together.grids[-1]
         values = (random(grid) > 0.0).astype(kind)
-        padded = np.zeros((grid.mesh.ny + 2, grid.mesh.nx), dtype=kind)
-        padded[1:-1] = values
+        padded = np.pad(values, ((HALO, HALO), (0, 0)))
         ghosted = grid.halo(lines(grid, values))
         assert ghosted.dtype == kind
-        np.testing.assert_array_equal(ghosted, padded[grid.first : grid.last + 2])
+        np.testing.assert_array_equal(ghosted, padded[grid.first : grid.last + 2 * HALO])
+
+    def test_only_beyond_the_domain_are_walls(self, pair):
+        together, alone = pair(nodes=65)
+        grid, status = together.grids[-1], mixed_status(alone.grids[-1])
+        padded = np.pad(status, ((HALO, HALO), (0, 0)), constant_values=WALL)
+        ghosted = grid.halo_status(lines(grid, status))
+        np.testing.assert_array_equal(ghosted, padded[grid.first : grid.last + 2 * HALO])
 
     def test_refresh_brings_the_neighbours_lines_in_place(self, pair):
         together, _ = pair(nodes=65)
         grid = together.grids[-1]
         values = random(grid)
         ghosted = grid.halo(lines(grid, values))
-        ghosted[1:-1] *= 2.0
+        own(ghosted)[:] *= 2.0
         grid.refresh(ghosted)
-        if grid.first > 0:
-            np.testing.assert_array_equal(ghosted[0], 2.0 * values[grid.first - 1])
-        if grid.last < grid.mesh.ny:
-            np.testing.assert_array_equal(ghosted[-1], 2.0 * values[grid.last])
+        padded = np.pad(2.0 * values, ((HALO, HALO), (0, 0)))
+        np.testing.assert_array_equal(ghosted, padded[grid.first : grid.last + 2 * HALO])
 
     def test_gather(self, pair):
         together, _ = pair(nodes=65)
@@ -260,8 +271,10 @@ class TestTransfers:
         status = mixed_status(serial.fine)
         coarse_status = serial.inject(status)
         expected, partitioned = PartitionedTransfer(serial), PartitionedTransfer(shared)
-        expected.partition(coarse_status, status)
-        partitioned.partition(lines(shared.coarse, coarse_status), lines(shared.fine, status))
+        kinds = [(each, rows_of(each)) for each in (coarse_status, status)]
+        expected.partition(*kinds)
+        mine = zip((shared.coarse, shared.fine), kinds, strict=True)
+        partitioned.partition(*([lines(grid, each) for each in kind] for grid, kind in mine))
         fine, coarse = random(serial.fine, 3), random(serial.coarse, 4)
         restricted = whole(shared.coarse, partitioned.restrict(lines(shared.fine, fine)))
         prolonged = whole(shared.fine, partitioned.prolong(lines(shared.coarse, coarse)))
@@ -303,7 +316,7 @@ class TestSolutions:
                 assert film == pytest.approx(expected_film, rel=1e-9)
         # The verification says the same on every rank, and the same as on one.
         problem = together.problem
-        inequality = check_pressure_inequality(grid, state.P, state.status)
+        inequality = check_pressure_inequality(problem, state)
         serial = check_pressure_inequality(alone.problem, expected)
         assert (inequality.checked, inequality.violations) == (serial.checked, serial.violations)
         assert complementarity_error(problem, state, problem.evaluate(state)) < 1e-7
@@ -315,35 +328,55 @@ class TestSolutions:
         told = [(level.nodes, cycle.step, cycle.residual, cycle.central) for level, cycle in solution.told]
         assert all(each == told for each in COMM.allgather(told))
 
-    def test_a_violation_is_listed_on_every_rank(self, pair):
-        together, alone = pair(nodes=65)
-        grid = together.grids[-1]
-        status, P = mixed_status(alone.grids[-1]), np.zeros((65, 65))
+    def test_a_violation_is_listed_on_every_rank(self, pair, paper_contact):
+        together, alone = (problem_of(each, paper_contact()) for each in pair(nodes=65))
+        grid = together.grid
+        status, P = mixed_status(alone.grid), np.zeros((65, 65))
         P[status == CONTACT] = 0.5
         j = grid.starts[1] if COMM.size > 1 else 32  # the first line of the second rank
         j = int(COMM.bcast(j))
         i = int(np.flatnonzero(status[j] == CONTACT)[0])
         P[j, i - 1] = 0.75
-        result = check_pressure_inequality(grid, lines(grid, P), lines(grid, status))
+        H = np.ones((65, 65))
+        mine = State(lines(grid, P), 0.0, lines(grid, H), lines(grid, status))
+        result = check_pressure_inequality(together, mine)
         assert (i + 1, j + 1) in {(each.i, each.j) for each in result.violations}
         assert all(each == result.violations for each in COMM.allgather(result.violations))
-        serial = check_pressure_inequality(alone.grids[-1], P, status)
+        serial = check_pressure_inequality(alone, State(P, 0.0, H, status))
         assert sorted((v.i, v.j, v.size) for v in serial.violations) == sorted(
             (v.i, v.j, v.size) for v in result.violations
         )
 
 
+class TestMotionAtAnAngle:
+    @pytest.mark.parametrize("couette", ["2B", "S2B-v"])
+    def test_inflow_and_sources_are_the_serial_ones(self, pair, paper_contact, couette):
+        """Two lines upstream may be another rank's."""
+        found, hierarchies = [], pair(nodes=65)
+        status = mixed_status(hierarchies[1].grids[-1])
+        for hierarchy in hierarchies:
+            problem = problem_of(hierarchy, paper_contact(), Scheme(couette, motion=(0.6, 0.8)))
+            grid = problem.grid
+            fields = (0.1 * np.abs(random(grid, 1)), 0.1 + 0.1 * np.abs(random(grid, 2)), status)
+            P, H, mine = (lines(grid, each) for each in fields)
+            evaluation = problem.evaluate(State(P, 0.0, H, mine))
+            found.append([whole(grid, each) for each in (evaluation.inflow, evaluation.source)])
+        for together, alone in zip(*found, strict=True):
+            np.testing.assert_allclose(together, alone, rtol=1e-13, atol=1e-13)
+
+
 class TestTimeSteps:
     def test_a_node_beside_another_rank_s_line_has_the_same(self, pair, paper_contact):
         """By the harmonic mean they ask for the neighbours' pressure."""
-        settings, contact = NewtonSettings(film_threshold=1e-6).squeezed(), paper_contact()
+        settings, contact = NewtonSettings().squeezed(), paper_contact()
         found = []
         for hierarchy in pair(nodes=65):
-            grid, deflection = hierarchy.grids[-1], hierarchy.deflections[-1]
-            problem = ContactProblem(grid, deflection, contact, Scheme(face_mobility="harmonic"))
+            problem = problem_of(hierarchy, contact, Scheme(face_mobility="harmonic"))
+            grid = problem.grid
             P, F = (lines(grid, random(grid, seed)) for seed in (1, 2))
             state = State(0.1 * np.abs(P), 0.0, 0.5 + 0.0 * P, np.full(grid.shape, LUBRICATED))
-            found.append(whole(grid, squeeze_rates(problem, state, 1e-4 * F, settings)))
+            now, rows = problem.evaluate(state), problem.rows(state.status)
+            found.append(whole(grid, squeeze_rates(problem, now, rows, 1e-4 * F, settings)))
         shared = settings.squeeze * problem.rms(1e-4 * F) / grid.mesh.dX
         assert (found[1] > 10.0 * shared).any()
         np.testing.assert_allclose(*found, rtol=1e-10)

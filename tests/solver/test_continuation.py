@@ -91,7 +91,7 @@ class Followed:
     """A `Continuation` with its settings and the levels it solved on."""
 
     def __init__(self, hierarchy, contact, scheme):
-        self.told = []
+        self.told, self.scheme = [], scheme
         settings = SolverSettings(scheme=scheme)
         tell = lambda level, cycle: self.told.append(level)  # noqa: E731
         self.continuation = Continuation(hierarchy, contact, settings, tell)
@@ -186,9 +186,9 @@ def test_another_mean_is_turned_to_gradually(make, solve, paper_contact):
     followed = make(face_mobility="geometric")
     problem, outcome = followed.continuation.begin(1.0, "film")
     assert outcome.converged and problem.contact.speed == 1.0
-    assert problem.scheme == Scheme(face_mobility="geometric")
+    assert problem.scheme == replace(followed.scheme, mobility_share=1.0)
     assert true_residual(problem, outcome.state) <= 1e-8
-    matched = paper_contact().matched_speed(problem.grid.mesh.dX, 2.0)
+    matched = paper_contact().matched_speed(problem.grid.mesh, 2.0)
     assert followed.speeds == [matched, 1.0] and matched > 1.0
     # Less fluid passes by the geometric mean: it takes a thicker film, by half on this grid.
     arithmetic = solve(paper_contact(), 65)
@@ -201,7 +201,7 @@ def test_a_film_is_turned_to_another_mean_at_its_speed(make, solve, paper_contac
     followed, speed = make(face_mobility="geometric"), 3.0
     state = solve(paper_contact(speed), 65).outcome.state
     problem, outcome = followed.continuation.turn(speed, state)
-    assert outcome.converged and problem.scheme == Scheme(face_mobility="geometric")
+    assert outcome.converged and problem.scheme == replace(followed.scheme, mobility_share=1.0)
     assert followed.speeds == [speed] and len(outcome.cycles) <= 12
     assert true_residual(problem, outcome.state) <= 1e-8
 
@@ -220,6 +220,6 @@ def test_without_a_share_any_mean_is_the_arithmetic(make, solve, paper_contact):
     state = solve(paper_contact(), 65).outcome.state
     problem, outcome = followed.continuation.at(1.0, state, share=0.0)
     assert outcome.converged and len(outcome.cycles) == 1
-    assert problem.scheme == replace(Scheme(), face_mobility="harmonic", mobility_share=0.0)
+    assert problem.scheme == replace(followed.scheme, mobility_share=0.0)
     problem, outcome = followed.continuation.at(1.0, state, share=0.1)
     assert len(outcome.cycles) > 1 and problem.scheme.mobility_share == 0.1

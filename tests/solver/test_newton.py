@@ -10,6 +10,7 @@ from mpi4py import MPI
 
 from mgehl.config import load_config
 from mgehl.discretization.kernels import REACH, build_bands, factor_bands
+from mgehl.discretization.mesh import HALO
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import CAVITATED, LUBRICATED
 from mgehl.errors import Stopped
@@ -488,9 +489,11 @@ class TestExceptions:
         assert newton.run(first_guess(problem, "film")).converged
 
 
-@pytest.mark.xfail(strict=True, reason="TO MEND: 15, five of them after the cavities have moved")
 def test_a_step_evaluates_the_fluid_hardly_more_than_once(monkeypatch):
-    """A full film on 257 nodes in 8 steps: at most 12 times on the finest grid, with that of the result."""
+    """A full film on 257 nodes in 8 steps: 10 evaluations of the finest grid, that of the result included.
+
+    Where the cavities move, only the fluid that moved with them is evaluated again: less than half.
+    """
     path = Path(__file__).parents[2] / "configs" / "full_film.toml"
     config = load_config(path, ["motion.speed=1 m/s", "grid.nodes=257"])
     shapes, log_viscosity = [], Barus.log_viscosity
@@ -503,5 +506,8 @@ def test_a_step_evaluates_the_fluid_hardly_more_than_once(monkeypatch):
     solved = solve_config(config, MPI.COMM_SELF)
     steps = max(row["step"] for row in solved.rows if row["grid"] == 257)
     assert solved.result.converged and steps <= 8
-    finest = [shape for shape in shapes if shape and shape[0] >= 257]
-    assert len(finest) <= 12
+    whole = (257 + 2 * HALO, 257)
+    on_finest = shapes[shapes.index(whole) :]  # among them the cycle's, of coarser grids
+    moved = [shape[0] for shape in on_finest if len(shape) == 1]
+    assert on_finest.count(whole) <= steps + 2
+    assert max(moved, default=0) < 0.5 * np.prod(whole)

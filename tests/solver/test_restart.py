@@ -9,6 +9,7 @@ from mgehl.config import config_from_tables
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
 from mgehl.errors import UserError
 from mgehl.grid.hierarchy import Hierarchy
+from mgehl.model.frame import Frame
 from mgehl.run import solve
 from mgehl.solver.from_config import contact_from, mesh_from, settings_from
 from mgehl.solver.problem import ContactProblem
@@ -55,7 +56,7 @@ def onto():
         made.append(Hierarchy(mesh_from(config, contact), 33, contact.kernel, MPI.COMM_SELF))
         grid, deflection = made[-1].grids[-1], made[-1].deflections[-1]
         problem = ContactProblem(grid, deflection, contact, settings_from(config, contact).scheme)
-        return interpolated(problem, start), problem
+        return interpolated(problem, start, Frame()), problem
 
     yield make
     for hierarchy in made:
