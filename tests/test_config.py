@@ -144,6 +144,14 @@ MISTAKES = [
     ("motion.speed=fast", "motion.speed = 'fast': ", "not understood", '"1 m/s"'),
     ("motion.speed=", "motion.speed = '': ", '"1 m/s"'),
     ("motion.speed=3 bananas", "motion.speed = '3 bananas': ", "not understood", '"1 m/s"'),
+    ("motion.angle=steep", "motion.angle = 'steep': ", "not understood", '"1 deg"'),
+    ("motion.angle=nan", "motion.angle = nan: ", "a number in deg", "at least -360", "at most 360"),
+    ("motion.angle=inf", "motion.angle = inf: ", "a number in deg"),
+    ("motion.angle=-inf deg", "motion.angle = '-inf deg': ", '"1 deg"'),
+    ("motion.angle=true", "motion.angle = True: ", "a number in deg"),
+    ("motion.angle=[30]", "motion.angle = [30]: ", "a number in deg"),
+    ("motion.angle=400", "motion.angle = 400: ", "at least -360", "at most 360"),
+    ("motion.angle=30 mm", "motion.angle = '30 mm': ", "wrong unit", '"1 deg"'),
     ("grid.nodes=64.5", "grid.nodes = 64.5: ", "a whole number", "at least 65", "at most 16385"),
     ('grid.nodes="257"', "grid.nodes = '257': ", "a whole number"),
     ("grid.nodes=33", "grid.nodes = 33: ", "at least 65"),
@@ -390,6 +398,7 @@ VALUES = {
     "grid.y": "[-2, 2]", "discretization.contact_model": "unified", "discretization.unified_gap": "1e-9",
     "discretization.film_threshold": "0", "solver.method": "newton-mg", "solver.start": "film",
     "solver.first_nodes": "65", "solver.inlet_cells": "2", "solver.release_budget": "1",
+    "motion.angle": "30",
 }  # fmt: skip
 SECTION_KEYS = {"moes": ["moes.M=20", "moes.L=10"], "coating": ["coating.poisson=0.3"],
                  "wedge": ["wedge.slope=1e-3"],
@@ -397,7 +406,7 @@ SECTION_KEYS = {"moes": ["moes.M=20", "moes.L=10"], "coating": ["coating.poisson
 FOREIGN_KEYS = [
     ("point", "contact.load_per_length"), ("point", "wedge"),
     *(("line", key) for key in ("contact.load", "contact.radius_y", "grid.y", "moes", "wedge",
-                                "contact.deformation", "coating")),
+                                "contact.deformation", "coating", "motion.angle")),
     *(("wedge", key) for key in (*VALUES, "moes", "coating", "relaxation")),
 ]  # fmt: skip
 

@@ -33,6 +33,55 @@ def test_the_paper_s_contact_passes():
     check_contact(config, contact_from(config))
 
 
+class TestTheInletLiesUpstream:
+    """The domain of each case ends beside the contact on one side: if that is upstream, it is refused."""
+
+    SIDES = {
+        "left": ("grid.x=[-1.01, 1.9]", "grid.y=[-1.9, 1.9]", "grid.x", "begin before -1."),
+        "right": ("grid.x=[-1.9, 1.01]", "grid.y=[-1.9, 1.9]", "grid.x", "end beyond 1."),
+        "below": ("grid.x=[-1.9, 1.9]", "grid.y=[-1.01, 1.9]", "grid.y", "begin before -1."),
+        "above": ("grid.x=[-1.9, 1.9]", "grid.y=[-1.9, 1.01]", "grid.y", "end beyond 1."),
+    }
+
+    UPSTREAM = {
+        0: ("left",), 30: ("left", "below"), 90: ("below",), 135: ("right", "below"), 180: ("right",),
+        "-90 deg": ("above",), 315: ("left", "above"),
+    }  # fmt: skip
+
+    def config(self, angle, *domain):
+        speed = ["motion.speed=1 m/s", "contact.radius_y=20 mm"]
+        return load_config(os.devnull, [f"motion.angle={angle}", *speed, *domain])
+
+    @pytest.mark.parametrize("side", SIDES)
+    @pytest.mark.parametrize("angle", UPSTREAM)
+    def test_a_domain_without_room_for_it(self, angle, side):
+        *domain, key, words = self.SIDES[side]
+        config = self.config(angle, *domain)
+        if side not in self.UPSTREAM[angle]:
+            check_contact(config, contact_from(config))
+            return
+        with pytest.raises(ConfigError) as caught:
+            check_contact(config, contact_from(config))
+        message = str(caught.value)
+        assert message.startswith(key) and words in message and "inlet" in message and "\n" not in message
+
+    @pytest.mark.parametrize("domain", ["[-1.3, 1.9]", "[-1.1, 1.9]"])
+    def test_a_contact_turned_with_its_motion_needs_as_much_room(self, domain):
+        """What was enough along x is enough along y, and what was not is not."""
+
+        def refused(angle, radii, key):
+            config = load_config(os.devnull, [f"motion.angle={angle}", "motion.speed=1 m/s", *radii, key])
+            try:
+                check_contact(config, contact_from(config))
+            except ConfigError as error:
+                return str(error).partition(": ")[2]
+
+        along_x = refused(0, ["contact.radius_y=20 mm"], f"grid.x={domain}")
+        radii = ["contact.radius_x=20 mm", "contact.radius_y=12.7 mm"]
+        assert refused(90, radii, f"grid.y={domain}") == along_x
+        assert (along_x is None) == (domain == "[-1.3, 1.9]")
+
+
 LINE, WEDGE = "contact.kind=line", "contact.kind=wedge"
 SQUARE = (WEDGE, "wedge.pillar=square")
 

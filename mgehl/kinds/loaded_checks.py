@@ -60,21 +60,31 @@ def check_exponent(contact):
 
 
 def check_domain(grid, contact):
-    """The inlet and the contact must lie in the domain.
+    """The contact must lie in the domain, and so must the inlet upstream of it.
 
     The widening by a soft layer is estimated, and low by up to a third.
     """
     width = contact.widening
     reach = width if width <= 1.0 else min(width**2, 1.3 * width)
-    inlet = reach + contact.inlet_length
-    if inlet > -grid.x[0]:
-        raise ConfigError(
-            f"grid.x = {list(grid.x)!r}: must begin before {-inlet:.3g}, where the inlet that builds the "
-            "film begins"
-        )
+    length = contact.inlet_length
+    inlets = contact.motion[0] * length, contact.motion[1] * length * contact.k_e
+    for name, ends, inlet in zip("xy", (grid.x, grid.y), inlets, strict=True):
+        _check_inlet(f"grid.{name} = {list(ends)!r}", ends, reach, inlet)
     for name, ends in (("x", grid.x), ("y", grid.y)):
         if min(-ends[0], ends[1]) <= reach:
             raise ConfigError(
                 f"grid.{name} = {list(ends)!r}: must reach beyond {reach:.3g} on both sides, as far as the "
                 "contact may on a layer so soft"
             )
+
+
+def _check_inlet(what, ends, reach, inlet):
+    """Fluid that moves by `inlet` along an axis must get from the edge of the domain to the contact."""
+    needed = reach + abs(inlet)
+    if inlet > 0.0 and needed > -ends[0]:
+        side = f"begin before {-needed:.3g}, where the inlet that builds the film begins"
+    elif inlet < 0.0 and needed > ends[1]:
+        side = f"end beyond {needed:.3g}, where the inlet that builds the film begins"
+    else:
+        return
+    raise ConfigError(f"{what}: must {side}")

@@ -11,6 +11,17 @@ def hamrock_dowson(groups, radius_x, ellipticity):
     return central * radius_x, minimum * radius_x
 
 
+def chittenden(groups, along, across):
+    """Central and minimum film of Chittenden, Dowson, Dunn and Taylor (1985) for entrainment at any angle.
+
+    `along` and `across` are the radii along and across the motion, in m, and the groups are by the first.
+    Both are good to some 20 %.
+    """
+    slender = (across / along) ** (2.0 / 3.0)
+    common = groups.U**0.68 * groups.G**0.49 * groups.W**-0.073 * along
+    return 4.31 * common * (1.0 - exp(-1.23 * slender)), 3.68 * common * (1.0 - exp(-0.67 * slender))
+
+
 def dowson_higginson(groups, radius_x):
     """Central and minimum film of a line contact, of the type of Dowson and Higginson."""
     U, W, G = groups.U, groups.W, groups.G

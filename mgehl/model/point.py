@@ -39,6 +39,14 @@ class PointFormulas:
 
 
 @dataclass(frozen=True)
+class ObliqueFormulas(PointFormulas):
+    """The same, and the formula made for motion along neither axis."""
+
+    chittenden_central: float
+    chittenden_minimum: float
+
+
+@dataclass(frozen=True)
 class PointContact(LoadedContact):
     """A paraboloid pressed on a lubricated flat; load in N."""
 
@@ -170,7 +178,10 @@ class PointContact(LoadedContact):
         like = self.aligned
         central, minimum = films.hamrock_dowson(self.groups, like.radius_x, 1.0 / like.k_e)
         moes = films.nijenbanning_venner_moes(self.groups, like.radius_x, like.radius_y)
-        return PointFormulas(central, minimum, moes, like.grubin_film)
+        found = central, minimum, moes, like.grubin_film
+        if 0.0 in self.motion:
+            return PointFormulas(*found)
+        return ObliqueFormulas(*found, *films.chittenden(self.groups, like.radius_x, like.radius_y))
 
     @property
     def moes_scale(self):

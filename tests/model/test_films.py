@@ -5,7 +5,7 @@ import pytest
 
 from mgehl.model import films
 from mgehl.model.contact import Groups
-from mgehl.model.films import dowson_higginson, grubin, hamrock_dowson, nijenbanning_venner_moes
+from mgehl.model.films import chittenden, dowson_higginson, grubin, hamrock_dowson, nijenbanning_venner_moes
 from mgehl.model.lubricant import Barus, DowsonHigginson, Lubricant
 from mgehl.model.point import PointContact
 
@@ -29,6 +29,20 @@ def test_hamrock_dowson(ellipticity, central, minimum):
     groups = SimpleNamespace(U=1e-11, W=1e-6, G=4500.0)
     expected = (0.02 * central, 0.02 * minimum)
     assert hamrock_dowson(groups, 0.02, ellipticity) == pytest.approx(expected, rel=1e-13)
+
+
+@pytest.mark.parametrize(
+    "across, central, minimum",
+    [
+        (0.02, 3.415349464143568e-7, 2.012014198794409e-7),
+        (0.06, 4.452307761672909e-7, 3.097945192042367e-7),
+        (0.005, 1.863893350052562e-7, 9.620436324916264e-8),
+    ],
+)
+def test_chittenden(across, central, minimum):
+    """U = 1e-11, W = 1e-6, G = 4500, 0.02 m along the motion."""
+    groups = SimpleNamespace(U=1e-11, W=1e-6, G=4500.0)
+    assert chittenden(groups, 0.02, across) == pytest.approx((central, minimum), rel=1e-13)
 
 
 @pytest.mark.parametrize(

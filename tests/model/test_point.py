@@ -1,12 +1,16 @@
-from math import pi, sqrt
+from dataclasses import asdict, replace
+from math import cos, pi, radians, sin, sqrt
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from scipy.integrate import dblquad
 
+from mgehl.discretization.mesh import Mesh
+from mgehl.model.films import chittenden
 from mgehl.model.hertz import hertz_contact, hertz_pressure
 from mgehl.model.lubricant import Barus, ConstantDensity, DowsonHigginson, Lubricant
-from mgehl.model.point import LOAD, PointContact
+from mgehl.model.point import LOAD, PointContact, radii_along
 
 LUBRICANT = Lubricant(Barus(0.096, 18.2e-9), DowsonHigginson())
 
@@ -128,3 +132,95 @@ def test_inlet_length_of_the_headline_case():
     h = (12.0 * 0.2687 * 18.2e-9 * 0.096 * 7.5e-3 * a) ** 0.75 / sqrt(C)
     assert contact.formulas.grubin == pytest.approx(h, rel=1e-12)
     assert contact.inlet_length == pytest.approx((h / C) ** (2.0 / 3.0), rel=1e-12)
+
+
+class TestMotionAtAnAngle:
+    """Formulas see the curvatures along and across the motion; every turn of axes is the same contact."""
+
+    def at(self, angle, radius_x=12.7e-3, radius_y=40e-3, **changes):
+        return replace(elliptical(radius_x, radius_y), angle=angle, **changes)
+
+    @pytest.mark.parametrize("angle", (0.0, 20.0, 45.0, 130.0, -75.0))
+    def test_radii_are_those_of_the_paraboloid_along_and_across(self, angle):
+        """The curvature of x^2/2R_x + y^2/2R_y along a direction is its second difference there."""
+        along, across = radii_along(angle, 12.7e-3, 40e-3)
+        for radius, degrees in ((along, angle), (across, angle + 90.0)):
+            x, y = cos(radians(degrees)), sin(radians(degrees))
+            assert 1.0 / radius == pytest.approx(x**2 / 12.7e-3 + y**2 / 40e-3, rel=1e-13)
+
+    @pytest.mark.parametrize(
+        "angle, radii", {0: (0.01, 0.03), 90: (0.03, 0.01), 180: (0.01, 0.03), 270: (0.03, 0.01)}.items()
+    )
+    def test_along_the_axes_they_are_the_radii_to_the_last_bit(self, angle, radii):
+        assert radii_along(angle, 0.01, 0.03) == radii
+
+    def test_a_ball_has_one_radius_whatever_the_angle(self):
+        assert radii_along(33.0, 12.7e-3, 12.7e-3) == (12.7e-3, 12.7e-3)
+
+    def test_aligned_it_moves_along_x(self):
+        contact = self.at(30.0)
+        assert contact.aligned.motion == (1.0, 0.0)
+        assert (contact.aligned.radius_x, contact.aligned.radius_y) == radii_along(30.0, 12.7e-3, 40e-3)
+        assert contact.aligned.aligned is contact.aligned
+
+    @pytest.mark.parametrize("angle", (0.0, 25.0, 65.0, 90.0, 155.0, 205.0, 245.0, 295.0, 335.0))
+    def test_in_its_frame_it_is_the_same_contact(self, angle):
+        """Gap, pressure, film scale in m, inlet, groups, formulas: none knows of the axes."""
+        contact = self.at(angle)
+        frame = contact.frame
+        there = contact.in_frame(frame)
+        x, y = 0.7e-4, -1.3e-4
+        mine = contact.undeformed_gap(*np.divide(frame.users_point(x, y), _scales(contact)))
+        gap = there.undeformed_gap(*np.divide((x, y), _scales(there)))
+        assert gap * there.film_scale == pytest.approx(mine * contact.film_scale, rel=1e-12)
+        assert there.hertz.p_h == pytest.approx(contact.hertz.p_h, rel=1e-12)
+        assert there.inlet_length * there.x_scale == pytest.approx(contact.inlet_length * contact.x_scale)
+        assert there.groups == contact.groups
+        assert (there.regime, asdict(there.formulas)) == (contact.regime, asdict(contact.formulas))
+        assert there.moes_scale == contact.moes_scale and there.expected_film == contact.expected_film
+        assert frame.users_point(*there.motion) == pytest.approx(contact.motion, abs=1e-15)
+
+    @pytest.mark.parametrize("angle", (25.0, 90.0, 155.0, 290.0))
+    def test_cells_in_the_inlet_are_those_of_its_frame(self, angle):
+        contact = self.at(angle)
+        mesh = Mesh(65, 65, (-3.0, 2.0), (-2.0, 4.0), contact.k_e)
+        there = contact.in_frame(contact.frame)
+        assert there.inlet_cells(mesh.in_frame(contact.frame)) == pytest.approx(contact.inlet_cells(mesh))
+
+    def test_cells_along_an_axis_are_those_of_the_mesh(self):
+        """In units of a: dX along x, and dY b/a along y."""
+        contact = self.at(0.0)
+        mesh = Mesh(65, 65, (-3.0, 2.0), (-2.0, 4.0), contact.k_e)
+        assert contact.cell_along_motion(mesh) == mesh.dX
+        turned = self.at(90.0)
+        assert turned.cell_along_motion(mesh) == pytest.approx(mesh.dY * turned.hertz.b / turned.hertz.a)
+
+    @pytest.mark.parametrize("angle", (0.0, 40.0, 90.0))
+    def test_moes_numbers_are_of_the_radius_along_the_motion(self, angle):
+        contact = PointContact.from_moes(200.0, 10.0, 12.7e-3, 40e-3, 219.78e9, LUBRICANT, angle=angle)
+        assert (contact.groups.M, contact.groups.L) == pytest.approx((200.0, 10.0), rel=1e-12)
+        radius, _ = radii_along(angle, 12.7e-3, 40e-3)
+        W = contact.load / (219.78e9 * radius**2)
+        assert contact.groups.W == pytest.approx(W, rel=1e-13)
+
+    @pytest.mark.parametrize("angle", (0.0, 90.0, 180.0, -90.0))
+    def test_along_an_axis_it_has_the_formulas_that_it_always_had(self, angle):
+        assert asdict(self.at(angle).formulas).keys() == asdict(elliptical().formulas).keys()
+
+    def test_at_an_angle_the_formula_made_for_it_joins_them(self):
+        contact = self.at(30.0)
+        like = contact.aligned
+        found = contact.formulas
+        central, minimum = chittenden(contact.groups, like.radius_x, like.radius_y)
+        assert (found.chittenden_central, found.chittenden_minimum) == (central, minimum)
+        assert found.hamrock_dowson_central == like.formulas.hamrock_dowson_central
+
+    def test_a_surface_turns_with_the_axes(self):
+        contact = self.at(110.0, surface=SimpleNamespace(height=lambda x, y: 1e-6 * x + 2e-6 * y))
+        there = contact.in_frame(contact.frame)
+        x, y = contact.frame.users_point(1e-4, 3e-4)
+        assert there.surface.height(1e-4, 3e-4) == contact.surface.height(x, y)
+
+
+def _scales(contact):
+    return contact.x_scale, contact.y_scale

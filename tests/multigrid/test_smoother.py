@@ -5,8 +5,12 @@ import pytest
 from mpi4py import MPI
 from petsc4py import PETSc
 
+from mgehl.discretization.bands import distributive_nodes
+from mgehl.discretization.influence import influence_coefficients
+from mgehl.discretization.rows import FLOW, GAP, PRESSURE
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import BOUNDARY, CAVITATED, LUBRICATED
+from mgehl.multigrid.smoother import CrossedLineSmoother
 from mgehl.solver.problem import ContactProblem
 
 NODES = 65
@@ -121,3 +125,78 @@ def test_given_pressures_get_no_correction(
     given = (state.status == BOUNDARY) | (state.status == CAVITATED)
     np.testing.assert_array_equal(correction[given], 0.0)
     assert np.all(np.isfinite(correction)) and np.any(correction[~given] != 0.0)
+
+
+class TestLinesAlongBothAxes:
+    """The smoother of a motion at an angle against dense matrices, on a grid that a band spans.
+
+    A band is cut at 5 nodes, and the ends of a line are 6 apart: they and what is beside them are given, so
+    that nothing moves there.
+    """
+
+    NODES, OMEGA = 7, 0.8
+
+    @pytest.fixture
+    def jacobian(self, make_problem, paper_contact, rough_state, make_jacobian):
+        contact = paper_contact(radius_y=20e-3, angle=30.0)
+        problem = make_problem(contact, Scheme("2B", motion=contact.motion), nodes=self.NODES)
+        return make_jacobian(problem, rough_state(problem))
+
+    @pytest.fixture
+    def rows(self):
+        """Nodes that are distributive in the middle but for one; the pressures about them are given."""
+        rows = np.full((self.NODES, self.NODES), PRESSURE)
+        rows[2:-2, 2:-2] = FLOW
+        rows[2, 3], rows[3, 2] = GAP, PRESSURE
+        return rows
+
+    @pytest.fixture
+    def smoother(self, jacobian, rows):
+        made = CrossedLineSmoother(jacobian, self.OMEGA)
+        made.partition(rows)
+        made.setUp(None)
+        yield made
+        made.free()
+
+    def parts(self, jacobian, rows, make_vec):
+        """Q, and the parts of J Q along the x-lines, along the y-lines and on the diagonal."""
+        n, K = self.NODES, influence_coefficients(jacobian.grid.mesh, jacobian.contact.kernel)
+        distributive = distributive_nodes(jacobian.linearisation.eps, rows, jacobian.grid.mesh.dX, K[0, 0])
+        assert distributive.any()
+        Q = np.eye(n * n).reshape(n, n, n, n)
+        for j, i in np.argwhere(distributive):
+            for line, node in ((j - 1, i), (j + 1, i), (j, i - 1), (j, i + 1)):
+                Q[line, node, j, i] = -0.25
+        JQ, out = np.empty_like(Q), make_vec(jacobian.space)
+        for j, i in np.ndindex(n, n):
+            jacobian.mat.mult(make_vec(jacobian.space, Q[:, :, j, i]), out)
+            JQ[:, :, j, i] = jacobian.space.read(out)[0]
+        same = np.eye(n, dtype=bool)
+        of_line, of_column = same[:, None, :, None], same[None, :, None, :]
+        X, Y, D = (np.where(kept, JQ, 0.0) for kept in (of_line, of_column, of_line & of_column))
+        return (each.reshape(n * n, n * n) for each in (Q, X, Y, D))
+
+    def test_first_along_x_and_then_along_y_and_the_next_time_the_other_way_round(
+        self, smoother, jacobian, rows, make_vec
+    ):
+        Q, X, Y, D = self.parts(jacobian, rows, make_vec)
+        r = np.random.default_rng(8).standard_normal((self.NODES, self.NODES))
+        r[[0, -1]], r[:, [0, -1]] = 0.0, 0.0
+        corrected = make_vec(jacobian.space)
+        for first, then in ((X, Y), (Y, X), (X, Y)):
+            smoother.apply(None, make_vec(jacobian.space, r), corrected)
+            w = np.linalg.solve(first @ np.linalg.solve(D, then), r.ravel())
+            expected = np.where(rows == PRESSURE, 0.0, self.OMEGA * (Q @ w).reshape(r.shape))
+            correction, border = jacobian.space.read(corrected)
+            np.testing.assert_allclose(correction, expected, rtol=1e-9, atol=1e-11 * np.abs(expected).max())
+            assert border == 0.0
+
+    def test_new_rows_begin_along_x_again(self, smoother, jacobian, rows, make_vec):
+        """A factorisation must not depend on how many relaxations came before it."""
+        x, corrections = make_vec(jacobian.space, np.ones((self.NODES, self.NODES))), []
+        for _ in range(2):
+            smoother.setUp(None)
+            corrected = make_vec(jacobian.space)
+            smoother.apply(None, x, corrected)
+            corrections.append(jacobian.space.read(corrected)[0].copy())
+        np.testing.assert_array_equal(*corrections)

@@ -1,0 +1,66 @@
+"""Lines along X and lines along Y of the same nodes; several ranks are tested in tests/parallel."""
+
+import numpy as np
+import pytest
+from mpi4py import MPI
+
+from mgehl.discretization.mesh import Mesh
+from mgehl.grid.grid import single_grid
+from mgehl.grid.transpose import Transpose, YLines
+
+NX, NY = 7, 5
+
+
+@pytest.fixture
+def grid():
+    made = single_grid(Mesh(NX, NY, (-1.9, 1.3), (-1.5, 1.5)), MPI.COMM_SELF)
+    yield made
+    made.destroy()
+
+
+@pytest.fixture
+def y_lines(grid):
+    made = YLines(grid)
+    yield made
+    made.destroy()
+
+
+def test_y_lines_are_the_columns(y_lines):
+    array = np.random.default_rng(3).random((NY, NX))
+    turned = y_lines.turned(array)
+    assert turned.shape == y_lines.shape == (NX, NY)
+    assert turned.flags.c_contiguous
+    np.testing.assert_array_equal(turned, array.T)
+
+
+@pytest.mark.parametrize("kind", [bool, np.int8, float])
+def test_whatever_a_double_holds_is_turned(y_lines, kind):
+    array = (np.arange(NX * NY).reshape(NY, NX) % 3).astype(kind)
+    np.testing.assert_array_equal(y_lines.turned(array), array.T)
+
+
+def test_a_part_of_an_array_is_turned(y_lines):
+    whole = np.random.default_rng(3).random((2 * NY, 3 * NX))
+    part = whole[1 : NY + 1, 2 : NX + 2]
+    np.testing.assert_array_equal(y_lines.turned(part), part.T)
+
+
+def test_turned_back_is_what_it_was(y_lines):
+    array, back = np.random.default_rng(3).random((NY, NX)), np.empty((NY, NX))
+    turned = y_lines.turned(array)
+    y_lines.turned(array + 1.0)  # what was turned does not change with what is turned next
+    y_lines.turn_back(turned, back)
+    np.testing.assert_array_equal(back, array)
+
+
+def test_complex_numbers_are_exchanged_too(grid):
+    transpose = Transpose(grid, MPI.DOUBLE_COMPLEX)
+    try:
+        lines = np.arange(NX * NY).reshape(NY, NX) * (1.0 + 2.0j)
+        columns, back = (np.empty((NY, transpose.columns), complex) for _ in range(2))
+        transpose.to_columns(lines, columns)
+        transpose.to_lines(columns, back)
+        np.testing.assert_array_equal(columns, lines)
+        np.testing.assert_array_equal(back, lines)
+    finally:
+        transpose.destroy()

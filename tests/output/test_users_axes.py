@@ -1,0 +1,109 @@
+"""What was solved in axes of its own comes back in the user's."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from mpi4py import MPI
+from test_files import make_result
+
+from mgehl.config import config_from_tables
+from mgehl.grid.grid import single_grid
+from mgehl.kinds import contact_from, mesh_from
+from mgehl.model.frame import Frame
+from mgehl.output.result import ContactResult, InequalityResult
+from mgehl.output.solution import Fields, Solution
+from mgehl.output.users_axes import in_users_axes
+from mgehl.solver.from_config import set_up
+
+ANGLES = (20.0, 70.0, 110.0, 160.0, 200.0, 250.0, 290.0, 340.0)
+"""One for each frame."""
+
+NODES = 9
+
+
+def config_at(angle):
+    grid = {"nodes": 65, "x": [-3.0, 2.0], "y": [-2.0, 4.0]}
+    return config_from_tables(
+        {"contact": {"radius_y": 25.4e-3}, "motion": {"speed": 0.5, "angle": angle}, "grid": grid}
+    )
+
+
+@pytest.fixture(params=ANGLES, ids=lambda angle: f"{angle:g} degrees")
+def case(request):
+    """(the user's `Solution`, the one that was solved, its frame, its grid) at an angle."""
+    config = config_at(request.param)
+    parts = set_up(config)
+    contact = contact_from(config)
+    mesh = replace(mesh_from(config, contact), nx=NODES, ny=NODES)
+    random = np.random.default_rng(11)
+    P, H = random.random((2, NODES, NODES))
+    status = np.zeros((NODES, NODES), np.int8)
+    status[4, 2:5], status[3:7, 4] = 3, 3
+    fields = Fields(P, H, status)
+    expected = Solution(config, contact, mesh, fields, [], _result(fields), H0=-0.5)
+    # In m a film is the same in every frame, in units of H it is not.
+    scale = contact.film_scale / parts.contact.film_scale
+    there = Fields(parts.frame.array(P), scale * parts.frame.array(H), parts.frame.array(status))
+    solved = replace(
+        expected, contact=parts.contact, mesh=mesh.in_frame(parts.frame), fields=there, local=there,
+        result=_result(there), H0=-0.5 * scale,
+    )  # fmt: skip
+    grid = single_grid(solved.mesh, MPI.COMM_SELF)
+    yield expected, solved, parts.frame, grid
+    grid.destroy()
+
+
+def _result(fields):
+    """A `Result` whose lists name one node each, that of the largest P and that of the largest H."""
+    of_P, of_H = _largest(fields.P), _largest(fields.H)
+    j, i = of_H["j"] - 1, of_H["i"] - 1
+    sides = [fields.P[j, i - 1], fields.P[j, i + 1], fields.P[j - 1, i], fields.P[j + 1, i]]
+    solid = fields.status == 3
+    ends = [tuple(int(n) + 1 for n in np.flatnonzero(solid.sum(axis=axis) > 0)[[0, -1]]) for axis in (0, 1)]
+    return make_result(
+        contact=ContactResult(6, 0.1, 0.2, *ends, 0.0),
+        pressure_inequality=InequalityResult(8, 1, 0.25, 1.5, [of_P | {"size": 0.25}]),
+        contradictions=[of_H | {"film_gap_nm": -1.0, "neighbours": sides}],
+    )
+
+
+def _largest(array):
+    """The node of an array's largest value that has four sides."""
+    j, i = np.unravel_index(array[1:-1, 1:-1].argmax(), (NODES - 2, NODES - 2))
+    return {"i": int(i) + 2, "j": int(j) + 2}
+
+
+def test_the_cases_are_of_all_frames():
+    assert len({set_up(config_at(angle)).frame for angle in ANGLES}) == 8
+
+
+def test_fields_scales_and_axes_are_the_users(case):
+    expected, solved, frame, grid = case
+    found = in_users_axes(solved, frame, grid)
+    assert found.contact == expected.contact
+    assert (found.mesh.x, found.mesh.y) == (expected.mesh.x, expected.mesh.y)
+    np.testing.assert_array_equal(found.fields.P, expected.fields.P)
+    np.testing.assert_array_equal(found.status, expected.status)
+    np.testing.assert_allclose(found.film, expected.film, rtol=1e-14)
+    assert found.H0 == pytest.approx(expected.H0, rel=1e-14)
+
+
+def test_a_rank_has_its_lines_of_the_users_fields(case):
+    _, solved, frame, grid = case
+    found = in_users_axes(solved, frame, grid)
+    for name in ("P", "H", "status"):
+        np.testing.assert_array_equal(getattr(found.local, name), getattr(found.fields, name))
+
+
+def test_nodes_sides_and_ranges_are_the_users(case):
+    expected, solved, frame, grid = case
+    found = in_users_axes(solved, frame, grid).result
+    assert found.contact == expected.result.contact
+    assert found.pressure_inequality == expected.result.pressure_inequality
+    assert found.contradictions == expected.result.contradictions
+
+
+def test_what_was_solved_in_the_users_axes_stays_as_it_is(case):
+    _, solved, _, grid = case
+    assert in_users_axes(solved, Frame(), grid) is solved
