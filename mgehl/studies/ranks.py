@@ -15,10 +15,9 @@ from scipy.linalg import lu_factor, lu_solve
 
 from mgehl.config import COARSEST_NODES, config_from_tables
 from mgehl.errors import UserError
-from mgehl.grid.hierarchy import Hierarchy
 from mgehl.grid.transpose import Transpose
 from mgehl.multigrid.cycle import MultigridSolver
-from mgehl.solver.from_config import contact_from, mesh_from, scheme_from, settings_from
+from mgehl.solver.from_config import set_up
 from mgehl.solver.nested import first_guess
 from mgehl.solver.problem import ContactProblem
 from mgehl.studies import rank_model
@@ -135,20 +134,20 @@ class _Iterations:
 
     def __init__(self, comm, nodes):
         config = config_from_tables({"grid": {"nodes": nodes}, "motion": {"speed": 1.0}})
-        contact = contact_from(config)
-        mesh, scheme = mesh_from(config, contact), scheme_from(config, contact)
-        self._hierarchy = grids = Hierarchy(mesh, COARSEST_NODES, contact.kernel, comm)
+        parts = set_up(config)
+        contact, scheme = parts.contact, parts.settings.scheme
+        self._hierarchy = grids = parts.hierarchy(comm)
         problem = ContactProblem(grids.grids[-1], grids.deflections[-1], contact, scheme)
         state = first_guess(problem, "film")
-        settings = settings_from(config, contact)
-        self._multigrid = MultigridSolver(grids, len(grids.grids) - 1, contact, scheme, settings.cycle)
-        self._multigrid.linearise(state.P, state.H, state.status)
+        evaluation = problem.evaluate(state)
+        self._multigrid = MultigridSolver(grids, len(grids.grids) - 1, contact, scheme, parts.settings.cycle)
+        self._multigrid.linearise(evaluation, problem.rows(state.status))
         self._ksp = PETSc.KSP().create(comm)
         self._multigrid.configure(self._ksp, rtol=1e-30)
         self._ksp.setTolerances(max_it=ITERATIONS)
         self._rhs, self._x = (self._multigrid.space.create_vec() for _ in range(2))
-        residual = problem.residual(state, problem.inflow(state))
-        self._multigrid.space.write(self._rhs, -residual, 0.0)
+        residual = problem.residual(evaluation, state.status)
+        self._multigrid.space.write(self._rhs, residual, 0.0)
         self.convolve = lambda: problem.deflection(state.P)
 
     def seconds(self, comm, clock=time.perf_counter):
