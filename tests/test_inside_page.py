@@ -1,0 +1,45 @@
+"""The page for whoever opens the package names what exists."""
+
+import re
+from importlib import import_module
+from pathlib import Path
+
+import pytest
+
+PAGE = (Path(__file__).resolve().parent.parent / "mgehl" / "README.md").read_text()
+NAMES = sorted(set(re.findall(r"mgehl(?:\.\w+)+", PAGE)))
+PLACES = sorted(
+    set(
+        re.findall(
+            r"`((?:model|discretization|kinds|grid|multigrid|solver|output|studies)(?:\.\w+)+)`", PAGE
+        )
+    )
+)
+
+
+def found(dotted):
+    """The module, class or function of a dotted name."""
+    parts = dotted.split(".")
+    for length in range(len(parts), 0, -1):
+        try:
+            thing = import_module(".".join(parts[:length]))
+        except ModuleNotFoundError:
+            continue
+        for name in parts[length:]:
+            thing = getattr(thing, name)
+        return thing
+    raise AssertionError(f"{dotted}: no such module")
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_line_of_pseudo_code_names_a_function(name):
+    assert found(name)
+
+
+@pytest.mark.parametrize("place", PLACES)
+def test_a_place_is_there(place):
+    assert found(f"mgehl.{place}")
+
+
+def test_the_page_has_the_whole_algorithm():
+    assert len(NAMES) > 40
