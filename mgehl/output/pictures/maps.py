@@ -92,17 +92,22 @@ def add_arrow(axes, contact):
     """An arrow of the motion of loaded bodies in the lower left corner; the map's limits are set."""
     if not contact.is_loaded:
         return
-    # The axes are in units of a and of b: a direction is stretched as they are.
-    x, y = contact.motion[0] / contact.x_scale, contact.motion[1] / contact.y_scale
-    (left, right), (lower, upper) = axes.get_xlim(), axes.get_ylim()
-    length = ARROW * min(right - left, upper - lower)
-    half = 0.5 * length * np.array((x, y)) / np.hypot(x, y)
-    middle = np.array((left, lower)) + 0.75 * length
+    ends = arrow_ends(contact, axes.get_xlim(), axes.get_ylim())
     edge = [withStroke(linewidth=3.5, foreground="white")]
     axes.add_patch(FancyArrowPatch(
-        middle - half, middle + half, arrowstyle="-|>", mutation_scale=11, shrinkA=0, shrinkB=0,
-        color="black", linewidth=1.4, path_effects=edge, zorder=5,
+        *ends, arrowstyle="-|>", mutation_scale=11, shrinkA=0, shrinkB=0, color="black", linewidth=1.4,
+        path_effects=edge, zorder=5,
     ))  # fmt: skip
+
+
+def arrow_ends(contact, x_limits, y_limits):
+    """Tail and head (X, Y) of the arrow on a map of these limits."""
+    # The axes are in units of a and of b: a direction is stretched as they are.
+    x, y = contact.motion[0] / contact.x_scale, contact.motion[1] / contact.y_scale
+    length = ARROW * min(np.ptp(x_limits), np.ptp(y_limits))
+    half = 0.5 * length * np.array((x, y)) / np.hypot(x, y)
+    middle = np.array((x_limits[0], y_limits[0])) + 0.75 * length
+    return middle - half, middle + half
 
 
 def drawn_status(fields):
