@@ -22,8 +22,8 @@ class ContactSection:
     )  # fmt: skip
     load: float = key_field(800.0, "normal load of a point contact", "N", low=1e-6, high=1e9)
     load_per_length: float = key_field(500e3, "load of a line contact", "N/m", low=1e-6, high=1e12)
-    radius_x: float = key_field(12.7e-3, "reduced radius along the motion", "m", low=1e-6, high=100.0)
-    radius_y: float = key_field(12.7e-3, "reduced radius across the motion", "m", low=1e-6, high=100.0)
+    radius_x: float = key_field(12.7e-3, "reduced radius along x", "m", low=1e-6, high=100.0)
+    radius_y: float = key_field(12.7e-3, "reduced radius along y", "m", low=1e-6, high=100.0)
     reduced_modulus: float = key_field(
         219.78e9, "E' of 2/E' = sum of (1 - nu^2)/E, without coating", "Pa", low=1e6, high=1e13
     )

@@ -364,7 +364,7 @@ def test_written_tables_name_every_key_that_is_set():
         )
         assert set(written[name]) == {key.name for key in fields(SECTIONS[name])} - foreign
     written = config_from_tables(MOES).as_toml_tables()
-    assert "motion" not in written and "load" not in written["contact"]
+    assert written["motion"] == {"angle": 0.0} and "load" not in written["contact"]
 
 
 def test_configuration_cannot_be_changed():

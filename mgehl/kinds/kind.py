@@ -89,7 +89,7 @@ class Kind:
         raise NotImplementedError
 
     def position_labels(self, contact):
-        """What the axes along and across the motion show, with its unit."""
+        """What the axes along x and y show, with its unit."""
         raise NotImplementedError
 
     def scalars(self, solution):

@@ -65,7 +65,10 @@ class PointKind(LoadedKind):
         "lubricant.viscosity": "0.096 Pa*s", "lubricant.pressure_viscosity": "18.2 1/GPa",
         "motion.speed": "0.5 m/s", "grid.nodes": 129, "solver.start": "film",
     }  # fmt: skip
-    short = {"contact.load": lambda load: f"{load:.4g} N"}
+    short = {
+        "contact.load": lambda load: f"{load:.4g} N",
+        "motion.angle": lambda angle: f"at {angle:g}°",
+    }
 
     def unused(self, config):
         """The coating of bodies without one, and what Moes numbers stand for."""
@@ -119,6 +122,21 @@ class PointKind(LoadedKind):
             return CONTACT
         return FILM if config.discretization.face_mobility == "arithmetic" else MEAN
 
+    def parts(self, solution, times="x"):
+        """With the direction of the motion, where that is not x."""
+        speed, *others = super().parts(solution, times)
+        return [speed + angle_words(solution.contact.angle), *others]
+
+    def lines(self, config, contact, mesh):
+        """With the direction of the motion."""
+        *others, last = super().lines(config, contact, mesh)
+        return [*others, last + angle_words(contact.angle)]
+
+    def scalars(self, solution):
+        """The direction of the motion, too."""
+        angle = solution.contact.angle, "degree", "direction of the motion, from +x towards +y"
+        return super().scalars(solution) | {"angle": angle}
+
     def load(self, contact):
         """In N."""
         return f"{contact.load:.4g}", "N"
@@ -129,6 +147,11 @@ class PointKind(LoadedKind):
 
 
 POINT = PointKind()
+
+
+def angle_words(angle):
+    """A direction after a speed; nothing where it is that of x."""
+    return f" at {angle:g}°" if angle else ""
 
 
 def _without_coating(deformation):

@@ -152,8 +152,8 @@ def write_fields(path, solution):
         file.attrs["mgehl"] = VERSION
         file.attrs["H0"] = solution.H0
         put = partial(_put, file)
-        put("x", ("x",), solution.x, "m", "distance along the motion")
-        put("y", ("y",), solution.y, "m", "distance across the motion")
+        put("x", ("x",), solution.x, "m", "distance along x")
+        put("y", ("y",), solution.y, "m", "distance along y")
         put("X", ("x",), mesh.X, "1", "x over its unit: Hertz semi-axis a, or mm")
         put("Y", ("y",), mesh.Y, "1", "y over its unit: Hertz semi-axis b, or mm")
         plane = ("y", "x")

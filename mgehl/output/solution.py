@@ -66,12 +66,12 @@ class Solution:
 
     @property
     def x(self) -> Reals:
-        """Distance along the motion in m, (nx,)."""
+        """Distance along x in m, (nx,)."""
         return self.mesh.X * self.contact.x_scale
 
     @property
     def y(self) -> Reals:
-        """Distance across the motion in m, (ny,)."""
+        """Distance along y in m, (ny,)."""
         return self.mesh.Y * self.contact.y_scale
 
     @property

@@ -2,6 +2,9 @@
 
 from mgehl.output.pictures.style import COLOURS, MARKS, applied, save, subplots
 
+PERCENT = (0.1, 0.2, 0.5, 1, 2, 5, 10)
+"""Marked on a logarithmic axis."""
+
 
 def schemes(path, nodes, films):
     """Central and minimum film against the spacing, a line for each scheme."""
@@ -63,6 +66,38 @@ def _points(rows, column):
     """Cells and numbers of the rows that have a number there."""
     numbers = [row for row in rows if row[column] not in ("", "unbounded")]
     return _cells(numbers), [float(row[column]) for row in numbers]
+
+
+def angles(path, circle, ellipse):
+    """Off the film of 0 degrees against the spacing, a circle's; an ellipse's films against the angle."""
+    with applied():
+        figure, (off, films) = subplots(1, 2, size=(10.5, 4.6))
+        turned = [row for row in circle if row["angle"] != "0"]
+        kinds = dict.fromkeys((row["couette"], row["angle"]) for row in turned)
+        for (couette, angle), colour, mark in zip(kinds, COLOURS, MARKS, strict=False):
+            own = [row for row in turned if (row["couette"], row["angle"]) == (couette, angle)]
+            spacing = [1.0 / (int(row["nodes"]) - 1) for row in own]
+            percent = [abs(float(row["in %"])) for row in own]
+            off.loglog(
+                spacing, percent, mark + "-", color=colour, markersize=4, label=f"{couette}, {angle}°"
+            )
+        spacing = {1.0 / (int(row["nodes"]) - 1): row["nodes"] for row in turned}
+        off.set_xticks(list(spacing), labels=list(spacing.values()))
+        off.minorticks_off()
+        off.set_yticks(PERCENT, labels=[f"{each:g}" for each in PERCENT])
+        off.set(xlabel="nodes along a side", ylabel="off the film of 0°, %")
+        off.set_title("circular contact, central film")
+        for film, colour in zip(("central", "minimum"), COLOURS, strict=False):
+            for source, style in (("", "o-"), (" Chittenden", "--"), (" Hamrock-Dowson", ":")):
+                heights = [float(row[f"{film}{source} nm"]) for row in ellipse]
+                label = f"{film},{source}" if source else f"{film}, computed"
+                degrees = [float(row["angle"]) for row in ellipse]
+                films.plot(degrees, heights, style, color=colour, markersize=4, label=label)
+        films.set(xlabel="angle of the motion to x, degrees", ylabel="film, nm", ylim=(0.0, None))
+        films.set_title("ellipse of 4 to 1, long along y")
+        for axes in (off, films):
+            axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=3, frameon=False)
+        save(figure, path)
 
 
 def histories(path, cases):

@@ -43,8 +43,8 @@ def _global_attributes(solution):
 def _put_coordinates(put, solution):
     """x and y in metres; beside them the same over their units, as auxiliary coordinates."""
     mesh, contact = solution.mesh, solution.contact
-    put("x", ("x",), solution.x, units="m", long_name="distance along the motion", axis="X")
-    put("y", ("y",), solution.y, units="m", long_name="distance across the motion", axis="Y")
+    put("x", ("x",), solution.x, units="m", long_name="distance along x", axis="X")
+    put("y", ("y",), solution.y, units="m", long_name="distance along y", axis="Y")
     put("x_scaled", ("x",), mesh.X, units="1", long_name=f"x over {contact.x_scale:.9g} m")
     put("y_scaled", ("y",), mesh.Y, units="1", long_name=f"y over {contact.y_scale:.9g} m")
 

@@ -11,7 +11,7 @@ from mgehl.model.hertz import hertz_pressure
 from mgehl.output.center_line import center_line
 from mgehl.output.pictures import wedge_picture
 from mgehl.output.pictures.history_picture import column, cycles, grids
-from mgehl.output.pictures.lines import ACROSS, ALONG, across, along, film_range
+from mgehl.output.pictures.lines import ALONG_X, ALONG_Y, across, along, film_range, names
 from mgehl.output.pictures.style import COLOURS, GUIDE, HERTZ, inches, subplots
 from mgehl.output.pictures.titles import common_labels, common_title
 
@@ -35,10 +35,12 @@ def compare_lines(solutions, labels):
     columns = 1 if is_line else 2
     figure, axes = subplots(2, columns, size=(1.2 + 4.9 * columns, 7.2), sharex="col", squeeze=False)
     _compare(axes[:, 0], solutions, labels, along)
-    axes[0, 0].set_title(ALONG)
+    found = {names(solution.contact) for solution in solutions}
+    name_along, name_across = found.pop() if len(found) == 1 else (ALONG_X, ALONG_Y)
+    axes[0, 0].set_title(name_along)
     if not is_line:
         _compare(axes[:, 1], solutions, labels, across)
-        axes[0, 1].set_title(ACROSS)
+        axes[0, 1].set_title(name_across)
     for panel, name in zip(axes[1], common_labels(solutions), strict=False):
         panel.set_xlabel(name)
     return _finished(figure, axes[0, 0], "centre lines", solutions)

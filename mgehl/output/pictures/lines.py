@@ -7,12 +7,14 @@ from mgehl.output.pictures.style import FILM, HERTZ, PRESSURE, legend_below, sub
 from mgehl.output.pictures.titles import position_labels, title
 
 ALONG, ACROSS = "Y = 0, along the motion (left to right)", "X = 0, across the motion"
+ALONG_X, ALONG_Y = "Y = 0, along x", "X = 0, along y"
+"""Where the motion is not along x."""
 SMALLEST_FILM_RANGE = 10.0
 """Upper end of the film axis, in nm, where solid contact leaves no film to scale it by."""
 
 
 def centre_lines(solution):
-    """Figure of pressure (GPa) and film (nm) along the motion and, of a point contact, across it."""
+    """Figure of pressure (GPa) and film (nm) along x and, of a point contact, along y."""
     panels = 1 if solution.mesh.is_line else 2
     figure, axes = subplots(1, panels, size=(1.2 + 4.9 * panels, 4.6), squeeze=False)
     draw_along(axes[0, 0], solution)
@@ -26,31 +28,36 @@ def centre_lines(solution):
 
 
 def along(solution):
-    """X, P and H along the motion on Y = 0, (nx,) each."""
+    """X, P and H along x on Y = 0, (nx,) each."""
     mesh, fields = solution.mesh, solution.fields
     _, j = mesh.nearest(0.0, 0.0)
     return mesh.X, fields.P[j], fields.H[j]
 
 
 def across(solution):
-    """Y, P and H across the motion on X = 0, (ny,) each."""
+    """Y, P and H along y on X = 0, (ny,) each."""
     mesh, fields = solution.mesh, solution.fields
     i, _ = mesh.nearest(0.0, 0.0)
     return mesh.Y, fields.P[:, i], fields.H[:, i]
 
 
+def names(contact):
+    """What the two lines are called, by the direction of the motion."""
+    return (ALONG, ACROSS) if contact.motion == (1.0, 0.0) else (ALONG_X, ALONG_Y)
+
+
 def draw_along(axes, solution):
-    """The lines along the motion."""
+    """The lines along x."""
     X, P, H = along(solution)
     _draw(axes, solution.contact, X, P, H, solution.contact.dry_gap(X, 0.0 * X))
-    axes.set(xlabel=position_labels(solution)[0], title=ALONG)
+    axes.set(xlabel=position_labels(solution)[0], title=names(solution.contact)[0])
 
 
 def draw_across(axes, solution):
-    """The lines across the motion."""
+    """The lines along y."""
     Y, P, H = across(solution)
     _draw(axes, solution.contact, Y, P, H, solution.contact.dry_gap(0.0 * Y, Y))
-    axes.set(xlabel=position_labels(solution)[1], title=ACROSS)
+    axes.set(xlabel=position_labels(solution)[1], title=names(solution.contact)[1])
 
 
 def film_range(position, film):

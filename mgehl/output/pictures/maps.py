@@ -3,7 +3,8 @@
 import numpy as np
 from matplotlib.colors import BoundaryNorm, ListedColormap, LogNorm, Normalize
 from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
+from matplotlib.patches import FancyArrowPatch, Patch
+from matplotlib.patheffects import withStroke
 from matplotlib.ticker import LogLocator, MaxNLocator
 
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, NAMES
@@ -24,6 +25,8 @@ LEAST_OPEN = 0.02
 """Part of the dry contact from which its film, where there is any, makes the scale."""
 UNIFORM = 1.1
 """Ratio of films below which they are all one on the map."""
+ARROW = 0.13
+"""Length of the arrow that shows the motion, over the shorter side of the map."""
 LINEAR_UP_TO = 8.0
 """Ratio of films from which the map's scale is logarithmic."""
 
@@ -79,9 +82,32 @@ def draw_status(axes, solution, most=MOST):
     axes.pcolormesh(blocks.X, blocks.Y, status, cmap=colours, norm=norm, shading="nearest", rasterized=True)
     X, Y = position_labels(solution)
     axes.set(xlabel=X, ylabel=Y, aspect="equal")
+    add_arrow(axes, solution.contact)
     found = [k for k in range(BOUNDARY + 1, OVERLAP + 1) if (status == k).any()]
     handles = [Patch(color=STATUS_COLOURS[k], label=(*NAMES, "overlap")[k]) for k in found]
     legend_below(axes, handles)
+
+
+def add_arrow(axes, contact):
+    """An arrow of the motion of loaded bodies in the lower left corner; the map's limits are set."""
+    if not contact.is_loaded:
+        return
+    ends = arrow_ends(contact, axes.get_xlim(), axes.get_ylim())
+    edge = [withStroke(linewidth=3.5, foreground="white")]
+    axes.add_patch(FancyArrowPatch(
+        *ends, arrowstyle="-|>", mutation_scale=11, shrinkA=0, shrinkB=0, color="black", linewidth=1.4,
+        path_effects=edge, zorder=5,
+    ))  # fmt: skip
+
+
+def arrow_ends(contact, x_limits, y_limits):
+    """Tail and head (X, Y) of the arrow on a map of these limits."""
+    # The axes are in units of a and of b: a direction is stretched as they are.
+    x, y = contact.motion[0] / contact.x_scale, contact.motion[1] / contact.y_scale
+    length = ARROW * min(np.ptp(x_limits), np.ptp(y_limits))
+    half = 0.5 * length * np.array((x, y)) / np.hypot(x, y)
+    middle = np.array((x_limits[0], y_limits[0])) + 0.75 * length
+    return middle - half, middle + half
 
 
 def drawn_status(fields):
@@ -168,7 +194,8 @@ def _outline(axes, blocks, status, filled):
 
 
 def _finish(figure, axes, solution, what):
-    """Names of the axes with their units, and the title."""
+    """Names of the axes with their units, the motion and the title."""
     X, Y = position_labels(solution)
     axes.set(xlabel=X, ylabel=Y)
+    add_arrow(axes, solution.contact)
     figure.suptitle(f"{what}, {title(solution)}")

@@ -23,7 +23,7 @@ def verdict(result):
 
 
 def position_labels(solution):
-    """What the axes along and across the motion show, with its unit."""
+    """What the axes along x and y show, with its unit."""
     return solution.config.kind.position_labels(solution.contact)
 
 

@@ -167,7 +167,7 @@ def _dimensions(solution):
         ("load", *solution.config.kind.load(contact)),
         ("entrainment speed", number(1e3 * contact.speed), "mm/s"),
         (
-            "Hertz half-width a" if line else "Hertz semi-axis a, along the motion",
+            "Hertz half-width a" if line else "Hertz semi-axis a, along x",
             number(1e6 * hertz.a),
             "µm",
         ),
@@ -175,29 +175,35 @@ def _dimensions(solution):
         ("unit of the gap, a²/R_x", number(1e6 * contact.film_scale), "µm"),
         ("length of the inlet zone", number(1e6 * contact.inlet_length * hertz.a), "µm"),
         ("cells of the grid in it", number(solution.result.resolution.inlet_cells, 3), ""),
-        ("spacing of the grid along the motion", number(1e6 * mesh.dX * hertz.a), "µm"),
+        ("spacing of the grid along x", number(1e6 * mesh.dX * hertz.a), "µm"),
     ]
     if not line:
-        rows.insert(3, ("Hertz semi-axis b, across the motion", number(1e6 * hertz.b), "µm"))
+        rows.insert(3, ("Hertz semi-axis b, along y", number(1e6 * hertz.b), "µm"))
         rows.insert(5, ("Hertz approach", number(1e6 * hertz.approach), "µm"))
+        rows.insert(2, ("direction of the motion, from +x towards +y", number(contact.angle), "°"))
     return table("Scales of the dry contact and of the grid", ("quantity", "value", "unit"), rows)
 
 
 def _groups(solution):
     result, line = solution.result, solution.mesh.is_line
-    load, power = ("load/(E′R_x)", "-1/2") if line else ("load/(E′R_x²)", "-3/4")
+    # Along the motion, which may not be x.
+    radius = "R_x" if solution.contact.motion == (1.0, 0.0) else "R"
+    load, power = (f"load/(E′{radius})", "-1/2") if line else (f"load/(E′{radius}²)", "-3/4")
     meanings = {
-        "U": "η₀u/(E′R_x)",
+        "U": f"η₀u/(E′{radius})",
         "W": load,
         "G": "αE′",
         "M": f"W(2U)^({power}), of Moes",
         "L": "G(2U)^(1/4), of Moes",
     }
     rows = [(name, number(getattr(result.groups, name)), text) for name, text in meanings.items()]
-    film = "film as (h/R_x)(2U)^(-1/2)"
+    film = f"film as (h/{radius})(2U)^(-1/2)"
     rows.append(("H central", number(result.moes_film.central), f"computed central {film}"))
     rows.append(("H minimum", number(result.moes_film.minimum), f"computed minimum {film}"))
-    return table("Dimensionless groups", ("quantity", "value", "meaning"), rows)
+    what = (
+        "Dimensionless groups" if radius == "R_x" else "Dimensionless groups, R the radius along the motion"
+    )
+    return table(what, ("quantity", "value", "meaning"), rows)
 
 
 def work_section(solution):

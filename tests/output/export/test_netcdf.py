@@ -18,6 +18,8 @@ UNITS = {
 }  # fmt: skip
 LOADED = {"central_film": "m", "minimum_film": "m", "group_U": "1", "group_W": "1", "group_G": "1",
           "moes_M": "1", "moes_L": "1"}  # fmt: skip
+DIRECTED = {"angle": "degree"}
+"""What a point contact has besides."""
 LOAD = {"point": "N", "line": "N m-1", "wedge": "N"}
 
 every_kind = pytest.mark.parametrize("kind", SHAPES)
@@ -43,6 +45,7 @@ def opened(tmp_path):
 def test_every_variable_has_its_unit_and_name(kind, opened):
     _, data = opened(kind)
     units = UNITS | {"normal_load": LOAD[kind]} | ({} if kind == "wedge" else LOADED)
+    units |= DIRECTED if kind == "point" else {}
     assert {name: variable.attrs["units"] for name, variable in data.variables.items()} == units
     assert all(variable.attrs["long_name"] for variable in data.variables.values())
 

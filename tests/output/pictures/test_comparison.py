@@ -90,3 +90,16 @@ def test_nine_runs_are_told_apart_and_their_legend_has_room(make_solution, drawn
     lines = [line_of(figure.axes[0], label) for label in labels]
     assert len({(line.get_color(), line.get_linestyle()) for line in lines}) == 9
     check_texts(figure, *labels)
+
+
+@pytest.mark.parametrize(
+    "angles, title",
+    [
+        ((0, 0), "Y = 0, along the motion (left to right)"),
+        ((0, 30), "Y = 0, along x"),
+        ((30, 30), "Y = 0, along x"),
+    ],
+)
+def test_lines_are_along_the_motion_if_they_all_are(make_solution, drawn, angles, title):
+    runs = [make_solution(settings=[f"motion.angle={angle}"]) for angle in angles]
+    assert drawn(compare_lines, runs, "ab").axes[0].get_title() == title

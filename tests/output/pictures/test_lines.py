@@ -89,3 +89,16 @@ def test_the_range_of_the_film_shows_what_is_inside_and_below():
 def test_a_film_axis_of_a_grid_so_coarse_that_no_node_is_inside_the_dry_contact():
     position = np.array([-3.0, -1.0, 1.0, 3.0])
     assert film_range(position, np.array([900.0, 40.0, 40.0, 900.0])) == (-0.5, SMALLEST_FILM_RANGE)
+
+
+@pytest.mark.parametrize(
+    "angle, titles",
+    {
+        0: ("Y = 0, along the motion (left to right)", "X = 0, across the motion"),
+        30: ("Y = 0, along x", "X = 0, along y"),
+        180: ("Y = 0, along x", "X = 0, along y"),
+    }.items(),
+)
+def test_lines_are_named_by_the_motion_where_that_is_along_x(make_solution, drawn, angle, titles):
+    figure = drawn(make_solution(settings=[f"motion.angle={angle}"]))
+    assert tuple(axes.get_title() for axes, _ in panels_of(figure)) == titles

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from matplotlib.collections import QuadMesh
 from matplotlib.colors import LogNorm, to_rgba
+from matplotlib.patches import FancyArrowPatch
 
 from mgehl.discretization.status import CONTACT, LUBRICATED
 from mgehl.output.pictures import maps, style
@@ -168,3 +169,32 @@ def test_a_single_node_in_contact_stays_on_the_map_of_a_large_grid(make_solution
     wide = pixels[: int(0.85 * len(pixels))]  # without the legend
     dark = np.abs(wide - to_rgba(style.STATUS_COLOURS[CONTACT])).max(axis=-1) < 0.01
     assert dark.any()
+
+
+def arrows_of(axes):
+    return [patch for patch in axes.patches if isinstance(patch, FancyArrowPatch)]
+
+
+class TestMotion:
+    """An arrow shows where the surfaces move to."""
+
+    @pytest.mark.parametrize("function", [maps.film_map, maps.pressure_map, maps.status_map])
+    def test_every_map_has_one(self, make_solution, drawn, function):
+        assert len(arrows_of(drawn(function, make_solution(settings=["motion.angle=30"])).axes[0])) == 1
+
+    @pytest.mark.parametrize("angle", [0, 30, 90, 200])
+    def test_it_points_along_the_motion_in_units_of_a_and_b(self, make_solution, angle):
+        contact = make_solution(settings=[f"motion.angle={angle}", "contact.radius_y=40 mm"]).contact
+        tail, head = maps.arrow_ends(contact, (-2.0, 1.0), (-1.5, 1.5))
+        x, y = (head - tail) * (contact.hertz.a, contact.hertz.b)
+        assert np.cos(np.arctan2(y, x) - np.radians(angle)) == pytest.approx(1.0, abs=1e-12)
+        for X, Y in (tail, head):
+            assert -2.0 < X < 1.0 and -1.5 < Y < 1.5
+
+    def test_a_wedge_has_none(self, make_wedge, drawn):
+        axes = drawn(maps.status_map, make_wedge()).axes[0]
+        assert arrows_of(axes) == []
+
+    def test_the_title_has_its_angle(self, make_solution, drawn, check_texts):
+        figure = drawn(maps.pressure_map, make_solution(settings=["motion.angle=30"]))
+        check_texts(figure, "pressure, 0.005 mm/s at 30°, 800 N, 33 x 33 nodes: converged")

@@ -1,0 +1,159 @@
+"""Entrainment at an angle: runs that must be the same contact, turned, mirrored or exchanged."""
+
+import numpy as np
+import pytest
+from mpi4py import MPI
+
+from mgehl.config import config_from_tables
+from mgehl.discretization.status import CONTACT
+from mgehl.run import solve
+from mgehl.studies.study import merged
+
+EXACT = 1e-10
+ON_A_SQUARE = {"x": [-1.9, 1.9], "y": [-1.9, 1.9]}
+FILM = {"motion": {"speed": 1.0}, "grid": {"nodes": 65} | ON_A_SQUARE}
+CONTACT_CASE = {"motion": {"speed": 5e-6}, "grid": {"nodes": 129}, "solver": {"start": "contact"}}
+
+
+def solved(*tables, start=None):
+    return solve(config_from_tables(merged(*tables)), MPI.COMM_SELF, start=start)
+
+
+def at(angle):
+    return {"motion": {"angle": angle}}
+
+
+def assert_same(found, expected, back=lambda array: array):
+    """Films in m, pressures and statuses are the same where `back` brings the first ones to the second."""
+    assert found.result.converged and expected.result.converged
+    np.testing.assert_array_equal(back(found.status), expected.status)
+    for name in ("film", "pressure"):
+        values = getattr(expected, name)
+        bound = EXACT * np.abs(values).max()
+        np.testing.assert_allclose(back(getattr(found, name)), values, rtol=0.0, atol=bound)
+    for name in ("central_film_nm", "minimum_film_nm", "max_pressure_GPa"):
+        assert getattr(found.result, name) == pytest.approx(getattr(expected.result, name), rel=EXACT)
+    assert found.result.work == expected.result.work
+
+
+def mirrored_y(array):
+    return array[::-1]
+
+
+def mirrored_x(array):
+    return array[:, ::-1]
+
+
+class TestAlongTheOtherAxis:
+    @pytest.mark.parametrize("couette", ["1B", "2B"])
+    def test_a_ball_has_the_transpose(self, couette):
+        """On a domain that is none of a square, turned with the motion."""
+        scheme = {"discretization": {"couette": couette}}
+        along = {"grid": {"nodes": 65, "x": [-1.9, 1.3], "y": [-1.5, 1.6]}}
+        turned = {"grid": {"nodes": 65, "x": [-1.5, 1.6], "y": [-1.9, 1.3]}}
+        expected = solved(FILM, along, scheme)
+        assert_same(solved(FILM, turned, scheme, at(90)), expected, np.transpose)
+        opposite = {"grid": {"nodes": 65, "x": [-1.5, 1.6], "y": [-1.3, 1.9]}}
+        assert_same(solved(FILM, opposite, scheme, at(-90)), expected, lambda a: a[::-1].T)
+
+    def test_an_ellipse_has_its_axes_exchanged(self):
+        wide, long = {"radius_x": 10e-3, "radius_y": 30e-3}, {"radius_x": 30e-3, "radius_y": 10e-3}
+        expected = solved(FILM, {"contact": wide})
+        found = solved(FILM, {"contact": long}, at("90 deg"))
+        assert_same(found, expected, np.transpose)
+        assert found.result.groups == expected.result.groups
+        assert found.result.formulas == expected.result.formulas
+        resolution = found.result.resolution
+        assert resolution.inlet_cells == pytest.approx(expected.result.resolution.inlet_cells, rel=1e-12)
+
+    def test_full_contact_is_counted_along_the_users_axes(self):
+        uneven = {"grid": {"nodes": 129, "x": [-1.9, 1.3], "y": [-1.5, 1.6]}}
+        turned = {"grid": {"nodes": 129, "x": [-1.5, 1.6], "y": [-1.9, 1.3]}}
+        expected, found = solved(CONTACT_CASE, uneven), solved(CONTACT_CASE, turned, at(90))
+        assert_same(found, expected, np.transpose)
+        contact, other = expected.result.contact, found.result.contact
+        assert (other.x_nodes, other.y_nodes) == (contact.y_nodes, contact.x_nodes)
+        assert contact.x_nodes != contact.y_nodes
+
+
+class TestMirrored:
+    def test_about_x(self):
+        ellipse = {"contact": {"radius_y": 25.4e-3}}
+        assert_same(solved(FILM, ellipse, at(-30)), solved(FILM, ellipse, at(30)), mirrored_y)
+
+    def test_about_y(self):
+        ellipse = {"contact": {"radius_y": 25.4e-3}}
+        assert_same(solved(FILM, ellipse, at(150)), solved(FILM, ellipse, at(30)), mirrored_x)
+
+    def test_about_the_diagonal(self):
+        """60 degrees on a ball: what belonged to x belongs to y."""
+        assert_same(solved(FILM, at(60)), solved(FILM, at(30)), np.transpose)
+
+    def test_films_of_a_ball_hardly_know_of_the_angle(self):
+        """On 129 nodes the scheme's error, not more, is between them."""
+        finer = {"grid": {"nodes": 129}}
+        along, oblique = solved(FILM, finer), solved(FILM, finer, at(45))
+        assert oblique.result.central_film_nm == pytest.approx(along.result.central_film_nm, rel=0.015)
+        assert oblique.result.central_film_nm != along.result.central_film_nm
+
+
+SURFACE = """
+import numpy as np
+
+def bump(x, y):
+    "Higher towards +x than towards +y, and neither even nor odd."
+    return -2e-7 * np.exp(-((x - 1e-4) ** 2 + (y + 2e-4) ** 2) / 1e-8) + 1e-3 * x + 2e-3 * y
+
+def turned(x, y):
+    "The same about the other diagonal."
+    return bump(y, x)
+
+def opposite(x, y):
+    return bump(-x, -y)
+"""
+
+
+class TestOwnSurface:
+    @pytest.fixture
+    def surface(self, tmp_path):
+        (tmp_path / "mine.py").write_text(SURFACE)
+        return lambda name: {"contact": {"surface": f"{tmp_path}/mine.py:{name}"}}
+
+    @pytest.fixture
+    def expected(self, surface):
+        found = solved(FILM, surface("bump"))
+        plain = solved(FILM)
+        # Of no symmetry, or turning it would show nothing.
+        assert np.abs(found.film - found.film[::-1]).max() > 0.1 * plain.film.min()
+        return found
+
+    @pytest.mark.parametrize(
+        "name, angle, back",
+        [("turned", 90, np.transpose), ("opposite", 180, lambda array: array[::-1, ::-1])],
+    )
+    def test_it_is_turned_with_the_motion(self, surface, expected, name, angle, back):
+        assert_same(solved(FILM, surface(name), at(angle)), expected, back)
+
+
+class TestStart:
+    @pytest.fixture(scope="class")
+    def turned(self):
+        return solved(FILM, {"contact": {"radius_y": 25.4e-3}}, at(110))
+
+    @pytest.mark.parametrize("angle", [110, 80, 20])
+    def test_from_the_fields_of_another_angle(self, turned, angle):
+        ellipse = {"contact": {"radius_y": 25.4e-3}}
+        found, expected = solved(FILM, ellipse, at(angle), start=turned), solved(FILM, ellipse, at(angle))
+        assert found.result.converged
+        np.testing.assert_allclose(found.film, expected.film, rtol=0.0, atol=1e-6 * expected.film.max())
+
+    def test_from_the_answer_itself_there_is_nothing_to_do(self, turned):
+        again = solve(turned.config, MPI.COMM_SELF, start=turned)
+        assert again.result.converged and again.result.work.steps <= 1
+
+
+def test_full_contact_at_45_degrees_is_that_of_0():
+    along, oblique = solved(CONTACT_CASE), solved(CONTACT_CASE, at(45))
+    assert along.result.converged and oblique.result.converged
+    assert oblique.result.pressure_inequality.violations == 0
+    np.testing.assert_array_equal(oblique.status == CONTACT, along.status == CONTACT)
