@@ -9,6 +9,7 @@ from mgehl.config_sections import SolverSection
 from mgehl.discretization.scheme import Scheme
 from mgehl.multigrid.cycle import CycleSettings
 from mgehl.solver.relaxation import RelaxationSettings
+from mgehl.solver.rigid_gap import LARGEST_STEP
 from mgehl.solver.squeeze import SQUEEZE
 
 
@@ -38,7 +39,8 @@ class NewtonSettings:
     """For the rms residual and the load error."""
     max_steps: int = SolverSection.max_steps
     linear_tolerance: float = SolverSection.linear_tolerance
-    max_pressure_step: float = 0.3
+    max_pressure_step: float = LARGEST_STEP
+    """Of a pressure in a step, in p_h: a longer one is shortened as a whole."""
     release_budget: int = SolverSection.release_budget
     squeeze: float = SolverSection.squeeze
     """Rate of implicit time steps per rms residual and cell (`solver.squeeze`); 0 for Newton's own."""

@@ -4,15 +4,13 @@ import numpy as np
 
 from mgehl.discretization.status import BOUNDARY, CONTACT, LUBRICATED
 from mgehl.multigrid.assembled import AssembledSolver
+from mgehl.multigrid.cycle import CycleSettings
 from mgehl.solver.outcome import Outcome
 from mgehl.solver.problem import Problem, State
 from mgehl.solver.rigid_gap import RigidGapFluid
 
 LINEAR_TOLERANCE = 1e-11
 """Reduction of the residual by one linear solve: a second one repairs what rounding left."""
-
-MAX_ITERATIONS = 200
-"""Of one linear solve."""
 
 
 class WedgeProblem(Problem):
@@ -34,7 +32,7 @@ def solve_wedge(grid, bearing, scheme, options_prefix, tolerance, max_steps, bef
     `before_step` is called before each linear solve and may raise what ends the run.
     """
     problem = WedgeProblem(grid, bearing, scheme)
-    multigrid = AssembledSolver(grid, MAX_ITERATIONS)
+    multigrid = AssembledSolver(grid, CycleSettings.max_iterations)
     fluid = RigidGapFluid(problem, multigrid, options_prefix, LINEAR_TOLERANCE)
     state = problem.first_guess()
     try:
