@@ -24,7 +24,9 @@ from mgehl.solver.position import Position, Step, Trial
 from mgehl.solver.squeeze import squeeze_rates
 
 FLUID_AHEAD = 0.1
-"""Residual of the fluid solved apart beside that of the last cycle, or the tolerance."""
+"""Residual of the fluid solved apart beside that of the last cycle, or the tolerance. From 0.03 to 0.1 the
+same Newton steps; at 0.01 and at 0.3 full contact on 257 nodes takes one more. Above 1 no solve would
+end."""
 
 
 @dataclass(frozen=True)

@@ -20,7 +20,9 @@ class NestedSettings:
     start: str = SolverSection.start
     """"film" from a full film on a coarse grid, "contact" from the Hertz ellipse in contact."""
     first_nodes: int = SolverSection.first_nodes
-    """Nodes along X of the first grid of the nested iteration."""
+    """Nodes along X of the first grid of the nested iteration, and of the first one asked for a contact
+    start's fluid. With 33 and 129 the work is the same within 7 %; 129 halve it for a motion at 30
+    degrees."""
     inlet_cells: float = SolverSection.inlet_cells
     """Cells that the inlet must have on the coarse grids: the speed is raised until it has.
 
@@ -28,7 +30,8 @@ class NestedSettings:
     more to a longer way back to the wanted speed.
     """
     coarse_tolerance: float = 1e-4
-    """Residual at which a coarse grid has served its purpose."""
+    """Residual at which a coarse grid has served its purpose. From 3e-5 to 1e-3 films take the same work
+    within 3 %, line contacts 56 to 67 convolutions; contact starts the same up to 1e-2."""
 
 
 @dataclass(frozen=True)
