@@ -140,7 +140,9 @@ class _Iterations:
         problem = ContactProblem(grids.grids[-1], grids.deflections[-1], contact, scheme)
         state = first_guess(problem, "film")
         evaluation = problem.evaluate(state)
-        self._multigrid = MultigridSolver(grids, len(grids.grids) - 1, contact, scheme, parts.settings.cycle)
+        self._multigrid = MultigridSolver(
+            grids, len(grids.grids) - 1, contact, scheme, parts.settings.cycle
+        )
         self._multigrid.linearise(evaluation, problem.rows(state.status))
         self._ksp = PETSc.KSP().create(comm)
         self._multigrid.configure(self._ksp, rtol=1e-30)

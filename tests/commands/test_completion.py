@@ -54,7 +54,12 @@ def test_commands(completions):
 
 
 def test_keys_of_settings_with_their_equals_sign(completions):
-    assert completions("mgehl", "run", "--set", "motion.") == {"motion.speed=", "-o", "nospace"}
+    assert completions("mgehl", "run", "--set", "motion.") == {
+        "motion.speed=",
+        "motion.angle=",
+        "-o",
+        "nospace",
+    }
     assert "grid.nodes=" in completions("mgehl", "run", "mine.toml", "--set", "grid.")
 
 
