@@ -6,7 +6,8 @@ from mgehl.discretization.kernels import REACH, build_bands, factor_bands, solve
 from mgehl.discretization.rows import GAP, PRESSURE
 
 STIFF = 0.3
-"""A node is distributive where its mobility/dX is below this part of its own influence."""
+"""A node is distributive where its mobility/dX is below this part of its own influence. From 0.09 to 0.9
+the work stays within an eighth, now more, now less; with 0.03 line contacts take half as much again."""
 
 REACH_OF_STENCIL = 2
 """What a stencil couples along its line: two nodes upstream, one downstream."""

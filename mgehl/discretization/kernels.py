@@ -9,7 +9,9 @@ from numba import njit
 from mgehl.discretization.mesh import HALO
 
 REACH = 5
-"""Neighbours on each side that a line's band couples where the gap is elastic."""
+"""Neighbours on each side that a line's band couples where the gap is elastic. With 6 to 10 point contacts
+take the same work within 4 %, a dry line contact a fifth less with 10; with 4 line contacts a tenth
+more."""
 
 
 @njit(cache=True, fastmath={"contract"})

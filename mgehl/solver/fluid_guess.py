@@ -10,14 +10,6 @@ from mgehl.multigrid.cycle import MultigridSolver
 from mgehl.solver.problem import ContactProblem, State
 from mgehl.solver.rigid_gap import RigidGapFluid
 
-FEWEST_NODES = 65
-"""Along X of a grid that is worth asking."""
-
-TOLERANCE = 1e-3
-"""Rms inflow at which a coarse fluid has served its purpose."""
-
-MAX_STEPS = 15
-
 
 def guess_fluid(hierarchy, level, problem, state, settings):
     """Set the fluid of `state` on grid `level`, in place, to that of the coarser grids in its gap.
@@ -26,7 +18,8 @@ def guess_fluid(hierarchy, level, problem, state, settings):
     beside contact on the coarse grid is left as it is: pressures jump there.
     """
     coarse_grid = hierarchy.grids[level - 1] if level > 0 else None
-    if coarse_grid is None or coarse_grid.mesh.nx < FEWEST_NODES or not problem.scheme.cavitation:
+    fewest = settings.nested.first_nodes
+    if coarse_grid is None or coarse_grid.mesh.nx < fewest or not problem.scheme.cavitation:
         return
     transfer = hierarchy.transfers[level - 1]
     deflection = hierarchy.deflections[level - 1]
@@ -44,11 +37,11 @@ def guess_fluid(hierarchy, level, problem, state, settings):
 
 
 def _solve(hierarchy, level, problem, state, settings):
-    """The fluid of a coarse grid, as well as is needed."""
+    """The fluid of a coarse grid, as well as any solution there is needed."""
     how = (problem.contact, problem.scheme, settings.cycle)
     multigrid = MultigridSolver(hierarchy, level, *how, rigid=True)
     fluid = RigidGapFluid(problem, multigrid, settings.cycle.options_prefix + "fluid_")
     try:
-        fluid.solve(state, TOLERANCE, MAX_STEPS)
+        fluid.solve(state, settings.nested.coarse_tolerance)
     finally:
         fluid.free()

@@ -24,14 +24,10 @@ from mgehl.solver.partition import Changes, Partition
 from mgehl.solver.position import Position, Step, Trial
 from mgehl.solver.squeeze import squeeze_rates
 
-FLUID_SHARE = 0.3
-"""Part of the tolerance that the fluid solved apart may use up: 0.3^2 of the mean square."""
-
 FLUID_AHEAD = 0.1
-"""Residual of the fluid solved apart beside that of the last cycle."""
-
-FIRST_RESIDUAL = 1e-3
-"""What a contact start is expected to begin with."""
+"""Residual of the fluid solved apart beside that of the last cycle, or the tolerance. From 0.03 to 0.1 the
+same Newton steps; at 0.01 and at 0.3 full contact on 257 nodes takes one more. Above 1 no solve would
+end."""
 
 
 @dataclass(frozen=True)
@@ -155,7 +151,7 @@ class Newton:
         """Of the fluid solved apart: well ahead of the rest, whose next step moves the gap anyway."""
         cycles = self._position.cycles
         reached = cycles[-1].residual if cycles else 1.0
-        return max(FLUID_SHARE * self._settings.tolerance, FLUID_AHEAD * min(reached, FIRST_RESIDUAL))
+        return FLUID_AHEAD * max(reached, self._settings.tolerance)
 
     def _measure(self, snes, x):
         """Evaluate the residual of the present state; a new line of the history."""

@@ -24,6 +24,9 @@ from mgehl.solver.record import Kept
 RESTLESS = 12
 """Turns between film and contact after which a node is not expected to settle."""
 
+ROUND = 2
+"""Turns of a node that closes and is torn open again."""
+
 
 @dataclass
 class Changes(Kept):
@@ -135,11 +138,11 @@ class Partition:
         return self._grid.max(self.past.turns, initial=0) >= RESTLESS
 
     def contradictions(self, status):
-        """The restless nodes that were torn open as often as closed, all ranks' in order."""
+        """The restless nodes that were torn open, and those a round behind them; all ranks' in order."""
         around = self._grid.halo_status(status)
         torn = self.past.torn_pressure < 0.0
         local = []
-        for j, i in np.argwhere((self.past.turns >= RESTLESS - 3) & torn):
+        for j, i in np.argwhere((self.past.turns >= RESTLESS - ROUND) & torn):
             g = j + HALO
             beside = (around[g, i - 1], around[g, i + 1], around[g - 1, i], around[g + 1, i])
             gap, pressure = float(self.past.closing_gap[j, i]), float(self.past.torn_pressure[j, i])

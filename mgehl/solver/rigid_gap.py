@@ -18,10 +18,13 @@ influence: not films under contact pressure, whose viscosity makes them stiff (m
 smaller, the fewer steps; 0.01 to 10 work too)."""
 
 LARGEST_STEP = 0.3
-"""Of a pressure beside an elastic gap, in p_h, as Newton's: near a fold there is none too large."""
+"""Of a pressure beside an elastic gap in p_h, here and in Newton's steps: near a fold none is too large.
+Here from 0.03 to 3 the same steps; for Newton's see `NewtonSettings`."""
 
 LINEAR_TOLERANCE = 0.03
-"""Of the linear systems of a rigid gap."""
+"""Of the linear systems of a rigid gap. From 0.01 to 0.1 the same Newton steps, but one more on both sides
+in full contact on 257 nodes; the tighter, the more iterations of the fluid (35 to 20 in mixed
+lubrication)."""
 
 
 @dataclass(frozen=True)

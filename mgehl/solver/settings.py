@@ -9,6 +9,7 @@ from mgehl.config_sections import SolverSection
 from mgehl.discretization.scheme import Scheme
 from mgehl.multigrid.cycle import CycleSettings
 from mgehl.solver.relaxation import RelaxationSettings
+from mgehl.solver.rigid_gap import LARGEST_STEP
 from mgehl.solver.squeeze import SQUEEZE
 
 
@@ -19,7 +20,9 @@ class NestedSettings:
     start: str = SolverSection.start
     """"film" from a full film on a coarse grid, "contact" from the Hertz ellipse in contact."""
     first_nodes: int = SolverSection.first_nodes
-    """Nodes along X of the first grid of the nested iteration."""
+    """Nodes along X of the first grid of the nested iteration, and of the first one asked for a contact
+    start's fluid. With 33 and 129 the work is the same within 7 %; 129 halve it for a motion at 30
+    degrees."""
     inlet_cells: float = SolverSection.inlet_cells
     """Cells that the inlet must have on the coarse grids: the speed is raised until it has.
 
@@ -27,7 +30,8 @@ class NestedSettings:
     more to a longer way back to the wanted speed.
     """
     coarse_tolerance: float = 1e-4
-    """Residual at which a coarse grid has served its purpose."""
+    """Residual at which a coarse grid has served its purpose. From 3e-5 to 1e-3 films take the same work
+    within 3 %, line contacts 56 to 67 convolutions; contact starts the same up to 1e-2."""
 
 
 @dataclass(frozen=True)
@@ -38,7 +42,8 @@ class NewtonSettings:
     """For the rms residual and the load error."""
     max_steps: int = SolverSection.max_steps
     linear_tolerance: float = SolverSection.linear_tolerance
-    max_pressure_step: float = 0.3
+    max_pressure_step: float = LARGEST_STEP
+    """Of a pressure in a step, in p_h: a longer one is shortened as a whole."""
     release_budget: int = SolverSection.release_budget
     squeeze: float = SolverSection.squeeze
     """Rate of implicit time steps per rms residual and cell (`solver.squeeze`); 0 for Newton's own."""

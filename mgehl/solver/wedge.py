@@ -4,15 +4,14 @@ import numpy as np
 
 from mgehl.discretization.status import BOUNDARY, CONTACT, LUBRICATED
 from mgehl.multigrid.assembled import AssembledSolver
+from mgehl.multigrid.cycle import CycleSettings
 from mgehl.solver.outcome import Outcome
 from mgehl.solver.problem import Problem, State
 from mgehl.solver.rigid_gap import RigidGapFluid
 
 LINEAR_TOLERANCE = 1e-11
-"""Reduction of the residual by one linear solve: a second one repairs what rounding left."""
-
-MAX_ITERATIONS = 200
-"""Of one linear solve."""
+"""Reduction of the residual by one linear solve: a second one repairs what rounding left. From 1e-13 to
+1e-3 the same answer in 12 to 18 iterations, in 13 to 32 where the film cavitates."""
 
 
 class WedgeProblem(Problem):
@@ -34,7 +33,7 @@ def solve_wedge(grid, bearing, scheme, options_prefix, tolerance, max_steps, bef
     `before_step` is called before each linear solve and may raise what ends the run.
     """
     problem = WedgeProblem(grid, bearing, scheme)
-    multigrid = AssembledSolver(grid, MAX_ITERATIONS)
+    multigrid = AssembledSolver(grid, CycleSettings.max_iterations)
     fluid = RigidGapFluid(problem, multigrid, options_prefix, LINEAR_TOLERANCE)
     state = problem.first_guess()
     try:

@@ -6,7 +6,7 @@ import pytest
 from mgehl.discretization.contact_law import InterfaceConditions, UnifiedEquations
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
-from mgehl.solver.partition import RESTLESS, Changes, Contradiction, Partition
+from mgehl.solver.partition import RESTLESS, ROUND, Changes, Contradiction, Partition
 from mgehl.solver.problem import State
 
 THRESHOLD = 1e-3
@@ -299,12 +299,12 @@ class TestRestlessNodes:
         ]
 
     def test_those_about_to_be_restless_are_contradictions_too(self, make_partition, state, turn):
-        """9 turns of 12 are enough, 8 are not; all in the order of the grid."""
-        partition = make_partition()
-        turn(partition, (6, 2), times=5)
-        turn(partition, (2, 6), times=4)
-        turn.close(partition, (2, 6))
-        turn(partition, (2, 2), times=4)
+        """One round less is enough, one turn less than that is not; all in the order of the grid."""
+        partition, before_the_last = make_partition(), (RESTLESS - ROUND) // 2
+        turn(partition, (6, 2), times=before_the_last + 1)
+        turn(partition, (2, 6), times=before_the_last)
+        turn(partition, (2, 2), times=before_the_last - 1)
+        turn.close(partition, (2, 2))
         assert [(each.i, each.j) for each in partition.contradictions(state.status)] == [(7, 3), (3, 7)]
 
     def test_a_node_that_was_never_torn_is_no_contradiction(self, make_partition, state, turn):
