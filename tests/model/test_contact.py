@@ -56,22 +56,21 @@ def test_another_speed_changes_nothing_else(contact):
     assert slow.lambda_ == pytest.approx(contact.lambda_ / 4.0, rel=1e-15)
 
 
-def mesh_of(nodes):
-    """The paper's domain."""
-    return Mesh(nodes, nodes, (-1.9, 1.3), (-1.5, 1.5))
+def mesh_of(contact, nodes):
+    return Mesh(nodes, nodes, (-1.9, 1.3), (-1.5, 1.5), contact.k_e)
 
 
 @every_contact
 @pytest.mark.parametrize("cells", [1.0, 2.0, 7.5])
 def test_matched_speed_gives_the_inlet_its_cells(contact, cells):
-    mesh = mesh_of(65)
+    mesh = mesh_of(contact, 65)
     matched = contact.matched_speed(mesh, cells)
     assert matched > contact.speed
+    assert contact.at_speed(matched).inlet_length == pytest.approx(cells * 3.2 / 64, rel=1e-12)
     assert contact.at_speed(matched).inlet_cells(mesh) == pytest.approx(cells, rel=1e-12)
-    assert contact.at_speed(matched).inlet_length == pytest.approx(cells * mesh.dX, rel=1e-12)
 
 
 @every_contact
 def test_matched_speed_never_lowers_the_speed(contact):
-    assert contact.matched_speed(mesh_of(1025), 1e-6) == contact.speed
-    assert contact.matched_speed(mesh_of(65), 0.0) == contact.speed
+    assert contact.matched_speed(mesh_of(contact, 16385), 2.0) == contact.speed
+    assert contact.matched_speed(mesh_of(contact, 65), 0.0) == contact.speed

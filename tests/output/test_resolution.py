@@ -13,7 +13,8 @@ def film(nodes=257):
 
 def test_the_recommended_grid_is_the_first_that_resolves():
     config = film()
-    nodes = resolving_nodes(config, contact_from(config))
+    contact = contact_from(config)
+    nodes = resolving_nodes(contact, mesh_from(config, contact))
     fine, coarse = film(nodes=nodes), film(nodes=(nodes + 1) // 2)
     verdicts = [
         resolution(contact_from(each), mesh_from(each, contact_from(each))).verdict

@@ -12,6 +12,7 @@ FORMULAS = {
     "hamrock_dowson": "Hamrock and Dowson",
     "nijenbanning_venner_moes": "Nijenbanning, Venner and Moes",
     "dowson_higginson": "of the Dowson-Higginson type",
+    "chittenden": "Chittenden and others",
     "grubin": "Ertel and Grubin",
 }
 PICTURES = {}
