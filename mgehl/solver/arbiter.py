@@ -9,7 +9,8 @@ what is to be done.
 from enum import Enum
 
 RELEASE_STEPS = 8
-"""Steps in which a set must settle again after Eq. 2 released some of it."""
+"""Steps in which a set must settle again after Eq. 2 released some of it: it bounds trials that lead
+nowhere. From 1 to 40 the same steps in contact starts on 129 and 257 nodes."""
 
 EARLY = 1e-5
 """Residual from which Eq. 2 is asked where the fluid is solved apart."""

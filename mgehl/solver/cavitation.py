@@ -26,10 +26,12 @@ and pressure would take turns for ever (2049 nodes: 0.35 a step). From 0.03 to 0
 one; at 0.01 mixed lubrication takes a fifth more."""
 
 SWEEPS = 40
-"""Sweeps over all lines at the most; they end when one changes no status."""
+"""Sweeps over all lines at the most; they end when one changes no status. From 4 to 400 the same steps on
+129 and 257 nodes: the finer the grid, the further a boundary has to go."""
 
 PASSES = 2
-"""Set iterations on a line in each sweep."""
+"""Set iterations on a line in each sweep. With 1 most take the same steps, a motion at 30 degrees 3 % more,
+one film on 257 nodes a sixth less."""
 
 
 def relax_cavitation_set(problem, state, evaluation):

@@ -5,17 +5,13 @@ from dataclasses import dataclass
 import numpy as np
 from petsc4py import PETSc
 
+from mgehl.discretization.axes import own
 from mgehl.discretization.evaluation import Evaluation
 from mgehl.discretization.rows import rows_of
-from mgehl.discretization.status import CAVITATED, LUBRICATED
+from mgehl.discretization.status import CAVITATED, LUBRICATED, is_fluid
 from mgehl.grid.events import linear_solve
-from mgehl.solver.cavitation import driven, relax_cavitation_set, weakly_coupled
+from mgehl.solver.cavitation import driven, relax_cavitation_set
 from mgehl.solver.problem import DIVERGED
-
-SEPARABLE = 1e-5
-"""A node is solved apart from the gap only where its mobility/dX exceeds this multiple of its own
-influence: not films under contact pressure, whose viscosity makes them stiff (measured: the
-smaller, the fewer steps; 0.01 to 10 work too)."""
 
 LARGEST_STEP = 0.3
 """Of a pressure beside an elastic gap in p_h, here and in Newton's steps: near a fold none is too large.
@@ -63,9 +59,11 @@ class RigidGapFluid:
         self._multigrid.free()
 
     def separable(self, evaluation, status):
-        """Fluid nodes that this solver answers for: (lines, nx) bool."""
-        weak = weakly_coupled(self._problem, evaluation, status, SEPARABLE)
-        return weak & driven(self._problem, evaluation)
+        """Fluid nodes that this solver answers for: (lines, nx) bool.
+
+        Not films under contact pressure, whose viscosity makes them stiff: no flow is driven out of them.
+        """
+        return is_fluid(status) & (own(evaluation.fluid.eps) > 0.0) & driven(self._problem, evaluation)
 
     def solve(self, state, tolerance, max_steps=30, before_step=lambda: None):
         """Bring the fluid of `state` into balance at its gap, in place; return the `SettledFluid`.

@@ -24,11 +24,9 @@ class NestedSettings:
     start's fluid. With 33 and 129 the work is the same within 7 %; 129 halve it for a motion at 30
     degrees."""
     inlet_cells: float = SolverSection.inlet_cells
-    """Cells that the inlet must have on the coarse grids: the speed is raised until it has.
-
-    Fewer lead to spurious contact that poisons the finer grids (full film is lost near 1.4),
-    more to a longer way back to the wanted speed.
-    """
+    """Cells that the inlet must have on the coarse grids: the speed is raised until it has. Fewer lead to
+    spurious contact that poisons finer grids (full film is lost near 1.4), more to a longer way back. From
+    1.7 to 2.5 the work varies by a third without order; at 30 degrees 2.5 save half of it."""
     coarse_tolerance: float = 1e-4
     """Residual at which a coarse grid has served its purpose. From 3e-5 to 1e-3 films take the same work
     within 3 %, line contacts 56 to 67 convolutions; contact starts the same up to 1e-2."""
@@ -42,9 +40,15 @@ class NewtonSettings:
     """For the rms residual and the load error."""
     max_steps: int = SolverSection.max_steps
     linear_tolerance: float = SolverSection.linear_tolerance
+    """Relative tolerance of GMRES in a step. From 0.05 to 0.2 the work varies by a quarter, now more, now
+    less: the looser, the more steps and the fewer iterations in each."""
     max_pressure_step: float = LARGEST_STEP
-    """Of a pressure in a step, in p_h: a longer one is shortened as a whole."""
+    """Of a pressure in a step, in p_h: a longer one is shortened as a whole. From 0.2 to 0.5 films take the
+    same work within a tenth (a motion at 30 degrees 271 to 187 convolutions), contact starts the same
+    steps."""
     release_budget: int = SolverSection.release_budget
+    """Times a contact node may be released on Eq. 2. With 1 the same steps; with 0 mixed lubrication ends
+    with nodes that break Eq. 2."""
     squeeze: float = SolverSection.squeeze
     """Rate of implicit time steps per rms residual and cell (`solver.squeeze`); 0 for Newton's own."""
 
