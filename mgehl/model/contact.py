@@ -132,8 +132,8 @@ class LoadedContact:
         return self.inlet_length / self.cell_along_motion(mesh)
 
     def matched_speed(self, mesh, cells):
-        """Lowest speed not below `speed` that keeps `cells` cells of a mesh in the inlet.
+        """Lowest speed not below `speed` that keeps `cells` cells of a mesh along X in the inlet.
 
         s* grows with the square root of u, so the speed follows in one step.
         """
-        return self.speed * max(1.0, (cells / self.inlet_cells(mesh)) ** 2)
+        return self.speed * max(1.0, (cells * mesh.dX / self.inlet_length) ** 2)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from handmade import ALONG, Row
 
-from mgehl.discretization.couette import EE, SCHEMES, WW, E, W, add_couette
+from mgehl.discretization.couette import EE, SCHEMES, WW, E, W, add_couette, couette_scheme
 from mgehl.discretization.faces import Flow
 from mgehl.discretization.status import CONTACT, LUBRICATED, is_solid
 
@@ -169,3 +169,21 @@ def test_uniform_fluid_passes_unchanged_by_every_scheme(couette_flows, scheme):
     """With uniform rho and H every face carries rho H."""
     leaving, entering = couette_flows(scheme, rho=np.full(5, 2.0), gap=np.full(5, 3.0))
     assert (leaving.value == 6.0).all() and (entering.value == 6.0).all()
+
+
+@pytest.mark.parametrize("coarsenings", [1, 2, 3])
+def test_a_coarse_grid_has_the_truncation_error_of_the_finest(coarsenings):
+    """1B of X^2 is off by the spacing: on a coarse grid by the finest grid's, whatever its own."""
+
+    def slope(scheme, h):
+        """The difference of rho H = X^2 about X = 0, whose slope is 0 there."""
+        at = {WW: -2.0 * h, W: -h, E: 0.0, EE: h}
+        entering = sum(c * at[b] ** 2 for c, a, b in scheme.leaving)
+        leaving = sum(c * (at[b] + h) ** 2 for c, a, b in scheme.leaving)
+        return (leaving - entering) / h
+
+    coarse = 2.0**coarsenings
+    assert slope(couette_scheme("1B", coarsenings), coarse) == pytest.approx(
+        slope(couette_scheme("1B"), 1.0)
+    )
+    assert couette_scheme("2B", 0) == SCHEMES["2B"]
