@@ -82,8 +82,8 @@ class CrossedLineSmoother(LineSmoother):
     X and Y are the parts of J Q along the x-lines and along the y-lines, D their diagonal: the product
     is J Q but for what couples both. Lines of one kind alone leave waves across the motion; this damps
     them, too, and wants half the damping (2B on 513 nodes at 15 and 30 degrees: 198 and 218 convolutions
-    with 0.9, 187 and 268 with 0.8, 248 and 296 with 1). A sweep goes along X first and then along Y, and once
-    more the other way round.
+    with 0.9, 187 and 268 with 0.8, 248 and 296 with 1). A sweep goes along X first and then along Y, and
+    once more the other way round.
     """
 
     visits = 2
