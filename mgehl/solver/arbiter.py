@@ -13,10 +13,13 @@ RELEASE_STEPS = 8
 nowhere. From 1 to 40 the same steps in contact starts on 129 and 257 nodes."""
 
 EARLY = 1e-5
-"""Residual from which Eq. 2 is asked where the fluid is solved apart."""
+"""Residual from which Eq. 2 is asked where the fluid is solved apart. From 3e-6 to 1e-5 the same steps;
+mixed lubrication takes an eighth more convolutions with 1e-6, and as many fewer with 3e-5."""
 
 EARLY_ROUNDS = 3
-"""Releases before the last digits: 2049 nodes take two; an edge that opens node by node has no end."""
+"""Releases before the last digits: 2049 nodes take two; an edge that opens node by node has no end. From 1
+to 10 the same steps on 129 and 257 nodes; with none mixed lubrication takes 86 convolutions instead of
+61."""
 
 
 class Ruling(Enum):

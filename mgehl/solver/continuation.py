@@ -10,16 +10,20 @@ from mgehl.solver.newton import Newton
 from mgehl.solver.problem import ContactProblem
 
 SMALLEST_STEP = 0.25
-"""Part of a first step below which one that failed is not halved again."""
+"""Part of a first step below which one that failed is not halved again. From 0.05 to 1 the same steps on 65
+and 129 nodes."""
 
 BEYOND = 8.0
 """Ratio of speeds by which a start far from its branch's end is taken."""
 
 FIRST_SHARE = 0.25
-"""Share of another mean than the arithmetic that is taken first."""
+"""Share of another mean than the arithmetic that is taken first. Films take 348 (geometric) and 761
+(harmonic) convolutions; with 0.1 398 and 806, with 0.5 290 and 748, but by the harmonic mean to another
+answer."""
 
 SPEED_RATIO = 2.0
-"""Ratio of speeds that one step may try where nothing says less."""
+"""Ratio of speeds that one step may try where nothing says less. A film by the harmonic mean takes 761
+convolutions, with 1.3 1068, from 3 on 691; by the geometric mean it makes no difference at 0.5 m/s."""
 
 
 class Continuation:

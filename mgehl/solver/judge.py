@@ -7,8 +7,8 @@ from petsc4py import PETSc
 from mgehl.solver.problem import DIVERGED
 
 STALLS = 3
-"""Linear systems that GMRES may leave unsolved: where no state is near (a film that ends, a node at a
-fold) all that follow cost as much as they can and lead nowhere."""
+"""Linear systems that GMRES may leave unsolved: where no state is near (a film that ends, a node at a fold)
+all that follow cost as much as they can and lead nowhere. From 1 on nothing that converges changes."""
 
 
 @dataclass(frozen=True)

@@ -19,20 +19,26 @@ from mgehl.discretization.rows import FLOW
 from mgehl.discretization.status import beside_contact
 
 SQUEEZE = 3.0
-"""Rate, per rms residual and cell, that contact starts and continuation take at the least."""
+"""Rate, per rms residual and cell, that contact starts and continuation take at the least. From 0.3 to 9
+full contact takes the same steps, mixed lubrication 65 to 58 convolutions, a film by the geometric mean 317
+to 419."""
 
 OF_NODES = {"arithmetic": 0.1, "geometric": 0.1, "harmonic": 1.0}
-"""Part of the rate that goes by a node's own residual and film, by the mean of the mobility."""
+"""Part of the rate that goes by a node's own residual and film, by the mean of the mobility. From nothing
+to ten times as much full contact takes the same steps, mixed lubrication 58 to 68 convolutions and a film
+by the geometric mean 337 to 373. Shut-in nodes need it."""
 
 FOLDING = ("geometric", "harmonic")
 """Means by which the flow through a face falls again where its nodes differ by much."""
 
 STABLE = 0.6
-"""Rate per cell by which a node is kept from its fold: its neighbours bring it nearer. (Points on 129 nodes
-by the harmonic mean from their neighbours in speed: 21 of 21; with 0.3 18, with 1 20 in more steps.)"""
+"""Rate per cell by which a node is kept from its fold: its neighbours bring it nearer. Points on 129 nodes
+by the harmonic mean from their neighbours in speed: 21 of 21; with 0.3 18, with 1 20 in more steps. With
+0.06 films take up to twice the work, with 1.8 ten times as much, or fail."""
 
 LAST_STEPS = 1e-6
-"""Rms residual below which it is kept so by less and less: Newton's own steps end the solve."""
+"""Rms residual below which it is kept so by less and less: Newton's own steps end the solve. From 1e-7 to
+1e-5 the same by the geometric mean, by the harmonic 823 to 690 convolutions."""
 
 THINNEST = 1e-9
 """Film of which a node's own rate is reckoned where H_th (1e-6 of the paper's ball) does not say more: so
