@@ -117,15 +117,9 @@ def summarise(problem, outcome, tolerance, work, wall_s, versions):
     inequality = check_pressure_inequality(problem, state)
     complementarity = complementarity_error(problem, state, evaluation)
     settled, reason = _verdict(outcome, tolerance, residual, load_error, complementarity)
-    converged = settled and not inequality.violations
-    if settled and not converged:
-        reason = _broken_inequality(inequality)
-    overlap = _overlap(grid, state, nm)
-    if converged and overlap.nodes:
-        reason = (
-            f"the unified equations hold, but the bodies overlap at {overlap.nodes} nodes "
-            f"by up to {overlap.largest_nm:.3g} nm"
-        )
+    converged, overlap = settled and not inequality.violations, _overlap(grid, state, nm)
+    if settled:
+        reason = _whether_more_holds(inequality, overlap) or reason
     moes = contact.film_scale * contact.moes_scale
     return Result(
         converged=converged,
@@ -167,11 +161,19 @@ def _verdict(outcome, tolerance, residual, load_error, complementarity):
     return True, "residual, load, sets, complementarity and the pressure inequality hold"
 
 
-def _broken_inequality(inequality):
-    return (
-        f"contact pressure is below the fluid pressure beside it at {len(inequality.violations)} of "
-        f"{inequality.checked} interface nodes, by up to {inequality.worst:.1e} p_h"
-    )
+def _whether_more_holds(inequality, overlap):
+    """What a settled state breaks besides; empty where it is nothing."""
+    if inequality.violations:
+        return (
+            f"contact pressure is below the fluid pressure beside it at {len(inequality.violations)} of "
+            f"{inequality.checked} interface nodes, by up to {inequality.worst:.1e} p_h"
+        )
+    if overlap.nodes:
+        return (
+            f"the unified equations hold, but the bodies overlap at {overlap.nodes} nodes "
+            f"by up to {overlap.largest_nm:.3g} nm"
+        )
+    return ""
 
 
 def _contradiction(node, nm):

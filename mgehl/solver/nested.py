@@ -96,8 +96,8 @@ def planned_solves(meshes, contact, settings):
 
 
 def _solve_level(hierarchy, level, problem, state, limits, settings, tell, journal):
-    def multigrid(rigid):
-        return MultigridSolver(hierarchy, level, problem.contact, problem.scheme, settings.cycle, rigid)
+    def multigrid(**how):
+        return MultigridSolver(hierarchy, level, problem.contact, problem.scheme, settings.cycle, **how)
 
     prefix, fluid = settings.cycle.options_prefix, None
     if settings.nested.start == "contact" and problem.scheme.contact_law.has_contact:
@@ -105,7 +105,7 @@ def _solve_level(hierarchy, level, problem, state, limits, settings, tell, journ
         guess_fluid(hierarchy, level, problem, state, settings)
         fluid = RigidGapFluid(problem, multigrid(rigid=True), prefix + "fluid_")
     try:
-        newton = Newton(problem, multigrid(rigid=False), limits, fluid, prefix, tell)
+        newton = Newton(problem, multigrid(apart=fluid is not None), limits, fluid, prefix, tell)
         try:
             return newton.run(state, journal)
         finally:
