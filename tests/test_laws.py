@@ -121,7 +121,7 @@ calls = 0
 def law(p):
     global calls
     calls += 1
-    return (1.0, 0.0) if calls < 50 else 1.0
+    return (1.0, 0.0) if calls < 20 else 1.0
 """
 
 
