@@ -107,7 +107,7 @@ class Newton:
         try:
             self._iterate(snes, x)
         except Exception as stopped:
-            self._stopped = stopped
+            self._stopped = _first_cause(stopped)
             snes.setConvergedReason(PETSc.SNES.ConvergedReason.DIVERGED_INNER)
 
     def _iterate(self, snes, x):
@@ -282,3 +282,10 @@ class Newton:
         if H0 == state.H0 and problem.grid.count(P != state.P) == 0:
             return self._evaluation
         return problem.evaluate(problem.state(P, H0, state.status))
+
+
+def _first_cause(error):
+    """What was raised in a callback: newer PETSc makes an error of its own of it."""
+    while isinstance(error, PETSc.Error) and error.__cause__:
+        error = error.__cause__
+    return error
