@@ -48,19 +48,23 @@ def build_bands(offsets, A, B, distributive, kappa, share, bands):
     lines, nx, width = bands.shape
     reach = width // 2
     for j in range(lines):
-        bands[j] = 0.0
+        band, spreads = bands[j], distributive[j]
+        band[:] = 0.0
         for o in range(len(offsets)):
             beside, ahead = abs(offsets[o, 0]), offsets[o, 1]
-            for i in range(nx):
-                a, b = A[o, j, i], B[o, j, i]
-                for k in range(max(-reach, -i), min(reach, nx - 1 - i) + 1):
-                    d, distance = distributive[j, i + k], abs(k - ahead)
-                    entry = b * kappa[int(d), beside, distance]
-                    if beside + distance == 0:
-                        entry += a
-                    elif d and beside + distance == 1:
-                        entry -= share * a
-                    bands[j, i, k + reach] += entry
+            a, b = A[o, j], B[o, j]
+            for k in range(-reach, reach + 1):
+                distance = abs(k - ahead)
+                single, spread = kappa[0, beside, distance], kappa[1, beside, distance]
+                first, last = max(0, -k), min(nx, nx - k)
+                for i in range(first, last):
+                    band[i, k + reach] += b[i] * (spread if spreads[i + k] else single)
+                if beside + distance == 0:
+                    for i in range(first, last):
+                        band[i, k + reach] += a[i]
+                elif beside + distance == 1:
+                    for i in range(first, last):
+                        band[i, k + reach] -= share * a[i] * spreads[i + k]
 
 
 @njit(cache=True, fastmath={"contract"}, error_model="numpy")
