@@ -258,6 +258,10 @@ def scaled(factor):
 
 
 def main(names):
+    """Print a table for each of the `names`, or for all numbers."""
+    for name in names:
+        if name not in NUMBERS:
+            sys.exit(f"constants.py: {name}: known are {', '.join(NUMBERS)}")
     normal = {}
     for name in names or NUMBERS:
         number = NUMBERS[name]
