@@ -9,14 +9,14 @@ from mgehl.discretization.axes import axes_of
 from mgehl.discretization.contact_law import UnifiedEquations
 from mgehl.discretization.couette import EE, SCHEMES, SHIFT, WW, E, W
 from mgehl.discretization.faces import conductances, flows
-from mgehl.discretization.fluid import FACE_MEANS, Fluid, fluid_state
+from mgehl.discretization.fluid import FACE_MEANS, FACE_MOBILITIES, Fluid, fluid_state
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import BOUNDARY, CONTACT, LUBRICATED
 
 along_both = pytest.mark.parametrize("along", ALONG)
 every_scheme = pytest.mark.parametrize("couette", SCHEMES)
-every_mean = pytest.mark.parametrize("mean", FACE_MEANS)
+every_mean = pytest.mark.parametrize("mean", FACE_MOBILITIES)
 
 MOTIONS = {"along x": (1.0, 0.0), "against x": (-1.0, 0.0), "at an angle": (0.6, 0.8)}
 
