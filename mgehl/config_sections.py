@@ -31,6 +31,10 @@ class ContactSection:
         "half-space", "what a point contact's bodies are in depth",
         choices=("half-space", "coated"), kind=str, own=absolute,
     )  # fmt: skip
+    boundary_film: float = key_field(
+        0.0, "film that adsorbed layers keep between solids; contact is where it would be thinner", "m",
+        low=0.0, high=1e-6,
+    )  # fmt: skip
     surface: str | None = key_field(None, "height that adds to the smooth gap", kind=str, own=absolute)
 
 

@@ -11,6 +11,10 @@ class ContactLaw(ABC):
 
     has_contact: bool
     """Whether bodies touch: without it no node is ever in contact, and bodies may overlap."""
+    closes_faces = True
+    """Whether contact closes its faces; where it does not, its pressure and its flow say when it opens."""
+    contact_gap = 0.0
+    """The gap that bodies in contact keep."""
 
     @abstractmethod
     def flow_gap(self, H):
@@ -56,6 +60,41 @@ class InterfaceConditions(ContactLaw):
     @property
     def thinnest(self):
         return self.threshold
+
+
+@dataclass(frozen=True)
+class BoundaryFilm(ContactLaw):
+    """Contact where the film would be thinner than the layers that bodies keep between them.
+
+    Closing is continuous: a node in contact is a film of that gap, and what flows through it is the flow of
+    that film. It is in contact as long as its pressure would drive fluid out of it, and opens when fluid
+    flows in: H - h_b >= 0 and inflow <= 0, one of them zero. Contact pressure then is not below that of the
+    fluid which presses at the interface [Liu eq. 2], and with the gap the flow goes to nothing, which gives
+    the interface conditions [Liu eq. 4], where the mobility vanishes with either side.
+    """
+
+    film: float
+    """h_b."""
+
+    has_contact = True
+    closes_faces = False
+
+    def flow_gap(self, H):
+        return np.maximum(H, self.film), H > self.film
+
+    def closed(self, H, was_released):
+        return self.film >= H
+
+    def takes_fluid(self, H):
+        return H >= self.film
+
+    @property
+    def contact_gap(self):
+        return self.film
+
+    @property
+    def thinnest(self):
+        return self.film
 
 
 @dataclass(frozen=True)

@@ -1,5 +1,6 @@
 """One state on one grid, evaluated: each quantity once, when it is first asked for."""
 
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
@@ -39,6 +40,12 @@ class Evaluation:
         part = fluid_state(P[changed], self.H[changed], self.contact, self.scheme.contact_law)
         fluid = self.fluid.with_part(changed, part)
         return Evaluation(P, self.H, self.status, self.mesh, self.contact, self.scheme, fluid)
+
+    def with_mobility(self, eps):
+        """The same state with another ghosted mobility, which neither pressure nor gap moves."""
+        rigid = np.zeros(np.shape(eps))
+        fluid = replace(self.fluid, eps=eps, deps_dP=rigid, deps_dH=rigid)
+        return Evaluation(self.P, self.H, self.status, self.mesh, self.contact, self.scheme, fluid)
 
     @cached_property
     def flows(self):

@@ -44,7 +44,8 @@ def flows(fluid, status, axis, scheme, linearised=False, rigid=False):
 
 def _flow(fluid, status, axis, scheme, terms, near, linearised, rigid):
     """One flow, its Couette part by `terms`, beside what is solid by `near`."""
-    is_open = open_faces(is_solid(status), axis)
+    solid = is_solid(status, scheme.contact_law.closes_faces)
+    is_open = open_faces(solid, axis)
     nodes = {W, E}
     if axis.couette:
         nodes |= nodes_of(terms) | nodes_of(near)
@@ -56,7 +57,7 @@ def _flow(fluid, status, axis, scheme, terms, near, linearised, rigid):
         stops = status == WALL
         is_open = open_faces(stops, axis)
     else:
-        stops = is_solid(status)
+        stops = solid
     if axis.couette:
         add_couette(flow, terms, near, fluid, stops, axis)
     flow.close(is_open)
@@ -90,4 +91,5 @@ def conductances(fluid, status, axis, scheme):
     difference. `fluid` and `status` are ghosted.
     """
     eps = face_mobility(scheme, _on_side(fluid, axis, W), _on_side(fluid, axis, E)).value
-    return eps * open_faces(is_solid(status), axis) / (axis.distance * axis.cell)
+    solid = is_solid(status, scheme.contact_law.closes_faces)
+    return eps * open_faces(solid, axis) / (axis.distance * axis.cell)

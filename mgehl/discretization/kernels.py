@@ -115,13 +115,18 @@ def solve_bands(bands, r, w):
 
 
 @njit(cache=True, fastmath={"contract"})
-def distribute(w, distributive, share, omega, out):
-    """out = omega Q w, Q as in `build_bands`; `w` and `distributive` ghosted, `out` (lines, nx)."""
+def distribute(w, distributive, share, omega, out, everywhere=True):
+    """out = omega Q w, Q as in `build_bands`; `w` and `distributive` ghosted, `out` (lines, nx).
+
+    If not `everywhere`, only distributive nodes take what the lines beside them hand over.
+    """
     lines, nx = out.shape
     for j in range(lines):
         for i in range(nx):
             g = j + HALO
-            spread = w[g - 1, i] * distributive[g - 1, i] + w[g + 1, i] * distributive[g + 1, i]
+            spread = 0.0
+            if everywhere or distributive[g, i]:
+                spread = w[g - 1, i] * distributive[g - 1, i] + w[g + 1, i] * distributive[g + 1, i]
             if i > 0:
                 spread += w[g, i - 1] * distributive[g, i - 1]
             if i < nx - 1:

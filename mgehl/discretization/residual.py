@@ -41,7 +41,7 @@ def residual(evaluation, rows, storage=None):
     inflow = evaluation.inflow if storage is None else evaluation.inflow - storage.outflow(evaluation.fluid)
     F = np.where(rows == FLOW, inflow, -own(evaluation.P) / dX)
     closed = rows == GAP
-    F[closed] = -own(evaluation.H)[closed] / dX
+    F[closed] = (evaluation.scheme.contact_law.contact_gap - own(evaluation.H)[closed]) / dX
     return F
 
 

@@ -2,7 +2,7 @@
 
     FLOW      net inflow/(dX dY) = 0   film                           [Liu eq. 35]
     PRESSURE  -P/dX = 0                boundary, cavity: P is given
-    GAP       -H/dX = 0                contact (the scale of the Couette term)
+    GAP       (h_b - H)/dX = 0         contact; h_b is the gap that its law keeps, mostly zero
 
 Mostly the status says which. But fluid that is settled apart from the gap is *frozen* in the linear
 system of the rest, and in a rigid gap the pressure of a contact node is given, too.

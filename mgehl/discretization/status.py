@@ -19,9 +19,9 @@ def is_fluid(status):
     return (status == LUBRICATED) | (status == CAVITATED)
 
 
-def is_solid(status):
-    """Nodes that let nothing through."""
-    return status >= CONTACT
+def is_solid(status, contact=True):
+    """Nodes that let nothing through: walls, and `contact` where its law says so."""
+    return status >= (CONTACT if contact else WALL)
 
 
 def open_faces(solid, axis):

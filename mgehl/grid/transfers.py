@@ -41,6 +41,11 @@ class Transfer:
         coarse[:, 1:-1] = 0.5 * along_y[:, 2:-2:2] + 0.25 * (along_y[:, 1:-3:2] + along_y[:, 3:-1:2])
         return self._ranks.collect(coarse)
 
+    def averaged(self, fine):
+        """Weighted mean of the fine values around each coarse node; those of a line's ends as they are."""
+        coarse, weight = self.inject(fine), self.full_weighting(np.ones(self.fine.shape))
+        return np.divide(self.full_weighting(fine), weight, out=coarse, where=weight > 0.0)
+
     def _weighted_lines(self, ghosted):
         """Every other line with half of the lines beside it, of a ghosted fine array."""
         first, end = self._odd + HALO, self.fine.shape[0] + HALO

@@ -53,6 +53,11 @@ class LoadedContact:
         return smooth + self.surface.height(X * self.x_scale, Y * self.y_scale) / self.film_scale
 
     @property
+    def is_rough(self):
+        """True where heights are added to the smooth bodies'."""
+        return self.surface is not None
+
+    @property
     def is_hertzian(self):
         """True of smooth half-spaces, whose dry contact is that of Hertz."""
         return self.surface is None and self.deformation is None

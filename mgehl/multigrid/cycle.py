@@ -8,6 +8,10 @@ surfaces move at an angle to the lines, coarse Couette flows have the finest gri
 waves across the motion would be carried along otherwise than there, and a coarse grid's correction of
 them would be a fraction of what it should be. The border travels with the residual, so H0 is corrected
 by the direct solve on the coarsest grid and the cycle needs no second solve for its column.
+
+On a rough surface peaks are as small as a coarse grid's cells, and the mobility of one node says nothing of
+those around it: there it is averaged from grid to grid, and held (a ball of 100 nm rms at 1 mm/s: 12
+iterations for 18, at 1 micrometre per second 12 for more than 60).
 """
 
 from dataclasses import dataclass, replace
@@ -21,6 +25,7 @@ from mgehl.discretization.evaluation import Evaluation
 from mgehl.grid.transfers import PartitionedTransfer
 from mgehl.multigrid.coarse import CoarseSolve
 from mgehl.multigrid.jacobian import Jacobian
+from mgehl.multigrid.memory import Memory
 from mgehl.multigrid.smoother import smoother_of
 from mgehl.multigrid.vcycle import VCycle
 
@@ -58,6 +63,7 @@ class MultigridSolver:
     ):
         self.contact, self._settings = contact, settings
         self._oblique = scheme.is_oblique and not (rigid or apart)
+        self._rough = contact.is_rough and not (rigid or scheme.contact_law.closes_faces)
         same = settings.couette in ("same", scheme.couette)
         self._scheme = scheme if same else replace(scheme, couette=settings.couette)
         grids, deflections = hierarchy.grids[: level + 1], hierarchy.deflections[: level + 1]
@@ -74,10 +80,11 @@ class MultigridSolver:
             self.jacobian = Jacobian(grids[-1], deflections[-1], contact, scheme)
         self._transfers = hierarchy.transfers[:level]
         self._partitioned = [PartitionedTransfer(transfer) for transfer in self._transfers]
-        smoother = smoother_of(self.jacobian)
+        smoother = smoother_of(self.jacobian, self._rough)
         self._smoothers = [smoother(jacobian, settings.omega) for jacobian in self.jacobians[1:]]
         coarse = CoarseSolve(self.jacobians[0])
-        self._cycle = VCycle(self.jacobians, self._partitioned, self._smoothers, coarse, settings.sweeps)
+        cycle = VCycle(self.jacobians, self._partitioned, self._smoothers, coarse, settings.sweeps)
+        self._preconditioner = Memory(self.jacobian, cycle) if self._rough else cycle
 
     def _scheme_of(self, coarsenings):
         """The scheme of the cycle's operator on a grid so many times coarser than the finest."""
@@ -108,12 +115,18 @@ class MultigridSolver:
             self.jacobian.linearise(evaluation, rows, rate)
         self.jacobians[-1].linearise(evaluation, rows, rate)
         fine = [own(ghosted) for ghosted in (evaluation.P, evaluation.H, evaluation.status)]
+        eps = own(evaluation.fluid.eps)
         for level in range(len(self.jacobians) - 1, 0, -1):
-            inject, jacobian = self._transfers[level - 1].inject, self.jacobians[level - 1]
+            transfer, jacobian = self._transfers[level - 1], self.jacobians[level - 1]
+            inject = transfer.inject
             coarse = [inject(array) for array in fine]
             status, coarse_rows = coarse[-1], inject(rows)
             rate = inject(rate) if np.ndim(rate) else rate
-            jacobian.linearise(_evaluate(jacobian, *coarse), coarse_rows, rate)
+            evaluation = _evaluate(jacobian, *coarse)
+            if self._rough:
+                eps = transfer.averaged(eps)
+                evaluation = evaluation.with_mobility(jacobian.grid.halo(eps))
+            jacobian.linearise(evaluation, coarse_rows, rate)
             self._smoothers[level - 1].partition(rows)
             self._partitioned[level - 1].partition((status, coarse_rows), (fine[-1], rows))
             fine, rows = coarse, coarse_rows
@@ -125,7 +138,7 @@ class MultigridSolver:
         ksp.setTolerances(rtol=rtol, atol=0.0, max_it=self._settings.max_iterations)
         ksp.setGMRESRestart(self._restart)
         ksp.getPC().setType(PETSc.PC.Type.PYTHON)
-        ksp.getPC().setPythonContext(self._cycle)
+        ksp.getPC().setPythonContext(self._preconditioner)
         ksp.setFromOptions()
 
     @property

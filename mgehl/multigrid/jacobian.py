@@ -12,6 +12,7 @@ from petsc4py import PETSc
 
 from mgehl.discretization.kernels import apply_jacobian, apply_stencil
 from mgehl.discretization.residual import linearise
+from mgehl.discretization.rows import PRESSURE
 from mgehl.discretization.storage import Storage
 from mgehl.grid.events import ASSEMBLY, event
 
@@ -61,6 +62,12 @@ class BorderedSpace:
         """Set the pressure part alone."""
         self._lines(vec.getArray())[:] = P
 
+    def fill(self, entries, P, border):
+        """Set an array of a rank's own entries from its pressure part and the border entry."""
+        self._lines(entries)[:] = P
+        if self._owns_border:
+            entries[-1] = border
+
     def _lines(self, values):
         return values[: self.grid.shape[0] * self.grid.shape[1]].reshape(self.grid.shape)
 
@@ -88,6 +95,10 @@ class Jacobian:
         self.load_scale = np.sqrt(mesh.nodes)
         self.load_weight = mesh.dX * mesh.dY * self.load_scale
         self.linearisation = None
+        self.given = None
+        """Where the pressure is given in it, (lines, nx)."""
+        self.witness = None
+        """Called with (dP, dH, dH0) of every product, dH the deflection by dP."""
         self._dP = np.zeros(grid.ghosted_shape)
         self._dH = np.zeros(grid.ghosted_shape)
         self._out = np.zeros(grid.shape)
@@ -100,6 +111,7 @@ class Jacobian:
         """Linearise about an evaluated state with these kinds of rows, for time steps 1/`rate` long."""
         storage = Storage.begun(evaluation.fluid, rate)
         self.linearisation = linearise(evaluation.by(self.scheme), rows, storage, self.rigid)
+        self.given = rows == PRESSURE
         self.mat.stateIncrease()
 
     def mult(self, _mat, x, y):
@@ -109,7 +121,10 @@ class Jacobian:
             self.space.write(y, self.product(dP, None, dH0), dH0)
         else:
             load = self.load_weight * self.grid.sum_of_team(dP.sum())
-            self.space.write(y, self.product(dP, self.deflection(dP), dH0), load)
+            dH = self.deflection(dP)
+            if self.witness:
+                self.witness(dP, dH, dH0)
+            self.space.write(y, self.product(dP, dH, dH0), load)
 
     def product(self, dP, dH, dH0):
         """A dP + B (dH + dH0), (lines, nx), of a known deflection `dH`; the next call overwrites it.

@@ -26,6 +26,8 @@ class LineSmoother:
 
     visits = 1
     """Relaxations that one sweep takes."""
+    hands_over_everywhere = True
+    """Whether a node takes what the lines beside it hand over, whatever it is."""
 
     def __init__(self, jacobian, omega):
         self._jacobian, self._omega = jacobian, omega
@@ -60,7 +62,8 @@ class LineSmoother:
         """Correction for the residual `r`, both (lines, nx); the next call overwrites it."""
         self._solve_lines(r)
         self._jacobian.grid.halo(self._w, out=self._ghosted_w)
-        distribute(self._ghosted_w, self._distributive, self._share, self._omega, self._out)
+        how = self._share, self._omega, self._out, self.hands_over_everywhere
+        distribute(self._ghosted_w, self._distributive, *how)
         self._out[self._given] = 0.0
         return self._out
 
@@ -70,6 +73,17 @@ class LineSmoother:
 
     def view(self, viewer):
         viewer.printfASCII(f"  distributive x-line Jacobi, omega {self._omega}, {REACH} neighbours\n")
+
+
+class RoughLineSmoother(LineSmoother):
+    """The same where film and contact change from node to node, as on rough surfaces.
+
+    A stiff node hands nothing over to a line beside it whose node the pressure drives: that would leave a
+    residual there as large as its mobility, and lines that know nothing of each other could not answer it
+    (a ball of 400 nm rms at 1 mm/s: 17 iterations for 39).
+    """
+
+    hands_over_everywhere = False
 
 
 class CrossedLineSmoother(LineSmoother):
@@ -164,10 +178,12 @@ class RigidLineSmoother:
         viewer.printfASCII(f"  x-line Jacobi of a rigid gap, omega {self._omega}\n")
 
 
-def smoother_of(jacobian):
+def smoother_of(jacobian, rough=False):
     """The class of a grid's smoother: a rigid gap has no K, and a single line has nothing to cross."""
     if jacobian.rigid:
         return RigidLineSmoother
+    if rough:
+        return RoughLineSmoother
     return LineSmoother if jacobian.grid.mesh.is_line else CrossedLineSmoother
 
 

@@ -42,6 +42,8 @@ def rule(position, verdict, partition, fluid_apart):
     """The `Ruling` on a position (collective); `fluid_apart` where fluid is solved apart from the gap."""
     state, trial = position.state, position.trial
     if verdict.converged:
+        if not partition.asks_eq_2:
+            return Ruling.ACCEPT
         if trial and partition.count_violations(state) >= trial.violations:
             return Ruling.KEEP
         return Ruling.TRY_RELEASE if partition.count_releasable(state) else Ruling.ACCEPT

@@ -44,7 +44,7 @@ class Continuation:
         nested = replace(self._settings.nested, start=start)
         contact = self._contact.at_speed(speed)
         settings = replace(self._settings, nested=nested)
-        if start == "contact" or settings.scheme.face_mobility == "arithmetic":
+        if start == "contact" or settings.scheme.face_mobility in ("arithmetic", "tapered"):
             return nested_iteration(self._hierarchy, contact, settings, self._monitor, self._journal)
         return self._begin_with_mean(contact, settings)
 
@@ -108,7 +108,7 @@ class Continuation:
 
 def begin(hierarchy, contact, settings, monitor, journal=NOTHING_KEPT):
     """Solve `contact` from nothing, by whatever its mean of the mobility takes; as `nested_iteration`."""
-    if settings.scheme.face_mobility == "arithmetic":
+    if settings.scheme.face_mobility in ("arithmetic", "tapered"):
         return nested_iteration(hierarchy, contact, settings, monitor, journal)
     continuation = Continuation(hierarchy, contact, settings, monitor, journal)
     return continuation.begin(contact.speed, settings.nested.start)

@@ -3,7 +3,7 @@
 from dataclasses import asdict, dataclass
 
 from mgehl.config import COARSEST_NODES
-from mgehl.discretization.contact_law import InterfaceConditions, UnifiedEquations
+from mgehl.discretization.contact_law import BoundaryFilm, InterfaceConditions, UnifiedEquations
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.scheme import Scheme
 from mgehl.grid.hierarchy import Hierarchy
@@ -48,15 +48,24 @@ def scheme_from(config, contact):
         face_mobility=section.face_mobility,
         couette_at_interface=section.couette_at_interface,
         motion=contact.motion,
-        contact_law=CONTACT_LAWS[section.contact_model](section, contact),
+        contact_law=CONTACT_LAWS[section.contact_model](config, contact),
         cavitation=cavitation,
     )
 
 
-CONTACT_LAWS = {
-    "lcic": lambda section, contact: InterfaceConditions(section.film_threshold / contact.film_scale),
-    "unified": lambda section, contact: UnifiedEquations(section.unified_gap / contact.film_scale),
-}
+def _interface_conditions(config, contact):
+    """Faces that contact closes, or those that a vanishing mobility closes by itself."""
+    section, boundary_film = config.discretization, config.contact.boundary_film
+    if boundary_film > 0.0 or section.face_mobility == "tapered":
+        return BoundaryFilm(max(boundary_film, section.film_threshold) / contact.film_scale)
+    return InterfaceConditions(section.film_threshold / contact.film_scale)
+
+
+def _unified_equations(config, contact):
+    return UnifiedEquations(config.discretization.unified_gap / contact.film_scale)
+
+
+CONTACT_LAWS = {"lcic": _interface_conditions, "unified": _unified_equations}
 """By discretization.contact_model."""
 
 

@@ -60,6 +60,8 @@ def first_guess(problem, start):
     """Hertz pressure with a film of the formula's thickness, or with the ellipse in contact."""
     grid, contact = problem.grid, problem.contact
     P = contact.guessed_pressure(grid.X, grid.Y)
+    if _is_mixed(problem.contact, problem.scheme):
+        return _first_mixed_guess(problem, start, dry_pressure(problem, P))
     if contact.deformation is not None and start == "film":
         P = dry_pressure(problem, P)
     H0 = problem.touching(P)
@@ -69,6 +71,25 @@ def first_guess(problem, start):
     pressed = (grid.X**2 + grid.Y**2 <= contact.widening**2) & problem.scheme.contact_law.has_contact
     status = np.where(pressed, CONTACT, LUBRICATED)
     return problem.state(P, H0, status)
+
+
+def _is_mixed(contact, scheme):
+    """Where film and contact share a rough surface: it is solved at once, on the finest grid.
+
+    Coarse grids do not see the surface, and the dry contact's pressure is nearer than any film's.
+    """
+    return contact.is_rough and scheme.contact_law.has_contact and not scheme.contact_law.closes_faces
+
+
+def _first_mixed_guess(problem, start, P):
+    """The dry pressure `P` of the rough bodies, with the formula's film between them or in contact."""
+    contact, pressed = problem.contact, P > 0.0
+    H0 = -problem.mean(problem.gap(P, 0.0), pressed)
+    if start == "film":
+        film = contact.expected_film / contact.film_scale
+        return problem.state(P, H0 + film, np.full(problem.grid.shape, LUBRICATED))
+    gap = problem.scheme.contact_law.contact_gap
+    return problem.state(P, H0 + gap, np.where(pressed, CONTACT, LUBRICATED))
 
 
 def interpolate(transfer, problem, coarse):
@@ -87,7 +108,8 @@ def planned_solves(meshes, contact, settings):
     relaxation, know the finest alone.
     """
     finest, nested = len(meshes) - 1, settings.nested
-    alone = nested.start == "contact" or settings.method == "relaxation"
+    at_once = settings.method == "relaxation" or _is_mixed(contact, settings.scheme)
+    alone = nested.start == "contact" or at_once
     for level, mesh in enumerate(meshes):
         if level == finest:
             yield level, LevelSolve(mesh.nx, contact.speed, True)
@@ -100,7 +122,10 @@ def _solve_level(hierarchy, level, problem, state, limits, settings, tell, journ
         return MultigridSolver(hierarchy, level, problem.contact, problem.scheme, settings.cycle, **how)
 
     prefix, fluid = settings.cycle.options_prefix, None
-    if settings.nested.start == "contact" and problem.scheme.contact_law.has_contact:
+    law = problem.scheme.contact_law
+    if _is_mixed(problem.contact, problem.scheme):
+        limits = limits.squeezed()
+    elif settings.nested.start == "contact" and law.has_contact and law.closes_faces:
         limits = limits.squeezed()
         guess_fluid(hierarchy, level, problem, state, settings)
         fluid = RigidGapFluid(problem, multigrid(rigid=True), prefix + "fluid_")

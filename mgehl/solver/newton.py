@@ -145,6 +145,10 @@ class Newton:
         moved, self._evaluation = relax_cavitation_set(problem, state, evaluation)
         changes.cavitated += moved
         self._partition.fill(state, self._evaluation.inflow, changes)
+        opened = changes.released
+        self._partition.open_contact(state, self._evaluation.inflow, changes)
+        if changes.released > opened:
+            self._evaluation = problem.evaluate(state)
 
     @property
     def _fluid_tolerance(self):

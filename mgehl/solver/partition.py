@@ -2,7 +2,8 @@
 
 cavitated  enters when P < 0, leaves when fluid flows in
 contact    enters when H <= H_th, leaves when P < 0 (always) or when its P is below the fluid
-           pressure beside it [Liu eq. 2] (when the sets have settled, a finite number of times)
+           pressure beside it [Liu eq. 2] (when the sets have settled, a finite number of times);
+           one that leaves its faces open leaves when fluid flows in, and at P < 0
 """
 
 from dataclasses import dataclass
@@ -27,6 +28,10 @@ converges changes."""
 
 ROUND = 2
 """Turns of a node that closes and is torn open again."""
+
+SETTLED = 1.5
+"""Gap over the one it keeps up to which contact is asked whether fluid flows in: before it has come there
+its flow says nothing."""
 
 
 @dataclass
@@ -97,6 +102,11 @@ class Partition:
         self._contact_law = problem.scheme.contact_law
         self.past = Past.none(problem.grid.shape, release_budget)
 
+    @property
+    def asks_eq_2(self):
+        """Whether contact is let go by its pressure, and not by its flow."""
+        return self._contact_law.closes_faces
+
     def cut_tension(self, P, status, changes):
         """Set negative pressures to zero in place: fluid cavitates, contact is released."""
         negative = P < 0.0
@@ -104,7 +114,7 @@ class Partition:
         if not self._problem.scheme.cavitation:
             torn[:] = False
         self.past.torn_pressure[tensile] = P[tensile]
-        self.past.turns += tensile
+        self.past.turns += tensile & self._contact_law.closes_faces
         P[torn | tensile] = 0.0
         # Bodies that are torn apart leave an empty gap: a cavity, until fluid flows in.
         status[torn | tensile] = CAVITATED
@@ -117,21 +127,38 @@ class Partition:
         """Nodes whose gap is closed, and fluid shut in from west and east, become contact.
 
         One pass is enough: what was shut in had contact on both sides already, so it shuts in no other.
+        Contact that leaves its faces open shuts in nothing, and may close and open as often as it takes.
         """
         may_close = is_fluid(state.status) & ~self.past.just_released
         closed = may_close & self._contact_law.closed(state.H, self.past.was_released)
-        self.past.closing_gap[closed] = state.H[closed]
-        self.past.turns += closed
         state.status[closed] = CONTACT
-        shut_in = enclosed(self._grid.halo_status(state.status), self._problem.axes)
-        state.status[shut_in] = CONTACT
-        changes.entered += self._grid.count(closed | shut_in)
+        if self._contact_law.closes_faces:
+            self.past.closing_gap[closed] = state.H[closed]
+            self.past.turns += closed
+            shut_in = enclosed(self._grid.halo_status(state.status), self._problem.axes)
+            state.status[shut_in] = CONTACT
+            closed |= shut_in
+        changes.entered += self._grid.count(closed)
 
     def fill(self, state, inflow, changes):
         """Cavitated nodes that fluid flows into become lubricated."""
         filled = (state.status == CAVITATED) & (inflow > 0.0) & self._contact_law.takes_fluid(state.H)
         state.status[filled] = LUBRICATED
         changes.filled += self._grid.count(filled)
+
+    def open_contact(self, state, inflow, changes):
+        """Contact that leaves its faces open becomes film where fluid flows in, and all of it behind that.
+
+        What flows in at the head of a run of contact is carried on through the whole of it: opened node by
+        node a run would take a step for each. What then does not open closes again.
+        """
+        in_contact, law = state.status == CONTACT, self._contact_law
+        if law.closes_faces:
+            return
+        at_rest = state.H <= SETTLED * law.contact_gap
+        opened = run_behind(in_contact & at_rest & (inflow > 0.0), in_contact)
+        state.status[opened] = LUBRICATED
+        changes.released += self._grid.count(opened)
 
     @property
     def restless(self):
@@ -178,3 +205,11 @@ class Partition:
         self.past.was_released |= released
         self.past.turns[:] = 0
         changes.released += self._grid.count(released)
+
+
+def run_behind(heads, nodes):
+    """The `heads` with all `nodes` that follow each of them along its line without a gap: (lines, nx)."""
+    position = np.arange(nodes.shape[1])
+    last_head = np.maximum.accumulate(np.where(heads, position, -1), axis=1)
+    last_other = np.maximum.accumulate(np.where(nodes, -1, position), axis=1)
+    return nodes & (last_head > last_other)

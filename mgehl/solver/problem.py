@@ -113,6 +113,10 @@ class ContactProblem(Problem):
         """Integral of P minus the load  [Liu eq. 50]."""
         return self.load(P) - self.contact.load_integral
 
+    def mean(self, array, nodes):
+        """Mean of an array (lines, nx) over some nodes of all ranks."""
+        return self.grid.sum(array[nodes].sum()) / self.grid.count(nodes)
+
     def films(self, state):
         """Gap at the node nearest to the centre, and the smallest gap, in units of H."""
         i, j = self.grid.mesh.nearest(0.0, 0.0)
