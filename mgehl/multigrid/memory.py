@@ -1,9 +1,9 @@
 """What GMRES learnt in the linear systems before: corrections, and their deflections.
 
-On a rough surface each peak that carries load is a soft mode of its own, which coarse grids know badly: GMRES
-finds it by itself, an iteration for each. From one Newton step to the next the modes hardly change. And
-the deflection of a correction does not change at all: what the new Jacobian makes of a remembered one is a
-stencil, without a convolution.
+On a rough surface each peak that carries load is a soft mode of its own, which coarse grids know badly:
+GMRES finds it by itself, an iteration for each. From one Newton step to the next the modes hardly change.
+And the deflection of a correction does not change at all: what the new Jacobian makes of a remembered one
+is a stencil, without a convolution.
 """
 
 import numpy as np
@@ -11,7 +11,7 @@ import numpy as np
 from mgehl.grid.events import LINES, event
 
 MOST, NODES = 40, 16_000_000
-"""Corrections that are remembered, fewer where they and their deflections have more nodes than that: 256 MB."""
+"""Corrections that are remembered at the most, and nodes of all of them: with their deflections 256 MB."""
 
 INDEPENDENT = 1e-12
 """Part of the largest eigenvalue from which what the corrections lead to is taken for independent."""

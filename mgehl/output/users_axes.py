@@ -44,10 +44,14 @@ def _result(result, frame, mesh):
         return node | {"i": x, "j": y} | ({"neighbours": list(frame.users_sides(*sides))} if sides else {})
 
     x_nodes, y_nodes = frame.users_ranges(result.contact.x_nodes, result.contact.y_nodes, mesh.nx, mesh.ny)
-    inequality = result.pressure_inequality
+
+    def in_users_nodes(inequality):
+        return replace(inequality, nodes=[at(node) for node in inequality.nodes])
+
     return replace(
         result,
         contact=replace(result.contact, x_nodes=x_nodes, y_nodes=y_nodes),
-        pressure_inequality=replace(inequality, nodes=[at(node) for node in inequality.nodes]),
+        pressure_inequality=in_users_nodes(result.pressure_inequality),
+        other_inequality=in_users_nodes(result.other_inequality),
         contradictions=[at(node) for node in result.contradictions],
     )

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from mgehl.discretization.contact_law import InterfaceConditions, UnifiedEquations
+from mgehl.discretization.contact_law import BoundaryFilm, InterfaceConditions, UnifiedEquations
 
 GAPS = np.array([-0.1, 0.0, 0.005, 0.01, 0.02])
 
@@ -19,6 +19,23 @@ def test_what_was_let_go_closes_again_only_when_the_bodies_overlap():
 
 def test_interface_conditions_let_fluid_into_a_gap_only():
     assert InterfaceConditions(0.01).takes_fluid(GAPS).tolist() == [False, False, True, True, True]
+
+
+def test_a_boundary_film_closes_continuously():
+    """At the gap that it keeps, whatever the node was before; thinner fluid flows as through that gap."""
+    law = BoundaryFilm(0.01)
+    for was_released in (False, True):
+        assert law.closed(GAPS, was_released).tolist() == [True, True, True, True, False]
+    assert law.takes_fluid(GAPS).tolist() == [False, False, False, True, True]
+    assert law.contact_gap == law.thinnest == 0.01 and not law.closes_faces
+    gap, slope = law.flow_gap(GAPS)
+    assert gap.tolist() == [0.01, 0.01, 0.01, 0.01, 0.02]
+    assert slope.tolist() == [False, False, False, False, True]
+
+
+def test_contact_keeps_no_gap_and_closes_its_faces_by_the_interface_conditions():
+    law = InterfaceConditions(0.01)
+    assert law.contact_gap == 0.0 and law.closes_faces
 
 
 def test_unified_equations_never_close_a_gap_and_fill_any():

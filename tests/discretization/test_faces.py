@@ -6,7 +6,7 @@ import pytest
 from handmade import ALONG, Row
 
 from mgehl.discretization.axes import axes_of
-from mgehl.discretization.contact_law import UnifiedEquations
+from mgehl.discretization.contact_law import BoundaryFilm, UnifiedEquations
 from mgehl.discretization.couette import EE, SCHEMES, SHIFT, WW, E, W
 from mgehl.discretization.faces import conductances, flows
 from mgehl.discretization.fluid import FACE_MEANS, FACE_MOBILITIES, Fluid, fluid_state
@@ -224,6 +224,8 @@ OPTIONS = {
     "untreated": {"couette_at_interface": "untreated"},
     "against": {"motion": (-0.6, -0.8)},
     "unified": {"contact_law": UnifiedEquations(0.1), "couette_at_interface": "untreated"},
+    "boundary film": {"contact_law": BoundaryFilm(0.1)},
+    "boundary film, tapered": {"contact_law": BoundaryFilm(0.1), "face_mobility": "tapered"},
     "geometric share": {"face_mobility": "geometric", "mobility_share": 0.4},
     "harmonic share": {"face_mobility": "harmonic", "mobility_share": 0.4},
 }
@@ -296,9 +298,9 @@ def test_flows_and_conductances_take_their_share_of_the_mean(mean, mixed):
             conductances(*state, axis, scheme) for axis in axes
         ]
 
-    for shared, own, paper in zip(parts(mean, 0.4), parts(mean), parts("arithmetic"), strict=True):
-        np.testing.assert_allclose(shared, 0.4 * own + 0.6 * paper, rtol=1e-13, atol=1e-15)
-        assert np.abs(own - paper).max() > 1e-4 * np.abs(paper).max()
+    for shared, mine, paper in zip(parts(mean, 0.4), parts(mean), parts("arithmetic"), strict=True):
+        np.testing.assert_allclose(shared, 0.4 * mine + 0.6 * paper, rtol=1e-13, atol=1e-15)
+        assert np.abs(mine - paper).max() > 1e-4 * np.abs(paper).max()
 
 
 @every_mean
@@ -316,6 +318,20 @@ def test_conductances_are_what_a_pressure_drives_through_a_face(mean, mixed):
             conductance * rise, expected, rtol=1e-10, atol=1e-14 * np.abs(expected).max()
         )
         assert (conductance[closed_faces(mixed.status, axis)] == 0.0).all() and conductance.any()
+
+
+@pytest.mark.parametrize("h_b", [1e-2, 1e-3, 1e-4])
+def test_with_the_boundary_film_the_flow_through_contact_goes_to_nothing(h_b, mixed):
+    """What a pressure drives into contact falls with the square of the film that it keeps."""
+    scheme = Scheme("1B", "tapered", contact_law=BoundaryFilm(h_b))
+    H = np.where(mixed.status == CONTACT, h_b, 0.5)
+    fluid = fluid_state(mixed.P, H, mixed.contact, scheme.contact_law)
+    for axis in axes_of(mixed.mesh, scheme.motion):
+        closed, conductance = (
+            closed_faces(mixed.status, axis),
+            conductances(fluid, mixed.status, axis, scheme),
+        )
+        assert 0.0 < conductance[closed].max() < 8.0 * (h_b / 0.5) ** 2 * conductance.max()
 
 
 @every_scheme

@@ -43,6 +43,14 @@ def test_full_weighting_is_a_quarter_of_the_adjoint_of_bilinear(transfer):
     assert weighted == pytest.approx(0.25 * np.vdot(fine, transfer.bilinear(coarse)), rel=1e-12)
 
 
+def test_the_average_keeps_a_constant_everywhere_and_the_ends_of_lines(transfer):
+    np.testing.assert_allclose(transfer.averaged(np.full(transfer.fine.shape, 3.0)), 3.0, rtol=1e-14)
+    fine = np.random.default_rng(2).random(transfer.fine.shape)
+    averaged = transfer.averaged(fine)
+    np.testing.assert_array_equal(averaged[:, [0, -1]], fine[::2, [0, -1]])
+    np.testing.assert_allclose(averaged[INNER], transfer.full_weighting(fine)[INNER], rtol=1e-14)
+
+
 def test_full_weighting_keeps_a_constant_and_ends_of_lines_are_zero(transfer):
     coarse = transfer.full_weighting(np.full(transfer.fine.shape, 3.0))
     np.testing.assert_allclose(coarse[INNER], 3.0, rtol=1e-14)

@@ -3,10 +3,18 @@
 import numpy as np
 import pytest
 
-from mgehl.discretization.contact_law import InterfaceConditions, UnifiedEquations
+from mgehl.discretization.contact_law import BoundaryFilm, InterfaceConditions, UnifiedEquations
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
-from mgehl.solver.partition import RESTLESS, ROUND, Changes, Contradiction, Partition
+from mgehl.solver.partition import (
+    RESTLESS,
+    ROUND,
+    SETTLED,
+    Changes,
+    Contradiction,
+    Partition,
+    run_behind,
+)
 from mgehl.solver.problem import State
 
 THRESHOLD = 1e-3
@@ -327,3 +335,60 @@ class TestRestlessNodes:
         assert not partition.restless
         turn(partition)
         assert partition.restless
+
+
+class TestContinuousContact:
+    """Contact that keeps a film and leaves its faces open."""
+
+    FILM = 1e-3
+
+    @pytest.fixture
+    def partition(self, make_partition):
+        return make_partition(law=BoundaryFilm(self.FILM))
+
+    @pytest.fixture
+    def pressed(self, state):
+        """Nodes 3 to 6 of line 4 in contact, at the film that contact keeps."""
+        state.status[4, 3:7], state.H[4, 3:7] = CONTACT, self.FILM
+        return state
+
+    def test_a_film_closes_at_the_gap_that_contact_keeps(self, partition, state):
+        state.H[4, 3], state.H[4, 5] = self.FILM, 1.01 * self.FILM
+        changes = Changes()
+        partition.enter_contact(state, changes)
+        assert state.status[4, 3] == CONTACT and state.status[4, 5] == LUBRICATED
+        only(changes, entered=1)
+        assert not partition.past.turns.any()
+
+    def test_it_shuts_in_no_fluid(self, partition, state):
+        state.status[4, [3, 5]] = CONTACT
+        partition.enter_contact(state, Changes())
+        assert state.status[4, 4] == LUBRICATED
+
+    def test_it_opens_with_all_behind_where_fluid_flows_in(self, partition, pressed):
+        inflow, changes = np.full(pressed.P.shape, -1.0), Changes()
+        inflow[4, 4] = 0.1
+        partition.open_contact(pressed, inflow, changes)
+        assert pressed.status[4, 3:7].tolist() == [CONTACT, LUBRICATED, LUBRICATED, LUBRICATED]
+        only(changes, released=3)
+
+    def test_its_flow_says_nothing_before_it_has_come_to_its_gap(self, partition, pressed):
+        pressed.H[4, 4] = 1.01 * SETTLED * self.FILM
+        inflow = np.full(pressed.P.shape, -1.0)
+        inflow[4, 4] = 0.1
+        partition.open_contact(pressed, inflow, Changes())
+        assert (pressed.status[4, 3:7] == CONTACT).all()
+
+    def test_contact_that_closes_its_faces_is_not_asked(self, make_partition, pressed):
+        make_partition().open_contact(pressed, np.ones(pressed.P.shape), Changes())
+        assert (pressed.status[4, 3:7] == CONTACT).all()
+
+    def test_it_is_not_let_go_by_its_pressure(self, partition, make_partition):
+        assert not partition.asks_eq_2 and make_partition().asks_eq_2
+
+
+def test_what_follows_a_head_along_its_line():
+    nodes = np.array([[0, 1, 1, 1, 0, 1, 1], [1, 1, 0, 1, 1, 1, 1]], dtype=bool)
+    heads = np.array([[0, 0, 1, 0, 0, 0, 0], [1, 0, 0, 0, 0, 1, 0]], dtype=bool)
+    expected = [[0, 0, 1, 1, 0, 0, 0], [1, 1, 0, 0, 0, 1, 1]]
+    assert run_behind(heads, nodes).astype(int).tolist() == expected

@@ -7,6 +7,7 @@ from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
 from mgehl.solver.problem import State
 from mgehl.solver.verification import (
+    check_interface,
     check_pressure_inequality,
     closed_face_flow,
     complementarity_error,
@@ -22,6 +23,48 @@ def state(tiny_problem):
     shape = tiny_problem.grid.shape
     status = np.where(tiny_problem.boundary, BOUNDARY, LUBRICATED).astype(np.int8)
     return State(np.zeros(shape), 0.0, np.ones(shape), status)
+
+
+class TestInterface:
+    """Eq. 2 at the face between film and contact, along x and y."""
+
+    @pytest.fixture(params=["along x", "along y"])
+    def across(self, request, state):
+        """Function: the state with these pressures of nodes 1 to 6, film and from node 4 on contact."""
+
+        def make(P):
+            for array, values in ((state.P, P), (state.status, [LUBRICATED] * 3 + [CONTACT] * 3)):
+                (array.T if request.param == "along y" else array)[:, 1:7] = values
+            return state
+
+        return make
+
+    @pytest.mark.parametrize("slope", [0.1, -0.1])
+    def test_a_pressure_that_goes_on_through_the_interface_holds(self, tiny_problem, across, slope):
+        """Falling, it breaks the comparison of the nodes."""
+        state = across(1.0 + slope * np.arange(6))
+        assert check_interface(tiny_problem, state).violations == []
+        at_nodes = {(each.i, each.j) for each in check_pressure_inequality(tiny_problem, state).violations}
+        assert bool(at_nodes & ({(5, j) for j in range(1, 10)} | {(i, 5) for i in range(1, 10)})) == (
+            slope < 0.0
+        )
+
+    @pytest.mark.parametrize("slope", [0.1, 0.0, -0.1])
+    def test_a_jump_to_less_pressure_is_found(self, tiny_problem, across, slope):
+        """Of 0.5; each side's step to the face, half of the slope, may be wrong by its size."""
+        P = 1.0 + slope * np.arange(6)
+        P[3:] -= 0.5
+        result = check_interface(tiny_problem, across(P))
+        assert len(result.violations) >= 7 and result.worst == pytest.approx(0.5 - abs(slope))
+
+    def test_the_edge_of_a_dry_contact_in_fluid_of_one_pressure_holds(self, tiny_problem, across):
+        """p0, and p0 + sqrt of the distance inside, wherever the edge lies between the nodes."""
+        for inside in (1e-6, 0.01, 0.1, 0.5, 0.99):
+            P = np.r_[np.full(3, 0.3), 0.3 + np.sqrt(inside + np.arange(3.0))]
+            assert check_interface(tiny_problem, across(P)).violations == []
+
+    def test_without_contact_nothing_is_checked(self, tiny_problem, state):
+        assert check_interface(tiny_problem, state).checked == 0
 
 
 class TestPressureInequality:

@@ -1,0 +1,114 @@
+"""What is remembered of linear systems solved before, on a rough ball of 65 nodes."""
+
+import numpy as np
+import pytest
+from mpi4py import MPI
+from petsc4py import PETSc
+
+from mgehl.discretization.contact_law import BoundaryFilm
+from mgehl.discretization.scheme import Scheme
+from mgehl.discretization.status import LUBRICATED
+from mgehl.multigrid import memory
+from mgehl.multigrid.cycle import MultigridSolver
+from mgehl.multigrid.memory import Memory
+from mgehl.solver.problem import ContactProblem
+
+
+class Waves:
+    """Heights of 100 nm in waves of half the Hertz radius."""
+
+    def __init__(self, a):
+        self.a = a
+
+    def height(self, x, y):
+        return 1e-7 * np.cos(4.0 * np.pi * x / self.a) * np.cos(4.0 * np.pi * y / self.a)
+
+
+@pytest.fixture
+def rough(paper_contact, make_hierarchy):
+    """A full film on a wavy ball: its problem, solver and KSP, linearised at a first guess."""
+    contact = paper_contact(0.1, surface=Waves(4.1e-4))
+    hierarchy = make_hierarchy(contact, 65)
+    scheme = Scheme("1B", "tapered", contact_law=BoundaryFilm(1e-5))
+    problem = ContactProblem(hierarchy.grids[-1], hierarchy.deflections[-1], contact, scheme)
+    solver = MultigridSolver(hierarchy, len(hierarchy.grids) - 1, contact, scheme)
+    ksp = PETSc.KSP().create(MPI.COMM_SELF)
+    solver.configure(ksp, 1e-3)
+    P = contact.guessed_pressure(problem.grid.X, problem.grid.Y)
+    state = problem.state(P, problem.touching(P) + 0.1, np.full(problem.grid.shape, LUBRICATED))
+    evaluation = problem.evaluate(state)
+    solver.linearise(evaluation, problem.rows(state.status), 10.0)
+    yield problem, solver, ksp, evaluation, state
+    ksp.destroy()
+    solver.free()
+
+
+@pytest.fixture
+def solved(rough):
+    """Solve for a right-hand side; return the function that does, and its vectors."""
+    problem, solver, ksp, _, state = rough
+    b, x = (solver.space.create_vec() for _ in range(2))
+    noise = np.random.default_rng(3).standard_normal(problem.grid.shape)
+    solver.space.write(b, np.where(state.status == LUBRICATED, noise, 0.0), 0.1)
+
+    def run():
+        ksp.solve(b, x)
+        return ksp.getIterationNumber()
+
+    yield run
+    b.destroy()
+    x.destroy()
+
+
+def test_rough_surfaces_are_solved_with_a_memory(rough):
+    _, _, ksp, *_ = rough
+    assert isinstance(ksp.getPC().getPythonContext(), Memory)
+
+
+def test_the_same_system_is_not_solved_twice(rough, solved):
+    """All corrections of the first solve are remembered, so their combination is the answer."""
+    problem, solver, _, evaluation, state = rough
+    first = solved()
+    solver.linearise(evaluation, problem.rows(state.status), 10.0)
+    assert first > 5 and solved() <= 2
+
+
+def test_a_system_like_the_last_one_takes_fewer_iterations(rough, solved):
+    problem, solver, _, evaluation, state = rough
+    first = solved()
+    solver.linearise(evaluation, problem.rows(state.status), 11.0)
+    assert solved() <= 0.7 * first
+
+
+def test_remembering_makes_no_convolution(rough, solved):
+    """One product an iteration, and on coarse grids what the cycle makes anyway."""
+    problem, solver, ksp, evaluation, state = rough
+    solved()
+    solver.linearise(evaluation, problem.rows(state.status), 11.0)
+    before = problem.deflection.count
+    ksp.setUp()
+    assert problem.deflection.count == before
+    iterations = solved()
+    assert problem.deflection.count - before <= iterations + 1
+
+
+def test_no_more_is_remembered_than_there_is_room_for(rough, monkeypatch):
+    problem, solver, *_ = rough
+    monkeypatch.setattr(memory, "NODES", 3 * problem.grid.mesh.nodes)
+    few = Memory(solver.jacobian, None)
+    for number in range(5):
+        solver.jacobian.witness(np.full(problem.grid.shape, number), np.zeros(problem.grid.shape), 0.0)
+    assert [dP[0, 0] for dP, _, _ in few._seen] == [2.0, 3.0, 4.0]
+
+
+def test_what_depends_on_others_is_left_out(rough):
+    """Twice the same correction and one that is nothing: one image of length 1 is left."""
+    problem, solver, ksp, evaluation, state = rough
+    kept = ksp.getPC().getPythonContext()
+    dP = np.where(state.status == LUBRICATED, 1.0, 0.0)
+    dH = problem.deflection(dP).copy()
+    for part in (dP, dP, 0.0 * dP):
+        solver.jacobian.witness(part, dH if part.any() else 0.0 * dH, 0.0)
+    ksp.setUp()
+    assert len(kept._images) == 1
+    assert np.linalg.norm(kept._images) == pytest.approx(1.0, rel=1e-12)

@@ -1,0 +1,90 @@
+"""Rough balls in mixed lubrication: film between peaks, contact where the film would be thinner."""
+
+import numpy as np
+import pytest
+
+from mgehl.discretization.contact_law import BoundaryFilm
+from mgehl.discretization.scheme import Scheme
+from mgehl.discretization.status import CONTACT, LUBRICATED
+from mgehl.solver.nested import first_guess, nested_iteration, planned_solves
+from mgehl.solver.problem import ContactProblem
+from mgehl.solver.settings import NestedSettings, SolverSettings
+from mgehl.solver.verification import check_interface, complementarity_error
+
+
+class Waves:
+    """Heights in waves of half the Hertz radius, eight nodes long on 65 nodes; they add to the gap."""
+
+    def __init__(self, amplitude, a):
+        self.amplitude, self.a = amplitude, a
+
+    def height(self, x, y):
+        k = 4.0 * np.pi / self.a
+        return self.amplitude * np.cos(k * x) * np.cos(k * y)
+
+
+@pytest.fixture
+def solve_rough(paper_contact, make_hierarchy):
+    """Function: problem and outcome of a wavy ball, by its amplitude, speed and boundary film in m."""
+
+    def run(amplitude, speed, boundary_film=2e-11, start="film"):
+        contact = paper_contact(speed, load=100.0, surface=Waves(amplitude, 2.05e-4))
+        hierarchy = make_hierarchy(contact, 65, x=(-2.0, 1.5), y=(-1.75, 1.75))
+        law = BoundaryFilm(boundary_film / contact.film_scale)
+        scheme = Scheme("1B", "tapered", contact_law=law)
+        settings = SolverSettings(scheme=scheme, nested=NestedSettings(start=start))
+        return nested_iteration(hierarchy, contact, settings, lambda *_: None)
+
+    return run
+
+
+@pytest.mark.parametrize("speed, steps", [(0.1, 18), (1e-3, 16), (1e-5, 48)])
+def test_every_state_settles_from_a_film(solve_rough, speed, steps):
+    """Waves of 100 nm at smooth films of 96, 4 and 0.2 nm."""
+    problem, outcome = solve_rough(1e-7, speed)
+    assert outcome.converged and outcome.cycles[-1].step <= steps
+    state = outcome.state
+    assert complementarity_error(problem, state, problem.evaluate(state)) < 1e-7
+    assert check_interface(problem, state).violations == []
+
+
+def test_from_a_film_and_from_contact_it_is_the_same_state(solve_rough):
+    """Closing is continuous: there is no second branch."""
+    films = [problem.films(outcome.state) for problem, outcome in map(
+        lambda start: solve_rough(1e-7, 1e-3, start=start), ("film", "contact"))]  # fmt: skip
+    np.testing.assert_allclose(*films, rtol=1e-5)
+
+
+def test_contact_is_where_the_film_would_be_thinner(solve_rough):
+    """With a boundary film of 2 nm at a smooth film of 4 nm: contact on some peaks, at that gap."""
+    problem, outcome = solve_rough(1e-7, 1e-3, boundary_film=2e-9)
+    assert outcome.converged
+    state, nm = outcome.state, 1e9 * problem.contact.film_scale
+    contact, film = state.status == CONTACT, state.status == LUBRICATED
+    assert contact.any() and film.any()
+    np.testing.assert_allclose(state.H[contact] * nm, 2.0, rtol=1e-5)
+    assert state.H[film].min() * nm > 2.0
+    assert (problem.evaluate(state).inflow[contact] <= 0.0).all()
+
+
+def test_it_is_solved_at_once_on_the_finest_grid(paper_contact):
+    contact = paper_contact(0.1, surface=Waves(1e-7, 2e-4))
+    settings = SolverSettings(scheme=Scheme(face_mobility="tapered", contact_law=BoundaryFilm(1e-5)))
+
+    class Mesh:
+        nx = 65
+
+    assert [solve.finest for _, solve in planned_solves([Mesh, Mesh], contact, settings)] == [True]
+
+
+@pytest.mark.parametrize("start", ["film", "contact"])
+def test_the_first_guess_is_the_dry_rough_contact(make_problem, paper_contact, start):
+    contact = paper_contact(0.1, load=100.0, surface=Waves(1e-7, 2.05e-4))
+    law = BoundaryFilm(1e-5)
+    problem = make_problem(contact, Scheme(face_mobility="tapered", contact_law=law), nodes=65)
+    state = first_guess(problem, start)
+    assert isinstance(problem, ContactProblem)
+    assert problem.load_deficit(state.P) == pytest.approx(0.0, abs=1e-12)
+    film = contact.expected_film / contact.film_scale if start == "film" else law.contact_gap
+    assert problem.mean(state.H, state.P > 0.0) == pytest.approx(film, rel=1e-9)
+    assert (state.status == CONTACT).any() == (start == "contact")
