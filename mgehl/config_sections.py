@@ -70,11 +70,11 @@ class GridSection:
 @dataclass(frozen=True)
 class DiscretizationSection:
     couette: str = key_field(
-        Scheme.couette, "differential scheme of the Couette flow", choices=tuple(SCHEMES), kind=str
+        "3B", "differential scheme of the Couette flow", choices=tuple(SCHEMES), kind=str
     )
     face_mobility: str = key_field(
-        Scheme.face_mobility, "mean of two nodes' mobilities at the face between them",
-        choices=tuple(FACE_MOBILITIES), kind=str,
+        "linear-gap", "mean of two nodes' mobilities at the face between them",
+        choices=FACE_MOBILITIES, kind=str,
     )  # fmt: skip
     contact_model: str = key_field(
         "lcic", "interface conditions, or the unified equations that have none",
@@ -107,7 +107,9 @@ class SolverSection:
     linear_tolerance: float = key_field(
         0.1, "relative tolerance of GMRES in a Newton step", above=0.0, high=0.5
     )
-    sweeps: int = key_field(1, "line relaxations after the coarse grids", low=1, high=10, kind=int)
+    sweeps: int = key_field(
+        1, "line relaxations before and after the coarse grids", low=1, high=10, kind=int
+    )
     omega: float = key_field(0.8, "damping of the line relaxation", low=0.1, high=1.0)
     cycle_couette: str = key_field(
         "same", "differential scheme of the preconditioner's operators",

@@ -67,21 +67,33 @@ def _flow(fluid, status, axis, scheme, terms, near, linearised, rigid):
 def _add_poiseuille(flow, fluid, axis, scheme):
     """Add -eps (P_E - P_W)/distance with eps the face's mean mobility  [Liu eqs. 7, 16, 30]."""
     (west, east), distance = (_on_side(fluid, axis, side) for side in (W, E)), axis.distance
-    eps = face_mobility(scheme, west, east)
+    mobility, by_gap = _mobility(fluid, axis, scheme)
+    eps, (by_west, by_east) = mobility.value, mobility.by_eps
     gradient = (east("P") - west("P")) / distance
-    flow.value -= eps.value * gradient
+    flow.value -= eps * gradient
     if flow.by_P:
-        conductance = eps.value / distance
-        flow.by_P[W] += conductance - gradient * eps.by_P[0]
-        flow.by_P[E] -= conductance + gradient * eps.by_P[1]
+        conductance = eps / distance
+        flow.by_P[W] += conductance - gradient * by_west * west("deps_dP")
+        flow.by_P[E] -= conductance + gradient * by_east * east("deps_dP")
     if flow.by_H:
-        flow.by_H[W] -= gradient * eps.by_H[0]
-        flow.by_H[E] -= gradient * eps.by_H[1]
+        flow.by_H[W] -= gradient * by_west * west("deps_dH")
+        flow.by_H[E] -= gradient * by_east * east("deps_dH")
+        for node, slope in zip((W, E), by_gap, strict=False):
+            flow.by_H[node] -= gradient * slope
 
 
 def _on_side(fluid, axis, side):
     """A part of the fluid, by its name, at the nodes on one side of the faces."""
     return lambda name: axis.at(getattr(fluid, name), SHIFT[side])
+
+
+def _mobility(fluid, axis, scheme):
+    """The `FaceMobility` of the faces along an axis, and its slopes by H beside those by eps."""
+    sides = (W, E)
+    eps = [axis.at(fluid.eps, SHIFT[side]) for side in sides]
+    gaps = [scheme.contact_law.flow_gap(axis.at(fluid.H, SHIFT[side])) for side in sides]
+    mobility = face_mobility(scheme, eps, [gap for gap, _ in gaps])
+    return mobility, [slope * by_H for slope, (_, by_H) in zip(mobility.by_gap, gaps, strict=False)]
 
 
 def conductances(fluid, status, axis, scheme):
@@ -90,6 +102,6 @@ def conductances(fluid, status, axis, scheme):
     With them the Poiseuille flow into a node is a sum over its faces of conductance times pressure
     difference. `fluid` and `status` are ghosted.
     """
-    eps = face_mobility(scheme, _on_side(fluid, axis, W), _on_side(fluid, axis, E)).value
+    eps = _mobility(fluid, axis, scheme)[0].value
     solid = is_solid(status, scheme.contact_law.closes_faces)
     return eps * open_faces(solid, axis) / (axis.distance * axis.cell)

@@ -4,7 +4,7 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from mgehl.discretization.kernels import logarithmic_means, tapered_mobilities
+from mgehl.discretization.kernels import linear_gap_means, logarithmic_means
 
 
 @dataclass
@@ -21,12 +21,6 @@ class Fluid:
     eps: np.ndarray
     deps_dP: np.ndarray
     deps_dH: np.ndarray
-    gap: np.ndarray | None = None
-    """The gap that the Poiseuille flow sees; H where the contact law says nothing else."""
-
-    def __post_init__(self):
-        if self.gap is None:
-            self.gap = self.H
 
     def with_part(self, nodes, part):
         """A copy that is another fluid, `part`, on the `nodes` of a mask."""
@@ -52,8 +46,7 @@ def fluid_state(P, H, contact, contact_law):
     gap, dgap_dH = contact_law.flow_gap(H)
     by_H2 = by_H3 * gap * gap
     eps = by_H2 * gap
-    by_P = eps * (drho_dP / rho - dlog_eta_dP)
-    return Fluid(P, H, rho, drho_dP, eps, by_P, 3.0 * by_H2 * dgap_dH, gap)
+    return Fluid(P, H, rho, drho_dP, eps, eps * (drho_dP / rho - dlog_eta_dP), 3.0 * by_H2 * dgap_dH)
 
 
 def arithmetic_mean(a, b):
@@ -97,69 +90,58 @@ FACE_MEANS = {
     "geometric": geometric_mean,
     "harmonic": harmonic_mean,
 }
-"""Means of two nodes' mobilities."""
 
-FACE_MOBILITIES = (*FACE_MEANS, "tapered")
+FOLDING = ("geometric", "harmonic")
+"""Means by which the flow through a face falls again where its nodes differ by much. By the logarithmic
+mean it rises with the difference of the pressures, however large."""
+
+
+LINEAR_GAP = "linear-gap"
+"""Not a mean of the mobility alone: it asks for the gap, too."""
+
+FACE_MOBILITIES = ("arithmetic", "logarithmic", LINEAR_GAP, "geometric", "harmonic")
 
 
 @dataclass(frozen=True)
 class FaceMobility:
-    """Mobility of faces and, for the nodes (W, E) on their sides, its derivatives by P and by H."""
+    """Mobility of faces and its slopes by that of the nodes W and E, and by their gap beside it."""
 
     value: np.ndarray
-    by_P: tuple
-    by_H: tuple
+    by_eps: tuple
+    by_gap: tuple = ()
+    """Nothing where the mobilities say it all."""
 
 
-def face_mobility(scheme, west, east):
-    """The `FaceMobility` between nodes `west` and `east`; either gives a part of the `Fluid` by its name.
+def face_mobility(scheme, eps, gaps):
+    """The `FaceMobility` between nodes of mobilities `eps` and `gaps`, pairs (W, E), by the scheme's mean.
 
     With a `mobility_share` below 1 the rest is the arithmetic mean.
     """
-    share, parts = scheme.mobility_share, (west, east)
-    mobility = _tapered if scheme.face_mobility == "tapered" else _of_mean(FACE_MEANS[scheme.face_mobility])
-    whole = mobility(*parts)
-    if share == 1.0:
-        return whole
-    paper = _of_mean(arithmetic_mean)(*parts)
-
-    def blend(own, of_paper):
-        return share * own + (1.0 - share) * of_paper
-
-    by_P, by_H = (
-        tuple(blend(*both) for both in zip(*pair, strict=True))
-        for pair in ((whole.by_P, paper.by_P), (whole.by_H, paper.by_H))
-    )
-    return FaceMobility(blend(whole.value, paper.value), by_P, by_H)
+    if scheme.face_mobility == LINEAR_GAP:
+        found = _linear_gap_mobility(eps, gaps)
+    else:
+        value, *by_eps = FACE_MEANS[scheme.face_mobility](*eps)
+        found = FaceMobility(value, tuple(by_eps))
+    return found if scheme.mobility_share == 1.0 else _shared(found, scheme.mobility_share, eps)
 
 
-def _of_mean(mean):
-    """The face's mobility by a `mean` of its nodes': P and H count by those."""
+def _linear_gap_mobility(eps, gaps):
+    """Exact for one-dimensional flow by Barus's law that the pressure drives through a linear gap.
 
-    def mobility(west, east):
-        value, of_west, of_east = mean(west("eps"), east("eps"))
-        by_P = of_west * west("deps_dP"), of_east * east("deps_dP")
-        return FaceMobility(value, by_P, (of_west * west("deps_dH"), of_east * east("deps_dH")))
-
-    return mobility
-
-
-def _tapered(west, east):
-    """That of a gap which tapers from one node to the other: exact for Barus's law and constant density.
-
-    With a gap h linear in x and a flow q = u h - h^3 e^(-alpha p)/(12 eta_0) dp/dx the same all along,
-    q int h^-3 = int u h^-2 - (psi_E - psi_W), psi = (1 - e^(-alpha p))/(12 eta_0 alpha). So the pressure
-    drives its flow through 1/int h^-3 = 2 h_W^2 h_E^2/(h_W + h_E) over the distance, and the viscosity
-    counts by its logarithmic mean. The flow ends where either gap closes: nothing leaks into contact.
+    e dp/dx = q/h^3 with e = exp(-alpha p) is integrated on both sides from node to node.
     """
-    gap_w, gap_e = west("gap"), east("gap")
-    value, *slopes = np.empty((5, *np.shape(gap_w)))
-    tapered_mobilities(
-        *(np.atleast_2d(part) for part in (west("eps"), east("eps"), gap_w, gap_e)),
-        *(np.atleast_2d(part) for part in (value, *slopes)),
+    parts = np.empty((5, *np.shape(eps[0])))
+    laid = [np.atleast_2d(each) for each in (*eps, *gaps, *parts)]
+    linear_gap_means(*laid)
+    value, by_w, by_e, by_gap_w, by_gap_e = parts
+    return FaceMobility(value, (by_w, by_e), (by_gap_w, by_gap_e))
+
+
+def _shared(found, share, eps):
+    """A share of a mobility and the rest of the arithmetic mean."""
+    paper, *by_eps = arithmetic_mean(*eps)
+    rest = 1.0 - share
+    slopes = tuple(share * own + rest * other for own, other in zip(found.by_eps, by_eps, strict=True))
+    return FaceMobility(
+        share * found.value + rest * paper, slopes, tuple(share * each for each in found.by_gap)
     )
-    by_west, by_east, by_gap_w, by_gap_e = slopes
-    # Where the law keeps a smallest gap neither it nor the mobility moves with H.
-    moves_w, moves_e = west("deps_dH") != 0.0, east("deps_dH") != 0.0
-    by_P = by_west * west("deps_dP"), by_east * east("deps_dP")
-    return FaceMobility(value, by_P, (by_gap_w * moves_w, by_gap_e * moves_e))

@@ -220,10 +220,10 @@ def _slope(grown, x):
 
 
 @njit(cache=True, inline="always")
-def _logarithmic_mean(a, b):
-    """That of two numbers, and its slopes; zero where either vanishes.
+def _logarithmic(a, b):
+    """Logarithmic mean of two numbers and its slopes; zero where either vanishes.
 
-    Of small (1 + grown) = large the mean is small grown/x, x = ln(1 + grown).
+    Where small (1 + grown) = large the mean is small grown/x, x = ln(1 + grown).
     """
     small, large = min(a, b), max(a, b)
     if small <= VANISHING * large:
@@ -232,7 +232,9 @@ def _logarithmic_mean(a, b):
     x = np.log1p(grown)
     mean = small * grown / x if x > 0.0 else small
     by_small, by_large = _slope(grown, x), _slope((small - large) / large, -x)
-    return (mean, by_small, by_large) if a < b else (mean, by_large, by_small)
+    if a < b:
+        return mean, by_small, by_large
+    return mean, by_large, by_small
 
 
 @njit(cache=True, fastmath={"contract"})
@@ -241,25 +243,28 @@ def logarithmic_means(a, b, mean, by_a, by_b):
     lines, nodes = a.shape
     for j in range(lines):
         for i in range(nodes):
-            mean[j, i], by_a[j, i], by_b[j, i] = _logarithmic_mean(a[j, i], b[j, i])
+            mean[j, i], by_a[j, i], by_b[j, i] = _logarithmic(a[j, i], b[j, i])
 
 
 @njit(cache=True, fastmath={"contract"})
-def tapered_mobilities(west, east, gap_w, gap_e, mobility, by_west, by_east, by_gap_w, by_gap_e):
-    """Mobilities of gaps that taper between two nodes of mobility `west` and `east`; all (lines, nodes).
+def linear_gap_means(a, b, g, h, mean, by_a, by_b, by_g, by_h):
+    """Mobilities between nodes of mobility `a`, `b` and gap `g`, `h`, and their slopes: all (lines, nodes).
 
-    The slopes by a node's mobility hold its gap, those by its gap the fluid. Zero where a gap is closed.
+    The logarithmic mean of what is not the gap's, times the cube of a linear gap whose resistance is the
+    mean one: 2 g^2 h^2/(g + h). Zero where a gap is.
     """
-    lines, nodes = west.shape
+    lines, nodes = a.shape
     for j in range(lines):
         for i in range(nodes):
-            w, e = gap_w[j, i], gap_e[j, i]
-            if min(w, e) <= 0.0:
-                mobility[j, i] = by_west[j, i] = by_east[j, i] = by_gap_w[j, i] = by_gap_e[j, i] = 0.0
+            left, right = g[j, i], h[j, i]
+            if left <= 0.0 or right <= 0.0:
+                mean[j, i] = by_a[j, i] = by_b[j, i] = by_g[j, i] = by_h[j, i] = 0.0
                 continue
-            cubes = 2.0 * w * w * e * e / (w + e)
-            mean, of_w, of_e = _logarithmic_mean(west[j, i] / w**3, east[j, i] / e**3)
-            mobility[j, i] = cubes * mean
-            by_west[j, i], by_east[j, i] = cubes * of_w / w**3, cubes * of_e / e**3
-            by_gap_w[j, i] = cubes * mean * (2.0 / w - 1.0 / (w + e))
-            by_gap_e[j, i] = cubes * mean * (2.0 / e - 1.0 / (w + e))
+            at_left, at_right = a[j, i] / left**3, b[j, i] / right**3
+            other, by_left, by_right = _logarithmic(at_left, at_right)
+            both = left + right
+            cube = 2.0 * left**2 * right**2 / both
+            mean[j, i] = other * cube
+            by_a[j, i], by_b[j, i] = by_left * cube / left**3, by_right * cube / right**3
+            by_g[j, i] = cube / left * (other * (both + right) / both - 3.0 * by_left * at_left)
+            by_h[j, i] = cube / right * (other * (both + left) / both - 3.0 * by_right * at_right)

@@ -4,6 +4,7 @@ from dataclasses import asdict, dataclass
 
 from mgehl.config import COARSEST_NODES
 from mgehl.discretization.contact_law import BoundaryFilm, InterfaceConditions, UnifiedEquations
+from mgehl.discretization.fluid import LINEAR_GAP
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.scheme import Scheme
 from mgehl.grid.hierarchy import Hierarchy
@@ -54,9 +55,9 @@ def scheme_from(config, contact):
 
 
 def _interface_conditions(config, contact):
-    """Faces that contact closes, or those that a vanishing mobility closes by itself."""
+    """Faces that contact closes; where it closes continuously, those that a vanishing mobility closes."""
     section, boundary_film = config.discretization, config.contact.boundary_film
-    if boundary_film > 0.0 or section.face_mobility == "tapered":
+    if boundary_film > 0.0 or (contact.is_rough and section.face_mobility == LINEAR_GAP):
         return BoundaryFilm(max(boundary_film, section.film_threshold) / contact.film_scale)
     return InterfaceConditions(section.film_threshold / contact.film_scale)
 

@@ -1,6 +1,6 @@
 """Nested iteration: from a coarse grid to the finest, at speeds that each grid can resolve."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
@@ -30,7 +30,7 @@ def nested_iteration(hierarchy, contact, settings, monitor, journal=NOTHING_KEPT
 
     `monitor(level, cycle)` is called with a `LevelSolve` and the `Cycle` for every cycle.
     """
-    coarse = replace(settings.newton, tolerance=settings.nested.coarse_tolerance, release_budget=0)
+    coarse = settings.roughly().newton
     outcome = None
     for level, solve in planned_solves([grid.mesh for grid in hierarchy.grids], contact, settings):
         limits = settings.newton if solve.finest else coarse
@@ -60,7 +60,7 @@ def first_guess(problem, start):
     """Hertz pressure with a film of the formula's thickness, or with the ellipse in contact."""
     grid, contact = problem.grid, problem.contact
     P = contact.guessed_pressure(grid.X, grid.Y)
-    if _is_mixed(problem.contact, problem.scheme):
+    if is_mixed(problem.contact, problem.scheme):
         return _first_mixed_guess(problem, start, dry_pressure(problem, P))
     if contact.deformation is not None and start == "film":
         P = dry_pressure(problem, P)
@@ -73,7 +73,7 @@ def first_guess(problem, start):
     return problem.state(P, H0, status)
 
 
-def _is_mixed(contact, scheme):
+def is_mixed(contact, scheme):
     """Where film and contact share a rough surface: it is solved at once, on the finest grid.
 
     Coarse grids do not see the surface, and the dry contact's pressure is nearer than any film's.
@@ -108,7 +108,7 @@ def planned_solves(meshes, contact, settings):
     relaxation, know the finest alone.
     """
     finest, nested = len(meshes) - 1, settings.nested
-    at_once = settings.method == "relaxation" or _is_mixed(contact, settings.scheme)
+    at_once = settings.method == "relaxation" or is_mixed(contact, settings.scheme)
     alone = nested.start == "contact" or at_once
     for level, mesh in enumerate(meshes):
         if level == finest:
@@ -123,7 +123,7 @@ def _solve_level(hierarchy, level, problem, state, limits, settings, tell, journ
 
     prefix, fluid = settings.cycle.options_prefix, None
     law = problem.scheme.contact_law
-    if _is_mixed(problem.contact, problem.scheme):
+    if is_mixed(problem.contact, problem.scheme):
         limits = limits.squeezed()
     elif settings.nested.start == "contact" and law.has_contact and law.closes_faces:
         limits = limits.squeezed()

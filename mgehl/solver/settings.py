@@ -68,3 +68,8 @@ class SolverSettings:
     newton: NewtonSettings = field(default_factory=NewtonSettings)
     cycle: CycleSettings = field(default_factory=CycleSettings)
     relaxation: RelaxationSettings = field(default_factory=RelaxationSettings)
+
+    def roughly(self):
+        """The same for solves whose answers only lead to others, as those of coarse grids."""
+        newton = replace(self.newton, tolerance=self.nested.coarse_tolerance, release_budget=0)
+        return replace(self, newton=newton)

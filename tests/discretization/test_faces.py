@@ -225,7 +225,7 @@ OPTIONS = {
     "against": {"motion": (-0.6, -0.8)},
     "unified": {"contact_law": UnifiedEquations(0.1), "couette_at_interface": "untreated"},
     "boundary film": {"contact_law": BoundaryFilm(0.1)},
-    "boundary film, tapered": {"contact_law": BoundaryFilm(0.1), "face_mobility": "tapered"},
+    "boundary film, linear gap": {"contact_law": BoundaryFilm(0.1), "face_mobility": "linear-gap"},
     "geometric share": {"face_mobility": "geometric", "mobility_share": 0.4},
     "harmonic share": {"face_mobility": "harmonic", "mobility_share": 0.4},
 }
@@ -286,7 +286,7 @@ def test_geometric_mean_of_a_nearly_closed_gap_throttles_the_flow():
     assert leak == pytest.approx(expected, rel=1e-14)
 
 
-@pytest.mark.parametrize("mean", ["logarithmic", "geometric", "harmonic"])
+@pytest.mark.parametrize("mean", ["logarithmic", "linear-gap", "geometric", "harmonic"])
 def test_flows_and_conductances_take_their_share_of_the_mean(mean, mixed):
     """They are linear in the face's mobility: 0.4 of those by the mean and 0.6 of the arithmetic ones."""
 
@@ -323,7 +323,7 @@ def test_conductances_are_what_a_pressure_drives_through_a_face(mean, mixed):
 @pytest.mark.parametrize("h_b", [1e-2, 1e-3, 1e-4])
 def test_with_the_boundary_film_the_flow_through_contact_goes_to_nothing(h_b, mixed):
     """What a pressure drives into contact falls with the square of the film that it keeps."""
-    scheme = Scheme("1B", "tapered", contact_law=BoundaryFilm(h_b))
+    scheme = Scheme("1B", "linear-gap", contact_law=BoundaryFilm(h_b))
     H = np.where(mixed.status == CONTACT, h_b, 0.5)
     fluid = fluid_state(mixed.P, H, mixed.contact, scheme.contact_law)
     for axis in axes_of(mixed.mesh, scheme.motion):

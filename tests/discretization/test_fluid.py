@@ -2,7 +2,6 @@ from math import exp, log, sqrt
 
 import numpy as np
 import pytest
-from scipy.integrate import quad
 
 from mgehl.discretization.contact_law import InterfaceConditions, UnifiedEquations
 from mgehl.discretization.fluid import FACE_MEANS, face_mobility, fluid_state
@@ -140,31 +139,26 @@ A, B = np.array([2.0, 1.0, 4.0, 0.0]), np.array([8.0, 30.0, 4.0, 3.0])
 """Mobilities on the two sides of four faces, one of them closed."""
 
 
-def side(eps, gap=1.0, deps_dP=1.0, deps_dH=1.0):
-    """Nodes on one side of faces, as `face_mobility` takes them."""
-    parts = {"eps": eps, "gap": gap, "deps_dP": deps_dP, "deps_dH": deps_dH}
-    return lambda name: np.broadcast_to(parts[name], np.shape(eps))
+GAPS = np.array([0.5, 1.0, 2.0, 0.0]), np.array([1.0, 2.0, 2.0, 1.0])
 
 
-def face_mean(scheme, a, b):
-    """Mobility between nodes of mobility a and b, and its derivatives by those."""
-    mobility = face_mobility(scheme, side(a), side(b))
-    return mobility.value, *mobility.by_P
+def parts_of(mobility):
+    return (mobility.value, *mobility.by_eps, *mobility.by_gap)
 
 
 @pytest.mark.parametrize("mean", FACE_MEANS)
 @pytest.mark.parametrize("share", [1.0, 0.0])
-def test_face_mean_at_either_end_of_the_share(mean, share):
+def test_face_mobility_at_either_end_of_the_share(mean, share):
     """All of it is the scheme's mean itself, none of it the arithmetic one."""
     expected = FACE_MEANS[mean if share else "arithmetic"](A, B)
-    for part, own in zip(face_mean(Scheme("1B", mean, share), A, B), expected, strict=True):
+    found = face_mobility(Scheme("1B", mean, share), (A, B), GAPS)
+    for part, own in zip(parts_of(found), expected, strict=True):
         np.testing.assert_array_equal(np.broadcast_to(part, A.shape), np.broadcast_to(own, A.shape))
 
 
 def test_the_share_is_all_of_the_mean_unless_another_is_asked_for():
-    for part, own in zip(
-        face_mean(Scheme("1B", "harmonic"), A, B), FACE_MEANS["harmonic"](A, B), strict=True
-    ):
+    found = face_mobility(Scheme("1B", "harmonic"), (A, B), GAPS)
+    for part, own in zip(parts_of(found), FACE_MEANS["harmonic"](A, B), strict=True):
         np.testing.assert_array_equal(part, own)
 
 
@@ -172,67 +166,42 @@ def test_the_share_is_all_of_the_mean_unless_another_is_asked_for():
 def test_a_share_of_the_mean_of_two_and_eight(mean, value):
     """0.4 of 5, 4 or 3.2, and 0.6 of 5."""
     scheme = Scheme("1B", mean, 0.4)
-    assert face_mean(scheme, A, B)[0][0] == pytest.approx(value, rel=1e-15)
+    assert face_mobility(scheme, (A, B), GAPS).value[0] == pytest.approx(value, rel=1e-15)
 
 
-@pytest.mark.parametrize("mean", ["logarithmic", "geometric", "harmonic"])
-def test_slopes_of_a_shared_mean_match_central_differences(mean):
-    scheme, a, b, d = Scheme("1B", mean, 0.4), A[:3], B[:3], 1e-4
-    _, by_a, by_b = face_mean(scheme, a, b)
-    measured_a = (face_mean(scheme, a + d, b)[0] - face_mean(scheme, a - d, b)[0]) / (2.0 * d)
-    measured_b = (face_mean(scheme, a, b + d)[0] - face_mean(scheme, a, b - d)[0]) / (2.0 * d)
-    np.testing.assert_allclose(by_a, measured_a, rtol=1e-7)
-    np.testing.assert_allclose(by_b, measured_b, rtol=1e-7)
+@pytest.mark.parametrize("mean", ["logarithmic", "linear-gap", "geometric", "harmonic"])
+@pytest.mark.parametrize("share", [1.0, 0.4])
+def test_slopes_of_a_face_mobility_match_central_differences(mean, share):
+    scheme, d = Scheme("1B", mean, share), 1e-4
+    state = [each[:3] for each in (A, B, *GAPS)]
+
+    def value(number, by):
+        moved = [each + by * (number == k) for k, each in enumerate(state)]
+        return face_mobility(scheme, moved[:2], moved[2:]).value
+
+    slopes = parts_of(face_mobility(scheme, state[:2], state[2:]))[1:]
+    assert len(slopes) == (4 if mean == "linear-gap" else 2)
+    for number, slope in enumerate(slopes):
+        measured = (value(number, d) - value(number, -d)) / (2.0 * d)
+        np.testing.assert_allclose(slope, measured, rtol=2e-6, atol=1e-8)
 
 
-TAPERED = Scheme(face_mobility="tapered")
+def test_the_linear_gap_s_mobility_of_two_and_eight():
+    """Gaps 1/2 and 1: 16 and 8 per cube, of logarithmic mean 8/ln 2, times 2 (1/4) 1/(3/2) = 1/3."""
+    found = face_mobility(Scheme("1B", "linear-gap"), (A, B), GAPS)
+    assert found.value[0] == pytest.approx(8.0 / log(2.0) / 3.0, rel=1e-15)
+    assert found.value[2] == pytest.approx(4.0, rel=1e-15)
+    assert found.value[3] == 0.0
 
 
-def tapered(gap_w, gap_e, v_w, v_e):
-    """The mobility by numbers: gaps, and mobilities over their cubes; with its slopes by each."""
-    sides = (side(np.array([[v * gap**3]]), gap) for gap, v in ((gap_w, v_w), (gap_e, v_e)))
-    mobility = face_mobility(TAPERED, *sides)
-    return [part.item() for part in (mobility.value, *mobility.by_P, *mobility.by_H)]
-
-
-@pytest.mark.parametrize("gap_w, gap_e, rise", [(1.0, 0.2, 3.0), (0.1, 0.7, -5.0), (0.3, 0.3, 1.0)])
-def test_a_tapering_gap_carries_the_flow_of_the_integrated_equation(gap_w, gap_e, rise):
-    """With q = h - h^3 e^(-p) dp/dx over a length 1: q int h^-3 = int h^-2 - (e^(-p_W) - e^(-p_E))."""
-
-    def h(x):
-        return gap_w + (gap_e - gap_w) * x
-
-    resistance, carried = (quad(lambda x, n=n: h(x) ** n, 0.0, 1.0, epsrel=1e-12)[0] for n in (-3, -2))
-    mobility = tapered(gap_w, gap_e, 1.0, exp(-rise))[0]
-    assert mobility * rise == pytest.approx((1.0 - exp(-rise)) / resistance, rel=1e-10)
-    assert carried / resistance == pytest.approx(2.0 * gap_w * gap_e / (gap_w + gap_e), rel=1e-10)
-
-
-def test_between_equal_gaps_the_tapered_mobility_is_the_logarithmic_mean():
-    assert tapered(0.5, 0.5, 2.0, 8.0)[0] == pytest.approx(0.5**3 * 6.0 / log(4.0), rel=1e-14)
-
-
-def test_slopes_of_the_tapered_mobility_match_central_differences():
-    """By P the nodes' mobility moves at its gap, by H the gap under its fluid."""
-    at, d = np.array([0.3, 0.5, 2.0, 0.7]), 1e-6
-    _, of_w, of_e, by_w, by_e = tapered(*at)
-    measured = [(tapered(*(at + step))[0] - tapered(*(at - step))[0]) / (2.0 * d) for step in d * np.eye(4)]
-    slopes = [by_w, by_e, of_w * at[0] ** 3, of_e * at[1] ** 3]
-    assert slopes == pytest.approx(measured, rel=1e-8)
-
-
-@pytest.mark.parametrize("gaps", [(0.0, 1.0), (1.0, -0.1), (0.0, 0.0)])
-def test_nothing_flows_into_a_gap_that_tapers_to_nothing(gaps):
-    assert tapered(*gaps, 1.0, 1.0) == [0.0] * 5
-
-
-def test_the_leak_into_a_nearly_closed_gap_falls_with_its_square():
-    assert tapered(1.0, 1e-4, 1.0, 1.0)[0] == pytest.approx(2e-8, rel=2e-4)
-
-
-def test_a_smallest_gap_does_not_move_the_tapered_mobility():
-    west, east = side(np.ones((1, 1)), 1.0, deps_dH=0.0), side(np.ones((1, 1)), 1.0)
-    assert [slope.item() for slope in face_mobility(TAPERED, west, east).by_H] == [0.0, 1.5]
+def test_the_linear_gap_s_flow_is_that_of_the_differential_equation():
+    """q = -h^3 e^(-P) dP/dx through a gap from 1 to 3 between pressures 0 and 2, integrated."""
+    P, h, steps = (0.0, 2.0), (1.0, 3.0), 4000
+    x = (np.arange(steps) + 0.5) / steps
+    q = -(1.0 - exp(-2.0)) / np.mean((h[0] + (h[1] - h[0]) * x) ** -3.0)
+    eps = [np.array([gap**3 * exp(-p)]) for p, gap in zip(P, h, strict=True)]
+    found = face_mobility(Scheme("1B", "linear-gap"), eps, [np.array([gap]) for gap in h])
+    assert -found.value[0] * (P[1] - P[0]) == pytest.approx(q, rel=1e-6)
 
 
 def test_the_smallest_gap_of_the_unified_equations_is_the_least_of_the_mobility(contact):

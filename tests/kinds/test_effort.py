@@ -12,10 +12,11 @@ from mgehl.kinds import line, loaded, point, wedge
         ({"solver.start": "film"}, point.FILM),
         ({"solver.start": "contact"}, point.CONTACT),
         ({"solver.start": "film", "discretization.face_mobility": "harmonic"}, point.MEAN),
+        ({"solver.start": "film", "discretization.face_mobility": "linear-gap"}, point.FILM),
         ({"contact.kind": "line"}, line.EFFORT),
         ({"contact.kind": "wedge"}, wedge.EFFORT),
     ],
-    ids=["film", "contact", "mean", "line", "wedge"],
+    ids=["film", "contact", "mean", "linear gap", "line", "wedge"],
 )
 def test_effort_is_that_of_such_runs(settings, effort):
     config = load_config(settings=settings)

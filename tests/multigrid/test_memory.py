@@ -29,7 +29,7 @@ def rough(paper_contact, make_hierarchy):
     """A full film on a wavy ball: its problem, solver and KSP, linearised at a first guess."""
     contact = paper_contact(0.1, surface=Waves(4.1e-4))
     hierarchy = make_hierarchy(contact, 65)
-    scheme = Scheme("1B", "tapered", contact_law=BoundaryFilm(1e-5))
+    scheme = Scheme("1B", "linear-gap", contact_law=BoundaryFilm(1e-5))
     problem = ContactProblem(hierarchy.grids[-1], hierarchy.deflections[-1], contact, scheme)
     solver = MultigridSolver(hierarchy, len(hierarchy.grids) - 1, contact, scheme)
     ksp = PETSc.KSP().create(MPI.COMM_SELF)

@@ -31,7 +31,7 @@ def solve_rough(paper_contact, make_hierarchy):
         contact = paper_contact(speed, load=100.0, surface=Waves(amplitude, 2.05e-4))
         hierarchy = make_hierarchy(contact, 65, x=(-2.0, 1.5), y=(-1.75, 1.75))
         law = BoundaryFilm(boundary_film / contact.film_scale)
-        scheme = Scheme("1B", "tapered", contact_law=law)
+        scheme = Scheme("1B", "linear-gap", contact_law=law)
         settings = SolverSettings(scheme=scheme, nested=NestedSettings(start=start))
         return nested_iteration(hierarchy, contact, settings, lambda *_: None)
 
@@ -69,7 +69,7 @@ def test_contact_is_where_the_film_would_be_thinner(solve_rough):
 
 def test_it_is_solved_at_once_on_the_finest_grid(paper_contact):
     contact = paper_contact(0.1, surface=Waves(1e-7, 2e-4))
-    settings = SolverSettings(scheme=Scheme(face_mobility="tapered", contact_law=BoundaryFilm(1e-5)))
+    settings = SolverSettings(scheme=Scheme(face_mobility="linear-gap", contact_law=BoundaryFilm(1e-5)))
 
     class Mesh:
         nx = 65
@@ -81,7 +81,7 @@ def test_it_is_solved_at_once_on_the_finest_grid(paper_contact):
 def test_the_first_guess_is_the_dry_rough_contact(make_problem, paper_contact, start):
     contact = paper_contact(0.1, load=100.0, surface=Waves(1e-7, 2.05e-4))
     law = BoundaryFilm(1e-5)
-    problem = make_problem(contact, Scheme(face_mobility="tapered", contact_law=law), nodes=65)
+    problem = make_problem(contact, Scheme(face_mobility="linear-gap", contact_law=law), nodes=65)
     state = first_guess(problem, start)
     assert isinstance(problem, ContactProblem)
     assert problem.load_deficit(state.P) == pytest.approx(0.0, abs=1e-12)
