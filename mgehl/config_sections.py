@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from mgehl.config_value import key_field
 from mgehl.discretization.couette import SCHEMES
-from mgehl.discretization.fluid import FACE_MEANS
+from mgehl.discretization.fluid import FACE_MOBILITIES
 from mgehl.discretization.scheme import INTERFACES, Scheme
 from mgehl.kinds import KINDS
 from mgehl.model.lubricant import DENSITY_LAWS, VISCOSITY_LAWS
@@ -70,7 +70,7 @@ class DiscretizationSection:
     )
     face_mobility: str = key_field(
         Scheme.face_mobility, "mean of two nodes' mobilities at the face between them",
-        choices=tuple(FACE_MEANS), kind=str,
+        choices=tuple(FACE_MOBILITIES), kind=str,
     )  # fmt: skip
     contact_model: str = key_field(
         "lcic", "interface conditions, or the unified equations that have none",
