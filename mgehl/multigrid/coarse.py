@@ -1,9 +1,11 @@
 """Direct solve of the bordered Jacobian on the coarsest grid, redundantly on every rank that has lines."""
 
 import warnings
+from functools import partial
 
 import numpy as np
 from scipy.linalg import LinAlgWarning, lu_factor, lu_solve
+from scipy.sparse.linalg import splu
 
 from mgehl.discretization.influence import influence_coefficients
 from mgehl.grid.events import COARSE, event
@@ -11,7 +13,7 @@ from mgehl.multigrid.assembled import stencil_rows
 
 
 class CoarseSolve:
-    """Dense LU of J with its border; ranks without lines have nothing to do."""
+    """LU of J with its border, sparse in a rigid gap; ranks without lines have nothing to do."""
 
     def __init__(self, jacobian):
         self._jacobian = jacobian
@@ -20,26 +22,36 @@ class CoarseSolve:
 
     @event(COARSE)
     def factor(self):
-        """Gather the stencils, form the dense matrix and factor it."""
+        """Gather the stencils, form the matrix and factor it."""
         if self._jacobian.grid.has_lines:
             self._factor()
 
     def _factor(self):
-        jacobian = self._jacobian
-        nodes = jacobian.grid.mesh.nodes
-        matrix = np.zeros((nodes + 1, nodes + 1))
-        matrix[:nodes, :nodes] = self._gather(jacobian.linearisation.A).toarray()
-        if jacobian.rigid:
-            matrix[nodes, nodes] = 1.0
-        else:
-            B = self._gather(jacobian.linearisation.B)
-            matrix[:nodes, :nodes] += B @ self._K
-            matrix[:nodes, nodes] = B @ np.ones(nodes)
-            matrix[nodes, :nodes] = jacobian.load_weight
         with warnings.catch_warnings():
             # Of a singular matrix: the iteration that made it ends by itself.
             warnings.simplefilter("ignore", LinAlgWarning)
-            self._factors = lu_factor(matrix, overwrite_a=True, check_finite=False)
+            self._invert = self._sparse_inverse() if self._jacobian.rigid else self._dense_inverse()
+
+    def _sparse_inverse(self):
+        """Function that solves for the fluid in a rigid gap: its stencil is all that couples its nodes."""
+        A = self._gather(self._jacobian.linearisation.A)
+        try:
+            fluid = splu(A.tocsc())
+        except RuntimeError:  # singular: likewise
+            return lambda whole: np.full_like(whole, np.nan)
+        return lambda whole: np.append(fluid.solve(whole[:-1]), whole[-1])
+
+    def _dense_inverse(self):
+        """Function that solves J with its border."""
+        jacobian = self._jacobian
+        A, B = (self._gather(stencil) for stencil in (jacobian.linearisation.A, jacobian.linearisation.B))
+        load = np.full((1, A.shape[0]), jacobian.load_weight)
+        matrix = np.block(
+            [[A.toarray() + B @ self._K, B.sum(axis=1).reshape(-1, 1)], [load, np.zeros((1, 1))]]
+        )
+        return partial(
+            lu_solve, lu_factor(matrix, overwrite_a=True, check_finite=False), check_finite=False
+        )
 
     @event(COARSE)
     def solve(self, r, load):
@@ -48,12 +60,12 @@ class CoarseSolve:
         if not grid.has_lines:
             return r, 0.0
         whole = np.append(grid.whole_of_team(r).ravel(), space.border_in_team(load))
-        solution = lu_solve(self._factors, whole, check_finite=False)
+        solution = self._invert(whole)
         lines = solution[:-1].reshape(grid.mesh.ny, grid.mesh.nx)
         return lines[grid.first : grid.last], float(solution[-1])
 
     def view(self, viewer):
-        viewer.printfASCII("  dense LU with the border, redundant on every rank with lines\n")
+        viewer.printfASCII("  LU with the border, redundant on every rank with lines\n")
 
     def _gather(self, stencil):
         """Sparse matrix of a stencil (offsets, local lines, nx) of all ranks with lines."""

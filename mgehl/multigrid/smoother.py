@@ -147,7 +147,7 @@ class CrossedLineSmoother(LineSmoother):
 class RigidLineSmoother:
     """The same of a rigid gap, c = omega T^-1 r: without K there is nothing to distribute."""
 
-    visits = 1
+    visits = 2
 
     def __init__(self, jacobian, omega):
         self._jacobian, self._omega = jacobian, omega

@@ -110,22 +110,31 @@ class Level:
         sent = 2 * COMPLEX * self.mine * others / self.ranks
         return Cost(exchanged=2 * others, bytes=sent, transforms=flops)
 
+    def stencils(self):
+        """The Jacobian times a vector whose deflection is known: two stencils of six nodes."""
+        return 2 * self.halo() + self.everyone() + Cost(sweeps=30 * self.mine)
+
     def product(self):
-        """The Jacobian times a vector: two stencils of six nodes."""
-        return 2 * self.halo() + 2 * self.everyone() + self.convolution() + Cost(sweeps=30 * self.mine)
+        """The Jacobian times a vector, as GMRES makes it: with a convolution and the load."""
+        return self.stencils() + self.convolution() + self.everyone()
 
     def relaxation(self):
-        """All lines' bands solved, and what they give distributed."""
-        return self.halo() + Cost(sweeps=(4 * REACH + 2 + 8) * self.mine)
+        """All lines' bands along both axes solved, and what they give distributed."""
+        others = self.ranks - 1
+        turned = Cost(exchanged=2 * others, bytes=2 * REAL * self.mine * others / self.ranks)
+        return self.halo() + turned + Cost(sweeps=(2 * (4 * REACH + 2) + 8) * self.mine)
 
     def transfers(self, coarse):
-        """Restriction and interpolation; lines of a coarse grid on fewer ranks move to and fro."""
-        flops = Cost(sweeps=(8 + 4) * self.mine)
+        """Restriction; interpolation of a correction and of its deflection, which is convolved there.
+
+        Lines of a coarse grid on fewer ranks move to and fro: who sends most has none to send there.
+        """
+        work = coarse.convolution() + Cost(sweeps=(8 + 2 * 4) * self.mine)
         if coarse.ranks == self.ranks:
-            return self.halo() + coarse.halo() + flops
+            return self.halo() + 2 * coarse.halo() + work
         between = max(coarse.lines // max(self.lines // 2, 1), 1) + 1
         moved = coarse.mine + 2 * HALO * coarse.nodes
-        return self.halo() + Cost(halos=2 * between, bytes=2 * REAL * moved) + flops
+        return self.halo() + Cost(halos=2 * between, bytes=3 * REAL * moved) + work
 
     def direct(self):
         """The dense factors applied to what all ranks of the coarsest grid gather."""
@@ -142,10 +151,10 @@ def levels(nodes, ranks):
 
 
 def cycle(grids):
-    """One V-cycle, a relaxation before and one after the coarse grids."""
+    """One V-cycle, a relaxation after the coarse grids."""
     total = grids[0].direct()
     for coarse, fine in zip(grids[:-1], grids[1:], strict=True):
-        total += 2 * fine.product() + 2 * fine.relaxation() + fine.transfers(coarse) + Cost(grids=1)
+        total += fine.transfers(coarse) + fine.stencils() + fine.relaxation() + Cost(grids=1)
     return total
 
 

@@ -66,16 +66,18 @@ def test_influence_of_a_column_of_Q(line, k, share):
 def test_distributed_column_hardly_reaches_beyond_the_band():
     """Why corrections are distributed: the far field of (1, -1/4 ...) falls as 1/r^3, not 1/r.
 
-    On a square mesh the column is the discrete Laplacian of 1/r, which is 1/(4 r^3) of a cell; on
-    a line half the second difference of -ln|x|, which is 1/(2 x^2).
+    On a square mesh the column is the discrete Laplacian of 1/r, far away 1/(4 r^3) of a cell; on
+    a line half the second difference of -ln|x|, far away 1/(2 x^2).
     """
     square = Mesh(33, 33, (-1.6, 1.6), (-1.6, 1.6))
     _, distributed = influence_of_columns(influence_coefficients(square, HalfSpace(1.0)), 0.25)[:, 0, REACH]
-    assert distributed == pytest.approx(-square.dX / (4.0 * REACH**3), rel=0.15)
+    laplacian = 1 / (REACH - 1) + 1 / (REACH + 1) + 2 / np.hypot(REACH, 1) - 4 / REACH
+    assert distributed == pytest.approx(-square.dX * laplacian / 4, rel=0.05)
+    assert laplacian / 4 < 1 / REACH / 20
     line = Mesh(33, 1, (-1.6, 1.6), (0.0, 0.0))
     nearby = influence_coefficients(line, HalfPlane(1.0), 0, LINES_BESIDE + 2)
     _, distributed = influence_of_columns(nearby, 0.5)[:, 0, REACH]
-    assert distributed == pytest.approx(-line.dX / (2.0 * REACH**2), rel=0.1)
+    assert distributed == pytest.approx(0.5 * line.dX * np.log(1.0 - 1.0 / REACH**2), rel=0.05)
 
 
 @every_stencil

@@ -111,11 +111,11 @@ def test_a_single_line_is_not_crossed(line_film, make_jacobian):
 class TestLinesAlongBothAxes:
     """The crossed smoother, of a motion at an angle, against dense matrices, on a grid that a band spans.
 
-    A band is cut at 5 nodes, and the ends of a line are 6 apart: they and what is beside them are given, so
+    A band is cut at 4 nodes, and the ends of a line are 5 apart: they and what is beside them are given, so
     that nothing moves there.
     """
 
-    NODES = 7
+    NODES = 6
 
     @pytest.fixture
     def jacobian(self, make_problem, paper_contact, rough_state, make_jacobian):

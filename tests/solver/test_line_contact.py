@@ -71,7 +71,7 @@ def test_steps_and_iterations_do_not_grow_with_the_grid(couette):
     grids = (257, 513, 1025, 2049, 4097)
     finest = [[row for row in film(n, couette).rows if row["grid"] == n] for n in grids]
     assert all(film(n, couette).result.converged for n in grids)
-    assert max(len(rows) - 1 for rows in finest) <= 7
+    assert max(len(rows) - 1 for rows in finest) <= 8
     assert max(row["linear_iterations"] for rows in finest for row in rows) <= 3
 
 
