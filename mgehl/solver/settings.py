@@ -68,3 +68,5 @@ class SolverSettings:
     newton: NewtonSettings = field(default_factory=NewtonSettings)
     cycle: CycleSettings = field(default_factory=CycleSettings)
     relaxation: RelaxationSettings = field(default_factory=RelaxationSettings)
+    error: bool = SolverSection.error
+    """Whether coarser grids are solved, too, to tell how far the films are from their limit."""

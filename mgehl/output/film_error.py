@@ -1,0 +1,123 @@
+"""The bands about a run's films, and how they came about: `error` of result.json."""
+
+from dataclasses import dataclass, replace
+
+from mgehl.discretization.order import couette_order
+from mgehl.solver.coarser import films_of_grids
+from mgehl.solver.richardson import SAFETY, TOUCHED, band
+
+POISEUILLE_ORDER = 2
+"""The Poiseuille flow's, by whichever mean of the mobility: no film converges faster."""
+
+
+@dataclass(frozen=True)
+class GridFilm:
+    """Films of a grid at the run's speed, in nm, between the nodes where need be."""
+
+    nodes: int
+    central_nm: float
+    minimum_nm: float
+    contact_nodes: int
+    settled: bool
+
+
+@dataclass(frozen=True)
+class FilmError:
+    """Half-widths of the bands about the films, in nm: the limit of ever finer grids lies within.
+
+    Of this domain, that is: what a larger one would change is not in it.
+    """
+
+    central_nm: float | None
+    """None where there is no band; `how` says why."""
+    minimum_nm: float | None
+    how: str
+    order: int | None = None
+    """Of the scheme."""
+    central_order: float | None = None
+    """Observed on three grids; None on two, or where the differences change their sign."""
+    minimum_order: float | None = None
+    grids: tuple[GridFilm, ...] = ()
+    """The finest grid first."""
+    convolutions: float = 0.0
+    """What the coarser grids took, in equivalents of one on the finest."""
+
+
+def no_band(why):
+    """The `FilmError` of films that none can be told of."""
+    return FilmError(None, None, why)
+
+
+NOT_ASKED = no_band("not asked for (solver.error = false)")
+
+
+def why_no_band(result):
+    """Why there can be no band about the films of a `Result`; empty where there may be one."""
+    if not result.settled:
+        return "the run has not settled"
+    if result.contact.nodes:
+        return "there is solid contact: its edge moves from grid to grid by whole cells"
+    if result.overlap.nodes:
+        return "the bodies overlap"
+    if result.resolution.verdict == "grid-determined":
+        return "the inlet has less than a cell: the grid decides what is film"
+    return ""
+
+
+def film_error(result, hierarchy, problem, state, settings, progress, journal):
+    """The `FilmError` of a `Result`, from solutions on coarser grids (collective).
+
+    `progress` tells of their cycles and counts their convolutions; `journal` as of `nested_iteration`.
+    """
+    why_not = why_no_band(result)
+    if why_not or not settings.error:
+        return no_band(why_not) if why_not else NOT_ASKED
+    before = progress.convolutions
+    films = films_of_grids(hierarchy, problem, state, settings, progress.beside, journal)
+    nm = 1e9 * problem.contact.film_scale
+    grids = tuple(
+        GridFilm(
+            each.nodes, nm * each.films.central, nm * each.films.minimum, each.contact_nodes, each.settled
+        )
+        for each in films
+    )
+    told = from_grids(result, grids, scheme_order(settings.scheme))
+    return replace(told, grids=grids, convolutions=progress.convolutions - before)
+
+
+def scheme_order(scheme):
+    """Power of the spacing with which a film's error falls by a `Scheme`."""
+    return min(couette_order(scheme.couette), POISEUILLE_ORDER)
+
+
+def from_grids(result, grids, order):
+    """The `FilmError` that the films of two or three `grids` tell, by a scheme of this order."""
+    next_one = grids[1]
+    if not next_one.settled:
+        return no_band(
+            f"on {next_one.nodes} nodes, the next coarser grid, there is no answer to compare with"
+        )
+    touches = next_one.contact_nodes > 0
+    if touches and next_one.central_nm <= 0.0:
+        return no_band(f"on {next_one.nodes} nodes, the next coarser grid, the film is lost")
+    grids = [each for each in grids if each.settled]
+    safety = TOUCHED if touches else SAFETY
+    central = band(result.central_film_nm, [grid.central_nm for grid in grids], order, safety)
+    minimum = band(result.minimum_film_nm, [grid.minimum_nm for grid in grids], order, safety)
+    return FilmError(
+        central.half_width,
+        minimum.half_width,
+        _how(grids, order, touches),
+        order,
+        central.observed_order,
+        minimum.observed_order,
+    )
+
+
+def _how(films, order, touches):
+    """How a band came about, in words."""
+    nodes = " and ".join(str(grid.nodes) for grid in films[1:])
+    words = f"from the differences to {nodes} nodes, by a scheme of order {order}"
+    if touches:
+        words += f"; wider, for on {nodes} nodes the film touches at {films[1].contact_nodes}"
+    return words
