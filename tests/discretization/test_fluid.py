@@ -1,4 +1,4 @@
-from math import exp, sqrt
+from math import exp, log, sqrt
 
 import numpy as np
 import pytest
@@ -57,12 +57,21 @@ def test_a_fluid_evaluated_in_parts_is_the_fluid_evaluated_at_once(contact):
     "mean, value, by_a, by_b",
     [
         ("arithmetic", 5.0, 0.5, 0.5),
+        (
+            "logarithmic",
+            6.0 / log(4.0),
+            (3.0 / log(4.0) - 1.0) / log(4.0),
+            (1.0 - 0.75 / log(4.0)) / log(4.0),
+        ),
         ("geometric", 4.0, 1.0, 0.25),
         ("harmonic", 3.2, 2.0 * 0.8**2, 2.0 * 0.2**2),
     ],
 )
 def test_means_of_two_and_eight(mean, value, by_a, by_b):
-    """sqrt(2*8) = 4 with slopes 4/(2*2), 4/(2*8); 2*16/10 = 3.2 with slopes 2 (8/10)^2, 2 (2/10)^2."""
+    """sqrt(2*8) = 4 with slopes 4/(2*2), 4/(2*8); 2*16/10 = 3.2 with slopes 2 (8/10)^2, 2 (2/10)^2.
+
+    Of the logarithmic mean m they are (m/2 - 1)/ln 4 and (1 - m/8)/ln 4.
+    """
     result = FACE_MEANS[mean](np.array([2.0]), np.array([8.0]))
     assert [np.ravel(part)[0] for part in result] == pytest.approx([value, by_a, by_b], rel=1e-15)
 
@@ -83,7 +92,7 @@ def test_mean_slopes_match_central_differences(mean, a, b):
         assert by_b == pytest.approx((at(a, b * (1 + d)) - at(a, b * (1 - d))) / (2 * b * d), rel=1e-7)
 
 
-@pytest.mark.parametrize("mean", ["geometric", "harmonic"])
+@pytest.mark.parametrize("mean", ["logarithmic", "geometric", "harmonic"])
 @pytest.mark.parametrize("a, b", [(0.0, 3.0), (3.0, 0.0), (0.0, 0.0)])
 def test_vanishing_mean_of_a_closed_node_is_finite(mean, a, b):
     value, by_a, by_b = FACE_MEANS[mean](np.array([a]), np.array([b]))
@@ -95,7 +104,8 @@ def test_means_are_ordered_and_symmetric():
     a, b = np.array([1.0, 5.0, 1e-6]), np.array([2.0, 5.0, 1e3])
     means = {name: mean(a, b)[0] for name, mean in FACE_MEANS.items()}
     assert (means["harmonic"] <= means["geometric"] * (1 + 1e-15)).all()
-    assert (means["geometric"] <= means["arithmetic"] * (1 + 1e-15)).all()
+    assert (means["geometric"] <= means["logarithmic"] * (1 + 1e-15)).all()
+    assert (means["logarithmic"] <= means["arithmetic"] * (1 + 1e-15)).all()
     assert means["geometric"][0] == pytest.approx(sqrt(2.0), rel=1e-15)
     for mean in FACE_MEANS.values():
         value, by_a, by_b = mean(a, b)
@@ -104,6 +114,25 @@ def test_means_are_ordered_and_symmetric():
         # A slope is a pure number up to 2, so rounding is absolute.
         np.testing.assert_allclose(by_a_swapped, by_a, rtol=0.0, atol=5e-16)
         np.testing.assert_allclose(by_b_swapped, by_b, rtol=0.0, atol=5e-16)
+
+
+@pytest.mark.parametrize("alpha_dP", [0.0, 1e-9, 1e-3, 0.019, 0.021, 0.5, 20.0])
+def test_logarithmic_mean_carries_the_flow_of_the_reduced_pressure(alpha_dP):
+    """By Barus's law and one gap mean (P_E - P_W) = (e^(-alpha P_W) - e^(-alpha P_E))/alpha."""
+    mean = FACE_MEANS["logarithmic"](np.array([1.0]), np.exp([-alpha_dP]))[0][0]
+    assert mean * alpha_dP == pytest.approx(-np.expm1(-alpha_dP), rel=1e-9)
+
+
+@pytest.mark.parametrize("ratio", [1.0 + 1e-14, 1.0 + 1e-8, 1.01, 1.0199, 1.0203, 1.05])
+def test_logarithmic_mean_of_like_mobilities_keeps_its_digits(ratio):
+    """By (a + b)/2 (1 - x^2/3 - 4 x^4/45), x = (b - a)/(a + b), and its slopes."""
+    b = 3.0 * ratio
+    x = (b - 3.0) / (3.0 + b)
+    even, slope = 1.0 - x**2 / 3.0 - 4.0 * x**4 / 45.0, -2.0 * x / 3.0 - 16.0 * x**3 / 45.0
+    value, by_a, by_b = (part[0] for part in FACE_MEANS["logarithmic"](np.array([3.0]), np.array([b])))
+    assert value == pytest.approx(0.5 * (3.0 + b) * even, rel=1e-10)
+    assert by_a == pytest.approx(0.5 * even - slope * b / (3.0 + b), rel=1e-8)
+    assert by_b == pytest.approx(0.5 * even + slope * 3.0 / (3.0 + b), rel=1e-8)
 
 
 A, B = np.array([2.0, 1.0, 4.0, 0.0]), np.array([8.0, 30.0, 4.0, 3.0])
@@ -133,7 +162,7 @@ def test_a_share_of_the_mean_of_two_and_eight(mean, value):
     assert face_mean(scheme, A, B)[0][0] == pytest.approx(value, rel=1e-15)
 
 
-@pytest.mark.parametrize("mean", ["geometric", "harmonic"])
+@pytest.mark.parametrize("mean", ["logarithmic", "geometric", "harmonic"])
 def test_slopes_of_a_shared_mean_match_central_differences(mean):
     scheme, a, b, d = Scheme("1B", mean, 0.4), A[:3], B[:3], 1e-4
     _, by_a, by_b = face_mean(scheme, a, b)
