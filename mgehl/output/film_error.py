@@ -75,14 +75,14 @@ def film_error(result, hierarchy, problem, state, settings, progress, journal):
     before = progress.convolutions
     films = films_of_grids(hierarchy, problem, state, settings, progress.beside, journal)
     nm = 1e9 * problem.contact.film_scale
-    grids = tuple(
-        GridFilm(
-            each.nodes, nm * each.films.central, nm * each.films.minimum, each.contact_nodes, each.settled
-        )
-        for each in films
-    )
+    grids = tuple(_in_nm(each, nm) for each in films)
     told = from_grids(result, grids, scheme_order(settings.scheme))
     return replace(told, grids=grids, convolutions=progress.convolutions - before)
+
+
+def _in_nm(grid, nm):
+    films = grid.films
+    return GridFilm(grid.nodes, nm * films.central, nm * films.minimum, grid.contact_nodes, grid.settled)
 
 
 def scheme_order(scheme):
@@ -92,22 +92,18 @@ def scheme_order(scheme):
 
 def from_grids(result, grids, order):
     """The `FilmError` that the films of two or three `grids` tell, by a scheme of this order."""
-    next_one = grids[1]
-    if not next_one.settled:
-        return no_band(
-            f"on {next_one.nodes} nodes, the next coarser grid, there is no answer to compare with"
-        )
-    touches = next_one.contact_nodes > 0
-    if touches and next_one.central_nm <= 0.0:
-        return no_band(f"on {next_one.nodes} nodes, the next coarser grid, the film is lost")
-    grids = [each for each in grids if each.settled]
+    coarser = grids[1]
+    touches = coarser.contact_nodes > 0
+    if not coarser.settled or (touches and coarser.central_nm <= 0.0):
+        return no_band(f"on {coarser.nodes} nodes, the next coarser grid, there is no film to compare with")
+    known = [each for each in grids if each.settled]
     safety = TOUCHED if touches else SAFETY
-    central = band(result.central_film_nm, [grid.central_nm for grid in grids], order, safety)
-    minimum = band(result.minimum_film_nm, [grid.minimum_nm for grid in grids], order, safety)
+    central = band(result.central_film_nm, [each.central_nm for each in known], order, safety)
+    minimum = band(result.minimum_film_nm, [each.minimum_nm for each in known], order, safety)
     return FilmError(
         central.half_width,
         minimum.half_width,
-        _how(grids, order, touches),
+        _how(known, order, touches),
         order,
         central.observed_order,
         minimum.observed_order,

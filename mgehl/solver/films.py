@@ -1,8 +1,8 @@
 """Central and minimum film between the nodes: what a finer grid would say, were it no better.
 
-The films that a run reports are those of nodes. A node lies at the centre by chance, and at the bottom of the
-smallest gap never: there the film of the nodes goes up and down with where they are, by a few per cent on coarse
-grids. Films that grids are compared by are taken from parabolas through the nodes around.
+The films that a run reports are those of nodes. A node lies at the centre by chance, and at the bottom of
+the smallest gap never: from grid to grid its film goes up and down with where it is, by a few per cent.
+Films that grids are compared by are taken from polynomials through the nodes around.
 """
 
 from dataclasses import dataclass
@@ -52,7 +52,7 @@ def _cubic(nodes, point):
 
 
 def smallest(H):
-    """Bottom of the smallest gap of H, (ny, nx), by a paraboloid through the nodes around the lowest one."""
+    """Bottom of the smallest gap of H, (ny, nx), by a paraboloid through the nodes around the lowest."""
     j, i = np.unravel_index(np.argmin(H), H.shape)
     inside = 0 < i < H.shape[1] - 1
     if inside and len(H) == 1:

@@ -1,4 +1,4 @@
-"""How far a film is from its limit: a band from the films of grids, each of half the nodes of the one before."""
+"""How far a film is from its limit: a band from films of grids, each twice as coarse as the one before."""
 
 from dataclasses import dataclass
 from math import log2
@@ -22,10 +22,10 @@ class Band:
 def band(film, values, order, safety=SAFETY):
     """The `Band` about a `film` of nodes, from two or three `values` between nodes, finest grid's first.
 
-    A scheme of this `order` halves its error that often from grid to grid, so the last difference tells the
-    error (Richardson). Where the difference before it, reduced by the order, is larger, the last one is small by
-    chance, such as where it changes its sign: what it lacks is added. What the film of nodes is off the value
-    between nodes it is off its limit, too. The part `safety` of either is added.
+    A scheme of this `order` halves its error that often from grid to grid, so the last difference tells
+    the error (Richardson). Where the difference before it, reduced by the order, is larger, the last one is
+    small by chance, such as where it changes its sign: what it lacks is added. What the film of nodes is
+    off the value between nodes it is off its limit, too. The part `safety` of either is added.
     """
     ratio = 2.0**order
     differences = [finer - coarser for finer, coarser in zip(values, values[1:], strict=False)]
