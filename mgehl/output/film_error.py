@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 from mgehl.discretization.order import couette_order
 from mgehl.solver.coarser import films_of_grids
-from mgehl.solver.richardson import SAFETY, TOUCHED, band
+from mgehl.solver.richardson import band
 
 POISEUILLE_ORDER = 2
 """The Poiseuille flow's, by whichever mean of the mobility: no film converges faster."""
@@ -97,9 +97,8 @@ def from_grids(result, grids, order):
     if not coarser.settled or (touches and coarser.central_nm <= 0.0):
         return no_band(f"on {coarser.nodes} nodes, the next coarser grid, there is no film to compare with")
     known = [each for each in grids if each.settled]
-    safety = TOUCHED if touches else SAFETY
-    central = band(result.central_film_nm, [each.central_nm for each in known], order, safety)
-    minimum = band(result.minimum_film_nm, [each.minimum_nm for each in known], order, safety)
+    central = band(result.central_film_nm, [each.central_nm for each in known], order, touches)
+    minimum = band(result.minimum_film_nm, [each.minimum_nm for each in known], order, touches)
     return FilmError(
         central.half_width,
         minimum.half_width,

@@ -1,8 +1,8 @@
 """The same contact on coarser grids, each solved from the next finer answer: what errors are told from.
 
 A coarse grid of the nested iteration was solved at a speed that it resolves, and not to its end. Here the
-speed is the wanted one, and the start so near that few steps do: two grids take some fifteen per cent of the
-finest one's work.
+speed is the wanted one, and the start so near that few steps do: two grids take some fifteen per cent of
+the finest one's work.
 """
 
 from dataclasses import dataclass, replace

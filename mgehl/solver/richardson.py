@@ -3,11 +3,20 @@
 from dataclasses import dataclass
 from math import log2
 
-SAFETY = 0.25
-"""Part of the estimated error that is added to it: the 1.25 of Roache's grid convergence index."""
+SAFETY = 1.0 / 3.0
+"""Part of the estimated error that is added to it where three grids show its order. Roache's grid
+convergence index adds a quarter."""
 
-TOUCHED = 1.0
-"""The same where the coarser grid has contact: its film would be thinner still, were it free to be."""
+UNSEEN = 0.5
+"""The same where there are only two grids, and the order is the scheme's on trust."""
+
+TOUCHED = 2.0
+"""The same where the coarser grid has contact, and so not the film that it would have were it free to:
+three times the error, as Roache where nothing is known."""
+
+SLOWEST = 0.5
+"""Part of the scheme's order below which an observed one is not believed: it is a chance of two
+differences, such as where errors of two kinds cancel on the coarsest grid."""
 
 
 @dataclass(frozen=True)
@@ -19,25 +28,34 @@ class Band:
     """Of three grids; None of two, or where their differences are of different signs."""
 
 
-def band(film, values, order, safety=SAFETY):
+def band(film, values, order, touched=False):
     """The `Band` about a `film` of nodes, from two or three `values` between nodes, finest grid's first.
 
-    A scheme of this `order` halves its error that often from grid to grid, so the last difference tells
-    the error (Richardson). Where the difference before it, reduced by the order, is larger, the last one is
-    small by chance, such as where it changes its sign: what it lacks is added. What the film of nodes is
-    off the value between nodes it is off its limit, too. The part `safety` of either is added.
+    The last difference and the order tell the error (Richardson). The order is the scheme's, or the
+    observed one where that is lower. Where the difference before, reduced by the scheme's order, is the
+    larger one, the last is small by chance, as where it changes its sign: what it lacks is added. By what
+    the film of nodes is off the value between nodes it is off its limit, too. `touched` says that the
+    second grid has contact.
     """
+    last, *before = (finer - coarser for finer, coarser in zip(values, values[1:], strict=False))
+    observed = observed_order(last, *before)
+    error, off = last / (2.0 ** believed(order, observed) - 1.0), values[0] - film
+    safety = TOUCHED if touched else SAFETY if before else UNSEEN
+    half_width = abs(error + off) + safety * (abs(error) + abs(off)) + by_chance(order, last, *before)
+    return Band(half_width, observed)
+
+
+def observed_order(last, before=0.0):
+    """Power of the spacing by which two differences fall; None where their signs differ, or of one."""
+    return log2(before / last) if last * before > 0.0 else None
+
+
+def believed(order, observed):
+    """The order by which an error is told, from the scheme's and the observed one."""
+    return order if observed is None else min(order, max(observed, SLOWEST * order))
+
+
+def by_chance(order, last, before=0.0):
+    """What the error of a `last` difference lacks that is smaller than the one `before` lets expect."""
     ratio = 2.0**order
-    differences = [finer - coarser for finer, coarser in zip(values, values[1:], strict=False)]
-    error, off = differences[0] / (ratio - 1.0), values[0] - film
-    before = max((abs(each) / ratio for each in differences[1:]), default=0.0)
-    by_chance = max(0.0, before - abs(differences[0])) / (ratio - 1.0)
-    half_width = abs(error + off) + safety * (abs(error) + abs(off)) + by_chance
-    return Band(half_width, observed_order(differences))
-
-
-def observed_order(differences):
-    """Power of the spacing by which two differences fall, the finer one first."""
-    if len(differences) < 2 or not differences[0] * differences[1] > 0.0:
-        return None
-    return log2(differences[1] / differences[0])
+    return max(0.0, abs(before) / ratio - abs(last)) / (ratio - 1.0)
