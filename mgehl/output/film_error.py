@@ -4,7 +4,12 @@ from dataclasses import dataclass, replace
 
 from mgehl.discretization.order import couette_order
 from mgehl.solver.coarser import films_of_grids
-from mgehl.solver.richardson import band
+from mgehl.solver.richardson import band, band_beside
+
+FILMS = ("central", "minimum")
+
+BETTER = {"couette": "3B", "face_mobility": "logarithmic"}
+"""What tells of films by a scheme of first order."""
 
 POISEUILLE_ORDER = 2
 """The Poiseuille flow's, by whichever mean of the mobility: no film converges faster."""
@@ -73,10 +78,11 @@ def film_error(result, hierarchy, problem, state, settings, progress, journal):
     if why_not or not settings.error:
         return no_band(why_not) if why_not else NOT_ASKED
     before = progress.convolutions
-    films = films_of_grids(hierarchy, problem, state, settings, progress.beside, journal)
+    scheme = telling_scheme(settings.scheme)
+    films = films_of_grids(hierarchy, problem, state, settings, scheme, progress.beside, journal)
     nm = 1e9 * problem.contact.film_scale
     grids = tuple(_in_nm(each, nm) for each in films)
-    told = from_grids(result, grids, scheme_order(settings.scheme))
+    told = from_grids(result, grids, scheme_order(scheme), scheme if scheme != settings.scheme else None)
     return replace(told, grids=grids, convolutions=progress.convolutions - before)
 
 
@@ -90,29 +96,45 @@ def scheme_order(scheme):
     return min(couette_order(scheme.couette), POISEUILLE_ORDER)
 
 
-def from_grids(result, grids, order):
-    """The `FilmError` that the films of two or three `grids` tell, by a scheme of this order."""
+def telling_scheme(scheme):
+    """The `Scheme` of the coarser grids: the same, or a better one beside one of first order."""
+    return scheme if scheme_order(scheme) > 1 else replace(scheme, **BETTER)
+
+
+def from_grids(result, grids, order, other=None):
+    """The `FilmError` that the films of two or three `grids` tell, by a scheme of this order.
+
+    The coarser ones may be by an`other` `Scheme`.
+    """
     coarser = grids[1]
     touches = coarser.contact_nodes > 0
     if not coarser.settled or (touches and coarser.central_nm <= 0.0):
         return no_band(f"on {coarser.nodes} nodes, the next coarser grid, there is no film to compare with")
     known = [each for each in grids if each.settled]
-    central = band(result.central_film_nm, [each.central_nm for each in known], order, touches)
-    minimum = band(result.minimum_film_nm, [each.minimum_nm for each in known], order, touches)
+    central, minimum = (_band(result, known, film, order, touches, other) for film in FILMS)
     return FilmError(
         central.half_width,
         minimum.half_width,
-        _how(known, order, touches),
+        _how(known, order, touches, other),
         order,
         central.observed_order,
         minimum.observed_order,
     )
 
 
-def _how(films, order, touches):
+def _band(result, grids, film, order, touches, other):
+    reported = getattr(result, f"{film}_film_nm")
+    finest, *coarser = (getattr(each, f"{film}_nm") for each in grids)
+    if other:
+        return band_beside(reported, coarser, order)
+    return band(reported, [finest, *coarser], order, touches)
+
+
+def _how(films, order, touches, other):
     """How a band came about, in words."""
     nodes = " and ".join(str(grid.nodes) for grid in films[1:])
-    words = f"from the differences to {nodes} nodes, by a scheme of order {order}"
+    by = f" by {other.couette} and the {other.face_mobility} mean" if other else ""
+    words = f"from the differences to {nodes} nodes{by}, of order {order}"
     if touches:
-        words += f"; wider, for on {nodes} nodes the film touches at {films[1].contact_nodes}"
+        words += f"; wider, for on {films[1].nodes} nodes the film touches at {films[1].contact_nodes}"
     return words

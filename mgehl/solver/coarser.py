@@ -40,15 +40,16 @@ class GridFilms:
         return self.settled and not self.contact_nodes
 
 
-def films_of_grids(hierarchy, problem, state, settings, monitor, journal=NOTHING_KEPT):
+def films_of_grids(hierarchy, problem, state, settings, scheme, monitor, journal=NOTHING_KEPT):
     """`GridFilms` of the finest grid, whose answer is `state`, and of the next coarser ones (collective).
 
-    None follows a grid that has contact, or no answer. `monitor` and `journal` as of `nested_iteration`.
+    Those are solved by a `Scheme` that may be another. None follows a grid that has contact, or no
+    answer. `monitor` and `journal` as of `nested_iteration`.
     """
     found = [_films(problem, state, True)]
     last = len(hierarchy.grids) - 1
     for level in range(last - 1, max(last - 1 - COARSER, -1), -1):
-        problem, state = _injected(hierarchy, level, problem, state)
+        problem, state = _injected(hierarchy, level, problem, state, scheme)
         outcome = _solve(hierarchy, level, problem, state, settings, monitor, journal)
         state = outcome.state
         found.append(_films(problem, state, outcome.converged))
@@ -62,11 +63,11 @@ def _films(problem, state, settled):
     return GridFilms(problem.grid.mesh.nx, films_between_nodes(problem, state), contact_nodes, settled)
 
 
-def _injected(hierarchy, level, problem, state):
+def _injected(hierarchy, level, problem, state, scheme):
     """The problem of a coarser grid, and the finer one's state at its nodes."""
     transfer, grid = hierarchy.transfers[level], hierarchy.grids[level]
     status = transfer.inject(state.status.astype(float)).astype(np.int8)
-    coarser = ContactProblem(grid, hierarchy.deflections[level], problem.contact, problem.scheme)
+    coarser = ContactProblem(grid, hierarchy.deflections[level], problem.contact, scheme)
     return coarser, coarser.state(transfer.inject(state.P), state.H0, status)
 
 
