@@ -14,9 +14,9 @@ TOUCHED = 2.0
 """The same where the coarser grid has contact, and so not the film that it would have were it free to:
 three times the error, as Roache where nothing is known."""
 
-SLOWEST = 0.5
-"""Part of the scheme's order below which an observed one is not believed: it is a chance of two
-differences, such as where errors of two kinds cancel on the coarsest grid."""
+SLOWEST = 0.75
+"""Part of the scheme's order below which an observed one is not believed: the coarsest grid is too coarse
+to show one, or errors of two kinds cancel there."""
 
 
 @dataclass(frozen=True)
@@ -32,8 +32,9 @@ def band(film, values, order, touched=False):
     """The `Band` about a `film` of nodes, from two or three `values` between nodes, finest grid's first.
 
     The last difference and the order tell the error (Richardson). The order is the scheme's, or the
-    observed one where that is lower. Where the difference before, reduced by the scheme's order, is the
-    larger one, the last is small by chance, as where it changes its sign: what it lacks is added. By what
+    observed one where that is somewhat lower. Where the difference before is so large that even an order
+    more does not make the last one of it, that is small by chance, as where it changes its sign: what it
+    lacks is added. By what
     the film of nodes is off the value between nodes it is off its limit, too. `touched` says that the
     second grid has contact.
     """
@@ -65,10 +66,10 @@ def observed_order(last, before=0.0):
 
 def believed(order, observed):
     """The order by which an error is told, from the scheme's and the observed one."""
-    return order if observed is None else min(order, max(observed, SLOWEST * order))
+    return observed if observed and SLOWEST * order <= observed <= order else order
 
 
 def by_chance(order, last, before=0.0):
     """What the error of a `last` difference lacks that is smaller than the one `before` lets expect."""
-    ratio = 2.0**order
-    return max(0.0, abs(before) / ratio - abs(last)) / (ratio - 1.0)
+    expected = abs(before) / 2.0 ** (order + 1)
+    return max(0.0, expected - abs(last)) / (2.0**order - 1.0)

@@ -8,6 +8,7 @@ from mgehl.solver.richardson import (
     TOUCHED,
     UNSEEN,
     band,
+    band_beside,
     believed,
     by_chance,
     observed_order,
@@ -43,26 +44,35 @@ def test_what_a_node_is_off_the_film_between_nodes_it_is_off_the_limit():
 
 def test_a_difference_that_is_small_by_chance_does_not_make_a_small_band():
     films = [10.0, 10.01, 8.0]
-    expected = 2.01 / 4.0 / 3.0
+    expected = 2.01 / 8.0 / 3.0
     assert band(10.0, films, 2).half_width > expected
     assert by_chance(2, -0.01, 2.01) == pytest.approx(expected - 0.01 / 3.0)
 
 
 def test_a_last_difference_that_is_large_enough_lacks_nothing():
-    assert by_chance(2, 1.0, 3.9) == 0.0 and by_chance(2, 1.0) == 0.0
+    assert by_chance(2, 1.0, 7.9) == 0.0 and by_chance(2, 1.0) == 0.0
 
 
 def test_slower_convergence_than_the_schemes_is_believed_down_to_a_part():
-    assert believed(2, 1.5) == 1.5
+    assert believed(2, 1.6) == 1.6
     assert believed(2, 2.7) == 2
     assert believed(2, None) == 2
-    assert believed(2, 0.1) == 2 * SLOWEST
+    assert believed(2, 2 * SLOWEST - 0.01) == 2
 
 
 def test_no_order_is_seen_where_differences_change_their_sign():
     assert observed_order(1.0, -2.0) is None
     assert observed_order(1.0) is None
     assert observed_order(-1.0, -4.0) == 2.0
+
+
+def test_a_film_of_first_order_is_told_of_by_the_limit_of_others():
+    others = [9.0, 7.5]  # their limit 9.5
+    assert band_beside(11.0, others, 2).half_width == pytest.approx(1.5 + UNSEEN * 0.5)
+
+
+def test_between_a_film_of_first_order_and_one_of_second_lies_the_limit():
+    assert band_beside(11.0, [9.0], 2).half_width == pytest.approx(2.0)
 
 
 def test_contact_on_the_coarser_grid_makes_the_band_three_times_the_error():
