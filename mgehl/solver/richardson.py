@@ -32,11 +32,10 @@ def band(film, values, order, touched=False):
     """The `Band` about a `film` of nodes, from two or three `values` between nodes, finest grid's first.
 
     The last difference and the order tell the error (Richardson). The order is the scheme's, or the
-    observed one where that is somewhat lower. Where the difference before is so large that even an order
-    more does not make the last one of it, that is small by chance, as where it changes its sign: what it
-    lacks is added. By what
-    the film of nodes is off the value between nodes it is off its limit, too. `touched` says that the
-    second grid has contact.
+    observed one where that is somewhat lower. Where the last difference is smaller than an order more
+    makes of the one before, it is small by chance, as where it changes its sign: what it lacks is added.
+    By what the film of nodes is off the value between nodes it is off its limit, too. `touched` says that
+    the second grid has contact.
     """
     last, *before = (finer - coarser for finer, coarser in zip(values, values[1:], strict=False))
     observed = observed_order(last, *before)

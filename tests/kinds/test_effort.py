@@ -9,10 +9,17 @@ from mgehl.kinds import line, loaded, point, wedge
 @pytest.mark.parametrize(
     "settings, effort",
     [
-        ({"solver.start": "film"}, point.FILM),
+        ({"solver.start": "film", "solver.error": False}, point.FILM),
         ({"solver.start": "contact"}, point.CONTACT),
-        ({"solver.start": "film", "discretization.face_mobility": "harmonic"}, point.MEAN),
-        ({"contact.kind": "line"}, line.EFFORT),
+        (
+            {
+                "solver.start": "film",
+                "solver.error": False,
+                "discretization.face_mobility": "harmonic",
+            },
+            point.MEAN,
+        ),
+        ({"contact.kind": "line", "solver.error": False}, line.EFFORT),
         ({"contact.kind": "wedge"}, wedge.EFFORT),
     ],
     ids=["film", "contact", "mean", "line", "wedge"],
@@ -20,6 +27,14 @@ from mgehl.kinds import line, loaded, point, wedge
 def test_effort_is_that_of_such_runs(settings, effort):
     config = load_config(settings=settings)
     assert config.kind.effort(config) == effort
+
+
+@pytest.mark.parametrize("kind, own", [("point", point.FILM), ("line", line.EFFORT)])
+def test_bands_about_films_take_convolutions_more(kind, own):
+    config = load_config(settings={"contact.kind": kind, "solver.start": "film"})
+    effort, (least, most) = config.kind.effort(config), loaded.BANDS
+    low, high = own.convolutions
+    assert effort.convolutions == (low + least, high + most) and "bands" in effort.measured
 
 
 @pytest.mark.parametrize("kind", ["point", "line"])

@@ -4,7 +4,7 @@ from math import isfinite
 
 from mgehl.output.digits import with_band
 from mgehl.output.report.checks import CARE, CHECK_HEADS, CHECKS, absent, informing, limited
-from mgehl.output.report.page import DOUBTFUL, GOOD, NO_NUMBER, Cell, Section, number, table
+from mgehl.output.report.page import DOUBTFUL, GOOD, NO_NUMBER, Cell, Section, Text, number, table
 from mgehl.output.report.parts import span
 from mgehl.output.resolution import RESOLVED_CELLS
 from mgehl.output.result import COMPLEMENTARITY_TOLERANCE
@@ -43,7 +43,7 @@ def answer_sections(solution):
     """Films, checks, contact and groups."""
     result = solution.result
     return (
-        Section("films", "Films", (_films(result), *_grids(result.error))),
+        Section("films", "Films", (_films(result), _bands(result.error), *_grids(result.error))),
         Section("checks", "Can it be trusted", (_checks(solution),)),
         Section("contact", "Contact and Eq. 2", tuple(_contact(result))),
         Section("groups", "The contact in numbers", (_dimensions(solution), _groups(solution))),
@@ -75,9 +75,13 @@ def _films(result):
     rows = [("computed", shown["central"], "", shown["minimum"], "")]
     rows += [_formula_row(name, films, own) for name, films in formulas.items()]
     heads = ("film", "central, nm", "computed / formula", "minimum, nm", "computed / formula")
-    return table(
-        f"Computed films beside those of formulas for a full film; {band_words(result.error)}", heads, rows
-    )
+    return table("Computed films beside those of formulas for a full film", heads, rows)
+
+
+def _bands(error):
+    """How the bands about the films came about, or why there are none."""
+    words = band_words(error)
+    return Text(f"{words[0].upper()}{words[1:]}.")
 
 
 def _grids(error):
