@@ -49,13 +49,13 @@ def band_beside(film, others, order):
     """The `Band` about a `film`, from one or two values of `others`, coarser grids' by a better scheme.
 
     For a scheme of first order, whose error and that of the rest of the equations cancel now more, now
-    less: its own differences tell nothing. Of two others the limit is Richardson's, with a part of what
-    it is off the finer one; of one it lies between film and other, since first order makes films too
-    thick and second order too thin.
+    less: its own differences tell nothing. Of two others the limit is Richardson's, and what it is off the
+    finer one is added; of one it lies between film and other, since first order makes films too thick and
+    second order too thin.
     """
     finer, *coarser = others
     error = (finer - coarser[0]) / (2.0**order - 1.0) if coarser else 0.0
-    return Band(abs(finer + error - film) + UNSEEN * abs(error), None)
+    return Band(abs(finer + error - film) + abs(error), None)
 
 
 def observed_order(last, before=0.0):

@@ -26,18 +26,14 @@ RADIUS = 12.7e-3
 
 POINTS = (
     (10, 5, 1.0, "barus", WIDER),
-    (20, 10, 1.0, "barus", WIDE),
     (50, 2, 1.0, "barus", WIDE),
     (100, 5, 1.0, "roelands", WIDE),
     (200, 10, 1.0, "barus", DEFAULT),
-    (200, 15, 2.0, "barus", DEFAULT),
-    (300, 5, 0.5, "roelands", DEFAULT),
+    (400, 8, 0.5, "roelands", DEFAULT),
     (500, 10, 4.0, "barus", DEFAULT),
-    (1000, 5, 1.0, "roelands", DEFAULT),
     (1000, 12, 1.0, "barus", DEFAULT),
     (2000, 10, 2.0, "roelands", DEFAULT),
     (4000, 10, 1.0, "barus", DEFAULT),
-    (4000, 15, 0.5, "roelands", DEFAULT),
     (10000, 12, 1.0, "roelands", NARROW),
     (40000, 15, 1.0, "roelands", NARROW),
 )

@@ -68,7 +68,7 @@ def test_no_order_is_seen_where_differences_change_their_sign():
 
 def test_a_film_of_first_order_is_told_of_by_the_limit_of_others():
     others = [9.0, 7.5]  # their limit 9.5
-    assert band_beside(11.0, others, 2).half_width == pytest.approx(1.5 + UNSEEN * 0.5)
+    assert band_beside(11.0, others, 2).half_width == pytest.approx(1.5 + 0.5)
 
 
 def test_between_a_film_of_first_order_and_one_of_second_lies_the_limit():
