@@ -15,7 +15,7 @@ RELAXATION = Effort(
 )  # fmt: skip
 
 
-BANDS = (5.0, 40.0)
+BANDS = (2.0, 20.0)
 """Fewest and most convolutions that coarser grids took for the bands about a film (`study error`)."""
 
 
