@@ -91,6 +91,10 @@ FACE_MEANS = {
     "harmonic": harmonic_mean,
 }
 
+FOLDING = ("geometric", "harmonic")
+"""Means by which the flow through a face falls again where its nodes differ by much. By the logarithmic
+mean it rises with the difference of the pressures, however large."""
+
 
 def face_mean(scheme, a, b):
     """A face's mobility by the scheme's mean of its nodes' `a` and `b`, and its two derivatives.

@@ -3,6 +3,7 @@
 from dataclasses import asdict, dataclass
 
 from mgehl.config_value import key_field, shown
+from mgehl.discretization.fluid import FOLDING
 from mgehl.discretization.mesh import Mesh
 from mgehl.errors import ConfigError
 from mgehl.kinds.kind import Effort
@@ -20,7 +21,7 @@ MOES_REPLACES = ("contact.load", "motion.speed")
 FILM = Effort((90.0, 240.0), 3.3, 1300.0, "full films on 65 to 4097 nodes took 90 to 233")
 CONTACT = Effort((25.0, 250.0), 20.0, 1800.0, "full contact on 65 to 2049 nodes took 24 to 254")
 MEAN = Effort(
-    (1000.0, 4000.0), 3.3, 1300.0, "other means of the mobility took 1354 and 3617 on 129 nodes"
+    (1000.0, 4000.0), 3.3, 1300.0, "folding means of the mobility took 1354 and 3617 on 129 nodes"
 )  # fmt: skip
 
 
@@ -120,7 +121,7 @@ class PointKind(LoadedKind):
         """By the start and the mean of the mobility."""
         if config.solver.start == "contact":
             return CONTACT
-        return FILM if config.discretization.face_mobility == "arithmetic" else MEAN
+        return MEAN if config.discretization.face_mobility in FOLDING else FILM
 
     def parts(self, solution, times="x"):
         """With the direction of the motion, where that is not x."""

@@ -17,9 +17,9 @@ BEYOND = 8.0
 """Ratio of speeds by which a start far from its branch's end is taken."""
 
 FIRST_SHARE = 0.25
-"""Share of another mean than the arithmetic that is taken first. Films take 348 (geometric) and 761
-(harmonic) convolutions; with 0.1 398 and 806, with 0.5 290 and 748, but by the harmonic mean to another
-answer."""
+"""Share of another mean than the arithmetic that is taken first on the way from there. Films took 348
+(geometric) and 761 (harmonic) convolutions; with 0.1 398 and 806, with 0.5 290 and 748, but by the harmonic
+mean to another answer."""
 
 SPEED_RATIO = 2.0
 """Ratio of speeds that one step may try where nothing says less. A film by the harmonic mean takes 761
@@ -86,32 +86,41 @@ class Continuation:
         return carry(lambda t, state: self.at(speed, state, t), state, FIRST_SHARE)
 
     def _begin_with_mean(self, contact, settings):
-        """Another mean than the arithmetic: turned to gradually where the inlet is resolved.
+        """Another mean than the arithmetic: first the logarithmic one, where the grid resolves the inlet.
 
-        From the formula's film Newton's method does not find its way; from the arithmetic mean's
-        solution it does, and from there to the wanted speed.
+        Its flow does not fold, so that nested iteration finds it from the formula's film; a folding mean is
+        found from there. Then the wanted speed is followed, and what lies on the way need not be exact.
         """
-        mesh = self._hierarchy.grids[-1].mesh
-        speed = contact.matched_speed(mesh, settings.nested.inlet_cells)
-        arithmetic = replace(settings, scheme=replace(settings.scheme, face_mobility="arithmetic"))
+        speed = contact.matched_speed(self._hierarchy.grids[-1].mesh, settings.nested.inlet_cells)
+        scheme = replace(settings.scheme, face_mobility="logarithmic")
+        goal, settings = (contact.speed, settings.scheme), replace(settings, scheme=scheme)
+        first = settings if (speed, scheme) == goal else settings.roughly()
         problem, outcome = nested_iteration(
-            self._hierarchy, contact.at_speed(speed), arithmetic, self._monitor, self._journal
+            self._hierarchy, contact.at_speed(speed), first, self._monitor, self._journal
         )
-        if outcome.converged:
-            problem, outcome = self.turn(speed, outcome.state)
+        if outcome.converged and scheme != goal[1]:
+            walk = self._walk(speed == contact.speed)
+            problem, outcome = carry(lambda t, state: walk.at(speed, state, t), outcome.state)
         while outcome.converged and speed != contact.speed:
             slower = max(contact.speed, speed / SPEED_RATIO)
-            problem, outcome = self.follow(outcome.state, speed, slower)
+            problem, outcome = self._walk(slower == contact.speed).follow(outcome.state, speed, slower)
             speed = slower
         return problem, outcome
+
+    def _walk(self, to_the_end):
+        """Itself, or, for what only leads to another solution, the same with a coarse grid's tolerance."""
+        settings = self._settings if to_the_end else self._settings.roughly()
+        return Continuation(self._hierarchy, self._contact, settings, self._monitor, self._journal)
 
 
 def begin(hierarchy, contact, settings, monitor, journal=NOTHING_KEPT):
     """Solve `contact` from nothing, by whatever its mean of the mobility takes; as `nested_iteration`."""
-    if settings.scheme.face_mobility == "arithmetic":
+    mean, nested = settings.scheme.face_mobility, settings.nested
+    resolved = contact.matched_speed(hierarchy.grids[-1].mesh, nested.inlet_cells) == contact.speed
+    if mean == "arithmetic" or (mean == "logarithmic" and resolved):
         return nested_iteration(hierarchy, contact, settings, monitor, journal)
     continuation = Continuation(hierarchy, contact, settings, monitor, journal)
-    return continuation.begin(contact.speed, settings.nested.start)
+    return continuation.begin(contact.speed, nested.start)
 
 
 def carry(solve, state, step=1.0):

@@ -1,6 +1,6 @@
 """Nested iteration: from a coarse grid to the finest, at speeds that each grid can resolve."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
@@ -30,7 +30,7 @@ def nested_iteration(hierarchy, contact, settings, monitor, journal=NOTHING_KEPT
 
     `monitor(level, cycle)` is called with a `LevelSolve` and the `Cycle` for every cycle.
     """
-    coarse = replace(settings.newton, tolerance=settings.nested.coarse_tolerance, release_budget=0)
+    coarse = settings.roughly().newton
     outcome = None
     for level, solve in planned_solves([grid.mesh for grid in hierarchy.grids], contact, settings):
         limits = settings.newton if solve.finest else coarse

@@ -70,3 +70,8 @@ class SolverSettings:
     relaxation: RelaxationSettings = field(default_factory=RelaxationSettings)
     error: bool = SolverSection.error
     """Whether coarser grids are solved, too, to tell how far the films are from their limit."""
+
+    def roughly(self):
+        """The same for solves whose answers only lead to others, as those of coarse grids."""
+        newton = replace(self.newton, tolerance=self.nested.coarse_tolerance, release_budget=0)
+        return replace(self, newton=newton)

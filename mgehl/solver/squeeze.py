@@ -14,6 +14,7 @@ the fold slowly, the residual hardly falling, and the rest follows.
 import numpy as np
 
 from mgehl.discretization.axes import own
+from mgehl.discretization.fluid import FOLDING
 from mgehl.discretization.residual import linearise
 from mgehl.discretization.rows import FLOW
 from mgehl.discretization.status import beside_contact
@@ -27,9 +28,6 @@ OF_NODES = {"arithmetic": 0.1, "logarithmic": 0.1, "geometric": 0.1, "harmonic":
 """Part of the rate that goes by a node's own residual and film, by the mean of the mobility. From nothing
 to ten times as much full contact takes the same steps, mixed lubrication 58 to 68 convolutions and a film
 by the geometric mean 337 to 373. Shut-in nodes need it."""
-
-FOLDING = ("geometric", "harmonic")
-"""Means by which the flow through a face falls again where its nodes differ by much."""
 
 STABLE = 0.6
 """Rate per cell by which a node is kept from its fold: its neighbours bring it nearer. Points on 129 nodes

@@ -5,24 +5,20 @@ import pytest
 from mgehl.config import load_config
 from mgehl.kinds import line, loaded, point, wedge
 
+FILM = {"solver.start": "film", "solver.error": False}
+
 
 @pytest.mark.parametrize(
     "settings, effort",
     [
-        ({"solver.start": "film", "solver.error": False}, point.FILM),
+        (FILM, point.FILM),
         ({"solver.start": "contact"}, point.CONTACT),
-        (
-            {
-                "solver.start": "film",
-                "solver.error": False,
-                "discretization.face_mobility": "harmonic",
-            },
-            point.MEAN,
-        ),
+        (FILM | {"discretization.face_mobility": "harmonic"}, point.MEAN),
+        (FILM | {"discretization.face_mobility": "logarithmic"}, point.FILM),
         ({"contact.kind": "line", "solver.error": False}, line.EFFORT),
         ({"contact.kind": "wedge"}, wedge.EFFORT),
     ],
-    ids=["film", "contact", "mean", "line", "wedge"],
+    ids=["film", "contact", "mean", "logarithmic mean", "line", "wedge"],
 )
 def test_effort_is_that_of_such_runs(settings, effort):
     config = load_config(settings=settings)

@@ -1,15 +1,19 @@
 """A solution followed in speed and from mean to mean, beside solutions made from nothing."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+import mgehl
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import CONTACT
 from mgehl.solver.continuation import BEYOND, Continuation, carry
 from mgehl.solver.outcome import Outcome
 from mgehl.solver.settings import SolverSettings
+
+CONFIGS = Path(__file__).resolve().parents[2] / "configs"
 
 
 class Walk:
@@ -181,7 +185,28 @@ def test_the_arithmetic_mean_is_begun_by_nested_iteration(make, solve, paper_con
     np.testing.assert_allclose(outcome.state.P, expected.P, rtol=0.0, atol=1e-6)
 
 
-def test_another_mean_is_turned_to_gradually(make, solve, paper_contact):
+@pytest.mark.parametrize("couette", ["1B", "3B"])
+def test_the_logarithmic_mean_takes_about_the_work_of_the_arithmetic(couette):
+    """Nested iteration finds it from the formula's film: 1.3 times the convolutions at the most."""
+    work = {}
+    for mean in ("arithmetic", "logarithmic"):
+        scheme = {"discretization.couette": couette, "discretization.face_mobility": mean}
+        found = mgehl.solve(mgehl.load(CONFIGS / "thick_film.toml", scheme)).summary
+        assert found.converged
+        work[mean] = found.work.convolutions
+    assert work["logarithmic"] <= 1.3 * work["arithmetic"]
+
+
+def test_a_grid_too_coarse_for_the_logarithmic_mean_is_led_to_it_from_a_higher_speed(make):
+    """What lies on the way is solved as roughly as on coarse grids, the end to its tolerance."""
+    followed = make(face_mobility="logarithmic")
+    problem, outcome = followed.continuation.begin(1.0, "film")
+    assert outcome.converged and problem.contact.speed == 1.0 and problem.scheme == followed.scheme
+    assert true_residual(problem, outcome.state) <= 1e-8
+    assert followed.speeds == [problem.contact.at_speed(1.0).matched_speed(problem.grid.mesh, 2.0), 1.0]
+
+
+def test_another_mean_is_found_from_the_logarithmic(make, solve, paper_contact):
     """65 nodes have not two cells in the inlet at 1 m/s: it is begun at a speed that has."""
     followed = make(face_mobility="geometric")
     problem, outcome = followed.continuation.begin(1.0, "film")

@@ -124,7 +124,6 @@ NUMBERS = {
     "LAST_STEPS": tuned(MEAN, SOLVER + "squeeze:LAST_STEPS"),
     "THINNEST": tuned(SQUEEZED, SOLVER + "squeeze:THINNEST", values=(1e-12, 1e-10, 1e-8, 1e-7, 1e-6)),
     "SMALLEST_STEP": tuned(MEAN, SOLVER + "continuation:SMALLEST_STEP", values=(0.05, 0.1, 0.5, 1.0)),
-    "FIRST_SHARE": tuned(MEAN, SOLVER + "continuation:FIRST_SHARE", values=(0.05, 0.1, 0.5, 1.0)),
     "SPEED_RATIO": tuned(MEAN, SOLVER + "continuation:SPEED_RATIO", values=(1.3, 1.5, 3.0, 4.0, 8.0)),
     "dry.TOLERANCE": tuned(COATED, SOLVER + "dry:TOLERANCE"),
     "dry.MAX_STEPS": tuned(COATED, SOLVER + "dry:MAX_STEPS", values=(5, 10, 30)),
