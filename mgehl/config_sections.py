@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from mgehl.config_value import key_field
 from mgehl.discretization.couette import SCHEMES
-from mgehl.discretization.fluid import FACE_MEANS
+from mgehl.discretization.fluid import FACE_MOBILITIES
 from mgehl.discretization.scheme import INTERFACES, Scheme
 from mgehl.kinds import KINDS
 from mgehl.model.lubricant import DENSITY_LAWS, VISCOSITY_LAWS
@@ -66,11 +66,11 @@ class GridSection:
 @dataclass(frozen=True)
 class DiscretizationSection:
     couette: str = key_field(
-        Scheme.couette, "differential scheme of the Couette flow", choices=tuple(SCHEMES), kind=str
+        "3B", "differential scheme of the Couette flow", choices=tuple(SCHEMES), kind=str
     )
     face_mobility: str = key_field(
-        Scheme.face_mobility, "mean of two nodes' mobilities at the face between them",
-        choices=tuple(FACE_MEANS), kind=str,
+        "linear-gap", "mean of two nodes' mobilities at the face between them",
+        choices=FACE_MOBILITIES, kind=str,
     )  # fmt: skip
     contact_model: str = key_field(
         "lcic", "interface conditions, or the unified equations that have none",

@@ -55,9 +55,14 @@ def test_default_configuration_is_the_point_contact():
     assert (config.grid.nodes, config.grid.x, config.grid.y) == (257, (-1.9, 1.3), (-1.5, 1.5))
 
 
-def test_defaults_of_the_keys_are_the_default_file_but_for_the_start():
-    config = load_config(settings=["solver.start=film"])
-    assert load_config().solver.start == "contact"
+def test_defaults_of_the_keys_are_the_default_file_but_for_the_start_and_the_schemes():
+    """The file is the paper's contact by the paper's schemes, the defaults those of a case of one's own."""
+    paper = load_config()
+    assert paper.solver.start == "contact"
+    assert (paper.discretization.couette, paper.discretization.face_mobility) == ("1B", "arithmetic")
+    own = {"couette": "3B", "face_mobility": "linear-gap"}
+    settings = {f"discretization.{key}": value for key, value in own.items()}
+    config = load_config(settings=settings | {"solver.start": "film"})
     assert_same(config, Config())
 
 

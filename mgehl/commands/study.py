@@ -6,7 +6,7 @@ from pathlib import Path
 
 from mgehl.commands import CONVERGED, NOT_CONVERGED
 from mgehl.config import load_config
-from mgehl.discretization.fluid import FACE_MEANS
+from mgehl.discretization.fluid import FACE_MOBILITIES
 from mgehl.errors import ConfigError
 
 PARALLEL = True
@@ -22,6 +22,7 @@ STUDIES = {
     "bracket": "films by three means of the mobility, grid by grid",
     "schemes": "films of the point contact by every differential scheme",
     "error": "bands about films beside the limit, over contacts of every sort and three schemes",
+    "accuracy": "errors of full films at 2, 4 and 8 cells in the inlet, by every scheme of a full film",
     "angle": "films of surfaces that move at an angle to the axes of the contact",
     "ranks": "messages, bytes, flops and time of an iteration on this run's ranks, and on many more",
 }
@@ -29,7 +30,7 @@ STUDIES = {
 DOUBLING = ("wedge", "schemes", "angle", "error")
 """Studies whose orders and limits need grids of half the spacing of the one before."""
 
-LARGEST_LISTS = {"line": 1, "methods": 0}
+LARGEST_LISTS = {"line": 1, "methods": 0, "accuracy": 0}
 """Grids that --nodes may name, where not any number."""
 
 _TAKES = {0: "has grids of its own", 1: "takes one grid"}
@@ -49,7 +50,7 @@ def add(commands):
     parser.add_argument("--nodes", "--grid", metavar="N,N,...", help="grids instead of the study's own")
     parser.add_argument("--direction", choices=("down", "up", "both"), default="both",
                        help="branches that study transition follows")  # fmt: skip
-    parser.add_argument("--mean", choices=tuple(FACE_MEANS), default="arithmetic",
+    parser.add_argument("--mean", choices=FACE_MOBILITIES, default="arithmetic",
                        help="mean of the mobility that study transition follows")  # fmt: skip
     parser.add_argument("--out", metavar="DIR", help="directory of the results (default: runs/study-NAME)")
     parser.add_argument("--force", action="store_true", help="start anew in a directory that exists")

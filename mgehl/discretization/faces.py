@@ -7,7 +7,7 @@ for both kinds of flow, which is the whole of the no-flow half of the interface 
 import numpy as np
 
 from mgehl.discretization.couette import SHIFT, E, W, add_couette, couette_scheme, nodes_of
-from mgehl.discretization.fluid import face_mean
+from mgehl.discretization.fluid import face_mobility
 from mgehl.discretization.status import WALL, is_solid, open_faces
 
 
@@ -66,7 +66,8 @@ def _flow(fluid, status, axis, scheme, terms, near, linearised, rigid):
 def _add_poiseuille(flow, fluid, axis, scheme):
     """Add -eps (P_E - P_W)/distance with eps the face's mean mobility  [Liu eqs. 7, 16, 30]."""
     (west, east), distance = (_on_side(fluid, axis, side) for side in (W, E)), axis.distance
-    eps, by_west, by_east = face_mean(scheme, west("eps"), east("eps"))
+    mobility, by_gap = _mobility(fluid, axis, scheme)
+    eps, (by_west, by_east) = mobility.value, mobility.by_eps
     gradient = (east("P") - west("P")) / distance
     flow.value -= eps * gradient
     if flow.by_P:
@@ -76,11 +77,22 @@ def _add_poiseuille(flow, fluid, axis, scheme):
     if flow.by_H:
         flow.by_H[W] -= gradient * by_west * west("deps_dH")
         flow.by_H[E] -= gradient * by_east * east("deps_dH")
+        for node, slope in zip((W, E), by_gap, strict=False):
+            flow.by_H[node] -= gradient * slope
 
 
 def _on_side(fluid, axis, side):
     """A part of the fluid, by its name, at the nodes on one side of the faces."""
     return lambda name: axis.at(getattr(fluid, name), SHIFT[side])
+
+
+def _mobility(fluid, axis, scheme):
+    """The `FaceMobility` of the faces along an axis, and its slopes by H beside those by eps."""
+    sides = (W, E)
+    eps = [axis.at(fluid.eps, SHIFT[side]) for side in sides]
+    gaps = [scheme.contact_law.flow_gap(axis.at(fluid.H, SHIFT[side])) for side in sides]
+    mobility = face_mobility(scheme, eps, [gap for gap, _ in gaps])
+    return mobility, [slope * by_H for slope, (_, by_H) in zip(mobility.by_gap, gaps, strict=False)]
 
 
 def conductances(fluid, status, axis, scheme):
@@ -89,5 +101,5 @@ def conductances(fluid, status, axis, scheme):
     With them the Poiseuille flow into a node is a sum over its faces of conductance times pressure
     difference. `fluid` and `status` are ghosted.
     """
-    eps = face_mean(scheme, axis.at(fluid.eps, SHIFT[W]), axis.at(fluid.eps, SHIFT[E]))[0]
+    eps = _mobility(fluid, axis, scheme)[0].value
     return eps * open_faces(is_solid(status), axis) / (axis.distance * axis.cell)

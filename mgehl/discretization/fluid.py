@@ -4,7 +4,7 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from mgehl.discretization.kernels import logarithmic_means
+from mgehl.discretization.kernels import linear_gap_means, logarithmic_means
 
 
 @dataclass
@@ -96,15 +96,52 @@ FOLDING = ("geometric", "harmonic")
 mean it rises with the difference of the pressures, however large."""
 
 
-def face_mean(scheme, a, b):
-    """A face's mobility by the scheme's mean of its nodes' `a` and `b`, and its two derivatives.
+LINEAR_GAP = "linear-gap"
+"""Not a mean of the mobility alone: it asks for the gap, too."""
+
+FACE_MOBILITIES = ("arithmetic", "logarithmic", LINEAR_GAP, "geometric", "harmonic")
+
+
+@dataclass(frozen=True)
+class FaceMobility:
+    """Mobility of faces and its slopes by that of the nodes W and E, and by their gap beside it."""
+
+    value: np.ndarray
+    by_eps: tuple
+    by_gap: tuple = ()
+    """Nothing where the mobilities say it all."""
+
+
+def face_mobility(scheme, eps, gaps):
+    """The `FaceMobility` between nodes of mobilities `eps` and `gaps`, pairs (W, E), by the scheme's mean.
 
     With a `mobility_share` below 1 the rest is the arithmetic mean.
     """
-    mean = FACE_MEANS[scheme.face_mobility](a, b)
-    share = scheme.mobility_share
-    if share == 1.0:
-        return mean
-    return tuple(
-        share * own + (1.0 - share) * paper for own, paper in zip(mean, arithmetic_mean(a, b), strict=True)
+    if scheme.face_mobility == LINEAR_GAP:
+        found = _linear_gap_mobility(eps, gaps)
+    else:
+        value, *by_eps = FACE_MEANS[scheme.face_mobility](*eps)
+        found = FaceMobility(value, tuple(by_eps))
+    return found if scheme.mobility_share == 1.0 else _shared(found, scheme.mobility_share, eps)
+
+
+def _linear_gap_mobility(eps, gaps):
+    """Exact for one-dimensional flow by Barus's law that the pressure drives through a linear gap.
+
+    e dp/dx = q/h^3 with e = exp(-alpha p) is integrated on both sides from node to node.
+    """
+    parts = np.empty((5, *np.shape(eps[0])))
+    laid = [np.atleast_2d(each) for each in (*eps, *gaps, *parts)]
+    linear_gap_means(*laid)
+    value, by_w, by_e, by_gap_w, by_gap_e = parts
+    return FaceMobility(value, (by_w, by_e), (by_gap_w, by_gap_e))
+
+
+def _shared(found, share, eps):
+    """A share of a mobility and the rest of the arithmetic mean."""
+    paper, *by_eps = arithmetic_mean(*eps)
+    rest = 1.0 - share
+    slopes = tuple(share * own + rest * other for own, other in zip(found.by_eps, by_eps, strict=True))
+    return FaceMobility(
+        share * found.value + rest * paper, slopes, tuple(share * each for each in found.by_gap)
     )

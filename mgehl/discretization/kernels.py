@@ -214,21 +214,52 @@ def _slope(grown, x):
     return 0.5 + x / 6.0 * (1.0 + x / 4.0 * (1.0 + x / 5.0 * (1.0 + x / 6.0 * (1.0 + x / 7.0))))
 
 
+@njit(cache=True, inline="always")
+def _logarithmic(a, b):
+    """Logarithmic mean of two numbers and its slopes; zero where either vanishes.
+
+    Where small (1 + grown) = large the mean is small grown/x, x = ln(1 + grown).
+    """
+    small, large = min(a, b), max(a, b)
+    if small <= VANISHING * large:
+        return 0.0, 0.0, 0.0
+    grown = (large - small) / small
+    x = np.log1p(grown)
+    mean = small * grown / x if x > 0.0 else small
+    by_small, by_large = _slope(grown, x), _slope((small - large) / large, -x)
+    if a < b:
+        return mean, by_small, by_large
+    return mean, by_large, by_small
+
+
 @njit(cache=True, fastmath={"contract"})
 def logarithmic_means(a, b, mean, by_a, by_b):
-    """Logarithmic means of `a` and `b` and their slopes, all (lines, nodes); zero where either vanishes.
+    """Logarithmic means of `a` and `b` and their slopes, all (lines, nodes)."""
+    lines, nodes = a.shape
+    for j in range(lines):
+        for i in range(nodes):
+            mean[j, i], by_a[j, i], by_b[j, i] = _logarithmic(a[j, i], b[j, i])
 
-    Of mobilities small (1 + grown) = large the mean is small grown/x, x = ln(1 + grown).
+
+@njit(cache=True, fastmath={"contract"})
+def linear_gap_means(a, b, g, h, mean, by_a, by_b, by_g, by_h):
+    """Mobilities between nodes of mobility `a`, `b` and gap `g`, `h`, and their slopes: all (lines, nodes).
+
+    The logarithmic mean of what is not the gap's, times the cube of a linear gap whose resistance is the
+    mean one: 2 g^2 h^2/(g + h). Zero where a gap is.
     """
     lines, nodes = a.shape
     for j in range(lines):
         for i in range(nodes):
-            small, large = min(a[j, i], b[j, i]), max(a[j, i], b[j, i])
-            if small <= VANISHING * large:
-                mean[j, i] = by_a[j, i] = by_b[j, i] = 0.0
+            left, right = g[j, i], h[j, i]
+            if left <= 0.0 or right <= 0.0:
+                mean[j, i] = by_a[j, i] = by_b[j, i] = by_g[j, i] = by_h[j, i] = 0.0
                 continue
-            grown = (large - small) / small
-            x = np.log1p(grown)
-            mean[j, i] = small * grown / x if x > 0.0 else small
-            by_small, by_large = _slope(grown, x), _slope((small - large) / large, -x)
-            by_a[j, i], by_b[j, i] = (by_small, by_large) if a[j, i] < b[j, i] else (by_large, by_small)
+            at_left, at_right = a[j, i] / left**3, b[j, i] / right**3
+            other, by_left, by_right = _logarithmic(at_left, at_right)
+            both = left + right
+            cube = 2.0 * left**2 * right**2 / both
+            mean[j, i] = other * cube
+            by_a[j, i], by_b[j, i] = by_left * cube / left**3, by_right * cube / right**3
+            by_g[j, i] = cube / left * (other * (both + right) / both - 3.0 * by_left * at_left)
+            by_h[j, i] = cube / right * (other * (both + left) / both - 3.0 * by_right * at_right)

@@ -1,10 +1,7 @@
 """The V-cycle: PETSc's PCMG as the right preconditioner of flexible GMRES.
 
-Coarse operators are rediscretised with P, H and status injected from the fine grid. In place of a mean of
-the mobility whose flow folds they take the arithmetic one: coarse neighbours differ by so much that such a
-mean closes faces the fine grid has open (measured: thin films by the geometric mean take 4 iterations so,
-and 21 with its own mean on every grid; films by the logarithmic mean take up to a seventh more with the
-arithmetic mean than with their own). Where the
+Coarse operators are rediscretised with P, H and status injected from the fine grid, and with a mean of
+the mobility that suits them (`ON_COARSE_GRIDS`). Where the
 surfaces move at an angle to the lines, coarse Couette flows have the finest grid's truncation error:
 waves across the motion would be carried along otherwise than there, and a coarse grid's correction of
 them would be a fraction of what it should be. The
@@ -20,11 +17,22 @@ from petsc4py import PETSc
 from mgehl.config_sections import SolverSection
 from mgehl.discretization.axes import own
 from mgehl.discretization.evaluation import Evaluation
-from mgehl.discretization.fluid import FOLDING
 from mgehl.grid.transfers import PartitionedTransfer
 from mgehl.multigrid.coarse import CoarseSolve
 from mgehl.multigrid.jacobian import Jacobian
 from mgehl.multigrid.smoother import CrossedLineSmoother, LineSmoother, RigidLineSmoother
+
+ON_COARSE_GRIDS = {
+    "arithmetic": "arithmetic",
+    "logarithmic": "logarithmic",
+    "linear-gap": "logarithmic",
+    "geometric": "arithmetic",
+    "harmonic": "arithmetic",
+}
+"""By the finest grid's mean of the mobility. Coarse neighbours differ by so much that a mean whose flow
+folds, or a gap that is linear between them, closes faces the fine grid has open. Thin films by the
+geometric mean take 4 iterations so, and 21 with its own mean on every grid; by the linear gap 2 to 4, and 4
+or 5. Films by the logarithmic mean take up to a seventh more with the arithmetic one."""
 
 LARGE_GRID, RESTART_OF_LARGE = 10_000_000, 6
 """Nodes from which on GMRES is restarted, after so many iterations: it keeps two vectors of each, and
@@ -114,8 +122,7 @@ class MultigridSolver:
         """The scheme of the cycle's operator on a grid so many times coarser than the finest."""
         if coarsenings == 0:
             return self._scheme
-        folding = self._scheme.face_mobility in FOLDING
-        coarse = replace(self._scheme, face_mobility="arithmetic") if folding else self._scheme
+        coarse = replace(self._scheme, face_mobility=ON_COARSE_GRIDS[self._scheme.face_mobility])
         return replace(coarse, coarsenings=coarsenings) if self._crossed else coarse
 
     def free(self):

@@ -3,6 +3,7 @@
 from dataclasses import replace
 from functools import partial
 
+from mgehl.discretization.fluid import FOLDING
 from mgehl.multigrid.cycle import MultigridSolver
 from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.nested import LevelSolve, nested_iteration
@@ -86,13 +87,16 @@ class Continuation:
         return carry(lambda t, state: self.at(speed, state, t), state, FIRST_SHARE)
 
     def _begin_with_mean(self, contact, settings):
-        """Another mean than the arithmetic: first the logarithmic one, where the grid resolves the inlet.
+        """Another mean than the arithmetic, first where the grid resolves the inlet.
 
-        Its flow does not fold, so that nested iteration finds it from the formula's film; a folding mean is
-        found from there. Then the wanted speed is followed, and what lies on the way need not be exact.
+        Nested iteration finds it from the formula's film unless its flow folds: then it finds the
+        logarithmic one, and that mean is found from there. In the end the wanted speed is followed. What
+        lies on the way need not be exact.
         """
         speed = contact.matched_speed(self._hierarchy.grids[-1].mesh, settings.nested.inlet_cells)
-        scheme = replace(settings.scheme, face_mobility="logarithmic")
+        scheme = settings.scheme
+        if scheme.face_mobility in FOLDING:
+            scheme = replace(scheme, face_mobility="logarithmic")
         goal, settings = (contact.speed, settings.scheme), replace(settings, scheme=scheme)
         first = settings if (speed, scheme) == goal else settings.roughly()
         problem, outcome = nested_iteration(
@@ -117,7 +121,7 @@ def begin(hierarchy, contact, settings, monitor, journal=NOTHING_KEPT):
     """Solve `contact` from nothing, by whatever its mean of the mobility takes; as `nested_iteration`."""
     mean, nested = settings.scheme.face_mobility, settings.nested
     resolved = contact.matched_speed(hierarchy.grids[-1].mesh, nested.inlet_cells) == contact.speed
-    if mean == "arithmetic" or (mean == "logarithmic" and resolved):
+    if mean == "arithmetic" or (mean not in FOLDING and resolved):
         return nested_iteration(hierarchy, contact, settings, monitor, journal)
     continuation = Continuation(hierarchy, contact, settings, monitor, journal)
     return continuation.begin(contact.speed, nested.start)

@@ -21,6 +21,7 @@ from mgehl.errors import OutputError
 from mgehl.grid.events import seconds_by_part, start_logging
 from mgehl.output.whole_file import write_whole
 from mgehl.run import run, versions
+from mgehl.studies.study import PAPER, merged
 
 
 def _point(nodes, speed, start="film"):
@@ -158,7 +159,7 @@ def _mean(clocks):
 def _run(tables, comm):
     """Solve and write everything, as a run does, into a directory that does not stay."""
     with tempfile.TemporaryDirectory() as directory:
-        return run(config_from_tables(tables), Path(directory), comm)
+        return run(config_from_tables(merged(PAPER, tables)), Path(directory), comm)
 
 
 def _reference():

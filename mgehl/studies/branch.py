@@ -23,6 +23,7 @@ from mgehl.solver.from_config import set_up
 from mgehl.solver.problem import State
 from mgehl.solver.relaxation import RelaxationSettings, relax
 from mgehl.studies.cache import key_of
+from mgehl.studies.study import PAPER, merged
 
 STARTS = {"down": "film", "up": "contact"}
 OTHER = {"down": "up", "up": "down"}
@@ -57,7 +58,7 @@ class Branches:
     """Both branches of one configuration's contact; a context manager, for the grids' sake."""
 
     def __init__(self, study, tables):
-        config = config_from_tables(tables)
+        config = config_from_tables(merged(PAPER, tables))
         self._study, self._tables = study, config.as_toml_tables()
         self._parts = set_up(config)
         self.contact, self.mesh = self._parts.contact, self._parts.mesh

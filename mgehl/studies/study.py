@@ -15,6 +15,9 @@ from mgehl.output.table import markdown, write_csv
 from mgehl.run import solve
 from mgehl.studies.cache import PointCache, key_of
 
+PAPER = {"discretization": {"couette": "1B", "face_mobility": "arithmetic"}}
+"""What the paper differences by, and a study that does not say otherwise."""
+
 PLAUSIBLE_ORDERS = (0.5, 3.0)
 """Outside of these, values are not near enough to their limit to tell it."""
 
@@ -105,7 +108,7 @@ class Study:
 
 def _config(tables):
     """The configuration of a case; its films get no bands where the tables say nothing of them."""
-    config = config_from_tables(tables)
+    config = config_from_tables(merged(PAPER, tables))
     if "error" in tables.get("solver", {}) or not config.kind.is_loaded:
         return config
     return replace(config, solver=replace(config.solver, error=False))

@@ -9,14 +9,14 @@ from mgehl.discretization.axes import axes_of
 from mgehl.discretization.contact_law import UnifiedEquations
 from mgehl.discretization.couette import EE, SCHEMES, SHIFT, WW, E, W
 from mgehl.discretization.faces import conductances, flows
-from mgehl.discretization.fluid import FACE_MEANS, Fluid, fluid_state
+from mgehl.discretization.fluid import FACE_MEANS, FACE_MOBILITIES, Fluid, fluid_state
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import BOUNDARY, CONTACT, LUBRICATED
 
 along_both = pytest.mark.parametrize("along", ALONG)
 every_scheme = pytest.mark.parametrize("couette", SCHEMES)
-every_mean = pytest.mark.parametrize("mean", FACE_MEANS)
+every_mean = pytest.mark.parametrize("mean", FACE_MOBILITIES)
 
 MOTIONS = {"along x": (1.0, 0.0), "against x": (-1.0, 0.0), "at an angle": (0.6, 0.8)}
 
@@ -284,7 +284,7 @@ def test_geometric_mean_of_a_nearly_closed_gap_throttles_the_flow():
     assert leak == pytest.approx(expected, rel=1e-14)
 
 
-@pytest.mark.parametrize("mean", ["logarithmic", "geometric", "harmonic"])
+@pytest.mark.parametrize("mean", ["logarithmic", "linear-gap", "geometric", "harmonic"])
 def test_flows_and_conductances_take_their_share_of_the_mean(mean, mixed):
     """They are linear in the face's mobility: 0.4 of those by the mean and 0.6 of the arithmetic ones."""
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from mgehl.discretization.contact_law import InterfaceConditions, UnifiedEquations
-from mgehl.discretization.fluid import FACE_MEANS, face_mean, fluid_state
+from mgehl.discretization.fluid import FACE_MEANS, face_mobility, fluid_state
 from mgehl.discretization.scheme import Scheme
 
 LCIC = InterfaceConditions()
@@ -139,19 +139,26 @@ A, B = np.array([2.0, 1.0, 4.0, 0.0]), np.array([8.0, 30.0, 4.0, 3.0])
 """Mobilities on the two sides of four faces, one of them closed."""
 
 
+GAPS = np.array([0.5, 1.0, 2.0, 0.0]), np.array([1.0, 2.0, 2.0, 1.0])
+
+
+def parts_of(mobility):
+    return (mobility.value, *mobility.by_eps, *mobility.by_gap)
+
+
 @pytest.mark.parametrize("mean", FACE_MEANS)
 @pytest.mark.parametrize("share", [1.0, 0.0])
-def test_face_mean_at_either_end_of_the_share(mean, share):
+def test_face_mobility_at_either_end_of_the_share(mean, share):
     """All of it is the scheme's mean itself, none of it the arithmetic one."""
     expected = FACE_MEANS[mean if share else "arithmetic"](A, B)
-    for part, own in zip(face_mean(Scheme("1B", mean, share), A, B), expected, strict=True):
+    found = face_mobility(Scheme("1B", mean, share), (A, B), GAPS)
+    for part, own in zip(parts_of(found), expected, strict=True):
         np.testing.assert_array_equal(np.broadcast_to(part, A.shape), np.broadcast_to(own, A.shape))
 
 
 def test_the_share_is_all_of_the_mean_unless_another_is_asked_for():
-    for part, own in zip(
-        face_mean(Scheme("1B", "harmonic"), A, B), FACE_MEANS["harmonic"](A, B), strict=True
-    ):
+    found = face_mobility(Scheme("1B", "harmonic"), (A, B), GAPS)
+    for part, own in zip(parts_of(found), FACE_MEANS["harmonic"](A, B), strict=True):
         np.testing.assert_array_equal(part, own)
 
 
@@ -159,17 +166,42 @@ def test_the_share_is_all_of_the_mean_unless_another_is_asked_for():
 def test_a_share_of_the_mean_of_two_and_eight(mean, value):
     """0.4 of 5, 4 or 3.2, and 0.6 of 5."""
     scheme = Scheme("1B", mean, 0.4)
-    assert face_mean(scheme, A, B)[0][0] == pytest.approx(value, rel=1e-15)
+    assert face_mobility(scheme, (A, B), GAPS).value[0] == pytest.approx(value, rel=1e-15)
 
 
-@pytest.mark.parametrize("mean", ["logarithmic", "geometric", "harmonic"])
-def test_slopes_of_a_shared_mean_match_central_differences(mean):
-    scheme, a, b, d = Scheme("1B", mean, 0.4), A[:3], B[:3], 1e-4
-    _, by_a, by_b = face_mean(scheme, a, b)
-    measured_a = (face_mean(scheme, a + d, b)[0] - face_mean(scheme, a - d, b)[0]) / (2.0 * d)
-    measured_b = (face_mean(scheme, a, b + d)[0] - face_mean(scheme, a, b - d)[0]) / (2.0 * d)
-    np.testing.assert_allclose(by_a, measured_a, rtol=1e-7)
-    np.testing.assert_allclose(by_b, measured_b, rtol=1e-7)
+@pytest.mark.parametrize("mean", ["logarithmic", "linear-gap", "geometric", "harmonic"])
+@pytest.mark.parametrize("share", [1.0, 0.4])
+def test_slopes_of_a_face_mobility_match_central_differences(mean, share):
+    scheme, d = Scheme("1B", mean, share), 1e-4
+    state = [each[:3] for each in (A, B, *GAPS)]
+
+    def value(number, by):
+        moved = [each + by * (number == k) for k, each in enumerate(state)]
+        return face_mobility(scheme, moved[:2], moved[2:]).value
+
+    slopes = parts_of(face_mobility(scheme, state[:2], state[2:]))[1:]
+    assert len(slopes) == (4 if mean == "linear-gap" else 2)
+    for number, slope in enumerate(slopes):
+        measured = (value(number, d) - value(number, -d)) / (2.0 * d)
+        np.testing.assert_allclose(slope, measured, rtol=2e-6, atol=1e-8)
+
+
+def test_the_linear_gap_s_mobility_of_two_and_eight():
+    """Gaps 1/2 and 1: 16 and 8 per cube, of logarithmic mean 8/ln 2, times 2 (1/4) 1/(3/2) = 1/3."""
+    found = face_mobility(Scheme("1B", "linear-gap"), (A, B), GAPS)
+    assert found.value[0] == pytest.approx(8.0 / log(2.0) / 3.0, rel=1e-15)
+    assert found.value[2] == pytest.approx(4.0, rel=1e-15)
+    assert found.value[3] == 0.0
+
+
+def test_the_linear_gap_s_flow_is_that_of_the_differential_equation():
+    """q = -h^3 e^(-P) dP/dx through a gap from 1 to 3 between pressures 0 and 2, integrated."""
+    P, h, steps = (0.0, 2.0), (1.0, 3.0), 4000
+    x = (np.arange(steps) + 0.5) / steps
+    q = -(1.0 - exp(-2.0)) / np.mean((h[0] + (h[1] - h[0]) * x) ** -3.0)
+    eps = [np.array([gap**3 * exp(-p)]) for p, gap in zip(P, h, strict=True)]
+    found = face_mobility(Scheme("1B", "linear-gap"), eps, [np.array([gap]) for gap in h])
+    assert -found.value[0] * (P[1] - P[0]) == pytest.approx(q, rel=1e-6)
 
 
 def test_the_smallest_gap_of_the_unified_equations_is_the_least_of_the_mobility(contact):

@@ -14,11 +14,11 @@ FILM = {"solver.start": "film", "solver.error": False}
         (FILM, point.FILM),
         ({"solver.start": "contact"}, point.CONTACT),
         (FILM | {"discretization.face_mobility": "harmonic"}, point.MEAN),
-        (FILM | {"discretization.face_mobility": "logarithmic"}, point.FILM),
+        (FILM | {"discretization.face_mobility": "linear-gap"}, point.FILM),
         ({"contact.kind": "line", "solver.error": False}, line.EFFORT),
         ({"contact.kind": "wedge"}, wedge.EFFORT),
     ],
-    ids=["film", "contact", "mean", "logarithmic mean", "line", "wedge"],
+    ids=["film", "contact", "mean", "linear gap", "line", "wedge"],
 )
 def test_effort_is_that_of_such_runs(settings, effort):
     config = load_config(settings=settings)

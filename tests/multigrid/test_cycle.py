@@ -103,7 +103,12 @@ def test_gmres_iterations(film, make_ksp, make_vec, nodes, kind):
 @pytest.mark.parametrize("kind", ["noise", "bulge"])
 @pytest.mark.parametrize(
     "mean, coarse, most",
-    [("logarithmic", "logarithmic", 5), ("geometric", "arithmetic", 6), ("harmonic", "arithmetic", 25)],
+    [
+        ("logarithmic", "logarithmic", 5),
+        ("linear-gap", "logarithmic", 6),
+        ("geometric", "arithmetic", 6),
+        ("harmonic", "arithmetic", 25),
+    ],
 )
 def test_gmres_iterations_by_other_means(
     solve, paper_contact, make_ksp, make_vec, kind, mean, coarse, most
