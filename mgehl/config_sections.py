@@ -123,6 +123,9 @@ class SolverSection:
         0.0, "rate of implicit time steps, per residual and cell (contact, continuation: at least 3)",
         low=0.0, high=1e6,
     )  # fmt: skip
+    error: bool = key_field(
+        True, "whether two coarser grids are solved, too, for bands about the films", kind=bool
+    )
     release_budget: int = key_field(
         2, "times a contact node may be released on Eq. 2", low=0, high=100, kind=int
     )

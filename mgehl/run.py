@@ -15,6 +15,7 @@ from mgehl.grid.grid import single_grid
 from mgehl.kinds.own import naming_keys
 from mgehl.output import files, progress, terminal
 from mgehl.output.checkpoint import Checkpoint, clear
+from mgehl.output.film_error import film_error
 from mgehl.output.result import Work, summarise
 from mgehl.output.solution import Fields, Solution
 from mgehl.output.users_axes import in_users_axes
@@ -96,6 +97,8 @@ def _solve_loaded(config, parts, comm, watch, start):
         problem, outcome = method(hierarchy, contact, settings, monitor=monitor, journal=journal)
         work = Work(monitor.convolutions, monitor.steps if by_newton else outcome.cycles[-1].step)
         result = summarise(problem, outcome, tolerance, work, monitor.seconds, versions())
+        error = film_error(result, hierarchy, problem, outcome.state, settings, monitor, journal)
+        result = replace(result, error=error, wall_s=monitor.seconds)
         return _solution(config, parts, problem, outcome.state, monitor.rows, result)
     finally:
         hierarchy.destroy()

@@ -28,6 +28,10 @@ def test_table_is_the_one_the_runs_wrote():
     assert (ROOT / "runs" / "tables" / "short.md").read_text().strip() in README
 
 
+def test_table_of_bands_is_the_one_the_study_wrote():
+    assert (ROOT / "runs" / "tables" / "error-bands.md").read_text().strip() in README
+
+
 def test_first_case_is_a_valid_configuration():
     assert config_from_tables(tomllib.loads(FIRST_CASE)).contact.load == pytest.approx(250.0)
 

@@ -24,7 +24,7 @@ def add(commands):
 
 def execute(options):
     """Print the table; write it as CSV, too, where asked to."""
-    from mgehl.output.table import collect, markdown, write_csv
+    from mgehl.output.table import collect, markdown, with_bands, write_csv
 
     try:
         rows = collect(options.runs)
@@ -34,6 +34,7 @@ def execute(options):
         raise OutputError(f"{error.filename}: {error.strerror}") from None
     except (ValueError, KeyError) as error:
         raise OutputError(f"a file of these runs is damaged: {error}") from None
+    rows = with_bands(rows)
     columns = options.columns.split(",") if options.columns else list(rows[0])
     unknown = [column for column in columns if column not in rows[0]]
     if unknown:

@@ -10,6 +10,8 @@ from mgehl.errors import OutputError, UserError
 
 PARALLEL = True
 
+NO_ERROR = "solver.error=false"
+
 
 def add(commands):
     """Add the parser."""
@@ -33,6 +35,9 @@ def add(commands):
         "--save-every", metavar="T", default="60", help="seconds between saves (default: 60)"
     )
     parser.add_argument("--time-limit", metavar="T", help="save and stop after so long, such as '2 hours'")
+    parser.add_argument(
+        "--no-error", action="store_true", help="no bands about the films: as solver.error=false"
+    )
     how = parser.add_mutually_exclusive_group()
     how.add_argument("--quiet", action="store_true", help="print nothing but errors")
     how.add_argument("--json-lines", action="store_true", help="print a JSON object per cycle")
@@ -69,7 +74,8 @@ def _new(options, comm):
     from mgehl.output.checkpoint import keep_start
     from mgehl.output.files import on_first_rank, prepare_directory
 
-    config = load_config(options.config, options.settings)
+    settings = [*options.settings, *([NO_ERROR] if options.no_error else [])]
+    config = load_config(options.config, settings)
     check_contact(config, contact_from(config))
     start = _start(options.start_from, config, comm) if options.start_from else None
     name = Path(options.config or default_config()).stem
@@ -87,7 +93,9 @@ def _has_finished(options):
     from mgehl.output.files import RunFiles
 
     given = [
-        name for name in ("config", "settings", "out", "force", "start_from") if getattr(options, name)
+        name
+        for name in ("config", "settings", "out", "force", "start_from", "no_error")
+        if getattr(options, name)
     ]
     if given:
         raise UserError(f"--resume {options.resume}: goes on as it began, without {_WORDS[given[0]]}")
@@ -130,6 +138,7 @@ _WORDS = {
     "out": "--out",
     "force": "--force",
     "start_from": "--start-from",
+    "no_error": "--no-error",
 }
 
 

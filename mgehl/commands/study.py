@@ -21,12 +21,13 @@ STUDIES = {
     "onset": "the speeds at which contact appears and full contact is lost, against the grid",
     "bracket": "films by three means of the mobility, grid by grid",
     "schemes": "films of the point contact by every differential scheme",
+    "error": "bands about films beside the limit, over contacts of every sort and three schemes",
     "accuracy": "errors of full films at 2, 4 and 8 cells in the inlet, by every scheme of a full film",
     "angle": "films of surfaces that move at an angle to the axes of the contact",
     "ranks": "messages, bytes, flops and time of an iteration on this run's ranks, and on many more",
 }
 
-DOUBLING = ("wedge", "schemes", "angle")
+DOUBLING = ("wedge", "schemes", "angle", "error")
 """Studies whose orders and limits need grids of half the spacing of the one before."""
 
 LARGEST_LISTS = {"line": 1, "methods": 0, "accuracy": 0}

@@ -15,6 +15,10 @@ RELAXATION = Effort(
 )  # fmt: skip
 
 
+BANDS = (2.0, 20.0)
+"""Fewest and most convolutions that coarser grids took for the bands about a film (`study error`)."""
+
+
 class LoadedKind(Kind):
     """A contact whose film and pressure answer to a load."""
 
@@ -48,7 +52,8 @@ class LoadedKind(Kind):
     def effort(self, config):
         """That of the relaxation or of Newton's method."""
         if config.solver.method != "relaxation":
-            return self.newton_effort(config)
+            effort = self.newton_effort(config)
+            return _with_bands(effort) if config.solver.error and config.solver.start == "film" else effort
         sweeps = float(config.relaxation.max_sweeps)
         return replace(RELAXATION, convolutions=(sweeps, sweeps))
 
@@ -102,6 +107,7 @@ class LoadedKind(Kind):
             "normal_load": (contact.load, unit, "normal load"),
             "central_film": (1e-9 * result.central_film_nm, "m", "film at the centre of the contact"),
             "minimum_film": (1e-9 * result.minimum_film_nm, "m", "smallest film"),
+            **_bands(result.error),
             "maximum_pressure": (1e9 * result.max_pressure_GPa, "Pa", "largest pressure"),
             "group_U": (groups.U, "1", "speed parameter U"),
             "group_W": (groups.W, "1", "load parameter W"),
@@ -109,6 +115,25 @@ class LoadedKind(Kind):
             "moes_M": (groups.M, "1", "load number M of Moes"),
             "moes_L": (groups.L, "1", "material number L of Moes"),
         }
+
+
+def _bands(error):
+    """Half-widths of the bands about the films, where there are any."""
+    widths = {"central_film": error.central_nm, "minimum_film": error.minimum_nm}
+    meaning = "half-width of the band about it that holds its limit on ever finer grids"
+    return {
+        f"{film}_error": (1e-9 * width, "m", meaning) for film, width in widths.items() if width is not None
+    }
+
+
+def _with_bands(effort):
+    """That of a run whose films get bands, too."""
+    (low, high), (least, most) = effort.convolutions, BANDS
+    return replace(
+        effort,
+        convolutions=(low + least, high + most),
+        measured=f"{effort.measured}, bands {least:g} to {most:g} more",
+    )
 
 
 def speed_words(u):

@@ -21,11 +21,19 @@ class Progress:
 
     def __call__(self, level, cycle):
         """Take one cycle."""
-        row = {"grid": level.nodes, "speed_mm_s": 1e3 * level.speed} | self._kind.row(cycle, self._nm)
-        row |= {"convolutions": self.convolutions, "seconds": self.seconds}
+        row = self._row(self._kind, level, cycle)
         self.rows.append(row)
         left = seconds_left(self.rows, self._finest, self._tolerance)
         self._speaker.row(row, self._kind.line(row), left)
+
+    def beside(self, level, cycle):
+        """Tell of a Newton cycle that is no part of the way to the answer, and forget it."""
+        row = self._row(NEWTON, level, cycle)
+        self._speaker.row(row, NEWTON.line(row))
+
+    def _row(self, kind, level, cycle):
+        row = {"grid": level.nodes, "speed_mm_s": 1e3 * level.speed} | kind.row(cycle, self._nm)
+        return row | {"convolutions": self.convolutions, "seconds": self.seconds}
 
     @property
     def convolutions(self):

@@ -6,6 +6,7 @@ import numpy as np
 
 from mgehl.discretization.status import CONTACT
 from mgehl.model.contact import Groups
+from mgehl.output.film_error import NOT_ASKED, FilmError
 from mgehl.output.resolution import Resolution, resolution
 from mgehl.output.words import loaded_words
 from mgehl.solver.verification import (
@@ -106,6 +107,7 @@ class Result:
     wall_s: float
     ranks: int
     versions: dict
+    error: FilmError = NOT_ASKED
 
     def __str__(self):
         return loaded_words(self)

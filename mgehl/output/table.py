@@ -5,7 +5,10 @@ import json
 import tomllib
 from pathlib import Path
 
+from mgehl.output.digits import with_band
 from mgehl.output.words import span
+
+FILMS = ("central", "minimum")
 
 
 def collect(directories):
@@ -42,8 +45,7 @@ def _row(directory):
         "couette": config["discretization"]["couette"],
         "ranks": str(result["ranks"]),
         "converged": "yes" if result["converged"] else "no",
-        "central nm": f"{result['central_film_nm']:.4f}",
-        "minimum nm": f"{result['minimum_film_nm']:.4f}",
+        **_films(result),
         "H_Moes central": f"{result['moes_film']['central']:.5f}",
         "H_Moes minimum": f"{result['moes_film']['minimum']:.5f}",
         "residual": f"{result['residual']:.1e}",
@@ -59,6 +61,29 @@ def _row(directory):
         "us a step and node": f"{1e6 * _seconds_per_step(finest) / nodes**2:.3f}",
         "wall s": f"{result['wall_s']:.1f}",
     }
+
+
+def _films(result):
+    """Central and minimum film with all digits, and their bands; empty where there is none."""
+    error = result.get("error") or {}
+    columns = {f"{film} nm": f"{result[f'{film}_film_nm']:.4f}" for film in FILMS}
+    bands = {film: error.get(f"{film}_nm") for film in FILMS}
+    return columns | {f"{film} ± nm": "" if band is None else f"{band:.4g}" for film, band in bands.items()}
+
+
+def with_bands(rows):
+    """The rows of `collect` as they are shown: films with their bands and no more digits than they have."""
+    return [_with_bands(row) for row in rows]
+
+
+def _with_bands(row):
+    bands = {film: row[f"{film} ± nm"] for film in FILMS}
+    shown = {
+        f"{film} nm": with_band(float(row[f"{film} nm"]), float(bands[film]))
+        for film in FILMS
+        if bands[film]
+    }
+    return {name: text for name, text in (row | shown).items() if "±" not in name}
 
 
 def _seconds_per_step(finest):

@@ -3,9 +3,12 @@
 from dataclasses import dataclass
 
 from mgehl.discretization.status import CAVITATED, CONTACT
+from mgehl.output.film_error import FilmError, no_band
 from mgehl.output.result import Overlap
 from mgehl.output.words import bearing_words
 from mgehl.solver.verification import closed_face_flow, flux_imbalance
+
+GIVEN = no_band("the gap of a rigid bearing is given")
 
 
 @dataclass(frozen=True)
@@ -30,6 +33,7 @@ class WedgeResult:
     wall_s: float
     ranks: int
     versions: dict
+    error: FilmError = GIVEN
 
     @property
     def settled(self):

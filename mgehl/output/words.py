@@ -1,5 +1,6 @@
 """A result in words: what a run, a `Solution` and a script print of it."""
 
+from mgehl.output.digits import with_band
 from mgehl.output.resolution import RESOLVED_CELLS, SEEN_CELLS
 
 
@@ -27,8 +28,8 @@ def loaded_words(result):
         verdict = "SETTLED, BUT EQ. 2 IS BROKEN"
     lines = [
         f"{verdict}: {result.reason}",
-        f"  central film {_number(result.central_film_nm)} nm, minimum "
-        f"{_number(result.minimum_film_nm)} nm, largest pressure {_number(result.max_pressure_GPa)} GPa",
+        f"  {films_words(result)}, largest pressure {_number(result.max_pressure_GPa)} GPa",
+        f"  {band_words(result.error)}",
         f"  residual {result.residual:.1e}, load error {result.load_error:.1e}, complementarity "
         f"{result.complementarity_error:.1e}, flux imbalance {result.flux_imbalance:.1e}",
         f"  contact: {contact.nodes} nodes, {100 * contact.area_fraction:.2f} % of the Hertz area; "
@@ -41,7 +42,7 @@ def loaded_words(result):
     ]
     if overlap.nodes:
         lines.insert(
-            4, f"  THE BODIES OVERLAP at {overlap.nodes} nodes by up to {overlap.largest_nm:.2e} nm"
+            5, f"  THE BODIES OVERLAP at {overlap.nodes} nodes by up to {overlap.largest_nm:.2e} nm"
         )
     lines += [
         f"  Eq. 2 violated at node ({each['i']}, {each['j']}) by {each['size']:.2e} p_h"
@@ -63,6 +64,18 @@ ADVICE = {
     "grid-determined": f"grid-determined (below {SEEN_CELLS:g}): the contact set is the grid's, "
     "not the problem's",
 }
+
+
+def films_words(result):
+    """Central and minimum film of a `Result` with their bands."""
+    error = result.error
+    central = with_band(result.central_film_nm, error.central_nm)
+    return f"central film {central} nm, minimum {with_band(result.minimum_film_nm, error.minimum_nm)} nm"
+
+
+def band_words(error):
+    """How the bands of a `FilmError` came about, or why there are none."""
+    return f"{'no band' if error.central_nm is None else 'bands'}: {error.how}"
 
 
 def _number(value):

@@ -88,4 +88,5 @@ def settings_from(config, contact):
         ),
         cycle=CycleSettings(sweeps=solver.sweeps, omega=solver.omega, couette=solver.cycle_couette),
         relaxation=RelaxationSettings(**asdict(relaxation), tolerance=solver.tolerance),
+        error=solver.error,
     )

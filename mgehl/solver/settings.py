@@ -68,6 +68,8 @@ class SolverSettings:
     newton: NewtonSettings = field(default_factory=NewtonSettings)
     cycle: CycleSettings = field(default_factory=CycleSettings)
     relaxation: RelaxationSettings = field(default_factory=RelaxationSettings)
+    error: bool = SolverSection.error
+    """Whether coarser grids are solved, too, to tell how far the films are from their limit."""
 
     def roughly(self):
         """The same for solves whose answers only lead to others, as those of coarse grids."""

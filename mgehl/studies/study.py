@@ -1,7 +1,7 @@
 """What every study does: solve cases one after the other, say so, write tables and pictures."""
 
 import time
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import log2
 from pathlib import Path
@@ -50,9 +50,10 @@ class Study:
     def solve(self, title, tables, must_converge=True):
         """Solve the configuration of nested `tables`; return the `Solution`.
 
+        Films get bands where the tables ask for them: studies compare grids themselves.
         Where not to converge is an answer, too, it does not make the study a failure.
         """
-        config = config_from_tables(merged(PAPER, tables))
+        config = _config(tables)
         key = key_of(config.as_toml_tables())
         solution = self.cache.load(key)
         if solution is None:
@@ -103,6 +104,14 @@ class Study:
             raise OutputError(f"{path}: cannot be written: {error}") from None
         if self.speak:
             print(f"picture {path}", flush=True)
+
+
+def _config(tables):
+    """The configuration of a case; its films get no bands where the tables say nothing of them."""
+    config = config_from_tables(merged(PAPER, tables))
+    if "error" in tables.get("solver", {}) or not config.kind.is_loaded:
+        return config
+    return replace(config, solver=replace(config.solver, error=False))
 
 
 def _verdict(result):

@@ -5,15 +5,17 @@ import pytest
 from mgehl.config import load_config
 from mgehl.kinds import line, loaded, point, wedge
 
+FILM = {"solver.start": "film", "solver.error": False}
+
 
 @pytest.mark.parametrize(
     "settings, effort",
     [
-        ({"solver.start": "film"}, point.FILM),
+        (FILM, point.FILM),
         ({"solver.start": "contact"}, point.CONTACT),
-        ({"solver.start": "film", "discretization.face_mobility": "harmonic"}, point.MEAN),
-        ({"solver.start": "film", "discretization.face_mobility": "linear-gap"}, point.FILM),
-        ({"contact.kind": "line"}, line.EFFORT),
+        (FILM | {"discretization.face_mobility": "harmonic"}, point.MEAN),
+        (FILM | {"discretization.face_mobility": "linear-gap"}, point.FILM),
+        ({"contact.kind": "line", "solver.error": False}, line.EFFORT),
         ({"contact.kind": "wedge"}, wedge.EFFORT),
     ],
     ids=["film", "contact", "mean", "linear gap", "line", "wedge"],
@@ -21,6 +23,14 @@ from mgehl.kinds import line, loaded, point, wedge
 def test_effort_is_that_of_such_runs(settings, effort):
     config = load_config(settings=settings)
     assert config.kind.effort(config) == effort
+
+
+@pytest.mark.parametrize("kind, own", [("point", point.FILM), ("line", line.EFFORT)])
+def test_bands_about_films_take_convolutions_more(kind, own):
+    config = load_config(settings={"contact.kind": kind, "solver.start": "film"})
+    effort, (least, most) = config.kind.effort(config), loaded.BANDS
+    low, high = own.convolutions
+    assert effort.convolutions == (low + least, high + most) and "bands" in effort.measured
 
 
 @pytest.mark.parametrize("kind", ["point", "line"])

@@ -9,6 +9,7 @@ import pytest
 from mgehl.config import load_config
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
+from mgehl.output.film_error import NOT_ASKED
 from mgehl.output.result import Overlap
 from mgehl.output.solution import Fields, Solution
 from mgehl.solver.from_config import contact_from
@@ -56,7 +57,9 @@ def make_solution():
         status = status_of(mesh, contact)
         P = np.sqrt(np.maximum(1.0 - X**2 - Y**2, 0.0))
         H = np.where(status == CONTACT, 0.0, FILM + np.maximum(X**2 + Y**2 - 1.0, 0.0))
-        result = SimpleNamespace(converged=converged, settled=converged, overlap=Overlap(0, 0.0))
+        result = SimpleNamespace(
+            converged=converged, settled=converged, overlap=Overlap(0, 0.0), error=NOT_ASKED
+        )
         rows = newton_rows() if rows is None else rows
         return Solution(config, body, mesh, Fields(P, H, status), rows, result)
 
@@ -74,7 +77,7 @@ def make_line():
         P = np.sqrt(np.maximum(1.0 - mesh.X**2, 0.0))[None, :]
         status = np.full((1, nodes), LUBRICATED)
         status[0, [0, -1]] = BOUNDARY
-        result = SimpleNamespace(converged=True, settled=True, overlap=Overlap(0, 0.0))
+        result = SimpleNamespace(converged=True, settled=True, overlap=Overlap(0, 0.0), error=NOT_ASKED)
         return Solution(config, body, mesh, Fields(P, FILM + 0.0 * P, status), newton_rows(), result)
 
     return make

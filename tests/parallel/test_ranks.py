@@ -625,6 +625,17 @@ class TestCheckpoints:
             solve_config(config, COMM, Watch(directory=directory))
 
 
+class TestBands:
+    @pytest.mark.parametrize("couette", ["1B", "2B"])
+    def test_they_do_not_depend_on_the_ranks(self, couette):
+        tables = {"motion": {"speed": 3.0}, "grid": {"nodes": 65}, "discretization": {"couette": couette}}
+        config = config_from_tables(tables)
+        mine, alone = (solve_config(config, comm).result.error for comm in (COMM, MPI.COMM_SELF))
+        assert mine.central_nm == pytest.approx(alone.central_nm, rel=1e-9)
+        assert mine.minimum_nm == pytest.approx(alone.minimum_nm, rel=1e-9)
+        assert mine.how == alone.how and len(mine.grids) == 2
+
+
 class TestCommandLine:
     """`main` runs on all ranks of COMM_WORLD."""
 

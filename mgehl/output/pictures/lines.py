@@ -4,7 +4,7 @@ import numpy as np
 
 from mgehl.model.hertz import hertz_pressure
 from mgehl.output.pictures.style import FILM, HERTZ, PRESSURE, legend_below, subplots
-from mgehl.output.pictures.titles import position_labels, title
+from mgehl.output.pictures.titles import position_labels, title_with_films
 
 ALONG, ACROSS = "Y = 0, along the motion (left to right)", "X = 0, across the motion"
 ALONG_X, ALONG_Y = "Y = 0, along x", "X = 0, along y"
@@ -23,7 +23,7 @@ def centre_lines(solution):
     contact = solution.contact
     for panel, name, scale in zip(axes[0], "xy", (contact.x_scale, contact.y_scale), strict=False):
         add_millimetres(panel, name, scale)
-    figure.suptitle(f"centre lines, {title(solution)}")
+    figure.suptitle(f"centre lines, {title_with_films(solution)}")
     return figure
 
 

@@ -11,7 +11,7 @@ from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, NAMES
 from mgehl.output.pictures.blocks import MOST, Blocks
 from mgehl.output.pictures.lines import SMALLEST_FILM_RANGE
 from mgehl.output.pictures.style import CONTACT_EDGE, STATUS_COLOURS, legend_below, subplots
-from mgehl.output.pictures.titles import position_labels, title
+from mgehl.output.pictures.titles import position_labels, title, title_with_films
 
 SIDE = 5.2
 """Inches of the longer side of a map, which is drawn true to scale."""
@@ -47,7 +47,7 @@ def film_map(solution):
     bar.minorticks_off()
     _label_lines(axes, blocks, np.where(_distance(blocks) < 1.0, film, np.nan), levels)
     _outline(axes, blocks, status, filled=True)
-    _finish(figure, axes, solution, "film thickness")
+    _finish(figure, axes, solution, "film thickness", title_with_films)
     return figure
 
 
@@ -193,9 +193,9 @@ def _outline(axes, blocks, status, filled):
         legend_below(axes, handles)
 
 
-def _finish(figure, axes, solution, what):
-    """Names of the axes with their units, the motion and the title."""
+def _finish(figure, axes, solution, what, titled=title):
+    """Names of the axes with their units, the motion and what the picture is of, as `titled` says it."""
     X, Y = position_labels(solution)
     axes.set(xlabel=X, ylabel=Y)
     add_arrow(axes, solution.contact)
-    figure.suptitle(f"{what}, {title(solution)}")
+    figure.suptitle(f"{what}, {titled(solution)}")

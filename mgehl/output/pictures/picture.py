@@ -1,7 +1,7 @@
 """The picture that a run of a loaded contact leaves: centre lines, map of the status."""
 
 from mgehl.output.pictures import lines, maps, style
-from mgehl.output.pictures.titles import title
+from mgehl.output.pictures.titles import title_with_films
 
 BLOCKS = 350
 """Blocks of nodes along a side of its small map, about as many as it has dots."""
@@ -17,5 +17,5 @@ def draw(path, solution):
             lines.draw_across(axes[0, 1], solution)
             maps.draw_status(axes[0, 2], solution, BLOCKS)
             axes[0, 2].set_title("status of the nodes")
-        figure.suptitle(title(solution))
+        figure.suptitle(title_with_films(solution))
         style.save(figure, path)

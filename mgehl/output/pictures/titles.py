@@ -1,9 +1,17 @@
 """What a picture is of and what its axes show, in a line each."""
 
+from mgehl.output.words import films_words
+
 
 def title(solution):
     """Speed, load, nodes and verdict; of a wedge what stands in its film."""
     return f"{', '.join(_parts(solution))}: {verdict(solution.result)}"
+
+
+def title_with_films(solution):
+    """As `title`; where the films have bands, they are on a second line."""
+    result = solution.result
+    return title(solution) + ("" if result.error.central_nm is None else f"\n{films_words(result)}")
 
 
 def common_title(solutions):

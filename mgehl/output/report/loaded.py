@@ -2,11 +2,13 @@
 
 from math import isfinite
 
+from mgehl.output.digits import with_band
 from mgehl.output.report.checks import CARE, CHECK_HEADS, CHECKS, absent, informing, limited
-from mgehl.output.report.page import DOUBTFUL, GOOD, NO_NUMBER, Cell, Section, number, table
+from mgehl.output.report.page import DOUBTFUL, GOOD, NO_NUMBER, Cell, Section, Text, number, table
 from mgehl.output.report.parts import span
 from mgehl.output.resolution import RESOLVED_CELLS
 from mgehl.output.result import COMPLEMENTARITY_TOLERANCE
+from mgehl.output.words import band_words
 
 FORMULAS = {
     "hamrock_dowson": "Hamrock and Dowson",
@@ -29,8 +31,8 @@ def highlights(solution):
     """The numbers that most readers come for."""
     result = solution.result
     return (
-        ("central film", f"{film(result.central_film_nm)} nm"),
-        ("minimum film", f"{film(result.minimum_film_nm)} nm"),
+        ("central film", f"{_own_films(result)['central']} nm"),
+        ("minimum film", f"{_own_films(result)['minimum']} nm"),
         ("largest pressure", f"{number(result.max_pressure_GPa, 4)} GPa"),
         ("contact / Hertz area", number(result.contact.area_fraction, 4)),
         ("cells in the inlet", f"{number(result.resolution.inlet_cells, 3)}"),
@@ -41,7 +43,7 @@ def answer_sections(solution):
     """Films, checks, contact and groups."""
     result = solution.result
     return (
-        Section("films", "Films", (_films(result),)),
+        Section("films", "Films", (_films(result), _bands(result.error), *_grids(result.error))),
         Section("checks", "Can it be trusted", (_checks(solution),)),
         Section("contact", "Contact and Eq. 2", tuple(_contact(result))),
         Section("groups", "The contact in numbers", (_dimensions(solution), _groups(solution))),
@@ -53,8 +55,9 @@ def alternatives(result):
     largest = f"{number(result.max_pressure_GPa, 4)} GPa"
     return {
         "lines": f"The largest pressure is {largest}.",
-        "film": f"The film is {number(result.central_film_nm, 4)} nm in the centre and "
-        f"{number(result.minimum_film_nm, 4)} nm at its thinnest.",
+        "film": "The film is {central} nm in the centre and {minimum} nm at its thinnest.".format(
+            **_own_films(result)
+        ),
         "pressure": f"Its maximum is {largest}.",
         "status": f"{result.contact.nodes} nodes are solid, {result.cavitated_nodes} are cavitated.",
         "history": f"The last residual is {number(result.residual, 2)}.",
@@ -68,10 +71,38 @@ def _films(result):
         name = name.removesuffix("_nm")
         which = "minimum" if name.endswith("_minimum") else "central"
         formulas.setdefault(name.removesuffix(f"_{which}"), {})[which] = nm
-    rows = [("computed", film(own["central"]), "", film(own["minimum"]), "")]
+    shown = _own_films(result)
+    rows = [("computed", shown["central"], "", shown["minimum"], "")]
     rows += [_formula_row(name, films, own) for name, films in formulas.items()]
     heads = ("film", "central, nm", "computed / formula", "minimum, nm", "computed / formula")
     return table("Computed films beside those of formulas for a full film", heads, rows)
+
+
+def _bands(error):
+    """How the bands about the films came about, or why there are none."""
+    words = band_words(error)
+    return Text(f"{words[0].upper()}{words[1:]}.")
+
+
+def _grids(error):
+    """Films of the grids that the bands come from, where there are some."""
+    if not error.grids:
+        return
+    heads = ("nodes along x", "central, nm", "minimum, nm", "nodes in contact")
+    rows = [
+        (str(grid.nodes), film(grid.central_nm), film(grid.minimum_nm), str(grid.contact_nodes))
+        for grid in error.grids
+    ]
+    yield table("Films of the grids that the bands come from, between the nodes where need be", heads, rows)
+
+
+def _own_films(result):
+    """The computed films with their bands."""
+    error = result.error
+    return {
+        "central": film(result.central_film_nm, error.central_nm),
+        "minimum": film(result.minimum_film_nm, error.minimum_nm),
+    }
 
 
 def _formula_row(name, films, own):
@@ -82,8 +113,10 @@ def _formula_row(name, films, own):
     return cells
 
 
-def film(nm):
-    """A film in nm as on the terminal: four digits after the point, of a diverged run four in all."""
+def film(nm, half_width=None):
+    """A film in nm as on the terminal: with its band; without, four digits after the point."""
+    if nm is not None and half_width is not None:
+        return with_band(nm, half_width)
     plain = nm is not None and abs(nm) < 1e7
     return _fixed(nm, 4) if plain else number(nm, 4)
 

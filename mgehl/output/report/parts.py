@@ -101,8 +101,8 @@ def versions_section(versions):
     )
 
 
-LISTED = {"nodes", "contradictions"}
-"""Lists of nodes in a result, which have tables of their own."""
+LISTED = {"nodes", "contradictions", "grids"}
+"""Lists of nodes and of grids in a result, which have tables of their own."""
 
 
 def record_section(result):
@@ -126,7 +126,7 @@ def _field(name, value):
         return "true" if value else "false"
     if isinstance(value, str):
         return value
-    if name in LISTED and isinstance(value, list):
+    if name in LISTED and isinstance(value, list | tuple):
         return f"a list of {len(value)}"
     if name in ("x_nodes", "y_nodes"):
         return span(value)

@@ -12,6 +12,7 @@ from mgehl.config import config_from_tables
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
 from mgehl.model.hertz import hertz_pressure
+from mgehl.output.film_error import NOT_ASKED
 from mgehl.output.pictures import style
 from mgehl.output.pictures.picture import draw
 from mgehl.output.result import Overlap
@@ -42,7 +43,7 @@ def solution(mesh, fields, paper_contact):
         mesh,
         fields,
         [],
-        SimpleNamespace(converged=True, settled=True, overlap=Overlap(0, 0.0)),
+        SimpleNamespace(converged=True, settled=True, overlap=Overlap(0, 0.0), error=NOT_ASKED),
     )
 
 

@@ -9,6 +9,7 @@ import pytest
 from mpi4py import MPI
 
 import mgehl
+from mgehl.output.film_error import no_band
 from mgehl.output.report.loaded import film
 from mgehl.output.report.page import BAD, DOUBTFUL, GOOD, NO_NUMBER, render
 from mgehl.output.report.parts import LONG_HISTORY, history_section, setting
@@ -198,7 +199,10 @@ class TestLoaded:
     def test_films_stand_beside_formulas(self, film_run, quick):
         result = film_run.result
         rows = {row[0]: row[1:] for row in table_of(quick(film_run), FILMS)}
-        assert rows["computed"] == [film(result.central_film_nm), "", film(result.minimum_film_nm), ""]
+        bands = result.error.central_nm, result.error.minimum_nm
+        assert None not in bands
+        central, minimum = map(film, (result.central_film_nm, result.minimum_film_nm), bands)
+        assert rows["computed"] == [central, "", minimum, ""] and "±" in central
         formulas = result.formulas
         central, ratio, minimum, other = rows["Hamrock and Dowson"]
         assert central == film(formulas["hamrock_dowson_central_nm"])
@@ -206,6 +210,19 @@ class TestLoaded:
         assert float(ratio) == pytest.approx(result.central_film_nm / float(central), abs=1e-3)
         assert float(other) == pytest.approx(result.minimum_film_nm / float(minimum), abs=1e-3)
         assert rows["Ertel and Grubin"][2:] == ["", ""]
+
+    def test_the_grids_that_bands_come_from_are_listed(self, film_run, quick):
+        what = "Films of the grids that the bands come from, between the nodes where need be"
+        rows = table_of(quick(film_run), what)
+        assert [row[0] for row in rows] == [str(each.nodes) for each in film_run.result.error.grids]
+
+    def test_films_without_bands_say_why(self, film_run, quick):
+        page = quick(changed(film_run, error=no_band("there is solid contact")))
+        (films,) = [section for section in page.sections if section.anchor == "films"]
+        assert [block.text for block in films.blocks if block.block == "text"] == [
+            "No band: there is solid contact."
+        ]
+        assert not [block for block in films.blocks[1:] if block.block == "table"]
 
     def test_a_line_contact_has_its_own_formula(self, line_run, quick):
         rows = [row[0] for row in table_of(quick(line_run), FILMS)]

@@ -1,0 +1,140 @@
+"""The bands about a run's films, and how they came about: `error` of result.json."""
+
+from dataclasses import dataclass, replace
+
+from mgehl.discretization.order import couette_order
+from mgehl.solver.coarser import films_of_grids
+from mgehl.solver.richardson import band, band_beside
+
+FILMS = ("central", "minimum")
+
+BETTER = {"couette": "3B", "face_mobility": "logarithmic"}
+"""What tells of films by a scheme of first order."""
+
+POISEUILLE_ORDER = 2
+"""The Poiseuille flow's, by whichever mean of the mobility: no film converges faster."""
+
+
+@dataclass(frozen=True)
+class GridFilm:
+    """Films of a grid at the run's speed, in nm, between the nodes where need be."""
+
+    nodes: int
+    central_nm: float
+    minimum_nm: float
+    contact_nodes: int
+    settled: bool
+
+
+@dataclass(frozen=True)
+class FilmError:
+    """Half-widths of the bands about the films, in nm: the limit of ever finer grids lies within.
+
+    Of this domain, that is: what a larger one would change is not in it.
+    """
+
+    central_nm: float | None
+    """None where there is no band; `how` says why."""
+    minimum_nm: float | None
+    how: str
+    order: int | None = None
+    """Of the scheme."""
+    central_order: float | None = None
+    """Observed on three grids; None on two, or where the differences change their sign."""
+    minimum_order: float | None = None
+    grids: tuple[GridFilm, ...] = ()
+    """The finest grid first."""
+    convolutions: float = 0.0
+    """What the coarser grids took, in equivalents of one on the finest."""
+
+
+def no_band(why):
+    """The `FilmError` of films that none can be told of."""
+    return FilmError(None, None, why)
+
+
+NOT_ASKED = no_band("not asked for (solver.error = false)")
+
+
+def why_no_band(result):
+    """Why there can be no band about the films of a `Result`; empty where there may be one."""
+    if not result.settled:
+        return "the run has not settled"
+    if result.contact.nodes:
+        return "there is solid contact: its edge moves from grid to grid by whole cells"
+    if result.overlap.nodes:
+        return "the bodies overlap"
+    if result.resolution.verdict == "grid-determined":
+        return "the inlet has less than a cell: the grid decides what is film"
+    return ""
+
+
+def film_error(result, hierarchy, problem, state, settings, progress, journal):
+    """The `FilmError` of a `Result`, from solutions on coarser grids (collective).
+
+    `progress` tells of their cycles and counts their convolutions; `journal` as of `nested_iteration`.
+    """
+    why_not = why_no_band(result)
+    if why_not or not settings.error:
+        return no_band(why_not) if why_not else NOT_ASKED
+    before = progress.convolutions
+    scheme = telling_scheme(settings.scheme)
+    films = films_of_grids(hierarchy, problem, state, settings, scheme, progress.beside, journal)
+    nm = 1e9 * problem.contact.film_scale
+    grids = tuple(_in_nm(each, nm) for each in films)
+    told = from_grids(result, grids, scheme_order(scheme), scheme if scheme != settings.scheme else None)
+    return replace(told, grids=grids, convolutions=progress.convolutions - before)
+
+
+def _in_nm(grid, nm):
+    films = grid.films
+    return GridFilm(grid.nodes, nm * films.central, nm * films.minimum, grid.contact_nodes, grid.settled)
+
+
+def scheme_order(scheme):
+    """Power of the spacing with which a film's error falls by a `Scheme`."""
+    return min(couette_order(scheme.couette), POISEUILLE_ORDER)
+
+
+def telling_scheme(scheme):
+    """The `Scheme` of the coarser grids: the same, or a better one beside one of first order."""
+    return scheme if scheme_order(scheme) > 1 else replace(scheme, **BETTER)
+
+
+def from_grids(result, grids, order, other=None):
+    """The `FilmError` that the films of two or three `grids` tell, by a scheme of this order.
+
+    The coarser ones may be by an`other` `Scheme`.
+    """
+    coarser = grids[1]
+    touches = coarser.contact_nodes > 0
+    if not coarser.settled or (touches and coarser.central_nm <= 0.0):
+        return no_band(f"on {coarser.nodes} nodes, the next coarser grid, there is no film to compare with")
+    known = [each for each in grids if each.settled]
+    central, minimum = (_band(result, known, film, order, touches, other) for film in FILMS)
+    return FilmError(
+        central.half_width,
+        minimum.half_width,
+        _how(known, order, touches, other),
+        order,
+        central.observed_order,
+        minimum.observed_order,
+    )
+
+
+def _band(result, grids, film, order, touches, other):
+    reported = getattr(result, f"{film}_film_nm")
+    finest, *coarser = (getattr(each, f"{film}_nm") for each in grids)
+    if other:
+        return band_beside(reported, coarser, order)
+    return band(reported, [finest, *coarser], order, touches)
+
+
+def _how(films, order, touches, other):
+    """How a band came about, in words."""
+    nodes = " and ".join(str(grid.nodes) for grid in films[1:])
+    by = f" by {other.couette} and the {other.face_mobility} mean" if other else ""
+    words = f"from the differences to {nodes} nodes{by}, of order {order}"
+    if touches:
+        words += f"; wider, for on {films[1].nodes} nodes the film touches at {films[1].contact_nodes}"
+    return words

@@ -1,0 +1,82 @@
+"""Central and minimum film between the nodes: what a finer grid would say, were it no better.
+
+The films that a run reports are those of nodes. A node lies at the centre by chance, and at the bottom of
+the smallest gap never: from grid to grid its film goes up and down with where it is, by a few per cent.
+Films that grids are compared by are taken from polynomials through the nodes around.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mgehl.solver.record import Kept
+
+_OFFSETS = np.array([-1.0, 0.0, 1.0])
+_WEIGHTS = np.array([0.5, 1.0, 0.5])
+"""Of the nodes in the fit of a paraboloid: those in the corners count least."""
+
+
+@dataclass(frozen=True)
+class Films(Kept):
+    """Central and minimum film in units of H."""
+
+    central: float
+    minimum: float
+
+
+def films_between_nodes(problem, state):
+    """`Films` at the centre itself and at the bottom of the smallest gap (collective)."""
+    grid = problem.grid
+    whole, found = grid.gather(state.H), None
+    if whole is not None:
+        found = Films(value_at(whole, grid.mesh, 0.0, 0.0), smallest(whole))
+    return grid.comm.bcast(found)
+
+
+def value_at(H, mesh, X, Y):
+    """H, (ny, nx), at a point, from cubics through the four nodes around it along either axis."""
+    columns, along = _cubic(mesh.X, X)
+    if mesh.is_line:
+        return float(H[0, columns] @ along)
+    lines, across = _cubic(mesh.Y, Y)
+    return float(across @ H[lines, columns] @ along)
+
+
+def _cubic(nodes, point):
+    """Which four nodes lie around a point, and Lagrange's weights of them."""
+    at = (point - nodes[0]) / (nodes[1] - nodes[0])
+    first = int(np.clip(np.floor(at) - 1, 0, len(nodes) - 4))
+    others = np.arange(4)
+    weights = [np.prod([(at - first - m) / (k - m) for m in others if m != k]) for k in others]
+    return slice(first, first + 4), np.array(weights)
+
+
+def smallest(H):
+    """Bottom of the smallest gap of H, (ny, nx), by a paraboloid through the nodes around the lowest."""
+    j, i = np.unravel_index(np.argmin(H), H.shape)
+    inside = 0 < i < H.shape[1] - 1
+    if inside and len(H) == 1:
+        return _bottom_along(H[0, i - 1 : i + 2])
+    if inside and 0 < j < len(H) - 1:
+        return _bottom_around(H[j - 1 : j + 2, i - 1 : i + 2])
+    return float(H[j, i])
+
+
+def _bottom_along(H):
+    """Of a parabola through three nodes, the middle one the lowest."""
+    slope, curvature = 0.5 * (H[2] - H[0]), H[2] - 2.0 * H[1] + H[0]
+    return float(H[1] - (0.5 * slope**2 / curvature if curvature > 0.0 else 0.0))
+
+
+def _bottom_around(H):
+    """Of the paraboloid that fits nine nodes best, the middle one the lowest."""
+    x, y = np.meshgrid(_OFFSETS, _OFFSETS)
+    weights = np.outer(_WEIGHTS, _WEIGHTS)
+    terms = np.stack([x, y, 0.5 * x**2, x * y, 0.5 * y**2, np.ones_like(x)]).reshape(6, 9)
+    fitted = np.linalg.lstsq((terms * weights.ravel()).T, (weights * H).ravel(), rcond=None)[0]
+    slope, (xx, xy, yy) = fitted[:2], fitted[2:5]
+    curvature = np.array([[xx, xy], [xy, yy]])
+    if np.linalg.eigvalsh(curvature)[0] <= 0.0:
+        return min(_bottom_along(H[1]), _bottom_along(H[:, 1]))
+    to = np.clip(np.linalg.solve(curvature, -slope), -1.0, 1.0)
+    return float(H[1, 1] + min(0.0, 0.5 * to @ curvature @ to + slope @ to))

@@ -1,0 +1,45 @@
+"""Options of `mgehl run` that change what is solved."""
+
+import json
+import tomllib
+
+import pytest
+
+from mgehl.cli import main
+
+FILM = ["run", "--set", "grid.nodes=65", "--set", "motion.speed=3", "--set", "solver.start=film"]
+
+
+@pytest.fixture
+def run(tmp_path, capsys):
+    """Function: result.json, configuration.toml and the words of a run with some more options."""
+
+    def make(*options):
+        here = tmp_path / "run"
+        assert main([*FILM, "--out", str(here), "--force", *options]) == 0
+        result = json.loads((here / "result.json").read_text())
+        config = tomllib.loads((here / "configuration.toml").read_text())
+        return result, config, capsys.readouterr().out
+
+    return make
+
+
+def test_a_film_is_said_with_its_band(run):
+    result, config, words = run()
+    assert config["solver"]["error"] is True
+    assert result["error"]["central_nm"] > 0.0 and len(str(result["central_film_nm"])) > 8
+    (line,) = [line for line in words.splitlines() if line.startswith("  central film")]
+    assert line.count(" ± ") == 2
+    assert "  bands: from the differences to 33 nodes" in words
+
+
+def test_no_error_saves_it(run):
+    result, config, words = run("--no-error")
+    assert config["solver"]["error"] is False
+    assert result["error"]["central_nm"] is None and result["error"]["convolutions"] == 0.0
+    assert "±" not in words and "no band: not asked for" in words
+
+
+def test_it_cannot_be_changed_on_the_way(tmp_path, capsys):
+    assert main(["run", "--resume", str(tmp_path), "--no-error"]) == 2
+    assert "goes on as it began, without --no-error" in capsys.readouterr().err

@@ -1,0 +1,35 @@
+"""Films with no more digits than they have."""
+
+from math import nan
+
+import pytest
+
+from mgehl.output.digits import with_band
+
+
+@pytest.mark.parametrize(
+    "value, half_width, text",
+    [
+        (12.1436, 0.37, "12.1 ± 0.4"),
+        (12.1436, 0.13, "12.14 ± 0.13"),
+        (12.1436, 0.4000001, "12.1 ± 0.5"),  # never narrower than it is
+        (12.1436, 0.4, "12.1 ± 0.4"),
+        (12.1436, 0.95, "12.1 ± 1.0"),
+        (378.1, 2.6, "378 ± 3"),
+        (407.6, 58.0, "410 ± 60"),
+        (1407.6, 158.0, "1410 ± 160"),
+        (0.0123, 0.00021, "0.0123 ± 0.0003"),
+        (-0.001, 0.3, "0.0 ± 0.3"),
+        (5.0, 0.0, "5.000000000 ± 0.000000000"),
+    ],
+)
+def test_band_has_a_digit_or_two_and_the_film_as_many_decimals(value, half_width, text):
+    assert with_band(value, half_width) == text
+
+
+def test_a_film_without_a_band_has_four_decimals():
+    assert with_band(12.1436, None) == "12.1436"
+    assert with_band(12.1436, nan) == "12.1436"
+    assert with_band(-0.0, None) == "0.0000"
+    assert with_band(2e9, None) == "2.000e+09"
+    assert with_band(nan, 0.1) == "nan"

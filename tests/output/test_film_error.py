@@ -1,0 +1,144 @@
+"""Bands about the films of runs: when there are any, and of what."""
+
+from dataclasses import asdict, replace
+
+import pytest
+from mpi4py import MPI
+from test_files import make_result
+
+from mgehl.config import config_from_tables
+from mgehl.discretization.scheme import Scheme
+from mgehl.output.film_error import (
+    GridFilm,
+    from_grids,
+    no_band,
+    scheme_order,
+    telling_scheme,
+    why_no_band,
+)
+from mgehl.output.resolution import Resolution
+from mgehl.output.result import ContactResult, Overlap
+from mgehl.run import solve
+from mgehl.solver.richardson import SAFETY, TOUCHED, UNSEEN
+
+FILM = {"motion": {"speed": 1.0}, "grid": {"nodes": 65}, "discretization": {"couette": "2B"}}
+NO_CONTACT = ContactResult(0, 0.0, 0.0, None, None, 0.0)
+
+
+def solved(**changes):
+    """The result of a film's configuration."""
+    tables = {name: FILM.get(name, {}) | changes.get(name, {}) for name in FILM | changes}
+    return solve(config_from_tables(tables), MPI.COMM_SELF).result
+
+
+def grids(*films, contact=0, settled=True):
+    """Films of grids from 129 nodes down, central four times the minimum; `contact` on the second."""
+    return tuple(
+        GridFilm(128 // 2**k + 1, 4.0 * film, film, contact if k == 1 else 0, settled or k != 1)
+        for k, film in enumerate(films)
+    )
+
+
+@pytest.fixture
+def film():
+    """A result of a film of nodes, 40 and 10 nm."""
+    return make_result(central_film_nm=40.0, minimum_film_nm=10.0, contact=NO_CONTACT)
+
+
+class TestWhetherThereIsOne:
+    def test_of_a_film_there_is(self, film):
+        assert why_no_band(film) == ""
+
+    @pytest.mark.parametrize(
+        "changes, word",
+        [
+            ({"settled": False}, "not settled"),
+            ({"contact": replace(NO_CONTACT, nodes=3)}, "solid contact"),
+            ({"overlap": Overlap(2, 0.1)}, "overlap"),
+            ({"resolution": Resolution(0.7, "grid-determined")}, "less than a cell"),
+        ],
+    )
+    def test_otherwise_it_is_said_why_not(self, film, changes, word):
+        assert word in why_no_band(replace(film, **changes))
+
+    def test_where_the_next_grid_has_no_answer_there_is_none(self, film):
+        error = from_grids(film, grids(10.0, 8.0, settled=False), 2)
+        assert error.central_nm is None and error.minimum_nm is None and "65 nodes" in error.how
+
+    def test_where_the_film_of_the_next_grid_is_lost_there_is_none(self, film):
+        assert from_grids(film, grids(10.0, -1.0, contact=90), 2).central_nm is None
+
+
+class TestHowWideItIs:
+    def test_two_grids(self, film):
+        error = from_grids(film, grids(10.0, 7.0), 2)
+        assert error.central_nm == pytest.approx((1.0 + UNSEEN) * 4.0)
+        assert error.minimum_nm == pytest.approx((1.0 + UNSEEN) * 1.0)
+        assert error.central_order is None and error.order == 2 and "65 nodes" in error.how
+
+    def test_three_grids_show_an_order(self, film):
+        error = from_grids(film, grids(10.0, 7.0, -5.0), 2)
+        assert error.minimum_nm == pytest.approx((1.0 + SAFETY) * 1.0)
+        assert error.central_order == error.minimum_order == 2.0 and "65 and 33 nodes" in error.how
+
+    def test_contact_on_the_next_grid_makes_it_wider_and_is_said(self, film):
+        error = from_grids(film, grids(10.0, 7.0, contact=4), 2)
+        assert error.minimum_nm == pytest.approx((1.0 + TOUCHED) * 1.0) and "touches at 4" in error.how
+
+    def test_a_scheme_of_first_order_is_told_of_by_another(self, film):
+        other = telling_scheme(Scheme(couette="1B"))
+        error = from_grids(film, grids(10.0, 8.0, 5.0), 2, other)
+        assert error.minimum_nm == pytest.approx(1.0 + 1.0) and "3B" in error.how
+
+
+@pytest.mark.parametrize("couette, order", [("1B", 1), ("2B", 2), ("3B", 2), ("2C", 2)])
+def test_no_film_converges_faster_than_the_poiseuille_flow(couette, order):
+    assert scheme_order(Scheme(couette=couette)) == order
+
+
+def test_coarser_grids_take_the_same_scheme_but_beside_first_order():
+    second = Scheme(couette="2B", face_mobility="geometric")
+    assert telling_scheme(second) == second
+    other = telling_scheme(Scheme(couette="1B", face_mobility="geometric", cavitation=False))
+    assert (other.couette, other.face_mobility, other.cavitation) == ("3B", "logarithmic", False)
+
+
+class TestOfRuns:
+    @pytest.mark.parametrize(
+        "couette, mean", [("1B", "arithmetic"), ("2B", "arithmetic"), ("3B", "logarithmic")]
+    )
+    def test_the_band_holds_the_limit_and_is_no_wall(self, couette, mean):
+        """1 m/s: 378.1 and 136.3 nm. On 129 nodes."""
+        how = {"couette": couette, "face_mobility": mean}
+        result = solved(grid={"nodes": 129}, discretization=how)
+        off = abs(result.central_film_nm - 378.1), abs(result.minimum_film_nm - 136.3)
+        assert off[0] <= result.error.central_nm < 3.0 * off[0]
+        assert off[1] <= result.error.minimum_nm < 100.0
+        assert [each.nodes for each in result.error.grids] == [129, 65, 33]
+        assert result.error.convolutions < 0.35 * result.work.convolutions
+
+    def test_it_changes_nothing_else(self):
+        plain, banded = solved(solver={"error": False}), solved()
+        assert plain.error.how == "not asked for (solver.error = false)" and not plain.error.grids
+        untimed = {"error": None, "wall_s": 0.0}
+        assert asdict(replace(plain, **untimed)) == asdict(replace(banded, **untimed))
+
+    def test_solid_contact_has_none(self):
+        dry = {"motion": {"speed": 5e-6}, "solver": {"start": "contact"}}
+        result = solved(**dry)
+        assert result.converged and "solid contact" in result.error.how
+        assert result.error.convolutions == 0.0
+
+    def test_a_film_by_the_papers_relaxation_would_have_one(self):
+        """Not converged after a few sweeps, so none; nothing is solved for it."""
+        result = solved(solver={"method": "relaxation"}, relaxation={"max_sweeps": 3})
+        assert result.error == no_band("the run has not settled")
+
+    def test_a_line_contact_has_one(self):
+        line = {"contact": {"kind": "line"}, "motion": {"speed": 0.5}, "grid": {"nodes": 257}}
+        error = solved(**line).error
+        assert error.central_order == pytest.approx(2.0, abs=0.2)
+
+    def test_a_wedge_has_none(self):
+        config = config_from_tables({"contact": {"kind": "wedge"}, "grid": {"nodes": 65}})
+        assert "given" in solve(config, MPI.COMM_SELF).result.error.how

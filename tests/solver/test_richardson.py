@@ -1,0 +1,81 @@
+"""Bands from the films of grids."""
+
+import pytest
+
+from mgehl.solver.richardson import (
+    FASTER,
+    SAFETY,
+    SLOWEST,
+    TOUCHED,
+    UNSEEN,
+    band,
+    band_beside,
+    believed,
+    by_chance,
+    observed_order,
+)
+
+
+def values(limit, order, error, grids):
+    """Films of grids, finest first, whose errors grow by the order."""
+    return [limit - error * 2.0 ** (order * k) for k in range(grids)]
+
+
+@pytest.mark.parametrize("order", [1, 2])
+@pytest.mark.parametrize("grids, safety", [(2, UNSEEN), (3, SAFETY)])
+def test_where_errors_fall_by_the_order_the_error_is_told_and_a_part_added(order, grids, safety):
+    films = values(30.0, order, 0.4, grids)
+    assert band(films[0], films, order).half_width == pytest.approx((1.0 + safety) * 0.4)
+
+
+def test_the_known_answer_of_three_grids():
+    """0.0138174 0.0141711 0.0142608 tell 0.0142835 for the fourth grid; computed was 0.0142833."""
+    films = [0.0142608, 0.0141711, 0.0138174]
+    order = band(films[0], films, 2).observed_order
+    assert films[0] + (films[0] - films[1]) / 2.0**order == pytest.approx(0.0142835, abs=1e-7)
+
+
+def test_what_a_node_is_off_the_film_between_nodes_it_is_off_the_limit():
+    films = values(30.0, 2, 0.4, 3)
+    above = band(films[0] + 0.1, films, 2).half_width
+    assert above == pytest.approx(0.3 + SAFETY * 0.5)
+    below = band(films[0] - 0.1, films, 2).half_width
+    assert below == pytest.approx(0.5 + SAFETY * 0.5)
+
+
+def test_a_difference_that_is_small_by_chance_does_not_make_a_small_band():
+    films = [10.0, 10.01, 8.0]
+    expected = 2.01 / 2.0 ** (2 + FASTER) / 3.0
+    assert band(10.0, films, 2).half_width > expected
+    assert by_chance(2, -0.01, 2.01) == pytest.approx(expected - 0.01 / 3.0)
+
+
+def test_a_last_difference_that_is_large_enough_lacks_nothing():
+    assert by_chance(2, 1.0, 5.6) == 0.0 and by_chance(2, 1.0) == 0.0
+
+
+def test_slower_convergence_than_the_schemes_is_believed_down_to_a_part():
+    assert believed(2, 1.6) == 1.6
+    assert believed(2, 2.7) == 2
+    assert believed(2, None) == 2
+    assert believed(2, 2 * SLOWEST - 0.01) == 2
+
+
+def test_no_order_is_seen_where_differences_change_their_sign():
+    assert observed_order(1.0, -2.0) is None
+    assert observed_order(1.0) is None
+    assert observed_order(-1.0, -4.0) == 2.0
+
+
+def test_a_film_of_first_order_is_told_of_by_the_limit_of_others():
+    others = [9.0, 7.5]  # their limit 9.5
+    assert band_beside(11.0, others, 2).half_width == pytest.approx(1.5 + 0.5)
+
+
+def test_between_a_film_of_first_order_and_one_of_second_lies_the_limit():
+    assert band_beside(11.0, [9.0], 2).half_width == pytest.approx(2.0)
+
+
+def test_contact_on_the_coarser_grid_makes_the_band_three_times_the_error():
+    films = [10.0, 4.0]
+    assert band(10.0, films, 2, touched=True).half_width == pytest.approx((1.0 + TOUCHED) * 2.0)
