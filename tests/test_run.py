@@ -135,7 +135,7 @@ def test_moes_numbers_give_the_reference_film(tmp_path):
         "moes": {"M": 20, "L": 10},
         "lubricant": {"density_law": "constant"},
         "grid": {"nodes": 65, "x": [-4.5, 1.5], "y": [-3.0, 3.0]},
-        "discretization": {"couette": "2B"},
+        "discretization": {"couette": "2B", "face_mobility": "arithmetic"},
     }
     result = run_quietly(tables, tmp_path)
     assert result.converged

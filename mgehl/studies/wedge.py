@@ -57,7 +57,11 @@ def case(shape, nodes=FIGURE_NODES, couette="1B", interface="closed", turned=Fal
         {
             "wedge": SHAPES[shape] | {"reversed": turned},
             "grid": {"nodes": nodes},
-            "discretization": {"couette": couette, "couette_at_interface": interface},
+            "discretization": {
+                "couette": couette,
+                "face_mobility": "arithmetic",
+                "couette_at_interface": interface,
+            },
         },
     )
 

@@ -350,13 +350,15 @@ class TestSolutions:
 
 
 class TestMotionAtAnAngle:
-    @pytest.mark.parametrize("couette", ["2B", "S2B-v"])
-    def test_inflow_and_sources_are_the_serial_ones(self, pair, paper_contact, couette):
+    @pytest.mark.parametrize(
+        "couette, mean", [("2B", "arithmetic"), ("3B", "linear-gap"), ("S2B-v", "logarithmic")]
+    )
+    def test_inflow_and_sources_are_the_serial_ones(self, pair, paper_contact, couette, mean):
         """Two lines upstream may be another rank's."""
         found, hierarchies = [], pair(nodes=65)
         status = mixed_status(hierarchies[1].grids[-1])
         for hierarchy in hierarchies:
-            problem = problem_of(hierarchy, paper_contact(), Scheme(couette, motion=(0.6, 0.8)))
+            problem = problem_of(hierarchy, paper_contact(), Scheme(couette, mean, motion=(0.6, 0.8)))
             grid = problem.grid
             fields = (0.1 * np.abs(random(grid, 1)), 0.1 + 0.1 * np.abs(random(grid, 2)), status)
             P, H, mine = (lines(grid, each) for each in fields)

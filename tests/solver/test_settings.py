@@ -1,14 +1,15 @@
 """The solver's settings and the configuration's keys have the same defaults."""
 
 from mgehl.config import config_from_tables
+from mgehl.discretization.scheme import Scheme
 from mgehl.solver.from_config import set_up
 from mgehl.solver.settings import SolverSettings
 
 
 def test_what_is_not_configured_is_the_default():
-    """All but the film threshold, which is a length there and a part of the gap's unit here."""
+    """All but the schemes, and the film threshold: a length there and a part of the gap's unit here."""
     config = config_from_tables({"discretization": {"film_threshold": 0.0}})
-    assert set_up(config).settings == SolverSettings()
+    assert set_up(config).settings == SolverSettings(scheme=Scheme("3B", "linear-gap"))
 
 
 def test_what_is_configured_is_told():
