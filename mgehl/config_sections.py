@@ -69,9 +69,10 @@ class GridSection:
 
 @dataclass(frozen=True)
 class DiscretizationSection:
-    couette: str = key_field(
-        "3B", "differential scheme of the Couette flow", choices=tuple(SCHEMES), kind=str
-    )
+    couette: str | None = key_field(
+        None, "differential scheme of the Couette flow (unset: 3B, and 1B on a rough surface)",
+        choices=tuple(SCHEMES), kind=str,
+    )  # fmt: skip
     face_mobility: str = key_field(
         "linear-gap", "mean of two nodes' mobilities at the face between them",
         choices=FACE_MOBILITIES, kind=str,

@@ -4,11 +4,17 @@ Inside the code X = x/a, P = p/p_h and H = h R_x/a^2 (the paper divides the gap 
 """
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from math import sqrt
+
+import numpy as np
 
 from mgehl.model import films
 from mgehl.model.frame import Frame
 from mgehl.model.hertz import edge_gap_coefficient, hertz_pressure
+
+SAMPLES = 65
+"""Heights along each side from which the roughness is reckoned: the same whatever the grid."""
 
 
 @dataclass(frozen=True)
@@ -56,6 +62,14 @@ class LoadedContact:
     def is_rough(self):
         """True where heights are added to the smooth bodies'."""
         return self.surface is not None
+
+    @cached_property
+    def roughness(self):
+        """Rms of the heights within the Hertz semi-axes, about their mean, in m; 0 of smooth bodies."""
+        if self.surface is None:
+            return 0.0
+        X, Y = np.meshgrid(*2 * [np.linspace(-1.0, 1.0, SAMPLES)])
+        return float(np.std(self.surface.height(X * self.x_scale, Y * self.y_scale)))
 
     @property
     def is_hertzian(self):

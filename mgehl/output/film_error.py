@@ -56,8 +56,10 @@ def no_band(why):
 NOT_ASKED = no_band("not asked for (solver.error = false)")
 
 
-def why_no_band(result):
-    """Why there can be no band about the films of a `Result`; empty where there may be one."""
+def why_no_band(result, contact):
+    """Why there can be no band about a `Result`'s films; empty where there may be one."""
+    if contact.is_rough:
+        return "coarser grids, from which a band is told, do not see a rough surface"
     if not result.settled:
         return "the run has not settled"
     if result.contact.nodes:
@@ -74,7 +76,7 @@ def film_error(result, hierarchy, problem, state, settings, progress, journal):
 
     `progress` tells of their cycles and counts their convolutions; `journal` as of `nested_iteration`.
     """
-    why_not = why_no_band(result)
+    why_not = why_no_band(result, problem.contact)
     if why_not or not settings.error:
         return no_band(why_not) if why_not else NOT_ASKED
     before = progress.convolutions

@@ -40,12 +40,17 @@ def set_up(config):
     return SetUp(contact, mesh.in_frame(frame), settings_from(config, contact), frame)
 
 
+ON_SMOOTH, ON_ROUGH = "3B", "1B"
+"""The Couette flow's schemes where the configuration names none. A film that falls to nothing from one node
+to the next, as behind a peak, stays a film by the first order; by the third it might be less than none."""
+
+
 def scheme_from(config, contact):
     """How the Reynolds equation is differenced."""
     section = config.discretization
     cavitation = config.kind.cavitates if section.cavitation is None else section.cavitation
     return Scheme(
-        couette=section.couette,
+        couette=section.couette or (ON_ROUGH if contact.is_rough else ON_SMOOTH),
         face_mobility=section.face_mobility,
         couette_at_interface=section.couette_at_interface,
         motion=contact.motion,

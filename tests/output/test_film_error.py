@@ -25,6 +25,16 @@ FILM = {"motion": {"speed": 1.0}, "grid": {"nodes": 65}, "discretization": {"cou
 NO_CONTACT = ContactResult(0, 0.0, 0.0, None, None, 0.0)
 
 
+class SMOOTH:
+    """A contact's surface."""
+
+    is_rough = False
+
+
+class ROUGH(SMOOTH):
+    is_rough = True
+
+
 def solved(**changes):
     """The result of a film's configuration."""
     tables = {name: FILM.get(name, {}) | changes.get(name, {}) for name in FILM | changes}
@@ -47,7 +57,10 @@ def film():
 
 class TestWhetherThereIsOne:
     def test_of_a_film_there_is(self, film):
-        assert why_no_band(film) == ""
+        assert why_no_band(film, SMOOTH) == ""
+
+    def test_on_a_rough_surface_there_is_none(self, film):
+        assert "do not see a rough surface" in why_no_band(film, ROUGH)
 
     @pytest.mark.parametrize(
         "changes, word",
@@ -59,7 +72,7 @@ class TestWhetherThereIsOne:
         ],
     )
     def test_otherwise_it_is_said_why_not(self, film, changes, word):
-        assert word in why_no_band(replace(film, **changes))
+        assert word in why_no_band(replace(film, **changes), SMOOTH)
 
     def test_where_the_next_grid_has_no_answer_there_is_none(self, film):
         error = from_grids(film, grids(10.0, 8.0, settled=False), 2)
