@@ -55,8 +55,9 @@ def test_default_configuration_is_the_point_contact():
     assert (config.grid.nodes, config.grid.x, config.grid.y) == (257, (-1.9, 1.3), (-1.5, 1.5))
 
 
-def test_defaults_of_the_keys_are_the_default_file_but_for_the_start():
-    config = load_config(settings=["solver.start=film"])
+def test_defaults_of_the_keys_are_the_default_file_but_for_start_and_domain():
+    """The paper's domain is the paper's; a case of one's own has one that is chosen by its film."""
+    config = load_config(settings=["solver.start=film", "grid.x=auto", "grid.y=auto"])
     assert load_config().solver.start == "contact"
     assert_same(config, Config())
 
@@ -104,6 +105,7 @@ def test_units_end_as_SI_floats(setting, value):
         ("grid.nodes=129.0", 129),
         ("grid.x=[-4.5, 1.5]", (-4.5, 1.5)),
         ("grid.y=[-3, 3]", (-3.0, 3.0)),
+        ("grid.x=auto", "auto"),
         ("discretization.couette=S2C", "S2C"),
         ('discretization.couette="2B"', "2B"),
         ("lubricant.viscosity_law=roelands", "roelands"),
@@ -164,7 +166,8 @@ MISTAKES = [
     ("grid.y=[-1.5, 1]", "grid.y = [-1.5, 1]: ", "last > 1"),
     ('grid.y=["a", 2]', "grid.y = ['a', 2]: ", "two numbers"),
     ("grid.y=[-inf, 2]", "grid.y = [-inf, 2]: ", "two numbers"),
-    ("grid.y=wide", "grid.y = 'wide': ", "two numbers"),
+    ("grid.y=wide", "grid.y = 'wide': ", '"auto"', "two numbers"),
+    ("grid.x=[2, 5]", "grid.x = [2, 5]: ", "first < -1"),
     ("contact.kind=roller", "contact.kind = 'roller': ", "must be one of point, line, wedge"),
     ("contact.load_per_length=0", "contact.load_per_length = 0: ", "a number in N/m", "at least 1e-06"),
     ("wedge.reversed=1", "wedge.reversed = 1: ", "true or false"),

@@ -10,6 +10,9 @@ from mgehl.model import films
 from mgehl.model.frame import Frame
 from mgehl.model.hertz import edge_gap_coefficient, hertz_pressure
 
+RESOLVED_CELLS = 4.0
+"""Cells in the inlet from which on the film does not change with the grid."""
+
 
 @dataclass(frozen=True)
 class Groups:
@@ -33,6 +36,8 @@ class LoadedContact:
 
     is_loaded = True
     """The gap answers to the pressure, whose integral is a load."""
+    is_plane = False
+    """It has no end across the motion."""
     motion = (1.0, 0.0)
     """The surfaces move towards +X."""
 
@@ -53,6 +58,14 @@ class LoadedContact:
         return smooth + self.surface.height(X * self.x_scale, Y * self.y_scale) / self.film_scale
 
     @property
+    def reach(self):
+        """How far from the centre, in units of X and Y, the dry contact may reach.
+
+        The widening by a soft layer is estimated, and low by up to a third.
+        """
+        return self.widening if self.widening <= 1.0 else min(self.widening**2, 1.3 * self.widening)
+
+    @property
     def is_hertzian(self):
         """True of smooth half-spaces, whose dry contact is that of Hertz."""
         return self.surface is None and self.deformation is None
@@ -61,6 +74,11 @@ class LoadedContact:
         """Pressure to start from: that of Hertz, `widening` times as wide."""
         wide = self.widening
         return hertz_pressure(X / wide, Y / wide) / wide**2
+
+    @property
+    def likeness(self):
+        """The half-spaces with axes along and across the motion that formulas know, in contact as wide."""
+        return self
 
     def in_frame(self, frame):
         """The same contact, described in a `Frame`."""

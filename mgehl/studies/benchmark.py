@@ -21,10 +21,11 @@ from mgehl.errors import OutputError
 from mgehl.grid.events import seconds_by_part, start_logging
 from mgehl.output.whole_file import write_whole
 from mgehl.run import run, versions
+from mgehl.studies.study import PAPERS_DOMAIN, papers_grid
 
 
 def _point(nodes, speed, start="film"):
-    return {"grid": {"nodes": nodes}, "motion": {"speed": speed}, "solver": {"start": start}}
+    return {"grid": papers_grid(nodes), "motion": {"speed": speed}, "solver": {"start": start}}
 
 
 _PILLAR = {"contact": {"kind": "wedge"}, "wedge": {"pillar": "square"}, "motion": {"speed": 1.0}}
@@ -32,7 +33,11 @@ _PILLAR = {"contact": {"kind": "wedge"}, "wedge": {"pillar": "square"}, "motion"
 CASES = {
     "film-257": _point(257, 0.5),
     "contact-257": _point(257, 5e-6, "contact"),
-    "line-4097": {"contact": {"kind": "line"}, "motion": {"speed": 0.1}, "grid": {"nodes": 4097}},
+    "line-4097": {
+        "contact": {"kind": "line"},
+        "motion": {"speed": 0.1},
+        "grid": {"nodes": 4097, "x": PAPERS_DOMAIN["x"]},
+    },
     "wedge-257": _PILLAR | {"grid": {"nodes": 257}},
 }
 """Name and configuration (nested tables) of every case: film and contact of the paper's ball, a line

@@ -22,6 +22,7 @@ from mgehl.solver.nested import first_guess
 from mgehl.solver.problem import ContactProblem
 from mgehl.studies import rank_model
 from mgehl.studies.rank_model import Constants, Cost
+from mgehl.studies.study import papers_grid
 
 NODES = (257, 513, 1025)
 """Grids whose iterations are timed; the work's constants are those of the last."""
@@ -133,7 +134,7 @@ class _Iterations:
     """GMRES with its cycle on a film that is being solved, to be timed."""
 
     def __init__(self, comm, nodes):
-        config = config_from_tables({"grid": {"nodes": nodes}, "motion": {"speed": 1.0}})
+        config = config_from_tables({"grid": papers_grid(nodes), "motion": {"speed": 1.0}})
         parts = set_up(config)
         contact, scheme = parts.contact, parts.settings.scheme
         self._hierarchy = grids = parts.hierarchy(comm)
