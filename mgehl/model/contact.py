@@ -38,6 +38,8 @@ class LoadedContact:
     """The gap answers to the pressure, whose integral is a load."""
     is_plane = False
     """It has no end across the motion."""
+    is_light = False
+    """The load is so light that the bodies hardly yield: the pressure is not that of Hertz."""
     motion = (1.0, 0.0)
     """The surfaces move towards +X."""
 

@@ -148,6 +148,13 @@ class PointContact(LoadedContact):
         return self.aligned._likeness
 
     @property
+    def is_light(self):
+        """By Moes' isoviscous films: that of rigid bodies is thicker than that of elastic ones."""
+        like = self.likeness
+        rigid, elastic, _, _ = films.point_asymptotes(like.groups, like.radius_x / like.radius_y)
+        return rigid > elastic
+
+    @property
     def inlet_length(self):
         """As that of any contact, in units of a; of layered bodies an estimate."""
         like = self.likeness
