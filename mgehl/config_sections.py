@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from mgehl.config_value import AUTO, key_field
 from mgehl.discretization.couette import SCHEMES
-from mgehl.discretization.fluid import FACE_MEANS
+from mgehl.discretization.fluid import FACE_MOBILITIES
 from mgehl.discretization.scheme import INTERFACES, Scheme
 from mgehl.kinds import KINDS
 from mgehl.model.lubricant import DENSITY_LAWS, VISCOSITY_LAWS
@@ -72,7 +72,7 @@ class DiscretizationSection:
     )
     face_mobility: str = key_field(
         Scheme.face_mobility, "mean of two nodes' mobilities at the face between them",
-        choices=tuple(FACE_MEANS), kind=str,
+        choices=tuple(FACE_MOBILITIES), kind=str,
     )  # fmt: skip
     contact_model: str = key_field(
         "lcic", "interface conditions, or the unified equations that have none",
@@ -105,9 +105,7 @@ class SolverSection:
     linear_tolerance: float = key_field(
         0.1, "relative tolerance of GMRES in a Newton step", above=0.0, high=0.5
     )
-    sweeps: int = key_field(
-        1, "line relaxations before and after the coarse grids", low=1, high=10, kind=int
-    )
+    sweeps: int = key_field(1, "line relaxations after the coarse grids", low=1, high=10, kind=int)
     omega: float = key_field(0.8, "damping of the line relaxation", low=0.1, high=1.0)
     cycle_couette: str = key_field(
         "same", "differential scheme of the preconditioner's operators",

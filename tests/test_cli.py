@@ -139,7 +139,7 @@ BAD = [
     (["run", "--set", "motion.sped=1"], ["motion.sped", "did you mean motion.speed"]),
     (["run", "--set", "moton.speed=1"], ["moton", "did you mean motion"]),
     (["run", "--set", "grid.nodes"], ["--set grid.nodes", "section.key=value"]),
-    (["run", "--set", "discretization.couette=3B"], ["discretization.couette", "2B", "S2C"]),
+    (["run", "--set", "discretization.couette=4B"], ["discretization.couette", "2B", "S2C"]),
     (["run", "--set", "solver.max_steps=1.5"], ["solver.max_steps = 1.5", "whole number"]),
     (["run", "--set", "moes.M=20"], ["moes.L"]),
     (["run", "--nonsense"], ["--nonsense"]),

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from mgehl.commands import CONVERGED, NOT_CONVERGED
 from mgehl.config import load_config
-from mgehl.discretization.fluid import FACE_MEANS
+from mgehl.discretization.fluid import FACE_MOBILITIES
 from mgehl.errors import ConfigError
 
 PARALLEL = True
@@ -49,7 +49,7 @@ def add(commands):
     parser.add_argument("--nodes", "--grid", metavar="N,N,...", help="grids instead of the study's own")
     parser.add_argument("--direction", choices=("down", "up", "both"), default="both",
                        help="branches that study transition follows")  # fmt: skip
-    parser.add_argument("--mean", choices=tuple(FACE_MEANS), default="arithmetic",
+    parser.add_argument("--mean", choices=tuple(FACE_MOBILITIES), default="arithmetic",
                        help="mean of the mobility that study transition follows")  # fmt: skip
     parser.add_argument("--out", metavar="DIR", help="directory of the results (default: runs/study-NAME)")
     parser.add_argument("--force", action="store_true", help="start anew in a directory that exists")

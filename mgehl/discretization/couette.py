@@ -36,6 +36,8 @@ class CouetteScheme:
 _1B = ((1.0, W, W),)
 _2B = ((1.5, W, W), (-0.5, WW, WW))
 _2C = ((0.5, W, W), (0.5, E, E))
+_3B = ((2 / 6, E, E), (5 / 6, W, W), (-1 / 6, WW, WW))
+"""Third order, upwind biased."""
 _S1B_LEAVING = ((2.0, W, W), (-1.0, WW, W))
 _S1B_ENTERING = ((1.0, E, W),)
 _S2C = ((0.5, W, E), (0.5, E, W))
@@ -56,21 +58,19 @@ def _apart(centre, sides, upstream):
 
 
 # 2B without WW: rho H extrapolated linearly from W and E to WW gives 2C, and the first interior
-# node then sees exactly the 1B difference. The same for rho and H apart gives S2C.
+# node then sees exactly the 1B difference. The same for rho and H apart gives S2C. Put into 3B it gives
+# 2C, too.
 SCHEMES = {
     "1B": CouetteScheme(_1B, _1B),
     "2B": CouetteScheme(_2B, _2B, near=_2C),
     "2C": CouetteScheme(_2C, _2C),
+    "3B": CouetteScheme(_3B, _3B, near=_2C),
     "S1B": CouetteScheme(_S1B_LEAVING, _S1B_ENTERING, near=_1B),
     "S2C": CouetteScheme(_S2C, _S2C),
     "S2B-v": CouetteScheme(_apart(W, (WW, E), (W, WW)), _apart(E, (W, EE), (W, WW)), near=_S2C),
     "S2B-vi": CouetteScheme(_apart(W, (W,), (W, WW)), _apart(E, (E,), (W, WW)), near=_S2C),
 }
 """S2B-v and S2B-vi: rho and H apart with 2B, their other factor the mean of i - 1 and i + 1, or at i."""
-
-
-_3B = ((2 / 6, E, E), (5 / 6, W, W), (-1 / 6, WW, WW))
-"""Third order, upwind biased."""
 
 
 def couette_scheme(name, coarsenings=0):

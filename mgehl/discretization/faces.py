@@ -7,7 +7,7 @@ for both kinds of flow, which is the whole of the no-flow half of the interface 
 import numpy as np
 
 from mgehl.discretization.couette import SHIFT, E, W, add_couette, couette_scheme, nodes_of
-from mgehl.discretization.fluid import face_mean
+from mgehl.discretization.fluid import face_mobility
 from mgehl.discretization.status import WALL, is_solid, open_faces
 
 
@@ -66,16 +66,16 @@ def _flow(fluid, status, axis, scheme, terms, near, linearised, rigid):
 def _add_poiseuille(flow, fluid, axis, scheme):
     """Add -eps (P_E - P_W)/distance with eps the face's mean mobility  [Liu eqs. 7, 16, 30]."""
     (west, east), distance = (_on_side(fluid, axis, side) for side in (W, E)), axis.distance
-    eps, by_west, by_east = face_mean(scheme, west("eps"), east("eps"))
+    eps = face_mobility(scheme, west, east)
     gradient = (east("P") - west("P")) / distance
-    flow.value -= eps * gradient
+    flow.value -= eps.value * gradient
     if flow.by_P:
-        conductance = eps / distance
-        flow.by_P[W] += conductance - gradient * by_west * west("deps_dP")
-        flow.by_P[E] -= conductance + gradient * by_east * east("deps_dP")
+        conductance = eps.value / distance
+        flow.by_P[W] += conductance - gradient * eps.by_P[0]
+        flow.by_P[E] -= conductance + gradient * eps.by_P[1]
     if flow.by_H:
-        flow.by_H[W] -= gradient * by_west * west("deps_dH")
-        flow.by_H[E] -= gradient * by_east * east("deps_dH")
+        flow.by_H[W] -= gradient * eps.by_H[0]
+        flow.by_H[E] -= gradient * eps.by_H[1]
 
 
 def _on_side(fluid, axis, side):
@@ -89,5 +89,5 @@ def conductances(fluid, status, axis, scheme):
     With them the Poiseuille flow into a node is a sum over its faces of conductance times pressure
     difference. `fluid` and `status` are ghosted.
     """
-    eps = face_mean(scheme, axis.at(fluid.eps, SHIFT[W]), axis.at(fluid.eps, SHIFT[E]))[0]
+    eps = face_mobility(scheme, _on_side(fluid, axis, W), _on_side(fluid, axis, E)).value
     return eps * open_faces(is_solid(status), axis) / (axis.distance * axis.cell)

@@ -4,6 +4,8 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
+from mgehl.discretization.kernels import logarithmic_means, tapered_mobilities
+
 
 @dataclass
 class Fluid:
@@ -19,6 +21,12 @@ class Fluid:
     eps: np.ndarray
     deps_dP: np.ndarray
     deps_dH: np.ndarray
+    gap: np.ndarray | None = None
+    """The gap that the Poiseuille flow sees; H where the contact law says nothing else."""
+
+    def __post_init__(self):
+        if self.gap is None:
+            self.gap = self.H
 
     def with_part(self, nodes, part):
         """A copy that is another fluid, `part`, on the `nodes` of a mask."""
@@ -44,7 +52,8 @@ def fluid_state(P, H, contact, contact_law):
     gap, dgap_dH = contact_law.flow_gap(H)
     by_H2 = by_H3 * gap * gap
     eps = by_H2 * gap
-    return Fluid(P, H, rho, drho_dP, eps, eps * (drho_dP / rho - dlog_eta_dP), 3.0 * by_H2 * dgap_dH)
+    by_P = eps * (drho_dP / rho - dlog_eta_dP)
+    return Fluid(P, H, rho, drho_dP, eps, by_P, 3.0 * by_H2 * dgap_dH, gap)
 
 
 def arithmetic_mean(a, b):
@@ -66,23 +75,91 @@ def harmonic_mean(a, b):
     return 2.0 * a * of_b, 2.0 * of_b**2, 2.0 * of_a**2
 
 
+def logarithmic_mean(a, b):
+    """(a - b)/ln(a/b) and its two derivatives: vanishes with either side.
+
+    Between nodes of one gap and Barus's law it is exact: their flow is that of the reduced pressure
+    q = (1 - e^(-alpha p))/alpha.
+    """
+    parts = np.empty((3, *np.shape(a)))
+    logarithmic_means(np.atleast_2d(a), np.atleast_2d(b), *(np.atleast_2d(part) for part in parts))
+    return tuple(parts)
+
+
 def _share(part, whole):
     """part/whole, zero where there is nothing (a closed gap's mobility may be negative)."""
     return np.divide(part, whole, out=np.zeros(np.broadcast(part, whole).shape), where=whole > 0.0)
 
 
-FACE_MEANS = {"arithmetic": arithmetic_mean, "geometric": geometric_mean, "harmonic": harmonic_mean}
+FACE_MEANS = {
+    "arithmetic": arithmetic_mean,
+    "logarithmic": logarithmic_mean,
+    "geometric": geometric_mean,
+    "harmonic": harmonic_mean,
+}
+"""Means of two nodes' mobilities."""
+
+FACE_MOBILITIES = (*FACE_MEANS, "tapered")
 
 
-def face_mean(scheme, a, b):
-    """A face's mobility by the scheme's mean of its nodes' `a` and `b`, and its two derivatives.
+@dataclass(frozen=True)
+class FaceMobility:
+    """Mobility of faces and, for the nodes (W, E) on their sides, its derivatives by P and by H."""
+
+    value: np.ndarray
+    by_P: tuple
+    by_H: tuple
+
+
+def face_mobility(scheme, west, east):
+    """The `FaceMobility` between nodes `west` and `east`; either gives a part of the `Fluid` by its name.
 
     With a `mobility_share` below 1 the rest is the arithmetic mean.
     """
-    mean = FACE_MEANS[scheme.face_mobility](a, b)
-    share = scheme.mobility_share
+    share, parts = scheme.mobility_share, (west, east)
+    mobility = _tapered if scheme.face_mobility == "tapered" else _of_mean(FACE_MEANS[scheme.face_mobility])
+    whole = mobility(*parts)
     if share == 1.0:
-        return mean
-    return tuple(
-        share * own + (1.0 - share) * paper for own, paper in zip(mean, arithmetic_mean(a, b), strict=True)
+        return whole
+    paper = _of_mean(arithmetic_mean)(*parts)
+
+    def blend(own, of_paper):
+        return share * own + (1.0 - share) * of_paper
+
+    by_P, by_H = (
+        tuple(blend(*both) for both in zip(*pair, strict=True))
+        for pair in ((whole.by_P, paper.by_P), (whole.by_H, paper.by_H))
     )
+    return FaceMobility(blend(whole.value, paper.value), by_P, by_H)
+
+
+def _of_mean(mean):
+    """The face's mobility by a `mean` of its nodes': P and H count by those."""
+
+    def mobility(west, east):
+        value, of_west, of_east = mean(west("eps"), east("eps"))
+        by_P = of_west * west("deps_dP"), of_east * east("deps_dP")
+        return FaceMobility(value, by_P, (of_west * west("deps_dH"), of_east * east("deps_dH")))
+
+    return mobility
+
+
+def _tapered(west, east):
+    """That of a gap which tapers from one node to the other: exact for Barus's law and constant density.
+
+    With a gap h linear in x and a flow q = u h - h^3 e^(-alpha p)/(12 eta_0) dp/dx the same all along,
+    q int h^-3 = int u h^-2 - (psi_E - psi_W), psi = (1 - e^(-alpha p))/(12 eta_0 alpha). So the pressure
+    drives its flow through 1/int h^-3 = 2 h_W^2 h_E^2/(h_W + h_E) over the distance, and the viscosity
+    counts by its logarithmic mean. The flow ends where either gap closes: nothing leaks into contact.
+    """
+    gap_w, gap_e = west("gap"), east("gap")
+    value, *slopes = np.empty((5, *np.shape(gap_w)))
+    tapered_mobilities(
+        *(np.atleast_2d(part) for part in (west("eps"), east("eps"), gap_w, gap_e)),
+        *(np.atleast_2d(part) for part in (value, *slopes)),
+    )
+    by_west, by_east, by_gap_w, by_gap_e = slopes
+    # Where the law keeps a smallest gap neither it nor the mobility moves with H.
+    moves_w, moves_e = west("deps_dH") != 0.0, east("deps_dH") != 0.0
+    by_P = by_west * west("deps_dP"), by_east * east("deps_dP")
+    return FaceMobility(value, by_P, (by_gap_w * moves_w, by_gap_e * moves_e))

@@ -13,6 +13,13 @@ REACH = 5
 take the same work within 4 %, a dry line contact a fifth less with 10; with 4 line contacts a tenth
 more."""
 
+NEAR = 0.02
+"""Logarithm of the ratio of two mobilities below which the slopes of their logarithmic mean are a series:
+there the series has 16 digits, the formula 14."""
+
+VANISHING = 1e-290
+"""Ratio of two mobilities of which there is no mean: its inverse must be a number."""
+
 
 @njit(cache=True, fastmath={"contract"})
 def apply_jacobian(offsets, A, B, dP, dH, dH0, out):
@@ -197,3 +204,57 @@ def relax_cavitation(first, P, lubricated, movable, source, along, across, passe
                 break
         changes += changed
     return changes
+
+
+@njit(cache=True, inline="always")
+def _slope(grown, x):
+    """(e^x - 1 - x)/x^2 of `grown` = e^x - 1; near x = 0, where its digits cancel, by its series."""
+    if abs(x) > NEAR:
+        return (grown - x) / (x * x)
+    return 0.5 + x / 6.0 * (1.0 + x / 4.0 * (1.0 + x / 5.0 * (1.0 + x / 6.0 * (1.0 + x / 7.0))))
+
+
+@njit(cache=True, inline="always")
+def _logarithmic_mean(a, b):
+    """That of two numbers, and its slopes; zero where either vanishes.
+
+    Of small (1 + grown) = large the mean is small grown/x, x = ln(1 + grown).
+    """
+    small, large = min(a, b), max(a, b)
+    if small <= VANISHING * large:
+        return 0.0, 0.0, 0.0
+    grown = (large - small) / small
+    x = np.log1p(grown)
+    mean = small * grown / x if x > 0.0 else small
+    by_small, by_large = _slope(grown, x), _slope((small - large) / large, -x)
+    return (mean, by_small, by_large) if a < b else (mean, by_large, by_small)
+
+
+@njit(cache=True, fastmath={"contract"})
+def logarithmic_means(a, b, mean, by_a, by_b):
+    """Logarithmic means of `a` and `b` and their slopes, all (lines, nodes)."""
+    lines, nodes = a.shape
+    for j in range(lines):
+        for i in range(nodes):
+            mean[j, i], by_a[j, i], by_b[j, i] = _logarithmic_mean(a[j, i], b[j, i])
+
+
+@njit(cache=True, fastmath={"contract"})
+def tapered_mobilities(west, east, gap_w, gap_e, mobility, by_west, by_east, by_gap_w, by_gap_e):
+    """Mobilities of gaps that taper between two nodes of mobility `west` and `east`; all (lines, nodes).
+
+    The slopes by a node's mobility hold its gap, those by its gap the fluid. Zero where a gap is closed.
+    """
+    lines, nodes = west.shape
+    for j in range(lines):
+        for i in range(nodes):
+            w, e = gap_w[j, i], gap_e[j, i]
+            if min(w, e) <= 0.0:
+                mobility[j, i] = by_west[j, i] = by_east[j, i] = by_gap_w[j, i] = by_gap_e[j, i] = 0.0
+                continue
+            cubes = 2.0 * w * w * e * e / (w + e)
+            mean, of_w, of_e = _logarithmic_mean(west[j, i] / w**3, east[j, i] / e**3)
+            mobility[j, i] = cubes * mean
+            by_west[j, i], by_east[j, i] = cubes * of_w / w**3, cubes * of_e / e**3
+            by_gap_w[j, i] = cubes * mean * (2.0 / w - 1.0 / (w + e))
+            by_gap_e[j, i] = cubes * mean * (2.0 / e - 1.0 / (w + e))

@@ -7,7 +7,7 @@ from mgehl.discretization.contact_law import ContactLaw, InterfaceConditions
 
 @dataclass(frozen=True)
 class Scheme:
-    """Names of `couette.SCHEMES` and `fluid.FACE_MEANS`, and what happens beside contact."""
+    """Names of `couette.SCHEMES` and `fluid.FACE_MOBILITIES`, and what happens beside contact."""
 
     couette: str = "1B"
     face_mobility: str = "arithmetic"

@@ -90,6 +90,10 @@ class PartitionedTransfer:
             self._prolong_contact = _inverse(spread, where=fine_contact)
             self._prolong_film = _inverse(1.0 - spread, where=self._fine_film)
 
+    def bilinear(self, coarse):
+        """A field that knows neither fluid nor contact, such as a deflection, on the fine grid."""
+        return self._transfer.bilinear(coarse)
+
     @event(TRANSFERS)
     def restrict(self, fine):
         """Residual (lines, nx) of the fine grid to the coarse one."""

@@ -11,7 +11,7 @@ from mgehl.multigrid.assembled import stencil_rows
 
 
 class CoarseSolve:
-    """Python context of a PC: dense LU of J with its border; ranks without lines have nothing to do."""
+    """Dense LU of J with its border; ranks without lines have nothing to do."""
 
     def __init__(self, jacobian):
         self._jacobian = jacobian
@@ -19,7 +19,7 @@ class CoarseSolve:
             self._K = dense_influence(jacobian.grid.mesh, jacobian.contact.kernel)
 
     @event(COARSE)
-    def setUp(self, _pc):
+    def factor(self):
         """Gather the stencils, form the dense matrix and factor it."""
         if self._jacobian.grid.has_lines:
             self._factor()
@@ -42,18 +42,17 @@ class CoarseSolve:
             self._factors = lu_factor(matrix, overwrite_a=True, check_finite=False)
 
     @event(COARSE)
-    def apply(self, _pc, x, y):
-        """y = J^-1 x."""
+    def solve(self, r, load):
+        """Corrections of P, (lines, nx), and of H0 for a residual; the last rank alone knows its `load`."""
         space, grid = self._jacobian.space, self._jacobian.grid
         if not grid.has_lines:
-            return
-        r, load = space.read_in_team(x)
-        whole = np.append(grid.whole_of_team(r).ravel(), load)
+            return r, 0.0
+        whole = np.append(grid.whole_of_team(r).ravel(), space.border_in_team(load))
         solution = lu_solve(self._factors, whole, check_finite=False)
         lines = solution[:-1].reshape(grid.mesh.ny, grid.mesh.nx)
-        space.write(y, lines[grid.first : grid.last], solution[-1])
+        return lines[grid.first : grid.last], float(solution[-1])
 
-    def view(self, _pc, viewer):
+    def view(self, viewer):
         viewer.printfASCII("  dense LU with the border, redundant on every rank with lines\n")
 
     def _gather(self, stencil):

@@ -1,14 +1,13 @@
-"""The V-cycle: PETSc's PCMG as the right preconditioner of flexible GMRES.
+"""The linear solver: a V-cycle as the right preconditioner of flexible GMRES.
 
 Coarse operators are rediscretised with P, H and status injected from the fine grid, and always
 with the arithmetic mean of the mobility: coarse neighbours differ by so much that a mean which
 vanishes with either side closes faces the fine grid has open (measured: thin films by the
-geometric mean take 4 iterations so, and 21 with its own mean on every grid). Where the
+geometric mean took 4 iterations so, and 21 with its own mean on every grid). Where the
 surfaces move at an angle to the lines, coarse Couette flows have the finest grid's truncation error:
 waves across the motion would be carried along otherwise than there, and a coarse grid's correction of
-them would be a fraction of what it should be. The
-border travels with the residual, so H0 is corrected by the direct solve on the coarsest grid
-and the cycle needs no second solve for its column.
+them would be a fraction of what it should be. The border travels with the residual, so H0 is corrected
+by the direct solve on the coarsest grid and the cycle needs no second solve for its column.
 """
 
 from dataclasses import dataclass, replace
@@ -22,54 +21,27 @@ from mgehl.discretization.evaluation import Evaluation
 from mgehl.grid.transfers import PartitionedTransfer
 from mgehl.multigrid.coarse import CoarseSolve
 from mgehl.multigrid.jacobian import Jacobian
-from mgehl.multigrid.smoother import CrossedLineSmoother, LineSmoother, RigidLineSmoother
+from mgehl.multigrid.smoother import smoother_of
+from mgehl.multigrid.vcycle import VCycle
 
 LARGE_GRID, RESTART_OF_LARGE = 10_000_000, 6
 """Nodes from which on GMRES is restarted, after so many iterations: it keeps two vectors of each, and
 PETSc takes ten at a time (4097 nodes a side: 2.4 GiB from the fourth iteration on)."""
 
 
-class _Restriction:
-    """Python context of the Mat that restricts bordered residuals."""
-
-    def __init__(self, transfer, fine, coarse):
-        self._transfer, self._fine, self._coarse = transfer, fine.space, coarse.space
-        self._load_ratio = coarse.load_scale / fine.load_scale
-
-    def mult(self, _mat, x, y):
-        """y = R x from the fine to the coarse space."""
-        r, load = self._fine.read_own(x)
-        self._coarse.write(y, self._transfer.restrict(r), load * self._load_ratio)
-
-
-class _Interpolation:
-    """Python context of the Mat that interpolates bordered corrections."""
-
-    def __init__(self, transfer, fine, coarse):
-        self._transfer, self._fine, self._coarse = transfer, fine.space, coarse.space
-
-    def mult(self, _mat, x, y):
-        """y = P x from the coarse to the fine space."""
-        correction, dH0 = self._coarse.read_own(x)
-        self._fine.write(y, self._transfer.prolong(correction), dH0)
-
-
 @dataclass(frozen=True)
 class CycleSettings:
-    """The linear solver: relaxations before and after the coarse grids, and GMRES limits."""
+    """The linear solver: relaxations after the coarse grids, and GMRES limits."""
 
     sweeps: int = SolverSection.sweeps
-    """Line relaxations before and after the coarse grids. With 2 all cases but one take more convolutions,
-    a line contact two thirds more."""
+    """Line relaxations after the coarse grids: each but the first takes a convolution on every grid."""
     omega: float = SolverSection.omega
     """Damping of the line relaxation. With 0.7 and 0.9 films and line contacts take up to a third more
     work, one film and mixed lubrication with 0.7 an eighth and a fifth less."""
     couette: str = SolverSection.cycle_couette
     """Couette scheme of the cycle's operators; "same" is the one that is solved."""
-    max_iterations: int = 60
-    """Of GMRES, which is not restarted: thin films on coarse grids take 40, and 30 at a time never end.
-    From 10 to 200 the same steps where none takes so many: a step of a film takes 4, a wedge's system 8,
-    with GAMG 24."""
+    max_iterations: int = 150
+    """Of GMRES, which is not restarted: thin films on coarse grids take 100, and 30 at a time never end."""
     options_prefix: str = "mgehl_"
     """Under which PETSc options reach the solvers of a run."""
 
@@ -77,16 +49,15 @@ class CycleSettings:
 class MultigridSolver:
     """Flexible GMRES with one V-cycle for the bordered Jacobian of grid `level`.
 
-    With a `rigid` gap it solves for the fluid alone and makes no convolution. Of surfaces that move at an
-    angle it takes lines along both axes, but not where the fluid is settled `apart` from the gap: what is
-    left then is contact, which knows no direction (full contact at 45 degrees: 43 convolutions for 76).
+    With a `rigid` gap it solves for the fluid alone and makes no convolution. Where the fluid is settled
+    `apart` from the gap what is left is contact, which knows no direction of motion.
     """
 
     def __init__(
         self, hierarchy, level, contact, scheme, settings=CycleSettings(), rigid=False, apart=False
     ):
         self.contact, self._settings = contact, settings
-        self._crossed = scheme.is_oblique and not (rigid or apart)
+        self._oblique = scheme.is_oblique and not (rigid or apart)
         same = settings.couette in ("same", scheme.couette)
         self._scheme = scheme if same else replace(scheme, couette=settings.couette)
         grids, deflections = hierarchy.grids[: level + 1], hierarchy.deflections[: level + 1]
@@ -103,25 +74,24 @@ class MultigridSolver:
             self.jacobian = Jacobian(grids[-1], deflections[-1], contact, scheme)
         self._transfers = hierarchy.transfers[:level]
         self._partitioned = [PartitionedTransfer(transfer) for transfer in self._transfers]
-        elastic = CrossedLineSmoother if self._crossed else LineSmoother
-        smoother = RigidLineSmoother if rigid else elastic
+        smoother = smoother_of(self.jacobian)
         self._smoothers = [smoother(jacobian, settings.omega) for jacobian in self.jacobians[1:]]
-        self._transfer_mats = []
+        coarse = CoarseSolve(self.jacobians[0])
+        self._cycle = VCycle(self.jacobians, self._partitioned, self._smoothers, coarse, settings.sweeps)
 
     def _scheme_of(self, coarsenings):
         """The scheme of the cycle's operator on a grid so many times coarser than the finest."""
         if coarsenings == 0:
             return self._scheme
         coarse = replace(self._scheme, face_mobility="arithmetic")
-        return replace(coarse, coarsenings=coarsenings) if self._crossed else coarse
+        return replace(coarse, coarsenings=coarsenings) if self._oblique else coarse
 
     def free(self):
         """Destroy Mats and MPI datatypes; the KSP that uses them must be destroyed before."""
         for smoother in self._smoothers:
             smoother.free()
-        mats = [jacobian.mat for jacobian in (*self.jacobians, self.jacobian)]
-        for mat in (*self._transfer_mats, *mats):
-            mat.destroy()
+        for jacobian in (*self.jacobians, self.jacobian):
+            jacobian.mat.destroy()
 
     @property
     def space(self):
@@ -154,7 +124,8 @@ class MultigridSolver:
         ksp.setOperators(self.jacobian.mat, self.jacobians[-1].mat)
         ksp.setTolerances(rtol=rtol, atol=0.0, max_it=self._settings.max_iterations)
         ksp.setGMRESRestart(self._restart)
-        self._configure_cycle(ksp.getPC())
+        ksp.getPC().setType(PETSc.PC.Type.PYTHON)
+        ksp.getPC().setPythonContext(self._cycle)
         ksp.setFromOptions()
 
     @property
@@ -162,39 +133,6 @@ class MultigridSolver:
         """Iterations that GMRES remembers: all, but where memory is short."""
         large = self.jacobian.grid.mesh.nodes > LARGE_GRID
         return RESTART_OF_LARGE if large else self._settings.max_iterations
-
-    def _configure_cycle(self, pc):
-        pc.setType(PETSc.PC.Type.MG)
-        pc.setMGLevels(len(self.jacobians))
-        pc.setMGType(PETSc.PC.MGType.MULTIPLICATIVE)
-        self._configure_level(pc.getMGCoarseSolve(), 0, PETSc.KSP.Type.PREONLY, 1)
-        for level in range(1, len(self.jacobians)):
-            smoother, visits = pc.getMGSmoother(level), self._smoothers[level - 1].visits
-            self._configure_level(
-                smoother, level, PETSc.KSP.Type.RICHARDSON, visits * self._settings.sweeps
-            )
-            pc.setMGRestriction(level, self._transfer_mat(level, _Restriction))
-            pc.setMGInterpolation(level, self._transfer_mat(level, _Interpolation))
-
-    def _configure_level(self, solver, level, kind, iterations):
-        jacobian = self.jacobians[level]
-        solver.setType(kind)
-        solver.setNormType(PETSc.KSP.NormType.NONE)
-        solver.setTolerances(max_it=iterations)
-        solver.setOperators(jacobian.mat)
-        solver.getPC().setType(PETSc.PC.Type.PYTHON)
-        context = CoarseSolve(jacobian) if level == 0 else self._smoothers[level - 1]
-        solver.getPC().setPythonContext(context)
-
-    def _transfer_mat(self, level, kind):
-        fine, coarse = self.jacobians[level], self.jacobians[level - 1]
-        spaces = (coarse.space, fine.space) if kind is _Restriction else (fine.space, coarse.space)
-        sizes = [(space.local_size, PETSc.DECIDE) for space in spaces]
-        context = kind(self._partitioned[level - 1], fine, coarse)
-        mat = PETSc.Mat().createPython(sizes, context, comm=fine.grid.comm)
-        mat.setUp()
-        self._transfer_mats.append(mat)
-        return mat
 
 
 def _evaluate(jacobian, P, H, status):

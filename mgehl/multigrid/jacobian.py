@@ -36,7 +36,11 @@ class BorderedSpace:
     def read_in_team(self, vec):
         """As `read` where only ranks with lines ask for the border; 0 on the others."""
         P, border = self.read_own(vec)
-        return P, _sent_from_last(self.grid.team, border) if self.grid.has_lines else border
+        return P, self.border_in_team(border)
+
+    def border_in_team(self, border):
+        """The last rank's border entry on every rank with lines."""
+        return _sent_from_last(self.grid.team, border) if self.grid.has_lines else border
 
     def read_own(self, vec):
         """As `read` without a message: the border entry is 0 but on the last rank."""
@@ -101,12 +105,22 @@ class Jacobian:
     def mult(self, _mat, x, y):
         """y = J x; one convolution unless the gap is rigid."""
         dP, dH0 = self.space.read_in_team(x)
+        if self.rigid:
+            self.space.write(y, self.product(dP, None, dH0), dH0)
+        else:
+            load = self.load_weight * self.grid.sum_of_team(dP.sum())
+            self.space.write(y, self.product(dP, self.deflection(dP), dH0), load)
+
+    def product(self, dP, dH, dH0):
+        """A dP + B (dH + dH0), (lines, nx), of a known deflection `dH`; the next call overwrites it.
+
+        In a rigid gap A dP alone.
+        """
         grid, lin = self.grid, self.linearisation
         grid.halo(dP, out=self._dP)
         if self.rigid:
             apply_stencil(lin.offsets, lin.A, self._dP, self._out)
-            self.space.write(y, self._out, dH0)
         else:
-            grid.halo(self.deflection(dP), out=self._dH)
+            grid.halo(dH, out=self._dH)
             apply_jacobian(lin.offsets, lin.A, lin.B, self._dP, self._dH, dH0, self._out)
-            self.space.write(y, self._out, self.load_weight * grid.sum_of_team(dP.sum()))
+        return self._out

@@ -23,7 +23,7 @@ SQUEEZE = 3.0
 full contact takes the same steps, mixed lubrication 65 to 58 convolutions, a film by the geometric mean 317
 to 419."""
 
-OF_NODES = {"arithmetic": 0.1, "geometric": 0.1, "harmonic": 1.0}
+OF_NODES = {"arithmetic": 0.1, "logarithmic": 0.1, "tapered": 0.1, "geometric": 0.1, "harmonic": 1.0}
 """Part of the rate that goes by a node's own residual and film, by the mean of the mobility. From nothing
 to ten times as much full contact takes the same steps, mixed lubrication 58 to 68 convolutions and a film
 by the geometric mean 337 to 373. Shut-in nodes need it."""

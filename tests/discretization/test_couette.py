@@ -49,22 +49,30 @@ def difference(couette_flows):
 
 # Through the face between nodes 1 and 2, by Eqs. 17 and 18 with (rho, H) = (2, 7), (3, 11), (5, 13):
 #   1B 3*11;  2B (3*33 - 14)/2;  2C (33 + 65)/2;  S1B leaving 33 + (3 - 2) 11, entering
-#   33 + (5 - 3) 11;  S2C (33 + 65)/2 - (5 - 3)(13 - 11)/2
+#   33 + (5 - 3) 11;  S2C (33 + 65)/2 - (5 - 3)(13 - 11)/2;  3B (2*65 + 5*33 - 14)/6
 @pytest.mark.parametrize(
     "scheme, leaves, enters",
-    [("1B", 33.0, 33.0), ("2B", 42.5, 42.5), ("2C", 49.0, 49.0), ("S1B", 44.0, 55.0), ("S2C", 47.0, 47.0)],
+    [
+        ("1B", 33.0, 33.0),
+        ("2B", 42.5, 42.5),
+        ("2C", 49.0, 49.0),
+        ("3B", 281.0 / 6.0, 281.0 / 6.0),
+        ("S1B", 44.0, 55.0),
+        ("S2C", 47.0, 47.0),
+    ],
 )
 def test_flow_through_an_inner_face(couette_flows, scheme, leaves, enters):
     leaving, entering = couette_flows(scheme)
-    assert leaving.value[1] == leaves
-    assert entering.value[1] == enters
+    assert leaving.value[1] == pytest.approx(leaves, rel=1e-15)
+    assert entering.value[1] == pytest.approx(enters, rel=1e-15)
 
 
 @pytest.mark.parametrize(
-    "scheme, enters", [("1B", 14.0), ("2B", 23.5), ("2C", 23.5), ("S1B", 21.0), ("S2C", 21.5)]
+    "scheme, enters",
+    [("1B", 14.0), ("2B", 23.5), ("2C", 23.5), ("3B", 23.5), ("S1B", 21.0), ("S2C", 21.5)],
 )
 def test_flow_through_the_first_face_needs_no_node_upstream(couette_flows, scheme, enters):
-    """1B 2*7;  2B and 2C (14 + 33)/2;  S1B 14 + (3 - 2) 7;  S2C 23.5 - (3 - 2)(11 - 7)/2."""
+    """1B 2*7;  2B, 3B and 2C (14 + 33)/2;  S1B 14 + (3 - 2) 7;  S2C 23.5 - (3 - 2)(11 - 7)/2."""
     assert couette_flows(scheme)[1].value[0] == enters
 
 
@@ -121,7 +129,9 @@ def test_second_order_backward_schemes_agree_on_a_linear_gap_of_constant_density
         assert flow.value.tolist() == pytest.approx([2.5, 3.5, 4.5, 5.5], rel=1e-14)
 
 
-@pytest.mark.parametrize("scheme, flow", [("2B", 49.0), ("S2B-v", 47.0), ("S2B-vi", 47.0), ("S1B", 33.0)])
+@pytest.mark.parametrize(
+    "scheme, flow", [("2B", 49.0), ("3B", 49.0), ("S2B-v", 47.0), ("S2B-vi", 47.0), ("S1B", 33.0)]
+)
 def test_nothing_is_extrapolated_from_the_far_side_of_a_contact(couette_flows, scheme, flow):
     """With node 0 solid, the face between nodes 1 and 2 uses 2C, S2C or 1B of these two nodes."""
     leaving, _ = couette_flows(scheme, status=[CONTACT, *FILM[1:]])
@@ -139,7 +149,10 @@ def test_flow_is_the_velocity_s_multiple_and_turns_round_with_it(couette_flows, 
 
 def test_schemes_of_a_difference_of_rho_H_are_conservative():
     conservative = [name for name, scheme in SCHEMES.items() if scheme.conservative]
-    assert conservative == ["1B", "2B", "2C", "S2C"]
+    assert conservative == ["1B", "2B", "2C", "3B", "S2C"]
+
+
+THIRD = [(1 / 3, E, E), (5 / 6, W, W), (-1 / 6, WW, WW)]
 
 
 # (c, a, b) of Eqs. 17 and 18 multiplied out; a term adds c rho'_a H_b by P_a and c rho_a by H_b.
@@ -149,6 +162,7 @@ def test_schemes_of_a_difference_of_rho_H_are_conservative():
         ("1B", [(1.0, W, W)], [(1.0, W, W)]),
         ("2B", [(1.5, W, W), (-0.5, WW, WW)], [(1.5, W, W), (-0.5, WW, WW)]),
         ("2C", [(0.5, W, W), (0.5, E, E)], [(0.5, W, W), (0.5, E, E)]),
+        ("3B", THIRD, THIRD),
         ("S1B", [(2.0, W, W), (-1.0, WW, W)], [(1.0, E, W)]),
         ("S2C", [(0.5, W, E), (0.5, E, W)], [(0.5, W, E), (0.5, E, W)]),
     ],
@@ -169,6 +183,14 @@ def test_uniform_fluid_passes_unchanged_by_every_scheme(couette_flows, scheme):
     """With uniform rho and H every face carries rho H."""
     leaving, entering = couette_flows(scheme, rho=np.full(5, 2.0), gap=np.full(5, 3.0))
     assert (leaving.value == 6.0).all() and (entering.value == 6.0).all()
+
+
+@pytest.mark.parametrize("power", [1, 2, 3])
+def test_3B_differences_a_cube_exactly(couette_flows, power):
+    """d(X^3)/dX = 3 X^2 at nodes with both neighbours and the one before: third order."""
+    X = np.arange(5.0)
+    flow = couette_flows("3B", rho=np.ones(5), gap=X**power)[0].value
+    np.testing.assert_allclose(flow[2:] - flow[1:-1], power * X[2:4] ** (power - 1), rtol=1e-14)
 
 
 @pytest.mark.parametrize("coarsenings", [1, 2, 3])

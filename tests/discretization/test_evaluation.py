@@ -11,7 +11,7 @@ from mgehl.discretization import evaluation as module
 from mgehl.discretization.axes import HALO, own
 from mgehl.discretization.couette import SCHEMES
 from mgehl.discretization.evaluation import Evaluation
-from mgehl.discretization.fluid import FACE_MEANS
+from mgehl.discretization.fluid import FACE_MOBILITIES
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.residual import linearise, residual
 from mgehl.discretization.rows import FLOW, rows_of
@@ -19,7 +19,7 @@ from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
 
 every_scheme = pytest.mark.parametrize("couette", SCHEMES)
-every_mean = pytest.mark.parametrize("mean", FACE_MEANS)
+every_mean = pytest.mark.parametrize("mean", FACE_MOBILITIES)
 
 # Liu eqs. 31 and 32 as printed: Couette flow leaving node i and entering it.
 LEAVING = {

@@ -1,5 +1,5 @@
 from dataclasses import replace
-from math import sqrt
+from math import log, sqrt
 
 import numpy as np
 import pytest
@@ -9,14 +9,14 @@ from mgehl.discretization.axes import axes_of
 from mgehl.discretization.contact_law import UnifiedEquations
 from mgehl.discretization.couette import EE, SCHEMES, SHIFT, WW, E, W
 from mgehl.discretization.faces import conductances, flows
-from mgehl.discretization.fluid import FACE_MEANS, Fluid, fluid_state
+from mgehl.discretization.fluid import FACE_MEANS, FACE_MOBILITIES, Fluid, fluid_state
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import BOUNDARY, CONTACT, LUBRICATED
 
 along_both = pytest.mark.parametrize("along", ALONG)
 every_scheme = pytest.mark.parametrize("couette", SCHEMES)
-every_mean = pytest.mark.parametrize("mean", FACE_MEANS)
+every_mean = pytest.mark.parametrize("mean", FACE_MOBILITIES)
 
 MOTIONS = {"along x": (1.0, 0.0), "against x": (-1.0, 0.0), "at an angle": (0.6, 0.8)}
 
@@ -131,6 +131,9 @@ BLOCKED_RISE = {
     "2C": lambda rho, H, i: (rho[i] * H[i] + rho[i - 1] * H[i - 1]) / 2.0,
     "S1B": lambda rho, H, i: rho[i] * H[i - 1],
     "S2C": lambda rho, H, i: (rho[i] * H[i - 1] + rho[i - 1] * H[i]) / 2.0,
+    "3B": lambda rho, H, i: (
+        (2.0 * rho[i] * H[i] + 5.0 * rho[i - 1] * H[i - 1] - rho[i - 2] * H[i - 2]) / 6.0
+    ),
 }
 
 
@@ -141,8 +144,8 @@ def test_blocked_flow_recursion(couette, along):
     row, rng, n, dX = Row(along), np.random.default_rng(3), 9, 0.5
     rho, H, eps = rng.uniform(1.0, 1.4, n), np.linspace(1.0, 0.2, n), rng.uniform(0.5, 2.0, n)
     P = np.zeros(n)
-    # The first face has no WW node: 2B falls back on 2C there.
-    rules = ["2C" if couette == "2B" else couette] + [couette] * (n - 2)
+    # The first face has no WW node: 2B and 3B fall back on 2C there.
+    rules = ["2C" if couette in ("2B", "3B") else couette] + [couette] * (n - 2)
     for i, rule in enumerate(rules, start=1):
         P[i] = P[i - 1] + BLOCKED_RISE[rule](rho, H, i) * dX / (0.5 * (eps[i - 1] + eps[i]))
     status = np.full(n, LUBRICATED)
@@ -264,7 +267,7 @@ def test_values_do_not_depend_on_whether_derivatives_are_asked_for(couette, mixe
 
 
 def test_geometric_mean_of_a_nearly_closed_gap_throttles_the_flow():
-    """eps of 1e-10 beside 1: the arithmetic mean leaks 0.5, the geometric 1e-5, the harmonic 2e-10."""
+    """eps of 1e-10 beside 1: the arithmetic mean leaks 0.5, the logarithmic 0.04, the geometric 1e-5."""
     row = Row("x")
     leak = {
         mean: flows_of(row, row.axis(), [1.0, 0.0, 0.0], 0.0, 1.0, [1.0, 1e-10, 1e-10], Scheme("1B", mean))[
@@ -272,11 +275,16 @@ def test_geometric_mean_of_a_nearly_closed_gap_throttles_the_flow():
         ][0]
         for mean in FACE_MEANS
     }
-    expected = {"arithmetic": 0.5 + 0.5e-10, "geometric": sqrt(1e-10), "harmonic": 2e-10 / (1.0 + 1e-10)}
+    expected = {
+        "arithmetic": 0.5 + 0.5e-10,
+        "logarithmic": (1.0 - 1e-10) / log(1e10),
+        "geometric": sqrt(1e-10),
+        "harmonic": 2e-10 / (1.0 + 1e-10),
+    }
     assert leak == pytest.approx(expected, rel=1e-14)
 
 
-@pytest.mark.parametrize("mean", ["geometric", "harmonic"])
+@pytest.mark.parametrize("mean", ["logarithmic", "geometric", "harmonic"])
 def test_flows_and_conductances_take_their_share_of_the_mean(mean, mixed):
     """They are linear in the face's mobility: 0.4 of those by the mean and 0.6 of the arithmetic ones."""
 
@@ -337,7 +345,7 @@ def test_nothing_passes_a_wall(couette, interface):
     ones = row.lay(np.ones(4), 7.0)  # whatever lies beyond
     fluid = plain_fluid(row.lay([4.0, 3.0, 2.0, 1.0], 9.0), ones, ones, ones)
     for flow in flows(fluid, row.status(np.full(4, LUBRICATED)), row.axis(), scheme):
-        assert flow.value[:, 0].tolist() == [0.0, 2.0, 2.0, 2.0, 0.0]
+        assert flow.value[:, 0] == pytest.approx([0.0, 2.0, 2.0, 2.0, 0.0], rel=1e-15, abs=0.0)
 
 
 @every_scheme

@@ -1,10 +1,11 @@
-from math import exp, sqrt
+from math import exp, log, sqrt
 
 import numpy as np
 import pytest
+from scipy.integrate import quad
 
 from mgehl.discretization.contact_law import InterfaceConditions, UnifiedEquations
-from mgehl.discretization.fluid import FACE_MEANS, face_mean, fluid_state
+from mgehl.discretization.fluid import FACE_MEANS, face_mobility, fluid_state
 from mgehl.discretization.scheme import Scheme
 
 LCIC = InterfaceConditions()
@@ -57,12 +58,21 @@ def test_a_fluid_evaluated_in_parts_is_the_fluid_evaluated_at_once(contact):
     "mean, value, by_a, by_b",
     [
         ("arithmetic", 5.0, 0.5, 0.5),
+        (
+            "logarithmic",
+            6.0 / log(4.0),
+            (3.0 / log(4.0) - 1.0) / log(4.0),
+            (1.0 - 0.75 / log(4.0)) / log(4.0),
+        ),
         ("geometric", 4.0, 1.0, 0.25),
         ("harmonic", 3.2, 2.0 * 0.8**2, 2.0 * 0.2**2),
     ],
 )
 def test_means_of_two_and_eight(mean, value, by_a, by_b):
-    """sqrt(2*8) = 4 with slopes 4/(2*2), 4/(2*8); 2*16/10 = 3.2 with slopes 2 (8/10)^2, 2 (2/10)^2."""
+    """sqrt(2*8) = 4 with slopes 4/(2*2), 4/(2*8); 2*16/10 = 3.2 with slopes 2 (8/10)^2, 2 (2/10)^2.
+
+    Of the logarithmic mean m they are (m/2 - 1)/ln 4 and (1 - m/8)/ln 4.
+    """
     result = FACE_MEANS[mean](np.array([2.0]), np.array([8.0]))
     assert [np.ravel(part)[0] for part in result] == pytest.approx([value, by_a, by_b], rel=1e-15)
 
@@ -83,7 +93,7 @@ def test_mean_slopes_match_central_differences(mean, a, b):
         assert by_b == pytest.approx((at(a, b * (1 + d)) - at(a, b * (1 - d))) / (2 * b * d), rel=1e-7)
 
 
-@pytest.mark.parametrize("mean", ["geometric", "harmonic"])
+@pytest.mark.parametrize("mean", ["logarithmic", "geometric", "harmonic"])
 @pytest.mark.parametrize("a, b", [(0.0, 3.0), (3.0, 0.0), (0.0, 0.0)])
 def test_vanishing_mean_of_a_closed_node_is_finite(mean, a, b):
     value, by_a, by_b = FACE_MEANS[mean](np.array([a]), np.array([b]))
@@ -95,7 +105,8 @@ def test_means_are_ordered_and_symmetric():
     a, b = np.array([1.0, 5.0, 1e-6]), np.array([2.0, 5.0, 1e3])
     means = {name: mean(a, b)[0] for name, mean in FACE_MEANS.items()}
     assert (means["harmonic"] <= means["geometric"] * (1 + 1e-15)).all()
-    assert (means["geometric"] <= means["arithmetic"] * (1 + 1e-15)).all()
+    assert (means["geometric"] <= means["logarithmic"] * (1 + 1e-15)).all()
+    assert (means["logarithmic"] <= means["arithmetic"] * (1 + 1e-15)).all()
     assert means["geometric"][0] == pytest.approx(sqrt(2.0), rel=1e-15)
     for mean in FACE_MEANS.values():
         value, by_a, by_b = mean(a, b)
@@ -106,8 +117,39 @@ def test_means_are_ordered_and_symmetric():
         np.testing.assert_allclose(by_b_swapped, by_b, rtol=0.0, atol=5e-16)
 
 
+@pytest.mark.parametrize("alpha_dP", [0.0, 1e-9, 1e-3, 0.019, 0.021, 0.5, 20.0])
+def test_logarithmic_mean_carries_the_flow_of_the_reduced_pressure(alpha_dP):
+    """By Barus's law and one gap mean (P_E - P_W) = (e^(-alpha P_W) - e^(-alpha P_E))/alpha."""
+    mean = FACE_MEANS["logarithmic"](np.array([1.0]), np.exp([-alpha_dP]))[0][0]
+    assert mean * alpha_dP == pytest.approx(-np.expm1(-alpha_dP), rel=1e-9)
+
+
+@pytest.mark.parametrize("ratio", [1.0 + 1e-14, 1.0 + 1e-8, 1.01, 1.0199, 1.0203, 1.05])
+def test_logarithmic_mean_of_like_mobilities_keeps_its_digits(ratio):
+    """By (a + b)/2 (1 - x^2/3 - 4 x^4/45), x = (b - a)/(a + b), and its slopes."""
+    b = 3.0 * ratio
+    x = (b - 3.0) / (3.0 + b)
+    even, slope = 1.0 - x**2 / 3.0 - 4.0 * x**4 / 45.0, -2.0 * x / 3.0 - 16.0 * x**3 / 45.0
+    value, by_a, by_b = (part[0] for part in FACE_MEANS["logarithmic"](np.array([3.0]), np.array([b])))
+    assert value == pytest.approx(0.5 * (3.0 + b) * even, rel=1e-10)
+    assert by_a == pytest.approx(0.5 * even - slope * b / (3.0 + b), rel=1e-8)
+    assert by_b == pytest.approx(0.5 * even + slope * 3.0 / (3.0 + b), rel=1e-8)
+
+
 A, B = np.array([2.0, 1.0, 4.0, 0.0]), np.array([8.0, 30.0, 4.0, 3.0])
 """Mobilities on the two sides of four faces, one of them closed."""
+
+
+def side(eps, gap=1.0, deps_dP=1.0, deps_dH=1.0):
+    """Nodes on one side of faces, as `face_mobility` takes them."""
+    parts = {"eps": eps, "gap": gap, "deps_dP": deps_dP, "deps_dH": deps_dH}
+    return lambda name: np.broadcast_to(parts[name], np.shape(eps))
+
+
+def face_mean(scheme, a, b):
+    """Mobility between nodes of mobility a and b, and its derivatives by those."""
+    mobility = face_mobility(scheme, side(a), side(b))
+    return mobility.value, *mobility.by_P
 
 
 @pytest.mark.parametrize("mean", FACE_MEANS)
@@ -133,7 +175,7 @@ def test_a_share_of_the_mean_of_two_and_eight(mean, value):
     assert face_mean(scheme, A, B)[0][0] == pytest.approx(value, rel=1e-15)
 
 
-@pytest.mark.parametrize("mean", ["geometric", "harmonic"])
+@pytest.mark.parametrize("mean", ["logarithmic", "geometric", "harmonic"])
 def test_slopes_of_a_shared_mean_match_central_differences(mean):
     scheme, a, b, d = Scheme("1B", mean, 0.4), A[:3], B[:3], 1e-4
     _, by_a, by_b = face_mean(scheme, a, b)
@@ -141,6 +183,56 @@ def test_slopes_of_a_shared_mean_match_central_differences(mean):
     measured_b = (face_mean(scheme, a, b + d)[0] - face_mean(scheme, a, b - d)[0]) / (2.0 * d)
     np.testing.assert_allclose(by_a, measured_a, rtol=1e-7)
     np.testing.assert_allclose(by_b, measured_b, rtol=1e-7)
+
+
+TAPERED = Scheme(face_mobility="tapered")
+
+
+def tapered(gap_w, gap_e, v_w, v_e):
+    """The mobility by numbers: gaps, and mobilities over their cubes; with its slopes by each."""
+    sides = (side(np.array([[v * gap**3]]), gap) for gap, v in ((gap_w, v_w), (gap_e, v_e)))
+    mobility = face_mobility(TAPERED, *sides)
+    return [part.item() for part in (mobility.value, *mobility.by_P, *mobility.by_H)]
+
+
+@pytest.mark.parametrize("gap_w, gap_e, rise", [(1.0, 0.2, 3.0), (0.1, 0.7, -5.0), (0.3, 0.3, 1.0)])
+def test_a_tapering_gap_carries_the_flow_of_the_integrated_equation(gap_w, gap_e, rise):
+    """With q = h - h^3 e^(-p) dp/dx over a length 1: q int h^-3 = int h^-2 - (e^(-p_W) - e^(-p_E))."""
+
+    def h(x):
+        return gap_w + (gap_e - gap_w) * x
+
+    resistance, carried = (quad(lambda x, n=n: h(x) ** n, 0.0, 1.0, epsrel=1e-12)[0] for n in (-3, -2))
+    mobility = tapered(gap_w, gap_e, 1.0, exp(-rise))[0]
+    assert mobility * rise == pytest.approx((1.0 - exp(-rise)) / resistance, rel=1e-10)
+    assert carried / resistance == pytest.approx(2.0 * gap_w * gap_e / (gap_w + gap_e), rel=1e-10)
+
+
+def test_between_equal_gaps_the_tapered_mobility_is_the_logarithmic_mean():
+    assert tapered(0.5, 0.5, 2.0, 8.0)[0] == pytest.approx(0.5**3 * 6.0 / log(4.0), rel=1e-14)
+
+
+def test_slopes_of_the_tapered_mobility_match_central_differences():
+    """By P the nodes' mobility moves at its gap, by H the gap under its fluid."""
+    at, d = np.array([0.3, 0.5, 2.0, 0.7]), 1e-6
+    _, of_w, of_e, by_w, by_e = tapered(*at)
+    measured = [(tapered(*(at + step))[0] - tapered(*(at - step))[0]) / (2.0 * d) for step in d * np.eye(4)]
+    slopes = [by_w, by_e, of_w * at[0] ** 3, of_e * at[1] ** 3]
+    assert slopes == pytest.approx(measured, rel=1e-8)
+
+
+@pytest.mark.parametrize("gaps", [(0.0, 1.0), (1.0, -0.1), (0.0, 0.0)])
+def test_nothing_flows_into_a_gap_that_tapers_to_nothing(gaps):
+    assert tapered(*gaps, 1.0, 1.0) == [0.0] * 5
+
+
+def test_the_leak_into_a_nearly_closed_gap_falls_with_its_square():
+    assert tapered(1.0, 1e-4, 1.0, 1.0)[0] == pytest.approx(2e-8, rel=2e-4)
+
+
+def test_a_smallest_gap_does_not_move_the_tapered_mobility():
+    west, east = side(np.ones((1, 1)), 1.0, deps_dH=0.0), side(np.ones((1, 1)), 1.0)
+    assert [slope.item() for slope in face_mobility(TAPERED, west, east).by_H] == [0.0, 1.5]
 
 
 def test_the_smallest_gap_of_the_unified_equations_is_the_least_of_the_mobility(contact):

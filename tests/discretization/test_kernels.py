@@ -15,6 +15,7 @@ from mgehl.discretization.kernels import (
     distribute,
     factor_bands,
     flow_sources,
+    logarithmic_means,
     relax_cavitation,
     solve_bands,
 )
@@ -224,3 +225,27 @@ def test_relax_cavitation_touches_every_other_line_and_counts_changes(rng):
     assert lubricated[1::2, 1:-1].all() and not lubricated[::2].any()
     relax_cavitation(1, P, lubricated, movable, source, along, across, 1)
     assert (own(P)[1::2, 1:-1] > 0.0).all() and not own(P)[::2].any()
+
+
+class TestLogarithmicMeans:
+    @staticmethod
+    def found(a, b):
+        parts = np.full((3, *a.shape), np.nan)
+        logarithmic_means(a, b, *parts)
+        return parts
+
+    def test_of_mobilities_that_differ(self, rng):
+        """m = (a - b)/ln(a/b), dm/da = (1 - m/a)/ln(a/b), along lines that are views of a larger array."""
+        a, b = np.exp(rng.uniform(-30.0, 30.0, (2, 4, 14)))[:, :, ::2]
+        logarithm = np.log(a / b)
+        mean = (a - b) / logarithm
+        for part, twin in zip(
+            self.found(a, b),
+            (mean, (1.0 - mean / a) / logarithm, (mean / b - 1.0) / logarithm),
+            strict=True,
+        ):
+            np.testing.assert_allclose(part, twin, rtol=1e-11)
+
+    def test_of_which_one_vanishes(self):
+        a, b = np.array([[0.0, 3.0, 0.0, -1.0, 1e-300]]), np.array([[3.0, 0.0, 0.0, 3.0, 1e300]])
+        assert (self.found(a, b) == 0.0).all()

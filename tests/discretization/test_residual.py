@@ -8,7 +8,7 @@ from mgehl.discretization.axes import own
 from mgehl.discretization.contact_law import UnifiedEquations
 from mgehl.discretization.couette import SCHEMES
 from mgehl.discretization.evaluation import Evaluation
-from mgehl.discretization.fluid import FACE_MEANS
+from mgehl.discretization.fluid import FACE_MOBILITIES
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.residual import linearise, residual
 from mgehl.discretization.rows import FLOW, GAP, PRESSURE
@@ -17,7 +17,7 @@ from mgehl.discretization.status import LUBRICATED
 from mgehl.discretization.storage import Storage
 
 every_scheme = pytest.mark.parametrize("couette", SCHEMES)
-every_mean = pytest.mark.parametrize("mean", FACE_MEANS)
+every_mean = pytest.mark.parametrize("mean", FACE_MOBILITIES)
 rigid_or_not = pytest.mark.parametrize("rigid", [False, True], ids=["elastic", "rigid"])
 AT_AN_ANGLE = (0.6, 0.8)
 

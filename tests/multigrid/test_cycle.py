@@ -74,7 +74,7 @@ def richardson(multigrid, ksp, make_vec, b, cycles):
 @pytest.mark.parametrize("kind", ["noise", "bulge"])
 @pytest.mark.parametrize("nodes", SIZES)
 def test_stationary_convergence(film, make_ksp, make_vec, nodes, kind):
-    """V(2,2) by itself takes at least half of the residual away with every cycle."""
+    """A cycle with two relaxations by itself takes at least half of the residual away."""
     multigrid, state = film(nodes, sweeps=2)
     ksp = make_ksp(multigrid)
     ksp.setUp()
@@ -101,9 +101,9 @@ def test_gmres_iterations(film, make_ksp, make_vec, nodes, kind):
 
 
 @pytest.mark.parametrize("kind", ["noise", "bulge"])
-@pytest.mark.parametrize("mean, most", [("geometric", 6), ("harmonic", 25)])
+@pytest.mark.parametrize("mean, most", [("geometric", 8), ("harmonic", 68)])
 def test_gmres_iterations_by_other_means(solve, paper_contact, make_ksp, make_vec, kind, mean, most):
-    """Coarse grids take the arithmetic mean: by their own, 8 and 34 iterations for the noise."""
+    """Coarse grids take the arithmetic mean; an iteration takes 4/3 convolutions."""
     contact = paper_contact(1.0)
     solution = solve(contact, 129)
     hierarchy, state = solution.hierarchy, solution.outcome.state
@@ -151,6 +151,16 @@ def test_rigid_gap_makes_no_convolution(solve, make_multigrid, paper_contact, ma
     assert ksp.getConvergedReason() > 0
 
 
+def test_an_iteration_convolves_once_on_every_grid(film, make_ksp, make_vec):
+    """The product of GMRES on the finest; on a coarser one, what its correction deflects."""
+    multigrid, state = film(129)
+    ksp = make_ksp(multigrid, rtol=1e-6)
+    before = [jacobian.deflection.count for jacobian in multigrid.jacobians]
+    iterations = solve_linear(multigrid, ksp, make_vec, "bulge", state)
+    counted = [j.deflection.count - b for j, b in zip(multigrid.jacobians, before, strict=True)]
+    assert counted == [iterations] * (len(counted) - 1) + [iterations + 1]  # one by the test itself
+
+
 def test_given_pressures_stay(film, make_ksp, make_vec):
     multigrid, state = film(65)
     ksp = make_ksp(multigrid)
@@ -180,7 +190,7 @@ def test_petsc_options_change_the_solver(film, make_ksp, petsc_options):
     ksp = make_ksp(multigrid)
     assert ksp.getTolerances()[3] == 3
     assert ksp.getType() == "gmres"
-    assert ksp.getPC().getType() == "mg"
+    assert ksp.getPC().getType() == "python"
 
 
 def solve_linear(multigrid, ksp, make_vec, kind, state):
@@ -271,5 +281,5 @@ def test_gmres_iterations_on_one_line(line_film, make_multigrid, make_ksp, make_
         assert (state.status == LUBRICATED).sum() > nodes / 2
         multigrid = make_multigrid(solution.hierarchy, solution.problem, state)
         iterations.append(solve_linear(multigrid, make_ksp(multigrid, 1e-6), make_vec, kind, state))
-    assert max(iterations) <= 8
+    assert max(iterations) <= 9
     assert max(iterations) <= min(iterations) + 2

@@ -1,39 +1,32 @@
-"""The distributive line smoother as a preconditioner of its own."""
+"""The distributive line smoother as an iteration of its own."""
 
 import numpy as np
 import pytest
-from mpi4py import MPI
-from petsc4py import PETSc
 
 from mgehl.discretization.bands import distributive_nodes
 from mgehl.discretization.influence import influence_coefficients
-from mgehl.discretization.rows import FLOW, GAP, PRESSURE
+from mgehl.discretization.rows import FLOW, GAP, PRESSURE, rows_of
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import BOUNDARY, CAVITATED, LUBRICATED
-from mgehl.multigrid.smoother import CrossedLineSmoother
-from mgehl.solver.problem import ContactProblem
+from mgehl.multigrid.smoother import CrossedLineSmoother, LineSmoother, RigidLineSmoother, smoother_of
 
-NODES = 65
+NODES, OMEGA = 65, 0.8
 
 
 @pytest.fixture
 def make_smoother():
-    """Factory of functions r -> correction: one relaxation on the finest grid of a cycle."""
+    """Factory of factored smoothers of a linearised `Jacobian` with these rows; freed after the test."""
     made = []
 
-    def make(multigrid):
-        ksp = PETSc.KSP().create(MPI.COMM_SELF)
-        made.append(ksp)
-        ksp.setOptionsPrefix("test_")
-        multigrid.configure(ksp, 1e-2)
-        ksp.setUp()
-        smoother = ksp.getPC().getMGSmoother(len(multigrid.jacobians) - 1)
-        smoother.setUp()
-        return smoother.getPC().apply
+    def make(jacobian, rows, kind=None):
+        made.append((kind or smoother_of(jacobian))(jacobian, OMEGA))
+        made[-1].partition(rows)
+        made[-1].factor()
+        return made[-1]
 
     yield make
-    for ksp in made:
-        ksp.destroy()
+    for smoother in made:
+        smoother.free()
 
 
 @pytest.fixture
@@ -42,21 +35,21 @@ def film(solve, paper_contact):
     return solve(paper_contact(), NODES)
 
 
-@pytest.fixture
-def relax(film, make_multigrid, make_smoother, make_vec):
+@pytest.fixture(params=[LineSmoother, CrossedLineSmoother])
+def relax(request, film, make_jacobian, make_smoother, make_vec):
     """Function: norms of error and residual after 0, 1, 2 ... relaxations of J e = 0."""
-    multigrid = make_multigrid(film.hierarchy, film.problem, film.outcome.state)
-    smooth, mat = make_smoother(multigrid), multigrid.jacobian.mat
+    state = film.outcome.state
+    jacobian = make_jacobian(film.problem, state)
+    smoother = make_smoother(jacobian, film.problem.rows(state.status), request.param)
 
     def run(error, relaxations):
-        e, r, correction = make_vec(multigrid.space, error), *(make_vec(multigrid.space) for _ in range(2))
+        P, r = error.copy(), make_vec(jacobian.space)
         errors, residuals = [], []
         for _ in range(relaxations + 1):
-            mat.mult(e, r)
-            errors.append(e.norm())
+            jacobian.mat.mult(make_vec(jacobian.space, P), r)
+            errors.append(np.linalg.norm(P))
             residuals.append(r.norm())
-            smooth(r, correction)
-            e.axpy(-1.0, correction)
+            P -= smoother.relax(jacobian.space.read_pressure(r))
         return np.array(errors), np.array(residuals)
 
     return run
@@ -97,44 +90,32 @@ def test_relaxation_alone_does_not_diverge(film, relax):
     assert np.all(errors < 1.5 * errors[0])
 
 
-def test_the_border_is_left_alone(film, make_multigrid, make_smoother, make_vec):
-    multigrid = make_multigrid(film.hierarchy, film.problem, film.outcome.state)
-    smooth, ones = make_smoother(multigrid), np.ones(film.problem.grid.shape)
-    corrections = []
-    for border in (0.0, 100.0):
-        corrected = make_vec(multigrid.space)
-        smooth(make_vec(multigrid.space, ones, border), corrected)
-        correction, dH0 = multigrid.space.read(corrected)
-        assert dH0 == 0.0
-        corrections.append(correction.copy())
-    np.testing.assert_array_equal(*corrections)
-    assert np.any(corrections[0] != 0.0)
-
-
 @pytest.mark.parametrize("rigid", [False, True], ids=["elastic", "rigid"])
-def test_given_pressures_get_no_correction(
-    make_hierarchy, paper_contact, rough_state, make_multigrid, make_smoother, make_vec, rigid
-):
-    hierarchy = make_hierarchy(paper_contact(), NODES)
-    problem = ContactProblem(hierarchy.grids[-1], hierarchy.deflections[-1], paper_contact(), Scheme())
+def test_given_pressures_get_no_correction(make_problem, rough_state, make_jacobian, make_smoother, rigid):
+    problem = make_problem(nodes=NODES)
     state = rough_state(problem, contact=True)
-    multigrid = make_multigrid(hierarchy, problem, state, rigid)
-    corrected = make_vec(multigrid.space)
-    make_smoother(multigrid)(make_vec(multigrid.space, np.ones(problem.grid.shape)), corrected)
-    correction, _ = multigrid.space.read(corrected)
+    rows = rows_of(state.status, rigid)
+    smoother = make_smoother(make_jacobian(problem, state, rigid), rows)
+    assert isinstance(smoother, RigidLineSmoother if rigid else CrossedLineSmoother)
+    correction = smoother.relax(np.ones(problem.grid.shape))
     given = (state.status == BOUNDARY) | (state.status == CAVITATED)
     np.testing.assert_array_equal(correction[given], 0.0)
     assert np.all(np.isfinite(correction)) and np.any(correction[~given] != 0.0)
 
 
+def test_a_single_line_is_not_crossed(line_film, make_jacobian):
+    solution = line_film(65)
+    assert smoother_of(make_jacobian(solution.problem, solution.outcome.state)) is LineSmoother
+
+
 class TestLinesAlongBothAxes:
-    """The smoother of a motion at an angle against dense matrices, on a grid that a band spans.
+    """The crossed smoother, of a motion at an angle, against dense matrices, on a grid that a band spans.
 
     A band is cut at 5 nodes, and the ends of a line are 6 apart: they and what is beside them are given, so
     that nothing moves there.
     """
 
-    NODES, OMEGA = 7, 0.8
+    NODES = 7
 
     @pytest.fixture
     def jacobian(self, make_problem, paper_contact, rough_state, make_jacobian):
@@ -151,12 +132,8 @@ class TestLinesAlongBothAxes:
         return rows
 
     @pytest.fixture
-    def smoother(self, jacobian, rows):
-        made = CrossedLineSmoother(jacobian, self.OMEGA)
-        made.partition(rows)
-        made.setUp(None)
-        yield made
-        made.free()
+    def smoother(self, jacobian, rows, make_smoother):
+        return make_smoother(jacobian, rows, CrossedLineSmoother)
 
     def parts(self, jacobian, rows, make_vec):
         """Q, and the parts of J Q along the x-lines, along the y-lines and on the diagonal."""
@@ -182,22 +159,16 @@ class TestLinesAlongBothAxes:
         Q, X, Y, D = self.parts(jacobian, rows, make_vec)
         r = np.random.default_rng(8).standard_normal((self.NODES, self.NODES))
         r[[0, -1]], r[:, [0, -1]] = 0.0, 0.0
-        corrected = make_vec(jacobian.space)
         for first, then in ((X, Y), (Y, X), (X, Y)):
-            smoother.apply(None, make_vec(jacobian.space, r), corrected)
+            correction = smoother.relax(r)
             w = np.linalg.solve(first @ np.linalg.solve(D, then), r.ravel())
-            damped = 0.5 * (1.0 + self.OMEGA) * (Q @ w)
-            expected = np.where(rows == PRESSURE, 0.0, damped.reshape(r.shape))
-            correction, border = jacobian.space.read(corrected)
+            expected = np.where(rows == PRESSURE, 0.0, OMEGA * (Q @ w).reshape(r.shape))
             np.testing.assert_allclose(correction, expected, rtol=1e-9, atol=1e-11 * np.abs(expected).max())
-            assert border == 0.0
 
-    def test_new_rows_begin_along_x_again(self, smoother, jacobian, rows, make_vec):
+    def test_new_rows_begin_along_x_again(self, smoother):
         """A factorisation must not depend on how many relaxations came before it."""
-        x, corrections = make_vec(jacobian.space, np.ones((self.NODES, self.NODES))), []
+        corrections = []
         for _ in range(2):
-            smoother.setUp(None)
-            corrected = make_vec(jacobian.space)
-            smoother.apply(None, x, corrected)
-            corrections.append(jacobian.space.read(corrected)[0].copy())
+            smoother.factor()
+            corrections.append(smoother.relax(np.ones((self.NODES, self.NODES))).copy())
         np.testing.assert_array_equal(*corrections)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mgehl.discretization.contact_law import InterfaceConditions, UnifiedEquations
-from mgehl.discretization.fluid import FACE_MEANS
+from mgehl.discretization.fluid import FACE_MOBILITIES
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import CONTACT, LUBRICATED
 from mgehl.solver.problem import State
@@ -77,7 +77,7 @@ def test_contact_starts_and_continuation_have_at_least_theirs():
 
 def test_every_mean_of_the_mobility_has_its_part():
     """The harmonic one's is the largest: its flow falls again soonest."""
-    assert set(OF_NODES) == set(FACE_MEANS) and max(OF_NODES, key=OF_NODES.get) == "harmonic"
+    assert set(OF_NODES) == set(FACE_MOBILITIES) and max(OF_NODES, key=OF_NODES.get) == "harmonic"
 
 
 class TestFold:
