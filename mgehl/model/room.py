@@ -13,7 +13,7 @@ import numpy as np
 
 from mgehl.model.contact import RESOLVED_CELLS
 
-ALLOWED = 0.35
+ALLOWED = 0.3
 """Per cent of film, as estimated, that a domain of twice the size may have more: truly it may be 0.5."""
 
 NEAREST = 0.25
@@ -71,7 +71,7 @@ def _rooms(starvation, share, nodes):
     """Metres between the contact and sides upstream, beside and downstream that each take a share."""
     contact, hertz = starvation.contact, starvation.like.hertz
     resolved = (nodes - 1) / (SPARE * RESOLVED_CELLS) * contact.inlet_length * contact.x_scale
-    by_load = [metres / share for metres in starvation.by_load]
+    by_load = [(lost / share) ** (1.0 / starvation.order) for lost in starvation.by_load]
     powers = [max(each) for each in zip(*starvation.powers, strict=True)]
     downstream = hertz.a * max(sqrt(2.0 * starvation.dimensionless_film) - 1.0, NEAREST)
     for_load = min(by_load[0], resolved - downstream - hertz.a) - hertz.a

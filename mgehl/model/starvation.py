@@ -6,7 +6,8 @@ of the contact), and the film goes with a power of the part that is left. On Ham
 m* = 1 + 3.06 [(R_x/b)^2 H]^0.58 a ball has lost some 4 % by that.
 
 The second is load. Far outside the bodies are rigid, the pressure is Kapitza's, and the load it carries
-beyond a distance falls only as 1 over that distance. It rules where a film answers to the load: M below 8.
+beyond a distance falls only as 1 over that distance, or over its square in a line contact. It rules where a
+film answers to the load: M below 8.
 
 The side downstream takes nothing: one at 1.2 semi-axes gives the film of one at 3 to 0.1 %.
 
@@ -32,12 +33,13 @@ at L = 10: of a line contact, on the way from upstream; of a ball, from both sid
 SLENDER = 0.63
 """b over a of the contact whose film falls half as fast as a line contact's: fluid gets in from beside."""
 
-RIGID, LIGHT = 2.0, 2.7
+RIGID, LIGHT = 2.0, 3.5
 """Power of the load with which a ball's rigid film falls, and how sharply that ends as the elastic film
 outgrows the rigid one."""
 
-OUTSIDE = 1.27
-"""Load lost over that beyond a side: the side's pressure of zero lowers that within, too."""
+OUTSIDE, LINE_OUTSIDE = 1.15, 3.0
+"""Load lost over that beyond a side, of point and line contacts: a side's pressure of zero lowers that
+within, too, in a line contact by as much everywhere."""
 
 NO_FILM = 1e-12
 """Least film, in units of H: a contact at rest has an inlet without length."""
@@ -79,7 +81,7 @@ class Starvation:
     def _missing_by(self, powers, side, room):
         """That by one side, `room` metres from the contact; one that lies askew takes some both ways."""
         room = max(room, 0.0)
-        upstream, beside = (lost / (room + side.half) for lost in self.by_load)
+        upstream, beside = (lost / (room + side.half) ** self.order for lost in self.by_load)
         part, rest = max(side.toward, 0.0) ** 2, 0.5 * (1.0 - side.toward**2)
         if part:
             upstream += powers[0] * self.upstream.missing(room / (side.toward * self.like.hertz.a))
@@ -126,28 +128,35 @@ class Starvation:
         upstream, beside = answer / (1.0 + (SLENDER / wide) ** 2), 2.0 * answer / (1.0 + wide**1.6)
         return [(upstream * up, beside * by) for up, by in zip(UPSTREAM, BESIDE, strict=True)]
 
+    @property
+    def order(self):
+        """Power of the distance with which the load beyond it falls."""
+        return 2 if self.contact.is_plane else 1
+
     @cached_property
     def by_load(self):
-        """-ln of the film left without the load beyond a side, times its distance in m: (upstream, beside).
+        """-ln of the film left without the load beyond a side, times its distance in m to the `order`.
 
-        Kapitza's p = c x/h^2 with c = 4 eta u R_x/(1 + 2 R_x/(3 R_y)). A line contact's load outside falls
-        as 1 over the square of the distance, and counts for nothing.
+        Upstream and beside. Kapitza's p = c x/h^2 with c = 4 eta u R_x/(1 + 2 R_x/(3 R_y)).
         """
         like = self.like
-        if self.contact.is_plane:
-            return 0.0, 0.0
-        x, y = like.radius_x, like.radius_y
+        x, y = like.radius_x, inf if self.contact.is_plane else like.radius_y
         c = 4.0 * like.lubricant.viscosity * like.speed * x / (1.0 + 2.0 * x / (3.0 * y))
-        share = OUTSIDE * self._answer_to_load * c / like.load
-        return share * 2.0 * pi * sqrt(x * y), share * 4.0 * y
+        share = self._answer_to_load * c / like.load
+        if self.contact.is_plane:
+            return LINE_OUTSIDE * share * 2.0 * x, 0.0
+        return OUTSIDE * share * 2.0 * pi * sqrt(x * y), OUTSIDE * share * 4.0 * y
 
     @property
     def _answer_to_load(self):
         """Power of the load with which the film falls, by Moes' rigid and elastic isoviscous films."""
         like = self.like
+        if self.contact.is_plane:
+            rigid, elastic, _, _ = films.line_asymptotes(like.groups)
+            return 1.0 / (1.0 + (elastic / rigid) ** LIGHT)
         rigid, elastic, _, _ = films.point_asymptotes(like.groups, like.radius_x / like.radius_y)
-        of_a_ball = RIGID / (1.0 + (elastic / rigid) ** LIGHT)
-        return of_a_ball * min(1.0, like.k_e)  # less of wide contacts, by as much as they are wide
+        # Less of wide contacts, by as much as they are wide.
+        return RIGID * min(1.0, like.k_e) / (1.0 + (elastic / rigid) ** LIGHT)
 
 
 def _twice(ends):
