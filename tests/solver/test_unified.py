@@ -9,13 +9,13 @@ from mpi4py import MPI
 from mgehl.config import config_from_tables
 from mgehl.discretization.status import CONTACT
 from mgehl.run import solve as solve_config
-from mgehl.studies.study import merged
+from mgehl.studies.study import merged, papers_grid
 
 
 @cache
 def solution(speed, nodes, model="unified", start="film", gap="0 m"):
     section = {"contact_model": model} | ({"unified_gap": gap} if model == "unified" else {})
-    tables = {"motion": {"speed": speed}, "grid": {"nodes": nodes}, "discretization": section}
+    tables = {"motion": {"speed": speed}, "grid": papers_grid(nodes), "discretization": section}
     return solve_config(config_from_tables(merged(tables, {"solver": {"start": start}})), MPI.COMM_SELF)
 
 
