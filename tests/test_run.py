@@ -273,10 +273,8 @@ def test_another_mean_is_solved_from_a_configuration():
 
 
 def test_a_run_keeps_the_domain_that_auto_became(tmp_path):
-    directory = tmp_path / "auto"
-    config = config_from_tables({"motion": {"speed": "1 m/s"}, "grid": {"nodes": 65}})
-    result = run(config, directory, MPI.COMM_SELF)
-    grid = load_config(directory / "configuration.toml").grid
+    result = run_quietly({"motion": {"speed": "1 m/s"}, "grid": {"nodes": 65}}, tmp_path)
+    grid = load_config(tmp_path / "configuration.toml").grid
     assert grid.x[0] < -1.9 and grid.y[1] == -grid.y[0] > 1.5
     assert result.converged and result.resolution.domain == "sufficient"
-    assert read_json(directory)["resolution"]["domain"] == "sufficient"
+    assert read_json(tmp_path)["resolution"]["domain"] == "sufficient"

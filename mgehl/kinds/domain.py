@@ -14,9 +14,9 @@ def settled(config, contact):
     taken for half-spaces whose contact is as wide.
     """
     grid = config.grid
-    if AUTO not in (grid.x, grid.y):
+    open_ends = [name for name in ("x" if contact.is_plane else "xy") if getattr(grid, name) == AUTO]
+    if not open_ends:
         return config
-    x, y = domain_for(Starvation(contact, contact.flooded_film), grid.nodes, FARTHEST)
-    found = {"x": x} if contact.is_plane else {"x": x, "y": y}
-    found = {name: ends for name, ends in found.items() if getattr(grid, name) == AUTO}
-    return replace(config, grid=replace(grid, **found))
+    starvation = Starvation(contact, contact.flooded_film)
+    found = dict(zip("xy", domain_for(starvation, grid.nodes, FARTHEST), strict=True))
+    return replace(config, grid=replace(grid, **{name: found[name] for name in open_ends}))

@@ -149,11 +149,11 @@ class Starvation:
 
     @property
     def _answer_to_load(self):
-        """Power of the load with which the film falls, by Moes' rigid and elastic isoviscous films."""
+        """Power of the load with which the film falls, by how much the rigid isoviscous film is the thickest."""
         like = self.like
         if self.contact.is_plane:
-            rigid, elastic, _, _ = films.line_asymptotes(like.groups)
-            return 1.0 / (1.0 + (elastic / rigid) ** LIGHT)
+            rigid, elastic, *piezoviscous = films.line_asymptotes(like.groups)
+            return 1.0 / (1.0 + (max(elastic, min(piezoviscous)) / rigid) ** LIGHT)
         rigid, elastic, _, _ = films.point_asymptotes(like.groups, like.radius_x / like.radius_y)
         # Less of wide contacts, by as much as they are wide.
         return RIGID * min(1.0, like.k_e) / (1.0 + (elastic / rigid) ** LIGHT)

@@ -60,7 +60,7 @@ CASES = {
     "ellipse at 30 degrees": (merged(ELLIPSE, {"motion": {"angle": 30.0}}), 129),
     "ellipse at 110 degrees": (merged(ELLIPSE, {"motion": {"angle": 110.0}}), 129),
     "line, 50 N/mm, 1 m/s": (line(50e3, 1.0), 257),
-    "line, 1 N/mm, 0.5 m/s": (line(1e3, 0.5), 257),
+    "line, 20 N/mm, 1 m/s": (line(20e3, 1.0), 257),
     "line, 1859 N/mm, 3 m/s": (line(1859e3, 3.0), 513),
 }  # fmt: skip
 """Tables and nodes of each; the larger domains have twice the cells."""
