@@ -11,7 +11,7 @@ from mgehl.studies.study import merged, papers_grid
 
 EXACT = 1e-10
 ON_A_SQUARE = {"x": [-1.9, 1.9], "y": [-1.9, 1.9]}
-FILM = {"motion": {"speed": 1.0}, "grid": papers_grid(65) | ON_A_SQUARE}
+FILM = {"motion": {"speed": 1.0}, "grid": {"nodes": 65} | ON_A_SQUARE}
 CONTACT_CASE = {"motion": {"speed": 5e-6}, "grid": papers_grid(129), "solver": {"start": "contact"}}
 
 
@@ -91,7 +91,7 @@ class TestMirrored:
 
     def test_films_of_a_ball_hardly_know_of_the_angle(self):
         """On 129 nodes the scheme's error, not more, is between them."""
-        finer = {"grid": papers_grid(129)}
+        finer = {"grid": {"nodes": 129}}
         along, oblique = solved(FILM, finer), solved(FILM, finer, at(45))
         assert oblique.result.central_film_nm == pytest.approx(along.result.central_film_nm, rel=0.015)
         assert oblique.result.central_film_nm != along.result.central_film_nm

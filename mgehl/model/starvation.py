@@ -149,7 +149,7 @@ class Starvation:
 
     @property
     def _answer_to_load(self):
-        """Power of the load with which the film falls, by how much the rigid isoviscous film is the thickest."""
+        """Power of the load with which the film falls: of a rigid one, where that is the thickest."""
         like = self.like
         if self.contact.is_plane:
             rigid, elastic, *piezoviscous = films.line_asymptotes(like.groups)

@@ -1,14 +1,20 @@
 """The verdict on a domain, and its words."""
 
+import csv
 from math import nan
+from pathlib import Path
 
 import pytest
 
 from mgehl.config import config_from_tables
+from mgehl.discretization.mesh import Mesh
 from mgehl.kinds import contact_from, mesh_from
 from mgehl.output.domain import STARVED_FROM, domain_verdict, domain_words, film_lost, room_words
 from mgehl.output.resolution import resolution
 from mgehl.output.words import ADVICE
+from mgehl.studies.domain import CASES
+
+TABLES = Path(__file__).resolve().parents[2] / "runs" / "tables"
 
 CASE = {
     "contact": {"load": 250.0, "radius_x": 10e-3, "radius_y": 15e-3}, "motion": {"speed": 3.0},
@@ -64,3 +70,19 @@ def test_room_in_words():
     contact, mesh = contact_and_mesh(x=[-3.0, 1.5], y=[-2.0, 2.0])
     assert room_words(mesh) == "x from -3 to 1.5 a, y from -2 to 2 b"
     assert film_lost(contact, mesh) > 0.0
+
+
+@pytest.mark.parametrize("name", ["auto", "starved"])
+def test_the_verdicts_of_the_study_are_right(name):
+    """Above 2 % starved, below 0.5 % sufficient, where both films converged; and told of this very code."""
+    with (TABLES / f"domain-{name}.csv").open() as file:
+        rows = [row for row in csv.DictReader(file) if row["converged"] == "yes"]
+    assert len(rows) >= 18
+    for row in rows:
+        lost = max(abs(float(row[f"{film} more, %"])) for film in ("central", "minimum"))
+        assert not (row["verdict"] == "sufficient" and lost > 2.0), row
+        assert not (row["verdict"] == "starved" and lost < 0.5), row
+        contact = contact_from(config_from_tables(CASES[row["case"]][0]))
+        x, y = ((tuple(map(float, row[axis].split(" to "))) if row[axis] else (0.0, 0.0)) for axis in "xy")
+        estimate = film_lost(contact, Mesh(65, 65, x, y))
+        assert estimate == pytest.approx(float(row["estimated, %"]), abs=0.02)

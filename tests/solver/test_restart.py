@@ -116,7 +116,7 @@ class TestSolveFrom:
         ),
         "another speed": (FILM, {"motion": {"speed": 0.6}}),
         "a line": (LINE, {}),
-        "a line of a coarser grid": (LINE, {"grid": papers_grid(257)}),
+        "a line of a coarser grid": (LINE, {"grid": {"nodes": 257}}),
         "contact": (DRY, {}),
     }
 
