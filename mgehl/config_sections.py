@@ -5,7 +5,7 @@ Those that one kind alone takes are in its module of `mgehl.kinds`.
 
 from dataclasses import dataclass
 
-from mgehl.config_value import key_field
+from mgehl.config_value import AUTO, key_field
 from mgehl.discretization.couette import SCHEMES
 from mgehl.discretization.fluid import FACE_MOBILITIES
 from mgehl.discretization.scheme import INTERFACES, Scheme
@@ -63,8 +63,10 @@ class MotionSection:
 @dataclass(frozen=True)
 class GridSection:
     nodes: int = key_field(257, "nodes along each side, 2^k + 1", low=65, high=16385, kind=int)
-    x: tuple = key_field((-1.9, 1.3), "domain along x in units of the Hertz semi-axis a", kind=tuple)
-    y: tuple = key_field((-1.5, 1.5), "domain along y in units of the Hertz semi-axis b", kind=tuple)
+    x: tuple | str = key_field(
+        AUTO, "domain along x in units of the Hertz semi-axis a: two numbers, or by the film", kind=tuple
+    )
+    y: tuple | str = key_field(AUTO, "the same along y in units of the semi-axis b", kind=tuple)
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,10 @@ from functools import cache
 
 from mgehl.errors import ConfigError
 
-FARTHEST = 100.0
+AUTO = "auto"
+"""A domain that is chosen by the contact's film."""
+
+FARTHEST = 1000.0
 """Largest distance of the domain's edge, in semi-axes of the contact."""
 
 OWN = "FILE.py:FUNCTION"
@@ -33,7 +36,7 @@ def key_field(
     rules = {
         "help": help, "unit": unit, "above": above, "low": low, "high": high,
         "choices": choices, "kind": kind, "own": own,
-        "words": (*(choices or ()), *([OWN] if own else [])),
+        "words": (*(choices or ()), *([OWN] if own else []), *([AUTO] if kind is tuple else [])),
     }  # fmt: skip
     return field(default=default, metadata=rules)
 
@@ -145,24 +148,27 @@ def _describe_limits(rules):
 
 
 def _interval(key, value):
+    if value == AUTO:
+        return AUTO
     numbers = isinstance(value, list | tuple) and len(value) == 2
     numbers = numbers and all(_is_number(end) for end in value)
     if not numbers or not (-FARTHEST <= value[0] < -1.0 and 1.0 < value[1] <= FARTHEST):
         raise ConfigError(
-            f"{key} = {shown(value)}: must be two numbers [first < -1, last > 1] within {FARTHEST:g}"
+            f'{key} = {shown(value)}: must be "auto", or two numbers [first < -1, last > 1] '
+            f"within {FARTHEST:g}"
         )
     return float(value[0]), float(value[1])
 
 
 def describe_rules(rules):
     """What a key takes, in words: "one of barus, roelands", "N, at least 1e-06 and at most 1e+09"."""
+    if rules["kind"] is tuple:
+        return f"auto, or two numbers, the first below -1 and the last above 1, within {FARTHEST:g}"
     if rules["words"]:
         one_of = "one of " if len(rules["words"]) > 1 else ""
         return one_of + ", ".join(rules["words"])
     if rules["kind"] is bool:
         return "true or false"
-    if rules["kind"] is tuple:
-        return f"two numbers, the first below -1 and the last above 1, within {FARTHEST:g}"
     if rules["unit"]:
         return f"{rules['unit']}, {_describe_limits(rules)}"
     return _describe_range(rules)

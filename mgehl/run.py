@@ -12,6 +12,7 @@ from petsc4py import PETSc
 
 from mgehl.errors import OutputError
 from mgehl.grid.grid import single_grid
+from mgehl.kinds import contact_from, settled
 from mgehl.kinds.own import naming_keys
 from mgehl.output import files, progress, terminal
 from mgehl.output.checkpoint import Checkpoint, clear
@@ -49,6 +50,7 @@ def run(config, directory, comm, watch=Watch(), start=None):
     What was reached is kept in the directory's checkpoint until the results are; a run that finds
     one goes on from it. `start` is a `Solution` to start from, with fields on rank 0.
     """
+    config = settled(config, contact_from(config))
     paths = files.RunFiles(directory)
     files.on_first_rank(comm, files.write_config, paths.configuration, config)
     solution = solve(config, comm, replace(watch, directory=directory), start)
@@ -63,6 +65,7 @@ def solve(config, comm, watch=Watch(), start=None):
 
     A single line of nodes, as of a line contact, rank 0 solves and tells the others.
     """
+    config = settled(config, contact_from(config))
     parts = set_up(config)
     watch = watch if comm.rank == 0 else replace(watch, speaker=terminal.SILENT)
     if not parts.mesh.is_line:

@@ -1,7 +1,7 @@
 import os
 import re
 import tomllib
-from dataclasses import asdict, fields
+from dataclasses import asdict, fields, replace
 from pathlib import Path
 
 import pytest
@@ -55,14 +55,15 @@ def test_default_configuration_is_the_point_contact():
     assert (config.grid.nodes, config.grid.x, config.grid.y) == (257, (-1.9, 1.3), (-1.5, 1.5))
 
 
-def test_defaults_of_the_keys_are_the_default_file_but_for_the_start_and_the_schemes():
-    """The file is the paper's contact by the paper's schemes, the defaults those of a case of one's own."""
+def test_defaults_of_the_keys_are_the_default_file_but_for_start_schemes_and_domain():
+    """The file is the paper's contact; the defaults are those of a case of one's own."""
     paper = load_config()
     assert paper.solver.start == "contact"
     assert (paper.discretization.couette, paper.discretization.face_mobility) == ("1B", "arithmetic")
-    own = {"couette": "3B", "face_mobility": "linear-gap"}
-    settings = {f"discretization.{key}": value for key, value in own.items()}
-    config = load_config(settings=settings | {"solver.start": "film"})
+    settings = {"discretization.face_mobility": "linear-gap", "solver.start": "film"}
+    settings |= {"grid.x": "auto", "grid.y": "auto"}
+    config = load_config(settings=settings)
+    config = replace(config, discretization=replace(config.discretization, couette=None))
     assert_same(config, Config())
 
 
@@ -109,6 +110,7 @@ def test_units_end_as_SI_floats(setting, value):
         ("grid.nodes=129.0", 129),
         ("grid.x=[-4.5, 1.5]", (-4.5, 1.5)),
         ("grid.y=[-3, 3]", (-3.0, 3.0)),
+        ("grid.x=auto", "auto"),
         ("discretization.couette=S2C", "S2C"),
         ('discretization.couette="2B"', "2B"),
         ("lubricant.viscosity_law=roelands", "roelands"),
@@ -169,7 +171,8 @@ MISTAKES = [
     ("grid.y=[-1.5, 1]", "grid.y = [-1.5, 1]: ", "last > 1"),
     ('grid.y=["a", 2]', "grid.y = ['a', 2]: ", "two numbers"),
     ("grid.y=[-inf, 2]", "grid.y = [-inf, 2]: ", "two numbers"),
-    ("grid.y=wide", "grid.y = 'wide': ", "two numbers"),
+    ("grid.y=wide", "grid.y = 'wide': ", '"auto"', "two numbers"),
+    ("grid.x=[2, 5]", "grid.x = [2, 5]: ", "first < -1"),
     ("contact.kind=roller", "contact.kind = 'roller': ", "must be one of point, line, wedge"),
     ("contact.load_per_length=0", "contact.load_per_length = 0: ", "a number in N/m", "at least 1e-06"),
     ("wedge.reversed=1", "wedge.reversed = 1: ", "true or false"),

@@ -209,6 +209,7 @@ def test_a_coated_film_takes_no_more_iterations_than_a_bare_one(modulus, thickne
 
 def test_coatings_that_the_domain_cannot_hold_are_refused():
     settings = {"contact.deformation": "coated", "coating.modulus": "1 GPa", "coating.thickness": "0.2 mm"}
+    settings |= {"grid.x": [-1.9, 1.3], "grid.y": [-1.5, 1.5]}
     config = mgehl.load(os.devnull, settings)
     with pytest.raises(ConfigError, match=r"^grid.x = \[-1.9, 1.3\]: must "):
         mgehl.solve(config)

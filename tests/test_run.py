@@ -18,11 +18,12 @@ from mgehl.output.solution import Solution
 from mgehl.output.terminal import Lines
 from mgehl.output.wedge_result import WedgeResult
 from mgehl.run import Watch, run, solve
+from mgehl.studies.study import PAPERS_DOMAIN, papers_grid
 
 CONFIGS = Path(__file__).resolve().parent.parent / "configs"
 FILES = {"configuration.toml", "fields.h5", "history.csv", "picture.png", "result.json"}
-FILM = {"motion": {"speed": "1 m/s"}, "grid": {"nodes": 65}}
-DRY = {"motion": {"speed": "0.005 mm/s"}, "grid": {"nodes": 65}, "solver": {"start": "contact"}}
+FILM = {"motion": {"speed": "1 m/s"}, "grid": papers_grid(65)}
+DRY = {"motion": {"speed": "0.005 mm/s"}, "grid": papers_grid(65), "solver": {"start": "contact"}}
 RESULT_KEYS = {
     "converged", "reason", "central_film_nm", "minimum_film_nm", "max_pressure_GPa", "residual",
     "load_error", "complementarity_error", "flux_imbalance", "contact", "overlap", "pressure_inequality",
@@ -146,7 +147,13 @@ def test_moes_numbers_give_the_reference_film(tmp_path):
 KINDS = {
     "point": (FILM, Result, (65, 65)),
     "line": (
-        {"contact": {"kind": "line"}, "motion": {"speed": 0.3}, "grid": {"nodes": 257}}, Result, (1, 257)
+        {
+            "contact": {"kind": "line"},
+            "motion": {"speed": 0.3},
+            "grid": {"nodes": 257, "x": PAPERS_DOMAIN["x"]},
+        },
+        Result,
+        (1, 257),
     ),
     "wedge": ({"contact": {"kind": "wedge"}, "grid": {"nodes": 65}}, WedgeResult, (65, 65)),
     "relaxed point": (
@@ -255,7 +262,7 @@ def test_another_mean_is_solved_from_a_configuration():
     films = []
     for mean in ("arithmetic", "geometric"):
         tables = {
-            "grid": {"nodes": 65},
+            "grid": papers_grid(65),
             "motion": {"speed": 1.0},
             "discretization": {"face_mobility": mean},
         }
@@ -263,3 +270,11 @@ def test_another_mean_is_solved_from_a_configuration():
         assert result.converged and result.residual <= 1e-8
         films.append(result.central_film_nm)
     assert films[0] < films[1]
+
+
+def test_a_run_keeps_the_domain_that_auto_became(tmp_path):
+    result = run_quietly({"motion": {"speed": "1 m/s"}, "grid": {"nodes": 65}}, tmp_path)
+    grid = load_config(tmp_path / "configuration.toml").grid
+    assert grid.x[0] < -1.9 and grid.y[1] == -grid.y[0] > 1.5
+    assert result.converged and result.resolution.domain == "sufficient"
+    assert read_json(tmp_path)["resolution"]["domain"] == "sufficient"

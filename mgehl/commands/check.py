@@ -50,6 +50,7 @@ def _described(config, contact, mesh):
 
 def _inlet(config, contact, mesh):
     """Lines about the inlet on every grid."""
+    from mgehl.output.domain import domain_verdict, domain_words, film_lost, room_words
     from mgehl.output.forecast import LARGEST_NODES, inlet_grids
     from mgehl.output.resolution import RESOLVED_CELLS, expectation, resolving_nodes
 
@@ -64,6 +65,9 @@ def _inlet(config, contact, mesh):
     verdict = "this grid does" if needed <= config.grid.nodes else f"recommended: grid.nodes={needed}"
     if needed > LARGEST_NODES:
         verdict = f"no grid up to {LARGEST_NODES} does; a higher speed or a smaller domain helps"
+    lost = film_lost(contact, mesh)
+    yield f"domain     {room_words(mesh)}"
+    yield f"           {domain_words(domain_verdict(lost), lost)}"
     yield f"resolved   with {RESOLVED_CELLS:.0f} cells in the inlet, from {needed} nodes on: {verdict}"
 
 

@@ -24,13 +24,14 @@ STUDIES = {
     "error": "bands about films beside the limit, over contacts of every sort and three schemes",
     "accuracy": "errors of full films at 2, 4 and 8 cells in the inlet, by every scheme of a full film",
     "angle": "films of surfaces that move at an angle to the axes of the contact",
+    "domain": "what a domain of twice the size changes in the film, and what was estimated of it",
     "ranks": "messages, bytes, flops and time of an iteration on this run's ranks, and on many more",
 }
 
 DOUBLING = ("wedge", "schemes", "angle", "error")
 """Studies whose orders and limits need grids of half the spacing of the one before."""
 
-LARGEST_LISTS = {"line": 1, "methods": 0, "accuracy": 0}
+LARGEST_LISTS = {"line": 1, "methods": 0, "accuracy": 0, "domain": 0}
 """Grids that --nodes may name, where not any number."""
 
 _TAKES = {0: "has grids of its own", 1: "takes one grid"}

@@ -23,6 +23,11 @@ def mesh_from(config, contact):
     return config.kind.mesh(config, contact)
 
 
+def settled(config, contact):
+    """The `Config` with numbers where its keys leave them to mgehl: a domain that is "auto"."""
+    return config.kind.settled(config, contact)
+
+
 def check_contact(config, contact):
     """Raise ConfigError where values that are fine one by one make no contact together."""
     with naming_keys(contact):

@@ -4,7 +4,7 @@ from dataclasses import asdict, replace
 
 from mgehl.config_value import shown
 from mgehl.errors import ConfigError
-from mgehl.kinds import loaded_checks
+from mgehl.kinds import domain, loaded_checks
 from mgehl.kinds.kind import Effort, Kind, kept_together
 from mgehl.model.lubricant import DENSITY_LAWS, VISCOSITY_LAWS, Lubricant
 from mgehl.model.own_function import OwnFunction, is_own
@@ -35,6 +35,10 @@ class LoadedKind(Kind):
             viscosity = shown(config.lubricant.viscosity)
             raise ConfigError(f"lubricant.viscosity = {viscosity}: {error}") from None
 
+    def settled(self, config, contact):
+        """With a domain that does not starve the contact where it is "auto"."""
+        return domain.settled(config, contact)
+
     def check(self, config, contact):
         """The bodies must be half-spaces, the laws numbers, the domain large enough."""
         loaded_checks.check_deformation(config, contact)
@@ -43,7 +47,7 @@ class LoadedKind(Kind):
         if contact.surface is not None:
             loaded_checks.check_surface(contact, self.mesh(config, contact))
         loaded_checks.check_exponent(contact)
-        loaded_checks.check_domain(config.grid, contact)
+        loaded_checks.check_domain(self.settled(config, contact).grid, contact)
 
     def size(self, config, contact):
         """The key that the dry contact's size follows from, size and radii in words, and their ratio."""

@@ -60,17 +60,13 @@ def check_exponent(contact):
 
 
 def check_domain(grid, contact):
-    """The contact must lie in the domain, and so must the inlet upstream of it.
-
-    The widening by a soft layer is estimated, and low by up to a third.
-    """
-    width = contact.widening
-    reach = width if width <= 1.0 else min(width**2, 1.3 * width)
-    length = contact.inlet_length
+    """The contact must lie in the domain, and so must the inlet upstream of it."""
+    reach, length = contact.reach, contact.inlet_length
     inlets = contact.motion[0] * length, contact.motion[1] * length * contact.k_e
-    for name, ends, inlet in zip("xy", (grid.x, grid.y), inlets, strict=True):
+    axes = (("x", grid.x),) if contact.is_plane else (("x", grid.x), ("y", grid.y))
+    for (name, ends), inlet in zip(axes, inlets, strict=False):
         _check_inlet(f"grid.{name} = {list(ends)!r}", ends, reach, inlet)
-    for name, ends in (("x", grid.x), ("y", grid.y)):
+    for name, ends in axes:
         if min(-ends[0], ends[1]) <= reach:
             raise ConfigError(
                 f"grid.{name} = {list(ends)!r}: must reach beyond {reach:.3g} on both sides, as far as the "

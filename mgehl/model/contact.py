@@ -15,6 +15,8 @@ from mgehl.model.hertz import edge_gap_coefficient, hertz_pressure
 
 SAMPLES = 65
 """Heights along each side from which the roughness is reckoned: the same whatever the grid."""
+RESOLVED_CELLS = 4.0
+"""Cells in the inlet from which on the film does not change with the grid."""
 
 
 @dataclass(frozen=True)
@@ -39,6 +41,10 @@ class LoadedContact:
 
     is_loaded = True
     """The gap answers to the pressure, whose integral is a load."""
+    is_plane = False
+    """It has no end across the motion."""
+    is_light = False
+    """The load is so light that the bodies hardly yield: the pressure is not that of Hertz."""
     motion = (1.0, 0.0)
     """The surfaces move towards +X."""
 
@@ -72,6 +78,14 @@ class LoadedContact:
         return float(np.std(self.surface.height(X * self.x_scale, Y * self.y_scale)))
 
     @property
+    def reach(self):
+        """How far from the centre, in units of X and Y, the dry contact may reach.
+
+        The widening by a soft layer is estimated, and low by up to a third.
+        """
+        return self.widening if self.widening <= 1.0 else min(self.widening**2, 1.3 * self.widening)
+
+    @property
     def is_hertzian(self):
         """True of smooth half-spaces, whose dry contact is that of Hertz."""
         return self.surface is None and self.deformation is None
@@ -80,6 +94,11 @@ class LoadedContact:
         """Pressure to start from: that of Hertz, `widening` times as wide."""
         wide = self.widening
         return hertz_pressure(X / wide, Y / wide) / wide**2
+
+    @property
+    def likeness(self):
+        """The half-spaces with axes along and across the motion that formulas know, in contact as wide."""
+        return self
 
     def in_frame(self, frame):
         """The same contact, described in a `Frame`."""

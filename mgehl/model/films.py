@@ -59,6 +59,15 @@ def line_asymptotes(groups):
     return 3.0 / M, 2.621 * M**-0.2, 1.287 * L ** (2 / 3), 1.311 * M**-0.125 * L**0.75
 
 
+def moes_line(groups, radius_x):
+    """Central film of a line contact for every regime [Moes 1992]."""
+    RI, EI, RP, EP = line_asymptotes(groups)
+    s = (7.0 + 8.0 * exp(-2.0 * EI / RI)) / 5.0
+    isoviscous, piezoviscous = RI ** (7 / 3) + EI ** (7 / 3), RP**-3.5 + EP**-3.5
+    H = (isoviscous ** (3 * s / 7) + piezoviscous ** (-2 * s / 7)) ** (1.0 / s)
+    return H * radius_x * sqrt(2.0 * groups.U)
+
+
 def regime(RI, EI, RP, EP):
     """Name of the asymptote that a film is nearest to; a piezoviscous one is bounded by elasticity."""
     isoviscous = (RI, "rigid isoviscous") if RI > EI else (EI, "elastic isoviscous")

@@ -32,6 +32,8 @@ class LineContact(LoadedContact):
     lubricant: Lubricant
     surface: OwnSurface | None = None
 
+    is_plane = True
+
     load_integral = pi / 2.0
     """The integral of P over X: that of sqrt(1 - X^2)."""
     contact_area = 2.0
@@ -84,3 +86,8 @@ class LineContact(LoadedContact):
     def expected_film(self):
         """Central film in metres to start from."""
         return self.formulas.dowson_higginson_central
+
+    @property
+    def flooded_film(self):
+        """Central film in metres that a formula for every regime predicts."""
+        return films.moes_line(self.groups, self.radius_x)

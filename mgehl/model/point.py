@@ -143,9 +143,21 @@ class PointContact(LoadedContact):
         return replace(self, reduced_modulus=self.reduced_modulus / self.widening**3, deformation=None)
 
     @property
+    def likeness(self):
+        """The half-spaces with axes along and across the motion that formulas know, in contact as wide."""
+        return self.aligned._likeness
+
+    @property
+    def is_light(self):
+        """By Moes' isoviscous films: that of rigid bodies is thicker than that of elastic ones."""
+        like = self.likeness
+        rigid, elastic, _, _ = films.point_asymptotes(like.groups, like.radius_x / like.radius_y)
+        return rigid > elastic
+
+    @property
     def inlet_length(self):
         """As that of any contact, in units of a; of layered bodies an estimate."""
-        like = self.aligned._likeness
+        like = self.likeness
         return super(PointContact, like).inlet_length * self.widening * like.hertz.a / self.hertz.a
 
     def cell_along_motion(self, mesh):
@@ -197,4 +209,9 @@ class PointContact(LoadedContact):
     @property
     def expected_film(self):
         """Central film in metres to start from."""
-        return self.aligned._likeness.formulas.hamrock_dowson_central
+        return self.likeness.formulas.hamrock_dowson_central
+
+    @property
+    def flooded_film(self):
+        """Central film in metres that a formula for every regime predicts."""
+        return self.likeness.formulas.nijenbanning_venner_moes

@@ -1,11 +1,14 @@
-"""How well a grid resolves the inlet that builds the film, and what to expect of that."""
+"""How well a grid resolves the inlet that builds the film, and what to expect of that.
+
+A film is resolved where its inlet has cells enough and its domain is large enough.
+"""
 
 from dataclasses import dataclass
+from math import nan
 
 from mgehl.config import COARSEST_NODES
-
-RESOLVED_CELLS = 4.0
-"""Cells in the inlet from which on the film does not change with the grid."""
+from mgehl.model.contact import RESOLVED_CELLS
+from mgehl.output.domain import SUFFICIENT, UNKNOWN, domain_verdict, film_lost
 
 SEEN_CELLS = 1.0
 """Cells in the inlet below which the contact set is the grid's, not the problem's."""
@@ -21,14 +24,24 @@ class Resolution:
 
     inlet_cells: float
     verdict: str
+    domain: str = UNKNOWN
+    """Whether the domain is "sufficient" for the film, or the film "starved" by it."""
+    domain_loss_percent: float = nan
+    """Estimate of the film that a domain of twice the size would have more."""
 
 
 def resolution(contact, mesh):
-    """The `Resolution` of a loaded contact's inlet by a mesh."""
-    cells = contact.inlet_cells(mesh)
+    """The `Resolution` of a loaded contact's inlet by a mesh, and of its film by the domain."""
+    cells, lost = contact.inlet_cells(mesh), film_lost(contact, mesh)
+    domain = domain_verdict(lost)
+    return Resolution(cells, _verdict(cells, domain), domain, lost)
+
+
+def _verdict(cells, domain):
+    """ "Resolved" needs cells in the inlet and room for it."""
     if cells >= RESOLVED_CELLS:
-        return Resolution(cells, "resolved")
-    return Resolution(cells, "coarse" if cells >= SEEN_CELLS else "grid-determined")
+        return "resolved" if domain == SUFFICIENT else domain
+    return "coarse" if cells >= SEEN_CELLS else "grid-determined"
 
 
 def resolving_nodes(contact, mesh):

@@ -6,6 +6,7 @@ import tomllib
 from pathlib import Path
 
 from mgehl.output.digits import with_band
+from mgehl.output.domain import UNKNOWN
 from mgehl.output.words import span
 
 FILMS = ("central", "minimum")
@@ -55,6 +56,7 @@ def _row(directory):
         "largest gap in contact nm": f"{contact['largest_gap_nm']:.1e}",
         "Eq. 2 violations": f"{inequality['violations']} of {inequality['checked']}",
         "inlet cells": f"{result['resolution']['inlet_cells']:.2f}",
+        "domain": result["resolution"].get("domain", UNKNOWN),
         "convolutions": f"{result['work']['convolutions']:.1f}",
         "Newton steps on finest": str(len(finest) - 1),
         "most GMRES iterations": max((row["linear_iterations"] for row in finest), key=int),

@@ -1,6 +1,7 @@
 """A result in words: what a run, a `Solution` and a script print of it."""
 
 from mgehl.output.digits import with_band
+from mgehl.output.domain import domain_words
 from mgehl.output.resolution import RESOLVED_CELLS, SEEN_CELLS
 
 
@@ -37,6 +38,7 @@ def loaded_words(result):
         f"largest gap {contact.largest_gap_nm:.1e} nm",
         f"  pressure inequality broken at {inequality.violations} of {inequality.checked} interface nodes",
         f"  inlet: {resolution.inlet_cells:.2f} cells, {ADVICE[resolution.verdict]}",
+        f"  domain: {domain_words(resolution.domain, resolution.domain_loss_percent)}",
         f"  work: {result.work.convolutions:.1f} fine-grid convolutions, {result.work.steps} steps, "
         f"{result.wall_s:.1f} s on {result.ranks} ranks",
     ]
@@ -60,6 +62,7 @@ def loaded_words(result):
 
 ADVICE = {
     "resolved": "resolved",
+    "starved": "enough, but the domain is too small for the film",
     "coarse": f"coarse (below {RESOLVED_CELLS:g}): expect the film to change with the grid",
     "grid-determined": f"grid-determined (below {SEEN_CELLS:g}): the contact set is the grid's, "
     "not the problem's",

@@ -110,8 +110,8 @@ def interpolate(transfer, problem, coarse):
 def planned_solves(meshes, contact, settings):
     """(Level, `LevelSolve`) of what is solved on which of the `meshes`, coarsest first, and how fast.
 
-    A film grows from the coarse grids, at speeds that they resolve; a start from contact, and the
-    relaxation, know the finest alone.
+    A film grows from the coarse grids, at speeds that they resolve and that do not lift the bodies off
+    each other; a start from contact, and the relaxation, know the finest alone.
     """
     finest, nested = len(meshes) - 1, settings.nested
     at_once = settings.method == "relaxation" or is_mixed(contact, settings.scheme)
@@ -120,7 +120,9 @@ def planned_solves(meshes, contact, settings):
         if level == finest:
             yield level, LevelSolve(mesh.nx, contact.speed, True)
         elif mesh.nx >= nested.first_nodes and not alone:
-            yield level, LevelSolve(mesh.nx, contact.matched_speed(mesh, nested.inlet_cells), False)
+            speed = contact.matched_speed(mesh, nested.inlet_cells)
+            if not contact.at_speed(speed).is_light:
+                yield level, LevelSolve(mesh.nx, speed, False)
 
 
 def _solve_level(hierarchy, level, problem, state, limits, settings, tell, journal):

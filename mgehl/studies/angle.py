@@ -9,7 +9,7 @@ import numpy as np
 from mgehl.discretization.status import CONTACT
 from mgehl.model.films import chittenden
 from mgehl.output.words import span
-from mgehl.studies.study import merged, plausible, richardson
+from mgehl.studies.study import merged, papers_grid, plausible, richardson
 
 NODES = (129, 257, 513)
 SCHEMES = ("1B", "2B")
@@ -32,7 +32,7 @@ ELLIPSE = {
 """Semi-axes of 4 to 1, the long one along y."""
 ELLIPSE_ANGLES = (0, 15, 30, 45, 60, 75, 90)
 
-CONTACT_CASE = {"motion": {"speed": 5e-6}, "grid": {"nodes": 257}, "solver": {"start": "contact"}}
+CONTACT_CASE = {"motion": {"speed": 5e-6}, "grid": papers_grid(257), "solver": {"start": "contact"}}
 CONTACT_ANGLES = (0, 45)
 
 

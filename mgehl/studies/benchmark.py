@@ -21,12 +21,12 @@ from mgehl.errors import OutputError
 from mgehl.grid.events import seconds_by_part, start_logging
 from mgehl.output.whole_file import write_whole
 from mgehl.run import run, versions
-from mgehl.studies.study import PAPER, merged
+from mgehl.studies.study import PAPER, PAPERS_DOMAIN, merged, papers_grid
 
 
 def _point(nodes, speed, start="film"):
     how = {"start": start, "error": False}
-    return {"grid": {"nodes": nodes}, "motion": {"speed": speed}, "solver": how}
+    return {"grid": papers_grid(nodes), "motion": {"speed": speed}, "solver": how}
 
 
 _PILLAR = {"contact": {"kind": "wedge"}, "wedge": {"pillar": "square"}, "motion": {"speed": 1.0}}
@@ -37,7 +37,7 @@ CASES = {
     "line-4097": {
         "contact": {"kind": "line"},
         "motion": {"speed": 0.1},
-        "grid": {"nodes": 4097},
+        "grid": {"nodes": 4097, "x": PAPERS_DOMAIN["x"]},
         "solver": {"error": False},
     },
     "wedge-257": _PILLAR | {"grid": {"nodes": 257}},

@@ -8,7 +8,7 @@ import numpy as np
 from mgehl.discretization.status import CONTACT
 from mgehl.model.hertz import hertz_pressure
 from mgehl.output.words import span
-from mgehl.studies.study import merged, observed_order, plausible, richardson
+from mgehl.studies.study import merged, observed_order, papers_grid, plausible, richardson
 
 NODES = (257, 513, 1025)
 CONTACT_SPEED, FILM_SPEED = 5e-6, 7.5e-3
@@ -54,7 +54,7 @@ class Profile:
 
 
 def _solve(study, nodes, speed, start):
-    case = {"grid": {"nodes": nodes}, "motion": {"speed": speed}, "solver": {"start": start}}
+    case = {"grid": papers_grid(nodes), "motion": {"speed": speed}, "solver": {"start": start}}
     tables = merged(SOLVER, case) if start == "film" else case
     return study.solve(f"{nodes} nodes, {1e3 * speed:g} mm/s, from {start}", tables, must_converge=False)
 

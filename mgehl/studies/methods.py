@@ -1,15 +1,15 @@
 """Newton with multigrid beside the paper's relaxation, and the interface conditions beside none."""
 
-from mgehl.studies.study import merged
+from mgehl.studies.study import merged, papers_grid
 
 TOLERANCE = 1e-6
 """True residual that both methods are asked for."""
 
 CASES = {
-    "1 m/s, 65 nodes": {"motion": {"speed": 1.0}, "grid": {"nodes": 65}},
-    "1 m/s, 129 nodes": {"motion": {"speed": 1.0}, "grid": {"nodes": 129}},
+    "1 m/s, 65 nodes": {"motion": {"speed": 1.0}, "grid": papers_grid(65)},
+    "1 m/s, 129 nodes": {"motion": {"speed": 1.0}, "grid": papers_grid(129)},
     "0.005 mm/s, 257 nodes": {
-        "motion": {"speed": 5e-6}, "grid": {"nodes": 257}, "solver": {"start": "contact"},
+        "motion": {"speed": 5e-6}, "grid": papers_grid(257), "solver": {"start": "contact"},
     },
 }  # fmt: skip
 SWEEPS = {"1 m/s, 65 nodes": 60000, "1 m/s, 129 nodes": 300000, "0.005 mm/s, 257 nodes": 20000}
@@ -17,9 +17,9 @@ SWEEPS = {"1 m/s, 65 nodes": 60000, "1 m/s, 129 nodes": 300000, "0.005 mm/s, 257
 
 MODEL_CASES = {
     "1 m/s, 129 nodes": CASES["1 m/s, 129 nodes"],
-    "20 mm/s, 257 nodes": {"motion": {"speed": 0.02}, "grid": {"nodes": 257}},
+    "20 mm/s, 257 nodes": {"motion": {"speed": 0.02}, "grid": papers_grid(257)},
     "0.1 mm/s, 257 nodes": {
-        "motion": {"speed": 1e-4}, "grid": {"nodes": 257}, "solver": {"start": "contact"},
+        "motion": {"speed": 1e-4}, "grid": papers_grid(257), "solver": {"start": "contact"},
     },
 }  # fmt: skip
 

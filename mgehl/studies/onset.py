@@ -7,10 +7,9 @@ cell that the side cuts.
 
 import numpy as np
 
-from mgehl.config import config_from_tables
 from mgehl.discretization.status import CONTACT
 from mgehl.studies.branch import Branches
-from mgehl.studies.study import merged
+from mgehl.studies.study import PAPERS_DOMAIN, merged
 from mgehl.studies.transition import case
 
 NODES = (129, 257, 513, 1025)
@@ -94,11 +93,11 @@ def _side_row(study, nodes, beyond):
 
 
 def across(nodes, beyond):
-    """grid.y nearest to its default so that Y = 1 lies `beyond` cells from the last line inside."""
+    """grid.y nearest to the paper's so that Y = 1 lies `beyond` cells from the last line inside."""
     half = (nodes - 1) // 2
-    default = config_from_tables({"grid": {"nodes": nodes}}).grid.y[1]
+    default = PAPERS_DOMAIN["y"][1]
     lines = round(half / default - beyond)
-    # Rounded, as 1.5 need be no other configuration than the default.
+    # Rounded, as 1.5 need be no other configuration than the paper's.
     end = round(half / (lines + beyond), 12)
     return -end, end
 

@@ -22,7 +22,7 @@ from mgehl.solver.nested import first_guess
 from mgehl.solver.problem import ContactProblem
 from mgehl.studies import rank_model
 from mgehl.studies.rank_model import Constants, Cost
-from mgehl.studies.study import PAPER, merged
+from mgehl.studies.study import PAPER, merged, papers_grid
 
 NODES = (257, 513, 1025)
 """Grids whose iterations are timed; the work's constants are those of the last."""
@@ -134,7 +134,8 @@ class _Iterations:
     """GMRES with its cycle on a film that is being solved, to be timed."""
 
     def __init__(self, comm, nodes):
-        config = config_from_tables(merged(PAPER, {"grid": {"nodes": nodes}, "motion": {"speed": 1.0}}))
+        tables = merged(PAPER, {"grid": papers_grid(nodes), "motion": {"speed": 1.0}})
+        config = config_from_tables(tables)
         parts = set_up(config)
         contact, scheme = parts.contact, parts.settings.scheme
         self._hierarchy = grids = parts.hierarchy(comm)

@@ -6,7 +6,7 @@ listed, and limits are taken of the film with the saw-tooth averaged out.
 """
 
 from mgehl.discretization.couette import SCHEMES
-from mgehl.studies.study import merged, plausible, richardson
+from mgehl.studies.study import merged, papers_grid, plausible, richardson
 
 NODES = (65, 129, 257, 513)
 BASE = {"motion": {"speed": 1.0}}
@@ -31,7 +31,7 @@ def run(study):
 
 
 def _solve(study, couette, nodes):
-    tables = merged(BASE, {"grid": {"nodes": nodes}, "discretization": {"couette": couette}})
+    tables = merged(BASE, {"grid": papers_grid(nodes), "discretization": {"couette": couette}})
     return study.solve(f"{couette}, {nodes} nodes", tables)
 
 

@@ -21,6 +21,8 @@ PAPER = {"discretization": {"couette": "1B", "face_mobility": "arithmetic"}}
 PLAUSIBLE_ORDERS = (0.5, 3.0)
 """Outside of these, values are not near enough to their limit to tell it."""
 
+PAPERS_DOMAIN = {"x": [-1.9, 1.3], "y": [-1.5, 1.5]}
+
 
 @dataclass
 class Study:
@@ -119,6 +121,11 @@ def _verdict(result):
     if result.converged:
         return ""
     return f"  {'EQ. 2 IS BROKEN' if result.settled else 'NOT CONVERGED'}: {result.reason}"
+
+
+def papers_grid(nodes):
+    """So many nodes a side on the domain of Liu's section 4.3."""
+    return {"nodes": nodes, **PAPERS_DOMAIN}
 
 
 def merged(*tables):

@@ -7,6 +7,7 @@ discrete equations.
 import numpy as np
 
 from mgehl.studies.branch import Branches
+from mgehl.studies.study import papers_grid
 
 FASTEST, SLOWEST, COUNT = 7.5e-3, 5e-6, 25
 """m/s: the range of [Liu sec. 4.3]."""
@@ -50,7 +51,7 @@ def speeds(nodes):
 
 def case(nodes, mean="arithmetic"):
     """The tables of the headline contact on a grid."""
-    return {"grid": {"nodes": nodes}, "discretization": {"face_mobility": mean}, "solver": STEPS}
+    return {"grid": papers_grid(nodes), "discretization": {"face_mobility": mean}, "solver": STEPS}
 
 
 def row(branches, point):

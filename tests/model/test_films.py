@@ -121,3 +121,12 @@ def test_heavily_loaded_line_contact_is_near_its_asymptote():
     groups = Groups(U, M * (2.0 * U) ** 0.5, L * (2.0 * U) ** -0.25, M=M, L=L)
     central, _ = films.dowson_higginson(groups, 1.0)
     assert films.line_asymptotes(groups)[3] * (2.0 * U) ** 0.5 == pytest.approx(central, rel=0.1)
+
+
+@pytest.mark.parametrize(
+    "M, L, asymptote", [(0.05, 1.0, 0), (200.0, 0.05, 1), (0.5, 300.0, 2), (2000.0, 20.0, 3)]
+)
+def test_the_line_contact_s_film_of_every_regime_has_its_asymptotes(M, L, asymptote):
+    groups = Groups(U=1e-11, W=1e-4, G=4500.0, M=M, L=L)
+    film = films.moes_line(groups, 0.02) / (0.02 * (2e-11) ** 0.5)
+    assert film == pytest.approx(films.line_asymptotes(groups)[asymptote], rel=0.15)

@@ -224,3 +224,18 @@ class TestMotionAtAnAngle:
 
 def _scales(contact):
     return contact.x_scale, contact.y_scale
+
+
+@pytest.mark.parametrize("M, is_light", [(2.0, True), (4.0, True), (6.0, False), (200.0, False)])
+def test_a_load_is_light_where_the_rigid_film_is_the_thicker(moes_contact, M, is_light):
+    assert moes_contact(M, 5.0).is_light is is_light
+
+
+def test_formulas_for_every_regime_are_near_those_of_heavy_loads(moes_contact):
+    contact = moes_contact(500.0, 10.0)
+    assert contact.flooded_film == pytest.approx(contact.formulas.hamrock_dowson_central, rel=0.25)
+
+
+def test_what_stands_for_a_contact_lies_along_the_motion(paper_contact):
+    turned = paper_contact(radius_y=30e-3, angle=90.0)
+    assert (turned.likeness.radius_x, turned.likeness.radius_y) == (30e-3, turned.radius_x)

@@ -18,6 +18,7 @@ from mgehl.output.files import write_config
 from mgehl.output.terminal import Silent
 from mgehl.run import Watch, solve
 from mgehl.solver.record import Kept
+from mgehl.studies.study import papers_grid
 
 STOPPED = Stopped("told to", 143)
 CONFIG = config_from_tables({})
@@ -361,7 +362,7 @@ class TestStoppedAtEveryStep:
 
 def test_seconds_go_on_where_they_were(tmp_path):
     """Of all parts, and not of the time between them."""
-    config = config_from_tables({"grid": {"nodes": 65}} | FILM)
+    config = config_from_tables({"grid": papers_grid(65)} | FILM)
     asked = count()
     with pytest.raises(Stopped):
         solve(

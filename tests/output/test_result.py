@@ -132,7 +132,7 @@ def test_the_record_holds_groups_formulas_and_moes_films(summary, tiny_problem):
     [(4.5, "resolved"), (3.9, "coarse"), (1.1, "coarse"), (0.9, "grid-determined")],
 )
 def test_resolution_of_the_inlet(paper_contact, cells, verdict):
-    mesh = Mesh(65, 65, (-1.9, 1.3), (-1.5, 1.5))
+    mesh = Mesh(65, 65, (-14.25, 9.75), (-11.25, 11.25))
     contact = paper_contact()
     # The inlet grows with the square root of the speed.
     speed = contact.speed * (cells * mesh.dX / contact.inlet_length) ** 2

@@ -14,11 +14,16 @@ from mgehl.errors import OutputError
 from mgehl.output.files import RunFiles, write_config, write_result
 from mgehl.output.stored import read_result, read_run
 from mgehl.run import _write, solve
+from mgehl.studies.study import PAPERS_DOMAIN, papers_grid
 
 KINDS = {
-    "point": {"motion": {"speed": 0.5}, "grid": {"nodes": 65}, "solver": {"start": "film"}},
-    "contact": {"motion": {"speed": 5e-6}, "grid": {"nodes": 65}, "solver": {"start": "contact"}},
-    "line": {"contact": {"kind": "line"}, "motion": {"speed": 0.3}, "grid": {"nodes": 129}},
+    "point": {"motion": {"speed": 0.5}, "grid": papers_grid(65), "solver": {"start": "film"}},
+    "contact": {"motion": {"speed": 5e-6}, "grid": papers_grid(65), "solver": {"start": "contact"}},
+    "line": {
+        "contact": {"kind": "line"},
+        "motion": {"speed": 0.3},
+        "grid": {"nodes": 129, "x": PAPERS_DOMAIN["x"]},
+    },
     "wedge": {"contact": {"kind": "wedge"}, "grid": {"nodes": 65}},
 }
 
@@ -32,8 +37,8 @@ def written(tmp_path_factory):
         if kind not in made:
             directory = tmp_path_factory.mktemp(kind)
             config = config_from_tables(KINDS[kind])
-            write_config(directory / "configuration.toml", config)
             made[kind] = solve(config, MPI.COMM_SELF), directory
+            write_config(directory / "configuration.toml", made[kind][0].config)
             _write(RunFiles(directory), made[kind][0])
         return made[kind]
 

@@ -14,11 +14,12 @@ from mpi4py import MPI
 
 from mgehl.config import config_from_tables
 from mgehl.run import solve
+from mgehl.studies.study import papers_grid
 
 RANKS = 20
 CASES = {
-    "film": {"motion": {"speed": 3.0}, "grid": {"nodes": 65}},
-    "contact": {"motion": {"speed": 5e-6}, "grid": {"nodes": 129}, "solver": {"start": "contact"}},
+    "film": {"motion": {"speed": 3.0}, "grid": papers_grid(65)},
+    "contact": {"motion": {"speed": 5e-6}, "grid": papers_grid(129), "solver": {"start": "contact"}},
     "wedge": {"contact": {"kind": "wedge"}, "wedge": {"pillar": "square"}, "grid": {"nodes": 65}},
 }
 SOLVE_ALL = """

@@ -32,7 +32,7 @@ from mgehl.solver.settings import NestedSettings, NewtonSettings, SolverSettings
 from mgehl.solver.squeeze import squeeze_rates
 from mgehl.solver.verification import check_pressure_inequality, complementarity_error, flux_imbalance
 from mgehl.studies.branch import Branches
-from mgehl.studies.study import Study, merged
+from mgehl.studies.study import Study, merged, papers_grid
 from mgehl.studies.wedge import case as wedge_case
 
 pytestmark = pytest.mark.parallel
@@ -485,7 +485,7 @@ class TestOtherKinds:
     def test_unified_equations(self):
         tables = {
             "motion": {"speed": 1.0},
-            "grid": {"nodes": 65},
+            "grid": papers_grid(65),
             "discretization": {"contact_model": "unified"},
         }
         config = config_from_tables(tables)
@@ -546,14 +546,14 @@ class TestBranches:
             directory.mkdir(exist_ok=True)
         comm.barrier()
         study = Study(directory, comm, (65,), speak=False)
-        with Branches(study, {"grid": {"nodes": 65}}) as branches:
+        with Branches(study, {"grid": papers_grid(65)}) as branches:
             return branches.walk("down", [1.0, 0.7]) + branches.walk("up", [0.005, 0.007])
 
 
 class TestCheckpoints:
     """What some ranks have kept others take up."""
 
-    FILM = {"motion": {"speed": 0.12}, "grid": {"nodes": 65}, "solver": {"start": "film"}}
+    FILM = {"motion": {"speed": 0.12}, "grid": papers_grid(65), "solver": {"start": "film"}}
     STEPS = 5
 
     @pytest.mark.parametrize("before, after", [(COMM, MPI.COMM_SELF), (MPI.COMM_SELF, COMM)])

@@ -128,6 +128,15 @@ def test_what_is_planned_ends_on_the_finest_grid_at_the_wanted_speed(paper_conta
     assert all(solve.speed > contact.speed for _, solve in solves[:-1])
 
 
+def test_no_coarse_grid_lifts_a_light_load_off(moes_contact):
+    """On its wide domain they would ask for speeds at which nothing of Hertz is left."""
+    contact = moes_contact(5.0, 5.0)
+    meshes = [Mesh(n, n, (-53.9, 1.74), (-27.65, 27.65)) for n in (33, 65, 129, 257)]
+    solves = [solve for _, solve in planned_solves(meshes, contact, SolverSettings())]
+    assert [solve.nodes for solve in solves] == [129, 257]
+    assert not any(contact.at_speed(solve.speed).is_light for solve in solves)
+
+
 def test_contact_starts_on_the_finest_grid(solve, paper_contact):
     told = solve(paper_contact(5e-6), 129, start="contact").told
     assert {level.nodes for level, _ in told} == {129}

@@ -14,10 +14,15 @@ from mgehl.run import solve
 from mgehl.solver.from_config import contact_from, mesh_from, settings_from
 from mgehl.solver.problem import ContactProblem
 from mgehl.solver.restart import check_start, interpolated
+from mgehl.studies.study import PAPERS_DOMAIN, papers_grid
 
-FILM = {"motion": {"speed": 0.5}, "grid": {"nodes": 65}, "solver": {"start": "film"}}
-LINE = {"contact": {"kind": "line"}, "motion": {"speed": 0.3}, "grid": {"nodes": 129}}
-DRY = {"motion": {"speed": 5e-6}, "grid": {"nodes": 65}, "solver": {"start": "contact"}}
+FILM = {"motion": {"speed": 0.5}, "grid": papers_grid(65), "solver": {"start": "film"}}
+LINE = {
+    "contact": {"kind": "line"},
+    "motion": {"speed": 0.3},
+    "grid": {"nodes": 129, "x": PAPERS_DOMAIN["x"]},
+}
+DRY = {"motion": {"speed": 5e-6}, "grid": papers_grid(65), "solver": {"start": "contact"}}
 
 
 def solved(*tables, start=None):
@@ -74,7 +79,7 @@ class TestInterpolated:
         assert (state.status[film.fields.status == CAVITATED] == CAVITATED).all()
 
     def test_onto_a_finer_grid_the_common_nodes_keep_their_pressure(self, film, onto):
-        state, problem = onto(film, FILM, {"grid": {"nodes": 129}})
+        state, problem = onto(film, FILM, {"grid": papers_grid(129)})
         assert state.P.shape == (129, 129)
         np.testing.assert_allclose(state.P[::2, ::2], film.fields.P, rtol=0.0, atol=1e-13)
         between = 0.5 * (film.fields.P[:, 1:] + film.fields.P[:, :-1])
@@ -89,7 +94,7 @@ class TestInterpolated:
         assert state.P.max() == pytest.approx(film.fields.P.max(), rel=0.05)
 
     def test_contact_stays_contact(self, dry, onto):
-        state, problem = onto(dry, DRY, {"grid": {"nodes": 129}})
+        state, problem = onto(dry, DRY, {"grid": papers_grid(129)})
         share = np.count_nonzero(state.status == CONTACT) / np.count_nonzero(dry.fields.status == CONTACT)
         assert share == pytest.approx(4.0, rel=0.03)
         assert not (state.status[problem.boundary] == CONTACT).any()
@@ -104,7 +109,7 @@ class TestSolveFrom:
 
     CASES = {
         "itself": (FILM, {}),
-        "a coarser grid": (FILM, {"grid": {"nodes": 129}}),
+        "a coarser grid": (FILM, {"grid": papers_grid(129)}),
         "another domain": (
             FILM | {"motion": {"speed": 1.0}},
             {"grid": {"x": [-2.2, 1.4], "y": [-1.7, 1.7]}},

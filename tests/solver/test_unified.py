@@ -9,7 +9,7 @@ from mpi4py import MPI
 from mgehl.config import config_from_tables
 from mgehl.discretization.status import CONTACT
 from mgehl.run import solve as solve_config
-from mgehl.studies.study import PAPER, merged
+from mgehl.studies.study import PAPER, merged, papers_grid
 
 
 @cache
@@ -17,7 +17,7 @@ def solution(speed, nodes, model="unified", start="film", gap="0 m"):
     section = {"contact_model": model} | ({"unified_gap": gap} if model == "unified" else {})
     tables = {
         "motion": {"speed": speed},
-        "grid": {"nodes": nodes},
+        "grid": papers_grid(nodes),
         "discretization": PAPER["discretization"] | section,
     }
     return solve_config(config_from_tables(merged(tables, {"solver": {"start": start}})), MPI.COMM_SELF)

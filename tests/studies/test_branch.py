@@ -17,7 +17,7 @@ from mgehl.cli import main
 from mgehl.discretization.status import CONTACT
 from mgehl.studies import bracket, grid, onset, transition
 from mgehl.studies.branch import Branches, film_at
-from mgehl.studies.study import Study
+from mgehl.studies.study import Study, papers_grid
 
 
 def read(path):
@@ -80,7 +80,7 @@ class TestStart:
     def test_a_start_may_take_twice_the_steps(self, tmp_path):
         """18 from nothing at 0.2 m/s on 65 nodes, in a study whose points may take ten."""
         study = Study(tmp_path, MPI.COMM_SELF, (65,), speak=False)
-        with Branches(study, {"grid": {"nodes": 65}, "solver": {"max_steps": 10}}) as branches:
+        with Branches(study, {"grid": papers_grid(65), "solver": {"max_steps": 10}}) as branches:
             (start,) = branches.walk("down", [0.2])
         assert start.origin == "start" and start.result.settled
         assert 10 < start.result.work.steps <= 20
@@ -115,37 +115,37 @@ class TestTurned:
 class TestBracket:
     def test_ends_are_close_and_on_either_side(self, study):
         """A made-up property that turns between two speeds of a film."""
-        with Branches(study, {"grid": {"nodes": 65}}) as branches:
+        with Branches(study, {"grid": papers_grid(65)}) as branches:
             way = [1.0, 0.8, 0.64]
             last, turned = branches.bracket("down", way, lambda point: point.speed < 0.7, 0.05)
         assert last.speed >= 0.7 > turned.speed and last.speed / turned.speed <= 1.05
 
     @pytest.mark.parametrize(("turned", "expected"), [(True, (None, 1.0)), (False, (0.8, None))])
     def test_none_where_it_never_or_always_did(self, study, turned, expected):
-        with Branches(study, {"grid": {"nodes": 65}}) as branches:
+        with Branches(study, {"grid": papers_grid(65)}) as branches:
             ends = branches.bracket("down", [1.0, 0.8], lambda point: turned, 0.05)
         assert tuple(end and end.speed for end in ends) == expected
 
 
 class TestPoints:
     def test_a_second_walk_solves_nothing(self, study, monkeypatch):
-        with Branches(study, {"grid": {"nodes": 65}}) as branches:
+        with Branches(study, {"grid": papers_grid(65)}) as branches:
             first = branches.walk("down", [1.0, 0.8])
         monkeypatch.setattr("mgehl.solver.continuation.Continuation.begin", None)
         monkeypatch.setattr("mgehl.solver.continuation.Continuation.follow", None)
-        with Branches(study, {"grid": {"nodes": 65}}) as branches:
+        with Branches(study, {"grid": papers_grid(65)}) as branches:
             second = branches.walk("down", [1.0, 0.8])
         assert [point.result for point in first] == [point.result for point in second]
         assert all(np.array_equal(a.fields.H, b.fields.H) for a, b in zip(first, second, strict=True))
 
     def test_another_way_is_another_point(self, study):
-        with Branches(study, {"grid": {"nodes": 65}}) as branches:
+        with Branches(study, {"grid": papers_grid(65)}) as branches:
             keys = {
                 branches._key(branch, way, False, (), None)
                 for branch in ("down", "up")
                 for way in ([1.0], [0.8], [1.0, 0.8])
             }
-        with Branches(study, {"grid": {"nodes": 129}}) as branches:
+        with Branches(study, {"grid": papers_grid(129)}) as branches:
             keys.add(branches._key("down", [1.0], False, (), None))
         assert len(keys) == 7
 

@@ -11,7 +11,7 @@ from mgehl.config import config_from_tables
 from mgehl.discretization.couette import SCHEMES
 from mgehl.run import solve
 from mgehl.studies import angle
-from mgehl.studies.study import merged
+from mgehl.studies.study import merged, papers_grid
 
 
 def read(path):
@@ -94,7 +94,7 @@ def test_schemes(study):
     assert [row["couette"] for row in rows] == list(SCHEMES)
     assert all((row["nodes"], row["converged"]) == ("65", "yes") for row in rows)
     central = {row["couette"]: float(row["central nm"]) for row in rows}
-    film = {"motion": {"speed": 1.0}, "grid": {"nodes": 65}}
+    film = {"motion": {"speed": 1.0}, "grid": papers_grid(65)}
     expected = solve(config_from_tables(film), MPI.COMM_SELF).result.central_film_nm
     assert central["1B"] == pytest.approx(expected, abs=1e-4)
     assert central["2B"] < central["1B"]
@@ -103,7 +103,7 @@ def test_schemes(study):
 def test_angle(study, monkeypatch):
     """On small grids: what is turned beside 0 degrees, films beside formulas, contact node by node."""
     for name, nodes in (("ELLIPSE", 129), ("CONTACT_CASE", 65)):
-        monkeypatch.setattr(angle, name, merged(getattr(angle, name), {"grid": {"nodes": nodes}}))
+        monkeypatch.setattr(angle, name, merged(getattr(angle, name), {"grid": papers_grid(nodes)}))
     monkeypatch.setattr(angle, "SCHEMES", ("1B",))
     monkeypatch.setattr(angle, "ELLIPSE_ANGLES", (0, 45))
     directory = study("angle", "65")

@@ -12,6 +12,8 @@ from mgehl.output.pictures.titles import verdict
 MOST_KEYS = 3
 """Keys that a label may name; runs that differ in more are called by their directories."""
 
+DOMAIN = ("grid.x", "grid.y")
+
 _SHORT = {
     "grid.nodes": lambda nodes: f"{nodes} nodes",
     "motion.speed": speed_words,
@@ -54,6 +56,8 @@ def _judged(text, result):
 def _said(solutions, names):
     tables = [_flat(solution.config) for solution in solutions]
     keys = [key for key in dict.fromkeys(key for table in tables for key in table) if _differs(tables, key)]
+    # A domain that follows from the other keys says nothing more.
+    keys = [key for key in keys if key not in DOMAIN] or keys
     said = [", ".join(_say(key, table[key]) for key in keys if key in table) for table in tables]
     if not keys or len(keys) > MOST_KEYS or len(set(said)) < len(said):
         return list(names)

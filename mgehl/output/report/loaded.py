@@ -3,6 +3,7 @@
 from math import isfinite
 
 from mgehl.output.digits import with_band
+from mgehl.output.domain import STARVED, STARVED_FROM, SUFFICIENT, UNKNOWN
 from mgehl.output.report.checks import CARE, CHECK_HEADS, CHECKS, absent, informing, limited
 from mgehl.output.report.page import DOUBTFUL, GOOD, NO_NUMBER, Cell, Section, Text, number, table
 from mgehl.output.report.parts import span
@@ -22,8 +23,15 @@ PICTURES = {}
 
 RESOLUTION = {
     "resolved": Cell("resolved", GOOD),
+    "starved": Cell("enough, but the domain is too small", DOUBTFUL),
     "coarse": Cell("coarse: expect the film to change with the grid", DOUBTFUL),
     "grid-determined": Cell("grid-determined: the contact set is the grid's", DOUBTFUL),
+}
+
+DOMAIN = {
+    SUFFICIENT: Cell("sufficient", GOOD),
+    STARVED: Cell("starved: the domain takes film away", DOUBTFUL),
+    UNKNOWN: Cell("not judged: made by an older version", DOUBTFUL),
 }
 
 
@@ -146,6 +154,12 @@ def _checks(solution):
             number(resolution.inlet_cells, 3),
             f"at least {RESOLVED_CELLS:g}",
             RESOLUTION[resolution.verdict],
+        ),
+        (
+            "film that a domain of twice the size would have more, %, estimated",
+            number(resolution.domain_loss_percent, 2),
+            f"below {STARVED_FROM:g}",
+            DOMAIN[resolution.domain],
         ),
     ]
     return table(CHECKS, CHECK_HEADS, rows)

@@ -1,0 +1,22 @@
+"""The domain of a loaded contact where it is "auto"."""
+
+from dataclasses import replace
+
+from mgehl.config_value import AUTO, FARTHEST
+from mgehl.model.room import domain_for
+from mgehl.model.starvation import Starvation
+
+
+def settled(config, contact):
+    """The `Config` with numbers for "auto": as small as the film of a formula allows, along the motion.
+
+    A surface of the user's own is not asked: the domain is that of the smooth bodies. Layered bodies are
+    taken for half-spaces whose contact is as wide.
+    """
+    grid = config.grid
+    open_ends = [name for name in ("x" if contact.is_plane else "xy") if getattr(grid, name) == AUTO]
+    if not open_ends:
+        return config
+    starvation = Starvation(contact, contact.flooded_film)
+    found = dict(zip("xy", domain_for(starvation, grid.nodes, FARTHEST), strict=True))
+    return replace(config, grid=replace(grid, **{name: found[name] for name in open_ends}))

@@ -1,0 +1,163 @@
+"""How much film a domain takes away whose sides are too near: the boundary starves the inlet.
+
+Two things end with the domain. The first is reduced pressure. On the way to the contact it grows by
+g/(h + g)^3, with the film h and the gap g of the dry contact (Grubin's integral from the side to the edge
+of the contact), and the film goes with a power of the part that is left. On Hamrock and Dowson's boundary
+m* = 1 + 3.06 [(R_x/b)^2 H]^0.58 a ball has lost some 4 % by that.
+
+The second is load. Far outside the bodies are rigid, the pressure is Kapitza's, and the load it carries
+beyond a distance falls only as 1 over that distance, or over its square in a line contact. It rules where a
+film answers to the load: M below 8.
+
+The side downstream takes nothing: one at 1.2 semi-axes gives the film of one at 3 to 0.1 %.
+
+The constants were fitted to pairs of solutions on a small and a large domain of equal cells. An estimate is
+good to a factor of two: `study domain` measures it.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+from math import exp, inf, pi, sqrt
+from typing import NamedTuple
+
+import numpy as np
+
+from mgehl.model import films
+from mgehl.model.approach import STEPS, Approach
+from mgehl.model.contact import LoadedContact
+
+UPSTREAM, BESIDE = (0.66, 0.53), (0.08, 0.15)
+"""Powers of the part of the reduced pressure that is left with which the central and the minimum film fall
+at L = 10: of a line contact, on the way from upstream; of a ball, from both sides."""
+
+SLENDER = 0.63
+"""b over a of the contact whose film falls half as fast as a line contact's: fluid gets in from beside."""
+
+RIGID, LIGHT = 2.0, 3.5
+"""Power of the load with which a ball's rigid film falls, and how sharply that ends as the elastic film
+outgrows the rigid one."""
+
+OUTSIDE, LINE_OUTSIDE = 1.15, 3.0
+"""Load lost over that beyond a side, of point and line contacts: a side's pressure of zero lowers that
+within, too, in a line contact by as much everywhere."""
+
+NO_FILM = 1e-12
+"""Least film, in units of H: a contact at rest has an inlet without length."""
+
+
+class Side(NamedTuple):
+    """A side of the domain."""
+
+    toward: float
+    """Cosine of the angle between the way there and the way upstream."""
+    half: float
+    """Metres from the centre to the edge of the dry contact."""
+    unit: float
+    """Metres per unit of X or Y."""
+
+
+@dataclass(frozen=True)
+class Starvation:
+    """What a film, in m, loses by the sides of its domain."""
+
+    contact: LoadedContact
+    film: float
+
+    def lost(self, x, y):
+        """Per cent of film that a domain of twice the size has more, central or minimum, the larger.
+
+        `x` and `y` are the ends of the domain in units of X and Y.
+        """
+        near, far = self.missing(x, y), self.missing(_twice(x), _twice(y))
+        most = max(less - more for less, more in zip(near, far, strict=True))
+        return 100.0 * (1.0 - exp(-most))
+
+    def missing(self, x, y):
+        """-ln of the parts of central and minimum film that the domain leaves."""
+        ends = -x[0], x[1], -y[0], y[1]
+        ways = [(side, end * side.unit - side.half) for side, end in zip(self.sides, ends, strict=False)]
+        return [sum(self._missing_by(powers, *way) for way in ways) for powers in self.powers]
+
+    def _missing_by(self, powers, side, room):
+        """That by one side, `room` metres from the contact; one that lies askew takes some both ways."""
+        room = max(room, 0.0)
+        upstream, beside = (lost / (room + side.half) ** self.order for lost in self.by_load)
+        part, rest = max(side.toward, 0.0) ** 2, 0.5 * (1.0 - side.toward**2)
+        if part:
+            upstream += powers[0] * self.upstream.missing(room / (side.toward * self.like.hertz.a))
+        if rest:
+            beside += powers[1] * self.beside.missing(room / self.like.hertz.b)
+        return part * upstream + rest * beside
+
+    @cached_property
+    def sides(self):
+        """The `Side`s at the beginning and at the end of x, then of y."""
+        contact, (c, s) = self.contact, self.contact.motion
+        a, b, wide = contact.x_scale, contact.y_scale, contact.widening
+        along_x = [Side(toward, wide * a, a) for toward in (c, -c)]
+        return (
+            along_x if contact.is_plane else [*along_x, *(Side(toward, wide * b, b) for toward in (s, -s))]
+        )
+
+    @cached_property
+    def like(self):
+        """The contact that stands for this one."""
+        return self.contact.likeness
+
+    @property
+    def dimensionless_film(self):
+        """In units of H."""
+        return max(self.film / self.like.film_scale, NO_FILM)
+
+    @cached_property
+    def upstream(self):
+        """The `Approach` along the motion."""
+        return Approach(self.dimensionless_film, self.like.dry_gap(1.0 + STEPS, np.zeros(STEPS.size)))
+
+    @cached_property
+    def beside(self):
+        """The `Approach` across it."""
+        return Approach(self.dimensionless_film, self.like.dry_gap(np.zeros(STEPS.size), 1.0 + STEPS))
+
+    @cached_property
+    def powers(self):
+        """Those of the reduced pressure (upstream, beside), for the central and for the minimum film."""
+        L, wide = self.like.groups.L, inf if self.contact.is_plane else 1.0 / self.like.k_e
+        # Isoviscous films answer less to the pressure of the inlet.
+        answer = 0.36 + 0.96 * L / (L + 5.0)
+        upstream, beside = answer / (1.0 + (SLENDER / wide) ** 2), 2.0 * answer / (1.0 + wide**1.6)
+        return [(upstream * up, beside * by) for up, by in zip(UPSTREAM, BESIDE, strict=True)]
+
+    @property
+    def order(self):
+        """Power of the distance with which the load beyond it falls."""
+        return 2 if self.contact.is_plane else 1
+
+    @cached_property
+    def by_load(self):
+        """-ln of the film left without the load beyond a side, times its distance in m to the `order`.
+
+        Upstream and beside. Kapitza's p = c x/h^2 with c = 4 eta u R_x/(1 + 2 R_x/(3 R_y)).
+        """
+        like = self.like
+        x, y = like.radius_x, inf if self.contact.is_plane else like.radius_y
+        c = 4.0 * like.lubricant.viscosity * like.speed * x / (1.0 + 2.0 * x / (3.0 * y))
+        share = self._answer_to_load * c / like.load
+        if self.contact.is_plane:
+            return LINE_OUTSIDE * share * 2.0 * x, 0.0
+        return OUTSIDE * share * 2.0 * pi * sqrt(x * y), OUTSIDE * share * 4.0 * y
+
+    @property
+    def _answer_to_load(self):
+        """Power of the load with which the film falls: of a rigid one, where that is the thickest."""
+        like = self.like
+        if self.contact.is_plane:
+            rigid, elastic, *piezoviscous = films.line_asymptotes(like.groups)
+            return 1.0 / (1.0 + (max(elastic, min(piezoviscous)) / rigid) ** LIGHT)
+        rigid, elastic, _, _ = films.point_asymptotes(like.groups, like.radius_x / like.radius_y)
+        # Less of wide contacts, by as much as they are wide.
+        return RIGID * min(1.0, like.k_e) / (1.0 + (elastic / rigid) ** LIGHT)
+
+
+def _twice(ends):
+    return 2.0 * ends[0], 2.0 * ends[1]

@@ -1,0 +1,48 @@
+"""Whether a domain is large enough for its film, and in which words that is said.
+
+It follows from the contact, the domain and the film of a formula alone: what `mgehl check` says in advance
+a run says, too.
+"""
+
+from math import isnan
+
+from mgehl.model.starvation import Starvation
+
+STARVED_FROM = 1.0
+"""Per cent of film that a domain of twice the size would have more, from which on a domain starves."""
+
+SUFFICIENT, STARVED, UNKNOWN = "sufficient", "starved", "unknown"
+"""Verdicts; the last of runs that older versions made."""
+
+
+def film_lost(contact, mesh):
+    """Estimate, in per cent, of the film that a domain of twice the size would have more.
+
+    Of central and minimum film the one that changes more; good to a factor of two.
+    """
+    return Starvation(contact, contact.flooded_film).lost(mesh.x, mesh.y)
+
+
+def domain_verdict(lost):
+    """The verdict on a domain that takes so many per cent of the film away."""
+    if isnan(lost):
+        return UNKNOWN
+    return STARVED if lost >= STARVED_FROM else SUFFICIENT
+
+
+def domain_words(verdict, lost):
+    """A verdict and its estimate in words."""
+    if verdict == UNKNOWN:
+        return "not judged: made by an older version"
+    if verdict == SUFFICIENT:
+        return f"sufficient: twice the size would change the film by some {lost:.1f} %"
+    return (
+        f"starved: twice the size would change the film by some {lost:.2g} %; "
+        'grid.x = "auto" and grid.y = "auto" choose one that is large enough'
+    )
+
+
+def room_words(mesh):
+    """The ends of a domain."""
+    x = f"x from {mesh.x[0]:g} to {mesh.x[1]:g} a"
+    return x if mesh.is_line else f"{x}, y from {mesh.y[0]:g} to {mesh.y[1]:g} b"

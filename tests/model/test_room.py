@@ -1,0 +1,90 @@
+"""The domain that "auto" stands for: large enough, and not larger."""
+
+import pytest
+
+from mgehl.config import config_from_tables
+from mgehl.kinds import contact_from
+from mgehl.model.contact import RESOLVED_CELLS
+from mgehl.model.room import ALLOWED, NEAREST, PARTS, domain_for
+from mgehl.model.starvation import Starvation
+from mgehl.studies.domain import line, moes
+
+NODES, FARTHEST = 257, 1000.0
+
+CASES = [
+    moes(8.0, 3.0), moes(20.0, 10.0), moes(1000.0, 10.0), moes(100.0, 8.0, radius_y=2e-3),
+    moes(100.0, 8.0, radius_y=80e-3), line(50e3, 1.0), line(1e3, 0.5),
+    {"contact": {"radius_y": 30e-3}, "motion": {"speed": 1.0, "angle": 30}},
+]  # fmt: skip
+
+
+def starvation(tables):
+    contact = contact_from(config_from_tables(tables))
+    return Starvation(contact, contact.flooded_film)
+
+
+def domain(tables):
+    return domain_for(starvation(tables), NODES, FARTHEST)
+
+
+@pytest.mark.parametrize("tables", CASES)
+def test_it_is_large_enough_and_three_quarters_of_its_room_are_not(tables):
+    found = starvation(tables)
+    x, y = domain_for(found, NODES, FARTHEST)
+    assert found.lost(x, y) <= ALLOWED
+
+    def nearer(ends):
+        rooms = [0.75 * (abs(end) - 1.0) for end in ends]
+        return -1.0 - rooms[0], 1.0 + max(rooms[1], NEAREST)
+
+    assert found.lost(nearer(x), y if found.contact.is_plane else nearer(y)) > ALLOWED
+
+
+@pytest.mark.parametrize("tables", CASES)
+def test_the_centre_is_a_node_of_the_coarsest_grid(tables):
+    for before, after in domain(tables):
+        cells = -before / (after - before or 1.0) * PARTS
+        assert cells == pytest.approx(round(cells), abs=2e-3)
+
+
+@pytest.mark.parametrize("angle, side", [(0, (0, 0)), (90, (1, 0)), (180, (0, 1)), (270, (1, 1))])
+def test_most_room_is_where_the_motion_comes_from(angle, side):
+    axis, end = side
+    found = domain({"motion": {"speed": 1.0, "angle": angle}})
+    upstream, downstream, beside = found[axis][end], found[axis][1 - end], found[1 - axis][1]
+    assert abs(upstream) > beside > abs(downstream)
+    assert found[1 - axis] == (-beside, beside)
+    assert abs(upstream) == -domain({"motion": {"speed": 1.0}})[0][0]
+
+
+def test_at_45_degrees_both_sides_upstream_are_alike():
+    x, y = domain({"motion": {"speed": 1.0, "angle": 45}})
+    assert x == y and -x[0] > x[1]
+
+
+def test_a_contact_at_rest_has_room_all_the_same():
+    x, y = domain({"motion": {"speed": 1e-9}})
+    assert x == y == (-1.0 - NEAREST, 1.0 + NEAREST)
+
+
+def test_a_soft_layer_s_contact_has_room_for_what_is_not_known_of_it():
+    coating = {"thickness": 40e-6, "modulus": 4e9}
+    tables = {"contact": {"load": 100.0, "deformation": "coated"}, "coating": coating}
+    found = starvation(tables | {"motion": {"speed": 1e-6}})
+    x, _ = domain_for(found, NODES, FARTHEST)
+    assert found.contact.reach > 1.3 * 1.3
+    assert x[1] >= found.contact.reach
+
+
+def test_a_light_load_has_the_room_in_which_the_grid_resolves_its_inlet():
+    found = starvation(moes(5.0, 5.0))
+    domains = {nodes: domain_for(found, nodes, FARTHEST) for nodes in (257, 513, 2049)}
+    for nodes, (x, y) in domains.items():
+        assert (x[1] - x[0]) / (nodes - 1) * RESOLVED_CELLS < 1.1 * found.contact.inlet_length
+        assert found.lost(x, y) <= ALLOWED or nodes < 1000
+    assert domains[257][0][0] > domains[513][0][0] > domains[2049][0][0]
+
+
+def test_no_side_is_farther_than_farthest():
+    x, y = domain_for(starvation(moes(2.0, 10.0)), 16385, 30.0)
+    assert x[0] == -30.0 and y == (-30.0, 30.0)

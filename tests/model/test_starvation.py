@@ -1,0 +1,82 @@
+"""What a domain takes of a film: beside solutions on larger domains, and the same from every side."""
+
+from math import inf
+
+import numpy as np
+import pytest
+
+from mgehl.config import config_from_tables
+from mgehl.kinds import contact_from
+from mgehl.model.frame import Frame
+from mgehl.model.starvation import Starvation
+from mgehl.studies.domain import line, moes
+
+WIDE = (-100.0, 100.0)
+
+
+def starvation(tables, film=None):
+    contact = contact_from(config_from_tables(tables))
+    return Starvation(contact, contact.flooded_film if film is None else film)
+
+
+def taken(found, x, y):
+    """Per cent of central and minimum film that a domain takes of that on a hundred semi-axes."""
+    pairs = zip(found.missing(x, y), found.missing(WIDE, WIDE), strict=True)
+    return [100.0 * (1.0 - np.exp(more - less)) for less, more in pairs]
+
+
+@pytest.mark.parametrize(
+    "tables, x, y, central, minimum",
+    [
+        (moes(20.0, 10.0), (-4.275, 4.0), (-12.0, 12.0), 1.09, 1.06),
+        (moes(200.0, 10.0), (-2.269, 3.0), (-4.0, 4.0), 1.39, 0.92),
+        (moes(200.0, 2.0), (-1.490, 3.0), (-4.0, 4.0), 2.46, 0.79),
+        (moes(100.0, 10.0), (-8.0, 3.0), (-1.639, 1.639), 0.84, 2.52),
+        (moes(5.0, 5.0), (-5.75, 10.0), (-20.0, 20.0), -1.38, 7.5),
+        (moes(100.0, 5.0, radius_y=50.8e-3), (-2.314, 3.6), (-2.776, 2.776), 4.18, 2.53),
+    ],
+)  # fmt: skip
+def test_within_a_factor_of_two_of_solutions(tables, x, y, central, minimum):
+    """Per cent taken, by `a.py`-like pairs of solutions of 2B on 4 to 6 inlet cells."""
+    estimate = max(taken(starvation(tables), x, y))
+    assert 0.5 < estimate / max(central, minimum) < 2.0
+
+
+@pytest.mark.parametrize("M, L", [(20.0, 10.0), (200.0, 10.0), (1000.0, 5.0)])
+def test_on_hamrock_and_dowson_s_boundary_a_ball_has_lost_some_per_cent(M, L):
+    found = starvation(moes(M, L))
+    boundary = 1.0 + 3.06 * found.dimensionless_film**0.58
+    assert 2.0 < taken(found, (-boundary, 100.0), WIDE)[0] < 6.0
+
+
+def test_of_a_line_contact_only_upstream_counts():
+    found = starvation(line(50e3, 1.0))
+    lost = found.lost((-2.0, 3.0), (0.0, 0.0))
+    assert lost > 1.0
+    assert found.lost((-2.0, 1.2), (0.0, 0.0)) == lost
+    assert found.lost((-4.0, 3.0), (0.0, 0.0)) < lost
+
+
+@pytest.mark.parametrize("angle", [30, 90, 135, 180, 200, 270, 315])
+def test_it_is_the_same_in_the_axes_of_the_solver(angle):
+    ellipse = {"contact": {"radius_y": 30e-3}, "motion": {"speed": 1.0, "angle": angle}}
+    found = starvation(ellipse)
+    frame, x, y = Frame.of(angle)[0], (-2.0, 1.5), (-1.3, 1.8)
+    turned = Starvation(found.contact.in_frame(frame), found.film)
+    assert turned.lost(*frame.intervals(x, y)) == pytest.approx(found.lost(x, y), rel=1e-9)
+
+
+def test_a_ball_loses_by_the_side_it_comes_from():
+    at = {angle: starvation({"motion": {"speed": 1.0, "angle": angle}}) for angle in (0, 90, 180, 270)}
+    lost = {angle: found.lost((-1.5, 4.0), (-3.0, 3.0)) for angle, found in at.items()}
+    assert lost[0] > 2.0 * max(lost[90], lost[180], lost[270])
+    assert lost[90] == pytest.approx(lost[270], rel=1e-12)
+
+
+def test_a_contact_at_rest_loses_nothing():
+    assert starvation({"motion": {"speed": 1e-9}}, film=0.0).lost((-1.3, 1.3), (-1.3, 1.3)) < 0.01
+
+
+def test_no_room_takes_nearly_all():
+    assert starvation(moes(20.0, 10.0)).missing((-1.0, 2.0), (-3.0, 3.0))[0] > 3.0
+    assert starvation(moes(20.0, 10.0)).missing((-1.0, 2.0), (-3.0, 3.0))[0] < inf

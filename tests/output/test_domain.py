@@ -1,0 +1,88 @@
+"""The verdict on a domain, and its words."""
+
+import csv
+from math import nan
+from pathlib import Path
+
+import pytest
+
+from mgehl.config import config_from_tables
+from mgehl.discretization.mesh import Mesh
+from mgehl.kinds import contact_from, mesh_from
+from mgehl.output.domain import STARVED_FROM, domain_verdict, domain_words, film_lost, room_words
+from mgehl.output.resolution import resolution
+from mgehl.output.words import ADVICE
+from mgehl.studies.domain import CASES
+
+TABLES = Path(__file__).resolve().parents[2] / "runs" / "tables"
+
+CASE = {
+    "contact": {"load": 250.0, "radius_x": 10e-3, "radius_y": 15e-3}, "motion": {"speed": 3.0},
+    "grid": {"nodes": 257},
+}  # fmt: skip
+"""README's first case, faster."""
+
+
+def contact_and_mesh(**grid):
+    config = config_from_tables(CASE | {"grid": CASE["grid"] | grid})
+    contact = contact_from(config)
+    return contact, mesh_from(config, contact)
+
+
+def test_the_paper_s_domain_starves_a_fast_film_and_auto_does_not():
+    """897 to 830 nm, and what is left is less than half a per cent."""
+    starved = resolution(*contact_and_mesh(x=[-1.9, 1.3], y=[-1.5, 1.5]))
+    assert (starved.verdict, starved.domain) == ("starved", "starved")
+    assert 4.0 < starved.domain_loss_percent < 15.0
+    enough = resolution(*contact_and_mesh())
+    assert (enough.verdict, enough.domain) == ("resolved", "sufficient")
+    assert enough.domain_loss_percent < 0.5
+
+
+def test_a_coarse_grid_stays_coarse_whatever_its_domain():
+    contact, mesh = contact_and_mesh(x=[-1.9, 1.3], y=[-1.5, 1.5])
+    slow = resolution(contact.at_speed(1e-6), mesh)
+    assert (slow.verdict, slow.domain) == ("grid-determined", "sufficient")
+    coarse = contact_and_mesh(nodes=65)
+    assert resolution(*coarse).verdict == "coarse"
+
+
+@pytest.mark.parametrize("lost, verdict", [(0.0, "sufficient"), (0.99, "sufficient"), (2.0, "starved")])
+def test_verdict(lost, verdict):
+    assert domain_verdict(lost) == verdict
+    assert 0.5 < STARVED_FROM < 2.0
+
+
+def test_what_an_older_version_did_not_judge():
+    assert "older version" in domain_words(domain_verdict(nan), nan)
+
+
+def test_words():
+    assert (
+        domain_words("sufficient", 0.31) == "sufficient: twice the size would change the film by some 0.3 %"
+    )
+    starved = domain_words("starved", 8.34)
+    assert starved.startswith("starved: twice the size would change the film by some 8.3 %; grid.x = ")
+    assert "starved" in ADVICE
+
+
+def test_room_in_words():
+    contact, mesh = contact_and_mesh(x=[-3.0, 1.5], y=[-2.0, 2.0])
+    assert room_words(mesh) == "x from -3 to 1.5 a, y from -2 to 2 b"
+    assert film_lost(contact, mesh) > 0.0
+
+
+@pytest.mark.parametrize("name", ["auto", "starved"])
+def test_the_verdicts_of_the_study_are_right(name):
+    """Above 2 % starved, below 0.5 % sufficient, where both films converged; and told of this very code."""
+    with (TABLES / f"domain-{name}.csv").open() as file:
+        rows = [row for row in csv.DictReader(file) if row["converged"] == "yes"]
+    assert len(rows) >= 18
+    for row in rows:
+        lost = max(abs(float(row[f"{film} more, %"])) for film in ("central", "minimum"))
+        assert not (row["verdict"] == "sufficient" and lost > 2.0), row
+        assert not (row["verdict"] == "starved" and lost < 0.5), row
+        contact = contact_from(config_from_tables(CASES[row["case"]][0]))
+        x, y = ((tuple(map(float, row[axis].split(" to "))) if row[axis] else (0.0, 0.0)) for axis in "xy")
+        estimate = film_lost(contact, Mesh(65, 65, x, y))
+        assert estimate == pytest.approx(float(row["estimated, %"]), abs=0.02)
