@@ -110,9 +110,7 @@ class SolverSection:
     linear_tolerance: float = key_field(
         0.1, "relative tolerance of GMRES in a Newton step", above=0.0, high=0.5
     )
-    sweeps: int = key_field(
-        1, "line relaxations before and after the coarse grids", low=1, high=10, kind=int
-    )
+    sweeps: int = key_field(1, "line relaxations after the coarse grids", low=1, high=10, kind=int)
     omega: float = key_field(0.8, "damping of the line relaxation", low=0.1, high=1.0)
     cycle_couette: str = key_field(
         "same", "differential scheme of the preconditioner's operators",

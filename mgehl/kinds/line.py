@@ -16,7 +16,8 @@ class LineKind(LoadedKind):
     about = "A lubricated line contact: a cylinder on a flat, per length."
     load_unit = "N/m"
     takes = (
-        "contact.load_per_length", "contact.radius_x", "contact.reduced_modulus", "contact.surface",
+        "contact.load_per_length", "contact.radius_x", "contact.reduced_modulus", "contact.boundary_film",
+        "contact.surface",
         "lubricant", "motion.speed", "grid.nodes", "grid.x", "discretization", "solver", "relaxation",
     )  # fmt: skip
     essential = {

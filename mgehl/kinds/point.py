@@ -56,8 +56,8 @@ class PointKind(LoadedKind):
     load_unit = "N"
     takes = (
         "contact.load", "contact.radius_x", "contact.radius_y", "contact.reduced_modulus",
-        "contact.deformation", "contact.surface", "coating", "lubricant", "motion", "moes", "grid",
-        "discretization", "solver", "relaxation",
+        "contact.deformation", "contact.boundary_film", "contact.surface",
+        "coating", "lubricant", "motion", "moes", "grid", "discretization", "solver", "relaxation",
     )  # fmt: skip
     essential = {
         "contact.kind": "point", "contact.load": "800 N",

@@ -16,8 +16,8 @@ from mgehl.solver.relaxation import relax
 from mgehl.solver.rigid_gap import RigidGapFluid
 
 THICK = 1.0
-"""Smooth film over the roughness from which it is found as that of smooth bodies: at 2 it takes twice the work
-from the dry contact, and at 3 there is no way (random balls on 257 nodes)."""
+"""Smooth film over the roughness from which it is found as that of smooth bodies: at 2 it takes twice the
+work from the dry contact, and at 3 it is not found from there (random balls on 257 nodes)."""
 
 
 @dataclass(frozen=True)

@@ -33,7 +33,8 @@ def make_result(**changes):
         "contact": ContactResult(3, 0.01, 0.02, (4, 6), None, 0.0),
         "overlap": Overlap(0, 0.0),
         "pressure_inequality": InequalityResult(8, 1, 0.25, 1.5, [{"i": 6, "j": 3, "size": 0.25}]),
-        "cavitated_nodes": 100, "resolution": Resolution(5.0, "resolved"), "groups": {"U": 1e-12},
+        "other_inequality": InequalityResult(8, 0, 0.0, 0.0, [], "at the interface"),
+        "cavitated_nodes": 100, "resolution": Resolution(5.0, "resolved", "sufficient", 0.1), "groups": {"U": 1e-12},
         "moes_film": {"central": 4.0}, "formulas": {"grubin_nm": 10.0}, "work": Work(80.5, 14),
         "wall_s": 2.0, "ranks": 1, "versions": {"mgehl": "0"},
     }  # fmt: skip
