@@ -34,7 +34,8 @@ def make_result(**changes):
         "overlap": Overlap(0, 0.0),
         "pressure_inequality": InequalityResult(8, 1, 0.25, 1.5, [{"i": 6, "j": 3, "size": 0.25}]),
         "other_inequality": InequalityResult(8, 0, 0.0, 0.0, [], "at the interface"),
-        "cavitated_nodes": 100, "resolution": Resolution(5.0, "resolved", "sufficient", 0.1), "groups": {"U": 1e-12},
+        "cavitated_nodes": 100, "groups": {"U": 1e-12},
+        "resolution": Resolution(5.0, "resolved", "sufficient", 0.1),
         "moes_film": {"central": 4.0}, "formulas": {"grubin_nm": 10.0}, "work": Work(80.5, 14),
         "wall_s": 2.0, "ranks": 1, "versions": {"mgehl": "0"},
     }  # fmt: skip
