@@ -61,8 +61,8 @@ large: $(ENVIRONMENT)
 # make studies   run the studies and write their tables to runs/tables
 studies: $(ENVIRONMENT)
 	for s in wedge schemes angle error; do ( $(ON) mpiexec -n 2 python -m mgehl study $$s --force --quiet ) || exit 1; done
-	for s in line inlet methods domain; do ( $(ON) python -m mgehl study $$s --force --quiet ) || exit 1; done
-	for s in wedge schemes angle error line inlet methods domain; do for f in runs/study-$$s/*.md runs/study-$$s/*.csv; do \
+	for s in line inlet methods domain accuracy; do ( $(ON) python -m mgehl study $$s --force --quiet ) || exit 1; done
+	for s in wedge schemes angle error line inlet methods domain accuracy; do for f in runs/study-$$s/*.md runs/study-$$s/*.csv; do \
 	  cp $$f runs/tables/$$s-$$(basename $$f) || exit 1; done; done
 	cp runs/study-angle/films.png runs/tables/angle-films.png
 

@@ -11,7 +11,7 @@ from mgehl.config import config_from_tables
 from mgehl.discretization.couette import SCHEMES
 from mgehl.run import solve
 from mgehl.studies import angle
-from mgehl.studies.study import merged, papers_grid
+from mgehl.studies.study import PAPER, merged, papers_grid
 
 
 def read(path):
@@ -95,7 +95,7 @@ def test_schemes(study):
     assert all((row["nodes"], row["converged"]) == ("65", "yes") for row in rows)
     central = {row["couette"]: float(row["central nm"]) for row in rows}
     film = {"motion": {"speed": 1.0}, "grid": papers_grid(65)}
-    expected = solve(config_from_tables(film), MPI.COMM_SELF).result.central_film_nm
+    expected = solve(config_from_tables(merged(PAPER, film)), MPI.COMM_SELF).result.central_film_nm
     assert central["1B"] == pytest.approx(expected, abs=1e-4)
     assert central["2B"] < central["1B"]
 
