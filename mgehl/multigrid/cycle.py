@@ -39,6 +39,9 @@ folds, or a gap that is linear between them, closes faces the fine grid has open
 geometric mean take 4 iterations so, and 21 with its own mean on every grid; by the linear gap 2 to 4, and 4
 or 5. Films by the logarithmic mean take up to a seventh more with the arithmetic one."""
 
+CENTRAL = ("2C", "S2C")
+"""Couette schemes without an upstream."""
+
 LARGE_GRID, RESTART_OF_LARGE = 10_000_000, 6
 """Nodes from which on GMRES is restarted, after so many iterations: it keeps two vectors of each, and
 PETSc takes ten at a time (4097 nodes a side: 2.4 GiB from the fourth iteration on)."""
@@ -74,8 +77,9 @@ class MultigridSolver:
         self.contact, self._settings = contact, settings
         self._oblique = scheme.is_oblique and not (rigid or apart)
         self._rough = contact.is_rough and not (rigid or scheme.contact_law.closes_faces)
-        same = settings.couette in ("same", scheme.couette)
-        self._scheme = scheme if same else replace(scheme, couette=settings.couette)
+        couette = _of_cycle(settings.couette, scheme.couette)
+        same = couette == scheme.couette
+        self._scheme = scheme if same else replace(scheme, couette=couette)
         grids, deflections = hierarchy.grids[: level + 1], hierarchy.deflections[: level + 1]
         if rigid:
             deflections = [None] * len(grids)
@@ -156,6 +160,16 @@ class MultigridSolver:
         """Iterations that GMRES remembers: all, but where memory is short."""
         large = self.jacobian.grid.mesh.nodes > LARGE_GRID
         return RESTART_OF_LARGE if large else self._settings.max_iterations
+
+
+def _of_cycle(asked, solved):
+    """The Couette scheme of the cycle's operators: the one that is solved, but no central one.
+
+    Line by line a central scheme does not damp waves of two cells: GMRES does not end.
+    """
+    if asked != "same":
+        return asked
+    return "3B" if solved in CENTRAL else solved
 
 
 def _evaluate(jacobian, P, H, status):

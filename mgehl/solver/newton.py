@@ -30,6 +30,11 @@ same Newton steps; at 0.01 and at 0.3 full contact on 257 nodes takes one more. 
 end."""
 
 
+STUCK = 0.9
+"""What a step that gained nothing leaves of the residual. Then the cavities are left to the next step: their
+relaxation in a gap held fixed and the step that moves it may take turns for ever."""
+
+
 @dataclass(frozen=True)
 class LinearSystem:
     """How the Jacobian is posed: the kind of row of each node and 1/time step, all (lines, nx)."""
@@ -142,13 +147,21 @@ class Newton:
             changes.cavitated += problem.grid.count(before != state.status)
         else:
             evaluation = problem.evaluate(state)
-        moved, self._evaluation = relax_cavitation_set(problem, state, evaluation)
-        changes.cavitated += moved
+        self._evaluation = evaluation
+        if not self._is_stuck:
+            moved, self._evaluation = relax_cavitation_set(problem, state, evaluation)
+            changes.cavitated += moved
         self._partition.fill(state, self._evaluation.inflow, changes)
         opened = changes.released
         self._partition.open_contact(state, self._evaluation.inflow, changes)
         if changes.released > opened:
             self._evaluation = problem.evaluate(state)
+
+    @property
+    def _is_stuck(self):
+        """Whether the last two steps gained nothing."""
+        last = [cycle.residual for cycle in self._position.cycles[-3:]]
+        return len(last) == 3 and min(last[1:]) > STUCK * last[0]
 
     @property
     def _fluid_tolerance(self):
