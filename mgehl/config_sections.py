@@ -72,7 +72,8 @@ class GridSection:
 @dataclass(frozen=True)
 class DiscretizationSection:
     couette: str | None = key_field(
-        None, "differential scheme of the Couette flow (unset: 3B, and 1B on a rough surface)",
+        None,
+        "differential scheme of the Couette flow (unset: 3B, and 1B where peaks reach through the film)",
         choices=tuple(SCHEMES), kind=str,
     )  # fmt: skip
     face_mobility: str = key_field(

@@ -64,11 +64,6 @@ class LoadedContact:
             return smooth
         return smooth + self.surface.height(X * self.x_scale, Y * self.y_scale) / self.film_scale
 
-    @property
-    def is_rough(self):
-        """True where heights are added to the smooth bodies'."""
-        return self.surface is not None
-
     @cached_property
     def roughness(self):
         """Rms of the heights within the Hertz semi-axes, about their mean, in m; 0 of smooth bodies."""
@@ -76,6 +71,11 @@ class LoadedContact:
             return 0.0
         X, Y = np.meshgrid(*2 * [np.linspace(-1.0, 1.0, SAMPLES)])
         return float(np.std(self.surface.height(X * self.x_scale, Y * self.y_scale)))
+
+    @property
+    def is_mixed(self):
+        """True where the peaks of a rough surface reach through the film that smooth bodies would have."""
+        return self.roughness > self.expected_film
 
     @property
     def reach(self):

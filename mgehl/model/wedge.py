@@ -57,7 +57,7 @@ class WedgeBearing:
     pillar_size: float = 0.0
 
     is_loaded = False
-    is_rough = False
+    is_mixed = False
     """The gap is given."""
     lambda_ = 6.0
     """Reynolds coefficient of d(H^3 dP/dX)/dX = 6 dH/dX."""

@@ -58,7 +58,7 @@ NOT_ASKED = no_band("not asked for (solver.error = false)")
 
 def why_no_band(result, contact):
     """Why there can be no band about a `Result`'s films; empty where there may be one."""
-    if contact.is_rough:
+    if contact.is_mixed:
         return "coarser grids, from which a band is told, do not see a rough surface"
     if not result.settled:
         return "the run has not settled"

@@ -40,7 +40,7 @@ def set_up(config):
     return SetUp(contact, mesh.in_frame(frame), settings_from(config, contact), frame)
 
 
-ON_SMOOTH, ON_ROUGH = "3B", "1B"
+IN_FILMS, IN_MIXED = "3B", "1B"
 """The Couette flow's schemes where the configuration names none. A film that falls to nothing from one node
 to the next, as behind a peak, stays a film by the first order; by the third it might be less than none."""
 
@@ -50,7 +50,7 @@ def scheme_from(config, contact):
     section = config.discretization
     cavitation = config.kind.cavitates if section.cavitation is None else section.cavitation
     return Scheme(
-        couette=section.couette or (ON_ROUGH if contact.is_rough else ON_SMOOTH),
+        couette=section.couette or (IN_MIXED if contact.is_mixed else IN_FILMS),
         face_mobility=section.face_mobility,
         couette_at_interface=section.couette_at_interface,
         motion=contact.motion,
@@ -62,7 +62,7 @@ def scheme_from(config, contact):
 def _interface_conditions(config, contact):
     """Faces that contact closes; where it closes continuously, those that a vanishing mobility closes."""
     section, boundary_film = config.discretization, config.contact.boundary_film
-    if boundary_film > 0.0 or (contact.is_rough and section.face_mobility == LINEAR_GAP):
+    if boundary_film > 0.0 or (contact.is_mixed and section.face_mobility == LINEAR_GAP):
         return BoundaryFilm(max(boundary_film, section.film_threshold) / contact.film_scale)
     return InterfaceConditions(section.film_threshold / contact.film_scale)
 

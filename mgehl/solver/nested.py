@@ -15,10 +15,6 @@ from mgehl.solver.problem import DIVERGED, ContactProblem
 from mgehl.solver.relaxation import relax
 from mgehl.solver.rigid_gap import RigidGapFluid
 
-THICK = 1.0
-"""Smooth film over the roughness from which it is found as that of smooth bodies: at 2 it takes twice the
-work from the dry contact, and at 3 it is not found from there (random balls on 257 nodes)."""
-
 
 @dataclass(frozen=True)
 class LevelSolve:
@@ -81,10 +77,11 @@ def is_mixed(contact, scheme):
     """Where film and contact share a rough surface: it is solved at once, on the finest grid.
 
     Coarse grids do not see the surface, and the dry contact's pressure is nearer than any film's. A film
-    that is thick beside the roughness is nearer to that of smooth bodies.
+    that is thicker than the roughness is found as that of smooth bodies: from the dry contact twice as
+    thick a film takes twice the work, and one three times as thick is not found (random balls, 257 nodes).
     """
-    law, film = scheme.contact_law, contact.expected_film
-    return law.has_contact and not law.closes_faces and film < THICK * contact.roughness
+    law = scheme.contact_law
+    return law.has_contact and not law.closes_faces and contact.is_mixed
 
 
 def _first_mixed_guess(problem, start, P):

@@ -31,8 +31,8 @@ end."""
 
 
 STUCK = 0.9
-"""What a step that gained nothing leaves of the residual. Then the cavities are left to the next step: their
-relaxation in a gap held fixed and the step that moves it may take turns for ever."""
+"""What a step that gained nothing leaves of the residual. Then the cavities are left to the next step:
+their relaxation in a gap held fixed and the step that moves it may take turns for ever."""
 
 
 @dataclass(frozen=True)

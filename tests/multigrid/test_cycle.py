@@ -104,8 +104,8 @@ def test_gmres_iterations(film, make_ksp, make_vec, nodes, kind):
 @pytest.mark.parametrize(
     "mean, coarse, most",
     [
-        ("logarithmic", "logarithmic", 5),
-        ("linear-gap", "logarithmic", 6),
+        ("logarithmic", "arithmetic", 7),
+        ("linear-gap", "arithmetic", 8),
         ("geometric", "arithmetic", 8),
         ("harmonic", "arithmetic", 72),
     ],

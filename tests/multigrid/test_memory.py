@@ -15,13 +15,13 @@ from mgehl.solver.problem import ContactProblem
 
 
 class Waves:
-    """Heights of 100 nm in waves of half the Hertz radius."""
+    """Heights of 400 nm in waves of half the Hertz radius."""
 
     def __init__(self, a):
         self.a = a
 
     def height(self, x, y):
-        return 1e-7 * np.cos(4.0 * np.pi * x / self.a) * np.cos(4.0 * np.pi * y / self.a)
+        return 4e-7 * np.cos(4.0 * np.pi * x / self.a) * np.cos(4.0 * np.pi * y / self.a)
 
 
 @pytest.fixture

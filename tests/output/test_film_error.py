@@ -29,11 +29,11 @@ NO_CONTACT = ContactResult(0, 0.0, 0.0, None, None, 0.0)
 class SMOOTH:
     """A contact's surface."""
 
-    is_rough = False
+    is_mixed = False
 
 
 class ROUGH(SMOOTH):
-    is_rough = True
+    is_mixed = True
 
 
 def solved(**changes):
