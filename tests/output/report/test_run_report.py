@@ -51,7 +51,7 @@ class Reader(HTMLParser):
 
 @pytest.fixture(scope="module")
 def film_run():
-    settings = SMALL | {"motion.speed": "0.5 m/s", "solver.start": "film"}
+    settings = SMALL | {"motion.speed": "1 m/s", "solver.start": "film"}
     return mgehl.solve(mgehl.load(settings=settings), MPI.COMM_SELF)
 
 
