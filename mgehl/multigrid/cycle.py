@@ -31,7 +31,7 @@ from mgehl.multigrid.vcycle import VCycle
 
 IN_THE_CYCLE = {"3B": "2B", "2C": "3B", "S2C": "3B"}
 """Couette schemes of the cycle's operators where the solved one's leave waves of two cells: lines do not
-damp them (M = 20, L = 10 by 3B on 257 nodes: 97 convolutions for 618)."""
+damp them (M = 20, L = 10 by 3B on 257 nodes: 160 convolutions for 236)."""
 
 LARGE_GRID, RESTART_OF_LARGE = 10_000_000, 6
 """Nodes from which on GMRES is restarted, after so many iterations: it keeps two vectors of each, and
@@ -59,7 +59,8 @@ class MultigridSolver:
     """Flexible GMRES with one V-cycle for the bordered Jacobian of grid `level`.
 
     With a `rigid` gap it solves for the fluid alone and makes no convolution. Where the fluid is settled
-    `apart` from the gap what is left is contact, which knows no direction of motion.
+    `apart` from the gap what is left is contact, which knows no direction of motion. Where peaks reach
+    through the film it has a smoother, coarse mobilities and a memory of their own.
     """
 
     def __init__(

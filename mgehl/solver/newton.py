@@ -18,7 +18,7 @@ from mgehl.grid.events import linear_solve
 from mgehl.solver.arbiter import RELEASE_STEPS, Ruling, rule
 from mgehl.solver.cavitation import relax_cavitation_set
 from mgehl.solver.journal import NOTHING_KEPT
-from mgehl.solver.judge import judge, judge_system
+from mgehl.solver.judge import is_stuck, judge, judge_system
 from mgehl.solver.outcome import Cycle, Outcome
 from mgehl.solver.partition import Changes, Partition
 from mgehl.solver.position import Position, Step, Trial
@@ -28,11 +28,6 @@ FLUID_AHEAD = 0.1
 """Residual of the fluid solved apart beside that of the last cycle, or the tolerance. From 0.03 to 0.1 the
 same Newton steps; at 0.01 and at 0.3 full contact on 257 nodes takes one more. Above 1 no solve would
 end."""
-
-
-STUCK = 0.9
-"""What a step that gained nothing leaves of the residual. Then the cavities are left to the next step:
-their relaxation in a gap held fixed and the step that moves it may take turns for ever."""
 
 
 @dataclass(frozen=True)
@@ -148,7 +143,7 @@ class Newton:
         else:
             evaluation = problem.evaluate(state)
         self._evaluation = evaluation
-        if not self._is_stuck:
+        if not is_stuck(self._position):
             moved, self._evaluation = relax_cavitation_set(problem, state, evaluation)
             changes.cavitated += moved
         self._partition.fill(state, self._evaluation.inflow, changes)
@@ -156,12 +151,6 @@ class Newton:
         self._partition.open_contact(state, self._evaluation.inflow, changes)
         if changes.released > opened:
             self._evaluation = problem.evaluate(state)
-
-    @property
-    def _is_stuck(self):
-        """Whether the last two steps gained nothing."""
-        last = [cycle.residual for cycle in self._position.cycles[-3:]]
-        return len(last) == 3 and min(last[1:]) > STUCK * last[0]
 
     @property
     def _fluid_tolerance(self):

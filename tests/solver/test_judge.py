@@ -7,7 +7,7 @@ import pytest
 from petsc4py import PETSc
 
 from mgehl.discretization.status import BOUNDARY, LUBRICATED
-from mgehl.solver.judge import GO_ON, STALLS, judge, judge_system
+from mgehl.solver.judge import GO_ON, STALLS, STUCK, is_stuck, judge, judge_system
 from mgehl.solver.outcome import Cycle
 from mgehl.solver.partition import RESTLESS, Changes, Partition
 from mgehl.solver.position import Position, Trial
@@ -127,3 +127,20 @@ class TestSystem:
         found = judge_system(reason, make_position(trial_until=15))
         assert found.ends and not found.converged
         assert judge_system(REASONS.CONVERGED_RTOL, make_position(trial_until=15)) is GO_ON
+
+
+@pytest.mark.parametrize(
+    "residuals, stuck",
+    [
+        ([1.0, 0.99, 0.98], True),
+        ([1.0, 1.2, 0.95], True),
+        ([1.0, 0.99], False),
+        ([1.0, 0.99, 0.5], False),
+        ([1.0, 0.5, 0.99], False),
+        ([9.0, 1.0, 0.99, STUCK], False),
+    ],
+)
+def test_two_steps_that_gain_nothing_are_stuck(make_position, residuals, stuck):
+    position = make_position()
+    position.cycles[:] = [make_position(residual).cycles[0] for residual in residuals]
+    assert is_stuck(position) == stuck

@@ -158,3 +158,9 @@ def test_the_residual_is_that_of_the_final_pressures_at_their_own_gap(solve, pap
     true = problem.rms(problem.residual(problem.evaluate(state), state.status))
     assert true == pytest.approx(solution.outcome.cycles[-1].residual, rel=1e-3)
     assert true <= 1e-8
+
+
+def test_cavities_and_steps_do_not_take_turns_for_ever(solve, paper_contact):
+    """3 m/s on 65 nodes: relaxed in a gap held fixed, 40 nodes went to and fro until the steps ran out."""
+    solution = solve(paper_contact(3.0), 65)
+    assert solution.outcome.converged and solution.finest_steps <= 18
