@@ -62,6 +62,14 @@ class BorderedSpace:
         """Set the pressure part alone."""
         self._lines(vec.getArray())[:] = P
 
+    def parts_in_team(self, entries):
+        """The pressure part of an array of own entries, a view (lines, nx), and the border entry.
+
+        Where ranks have lines; 0 on the others.
+        """
+        border = float(entries[-1]) if self._owns_border else 0.0
+        return self._lines(entries), self.border_in_team(border)
+
     def fill(self, entries, P, border):
         """Set an array of a rank's own entries from its pressure part and the border entry."""
         self._lines(entries)[:] = P

@@ -95,10 +95,13 @@ class Past(Kept):
 
 
 class Partition:
-    """Moves nodes of a state between the sets; `past` is the nodes' own, and may be put back."""
+    """Moves nodes of a state between the sets; `past` is the nodes' own, and may be put back.
 
-    def __init__(self, problem, release_budget):
-        self._problem, self._grid = problem, problem.grid
+    An inflow of less than the `tolerance` of residuals opens no contact: it is none.
+    """
+
+    def __init__(self, problem, release_budget, tolerance=0.0):
+        self._problem, self._grid, self._tolerance = problem, problem.grid, tolerance
         self._contact_law = problem.scheme.contact_law
         self.past = Past.none(problem.grid.shape, release_budget)
 
@@ -156,7 +159,7 @@ class Partition:
         if law.closes_faces:
             return
         at_rest = state.H <= SETTLED * law.contact_gap
-        opened = run_behind(in_contact & at_rest & (inflow > 0.0), in_contact)
+        opened = run_behind(in_contact & at_rest & (inflow > self._tolerance), in_contact)
         state.status[opened] = LUBRICATED
         changes.released += self._grid.count(opened)
 

@@ -8,7 +8,8 @@ a few of its heights a step.
 By a mean of the mobility that vanishes with either side, more pressure at a node, which makes its fluid
 stiffer, may drive less flow out of it: beyond that fold its pressure runs away, and Newton's step near
 it is as good as random. There the time step is so short that the node is stable by itself: it passes
-the fold slowly, the residual hardly falling, and the rest follows.
+the fold slowly, the residual hardly falling, and the rest follows. On rough surfaces a valley's fluid pries
+the closed gap beside it open in the same way: the more it opens the more flows in.
 """
 
 import numpy as np
@@ -57,7 +58,8 @@ def squeeze_rates(problem, evaluation, rows, F, settings):
         # What flows in may fill a node at once: only closing is to be slow.
         own_part = np.where(F > 0.0, np.minimum(own_part, FILLING / problem.grid.mesh.dX), own_part)
     rates = settings.squeeze * (rms / problem.grid.mesh.dX + own_part)
-    return np.maximum(rates, _stable_rates(problem, evaluation, rows, rms)) if mean in FOLDING else rates
+    may_fold = mean in FOLDING or not problem.scheme.contact_law.closes_faces
+    return np.maximum(rates, _stable_rates(problem, evaluation, rows, rms)) if may_fold else rates
 
 
 def _stable_rates(problem, evaluation, rows, rms):

@@ -74,6 +74,10 @@ def check_interface(problem, state):
     error of each. So a pressure that rises or falls continuously through the interface breaks nothing, and
     a jump that stays as the grid is refined is found on every grid. (Compared at the nodes alone, contact
     behind a constriction, where the pressure falls, breaks the inequality on all grids alike.)
+
+    Contact one node wide through which the pressure falls has no second node that could tell the pressure
+    at its upper face: it may be that of the fluid there, and breaks nothing on this axis. Where the
+    pressure of such a node is the lowest of its line, fluid presses from both sides, and it is compared.
     """
     grid, P, contact = problem.grid, state.P, state.status == CONTACT
     ghosted = grid.halo(P), grid.halo_status(state.status)
@@ -88,7 +92,8 @@ def check_interface(problem, state):
             here = contact & ~is_solid_there
             checked |= here
             jump = (of_fluid[0] - of_fluid[1]) - (of_contact[0] + of_contact[1])
-            np.maximum(excess, jump, out=excess, where=here)
+            falls_through = ~has_contact_behind & (behind <= P)
+            np.maximum(excess, jump, out=excess, where=here & ~falls_through)
     return _inequality(grid, checked, excess)
 
 

@@ -10,7 +10,7 @@ from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import LUBRICATED
 from mgehl.multigrid import memory
 from mgehl.multigrid.cycle import MultigridSolver
-from mgehl.multigrid.memory import Memory
+from mgehl.multigrid.memory import Memory, softest
 from mgehl.solver.problem import ContactProblem
 
 
@@ -95,20 +95,49 @@ def test_remembering_makes_no_convolution(rough, solved):
 def test_no_more_is_remembered_than_there_is_room_for(rough, monkeypatch):
     problem, solver, *_ = rough
     monkeypatch.setattr(memory, "NODES", 3 * problem.grid.mesh.nodes)
-    few = Memory(solver.jacobian, None)
+    few, b = Memory(solver.jacobian, Itself()), solver.space.create_vec()
+    y, P = b.duplicate(), np.zeros(problem.grid.shape)
     for number in range(5):
-        solver.jacobian.witness(np.full(problem.grid.shape, number), np.zeros(problem.grid.shape), 0.0)
-    assert [dP[0, 0] for dP, _, _ in few._seen] == [2.0, 3.0, 4.0]
+        solver.space.write(b, P + number, 0.0)
+        few.apply(None, b, y)
+        solver.jacobian.mat.mult(y, b)
+    assert [value[0] for value, _, _ in few._seen] == [2.0, 3.0, 4.0]
+    b.destroy()
+    y.destroy()
 
 
-def test_what_depends_on_others_is_left_out(rough):
-    """Twice the same correction and one that is nothing: one image of length 1 is left."""
-    problem, solver, ksp, evaluation, state = rough
-    kept = ksp.getPC().getPythonContext()
-    dP = np.where(state.status == LUBRICATED, 1.0, 0.0)
-    dH = problem.deflection(dP).copy()
-    for part in (dP, dP, 0.0 * dP):
-        solver.jacobian.witness(part, dH if part.any() else 0.0 * dH, 0.0)
-    ksp.setUp()
-    assert len(kept._images) == 1
-    assert np.linalg.norm(kept._images) == pytest.approx(1.0, rel=1e-12)
+class Itself:
+    """A cycle that does nothing."""
+
+    def apply(self, _pc, x, y):
+        x.copy(y)
+
+
+class TestSoftest:
+    """Images and causes are given by their products; the identity answers them by themselves."""
+
+    def test_images_are_orthonormal(self):
+        images = np.random.default_rng(1).standard_normal((4, 9))
+        gram = images @ images.T
+        weights = softest(gram, gram, 10)
+        assert weights.T @ gram @ weights == pytest.approx(np.eye(4), abs=1e-12)
+
+    def test_what_depends_on_others_is_left_out(self):
+        images = np.array([[1.0, 2.0, 0.0], [2.0, 4.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 3.0]])
+        gram = images @ images.T
+        assert softest(gram, gram, 10).shape == (4, 2)
+
+    @pytest.mark.parametrize("most", [1, 2, 3])
+    def test_the_smallest_images_beside_their_causes_are_taken(self, most):
+        """Images 10, 1, .1 and 4 times causes that are orthonormal."""
+        times = np.array([10.0, 1.0, 0.1, 4.0])
+        weights = softest(np.diag(times**2), np.diag(times), most)
+        assert weights.shape == (4, most)
+        taken = np.flatnonzero(np.abs(weights).max(axis=1) > 1e-12)
+        assert sorted(taken) == sorted(np.argsort(times)[:most])
+
+    def test_a_pair_of_complex_modes_is_taken_whole(self):
+        """Causes turned by a right angle about their images: two modes that only exist together."""
+        turned = np.array([[0.0, 5.0, 0.0], [-5.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+        weights = softest(np.eye(3), turned, 2)
+        assert np.abs(weights[2]).max() < 1e-12

@@ -63,6 +63,15 @@ class TestInterface:
             P = np.r_[np.full(3, 0.3), 0.3 + np.sqrt(inside + np.arange(3.0))]
             assert check_interface(tiny_problem, across(P)).violations == []
 
+    @pytest.mark.parametrize("behind, found", [(0.0, False), (0.2, False), (0.3, True), (0.6, True)])
+    def test_contact_one_node_wide(self, tiny_problem, state, behind, found):
+        """The pressure that falls through it breaks nothing; fluid that presses from both sides does."""
+        state.P[:] = 0.8
+        state.P[4, 4], state.P[4, 5:], state.P[3, 4], state.P[5, 4] = 0.25, behind, 0.2, 0.8
+        state.P[2, 4] = 0.2
+        state.status[4, 4] = CONTACT
+        assert bool(check_interface(tiny_problem, state).violations) == found
+
     def test_without_contact_nothing_is_checked(self, tiny_problem, state):
         assert check_interface(tiny_problem, state).checked == 0
 
