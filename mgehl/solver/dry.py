@@ -24,8 +24,8 @@ from mgehl.solver.problem import State
 from mgehl.solver.record import Kept, Record
 
 REDUCTION = 0.1
-"""What is left of the error on a set before the set is looked at again. From 0.05 to 0.3 the same work within
-5 %, over rough, wavy and smooth balls on 129 and 257 nodes."""
+"""What is left of the error on a set before the set is looked at again. From 0.05 to 0.3 the same work
+within 5 %, over rough, wavy and smooth balls on 129 and 257 nodes."""
 
 SHARE = 0.01
 """Of the tolerance, that gaps of pressed nodes may have. The pressure is least certain at the edge, which
@@ -41,8 +41,8 @@ MOST_ITERATIONS = 200
 """Of conjugate gradients on one set: rough balls take fewer than 20."""
 
 GUESS, GUESS_GAP = 0.03, 1e-3
-"""By how much the pressure of a node of a first guess may be wrong, and its gap, in units of P and H: a mixed
-contact then takes as many Newton steps as from the exact one."""
+"""By how much the pressure of a node of a first guess may be wrong, and its gap, in units of P and H: a
+mixed contact then takes as many Newton steps as from the exact one."""
 
 GUESS_STEPS = 30
 """At the most, a limit that nothing reaches."""
@@ -140,8 +140,8 @@ def _why_not(step, gap, limit):
 class PressedNodes:
     """Pressure and gap of a problem while a set of its nodes is in contact (all methods collective).
 
-    `P` and `gap` are (lines, nx); the gap is that before the bodies approach each other, and `approach`, its
-    mean over the set, is by how much they do. Sums of P stay as they are: those that carry the load.
+    `P` and `gap` are (lines, nx); the gap is that before the bodies approach each other, and `approach`,
+    its mean over the set, is by how much they do. The sum of P stays as it is: that which carries the load.
     """
 
     def __init__(self, problem, P):

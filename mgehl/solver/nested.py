@@ -21,7 +21,8 @@ class LevelSolve:
     """What is being solved: the grid's nodes along X and the speed in m/s."""
 
     nodes: int
-    speed: float
+    speed: float | None
+    """None without a fluid."""
     finest: bool
 
 
