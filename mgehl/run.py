@@ -119,10 +119,9 @@ def _solve_dry(config, parts, comm, watch, start):
         monitor = progress.Progress(
             progress.DRY, contact.film_scale, hierarchy, limits.tolerance, watch.speaker
         )
-        problem = ContactProblem(
-            hierarchy.grids[-1], hierarchy.deflections[-1], contact, parts.settings.scheme
-        )
-        guess = contact.guessed_pressure(problem.grid.X, problem.grid.Y)
+        grid, scheme = hierarchy.grids[-1], parts.settings.scheme
+        problem = ContactProblem(grid, hierarchy.deflections[-1], contact, scheme)
+        guess = contact.guessed_pressure(grid.X, grid.Y)
         if start:
             guess = interpolated(problem, start, parts.frame).P
         journal = _journal(config, monitor, watch)

@@ -88,10 +88,9 @@ def read_result(files, config):
 
     Raises OutputError where it is missing, or cut off.
     """
-    path, kind = (
-        files.result,
-        DryResult if config.is_dry else Result if config.kind.is_loaded else WedgeResult,
-    )
+    path, kind = files.result, Result if config.kind.is_loaded else WedgeResult
+    if config.is_dry:
+        kind = DryResult
     try:
         return dacite.from_dict(kind, json.loads(path.read_text()), LENIENT)
     except (OSError, ValueError, TypeError, AttributeError, dacite.DaciteError) as error:

@@ -25,8 +25,9 @@ def dry_words(result):
     contact, hertz = result.contact, result.hertz
     lines = [
         f"{'CONVERGED' if result.converged else 'NOT CONVERGED'}: {result.reason}",
-        f"  largest pressure {_number(result.max_pressure_GPa)} GPa (Hertz {_number(hertz.max_pressure_GPa)}), "
-        f"approach {_number(result.approach_um)} um (Hertz {_number(hertz.approach_um)})",
+        f"  largest pressure {_number(result.max_pressure_GPa)} GPa, that of Hertz "
+        f"{_number(hertz.max_pressure_GPa)}",
+        f"  approach {_number(result.approach_um)} um, that of Hertz {_number(hertz.approach_um)}",
         f"  contact: {contact.nodes} nodes, {100 * contact.area_fraction:.2f} % of the Hertz area; "
         f"nodes {span(contact.x_nodes)} on Y = 0, {span(contact.y_nodes)} on X = 0; "
         f"largest gap {contact.largest_gap_nm:.1e} nm",
@@ -35,9 +36,8 @@ def dry_words(result):
         f"{result.wall_s:.1f} s on {result.ranks} ranks",
     ]
     if result.overlap.nodes:
-        lines.append(
-            f"  THE BODIES OVERLAP at {result.overlap.nodes} nodes by up to {result.overlap.largest_nm:.2e} nm"
-        )
+        nodes, largest = result.overlap.nodes, result.overlap.largest_nm
+        lines.append(f"  THE BODIES OVERLAP at {nodes} nodes by up to {largest:.2e} nm")
     return "\n".join(lines)
 
 
