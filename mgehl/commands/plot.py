@@ -7,7 +7,7 @@ from mgehl.errors import OutputError, UserError
 
 PARALLEL = False
 
-KINDS = ("all", "lines", "film", "gap", "pressure", "status", "history", "compare")
+KINDS = ("all", "lines", "film", "pressure", "status", "gap", "history", "compare")
 FORMATS = ("png", "svg", "pdf")
 DEFAULT_FORMATS = ("png", "pdf")
 

@@ -39,6 +39,7 @@ REFERENCE = {
     ("rough 200 nm", 129): Reference(5042, 4.401195, 13.257591),
     ("rough 200 nm", 257): Reference(20097, 4.384155, 13.258240),
     ("rough 500 nm", 129): Reference(3688, 7.651524, 13.096869),
+    ("rough 500 nm", 257): Reference(14486, 7.602938, 13.098811),
 }
 """By surface and nodes a side: runs of the public code to its last digits."""
 

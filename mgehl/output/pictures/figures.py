@@ -34,12 +34,17 @@ class Picture(NamedTuple):
 TITLES = {
     "lines": "pressure and film on the centre lines, against the dry contact",
     "film": "film thickness, with contact and cavitation outlined",
-    "gap": "gap of the dry bodies, contact outlined",
     "pressure": "pressure",
     "status": "status of the nodes",
     "history": "how the run converged",
 }
 """The kinds of pictures, in order, and what they show."""
+
+DRY_TITLES = {
+    "lines": "pressure and gap on the centre lines, against the contact of smooth bodies",
+    "gap": "gap, with contact outlined",
+}
+"""What is another picture without a fluid, or shows something else."""
 
 _POINT = {
     "lines": centre_lines,
@@ -69,7 +74,7 @@ def drawn_by(solution):
 
 def title_of(kind, solution):
     """What a kind of picture of a run shows."""
-    return TITLES[kind].replace("and film ", "and gap ") if solution.is_dry else TITLES[kind]
+    return (TITLES | DRY_TITLES if solution.is_dry else TITLES)[kind]
 
 
 def figures(solution: Solution, kinds: Sequence[str] | None = None) -> list[Picture]:
