@@ -12,7 +12,6 @@ from petsc4py import PETSc
 
 from mgehl.errors import OutputError
 from mgehl.grid.grid import single_grid
-from mgehl.grid.hierarchy import Hierarchy
 from mgehl.kinds import contact_from, settled
 from mgehl.kinds.own import naming_keys
 from mgehl.output import files, progress, terminal
@@ -24,7 +23,7 @@ from mgehl.output.solution import Fields, Solution
 from mgehl.output.users_axes import in_users_axes
 from mgehl.output.wedge_result import summarise_wedge
 from mgehl.solver.continuation import begin
-from mgehl.solver.dry import solve_dry
+from mgehl.solver.dry import guess_on_finest, solve_dry
 from mgehl.solver.from_config import set_up
 from mgehl.solver.journal import NOTHING_KEPT, told_to_stop
 from mgehl.solver.nested import LevelSolve, single_loop
@@ -112,18 +111,19 @@ def _solve_loaded(config, parts, comm, watch, start):
 
 
 def _solve_dry(config, parts, comm, watch, start):
-    """A loaded contact without a fluid; it needs the finest grid alone."""
+    """A loaded contact without a fluid."""
     contact, limits = parts.contact, parts.settings.newton
-    hierarchy = Hierarchy(parts.mesh, parts.mesh.nx, contact.kernel, comm)
+    hierarchy = parts.hierarchy(comm)
     try:
         monitor = progress.Progress(
             progress.DRY, contact.film_scale, hierarchy, limits.tolerance, watch.speaker
         )
         grid, scheme = hierarchy.grids[-1], parts.settings.scheme
         problem = ContactProblem(grid, hierarchy.deflections[-1], contact, scheme)
-        guess = contact.guessed_pressure(grid.X, grid.Y)
         if start:
             guess = interpolated(problem, start, parts.frame).P
+        else:
+            guess = guess_on_finest(hierarchy, contact, scheme)
         journal = _journal(config, monitor, watch)
         tell = partial(monitor, LevelSolve(parts.mesh.nx, None, True))
         outcome = solve_dry(problem, guess, limits.tolerance, limits.max_steps, tell, journal)

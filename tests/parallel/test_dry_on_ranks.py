@@ -16,7 +16,7 @@ pytestmark = pytest.mark.parallel
 COMM = MPI.COMM_WORLD
 
 
-@pytest.mark.parametrize("name, nodes", [("smooth", 65), ("rough 500 nm", 129)])
+@pytest.mark.parametrize("name, nodes", [("smooth", 65), ("rough 500 nm", 257)])
 def test_it_is_that_of_one_rank(name, nodes):
     config = config_from_tables(tables_of(name, nodes))
     together, alone = solve(config, COMM), solve(config, MPI.COMM_SELF)

@@ -6,12 +6,22 @@ from scipy.optimize import nnls
 from tools.dry_surfaces import CASES, surface
 
 from mgehl.discretization.influence import influence_coefficients
+from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import CONTACT, LUBRICATED
 from mgehl.model.coating import Coating
 from mgehl.model.line import LineContact
-from mgehl.solver.dry import DryStanding, DryStep, PressedNodes, carried, dry_pressure, solve_dry
+from mgehl.solver.dry import (
+    DryStanding,
+    DryStep,
+    PressedNodes,
+    carried,
+    dry_pressure,
+    guess_on_finest,
+    solve_dry,
+)
 from mgehl.solver.journal import NOTHING_KEPT, Journal
 from mgehl.solver.nested import first_guess
+from mgehl.solver.problem import ContactProblem
 from mgehl.solver.record import Record
 
 TOLERANCE = 1e-8
@@ -239,3 +249,31 @@ def test_work_of_a_first_guess(make_problem, paper_contact, name, most):
     problem = make_problem(paper_contact(surface=surface(name)), nodes=129)
     dry_pressure(problem, problem.contact.guessed_pressure(problem.grid.X, problem.grid.Y))
     assert problem.deflection.count <= most
+
+
+class TestCoarseGrids:
+    """From them a rough ball settles in as many convolutions on every grid."""
+
+    @pytest.fixture
+    def work(self, make_hierarchy, paper_contact):
+        def run(name, nodes):
+            contact = paper_contact(surface=surface(name))
+            hierarchy = make_hierarchy(contact, nodes)
+            guess = guess_on_finest(hierarchy, contact, Scheme())
+            before = hierarchy.convolutions
+            problem = ContactProblem(hierarchy.grids[-1], hierarchy.deflections[-1], contact, Scheme())
+            outcome, _ = settle(problem, guess)
+            assert outcome.converged
+            return before, hierarchy.convolutions, np.count_nonzero(outcome.state.P)
+
+        return run
+
+    def test_a_rough_ball(self, work):
+        guess, whole, nodes = work("rough 500 nm", 257)
+        assert nodes == 14486 and 0.0 < guess < 6.0 and whole < 44.0
+
+    def test_smooth_bodies_need_none(self, work):
+        assert work("smooth", 257)[0] == 0.0
+
+    def test_nor_do_coarse_grids(self, work):
+        assert work("rough 500 nm", 129)[0] == 0.0
