@@ -19,6 +19,7 @@ from itertools import count
 
 import numpy as np
 
+from mgehl.config_sections import SolverSection
 from mgehl.discretization.status import CONTACT, LUBRICATED
 from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.outcome import Outcome
@@ -45,9 +46,6 @@ MOST_ITERATIONS = 200
 GUESS, GUESS_GAP = 0.03, 1e-3
 """By how much the pressure of a node of a first guess may be wrong, and its gap, in units of P and H: a
 mixed contact then takes as many Newton steps as from the exact one."""
-
-GUESS_STEPS = 30
-"""At the most, a limit that nothing reaches."""
 
 
 FIRST_NODES, NESTED_NODES = 65, 257
@@ -117,7 +115,7 @@ def guess_on_finest(hierarchy, contact, scheme):
 def dry_pressure(problem, P):
     """Roughly the pressure (lines, nx) with which the bodies carry their load; `P` is a guess."""
     P, limit = carried(problem, P), min(GUESS * problem.K00, GUESS_GAP)
-    for _ in range(GUESS_STEPS):
+    for _ in range(SolverSection.max_steps):
         pressed = PressedNodes(problem, P)
         pressed.balance(limit, REDUCTION)
         P = pressed.without_pull()
