@@ -3,14 +3,13 @@
 A set of pressed nodes is guessed. On it conjugate gradients look for the pressure under which the gap is
 the same everywhere, which the approach of the bodies then takes away. Nodes that pull leave the set, nodes
 where the bodies overlap enter it [primal-dual active set: Hintermueller, Ito, Kunisch 2003], and so on
-until none does. Three things make it quick:
+until none does. Four things make it quick:
 
 - Deflection falls with the wave number as 1/k. The preconditioner gives that back
   (`Deflection.inverted`, a quarter of a convolution), so that steps do not grow with the grid.
 - An early set is solved to one digit only; where it has not changed the last one is solved on.
 - The gap follows the pressure by what each step has convolved anyway.
-
-A set moves by some nodes a step, so that on fine grids it is brought near from coarser ones.
+- On fine grids the set, which moves by some nodes a step, is brought near from coarser ones.
 """
 
 from dataclasses import dataclass, field
