@@ -15,6 +15,7 @@ from mgehl import config_sections as sections
 from mgehl.config_value import read_value, shown
 from mgehl.errors import ConfigError
 from mgehl.kinds import KINDS
+from mgehl.kinds.dry import DRY
 from mgehl.kinds.point import CoatingSection, MoesSection
 from mgehl.kinds.wedge import WedgeSection
 from mgehl.model.own_function import absolute
@@ -49,7 +50,13 @@ class Config:
     @property
     def kind(self):
         """The `Kind` of contact."""
-        return KINDS[self.contact.kind]
+        kinds = KINDS | DRY if self.discretization.contact_model == "dry" else KINDS
+        return kinds[self.contact.kind]
+
+    @property
+    def is_dry(self):
+        """Whether there is no fluid."""
+        return self.kind in DRY.values()
 
     @property
     def unused(self):

@@ -81,8 +81,8 @@ class DiscretizationSection:
         choices=FACE_MOBILITIES, kind=str,
     )  # fmt: skip
     contact_model: str = key_field(
-        "lcic", "interface conditions, or the unified equations that have none",
-        choices=("lcic", "unified"), kind=str,
+        "lcic", "interface conditions, the unified equations that have none, or contact without a fluid",
+        choices=("lcic", "unified", "dry"), kind=str,
     )  # fmt: skip
     unified_gap: float = key_field(0.0, "smallest gap of the unified Poiseuille flow", "m", low=0.0)
     couette_at_interface: str = key_field(

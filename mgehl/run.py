@@ -16,16 +16,19 @@ from mgehl.kinds import contact_from, settled
 from mgehl.kinds.own import naming_keys
 from mgehl.output import files, progress, terminal
 from mgehl.output.checkpoint import Checkpoint, clear
+from mgehl.output.dry_result import summarise_dry
 from mgehl.output.film_error import film_error
 from mgehl.output.result import Work, summarise
 from mgehl.output.solution import Fields, Solution
 from mgehl.output.users_axes import in_users_axes
 from mgehl.output.wedge_result import summarise_wedge
 from mgehl.solver.continuation import begin
+from mgehl.solver.dry import guess_on_finest, solve_dry
 from mgehl.solver.from_config import set_up
 from mgehl.solver.journal import NOTHING_KEPT, told_to_stop
-from mgehl.solver.nested import single_loop
-from mgehl.solver.restart import solve_from
+from mgehl.solver.nested import LevelSolve, single_loop
+from mgehl.solver.problem import ContactProblem
+from mgehl.solver.restart import interpolated, solve_from
 from mgehl.solver.wedge import solve_wedge
 from mgehl.version import VERSION
 
@@ -77,7 +80,9 @@ def solve(config, comm, watch=Watch(), start=None):
 
 def _find(config, parts, comm, watch, start):
     """The `Solution` of a `SetUp` (collective)."""
-    find = partial(_solve_loaded, start=start) if parts.contact.is_loaded else _solve_bearing
+    find = _solve_bearing
+    if parts.contact.is_loaded:
+        find = partial(_solve_dry if config.is_dry else _solve_loaded, start=start)
     with naming_keys(parts.contact), np.errstate(all="ignore"):  # what diverges says so itself
         return find(config, parts, comm, watch)
 
@@ -94,9 +99,7 @@ def _solve_loaded(config, parts, comm, watch, start):
         method = begin if by_newton else single_loop
         if start:
             method = partial(solve_from, start=start, frame=parts.frame)
-        journal = NOTHING_KEPT
-        if watch.directory:
-            journal = Checkpoint(watch.directory, config, monitor, watch.save_every, watch.stop)
+        journal = _journal(config, monitor, watch)
         problem, outcome = method(hierarchy, contact, settings, monitor=monitor, journal=journal)
         work = Work(monitor.convolutions, monitor.steps if by_newton else outcome.cycles[-1].step)
         result = summarise(problem, outcome, tolerance, work, monitor.seconds, versions())
@@ -105,6 +108,37 @@ def _solve_loaded(config, parts, comm, watch, start):
         return _solution(config, parts, problem, outcome.state, monitor.rows, result)
     finally:
         hierarchy.destroy()
+
+
+def _solve_dry(config, parts, comm, watch, start):
+    """A loaded contact without a fluid."""
+    contact, limits = parts.contact, parts.settings.newton
+    hierarchy = parts.hierarchy(comm)
+    try:
+        monitor = progress.Progress(
+            progress.DRY, contact.film_scale, hierarchy, limits.tolerance, watch.speaker
+        )
+        grid, scheme = hierarchy.grids[-1], parts.settings.scheme
+        problem = ContactProblem(grid, hierarchy.deflections[-1], contact, scheme)
+        if start:
+            guess = interpolated(problem, start, parts.frame).P
+        else:
+            guess = guess_on_finest(hierarchy, contact, scheme)
+        journal = _journal(config, monitor, watch)
+        tell = partial(monitor, LevelSolve(parts.mesh.nx, None, True))
+        outcome = solve_dry(problem, guess, limits.tolerance, limits.max_steps, tell, journal)
+        work = Work(monitor.convolutions, monitor.steps)
+        result = summarise_dry(problem, outcome, limits.tolerance, work, monitor.seconds, versions())
+        return _solution(config, parts, problem, outcome.state, monitor.rows, result)
+    finally:
+        hierarchy.destroy()
+
+
+def _journal(config, monitor, watch):
+    """What is told of the way of a solve: the checkpoint of its directory, if there is one."""
+    if not watch.directory:
+        return NOTHING_KEPT
+    return Checkpoint(watch.directory, config, monitor, watch.save_every, watch.stop)
 
 
 def _solve_bearing(config, parts, comm, watch):

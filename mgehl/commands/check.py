@@ -43,7 +43,7 @@ def execute(options):
 def _described(config, contact, mesh):
     """Lines about the contact and, of a loaded one, about its inlet."""
     yield from config.kind.lines(config, contact, mesh)
-    if contact.is_loaded:
+    if contact.is_loaded and not config.is_dry:
         yield ""
         yield from _inlet(config, contact, mesh)
 

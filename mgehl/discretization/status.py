@@ -13,6 +13,14 @@ BOUNDARY, LUBRICATED, CAVITATED, CONTACT, WALL = (np.int8(kind) for kind in rang
 """WALL is beyond the domain: the ghost lines outside of it. Nothing flows there."""
 NAMES = ("boundary", "lubricated", "cavitated", "contact")
 
+APART = "apart"
+"""What LUBRICATED is called where there is no fluid."""
+
+
+def names(is_dry):
+    """What the nodes of a run are called, in the order of their numbers."""
+    return tuple(APART if is_dry and name == NAMES[LUBRICATED] else name for name in NAMES)
+
 
 def is_fluid(status):
     """Nodes with a gap that fluid may fill: film and cavities."""

@@ -38,6 +38,8 @@ class Kind:
     """Keys that a case is made of, with values that converge in seconds."""
     short: dict = {}
     """Keys whose values speak for themselves: functions from the value to a few words."""
+    content = "Pressure and film of a lubricated"
+    """What its fields are: words before the noun."""
     cavitates = True
     """Whether its film tears where nothing is said of that."""
 

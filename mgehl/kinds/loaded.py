@@ -43,9 +43,13 @@ class LoadedKind(Kind):
         """The bodies must be half-spaces, the laws numbers, the domain large enough."""
         loaded_checks.check_deformation(config, contact)
         loaded_checks.check_size(*self.size(config, contact))
-        loaded_checks.check_own_laws(contact)
         if contact.surface is not None:
             loaded_checks.check_surface(contact, self.mesh(config, contact))
+        self.check_fluid(config, contact)
+
+    def check_fluid(self, config, contact):
+        """The laws must be numbers, the domain large enough for contact and inlet."""
+        loaded_checks.check_own_laws(contact)
         loaded_checks.check_exponent(contact)
         loaded_checks.check_domain(self.settled(config, contact).grid, contact)
 

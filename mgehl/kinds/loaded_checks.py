@@ -61,17 +61,28 @@ def check_exponent(contact):
 
 def check_domain(grid, contact):
     """The contact must lie in the domain, and so must the inlet upstream of it."""
-    reach, length = contact.reach, contact.inlet_length
+    length = contact.inlet_length
     inlets = contact.motion[0] * length, contact.motion[1] * length * contact.k_e
-    axes = (("x", grid.x),) if contact.is_plane else (("x", grid.x), ("y", grid.y))
-    for (name, ends), inlet in zip(axes, inlets, strict=False):
-        _check_inlet(f"grid.{name} = {list(ends)!r}", ends, reach, inlet)
-    for name, ends in axes:
+    for (name, ends), inlet in zip(_sides(grid, contact), inlets, strict=False):
+        _check_inlet(f"grid.{name} = {list(ends)!r}", ends, contact.reach, inlet)
+    check_reach(grid, contact)
+
+
+def check_reach(grid, contact):
+    """The contact must lie in the domain."""
+    reach = contact.reach
+    who = "contact may on a layer so soft" if reach > 1.0 else "contact of smooth bodies does"
+    for name, ends in _sides(grid, contact):
         if min(-ends[0], ends[1]) <= reach:
             raise ConfigError(
                 f"grid.{name} = {list(ends)!r}: must reach beyond {reach:.3g} on both sides, as far as the "
-                "contact may on a layer so soft"
+                f"{who}"
             )
+
+
+def _sides(grid, contact):
+    """Names and ends of the domain's axes."""
+    return (("x", grid.x),) if contact.is_plane else (("x", grid.x), ("y", grid.y))
 
 
 def _check_inlet(what, ends, reach, inlet):

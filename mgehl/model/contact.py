@@ -86,6 +86,11 @@ class LoadedContact:
         return self.widening if self.widening <= 1.0 else min(self.widening**2, 1.3 * self.widening)
 
     @property
+    def is_at_rest(self):
+        """Without a speed: a dry contact."""
+        return self.speed == 0.0
+
+    @property
     def is_hertzian(self):
         """True of smooth half-spaces, whose dry contact is that of Hertz."""
         return self.surface is None and self.deformation is None

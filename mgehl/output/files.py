@@ -162,7 +162,7 @@ def write_fields(path, solution):
         unit = f"maximum Hertz pressure, or eta u/(m^2 mm): {contact.pressure_scale:.6g} Pa"
         put("P", plane, fields.P, "1", f"pressure over its unit, {unit}")
         put("H", plane, fields.H, "1", f"gap over its unit, a^2/R_x, or m mm: {contact.film_scale:.6g} m")
-        names = ", ".join(f"{k} {name}" for k, name in enumerate(status.NAMES))
+        names = ", ".join(f"{k} {name}" for k, name in enumerate(status.names(solution.is_dry)))
         put("status", plane, fields.status, "1", names)
 
 

@@ -32,7 +32,8 @@ class Progress:
         self._speaker.row(row, NEWTON.line(row))
 
     def _row(self, kind, level, cycle):
-        row = {"grid": level.nodes, "speed_mm_s": 1e3 * level.speed} | kind.row(cycle, self._nm)
+        speed = {} if level.speed is None else {"speed_mm_s": 1e3 * level.speed}
+        row = {"grid": level.nodes} | speed | kind.row(cycle, self._nm)
         return row | {"convolutions": self.convolutions, "seconds": self.seconds}
 
     @property
@@ -87,6 +88,20 @@ def sweep_line(row):
     return f"{_state(row)}  e^p {row['e_p']:8.2e} ({apart})"
 
 
+def dry_row(step, nm):
+    """What history.csv keeps of a set of pressed nodes."""
+    return vars(step) | {"gap_nm": step.residual * nm}
+
+
+def dry_line(row):
+    """A set of pressed nodes on the terminal."""
+    return (
+        f"grid {row['grid']:5d}  dry  step {row['step']:2d}  gap in contact {row['gap_nm']:8.2e} nm  "
+        f"contact {row['contact_nodes']:6d}  changed {row['changed_nodes']:5d}  "
+        f"iterations {row['linear_iterations']:3d}"
+    )
+
+
 @dataclass(frozen=True)
 class Kind:
     """What history.csv keeps of a cycle and what the terminal shows of that."""
@@ -97,6 +112,7 @@ class Kind:
 
 NEWTON = Kind(newton_row, newton_line)
 RELAXATION = Kind(sweep_row, sweep_line)
+DRY = Kind(dry_row, dry_line)
 
 
 def _state_row(cycle, nm):

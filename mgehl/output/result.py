@@ -129,7 +129,7 @@ def summarise(problem, outcome, tolerance, work, wall_s, versions):
     asked, other = _inequalities(problem, state)
     complementarity = complementarity_error(problem, state, evaluation)
     settled, reason = _verdict(outcome, tolerance, residual, load_error, complementarity)
-    converged, overlap = settled and asked.violations == 0, _overlap(grid, state, nm)
+    converged, overlap = settled and asked.violations == 0, overlap_of(grid, state, nm)
     if settled:
         reason = _whether_more_holds(asked, overlap) or reason
     moes = contact.film_scale * contact.moes_scale
@@ -144,7 +144,7 @@ def summarise(problem, outcome, tolerance, work, wall_s, versions):
         load_error=load_error,
         complementarity_error=complementarity,
         flux_imbalance=flux_imbalance(problem, evaluation),
-        contact=_contact_result(problem, state, nm),
+        contact=contact_result(problem, state, nm),
         overlap=overlap,
         pressure_inequality=asked,
         other_inequality=other,
@@ -200,7 +200,8 @@ def _contradiction(node, nm):
     }
 
 
-def _contact_result(problem, state, nm):
+def contact_result(problem, state, nm):
+    """The `ContactResult` of a state; `nm` is nanometres in a unit of H (collective)."""
     grid, contact_area = problem.grid, problem.contact.contact_area
     contact = state.status == CONTACT
     carried = problem.load(np.where(contact, state.P, 0.0)) / problem.contact.load_integral
@@ -230,7 +231,8 @@ def _inequality_result(inequality, compared):
     return InequalityResult(*found, nodes, compared)
 
 
-def _overlap(grid, state, nm):
+def overlap_of(grid, state, nm):
+    """The `Overlap` of a state, as `contact_result` (collective)."""
     below = np.where(state.status == CONTACT, 0.0, -state.H)
     return Overlap(grid.count(below > 0.0), nm * grid.max(below, initial=0.0))
 

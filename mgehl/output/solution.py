@@ -10,6 +10,7 @@ from mgehl.discretization.mesh import Mesh
 from mgehl.grid.grid import Grid
 from mgehl.model.contact import LoadedContact
 from mgehl.model.wedge import WedgeBearing
+from mgehl.output.dry_result import DryResult
 from mgehl.output.result import Result
 from mgehl.output.wedge_result import WedgeResult
 
@@ -43,11 +44,16 @@ class Solution:
     mesh: Mesh
     fields: Fields | None
     rows: list[dict[str, float]]
-    result: Result | WedgeResult
+    result: Result | WedgeResult | DryResult
     H0: float = 0.0
     """Approach of the bodies in units of H  [Liu eq. 48]; 0 for a wedge."""
     local: Fields | None = None
     first_line: int = 0
+
+    @property
+    def is_dry(self) -> bool:
+        """Whether there is no fluid: the film is a gap."""
+        return self.contact.is_loaded and self.contact.is_at_rest
 
     @property
     def film(self) -> Reals | None:
@@ -75,7 +81,7 @@ class Solution:
         return self.mesh.Y * self.contact.y_scale
 
     @property
-    def summary(self) -> Result | WedgeResult:
+    def summary(self) -> Result | WedgeResult | DryResult:
         """Films, verdicts, contact, formulas and work: what result.json holds."""
         return self.result
 

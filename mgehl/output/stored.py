@@ -13,6 +13,7 @@ from mgehl.config import load_config
 from mgehl.discretization.status import NAMES
 from mgehl.errors import ConfigError, OutputError, one_line
 from mgehl.kinds import contact_from, mesh_from
+from mgehl.output.dry_result import DryResult
 from mgehl.output.files import RunFiles
 from mgehl.output.result import Result
 from mgehl.output.solution import Fields, Solution
@@ -83,11 +84,13 @@ def _read_history(path):
 
 
 def read_result(files, config):
-    """The `Result` or `WedgeResult` of result.json; its numbers that are null are nan.
+    """The `Result`, `WedgeResult` or `DryResult` of result.json; its numbers that are null are nan.
 
     Raises OutputError where it is missing, or cut off.
     """
     path, kind = files.result, Result if config.kind.is_loaded else WedgeResult
+    if config.is_dry:
+        kind = DryResult
     try:
         return dacite.from_dict(kind, json.loads(path.read_text()), LENIENT)
     except (OSError, ValueError, TypeError, AttributeError, dacite.DaciteError) as error:

@@ -5,6 +5,7 @@ import json
 import tomllib
 from pathlib import Path
 
+from mgehl.errors import UserError
 from mgehl.output.digits import with_band
 from mgehl.output.domain import UNKNOWN
 from mgehl.output.words import span
@@ -13,7 +14,8 @@ FILMS = ("central", "minimum")
 
 
 def collect(directories):
-    """A row (dict of text) for each run directory. Raises OSError if one cannot be read."""
+    """A row (dict of text) for each run directory. Raises OSError if one cannot be read,
+    UserError if it has no film."""
     return [_row(Path(directory)) for directory in directories]
 
 
@@ -35,6 +37,8 @@ def write_csv(path, rows):
 def _row(directory):
     result = json.loads((directory / "result.json").read_text())
     config = tomllib.loads((directory / "configuration.toml").read_text())
+    if config["discretization"].get("contact_model") == "dry":
+        raise UserError(f"{directory}: is a dry contact, without the films that this table is of")
     with (directory / "history.csv").open() as file:
         history = list(csv.DictReader(file))
     nodes = config["grid"]["nodes"]

@@ -20,6 +20,27 @@ def bearing_words(result):
     )
 
 
+def dry_words(result):
+    """The answer of a dry contact, and whether and why it can be trusted."""
+    contact, hertz = result.contact, result.hertz
+    lines = [
+        f"{'CONVERGED' if result.converged else 'NOT CONVERGED'}: {result.reason}",
+        f"  largest pressure {_number(result.max_pressure_GPa)} GPa, that of Hertz "
+        f"{_number(hertz.max_pressure_GPa)}",
+        f"  approach {_number(result.approach_um)} um, that of Hertz {_number(hertz.approach_um)}",
+        f"  contact: {contact.nodes} nodes, {100 * contact.area_fraction:.2f} % of the Hertz area; "
+        f"nodes {span(contact.x_nodes)} on Y = 0, {span(contact.y_nodes)} on X = 0; "
+        f"largest gap {contact.largest_gap_nm:.1e} nm",
+        f"  load error {result.load_error:.1e}, complementarity {result.complementarity_error:.1e}",
+        f"  work: {result.work.convolutions:.1f} fine-grid convolutions, {result.work.steps} steps, "
+        f"{result.wall_s:.1f} s on {result.ranks} ranks",
+    ]
+    if result.overlap.nodes:
+        nodes, largest = result.overlap.nodes, result.overlap.largest_nm
+        lines.append(f"  THE BODIES OVERLAP at {nodes} nodes by up to {largest:.2e} nm")
+    return "\n".join(lines)
+
+
 def loaded_words(result):
     """The answer of a loaded contact, and whether and why it can be trusted."""
     contact, inequality, resolution = result.contact, result.pressure_inequality, result.resolution

@@ -1,44 +1,250 @@
-"""The dry contact of bodies that no formula knows: what a film is started from.
+"""The dry contact: bodies pressed together without a fluid, P >= 0, gap >= 0, one of them zero.
 
-Conjugate gradients on the pressed nodes, a node entering where the bodies overlap and leaving where
-they pull [Polonsky and Keer 1999]. Two convolutions a step.
+A set of pressed nodes is guessed. On it conjugate gradients look for the pressure under which the gap is
+the same everywhere, which the approach of the bodies then takes away. Nodes that pull leave the set, nodes
+where the bodies overlap enter it [primal-dual active set: Hintermueller, Ito, Kunisch 2003], and so on
+until none does. Four things make it quick:
+
+- Deflection falls with the wave number as 1/k. The preconditioner gives that back
+  (`Deflection.inverted`, a quarter of a convolution), so that steps do not grow with the grid.
+- An early set is solved to one digit only; where it has not changed the last one is solved on.
+- The gap follows the pressure by what each step has convolved anyway.
+- On fine grids the set, which moves by some nodes a step, is brought near from coarser ones.
 """
+
+from dataclasses import dataclass, field
+from functools import partial
+from itertools import count
 
 import numpy as np
 
-TOLERANCE = 1e-3
-"""Relative change of the pressure by a step: a first guess needs no more. From 1e-4 to 1e-2 the same work
-within 2 % for a coated ball on 129 nodes."""
+from mgehl.config_sections import SolverSection
+from mgehl.discretization.status import CONTACT, LUBRICATED
+from mgehl.solver.journal import NOTHING_KEPT
+from mgehl.solver.outcome import Outcome
+from mgehl.solver.problem import ContactProblem, State
+from mgehl.solver.record import Kept, Record
 
-MAX_STEPS = 100
-"""A limit that nothing should reach: the coated ball's guess takes fewer than 6."""
+REDUCTION = 0.1
+"""What is left of the error on a set before the set is looked at again. From 0.05 to 0.3 the same work
+within 5 %, over rough, wavy and smooth balls on 129 and 257 nodes."""
+
+SHARE = 0.01
+"""Of the tolerance, that gaps of pressed nodes may have. The pressure is least certain at the edge, which
+shifts by these two digits: with them nodes in contact are counted as they are. Four convolutions."""
+
+ROUNDING = 1e-13
+"""Of a gap, in units of H: a node with a smaller overlap does not enter."""
+
+TRACE = 1e-200
+"""Pressure by which a node belongs to a set: nothing beside any other, but more than 0."""
+
+MOST_ITERATIONS = 200
+"""Of conjugate gradients on one set: rough balls take fewer than 20."""
+
+GUESS, GUESS_GAP = 0.03, 1e-3
+"""By how much the pressure of a node of a first guess may be wrong, and its gap, in units of P and H: a
+mixed contact then takes as many Newton steps as from the exact one."""
+
+
+FIRST_NODES, NESTED_NODES = 65, 257
+"""Of the first coarse grid that is solved, and of the finest one from which on coarse grids save more than
+they take: 7 of 50 convolutions of a rough ball on 257 nodes, 13 of 61 on 513. Of a surface that they do not
+see (every node another height) they lose a tenth."""
+
+
+@dataclass
+class DryStep(Kept):
+    """A set of pressed nodes and what was found of it."""
+
+    step: int
+    residual: float
+    """Root mean square of the gap at pressed nodes, in units of H."""
+    load_error: float
+    contact_nodes: int
+    changed_nodes: int
+    """Nodes that pull or overlap: the next set is another by them."""
+    linear_iterations: int
+
+
+@dataclass
+class DryStanding(Kept):
+    """Where a solve stands before a step: the pressure (lines, nx), and the history."""
+
+    P: np.ndarray
+    cycles: list = field(default_factory=list)
+
+    def record(self):
+        return Record.of(state=Record.of(P=self.P), history=Record.table(self.cycles))
+
+    @classmethod
+    def from_record(cls, record):
+        steps = [DryStep.from_record(each) for each in record.part("history").rows()]
+        return cls(record.part("state").arrays["P"], steps)
+
+
+def solve_dry(problem, P, tolerance, max_steps, monitor, journal=NOTHING_KEPT):
+    """The `Outcome` of the dry contact of a `ContactProblem`; `P` (lines, nx) is a guess.
+
+    `monitor` is called with each `DryStep`; the `journal` is told of every step, and may know this solve
+    or its first part already.
+    """
+    grid = problem.grid
+    outcome = journal.recall(grid, partial(Outcome.from_record, line=DryStep))
+    if outcome is None:
+        standing = journal.standing(grid, DryStanding.from_record) or DryStanding(carried(problem, P))
+        state, reason = _settle(problem, standing, tolerance, max_steps, monitor, journal)
+        outcome = Outcome(state, not reason, reason or "the set of pressed nodes settled", standing.cycles)
+        journal.finish(grid, outcome)
+    return outcome
+
+
+def guess_on_finest(hierarchy, contact, scheme):
+    """A pressure (lines, nx) to start from on the finest grid: of smooth bodies Hertz', of others from
+    coarser grids, each roughly solved from the one before (collective)."""
+    grids, P = hierarchy.grids, None
+    if not contact.is_hertzian and grids[-1].mesh.nx >= NESTED_NODES:
+        for grid, deflection, finer in zip(grids, hierarchy.deflections, hierarchy.transfers, strict=False):
+            if grid.mesh.nx >= FIRST_NODES:
+                P = contact.guessed_pressure(grid.X, grid.Y) if P is None else P
+                P = finer.bilinear(dry_pressure(ContactProblem(grid, deflection, contact, scheme), P))
+    return contact.guessed_pressure(grids[-1].X, grids[-1].Y) if P is None else P
 
 
 def dry_pressure(problem, P):
-    """Pressure (lines, nx) with which the bodies of a `ContactProblem` carry its load; `P` is a guess."""
-    grid, load = problem.grid, problem.contact.load_integral
-    P = np.where(problem.boundary, 0.0, P)
-    P *= load / problem.load(P)
-    direction, before, kept = np.zeros(grid.shape), 1.0, 0.0
-    for _ in range(MAX_STEPS):
-        pressed = P > 0.0
-        gap = _about_mean(grid, problem.gap(P, 0.0), pressed)
-        square = grid.sum((gap[pressed] ** 2).sum())
-        direction = np.where(pressed, gap + kept * square / before * direction, 0.0)
-        response = _about_mean(grid, problem.deflection(direction), pressed)
-        step = grid.sum((gap * direction)[pressed].sum()) / grid.sum((response * direction)[pressed].sum())
-        new = np.maximum(P - step * direction, 0.0)
-        overlap = (new == 0.0) & (gap < 0.0) & ~problem.boundary
-        new[overlap] = -step * gap[overlap]
-        kept, before = (0.0 if grid.count(overlap) else 1.0), square
-        new *= load / problem.load(new)
-        change = problem.load(np.abs(new - P)) / load
-        P = new
-        if change < TOLERANCE:
+    """Roughly the pressure (lines, nx) with which the bodies carry their load; `P` is a guess."""
+    P, limit = carried(problem, P), min(GUESS * problem.K00, GUESS_GAP)
+    for _ in range(SolverSection.max_steps):
+        pressed = PressedNodes(problem, P)
+        pressed.balance(limit, REDUCTION)
+        P = pressed.without_pull()
+        apart = max(pressed.largest_gap, pressed.largest_overlap)
+        if apart <= limit and pressed.largest_pull <= GUESS:
             break
-    return P
+    return carried(problem, pressed.P)
 
 
-def _about_mean(grid, array, nodes):
-    """The array less its mean over some nodes, which the approach of the bodies stands for."""
-    return array - grid.sum(array[nodes].sum()) / grid.count(nodes)
+def carried(problem, P):
+    """A guess made a pressure: none at the boundary, nowhere a pull, and it carries the load."""
+    P = np.where(problem.boundary, 0.0, np.maximum(P, 0.0))
+    return P * (problem.contact.load_integral / problem.load(P))
+
+
+def _settle(problem, standing, tolerance, max_steps, monitor, journal):
+    """The final `State`, and why it is not settled; nothing where it is."""
+    limit = max(SHARE * tolerance, ROUNDING)
+    for step in count(len(standing.cycles) + 1):
+        journal.step(problem.grid, standing)
+        pressed = PressedNodes(problem, standing.P)
+        iterations = pressed.balance(limit, REDUCTION)
+        standing.cycles.append(pressed.told(step, iterations))
+        monitor(standing.cycles[-1])
+        why_not = _why_not(standing.cycles[-1], pressed.largest_gap, limit)
+        if not why_not or step >= max_steps or not np.isfinite(pressed.largest_gap):
+            return pressed.state(), why_not
+        standing.P = pressed.without_pull()
+
+
+def _why_not(step, gap, limit):
+    """Why a step is not the last one; empty where it is."""
+    if step.changed_nodes:
+        return f"{step.changed_nodes} nodes still change between contact and gap after {step.step} steps"
+    if not gap <= limit:
+        return f"the gap in contact is still {gap:.1e} after {step.linear_iterations} iterations"
+    return ""
+
+
+class PressedNodes:
+    """Pressure and gap of a problem while a set of its nodes is in contact (all methods collective).
+
+    `P` and `gap` are (lines, nx); the gap is that before the bodies approach each other, and `approach`,
+    its mean over the set, is by how much they do. The sum of P stays as it is: that which carries the load.
+    """
+
+    def __init__(self, problem, P):
+        """`P` carries the load; the set is where it presses."""
+        self._problem, self._grid = problem, problem.grid
+        self.P, self.pressed = P.copy(), P > 0.0
+        self._nodes = self._grid.count(self.pressed)
+        self._see(problem.gap(P, 0.0))
+
+    def _see(self, gap):
+        """Take note of a gap."""
+        self.gap = gap
+        self.approach = self._grid.sum(gap[self.pressed].sum()) / self._nodes
+        self._left = np.where(self.pressed, gap - self.approach, 0.0)
+        self.largest_gap = self._grid.max(np.abs(self._left))
+
+    def balance(self, limit, reduction):
+        """Conjugate gradients until the gap on the set is within `limit`; return how many.
+
+        They end before that where the error has fallen by `reduction` and the set is not the right one.
+        """
+        direction, energy = self._preconditioned()
+        first = energy
+        for iteration in range(MOST_ITERATIONS):
+            if self.largest_gap <= limit or not energy > 0.0:
+                return iteration
+            if energy <= reduction**2 * first and self.misplaced:
+                return iteration
+            response = self._problem.deflection(direction)
+            length = energy / self._sum(direction, response)
+            self.P -= length * direction
+            self._see(self.gap - length * response)
+            before = energy
+            step, energy = self._preconditioned()
+            direction = step + (energy / before) * direction
+        return MOST_ITERATIONS
+
+    def _preconditioned(self):
+        """The gap's pressure on the set, which has no sum, and the product of both."""
+        found = self._problem.deflection.inverted(self._left)
+        mean = self._grid.sum(found[self.pressed].sum()) / self._nodes
+        found = np.where(self.pressed, found - mean, 0.0)
+        return found, self._sum(self._left, found)
+
+    def _sum(self, one, other):
+        return self._grid.sum(np.vdot(one, other))
+
+    @property
+    def misplaced(self):
+        """How many nodes pull or overlap."""
+        return self._grid.count(self._pulling) + self._grid.count(self._overlapping)
+
+    @property
+    def _pulling(self):
+        return self.pressed & (self.P <= 0.0)
+
+    @property
+    def _overlapping(self):
+        apart = ~(self.pressed | self._problem.boundary)
+        return apart & (self.gap - self.approach < -ROUNDING)
+
+    @property
+    def largest_overlap(self):
+        """Of nodes that are not in the set."""
+        apart = ~(self.pressed | self._problem.boundary)
+        return self._grid.max(self.approach - self.gap[apart], initial=0.0)
+
+    @property
+    def largest_pull(self):
+        """Of nodes in the set, in p_h."""
+        return self._grid.max(-self.P, initial=0.0)
+
+    def without_pull(self):
+        """The pressure to go on with: nodes that pull have none, those that overlap a trace.
+
+        It carries the load.
+        """
+        return carried(self._problem, np.where(self._overlapping, TRACE, self.P))
+
+    def told(self, step, iterations):
+        """The `DryStep` of it."""
+        rms = np.sqrt(self._sum(self._left, self._left) / self._nodes)
+        error = self._problem.load_deficit(self.P)
+        return DryStep(step, float(rms), float(error), self._nodes, self.misplaced, iterations)
+
+    def state(self):
+        """The `State`, bodies in contact where they press."""
+        status = np.where(self._problem.boundary, 0, np.where(self.pressed, CONTACT, LUBRICATED))
+        return State(self.P, -self.approach, self.gap - self.approach, status.astype(np.int8))

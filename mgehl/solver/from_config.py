@@ -46,7 +46,9 @@ to the next, as behind a peak, stays a film by the first order; by the third it 
 
 
 def scheme_from(config, contact):
-    """How the Reynolds equation is differenced."""
+    """How the Reynolds equation is differenced; of a dry contact, which has none, nothing is said."""
+    if config.is_dry:
+        return Scheme()
     section = config.discretization
     cavitation = config.kind.cavitates if section.cavitation is None else section.cavitation
     return Scheme(

@@ -21,7 +21,8 @@ class LevelSolve:
     """What is being solved: the grid's nodes along X and the speed in m/s."""
 
     nodes: int
-    speed: float
+    speed: float | None
+    """None without a fluid."""
     finest: bool
 
 
@@ -57,20 +58,21 @@ def single_loop(hierarchy, contact, settings, monitor, journal=NOTHING_KEPT):
 
 
 def first_guess(problem, start):
-    """Hertz pressure with a film of the formula's thickness, or with the ellipse in contact."""
+    """The dry contact's pressure with a film of the formula's thickness, or in contact where it presses."""
     grid, contact = problem.grid, problem.contact
     P = contact.guessed_pressure(grid.X, grid.Y)
+    pressed = grid.X**2 + grid.Y**2 <= contact.widening**2
     if is_mixed(problem.contact, problem.scheme):
         return _first_mixed_guess(problem, start, dry_pressure(problem, P))
-    if contact.deformation is not None and start == "film":
+    if contact.deformation is not None or (start == "contact" and not contact.is_hertzian):
         P = dry_pressure(problem, P)
+        pressed = P > 0.0
     H0 = problem.touching(P)
     if start == "film":
         film = contact.expected_film / contact.film_scale
         return problem.state(P, film + H0, np.full(grid.shape, LUBRICATED))
-    pressed = (grid.X**2 + grid.Y**2 <= contact.widening**2) & problem.scheme.contact_law.has_contact
-    status = np.where(pressed, CONTACT, LUBRICATED)
-    return problem.state(P, H0, status)
+    pressed = pressed & problem.scheme.contact_law.has_contact
+    return problem.state(P, H0, np.where(pressed, CONTACT, LUBRICATED))
 
 
 def is_mixed(contact, scheme):

@@ -26,6 +26,11 @@ Of one by relaxation:
     history.e_p history.e_p_fluid history.e_p_solid
         How far the sweep wants to move the pressures.
 
+Of a dry contact, beside step, residual, load error and contact nodes:
+
+    history.changed_nodes
+        Nodes that pull or overlap.
+
 Of one that has ended:
 
     converged reason

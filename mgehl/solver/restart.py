@@ -32,7 +32,7 @@ def solve_from(hierarchy, contact, settings, start, frame, monitor, journal):
         tell = partial(monitor, LevelSolve(problem.grid.mesh.nx, contact.speed, True))
         return problem, relax(problem, state, settings.relaxation, tell, journal)
     continuation = Continuation(hierarchy, contact, settings, monitor, journal)
-    speed = start.contact.speed
+    speed = contact.speed if start.is_dry else start.contact.speed
     if speed == contact.speed:
         return continuation.at(speed, state)
     return continuation.follow(state, speed, contact.speed)

@@ -96,3 +96,46 @@ def test_hertz_pressure_flattens_the_cylinder(line_contact, make_line):
     deflection = hierarchy.deflections[-1](hertz_pressure(grid.X, grid.Y))
     gap = line_contact.undeformed_gap(grid.X, grid.Y) + deflection
     np.testing.assert_allclose(gap[np.abs(grid.X) < 0.9], line_contact.approach, rtol=0.0, atol=2e-4)
+
+
+class TestInverse:
+    """Of surfaces that repeat themselves; as a preconditioner it must be symmetric and positive."""
+
+    @pytest.fixture
+    def deflection(self, paper_contact, make_hierarchy):
+        return make_hierarchy(paper_contact(radius_y=25.4e-3), 33).deflections[0]
+
+    def test_it_is_a_quarter_of_a_convolution(self, deflection):
+        deflection.inverted(np.zeros((33, 33)))
+        assert deflection.count == 0.25
+
+    def test_it_inverts_the_sum_over_a_period(self, deflection, paper_contact):
+        """The kernel between nodes that are at most half a period apart, as a dense matrix."""
+        grid = deflection.grid
+        K = influence_coefficients(grid.mesh, paper_contact(radius_y=25.4e-3).kernel)
+        apart = np.abs(np.subtract.outer(np.arange(32), np.arange(32)))
+        apart = np.minimum(apart, 32 - apart)
+        P = random_pressure(grid.mesh)
+        P[:-1, :-1] -= P[:-1, :-1].mean()
+        D = np.zeros((33, 33))
+        D[:-1, :-1] = np.einsum("jlik,lk->ji", K[apart][:, :, apart], P[:-1, :-1])
+        np.testing.assert_allclose(deflection.inverted(D)[:-1, :-1], P[:-1, :-1], atol=1e-11)
+
+    def test_it_is_symmetric_and_positive(self, deflection):
+        random = np.random.default_rng(5)
+        one, other = (random.random((33, 33)) * ~deflection.grid.boundary() for _ in range(2))
+        of_one = deflection.inverted(one).copy()
+        assert np.vdot(of_one, other) == pytest.approx(np.vdot(one, deflection.inverted(other)), rel=1e-12)
+        assert np.vdot(one, of_one) > 0.0
+
+    def test_it_is_nothing_at_the_far_boundary(self, deflection):
+        found = deflection.inverted(random_pressure(deflection.grid.mesh))
+        assert not found[-1].any() and not found[:, -1].any() and found[0].any()
+
+    def test_of_a_line_it_leaves_little_to_do(self, line_contact, make_line):
+        """Pressures inside of half the domain come back, but for what the period does to them."""
+        deflection = make_line(257).deflections[-1]
+        X = deflection.grid.X
+        P = np.where(np.abs(X) < 0.5, np.cos(8.0 * np.pi * X), 0.0)
+        found = deflection.inverted(deflection(P).copy())
+        assert np.vdot(found, P) / np.sqrt(np.vdot(found, found) * np.vdot(P, P)) > 0.95

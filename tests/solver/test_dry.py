@@ -1,12 +1,178 @@
-"""The dry contact of layered bodies."""
+"""The dry contact: exact answers, a public code's numbers, and how many convolutions they take."""
 
 import numpy as np
 import pytest
+from scipy.optimize import nnls
+from tools.dry_surfaces import CASES, surface
 
-from mgehl.discretization.status import LUBRICATED
+from mgehl.discretization.influence import influence_coefficients
+from mgehl.discretization.scheme import Scheme
+from mgehl.discretization.status import CONTACT, LUBRICATED
 from mgehl.model.coating import Coating
-from mgehl.solver.dry import dry_pressure
+from mgehl.model.line import LineContact
+from mgehl.solver.dry import (
+    DryStanding,
+    DryStep,
+    PressedNodes,
+    carried,
+    dry_pressure,
+    guess_on_finest,
+    solve_dry,
+)
+from mgehl.solver.journal import NOTHING_KEPT, Journal
 from mgehl.solver.nested import first_guess
+from mgehl.solver.problem import ContactProblem
+from mgehl.solver.record import Record
+
+TOLERANCE = 1e-8
+
+
+def settle(problem, P=None, max_steps=60, told=lambda step: None, journal=NOTHING_KEPT):
+    """The `Outcome` of a problem from the smooth contact's pressure, and its convolutions."""
+    grid, before = problem.grid, problem.deflection.count
+    P = problem.contact.guessed_pressure(grid.X, grid.Y) if P is None else P
+    outcome = solve_dry(problem, P, TOLERANCE, max_steps, told, journal)
+    return outcome, problem.deflection.count - before
+
+
+def assert_complementary(problem, state, tolerance=1e-10):
+    """P >= 0, gap >= 0, one of them zero; the load is carried; the status says which."""
+    gap, pressed = problem.gap(state.P, state.H0), state.P > 0.0
+    assert problem.load_deficit(state.P) == pytest.approx(0.0, abs=1e-13)
+    assert (state.P >= 0.0).all() and not state.P[problem.boundary].any()
+    assert np.abs(gap[pressed]).max() < tolerance and gap.min() > -tolerance
+    np.testing.assert_allclose(state.H, gap, rtol=0.0, atol=1e-11)
+    np.testing.assert_array_equal(state.status == CONTACT, pressed)
+
+
+class TestAnswers:
+    def test_the_smooth_ball_is_that_of_hertz(self, make_problem):
+        problem = make_problem(nodes=65)
+        outcome, convolutions = settle(problem)
+        state = outcome.state
+        assert outcome.converged and convolutions < 20
+        assert_complementary(problem, state)
+        hertz = problem.contact.guessed_pressure(problem.grid.X, problem.grid.Y)
+        assert state.P.max() == pytest.approx(1.0, abs=2e-4)
+        assert -state.H0 == pytest.approx(problem.contact.approach, rel=1e-4)
+        assert np.abs(state.P - hertz)[hertz > 0.5].max() < 2e-3
+
+    def test_the_cylinder_is_that_of_hertz(self, paper_contact, make_problem):
+        line_contact = LineContact(1.86e6, 12.7e-3, 219.78e9, 1.0, paper_contact().lubricant)
+        problem = make_problem(line_contact, nodes=1025, x=(-4.0, 2.0), y=(0.0, 0.0), ny=1)
+        outcome, convolutions = settle(problem)
+        assert outcome.converged and convolutions < 15
+        assert_complementary(problem, outcome.state)
+        assert -outcome.state.H0 == pytest.approx(line_contact.approach, rel=1e-5)
+        assert outcome.state.P.max() == pytest.approx(1.0, abs=1e-5)
+
+    def test_any_surface_is_the_least_energy(self, make_problem):
+        """Beside another method: least squares without negative numbers, of the dense matrix."""
+        problem = make_problem(nodes=17)
+        random = np.random.default_rng(3)
+        problem._undeformed = problem._undeformed + 0.2 * random.random(problem.grid.shape)
+        outcome, _ = settle(problem)
+        state, inner = outcome.state, ~problem.boundary
+        K = influence_coefficients(problem.grid.mesh, problem.contact.kernel)
+        j, i = np.nonzero(inner)
+        dense = K[np.abs(np.subtract.outer(j, j)), np.abs(np.subtract.outer(i, i))]
+        # With the approach given: P K P/2 + P (gap - approach), which is |R P - c|^2/2 of K = R' R.
+        root = np.linalg.cholesky(dense).T
+        target = np.linalg.solve(root.T, -(problem._undeformed[inner] + state.H0))
+        expected, _ = nnls(root, target, maxiter=5000)
+        assert 5 < (expected > 0.0).sum() < 100 < inner.sum()
+        np.testing.assert_allclose(state.P[inner], expected, rtol=0.0, atol=1e-8)
+
+    def test_it_does_not_hang_on_the_guess(self, make_problem, paper_contact):
+        problem = make_problem(paper_contact(surface=surface("rough 500 nm")), nodes=65)
+        grid = problem.grid
+        bad = np.where((grid.X + 0.4) ** 2 + grid.Y**2 < 0.1, 1.0, 0.0)
+        states = [settle(problem, P)[0].state for P in (None, bad)]
+        np.testing.assert_allclose(states[0].P, states[1].P, rtol=0.0, atol=1e-8)
+
+    @pytest.mark.parametrize("flat", [True, False])
+    def test_a_single_node_carries_the_load(self, make_problem, flat):
+        problem = make_problem(nodes=17)
+        peak = np.zeros(problem.grid.shape)
+        peak[8, 7] = 1e3
+        problem._undeformed = (0.0 if flat else 1.0) * problem._undeformed - peak
+        outcome, _ = settle(problem)
+        assert outcome.converged and outcome.state.P[8, 7] > 0.0
+        assert np.count_nonzero(outcome.state.P) == 1
+
+
+@pytest.mark.parametrize("case", CASES, ids=str)
+def test_a_public_code_s_numbers(make_problem, paper_contact, case):
+    """Nodes in contact, p_max and approach; and the work: at 257 nodes at most 60 convolutions."""
+    problem = make_problem(paper_contact(surface=surface(case.surface)), nodes=case.nodes)
+    outcome, convolutions = settle(problem)
+    state, contact = outcome.state, problem.contact
+    assert outcome.converged
+    assert_complementary(problem, state)
+    assert np.count_nonzero(state.P) == case.contact_nodes
+    assert 1e-9 * contact.pressure_scale * state.P.max() == pytest.approx(case.max_pressure, rel=1e-6)
+    assert -1e6 * contact.film_scale * state.H0 == pytest.approx(case.approach, abs=1e-6)
+    assert convolutions <= case.convolutions <= 60
+
+
+class TestWay:
+    @pytest.fixture
+    def rough(self, make_problem, paper_contact):
+        return make_problem(paper_contact(surface=surface("rough 200 nm")), nodes=65)
+
+    def test_steps_are_told_and_the_last_changes_nothing(self, rough):
+        told = []
+        outcome, _ = settle(rough, told=told.append)
+        assert told == outcome.cycles and [step.step for step in told] == list(range(1, len(told) + 1))
+        assert told[-1].changed_nodes == 0 and all(step.changed_nodes for step in told[:-1])
+        assert told[-1].contact_nodes == np.count_nonzero(outcome.state.P)
+
+    def test_too_few_steps_are_no_answer(self, rough):
+        outcome, _ = settle(rough, max_steps=2)
+        assert not outcome.converged and len(outcome.cycles) == 2
+        assert "nodes still change between contact and gap after 2 steps" in outcome.reason
+
+    def test_it_goes_on_where_it_stood(self, rough):
+        """From the third step of a run that was stopped: the same steps, to the last bit."""
+
+        class Kept(Journal):
+            def step(self, grid, position):
+                if len(position.cycles) == 2:
+                    record = position.record()
+                    self.record = Record(dict(record.values), {"state.P": position.P.copy()})
+
+        class Standing(Journal):
+            def standing(self, grid, made):
+                return made(kept.record)
+
+        kept = Kept()
+        whole, _ = settle(rough, journal=kept)
+        rest, _ = settle(rough, journal=Standing())
+        assert rest.cycles == whole.cycles
+        np.testing.assert_array_equal(rest.state.P, whole.state.P)
+
+    def test_a_standing_there_and_back(self):
+        standing = DryStanding(np.eye(3), [DryStep(1, 0.5, 0.0, 7, 3, 2)])
+        again = DryStanding.from_record(standing.record())
+        assert again.cycles == standing.cycles
+        np.testing.assert_array_equal(again.P, standing.P)
+
+    def test_a_guess_is_made_a_pressure(self, rough):
+        P = carried(rough, np.full(rough.grid.shape, 3.0) - 4.0 * (rough.grid.X > 0.0))
+        assert P.min() == 0.0 and not P[rough.boundary].any()
+        assert rough.load_deficit(P) == pytest.approx(0.0, abs=1e-13)
+
+    def test_nodes_that_overlap_enter_and_those_that_pull_leave(self, rough):
+        nodes = PressedNodes(
+            rough, carried(rough, np.where(rough.grid.X**2 + rough.grid.Y**2 < 0.5, 1.0, 0.0))
+        )
+        nodes.balance(1e-3, 0.1)
+        pulling, P = nodes.P < 0.0, nodes.without_pull()
+        assert nodes.largest_overlap > 0.0
+        next_one = PressedNodes(rough, P)
+        entered = next_one.pressed & ~nodes.pressed
+        assert entered.any() and not (next_one.pressed & pulling).any()
+        assert P[entered].max() < 1e-100
 
 
 def coating(contact, modulus, thickness):
@@ -26,7 +192,15 @@ def problem(paper_contact, make_problem):
     return make
 
 
-def test_half_spaces_find_hertz_from_a_bad_guess(make_problem):
+@pytest.mark.parametrize("modulus", [4e9, 50e9, 800e9])
+def test_a_coated_ball_settles(problem, modulus):
+    problem = problem(modulus, 0.3)
+    outcome, convolutions = settle(problem)
+    assert outcome.converged and convolutions < 25
+    assert_complementary(problem, outcome.state)
+
+
+def test_a_first_guess_finds_hertz_from_a_bad_guess(make_problem):
     problem = make_problem(nodes=65)
     grid = problem.grid
     P = dry_pressure(problem, np.where(grid.X**2 + grid.Y**2 < 0.6, 1.0, 0.0))
@@ -36,7 +210,7 @@ def test_half_spaces_find_hertz_from_a_bad_guess(make_problem):
 
 
 @pytest.mark.parametrize("modulus", [4e9, 50e9, 800e9])
-def test_pressed_nodes_touch_and_the_others_are_apart(problem, modulus):
+def test_pressed_nodes_of_a_guess_touch_and_the_others_are_apart(problem, modulus):
     problem = problem(modulus, 0.3)
     grid = problem.grid
     P = dry_pressure(problem, problem.contact.guessed_pressure(grid.X, grid.Y))
@@ -58,3 +232,48 @@ def test_a_film_starts_from_it_with_the_thickness_that_is_expected(problem):
     assert (state.status[~problem.boundary] == LUBRICATED).all()
     # A soft layer is thought of as half-spaces that are as wide: a thicker film than on steel.
     assert problem.contact.expected_film > 1.05 * problem.contact.formulas.hamrock_dowson_central
+
+
+def test_a_start_from_contact_of_a_rough_body_is_the_dry_one(make_problem, paper_contact):
+    """Contact where the peaks press, not all over the ellipse."""
+    problem = make_problem(paper_contact(5e-6, surface=surface("rough 500 nm")), nodes=65)
+    state, (exact, _) = first_guess(problem, "contact"), settle(problem)
+    contact = state.status == CONTACT
+    np.testing.assert_array_equal(contact, state.P > 0.0)
+    wrong = np.count_nonzero(contact != (exact.state.status == CONTACT))
+    assert wrong < 0.05 * np.count_nonzero(contact)
+
+
+@pytest.mark.parametrize("name, most", [("wavy 200 nm", 10), ("rough 200 nm", 15), ("rough 500 nm", 22)])
+def test_work_of_a_first_guess(make_problem, paper_contact, name, most):
+    problem = make_problem(paper_contact(surface=surface(name)), nodes=129)
+    dry_pressure(problem, problem.contact.guessed_pressure(problem.grid.X, problem.grid.Y))
+    assert problem.deflection.count <= most
+
+
+class TestCoarseGrids:
+    """From them a rough ball settles in as many convolutions on every grid."""
+
+    @pytest.fixture
+    def work(self, make_hierarchy, paper_contact):
+        def run(name, nodes):
+            contact = paper_contact(surface=surface(name))
+            hierarchy = make_hierarchy(contact, nodes)
+            guess = guess_on_finest(hierarchy, contact, Scheme())
+            before = hierarchy.convolutions
+            problem = ContactProblem(hierarchy.grids[-1], hierarchy.deflections[-1], contact, Scheme())
+            outcome, _ = settle(problem, guess)
+            assert outcome.converged
+            return before, hierarchy.convolutions, np.count_nonzero(outcome.state.P)
+
+        return run
+
+    def test_a_rough_ball(self, work):
+        guess, whole, nodes = work("rough 500 nm", 257)
+        assert nodes == 14486 and 0.0 < guess < 6.0 and whole < 44.0
+
+    def test_smooth_bodies_need_none(self, work):
+        assert work("smooth", 257)[0] == 0.0
+
+    def test_nor_do_coarse_grids(self, work):
+        assert work("rough 500 nm", 129)[0] == 0.0

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from mgehl.solver import record as described
+from mgehl.solver.dry import DryStanding, DryStep
 from mgehl.solver.nested import first_guess
 from mgehl.solver.outcome import Cycle, Outcome
 from mgehl.solver.partition import Changes, Contradiction, Past
@@ -20,6 +21,7 @@ from mgehl.solver.relaxation import Standing, Sweep
 
 CYCLE = Cycle(3, nan, -inf, 0.1 + 0.2, 5e-324, 11, 222, Changes(1, 2, 3, 4), 5, 1.0 / 3.0)
 SWEEP = Sweep(100, 1e-3, 0.0, 0.1, 0.2, 3, 4, 0.5, 0.25, 0.125)
+DRY = DryStep(2, 1e-3, 0.0, 7, 3, 2)
 NODE = Contradiction(1, 2, -1e-17, -0.1, ("lubricated", "contact"))
 
 
@@ -89,7 +91,7 @@ class TestThereAndBack:
     def test_a_standing_before_the_first_sweep(self, state):
         assert_equal(back(Standing(state)), Standing(state))
 
-    @pytest.mark.parametrize("line", [CYCLE, SWEEP], ids=["Cycle", "Sweep"])
+    @pytest.mark.parametrize("line", [CYCLE, SWEEP, DRY], ids=["Cycle", "Sweep", "DryStep"])
     def test_an_outcome(self, ended, line):
         outcome = ended(line)
         assert_equal(back(outcome, partial(Outcome.from_record, line=type(line))), outcome)
@@ -108,7 +110,7 @@ class TestThereAndBack:
 def test_the_names_are_those_described(position, standing, ended):
     """Who changes a name changes the format: the description, and its number in `output.checkpoint`."""
     names = set()
-    for kept in (position, standing, ended(CYCLE), ended(SWEEP)):
+    for kept in (position, standing, ended(CYCLE), ended(SWEEP), DryStanding(np.eye(3), [DRY]), ended(DRY)):
         names |= kept.record().values.keys() | kept.record().arrays.keys()
     lines = re.findall(r"^    (\S.*)$", described.__doc__, re.MULTILINE)
     listed = [name for line in lines for name in line.split()]

@@ -7,7 +7,7 @@ from io import BytesIO
 
 import numpy as np
 
-from mgehl.discretization.status import NAMES
+from mgehl.discretization import status
 from mgehl.output.files import finite
 
 COLUMNS = ("x_m", "y_m", "pressure_Pa", "film_m", "status")
@@ -29,7 +29,7 @@ def write_npz(path, solution):
         P=fields.P,
         H=fields.H,
         status=fields.status,
-        status_names=np.array(NAMES),
+        status_names=np.array(status.names(solution.is_dry)),
         result=json.dumps(finite(asdict(solution.result)), allow_nan=False),
         configuration=json.dumps(solution.config.as_toml_tables()),
     )
@@ -40,7 +40,8 @@ def write_csv(path, solution):
     """Write a row for each node, x running fastest; numbers read back to the last bit."""
     x, y = np.meshgrid(solution.x, solution.y)
     numbers = [each.ravel().tolist() for each in (x, y, solution.pressure, solution.film)]
-    names = [NAMES[k] for k in solution.status.ravel().tolist()]
+    known = status.names(solution.is_dry)
+    names = [known[k] for k in solution.status.ravel().tolist()]
     with path.open("w", newline="") as file:
         writer = csv.writer(file)
         writer.writerow(COLUMNS)

@@ -31,7 +31,7 @@ def _global_attributes(solution):
     """Those that CF asks for, the verdict, and the configuration as `mgehl run` reads it."""
     return {
         "Conventions": CONVENTIONS,
-        "title": f"Pressure and film of a lubricated {solution.config.kind.noun}",
+        "title": f"{solution.config.kind.content} {solution.config.kind.noun}",
         "source": f"mgehl {VERSION}",
         "history": f"{datetime.now(UTC):%Y-%m-%dT%H:%M:%SZ} mgehl export",
         "converged": "yes" if solution.result.converged else "no",
@@ -62,7 +62,7 @@ def _put_fields(put, solution):
         units="1",
         long_name="what the node is",
         flag_values=np.arange(len(status.NAMES), dtype=fields.status.dtype),
-        flag_meanings=" ".join(status.NAMES),
+        flag_meanings=" ".join(status.names(solution.is_dry)),
     )
 
 

@@ -11,7 +11,7 @@ from mgehl.model.hertz import hertz_pressure
 from mgehl.output.center_line import center_line
 from mgehl.output.pictures import wedge_picture
 from mgehl.output.pictures.history_picture import column, cycles, grids
-from mgehl.output.pictures.lines import ALONG_X, ALONG_Y, across, along, film_range, names
+from mgehl.output.pictures.lines import ALONG_X, ALONG_Y, across, along, film_range, film_words, names
 from mgehl.output.pictures.style import COLOURS, GUIDE, HERTZ, inches, subplots
 from mgehl.output.pictures.titles import common_labels, common_title
 
@@ -83,7 +83,8 @@ def _compare(axes, solutions, labels, line):
         X = np.linspace(-1.0, 1.0, 201)
         pressures.plot(X, hertz_pressure(X, 0.0) * GPa, ":", color=HERTZ, linewidth=1, label="Hertz")
     low, high = np.transpose(ranges)
-    films.set(ylabel="film thickness, nm", ylim=(low.min(), high.max()), xlim=_widest(reach))
+    units = dict.fromkeys(film_words(solution.contact)[1] for solution in solutions)
+    films.set(ylabel=" or ".join(units), ylim=(low.min(), high.max()), xlim=_widest(reach))
     pressures.set(ylabel="pressure, GPa")
     pressures.set_ylim(bottom=0.0)
 

@@ -19,7 +19,7 @@ from mgehl.output.pictures.comparison import compare_histories, compare_lines
 from mgehl.output.pictures.history_picture import history
 from mgehl.output.pictures.labels import labels
 from mgehl.output.pictures.lines import centre_lines
-from mgehl.output.pictures.maps import film_map, pressure_map, status_map
+from mgehl.output.pictures.maps import film_map, gap_map, pressure_map, status_map
 from mgehl.output.solution import Solution
 
 
@@ -40,7 +40,20 @@ TITLES = {
 }
 """The kinds of pictures, in order, and what they show."""
 
-_POINT = dict(zip(TITLES, (centre_lines, film_map, pressure_map, status_map, history), strict=True))
+DRY_TITLES = {
+    "lines": "pressure and gap on the centre lines, against the contact of smooth bodies",
+    "gap": "gap, with contact outlined",
+}
+"""What is another picture without a fluid, or shows something else."""
+
+_POINT = {
+    "lines": centre_lines,
+    "film": film_map,
+    "pressure": pressure_map,
+    "status": status_map,
+    "history": history,
+}
+_DRY = {("gap" if kind == "film" else kind): draw for kind, draw in _POINT.items()} | {"gap": gap_map}
 _LINE = {"lines": centre_lines, "history": history}
 _BEARING = {
     "lines": wedge_picture.centre_line,
@@ -54,7 +67,14 @@ def drawn_by(solution):
     """The functions that draw a run, by kind of picture: a single line has no maps."""
     if not solution.contact.is_loaded:
         return _BEARING
-    return _LINE if solution.mesh.is_line else _POINT
+    if solution.mesh.is_line:
+        return _LINE
+    return _DRY if solution.is_dry else _POINT
+
+
+def title_of(kind, solution):
+    """What a kind of picture of a run shows."""
+    return (TITLES | DRY_TITLES if solution.is_dry else TITLES)[kind]
 
 
 def figures(solution: Solution, kinds: Sequence[str] | None = None) -> list[Picture]:
@@ -67,7 +87,7 @@ def figures(solution: Solution, kinds: Sequence[str] | None = None) -> list[Pict
         if kind not in draw:
             raise UserError(f"no picture {kind!r} of this contact: it has {', '.join(draw)}")
     with style.applied():
-        return [Picture(kind, TITLES[kind], draw[kind](solution)) for kind in kinds or draw]
+        return [Picture(kind, title_of(kind, solution), draw[kind](solution)) for kind in kinds or draw]
 
 
 def compared(solutions: Sequence[Solution], names: Sequence[str]) -> list[Picture]:

@@ -42,8 +42,14 @@ def across(solution):
 
 
 def names(contact):
-    """What the two lines are called, by the direction of the motion."""
-    return (ALONG, ACROSS) if contact.motion == (1.0, 0.0) else (ALONG_X, ALONG_Y)
+    """What the two lines are called, by the direction of the motion, if there is one."""
+    along_x = contact.motion == (1.0, 0.0) and not contact.is_at_rest
+    return (ALONG, ACROSS) if along_x else (ALONG_X, ALONG_Y)
+
+
+def film_words(contact):
+    """What is between the bodies: its name, and what an axis shows."""
+    return ("gap", "gap, nm") if contact.is_at_rest else ("film", "film thickness, nm")
 
 
 def draw_along(axes, solution):
@@ -80,9 +86,9 @@ def _draw(axes, contact, position, P, H, dry_gap):
     axes.plot(position, hertz_pressure(position, 0.0) * GPa, ":", color=HERTZ, linewidth=1)
     axes.set(ylim=(0.0, 1.25 * max(GPa, GPa * float(np.max(P)))), xlim=position[[0, -1]])
     axes.set_ylabel("pressure, GPa", color=PRESSURE)
-    films = axes.twinx()
-    film = films.plot(position, H * nm, color=FILM, label="film")
+    films, (name, unit) = axes.twinx(), film_words(contact)
+    film = films.plot(position, H * nm, color=FILM, label=name)
     dry = films.plot(position, dry_gap * nm, ":", color=HERTZ, linewidth=1, label="dry contact (Hertz)")
     films.set(ylim=film_range(position, H * nm))
-    films.set_ylabel("film thickness, nm", color=FILM)
+    films.set_ylabel(unit, color=FILM)
     legend_below(axes, [*pressure, *film, *dry])

@@ -7,7 +7,7 @@ from matplotlib.patches import FancyArrowPatch, Patch
 from matplotlib.patheffects import withStroke
 from matplotlib.ticker import LogLocator, MaxNLocator
 
-from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, NAMES
+from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, NAMES, names
 from mgehl.output.pictures.blocks import MOST, Blocks
 from mgehl.output.pictures.lines import SMALLEST_FILM_RANGE
 from mgehl.output.pictures.style import CONTACT_EDGE, STATUS_COLOURS, legend_below, subplots
@@ -33,6 +33,15 @@ LINEAR_UP_TO = 8.0
 
 def film_map(solution):
     """Figure of the film in nm about the dry contact, on a scale of the film inside it."""
+    return _film_map(solution, "film thickness")
+
+
+def gap_map(solution):
+    """As `film_map`, of bodies without a film."""
+    return _film_map(solution, "gap")
+
+
+def _film_map(solution, what):
     mesh, fields = solution.mesh, solution.fields
     i, j = _near(mesh.X), _near(mesh.Y)
     blocks = Blocks(mesh.X[i], mesh.Y[j])
@@ -42,12 +51,12 @@ def film_map(solution):
     figure, axes = _map(blocks)
     image = _draw(axes, blocks, np.maximum(film, norm.vmin), norm)
     levels = _levels(norm)
-    bar = figure.colorbar(image, ax=axes, label="film thickness, nm", extend=_beyond(film, norm))
+    bar = figure.colorbar(image, ax=axes, label=f"{what}, nm", extend=_beyond(film, norm))
     bar.set_ticks(levels, labels=[f"{level:g}" for level in levels], minor=False)
     bar.minorticks_off()
     _label_lines(axes, blocks, np.where(_distance(blocks) < 1.0, film, np.nan), levels)
     _outline(axes, blocks, status, filled=True)
-    _finish(figure, axes, solution, "film thickness", title_with_films)
+    _finish(figure, axes, solution, what, title_with_films)
     return figure
 
 
@@ -84,13 +93,14 @@ def draw_status(axes, solution, most=MOST):
     axes.set(xlabel=X, ylabel=Y, aspect="equal")
     add_arrow(axes, solution.contact)
     found = [k for k in range(BOUNDARY + 1, OVERLAP + 1) if (status == k).any()]
-    handles = [Patch(color=STATUS_COLOURS[k], label=(*NAMES, "overlap")[k]) for k in found]
+    said = (*names(solution.is_dry), "overlap")
+    handles = [Patch(color=STATUS_COLOURS[k], label=said[k]) for k in found]
     legend_below(axes, handles)
 
 
 def add_arrow(axes, contact):
     """An arrow of the motion of loaded bodies in the lower left corner; the map's limits are set."""
-    if not contact.is_loaded:
+    if not contact.is_loaded or contact.is_at_rest:
         return
     ends = arrow_ends(contact, axes.get_xlim(), axes.get_ylim())
     edge = [withStroke(linewidth=3.5, foreground="white")]

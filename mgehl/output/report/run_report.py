@@ -34,7 +34,7 @@ def report(solution, name):
 
 
 def verdict(result):
-    """The judgement of a `Result` or `WedgeResult`."""
+    """The judgement of a `Result`, `WedgeResult` or `DryResult`."""
     if not result.converged:
         if result.settled:
             return Verdict(DOUBTFUL, "Settled, but Eq. 2 is broken", result.reason)

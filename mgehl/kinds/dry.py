@@ -1,0 +1,114 @@
+"""Point and line contacts without a fluid: the same bodies, pressed together at rest."""
+
+from dataclasses import replace
+
+from mgehl.config_value import AUTO
+from mgehl.errors import ConfigError
+from mgehl.kinds import loaded_checks
+from mgehl.kinds.kind import Effort
+from mgehl.kinds.line import LineKind
+from mgehl.kinds.loaded import LoadedKind
+from mgehl.kinds.point import PointKind
+
+EFFORT = Effort((15.0, 60.0), 2.5, 400.0, "dry contacts on 129 to 1025 nodes took 17 to 60")
+
+ROOM = 1.5
+"""Where a domain that is "auto" ends, over the reach of the smooth contact: peaks carry load beyond it."""
+
+OF_A_FLUID = (
+    "lubricant", "motion", "relaxation", "contact.boundary_film", "discretization.couette",
+    "discretization.face_mobility", "discretization.unified_gap", "discretization.couette_at_interface",
+    "discretization.cavitation", "discretization.film_threshold",
+    "solver.method", "solver.start", "solver.linear_tolerance", "solver.sweeps", "solver.omega",
+    "solver.cycle_couette", "solver.first_nodes", "solver.inlet_cells", "solver.squeeze", "solver.error",
+    "solver.release_budget",
+)  # fmt: skip
+"""Sections and keys that are heeded where there is a fluid, and may stand there where there is none."""
+
+OF_MOES = ("lubricant", "motion")
+"""Those of them from which Moes numbers make a load."""
+
+
+class DryKind(LoadedKind):
+    """What is different without a fluid; to be mixed into a kind of loaded contact."""
+
+    about = "A dry contact."
+    content = "Pressure and gap of a"
+
+    def unused(self, config):
+        """What only a fluid heeds, too."""
+        needed = OF_MOES if config.moes.M is not None else ()
+        return *super().unused(config), *(name for name in OF_A_FLUID if name not in needed)
+
+    def check_keys(self, config, tables):
+        """The relaxation is a method for a fluid."""
+        if config.solver.method == "relaxation":
+            raise ConfigError(
+                'solver.method = "relaxation": means nothing where discretization.contact_model = "dry"'
+            )
+        super().check_keys(config, tables)
+
+    def contact(self, config):
+        """Of the other kind, at rest."""
+        return replace(super().contact(config), speed=0.0)
+
+    def settled(self, config, contact):
+        """A domain that is "auto" ends so far from the smooth contact."""
+        end = ROOM * contact.reach
+        names = [name for name in ("x" if contact.is_plane else "xy") if getattr(config.grid, name) == AUTO]
+        return replace(config, grid=replace(config.grid, **{name: (-end, end) for name in names}))
+
+    def check_fluid(self, config, contact):
+        """The smooth contact must lie in the domain."""
+        loaded_checks.check_reach(self.settled(config, contact).grid, contact)
+
+    def effort(self, config):
+        """The same on every grid."""
+        return EFFORT
+
+    def lines(self, config, contact, mesh):
+        """What is solved, the contact of smooth bodies, the load."""
+        hertz = contact.hertz
+        return [
+            "solved     the dry contact: bodies pressed together without a fluid; no speed, no lubricant",
+            f"Hertz      {self.hertz_words(hertz)}   p_h {1e-9 * hertz.p_h:.4g} GPa, of smooth half-spaces",
+            f"load       {contact.load:.6g} {self.load_unit}",
+            f"roughness  {1e9 * contact.roughness:.4g} nm rms within the semi-axes",
+            f"cells      {1e6 * mesh.dX * contact.x_scale:.4g} um along x",
+        ]
+
+    def parts(self, solution, times="x"):
+        """Load and nodes."""
+        return ["dry", " ".join(self.load(solution.contact)), self.nodes(solution.mesh, times)]
+
+    def scalars(self, solution):
+        """Load, pressure, approach and contact."""
+        contact, result = solution.contact, solution.result
+        unit = self.load_unit.replace("/m", " m-1")
+        return {
+            "normal_load": (contact.load, unit, "normal load"),
+            "maximum_pressure": (1e9 * result.max_pressure_GPa, "Pa", "largest pressure"),
+            "approach": (1e-6 * result.approach_um, "m", "approach of the bodies"),
+            "contact_nodes": (float(result.contact.nodes), "1", "nodes in contact"),
+            "contact_area": (result.contact.area_fraction, "1", "contact area over that of Hertz"),
+        }
+
+
+class DryPoint(DryKind, PointKind):
+    """A paraboloid on a flat without a fluid."""
+
+    noun = "dry point contact"
+
+    def contact(self, config):
+        """Without a direction of motion."""
+        return replace(super().contact(config), angle=0.0)
+
+
+class DryLine(DryKind, LineKind):
+    """A cylinder on a flat without a fluid."""
+
+    noun = "dry line contact"
+
+
+DRY = {"point": DryPoint(), "line": DryLine()}
+"""By contact.kind."""

@@ -1,0 +1,134 @@
+"""The result of a dry contact as one record. Its fields are result.json's."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mgehl.output.film_error import no_band
+from mgehl.output.result import ContactResult, Overlap, Work, contact_result, overlap_of
+from mgehl.output.words import dry_words
+
+NO_FILM = no_band("there is no film")
+
+
+@dataclass(frozen=True)
+class HertzResult:
+    """What Hertz' formulas say of smooth half-spaces under the same load."""
+
+    max_pressure_GPa: float
+    approach_um: float
+    """Of a line contact with the constant of a deflection that counts -ln|x/a|, as the computed one."""
+
+
+@dataclass(frozen=True)
+class DryResult:
+    """Everything result.json holds."""
+
+    converged: bool
+    """Load and complementarity hold, and the contact ends within the domain."""
+    reason: str
+    max_pressure_GPa: float
+    approach_um: float
+    """Of the bodies, from where their smooth shapes would touch."""
+    load_error: float
+    complementarity_error: float
+    """Largest |gap| in contact, overlap elsewhere (units of H), or pull (p_h)."""
+    contact: ContactResult
+    overlap: Overlap
+    """Nodes outside of contact whose gap is negative, by more than rounding."""
+    boundary_nodes: int
+    """Nodes in contact beside the domain's boundary: there must be none."""
+    hertz: HertzResult
+    work: Work
+    """Convolutions and sets of pressed nodes."""
+    wall_s: float
+    ranks: int
+    versions: dict
+
+    @property
+    def settled(self):
+        """As `converged`: there is no inequality besides."""
+        return self.converged
+
+    @property
+    def error(self):
+        """There is no film to have a band."""
+        return NO_FILM
+
+    def __str__(self):
+        return dry_words(self)
+
+
+def summarise_dry(problem, outcome, tolerance, work, wall_s, versions):
+    """Verify the final state and put the `DryResult` together (collective).
+
+    Gap and load are evaluated anew from P and H0; nothing that the iteration said is trusted.
+    """
+    grid, contact = problem.grid, problem.contact
+    state = outcome.state = problem.state(outcome.state.P, outcome.state.H0, outcome.state.status)
+    nm = 1e9 * contact.film_scale
+    solid = contact_result(problem, state, nm)
+    overlap = _overlap(grid, state, nm, tolerance)
+    load_error = problem.load_deficit(state.P)
+    complementarity = _complementarity_error(grid, state)
+    at_boundary = _boundary_nodes(problem, state, tolerance)
+    found = load_error, complementarity, at_boundary
+    converged, reason = _verdict(outcome, tolerance, *found)
+    hertz = contact.hertz
+    return DryResult(
+        converged=converged,
+        reason=reason,
+        max_pressure_GPa=1e-9 * hertz.p_h * grid.max(state.P),
+        approach_um=-1e-3 * nm * state.H0,
+        load_error=load_error,
+        complementarity_error=complementarity,
+        contact=solid,
+        overlap=overlap,
+        boundary_nodes=at_boundary,
+        hertz=HertzResult(1e-9 * hertz.p_h, 1e6 * hertz.approach),
+        work=work,
+        wall_s=wall_s,
+        ranks=grid.comm.size,
+        versions=versions,
+    )
+
+
+def _complementarity_error(grid, state):
+    """Largest breach of P >= 0, H >= 0, one of them zero, over all nodes."""
+    pressed = state.P > 0.0
+    breaches = -state.P, np.abs(state.H[pressed]), -state.H[~pressed]
+    return max(grid.max(breach, initial=0.0) for breach in breaches)
+
+
+def _overlap(grid, state, nm, tolerance):
+    """Where bodies overlap by more than the tolerance, in units of H."""
+    found = overlap_of(grid, state, nm)
+    return found if found.largest_nm > tolerance * nm else Overlap(0, 0.0)
+
+
+def _boundary_nodes(problem, state, tolerance):
+    """Pressed nodes beside the boundary, and boundary nodes where the bodies would overlap."""
+    grid, mesh = problem.grid, problem.grid.mesh
+    beside = np.zeros(grid.shape, dtype=bool)
+    beside[:, [1, -2]] = True
+    if not mesh.is_line:
+        lines = np.arange(grid.first, grid.last)
+        beside[(lines == 1) | (lines == mesh.ny - 2)] = True
+    pressed = (state.P > 0.0) & beside
+    return grid.count(pressed | (problem.boundary & (state.H < -tolerance)))
+
+
+def _verdict(outcome, tolerance, load_error, complementarity, at_boundary):
+    """Whether all holds, and what does not."""
+    if not outcome.converged:
+        return False, outcome.reason
+    if not abs(load_error) <= tolerance:
+        return False, f"the load is off by {load_error:.1e}, more than {tolerance:.1e}"
+    if at_boundary:
+        return False, (
+            f"the contact reaches the domain's boundary at {at_boundary} nodes: a larger grid.x or grid.y"
+            " is needed"
+        )
+    if not complementarity <= tolerance:
+        return False, f"complementarity is broken by {complementarity:.1e}"
+    return True, "load, contact and gap hold, and the contact ends within the domain"

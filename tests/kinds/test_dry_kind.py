@@ -1,0 +1,82 @@
+"""Contacts without a fluid: what they heed, and what they refuse in a line."""
+
+import numpy as np
+import pytest
+
+from mgehl.config import config_from_tables, load_config
+from mgehl.errors import ConfigError
+from mgehl.kinds import check_contact, contact_from, mesh_from, settled
+
+DRY = {"discretization.contact_model": "dry"}
+COATED = {"contact.deformation": "coated", "coating.thickness": 2e-4, "coating.modulus": 2e9}
+
+
+def dry(**settings):
+    """The paper's ball with other keys; a dot is written as two underscores."""
+    return load_config(None, DRY | {key.replace("__", "."): value for key, value in settings.items()})
+
+
+@pytest.mark.parametrize(
+    "settings, said",
+    [
+        ({"solver__method": "relaxation"}, 'solver.method = "relaxation": means nothing where'),
+        (
+            {"contact__kind": "wedge"},
+            "discretization.contact_model = 'dry': means nothing where",
+        ),
+    ],
+)
+def test_what_makes_no_sense_is_one_line(settings, said):
+    with pytest.raises(ConfigError) as error:
+        dry(**settings)
+    assert said in str(error.value) and "\n" not in str(error.value)
+
+
+def test_a_domain_within_the_contact_is_one_line():
+    config = load_config(None, DRY | COATED | {"grid.x": [-1.05, 3.0]})
+    with pytest.raises(ConfigError, match="grid.x = .*must reach beyond .* on a layer so soft"):
+        check_contact(config, contact_from(config))
+
+
+@pytest.mark.parametrize("speed", [1e-9, 5e-6, 100.0])
+def test_speed_and_lubricant_do_not_matter(speed):
+    config = dry(motion__speed=speed, lubricant__viscosity=0.01, motion__angle=30.0)
+    contact = contact_from(config)
+    check_contact(config, contact)
+    assert config.is_dry and contact.is_at_rest and contact.motion == (1.0, 0.0)
+    tables = config.as_toml_tables()
+    assert not {"motion", "lubricant", "relaxation"} & tables.keys()
+    assert tables["discretization"] == {"contact_model": "dry"}
+    assert tables["solver"].keys() == {"tolerance", "max_steps"}
+    assert contact_from(config_from_tables(tables)).load == contact.load
+
+
+def test_moes_numbers_make_a_load_with_their_lubricant():
+    config = load_config(None, DRY | {"moes.M": 20.0, "moes.L": 10.0, "lubricant.pressure_viscosity": 1e-8})
+    again = config_from_tables(config.as_toml_tables())
+    assert contact_from(again).load == contact_from(config).load != 800.0
+
+
+@pytest.mark.parametrize("kind, axes", [("point", "xy"), ("line", "x")])
+def test_auto_holds_the_contact_and_some_room(kind, axes):
+    config = config_from_tables({"contact": {"kind": kind}, "discretization": {"contact_model": "dry"}})
+    contact = contact_from(config)
+    grid = settled(config, contact).grid
+    assert all(getattr(grid, name) == (-1.5, 1.5) for name in axes)
+    assert mesh_from(config, contact).x == (-1.5, 1.5)
+    check_contact(config, contact)
+
+
+def test_auto_sees_a_soft_layer():
+    config = load_config(None, DRY | COATED | {"grid.x": "auto", "grid.y": "auto"})
+    contact = contact_from(config)
+    ends = np.array(settled(config, contact).grid.x)
+    assert contact.reach > 1.2
+    np.testing.assert_allclose(ends, [-1.5 * contact.reach, 1.5 * contact.reach])
+
+
+def test_its_lines_say_what_is_solved():
+    config = dry()
+    contact = contact_from(config)
+    text = "\n".join(config.kind.lines(config, contact, mesh_from(config, contact)))
+    assert "dry contact" in text and "800 N" in text and "film" not in text

@@ -1,0 +1,104 @@
+"""The verdict on a dry contact: nothing that the iteration says is trusted."""
+
+import json
+from dataclasses import asdict
+
+import dacite
+import numpy as np
+import pytest
+
+from mgehl.output.dry_result import DryResult, summarise_dry
+from mgehl.output.files import finite
+from mgehl.output.result import Work
+from mgehl.output.stored import LENIENT
+from mgehl.solver.dry import solve_dry
+
+TOLERANCE = 1e-8
+
+
+@pytest.fixture
+def settled(make_problem):
+    """Problem and outcome of the paper's ball; keywords are the grid's."""
+
+    def run(**grid):
+        problem = make_problem(**({"nodes": 65} | grid))
+        guess = problem.contact.guessed_pressure(problem.grid.X, problem.grid.Y)
+        return problem, solve_dry(problem, guess, TOLERANCE, 60, lambda step: None)
+
+    return run
+
+
+def judged(problem, outcome):
+    return summarise_dry(problem, outcome, TOLERANCE, Work(1.0, 1), 0.0, {})
+
+
+def test_an_answer_converges(settled):
+    problem, outcome = settled()
+    result = judged(problem, outcome)
+    assert result.converged and result.boundary_nodes == 0 and result.overlap.nodes == 0
+    assert abs(result.load_error) < 1e-13 and result.complementarity_error < 1e-10
+    assert result.contact.nodes == np.count_nonzero(outcome.state.P)
+    cell = problem.grid.mesh.dX * problem.grid.mesh.dY
+    assert result.contact.area_fraction == pytest.approx(result.contact.nodes * cell / np.pi)
+    assert result.approach_um == pytest.approx(result.hertz.approach_um, rel=1e-3)
+    assert result.max_pressure_GPa == pytest.approx(result.hertz.max_pressure_GPa, rel=1e-3)
+
+
+def lighter(state):
+    state.P *= 1.0 - 1e-6
+
+
+def pulled(state):
+    state.P[20, 10] = -1e-6
+
+
+def lifted(state):
+    state.H0 += 1e-6
+
+
+def pressed(state):
+    state.H0 -= 1e-6
+
+
+@pytest.mark.parametrize(
+    "harm, said",
+    [
+        (lighter, "the load is off by"),
+        (pulled, "complementarity is broken by 1.0e-06"),
+        (lifted, "complementarity is broken by 1.0e-06"),
+        (pressed, "complementarity is broken by 1.0e-06"),
+    ],
+)
+def test_what_is_wrong_is_found(settled, harm, said):
+    problem, outcome = settled()
+    harm(outcome.state)
+    result = judged(problem, outcome)
+    assert not result.converged and (said in result.reason or "the load is off" in result.reason)
+
+
+def test_bodies_that_overlap_are_told(settled):
+    problem, outcome = settled()
+    beside = (outcome.state.P == 0.0) & ~problem.boundary
+    problem._undeformed = np.where(beside, problem._undeformed - 10.0, problem._undeformed)
+    result = judged(problem, outcome)
+    assert not result.converged
+    assert result.overlap.nodes == np.count_nonzero(beside) and "OVERLAP" in str(result)
+
+
+@pytest.mark.parametrize("ends", [{"x": (-0.8, 1.3)}, {"y": (-1.5, 0.9)}, {"x": (-1.02, 1.3)}])
+def test_contact_that_reaches_the_boundary_is_none(settled, ends):
+    """Whether nodes beside it press, or it would overlap itself."""
+    result = judged(*settled(**ends))
+    assert not result.converged and result.boundary_nodes > 0
+    assert "a larger grid.x or grid.y is needed" in result.reason
+
+
+def test_it_reads_back(settled):
+    result = judged(*settled())
+    again = dacite.from_dict(DryResult, json.loads(json.dumps(finite(asdict(result)))), LENIENT)
+    assert again == result and "film" not in json.dumps(asdict(result))
+
+
+def test_its_words_have_no_film(settled):
+    words = str(judged(*settled()))
+    assert words.startswith("CONVERGED") and "approach" in words and "film" not in words

@@ -1,0 +1,45 @@
+"""A dry contact on several ranks is that of one. Run as `mpiexec -n 2 python -m pytest -m parallel`."""
+
+import numpy as np
+import pytest
+from mpi4py import MPI
+from tools.dry_surfaces import surface
+
+from mgehl.config import config_from_tables
+from mgehl.discretization.mesh import Mesh
+from mgehl.grid.hierarchy import Hierarchy
+from mgehl.run import solve
+from mgehl.studies.dry import tables_of
+
+pytestmark = pytest.mark.parallel
+
+COMM = MPI.COMM_WORLD
+
+
+@pytest.mark.parametrize("name, nodes", [("smooth", 65), ("rough 500 nm", 257)])
+def test_it_is_that_of_one_rank(name, nodes):
+    config = config_from_tables(tables_of(name, nodes))
+    together, alone = solve(config, COMM), solve(config, MPI.COMM_SELF)
+    assert together.result.converged and alone.result.converged
+    assert together.result.contact.nodes == alone.result.contact.nodes
+    assert together.result.work == alone.result.work
+    fields = COMM.bcast(together.fields)
+    np.testing.assert_allclose(fields.P, alone.fields.P, rtol=0.0, atol=1e-9)
+    np.testing.assert_array_equal(fields.status, alone.fields.status)
+    assert together.H0 == pytest.approx(alone.H0, rel=1e-12)
+
+
+def test_the_inverse_is_that_of_one_rank(paper_contact):
+    contact = paper_contact(surface=surface("rough 50 nm"), radius_y=25.4e-3)
+    mesh = Mesh(65, 65, (-1.9, 1.3), (-1.5, 1.5), contact.k_e)
+    whole = np.zeros((65, 65))
+    whole[1:-1, 1:-1] = np.random.default_rng(2).random((63, 63))
+    found = []
+    for comm in (COMM, MPI.COMM_SELF):
+        hierarchy = Hierarchy(mesh, 65, contact.kernel, comm)
+        grid = hierarchy.grids[0]
+        found.append(hierarchy.deflections[0].inverted(whole[grid.first : grid.last]).copy())
+        if comm is COMM:
+            own = slice(grid.first, grid.last)
+        hierarchy.destroy()
+    np.testing.assert_allclose(found[0], found[1][own], rtol=0.0, atol=1e-10 * np.abs(found[1]).max())

@@ -1,0 +1,110 @@
+"""A dry contact as its user meets it: run, stop, resume, pictures, page, table."""
+
+import csv
+import json
+import re
+
+import numpy as np
+import pytest
+
+from mgehl.cli import main
+from mgehl.output.stored import read_run
+from mgehl.studies import dry_surfaces
+from mgehl.studies.dry_reference import REFERENCE
+
+SURFACE = f"{dry_surfaces.__file__}:rough_500"
+PAPER = {"grid.nodes": "65", "grid.x": "[-1.9, 1.3]", "grid.y": "[-1.5, 1.5]"}
+
+
+def run(directory, *more, **settings):
+    """Exit status of `mgehl run` of the paper's ball, dry."""
+    keys = {"discretization.contact_model": "dry"} | PAPER | settings
+    words = [word for key, value in keys.items() for word in ("--set", f"{key}={value}")]
+    return main(["run", *words, "--out", str(directory), "--quiet", *more])
+
+
+@pytest.fixture(scope="module")
+def rough(tmp_path_factory):
+    """Directory of a rough ball's run, with pictures and page."""
+    directory = tmp_path_factory.mktemp("dry") / "rough"
+    assert run(directory, **{"contact.surface": SURFACE}) == 0
+    assert main(["plot", str(directory), "--format", "png"]) == 0
+    assert main(["report", str(directory)]) == 0
+    return directory
+
+
+def test_its_files_read_back(rough):
+    solution = read_run(rough)
+    assert solution.is_dry and solution.result.converged
+    assert np.count_nonzero(solution.fields.P) == solution.result.contact.nodes
+    assert solution.film.min() > -1e-14 and [row["changed_nodes"] for row in solution.rows][-1] == 0
+
+
+def test_its_pictures(rough):
+    names = {path.name for path in (rough / "plots").iterdir()}
+    assert names == {f"{kind}.png" for kind in ("lines", "gap", "pressure", "status", "history")}
+
+
+def test_its_page_knows_no_fluid(rough):
+    page = (rough / "report.html").read_text()
+    text = re.sub(r"<svg.*?</svg>|<style.*?</style>|data:[^\"]*|<[^>]*>", " ", page, flags=re.DOTALL)
+    own = text[: text.index("Configuration")]
+    assert "Dry point contact" in own and "approach" in own
+    for word in ("film", "speed", "lubric", "cavit", "inlet"):
+        assert word not in own
+
+
+def test_of_a_line(tmp_path):
+    keys = {"contact.kind": "line", "discretization.contact_model": "dry", "grid.nodes": "1025"}
+    words = [word for key, value in keys.items() for word in ("--set", f"{key}={value}")]
+    assert main(["run", *words, "--out", str(tmp_path / "line"), "--quiet"]) == 0
+    assert main(["report", str(tmp_path / "line")]) == 0
+    result = json.loads((tmp_path / "line" / "result.json").read_text())
+    assert result["approach_um"] == pytest.approx(result["hertz"]["approach_um"], rel=1e-4)
+    assert result["max_pressure_GPa"] == pytest.approx(result["hertz"]["max_pressure_GPa"], rel=1e-3)
+
+
+def test_it_stops_and_goes_on(tmp_path, rough):
+    """With the same result, to the last bit."""
+    stopped = tmp_path / "stopped"
+    assert run(stopped, "--time-limit", "1e-6", **{"contact.surface": SURFACE}) == 143
+    assert not (stopped / "result.json").exists()
+    assert main(["run", "--resume", str(stopped), "--quiet"]) == 0
+    one, other = read_run(rough), read_run(stopped)
+    np.testing.assert_array_equal(one.fields.P, other.fields.P)
+    assert one.result.work == other.result.work
+
+
+def test_it_starts_from_another_run(tmp_path, rough):
+    """From a coarser grid's in fewer convolutions."""
+    keys = {"contact.surface": SURFACE, "grid.nodes": "129"}
+    assert run(tmp_path / "fine", "--start-from", str(rough), **keys) == 0
+    result = read_run(tmp_path / "fine").result
+    assert result.contact.nodes == REFERENCE["rough 500 nm", 129].contact_nodes
+    assert result.work.convolutions < 42
+
+
+def test_one_that_did_not_converge_says_so(tmp_path, capsys):
+    assert run(tmp_path / "few", **{"contact.surface": SURFACE, "solver.max_steps": "2"}) == 1
+    assert "nodes still change between contact and gap" in capsys.readouterr().err
+
+
+def test_a_table_of_films_has_no_row_for_it(rough, capsys):
+    assert main(["collect", str(rough)]) == 2
+    assert "is a dry contact" in capsys.readouterr().err
+
+
+def test_check_says_what_is_solved(capsys):
+    assert main(["check", "--set", "discretization.contact_model=dry"]) == 0
+    said = capsys.readouterr().out
+    assert "a dry point contact" in said and "no lubricant" in said
+    assert "inlet" not in said and "film" not in said
+
+
+def test_study(tmp_path):
+    assert main(["study", "dry", "--nodes", "65,129", "--quiet", "--out", str(tmp_path / "study")]) == 0
+    with (tmp_path / "study" / "dry.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    assert len(rows) == 16 and all(row["converged"] == "yes" for row in rows)
+    for row in rows:
+        assert (row["contact nodes"] == row["public code's"]) == (row["nodes"] == "129")
