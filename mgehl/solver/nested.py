@@ -34,8 +34,9 @@ def nested_iteration(hierarchy, contact, settings, monitor, journal=NOTHING_KEPT
     outcome = None
     for level, solve in planned_solves([grid.mesh for grid in hierarchy.grids], contact, settings):
         limits = settings.newton if solve.finest else coarse
-        at_speed, deflection = contact.at_speed(solve.speed), hierarchy.deflections[level]
-        problem = ContactProblem(hierarchy.grids[level], deflection, at_speed, settings.scheme)
+        grid, deflection = hierarchy.grids[level], hierarchy.deflections[level]
+        seen = contact.at_speed(solve.speed).seen_by(grid.mesh, hierarchy.grids[-1].mesh)
+        problem = ContactProblem(grid, deflection, seen, settings.scheme)
         if outcome is None:
             state = first_guess(problem, settings.nested.start)
         else:
