@@ -71,16 +71,16 @@ class LoadedContact:
     @property
     def roughness(self):
         """Rms of the heights within the Hertz semi-axes, about their mean, in m; 0 of smooth bodies."""
-        return float(np.sqrt(np.mean(self._heights**2)))
+        return float(np.sqrt(np.mean(self.heights**2)))
 
     @property
     def skewness(self):
         """Ssk of the same heights: positive where there are more peaks than valleys; 0 of smooth bodies."""
-        cubes = float(np.mean(self._heights**3))
+        cubes = float(np.mean(self.heights**3))
         return cubes / self.roughness**3 if self.roughness else 0.0
 
     @cached_property
-    def _heights(self):
+    def heights(self):
         """Samples of the heights within the Hertz semi-axes, about their mean, in m."""
         if self.surface is None:
             return np.zeros(1)
@@ -94,6 +94,10 @@ class LoadedContact:
         x, y = self._nodes(mesh)
         inside = np.abs(x) <= self.x_scale, np.abs(y) <= self.y_scale
         return self.surface.shortest(x[inside[0]], y[inside[1]])
+
+    def longest_cell(self, mesh):
+        """The longer side of a mesh's cell, in m."""
+        return max(map(step_of, self._nodes(mesh)))
 
     def seen_by(self, mesh, finest):
         """The contact as a coarser `mesh` than the `finest` sees it: no waves shorter than `SEEN_CELLS`.

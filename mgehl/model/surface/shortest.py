@@ -12,8 +12,8 @@ def shortest_of(heights, dx, dy):
     """Wavelength of heights (ny, nx), `dx` and `dy` apart: the shorter one of those along x and along y.
 
     It is that of the wave whose first and second differences stand to each other as those of the heights.
-    Of one wave it is exact, of noise from point to point three points; where long and short waves are
-    mixed it is near the short ones, which bend the surface most.
+    Of one wave it is right but for what is cut off at the ends, of noise from point to point it is three
+    points; where long and short waves are mixed it is near the short ones, which bend the surface most.
     """
     heights = np.asarray(heights, dtype=float)
     return min(_along(heights, dx), _along(heights.T, dy))

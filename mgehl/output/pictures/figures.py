@@ -20,6 +20,7 @@ from mgehl.output.pictures.history_picture import history
 from mgehl.output.pictures.labels import labels
 from mgehl.output.pictures.lines import centre_lines
 from mgehl.output.pictures.maps import film_map, pressure_map, status_map
+from mgehl.output.pictures.surface_picture import surface_picture
 from mgehl.output.solution import Solution
 
 
@@ -40,6 +41,9 @@ TITLES = {
 }
 """The kinds of pictures, in order, and what they show."""
 
+ROUGH = {"surface": "heights of the surface with the contact on them, the gap, their distribution"}
+"""What bodies that are not smooth have besides."""
+
 _POINT = dict(zip(TITLES, (centre_lines, film_map, pressure_map, status_map, history), strict=True))
 _LINE = {"lines": centre_lines, "history": history}
 _BEARING = {
@@ -51,10 +55,25 @@ _BEARING = {
 
 
 def drawn_by(solution):
-    """The functions that draw a run, by kind of picture: a single line has no maps."""
+    """The functions that draw a run, by kind of picture: a single line has no maps.
+
+    A surface is left out where its file is not there any more: what is done can be looked at without.
+    """
+    found = _possible(solution)
+    if "surface" in found:
+        try:
+            solution.contact.surface.height(0.0, 0.0)
+        except UserError:
+            del found["surface"]
+    return found
+
+
+def _possible(solution):
+    """The functions that draw such a contact."""
     if not solution.contact.is_loaded:
-        return _BEARING
-    return _LINE if solution.mesh.is_line else _POINT
+        return dict(_BEARING)
+    drawn = _LINE if solution.mesh.is_line else _POINT
+    return drawn | ({"surface": surface_picture} if solution.contact.surface is not None else {})
 
 
 def figures(solution: Solution, kinds: Sequence[str] | None = None) -> list[Picture]:
@@ -62,12 +81,13 @@ def figures(solution: Solution, kinds: Sequence[str] | None = None) -> list[Pict
 
     Raises UserError for a kind that this contact does not have.
     """
-    draw = drawn_by(solution)
+    draw = _possible(solution) if kinds else drawn_by(solution)
     for kind in kinds or ():
         if kind not in draw:
             raise UserError(f"no picture {kind!r} of this contact: it has {', '.join(draw)}")
     with style.applied():
-        return [Picture(kind, TITLES[kind], draw[kind](solution)) for kind in kinds or draw]
+        titles = TITLES | ROUGH
+        return [Picture(kind, titles[kind], draw[kind](solution)) for kind in kinds or draw]
 
 
 def compared(solutions: Sequence[Solution], names: Sequence[str]) -> list[Picture]:
