@@ -85,8 +85,9 @@ class LoadedContact:
         if self.surface is None:
             return np.zeros(1)
         side = np.linspace(-1.0, 1.0, SAMPLES)
-        X, Y = side[None, :] * self.x_scale, side[:, None] * self.y_scale
-        heights = np.broadcast_to(self.surface.height(X, Y), (SAMPLES, SAMPLES))
+        across = np.zeros(1) if self.is_plane else side
+        x, y = side[None, :] * self.x_scale, across[:, None] * self.y_scale
+        heights = np.broadcast_to(self.surface.height(x, y), (len(across), SAMPLES))
         return heights - heights.mean()
 
     def shortest_wave(self, mesh):

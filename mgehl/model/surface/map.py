@@ -73,15 +73,15 @@ class Map:
 def step_along(path, axis, values):
     """The common step of coordinates in rising order."""
     steps = np.diff(values)
-    step = (values[-1] - values[0]) / max(len(values) - 1, 1)
-    if not step > 0.0:
-        raise SurfaceFileError(path, f"its size along {axis} is zero")
-    uneven = ~(np.abs(steps - step) <= UNEVEN * step)
+    usual = float(np.median(steps)) if len(steps) else 0.0
+    if not usual > 0.0:
+        raise SurfaceFileError(path, f"its size along {axis} is zero, or its {axis} do not rise")
+    uneven = ~(np.abs(steps - usual) <= UNEVEN * usual)
     if uneven.any():
         i = int(uneven.argmax())
         raise SurfaceFileError(
             path,
             f"its spacing along {axis} is not equal: {steps[i]:.6g} from {axis} = {values[i]:.6g} to "
-            f"{values[i + 1]:.6g}, {step:.6g} on the average",
+            f"{values[i + 1]:.6g}, {usual:.6g} elsewhere",
         )
-    return float(step)
+    return float(values[-1] - values[0]) / len(steps)

@@ -91,9 +91,11 @@ class Measured(Surface):
         if self.preparation.continuation == "none":
             x, y = np.clip(x, 0.0, width), np.clip(y, 0.0, length)
             return self._inside.ev(y, x)
-        points = np.array([y / self.heights.dy, x / self.heights.dx])
+        points = np.array([np.ravel(y) / self.heights.dy, np.ravel(x) / self.heights.dx])
         mode = CONTINUATIONS[self.preparation.continuation]
-        return map_coordinates(self._coefficients, points, order=3, mode=mode, prefilter=False)
+        return map_coordinates(self._coefficients, points, order=3, mode=mode, prefilter=False).reshape(
+            x.shape
+        )
 
     @cached_property
     def _inside(self):

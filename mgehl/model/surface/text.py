@@ -23,10 +23,13 @@ def read_text(path):
 
 def _table(path):
     """Numbers (rows, columns), and the line of the file that each row stands in."""
-    rows, lines = [], []
+    rows, lines, heading = [], [], False
     for number, line in enumerate(_text(path).splitlines(), 1):
         words = _words(line)
-        if not words or (not rows and _is_heading(words)):
+        if not words:
+            continue
+        if not rows and not heading and _is_heading(words):
+            heading = True
             continue
         rows.append([_number(path, number, column, word) for column, word in enumerate(words, 1)])
         lines.append(number)

@@ -29,7 +29,7 @@ def surface_picture(solution):
     else:
         _height_map(figure, axes[0], solution, heights)
         _gap_map(figure, axes[1], solution)
-    _distribution(axes[-1], solution)
+    _distribution(axes[-1], solution, heights)
     resolution = solution.result.resolution
     shown = surface_words(resolution.surface, resolution.surface_nodes)
     figure.suptitle(f"surface, {title(solution)}" + (f"\n{shown}" if shown else ""))
@@ -92,17 +92,18 @@ def _finish(axes, solution, name):
 def _profile(axes, solution, heights):
     """Heights of a line, and where it is in contact."""
     X, contact = solution.mesh.X, solution.fields.status[0] == CONTACT
-    axes.plot(X, 1e9 * heights, color=FILM, label="height")
+    axes.plot(X, 1e9 * heights, color=FILM)
     if contact.any():
-        axes.plot(X[contact], 1e9 * heights[contact], ".", color=STATUS_COLOURS[CONTACT], label="contact")
+        black = STATUS_COLOURS[CONTACT]
+        legend_below(axes, axes.plot(X[contact], 1e9 * heights[contact], ".", color=black, label="contact"))
     axes.set(xlabel=position_labels(solution)[0], ylabel="height, nm (a peak is positive)", title="heights")
-    axes.legend()
 
 
-def _distribution(axes, solution):
-    """The heights within the Hertz contact, beside the normal distribution of the same rms."""
-    contact = solution.contact
-    nm, rms = 1e9 * contact.heights.ravel(), 1e9 * contact.roughness
+def _distribution(axes, solution, heights):
+    """The nodes within the Hertz semi-axes, beside the normal distribution of the surface's rms."""
+    mesh, contact = solution.mesh, solution.contact
+    nm, rms = 1e9 * heights[np.ix_(np.abs(mesh.Y) <= 1.0, np.abs(mesh.X) <= 1.0)], 1e9 * contact.roughness
+    nm = (nm - nm.mean()).ravel()
     axes.hist(nm, BINS, density=True, color=BARS)
     handles = [Patch(color=BARS, label="within the Hertz contact")]
     if rms > 0.0:
