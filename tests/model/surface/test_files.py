@@ -1,5 +1,9 @@
 """Files of heights: every format gives the same, every fault is one line with file and place."""
 
+import os
+import sys
+import zipfile
+
 import numpy as np
 import pytest
 
@@ -139,8 +143,6 @@ class TestPreparation:
 
     def test_a_changed_file_is_read_anew(self, tmp_path):
         assert self.of(tmp_path, self.wave).max() == pytest.approx(1e-8)
-        import os
-
         np.save(tmp_path / "z.npy", 2.0 * self.wave)
         os.utime(tmp_path / "z.npy", (1, 1))
         assert self.of(tmp_path, 2.0 * self.wave).max() == pytest.approx(2e-8)
@@ -252,9 +254,19 @@ def test_binary_is_no_text(tmp_path):
     assert "is neither text nor a format that is read here" in refusal(tmp_path / "z.dat")
 
 
+X3P = f"""<?xml version="1.0" encoding="UTF-8"?>
+<p:ISO5436_2 xmlns:p="http://www.opengps.eu/2008/ISO5436_2"><Record1><Revision>ISO5436 - 2000</Revision>
+<FeatureType>SUR</FeatureType><Axes>
+<CX><AxisType>I</AxisType><DataType>D</DataType><Increment>{DX}</Increment><Offset>0</Offset></CX>
+<CY><AxisType>I</AxisType><DataType>D</DataType><Increment>{DY}</Increment><Offset>0</Offset></CY>
+<CZ><AxisType>A</AxisType><DataType>D</DataType></CZ></Axes></Record1>
+<Record3><MatrixDimension><SizeX>{NX}</SizeX><SizeY>{NY}</SizeY><SizeZ>1</SizeZ></MatrixDimension>
+<DataLink><PointDataLink>bindata/data.bin</PointDataLink></DataLink></Record3></p:ISO5436_2>"""
+
+
 class TestInstruments:
     def test_without_the_library_it_says_what_to_install(self, tmp_path, monkeypatch):
-        monkeypatch.setitem(__import__("sys").modules, "SurfaceTopography", None)
+        monkeypatch.setitem(sys.modules, "SurfaceTopography", None)
         write(tmp_path / "z.x3p", "something")
         assert "pip install mgehl[surfaces]" in refusal(tmp_path / "z.x3p")
 
@@ -268,6 +280,14 @@ class TestInstruments:
         made.to_netcdf(str(tmp_path / "z.nc"))
         found = Measured(str(tmp_path / "z.nc")).heights
         np.testing.assert_allclose(found.values, HEIGHTS, rtol=0, atol=1e-15)
+        assert (found.dx, found.dy) == pytest.approx((DX, DY))
+
+    def test_an_x3p_file(self, library, tmp_path):
+        with zipfile.ZipFile(tmp_path / "z.x3p", "w") as archive:
+            archive.writestr("main.xml", X3P)
+            archive.writestr("bindata/data.bin", HEIGHTS.astype("<f8").tobytes())
+        found = Measured(str(tmp_path / "z.x3p")).heights
+        np.testing.assert_array_equal(found.values, HEIGHTS)
         assert (found.dx, found.dy) == pytest.approx((DX, DY))
 
     def test_keys_overrule_the_file_s_units(self, library, tmp_path):
