@@ -4,7 +4,7 @@ A film is resolved where its inlet has cells enough and its domain is large enou
 """
 
 from dataclasses import dataclass
-from math import nan
+from math import isfinite, nan
 
 from mgehl.config import COARSEST_NODES
 from mgehl.model.contact import RESOLVED_CELLS
@@ -31,8 +31,8 @@ class Resolution:
     """Estimate of the film that a domain of twice the size would have more."""
     surface: str = surface.UNKNOWN
     """Whether the grid shows the surface: "smooth", "resolved", "coarse" or "grid-determined"."""
-    surface_nodes: float = nan
-    """Nodes in the shortest wave of the surface."""
+    surface_nodes: float | None = None
+    """Nodes in the shortest wave of the surface; None without waves."""
 
 
 def resolution(contact, mesh):
@@ -41,7 +41,9 @@ def resolution(contact, mesh):
     domain = domain_verdict(lost)
     nodes = surface.wave_nodes(contact, mesh)
     shown = surface.surface_verdict(contact, nodes)
-    return Resolution(cells, _verdict(cells, domain), domain, lost, shown, nodes)
+    return Resolution(
+        cells, _verdict(cells, domain), domain, lost, shown, nodes if isfinite(nodes) else None
+    )
 
 
 def _verdict(cells, domain):

@@ -37,7 +37,7 @@ def surface_words(verdict, nodes):
     """A verdict in words; nothing of smooth bodies."""
     if verdict not in ADVICE:
         return ""
-    if nodes is None or isinf(nodes) or nodes != nodes:
+    if nodes is None or isinf(nodes):
         return "it has no waves"
     return f"{nodes:.1f} nodes in its shortest wave: {ADVICE[verdict]}"
 

@@ -178,7 +178,8 @@ def _checks(solution):
 def _surface_row(resolution):
     """The row about a surface that there is."""
     if resolution.surface in SURFACE:
-        nodes = number(resolution.surface_nodes, 3)
+        nodes = resolution.surface_nodes
+        nodes = NO_NUMBER if nodes is None else number(nodes, 3)
         limit = f"at least {RESOLVED_NODES:g}"
         yield "nodes in the shortest wave of the surface", nodes, limit, SURFACE[resolution.surface]
 
