@@ -5,6 +5,7 @@ import pytest
 
 from mgehl.discretization.status import LUBRICATED
 from mgehl.model.coating import Coating
+from mgehl.model.surface import Waviness
 from mgehl.solver.dry import dry_pressure
 from mgehl.solver.nested import first_guess
 
@@ -58,3 +59,33 @@ def test_a_film_starts_from_it_with_the_thickness_that_is_expected(problem):
     assert (state.status[~problem.boundary] == LUBRICATED).all()
     # A soft layer is thought of as half-spaces that are as wide: a thicker film than on steel.
     assert problem.contact.expected_film > 1.05 * problem.contact.formulas.hamrock_dowson_central
+
+
+A = 0.4108333e-3
+"""Hertz radius of the paper's ball in m."""
+
+
+@pytest.mark.parametrize(
+    "amplitude, wavelength_y, nodes, p_max",
+    [
+        (50e-9, A / 2, 5403, 2.383120),
+        (200e-9, A / 2, 5409, 2.742123),
+        (1e-6, A / 2, 4399, 4.630775),
+        (200e-9, None, 5421, 2.599292),
+    ],
+    ids=["wavy 50 nm", "wavy 200 nm", "wavy 1 um", "ridge 200 nm"],
+)
+def test_a_wavy_ball_is_pressed_as_a_public_code_has_it(
+    paper_contact, make_problem, monkeypatch, amplitude, wavelength_y, nodes, p_max
+):
+    """ContactMechanics 1.8.3 with the same rectangles: nodes in contact and the largest pressure in GPa.
+
+    A peak is in the middle: with the other sign the pressure there would be lower than that of Hertz.
+    """
+    monkeypatch.setattr("mgehl.solver.dry.TOLERANCE", 1e-10)
+    monkeypatch.setattr("mgehl.solver.dry.MAX_STEPS", 1000)
+    contact = paper_contact(surface=Waviness(amplitude, A / 2, wavelength_y))
+    problem = make_problem(contact, nodes=129)
+    P = dry_pressure(problem, contact.guessed_pressure(problem.grid.X, problem.grid.Y))
+    assert np.count_nonzero(P) == nodes
+    assert 1e-9 * contact.hertz.p_h * P.max() == pytest.approx(p_max, rel=1e-6)
