@@ -16,7 +16,7 @@ from mgehl.config_value import read_value, shown
 from mgehl.errors import ConfigError
 from mgehl.kinds import KINDS
 from mgehl.kinds.point import CoatingSection, MoesSection
-from mgehl.kinds.surface import SurfaceSection
+from mgehl.kinds.surface_keys import SurfaceSection
 from mgehl.kinds.wedge import WedgeSection
 
 COARSEST_NODES = 33
