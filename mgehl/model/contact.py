@@ -12,13 +12,12 @@ import numpy as np
 from mgehl.model import films
 from mgehl.model.frame import Frame
 from mgehl.model.hertz import edge_gap_coefficient, hertz_pressure
-from mgehl.model.surface.surface import step_of
+from mgehl.model.surface.surface import JUST, step_of
 
 SAMPLES = 65
 """Heights along each side from which the roughness is reckoned: the same whatever the grid."""
 SEEN_CELLS = 4.0
 """Cells of a coarse grid in the shortest wave that it is shown."""
-JUST_LESS = 1.0 - 1e-9
 RESOLVED_CELLS = 4.0
 """Cells in the inlet from which on the film does not change with the grid."""
 
@@ -110,7 +109,7 @@ class LoadedContact:
         x, y = self._nodes(finest)
         cells = [step_of(nodes) for nodes in self._nodes(mesh)]
         wavelengths = tuple(SEEN_CELLS * cell for cell in cells)
-        if mesh.nx == finest.nx or self.shortest_wave(finest) >= JUST_LESS * max(wavelengths):
+        if mesh.nx == finest.nx or self.shortest_wave(finest) >= (1.0 - JUST) * max(wavelengths):
             return self
         return replace(self, surface=self.surface.filtered(wavelengths, x, y))
 

@@ -79,6 +79,11 @@ def _part_lines(key, part, contact, mesh):
         heights = part.heights
         (rows, columns), (width, length) = heights.values.shape, heights.size
         yield f"           {key}: {columns} x {rows} points, {1e6 * width:.4g} um by {1e6 * length:.4g} um"
+        if heights.tilt > contact.roughness:
+            yield (
+                f"           it is tilted by {1e9 * heights.tilt:.4g} nm from edge to edge: "
+                'remove = "tilt" levels it'
+            )
         x, y = mesh.X * contact.x_scale, mesh.Y * contact.y_scale
         if not part.reaches(x[[0, -1]][None, :], y[[0, -1]][:, None]).all():
             yield "           it ends within the domain: beyond its edge the edge's heights go on"

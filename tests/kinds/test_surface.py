@@ -136,7 +136,7 @@ class TestFile:
         np.save(file["file"], np.full((65, 65), np.nan))
         message = refusal(surface=file)
         assert message.startswith(
-            f"surface.file = {file['file']!r}: has 4225 holes of 4225 points, the first"
+            f"surface.file = {file['file']!r}: 4225 of 4225 points are holes, the first"
         )
         assert message.count(file["file"]) == 1
 

@@ -69,6 +69,8 @@ def test_where_a_file_ends_is_said(tmp_path):
         "grid.nodes": 65, "surface.file": f"{tmp_path}/z.txt", "surface.height_unit": "nm",
         "surface.spacing": "14 um",
     }  # fmt: skip
-    *_, told, ends = surface_lines(*case(settings))
+    *_, told, ends = surface_lines(*case(settings | {"surface.remove": "tilt"}))
     assert told.endswith("z.txt': 65 x 65 points, 896 um by 896 um")
+    *_, tilted, _ = surface_lines(*case(settings))
+    assert tilted.strip() == 'it is tilted by 2.923 nm from edge to edge: remove = "tilt" levels it'
     assert ends.endswith("it ends within the domain: beyond its edge the edge's heights go on")

@@ -55,7 +55,7 @@ class Map:
         if holes.any():
             row, column = np.argwhere(holes)[0]
             raise self.error(
-                f"has {holes.sum()} holes of {z.size} points, the first in row {row + 1}, column "
+                f"{holes.sum()} of {z.size} points are holes, the first in row {row + 1}, column "
                 f"{column + 1}; fill them first"
             )
         return self

@@ -52,6 +52,12 @@ class Heights:
         ny, nx = self.values.shape
         return (nx - 1) * self.dx, (ny - 1) * self.dy
 
+    @property
+    def tilt(self):
+        """How much higher one edge is than the other, along x or y, whichever is more, in m."""
+        sides = (self.values[:, -1], self.values[:, 0]), (self.values[-1], self.values[0])
+        return max(abs(float(one.mean() - other.mean())) for one, other in sides)
+
 
 @dataclass(frozen=True)
 class Measured(Surface):

@@ -64,8 +64,12 @@ class Sum(Surface):
         return min(part.shortest(x, y) for part in self.parts)
 
     def filtered(self, wavelengths, x, y):
-        """The sum of the filtered parts."""
-        return Sum(tuple(part.filtered(wavelengths, x, y) for part in self.parts))
+        """The sum of the parts, those filtered that have shorter waves."""
+        longest = (1.0 - JUST) * max(wavelengths)
+        return Sum(tuple(
+            part if part.shortest(x, y) >= longest else part.filtered(wavelengths, x, y)
+            for part in self.parts
+        ))  # fmt: skip
 
     def varies_along(self, direction):
         """Whether a part does."""

@@ -155,8 +155,8 @@ def holed(z):
 
 
 ARRAYS = {
-    "holes": (holed(HEIGHTS), "has 2 holes of 525 points, the first in row 4, column 5"),
-    "infinite": (HEIGHTS / (Y[:, None] != 0.0), "has 25 holes of 525 points, the first in row 11"),
+    "holes": (holed(HEIGHTS), "2 of 525 points are holes, the first in row 4, column 5"),
+    "infinite": (HEIGHTS / (Y[:, None] != 0.0), "25 of 525 points are holes, the first in row 11"),
     "text": (np.array([["a", "b"], ["c", "d"]]), "holds text, not numbers"),
     "complex": (1j * HEIGHTS, "holds values of type complex128, not numbers"),
     "one line": (HEIGHTS[0], "its heights have the shape (25,); must be a matrix"),
@@ -184,7 +184,7 @@ TEXTS = {
     "a matrix of text": ("a b c d\ne f g h\n", "line 2, column 1: 'e' is no number"),
     "an empty cell": ("1,2,3,4\n1,,3,4\n", "line 2, column 2: is empty"),
     "a short line": ("1 2 3 4\n1 2 3\n", "line 2 has 3 numbers, line 1 has 4"),
-    "nan": ("\n".join(4 * ["1 2 nan 4"]), "has 4 holes of 16 points, the first in row 1, column 3"),
+    "nan": ("\n".join(4 * ["1 2 nan 4"]), "4 of 16 points are holes, the first in row 1, column 3"),
     "too few": ("1 2 3 4\n1 2 3 4\n", "has 2 rows and 4 columns; must be at least 4 of each"),
     "a matrix of three columns": ("1 2 3\n" * 8, "has three columns, x y z of points, but"),
     "a profile": ("\n".join(f"{x} 0 1" for x in range(9)), "9 points with 9 different x and 1 different y"),
@@ -299,7 +299,7 @@ class TestInstruments:
     def test_holes_are_told(self, library, tmp_path):
         made = np.ma.masked_invalid(holed(HEIGHTS)).T
         library.Topography(made, (1.0, 1.0), unit="um").to_netcdf(str(tmp_path / "z.nc"))
-        assert "has 2 holes of 525 points, the first in row 4, column 5" in refusal(tmp_path / "z.nc")
+        assert "2 of 525 points are holes, the first in row 4, column 5" in refusal(tmp_path / "z.nc")
 
     def test_what_it_cannot_read_is_one_line(self, library, tmp_path):
         write(tmp_path / "z.x3p", "no archive")
