@@ -54,9 +54,9 @@ class Heights:
 
     @property
     def tilt(self):
-        """How much higher one edge is than the other, along x or y, whichever is more, in m."""
-        sides = (self.values[:, -1], self.values[:, 0]), (self.values[-1], self.values[0])
-        return max(abs(float(one.mean() - other.mean())) for one, other in sides)
+        """Difference of height of the nearest plane from edge to edge, the larger one, in m."""
+        profiles = self.values.mean(axis=0), self.values.mean(axis=1)
+        return max(2.0 * abs(np.polyfit(np.linspace(-1, 1, len(z)), z, 1)[0]) for z in profiles)
 
 
 @dataclass(frozen=True)

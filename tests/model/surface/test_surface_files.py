@@ -134,6 +134,13 @@ class TestPreparation:
         kept = self.of(tmp_path, form + 0.0 * self.wave)
         np.testing.assert_array_equal(kept, form + 0.0 * self.wave)
 
+    def test_the_tilt_is_that_of_the_nearest_plane(self, tmp_path):
+        np.save(tmp_path / "z.npy", 3.0 + self.x - 2 * self.y + 0.0 * self.wave)
+        for remove, tilt in (("nothing", 4.0), ("tilt", 0.0)):
+            told = Preparation(height_unit=1.0, dx=1e-6, remove=remove)
+            found = Measured(str(tmp_path / "z.npy"), told).heights.tilt
+            assert found == pytest.approx(tilt, abs=1e-12)
+
     def test_half_of_a_wave_of_the_cut_off_s_length_is_left(self, tmp_path):
         told = {"continuation": "periodic"}
         short = self.of(tmp_path, self.wave, shortest_wavelength=8e-6, **told)
