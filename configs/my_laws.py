@@ -39,11 +39,11 @@ def tait(p):
 
 
 def waves(x, _y):
-    """contact.surface: height in m that adds to the gap, here waves along the motion.
+    """contact.surface: height in m, a peak positive: it lowers the gap. Here waves along the motion.
 
     They belong to the body that stands still; x and y are counted from the centre of the contact.
     """
-    return AMPLITUDE * np.cos(2.0 * np.pi * x / WAVELENGTH)
+    return -AMPLITUDE * np.cos(2.0 * np.pi * x / WAVELENGTH)
 
 
 def liner(k):

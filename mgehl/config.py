@@ -17,8 +17,8 @@ from mgehl.errors import ConfigError
 from mgehl.kinds import KINDS
 from mgehl.kinds.dry import DRY
 from mgehl.kinds.point import CoatingSection, MoesSection
+from mgehl.kinds.surface_keys import SurfaceSection
 from mgehl.kinds.wedge import WedgeSection
-from mgehl.model.own_function import absolute
 
 COARSEST_NODES = 33
 """Nodes along each side of the coarsest grid, which is solved directly."""
@@ -41,6 +41,8 @@ class Config:
     wedge: WedgeSection = WedgeSection()
     lubricant: sections.LubricantSection = sections.LubricantSection()
     motion: sections.MotionSection = sections.MotionSection()
+    surface: SurfaceSection = SurfaceSection()
+    second_surface: SurfaceSection = SurfaceSection()
     moes: MoesSection = MoesSection()
     grid: sections.GridSection = sections.GridSection()
     discretization: sections.DiscretizationSection = sections.DiscretizationSection()
@@ -136,10 +138,13 @@ def _push_out(tables, given):
 
 
 def _anchor(tables, directory):
-    """Count the paths of a file's own functions from where that file is."""
-    for table in tables.values():
-        for key, value in table.items() if isinstance(table, dict) else ():
-            table[key] = absolute(value, directory) or value
+    """Count the paths of a file's own functions and surfaces from where that file is."""
+    for name, section in SECTIONS.items():
+        table = tables.get(name)
+        for key in fields(section) if isinstance(table, dict) else ():
+            own = key.metadata["own"]
+            if own and key.name in table and table[key.name] not in (key.metadata["choices"] or ()):
+                table[key.name] = own(table[key.name], directory) or table[key.name]
 
 
 def config_from_tables(tables):

@@ -35,7 +35,9 @@ class ContactSection:
         0.0, "film that adsorbed layers keep between solids; contact is where it would be thinner", "m",
         low=0.0, high=1e-6,
     )  # fmt: skip
-    surface: str | None = key_field(None, "height that adds to the smooth gap", kind=str, own=absolute)
+    surface: str | None = key_field(
+        None, "heights, a peak positive, by a function of one's own", kind=str, own=absolute
+    )
 
 
 @dataclass(frozen=True)

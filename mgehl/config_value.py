@@ -26,17 +26,18 @@ _NO_MATCH = re.match("(?P<number>)(?P<per>)(?P<units>)", "")
 
 
 def key_field(
-    default, help, unit=None, above=None, low=None, high=None, choices=None, kind=float, own=None
-):
+    default, help, unit=None, above=None, low=None, high=None, choices=None, kind=float, own=None,
+    own_name=OWN,
+):  # fmt: skip
     """A dataclass field that carries its rules as metadata.
 
-    `own`, of a word, reads what is none of the choices, a function of the user's own; it returns None
-    for what it cannot read.
+    `own`, of a word, reads what is none of the choices, such as a function of the user's own, whose path
+    counts from a directory; it returns None for what it cannot read. `own_name` is how messages call that.
     """
     rules = {
         "help": help, "unit": unit, "above": above, "low": low, "high": high,
         "choices": choices, "kind": kind, "own": own,
-        "words": (*(choices or ()), *([OWN] if own else []), *([AUTO] if kind is tuple else [])),
+        "words": (*(choices or ()), *([own_name] if own else []), *([AUTO] if kind is tuple else [])),
     }  # fmt: skip
     return field(default=default, metadata=rules)
 

@@ -102,7 +102,7 @@ import numpy as np
 
 def bump(x, y):
     "Higher towards +x than towards +y, and neither even nor odd."
-    return -2e-7 * np.exp(-((x - 1e-4) ** 2 + (y + 2e-4) ** 2) / 1e-8) + 1e-3 * x + 2e-3 * y
+    return 2e-7 * np.exp(-((x - 1e-4) ** 2 + (y + 2e-4) ** 2) / 1e-8) - 1e-3 * x - 2e-3 * y
 
 def turned(x, y):
     "The same about the other diagonal."

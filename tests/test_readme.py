@@ -18,7 +18,7 @@ from mgehl.config import config_from_tables, load_config
 
 ROOT = Path(__file__).resolve().parent.parent
 README = (ROOT / "README.md").read_text()
-FIRST_CASE, OWN_LAWS = re.findall(r"```toml\n(.*?)```", README, flags=re.DOTALL)
+FIRST_CASE, OWN_LAWS, SURFACE = re.findall(r"```toml\n(.*?)```", README, flags=re.DOTALL)
 
 
 def test_keys_are_those_of_the_code():
@@ -43,6 +43,13 @@ def test_own_laws_are_a_valid_configuration(tmp_path, capsys):
     (tmp_path / "own.toml").write_text(OWN_LAWS)
     assert main(["check", str(tmp_path / "own.toml"), "--set", "grid.nodes=65"]) == 0
     assert "valid, a point contact" in capsys.readouterr().out
+
+
+def test_the_surface_is_a_valid_configuration(tmp_path, capsys):
+    (tmp_path / "ground.txt").write_text(40 * "0 1 2 1 0 1 1 2\n")
+    (tmp_path / "rough.toml").write_text(SURFACE)
+    assert main(["check", str(tmp_path / "rough.toml"), "--set", "grid.nodes=65"]) == 0
+    assert "ground.txt': 8 x 40 points" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("path", sorted((ROOT / "configs").glob("*.toml")), ids=lambda path: path.stem)

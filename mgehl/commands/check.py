@@ -46,6 +46,7 @@ def _described(config, contact, mesh):
     if contact.is_loaded and not config.is_dry:
         yield ""
         yield from _inlet(config, contact, mesh)
+        yield from _surface(config, contact, mesh)
 
 
 def _inlet(config, contact, mesh):
@@ -69,6 +70,14 @@ def _inlet(config, contact, mesh):
     yield f"domain     {room_words(mesh)}"
     yield f"           {domain_words(domain_verdict(lost), lost)}"
     yield f"resolved   with {RESOLVED_CELLS:.0f} cells in the inlet, from {needed} nodes on: {verdict}"
+
+
+def _surface(config, contact, mesh):
+    """Lines about what is on the bodies."""
+    from mgehl.output.surface import surface_lines
+
+    for number, line in enumerate(surface_lines(config, contact, mesh)):
+        yield line if number else f"\n{line}"
 
 
 def _estimate(config, contact, mesh, ranks):

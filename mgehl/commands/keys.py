@@ -26,8 +26,12 @@ def execute(_options):
 
 def describe_keys():
     """Every configuration key with its default, unit and meaning, a line each."""
-    lines = []
+    lines, told = [], {}
     for name, section in SECTIONS.items():
+        if section in told:
+            lines.append(f"{name + '.*':32} the keys of {told[section]} once more, for what is added to it")
+            continue
+        told[section] = name
         for key in fields(section):
             rules = key.metadata
             choices = f" ({', '.join(rules['words'])})" if rules["words"] else ""

@@ -7,7 +7,7 @@ from mgehl.errors import OutputError, UserError
 
 PARALLEL = False
 
-KINDS = ("all", "lines", "film", "pressure", "status", "gap", "history", "compare")
+KINDS = ("all", "lines", "film", "pressure", "status", "gap", "surface", "history", "compare")
 FORMATS = ("png", "svg", "pdf")
 DEFAULT_FORMATS = ("png", "pdf")
 
@@ -19,9 +19,9 @@ def add(commands):
         help="draw finished runs, or compare several",
         allow_abbrev=False,
         description="Draw finished runs: centre lines against Hertz, maps of film, pressure and status, "
-        "history of the convergence; of several runs one picture of their centre lines and one of their "
-        "histories. Pictures of an earlier time are replaced. A line contact has no maps, a wedge no map "
-        "of its film, which is a plane, a dry contact one of its gap.",
+        "heights of a rough surface, history of the convergence; of several runs one picture of their "
+        "centre lines and one of their histories. Pictures of an earlier time are replaced. A line contact "
+        "has no maps, a wedge no map of its film, which is a plane, a dry contact one of its gap.",
         epilog="example: python -m mgehl plot runs/try --kind lines,film --format png,svg",
     )
     parser.add_argument("runs", nargs="+", metavar="RUN", help="run directory")

@@ -3,7 +3,7 @@
 from mgehl.discretization.mesh import Mesh
 from mgehl.kinds.kind import Effort
 from mgehl.kinds.loaded import LoadedKind, lubricant_from
-from mgehl.kinds.own import surface_from
+from mgehl.kinds.surface import surface_from
 from mgehl.model.line import LineContact
 
 EFFORT = Effort((60.0, 200.0), 10.0, 2500.0, "line contacts on 1025 to 16385 nodes took 60 to 180")
@@ -17,7 +17,7 @@ class LineKind(LoadedKind):
     load_unit = "N/m"
     takes = (
         "contact.load_per_length", "contact.radius_x", "contact.reduced_modulus", "contact.boundary_film",
-        "contact.surface",
+        "contact.surface", "surface", "second_surface",
         "lubricant", "motion.speed", "grid.nodes", "grid.x", "discretization", "solver", "relaxation",
     )  # fmt: skip
     essential = {

@@ -4,7 +4,7 @@ from dataclasses import asdict, replace
 
 from mgehl.config_value import shown
 from mgehl.errors import ConfigError
-from mgehl.kinds import domain, loaded_checks
+from mgehl.kinds import domain, loaded_checks, surface
 from mgehl.kinds.kind import Effort, Kind, kept_together
 from mgehl.model.lubricant import DENSITY_LAWS, VISCOSITY_LAWS, Lubricant
 from mgehl.model.own_function import OwnFunction, is_own
@@ -26,7 +26,8 @@ class LoadedKind(Kind):
     """In SI."""
 
     def check_keys(self, config, tables):
-        """The viscosity law must have a meaning."""
+        """The viscosity law must have a meaning, and so must surfaces."""
+        surface.check_keys(config, tables)
         if is_own(config.lubricant.viscosity_law):
             return
         try:
@@ -34,6 +35,14 @@ class LoadedKind(Kind):
         except ValueError as error:
             viscosity = shown(config.lubricant.viscosity)
             raise ConfigError(f"lubricant.viscosity = {viscosity}: {error}") from None
+
+    def unused(self, config):
+        """What the surfaces have no use for."""
+        return tuple(surface.unused(config))
+
+    def pushed_out(self, given):
+        """As `unused`, by what the settings say."""
+        return tuple(surface.pushed_out(given))
 
     def settled(self, config, contact):
         """With a domain that does not starve the contact where it is "auto"."""
@@ -44,7 +53,7 @@ class LoadedKind(Kind):
         loaded_checks.check_deformation(config, contact)
         loaded_checks.check_size(*self.size(config, contact))
         if contact.surface is not None:
-            loaded_checks.check_surface(contact, self.mesh(config, contact))
+            surface.check_surfaces(config, contact, self.mesh(config, contact))
         self.check_fluid(config, contact)
 
     def check_fluid(self, config, contact):

@@ -43,11 +43,6 @@ def check_own_laws(contact):
         density.check(highest)
 
 
-def check_surface(contact, mesh):
-    """A user's own surface must be heights."""
-    contact.surface.check(mesh.X * contact.x_scale, mesh.Y * contact.y_scale, contact.hertz.a)
-
-
 def check_exponent(contact):
     """The viscosity must stay a number."""
     exponent = contact.lubricant.pressure_viscosity * contact.hertz.p_h

@@ -7,7 +7,7 @@ from mgehl.model.own_function import OwnFunction, OwnFunctionError, is_own
 from mgehl.model.own_laws import OwnCompliance, OwnSurface
 
 
-def surface_from(config):
+def own_surface_from(config):
     """The user's surface; None without one."""
     name = config.contact.surface
     return OwnSurface(OwnFunction(name)) if name else None

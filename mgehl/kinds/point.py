@@ -8,7 +8,8 @@ from mgehl.discretization.mesh import Mesh
 from mgehl.errors import ConfigError
 from mgehl.kinds.kind import Effort
 from mgehl.kinds.loaded import LoadedKind, lubricant_from
-from mgehl.kinds.own import compliance_from, surface_from
+from mgehl.kinds.own import compliance_from
+from mgehl.kinds.surface import surface_from
 from mgehl.model.coating import Coating
 from mgehl.model.point import PointContact
 
@@ -57,6 +58,7 @@ class PointKind(LoadedKind):
     takes = (
         "contact.load", "contact.radius_x", "contact.radius_y", "contact.reduced_modulus",
         "contact.deformation", "contact.boundary_film", "contact.surface",
+        "surface", "second_surface",
         "coating", "lubricant", "motion", "moes", "grid", "discretization", "solver", "relaxation",
     )  # fmt: skip
     essential = {
@@ -74,14 +76,15 @@ class PointKind(LoadedKind):
     def unused(self, config):
         """The coating of bodies without one, and what Moes numbers stand for."""
         moes = MOES_REPLACES if config.moes.M is not None else ()
-        return *_without_coating(config.contact.deformation), *moes
+        coating = _without_coating(config.contact.deformation)
+        return *coating, *moes, *super().unused(config)
 
     def pushed_out(self, given):
         """As `unused`, by what the settings say."""
         said = "contact.deformation" in given
         coating = _without_coating(given["contact.deformation"]) if said else ()
         moes = MOES_REPLACES if any(key.startswith("moes.") for key in given) else ()
-        return *coating, *moes
+        return *coating, *moes, *super().pushed_out(given)
 
     def check_keys(self, config, tables):
         """Moes numbers come as two and alone; a coating belongs to coated bodies."""

@@ -12,9 +12,12 @@ import numpy as np
 from mgehl.model import films
 from mgehl.model.frame import Frame
 from mgehl.model.hertz import edge_gap_coefficient, hertz_pressure
+from mgehl.model.surface.surface import JUST, step_of
 
 SAMPLES = 65
 """Heights along each side from which the roughness is reckoned: the same whatever the grid."""
+SEEN_CELLS = 4.0
+"""Cells of a coarse grid in the shortest wave that it is shown."""
 RESOLVED_CELLS = 4.0
 """Cells in the inlet from which on the film does not change with the grid."""
 
@@ -51,7 +54,7 @@ class LoadedContact:
     frame = Frame()
     """The axes in which it is solved."""
     surface = None
-    """An `OwnSurface` of the body that stands still."""
+    """The `Surface` of the body that stands still: a peak is positive and lowers the gap."""
     deformation = None
     """What the bodies are in depth, where they are not half-spaces."""
     widening = 1.0
@@ -62,15 +65,57 @@ class LoadedContact:
         smooth = self.smooth_gap(X, Y)
         if self.surface is None:
             return smooth
-        return smooth + self.surface.height(X * self.x_scale, Y * self.y_scale) / self.film_scale
+        return smooth - self.surface.height(X * self.x_scale, Y * self.y_scale) / self.film_scale
 
-    @cached_property
+    @property
     def roughness(self):
         """Rms of the heights within the Hertz semi-axes, about their mean, in m; 0 of smooth bodies."""
+        return float(np.sqrt(np.mean(self.heights**2)))
+
+    @property
+    def skewness(self):
+        """Ssk of the same heights: positive where there are more peaks than valleys; 0 of smooth bodies."""
+        cubes = float(np.mean(self.heights**3))
+        return cubes / self.roughness**3 if self.roughness else 0.0
+
+    @cached_property
+    def heights(self):
+        """Samples of the heights within the Hertz semi-axes, about their mean, in m."""
         if self.surface is None:
-            return 0.0
-        X, Y = np.meshgrid(*2 * [np.linspace(-1.0, 1.0, SAMPLES)])
-        return float(np.std(self.surface.height(X * self.x_scale, Y * self.y_scale)))
+            return np.zeros(1)
+        side = np.linspace(-1.0, 1.0, SAMPLES)
+        across = np.zeros(1) if self.is_plane else side
+        x, y = side[None, :] * self.x_scale, across[:, None] * self.y_scale
+        heights = np.broadcast_to(self.surface.height(x, y), (len(across), SAMPLES))
+        return heights - heights.mean()
+
+    def shortest_wave(self, mesh):
+        """Shortest wavelength of the surface in m, as seen on a mesh within the Hertz semi-axes."""
+        x, y = self._nodes(mesh)
+        inside = np.abs(x) <= self.x_scale, np.abs(y) <= self.y_scale
+        return self.surface.shortest(x[inside[0]], y[inside[1]])
+
+    def longest_cell(self, mesh):
+        """The longer side of a mesh's cell, in m."""
+        return max(map(step_of, self._nodes(mesh)))
+
+    def seen_by(self, mesh, finest):
+        """The contact as a coarser `mesh` than the `finest` sees it: no waves shorter than `SEEN_CELLS`.
+
+        A surface that has none is left as it is, to the last bit.
+        """
+        if self.surface is None:
+            return self
+        x, y = self._nodes(finest)
+        cells = [step_of(nodes) for nodes in self._nodes(mesh)]
+        wavelengths = tuple(SEEN_CELLS * cell for cell in cells)
+        if mesh.nx == finest.nx or self.shortest_wave(finest) >= (1.0 - JUST) * max(wavelengths):
+            return self
+        return replace(self, surface=self.surface.filtered(wavelengths, x, y))
+
+    def _nodes(self, mesh):
+        """Lines of a mesh's nodes along x and along y, in m."""
+        return mesh.X * self.x_scale, mesh.Y * self.y_scale
 
     @property
     def is_mixed(self):

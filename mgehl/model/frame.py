@@ -91,6 +91,19 @@ class SurfaceInFrame:
         """The user's, to be named where it fails."""
         return self.surface.function
 
+    def shortest(self, x, y):
+        """Shortest wavelength in m, seen on nodes x (nx,) and y (ny,) of the frame."""
+        return self.surface.shortest(*self._users_lines(x, y))
+
+    def filtered(self, wavelengths, x, y):
+        """Without shorter waves than those along the frame's x and y, in m."""
+        wavelengths = self.frame.pair(*wavelengths)
+        filtered = self.surface.filtered(wavelengths, *self._users_lines(x, y))
+        return SurfaceInFrame(filtered, self.frame)
+
+    def _users_lines(self, x, y):
+        return [np.sort(line) for line in self.frame.users_point(x, y)]
+
 
 def direction(angle):
     """Parts along x and y of a unit vector at an angle in degrees; 90 degrees and the like are exact."""

@@ -9,7 +9,7 @@ from mgehl.model.contact import Groups, LoadedContact
 from mgehl.model.deformation import HalfPlane
 from mgehl.model.hertz import hertz_line_contact, hertz_line_gap
 from mgehl.model.lubricant import Lubricant
-from mgehl.model.own_laws import OwnSurface
+from mgehl.model.surface import Surface
 
 
 @dataclass(frozen=True)
@@ -30,7 +30,7 @@ class LineContact(LoadedContact):
     reduced_modulus: float
     speed: float
     lubricant: Lubricant
-    surface: OwnSurface | None = None
+    surface: Surface | None = None
 
     is_plane = True
 

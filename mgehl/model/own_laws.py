@@ -2,7 +2,7 @@
 
     viscosity     law(p, viscosity, pressure_viscosity) -> eta in Pa s, d eta/dp
     density       law(p) -> rho/rho_0, its derivative by p
-    surface       surface(x, y) -> height in m that adds to the gap
+    surface       surface(x, y) -> height in m, a peak positive: it lowers the gap
     deformation   compliance(k) -> deflection at wave number k over that of half-spaces
 
 Arguments and results are arrays of one shape: p in Pa and never negative, x and y in m from the
@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mgehl.model.own_function import OwnFunction
+from mgehl.model.surface import Surface
 
 CHECKED_PRESSURES = 101
 
@@ -90,8 +91,8 @@ class OwnDensity:
 
 
 @dataclass(frozen=True)
-class OwnSurface:
-    """The surface of the body that stands still: its height adds to the gap of the smooth bodies."""
+class OwnSurface(Surface):
+    """The surface of the body that stands still: its height is taken off the gap of the smooth bodies."""
 
     function: OwnFunction
 

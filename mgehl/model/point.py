@@ -12,7 +12,8 @@ from mgehl.model.frame import Frame, SurfaceInFrame, direction
 from mgehl.model.hertz import hertz_contact, hertz_gap
 from mgehl.model.images import fit_images
 from mgehl.model.lubricant import Lubricant
-from mgehl.model.own_laws import OwnCompliance, OwnSurface
+from mgehl.model.own_laws import OwnCompliance
+from mgehl.model.surface import Surface
 
 LOAD = 2.0 * pi / 3.0
 """Dimensionless load: the integral of P over X and Y  [Liu eq. 50]."""
@@ -56,7 +57,7 @@ class PointContact(LoadedContact):
     reduced_modulus: float
     speed: float
     lubricant: Lubricant
-    surface: OwnSurface | None = None
+    surface: Surface | None = None
     deformation: Coating | OwnCompliance | None = None
     """What the bodies are in depth, if not half-spaces of the reduced modulus."""
     angle: float = 0.0

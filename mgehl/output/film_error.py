@@ -3,6 +3,7 @@
 from dataclasses import dataclass, replace
 
 from mgehl.discretization.order import couette_order
+from mgehl.output.surface import GRIDS
 from mgehl.solver.coarser import films_of_grids
 from mgehl.solver.richardson import band, band_beside
 
@@ -68,6 +69,8 @@ def why_no_band(result, contact):
         return "the bodies overlap"
     if result.resolution.verdict == "grid-determined":
         return "the inlet has less than a cell: the grid decides what is film"
+    if result.resolution.surface == GRIDS:
+        return "the surface has waves that the grid does not show"
     return ""
 
 

@@ -4,10 +4,11 @@ A film is resolved where its inlet has cells enough and its domain is large enou
 """
 
 from dataclasses import dataclass
-from math import nan
+from math import isfinite, nan
 
 from mgehl.config import COARSEST_NODES
 from mgehl.model.contact import RESOLVED_CELLS
+from mgehl.output import surface
 from mgehl.output.domain import SUFFICIENT, UNKNOWN, domain_verdict, film_lost
 
 SEEN_CELLS = 1.0
@@ -28,13 +29,21 @@ class Resolution:
     """Whether the domain is "sufficient" for the film, or the film "starved" by it."""
     domain_loss_percent: float = nan
     """Estimate of the film that a domain of twice the size would have more."""
+    surface: str = surface.UNKNOWN
+    """Whether the grid shows the surface: "smooth", "resolved", "coarse" or "grid-determined"."""
+    surface_nodes: float | None = None
+    """Nodes in the shortest wave of the surface; None without waves."""
 
 
 def resolution(contact, mesh):
-    """The `Resolution` of a loaded contact's inlet by a mesh, and of its film by the domain."""
+    """The `Resolution` of a loaded contact's inlet and surface by a mesh, and of its film by the domain."""
     cells, lost = contact.inlet_cells(mesh), film_lost(contact, mesh)
     domain = domain_verdict(lost)
-    return Resolution(cells, _verdict(cells, domain), domain, lost)
+    nodes = surface.wave_nodes(contact, mesh)
+    shown = surface.surface_verdict(contact, nodes)
+    return Resolution(
+        cells, _verdict(cells, domain), domain, lost, shown, nodes if isfinite(nodes) else None
+    )
 
 
 def _verdict(cells, domain):

@@ -3,6 +3,7 @@
 from mgehl.output.digits import with_band
 from mgehl.output.domain import domain_words
 from mgehl.output.resolution import RESOLVED_CELLS, SEEN_CELLS
+from mgehl.output.surface import surface_words
 
 
 def bearing_words(result):
@@ -63,6 +64,8 @@ def loaded_words(result):
         f"  work: {result.work.convolutions:.1f} fine-grid convolutions, {result.work.steps} steps, "
         f"{result.wall_s:.1f} s on {result.ranks} ranks",
     ]
+    if shown := surface_words(resolution.surface, resolution.surface_nodes):
+        lines.insert(-1, f"  surface: {shown}")
     if overlap.nodes:
         lines.insert(
             5, f"  THE BODIES OVERLAP at {overlap.nodes} nodes by up to {overlap.largest_nm:.2e} nm"

@@ -46,10 +46,10 @@ def films_of_grids(hierarchy, problem, state, settings, scheme, monitor, journal
     Those are solved by a `Scheme` that may be another. None follows a grid that has contact, or no
     answer. `monitor` and `journal` as of `nested_iteration`.
     """
-    found = [_films(problem, state, True)]
+    found, contact = [_films(problem, state, True)], problem.contact
     last = len(hierarchy.grids) - 1
     for level in range(last - 1, max(last - 1 - COARSER, -1), -1):
-        problem, state = _injected(hierarchy, level, problem, state, scheme)
+        problem, state = _injected(hierarchy, level, contact, state, scheme)
         outcome = _solve(hierarchy, level, problem, state, settings, monitor, journal)
         state = outcome.state
         found.append(_films(problem, state, outcome.converged))
@@ -63,11 +63,12 @@ def _films(problem, state, settled):
     return GridFilms(problem.grid.mesh.nx, films_between_nodes(problem, state), contact_nodes, settled)
 
 
-def _injected(hierarchy, level, problem, state, scheme):
-    """The problem of a coarser grid, and the finer one's state at its nodes."""
+def _injected(hierarchy, level, contact, state, scheme):
+    """The problem of a coarser grid, by what it sees of a surface, and the finer state at its nodes."""
     transfer, grid = hierarchy.transfers[level], hierarchy.grids[level]
     status = transfer.inject(state.status.astype(float)).astype(np.int8)
-    coarser = ContactProblem(grid, hierarchy.deflections[level], problem.contact, scheme)
+    seen = contact.seen_by(grid.mesh, hierarchy.grids[-1].mesh)
+    coarser = ContactProblem(grid, hierarchy.deflections[level], seen, scheme)
     return coarser, coarser.state(transfer.inject(state.P), state.H0, status)
 
 

@@ -107,7 +107,8 @@ def guess_on_finest(hierarchy, contact, scheme):
         for grid, deflection, finer in zip(grids, hierarchy.deflections, hierarchy.transfers, strict=False):
             if grid.mesh.nx >= FIRST_NODES:
                 P = contact.guessed_pressure(grid.X, grid.Y) if P is None else P
-                P = finer.bilinear(dry_pressure(ContactProblem(grid, deflection, contact, scheme), P))
+                seen = contact.seen_by(grid.mesh, grids[-1].mesh)
+                P = finer.bilinear(dry_pressure(ContactProblem(grid, deflection, seen, scheme), P))
     return contact.guessed_pressure(grids[-1].X, grids[-1].Y) if P is None else P
 
 

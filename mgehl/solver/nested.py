@@ -7,7 +7,7 @@ import numpy as np
 
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
 from mgehl.multigrid.cycle import MultigridSolver
-from mgehl.solver.dry import dry_pressure
+from mgehl.solver.dry import dry_pressure, guess_on_finest
 from mgehl.solver.fluid_guess import guess_fluid
 from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.newton import Newton
@@ -35,10 +35,12 @@ def nested_iteration(hierarchy, contact, settings, monitor, journal=NOTHING_KEPT
     outcome = None
     for level, solve in planned_solves([grid.mesh for grid in hierarchy.grids], contact, settings):
         limits = settings.newton if solve.finest else coarse
-        at_speed, deflection = contact.at_speed(solve.speed), hierarchy.deflections[level]
-        problem = ContactProblem(hierarchy.grids[level], deflection, at_speed, settings.scheme)
+        grid, deflection = hierarchy.grids[level], hierarchy.deflections[level]
+        seen = contact.at_speed(solve.speed).seen_by(grid.mesh, hierarchy.grids[-1].mesh)
+        problem = ContactProblem(grid, deflection, seen, settings.scheme)
         if outcome is None:
-            state = first_guess(problem, settings.nested.start)
+            P = guess_on_finest(hierarchy, contact, settings.scheme) if solve.finest else None
+            state = first_guess(problem, settings.nested.start, P)
         else:
             state = interpolate(hierarchy.transfers[level - 1], problem, outcome.state)
         tell = partial(monitor, solve)
@@ -57,10 +59,13 @@ def single_loop(hierarchy, contact, settings, monitor, journal=NOTHING_KEPT):
     return problem, relax(problem, state, settings.relaxation, tell, journal)
 
 
-def first_guess(problem, start):
-    """The dry contact's pressure with a film of the formula's thickness, or in contact where it presses."""
+def first_guess(problem, start, P=None):
+    """The dry contact's pressure with a film of the formula's thickness, or in contact where it presses.
+
+    `P` (lines, nx) is a pressure to begin with, unless that of smooth bodies.
+    """
     grid, contact = problem.grid, problem.contact
-    P = contact.guessed_pressure(grid.X, grid.Y)
+    P = contact.guessed_pressure(grid.X, grid.Y) if P is None else P
     pressed = grid.X**2 + grid.Y**2 <= contact.widening**2
     if is_mixed(problem.contact, problem.scheme):
         return _first_mixed_guess(problem, start, dry_pressure(problem, P))

@@ -15,7 +15,7 @@ FOLDER = "points"
 
 COMPUTING = ("model", "discretization", "kinds", "grid", "multigrid", "solver", "run.py",
              "output/domain.py", "output/resolution.py", "output/film_error.py", "output/result.py",
-             "output/wedge_result.py",
+             "output/surface.py", "output/wedge_result.py",
              "output/solution.py", "studies/branch.py")  # fmt: skip
 """Layers and modules that make a point: one that other code made is computed anew."""
 
@@ -35,7 +35,7 @@ def code():
     root, digest = Path(__file__).parents[1], hashlib.sha256()
     for name in COMPUTING:
         path = root / name
-        for module in sorted(path.glob("*.py")) if path.is_dir() else [path]:
+        for module in sorted(path.rglob("*.py")) if path.is_dir() else [path]:
             digest.update(module.read_bytes())
     return digest.hexdigest()
 

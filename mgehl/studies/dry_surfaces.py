@@ -1,6 +1,7 @@
 """Surfaces of study dry, named "FILE.py:FUNCTION" in its configurations: waves, ridges, a rough one.
 
-Each takes x and y in m and returns heights in m. They are those of a public code's runs (`studies.dry`).
+Each takes x and y in m and returns heights in m, of a peak positive. They are those of a public code's
+runs (`studies.dry`).
 """
 
 import numpy as np
@@ -12,9 +13,6 @@ LOAD, RADIUS, MODULUS = 800.0, 12.7e-3, 219.78e9
 
 A = hertz_contact(LOAD, RADIUS, RADIUS, MODULUS).a
 
-PEAK = -1.0
-"""Of a height that adds to the gap: a peak of the body lowers it."""
-
 WAVES = 24
 """Of the rough surface."""
 
@@ -22,19 +20,19 @@ WAVES = 24
 def wavy(amplitude):
     """Waves along x and along y."""
     k = 4.0 * np.pi / A
-    return lambda x, y: PEAK * amplitude * np.cos(k * x) * np.cos(k * y)
+    return lambda x, y: amplitude * np.cos(k * x) * np.cos(k * y)
 
 
 def ridge(amplitude):
     """Waves along x."""
-    return lambda x, y: PEAK * amplitude * np.cos(4.0 * np.pi / A * x) + 0.0 * y
+    return lambda x, y: amplitude * np.cos(4.0 * np.pi / A * x) + 0.0 * y
 
 
 def rough(rms):
     """Waves of eight lengths and many directions, without a random number."""
 
     def heights(x, y):
-        return PEAK * rms * np.sqrt(2.0 / WAVES) * sum(_wave(k, x, y) for k in range(1, WAVES + 1))
+        return rms * np.sqrt(2.0 / WAVES) * sum(_wave(k, x, y) for k in range(1, WAVES + 1))
 
     return heights
 

@@ -8,20 +8,21 @@ from petsc4py import PETSc
 from mgehl.discretization.contact_law import BoundaryFilm
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import LUBRICATED
+from mgehl.model.surface import Surface
 from mgehl.multigrid import memory
 from mgehl.multigrid.cycle import MultigridSolver
 from mgehl.multigrid.memory import Memory, softest
 from mgehl.solver.problem import ContactProblem
 
 
-class Waves:
+class Waves(Surface):
     """Heights of 400 nm in waves of half the Hertz radius."""
 
     def __init__(self, a):
         self.a = a
 
     def height(self, x, y):
-        return 4e-7 * np.cos(4.0 * np.pi * x / self.a) * np.cos(4.0 * np.pi * y / self.a)
+        return -4e-7 * np.cos(4.0 * np.pi * x / self.a) * np.cos(4.0 * np.pi * y / self.a)
 
 
 @pytest.fixture

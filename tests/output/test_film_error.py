@@ -71,6 +71,10 @@ class TestWhetherThereIsOne:
             ({"contact": replace(NO_CONTACT, nodes=3)}, "solid contact"),
             ({"overlap": Overlap(2, 0.1)}, "overlap"),
             ({"resolution": Resolution(0.7, "grid-determined")}, "less than a cell"),
+            (
+                {"resolution": Resolution(5.0, "resolved", surface="grid-determined", surface_nodes=2.5)},
+                "waves that the grid does not show",
+            ),
         ],
     )
     def test_otherwise_it_is_said_why_not(self, film, changes, word):

@@ -66,6 +66,12 @@ class TestOfALoadedContact:
     def test_a_coarse_inlet_is_a_warning(self, verdict, advice):
         assert advice in str(make_result(resolution=Resolution(0.5, verdict)))
 
+    def test_a_surface_that_the_grid_does_not_show_is_a_warning(self):
+        assert "surface" not in str(make_result())
+        unseen = Resolution(5.0, "resolved", "sufficient", 0.1, "grid-determined", 2.5)
+        text = str(make_result(resolution=unseen))
+        assert "  surface: 2.5 nodes in its shortest wave: THE SURFACE IS THE GRID'S" in text
+
     def test_no_contact(self):
         nothing = replace(make_result(), contact=ContactResult(0, 0.0, 0.0, None, None, 0.0))
         assert "nodes none on Y = 0, none on X = 0" in str(nothing)

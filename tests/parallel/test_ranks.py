@@ -507,7 +507,13 @@ OWN = {
         "lubricant": {"viscosity_law": f"{LAWS}:doolittle", "density_law": f"{LAWS}:tait"},
         "grid": {"nodes": 65, "x": [-2.5, 1.5]},
     },
-}
+    "surfaces": {  # whose waves coarse grids cannot show: one filtered exactly, one by samples
+        "surface": {"kind": "self-affine", "rms": 2e-8, "shortest_wavelength": 6e-5,
+                    "longest_wavelength": 3e-4},
+        "second_surface": {"kind": "dent", "amplitude": 5e-8, "width": 8e-5, "x": 3e-5},
+        "grid": {"nodes": 129, "x": [-2.5, 1.5]},
+    },
+}  # fmt: skip
 
 
 class TestOwnFunctionsAndCoatings:

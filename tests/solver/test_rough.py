@@ -6,21 +6,22 @@ import pytest
 from mgehl.discretization.contact_law import BoundaryFilm
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import CONTACT, LUBRICATED
+from mgehl.model.surface import Surface
 from mgehl.solver.nested import first_guess, nested_iteration, planned_solves
 from mgehl.solver.problem import ContactProblem
 from mgehl.solver.settings import NestedSettings, SolverSettings
 from mgehl.solver.verification import check_interface, complementarity_error
 
 
-class Waves:
-    """Heights in waves of half the Hertz radius, eight nodes long on 65 nodes; they add to the gap."""
+class Waves(Surface):
+    """Heights in waves of half the Hertz radius, eight nodes long on 65 nodes, a valley in the middle."""
 
     def __init__(self, amplitude, a):
         self.amplitude, self.a = amplitude, a
 
     def height(self, x, y):
         k = 4.0 * np.pi / self.a
-        return self.amplitude * np.cos(k * x) * np.cos(k * y)
+        return -self.amplitude * np.cos(k * x) * np.cos(k * y)
 
 
 @pytest.fixture

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+from mgehl.model.surface import Surface
 from mgehl.studies import dry_surfaces
 from mgehl.studies.dry import SURFACES
 from mgehl.studies.dry_reference import REFERENCE
@@ -38,7 +39,7 @@ CASES = [
 
 
 @dataclass(frozen=True)
-class Surface:
+class Known(Surface):
     """A function of `studies.dry_surfaces`, as a contact takes it."""
 
     name: str
@@ -49,4 +50,4 @@ class Surface:
 
 def surface(name):
     """By what study dry calls it; None of the smooth one."""
-    return Surface(SURFACES[name]) if SURFACES[name] else None
+    return Known(SURFACES[name]) if SURFACES[name] else None

@@ -20,6 +20,7 @@ from mgehl.output.pictures.history_picture import history
 from mgehl.output.pictures.labels import labels
 from mgehl.output.pictures.lines import centre_lines
 from mgehl.output.pictures.maps import film_map, gap_map, pressure_map, status_map
+from mgehl.output.pictures.surface_picture import surface_picture
 from mgehl.output.solution import Solution
 
 
@@ -46,6 +47,9 @@ DRY_TITLES = {
 }
 """What is another picture without a fluid, or shows something else."""
 
+ROUGH = {"surface": "heights of the surface with the contact on them, the gap, their distribution"}
+"""What bodies that are not smooth have besides."""
+
 _POINT = {
     "lines": centre_lines,
     "film": film_map,
@@ -64,17 +68,33 @@ _BEARING = {
 
 
 def drawn_by(solution):
-    """The functions that draw a run, by kind of picture: a single line has no maps."""
+    """The functions that draw a run, by kind of picture: a single line has no maps.
+
+    A surface is left out where its file is not there any more: what is done can be looked at without.
+    """
+    found = _possible(solution)
+    if "surface" in found:
+        try:
+            solution.contact.surface.height(0.0, 0.0)
+        except UserError:
+            del found["surface"]
+    return found
+
+
+def _possible(solution):
+    """The functions that draw such a contact."""
     if not solution.contact.is_loaded:
-        return _BEARING
+        return dict(_BEARING)
     if solution.mesh.is_line:
-        return _LINE
-    return _DRY if solution.is_dry else _POINT
+        drawn = _LINE
+    else:
+        drawn = _DRY if solution.is_dry else _POINT
+    return drawn | ({"surface": surface_picture} if solution.contact.surface is not None else {})
 
 
 def title_of(kind, solution):
     """What a kind of picture of a run shows."""
-    return (TITLES | DRY_TITLES if solution.is_dry else TITLES)[kind]
+    return (TITLES | ROUGH | (DRY_TITLES if solution.is_dry else {}))[kind]
 
 
 def figures(solution: Solution, kinds: Sequence[str] | None = None) -> list[Picture]:
@@ -82,7 +102,7 @@ def figures(solution: Solution, kinds: Sequence[str] | None = None) -> list[Pict
 
     Raises UserError for a kind that this contact does not have.
     """
-    draw = drawn_by(solution)
+    draw = _possible(solution) if kinds else drawn_by(solution)
     for kind in kinds or ():
         if kind not in draw:
             raise UserError(f"no picture {kind!r} of this contact: it has {', '.join(draw)}")

@@ -50,7 +50,7 @@ def _film_map(solution, what):
     norm = film_scale(blocks, film, status)
     figure, axes = _map(blocks)
     image = _draw(axes, blocks, np.maximum(film, norm.vmin), norm)
-    levels = _levels(norm)
+    levels = levels_of(norm)
     bar = figure.colorbar(image, ax=axes, label=f"{what}, nm", extend=_beyond(film, norm))
     bar.set_ticks(levels, labels=[f"{level:g}" for level in levels], minor=False)
     bar.minorticks_off()
@@ -163,7 +163,7 @@ def _beyond(film, norm):
     return {(0, 0): "neither", (1, 0): "min", (0, 1): "max", (1, 1): "both"}[below, above]
 
 
-def _levels(norm):
+def levels_of(norm):
     """Round numbers for lines of equal film."""
     locator = LogLocator(subs=(1.0, 2.0, 5.0)) if isinstance(norm, LogNorm) else MaxNLocator(6)
     levels = np.asarray(locator.tick_values(norm.vmin, norm.vmax))

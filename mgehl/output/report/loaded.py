@@ -2,6 +2,7 @@
 
 from math import isfinite
 
+from mgehl.output import surface
 from mgehl.output.digits import with_band
 from mgehl.output.domain import STARVED, STARVED_FROM, SUFFICIENT, UNKNOWN
 from mgehl.output.report.checks import CARE, CHECK_HEADS, CHECKS, absent, informing, limited
@@ -9,6 +10,7 @@ from mgehl.output.report.page import DOUBTFUL, GOOD, NO_NUMBER, Cell, Section, T
 from mgehl.output.report.parts import span
 from mgehl.output.resolution import RESOLVED_CELLS
 from mgehl.output.result import COMPLEMENTARITY_TOLERANCE
+from mgehl.output.surface import RESOLVED_NODES
 from mgehl.output.words import band_words
 
 FORMULAS = {
@@ -26,6 +28,12 @@ RESOLUTION = {
     "starved": Cell("enough, but the domain is too small", DOUBTFUL),
     "coarse": Cell("coarse: expect the film to change with the grid", DOUBTFUL),
     "grid-determined": Cell("grid-determined: the contact set is the grid's", DOUBTFUL),
+}
+
+SURFACE = {
+    surface.RESOLVED: Cell("resolved", GOOD),
+    surface.COARSE: Cell("coarse", DOUBTFUL),
+    surface.GRIDS: Cell("the surface is the grid's", DOUBTFUL),
 }
 
 DOMAIN = {
@@ -68,6 +76,7 @@ def alternatives(result):
         ),
         "pressure": f"Its maximum is {largest}.",
         "status": f"{result.contact.nodes} nodes are solid, {result.cavitated_nodes} are cavitated.",
+        "surface": "Contact is on the peaks, where there is some.",
         "history": f"The last residual is {number(result.residual, 2)}.",
     }
 
@@ -161,8 +170,18 @@ def _checks(solution):
             f"below {STARVED_FROM:g}",
             DOMAIN[resolution.domain],
         ),
+        *_surface_row(resolution),
     ]
     return table(CHECKS, CHECK_HEADS, rows)
+
+
+def _surface_row(resolution):
+    """The row about a surface that there is."""
+    if resolution.surface in SURFACE:
+        nodes = resolution.surface_nodes
+        nodes = NO_NUMBER if nodes is None else number(nodes, 3)
+        limit = f"at least {RESOLVED_NODES:g}"
+        yield "nodes in the shortest wave of the surface", nodes, limit, SURFACE[resolution.surface]
 
 
 def _contact(result):

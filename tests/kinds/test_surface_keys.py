@@ -1,0 +1,170 @@
+"""[surface] and [second_surface]: what they build, what they refuse in one line, what they write."""
+
+import numpy as np
+import pytest
+
+from mgehl.config import config_from_tables, load_config
+from mgehl.errors import ConfigError
+from mgehl.kinds import check_contact, contact_from
+from mgehl.model.surface import Dent, Measured, Ridge, SelfAffine, Waviness
+
+WAVES = {"kind": "waviness", "amplitude": "50 nm", "wavelength_x": "60 um"}
+ROUGH = {
+    "kind": "self-affine", "rms": "0.1 um", "shortest_wavelength": "20 um", "longest_wavelength": "200 um",
+}  # fmt: skip
+DENT = {"kind": "dent", "amplitude": "1 um", "width": "100 um", "x": "-50 um"}
+RIDGE = {"kind": "ridge", "amplitude": "1 um", "width": "100 um"}
+SPEED = {"motion": {"speed": 1.0}}
+
+
+def config_of(**sections):
+    return config_from_tables(SPEED | sections)
+
+
+def refusal(**sections):
+    with pytest.raises(ConfigError) as caught:
+        config = config_of(**sections)
+        check_contact(config, contact_from(config))
+    assert "\n" not in str(caught.value)
+    return str(caught.value)
+
+
+BUILT = {
+    "waviness": (WAVES | {"angle": 30}, Waviness(50e-9, 60e-6, None, 30.0)),
+    "self-affine": (
+        ROUGH | {"seed": 7, "hurst": 0.7, "aspect": 2},
+        SelfAffine(1e-7, 20e-6, 200e-6, 0.7, 7, 2.0),
+    ),
+    "dent": (DENT, Dent(1e-6, 100e-6, -50e-6)),
+    "ridge": (RIDGE | {"y": "1 um"}, Ridge(1e-6, 100e-6, y=1e-6)),
+}
+
+
+@pytest.mark.parametrize("table, expected", BUILT.values(), ids=BUILT)
+@pytest.mark.parametrize("kind", ["point", "line"])
+def test_a_formula_by_its_keys(table, expected, kind):
+    contact = contact_from(config_of(contact={"kind": kind}, surface=table))
+    x = np.linspace(-1e-4, 1e-4, 5)
+    np.testing.assert_allclose(contact.surface.height(x, 0.3 * x), expected.height(x, 0.3 * x), rtol=1e-12)
+
+
+def test_a_peak_lowers_the_gap():
+    """By its height, of whichever source: the paper's -delta  [Liu eq. 48]."""
+    smooth, ridged = contact_from(config_of()), contact_from(config_of(surface=RIDGE))
+    lower = smooth.undeformed_gap(0.0, 0.0) - ridged.undeformed_gap(0.0, 0.0)
+    assert lower * ridged.film_scale == pytest.approx(1e-6)
+
+
+def test_surfaces_add_up(tmp_path):
+    (tmp_path / "mine.py").write_text("def up(x, y): return 3e-6 + 0 * x * y")
+    both = config_of(surface=RIDGE, second_surface=WAVES, contact={"surface": f"{tmp_path}/mine.py:up"})
+    check_contact(both, contact_from(both))
+    assert contact_from(both).surface.height(0.0, 0.0) == pytest.approx(1e-6 + 50e-9 + 3e-6)
+
+
+REFUSED = {
+    "no source": ({"hurst": 0.5}, "[surface]: needs surface.kind or surface.file"),
+    "two sources": (DENT | {"file": "z.npy"}, "surface.kind = 'dent': cannot be given with surface.file"),
+    "another's key": (
+        WAVES | {"hurst": 0.5}, 'surface.hurst = 0.5: means nothing with surface.kind = "waviness"',
+    ),
+    "a key of files": (DENT | {"remove": "tilt"}, "surface.remove = 'tilt': means nothing with"),
+    "what it needs": ({"kind": "dent", "width": 1e-4}, "surface.amplitude: must be given with"),
+    "no wavelength": ({"kind": "waviness", "amplitude": 1e-8}, "surface.wavelength_x: it or"),
+    "cut-offs": (ROUGH | {"longest_wavelength": "20 um"}, "surface.shortest_wavelength = 2e-05: must be b"),
+    "too many waves": (
+        ROUGH | {"longest_wavelength": "6 mm"}, "surface.shortest_wavelength = 2e-05: must be at least",
+    ),
+    "a moving body": (WAVES | {"body": "moving"}, 'surface.body = "moving": its heights change along'),
+    "a moving dent": (DENT | {"body": "moving"}, 'surface.body = "moving": its heights change'),
+    "too high": (
+        RIDGE | {"amplitude": "1.3 mm"},
+        "surface.kind = 'ridge': its height is 0.0013 m at x = ",
+    ),
+    "no length": (WAVES | {"amplitude": "50 s"}, "surface.amplitude = '50 s': wrong unit"),
+    "an unknown kind": ({"kind": "rough"}, "surface.kind = 'rough': must be one of waviness, self-affine"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("table, start", REFUSED.values(), ids=REFUSED)
+def test_what_cannot_be_used_is_one_line(table, start):
+    assert refusal(surface=table).startswith(start)
+
+
+def test_a_wedge_has_none():
+    assert refusal(contact={"kind": "wedge"}, surface=DENT, motion={}).startswith(
+        "[surface]: means nothing"
+    )
+
+
+@pytest.mark.parametrize("angle", [0.0, 90.0])
+def test_ridges_along_the_motion_may_move(angle):
+    ridges = {"kind": "ridge", "amplitude": 1e-7, "width": 1e-4, "angle": angle + 90.0, "body": "moving"}
+    config = config_of(second_surface=ridges, motion={"speed": 1.0, "angle": angle})
+    assert not contact_from(config).surface.varies_along(contact_from(config).motion)
+
+
+class TestFile:
+    @pytest.fixture
+    def file(self, tmp_path):
+        np.save(tmp_path / "z.npy", np.zeros((65, 65)))
+        return {"file": str(tmp_path / "z.npy"), "height_unit": "nm", "spacing": "20 um"}
+
+    def test_by_its_keys(self, file):
+        surface = contact_from(config_of(surface=file | {"angle": 90, "remove": "tilt"})).surface
+        assert isinstance(surface, Measured) and surface.angle == 90.0
+        assert surface.preparation.height_unit == 1e-9
+        assert surface.preparation.dx == pytest.approx(20e-6)
+        assert surface.height(0.0, 0.0) == 0.0
+
+    def test_a_file_smaller_than_the_contact_needs_a_continuation(self, file):
+        small = file | {"spacing": "10 um"}
+        message = refusal(surface=small)
+        assert message.startswith(
+            f"surface.file = {file['file']!r}: is 0.00064 m by 0.00064 m and ends inside"
+        )
+        config = config_of(surface=small | {"continuation": "mirror"})
+        check_contact(config, contact_from(config))
+
+    def test_heights_a_ball_cannot_have(self, file):
+        np.save(file["file"], np.full((65, 65), 2.0))
+        message = refusal(surface=file | {"height_unit": "mm"})
+        assert message.startswith(f"surface.file = {file['file']!r}: its height is 0.002 m at x = -")
+        assert message.endswith("must be at most 0.00127, a tenth of the radius")
+
+    def test_what_is_wrong_with_the_file_is_told_with_its_key(self, file):
+        np.save(file["file"], np.full((65, 65), np.nan))
+        message = refusal(surface=file)
+        assert message.startswith(
+            f"surface.file = {file['file']!r}: 4225 of 4225 points are holes, the first"
+        )
+        assert message.count(file["file"]) == 1
+
+    def test_units_must_be_given(self, file):
+        assert "give height_unit" in refusal(surface={"file": file["file"], "spacing": "20 um"})
+        assert "give spacing" in refusal(surface={"file": file["file"], "height_unit": "nm"})
+
+    def test_its_path_counts_from_the_configuration(self, file, tmp_path):
+        (tmp_path / "mine.toml").write_text('[surface]\nfile = "z.npy"\n')
+        assert load_config(tmp_path / "mine.toml").surface.file == file["file"]
+
+
+class TestSettings:
+    @pytest.fixture
+    def path(self, tmp_path):
+        (tmp_path / "mine.toml").write_text('[surface]\nkind = "dent"\namplitude = 1e-6\nwidth = 1e-4\n')
+        return tmp_path / "mine.toml"
+
+    def test_another_kind_pushes_the_keys_of_the_first_out(self, path):
+        config = load_config(path, {"surface.kind": "waviness", "surface.wavelength_x": 1e-4})
+        assert config.surface.width is None and config.surface.amplitude == 1e-6
+
+    def test_a_file_pushes_the_kind_out(self, path):
+        config = load_config(path, {"surface.file": "z.npy"})
+        assert config.surface.kind is None and config.surface.file.endswith("/z.npy")
+
+    @pytest.mark.parametrize("table", [WAVES, ROUGH, DENT, RIDGE, {"file": "/z.npy"}])
+    def test_what_is_written_can_be_read(self, table):
+        written = config_of(surface=table, second_surface=RIDGE).as_toml_tables()
+        assert config_from_tables(written) == config_of(surface=table, second_surface=RIDGE)
+        assert "surface" not in config_of().as_toml_tables()

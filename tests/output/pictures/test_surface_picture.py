@@ -1,0 +1,58 @@
+"""The picture of a surface: heights with the contact on them, the gap, the distribution."""
+
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from mgehl.errors import UserError
+from mgehl.output.pictures.figures import TITLES, figures
+from mgehl.output.pictures.surface_picture import heights_of
+
+RIDGE = ["surface.kind=ridge", "surface.amplitude=1e-6", "surface.width=2e-4", "surface.x=1e-4"]
+
+
+def shown(solution):
+    """With a verdict on its surface."""
+    result = SimpleNamespace(**vars(solution.result))
+    result.resolution = SimpleNamespace(surface="coarse", surface_nodes=6.3)
+    return replace(solution, result=result)
+
+
+def test_heights_are_the_surface_s_at_the_nodes(make_solution):
+    solution = make_solution(settings=RIDGE)
+    heights = heights_of(solution)
+    assert heights.shape == (33, 33) and np.ptp(heights, axis=0).max() == 0.0
+    assert solution.x[heights[0].argmax()] == pytest.approx(1e-4, abs=3e-5)
+
+
+@pytest.mark.parametrize("contact", [0.0, 0.5])
+def test_a_rough_contact_has_one_picture_more(make_solution, check_texts, contact):
+    solution = shown(make_solution(settings=RIDGE, contact=contact))
+    pictures = figures(solution)
+    assert [picture.name for picture in pictures] == [*TITLES, "surface"]
+    heights, gap, distribution = pictures[-1].figure.axes[:3]
+    assert [axes.get_title() for axes in (heights, gap)] == ["heights", "gap"]
+    assert distribution.get_title().startswith(f"Sq {1e9 * solution.contact.roughness:.4g} nm, Ssk ")
+    assert sum(patch.get_height() * patch.get_width() for patch in distribution.patches) == pytest.approx(
+        1.0
+    )
+    assert (heights.get_legend() is not None) == (contact > 0.0)
+    check_texts(pictures[-1].figure, "gap, nm", "height, nm (a peak is positive)")
+    assert "6.3 nodes in its shortest wave: coarse" in pictures[-1].figure._suptitle.get_text()
+
+
+def test_of_a_line_it_is_a_line(make_line, check_texts):
+    (picture,) = figures(shown(make_line(settings=RIDGE)), ["surface"])
+    (line,) = picture.figure.axes[0].lines
+    assert line.get_ydata().max() == pytest.approx(1000.0, rel=0.05)
+    check_texts(picture.figure, "X = x/a, a = 0.2712 mm")
+
+
+def test_a_surface_whose_file_is_gone_is_left_out(make_solution, tmp_path):
+    keys = [f"surface.file={tmp_path}/gone.npy", "surface.height_unit=nm", "surface.spacing=1e-6"]
+    solution = shown(make_solution(settings=keys))
+    assert [picture.name for picture in figures(solution)] == list(TITLES)
+    with pytest.raises(UserError, match="gone.npy: cannot be read"):
+        figures(solution, ["surface"])
