@@ -112,9 +112,12 @@ def guess_on_finest(hierarchy, contact, scheme):
     return contact.guessed_pressure(grids[-1].X, grids[-1].Y) if P is None else P
 
 
-def dry_pressure(problem, P):
-    """Roughly the pressure (lines, nx) with which the bodies carry their load; `P` is a guess."""
-    P, limit = carried(problem, P), min(GUESS * problem.K00, GUESS_GAP)
+def dry_pressure(problem, P, largest_gap=GUESS_GAP):
+    """Roughly the pressure (lines, nx) with which the bodies carry their load; `P` is a guess.
+
+    Bodies are up to `largest_gap` apart where they press, and overlap by no more, in units of H.
+    """
+    P, limit = carried(problem, P), min(GUESS * problem.K00, largest_gap)
     for _ in range(SolverSection.max_steps):
         pressed = PressedNodes(problem, P)
         pressed.balance(limit, REDUCTION)

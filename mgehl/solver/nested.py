@@ -15,6 +15,10 @@ from mgehl.solver.problem import DIVERGED, ContactProblem
 from mgehl.solver.relaxation import relax
 from mgehl.solver.rigid_gap import RigidGapFluid
 
+FLAT = 0.1
+"""Largest gap of the dry guess, and largest overlap, over the formula's film that is laid on it: less than
+no film at first is contact that is none (a ball of 188 nm rms at 0.04 mm/s: 2234 nodes)."""
+
 
 @dataclass(frozen=True)
 class LevelSolve:
@@ -68,7 +72,8 @@ def first_guess(problem, start, P=None):
     P = contact.guessed_pressure(grid.X, grid.Y) if P is None else P
     pressed = grid.X**2 + grid.Y**2 <= contact.widening**2
     if is_mixed(problem.contact, problem.scheme):
-        return _first_mixed_guess(problem, start, dry_pressure(problem, P))
+        film = contact.expected_film / contact.film_scale
+        return _first_mixed_guess(problem, start, dry_pressure(problem, P, FLAT * film), film)
     if contact.deformation is not None or (start == "contact" and not contact.is_hertzian):
         P = dry_pressure(problem, P)
         pressed = P > 0.0
@@ -91,12 +96,11 @@ def is_mixed(contact, scheme):
     return law.has_contact and not law.closes_faces and contact.is_mixed
 
 
-def _first_mixed_guess(problem, start, P):
-    """The dry pressure `P` of the rough bodies, with the formula's film between them or in contact."""
-    contact, pressed = problem.contact, P > 0.0
+def _first_mixed_guess(problem, start, P, film):
+    """The dry pressure `P` of the rough bodies, with a `film` between them or in contact."""
+    pressed = P > 0.0
     H0 = -problem.mean(problem.gap(P, 0.0), pressed)
     if start == "film":
-        film = contact.expected_film / contact.film_scale
         return problem.state(P, H0 + film, np.full(problem.grid.shape, LUBRICATED))
     gap = problem.scheme.contact_law.contact_gap
     return problem.state(P, H0 + gap, np.where(pressed, CONTACT, LUBRICATED))

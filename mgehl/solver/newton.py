@@ -18,7 +18,7 @@ from mgehl.grid.events import linear_solve
 from mgehl.solver.arbiter import RELEASE_STEPS, Ruling, rule
 from mgehl.solver.cavitation import relax_cavitation_set
 from mgehl.solver.journal import NOTHING_KEPT
-from mgehl.solver.judge import is_stuck, judge, judge_system
+from mgehl.solver.judge import UNSOLVED, is_stuck, judge, judge_system
 from mgehl.solver.outcome import Cycle, Outcome
 from mgehl.solver.partition import Changes, Partition
 from mgehl.solver.position import Position, Step, Trial
@@ -210,7 +210,8 @@ class Newton:
             ksp.solve(self._rhs, self._correction)
         position.step = Step(ksp.getIterationNumber())
         reason = ksp.getConvergedReason()
-        position.stalls += reason == PETSc.KSP.ConvergedReason.DIVERGED_MAX_IT
+        if reason == PETSc.KSP.ConvergedReason.DIVERGED_MAX_IT:
+            position.stalls += ksp.getResidualNorm() > UNSOLVED * self._rhs.norm()
         return reason
 
     def _step(self):

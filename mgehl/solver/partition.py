@@ -29,9 +29,9 @@ converges changes."""
 ROUND = 2
 """Turns of a node that closes and is torn open again."""
 
-SETTLED = 0.5
-"""Part of the gap it keeps by which contact may miss it where it is asked whether fluid flows in: before it
-has come there, or where bodies still overlap, its flow says nothing."""
+SETTLED = 1.5
+"""Gap over the one it keeps up to which contact is asked whether fluid flows in: before it has come there
+its flow says nothing."""
 
 
 @dataclass
@@ -158,8 +158,8 @@ class Partition:
         in_contact, law = state.status == CONTACT, self._contact_law
         if law.closes_faces:
             return
-        at_rest = in_contact & (np.abs(state.H - law.contact_gap) <= SETTLED * law.contact_gap)
-        opened = run_behind(at_rest & (inflow > self._tolerance), at_rest)
+        not_above = state.H <= SETTLED * law.contact_gap
+        opened = run_behind(in_contact & not_above & (inflow > self._tolerance), in_contact)
         state.status[opened] = LUBRICATED
         changes.released += self._grid.count(opened)
 

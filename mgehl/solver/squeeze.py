@@ -56,8 +56,9 @@ def squeeze_rates(problem, evaluation, rows, F, settings):
     rms = problem.rms(F * _share_of_the_gap(problem, evaluation) if is_continuous else F)
     own_part = OF_NODES[mean] * np.abs(F) / np.maximum(own(evaluation.H), max(law.thinnest, THINNEST))
     if is_continuous:
-        # What flows in may fill a node at once: only closing is to be slow.
-        own_part = np.where(F > 0.0, np.minimum(own_part, FILLING / problem.grid.mesh.dX), own_part)
+        # What flows in may fill a node at once, and bodies that overlap part at once: only closing is slow.
+        filling = np.where(own(evaluation.H) > law.thinnest, FILLING / problem.grid.mesh.dX, 0.0)
+        own_part = np.where(F > 0.0, np.minimum(own_part, filling), own_part)
     rates = settings.squeeze * (rms / problem.grid.mesh.dX + own_part)
     may_fold = is_continuous or mean in FOLDING
     return np.maximum(rates, _stable_rates(problem, evaluation, rows, rms)) if may_fold else rates
