@@ -10,6 +10,9 @@ from mgehl.output.film_error import NOT_ASKED, FilmError
 from mgehl.output.resolution import Resolution, resolution
 from mgehl.output.words import loaded_words
 from mgehl.solver.verification import (
+    FEWEST_NODES,
+    LARGEST_EDGE_PRESSURE,
+    check_edge,
     check_interface,
     check_pressure_inequality,
     complementarity_error,
@@ -41,6 +44,46 @@ class Overlap:
 
     nodes: int
     largest_nm: float
+
+
+@dataclass(frozen=True)
+class EdgeResult:
+    """How the contact stands in its domain and on its grid: see `solver.verification.check_edge`."""
+
+    pressure_ratio: float
+    """Largest pressure beside the domain's boundary over the largest of all."""
+    overlapping: int
+    """Nodes of the boundary where the bodies overlap."""
+    largest_nm: float
+    nodes_along_x: int
+    """Nodes that the loaded zone is wide."""
+    nodes_along_y: int | None
+    """None of a line contact."""
+
+    @property
+    def wrong(self):
+        """What is wrong, in a few words and in a sentence; both empty where nothing is."""
+        if self.overlapping:
+            return "the bodies overlap on the boundary", (
+                f"the bodies overlap at {self.overlapping} nodes of the domain's boundary by up to "
+                f"{self.largest_nm:.3g} nm: the domain cuts the contact"
+            )
+        if self.pressure_ratio > LARGEST_EDGE_PRESSURE:
+            return "the domain cuts the contact", (
+                f"the pressure beside the domain's boundary is {100 * self.pressure_ratio:.2g} % of the "
+                f"largest, more than {100 * LARGEST_EDGE_PRESSURE:g} %: the domain cuts the contact"
+            )
+        for axis, nodes in (("x", self.nodes_along_x), ("y", self.nodes_along_y)):
+            if nodes is not None and nodes < FEWEST_NODES:
+                return "the contact has too few nodes", (
+                    f"the contact is {nodes} nodes wide along {axis}, and needs {FEWEST_NODES}: "
+                    "a smaller domain or more nodes"
+                )
+        return "", ""
+
+
+NOT_SEEN = EdgeResult(0.0, 0, 0.0, FEWEST_NODES, None)
+"""Of results made by hand."""
 
 
 @dataclass(frozen=True)
@@ -78,7 +121,8 @@ class Result:
     """Everything result.json holds."""
 
     converged: bool
-    """`settled`, and the pressure inequality [Liu eq. 2] holds all along the interface."""
+    """`settled`, the pressure inequality [Liu eq. 2] holds all along the interface, and the contact lies
+    within its domain, on enough nodes."""
     settled: bool
     """Sets, residual, load and complementarity hold: a solution of the discrete equations."""
     reason: str
@@ -108,6 +152,14 @@ class Result:
     ranks: int
     versions: dict
     error: FilmError = NOT_ASKED
+    edge: EdgeResult = NOT_SEEN
+
+    @property
+    def doubt(self):
+        """Of a state that settled and has not converged: what is wrong with it, in a few words."""
+        if self.pressure_inequality.violations:
+            return "Eq. 2 is broken"
+        return self.edge.wrong[0] or "Eq. 2 is broken"
 
     def __str__(self):
         return loaded_words(self)
@@ -129,12 +181,12 @@ def summarise(problem, outcome, tolerance, work, wall_s, versions):
     asked, other = _inequalities(problem, state)
     complementarity = complementarity_error(problem, state, evaluation)
     settled, reason = _verdict(outcome, tolerance, residual, load_error, complementarity)
-    converged, overlap = settled and asked.violations == 0, _overlap(grid, state, nm)
+    overlap, edge = _overlap(grid, state, nm), _edge(problem, state, nm)
     if settled:
-        reason = _whether_more_holds(asked, overlap) or reason
+        reason = _whether_more_holds(asked, edge, overlap) or reason
     moes = contact.film_scale * contact.moes_scale
     return Result(
-        converged=converged,
+        converged=settled and asked.violations == 0 and not edge.wrong[0],
         settled=settled,
         reason=reason,
         central_film_nm=central * nm,
@@ -158,6 +210,7 @@ def summarise(problem, outcome, tolerance, work, wall_s, versions):
         wall_s=wall_s,
         ranks=grid.comm.size,
         versions=versions,
+        edge=edge,
     )
 
 
@@ -174,13 +227,15 @@ def _verdict(outcome, tolerance, residual, load_error, complementarity):
     return True, "residual, load, sets, complementarity and the pressure inequality hold"
 
 
-def _whether_more_holds(inequality, overlap):
+def _whether_more_holds(inequality, edge, overlap):
     """What a settled state breaks besides; empty where it is nothing."""
     if inequality.violations:
         return (
             f"contact pressure is below the fluid pressure beside it at {inequality.violations} of "
             f"{inequality.checked} interface nodes, by up to {inequality.worst:.1e} p_h"
         )
+    if edge.wrong[1]:
+        return edge.wrong[1]
     if overlap.nodes:
         return (
             f"the unified equations hold, but the bodies overlap at {overlap.nodes} nodes "
@@ -233,6 +288,11 @@ def _inequality_result(inequality, compared):
 def _overlap(grid, state, nm):
     below = np.where(state.status == CONTACT, 0.0, -state.H)
     return Overlap(grid.count(below > 0.0), nm * grid.max(below, initial=0.0))
+
+
+def _edge(problem, state, nm):
+    edge = check_edge(problem, state)
+    return EdgeResult(edge.pressure, edge.overlapping, nm * edge.largest_overlap, *edge.across)
 
 
 def _ends(nodes):

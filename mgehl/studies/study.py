@@ -120,7 +120,7 @@ def _verdict(result):
     """Nothing to say of a case that converged; a solution that breaks Eq. 2 is not one without end."""
     if result.converged:
         return ""
-    return f"  {'EQ. 2 IS BROKEN' if result.settled else 'NOT CONVERGED'}: {result.reason}"
+    return f"  {result.doubt.upper() if result.settled else 'NOT CONVERGED'}: {result.reason}"
 
 
 def papers_grid(nodes):

@@ -4,12 +4,13 @@ from math import isfinite
 
 from mgehl.output.digits import with_band
 from mgehl.output.domain import STARVED, STARVED_FROM, SUFFICIENT, UNKNOWN
-from mgehl.output.report.checks import CARE, CHECK_HEADS, CHECKS, absent, informing, limited
+from mgehl.output.report.checks import BROKEN, CARE, CHECK_HEADS, CHECKS, HOLDS, absent, informing, limited
 from mgehl.output.report.page import DOUBTFUL, GOOD, NO_NUMBER, Cell, Section, Text, number, table
 from mgehl.output.report.parts import span
 from mgehl.output.resolution import RESOLVED_CELLS
 from mgehl.output.result import COMPLEMENTARITY_TOLERANCE
 from mgehl.output.words import band_words
+from mgehl.solver.verification import FEWEST_NODES, LARGEST_EDGE_PRESSURE
 
 FORMULAS = {
     "hamrock_dowson": "Hamrock and Dowson",
@@ -149,6 +150,13 @@ def _checks(solution):
         absent("interface nodes that break Eq. 2", inequality.violations, found=broken),
         absent("nodes where the bodies overlap", overlap.nodes, otherwise=CARE),
         informing("imbalance of the flux", result.flux_imbalance),
+        limited(
+            "pressure beside the domain's boundary over the largest",
+            result.edge.pressure_ratio,
+            LARGEST_EDGE_PRESSURE,
+        ),
+        absent("nodes of the boundary where the bodies overlap", result.edge.overlapping),
+        _nodes_across(result.edge),
         (
             "cells in the inlet",
             number(resolution.inlet_cells, 3),
@@ -163,6 +171,18 @@ def _checks(solution):
         ),
     ]
     return table(CHECKS, CHECK_HEADS, rows)
+
+
+def _nodes_across(edge):
+    """The row of how many nodes the contact has."""
+    nodes = [each for each in (edge.nodes_along_x, edge.nodes_along_y) if each is not None]
+    judged = HOLDS if min(nodes) >= FEWEST_NODES else BROKEN
+    return (
+        "nodes that the contact is wide",
+        " by ".join(map(str, nodes)),
+        f"at least {FEWEST_NODES}",
+        judged,
+    )
 
 
 def _contact(result):
