@@ -10,13 +10,13 @@ import numpy as np
 from mpi4py import MPI
 from petsc4py import PETSc
 
-from mgehl.errors import OutputError
 from mgehl.grid.grid import single_grid
 from mgehl.kinds import contact_from, settled
 from mgehl.kinds.own import naming_keys
 from mgehl.output import files, progress, terminal
-from mgehl.output.checkpoint import Checkpoint, clear
+from mgehl.output.checkpoint import Checkpoint
 from mgehl.output.film_error import film_error
+from mgehl.output.finish import begin_run, finish_run
 from mgehl.output.result import Work, summarise
 from mgehl.output.solution import Fields, Solution
 from mgehl.output.users_axes import in_users_axes
@@ -38,6 +38,8 @@ class Watch:
     """Told of every cycle, on rank 0."""
     directory: Path | None = None
     """Whose checkpoint is kept; None for none."""
+    identity: str = ""
+    """Of the run whose checkpoint it is."""
     save_every: float = 60.0
     """Seconds from one save to the next."""
     stop: object = lambda: None
@@ -47,14 +49,15 @@ class Watch:
 def run(config, directory, comm, watch=Watch(), start=None):
     """Solve `config` on `comm`, write `directory` (from rank 0), return the result.
 
-    What was reached is kept in the directory's checkpoint until the results are; a run that finds
-    one goes on from it. `start` is a `Solution` to start from, with fields on rank 0.
+    The caller holds the directory (`output.lock`), which exists. What was reached is kept in its checkpoint
+    until the results are there; a run that finds one goes on from it. `start` is a `Solution` to start
+    from, with fields on rank 0.
     """
     config = settled(config, contact_from(config))
-    paths = files.RunFiles(directory)
-    files.on_first_rank(comm, files.write_config, paths.configuration, config)
-    solution = solve(config, comm, replace(watch, directory=directory), start)
-    files.on_first_rank(comm, _write, paths, solution)
+    directory = Path(directory)
+    identity = comm.bcast(files.on_first_rank(comm, begin_run, directory, config))
+    solution = solve(config, comm, replace(watch, directory=directory, identity=identity), start)
+    files.on_first_rank(comm, finish_run, directory, solution)
     if comm.rank == 0:
         watch.speaker.end(solution, directory)
     return solution.result
@@ -96,7 +99,9 @@ def _solve_loaded(config, parts, comm, watch, start):
             method = partial(solve_from, start=start, frame=parts.frame)
         journal = NOTHING_KEPT
         if watch.directory:
-            journal = Checkpoint(watch.directory, config, monitor, watch.save_every, watch.stop)
+            journal = Checkpoint(
+                watch.directory, config, monitor, watch.save_every, watch.stop, watch.identity
+            )
         problem, outcome = method(hierarchy, contact, settings, monitor=monitor, journal=journal)
         work = Work(monitor.convolutions, monitor.steps if by_newton else outcome.cycles[-1].step)
         result = summarise(problem, outcome, tolerance, work, monitor.seconds, versions())
@@ -150,21 +155,3 @@ def versions():
         except PackageNotFoundError:
             found[package] = "unknown"
     return found
-
-
-def _write(paths, solution):
-    """Write all files, the result last; raise OutputError if the disk does not take them."""
-    from mgehl.output.pictures import picture, wedge_picture  # matplotlib is slow to import
-
-    try:
-        files.write_history(paths.history, solution.rows)
-        files.write_fields(paths.fields, solution)
-        if solution.contact.is_loaded:
-            picture.draw(paths.picture, solution)
-        else:
-            files.write_center_line(paths.center_line, solution.mesh, solution.fields)
-            wedge_picture.draw(paths.picture, solution)
-        files.write_result(paths.result, solution.result)
-    except OSError as error:
-        raise OutputError(f"{paths.directory}: cannot be written: {error.strerror or error}") from None
-    clear(paths.directory)

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from mgehl.output.digits import with_band
 from mgehl.output.domain import UNKNOWN
+from mgehl.output.whole_file import whole_file
 from mgehl.output.words import span
 
 FILMS = ("central", "minimum")
@@ -26,7 +27,7 @@ def markdown(rows, columns):
 def write_csv(path, rows):
     """The rows as CSV."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    with path.open("w", newline="") as file:
+    with whole_file(path) as part, part.open("w", newline="", encoding="utf-8") as file:
         writer = csv.DictWriter(file, fieldnames=list(rows[0]))
         writer.writeheader()
         writer.writerows(rows)

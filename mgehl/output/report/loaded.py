@@ -230,7 +230,8 @@ def _contradictions(nodes):
 
 def _dimensions(solution):
     contact, mesh, line = solution.contact, solution.mesh, solution.mesh.is_line
-    hertz = contact.hertz
+    # A law of the user's own, on which the inlet of layered bodies depends, is not run again.
+    hertz, cells = contact.hertz, solution.result.resolution.inlet_cells
     rows = [
         ("load", *solution.config.kind.load(contact)),
         ("entrainment speed", number(1e3 * contact.speed), "mm/s"),
@@ -241,8 +242,8 @@ def _dimensions(solution):
         ),
         ("largest Hertz pressure p_h", number(1e-9 * hertz.p_h), "GPa"),
         ("unit of the gap, a²/R_x", number(1e6 * contact.film_scale), "µm"),
-        ("length of the inlet zone", number(1e6 * contact.inlet_length * hertz.a), "µm"),
-        ("cells of the grid in it", number(solution.result.resolution.inlet_cells, 3), ""),
+        ("length of the inlet zone", number(1e6 * cells * contact.cell_along_motion(mesh) * hertz.a), "µm"),
+        ("cells of the grid in it", number(cells, 3), ""),
         ("spacing of the grid along x", number(1e6 * mesh.dX * hertz.a), "µm"),
     ]
     if not line:
