@@ -13,7 +13,7 @@ import numpy as np
 
 from mgehl.errors import UserError
 
-_NAME = re.compile(r"(?P<file>.+\.py):(?P<function>[^\W\d]\w*)")
+_NAME = re.compile(r"(?P<file>[^\0\n]+\.py):(?P<function>[^\W\d]\w*)")
 
 
 def is_own(value):

@@ -31,6 +31,9 @@ CONTACT_EDGE = "#D55E00"
 UNDER = 3.9
 """Height of an axis with its numbers and its name, in letters."""
 
+LARGEST_STYLE = 10**6
+"""Bytes of a style file."""
+
 _UNDATED = {"png": {}, "svg": {"Date": None}, "pdf": {"CreationDate": None}}
 
 _decided = ContextVar("_decided", default=False)
@@ -95,6 +98,8 @@ def save(figure, path):
 
 def _read(path):
     """Settings of a style file; matplotlib only warns of lines that it does not know."""
+    if not Path(path).is_file() or Path(path).stat().st_size > LARGEST_STYLE:
+        raise UserError(f"{path}: cannot be read: is no file of at most {LARGEST_STYLE} bytes")
     complaints = _Complaints()
     logger = logging.getLogger("matplotlib")
     logger.addHandler(complaints)
