@@ -70,7 +70,7 @@ def _prepare():
 
 def _say(error):
     """Say what went wrong; return the exit status."""
-    from mgehl.output.saying import complain
+    from mgehl.saying import complain
 
     line, status = told(error)
     if line:
@@ -80,7 +80,7 @@ def _say(error):
 
 def _flushed(status, is_run):
     """The exit status, when all words are out. A run does not depend on who listens."""
-    from mgehl.output.saying import silence
+    from mgehl.saying import silence
 
     try:
         sys.stdout.flush()

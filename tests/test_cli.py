@@ -138,7 +138,9 @@ class TestFailures:
         assert_one_line(capsys, "the working directory is gone")
 
     def test_without_the_environment_it_says_how_to_put_it_on(self, tmp_path):
-        text = "import sys; sys.modules['petsc4py'] = None; import mgehl.cli; sys.exit(mgehl.cli.main(['run']))"
+        text = (
+            "import sys; sys.modules['petsc4py'] = None; import mgehl.cli as c; sys.exit(c.main(['run']))"
+        )
         done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True)
         assert done.returncode == 2 and len(done.stderr.splitlines()) == 1
         assert 'eval "$(make -s env)"' in done.stderr

@@ -78,6 +78,8 @@ def _begin(options, comm, solve):
     check_contact(config, contact_from(config))
     on_first_rank(comm, _say_what_changed, config)
     start = _start(options.start_from, config, comm) if options.start_from else None
+    if start and comm.rank == 0:
+        _say_what_differs(options.start_from, start, config)
     name = Path(options.config or default_config()).stem
     directory = Path(options.out or Path("runs") / name)
     if start and directory.resolve() == Path(options.start_from).resolve():
@@ -93,10 +95,26 @@ def _begin(options, comm, solve):
 def _say_what_changed(config):
     """A law beside a run that is not the one which it was solved with."""
     from mgehl.output.laws import changed_copies
-    from mgehl.output.saying import complain
+    from mgehl.saying import complain
 
     for file in changed_copies(config):
         complain(f"{file}: has changed since the run that it lies beside")
+
+
+def _say_what_differs(directory, start, config):
+    """A start of another contact is a first guess, and may be a bad one."""
+    from mgehl.output.laws import law_files
+    from mgehl.output.manifest import checksum
+    from mgehl.saying import complain
+    from mgehl.solver.restart import differences
+
+    keys = list(differences(start, config))
+    theirs = {Path(file).name: checksum(file) for file in law_files(start.config)}
+    for file in law_files(config):
+        if theirs.get(Path(file).name, checksum(file)) != checksum(file):
+            keys.append(Path(file).name)
+    if keys:
+        complain(f"--start-from {directory}: is of another contact ({', '.join(keys)}): a first guess only")
 
 
 def _resume(options, comm, solve):
@@ -133,7 +151,7 @@ def _check_run(directory):
 
 
 def _say(lines):
-    from mgehl.output.saying import complain
+    from mgehl.saying import complain
 
     for line in lines:
         complain(line)
@@ -142,7 +160,7 @@ def _say(lines):
 def _finished(directory, options):
     """The result of a run that has finished; its picture is drawn where there is none."""
     from mgehl.output.finish import draw_missing
-    from mgehl.output.saying import say
+    from mgehl.saying import say
 
     result = draw_missing(directory)
     if not (options.quiet or options.json_lines):

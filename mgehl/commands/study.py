@@ -71,8 +71,8 @@ def execute(options, comm):
     from mgehl.output.files import on_first_rank
     from mgehl.output.lock import locked
     from mgehl.output.report.study_record import StudyRecord
-    from mgehl.output.saying import complain
     from mgehl.run import versions
+    from mgehl.saying import complain
 
     nodes = _checked_nodes(options)
     directory = Path(options.out or Path("runs") / f"study-{options.study}")
@@ -89,8 +89,8 @@ def execute(options, comm):
 def _solve(options, comm, directory, record):
     """Solve all cases in the directory, which is held; return the `Study`."""
     from mgehl.output.files import on_first_rank
-    from mgehl.output.saying import say
     from mgehl.output.study_directory import begin_study, finish_study
+    from mgehl.saying import say
     from mgehl.studies.study import Study
 
     stage = comm.bcast(on_first_rank(comm, begin_study, directory, record, options.resume))

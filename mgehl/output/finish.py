@@ -10,8 +10,8 @@ from mgehl.output.checkpoint import clear, start_of
 from mgehl.output.directory import FINISHED, check_result, clear_stage, install, seal
 from mgehl.output.laws import as_they_were, keep_laws, law_files, origins, portable
 from mgehl.output.manifest import checksum, new_identity, read_manifest
-from mgehl.output.saying import complain
 from mgehl.output.stored import read_run
+from mgehl.saying import complain
 
 BEGUN = "begun run"
 """Kind of the manifest in a checkpoint: of what is solved, not of what was found."""

@@ -8,7 +8,7 @@ from dataclasses import asdict
 from math import ceil, inf, isfinite, log
 
 from mgehl.output.files import finite
-from mgehl.output.saying import complain, say
+from mgehl.saying import complain, say
 
 
 class Silent:

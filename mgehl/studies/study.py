@@ -11,11 +11,11 @@ from mpi4py import MPI
 from mgehl.config import config_from_tables
 from mgehl.errors import OutputError, one_line
 from mgehl.output.files import on_first_rank
-from mgehl.output.saying import complain, say
 from mgehl.output.solution_record import record_of, solution_from
 from mgehl.output.table import markdown, write_csv
 from mgehl.output.whole_file import write_whole
 from mgehl.run import solve
+from mgehl.saying import complain, say
 from mgehl.studies.cache import PointCache, key_of
 
 PAPER = {"discretization": {"couette": "1B", "face_mobility": "arithmetic"}}
