@@ -24,11 +24,15 @@ import warnings
 from importlib import import_module
 
 from mgehl.commands import COMMANDS, USAGE
+from mgehl.errors import one_line
 from mgehl.failures import told
 from mgehl.petsc_options import check_options
 
 PATIENCE = 5.0
 """Seconds after which a rank with an error ends the job if the others do not join it."""
+
+LONGEST = 300
+"""Characters of what is wrong with a command line."""
 
 QUIET_PETSC = "-no_signal_handler"
 """PETSc takes over the signals otherwise, and ends a program whose reader has read enough."""
@@ -109,7 +113,8 @@ class _Parser(argparse.ArgumentParser):
         super().__init__(*arguments, **{"formatter_class": _Help} | named)
 
     def error(self, message):
-        self.exit(USAGE, f"mgehl: {message} (see {self.prog} --help)\n" if _is_first() else None)
+        line = f"mgehl: {one_line(message, LONGEST)} (see {self.prog} --help)\n"
+        self.exit(USAGE, line if _is_first() else None)
 
 
 def _is_first():

@@ -1,7 +1,7 @@
 """What a user can mend: one line on standard error, exit status 2."""
 
 
-def one_line(error: BaseException, width: int = 120) -> str:
+def one_line(error: object, width: int = 120) -> str:
     """What an exception says, cut to one line."""
     return printable(" ".join(str(error).split()))[:width]
 

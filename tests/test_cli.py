@@ -350,3 +350,10 @@ def test_a_looser_option_does_not_loosen_the_verdict(tmp_path):
     done = mgehl(*DRY, "--out", "here", "-mgehl_snes_atol", "1e30")
     assert done.returncode == 1
     assert "NOT CONVERGED: the residual of the final state" in done.stdout
+
+
+def test_nasty_words_are_one_line_without_their_control_characters(capsys):
+    for word in ("a\nb", "\x1b[2J", "\u202e", "x" * 5000):
+        assert exit_status(["keys", word]) == 2
+        (line,) = capsys.readouterr().err.splitlines()
+        assert line.isprintable() and len(line) < 400

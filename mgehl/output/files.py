@@ -2,6 +2,7 @@
 
 import csv
 import json
+import pickle
 from dataclasses import asdict
 from functools import partial
 from math import isfinite
@@ -10,6 +11,7 @@ from pathlib import Path
 import tomli_w
 
 from mgehl.discretization import status
+from mgehl.errors import one_line
 from mgehl.grid.events import FILES, event
 from mgehl.output.center_line import center_line
 from mgehl.output.memory_file import netcdf_file
@@ -34,10 +36,19 @@ def from_first_rank(comm, function, *arguments):
             result = function(*arguments)
         except Exception as caught:
             error = caught
-    error = comm.bcast(error)
-    if error is not None:
-        raise error
+    told = comm.bcast(_sendable(error))
+    if told is not None:
+        raise error or told  # its own has the traceback
     return result
+
+
+def _sendable(error):
+    """The error, or one that says the same: some cannot be sent to other ranks."""
+    try:
+        pickle.loads(pickle.dumps(error))
+    except Exception:
+        return RuntimeError(f"{type(error).__name__}: {one_line(error)}")
+    return error
 
 
 CONFIGURATION = "configuration.toml"
