@@ -17,6 +17,7 @@ mgehl_fluid_ for the fluid solved apart), global ones none (-log_view). Unused o
 """
 
 import argparse
+import logging
 import os
 import sys
 import time
@@ -66,6 +67,7 @@ def _prepare():
             setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))
         elif hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="backslashreplace")
+    logging.lastResort.setLevel(logging.ERROR)  # matplotlib's, of a place for its cache
     warnings.filterwarnings("ignore", category=DeprecationWarning)
     if any(action == "error" for action, *_ in warnings.filters):
         warnings.simplefilter("ignore")
