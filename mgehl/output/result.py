@@ -6,13 +6,11 @@ import numpy as np
 
 from mgehl.discretization.status import CONTACT
 from mgehl.model.contact import Groups
+from mgehl.output.edge_result import NOT_SEEN, EdgeResult, edge_result
 from mgehl.output.film_error import NOT_ASKED, FilmError
 from mgehl.output.resolution import Resolution, resolution
 from mgehl.output.words import loaded_words
 from mgehl.solver.verification import (
-    FEWEST_NODES,
-    LARGEST_EDGE_PRESSURE,
-    check_edge,
     check_interface,
     check_pressure_inequality,
     complementarity_error,
@@ -44,46 +42,6 @@ class Overlap:
 
     nodes: int
     largest_nm: float
-
-
-@dataclass(frozen=True)
-class EdgeResult:
-    """How the contact stands in its domain and on its grid: see `solver.verification.check_edge`."""
-
-    pressure_ratio: float
-    """Largest pressure beside the domain's boundary over the largest of all."""
-    overlapping: int
-    """Nodes of the boundary where the bodies overlap."""
-    largest_nm: float
-    nodes_along_x: int
-    """Nodes that the loaded zone is wide."""
-    nodes_along_y: int | None
-    """None of a line contact."""
-
-    @property
-    def wrong(self):
-        """What is wrong, in a few words and in a sentence; both empty where nothing is."""
-        if self.overlapping:
-            return "the bodies overlap on the boundary", (
-                f"the bodies overlap at {self.overlapping} nodes of the domain's boundary by up to "
-                f"{self.largest_nm:.3g} nm: the domain cuts the contact"
-            )
-        if self.pressure_ratio > LARGEST_EDGE_PRESSURE:
-            return "the domain cuts the contact", (
-                f"the pressure beside the domain's boundary is {100 * self.pressure_ratio:.2g} % of the "
-                f"largest, more than {100 * LARGEST_EDGE_PRESSURE:g} %: the domain cuts the contact"
-            )
-        for axis, nodes in (("x", self.nodes_along_x), ("y", self.nodes_along_y)):
-            if nodes is not None and nodes < FEWEST_NODES:
-                return "the contact has too few nodes", (
-                    f"the contact is {nodes} nodes wide along {axis}, and needs {FEWEST_NODES}: "
-                    "a smaller domain or more nodes"
-                )
-        return "", ""
-
-
-NOT_SEEN = EdgeResult(0.0, 0, 0.0, FEWEST_NODES, None)
-"""Of results made by hand."""
 
 
 @dataclass(frozen=True)
@@ -181,7 +139,7 @@ def summarise(problem, outcome, tolerance, work, wall_s, versions):
     asked, other = _inequalities(problem, state)
     complementarity = complementarity_error(problem, state, evaluation)
     settled, reason = _verdict(outcome, tolerance, residual, load_error, complementarity)
-    overlap, edge = _overlap(grid, state, nm), _edge(problem, state, nm)
+    overlap, edge = _overlap(grid, state, nm), edge_result(problem, state, nm)
     if settled:
         reason = _whether_more_holds(asked, edge, overlap) or reason
     moes = contact.film_scale * contact.moes_scale
@@ -288,11 +246,6 @@ def _inequality_result(inequality, compared):
 def _overlap(grid, state, nm):
     below = np.where(state.status == CONTACT, 0.0, -state.H)
     return Overlap(grid.count(below > 0.0), nm * grid.max(below, initial=0.0))
-
-
-def _edge(problem, state, nm):
-    edge = check_edge(problem, state)
-    return EdgeResult(edge.pressure, edge.overlapping, nm * edge.largest_overlap, *edge.across)
 
 
 def _ends(nodes):

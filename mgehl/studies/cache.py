@@ -15,8 +15,8 @@ from mgehl.version import VERSION
 FOLDER = "points"
 
 COMPUTING = ("model", "discretization", "kinds", "grid", "multigrid", "solver", "run.py",
-             "output/domain.py", "output/resolution.py", "output/film_error.py", "output/result.py",
-             "output/wedge_result.py",
+             "output/domain.py", "output/resolution.py", "output/edge_result.py",
+             "output/film_error.py", "output/result.py", "output/wedge_result.py",
              "output/solution.py", "studies/branch.py")  # fmt: skip
 """Layers and modules that make a point: one that other code made is computed anew."""
 

@@ -7,7 +7,8 @@ import pytest
 
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.status import BOUNDARY, CONTACT, LUBRICATED
-from mgehl.output.result import EdgeResult, Work, resolution, summarise
+from mgehl.output.edge_result import EdgeResult
+from mgehl.output.result import Work, resolution, summarise
 from mgehl.solver.outcome import Cycle, Outcome
 from mgehl.solver.partition import Changes
 from mgehl.solver.problem import State

@@ -41,8 +41,16 @@ FOREIGN = {"foreign/notes.txt": "mine", "foreign/result.json": "mine", "foreign/
 class Findings:
     """Counts what was tried, and names what was found."""
 
-    def __init__(self):
+    def __init__(self, seconds=float("inf")):
         self.counts, self.found = Counter(), []
+        self._deadline = time.monotonic() + seconds
+
+    def rounds(self, count):
+        """Numbers from 0, as many as `count`, or fewer where the time is over."""
+        for number in range(count):
+            if time.monotonic() > self._deadline:
+                return
+            yield number
 
     def tried(self, outcome):
         self.counts[str(outcome)] += 1
@@ -212,7 +220,7 @@ def line_of(chance):
 def attack_words(count, chance, folder, findings):
     """Command lines with malice."""
     lay(folder)
-    for _ in range(count):
+    for _ in findings.rounds(count):
         words = line_of(chance)
         status, _, err = forked(words, folder)
         judge(findings, words, status, err)
@@ -330,7 +338,7 @@ def attack_cases(count, chance, folder, findings):
         raise TimeoutError
 
     signal.signal(signal.SIGALRM, alarm)
-    for _ in range(count):
+    for _ in findings.rounds(count):
         tables = extreme(chance)
         signal.alarm(int(LIMIT))
         try:
@@ -361,7 +369,7 @@ def attack_damage(count, chance, folder, findings):
     """Run directories with files missing, cut, swapped, edited, linked or made devices."""
     lay(folder)
     forked(["run", *SMALL, "--set", "motion.speed=1e-4", "--out", "other"], folder)
-    for _ in range(count):
+    for _ in findings.rounds(count):
         victim, after = folder / "victim", folder / "after"
         for each in (victim, after):
             shutil.rmtree(each, ignore_errors=True)
@@ -402,7 +410,7 @@ def attack_damage(count, chance, folder, findings):
 def attack_flips(count, chance, folder, findings):
     """One bit of one file of a finished run."""
     lay(folder)
-    for _ in range(count):
+    for _ in findings.rounds(count):
         victim, after = folder / "victim", folder / "after"
         for each in (victim, after):
             shutil.rmtree(each, ignore_errors=True)
@@ -433,7 +441,7 @@ def attack_writers(count, chance, folder, findings):
     """Two runs of other speeds in one directory; what is there in the end is one of them, whole."""
     from mgehl.output.stored import read_run
 
-    for number in range(count):
+    for number in findings.rounds(count):
         out = f"both{number}"
         words = [
             "run",
@@ -510,8 +518,9 @@ def main():
     parser.add_argument("--count", type=int, default=20)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--ranks", type=int, default=1)
+    parser.add_argument("--seconds", type=float, default=float("inf"), help="end after so long")
     options = parser.parse_args()
-    findings, before = Findings(), Path.cwd()
+    findings, before = Findings(options.seconds), Path.cwd()
     with tempfile.TemporaryDirectory(prefix="attack-") as name:
         os.chdir(name)
         try:
