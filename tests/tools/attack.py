@@ -111,6 +111,22 @@ def judge(findings, words, status, err):
         findings.say(f"control characters: {words!r}")
 
 
+def warm():
+    """Import what forks would import again and again; without MPI, which is no thing to fork."""
+    for name in (
+        "matplotlib.figure",
+        "matplotlib.style",
+        "h5netcdf",
+        "pint",
+        "jinja2",
+        "dacite",
+        "numba",
+        "pyfftw",
+        "scipy.interpolate",
+    ):
+        __import__(name)
+
+
 def lay(folder):
     """Foreign files, a healthy run, one that was stopped, and configurations good and bad."""
     for name, text in FOREIGN.items():
@@ -219,6 +235,7 @@ def line_of(chance):
 
 def attack_words(count, chance, folder, findings):
     """Command lines with malice."""
+    warm()
     lay(folder)
     for _ in findings.rounds(count):
         words = line_of(chance)
@@ -367,6 +384,7 @@ READERS = [["report", "victim"], ["plot", "victim", "--kind", "lines", "--format
 
 def attack_damage(count, chance, folder, findings):
     """Run directories with files missing, cut, swapped, edited, linked or made devices."""
+    warm()
     lay(folder)
     forked(["run", *SMALL, "--set", "motion.speed=1e-4", "--out", "other"], folder)
     for _ in findings.rounds(count):
@@ -409,6 +427,7 @@ def attack_damage(count, chance, folder, findings):
 
 def attack_flips(count, chance, folder, findings):
     """One bit of one file of a finished run."""
+    warm()
     lay(folder)
     for _ in findings.rounds(count):
         victim, after = folder / "victim", folder / "after"

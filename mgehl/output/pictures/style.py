@@ -6,6 +6,7 @@ saved under `applied`: matplotlib asks for the style of a tick only when it draw
 
 import io
 import logging
+import os
 from contextlib import contextmanager
 from contextvars import ContextVar
 from importlib import resources
@@ -98,7 +99,7 @@ def save(figure, path):
 
 def _read(path):
     """Settings of a style file; matplotlib only warns of lines that it does not know."""
-    if not Path(path).is_file() or Path(path).stat().st_size > LARGEST_STYLE:
+    if os.path.exists(path) and not (os.path.isfile(path) and os.path.getsize(path) <= LARGEST_STYLE):
         raise UserError(f"{path}: cannot be read: is no file of at most {LARGEST_STYLE} bytes")
     complaints = _Complaints()
     logger = logging.getLogger("matplotlib")
