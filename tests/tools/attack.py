@@ -523,6 +523,14 @@ def attack_kills(count, chance, folder, findings, ranks=1):
             findings.say(f"{process.returncode}: {err}")
             shutil.rmtree(folder / "here", ignore_errors=True)
         time.sleep(0.3 if ranks > 1 else 0.0)
+    begun = (folder / "here" / "checkpoint" / "manifest.json").exists()
+    process = command(["run", "--resume", "here", "--quiet"] if begun else [*words, "--force"])
+    _, err = process.communicate(timeout=LIMIT)
+    if (
+        process.returncode
+        or abs(read_run(folder / "here").result.central_film_nm / films()[0.5] - 1.0) > 1e-9
+    ):
+        findings.say(f"the end after kills: {process.returncode} {err}")
 
 
 ATTACKS = {
