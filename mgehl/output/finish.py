@@ -1,16 +1,20 @@
 """The beginning and the end of a run's directory: what is solved, then its result, then its picture."""
 
+import hashlib
 import shutil
 from dataclasses import replace
+
+import tomli_w
 
 from mgehl.config import load_config
 from mgehl.errors import OutputError, one_line
 from mgehl.output import files
 from mgehl.output.checkpoint import clear, start_of
 from mgehl.output.directory import FINISHED, check_result, clear_stage, install, seal
-from mgehl.output.laws import as_they_were, keep_laws, law_files, origins, portable
-from mgehl.output.manifest import checksum, new_identity, read_manifest
+from mgehl.output.laws import as_they_were, law_files, laws, origins, portable
+from mgehl.output.manifest import Manifest, checksum, new_identity, read_manifest
 from mgehl.output.stored import read_run
+from mgehl.output.whole_file import whole_file
 from mgehl.saying import complain
 
 BEGUN = "begun run"
@@ -29,10 +33,14 @@ def begin_run(directory, config):
     identity = new_identity()
     try:
         folder.mkdir(exist_ok=True)
-        files.write_config(folder / files.CONFIGURATION, portable(config))
-        keep_laws(config, folder)
-        names = [files.CONFIGURATION, *law_files(config).values()]
-        seal(folder, BEGUN, identity, names, origins(config, directory))
+        content = {files.CONFIGURATION: tomli_w.dumps(portable(config)).encode(), **laws(config)}
+        # First, so that whatever a kill leaves is known to be mgehl's.
+        known = {name: hashlib.sha256(each).hexdigest() for name, each in content.items()}
+        Manifest(BEGUN, identity, known, origins(config, directory)).write(folder)
+        for name, each in content.items():
+            (folder / name).parent.mkdir(exist_ok=True)
+            with whole_file(folder / name) as part:
+                part.write_bytes(each)
     except OSError as error:
         raise OutputError(f"{directory}: cannot be written: {error.strerror or error}") from None
     return identity
@@ -128,6 +136,8 @@ def taken_up(directory):
     if begun is None or (finished and finished.identity == begun.identity):
         check_result(directory)
         return None, None, []
+    if not (paths.checkpoint / files.CONFIGURATION).exists():
+        raise OutputError(f"{directory}: ended before it began: run it again, with --force")
     for name in begun.wrong(paths.checkpoint):
         raise OutputError(f"{paths.checkpoint / name}: was edited or is damaged since the run began")
     config, said = as_they_were(load_config(paths.checkpoint / files.CONFIGURATION), begun, directory)

@@ -4,10 +4,8 @@ import os
 from pathlib import Path
 
 from mgehl.config import config_from_tables
-from mgehl.errors import OutputError
 from mgehl.model.own_function import file_and_function
 from mgehl.output.manifest import checksum
-from mgehl.output.whole_file import whole_file
 
 FOLDER = "laws"
 
@@ -32,16 +30,9 @@ def portable(config):
     return tables
 
 
-def keep_laws(config, folder):
-    """Copy the files of own functions into `folder`/laws. Raises OutputError."""
-    for file, name in law_files(config).items():
-        target = Path(folder) / name
-        try:
-            target.parent.mkdir(exist_ok=True)
-            with whole_file(target) as part:
-                part.write_bytes(Path(file).read_bytes())
-        except OSError as error:
-            raise OutputError(f"{target}: cannot be written: {error.strerror or error}") from None
+def laws(config):
+    """{laws/NAME: bytes} of the files of own functions. Raises OSError."""
+    return {name: Path(file).read_bytes() for file, name in law_files(config).items()}
 
 
 def origins(config, directory):

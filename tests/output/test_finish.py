@@ -43,6 +43,22 @@ def test_a_picture_that_cannot_be_drawn_costs_nothing(tmp_path, capsys, monkeypa
     assert "picture.png" in check_result(here).files
 
 
+@pytest.mark.parametrize("written", [0, 1])
+def test_a_kill_at_the_very_beginning_is_in_nobodys_way(tmp_path, capsys, monkeypatch, written):
+    """What it left is mgehl's: --force replaces it."""
+
+    def kill(*_):
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as change:
+        change.setattr("mgehl.output.finish.whole_file" if written else "mgehl.run.solve", kill)
+        assert main(DRY) == 130
+    if written:
+        assert main(["run", "--resume", "here"]) == 2
+        assert "ended before it began: run it again, with --force" in capsys.readouterr().err
+    assert main([*DRY, "--force"]) == 0
+
+
 def test_with_force_the_old_result_stays_until_there_is_another(tmp_path, capsys):
     assert main(DRY) == 0
     old = check_result("here").identity
