@@ -15,10 +15,14 @@ The layers, lowest first; none imports a higher one (``tests/test_layers.py`` as
 ``commands``        the command line, a module for each command
 """
 
-from mgehl.api import load, solve
-from mgehl.config import Config
-from mgehl.errors import ConfigError, UserError
-from mgehl.version import VERSION
+import warnings
+
+with warnings.catch_warnings():
+    warnings.simplefilter("ignore", DeprecationWarning)  # of libraries, whose users are not ours
+    from mgehl.api import load, solve
+    from mgehl.config import Config
+    from mgehl.errors import ConfigError, UserError
+    from mgehl.version import VERSION
 
 __version__ = VERSION
 

@@ -17,28 +17,88 @@ mgehl_fluid_ for the fluid solved apart), global ones none (-log_view). Unused o
 """
 
 import argparse
-import signal
+import logging
+import os
 import sys
 import time
-import traceback
+import warnings
 from importlib import import_module
 
 from mgehl.commands import COMMANDS, USAGE
-from mgehl.errors import Stopped, UserError
+from mgehl.errors import one_line
+from mgehl.failures import told
+from mgehl.petsc_options import check_options
 
 PATIENCE = 5.0
 """Seconds after which a rank with an error ends the job if the others do not join it."""
 
+LONGEST = 300
+"""Characters of what is wrong with a command line."""
+
+QUIET_PETSC = "-no_signal_handler"
+"""PETSc takes over the signals otherwise, and ends a program whose reader has read enough."""
+
 
 def main(arguments=None):
-    """Run the command line; return the exit status."""
-    own, petsc = split_options(sys.argv[1:] if arguments is None else arguments)
-    command = read(own, petsc)
+    """Run the command line; return the exit status: 0, 1, 2 or a signal's. Every error is one line."""
+    _prepare()
+    command = None
     try:
-        return _in_parallel(command, petsc) if command.module.PARALLEL else _alone(command)
-    except KeyboardInterrupt:  # of a command that keeps nothing, or not yet
-        print("mgehl: stopped by Ctrl-C", file=sys.stderr)
-        return 128 + signal.SIGINT
+        os.getcwd()  # MPI says it in nineteen lines where that is gone
+        own, petsc = split_options(sys.argv[1:] if arguments is None else arguments)
+        command = read(own, petsc)
+        parallel = command.module.PARALLEL
+        status = _in_parallel(command, petsc) if parallel else command.module.execute(command)
+    except (Exception, KeyboardInterrupt) as error:
+        status = _say(error)
+    return _flushed(status, bool(command) and command.module.PARALLEL)
+
+
+def _prepare():
+    """Standard streams that are there and take every name; libraries whose warnings are nobody's."""
+    for number in range(3):
+        try:
+            os.fstat(number)
+        except OSError:  # closed: the first file to be opened would get its number, and its words
+            os.open(os.devnull, os.O_RDWR)
+    for name in ("stdout", "stderr"):
+        stream = getattr(sys, name)
+        if stream is None:
+            setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))
+        elif hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="backslashreplace")
+    logging.lastResort.setLevel(logging.ERROR)  # matplotlib's, of a place for its cache
+    warnings.filterwarnings("ignore", category=DeprecationWarning)
+    if any(action == "error" for action, *_ in warnings.filters):
+        warnings.simplefilter("ignore")
+    os.environ["PETSC_OPTIONS"] = f"{QUIET_PETSC} {os.environ.get('PETSC_OPTIONS', '')}".strip()
+
+
+def _say(error):
+    """Say what went wrong; return the exit status."""
+    from mgehl.saying import complain
+
+    line, status = told(error)
+    if line:
+        complain(line)
+    return status
+
+
+def _flushed(status, is_run):
+    """The exit status, when all words are out. A run does not depend on who listens."""
+    from mgehl.saying import silence
+
+    try:
+        sys.stdout.flush()
+    except (OSError, ValueError) as error:
+        silence(sys.stdout)
+        if not is_run and status == 0:
+            return _say(error if isinstance(error, OSError) else OSError(str(error)))
+    try:
+        sys.stderr.flush()
+    except (OSError, ValueError):
+        silence(sys.stderr)
+    return status
 
 
 class _Help(argparse.HelpFormatter):
@@ -55,11 +115,14 @@ class _Parser(argparse.ArgumentParser):
         super().__init__(*arguments, **{"formatter_class": _Help} | named)
 
     def error(self, message):
-        from mpi4py import MPI
+        line = f"mgehl: {one_line(message, LONGEST)} (see {self.prog} --help)\n"
+        self.exit(USAGE, line if _is_first() else None)
 
-        self.exit(
-            USAGE, f"mgehl: {message} (see {self.prog} --help)\n" if MPI.COMM_WORLD.rank == 0 else None
-        )
+
+def _is_first():
+    """Whether this is the rank that speaks, as mpiexec tells: a mistake need not start MPI."""
+    names = ("OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK", "SLURM_PROCID")
+    return next((os.environ[name] for name in names if name in os.environ), "0") == "0"
 
 
 def parser():
@@ -80,7 +143,18 @@ def read(own, petsc=()):
     for word in petsc:
         if word.startswith("--"):
             top.error(f"{word}: PETSc options take one dash and come last")
-    return top.parse_args(own)
+    command = top.parse_args(own)
+    for name, value in vars(command).items():
+        _check_word(top, name, value if isinstance(value, list) else [value])
+    return command
+
+
+def _check_word(top, name, values):
+    """A word that is nothing, or that no file can be called, is a mistake."""
+    for value in values:
+        if isinstance(value, str) and (not value.strip() or "\0" in value):
+            word = {"settings": "set"}.get(name, name).replace("_", "-")
+            top.error(f"{word} {value!r}: must be a word that stands for something")
 
 
 def split_options(arguments):
@@ -91,55 +165,30 @@ def split_options(arguments):
     return arguments, []
 
 
-def _alone(command):
-    """Execute a command that starts no MPI."""
-    try:
-        return command.module.execute(command)
-    except UserError as error:
-        print(f"mgehl: {error}", file=sys.stderr)
-        return USAGE
-
-
 def _in_parallel(command, petsc):
     """Start MPI and PETSc, the arguments being good, and execute."""
+    check_options(petsc)
     import petsc4py
 
     petsc4py.init([sys.argv[0], *petsc, *(["-options_left"] if petsc else [])])
     from mpi4py import MPI
-    from petsc4py import PETSc  # noqa: F401  (wakes it: it takes over the signals)
+    from petsc4py import PETSc  # noqa: F401  (wakes it)
 
-    signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # a reader that has read enough, as in "| head"
     return _on_all_ranks(command, MPI.COMM_WORLD)
 
 
 def _on_all_ranks(command, comm):
-    """Execute on all ranks; errors of the user's making end in one line and status 2."""
-    from petsc4py import PETSc
-
+    """Execute on all ranks; where all fail they leave together, and one of them says why."""
     apart = comm.Dup()  # for errors: on `comm` the other ranks may be at something else
     try:
         return command.module.execute(command, comm)
-    except UserError as error:
+    except (Exception, KeyboardInterrupt) as error:
         together = _meet(apart)
-        if comm.rank == 0 or not together:
-            print(f"mgehl: {error}", file=sys.stderr, flush=True)
-        if not together:
-            comm.Abort(USAGE)
-        return USAGE
-    except Stopped as stopped:
-        if comm.rank == 0:
-            print(f"mgehl: {stopped}", file=sys.stderr)
-        return stopped.status
-    except PETSc.Error as error:
-        # Mostly an option that this matrix-free solver cannot serve, such as -mgehl_pc_type lu.
-        print(f"mgehl: PETSc: {' '.join(str(error).split())[:200]}", file=sys.stderr, flush=True)
-        comm.Abort(1)
-    except Exception:
-        # One rank's failure must not leave the others waiting.
-        print(f"mgehl: rank {comm.rank} failed", file=sys.stderr)
-        traceback.print_exc()
-        sys.stderr.flush()
-        comm.Abort(1)
+        status = _say(error) if comm.rank == 0 or not together else told(error)[1]
+        if not together:  # one rank's failure must not leave the others waiting
+            sys.stderr.flush()
+            comm.Abort(status)
+        return status
 
 
 def _meet(comm):

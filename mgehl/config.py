@@ -5,6 +5,7 @@ Every mistake is one line that names the key, the value and what is allowed (`Co
 
 import difflib
 import os
+import stat
 import sysconfig
 import tomllib
 from collections.abc import Mapping
@@ -22,6 +23,9 @@ from mgehl.kinds.wedge import WedgeSection
 
 COARSEST_NODES = 33
 """Nodes along each side of the coarsest grid, which is solved directly."""
+
+LARGEST_FILE = 10**6
+"""Bytes of a configuration."""
 
 _INSTALLED = Path("share") / "mgehl" / "configs"
 _CONFIG_DIRECTORIES = (
@@ -194,11 +198,23 @@ def _check_foreign(kind, tables):
 
 def _read_toml(path):
     try:
-        return tomllib.loads(path.read_text())
+        return tomllib.loads(_text(path))
     except OSError as error:
-        raise ConfigError(f"{path}: cannot be read: {error.strerror}") from None
+        raise ConfigError(f"{path}: cannot be read: {error.strerror or error}") from None
     except (ValueError, RecursionError) as error:  # no TOML or no text, or a number or a nest too long
         raise ConfigError(f"{path}: not valid TOML: {error}") from None
+
+
+def _text(path):
+    """The text of a file, which TOML has in UTF-8; of a pipe, such as <(...), what comes out of it."""
+    kind = path.stat().st_mode
+    if not (stat.S_ISREG(kind) or stat.S_ISFIFO(kind)):
+        raise OSError("is no file")
+    with path.open("rb") as file:
+        content = file.read(LARGEST_FILE + 1)
+    if len(content) > LARGEST_FILE:
+        raise OSError(f"has more than {LARGEST_FILE} bytes")
+    return content.decode()
 
 
 def _read_setting(setting):

@@ -121,7 +121,7 @@ class SolverSection:
     )  # fmt: skip
     first_nodes: int = key_field(65, "nodes of the first grid of the nested iteration", low=33, kind=int)
     inlet_cells: float = key_field(
-        2.0, "cells the inlet gets on coarse grids by raising the speed", low=0.0
+        2.0, "cells the inlet gets on coarse grids by raising the speed", low=0.0, high=1000.0
     )
     squeeze: float = key_field(
         0.0, "rate of implicit time steps, per residual and cell (contact, continuation: at least 3)",

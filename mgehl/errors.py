@@ -1,19 +1,28 @@
 """What a user can mend: one line on standard error, exit status 2."""
 
 
-def one_line(error: Exception, width: int = 120) -> str:
+def one_line(error: object, width: int = 120) -> str:
     """What an exception says, cut to one line."""
-    return " ".join(str(error).split())[:width]
+    return printable(" ".join(str(error).split()))[:width]
+
+
+def printable(text: str) -> str:
+    """A text as a terminal may have it: control characters, of whatever file, stand as escapes."""
+    return "".join(each if each.isprintable() else _escaped(each) for each in text)
+
+
+def _escaped(character: str) -> str:
+    return " " if character == "\t" else character.encode("unicode_escape").decode()
 
 
 class UserError(Exception):
     """A mistake in the input or in the surroundings; the message is one line for the user.
 
-    Names that users give may hold line breaks: these become spaces.
+    Names that users give may hold line breaks: these become spaces; other control characters, escapes.
     """
 
     def __init__(self, message: object) -> None:
-        super().__init__(" ".join(str(message).splitlines()))
+        super().__init__(printable(" ".join(str(message).splitlines())))
 
 
 class ConfigError(UserError, ValueError):

@@ -10,15 +10,16 @@ import numpy as np
 from mpi4py import MPI
 from petsc4py import PETSc
 
-from mgehl.errors import OutputError
 from mgehl.grid.grid import single_grid
 from mgehl.kinds import contact_from, settled
 from mgehl.kinds.own import naming_keys
 from mgehl.output import files, progress, terminal
-from mgehl.output.checkpoint import Checkpoint, clear
+from mgehl.output.checkpoint import Checkpoint
 from mgehl.output.dry_result import summarise_dry
 from mgehl.output.film_error import film_error
+from mgehl.output.finish import begin_run, finish_run
 from mgehl.output.result import Work, summarise
+from mgehl.output.room import check_room
 from mgehl.output.solution import Fields, Solution
 from mgehl.output.users_axes import in_users_axes
 from mgehl.output.wedge_result import summarise_wedge
@@ -41,6 +42,8 @@ class Watch:
     """Told of every cycle, on rank 0."""
     directory: Path | None = None
     """Whose checkpoint is kept; None for none."""
+    identity: str = ""
+    """Of the run whose checkpoint it is."""
     save_every: float = 60.0
     """Seconds from one save to the next."""
     stop: object = lambda: None
@@ -50,14 +53,15 @@ class Watch:
 def run(config, directory, comm, watch=Watch(), start=None):
     """Solve `config` on `comm`, write `directory` (from rank 0), return the result.
 
-    What was reached is kept in the directory's checkpoint until the results are; a run that finds
-    one goes on from it. `start` is a `Solution` to start from, with fields on rank 0.
+    The caller holds the directory (`output.lock`), which exists. What was reached is kept in its checkpoint
+    until the results are there; a run that finds one goes on from it. `start` is a `Solution` to start
+    from, with fields on rank 0.
     """
     config = settled(config, contact_from(config))
-    paths = files.RunFiles(directory)
-    files.on_first_rank(comm, files.write_config, paths.configuration, config)
-    solution = solve(config, comm, replace(watch, directory=directory), start)
-    files.on_first_rank(comm, _write, paths, solution)
+    directory = Path(directory)
+    identity = comm.bcast(files.on_first_rank(comm, begin_run, directory, config))
+    solution = solve(config, comm, replace(watch, directory=directory, identity=identity), start)
+    files.on_first_rank(comm, finish_run, directory, solution)
     if comm.rank == 0:
         watch.speaker.end(solution, directory)
     return solution.result
@@ -69,6 +73,7 @@ def solve(config, comm, watch=Watch(), start=None):
     A single line of nodes, as of a line contact, rank 0 solves and tells the others.
     """
     config = settled(config, contact_from(config))
+    check_room(config)
     parts = set_up(config)
     watch = watch if comm.rank == 0 else replace(watch, speaker=terminal.SILENT)
     if not parts.mesh.is_line:
@@ -138,7 +143,7 @@ def _journal(config, monitor, watch):
     """What is told of the way of a solve: the checkpoint of its directory, if there is one."""
     if not watch.directory:
         return NOTHING_KEPT
-    return Checkpoint(watch.directory, config, monitor, watch.save_every, watch.stop)
+    return Checkpoint(watch.directory, config, monitor, watch.save_every, watch.stop, watch.identity)
 
 
 def _solve_bearing(config, parts, comm, watch):
@@ -184,21 +189,3 @@ def versions():
         except PackageNotFoundError:
             found[package] = "unknown"
     return found
-
-
-def _write(paths, solution):
-    """Write all files, the result last; raise OutputError if the disk does not take them."""
-    from mgehl.output.pictures import picture, wedge_picture  # matplotlib is slow to import
-
-    try:
-        files.write_history(paths.history, solution.rows)
-        files.write_fields(paths.fields, solution)
-        if solution.contact.is_loaded:
-            picture.draw(paths.picture, solution)
-        else:
-            files.write_center_line(paths.center_line, solution.mesh, solution.fields)
-            wedge_picture.draw(paths.picture, solution)
-        files.write_result(paths.result, solution.result)
-    except OSError as error:
-        raise OutputError(f"{paths.directory}: cannot be written: {error.strerror or error}") from None
-    clear(paths.directory)

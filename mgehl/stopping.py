@@ -5,21 +5,25 @@ import time
 
 from mgehl.errors import Stopped
 
-SIGNALS = {signal.SIGTERM: "SIGTERM", signal.SIGINT: "Ctrl-C"}
+SIGNALS = {signal.SIGTERM: "SIGTERM", signal.SIGINT: "Ctrl-C", signal.SIGHUP: "SIGHUP"}
+"""Those that whoever started mgehl has not had ignored, as nohup does with the last."""
 
 
 class StopWhenTold:
     """Turns the first signal into a request, asked for by calling; the second ends the process.
 
-    A context manager: outside of it signals do what they did. `hint` tells how to go on.
+    A context manager: outside of it signals do what they did. `hint` tells how to go on. A limit of time
+    ends nothing before the second call: whoever goes on again and again within the shortest gets on.
     """
 
     def __init__(self, hint, time_limit=None):
         self._hint, self._limit = hint, time_limit
         self._started, self._signal, self._before = time.monotonic(), None, {}
+        self._asked = 0
 
     def __enter__(self):
-        self._before = {number: signal.signal(number, self._take) for number in SIGNALS}
+        heeded = [number for number in SIGNALS if signal.getsignal(number) != signal.SIG_IGN]
+        self._before = {number: signal.signal(number, self._take) for number in heeded}
         return self
 
     def __exit__(self, *_):
@@ -30,7 +34,8 @@ class StopWhenTold:
         """None, or the `Stopped` to raise as soon as everything is on disk."""
         if self._signal is not None:
             return Stopped(f"stopped by {SIGNALS[self._signal]}; {self._hint}", 128 + self._signal)
-        if self._limit is not None and time.monotonic() - self._started >= self._limit:
+        self._asked += 1
+        if self._limit is not None and self._asked > 1 and time.monotonic() - self._started >= self._limit:
             status = 128 + signal.SIGTERM
             return Stopped(f"stopped by --time-limit after {self._limit:g} s; {self._hint}", status)
         return None

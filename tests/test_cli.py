@@ -3,7 +3,6 @@
 import json
 import os
 import shlex
-import signal
 import subprocess
 import sys
 
@@ -11,7 +10,7 @@ import pytest
 
 from mgehl.cli import main, split_options
 
-FILES = {"configuration.toml", "fields.h5", "history.csv", "picture.png", "result.json"}
+FILES = {"configuration.toml", "fields.h5", "history.csv", "manifest.json", "picture.png", "result.json"}
 DRY = ["run", "--set", "grid.nodes=65", "--set", "solver.start=contact", "--set", "motion.speed=0.005 mm/s"]
 
 
@@ -49,14 +48,113 @@ def test_a_run_in_a_process_of_its_own(tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["here"]
 
 
-def test_a_reader_that_has_read_enough_ends_a_run_without_a_word():
-    command = shlex.join([sys.executable, "-m", "mgehl", *DRY, "--out", "here"])
+def piped(command, tmp_path):
+    """(exit status, stdout, stderr) of a command of the shell, mgehl's the status of a pipe's first."""
     environment = {k: v for k, v in os.environ.items() if not k.startswith(("OMPI_COMM", "PMIX_", "PRTE_"))}
-    piped = ["bash", "-c", f"{command} | head -n 1; exit ${{PIPESTATUS[0]}}"]
-    done = subprocess.run(piped, capture_output=True, text=True, timeout=60, env=environment)
-    assert done.stdout.startswith("grid    65") and done.stdout.count("\n") == 1
-    assert done.returncode == 128 + signal.SIGPIPE
-    assert "PETSC" not in done.stderr and "Traceback" not in done.stderr
+    words = ["bash", "-c", f"set -o pipefail; {command.replace('mgehl', f'{sys.executable} -m mgehl', 1)}"]
+    done = subprocess.run(words, capture_output=True, text=True, timeout=60, env=environment)
+    err = [line for line in done.stderr.splitlines() if not line.startswith("[")]
+    assert len(err) <= 1 and "Traceback" not in done.stderr, done.stderr
+    return done.returncode, done.stdout, "".join(err)
+
+
+class TestWordsThatNobodyHears:
+    """What is said is for whoever listens; what is solved is for the disk."""
+
+    @pytest.mark.parametrize("where", ["| head -n 1", "> /dev/full", ">&-", "2>&-", "<&- >&- 2>&-"])
+    def test_a_run_goes_on(self, tmp_path, where):
+        status, _, err = piped(f"{shlex.join(['mgehl', *DRY])} --out here {where}", tmp_path)
+        assert (status, err) == (0, "")
+        assert {path.name for path in (tmp_path / "here").iterdir()} == FILES
+
+    @pytest.mark.parametrize("command", ["keys", "check", "completion bash"])
+    def test_others_end_with_their_reader_without_a_word(self, tmp_path, command):
+        assert piped(f"mgehl {command} | true", tmp_path) in ((141, "", ""), (0, "", ""))
+
+    def test_a_full_device_is_one_line(self, tmp_path):
+        status, _, err = piped("mgehl keys > /dev/full", tmp_path)
+        assert (status, err) == (2, "mgehl: No space left on device")
+
+
+NOTHING = [
+    ["run", ""], ["run", "--resume", ""], ["run", "--start-from", ""], ["run", "--out", ""],
+    ["run", "--time-limit", ""], ["run", "--save-every", " "], ["run", "--set", ""], ["new", ""],
+    ["new", "/"],
+    ["new", "here/"], ["new", "."], ["new", ".."], ["collect", "x", "--out", ""], ["collect", ""],
+    ["report", ""], ["plot", "x", "--style", ""], ["export", "x", "--to", ""],
+    ["study", "line", "--out", ""],
+    ["check", ""], ["run", "a\0b"], ["study", "inlet", "--direction", "down"],
+    ["study", "inlet", "--mean", "harmonic"], ["study", "line", "--force", "--resume"],
+    ["run", "/dev/zero"], ["run", "-fp_trap"], ["run", "-options_file", "nowhere"],
+    ["run", "-mgehl_pc_mg_levels", "50"], ["run", "-mgehl_pc_type", "mg"],
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("arguments", NOTHING, ids=[" ".join(map(repr, words)) for words in NOTHING])
+def test_words_that_are_nothing_are_one_line(tmp_path, capsys, arguments):
+    assert exit_status(arguments) == 2
+    assert_one_line(capsys)
+    assert not list(tmp_path.iterdir())
+
+
+class TestFailures:
+    """Whatever a command raises is one line with a status; `mgehl.failures` has them all."""
+
+    @pytest.mark.parametrize(
+        "error, status, line",
+        [
+            (
+                ZeroDivisionError("a\nb \x1b[31mred"),
+                1,
+                "an error of mgehl's own: ZeroDivisionError: a b \\x1b[31mred",
+            ),
+            (MemoryError(), 1, "out of memory: fewer nodes"),
+            (RecursionError("deep"), 1, "an error of mgehl's own"),
+            (OSError(28, "No space left on device", "here/file"), 2, "here/file: No space left on device"),
+            (ImportError("No module named 'petsc4py'"), 2, 'eval "$(make -s env)"'),
+            (UnicodeEncodeError("ascii", "\udcff", 0, 1, "no"), 1, "an error of mgehl's own"),
+            (KeyboardInterrupt(), 130, "stopped by Ctrl-C"),
+            (BrokenPipeError(32, "Broken pipe"), 141, None),
+        ],
+    )
+    @pytest.mark.parametrize("command", [["keys"], ["info"]], ids=["alone", "in parallel"])
+    def test_is_one_line(self, capsys, monkeypatch, command, error, status, line):
+        def fail(*_):
+            raise error
+
+        monkeypatch.setattr(f"mgehl.commands.{command[0]}.execute", fail)
+        assert exit_status(command) == status
+        if line:
+            assert_one_line(capsys, line)
+        else:
+            assert capsys.readouterr() == ("", "")
+
+    def test_a_working_directory_that_is_gone(self, tmp_path, capsys, monkeypatch):
+        gone = tmp_path / "gone"
+        gone.mkdir()
+        monkeypatch.chdir(gone)
+        gone.rmdir()
+        assert exit_status(["run"]) == 2
+        assert_one_line(capsys, "the working directory is gone")
+
+    def test_without_the_environment_it_says_how_to_put_it_on(self, tmp_path):
+        text = (
+            "import sys; sys.modules['petsc4py'] = None; import mgehl.cli as c; sys.exit(c.main(['run']))"
+        )
+        done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True)
+        assert done.returncode == 2 and len(done.stderr.splitlines()) == 1
+        assert 'eval "$(make -s env)"' in done.stderr
+
+    @pytest.mark.parametrize(
+        "variables",
+        [{"PYTHONWARNINGS": "error"}, {"LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}],
+    )
+    def test_surroundings_that_do_not_matter(self, tmp_path, monkeypatch, variables):
+        for name, value in variables.items():
+            monkeypatch.setenv(name, value)
+        (tmp_path / "mine.toml").write_text("# 30° über µm\n[grid]\nnodes = 65\n", "utf-8")
+        done = mgehl("check", "mine.toml")
+        assert (done.returncode, done.stderr) == (0, "")
 
 
 def test_petsc_options_reach_the_solver_and_unknown_ones_are_reported():
@@ -108,8 +206,13 @@ def test_a_directory_that_exists_is_refused_and_replaced_with_force(tmp_path, ca
     (here / "result.json").write_text("old")
     assert exit_status([*DRY, "--out", "here"]) == 2
     assert_one_line(capsys, "here", "--force")
+    assert exit_status([*DRY, "--out", "here", "--force"]) == 2
+    assert_one_line(capsys, "here/result.json", "is left alone")
     assert (here / "result.json").read_text() == "old"
     assert [path.name for path in here.iterdir()] == ["result.json"]
+    (here / "result.json").unlink()
+    for _ in range(2):
+        assert exit_status([*DRY, "--out", "here", "--force", "--quiet"]) == 0
     assert exit_status([*DRY, "--out", "here", "--force", "--quiet"]) == 0
     assert json.loads((here / "result.json").read_text())["converged"] is True
     assert {path.name for path in here.iterdir()} == FILES
@@ -247,3 +350,10 @@ def test_a_looser_option_does_not_loosen_the_verdict(tmp_path):
     done = mgehl(*DRY, "--out", "here", "-mgehl_snes_atol", "1e30")
     assert done.returncode == 1
     assert "NOT CONVERGED: the residual of the final state" in done.stdout
+
+
+def test_nasty_words_are_one_line_without_their_control_characters(capsys):
+    for word in ("a\nb", "\x1b[2J", "\u202e", "x" * 5000):
+        assert exit_status(["keys", word]) == 2
+        (line,) = capsys.readouterr().err.splitlines()
+        assert line.isprintable() and len(line) < 400

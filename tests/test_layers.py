@@ -23,8 +23,8 @@ LAYERS = (
     "commands",
 )
 """Lowest first. The modules beside them in mgehl (config, run, cli) stand above the layers."""
-BENEATH = {"mgehl.errors", "mgehl.version"}
-"""What every layer may use; they use nothing."""
+BENEATH = {"mgehl.errors", "mgehl.saying", "mgehl.version"}
+"""What every layer may use; they use nothing but each other."""
 USERS_OF_OUTPUT = {"mgehl.run", "mgehl.api"}
 ABOVE_OUTPUT = ("output", "studies", "commands")
 USED_BESIDE = {

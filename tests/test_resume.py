@@ -17,15 +17,23 @@ from mpi4py import MPI
 from mgehl.cli import main
 from mgehl.config import load_config
 from mgehl.output.checkpoint import load
+from mgehl.output.manifest import read_manifest
 from mgehl.output.stored import read_run
 from mgehl.run import solve
 
-FILES = {"configuration.toml", "fields.h5", "history.csv", "picture.png", "result.json"}
+FILES = {"configuration.toml", "fields.h5", "history.csv", "manifest.json", "picture.png", "result.json"}
 FILM = ["--set", "grid.nodes=129", "--set", "motion.speed=0.5", "--set", "solver.start=film"]
 """Eight steps on 65 nodes, seven on 129."""
 SOLVES = {"solve-0000.npz", "solve-0001.npz"}
 """Of `SMALL`: the film on 65 nodes, and on 33 for its band."""
+BEGUN = {"configuration.toml", "manifest.json"}
+"""Of what is solved, in the checkpoint."""
 SMALL = ["--set", "grid.nodes=65", "--set", "motion.speed=0.5", "--set", "solver.start=film"]
+SIGNALS = (
+    (signal.SIGTERM, "SIGTERM", 143),
+    (signal.SIGINT, "Ctrl-C", 130),
+    (signal.SIGHUP, "SIGHUP", 129),
+)
 ALWAYS = ["--save-every", "0.001"]
 
 
@@ -80,19 +88,34 @@ def children(pid):
     return [int(each) for each in Path(f"/proc/{pid}/task/{pid}/children").read_text().split()]
 
 
+def has_begun(directory):
+    return any((directory / folder / "manifest.json").exists() for folder in (".", "checkpoint"))
+
+
 def assert_nothing_is_half_written(directory):
     """What is there under a name of its own can be read."""
-    if not (directory / "configuration.toml").exists():
-        assert not directory.exists() or not any(directory.iterdir())
+    if not has_begun(directory):
+        names = {path.name for path in directory.rglob("*")} if directory.exists() else set()
+        assert names <= {".mgehl-lock", "checkpoint", "configuration.toml"} | parts(names)
         return
-    config = load_config(directory / "configuration.toml")
-    names = {path.name for path in directory.iterdir() if not path.name.startswith(".part-")}
-    assert names <= FILES | {"checkpoint"}
-    if "result.json" in names:
-        assert names >= FILES
+    names = {path.name for path in directory.iterdir()}
+    assert names - parts(names) <= FILES | {"checkpoint", ".mgehl-lock"}
+    if (directory / "manifest.json").exists():
         read_run(directory)
-    for path in (directory / "checkpoint").glob("[!.]*.npz"):
-        assert load(path, json.dumps(config.as_toml_tables()))
+    way = directory / "checkpoint"
+    if (way / "manifest.json").exists():
+        assert not list(read_manifest(way).wrong(way))
+        for path in way.glob("[!.]*.npz"):
+            assert load(path, configuration_of(directory), read_manifest(way).identity)
+
+
+def parts(names):
+    return {name for name in names if name.startswith(".part-")}
+
+
+def configuration_of(directory):
+    """What a run that goes on is solving, as its checkpoint has it."""
+    return json.dumps(load_config(directory / "checkpoint" / "configuration.toml").as_toml_tables())
 
 
 def assert_same(directory, solution):
@@ -121,15 +144,14 @@ class TestKills:
             if not killed:  # it was faster
                 assert_same(here, uninterrupted(FILM))
                 here, runs = tmp_path / str(runs), runs + 1
-        if not (here / "configuration.toml").exists():
-            assert exit_status(*FILM, "--out", str(here)) == 0
+        if not has_begun(here):
+            assert exit_status(*FILM, "--out", str(here), "--force") == 0
         assert exit_status("--resume", str(here)) == 0  # on one rank, whatever it was before
         assert_same(here, uninterrupted(FILM))
 
     def killed(self, here, ranks, chance):
         """Whether a run, or one that goes on, was killed on its way."""
-        began = (here / "configuration.toml").exists()
-        arguments = ["--resume", str(here)] if began else [*FILM, "--out", str(here)]
+        arguments = ["--resume", str(here)] if has_begun(here) else [*FILM, "--out", str(here), "--force"]
         process = start([*arguments, *ALWAYS, "--json-lines"], ranks)
         for _ in range(chance.choice([0, 1, 1, 2])):
             process.stdout.readline()
@@ -152,23 +174,20 @@ class TestStops:
         """One after the other: nothing of what was reached is done again."""
         here, cycles = tmp_path / "here", 0
         arguments = [*FILM, "--out", str(here)]
-        for number, name, status in ((signal.SIGTERM, "SIGTERM", 143), (signal.SIGINT, "Ctrl-C", 130)):
+        for number, name, status in SIGNALS:
             process = start([*arguments, "--json-lines"])
             first = json.loads(process.stdout.readline())["cycle"]
             process.send_signal(number)
             said, err = process.communicate(timeout=60)
             line = f"mgehl: stopped by {name}; go on with: mgehl run --resume {here}\n"
             assert (process.returncode, err) == (status, line)
-            rows = load(here / "checkpoint" / "under-way.npz", self.configuration(here))[0]["progress"][
+            rows = load(here / "checkpoint" / "under-way.npz", configuration_of(here))[0]["progress"][
                 "rows"
             ]
             assert rows[cycles] == first and len(rows) == cycles + 1 + len(said.splitlines())
             cycles, arguments = len(rows), ["--resume", str(here)]
         assert exit_status("--resume", str(here)) == 0
         assert_same(here, uninterrupted(FILM))
-
-    def configuration(self, here):
-        return json.dumps(load_config(here / "configuration.toml").as_toml_tables())
 
     def test_a_limit_of_time(self, uninterrupted, tmp_path, capsys):
         here = tmp_path / "with a space"
@@ -181,15 +200,29 @@ class TestStops:
         assert exit_status("--resume", str(here)) == 0
         assert_same(here, uninterrupted(SMALL))
 
+    def test_within_the_shortest_limit_it_gets_on(self, uninterrupted, tmp_path):
+        """By a step each time."""
+        words, times = [*SMALL, "--out", "here"], 0
+        while (status := exit_status(*words, "--time-limit", "1e-9")) == 143:
+            words, times = ["--resume", "here"], times + 1
+            assert times < 40
+        assert status == 0
+        assert_same(tmp_path / "here", uninterrupted(SMALL))
+
     def test_a_limit_of_time_on_two_ranks(self, tmp_path):
         status, said = end(start([*SMALL, "--out", "here", "--time-limit", "1e-9"], ranks=2))
         assert status == 143 and len(said) == 1 and "stopped by --time-limit" in said[0]
         assert (tmp_path / "here" / "checkpoint" / "under-way.npz").exists()
 
-    @pytest.mark.parametrize("name", ["wedge", "line", "relaxation"])
+    def test_a_wedge_has_ended_before_its_limit(self):
+        """It is one solve, or a few."""
+        settings = ["--set", "contact.kind=wedge", "--set", "grid.nodes=65"]
+        assert exit_status(*settings, "--out", "here", "--time-limit", "1e-9") == 0
+        read_run("here")
+
+    @pytest.mark.parametrize("name", ["line", "relaxation"])
     def test_of_another_kind(self, name, tmp_path):
         settings = {
-            "wedge": ["--set", "contact.kind=wedge", "--set", "grid.nodes=65"],
             "line": [*SMALL, "--set", "contact.kind=line"],
             "relaxation": [*SMALL, "--set", "solver.method=relaxation", "--set", "relaxation.max_sweeps=5"],
         }[name]
@@ -232,7 +265,7 @@ class TestResume:
     def test_no_run(self, tmp_path, capsys):
         assert "is no run directory" in self.refused(capsys, "--resume", "nowhere")
         (tmp_path / "empty").mkdir()
-        assert "configuration.toml is missing" in self.refused(capsys, "--resume", "empty")
+        assert "has no manifest.json and no checkpoint" in self.refused(capsys, "--resume", "empty")
         assert not list((tmp_path / "empty").iterdir())
 
     @pytest.mark.parametrize("more", [["my.toml"], ["--set", "grid.nodes=65"], ["--out", "b"], ["--force"],
@@ -249,10 +282,11 @@ class TestResume:
         assert "is damaged" in self.refused(capsys, "--resume", "here")
         assert kept.read_bytes() == whole[:-100]
         kept.write_bytes(whole)
-        configuration = (here / "configuration.toml").read_text()
-        (here / "configuration.toml").write_text(configuration.replace("nodes = 65", "nodes = 129"))
-        assert "another configuration" in self.refused(capsys, "--resume", "here")
-        (here / "configuration.toml").write_text(configuration)
+        path = here / "checkpoint" / "configuration.toml"
+        configuration = path.read_text()
+        path.write_text(configuration.replace("nodes = 65", "nodes = 129"))
+        assert "was edited or is damaged" in self.refused(capsys, "--resume", "here")
+        path.write_text(configuration)
         with monkeypatch.context() as change:
             change.setattr("mgehl.output.checkpoint.VERSION", "99.0")
             assert "99.0 cannot go on with it" in self.refused(capsys, "--resume", "here")
@@ -344,10 +378,10 @@ class TestFullDisk:
     @pytest.mark.parametrize(
         "size, save_every, there",
         [
-            ("40k", "0.001", {"configuration.toml"}),
-            ("300k", "0.001", {"configuration.toml", "under-way.npz"}),
-            ("152k", "60", {"configuration.toml", "history.csv", *SOLVES}),
-            ("276k", "60", {"configuration.toml", "history.csv", "fields.h5", *SOLVES}),
+            ("40k", "0.001", BEGUN),
+            ("300k", "0.001", {"under-way.npz", *BEGUN}),
+            ("160k", "60", {"history.csv", *BEGUN, *SOLVES}),
+            ("276k", "60", {"history.csv", "fields.h5", *BEGUN, *SOLVES}),
         ],
     )
     def test_it_is_one_line_and_the_run_goes_on_later(self, disk, uninterrupted, size, save_every, there):
@@ -357,7 +391,7 @@ class TestFullDisk:
         lines = [line for line in err.splitlines() if not line.startswith("[")]  # MPI's own
         assert process.returncode == 2 and len(lines) == 1, err
         assert lines[0].startswith(f"mgehl: {here}") and "No space left on device" in lines[0]
-        assert {path.name for path in here.rglob("*") if path.is_file()} == there
+        assert {path.name for path in here.rglob("*") if path.is_file()} - {"result.json"} == there
         assert_nothing_is_half_written(here)
         disk("4m")
         assert exit_status("--resume", str(here)) == 0
@@ -394,7 +428,8 @@ def test_a_file_in_place_of_the_checkpoint(tmp_path, capsys):
     Path("here/checkpoint").write_text("mine")
     assert exit_status("--resume", "here") == 2
     err = capsys.readouterr().err
-    assert "here/checkpoint" in err and len(err.splitlines()) == 1
+    assert "here: is no run directory" in err and len(err.splitlines()) == 1
+    assert Path("here/checkpoint").read_text() == "mine"
 
 
 class TestFailingRank:

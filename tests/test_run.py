@@ -21,14 +21,14 @@ from mgehl.run import Watch, run, solve
 from mgehl.studies.study import PAPERS_DOMAIN, papers_grid
 
 CONFIGS = Path(__file__).resolve().parent.parent / "configs"
-FILES = {"configuration.toml", "fields.h5", "history.csv", "picture.png", "result.json"}
+FILES = {"configuration.toml", "fields.h5", "history.csv", "manifest.json", "picture.png", "result.json"}
 FILM = {"motion": {"speed": "1 m/s"}, "grid": papers_grid(65)}
 DRY = {"motion": {"speed": "0.005 mm/s"}, "grid": papers_grid(65), "solver": {"start": "contact"}}
 RESULT_KEYS = {
     "converged", "reason", "central_film_nm", "minimum_film_nm", "max_pressure_GPa", "residual",
     "load_error", "complementarity_error", "flux_imbalance", "contact", "overlap", "pressure_inequality",
     "cavitated_nodes", "resolution", "groups", "moes_film", "formulas", "work", "wall_s", "ranks",
-    "versions",
+    "versions", "edge",
 }  # fmt: skip
 
 
@@ -278,3 +278,30 @@ def test_a_run_keeps_the_domain_that_auto_became(tmp_path):
     assert grid.x[0] < -1.9 and grid.y[1] == -grid.y[0] > 1.5
     assert result.converged and result.resolution.domain == "sufficient"
     assert read_json(tmp_path)["resolution"]["domain"] == "sufficient"
+
+
+class TestDomainThatCutsTheContact:
+    """The equations hold in it, and what they hold for is no contact."""
+
+    @pytest.mark.parametrize(
+        "grid, start, said",
+        [
+            ({"x": [-20, 1.01], "y": [-1.5, 1.5]}, "contact", "the bodies overlap at 13 nodes"),
+            ({"x": [-1.9, 1.3], "y": [-1.01, 30]}, "contact", "the bodies overlap at 15 nodes"),
+            ({"x": [-1.9, 1.3], "y": [-1.01, 1.5]}, "film", "beside the domain's boundary is 4.6 %"),
+            ({"x": [-60, 60], "y": [-1.5, 1.5]}, "contact", "1 nodes wide along x"),
+            ({"x": [-20, 20], "y": [-20, 20]}, "contact", "3 nodes wide along x"),
+        ],
+    )
+    def test_is_not_converged(self, grid, start, said):
+        speed = 1.0 if start == "film" else 5e-6
+        tables = {"grid": {"nodes": 65} | grid, "motion": {"speed": speed}}
+        tables["solver"] = {"start": start, "error": False}
+        result = solve(config_from_tables(tables), MPI.COMM_SELF).result
+        assert result.settled and not result.converged
+        assert said in result.reason
+
+    def test_of_a_line(self):
+        tables = {"contact": {"kind": "line"}, "grid": {"nodes": 65, "x": [-20, 1.01]}}
+        result = solve(config_from_tables(tables), MPI.COMM_SELF).result
+        assert not result.converged and "domain cuts the contact" in result.reason

@@ -11,8 +11,8 @@ import pytest
 from mgehl.errors import Stopped
 from mgehl.stopping import SIGNALS, StopWhenTold
 
-STATUS = {signal.SIGTERM: 143, signal.SIGINT: 130}
-NAME = {signal.SIGTERM: "SIGTERM", signal.SIGINT: "Ctrl-C"}
+STATUS = {signal.SIGTERM: 143, signal.SIGINT: 130, signal.SIGHUP: 129}
+NAME = {signal.SIGTERM: "SIGTERM", signal.SIGINT: "Ctrl-C", signal.SIGHUP: "SIGHUP"}
 
 
 def handlers():
@@ -93,3 +93,20 @@ def test_it_can_be_sent_to_another_rank():
 
     stopped = pickle.loads(pickle.dumps(Stopped("why", 130)))
     assert (str(stopped), stopped.status) == ("why", 130)
+
+
+def test_what_is_ignored_stays_ignored():
+    """As under nohup."""
+    before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
+    try:
+        with StopWhenTold("hint") as stop:
+            os.kill(os.getpid(), signal.SIGHUP)
+            assert stop() is None
+    finally:
+        signal.signal(signal.SIGHUP, before)
+
+
+def test_a_limit_of_time_leaves_a_step():
+    with StopWhenTold("hint", 1e-9) as stop:
+        time.sleep(1e-3)
+        assert stop() is None and "stopped by --time-limit" in str(stop())

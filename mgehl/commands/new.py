@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from mgehl.commands import CONVERGED
-from mgehl.errors import OutputError
+from mgehl.errors import OutputError, UserError
 from mgehl.kinds import KINDS
 
 PARALLEL = False
@@ -32,6 +32,8 @@ def execute(options):
     from mgehl.output.whole_file import write_whole
 
     path = Path(options.name.removesuffix(".toml") + ".toml")
+    if options.name.endswith("/") or path.stem in ("", ".", "..", ".toml"):
+        raise UserError(f"{options.name}: is no name of a file")
     if path.exists() and not options.force:
         raise OutputError(f"{path} exists: add --force to replace it, or choose another name")
     write_whole(path, template(options.kind, path))

@@ -48,15 +48,12 @@ def execute(options, comm):
     """Solve on all ranks and write the directory."""
     save_every = read_quantity("--save-every", options.save_every, "s")
     limit = options.time_limit and read_quantity("--time-limit", options.time_limit, "s")
-    if options.resume and _has_finished(options):
-        result = _finished(options, comm)
-    else:
-        config, directory, start = (_taken_up if options.resume else _new)(options, comm)
-        result = _run(config, directory, comm, start, options, save_every, limit)
+    solved = _resume if options.resume else _begin
+    result = solved(options, comm, lambda *case: _run(*case, comm, options, save_every, limit))
     return CONVERGED if result.converged else NOT_CONVERGED
 
 
-def _run(config, directory, comm, start, options, save_every, limit):
+def _run(config, directory, start, comm, options, save_every, limit):
     """Solve, watched by whoever may stop it."""
     from mgehl.output.terminal import SILENT, speaker
     from mgehl.run import Watch, run
@@ -68,68 +65,107 @@ def _run(config, directory, comm, start, options, save_every, limit):
         return run(config, directory, comm, Watch(words, save_every=save_every, stop=stop), start)
 
 
-def _new(options, comm):
-    """Configuration, directory and start of a new run, its directory made."""
+def _begin(options, comm, solve):
+    """Solve a new run in its directory, which is made and held."""
     from mgehl.kinds import check_contact, contact_from
     from mgehl.output.checkpoint import keep_start
-    from mgehl.output.files import on_first_rank, prepare_directory
+    from mgehl.output.directory import make_directory, prepare_directory
+    from mgehl.output.files import on_first_rank
+    from mgehl.output.lock import locked
 
     settings = [*options.settings, *([NO_ERROR] if options.no_error else [])]
     config = load_config(options.config, settings)
     check_contact(config, contact_from(config))
+    on_first_rank(comm, _say_what_changed, config)
     start = _start(options.start_from, config, comm) if options.start_from else None
+    if start and comm.rank == 0:
+        _say_what_differs(options.start_from, start, config)
     name = Path(options.config or default_config()).stem
     directory = Path(options.out or Path("runs") / name)
     if start and directory.resolve() == Path(options.start_from).resolve():
         raise UserError(f"--start-from {directory}: is the run's own directory; choose another with --out")
-    on_first_rank(comm, prepare_directory, directory, options.force)
-    if start:
-        on_first_rank(comm, keep_start, directory, options.start_from)
-    return config, directory, start
+    on_first_rank(comm, make_directory, directory, options.force)
+    with locked(comm, directory):
+        on_first_rank(comm, prepare_directory, directory)
+        if start:
+            on_first_rank(comm, keep_start, directory, options.start_from)
+        return solve(config, directory, start)
 
 
-def _has_finished(options):
-    """Whether the run to go on with has a result. Raises UserError where there is none to go on with."""
-    from mgehl.output.files import RunFiles
+def _say_what_changed(config):
+    """A law beside a run that is not the one which it was solved with."""
+    from mgehl.output.laws import changed_copies
+    from mgehl.saying import complain
 
-    given = [
-        name
-        for name in ("config", "settings", "out", "force", "start_from", "no_error")
-        if getattr(options, name)
-    ]
-    if given:
-        raise UserError(f"--resume {options.resume}: goes on as it began, without {_WORDS[given[0]]}")
-    files = RunFiles(options.resume)
-    if not files.configuration.exists():
-        raise OutputError(
-            f"--resume {options.resume}: is no run directory: {files.configuration} is missing"
-        )
-    return files.result.exists()
+    for file in changed_copies(config):
+        complain(f"{file}: has changed since the run that it lies beside")
 
 
-def _finished(options, comm):
-    """The result of a run that has finished; what a kill left of its checkpoint goes."""
-    from mgehl.output.checkpoint import clear
-    from mgehl.output.files import RunFiles
-    from mgehl.output.stored import read_result
+def _say_what_differs(directory, start, config):
+    """A start of another contact is a first guess, and may be a bad one."""
+    from mgehl.output.laws import law_files
+    from mgehl.output.manifest import checksum
+    from mgehl.saying import complain
+    from mgehl.solver.restart import differences
 
-    files = RunFiles(options.resume)
-    result = read_result(files, load_config(files.configuration))
-    if comm.rank == 0:
-        clear(files.directory)
-        if not (options.quiet or options.json_lines):
-            print(f"mgehl: {options.resume} has finished: its results are there")
+    keys = list(differences(start, config))
+    theirs = {Path(file).name: checksum(file) for file in law_files(start.config)}
+    for file in law_files(config):
+        if theirs.get(Path(file).name, checksum(file)) != checksum(file):
+            keys.append(Path(file).name)
+    if keys:
+        complain(f"--start-from {directory}: is of another contact ({', '.join(keys)}): a first guess only")
+
+
+def _resume(options, comm, solve):
+    """Go on with a run in its directory, which is held; one that has finished may need a picture."""
+    from mgehl.output.files import on_first_rank
+    from mgehl.output.finish import taken_up
+    from mgehl.output.lock import locked
+
+    _check_alone(options)
+    directory = Path(options.resume)
+    on_first_rank(comm, _check_run, directory)
+    with locked(comm, directory):
+        config, start, said = comm.bcast(on_first_rank(comm, taken_up, directory))
+        if comm.rank == 0 and not (options.quiet or options.json_lines):
+            _say(said)
+        if config is None:
+            return comm.bcast(on_first_rank(comm, _finished, directory, options))
+        return solve(config, directory, _start(start, config, comm) if start else None)
+
+
+def _check_alone(options):
+    """Raise UserError for what does not go with --resume."""
+    for name, word in _WORDS.items():
+        if getattr(options, name):
+            raise UserError(f"--resume {options.resume}: goes on as it began, without {word}")
+
+
+def _check_run(directory):
+    from mgehl.output.checkpoint import is_begun
+    from mgehl.output.manifest import NAME
+
+    if not ((directory / NAME).exists() or is_begun(directory)):
+        raise OutputError(f"--resume {directory}: is no run directory: it has no {NAME} and no checkpoint")
+
+
+def _say(lines):
+    from mgehl.saying import complain
+
+    for line in lines:
+        complain(line)
+
+
+def _finished(directory, options):
+    """The result of a run that has finished; its picture is drawn where there is none."""
+    from mgehl.output.finish import draw_missing
+    from mgehl.saying import say
+
+    result = draw_missing(directory)
+    if not (options.quiet or options.json_lines):
+        say(f"mgehl: {directory} has finished: its results are there")
     return result
-
-
-def _taken_up(options, comm):
-    """Configuration, directory and start of a run that goes on."""
-    from mgehl.output.checkpoint import start_of
-    from mgehl.output.files import RunFiles
-
-    files = RunFiles(options.resume)
-    config, start = load_config(files.configuration), start_of(files.directory)
-    return config, files.directory, _start(start, config, comm) if start.is_dir() else None
 
 
 _WORDS = {
@@ -148,9 +184,10 @@ def _start(directory, config, comm):
     from mgehl.output.stored import read_run
     from mgehl.solver.restart import check_start
 
-    start = on_first_rank(comm, read_run, directory) or read_run(directory)
+    read = on_first_rank(comm, read_run, directory)
+    start = comm.bcast(read and read.shared())
     try:
         check_start(start, config.contact.kind)
     except UserError as error:
         raise UserError(f"--start-from {directory}: {error}") from None
-    return start
+    return read or start

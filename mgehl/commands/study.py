@@ -1,6 +1,5 @@
 """mgehl study: solve the cases of a study."""
 
-import sys
 from importlib import import_module
 from pathlib import Path
 
@@ -35,6 +34,9 @@ DOUBLING = ("wedge", "schemes", "angle", "error")
 LARGEST_LISTS = {"line": 1, "methods": 0, "accuracy": 0, "domain": 0}
 """Grids that --nodes may name, where not any number."""
 
+DEFAULTS = {"direction": "both", "mean": "arithmetic"}
+"""Of options that study transition alone takes."""
+
 _TAKES = {0: "has grids of its own", 1: "takes one grid"}
 
 
@@ -50,10 +52,11 @@ def add(commands):
     )
     parser.add_argument("study", choices=tuple(STUDIES), metavar="NAME", help=", ".join(STUDIES))
     parser.add_argument("--nodes", "--grid", metavar="N,N,...", help="grids instead of the study's own")
-    parser.add_argument("--direction", choices=("down", "up", "both"), default="both",
-                       help="branches that study transition follows")  # fmt: skip
-    parser.add_argument("--mean", choices=FACE_MOBILITIES, default="arithmetic",
-                       help="mean of the mobility that study transition follows")  # fmt: skip
+    parser.add_argument("--direction", choices=("down", "up", "both"),
+                       help="branches that study transition follows (default: both)")  # fmt: skip
+    parser.add_argument("--mean", choices=FACE_MOBILITIES,
+                       help="mean of the mobility that study transition follows "
+                       "(default: arithmetic)")  # fmt: skip
     parser.add_argument("--out", metavar="DIR", help="directory of the results (default: runs/study-NAME)")
     parser.add_argument("--force", action="store_true", help="start anew in a directory that exists")
     parser.add_argument(
@@ -65,11 +68,46 @@ def add(commands):
 
 def execute(options, comm):
     """Solve all cases on all ranks; write tables and pictures."""
-    from mgehl.output.files import on_first_rank, prepare_directory
-    from mgehl.output.report.study_record import StudyRecord, write_record
+    from mgehl.output.directory import make_directory
+    from mgehl.output.files import on_first_rank
+    from mgehl.output.lock import locked
+    from mgehl.output.report.study_record import StudyRecord
     from mgehl.run import versions
+    from mgehl.saying import complain
+
+    nodes = _checked_nodes(options)
+    directory = Path(options.out or Path("runs") / f"study-{options.study}")
+    mean, direction = options.mean or DEFAULTS["mean"], options.direction or DEFAULTS["direction"]
+    record = StudyRecord(options.study, nodes, direction, mean, comm.size, versions())
+    on_first_rank(comm, make_directory, directory, options.force or options.resume)
+    with locked(comm, directory):
+        study = _solve(options, comm, directory, record)
+    if options.quiet and study.failures and comm.rank == 0:
+        complain(f"{study.failures} cases of the study did not converge")
+    return NOT_CONVERGED if study.failures else CONVERGED
+
+
+def _solve(options, comm, directory, record):
+    """Solve all cases in the directory, which is held; return the `Study`."""
+    from mgehl.output.files import on_first_rank
+    from mgehl.output.study_directory import begin_study, finish_study
+    from mgehl.saying import say
     from mgehl.studies.study import Study
 
+    stage = comm.bcast(on_first_rank(comm, begin_study, directory, record, options.resume))
+    options_of_study = {"branch": record.branch, "mean": record.mean, "home": directory}
+    study = Study(stage, comm, record.nodes, not options.quiet, **options_of_study)
+    if not options.resume:
+        on_first_rank(comm, study.cache.clear)
+    import_module(f"mgehl.studies.{options.study}").run(study)
+    on_first_rank(comm, finish_study, directory, stage, options.resume)
+    if study.first and study.speak:
+        say(f"results in {directory}")
+    return study
+
+
+def _checked_nodes(options):
+    """The grids of --nodes. Raises ConfigError for options that the study does not take."""
     nodes = _nodes(options.nodes)
     if options.study in DOUBLING:
         _check_doubling(nodes)
@@ -77,17 +115,12 @@ def execute(options, comm):
         raise ConfigError(
             f"--nodes {options.nodes}: study {options.study} {_TAKES[LARGEST_LISTS[options.study]]}"
         )
-    directory = Path(options.out or Path("runs") / f"study-{options.study}")
-    on_first_rank(comm, prepare_directory, directory, options.force, options.resume)
-    record = StudyRecord(options.study, nodes, options.direction, options.mean, comm.size, versions())
-    on_first_rank(comm, write_record, directory, record)
-    study = Study(directory, comm, nodes, not options.quiet, branch=options.direction, mean=options.mean)
-    if not options.resume:
-        on_first_rank(comm, study.cache.clear)
-    import_module(f"mgehl.studies.{options.study}").run(study)
-    if options.quiet and study.failures and comm.rank == 0:
-        print(f"mgehl: {study.failures} cases of the study did not converge", file=sys.stderr)
-    return NOT_CONVERGED if study.failures else CONVERGED
+    for name in DEFAULTS:
+        if getattr(options, name) is not None and options.study != "transition":
+            raise ConfigError(f"--{name}: study {options.study} does not take it, study transition does")
+    if options.force and options.resume:
+        raise ConfigError("--force and --resume: one starts anew, the other goes on; give one of them")
+    return nodes
 
 
 def _check_doubling(nodes):

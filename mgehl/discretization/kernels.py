@@ -4,8 +4,8 @@ Each has a numpy twin in the tests that says the same thing slowly.
 """
 
 import numpy as np
-from numba import njit
 
+from mgehl.discretization.compiled import compiled
 from mgehl.discretization.mesh import HALO
 
 REACH = 4
@@ -20,7 +20,7 @@ VANISHING = 1e-290
 """Ratio of two mobilities of which there is no mean: its inverse must be a number."""
 
 
-@njit(cache=True, fastmath={"contract"})
+@compiled(fastmath={"contract"})
 def apply_jacobian(offsets, A, B, dP, dH, dH0, out):
     """out = A dP + B (dH + dH0); stencils (offsets, lines, nx), `dP` and `dH` ghosted."""
     lines, nx = out.shape
@@ -32,7 +32,7 @@ def apply_jacobian(offsets, A, B, dP, dH, dH0, out):
                 out[j, i] += A[k, j, i] * dP[line, i + node] + B[k, j, i] * (dH[line, i + node] + dH0)
 
 
-@njit(cache=True, fastmath={"contract"})
+@compiled(fastmath={"contract"})
 def apply_stencil(offsets, A, dP, out):
     """out = A dP, the Jacobian of a rigid gap; `dP` ghosted."""
     lines, nx = out.shape
@@ -44,7 +44,7 @@ def apply_stencil(offsets, A, dP, out):
                 out[j, i] += A[k, j, i] * dP[line, i + node]
 
 
-@njit(cache=True, fastmath={"contract"})
+@compiled(fastmath={"contract"})
 def build_bands(offsets, A, B, distributive, kappa, share, bands):
     """Fill `bands` (lines, nx, 2 reach + 1) with each line's part of J Q.
 
@@ -70,14 +70,14 @@ def build_bands(offsets, A, B, distributive, kappa, share, bands):
         _set_band(diagonals, bands[j])
 
 
-@njit(cache=True, fastmath={"contract"})
+@compiled(fastmath={"contract"})
 def _add_product(b, spreads, single, more, diagonal):
     """diagonal += b (single + more spreads): a function of its own, for a loop that runs on vectors."""
     for i in range(diagonal.size):
         diagonal[i] += b[i] * (single + more * spreads[i])
 
 
-@njit(cache=True, fastmath={"contract"})
+@compiled(fastmath={"contract"})
 def _set_band(diagonals, band):
     """A line's band (nx, width) of its diagonals (width, nx), without what is beyond the line's ends."""
     width, nx = diagonals.shape
@@ -87,7 +87,7 @@ def _set_band(diagonals, band):
             band[i, k] = diagonals[k, i] if 0 <= i + k - reach < nx else 0.0
 
 
-@njit(cache=True, fastmath={"contract"}, error_model="numpy")
+@compiled(fastmath={"contract"}, error_model="numpy")
 def factor_bands(bands):
     """LU factors in place, without pivoting; the diagonal holds the reciprocal pivots.
 
@@ -108,7 +108,7 @@ def factor_bands(bands):
                     band[row, reach - below + k] -= factor * band[i, reach + k]
 
 
-@njit(cache=True, fastmath={"contract"})
+@compiled(fastmath={"contract"})
 def solve_bands(bands, r, w):
     """Solve every line with the factors of `factor_bands`; `r` and `w` are (lines, nx)."""
     lines, nx, width = bands.shape
@@ -127,7 +127,7 @@ def solve_bands(bands, r, w):
             w[j, i] = value * band[i, reach]
 
 
-@njit(cache=True, fastmath={"contract"})
+@compiled(fastmath={"contract"})
 def distribute(w, distributive, share, omega, out, everywhere=True):
     """out = omega Q w, Q as in `build_bands`; `w` and `distributive` ghosted, `out` (lines, nx).
 
@@ -147,7 +147,7 @@ def distribute(w, distributive, share, omega, out, everywhere=True):
             out[j, i] = omega * (w[g, i] - share * spread)
 
 
-@njit(cache=True, fastmath={"contract"})
+@compiled(fastmath={"contract"})
 def flow_sources(inflow, P, along, across, source):
     """source = inflow - L P: the net inflow of a node without its Poiseuille flow.
 
@@ -167,7 +167,7 @@ def flow_sources(inflow, P, along, across, source):
             )
 
 
-@njit(cache=True, fastmath={"contract"})
+@compiled(fastmath={"contract"})
 def relax_cavitation(first, P, lubricated, movable, source, along, across, passes):
     """Solve P >= 0, inflow <= 0, one of them zero, on every other line from `first`.
 
@@ -224,7 +224,7 @@ def relax_cavitation(first, P, lubricated, movable, source, along, across, passe
     return changes
 
 
-@njit(cache=True, inline="always")
+@compiled(inline="always")
 def _slope(grown, x):
     """(e^x - 1 - x)/x^2 of `grown` = e^x - 1; near x = 0, where its digits cancel, by its series."""
     if abs(x) > NEAR:
@@ -232,7 +232,7 @@ def _slope(grown, x):
     return 0.5 + x / 6.0 * (1.0 + x / 4.0 * (1.0 + x / 5.0 * (1.0 + x / 6.0 * (1.0 + x / 7.0))))
 
 
-@njit(cache=True, inline="always")
+@compiled(inline="always")
 def _logarithmic(a, b):
     """Logarithmic mean of two numbers and its slopes; zero where either vanishes.
 
@@ -250,7 +250,7 @@ def _logarithmic(a, b):
     return mean, by_large, by_small
 
 
-@njit(cache=True, fastmath={"contract"})
+@compiled(fastmath={"contract"})
 def logarithmic_means(a, b, mean, by_a, by_b):
     """Logarithmic means of `a` and `b` and their slopes, all (lines, nodes)."""
     lines, nodes = a.shape
@@ -259,7 +259,7 @@ def logarithmic_means(a, b, mean, by_a, by_b):
             mean[j, i], by_a[j, i], by_b[j, i] = _logarithmic(a[j, i], b[j, i])
 
 
-@njit(cache=True, fastmath={"contract"})
+@compiled(fastmath={"contract"})
 def linear_gap_means(a, b, g, h, mean, by_a, by_b, by_g, by_h):
     """Mobilities between nodes of mobility `a`, `b` and gap `g`, `h`, and their slopes: all (lines, nodes).
 

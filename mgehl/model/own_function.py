@@ -4,7 +4,7 @@ import inspect
 import re
 import sys
 import traceback
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, is_dataclass, replace
 from functools import cache
 from pathlib import Path
 from types import ModuleType
@@ -13,7 +13,7 @@ import numpy as np
 
 from mgehl.errors import UserError
 
-_NAME = re.compile(r"(?P<file>.+\.py):(?P<function>[^\W\d]\w*)")
+_NAME = re.compile(r"(?P<file>[^\0\n]+\.py):(?P<function>[^\W\d]\w*)")
 
 
 def is_own(value):
@@ -27,6 +27,12 @@ def absolute(value, directory="."):
         return None
     match = _NAME.fullmatch(value)
     return f"{(Path(directory) / match['file']).resolve()}:{match['function']}"
+
+
+def file_and_function(value):
+    """The file and the function of "FILE.py:FUNCTION"; None of anything else."""
+    match = _NAME.fullmatch(value) if isinstance(value, str) else None
+    return match and (match["file"], match["function"])
 
 
 class OwnFunctionError(UserError):
@@ -112,6 +118,25 @@ class OwnFunction:
             lines = [error.lineno]
         where = f" (line {lines[-1]})" if lines else ""
         return f"{type(error).__name__}: {' '.join(str(error).split())[:200]}{where}"
+
+
+@dataclass(frozen=True)
+class StoredFunction(OwnFunction):
+    """That of a run which is only read: its file may be anybody's, and is never run."""
+
+    def _function(self):
+        raise self.error("is not run where results are read")
+
+
+def without_running(thing):
+    """A contact, or any dataclass, with `StoredFunction` for each `OwnFunction` in it, however deep."""
+    if isinstance(thing, OwnFunction):
+        return StoredFunction(thing.value)
+    if not is_dataclass(thing):
+        return thing
+    found = {each.name: getattr(thing, each.name) for each in fields(thing) if each.init}
+    stored = {name: without_running(each) for name, each in found.items()}
+    return replace(thing, **stored) if any(stored[name] is not found[name] for name in found) else thing
 
 
 @cache

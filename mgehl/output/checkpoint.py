@@ -1,14 +1,17 @@
 """A run's way on disk, so that it goes on where it was, whatever ended it.
 
 RUN/checkpoint/
+    configuration.toml    what is solved, and laws/ with the functions of the user's own
+    manifest.json         the run's identity, by which its other files are known
     start/                the run that this one was started from, if any
     solve-0000.npz, ...   finished solves, in order: a grid of the nested iteration each, or a step in speed
     under-way.npz         where the next one stands, saved every so many seconds
+    finished/             the result, until it is installed in the place of the one before
 
-Every file is whole (`whole_file`): record.json with arrays beside it, zipped as numpy does, so that
-`numpy.load` reads them, too. The record has
+Every file is whole and has a checksum (`archive`). Its record has
 
     format, mgehl       the version of this layout, and of the program
+    run                 the identity of the run that wrote it
     configuration       for which it was written
     solve               the number of the solve
     progress            the history of the run until then, its convolutions and seconds
@@ -19,26 +22,23 @@ array in a file is of the whole grid, (ny, nx). A run that goes on walks the sam
 finished is read instead of solved.
 """
 
-import io
 import json
 import shutil
 import time
 from contextlib import suppress
-from zipfile import ZipFile
-
-from numpy.lib import format as npy
 
 from mgehl.errors import OutputError, one_line
-from mgehl.output.files import START, RunFiles, clear_checkpoint, on_first_rank
-from mgehl.output.whole_file import whole_file
+from mgehl.output.archive import save, unpacked
+from mgehl.output.directory import check_result, clear_checkpoint
+from mgehl.output.files import START, RunFiles, on_first_rank
+from mgehl.output.laws import portable
+from mgehl.output.manifest import NAME as MANIFEST
 from mgehl.solver.journal import Journal, told_to_stop
 from mgehl.solver.record import Record
 from mgehl.version import VERSION
 
 UNDER_WAY = "under-way.npz"
-RECORD = "record.json"
-"""Member of a file; the others are its arrays."""
-FORMAT = 2
+FORMAT = 3
 """Of the files, goes up with every change of the layout or of a name; another one is not read."""
 
 
@@ -49,9 +49,9 @@ class Checkpoint(Journal):
     returns None or the `Stopped` to raise, once the present position is saved.
     """
 
-    def __init__(self, directory, config, progress, seconds, stop=lambda: None):
+    def __init__(self, directory, config, progress, seconds, stop=lambda: None, identity=""):
         self._folder, self._progress = RunFiles(directory).checkpoint, progress
-        self._configuration = json.dumps(config.as_toml_tables())
+        self._configuration, self._identity = json.dumps(portable(config)), identity
         self._seconds, self._stop = seconds, stop
         self._solved = 0
         self._saved = time.monotonic()
@@ -91,6 +91,7 @@ class Checkpoint(Journal):
         record = {
             "format": FORMAT,
             "mgehl": VERSION,
+            "run": self._identity,
             "configuration": json.loads(self._configuration),
             "solve": self._solved,
             "progress": self._progress.record(),
@@ -102,7 +103,7 @@ class Checkpoint(Journal):
 
     def _read(self, grid, path, made):
         """What is `made` of a file that is there and about the next solve; the history goes on from it."""
-        found = on_first_rank(grid.comm, load, path, self._configuration)
+        found = on_first_rank(grid.comm, load, path, self._configuration, self._identity)
         record, arrays = found or (None, {})
         record = grid.comm.bcast(record)
         if record is None or record["solve"] != self._solved:
@@ -134,14 +135,20 @@ def clear(directory):
         clear_checkpoint(directory)
 
 
+def is_begun(directory):
+    """Whether a directory has the way of a run that has not finished, or was just about to."""
+    return (RunFiles(directory).checkpoint / MANIFEST).exists()
+
+
 def keep_start(directory, start):
     """Copy the files of the run that is started from beside the checkpoint. Raises OutputError."""
-    source = RunFiles(start)
-    target = start_of(directory)
+    source, target = RunFiles(start).directory, start_of(directory)
+    names = [*check_result(start).files, MANIFEST]
     try:
-        target.mkdir(parents=True)
-        for path in (source.configuration, source.fields, source.history, source.result):
-            shutil.copy(path, target / path.name)
+        for name in names:
+            if (source / name).exists():  # a picture may be missing
+                (target / name).parent.mkdir(parents=True, exist_ok=True)
+                shutil.copyfile(source / name, target / name)
     except OSError as error:
         raise OutputError(f"{target}: cannot be written: {error.strerror or error}") from None
 
@@ -151,37 +158,18 @@ def start_of(directory):
     return RunFiles(directory).checkpoint / START
 
 
-def save(path, record, arrays):
-    """Write a record and its arrays as one whole file. Raises OutputError."""
-    try:
-        path.parent.mkdir(exist_ok=True)
-        with whole_file(path) as part, ZipFile(part, "w") as archive:
-            archive.writestr(RECORD, json.dumps(record))
-            for name, array in arrays.items():
-                with archive.open(f"{name}.npy", "w", force_zip64=True) as member:
-                    npy.write_array(member, array, allow_pickle=False)
-    except OSError as error:
-        raise OutputError(f"{path}: cannot be written: {error.strerror or error}") from None
-
-
 def damaged(path, error):
     """What is said of a file in which an `error` was met."""
     return f"{path}: is damaged, or no checkpoint: {one_line(error)}; without it, the run begins earlier"
 
 
-def load(path, configuration):
+def load(path, configuration, identity=None):
     """(record, arrays) of a file, None where there is none; `configuration` is the run's as JSON.
 
-    Raises OutputError where it is damaged, of another version or of another configuration.
+    Raises OutputError where it is damaged, of another version, configuration, or run than `identity`.
     """
     try:
-        with ZipFile(path) as archive:
-            members = {name: archive.read(name) for name in archive.namelist()}
-        record = dict(json.loads(members.pop(RECORD)))
-        arrays = {
-            name.removesuffix(".npy"): npy.read_array(io.BytesIO(member), allow_pickle=False)
-            for name, member in members.items()
-        }
+        record, arrays, is_whole = unpacked(path)
     except FileNotFoundError:
         return None
     except Exception as error:  # what a damaged file raises is anybody's guess
@@ -189,6 +177,10 @@ def load(path, configuration):
     by = record.get("mgehl")
     if record.get("format") != FORMAT or by != VERSION:
         raise OutputError(f"{path}: was written by mgehl {by}, and {VERSION} cannot go on with it")
+    if not is_whole:
+        raise OutputError(damaged(path, ValueError("it was edited")))
     if json.dumps(record.get("configuration")) != configuration:
         raise OutputError(f"{path}: was written for another configuration than the run has now")
+    if identity is not None and record.get("run") != identity:
+        raise OutputError(f"{path}: is of another run than this directory's")
     return record, arrays

@@ -2,21 +2,20 @@
 
 import csv
 import json
-from contextlib import suppress
+import pickle
 from dataclasses import asdict
 from functools import partial
-from itertools import chain
 from math import isfinite
 from pathlib import Path
 
 import tomli_w
 
 from mgehl.discretization import status
-from mgehl.errors import OutputError
+from mgehl.errors import one_line
 from mgehl.grid.events import FILES, event
 from mgehl.output.center_line import center_line
 from mgehl.output.memory_file import netcdf_file
-from mgehl.output.whole_file import whole_file
+from mgehl.output.whole_file import whole_file, write_whole
 from mgehl.version import VERSION
 
 
@@ -37,14 +36,24 @@ def from_first_rank(comm, function, *arguments):
             result = function(*arguments)
         except Exception as caught:
             error = caught
-    error = comm.bcast(error)
-    if error is not None:
-        raise error
+    told = comm.bcast(_sendable(error))
+    if told is not None:
+        raise error or told  # its own has the traceback
     return result
 
 
+def _sendable(error):
+    """The error, or one that says the same: some cannot be sent to other ranks."""
+    try:
+        pickle.loads(pickle.dumps(error))
+    except Exception:
+        return RuntimeError(f"{type(error).__name__}: {one_line(error)}")
+    return error
+
+
+CONFIGURATION = "configuration.toml"
 NAMES = (
-    "configuration.toml", "result.json", "history.csv", "fields.h5", "picture.png", "centerline.csv",
+    CONFIGURATION, "result.json", "history.csv", "fields.h5", "picture.png", "centerline.csv",
 )  # fmt: skip
 """The files of a run directory, in the order of `RunFiles`; the last is a wedge's."""
 
@@ -67,55 +76,15 @@ class RunFiles:
         self.checkpoint = self.directory / CHECKPOINT
 
 
-def prepare_directory(path, force, resume=False):
-    """Create a run directory, or with `force` clear one of an earlier run's files.
-
-    With `resume` a directory that exists is taken as it is.
-
-    Raises OutputError if it exists and `force` is not given, or if it cannot be written.
-    """
-    path = Path(path)
-    try:
-        if path.exists() and not (force or resume):
-            raise OutputError(f"{path} exists: add --force to replace it, or choose another with --out")
-        path.mkdir(parents=True, exist_ok=True)
-        probe = path / ".writable"
-        probe.touch()
-        probe.unlink()
-        for name in (*NAMES, REPORT):
-            # An old result must not pass for that of a run that was cut off.
-            (path / name).unlink(missing_ok=True)
-        clear_checkpoint(path)
-    except OSError as error:
-        raise OutputError(f"{path}: cannot be written: {error.strerror}") from None
-    return path
-
-
-def clear_checkpoint(directory):
-    """Forget what a run had reached: its own files only, whatever else lies in that folder."""
-    folder = RunFiles(directory).checkpoint
-    own = [folder.glob(pattern) for pattern in ("solve-*.npz", "under-way.npz", ".part-*")]
-    start = folder / START
-    for path in (*chain(*own), *(start / name for name in NAMES)):
-        path.unlink(missing_ok=True)
-    for each in (start, folder):
-        with suppress(OSError):  # not there, or somebody else's
-            each.rmdir()
-
-
-def write_config(path, config):
-    """The resolved configuration, as TOML that `mgehl run` reads."""
-    try:
-        with whole_file(path) as part:
-            part.write_text(tomli_w.dumps(config.as_toml_tables()))
-    except OSError as error:
-        raise OutputError(f"{path}: cannot be written: {error.strerror}") from None
+def write_config(path, tables):
+    """A resolved configuration's tables, as TOML that `mgehl run` reads."""
+    write_whole(path, tomli_w.dumps(tables))
 
 
 def write_result(path, result):
     """result.json; numbers that are not finite become null, which JSON can hold."""
     with whole_file(path) as part:
-        part.write_text(json.dumps(finite(asdict(result)), indent=2, allow_nan=False) + "\n")
+        part.write_text(json.dumps(finite(asdict(result)), indent=2, allow_nan=False) + "\n", "utf-8")
 
 
 def finite(value):
@@ -129,7 +98,7 @@ def finite(value):
 
 def write_history(path, rows):
     """history.csv: a row per cycle from dictionaries of one shape."""
-    with whole_file(path) as part, part.open("w", newline="") as file:
+    with whole_file(path) as part, part.open("w", newline="", encoding="utf-8") as file:
         writer = csv.DictWriter(file, fieldnames=list(rows[0]) if rows else [])
         writer.writeheader()
         writer.writerows(rows)
@@ -138,7 +107,7 @@ def write_history(path, rows):
 def write_center_line(path, mesh, fields):
     """centerline.csv of a wedge: X in mm and P  [Liu eq. 44] along Y = 0, nan in a pillar."""
     X, P = center_line(mesh, fields)
-    with whole_file(path) as part, part.open("w", newline="") as file:
+    with whole_file(path) as part, part.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file)
         writer.writerow(["X_mm", "P"])
         writer.writerows(zip(X.tolist(), P.tolist(), strict=True))

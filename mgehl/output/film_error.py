@@ -63,6 +63,8 @@ def why_no_band(result, contact):
         return "coarser grids, from which a band is told, do not see a rough surface"
     if not result.settled:
         return "the run has not settled"
+    if result.edge.wrong[0]:
+        return result.edge.wrong[0]
     if result.contact.nodes:
         return "there is solid contact: its edge moves from grid to grid by whole cells"
     if result.overlap.nodes:

@@ -6,6 +6,7 @@ import numpy as np
 
 from mgehl.discretization.status import CONTACT
 from mgehl.model.contact import Groups
+from mgehl.output.edge_result import NOT_SEEN, EdgeResult, edge_result
 from mgehl.output.film_error import NOT_ASKED, FilmError
 from mgehl.output.resolution import Resolution, resolution
 from mgehl.output.words import loaded_words
@@ -78,7 +79,8 @@ class Result:
     """Everything result.json holds."""
 
     converged: bool
-    """`settled`, and the pressure inequality [Liu eq. 2] holds all along the interface."""
+    """`settled`, the pressure inequality [Liu eq. 2] holds all along the interface, and the contact lies
+    within its domain, on enough nodes."""
     settled: bool
     """Sets, residual, load and complementarity hold: a solution of the discrete equations."""
     reason: str
@@ -108,6 +110,14 @@ class Result:
     ranks: int
     versions: dict
     error: FilmError = NOT_ASKED
+    edge: EdgeResult = NOT_SEEN
+
+    @property
+    def doubt(self):
+        """Of a state that settled and has not converged: what is wrong with it, in a few words."""
+        if self.pressure_inequality.violations:
+            return "Eq. 2 is broken"
+        return self.edge.wrong[0] or "Eq. 2 is broken"
 
     def __str__(self):
         return loaded_words(self)
@@ -129,12 +139,12 @@ def summarise(problem, outcome, tolerance, work, wall_s, versions):
     asked, other = _inequalities(problem, state)
     complementarity = complementarity_error(problem, state, evaluation)
     settled, reason = _verdict(outcome, tolerance, residual, load_error, complementarity)
-    converged, overlap = settled and asked.violations == 0, overlap_of(grid, state, nm)
+    overlap, edge = overlap_of(grid, state, nm), edge_result(problem, state, nm)
     if settled:
-        reason = _whether_more_holds(asked, overlap) or reason
+        reason = _whether_more_holds(asked, edge, overlap) or reason
     moes = contact.film_scale * contact.moes_scale
     return Result(
-        converged=converged,
+        converged=settled and asked.violations == 0 and not edge.wrong[0],
         settled=settled,
         reason=reason,
         central_film_nm=central * nm,
@@ -158,6 +168,7 @@ def summarise(problem, outcome, tolerance, work, wall_s, versions):
         wall_s=wall_s,
         ranks=grid.comm.size,
         versions=versions,
+        edge=edge,
     )
 
 
@@ -174,13 +185,15 @@ def _verdict(outcome, tolerance, residual, load_error, complementarity):
     return True, "residual, load, sets, complementarity and the pressure inequality hold"
 
 
-def _whether_more_holds(inequality, overlap):
+def _whether_more_holds(inequality, edge, overlap):
     """What a settled state breaks besides; empty where it is nothing."""
     if inequality.violations:
         return (
             f"contact pressure is below the fluid pressure beside it at {inequality.violations} of "
             f"{inequality.checked} interface nodes, by up to {inequality.worst:.1e} p_h"
         )
+    if edge.wrong[1]:
+        return edge.wrong[1]
     if overlap.nodes:
         return (
             f"the unified equations hold, but the bodies overlap at {overlap.nodes} nodes "

@@ -5,74 +5,108 @@ import json
 import tomllib
 from pathlib import Path
 
-from mgehl.errors import UserError
+from mgehl.errors import UserError, printable
 from mgehl.output.digits import with_band
+from mgehl.output.directory import check_result
 from mgehl.output.domain import UNKNOWN
+from mgehl.output.whole_file import whole_file
 from mgehl.output.words import span
 
 FILMS = ("central", "minimum")
 
 
 def collect(directories):
-    """A row (dict of text) for each run directory. Raises OSError if one cannot be read,
-    UserError if it has no film."""
-    return [_row(Path(directory)) for directory in directories]
+    """A row (dict of text) for each run directory, all of the same columns; empty where a run has none.
+
+    Raises OutputError for a directory that is not as its run wrote it, OSError if one cannot be read,
+    UserError if it has no film.
+    """
+    rows = [_row(Path(directory)) for directory in directories]
+    columns = dict.fromkeys(name for row in rows for name in row)
+    return [{name: row.get(name, "") for name in columns} for row in rows]
 
 
 def markdown(rows, columns):
     """Some columns of the rows as a Markdown table."""
     lines = [columns, ["---"] * len(columns), *([row[column] for column in columns] for row in rows)]
-    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+    return "\n".join("| " + " | ".join(map(_cell, line)) + " |" for line in lines)
+
+
+def _cell(text):
+    """What a file says, without what would end the cell or move the cursor."""
+    return printable(text).replace("|", "\\|")
 
 
 def write_csv(path, rows):
     """The rows as CSV."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    with path.open("w", newline="") as file:
+    with whole_file(path) as part, part.open("w", newline="", encoding="utf-8") as file:
         writer = csv.DictWriter(file, fieldnames=list(rows[0]))
         writer.writeheader()
         writer.writerows(rows)
 
 
 def _row(directory):
-    result = json.loads((directory / "result.json").read_text())
-    config = tomllib.loads((directory / "configuration.toml").read_text())
+    check_result(directory)
+    result = json.loads((directory / "result.json").read_text(encoding="utf-8"))
+    config = tomllib.loads((directory / "configuration.toml").read_text(encoding="utf-8"))
     if config["discretization"].get("contact_model") == "dry":
         raise UserError(f"{directory}: is a dry contact, without the films that this table is of")
-    with (directory / "history.csv").open() as file:
+    with (directory / "history.csv").open(encoding="utf-8") as file:
         history = list(csv.DictReader(file))
     nodes = config["grid"]["nodes"]
     finest = [row for row in history if int(row["grid"]) == nodes]
-    contact, inequality = result["contact"], result["pressure_inequality"]
-    return {
-        "run": directory.name,
+    row = {
+        "run": directory.resolve().name,
         "nodes": str(nodes),
-        "couette": config["discretization"]["couette"],
+        "couette": config["discretization"].get("couette", "1B"),
         "ranks": str(result["ranks"]),
         "converged": "yes" if result["converged"] else "no",
+    }
+    row |= _loaded(result) if "contact" in result else _bearing(result)
+    row["most GMRES iterations"] = max(
+        (each.get("linear_iterations", "0") for each in finest), key=int, default=""
+    )
+    if len(finest) > 1 and "seconds" in finest[0]:
+        row["Newton steps on finest"] = str(len(finest) - 1)
+        row["us a step and node"] = f"{1e6 * _seconds_per_step(finest) / nodes**2:.3f}"
+    return row | {"wall s": f"{result['wall_s']:.1f}"}
+
+
+def _bearing(result):
+    """What a wedge comes to: a load, and neither films nor contact."""
+    return {"load N": f"{result['load_N']:.6g}", "residual": f"{result['residual']:.1e}"}
+
+
+def _loaded(result):
+    """What a loaded contact comes to."""
+    contact, inequality = result["contact"], result["pressure_inequality"]
+    return {
         **_films(result),
-        "H_Moes central": f"{result['moes_film']['central']:.5f}",
-        "H_Moes minimum": f"{result['moes_film']['minimum']:.5f}",
-        "residual": f"{result['residual']:.1e}",
-        "load error": f"{result['load_error']:.1e}",
+        "H_Moes central": _digits(result["moes_film"]["central"], ".5f"),
+        "H_Moes minimum": _digits(result["moes_film"]["minimum"], ".5f"),
+        "residual": _digits(result["residual"], ".1e"),
+        "load error": _digits(result["load_error"], ".1e"),
         "contact nodes on X": span(contact["x_nodes"]),
         "on Y": span(contact["y_nodes"]),
-        "largest gap in contact nm": f"{contact['largest_gap_nm']:.1e}",
+        "largest gap in contact nm": _digits(contact["largest_gap_nm"], ".1e"),
         "Eq. 2 violations": f"{inequality['violations']} of {inequality['checked']}",
         "inlet cells": f"{result['resolution']['inlet_cells']:.2f}",
         "domain": result["resolution"].get("domain", UNKNOWN),
         "convolutions": f"{result['work']['convolutions']:.1f}",
-        "Newton steps on finest": str(len(finest) - 1),
-        "most GMRES iterations": max((row["linear_iterations"] for row in finest), key=int),
-        "us a step and node": f"{1e6 * _seconds_per_step(finest) / nodes**2:.3f}",
-        "wall s": f"{result['wall_s']:.1f}",
+        "Newton steps on finest": "",
     }
+
+
+def _digits(number, digits):
+    """A number of result.json, which is null where it was not finite."""
+    return "nan" if number is None else format(number, digits)
 
 
 def _films(result):
     """Central and minimum film with all digits, and their bands; empty where there is none."""
     error = result.get("error") or {}
-    columns = {f"{film} nm": f"{result[f'{film}_film_nm']:.4f}" for film in FILMS}
+    columns = {f"{film} nm": _digits(result[f"{film}_film_nm"], ".4f") for film in FILMS}
     bands = {film: error.get(f"{film}_nm") for film in FILMS}
     return columns | {f"{film} ± nm": "" if band is None else f"{band:.4g}" for film, band in bands.items()}
 
@@ -83,11 +117,11 @@ def with_bands(rows):
 
 
 def _with_bands(row):
-    bands = {film: row[f"{film} ± nm"] for film in FILMS}
+    bands = {film: row.get(f"{film} ± nm") for film in FILMS}
     shown = {
         f"{film} nm": with_band(float(row[f"{film} nm"]), float(bands[film]))
         for film in FILMS
-        if bands[film]
+        if bands.get(film)
     }
     return {name: text for name, text in (row | shown).items() if "±" not in name}
 

@@ -3,10 +3,12 @@
 import json
 import os
 import sys
+from contextlib import suppress
 from dataclasses import asdict
 from math import ceil, inf, isfinite, log
 
 from mgehl.output.files import finite
+from mgehl.saying import complain, say
 
 
 class Silent:
@@ -33,28 +35,28 @@ class Quiet(Silent):
 
     def end(self, solution, directory):
         if not solution.result.converged:
-            print(f"mgehl: not converged: {solution.result.reason}", file=sys.stderr)
+            complain(f"not converged: {solution.result.reason}")
 
 
 class Lines(Silent):
     """A line per cycle, at last the answer and whether to trust it."""
 
     def row(self, row, line, left=None):
-        print(line, flush=True)
+        say(line)
 
     def end(self, solution, directory):
-        print(solution, f"  results in {directory}", sep="\n", flush=True)
+        say(solution, f"  results in {directory}", sep="\n")
 
 
 class JsonLines(Silent):
     """A JSON object per cycle and one of the result, for programs that watch."""
 
     def row(self, row, line, left=None):
-        print(json.dumps(finite({"cycle": row, "seconds_left": left})), flush=True)
+        say(json.dumps(finite({"cycle": row, "seconds_left": left})))
 
     def end(self, solution, directory):
         result = finite(asdict(solution.result))
-        print(json.dumps({"result": result, "directory": str(directory)}), flush=True)
+        say(json.dumps({"result": result, "directory": str(directory)}))
 
 
 class Live(Lines):
@@ -66,24 +68,31 @@ class Live(Lines):
         words = TextColumn("{task.description}")
         self._display = Progress(words, BarColumn(), TextColumn("{task.fields[left]}"), transient=True)
         self._task = self._display.add_task("starting", total=1.0, left="")
-        self._display.start()
+        with _AS_LONG_AS_IT_SHOWS:
+            self._display.start()
         return self
 
     def __exit__(self, *_):
-        self._display.stop()
+        with _AS_LONG_AS_IT_SHOWS:
+            self._display.stop()
 
     def row(self, row, line, left=None):
-        print_above = self._display.console.print
-        print_above(line, highlight=False, markup=False, soft_wrap=True)
         spent = row.get("seconds", 0.0)
         done = None if left is None else spent / max(spent + left, 1e-9)
         what = f"{row['grid']} nodes, step {row['step']}"
         told = "" if left is None else f"about {ceil(left)} s left"
-        self._display.update(self._task, description=what, completed=done, left=told)
+        with _AS_LONG_AS_IT_SHOWS:
+            self._display.console.print(line, highlight=False, markup=False, soft_wrap=True)
+            self._display.update(self._task, description=what, completed=done, left=told)
 
     def end(self, solution, directory):
-        self._display.stop()
+        with _AS_LONG_AS_IT_SHOWS:
+            self._display.stop()
         super().end(solution, directory)
+
+
+_AS_LONG_AS_IT_SHOWS = suppress(OSError, ValueError)
+"""A terminal may be closed."""
 
 
 def speaker(quiet=False, json_lines=False, stream=None):
@@ -100,7 +109,10 @@ def _shows(stream):
 
     Open MPI gives its ranks one without width, wherever their words go from there.
     """
-    return stream.isatty() and os.get_terminal_size(stream.fileno()).columns > 0
+    try:
+        return stream.isatty() and os.get_terminal_size(stream.fileno()).columns > 0
+    except (OSError, ValueError, AttributeError):  # closed
+        return False
 
 
 STEPS_A_GRID = 8

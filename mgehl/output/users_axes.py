@@ -45,11 +45,14 @@ def _result(result, frame, mesh):
 
     x_nodes, y_nodes = frame.users_ranges(result.contact.x_nodes, result.contact.y_nodes, mesh.nx, mesh.ny)
 
+    edge, across = result.edge, frame.pair(result.edge.nodes_along_x, result.edge.nodes_along_y)
+
     def in_users_nodes(inequality):
         return replace(inequality, nodes=[at(node) for node in inequality.nodes])
 
     return replace(
         result,
+        edge=replace(edge, nodes_along_x=across[0], nodes_along_y=across[1]),
         contact=replace(result.contact, x_nodes=x_nodes, y_nodes=y_nodes),
         pressure_inequality=in_users_nodes(result.pressure_inequality),
         other_inequality=in_users_nodes(result.other_inequality),

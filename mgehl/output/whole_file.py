@@ -1,28 +1,59 @@
-"""Files that are there whole, or not at all."""
+"""Files that are there whole, or not at all; and what is never written over."""
 
+import errno
 import os
-from contextlib import contextmanager
+import re
+import stat
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from mgehl.errors import OutputError
+
+_PART = re.compile(r"\.part-(?P<process>\d+)-(?P<name>.+)", re.DOTALL)
+
+
+def is_plain(path):
+    """True of a file that is no link, no device and no directory."""
+    try:
+        return stat.S_ISREG(os.lstat(path).st_mode)
+    except OSError:
+        return False
+
+
+def is_folder(path):
+    """True of a directory that is no link."""
+    try:
+        return stat.S_ISDIR(os.lstat(path).st_mode)
+    except OSError:
+        return False
+
+
+def check_place(path):
+    """Raise OSError where something else than a plain file is in the place of a file to write."""
+    if os.path.lexists(path) and not is_plain(path):
+        raise OSError(errno.EEXIST, "a link, a device or a directory is in its place, and is left alone")
 
 
 @contextmanager
 def whole_file(path):
     """A path to write to; what is there becomes `path` at the end, flushed to the disk before.
 
-    Whatever ends the block, or the process, in between leaves the file of that name as it was.
+    Whatever ends the block, or the process, in between leaves the file of that name as it was. Raises
+    OSError where what is there is no plain file.
     """
     path = Path(path)
+    check_place(path)
+    clear_parts(path.parent, path.name)
     # The suffix stays the last word: writers go by it.
-    part = path.with_name(f".part-{path.name}")
+    part = path.with_name(f".part-{os.getpid()}-{path.name}")
     try:
         yield part
         with part.open("rb+") as file:
             os.fsync(file.fileno())
         part.replace(path)
     finally:
-        part.unlink(missing_ok=True)
+        with suppress(OSError):
+            part.unlink(missing_ok=True)
 
 
 def write_whole(path, text):
@@ -32,3 +63,29 @@ def write_whole(path, text):
             part.write_text(text, encoding="utf-8")
     except OSError as error:
         raise OutputError(f"{path}: cannot be written: {error.strerror or error}") from None
+
+
+def clear_parts(folder, name=None):
+    """Remove what processes that are dead, or this one, left of a file, or of all files of a folder."""
+    with suppress(OSError):
+        for each in os.scandir(folder):
+            match = _PART.fullmatch(each.name)
+            if (
+                match
+                and name in (None, match["name"])
+                and is_plain(each.path)
+                and _is_over(match["process"])
+            ):
+                os.unlink(each.path)
+
+
+def _is_over(process):
+    if int(process) == os.getpid():
+        return True
+    try:
+        os.kill(int(process), 0)
+    except (ProcessLookupError, OverflowError):
+        return True
+    except OSError:
+        return False
+    return False

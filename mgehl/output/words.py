@@ -48,7 +48,7 @@ def loaded_words(result):
     overlap = result.overlap
     verdict = "CONVERGED" if result.converged else "NOT CONVERGED"
     if result.settled and not result.converged:
-        verdict = "SETTLED, BUT EQ. 2 IS BROKEN"
+        verdict = f"SETTLED, BUT {result.doubt.upper()}"
     lines = [
         f"{verdict}: {result.reason}",
         f"  {films_words(result)}, largest pressure {_number(result.max_pressure_GPa)} GPa",

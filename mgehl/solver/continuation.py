@@ -126,7 +126,24 @@ def begin(hierarchy, contact, settings, monitor, journal=NOTHING_KEPT):
     if mean == "arithmetic" or (mean not in FOLDING and resolved):
         return nested_iteration(hierarchy, contact, settings, monitor, journal)
     continuation = Continuation(hierarchy, contact, settings, monitor, journal)
-    return continuation.begin(contact.speed, nested.start)
+    return _of_its_own(contact, settings, *continuation.begin(contact.speed, nested.start))
+
+
+def _of_its_own(contact, settings, problem, outcome):
+    """The problem that was to be solved, where the `outcome` is that of a stage on the way to it.
+
+    Its state is no solution of these equations, and is judged by them.
+    """
+    scheme, speed = problem.scheme, problem.contact.speed
+    if scheme == settings.scheme and speed == contact.speed:
+        return problem, outcome
+    outcome.converged = False
+    share = f", {100 * scheme.mobility_share:.3g} % of it" if scheme.mobility_share < 1.0 else ""
+    outcome.reason = (
+        f"a stage on the way ({scheme.face_mobility} mean{share}, {1e3 * speed:.4g} mm/s) has no solution: "
+        f"{outcome.reason}"
+    )
+    return ContactProblem(problem.grid, problem.deflection, contact, settings.scheme), outcome
 
 
 def carry(solve, state, step=1.0):

@@ -177,7 +177,7 @@ class Partition:
             g = j + HALO
             beside = (around[g, i - 1], around[g, i + 1], around[g - 1, i], around[g + 1, i])
             gap, pressure = float(self.past.closing_gap[j, i]), float(self.past.torn_pressure[j, i])
-            names = tuple(NAMES[each] for each in beside)
+            names = tuple((*NAMES, "wall")[each] for each in beside)
             local.append(Contradiction(int(i) + 1, int(j) + self._grid.first + 1, gap, pressure, names))
         return [each for part in self._grid.comm.allgather(local) for each in part]
 

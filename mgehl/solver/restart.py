@@ -1,12 +1,14 @@
 """A start from the fields of another run: another grid, another speed, another load."""
 
 from functools import partial
+from pathlib import Path
 
 import numpy as np
 from scipy.interpolate import RegularGridInterpolator
 
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
 from mgehl.errors import UserError
+from mgehl.model.own_function import file_and_function
 from mgehl.solver.continuation import Continuation
 from mgehl.solver.nested import LevelSolve
 from mgehl.solver.problem import ContactProblem
@@ -18,6 +20,29 @@ def check_start(start, kind):
     other = start.config.contact.kind
     if other != kind or not start.contact.is_loaded:
         raise UserError(f"a {other} is no start for a {kind}")
+
+
+DIFFER = ("contact", "coating", "lubricant", "discretization")
+"""Sections of a configuration by which a start may be of another contact."""
+
+OF_A_CASE = ("contact.load", "contact.load_per_length")
+"""Keys of these in which a start may well differ: it is carried from one to the other."""
+
+
+def differences(start, config):
+    """Keys in which the `Config` of a start describes another contact than `config`."""
+    ours, theirs = config.as_toml_tables(), start.config.as_toml_tables()
+    for section in DIFFER:
+        one, other = ours.get(section, {}), theirs.get(section, {})
+        for key in sorted(one.keys() | other.keys()):
+            if f"{section}.{key}" not in OF_A_CASE and _plain(one.get(key)) != _plain(other.get(key)):
+                yield f"{section}.{key}"
+
+
+def _plain(value):
+    """A value, of an own function without its directory."""
+    own = file_and_function(value)
+    return (Path(own[0]).name, own[1]) if own else value
 
 
 def solve_from(hierarchy, contact, settings, start, frame, monitor, journal):

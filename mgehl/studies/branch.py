@@ -10,13 +10,15 @@ are close, and films of neighbouring speeds are not.
 """
 
 import time
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, fields, replace
 
 import numpy as np
 
 from mgehl.config import config_from_tables
 from mgehl.output.result import Work, summarise
 from mgehl.output.solution import Fields
+from mgehl.output.solution_record import arrays_of, fields_from
+from mgehl.output.stored import result_from
 from mgehl.run import versions
 from mgehl.solver.continuation import Continuation
 from mgehl.solver.from_config import set_up
@@ -53,12 +55,17 @@ class Point:
         """What every rank knows."""
         return replace(self, fields=None)
 
+    def record(self):
+        """(Plain data, arrays) of it; on the rank that has the fields."""
+        plain = {each.name: getattr(self, each.name) for each in fields(self) if each.name != "fields"}
+        return plain | {"result": asdict(self.result)}, arrays_of(self.fields)
+
 
 class Branches:
     """Both branches of one configuration's contact; a context manager, for the grids' sake."""
 
     def __init__(self, study, tables):
-        config = config_from_tables(merged(PAPER, tables))
+        self._config = config = config_from_tables(merged(PAPER, tables))
         self._study, self._tables = study, config.as_toml_tables()
         self._parts = set_up(config)
         self.contact, self.mesh = self._parts.contact, self._parts.mesh
@@ -113,13 +120,21 @@ class Branches:
     def point(self, branch, way, last, beside=(), jump=False, arithmetic=None):
         """The point at the last speed of the `way` along a branch, from disk or from point `last`."""
         key = self._key(branch, way, jump, beside, arithmetic)
-        point = self._study.cache.load(key)
+        point = self._study.cache.load(key, self._point_from)
         if point is None:
             ways = self._ways(branch, way[-1], last, beside, jump, arithmetic)
             point = self._find(branch, way[-1], ways)
-            self._study.cache.store(key, point)
+            self._study.cache.store(key, point.record)
         self._study.tell(f"{self.mesh.nx} nodes, {branch}, {1e3 * way[-1]:.4g} mm/s", point.result)
         return point
+
+    def _point_from(self, plain, arrays):
+        """The `Point` of which `record` made these."""
+        found = fields_from(arrays)
+        if found.P.shape != (self.mesh.ny, self.mesh.nx):
+            raise ValueError("its fields are not of this grid")
+        result = result_from(plain["result"], self._config)
+        return Point(**plain | {"result": result, "sweep": tuple(plain["sweep"]), "fields": found})
 
     def _key(self, branch, way, jump, beside, arithmetic):
         """What the answer at the end of the `way` depends on."""

@@ -2,25 +2,28 @@
 
 import hashlib
 import json
-import os
-import pickle
+import re
 from functools import cache
 from pathlib import Path
 
 from mgehl.errors import OutputError
+from mgehl.output.archive import save, unpacked
 from mgehl.output.files import on_first_rank
+from mgehl.output.whole_file import clear_parts, is_folder, is_plain
 from mgehl.version import VERSION
 
 FOLDER = "points"
 
 COMPUTING = ("model", "discretization", "kinds", "grid", "multigrid", "solver", "run.py",
-             "output/domain.py", "output/resolution.py", "output/film_error.py", "output/result.py",
-             "output/surface.py", "output/wedge_result.py",
+             "output/domain.py", "output/resolution.py", "output/edge_result.py", "output/dry_result.py",
+             "output/film_error.py", "output/result.py", "output/surface.py", "output/wedge_result.py",
              "output/solution.py", "studies/branch.py")  # fmt: skip
 """Layers and modules that make a point: one that other code made is computed anew."""
 
-CHECKSUM = hashlib.sha256().digest_size
-"""Bytes before a point's own, by which a damaged one is known."""
+FORMAT = 1
+"""Of a point's file; another one is not read."""
+
+_POINT = re.compile(r"[0-9a-f]{24}\.npz")
 
 
 def key_of(description):
@@ -41,49 +44,54 @@ def code():
 
 
 class PointCache:
-    """Points by key in DIRECTORY/points; written and read on rank 0, known to every rank."""
+    """Points by key in DIRECTORY/points; written and read on rank 0, known to every rank.
+
+    A point is plain data and arrays (`output.archive`): reading one runs nothing.
+    """
 
     def __init__(self, directory, comm):
         self._folder, self._comm = Path(directory) / FOLDER, comm
 
-    def load(self, key):
-        """The point stored under `key` on rank 0, its `shared()` on the others; None without one."""
-        point = self._read(key) if self._comm.rank == 0 else None
+    def load(self, key, made):
+        """What is `made(plain, arrays)` of the point under `key` on rank 0, its `shared()` on the others.
+
+        None where there is none, where it is damaged, edited, or not of this key: it is computed anew.
+        """
+        point = self._read(key, made) if self._comm.rank == 0 else None
         shared = self._comm.bcast(point.shared() if point else None)
         return point or shared
 
-    def store(self, key, point):
-        """Put `point` on disk; a kill in between leaves no half of it (collective)."""
-        on_first_rank(self._comm, self._write, key, point)
+    def store(self, key, record):
+        """Put a point's `record()`, (plain, arrays) on rank 0, on disk; a kill leaves no half of it.
+
+        Collective.
+        """
+        on_first_rank(self._comm, self._write, key, record)
 
     def clear(self):
-        """Forget all points (on the rank that writes)."""
+        """Forget all points, and nothing else that lies there (on the rank that writes)."""
+        if not is_folder(self._folder):
+            return
+        clear_parts(self._folder)
         try:
-            for point in self._folder.glob("*"):
-                point.unlink()
+            for path in self._folder.iterdir():
+                if _POINT.fullmatch(path.name) and is_plain(path):
+                    path.unlink()
         except OSError as error:
             raise OutputError(f"{self._folder}: cannot be cleared: {error}") from None
 
-    def _read(self, key):
-        """None for a point that is not there, damaged, or of other classes: it is computed anew."""
+    def _read(self, key, made):
+        path = self._folder / f"{key}.npz"
+        if not is_plain(path):
+            return None
         try:
-            stored = (self._folder / key).read_bytes()
-            if hashlib.sha256(stored[CHECKSUM:]).digest() != stored[:CHECKSUM]:
+            record, arrays, is_whole = unpacked(path)
+            if not is_whole or record["format"] != FORMAT or record["key"] != key:
                 return None
-            return pickle.loads(stored[CHECKSUM:])
-        except (OSError, AttributeError, ImportError):
+            return made(record["point"], arrays)
+        except Exception:  # what a damaged file raises is anybody's guess
             return None
 
-    def _write(self, key, point):
-        unfinished = self._folder / f"{key}.unfinished"
-        try:
-            self._folder.mkdir(exist_ok=True)
-            stored = pickle.dumps(point, protocol=pickle.HIGHEST_PROTOCOL)
-            with unfinished.open("wb") as file:
-                file.write(hashlib.sha256(stored).digest())
-                file.write(stored)
-                file.flush()
-                os.fsync(file.fileno())
-            unfinished.replace(self._folder / key)
-        except OSError as error:
-            raise OutputError(f"{self._folder}: cannot be written: {error}") from None
+    def _write(self, key, record):
+        plain, arrays = record()
+        save(self._folder / f"{key}.npz", {"format": FORMAT, "key": key, "point": plain}, arrays)

@@ -2,17 +2,20 @@
 
 import time
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, partial
 from math import log2
 from pathlib import Path
 
 from mpi4py import MPI
 
 from mgehl.config import config_from_tables
-from mgehl.errors import OutputError
+from mgehl.errors import OutputError, one_line
 from mgehl.output.files import on_first_rank
+from mgehl.output.solution_record import record_of, solution_from
 from mgehl.output.table import markdown, write_csv
+from mgehl.output.whole_file import write_whole
 from mgehl.run import solve
+from mgehl.saying import complain, say
 from mgehl.studies.cache import PointCache, key_of
 
 PAPER = {"discretization": {"couette": "1B", "face_mobility": "arithmetic"}}
@@ -41,6 +44,8 @@ class Study:
     """Which branch a study of both is asked for: "down", "up" or "both"."""
     mean: str = "arithmetic"
     """Mean of the mobility, for a study that follows one."""
+    home: Path | None = None
+    """Directory of its points, where that is another than the one of tables and pictures."""
     _done: int = field(default=0, init=False)
     _started: float = field(default_factory=time.perf_counter, init=False)
 
@@ -57,20 +62,20 @@ class Study:
         """
         config = _config(tables)
         key = key_of(config.as_toml_tables())
-        solution = self.cache.load(key)
+        solution = self.cache.load(key, solution_from)
         if solution is None:
             solution = solve(config, self.comm)
-            self.cache.store(key, solution)
+            self.cache.store(key, partial(record_of, solution))
         self.failures += must_converge and not solution.result.converged
-        self.tell(title, solution.result)
+        self.tell(title, solution.result, must_converge)
         return solution
 
     @cached_property
     def cache(self):
         """Its finished points."""
-        return PointCache(self.directory, self.comm)
+        return PointCache(self.home or self.directory, self.comm)
 
-    def tell(self, title, result):
+    def tell(self, title, result, must_converge=True):
         """Count a finished case and say how long the others will take."""
         self._done += 1
         if self.first and self.speak:
@@ -78,7 +83,7 @@ class Study:
             left = spent / self._done * max(self.cases - self._done, 0)
             # How many points a bracket takes is not known before.
             when = f"/{self.cases}  {left:5.0f} s left" if self.cases else f"  after {spent:5.0f} s"
-            print(f"{self._done:3d}{when}  {title}{_verdict(result)}", flush=True)
+            say(f"{self._done:3d}{when}  {title}{_verdict(result, must_converge)}")
 
     def write_table(self, name, rows):
         """Write rows (dictionaries of text) as NAME.csv and NAME.md, and print them (collective)."""
@@ -92,20 +97,21 @@ class Study:
         text = markdown(rows, list(rows[0]))
         try:
             write_csv(self.directory / f"{name}.csv", rows)
-            (self.directory / f"{name}.md").write_text(text + "\n")
         except OSError as error:
             raise OutputError(f"{self.directory}: cannot be written: {error}") from None
+        write_whole(self.directory / f"{name}.md", text + "\n")
         if self.speak:
-            print(f"\n{name}\n\n{text}\n", flush=True)
+            say(f"\n{name}\n\n{text}\n")
 
     def _draw(self, name, function, arguments):
         path = self.directory / f"{name}.png"
         try:
             function(path, *arguments)
-        except OSError as error:
-            raise OutputError(f"{path}: cannot be written: {error}") from None
-        if self.speak:
-            print(f"picture {path}", flush=True)
+        except Exception as error:  # what matplotlib raises is anybody's guess; the tables are there
+            complain(f"{path}: cannot be drawn: {one_line(error)}")
+        else:
+            if self.speak:
+                say(f"picture {path.name}")
 
 
 def _config(tables):
@@ -116,11 +122,15 @@ def _config(tables):
     return replace(config, solver=replace(config.solver, error=False))
 
 
-def _verdict(result):
-    """Nothing to say of a case that converged; a solution that breaks Eq. 2 is not one without end."""
+def _verdict(result, must_converge):
+    """Nothing to say of a case that converged; a solution that breaks Eq. 2 is not one without end.
+
+    That there is no solution may be what the study asks: then it is no failure.
+    """
     if result.converged:
         return ""
-    return f"  {'EQ. 2 IS BROKEN' if result.settled else 'NOT CONVERGED'}: {result.reason}"
+    other = "NOT CONVERGED" if must_converge else "no solution, which is an answer here"
+    return f"  {result.doubt.upper() if result.settled else other}: {result.reason}"
 
 
 def papers_grid(nodes):

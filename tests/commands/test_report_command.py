@@ -4,6 +4,8 @@ import pytest
 
 from mgehl.cli import main
 from mgehl.commands.study import STUDIES
+from mgehl.output.directory import seal
+from mgehl.output.manifest import new_identity
 from mgehl.output.report.study_record import StudyRecord, write_record
 
 RUN = ["run", "--set", "grid.nodes=65", "--set", "solver.start=contact", "--quiet", "--out", "dry"]
@@ -79,7 +81,7 @@ def test_the_run_may_be_the_working_directory(here, monkeypatch):
 
 
 def test_a_new_run_clears_the_page_of_the_old_one(here):
-    (here / "dry" / "report.html").write_text("old")
+    assert main(["report", "dry"]) == 0
     assert main([*RUN, "--force"]) == 0
     assert "report.html" not in names(here / "dry")
 
@@ -112,10 +114,12 @@ def test_a_page_that_cannot_be_written(here, capsys):
     assert "cannot be written" in refused(["dry", "--out", "dry", "--force"], capsys)
 
 
-def test_a_study(here):
+def test_a_study(here, capsys):
     (here / "mine").mkdir()
     (here / "mine" / "films.csv").write_text("couette,central nm\nS2B-vi,393.0\n")
     write_record(here / "mine", StudyRecord("schemes", (65,), "both", "arithmetic", 1, {"petsc": "3.18.5"}))
+    assert "it has not finished, or an older mgehl wrote it" in refused(["mine"], capsys)
+    seal(here / "mine", "study", new_identity(), ["films.csv", "study.json"])
     assert main(["report", "mine"]) == 0
     html = (here / "mine" / "report.html").read_text(encoding="utf-8")
     assert "<h1>Study schemes</h1>" in html and STUDIES["schemes"] in html

@@ -14,7 +14,8 @@ from mgehl.config import config_from_tables
 from mgehl.errors import OutputError, Stopped
 from mgehl.output import checkpoint
 from mgehl.output.checkpoint import UNDER_WAY, Checkpoint, clear, keep_start, load, save, start_of
-from mgehl.output.files import write_config
+from mgehl.output.directory import check_result, seal
+from mgehl.output.manifest import new_identity
 from mgehl.output.terminal import Silent
 from mgehl.run import Watch, solve
 from mgehl.solver.record import Kept
@@ -136,6 +137,12 @@ class TestKeeping:
         with pytest.raises(OutputError, match="another configuration"):
             standing(other, grid)
 
+    def test_of_another_run_is_refused(self, tmp_path, grid, left):
+        """In one directory by one configuration: another program's time has gone into it."""
+        Checkpoint(tmp_path, CONFIG, History(), 0.0, identity="one").step(grid, left)
+        with pytest.raises(OutputError, match="is of another run than this directory's"):
+            standing(Checkpoint(tmp_path, CONFIG, History(), 0.0, identity="other"), grid)
+
     def test_names_of_something_else_are_refused(self, tmp_path, grid, left):
         @dataclass
         class Other(Kept):
@@ -161,20 +168,30 @@ class TestKeeping:
 class TestStart:
     FILES = ("configuration.toml", "fields.h5", "history.csv", "result.json")
 
-    def test_it_is_kept_beside(self, tmp_path):
-        source, target = tmp_path / "source", tmp_path / "target"
-        for directory in (source, target):
-            directory.mkdir()
+    @pytest.fixture
+    def source(self, tmp_path):
+        source = tmp_path / "source"
+        source.mkdir()
         for name in self.FILES:
             (source / name).write_text(name)
-        keep_start(target, source)
-        kept = start_of(target)
-        assert {path.name: path.read_text() for path in kept.iterdir()} == {n: n for n in self.FILES}
+        seal(source, "run", new_identity(), self.FILES)
+        (tmp_path / "target").mkdir()
+        return source
 
-    def test_one_that_lacks_a_file_is_one_line(self, tmp_path):
-        write_config(tmp_path / "configuration.toml", CONFIG)
-        with pytest.raises(OutputError, match="cannot be written: No such file"):
-            keep_start(tmp_path / "target", tmp_path)
+    def test_it_is_kept_beside(self, tmp_path, source):
+        keep_start(tmp_path / "target", source)
+        kept = start_of(tmp_path / "target")
+        assert {path.name for path in kept.iterdir()} == {*self.FILES, "manifest.json"}
+        check_result(kept)
+
+    @pytest.mark.parametrize("name", FILES)
+    def test_one_that_lacks_a_file_or_has_a_changed_one_is_one_line(self, tmp_path, source, name):
+        (source / name).write_text("changed")
+        with pytest.raises(OutputError, match=f"{name}: is damaged, was edited, or is of another run"):
+            keep_start(tmp_path / "target", source)
+        (source / name).unlink()
+        with pytest.raises(OutputError, match=f"{name}: is missing"):
+            keep_start(tmp_path / "target", source)
 
 
 class TestFile:
@@ -240,6 +257,17 @@ class TestFile:
                     for name, array in arrays.items():
                         np.testing.assert_array_equal(array, self.ARRAYS[name])
         assert refused > len(whole)
+
+    def test_an_edited_one_is_refused(self, path):
+        """Zipped anew, with what belongs to zip right."""
+        with np.load(path) as file:
+            members = {name: file[name] for name in file.files}
+        with ZipFile(path, "w") as archive:
+            archive.writestr("record.json", bytes(members.pop("record.json")))
+            for name, array in (members | {"array0": members["array0"] + 1e-9}).items():
+                with archive.open(f"{name}.npy", "w") as member:
+                    np.lib.format.write_array(member, array)
+        assert "it was edited" in self.refused(path)
 
     def test_another_version(self, path, monkeypatch):
         monkeypatch.setattr(checkpoint, "VERSION", "99.0")

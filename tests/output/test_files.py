@@ -2,7 +2,6 @@
 
 import csv
 import json
-import os
 from dataclasses import asdict
 
 import numpy as np
@@ -12,7 +11,6 @@ import xarray
 from mgehl.config import config_from_tables, load_config
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.status import NAMES
-from mgehl.errors import OutputError
 from mgehl.output import files
 from mgehl.output.result import (
     ContactResult,
@@ -42,53 +40,6 @@ def make_result(**changes):
     return Result(**(values | changes))
 
 
-class TestDirectory:
-    def test_it_is_created_with_its_parents(self, tmp_path):
-        path = files.prepare_directory(tmp_path / "one" / "two", force=False)
-        assert path.is_dir() and not list(path.iterdir())
-
-    def test_one_that_exists_is_refused(self, tmp_path):
-        (tmp_path / "kept.txt").write_text("mine")
-        with pytest.raises(OutputError, match="--force"):
-            files.prepare_directory(tmp_path, force=False)
-        assert [path.name for path in tmp_path.iterdir()] == ["kept.txt"]
-
-    def test_force_clears_a_checkpoint_and_nothing_else_in_that_folder(self, tmp_path):
-        folder = tmp_path / "checkpoint"
-        (folder / "start").mkdir(parents=True)
-        for name in ("solve-0000.npz", "under-way.npz", "start/fields.h5", "start/result.json"):
-            (folder / name).write_text("old")
-        files.prepare_directory(tmp_path, force=True)
-        assert not folder.exists()
-        folder.mkdir()
-        (folder / "epoch-7.pt").write_text("somebody else's")
-        files.prepare_directory(tmp_path, force=True)
-        assert [path.name for path in folder.iterdir()] == ["epoch-7.pt"]
-
-    def test_force_accepts_it(self, tmp_path):
-        assert files.prepare_directory(tmp_path, force=True) == tmp_path
-
-    @pytest.mark.parametrize("force", [False, True])
-    def test_a_file_in_its_place_is_refused(self, tmp_path, force):
-        path = tmp_path / "file"
-        path.write_text("mine")
-        with pytest.raises(OutputError):
-            files.prepare_directory(path, force)
-        assert path.read_text() == "mine"
-
-    def test_a_file_among_its_parents_is_refused(self, tmp_path):
-        (tmp_path / "file").write_text("mine")
-        with pytest.raises(OutputError, match="cannot be written"):
-            files.prepare_directory(tmp_path / "file" / "deep", force=False)
-
-    @pytest.mark.skipif(os.geteuid() == 0, reason="root may write anywhere")
-    def test_one_that_is_write_protected_is_refused(self, tmp_path):
-        tmp_path.chmod(0o500)
-        with pytest.raises(OutputError, match="cannot be written"):
-            files.prepare_directory(tmp_path, force=True)
-        tmp_path.chmod(0o700)
-
-
 @pytest.mark.parametrize(
     "tables",
     [
@@ -99,7 +50,7 @@ class TestDirectory:
 def test_the_configuration_reads_back_as_itself(tmp_path, tables):
     config = config_from_tables(tables)
     path = tmp_path / "configuration.toml"
-    files.write_config(path, config)
+    files.write_config(path, config.as_toml_tables())
     assert load_config(path) == config
 
 

@@ -7,10 +7,12 @@ import pytest
 
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.status import BOUNDARY, CONTACT, LUBRICATED
+from mgehl.output.edge_result import EdgeResult
 from mgehl.output.result import Work, resolution, summarise
 from mgehl.solver.outcome import Cycle, Outcome
 from mgehl.solver.partition import Changes
 from mgehl.solver.problem import State
+from mgehl.solver.verification import FEWEST_NODES, LARGEST_EDGE_PRESSURE
 
 
 @pytest.fixture
@@ -139,3 +141,35 @@ def test_resolution_of_the_inlet(paper_contact, cells, verdict):
     result = resolution(replace(contact, speed=speed), mesh)
     assert result.inlet_cells == pytest.approx(cells)
     assert result.verdict == verdict
+
+
+class TestEdge:
+    """A solution of the equations in a domain that cuts the contact is no answer."""
+
+    @pytest.mark.parametrize(
+        "changes, doubt, words",
+        [
+            (
+                {"overlapping": 13, "largest_nm": 337.0},
+                "the bodies overlap",
+                "13 nodes of the domain's boundary",
+            ),
+            ({"pressure_ratio": 0.2}, "the domain cuts the contact", "is 20 % of the largest"),
+            ({"nodes_along_x": 3}, "too few nodes", "3 nodes wide along x"),
+            ({"nodes_along_y": 1}, "too few nodes", "1 nodes wide along y"),
+        ],
+    )
+    def test_what_is_wrong_is_said(self, changes, doubt, words):
+        short, long = replace(EdgeResult(0.0, 0, 0.0, 41, 43), **changes).wrong
+        assert doubt in short and words in long
+
+    def test_the_limits_themselves_hold(self):
+        assert EdgeResult(LARGEST_EDGE_PRESSURE, 0, 0.0, FEWEST_NODES, None).wrong == ("", "")
+
+    def test_it_is_not_converged(self, summary, outcome):
+        """Pressure at a corner of the inner nodes."""
+        outcome.state.P[2:7, 2:7], outcome.state.P[1, 1] = 0.5, 0.25
+        result = summary()
+        assert result.settled and not result.converged
+        assert "the domain cuts the contact" in result.reason and result.doubt in str(result).lower()
+        assert "SETTLED, BUT THE DOMAIN CUTS THE CONTACT" in str(result)

@@ -248,3 +248,13 @@ def test_without_a_share_any_mean_is_the_arithmetic(make, solve, paper_contact):
     assert problem.scheme == replace(followed.scheme, mobility_share=0.0)
     problem, outcome = followed.continuation.at(1.0, state, share=0.1)
     assert len(outcome.cycles) > 1 and problem.scheme.mobility_share == 0.1
+
+
+def test_a_stage_on_the_way_is_no_answer_of_its_own():
+    """A geometric mean whose first stage may make no step: judged by its own equations, and said."""
+    settings = {"grid.nodes": 65, "motion.speed": 1.2, "solver.start": "film", "solver.max_steps": 0}
+    solution = mgehl.solve(mgehl.load(None, settings | {"discretization.face_mobility": "geometric"}))
+    result = solution.result
+    assert not result.settled and not result.converged
+    assert "a stage on the way (logarithmic mean" in result.reason and "has no solution" in result.reason
+    assert solution.contact.speed == 1.2

@@ -306,6 +306,12 @@ class TestRestlessNodes:
             Contradiction(6, 4, -0.03, -0.2, ("contact", "cavitated", "boundary", "lubricated"))
         ]
 
+    def test_of_a_line_walls_are_beside(self, make_partition, state, turn):
+        partition, node = make_partition(), (0, 5)
+        partition.past.turns[node], partition.past.torn_pressure[node] = RESTLESS, -0.2
+        (found,) = partition.contradictions(state.status)
+        assert found.neighbours[2] == "wall"
+
     def test_those_about_to_be_restless_are_contradictions_too(self, make_partition, state, turn):
         """One round less is enough, one turn less than that is not; all in the order of the grid."""
         partition, before_the_last = make_partition(), (RESTLESS - ROUND) // 2

@@ -161,3 +161,17 @@ class TestOfAnotherKind:
     def test_the_python_interface_refuses_it_too(self, film):
         with pytest.raises(UserError, match="a point is no start for a line"):
             mgehl.solve(config_of(LINE), MPI.COMM_SELF, start=film)
+
+
+def test_what_tells_another_contact_is_named():
+    """Loads, speeds and grids are what a start is for."""
+    import mgehl
+    from mgehl.solver.restart import differences
+
+    class Start:
+        config = mgehl.load(None, {"grid.nodes": 65})
+
+    same = mgehl.load(None, {"grid.nodes": 129, "motion.speed": 1.0, "contact.load": 100.0})
+    assert list(differences(Start, same)) == []
+    other = mgehl.load(None, {"contact.radius_y": 0.02, "lubricant.viscosity_law": "roelands"})
+    assert list(differences(Start, other)) == ["contact.radius_y", "lubricant.viscosity_law"]

@@ -7,6 +7,9 @@ from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
 from mgehl.solver.problem import State
 from mgehl.solver.verification import (
+    FEWEST_NODES,
+    LARGEST_EDGE_PRESSURE,
+    check_edge,
     check_interface,
     check_pressure_inequality,
     closed_face_flow,
@@ -74,6 +77,41 @@ class TestInterface:
 
     def test_without_contact_nothing_is_checked(self, tiny_problem, state):
         assert check_interface(tiny_problem, state).checked == 0
+
+
+class TestEdge:
+    """A solution in its domain: what lies beyond the boundary was not solved."""
+
+    @pytest.fixture
+    def dome(self, state):
+        """Pressure over the inner 5 x 5 nodes, 1 in the middle."""
+        state.P[2:7, 2:7], state.P[4, 4] = 0.5, 1.0
+        return state
+
+    def test_a_contact_inside_holds(self, tiny_problem, dome):
+        edge = check_edge(tiny_problem, dome)
+        assert (edge.pressure, edge.overlapping, edge.largest_overlap, edge.across) == (0.0, 0, 0.0, (5, 5))
+
+    @pytest.mark.parametrize("node", [(1, 4), (7, 4), (4, 1), (4, 7), (1, 1), (7, 7)])
+    def test_the_pressure_beside_each_side_is_seen(self, tiny_problem, dome, node):
+        dome.P[node] = 0.25
+        assert check_edge(tiny_problem, dome).pressure == 0.25
+
+    @pytest.mark.parametrize("node", [(0, 4), (8, 4), (4, 0), (4, 8), (0, 0)])
+    def test_bodies_that_overlap_on_the_boundary_are_seen(self, tiny_problem, dome, node):
+        dome.H[node] = -0.125
+        edge = check_edge(tiny_problem, dome)
+        assert (edge.overlapping, edge.largest_overlap) == (1, 0.125)
+
+    def test_a_contact_has_as_many_nodes_as_carry_its_load(self, tiny_problem, state):
+        state.P[3:5, 2:7], state.P[6, 6] = 1.0, 0.09
+        assert check_edge(tiny_problem, state).across == (5, 2)
+
+    def test_without_pressure_nothing_is_divided_by_it(self, tiny_problem, state):
+        assert check_edge(tiny_problem, state).pressure == 0.0
+
+    def test_its_limits_leave_room_for_what_was_measured(self):
+        assert 6.4e-3 < LARGEST_EDGE_PRESSURE < 1.5e-2 and 3 < FEWEST_NODES <= 7
 
 
 class TestPressureInequality:

@@ -1,7 +1,11 @@
 """Finished points on disk: whole, or not at all."""
 
+import hashlib
+import pickle
 from dataclasses import dataclass, replace
+from io import BytesIO
 from pathlib import Path
+from zipfile import ZipFile
 
 import numpy as np
 import pytest
@@ -19,6 +23,13 @@ class Point:
 
     def shared(self):
         return replace(self, P=None)
+
+    def record(self):
+        return {"speed": self.speed}, {"P": self.P}
+
+
+def made(plain, arrays):
+    return Point(plain["speed"], arrays["P"])
 
 
 POINT = Point(0.7, np.arange(12.0).reshape(3, 4) / 7.0)
@@ -41,86 +52,125 @@ def assert_same(point, other):
 
 class TestPoints:
     def test_a_point_comes_back_as_it_was(self, cache):
-        cache.store("a", POINT)
-        assert_same(cache.load("a"), POINT)
+        cache.store("a", POINT.record)
+        assert_same(cache.load("a", made), POINT)
 
     def test_another_study_finds_it_in_the_same_directory(self, cache, tmp_path):
-        cache.store("a", POINT)
-        assert_same(PointCache(tmp_path, MPI.COMM_SELF).load("a"), POINT)
-        assert PointCache(tmp_path / "elsewhere", MPI.COMM_SELF).load("a") is None
+        cache.store("a", POINT.record)
+        assert_same(PointCache(tmp_path, MPI.COMM_SELF).load("a", made), POINT)
+        assert PointCache(tmp_path / "elsewhere", MPI.COMM_SELF).load("a", made) is None
 
     def test_points_are_told_apart_by_their_keys(self, cache):
-        cache.store("a", POINT)
-        cache.store("b", replace(POINT, speed=1.0))
-        assert (cache.load("a").speed, cache.load("b").speed) == (0.7, 1.0)
-        assert cache.load("c") is None
+        cache.store("a", POINT.record)
+        cache.store("b", replace(POINT, speed=1.0).record)
+        assert (cache.load("a", made).speed, cache.load("b", made).speed) == (0.7, 1.0)
+        assert cache.load("c", made) is None
 
     def test_nothing_is_found_before_anything_is_stored(self, cache, folder):
-        assert cache.load("a") is None
+        assert cache.load("a", made) is None
         assert not folder.exists()
 
     def test_a_point_may_be_stored_again(self, cache):
-        cache.store("a", POINT)
-        cache.store("a", replace(POINT, speed=1.0))
-        assert cache.load("a").speed == 1.0
+        cache.store("a", POINT.record)
+        cache.store("a", replace(POINT, speed=1.0).record)
+        assert cache.load("a", made).speed == 1.0
 
     def test_all_points_may_be_forgotten(self, cache, folder):
         cache.clear()
-        cache.store("a", POINT)
-        (folder / "b.unfinished").touch()
+        cache.store("a", POINT.record)
+        key = key_of(DESCRIPTION)
+        cache.store(key, POINT.record)
+        (folder / "precious.txt").touch()
+        (folder / f"{'0' * 24}.npz").symlink_to(folder / "precious.txt")
         cache.clear()
-        assert cache.load("a") is None and list(folder.iterdir()) == []
+        assert cache.load(key, made) is None
+        assert {path.name for path in folder.iterdir()} == {"a.npz", "precious.txt", f"{'0' * 24}.npz"}
 
 
 class TestKills:
     def test_a_point_cut_off_at_any_byte_is_missing(self, cache, folder):
-        cache.store("a", POINT)
-        whole = (folder / "a").read_bytes()
+        cache.store("a", POINT.record)
+        whole = (folder / "a.npz").read_bytes()
         for length in range(len(whole)):
-            (folder / "a").write_bytes(whole[:length])
-            assert cache.load("a") is None
-        (folder / "a").write_bytes(whole)
-        assert_same(cache.load("a"), POINT)
+            (folder / "a.npz").write_bytes(whole[:length])
+            assert cache.load("a", made) is None
+        (folder / "a.npz").write_bytes(whole)
+        assert_same(cache.load("a", made), POINT)
 
     @pytest.mark.parametrize("content", [b"", b"text", bytes(100)], ids=["empty", "text", "zeros"])
     def test_what_is_no_point_is_missing_and_can_be_replaced(self, cache, folder, content):
         folder.mkdir()
-        (folder / "a").write_bytes(content)
-        assert cache.load("a") is None
-        cache.store("a", POINT)
-        assert_same(cache.load("a"), POINT)
+        (folder / "a.npz").write_bytes(content)
+        assert cache.load("a", made) is None
+        cache.store("a", POINT.record)
+        assert_same(cache.load("a", made), POINT)
 
-    def test_a_point_whose_class_is_gone_is_missing(self, cache, folder):
-        cache.store("a", POINT)
-        whole = (folder / "a").read_bytes()
-        (folder / "a").write_bytes(whole.replace(b"Point", b"Paint"))
-        assert cache.load("a") is None
+    def test_a_point_of_another_shape_is_missing(self, cache):
+        cache.store("a", lambda: ({"pace": 0.7}, {"P": POINT.P}))
+        assert cache.load("a", made) is None
+
+    def test_a_point_of_another_key_is_missing(self, cache, folder):
+        cache.store("a", POINT.record)
+        (folder / "a.npz").rename(folder / "b.npz")
+        assert cache.load("b", made) is None
+
+    def test_an_edited_point_is_missing(self, cache, folder):
+        """Zipped anew, with what belongs to zip right."""
+        cache.store("a", POINT.record)
+        with np.load(folder / "a.npz") as file:
+            members = {name: file[name] for name in file.files}
+        np.savez(folder / "a.npz", **members | {"P": members["P"] + 1.0})
+        assert cache.load("a", made) is None
+
+    def test_a_pickle_is_not_opened(self, cache, folder):
+        folder.mkdir()
+        stored = pickle.dumps(Trap(), protocol=pickle.HIGHEST_PROTOCOL)
+        for content in (stored, hashlib.sha256(stored).digest() + stored):
+            (folder / "a.npz").write_bytes(content)
+            (folder / "a").write_bytes(content)
+            assert cache.load("a", made) is None
+        with ZipFile(folder / "a.npz", "w") as archive:
+            archive.writestr("record.json", "{}")
+            archive.writestr("P.npy", pickled_array())
+        assert cache.load("a", made) is None
 
     @pytest.mark.parametrize("before", [None, 1.0])
     def test_a_kill_before_the_rename_leaves_what_was_there(self, cache, folder, monkeypatch, before):
         """No point, or the one before; the next write is not in the way of what is left."""
         if before:
-            cache.store("a", replace(POINT, speed=before))
+            cache.store("a", replace(POINT, speed=before).record)
         with monkeypatch.context() as patch:
             patch.setattr("pathlib.Path.replace", self.kill)
             with pytest.raises(KeyboardInterrupt):
-                cache.store("a", POINT)
-        assert (folder / "a.unfinished").stat().st_size > 0
-        assert (folder / "a").exists() == bool(before)
-        found = cache.load("a")
+                cache.store("a", POINT.record)
+        assert (folder / "a.npz").exists() == bool(before)
+        found = cache.load("a", made)
         assert found.speed == before if before else found is None
-        cache.store("a", POINT)
-        assert_same(cache.load("a"), POINT)
-        assert [path.name for path in folder.iterdir()] == ["a"]
+        cache.store("a", POINT.record)
+        assert_same(cache.load("a", made), POINT)
+        assert [path.name for path in folder.iterdir()] == ["a.npz"]
 
     def test_a_kill_in_the_middle_of_a_write_leaves_no_point(self, cache, folder, monkeypatch):
         monkeypatch.setattr("os.fsync", self.kill)
         with pytest.raises(KeyboardInterrupt):
-            cache.store("a", POINT)
-        assert not (folder / "a").exists() and cache.load("a") is None
+            cache.store("a", POINT.record)
+        assert not (folder / "a.npz").exists() and cache.load("a", made) is None
 
     def kill(self, *_):
         raise KeyboardInterrupt
+
+
+class Trap:
+    """A pickle of it fails the test that opens it."""
+
+    def __reduce__(self):
+        return pytest.fail, ("a pickle was opened",)
+
+
+def pickled_array():
+    file = BytesIO()
+    np.save(file, np.array([Trap()], dtype=object), allow_pickle=True)
+    return file.getvalue()
 
 
 DESCRIPTION = [{"grid": {"nodes": 65, "x": [-1.9, 1.3]}, "mean": "arithmetic"}, "down", [1.0, 0.7], True]
@@ -197,10 +247,10 @@ class TestPlacesThatCannotBeWritten:
     """Files in the place of folders, which stop root, too."""
 
     def one_line(self, cache):
-        with pytest.raises(OutputError, match="points: cannot be written: ") as caught:
-            cache.store("a", POINT)
+        with pytest.raises(OutputError, match="points.*: cannot be written: ") as caught:
+            cache.store("a", POINT.record)
         assert "\n" not in str(caught.value)
-        assert cache.load("a") is None
+        assert cache.load("a", made) is None
 
     def test_a_directory_that_is_a_file(self, tmp_path):
         (tmp_path / "file").touch()
@@ -214,5 +264,5 @@ class TestPlacesThatCannotBeWritten:
         self.one_line(cache)
 
     def test_a_point_that_is_a_folder(self, cache, folder):
-        (folder / "a").mkdir(parents=True)
+        (folder / "a.npz").mkdir(parents=True)
         self.one_line(cache)

@@ -86,12 +86,17 @@ def test_it_says_what_it_solved_and_what_did_not_converge(study, capsys):
     assert second.startswith("  2/2") and "too short  NOT CONVERGED: residual" in second
 
 
-@pytest.mark.parametrize("what", ["table", "picture"])
-def test_a_directory_that_is_gone_is_one_line(tmp_path, what):
+def test_a_table_that_cannot_be_written_is_one_line(tmp_path):
     (tmp_path / "file").touch()
     study = Study(tmp_path / "file", MPI.COMM_SELF, speak=False)
     with pytest.raises(OutputError, match="cannot be written"):
-        if what == "table":
-            study.write_table("films", ROWS)
-        else:
-            study.draw("films", lambda path: path.write_text(""))
+        study.write_table("films", ROWS)
+
+
+def test_a_picture_that_cannot_be_drawn_is_said_and_costs_nothing(tmp_path, capsys):
+    def broken(path):
+        raise RuntimeError("Failed to process string with tex because latex could not be found")
+
+    Study(tmp_path, MPI.COMM_SELF, speak=False).draw("films", broken)
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.startswith("mgehl: ") and "films.png: cannot be drawn: Failed to process" in line

@@ -9,6 +9,7 @@ import numpy as np
 
 from mgehl.discretization import status
 from mgehl.output.files import finite
+from mgehl.output.laws import portable
 
 COLUMNS = ("x_m", "y_m", "pressure_Pa", "film_m", "status")
 
@@ -31,7 +32,7 @@ def write_npz(path, solution):
         status=fields.status,
         status_names=np.array(status.names(solution.is_dry)),
         result=json.dumps(finite(asdict(solution.result)), allow_nan=False),
-        configuration=json.dumps(solution.config.as_toml_tables()),
+        configuration=json.dumps(portable(solution.config)),
     )
     path.write_bytes(memory.getbuffer())
 

@@ -7,6 +7,7 @@ import numpy as np
 import tomli_w
 
 from mgehl.discretization import status
+from mgehl.output.laws import portable
 from mgehl.output.memory_file import netcdf_file
 from mgehl.version import VERSION
 
@@ -36,7 +37,7 @@ def _global_attributes(solution):
         "history": f"{datetime.now(UTC):%Y-%m-%dT%H:%M:%SZ} mgehl export",
         "converged": "yes" if solution.result.converged else "no",
         "verdict": solution.result.reason,
-        "configuration": tomli_w.dumps(solution.config.as_toml_tables()),
+        "configuration": tomli_w.dumps(portable(solution.config)),
     }
 
 

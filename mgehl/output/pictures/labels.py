@@ -7,6 +7,7 @@ from mgehl.config import SECTIONS
 from mgehl.errors import UserError
 from mgehl.kinds import KINDS
 from mgehl.kinds.loaded import speed_words
+from mgehl.output.laws import portable
 from mgehl.output.pictures.titles import verdict
 
 MOST_KEYS = 3
@@ -67,7 +68,7 @@ def _said(solutions, names):
 def _flat(config):
     return {
         f"{section}.{key}": value
-        for section, table in config.as_toml_tables().items()
+        for section, table in portable(config).items()
         for key, value in table.items()
     }
 

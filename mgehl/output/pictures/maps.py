@@ -177,6 +177,8 @@ def _draw(axes, blocks, values, norm):
 
 def _label_lines(axes, blocks, values, levels):
     """Lines of equal values with their numbers."""
+    if min(values.shape) < 2 or np.isnan(values).all():  # no line can be drawn between nodes
+        return
     levels = levels[(levels > np.nanmin(values)) & (levels < np.nanmax(values))]
     if len(levels):
         lines = axes.contour(blocks.X, blocks.Y, values, levels, colors="white", linewidths=0.7)
@@ -186,15 +188,15 @@ def _label_lines(axes, blocks, values, levels):
 def _outline(axes, blocks, status, filled):
     """Contact and cavitation outlined, with their legend; contact black where it is `filled`."""
     handles = []
-    contact = status == CONTACT
-    if contact.any():
+    contact, is_plane = status == CONTACT, min(status.shape) >= 2
+    if contact.any() and is_plane:
         face = STATUS_COLOURS[CONTACT] if filled else "none"
         axes.contourf(blocks.X, blocks.Y, contact, (0.5, 1.5), colors=[face])
         axes.contour(blocks.X, blocks.Y, contact, (0.5,), colors=CONTACT_EDGE, linewidths=0.9)
         handles.append(Patch(facecolor=face, edgecolor=CONTACT_EDGE, label="contact"))
     # The boundary's pressure is given: it is no end of the cavity.
     cavitated = np.ma.masked_where(status == BOUNDARY, status == CAVITATED)
-    if cavitated.any():
+    if cavitated.any() and is_plane:
         # Black on white is seen on the darkest and on the brightest of the map's colours.
         axes.contour(blocks.X, blocks.Y, cavitated, (0.5,), colors="white", linewidths=2.2)
         axes.contour(blocks.X, blocks.Y, cavitated, (0.5,), colors="black", linestyles="--", linewidths=1)

@@ -6,6 +6,7 @@ saved under `applied`: matplotlib asks for the style of a tick only when it draw
 
 import io
 import logging
+import os
 from contextlib import contextmanager
 from contextvars import ContextVar
 from importlib import resources
@@ -30,6 +31,9 @@ CONTACT_EDGE = "#D55E00"
 """Outline of the contact on the maps."""
 UNDER = 3.9
 """Height of an axis with its numbers and its name, in letters."""
+
+LARGEST_STYLE = 10**6
+"""Bytes of a style file."""
 
 _UNDATED = {"png": {}, "svg": {"Date": None}, "pdf": {"CreationDate": None}}
 
@@ -95,6 +99,8 @@ def save(figure, path):
 
 def _read(path):
     """Settings of a style file; matplotlib only warns of lines that it does not know."""
+    if os.path.exists(path) and not (os.path.isfile(path) and os.path.getsize(path) <= LARGEST_STYLE):
+        raise UserError(f"{path}: cannot be read: is no file of at most {LARGEST_STYLE} bytes")
     complaints = _Complaints()
     logger = logging.getLogger("matplotlib")
     logger.addHandler(complaints)

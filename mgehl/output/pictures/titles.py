@@ -26,7 +26,7 @@ def verdict(result):
     if result.converged:
         said = "converged"
     else:
-        said = "settled, but Eq. 2 is broken" if result.settled else "NOT converged"
+        said = f"settled, but {result.doubt}" if result.settled else "NOT converged"
     return said + (", THE BODIES OVERLAP" if result.overlap.nodes else "")
 
 

@@ -5,13 +5,14 @@ from math import isfinite
 from mgehl.output import surface
 from mgehl.output.digits import with_band
 from mgehl.output.domain import STARVED, STARVED_FROM, SUFFICIENT, UNKNOWN
-from mgehl.output.report.checks import CARE, CHECK_HEADS, CHECKS, absent, informing, limited
+from mgehl.output.report.checks import BROKEN, CARE, CHECK_HEADS, CHECKS, HOLDS, absent, informing, limited
 from mgehl.output.report.page import DOUBTFUL, GOOD, NO_NUMBER, Cell, Section, Text, number, table
 from mgehl.output.report.parts import span
 from mgehl.output.resolution import RESOLVED_CELLS
 from mgehl.output.result import COMPLEMENTARITY_TOLERANCE
 from mgehl.output.surface import RESOLVED_NODES
 from mgehl.output.words import band_words
+from mgehl.solver.verification import FEWEST_NODES, LARGEST_EDGE_PRESSURE
 
 FORMULAS = {
     "hamrock_dowson": "Hamrock and Dowson",
@@ -158,6 +159,13 @@ def _checks(solution):
         absent("interface nodes that break Eq. 2", inequality.violations, found=broken),
         absent("nodes where the bodies overlap", overlap.nodes, otherwise=CARE),
         informing("imbalance of the flux", result.flux_imbalance),
+        limited(
+            "pressure beside the domain's boundary over the largest",
+            result.edge.pressure_ratio,
+            LARGEST_EDGE_PRESSURE,
+        ),
+        absent("nodes of the boundary where the bodies overlap", result.edge.overlapping),
+        _nodes_across(result.edge),
         (
             "cells in the inlet",
             number(resolution.inlet_cells, 3),
@@ -182,6 +190,18 @@ def _surface_row(resolution):
         nodes = NO_NUMBER if nodes is None else number(nodes, 3)
         limit = f"at least {RESOLVED_NODES:g}"
         yield "nodes in the shortest wave of the surface", nodes, limit, SURFACE[resolution.surface]
+
+
+def _nodes_across(edge):
+    """The row of how many nodes the contact has."""
+    nodes = [each for each in (edge.nodes_along_x, edge.nodes_along_y) if each is not None]
+    judged = HOLDS if min(nodes) >= FEWEST_NODES else BROKEN
+    return (
+        "nodes that the contact is wide",
+        " by ".join(map(str, nodes)),
+        f"at least {FEWEST_NODES}",
+        judged,
+    )
 
 
 def _contact(result):
@@ -229,7 +249,8 @@ def _contradictions(nodes):
 
 def _dimensions(solution):
     contact, mesh, line = solution.contact, solution.mesh, solution.mesh.is_line
-    hertz = contact.hertz
+    # A law of the user's own, on which the inlet of layered bodies depends, is not run again.
+    hertz, cells = contact.hertz, solution.result.resolution.inlet_cells
     rows = [
         ("load", *solution.config.kind.load(contact)),
         ("entrainment speed", number(1e3 * contact.speed), "mm/s"),
@@ -240,8 +261,8 @@ def _dimensions(solution):
         ),
         ("largest Hertz pressure p_h", number(1e-9 * hertz.p_h), "GPa"),
         ("unit of the gap, a²/R_x", number(1e6 * contact.film_scale), "µm"),
-        ("length of the inlet zone", number(1e6 * contact.inlet_length * hertz.a), "µm"),
-        ("cells of the grid in it", number(solution.result.resolution.inlet_cells, 3), ""),
+        ("length of the inlet zone", number(1e6 * cells * contact.cell_along_motion(mesh) * hertz.a), "µm"),
+        ("cells of the grid in it", number(cells, 3), ""),
         ("spacing of the grid along x", number(1e6 * mesh.dX * hertz.a), "µm"),
     ]
     if not line:

@@ -2,8 +2,10 @@
 
 from dataclasses import asdict, fields
 from itertools import groupby
+from pathlib import Path
 
 from mgehl.config import SECTIONS
+from mgehl.model.own_function import file_and_function
 from mgehl.output.report.page import Cell, Section, Text, number, table
 
 
@@ -49,6 +51,8 @@ def setting(value, unit=None):
         return "true" if value else "false"
     if isinstance(value, tuple):
         return " to ".join(map(setting, value))
+    if own := file_and_function(value):
+        return f"{Path(own[0]).name}:{own[1]}"
     return str(value)
 
 

@@ -37,7 +37,7 @@ def verdict(result):
     """The judgement of a `Result`, `WedgeResult` or `DryResult`."""
     if not result.converged:
         if result.settled:
-            return Verdict(DOUBTFUL, "Settled, but Eq. 2 is broken", result.reason)
+            return Verdict(DOUBTFUL, f"Settled, but {result.doubt}", result.reason)
         return Verdict(BAD, "Not converged", result.reason)
     if result.overlap.nodes:
         return Verdict(DOUBTFUL, "Converged, but the bodies overlap", result.reason)

@@ -198,3 +198,10 @@ class TestMotion:
     def test_the_title_has_its_angle(self, make_solution, drawn, check_texts):
         figure = drawn(maps.pressure_map, make_solution(settings=["motion.angle=30"]))
         check_texts(figure, "pressure, 0.005 mm/s at 30°, 800 N, 33 x 33 nodes: converged")
+
+
+@pytest.mark.parametrize("reach", [1.35, 30.0, 500.0])
+def test_a_grid_of_few_nodes_in_the_window_is_drawn(make_solution, reach):
+    """One line of nodes, or none, has no contours."""
+    solution = make_solution(contact=0.9, settings=[f"grid.x=[-{2 * reach},{2 * reach}]"])
+    maps.film_map(solution)

@@ -1,0 +1,51 @@
+"""How a contact stands in its domain and on its grid, and what is wrong with that in words."""
+
+from dataclasses import dataclass
+
+from mgehl.solver.verification import FEWEST_NODES, LARGEST_EDGE_PRESSURE, check_edge
+
+
+@dataclass(frozen=True)
+class EdgeResult:
+    """How the contact stands in its domain and on its grid: see `solver.verification.check_edge`."""
+
+    pressure_ratio: float
+    """Largest pressure beside the domain's boundary over the largest of all."""
+    overlapping: int
+    """Nodes of the boundary where the bodies overlap."""
+    largest_nm: float
+    nodes_along_x: int
+    """Nodes that the loaded zone is wide."""
+    nodes_along_y: int | None
+    """None of a line contact."""
+
+    @property
+    def wrong(self):
+        """What is wrong, in a few words and in a sentence; both empty where nothing is."""
+        if self.overlapping:
+            return "the bodies overlap on the boundary", (
+                f"the bodies overlap at {self.overlapping} nodes of the domain's boundary by up to "
+                f"{self.largest_nm:.3g} nm: the domain cuts the contact"
+            )
+        if self.pressure_ratio > LARGEST_EDGE_PRESSURE:
+            return "the domain cuts the contact", (
+                f"the pressure beside the domain's boundary is {100 * self.pressure_ratio:.2g} % of the "
+                f"largest, more than {100 * LARGEST_EDGE_PRESSURE:g} %: the domain cuts the contact"
+            )
+        for axis, nodes in (("x", self.nodes_along_x), ("y", self.nodes_along_y)):
+            if nodes is not None and nodes < FEWEST_NODES:
+                return "the contact has too few nodes", (
+                    f"the contact is {nodes} nodes wide along {axis}, and needs {FEWEST_NODES}: "
+                    "a smaller domain or more nodes"
+                )
+        return "", ""
+
+
+NOT_SEEN = EdgeResult(0.0, 0, 0.0, FEWEST_NODES, None)
+"""Of results made by hand."""
+
+
+def edge_result(problem, state, nm):
+    """The `EdgeResult` of a state; `nm` is nanometres per unit of H (collective)."""
+    edge = check_edge(problem, state)
+    return EdgeResult(edge.pressure, edge.overlapping, nm * edge.largest_overlap, *edge.across)

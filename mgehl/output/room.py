@@ -1,0 +1,34 @@
+"""Whether a run has room in memory, before libraries that end, or never end, without it are called."""
+
+import resource
+from pathlib import Path
+
+from mgehl.errors import UserError
+from mgehl.kinds import contact_from, mesh_from
+
+MiB = 2**20
+
+SPARE = 128 * MiB
+"""Buffers that BLAS and MPI take as they go."""
+
+
+def check_room(config):
+    """Raise UserError where a limit of this process (ulimit -v) is below what the run will take."""
+    limit, _ = resource.getrlimit(resource.RLIMIT_AS)
+    if limit == resource.RLIM_INFINITY:
+        return
+    mesh = mesh_from(config, contact_from(config))
+    need = _taken() + SPARE + config.kind.effort(config).bytes_per_node * mesh.nodes
+    if need > limit:
+        raise UserError(
+            f"grid.nodes = {config.grid.nodes}: takes about {need / MiB:.0f} MiB of address space, and "
+            f"this shell allows {limit / MiB:.0f} (ulimit -v)"
+        )
+
+
+def _taken():
+    """Bytes of address space that this process has."""
+    try:
+        return int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
+    except (OSError, ValueError):
+        return 0

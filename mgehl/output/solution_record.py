@@ -1,0 +1,43 @@
+"""A `Solution` as plain data and arrays, and the way back: what a study keeps of its points."""
+
+from dataclasses import asdict
+
+from mgehl.config import config_from_tables
+from mgehl.kinds import contact_from, mesh_from
+from mgehl.output.solution import Fields, Solution
+from mgehl.output.stored import result_from
+
+
+def record_of(solution):
+    """(plain data, {name: array}) of a `Solution` with whole fields."""
+    plain = {
+        "configuration": solution.config.as_toml_tables(),
+        "rows": solution.rows,
+        "result": asdict(solution.result),
+        "H0": float(solution.H0),
+    }
+    return plain, arrays_of(solution.fields)
+
+
+def solution_from(plain, arrays):
+    """The `Solution` of which `record_of` made these; its fields are whole, and here."""
+    config = config_from_tables(plain["configuration"])
+    contact = contact_from(config)
+    fields, result = fields_from(arrays), result_from(plain["result"], config)
+    mesh = mesh_from(config, contact)
+    if fields.P.shape != (mesh.ny, mesh.nx):
+        raise ValueError("its fields are not of its grid")
+    return Solution(config, contact, mesh, fields, plain["rows"], result, plain["H0"], local=fields)
+
+
+def arrays_of(fields):
+    """{name: array} of `Fields`."""
+    return {"P": fields.P, "H": fields.H, "status": fields.status}
+
+
+def fields_from(arrays):
+    """The `Fields` of which `arrays_of` made these."""
+    P, H, status = (arrays[name] for name in ("P", "H", "status"))
+    if not P.shape == H.shape == status.shape:
+        raise ValueError("its fields are not of one grid")
+    return Fields(P, H, status)

@@ -1,0 +1,45 @@
+"""Compiled functions, kept where that can be done."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import mgehl
+from mgehl.discretization.compiled import _Lenient
+
+
+class Broken:
+    """A cache on a full disk, or a damaged one."""
+
+    cache_path = "there"
+
+    def load_overload(self, *_):
+        raise EOFError("Ran out of input")
+
+    def save_overload(self, *_):
+        raise OSError(28, "No space left on device")
+
+
+def test_a_cache_may_fail():
+    cache = _Lenient(Broken())
+    assert cache.load_overload("signature", "context") is None
+    cache.save_overload("signature", "data")
+    assert cache.cache_path == "there"
+
+
+def test_without_any_place_functions_are_compiled_again(tmp_path):
+    """No HOME, and an installation that nobody may write: a copy whose cache is a file."""
+    text = (
+        "import numba.core.caching as c\n"
+        "def none(*_): raise RuntimeError('no locator available')\n"
+        "c.CacheImpl.__init__ = none\n"
+        "import numpy as np\n"
+        "from mgehl.discretization.kernels import apply_stencil\n"
+        "out = np.zeros((1, 3))\n"
+        "apply_stencil(np.array([[0, 0]]), np.full((1, 1, 3), 2.0), np.ones((5, 3)), out)\n"
+        "assert (out == 2.0).all()\n"
+    )
+    environment = dict(os.environ) | {"PYTHONPATH": str(Path(mgehl.__file__).parents[1])}
+    done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, env=environment)
+    assert done.returncode == 0, done.stderr

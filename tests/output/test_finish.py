@@ -1,0 +1,153 @@
+"""The result first, the picture after; a law that changed is said."""
+
+import json
+
+import pytest
+from mpi4py import MPI
+
+from mgehl.cli import main
+from mgehl.config import config_from_tables
+from mgehl.output.directory import check_result
+from mgehl.output.stored import read_run
+
+DRY = ["run", "--quiet", "--set", "grid.nodes=65", "--set", "solver.start=contact", "--out", "here"]
+LAW = "def waves(x, y):\n    return 1e-9 + 0.0 * x * y\n"
+WAVY = ["--set", "contact.surface=a.py:waves", "--set", "solver.start=film", "--set", "motion.speed=1",
+        "--no-error"]  # fmt: skip
+
+
+@pytest.fixture(autouse=True)
+def empty_directory(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def test_a_picture_that_cannot_be_drawn_costs_nothing(tmp_path, capsys, monkeypatch):
+    def broken(path, solution):
+        raise RuntimeError("Failed to process string with tex because latex could not be found")
+
+    with monkeypatch.context() as change:
+        change.setattr("mgehl.output.pictures.picture.draw", broken)
+        assert main(DRY) == 0
+    (line,) = capsys.readouterr().err.splitlines()
+    assert "picture.png: cannot be drawn: Failed to process string" in line
+    assert "mgehl run --resume here draws it again" in line
+    here = tmp_path / "here"
+    assert {path.name for path in here.iterdir()} == {
+        "configuration.toml", "fields.h5", "history.csv", "manifest.json", "result.json",
+    }  # fmt: skip
+    before = (here / "fields.h5").stat().st_mtime_ns
+    assert main(["run", "--resume", "here", "--quiet"]) == 0
+    assert (here / "picture.png").read_bytes().startswith(b"\x89PNG")
+    assert (here / "fields.h5").stat().st_mtime_ns == before
+    assert "picture.png" in check_result(here).files
+
+
+@pytest.mark.parametrize("written", [0, 1])
+def test_a_kill_at_the_very_beginning_is_in_nobodys_way(tmp_path, capsys, monkeypatch, written):
+    """What it left is mgehl's: --force replaces it."""
+
+    def kill(*_):
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as change:
+        change.setattr("mgehl.output.finish.whole_file" if written else "mgehl.run.solve", kill)
+        assert main(DRY) == 130
+    if written:
+        assert main(["run", "--resume", "here"]) == 2
+        assert "ended before it began: run it again, with --force" in capsys.readouterr().err
+    assert main([*DRY, "--force"]) == 0
+
+
+def test_with_force_the_old_result_stays_until_there_is_another(tmp_path, capsys):
+    assert main(DRY) == 0
+    old = check_result("here").identity
+    again = [*DRY, "--force", "--set", "motion.speed=1e-5"]
+    assert main([*again, "--time-limit", "1e-9"]) == 143
+    assert check_result("here").identity == old and read_run("here").config.motion.speed != 1e-5
+    assert main(["run", "--resume", "here", "--quiet"]) == 0
+    assert check_result("here").identity != old and read_run("here").config.motion.speed == 1e-5
+
+
+class TestLaws:
+    def test_a_run_goes_on_with_the_law_that_it_began_with(self, tmp_path, capsys):
+        (tmp_path / "a.py").write_text(LAW)
+        assert main([*DRY, *WAVY, "--time-limit", "1e-9"]) == 143
+        (tmp_path / "a.py").write_text("raise SystemExit('another law')\n")
+        capsys.readouterr()
+        assert main(["run", "--resume", "here"]) == 0
+        (line,) = capsys.readouterr().err.splitlines()
+        assert "a.py has changed since the run began, which goes on with its copy of it" in line
+        assert (tmp_path / "here" / "laws" / "a.py").read_text() == LAW
+
+    def test_its_copy_is_not_to_be_changed(self, tmp_path, capsys):
+        (tmp_path / "a.py").write_text(LAW)
+        assert main([*DRY, *WAVY, "--time-limit", "1e-9"]) == 143
+        (tmp_path / "here" / "checkpoint" / "laws" / "a.py").write_text("raise SystemExit\n")
+        capsys.readouterr()
+        assert main(["run", "--resume", "here"]) == 2
+        assert "laws/a.py: was edited or is damaged since the run began" in capsys.readouterr().err
+
+    def test_a_copy_that_was_changed_is_said_where_it_is_run_again(self, tmp_path, capsys):
+        (tmp_path / "a.py").write_text(LAW)
+        assert main([*DRY, *WAVY]) == 0
+        (tmp_path / "here" / "laws" / "a.py").write_text(LAW + "\n")
+        capsys.readouterr()
+        assert main(["run", "here/configuration.toml", "--quiet", "--out", "again"]) == 0
+        assert "laws/a.py: has changed since the run that it lies beside" in capsys.readouterr().err
+
+
+def test_collect_knows_wedges_and_nothing_else_than_what_was_written(tmp_path, capsys):
+    wedge = ["run", "--quiet", "--set", "grid.nodes=65", "--set", "contact.kind=wedge", "--out", "wedge"]
+    assert main(wedge) == 0 and main(DRY) == 0
+    assert main(["collect", "wedge", "here"]) == 0
+    head, _, first, second = capsys.readouterr().out.splitlines()
+    assert "load N" in head and "central nm" in head
+    assert first.startswith("| wedge | 65 |") and second.startswith("| here | 65 |")
+    path = tmp_path / "here" / "history.csv"
+    path.write_text(path.read_text()[:-30])
+    assert main(["collect", "wedge", "here"]) == 2
+    assert "here/history.csv: is damaged" in capsys.readouterr().err
+
+
+def test_control_characters_of_a_file_do_not_reach_the_terminal(capsys):
+    from mgehl.output.table import markdown
+
+    table = markdown([{"run": "a\x1b[2Jb|c\n"}], ["run"])
+    assert table.isprintable() or set(table) - set("\n") and "\x1b" not in table
+    assert table.splitlines()[-1] == "| a\\x1b[2Jb\\|c\\n |"
+
+
+def test_an_address_space_that_is_too_small_is_said_before_blas_loops(monkeypatch):
+    import resource
+
+    from mgehl.errors import UserError
+    from mgehl.output.room import check_room
+
+    config = config_from_tables({"grid": {"nodes": 513, "x": [-1.9, 1.3], "y": [-1.5, 1.5]}})
+    check_room(config)
+    monkeypatch.setattr(resource, "getrlimit", lambda which: (7e8, 7e8))
+    with pytest.raises(UserError, match=r"takes about \d+ MiB of address space.*allows 668"):
+        check_room(config)
+
+
+def test_points_of_a_study_are_read_back_as_they_were(tmp_path):
+    """All that a solution is, to the last bit; not finite numbers, too."""
+    from dataclasses import replace
+    from math import inf
+
+    from mgehl.output.solution_record import record_of, solution_from
+    from mgehl.run import solve
+
+    tables = {
+        "contact": {"kind": "line"},
+        "grid": {"nodes": 65, "x": [-2.0, 1.5]},
+        "motion": {"speed": 0.3},
+    }
+    solved = solve(config_from_tables(tables), MPI.COMM_SELF)
+    inequality = replace(solved.result.pressure_inequality, largest_ratio=inf)
+    solved = replace(solved, result=replace(solved.result, pressure_inequality=inequality))
+    plain, arrays = record_of(solved)
+    read = solution_from(json.loads(json.dumps(plain)), arrays)
+    assert read.result == solved.result and read.config == solved.config and read.H0 == solved.H0
+    assert read.rows == solved.rows and (read.fields.P == solved.fields.P).all()
