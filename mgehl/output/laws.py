@@ -1,4 +1,4 @@
-"""A run's own laws and heights: each file is kept in the run directory, by a name of no machine and its hash."""
+"""A run's own laws and heights: their files are kept in its directory, by a name of no machine and a hash."""
 
 import os
 from pathlib import Path
