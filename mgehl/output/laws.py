@@ -1,4 +1,4 @@
-"""A run's own laws and heights: their files are kept in its directory, by a name of no machine and a hash."""
+"""A run's own laws and heights: their files are kept in its directory, with their hash."""
 
 import os
 from pathlib import Path
