@@ -16,6 +16,11 @@ class ContactLaw(ABC):
     contact_gap = 0.0
     """The gap that bodies in contact keep."""
 
+    @property
+    def is_continuous(self):
+        """Whether bodies touch, and a film closes as continuously as it opens."""
+        return self.has_contact and not self.closes_faces
+
     @abstractmethod
     def flow_gap(self, H):
         """The gap that the Poiseuille flow sees, and its derivative by H."""

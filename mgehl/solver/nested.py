@@ -92,18 +92,19 @@ def is_mixed(contact, scheme):
     that is thicker than the roughness is found as that of smooth bodies: from the dry contact twice as
     thick a film takes twice the work, and one three times as thick is not found (random balls, 257 nodes).
     """
-    law = scheme.contact_law
-    return law.has_contact and not law.closes_faces and contact.is_mixed
+    return scheme.contact_law.is_continuous and contact.is_mixed
 
 
 def _first_mixed_guess(problem, start, P, film):
-    """The dry pressure `P` of the rough bodies, with a `film` between them or in contact."""
-    pressed = P > 0.0
-    H0 = -problem.mean(problem.gap(P, 0.0), pressed)
-    if start == "film":
-        return problem.state(P, H0 + film, np.full(problem.grid.shape, LUBRICATED))
-    gap = problem.scheme.contact_law.contact_gap
-    return problem.state(P, H0 + gap, np.where(pressed, CONTACT, LUBRICATED))
+    """The dry pressure `P` of the rough bodies, with a `film` between them, or next to none.
+
+    A start from contact takes the thinnest film, and no node in contact: contact that must open all over
+    takes turns with the flow (a ball of 100 nm rms at 0.1 m/s ends after 60 steps so, and settles in 14).
+    """
+    if start == "contact":
+        film = max(FLAT * film, problem.scheme.contact_law.contact_gap)
+    H0 = film - problem.mean(problem.gap(P, 0.0), P > 0.0)
+    return problem.state(P, H0, np.full(problem.grid.shape, LUBRICATED))
 
 
 def interpolate(transfer, problem, coarse):

@@ -52,19 +52,18 @@ def squeeze_rates(problem, evaluation, rows, F, settings):
     if settings.squeeze == 0.0:
         return 0.0
     mean, law = problem.scheme.face_mobility, problem.scheme.contact_law
-    is_continuous = law.has_contact and not law.closes_faces
-    rms = problem.rms(F * _share_of_the_gap(problem, evaluation) if is_continuous else F)
+    rms = problem.rms(F * share_of_the_gap(problem, evaluation) if law.is_continuous else F)
     own_part = OF_NODES[mean] * np.abs(F) / np.maximum(own(evaluation.H), max(law.thinnest, THINNEST))
-    if is_continuous:
+    if law.is_continuous:
         # What flows in may fill a node at once, and bodies that overlap part at once: only closing is slow.
         filling = np.where(own(evaluation.H) > law.thinnest, FILLING / problem.grid.mesh.dX, 0.0)
         own_part = np.where(F > 0.0, np.minimum(own_part, filling), own_part)
     rates = settings.squeeze * (rms / problem.grid.mesh.dX + own_part)
-    may_fold = is_continuous or mean in FOLDING
+    may_fold = law.is_continuous or mean in FOLDING
     return np.maximum(rates, _stable_rates(problem, evaluation, rows, rms)) if may_fold else rates
 
 
-def _share_of_the_gap(problem, evaluation):
+def share_of_the_gap(problem, evaluation):
     """How much of each node's residual only another gap can undo, (lines, nx).
 
     In a deep valley a thousandth of the pressure does: as it fills or tears its residual is large, and says

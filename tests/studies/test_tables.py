@@ -13,6 +13,9 @@ from mgehl.run import solve
 from mgehl.studies import angle
 from mgehl.studies.study import PAPER, merged, papers_grid
 
+OTHERS = {"points", "study.json", "manifest.json"}
+"""What every study's directory has beside tables and figures."""
+
 
 def read(path):
     with path.open() as file:
@@ -39,7 +42,11 @@ class TestWedge:
     def test_files(self, directory):
         tables = {f"{name}.{kind}" for name in ("cases", "convergence") for kind in ("csv", "md")}
         figures = {f"figure_{k}.png" for k in (7, 8, 9, 10)}
-        assert {path.name for path in directory.iterdir()} == tables | figures | {"points", "study.json"}
+        assert {path.name for path in directory.iterdir()} == tables | figures | {
+            "points",
+            "study.json",
+            "manifest.json",
+        }
         assert all((directory / name).read_bytes().startswith(b"\x89PNG") for name in figures)
 
     def test_cases(self, directory):
@@ -87,9 +94,7 @@ def test_schemes(study):
         "films.csv",
         "films.md",
         "films.png",
-        "points",
-        "study.json",
-    }
+    } | OTHERS
     rows = read(directory / "films.csv")
     assert [row["couette"] for row in rows] == list(SCHEMES)
     assert all((row["nodes"], row["converged"]) == ("65", "yes") for row in rows)
@@ -110,7 +115,9 @@ def test_angle(study, monkeypatch):
     tables = {
         f"{name}.{kind}" for name in ("circle", "ellipse", "contact", "wide") for kind in ("csv", "md")
     }
-    assert {path.name for path in directory.iterdir()} == tables | {"films.png", "points", "study.json"}
+    assert {path.name for path in directory.iterdir()} == tables | {
+        "films.png",
+    } | OTHERS
     circle = read(directory / "circle.csv")
     assert [row["angle"] for row in circle] == ["0", "15", "30", "45"]
     along = circle[0]
