@@ -7,6 +7,7 @@ import numpy as np
 from mgehl.discretization.status import CONTACT
 from mgehl.model.contact import Groups
 from mgehl.output.film_error import NOT_ASKED, FilmError
+from mgehl.output.mixed_result import MixedResult, mixed_result
 from mgehl.output.resolution import Resolution, resolution
 from mgehl.output.words import loaded_words
 from mgehl.solver.verification import (
@@ -108,6 +109,8 @@ class Result:
     ranks: int
     versions: dict
     error: FilmError = NOT_ASKED
+    mixed: MixedResult | None = None
+    """Film and contact of rough bodies; None of smooth ones."""
 
     def __str__(self):
         return loaded_words(self)
@@ -158,6 +161,7 @@ def summarise(problem, outcome, tolerance, work, wall_s, versions):
         wall_s=wall_s,
         ranks=grid.comm.size,
         versions=versions,
+        mixed=mixed_result(problem, state),
     )
 
 

@@ -10,6 +10,9 @@ from mgehl.output.digits import with_band
 from mgehl.output.domain import UNKNOWN
 from mgehl.output.words import span
 
+DEFAULT = "default"
+"""Said of a scheme that the configuration does not name: then the run has chosen it."""
+
 FILMS = ("central", "minimum")
 
 
@@ -47,7 +50,7 @@ def _row(directory):
     return {
         "run": directory.name,
         "nodes": str(nodes),
-        "couette": config["discretization"]["couette"],
+        "couette": config["discretization"].get("couette", DEFAULT),
         "ranks": str(result["ranks"]),
         "converged": "yes" if result["converged"] else "no",
         **_films(result),
@@ -55,6 +58,9 @@ def _row(directory):
         "H_Moes minimum": f"{result['moes_film']['minimum']:.5f}",
         "residual": f"{result['residual']:.1e}",
         "load error": f"{result['load_error']:.1e}",
+        "load on contact": f"{contact['load_fraction']:.4f}",
+        "contact/Hertz area": f"{contact['area_fraction']:.4f}",
+        "lambda": _lambda(result),
         "contact nodes on X": span(contact["x_nodes"]),
         "on Y": span(contact["y_nodes"]),
         "largest gap in contact nm": f"{contact['largest_gap_nm']:.1e}",
@@ -67,6 +73,12 @@ def _row(directory):
         "us a step and node": f"{1e6 * _seconds_per_step(finest) / nodes**2:.3f}",
         "wall s": f"{result['wall_s']:.1f}",
     }
+
+
+def _lambda(result):
+    """Of rough bodies the smooth film of a formula over Sq; empty of smooth ones and of older runs."""
+    ratio = (result.get("mixed") or {}).get("lambda_ratio")
+    return "" if ratio is None else f"{ratio:.4g}"
 
 
 def _films(result):

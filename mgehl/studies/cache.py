@@ -14,7 +14,8 @@ from mgehl.version import VERSION
 FOLDER = "points"
 
 COMPUTING = ("model", "discretization", "kinds", "grid", "multigrid", "solver", "run.py",
-             "output/domain.py", "output/resolution.py", "output/film_error.py", "output/result.py",
+             "output/domain.py", "output/resolution.py", "output/film_error.py", "output/mixed_result.py",
+             "output/result.py",
              "output/surface.py", "output/wedge_result.py",
              "output/solution.py", "studies/branch.py")  # fmt: skip
 """Layers and modules that make a point: one that other code made is computed anew."""
