@@ -25,6 +25,7 @@ STUDIES = {
     "accuracy": "errors of full films at 2, 4 and 8 cells in the inlet, by every scheme of a full film",
     "angle": "films of surfaces that move at an angle to the axes of the contact",
     "domain": "what a domain of twice the size changes in the film, and what was estimated of it",
+    "rough": "a rough ball from full film to nearly dry: load share, contact area, patches against lambda",
     "dry": "dry contacts of smooth, wavy and rough balls beside a public code's numbers",
     "ranks": "messages, bytes, flops and time of an iteration on this run's ranks, and on many more",
 }
@@ -32,7 +33,7 @@ STUDIES = {
 DOUBLING = ("wedge", "schemes", "angle", "error")
 """Studies whose orders and limits need grids of half the spacing of the one before."""
 
-LARGEST_LISTS = {"line": 1, "methods": 0, "accuracy": 0, "domain": 0}
+LARGEST_LISTS = {"line": 1, "rough": 1, "methods": 0, "accuracy": 0, "domain": 0}
 """Grids that --nodes may name, where not any number."""
 
 _TAKES = {0: "has grids of its own", 1: "takes one grid"}
@@ -54,6 +55,8 @@ def add(commands):
                        help="branches that study transition follows")  # fmt: skip
     parser.add_argument("--mean", choices=FACE_MOBILITIES, default="arithmetic",
                        help="mean of the mobility that study transition follows")  # fmt: skip
+    parser.add_argument("--boundary-film", metavar="LENGTH",
+                       help="film of adsorbed layers in study rough (default: 2 nm)")  # fmt: skip
     parser.add_argument("--out", metavar="DIR", help="directory of the results (default: runs/study-NAME)")
     parser.add_argument("--force", action="store_true", help="start anew in a directory that exists")
     parser.add_argument(
@@ -77,11 +80,13 @@ def execute(options, comm):
         raise ConfigError(
             f"--nodes {options.nodes}: study {options.study} {_TAKES[LARGEST_LISTS[options.study]]}"
         )
+    boundary_film = _boundary_film(options)
     directory = Path(options.out or Path("runs") / f"study-{options.study}")
     on_first_rank(comm, prepare_directory, directory, options.force, options.resume)
-    record = StudyRecord(options.study, nodes, options.direction, options.mean, comm.size, versions())
+    asked = options.direction, options.mean
+    record = StudyRecord(options.study, nodes, *asked, comm.size, versions(), boundary_film)
     on_first_rank(comm, write_record, directory, record)
-    study = Study(directory, comm, nodes, not options.quiet, branch=options.direction, mean=options.mean)
+    study = Study(directory, comm, nodes, not options.quiet, 0, *asked, boundary_film)
     if not options.resume:
         on_first_rank(comm, study.cache.clear)
     import_module(f"mgehl.studies.{options.study}").run(study)
@@ -96,6 +101,16 @@ def _check_doubling(nodes):
             raise ConfigError(
                 f"--nodes {coarse},{fine}: {2 * coarse - 1} must follow {coarse} in this study"
             )
+
+
+def _boundary_film(options):
+    """The film of --boundary-film in m, by the rules of contact.boundary_film; None for the study's own."""
+    text = options.boundary_film
+    if text is None:
+        return None
+    if options.study != "rough":
+        raise ConfigError(f"--boundary-film {text}: means nothing to study {options.study}")
+    return load_config(settings=[f"contact.boundary_film={text}"]).contact.boundary_film
 
 
 def _nodes(text):

@@ -41,6 +41,8 @@ class Study:
     """Which branch a study of both is asked for: "down", "up" or "both"."""
     mean: str = "arithmetic"
     """Mean of the mobility, for a study that follows one."""
+    boundary_film: float | None = None
+    """In m, for study rough; None for its own choice."""
     _done: int = field(default=0, init=False)
     _started: float = field(default_factory=time.perf_counter, init=False)
 
