@@ -108,6 +108,8 @@ def mixed_note(mixed):
     """The same in a line, under the title of a picture; nothing of smooth bodies."""
     if not mixed:
         return ""
+    if not mixed.patches:
+        return f"lambda {_known(mixed.lambda_ratio)}, no contact"
     return (
         f"lambda {_known(mixed.lambda_ratio)}, contact carries {100 * mixed.contact_load_share:.1f} % "
         f"of the load on {100 * mixed.contact_area_over_hertz:.1f} % of the Hertz area, in "

@@ -68,7 +68,7 @@ def _draw_fits(axes, points, fits):
 def states(path, points):
     """Above what the nodes are, below the film, of some points; they are on one scale."""
     with applied():
-        figure, axes = subplots(2, len(points), size=(3.1 * len(points) + 1.0, 6.6), squeeze=False)
+        figure, axes = subplots(2, len(points), size=(3.1 * len(points) + 1.0, 7.4), squeeze=False)
         norm = _norm(points)
         for point, (above, below) in zip(points, axes.T, strict=True):
             _status_map(above, point)
@@ -111,7 +111,7 @@ def _status_map(axes, point):
                     shading="nearest", rasterized=True)  # fmt: skip
     mixed = point.result.mixed
     axes.set_title(
-        f"{1e3 * point.speed:.3g} mm/s, lambda {point.film_ratio:.2g}\n"
+        f"{1e3 * point.speed:.4g} mm/s, lambda {point.film_ratio:.2g}\n"
         f"{100 * mixed.contact_load_share:.1f} % of the load on contact"
     )
     _finish(axes)

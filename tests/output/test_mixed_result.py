@@ -15,6 +15,7 @@ from mgehl.model.surface import Waviness
 from mgehl.output.files import write_result
 from mgehl.output.mixed_result import Nodes, measured, mixed_result, patch_sizes, within_hertz
 from mgehl.output.table import _lambda
+from mgehl.output.words import mixed_note
 
 FILM, LOW = 0.5, 0.25
 WAVES = Waviness(100e-9, 1e-4, None)
@@ -161,3 +162,13 @@ def test_it_is_in_result_json_and_in_words(contact, nodes, tmp_path):
     area = f"{1e12 * found.contact_area_m2:.4g} um^2"
     assert f"real contact area {area}, 3.98 % of the Hertz area, in 1 patch, the largest {area}" in text
     assert "lambda" not in str(make_result())
+
+
+def test_the_note_of_pictures(contact, nodes):
+    assert mixed_note(None) == ""
+    ratio = f"lambda {contact.expected_film / contact.roughness:.3g}"
+    assert mixed_note(measured(contact, MESH, nodes)) == f"{ratio}, no contact"
+    touch(nodes, (4, 8), (2, 3), P=8.0)
+    carried = f"{100 * 2.0 / contact.load_integral:.1f} % of the load"
+    note = f"{ratio}, contact carries {carried} on 8.0 % of the Hertz area, in 2 patches"
+    assert mixed_note(measured(contact, MESH, nodes)) == note
