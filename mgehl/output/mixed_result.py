@@ -36,6 +36,18 @@ class MixedResult:
     """Mean film where the heights are below their mean by more than Sq."""
     torn_share: float
     """Part of the nodes within the Hertz ellipse where the film is torn: cavitated."""
+    per_metre: bool = False
+    """Whether areas are those of one metre: of a line contact."""
+
+    @property
+    def hertz_region(self):
+        """What the films are within, in words."""
+        return "Hertz width" if self.per_metre else "Hertz ellipse"
+
+    @property
+    def area_unit(self):
+        """Of areas in words and tables."""
+        return "µm² in each metre" if self.per_metre else "µm²"
 
 
 @dataclass(frozen=True)
@@ -87,6 +99,7 @@ def measured(contact, mesh, nodes):
         minimum_film_nm=_of_some(np.min, nm[film]),
         valley_film_nm=_of_some(np.mean, nm[film & (nodes.heights < -Sq)]),
         torn_share=float(np.mean(nodes.status[inside] == CAVITATED)),
+        per_metre=mesh.is_line,
     )
 
 

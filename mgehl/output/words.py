@@ -91,14 +91,15 @@ def loaded_words(result):
 def mixed_lines(mixed):
     """Film and contact of rough bodies: who carries the load, on which area, and how thick the film is."""
     patches = counted(mixed.patches, "patch", "patches")
-    largest = f", the largest {1e12 * mixed.largest_patch_m2:.4g} um^2" if mixed.patches else ""
+    unit = mixed.area_unit.replace("µm²", "um^2")
+    largest = f", the largest {1e12 * mixed.largest_patch_m2:.4g} {unit}" if mixed.patches else ""
     return [
         f"  lambda {_known(mixed.lambda_ratio)} (smooth film of the formula over Sq {mixed.Sq_nm:.4g} nm): "
         f"contact carries {100 * mixed.contact_load_share:.2f} % of the load, the film "
         f"{100 * mixed.film_load_share:.2f} %",
-        f"  real contact area {1e12 * mixed.contact_area_m2:.4g} um^2, "
+        f"  real contact area {1e12 * mixed.contact_area_m2:.4g} {unit}, "
         f"{100 * mixed.contact_area_over_hertz:.2f} % of the Hertz area, in {patches}{largest}",
-        f"  film within the Hertz ellipse: mean {_known(mixed.mean_film_nm)} nm, minimum "
+        f"  film within the {mixed.hertz_region}: mean {_known(mixed.mean_film_nm)} nm, minimum "
         f"{_known(mixed.minimum_film_nm)} nm, {_known(mixed.valley_film_nm)} nm in valleys deeper than Sq; "
         f"torn on {100 * mixed.torn_share:.2f} % of it",
     ]

@@ -15,7 +15,7 @@ from mgehl.model.surface import Waviness
 from mgehl.output.files import write_result
 from mgehl.output.mixed_result import Nodes, measured, mixed_result, patch_sizes, within_hertz
 from mgehl.output.table import _lambda
-from mgehl.output.words import mixed_note
+from mgehl.output.words import mixed_lines, mixed_note
 
 FILM, LOW = 0.5, 0.25
 WAVES = Waviness(100e-9, 1e-4, None)
@@ -118,6 +118,8 @@ def test_a_line_contact_has_areas_of_a_metre_of_it():
     assert found.contact_area_over_hertz == pytest.approx(3 * 0.25 / 2.0)
     assert found.contact_load_share == pytest.approx(0.75 / (np.pi / 2.0))
     assert found.patches == 2 and found.mean_film_nm == pytest.approx(FILM * 1e9 * contact.film_scale)
+    _, area, films = mixed_lines(found)
+    assert f"{1e12 * found.contact_area_m2:.4g} um^2 in each metre" in area and "Hertz width" in films
 
 
 def test_heights_are_about_the_mean_that_sq_is_of(contact, make_problem):

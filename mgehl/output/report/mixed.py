@@ -13,7 +13,7 @@ def mixed_highlights(mixed):
 def mixed_sections(mixed):
     """The section of a `MixedResult`; none of smooth bodies."""
     if mixed:
-        caption = "Film and contact of the rough bodies; films within the Hertz ellipse"
+        caption = "Film and contact of the rough bodies; films within the " + mixed.hertz_region
         rows = table(caption, ("quantity", "value", "unit"), _rows(mixed))
         yield Section("mixed", "How film and contact share", (rows,))
 
@@ -24,12 +24,16 @@ def _rows(mixed):
         ("rms of the heights Sq", number(mixed.Sq_nm, 4), "nm"),
         ("part of the load on contact", number(100 * mixed.contact_load_share, 4), "%"),
         ("part of the load on the film", number(100 * mixed.film_load_share, 4), "%"),
-        ("real contact area", number(1e12 * mixed.contact_area_m2, 4), "µm²"),
+        ("real contact area", number(1e12 * mixed.contact_area_m2, 4), mixed.area_unit),
         ("real contact area over Hertz's", number(100 * mixed.contact_area_over_hertz, 4), "%"),
         ("patches of contact", str(mixed.patches), ""),
-        ("largest patch", number(1e12 * mixed.largest_patch_m2, 4), "µm²"),
+        ("largest patch", number(1e12 * mixed.largest_patch_m2, 4), mixed.area_unit),
         ("mean film", number(mixed.mean_film_nm, 4), "nm"),
         ("minimum film", number(mixed.minimum_film_nm, 4), "nm"),
         ("mean film in valleys deeper than Sq", number(mixed.valley_film_nm, 4), "nm"),
-        ("part of the Hertz ellipse where the film is torn", number(100 * mixed.torn_share, 4), "%"),
+        (
+            f"part of the {mixed.hertz_region} where the film is torn",
+            number(100 * mixed.torn_share, 4),
+            "%",
+        ),
     ]
