@@ -68,6 +68,14 @@ studies: $(ENVIRONMENT)
 
 .PHONY: studies
 
+# make rough     run study rough and write its table and pictures to runs/tables; points that did not converge say so in it
+rough: $(ENVIRONMENT)
+	( $(ON) mpiexec -n 2 python -m mgehl study rough --resume --quiet ); test $$? -le 1
+	cp runs/study-rough/rough.md runs/study-rough/rough.csv runs/tables/
+	for f in load-share states; do cp runs/study-rough/$$f.png runs/tables/rough-$$f.png || exit 1; done
+
+.PHONY: rough
+
 # make means   the film at 7.5 mm/s by the other means of the mobility, and by the scheme 2B, on 1025 and 2049 nodes
 means: $(ENVIRONMENT)
 	for m in geometric harmonic; do for n in 1025 2049; do ( $(ON) $(MGEHL) configs/full_film.toml --set grid.nodes=$$n \

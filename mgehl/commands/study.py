@@ -24,6 +24,7 @@ STUDIES = {
     "accuracy": "errors of full films at 2, 4 and 8 cells in the inlet, by every scheme of a full film",
     "angle": "films of surfaces that move at an angle to the axes of the contact",
     "domain": "what a domain of twice the size changes in the film, and what was estimated of it",
+    "rough": "a rough ball from full film to nearly dry: load share, contact area, patches against lambda",
     "dry": "dry contacts of smooth, wavy and rough balls beside a public code's numbers",
     "ranks": "messages, bytes, flops and time of an iteration on this run's ranks, and on many more",
 }
@@ -31,7 +32,7 @@ STUDIES = {
 DOUBLING = ("wedge", "schemes", "angle", "error")
 """Studies whose orders and limits need grids of half the spacing of the one before."""
 
-LARGEST_LISTS = {"line": 1, "methods": 0, "accuracy": 0, "domain": 0}
+LARGEST_LISTS = {"line": 1, "rough": 1, "methods": 0, "accuracy": 0, "domain": 0}
 """Grids that --nodes may name, where not any number."""
 
 DEFAULTS = {"direction": "both", "mean": "arithmetic"}
@@ -57,6 +58,8 @@ def add(commands):
     parser.add_argument("--mean", choices=FACE_MOBILITIES,
                        help="mean of the mobility that study transition follows "
                        "(default: arithmetic)")  # fmt: skip
+    parser.add_argument("--boundary-film", metavar="LENGTH",
+                       help="film of adsorbed layers in study rough (default: 2 nm)")  # fmt: skip
     parser.add_argument("--out", metavar="DIR", help="directory of the results (default: runs/study-NAME)")
     parser.add_argument("--force", action="store_true", help="start anew in a directory that exists")
     parser.add_argument(
@@ -78,7 +81,8 @@ def execute(options, comm):
     nodes = _checked_nodes(options)
     directory = Path(options.out or Path("runs") / f"study-{options.study}")
     mean, direction = options.mean or DEFAULTS["mean"], options.direction or DEFAULTS["direction"]
-    record = StudyRecord(options.study, nodes, direction, mean, comm.size, versions())
+    asked = options.study, nodes, direction, mean
+    record = StudyRecord(*asked, comm.size, versions(), _boundary_film(options))
     on_first_rank(comm, make_directory, directory, options.force or options.resume)
     with locked(comm, directory):
         study = _solve(options, comm, directory, record)
@@ -95,8 +99,8 @@ def _solve(options, comm, directory, record):
     from mgehl.studies.study import Study
 
     stage = comm.bcast(on_first_rank(comm, begin_study, directory, record, options.resume))
-    options_of_study = {"branch": record.branch, "mean": record.mean, "home": directory}
-    study = Study(stage, comm, record.nodes, not options.quiet, **options_of_study)
+    asked = {"branch": record.branch, "mean": record.mean, "boundary_film": record.boundary_film}
+    study = Study(stage, comm, record.nodes, not options.quiet, home=directory, **asked)
     if not options.resume:
         on_first_rank(comm, study.cache.clear)
     import_module(f"mgehl.studies.{options.study}").run(study)
@@ -129,6 +133,16 @@ def _check_doubling(nodes):
             raise ConfigError(
                 f"--nodes {coarse},{fine}: {2 * coarse - 1} must follow {coarse} in this study"
             )
+
+
+def _boundary_film(options):
+    """The film of --boundary-film in m, by the rules of contact.boundary_film; None for the study's own."""
+    text = options.boundary_film
+    if text is None:
+        return None
+    if options.study != "rough":
+        raise ConfigError(f"--boundary-film {text}: means nothing to study {options.study}")
+    return load_config(settings=[f"contact.boundary_film={text}"]).contact.boundary_film
 
 
 def _nodes(text):

@@ -78,16 +78,24 @@ class LoadedContact:
         cubes = float(np.mean(self.heights**3))
         return cubes / self.roughness**3 if self.roughness else 0.0
 
-    @cached_property
+    @property
+    def mean_height(self):
+        """Mean of the heights within the Hertz semi-axes, in m; 0 of smooth bodies."""
+        return float(self._samples.mean())
+
+    @property
     def heights(self):
         """Samples of the heights within the Hertz semi-axes, about their mean, in m."""
+        return self._samples - self._samples.mean()
+
+    @cached_property
+    def _samples(self):
         if self.surface is None:
             return np.zeros(1)
         side = np.linspace(-1.0, 1.0, SAMPLES)
         across = np.zeros(1) if self.is_plane else side
         x, y = side[None, :] * self.x_scale, across[:, None] * self.y_scale
-        heights = np.broadcast_to(self.surface.height(x, y), (len(across), SAMPLES))
-        return heights - heights.mean()
+        return np.broadcast_to(self.surface.height(x, y), (len(across), SAMPLES))
 
     def shortest_wave(self, mesh):
         """Shortest wavelength of the surface in m, as seen on a mesh within the Hertz semi-axes."""

@@ -44,6 +44,8 @@ class DryResult:
     wall_s: float
     ranks: int
     versions: dict
+    mixed = None
+    """There is no film to share the load with."""
 
     @property
     def settled(self):

@@ -8,6 +8,7 @@ from mgehl.discretization.status import CONTACT
 from mgehl.model.contact import Groups
 from mgehl.output.edge_result import NOT_SEEN, EdgeResult, edge_result
 from mgehl.output.film_error import NOT_ASKED, FilmError
+from mgehl.output.mixed_result import MixedResult, mixed_result
 from mgehl.output.resolution import Resolution, resolution
 from mgehl.output.words import loaded_words
 from mgehl.solver.verification import (
@@ -111,6 +112,8 @@ class Result:
     versions: dict
     error: FilmError = NOT_ASKED
     edge: EdgeResult = NOT_SEEN
+    mixed: MixedResult | None = None
+    """Film and contact of rough bodies; None of smooth ones."""
 
     @property
     def doubt(self):
@@ -169,6 +172,7 @@ def summarise(problem, outcome, tolerance, work, wall_s, versions):
         ranks=grid.comm.size,
         versions=versions,
         edge=edge,
+        mixed=mixed_result(problem, state),
     )
 
 

@@ -12,6 +12,9 @@ from mgehl.output.domain import UNKNOWN
 from mgehl.output.whole_file import whole_file
 from mgehl.output.words import span
 
+DEFAULT = "default"
+"""Said of a scheme that the configuration does not name: then the run has chosen it."""
+
 FILMS = ("central", "minimum")
 
 
@@ -59,7 +62,7 @@ def _row(directory):
     row = {
         "run": directory.resolve().name,
         "nodes": str(nodes),
-        "couette": config["discretization"].get("couette", "1B"),
+        "couette": config["discretization"].get("couette", DEFAULT),
         "ranks": str(result["ranks"]),
         "converged": "yes" if result["converged"] else "no",
     }
@@ -87,6 +90,9 @@ def _loaded(result):
         "H_Moes minimum": _digits(result["moes_film"]["minimum"], ".5f"),
         "residual": _digits(result["residual"], ".1e"),
         "load error": _digits(result["load_error"], ".1e"),
+        "load on contact": _digits(contact["load_fraction"], ".4f"),
+        "contact/Hertz area": _digits(contact["area_fraction"], ".4f"),
+        "lambda": _lambda(result),
         "contact nodes on X": span(contact["x_nodes"]),
         "on Y": span(contact["y_nodes"]),
         "largest gap in contact nm": _digits(contact["largest_gap_nm"], ".1e"),
@@ -101,6 +107,12 @@ def _loaded(result):
 def _digits(number, digits):
     """A number of result.json, which is null where it was not finite."""
     return "nan" if number is None else format(number, digits)
+
+
+def _lambda(result):
+    """Of rough bodies the smooth film of a formula over Sq; empty of smooth ones and of older runs."""
+    ratio = (result.get("mixed") or {}).get("lambda_ratio")
+    return "" if ratio is None else f"{ratio:.4g}"
 
 
 def _films(result):

@@ -16,7 +16,8 @@ FOLDER = "points"
 
 COMPUTING = ("model", "discretization", "kinds", "grid", "multigrid", "solver", "run.py",
              "output/domain.py", "output/resolution.py", "output/edge_result.py", "output/dry_result.py",
-             "output/film_error.py", "output/result.py", "output/surface.py", "output/wedge_result.py",
+             "output/film_error.py", "output/mixed_result.py", "output/result.py", "output/surface.py",
+             "output/wedge_result.py",
              "output/solution.py", "studies/branch.py")  # fmt: skip
 """Layers and modules that make a point: one that other code made is computed anew."""
 

@@ -46,6 +46,8 @@ class Study:
     """Mean of the mobility, for a study that follows one."""
     home: Path | None = None
     """Directory of its points, where that is another than the one of tables and pictures."""
+    boundary_film: float | None = None
+    """In m, for study rough; None for its own choice."""
     _done: int = field(default=0, init=False)
     _started: float = field(default_factory=time.perf_counter, init=False)
 

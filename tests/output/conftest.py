@@ -58,7 +58,7 @@ def make_solution():
         P = np.sqrt(np.maximum(1.0 - X**2 - Y**2, 0.0))
         H = np.where(status == CONTACT, 0.0, FILM + np.maximum(X**2 + Y**2 - 1.0, 0.0))
         result = SimpleNamespace(
-            converged=converged, settled=converged, overlap=Overlap(0, 0.0), error=NOT_ASKED
+            converged=converged, settled=converged, overlap=Overlap(0, 0.0), error=NOT_ASKED, mixed=None
         )
         rows = newton_rows() if rows is None else rows
         return Solution(config, body, mesh, Fields(P, H, status), rows, result)
@@ -77,7 +77,9 @@ def make_line():
         P = np.sqrt(np.maximum(1.0 - mesh.X**2, 0.0))[None, :]
         status = np.full((1, nodes), LUBRICATED)
         status[0, [0, -1]] = BOUNDARY
-        result = SimpleNamespace(converged=True, settled=True, overlap=Overlap(0, 0.0), error=NOT_ASKED)
+        result = SimpleNamespace(
+            converged=True, settled=True, overlap=Overlap(0, 0.0), error=NOT_ASKED, mixed=None
+        )
         return Solution(config, body, mesh, Fields(P, FILM + 0.0 * P, status), newton_rows(), result)
 
     return make

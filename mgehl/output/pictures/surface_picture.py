@@ -9,6 +9,7 @@ from mgehl.output.pictures.maps import WINDOW, add_arrow, drawn_status, film_sca
 from mgehl.output.pictures.style import CONTACT_EDGE, FILM, HERTZ, STATUS_COLOURS, legend_below, subplots
 from mgehl.output.pictures.titles import position_labels, title
 from mgehl.output.surface import surface_words
+from mgehl.output.words import mixed_note
 
 BARS = "0.7"
 BINS = 61
@@ -32,7 +33,8 @@ def surface_picture(solution):
     _distribution(axes[-1], solution, heights)
     resolution = solution.result.resolution
     shown = surface_words(resolution.surface, resolution.surface_nodes)
-    figure.suptitle(f"surface, {title(solution)}" + (f"\n{shown}" if shown else ""))
+    notes = shown, mixed_note(solution.result.mixed)
+    figure.suptitle("\n".join(filter(None, (f"surface, {title(solution)}", *notes))))
     return figure
 
 

@@ -1,6 +1,6 @@
 """What a picture is of and what its axes show, in a line each."""
 
-from mgehl.output.words import films_words
+from mgehl.output.words import films_words, mixed_note
 
 
 def title(solution):
@@ -9,9 +9,10 @@ def title(solution):
 
 
 def title_with_films(solution):
-    """As `title`; where the films have bands, they are on a second line."""
+    """As `title`; films that have bands are on a second line, film and contact of rough bodies, too."""
     result = solution.result
-    return title(solution) + ("" if result.error.central_nm is None else f"\n{films_words(result)}")
+    films = "" if result.error.central_nm is None else films_words(result)
+    return "\n".join(filter(None, (title(solution), films, mixed_note(result.mixed))))
 
 
 def common_title(solutions):

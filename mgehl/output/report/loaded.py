@@ -6,12 +6,13 @@ from mgehl.output import surface
 from mgehl.output.digits import with_band
 from mgehl.output.domain import STARVED, STARVED_FROM, SUFFICIENT, UNKNOWN
 from mgehl.output.report.checks import BROKEN, CARE, CHECK_HEADS, CHECKS, HOLDS, absent, informing, limited
+from mgehl.output.report.mixed import mixed_highlights, mixed_sections
 from mgehl.output.report.page import DOUBTFUL, GOOD, NO_NUMBER, Cell, Section, Text, number, table
 from mgehl.output.report.parts import span
 from mgehl.output.resolution import RESOLVED_CELLS
 from mgehl.output.result import COMPLEMENTARITY_TOLERANCE
 from mgehl.output.surface import RESOLVED_NODES
-from mgehl.output.words import band_words
+from mgehl.output.words import band_words, mixed_note
 from mgehl.solver.verification import FEWEST_NODES, LARGEST_EDGE_PRESSURE
 
 FORMULAS = {
@@ -23,6 +24,8 @@ FORMULAS = {
 }
 PICTURES = {}
 """Titles of pictures that are not those of `pictures.figures`."""
+
+PEAKS = "Contact is on the peaks, where there is some"
 
 RESOLUTION = {
     "resolved": Cell("resolved", GOOD),
@@ -48,6 +51,7 @@ def highlights(solution):
     """The numbers that most readers come for."""
     result = solution.result
     return (
+        *mixed_highlights(result.mixed),
         ("central film", f"{_own_films(result)['central']} nm"),
         ("minimum film", f"{_own_films(result)['minimum']} nm"),
         ("largest pressure", f"{number(result.max_pressure_GPa, 4)} GPa"),
@@ -63,6 +67,7 @@ def answer_sections(solution):
         Section("films", "Films", (_films(result), _bands(result.error), *_grids(result.error))),
         Section("checks", "Can it be trusted", (_checks(solution),)),
         Section("contact", "Contact and Eq. 2", tuple(_contact(result))),
+        *mixed_sections(result.mixed),
         Section("groups", "The contact in numbers", (_dimensions(solution), _groups(solution))),
     )
 
@@ -77,7 +82,7 @@ def alternatives(result):
         ),
         "pressure": f"Its maximum is {largest}.",
         "status": f"{result.contact.nodes} nodes are solid, {result.cavitated_nodes} are cavitated.",
-        "surface": "Contact is on the peaks, where there is some.",
+        "surface": f"{': '.join(filter(None, (PEAKS, mixed_note(result.mixed))))}.",
         "history": f"The last residual is {number(result.residual, 2)}.",
     }
 

@@ -23,6 +23,8 @@ class StudyRecord:
     mean: str
     ranks: int
     versions: dict
+    boundary_film: float | None = None
+    """In m, that study rough was asked for; None for its own, and of other studies."""
 
 
 def write_record(directory, record):

@@ -82,6 +82,8 @@ def _picture(path):
 def _origin(record):
     grids = ", ".join(map(str, record.nodes)) or "the study's own"
     rows = [("grids", grids), ("branches", record.branch), ("mean of the mobility", record.mean)]
+    if record.boundary_film is not None:
+        rows += [("boundary film", f"{1e9 * record.boundary_film:.4g} nm")]
     rows += [("ranks", str(record.ranks))]
     rows += [(name, Cell(text, "code")) for name, text in record.versions.items()]
     return Section("origin", "How it was made", (table("Options and software", ("what", "value"), rows),))

@@ -43,7 +43,7 @@ def solution(mesh, fields, paper_contact):
         mesh,
         fields,
         [],
-        SimpleNamespace(converged=True, settled=True, overlap=Overlap(0, 0.0), error=NOT_ASKED),
+        SimpleNamespace(converged=True, settled=True, overlap=Overlap(0, 0.0), error=NOT_ASKED, mixed=None),
     )
 
 

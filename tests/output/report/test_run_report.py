@@ -10,6 +10,7 @@ from mpi4py import MPI
 
 import mgehl
 from mgehl.output.film_error import no_band
+from mgehl.output.mixed_result import MixedResult
 from mgehl.output.report.loaded import film
 from mgehl.output.report.page import BAD, DOUBTFUL, GOOD, NO_NUMBER, render
 from mgehl.output.report.parts import LONG_HISTORY, history_section, setting
@@ -266,6 +267,33 @@ class TestLoaded:
         config = mgehl.load(settings=SMALL | {"moes.M": 20.0, "moes.L": 10.0})
         names = configuration_of(quick(replace(film_run, config=config)))
         assert "moes.M" in names and "motion.speed" not in names and "contact.load" not in names
+
+
+class TestRoughBodies:
+    """How film and contact share has a section; of smooth bodies there is none."""
+
+    MIXED = MixedResult(0.25, 80.0, 0.125, 0.875, 3e-9, 0.0625, 7, 1e-9, 40.0, None, 90.0, 0.015)
+
+    def test_every_number_with_its_unit(self, film_run, quick):
+        page = quick(changed(film_run, mixed=self.MIXED))
+        rows = table_of(page, "Film and contact of the rough bodies; films within the Hertz ellipse")
+        values = {(value, unit) for _, value, unit in rows}
+        assert values == {
+            ("0.25", ""), ("80", "nm"), ("12.5", "%"), ("87.5", "%"), ("3000", "µm²"), ("6.25", "%"),
+            ("7", ""), ("1000", "µm²"), ("40", "nm"), (NO_NUMBER, "nm"), ("90", "nm"), ("1.5", "%"),
+        }  # fmt: skip
+        assert ("lambda", "0.25") in page.highlights and ("load on contact", "12.5 %") in page.highlights
+
+    def test_a_line_contact_s_areas_are_of_a_metre(self, line_run, quick):
+        page = quick(changed(line_run, mixed=replace(self.MIXED, per_metre=True)))
+        rows = table_of(page, "Film and contact of the rough bodies; films within the Hertz width")
+        assert ["largest patch", "1000", "µm² in each metre"] in rows
+
+    def test_smooth_bodies_have_none(self, film_run, quick):
+        assert film_run.result.mixed is None
+        page = quick(film_run)
+        assert "mixed" not in [section.anchor for section in page.sections]
+        assert "lambda" not in dict(page.highlights)
 
 
 class TestVerdict:

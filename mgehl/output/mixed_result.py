@@ -1,0 +1,119 @@
+"""What is asked of a rough contact: how film and solid share load and area, and how thick the film is."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import ndimage
+
+from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED, is_fluid
+
+BESIDE = np.ones((3, 3))
+"""Nodes of one patch: all eight around a node are its neighbours."""
+
+
+@dataclass(frozen=True)
+class MixedResult:
+    """Film and contact of rough bodies; areas of a line contact are those of one metre of its length.
+
+    Films are means and minima over nodes that are film, within the Hertz ellipse (of a line contact its
+    width): not of contact, nor where the film is torn. They are None where there is no such node.
+    """
+
+    lambda_ratio: float | None
+    """Central film that a formula predicts of smooth bodies, over Sq; None where Sq is 0."""
+    Sq_nm: float
+    """Rms of the heights within the Hertz semi-axes, about their mean."""
+    contact_load_share: float
+    film_load_share: float
+    contact_area_m2: float
+    contact_area_over_hertz: float
+    patches: int
+    """Stretches of contact that hang together, by sides or by corners of the cells."""
+    largest_patch_m2: float
+    mean_film_nm: float | None
+    minimum_film_nm: float | None
+    valley_film_nm: float | None
+    """Mean film where the heights are below their mean by more than Sq."""
+    torn_share: float
+    """Part of the nodes within the Hertz ellipse where the film is torn: cavitated."""
+    per_metre: bool = False
+    """Whether areas are those of one metre: of a line contact."""
+
+    @property
+    def hertz_region(self):
+        """What the films are within, in words."""
+        return "Hertz width" if self.per_metre else "Hertz ellipse"
+
+    @property
+    def area_unit(self):
+        """Of areas in words and tables."""
+        return "µm² in each metre" if self.per_metre else "µm²"
+
+
+@dataclass(frozen=True)
+class Nodes:
+    """Pressure, gap, status and heights in m (about their mean) of all nodes, each (ny, nx)."""
+
+    P: np.ndarray
+    H: np.ndarray
+    status: np.ndarray
+    heights: np.ndarray
+
+
+def mixed_result(problem, state):
+    """The `MixedResult` of a state; None of smooth bodies (collective).
+
+    Rank 0 has all nodes and tells the others: whatever the number of ranks the sums are the same.
+    """
+    grid, contact = problem.grid, problem.contact
+    if contact.surface is None:
+        return None
+    whole = [grid.gather(each) for each in (state.P, state.H, state.status, _heights(grid, contact))]
+    return grid.comm.bcast(None if whole[0] is None else measured(contact, grid.mesh, Nodes(*whole)))
+
+
+def _heights(grid, contact):
+    """Heights of the local nodes about the mean that Sq is of, in m: (lines, nx)."""
+    heights = contact.surface.height(grid.X * contact.x_scale, grid.Y * contact.y_scale)
+    return np.array(np.broadcast_to(heights - contact.mean_height, grid.shape))
+
+
+def measured(contact, mesh, nodes):
+    """The `MixedResult` of all `Nodes` of a `mesh`."""
+    solid, inside, Sq = nodes.status == CONTACT, within_hertz(mesh), contact.roughness
+    film = inside & (nodes.status == LUBRICATED)
+    cell = mesh.dX * mesh.dY
+    square_metres = mesh.dX * contact.x_scale * (1.0 if mesh.is_line else mesh.dY * contact.y_scale)
+    nm = 1e9 * contact.film_scale * nodes.H
+    sizes = patch_sizes(solid)
+    return MixedResult(
+        lambda_ratio=contact.expected_film / Sq if Sq else None,
+        Sq_nm=1e9 * Sq,
+        contact_load_share=float(cell * nodes.P[solid].sum() / contact.load_integral),
+        film_load_share=float(cell * nodes.P[is_fluid(nodes.status)].sum() / contact.load_integral),
+        contact_area_m2=float(solid.sum() * square_metres),
+        contact_area_over_hertz=float(solid.sum() * cell / contact.contact_area),
+        patches=len(sizes),
+        largest_patch_m2=float(max(sizes, default=0) * square_metres),
+        mean_film_nm=_of_some(np.mean, nm[film]),
+        minimum_film_nm=_of_some(np.min, nm[film]),
+        valley_film_nm=_of_some(np.mean, nm[film & (nodes.heights < -Sq)]),
+        torn_share=float(np.mean(nodes.status[inside] == CAVITATED)),
+        per_metre=mesh.is_line,
+    )
+
+
+def within_hertz(mesh):
+    """Nodes within the Hertz ellipse, or a line contact's width: (ny, nx)."""
+    across = np.zeros(1) if mesh.is_line else mesh.Y
+    return mesh.X[None, :] ** 2 + across[:, None] ** 2 <= 1.0
+
+
+def patch_sizes(solid):
+    """Numbers of nodes in the patches of a mask (ny, nx)."""
+    labels, _ = ndimage.label(solid, BESIDE)
+    return np.bincount(labels.ravel())[1:].tolist()
+
+
+def _of_some(function, values):
+    return float(function(values)) if values.size else None
