@@ -133,8 +133,8 @@ def row(point, both):
 
 def _numbers(mixed):
     return {
-        "load on contact": f"{mixed.contact_load_share:.4f}",
-        "contact/Hertz area": f"{mixed.contact_area_over_hertz:.4f}",
+        "load on contact": f"{mixed.contact_load_share:.4g}",
+        "contact/Hertz area": f"{mixed.contact_area_over_hertz:.4g}",
         "contact area um^2": f"{1e12 * mixed.contact_area_m2:.1f}",
         "patches": str(mixed.patches),
         "largest patch um^2": f"{1e12 * mixed.largest_patch_m2:.1f}",

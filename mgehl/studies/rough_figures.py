@@ -68,12 +68,12 @@ def _draw_fits(axes, points, fits):
 def states(path, points):
     """Above what the nodes are, below the film, of some points; they are on one scale."""
     with applied():
-        figure, axes = subplots(2, len(points), size=(3.1 * len(points) + 1.0, 7.4), squeeze=False)
+        figure, axes = subplots(2, len(points), size=(3.1 * len(points) + 1.0, 6.6), squeeze=False)
         norm = _norm(points)
         for point, (above, below) in zip(points, axes.T, strict=True):
             _status_map(above, point)
             image = _film_map(below, point, norm)
-        figure.colorbar(image, ax=axes[1], label="film, nm (black: contact)", extend="both")
+        figure.colorbar(image, ax=axes, label="film in the lower row, nm (black: contact)", extend="both")
         for row in axes:
             row[0].set_ylabel("Y = y/b")
         for panel in axes[1]:
