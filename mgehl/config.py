@@ -206,9 +206,12 @@ def _read_toml(path):
 
 
 def _text(path):
-    """The text of a file, which TOML has in UTF-8; of a pipe, such as <(...), what comes out of it."""
+    """The text of a file, which TOML has in UTF-8; of a pipe, such as <(...), what comes out of it.
+
+    The null device is the empty configuration.
+    """
     kind = path.stat().st_mode
-    if not (stat.S_ISREG(kind) or stat.S_ISFIFO(kind)):
+    if not (stat.S_ISREG(kind) or stat.S_ISFIFO(kind) or path == Path(os.devnull)):
         raise OSError("is no file")
     with path.open("rb") as file:
         content = file.read(LARGEST_FILE + 1)
