@@ -138,7 +138,7 @@ def test_a_law_that_fails_in_the_middle_of_a_run_is_one_line_with_its_key(tmp_pa
 
 
 def test_a_run_with_own_laws_runs_again_from_its_configuration(laws, monkeypatch, tmp_path):
-    """Paths of a file are counted from the file, those of --set from here; both are written absolute."""
+    """Paths of a file are counted from the file, those of --set from here; the run keeps a copy."""
     (tmp_path / "mine.toml").write_text(
         '[lubricant]\nviscosity_law = "laws.py:barus"\n[motion]\nspeed = 1.0\n[grid]\nnodes = 65\n'
     )
@@ -149,8 +149,10 @@ def test_a_run_with_own_laws_runs_again_from_its_configuration(laws, monkeypatch
     assert main(["run", "../mine.toml", "--set", setting, "--out", "first", "--quiet"]) == 0
     monkeypatch.chdir(tmp_path)
     written = load_config("elsewhere/first/configuration.toml").lubricant
-    assert written.viscosity_law == f"{laws}:barus"
-    assert written.density_law == f"{laws}:dowson_higginson"
+    copy = elsewhere / "first" / "laws" / "laws.py"
+    assert copy.read_bytes() == laws.read_bytes()
+    assert written.viscosity_law == f"{copy}:barus"
+    assert written.density_law == f"{copy}:dowson_higginson"
     assert main(["run", "elsewhere/first/configuration.toml", "--out", "second", "--quiet"]) == 0
     first, second = read_run("elsewhere/first"), read_run("second")
     np.testing.assert_array_equal(first.film, second.film)

@@ -57,6 +57,7 @@ class WedgeBearing:
     pillar_size: float = 0.0
 
     is_loaded = False
+    is_at_rest = False
     is_mixed = False
     """The gap is given."""
     lambda_ = 6.0

@@ -39,6 +39,8 @@ class DryResult:
     boundary_nodes: int
     """Nodes in contact beside the domain's boundary: there must be none."""
     hertz: HertzResult
+    Sq_nm: float
+    """Rms of the heights within the Hertz semi-axes, about their mean; 0 of smooth bodies."""
     work: Work
     """Convolutions and sets of pressed nodes."""
     wall_s: float
@@ -88,6 +90,7 @@ def summarise_dry(problem, outcome, tolerance, work, wall_s, versions):
         overlap=overlap,
         boundary_nodes=at_boundary,
         hertz=HertzResult(1e-9 * hertz.p_h, 1e6 * hertz.approach),
+        Sq_nm=1e9 * contact.roughness,
         work=work,
         wall_s=wall_s,
         ranks=grid.comm.size,

@@ -53,7 +53,7 @@ class Solution:
     @property
     def is_dry(self) -> bool:
         """Whether there is no fluid: the film is a gap."""
-        return self.contact.is_loaded and self.contact.is_at_rest
+        return self.contact.is_at_rest
 
     @property
     def film(self) -> Reals | None:

@@ -85,7 +85,7 @@ def _scales(solution):
         ("load", *solution.config.kind.load(contact)),
         ("Hertz semi-axis a, along x", number(1e6 * hertz.a), "µm"),
         ("largest Hertz pressure p_h", number(1e-9 * hertz.p_h), "GPa"),
-        ("rms of the roughness within the semi-axes", number(1e9 * contact.roughness), "nm"),
+        ("rms of the roughness within the semi-axes", number(solution.result.Sq_nm), "nm"),
         ("unit of the gap, a²/R_x", number(1e6 * contact.film_scale), "µm"),
         ("spacing of the grid along x", number(1e6 * mesh.dX * hertz.a), "µm"),
     ]
