@@ -37,7 +37,15 @@ def test_two_speeds_from_both_starts(tmp_path, monkeypatch):
     directory = tmp_path / "rough"
     assert cases(directory, monkeypatch, "--boundary-film", "10 nm") == 0
     files = {path.name for path in directory.iterdir()}
-    assert files == {"rough.csv", "rough.md", "load-share.png", "states.png", "points", "study.json"}
+    assert files == {
+        "rough.csv",
+        "rough.md",
+        "load-share.png",
+        "states.png",
+        "points",
+        "study.json",
+        "manifest.json",
+    }
     rows = read(directory / "rough.csv")
     assert [(row["speed mm/s"], row["start"]) for row in rows] == [
         ("10", "film"), ("10", "contact"), ("5", "film"), ("5", "contact"),
