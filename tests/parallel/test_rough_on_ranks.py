@@ -18,7 +18,7 @@ COMM = MPI.COMM_WORLD
 @pytest.mark.parametrize("angle", [0.0, 90.0])
 def test_film_and_contact_are_those_of_one_rank(angle):
     long_waves = {"surface": {"rms": 20e-9, "shortest_wavelength": 90e-6}}
-    tables = merged(rough.case(65, 0.005, "contact", 10e-9), long_waves, {"motion": {"angle": angle}})
+    tables = merged(rough.case(65, 0.007, "contact", 10e-9), long_waves, {"motion": {"angle": angle}})
     config = config_from_tables(merged(tables, {"solver": {"error": False}}))
     together, alone = solve(config, COMM).result, solve(config, MPI.COMM_SELF).result
     assert together.converged and alone.converged
