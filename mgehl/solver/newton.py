@@ -22,18 +22,13 @@ from mgehl.solver.judge import UNSOLVED, is_stuck, judge, judge_system
 from mgehl.solver.outcome import Cycle, Outcome
 from mgehl.solver.partition import Changes, Partition
 from mgehl.solver.position import Position, Step, Trial
-from mgehl.solver.squeeze import share_of_the_gap, squeeze_rates
+from mgehl.solver.squeeze import squeeze_rates
+from mgehl.solver.step_length import step_length
 
 FLUID_AHEAD = 0.1
 """Residual of the fluid solved apart beside that of the last cycle, or the tolerance. From 0.03 to 0.1 the
 same Newton steps; at 0.01 and at 0.3 full contact on 257 nodes takes one more. Above 1 no solve would
 end."""
-
-
-LARGEST_CHANGE, MOST_OF_A_NODE = 0.5, 20.0
-"""Mean change of a film by a step, over itself, where it closes continuously, and what a node counts at the
-most. A valley that a step empties lifts the bodies by several films: a ball of 136 nm rms at 0.03 mm/s does
-not settle in 60 steps with a mean of 1 or of 0.2, nor without a limit."""
 
 
 @dataclass(frozen=True)
@@ -225,28 +220,13 @@ class Newton:
         problem, position = self._problem, self._position
         state, changes = position.state, position.changes
         dP, dH0 = self._space.read(self._correction)
-        largest = problem.grid.max(np.abs(dP), initial=0.0)
-        length = min(1.0, self._settings.max_pressure_step / max(largest, 1e-300))
-        if problem.scheme.contact_law.is_continuous:
-            length = min(length, self._longest_for_the_film(dP, dH0))
+        length = step_length(problem, self._evaluation, state, dP, dH0, self._settings.max_pressure_step)
         state.P -= length * dP
         state.H0 -= length * dH0
         self._partition.cut_tension(state.P, state.status, changes)
         self._take_own_gap()
         self._partition.enter_contact(state, changes)
         position.step = replace(position.step, length=length)
-
-    def _longest_for_the_film(self, dP, dH0):
-        """Part of a step after which the film is another by no more than `LARGEST_CHANGE`; a convolution.
-
-        Of deep valleys nothing is asked: their gap says nothing of the film beside them.
-        """
-        problem, state = self._problem, self._position.state
-        is_thin = share_of_the_gap(problem, self._evaluation) > 0.5
-        film = is_thin & (state.status == LUBRICATED) & (state.H > problem.scheme.contact_law.contact_gap)
-        change = np.abs(problem.deflection(dP) + dH0)[film] / state.H[film]
-        total = problem.grid.sum(np.minimum(change, MOST_OF_A_NODE).sum())
-        return LARGEST_CHANGE * max(problem.grid.count(film), 1) / max(total, 1e-300)
 
     def _conclude(self, snes, x, verdict, ruling):
         """The `Outcome`, and what SNES is told of it."""

@@ -2,18 +2,11 @@
 
 from math import isfinite
 
-from mgehl.output import surface
 from mgehl.output.digits import with_band
-from mgehl.output.domain import STARVED, STARVED_FROM, SUFFICIENT, UNKNOWN
-from mgehl.output.report.checks import BROKEN, CARE, CHECK_HEADS, CHECKS, HOLDS, absent, informing, limited
 from mgehl.output.report.mixed import mixed_highlights, mixed_sections
-from mgehl.output.report.page import DOUBTFUL, GOOD, NO_NUMBER, Cell, Section, Text, number, table
-from mgehl.output.report.parts import span
-from mgehl.output.resolution import RESOLVED_CELLS
-from mgehl.output.result import COMPLEMENTARITY_TOLERANCE
-from mgehl.output.surface import RESOLVED_NODES
+from mgehl.output.report.page import NO_NUMBER, Section, Text, number, table
+from mgehl.output.report.verification import checks_table, contact_tables
 from mgehl.output.words import band_words, mixed_note
-from mgehl.solver.verification import FEWEST_NODES, LARGEST_EDGE_PRESSURE
 
 FORMULAS = {
     "hamrock_dowson": "Hamrock and Dowson",
@@ -26,25 +19,6 @@ PICTURES = {}
 """Titles of pictures that are not those of `pictures.figures`."""
 
 PEAKS = "Contact is on the peaks, where there is some"
-
-RESOLUTION = {
-    "resolved": Cell("resolved", GOOD),
-    "starved": Cell("enough, but the domain is too small", DOUBTFUL),
-    "coarse": Cell("coarse: expect the film to change with the grid", DOUBTFUL),
-    "grid-determined": Cell("grid-determined: the contact set is the grid's", DOUBTFUL),
-}
-
-SURFACE = {
-    surface.RESOLVED: Cell("resolved", GOOD),
-    surface.COARSE: Cell("coarse", DOUBTFUL),
-    surface.GRIDS: Cell("the surface is the grid's", DOUBTFUL),
-}
-
-DOMAIN = {
-    SUFFICIENT: Cell("sufficient", GOOD),
-    STARVED: Cell("starved: the domain takes film away", DOUBTFUL),
-    UNKNOWN: Cell("not judged: made by an older version", DOUBTFUL),
-}
 
 
 def highlights(solution):
@@ -65,8 +39,8 @@ def answer_sections(solution):
     result = solution.result
     return (
         Section("films", "Films", (_films(result), _bands(result.error), *_grids(result.error))),
-        Section("checks", "Can it be trusted", (_checks(solution),)),
-        Section("contact", "Contact and Eq. 2", tuple(_contact(result))),
+        Section("checks", "Can it be trusted", (checks_table(solution),)),
+        Section("contact", "Contact and Eq. 2", tuple(contact_tables(result))),
         *mixed_sections(result.mixed),
         Section("groups", "The contact in numbers", (_dimensions(solution), _groups(solution))),
     )
@@ -150,106 +124,6 @@ def _ratio(computed, formula):
 
 def _fixed(value, decimals):
     return f"{round(value, decimals) + 0.0:.{decimals}f}" if isfinite(value) else NO_NUMBER
-
-
-def _checks(solution):
-    result, tolerance = solution.result, solution.config.solver.tolerance
-    inequality, overlap, resolution = result.pressure_inequality, result.overlap, result.resolution
-    broken = f"{inequality.violations} of {inequality.checked}"
-    rows = [
-        limited("residual of the equations, rms", result.residual, tolerance),
-        limited("load error", result.load_error, tolerance),
-        limited("complementarity", result.complementarity_error, COMPLEMENTARITY_TOLERANCE),
-        absent("nodes that can be neither film nor contact", len(result.contradictions)),
-        absent("interface nodes that break Eq. 2", inequality.violations, found=broken),
-        absent("nodes where the bodies overlap", overlap.nodes, otherwise=CARE),
-        informing("imbalance of the flux", result.flux_imbalance),
-        limited(
-            "pressure beside the domain's boundary over the largest",
-            result.edge.pressure_ratio,
-            LARGEST_EDGE_PRESSURE,
-        ),
-        absent("nodes of the boundary where the bodies overlap", result.edge.overlapping),
-        _nodes_across(result.edge),
-        (
-            "cells in the inlet",
-            number(resolution.inlet_cells, 3),
-            f"at least {RESOLVED_CELLS:g}",
-            RESOLUTION[resolution.verdict],
-        ),
-        (
-            "film that a domain of twice the size would have more, %, estimated",
-            number(resolution.domain_loss_percent, 2),
-            f"below {STARVED_FROM:g}",
-            DOMAIN[resolution.domain],
-        ),
-        *_surface_row(resolution),
-    ]
-    return table(CHECKS, CHECK_HEADS, rows)
-
-
-def _surface_row(resolution):
-    """The row about a surface that there is."""
-    if resolution.surface in SURFACE:
-        nodes = resolution.surface_nodes
-        nodes = NO_NUMBER if nodes is None else number(nodes, 3)
-        limit = f"at least {RESOLVED_NODES:g}"
-        yield "nodes in the shortest wave of the surface", nodes, limit, SURFACE[resolution.surface]
-
-
-def _nodes_across(edge):
-    """The row of how many nodes the contact has."""
-    nodes = [each for each in (edge.nodes_along_x, edge.nodes_along_y) if each is not None]
-    judged = HOLDS if min(nodes) >= FEWEST_NODES else BROKEN
-    return (
-        "nodes that the contact is wide",
-        " by ".join(map(str, nodes)),
-        f"at least {FEWEST_NODES}",
-        judged,
-    )
-
-
-def _contact(result):
-    """Contact, then the lists of nodes that break Eq. 2 or can be neither, folded."""
-    contact, inequality = result.contact, result.pressure_inequality
-    rows = [
-        ("nodes in contact", str(contact.nodes)),
-        ("contact over Hertz area", number(contact.area_fraction)),
-        ("part of the load on contact", number(contact.load_fraction)),
-        ("contact nodes on Y = 0, counted from 1", span(contact.x_nodes)),
-        ("contact nodes on X = 0, counted from 1", span(contact.y_nodes)),
-        ("largest |gap| in contact, nm", number(contact.largest_gap_nm, 3)),
-        ("largest overlap outside of contact, nm", number(result.overlap.largest_nm, 3)),
-        ("cavitated nodes", str(result.cavitated_nodes)),
-        ("interface nodes checked on Eq. 2", str(inequality.checked)),
-        ("of them break it", str(inequality.violations)),
-        ("largest violation, p_h", number(inequality.worst, 3)),
-        ("largest fluid over contact pressure", number(inequality.largest_ratio, 3)),
-    ]
-    yield table(
-        "Solid contact, and fluid against contact pressure across its edge", ("quantity", "value"), rows
-    )
-    if inequality.nodes:
-        nodes = [(str(n["i"]), str(n["j"]), number(n["size"], 3)) for n in inequality.nodes]
-        yield table("Nodes that break Eq. 2, counted from 1", ("i", "j", "by, p_h"), nodes, folded=True)
-    if result.contradictions:
-        yield _contradictions(result.contradictions)
-
-
-def _contradictions(nodes):
-    heads = (
-        "i",
-        "j",
-        "gap as film, nm",
-        "pressure as contact, p_h",
-        "beside it: west, east, before, after",
-    )
-    rows = [
-        (str(n["i"]), str(n["j"]), number(n["film_gap_nm"], 3), number(n["contact_pressure"], 3),
-         ", ".join(n["neighbours"]))
-        for n in nodes
-    ]  # fmt: skip
-    return table("Nodes that can be neither film nor contact, counted from 1", heads, rows, folded=True)
 
 
 def _dimensions(solution):
