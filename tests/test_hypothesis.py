@@ -27,7 +27,7 @@ from mpi4py import MPI
 
 from mgehl import solve
 from mgehl.config import SECTIONS, config_from_tables, load_config
-from mgehl.errors import ConfigError, OutputError
+from mgehl.errors import ConfigError, OutputError, printable
 from mgehl.kinds import check_contact, contact_from
 from mgehl.output.stored import read_run
 from mgehl.run import run
@@ -88,7 +88,7 @@ def assert_names_a_key(message, tables):
     )
     given = {name for name in tables}
     given |= {f"{name}.{key}" for name in tables if isinstance(tables[name], dict) for key in tables[name]}
-    names = known | {" ".join(name.splitlines()) for name in given}
+    names = known | {printable(" ".join(name.splitlines())) for name in given}
     assert any(message.startswith(name) for name in names), message
 
 
@@ -98,8 +98,11 @@ def test_every_configuration_is_read_or_refused(tables):
     with no_longer_than(PATIENCE):
         config = accepted(tables)
     if config is not None:
-        text = tomli_w.dumps(config.as_toml_tables())
-        assert config_from_tables(tomllib.loads(text)) == config
+        again = config_from_tables(tomllib.loads(tomli_w.dumps(config.as_toml_tables())))
+        if config.is_dry:  # of the fluid, which it has not, nothing is written
+            assert again.as_toml_tables() == config.as_toml_tables()
+        else:
+            assert again == config
 
 
 @settings(max_examples=300, **REPEATABLE)
