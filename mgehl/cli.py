@@ -28,6 +28,7 @@ from mgehl.commands import COMMANDS, USAGE
 from mgehl.errors import one_line
 from mgehl.failures import told
 from mgehl.petsc_options import check_options
+from mgehl.version import VERSION
 
 PATIENCE = 5.0
 """Seconds after which a rank with an error ends the job if the others do not join it."""
@@ -130,6 +131,7 @@ def parser():
     top = _Parser(
         prog="mgehl", description="Multigrid for mixed and boundary lubrication of loaded contacts."
     )
+    top.add_argument("--version", action="version", version=f"mgehl {VERSION}")
     commands = top.add_subparsers(dest="command", required=True, metavar="COMMAND")
     for name in COMMANDS:
         module = import_module(f"mgehl.commands.{name}")
@@ -143,6 +145,10 @@ def read(own, petsc=()):
     for word in petsc:
         if word.startswith("--"):
             top.error(f"{word}: PETSc options take one dash and come last")
+    if not own and not petsc:
+        if _is_first():
+            top.print_help()
+        top.exit()
     command = top.parse_args(own)
     for name, value in vars(command).items():
         _check_word(top, name, value if isinstance(value, list) else [value])

@@ -27,6 +27,9 @@ COARSEST_NODES = 33
 LARGEST_FILE = 10**6
 """Bytes of a configuration."""
 
+ROUGH_BALL, PAPERS_BALL = "rough.toml", "point_contact.toml"
+"""Configurations that come with mgehl: the one it shows, and the one that settings alone change."""
+
 _INSTALLED = Path("share") / "mgehl" / "configs"
 _CONFIG_DIRECTORIES = (
     Path(__file__).resolve().parent.parent / "configs",
@@ -92,8 +95,24 @@ def _without_none(section):
 
 
 def default_config():
-    """Path of the configuration that runs when none is named."""
-    paths = [directory / "point_contact.toml" for directory in _CONFIG_DIRECTORIES]
+    """Path of the configuration that settings change when none is named: the paper's ball."""
+    return _shipped(PAPERS_BALL)
+
+
+def chosen_config(path=None, settings=()):
+    """Path of the configuration that a command line means.
+
+    The one it names; without any, the paper's ball where there are settings to change it, and else the
+    rough ball.
+    """
+    if path:
+        return Path(path)
+    return default_config() if settings else _shipped(ROUGH_BALL)
+
+
+def _shipped(name):
+    """Path of a configuration that comes with mgehl."""
+    paths = [directory / name for directory in _CONFIG_DIRECTORIES]
     return next((path for path in paths if path.exists()), paths[0])
 
 

@@ -5,6 +5,8 @@ or where `PARALLEL` is true of the options and the communicator, on every rank, 
 Both return the exit status.
 """
 
+from pathlib import Path
+
 COMMANDS = (
     "run", "study", "collect", "plot", "report", "export",
     "check", "new", "keys", "info", "bench", "completion",
@@ -15,10 +17,19 @@ CONVERGED, NOT_CONVERGED, USAGE = 0, 1, 2
 """Exit statuses: done; not converged, or failed on the way; a mistake in the input."""
 
 
+def shown(file):
+    """A file's path as it is said: short where it lies in the working directory."""
+    here = Path.cwd()
+    return str(file.relative_to(here) if file.is_relative_to(here) else file)
+
+
 def add_configuration(parser):
     """Add the words that name a configuration."""
     parser.add_argument(
-        "config", nargs="?", metavar="CONFIG", help="TOML file (default: the point contact)"
+        "config",
+        nargs="?",
+        metavar="CONFIG",
+        help="TOML file (default: a rough ball, with --set alone the paper's smooth ball)",
     )
 
 

@@ -1,7 +1,7 @@
 """mgehl check: what a configuration means and what its run will take, without solving anything."""
 
-from mgehl.commands import CONVERGED, add_configuration, add_settings
-from mgehl.config import default_config, load_config
+from mgehl.commands import CONVERGED, add_configuration, add_settings, shown
+from mgehl.config import chosen_config, load_config
 from mgehl.errors import UserError
 
 PARALLEL = False
@@ -27,7 +27,8 @@ def add(commands):
 
 def execute(options):
     """Print everything; raises UserError where the run would not begin."""
-    config = load_config(options.config, options.settings)
+    file = chosen_config(options.config, options.settings)
+    config = load_config(file, options.settings)
     if options.ranks < 1:
         raise UserError(f"--ranks {options.ranks}: must be at least 1")
     from mgehl.kinds import check_contact, contact_from, mesh_from
@@ -35,7 +36,7 @@ def execute(options):
     contact = contact_from(config)
     check_contact(config, contact)
     mesh = mesh_from(config, contact)
-    print(f"{options.config or default_config()}: valid, a {config.kind.noun}\n")
+    print(f"{options.config or shown(file)}: valid, a {config.kind.noun}\n")
     print(*_described(config, contact, mesh), *_estimate(config, contact, mesh, options.ranks), sep="\n")
     return CONVERGED
 

@@ -2,10 +2,9 @@
 
 import json
 from dataclasses import asdict
-from pathlib import Path
 
 from mgehl.commands import CONVERGED, add_configuration
-from mgehl.config import default_config, load_config
+from mgehl.config import chosen_config, load_config
 
 PARALLEL = True
 """MPI tells how many ranks there are."""
@@ -40,9 +39,10 @@ def execute(options, comm):
 
 def _configuration(path):
     """Where the configuration of a run with these words would come from."""
-    config = load_config(path)
+    file = chosen_config(path)
+    config = load_config(file)
     return {
-        "file": str(Path(path or default_config()).resolve()),
+        "file": str(file.resolve()),
         "chosen": "on the command line" if path else "by default",
         "kind": config.contact.kind,
         "nodes": config.grid.nodes,

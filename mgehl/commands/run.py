@@ -3,8 +3,8 @@
 from pathlib import Path
 from shlex import quote
 
-from mgehl.commands import CONVERGED, NOT_CONVERGED, add_configuration, add_settings
-from mgehl.config import default_config, load_config
+from mgehl.commands import CONVERGED, NOT_CONVERGED, add_configuration, add_settings, shown
+from mgehl.config import chosen_config, load_config
 from mgehl.config_value import read_quantity
 from mgehl.errors import OutputError, UserError
 
@@ -74,22 +74,31 @@ def _begin(options, comm, solve):
     from mgehl.output.lock import locked
 
     settings = [*options.settings, *([NO_ERROR] if options.no_error else [])]
-    config = load_config(options.config, settings)
+    file = chosen_config(options.config, options.settings)
+    config = load_config(file, settings)
     check_contact(config, contact_from(config))
     on_first_rank(comm, _say_what_changed, config)
     start = _start(options.start_from, config, comm) if options.start_from else None
     if start and comm.rank == 0:
         _say_what_differs(options.start_from, start, config)
-    name = Path(options.config or default_config()).stem
-    directory = Path(options.out or Path("runs") / name)
+    directory = Path(options.out or Path("runs") / file.stem)
     if start and directory.resolve() == Path(options.start_from).resolve():
         raise UserError(f"--start-from {directory}: is the run's own directory; choose another with --out")
     on_first_rank(comm, make_directory, directory, options.force)
     with locked(comm, directory):
         on_first_rank(comm, prepare_directory, directory)
+        if comm.rank == 0 and not (options.config or options.quiet or options.json_lines):
+            _say_which(file)
         if start:
             on_first_rank(comm, keep_start, directory, options.start_from)
         return solve(config, directory, start)
+
+
+def _say_which(file):
+    """The configuration that is solved where none was named."""
+    from mgehl.saying import say
+
+    say(f"mgehl: no configuration named: solving {shown(file)}")
 
 
 def _say_what_changed(config):
