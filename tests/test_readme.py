@@ -1,4 +1,4 @@
-"""What README shows is what the code and the runs' files say."""
+"""What the pages show is what the code and the runs' files say."""
 
 import csv
 import os
@@ -17,20 +17,57 @@ from mgehl.commands.keys import describe_keys
 from mgehl.config import config_from_tables, load_config
 
 ROOT = Path(__file__).resolve().parent.parent
-README = (ROOT / "README.md").read_text()
-FIRST_CASE, OWN_LAWS, SURFACE = re.findall(r"```toml\n(.*?)```", README, flags=re.DOTALL)
+PAGES = {
+    name: (ROOT / name).read_text()
+    for name in ("README.md", "configs/README.md", "mgehl/README.md", "runs/README.md", "tests/README.md")
+}
+README, CASES = PAGES["README.md"], PAGES["configs/README.md"]
+(FIRST_CASE,) = re.findall(r"```toml\n(.*?)```", README, flags=re.DOTALL)
+SURFACE, OWN_LAWS = re.findall(r"```toml\n(.*?)```", CASES, flags=re.DOTALL)
+
+
+def test_readme_is_short():
+    lines = README.splitlines()
+    assert len(lines) <= 150 and max(map(len, lines)) <= 120
+
+
+def links():
+    """(Page, target) of every link and picture to a file of the repository."""
+    for name, text in PAGES.items():
+        for target in re.findall(r"\]\(([^)]+)\)", text):
+            if not target.startswith("http"):
+                yield name, target
+
+
+def anchors(text):
+    """What the headings of a page are linked by."""
+    heads = re.findall(r"^#+ (.*)$", re.sub(r"```.*?```", "", text, flags=re.DOTALL), flags=re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", head.lower()).replace(" ", "-") for head in heads}
+
+
+@pytest.mark.parametrize("page, target", sorted(set(links())))
+def test_links_lead_somewhere(page, target):
+    path, _, anchor = target.partition("#")
+    file = (ROOT / page).parent / path if path else ROOT / page
+    assert file.exists()
+    assert not anchor or anchor in anchors(file.read_text())
+
+
+@pytest.mark.parametrize(
+    "picture", sorted((ROOT / "configs" / "pictures").glob("*.png")), ids=lambda p: p.stem
+)
+def test_pictures_of_cases_are_small_and_shown(picture):
+    assert picture.stat().st_size < 150_000
+    assert f"(pictures/{picture.name})" in CASES
 
 
 def test_keys_are_those_of_the_code():
-    assert f"```text\n{describe_keys()}\n```" in README
+    assert f"```text\n{describe_keys()}\n```" in PAGES["mgehl/README.md"]
 
 
-def test_table_is_the_one_the_runs_wrote():
-    assert (ROOT / "runs" / "tables" / "short.md").read_text().strip() in README
-
-
-def test_table_of_bands_is_the_one_the_study_wrote():
-    assert (ROOT / "runs" / "tables" / "error-bands.md").read_text().strip() in README
+@pytest.mark.parametrize("table", ["short", "error-bands"])
+def test_a_table_of_findings_is_the_one_the_runs_wrote(table):
+    assert (ROOT / "runs" / "tables" / f"{table}.md").read_text().strip() in PAGES["runs/README.md"]
 
 
 def test_first_case_is_a_valid_configuration():
@@ -57,25 +94,47 @@ def test_shipped_configurations_are_valid(path):
     load_config(path)
 
 
-@pytest.mark.parametrize("path", re.findall(r"configs/\w+\.toml", README))
+@pytest.mark.parametrize(
+    "path", sorted(set(re.findall(r"configs/\w+\.(?:toml|py)", "".join(PAGES.values()))))
+)
 def test_named_configurations_exist(path):
     assert (ROOT / path).exists()
 
 
-SHELL = [
-    line.split("  #")[0].strip()
-    for block in re.findall(r"```sh\n(.*?)```", README, flags=re.DOTALL)
-    for line in block.splitlines()
-]
-COMMANDS = [line for line in SHELL if "mgehl" in line and not line.startswith(("make", "eval", "pip"))]
-STUDIES = [line for line in COMMANDS if " study " in line or " bench" in line]
+def shell_lines(text):
+    """Commands of a page, each as it is to be typed; of a loop its body with the loop's first word."""
+    for block in re.findall(r"```sh\n(.*?)```", text, flags=re.DOTALL):
+        for line in block.splitlines():
+            command = line.split("  #")[0].strip()
+            if loop := re.fullmatch(r"for (\w+) in (\S+) .*?; do (.*); done", command):
+                command = loop[3].replace(f"${loop[1]}", loop[2])
+            if "mgehl " in command and not command.startswith(("make", "eval", "pip", "ruff")):
+                yield command
 
 
-@pytest.mark.parametrize("line", STUDIES)
-def test_studies_are_read_as_they_are_written(line):
-    """Tests of their own run them; here their words are read."""
+def is_only_read(line):
+    """Whether tests of their own run such a command."""
+    return any(word in line for word in (" study ", " bench ", " pytest"))
+
+
+COMMANDS = [line for page in PAGES.values() for line in shell_lines(page) if "pytest" not in line]
+READ = [line for line in COMMANDS if is_only_read(line)]
+TUTORIAL = re.search(r"## Six cases\n(.*?)\n## ", CASES, flags=re.DOTALL)[1]
+RUN = [*shell_lines(README), *shell_lines(CASES.replace(TUTORIAL, ""))]
+RUN = [line for line in RUN if not is_only_read(line)]
+
+
+@pytest.mark.parametrize("line", [*READ, *shell_lines(TUTORIAL)])
+def test_commands_are_read_as_they_are_written(line):
+    """Studies have tests of their own, and the cases of the tutorial take minutes: their words are read."""
     words = shlex.split(line)
-    read(words[words.index("mgehl") + 1 :])
+    command = read(words[words.index("mgehl") + 1 :])
+    if command.command == "run":
+        load_config(ROOT / command.config, command.settings)
+
+
+def test_no_command_is_left_out():
+    assert set(COMMANDS) == {*READ, *RUN, *shell_lines(TUTORIAL)}
 
 
 @pytest.fixture(scope="module")
@@ -98,9 +157,8 @@ def small(line):
 def test_commands_run_in_their_order(place):
     """Each as it stands, but on 65 nodes; a command leaves behind what the next one reads."""
     environment = {k: v for k, v in os.environ.items() if not k.startswith(("OMPI_COMM", "PMIX_", "PRTE_"))}
-    lines = [line for line in COMMANDS if line not in STUDIES]
-    assert len(lines) >= 10
-    for line in lines:
+    assert len(RUN) >= 8
+    for line in RUN:
         done = subprocess.run(
             shlex.split(small(line)),
             cwd=place,
@@ -115,8 +173,8 @@ def test_commands_run_in_their_order(place):
 def test_python_runs(place, monkeypatch, capsys):
     """The example, in the same directory."""
     monkeypatch.chdir(place)
-    (block,) = re.findall(r"```python\n(import mgehl.*?)```", README, flags=re.DOTALL)
-    exec(compile(block, "README.md", "exec"), {})
+    (block,) = re.findall(r"```python\n(import mgehl.*?)```", CASES, flags=re.DOTALL)
+    exec(compile(block, "configs/README.md", "exec"), {})
     assert "CONVERGED" in capsys.readouterr().out
 
 
@@ -127,7 +185,7 @@ def test_errors_of_the_schemes_are_those_of_the_study():
         for row in csv.DictReader((ROOT / "runs/tables/accuracy-summary.csv").open())
     }
     schemes = tuple(f"| {couette} | " for couette in ("1B", "2B", "3B"))
-    shown = [line.strip("| ").split(" | ") for line in README.splitlines() if line.startswith(schemes)]
+    shown = [line.strip("| ").split(" | ") for line in CASES.splitlines() if line.startswith(schemes)]
     assert len(shown) == len(rows) // 3
     for couette, mean, *numbers in shown:
         own = [rows[couette, mean.split()[0], cells] for cells in ("2", "4", "8")]

@@ -19,7 +19,7 @@ NEAREST = 1.15
 
 CONSTANT = {"lubricant": {"density_law": "constant"}}
 MY_CASE = {"contact": {"load": 250.0, "radius_x": 10e-3, "radius_y": 15e-3}}
-"""README's first case."""
+"""A steel ellipsoid in the paper's oil."""
 BALL_BEARING = {
     "contact": {"load": 300.0, "radius_x": 3.8e-3, "radius_y": 124e-3, "reduced_modulus": 226e9},
     "lubricant": {"viscosity": 0.02, "pressure_viscosity": 20e-9},

@@ -20,7 +20,7 @@ CASE = {
     "contact": {"load": 250.0, "radius_x": 10e-3, "radius_y": 15e-3}, "motion": {"speed": 3.0},
     "grid": {"nodes": 257},
 }  # fmt: skip
-"""README's first case, faster."""
+"""`MY_CASE` of study domain, at 3 m/s."""
 
 
 def contact_and_mesh(**grid):
