@@ -1,7 +1,12 @@
-# make run    set everything up and run the main job on two ranks
-# make test   set everything up and run all tests, serial and parallel
-# make env    print the shell lines that put the environment on: eval "$$(make -s env)"
-# make clean  forget the environment (.venv)
+# make run      set everything up and solve the rough ball (configs/rough.toml) on two ranks; ARGS="..." adds options
+# make test     set everything up and run all tests: on one rank, on two, on three
+# make env      print the shell lines that put the environment on: eval "$(make -s env)"
+# make clean    remove the environment (.venv); the next command sets it up anew
+#
+# What the pages show:
+# make pictures the pictures of the cases in configs/README.md (a minute or two)
+# make tables   the table "Measured" in runs/README.md
+# make studies, rough, means, transition, large   the other tables and pictures in runs/tables
 
 ENVIRONMENT := .venv/mgehl-env.sh
 ON := . ./$(ENVIRONMENT) &&
@@ -25,7 +30,25 @@ clean:
 
 .PHONY: run test env clean
 
-# make tables   run the cases of README's table and write it to runs/tables
+# make pictures   run the six cases of configs/README.md and draw each into configs/pictures
+PICTURES := configs/pictures
+CASES := runs/cases
+RUN_CASE := mpiexec -n 2 python -m mgehl run --force --quiet
+DRAW := mgehl plot --format png --dpi 90 --out runs/cases/plots
+pictures: $(ENVIRONMENT)
+	mkdir -p $(PICTURES)
+	for c in ball_bearing cam coated dent rough; do ( $(ON) $(RUN_CASE) configs/$$c.toml --out $(CASES)/$$c ) || exit 1; done
+	for u in 200 100 50; do ( $(ON) $(RUN_CASE) configs/rough.toml --set motion.speed="$$u mm/s" \
+	  --out $(CASES)/$$u-mm-s ) || exit 1; done
+	$(ON) $(RUN_CASE) configs/cam.toml --set motion.speed="0.15 m/s" --out $(CASES)/cam_slow
+	for c in ball_bearing coated dent rough; do ( $(ON) $(DRAW) $(CASES)/$$c --kind film && \
+	  mv $(CASES)/plots/film.png $(PICTURES)/$$c.png ) || exit 1; done
+	$(ON) $(DRAW) $(CASES)/cam $(CASES)/cam_slow --kind compare && mv $(CASES)/plots/compare-lines.png $(PICTURES)/cam.png
+	$(ON) $(DRAW) $(CASES)/200-mm-s $(CASES)/rough --kind compare && mv $(CASES)/plots/compare-lines.png $(PICTURES)/speeds.png
+
+.PHONY: pictures
+
+# make tables   run the cases of the table "Measured" and write it to runs/tables
 TABLE := runs/acceptance
 SHORT := run,nodes,converged,central nm,minimum nm,contact nodes on X,on Y,Eq. 2 violations,inlet cells,convolutions,most GMRES iterations,wall s
 MGEHL := mpiexec -n 2 python -m mgehl run --force --quiet

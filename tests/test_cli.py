@@ -9,6 +9,7 @@ import sys
 import pytest
 
 from mgehl.cli import main, split_options
+from mgehl.version import VERSION
 
 FILES = {"configuration.toml", "fields.h5", "history.csv", "manifest.json", "picture.png", "result.json"}
 DRY = ["run", "--set", "grid.nodes=65", "--set", "solver.start=contact", "--set", "motion.speed=0.005 mm/s"]
@@ -74,6 +75,17 @@ class TestWordsThatNobodyHears:
     def test_a_full_device_is_one_line(self, tmp_path):
         status, _, err = piped("mgehl keys > /dev/full", tmp_path)
         assert (status, err) == (2, "mgehl: No space left on device")
+
+
+def test_mgehl_alone_lists_its_commands(capsys):
+    assert exit_status([]) == 0
+    out, err = capsys.readouterr()
+    assert "solve one contact" in out and err == ""
+
+
+def test_the_version(capsys):
+    assert exit_status(["--version"]) == 0
+    assert capsys.readouterr().out == f"mgehl {VERSION}\n"
 
 
 NOTHING = [
@@ -269,11 +281,10 @@ BAD = [
     (["study", "rough", "--nodes", "65,129"], ["--nodes 65,129", "one grid"]),
     (["study", "schemes", "--out", "broken.toml"], ["broken.toml", "exists"]),
     (["study", "schemes", "--out", "broken.toml/deep"], ["broken.toml/deep", "cannot be written"]),
-    ([], ["COMMAND"]),
 ]
 
 
-@pytest.mark.parametrize("arguments, parts", BAD, ids=[" ".join(words) or "nothing" for words, _ in BAD])
+@pytest.mark.parametrize("arguments, parts", BAD, ids=[" ".join(words) for words, _ in BAD])
 def test_bad_input_is_one_line_and_writes_nothing(tmp_path, capsys, arguments, parts):
     (tmp_path / "broken.toml").write_text("[grid\n")
     assert exit_status(arguments) == 2

@@ -11,6 +11,7 @@ from mgehl.config import (
     SECTIONS,
     Config,
     ConfigError,
+    chosen_config,
     config_from_tables,
     default_config,
     load_config,
@@ -53,6 +54,18 @@ def test_default_configuration_is_the_point_contact():
     assert config.motion.speed == pytest.approx(5e-6, rel=1e-14)
     assert config.discretization.film_threshold == pytest.approx(0.02e-9, rel=1e-14)
     assert (config.grid.nodes, config.grid.x, config.grid.y) == (257, (-1.9, 1.3), (-1.5, 1.5))
+
+
+def test_without_a_file_a_command_means_the_rough_ball_and_with_settings_alone_the_papers():
+    assert chosen_config() == CONFIGS / "rough.toml"
+    assert chosen_config(settings=["grid.nodes=65"]) == default_config()
+    assert chosen_config("mine.toml", ["grid.nodes=65"]) == Path("mine.toml")
+
+
+def test_they_are_installed_with_the_package():
+    project = tomllib.loads((CONFIGS.parent / "pyproject.toml").read_text())
+    installed = project["tool"]["setuptools"]["data-files"]["share/mgehl/configs"]
+    assert installed == [f"configs/{path.name}" for path in (default_config(), chosen_config())]
 
 
 def test_defaults_of_the_keys_are_the_default_file_but_for_start_schemes_and_domain():

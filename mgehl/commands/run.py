@@ -87,15 +87,20 @@ def _begin(options, comm, solve):
     on_first_rank(comm, make_directory, directory, options.force)
     with locked(comm, directory):
         on_first_rank(comm, prepare_directory, directory)
-        if comm.rank == 0 and not (options.config or options.quiet or options.json_lines):
+        if comm.rank == 0 and _chose_nothing(options):
             _say_which(file)
         if start:
             on_first_rank(comm, keep_start, directory, options.start_from)
         return solve(config, directory, start)
 
 
+def _chose_nothing(options):
+    """Whether a listener should be told which configuration is solved."""
+    return not (options.config or options.settings or options.quiet or options.json_lines)
+
+
 def _say_which(file):
-    """The configuration that is solved where none was named."""
+    """Say which configuration is solved."""
     from mgehl.saying import say
 
     say(f"mgehl: no configuration named: solving {shown(file)}")

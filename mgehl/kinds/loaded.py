@@ -98,7 +98,8 @@ class LoadedKind(Kind):
             f"regime     {contact.regime} (Moes)",
             f"Hertz      {self.hertz_words(hertz)}   p_h {1e-9 * hertz.p_h:.4g} GPa",
             f"films, nm  {films}",
-            f"load       {contact.load:.6g} {self.load_unit}   speed {contact.speed:.6g} m/s",
+            f"load       {contact.load:.6g} {self.load_unit}   speed {contact.speed:.6g} m/s, "
+            "half the sum of both surfaces'",
         ]
 
     def parts(self, solution, times="x"):

@@ -7,6 +7,17 @@ from mgehl.output.domain import domain_words
 from mgehl.output.resolution import RESOLVED_CELLS, SEEN_CELLS
 from mgehl.output.surface import surface_words
 
+FAILED = 'what now: configs/README.md, "It did not converge: what now?"'
+UNRESOLVED = 'how to do better: configs/README.md, "Choosing the domain and the grid"'
+
+
+def where_to_read(result):
+    """A list of the one line that says where to read on; empty where the answer can be used as it is."""
+    if not result.converged:
+        return [f"  {FAILED}"]
+    resolution = getattr(result, "resolution", None)
+    return [f"  {UNRESOLVED}"] if resolution and resolution.verdict != "resolved" else []
+
 
 def bearing_words(result):
     """The answer of a rigid bearing, and whether it can be trusted."""
@@ -19,6 +30,7 @@ def bearing_words(result):
             f"flow through closed faces {result.closed_face_flow:.1e}",
             f"  solid nodes: {result.solid_nodes}, cavitated: {result.cavitated_nodes}",
             f"  work: {result.linear_iterations} iterations, {result.wall_s:.1f} s on {result.ranks} ranks",
+            *where_to_read(result),
         ]
     )
 
@@ -41,7 +53,7 @@ def dry_words(result):
     if result.overlap.nodes:
         nodes, largest = result.overlap.nodes, result.overlap.largest_nm
         lines.append(f"  THE BODIES OVERLAP at {nodes} nodes by up to {largest:.2e} nm")
-    return "\n".join(lines)
+    return "\n".join(lines + where_to_read(result))
 
 
 def loaded_words(result):
@@ -85,7 +97,7 @@ def loaded_words(result):
     ]
     if inequality.violations > 20:
         lines.append(f"  ... and at {inequality.violations - 20} more nodes, listed in result.json")
-    return "\n".join(lines)
+    return "\n".join(lines + where_to_read(result))
 
 
 def mixed_lines(mixed):

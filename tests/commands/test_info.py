@@ -8,7 +8,7 @@ import pytest
 from petsc4py import PETSc
 
 from mgehl.cli import main
-from mgehl.config import default_config
+from mgehl.config import chosen_config
 from mgehl.version import VERSION
 
 
@@ -50,7 +50,7 @@ def test_threads_and_machine(told, monkeypatch):
 
 
 def test_the_configuration_that_would_be_read(told, tmp_path):
-    assert told()["configuration"]["file"] == str(default_config().resolve())
+    assert told()["configuration"]["file"] == str(chosen_config().resolve())
     (tmp_path / "mine.toml").write_text("[contact]\nkind = 'line'\n[grid]\nnodes = 129\n")
     expected = {"chosen": "on the command line", "kind": "line", "nodes": 129}
     found = told(str(tmp_path / "mine.toml"))["configuration"]

@@ -1,6 +1,8 @@
 """What is said of a result."""
 
+import re
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 from made_solution import make_solution
@@ -8,6 +10,9 @@ from test_files import make_result
 
 from mgehl.output.resolution import Resolution
 from mgehl.output.result import ContactResult, InequalityResult
+from mgehl.output.words import FAILED, UNRESOLVED
+
+ROOT = Path(__file__).resolve().parents[2]
 
 
 @pytest.mark.parametrize(
@@ -22,6 +27,32 @@ def test_a_solution_prints_the_words_of_its_result(kind, words):
 def test_a_bearing_that_did_not_converge_says_so():
     result = replace(make_solution("wedge").result, converged=False, reason="residual 1e-3")
     assert str(result).startswith("NOT CONVERGED: residual 1e-3")
+
+
+class TestWhereToReadOn:
+    """Pages and headings that words name are there; what is fine needs none."""
+
+    @pytest.mark.parametrize("pointer", [FAILED, UNRESOLVED])
+    def test_the_heading_is_on_the_page(self, pointer):
+        page, heading = re.search(r'(\S+README\.md), "(.*)"', pointer).groups()
+        assert f"\n## {heading}\n" in (ROOT / page).read_text()
+
+    @pytest.mark.parametrize("failure", [{"settled": False}, {"settled": True}])
+    def test_after_a_failure(self, failure):
+        text = str(make_result(converged=False, reason="residual 1e-3", **failure))
+        assert text.splitlines()[-1] == f"  {FAILED}"
+
+    @pytest.mark.parametrize("verdict", ["coarse", "grid-determined", "starved"])
+    def test_of_a_film_that_is_not_resolved(self, verdict):
+        assert str(make_result(resolution=Resolution(0.5, verdict))).splitlines()[-1] == f"  {UNRESOLVED}"
+
+    def test_nothing_of_a_film_that_is(self):
+        assert "README" not in str(make_result(resolution=Resolution(5.0, "resolved")))
+
+    def test_of_a_bearing_only_after_a_failure(self):
+        result = make_solution("wedge").result
+        assert "README" not in str(result)
+        assert str(replace(result, converged=False)).splitlines()[-1] == f"  {FAILED}"
 
 
 class TestOfALoadedContact:
