@@ -42,10 +42,10 @@ def solve(
 ) -> "Solution":
     """Solve a configuration on the ranks of `comm` (default: all); collective.
 
-    Returns the `Solution`, whether or not it converged: ask `.summary.converged`. Raises
-    `mgehl.ConfigError` where the contact is none. `start` is another `Solution` to start from, of
-    whatever grid or speed, with its fields on rank 0 (`mgehl.UserError` where it is of another
-    kind of contact); `speak` prints a line per cycle there.
+    Returns the `Solution`, whether or not it converged: ask `.summary.converged`. `start` is another
+    `Solution` to start from, of any grid and speed, with its fields on rank 0. With `speak`, rank 0 prints
+    a line for each cycle. Raises `mgehl.ConfigError` where the values make no contact that can be solved,
+    and `mgehl.UserError` where `start` is another kind of contact.
     """
     from mpi4py import MPI
 

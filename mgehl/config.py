@@ -69,7 +69,7 @@ class Config:
 
     @property
     def unused(self):
-        """Sections and keys that this contact has no use for."""
+        """Sections and keys that this contact does not use."""
         return *FOREIGN[self.contact.kind], *self.kind.unused(self)
 
     def as_toml_tables(self):
@@ -120,7 +120,7 @@ SECTIONS = {section.name: type(section.default) for section in fields(Config)}
 
 
 def _foreign(kind):
-    """Sections of which a kind takes no key, and of the others the keys that it does not take."""
+    """Sections that a kind does not use at all, and single keys of the other sections."""
     for name, section in SECTIONS.items():
         keys = [f"{name}.{key.name}" for key in fields(section)]
         not_taken = [key for key in keys if not {name, key} & {"contact.kind", *kind.takes}]
@@ -128,11 +128,11 @@ def _foreign(kind):
 
 
 FOREIGN = {name: tuple(_foreign(kind)) for name, kind in KINDS.items()}
-"""Sections and keys that a kind of contact has no use for."""
+"""Sections and keys that a kind of contact does not use."""
 
 
 def load_config(path=None, settings=()):
-    """Read a TOML file (default: the point contact) and apply settings, "key=value" or a mapping.
+    """Read a TOML file (default: the paper's ball) and apply settings, "key=value" or a mapping.
 
     Raises ConfigError for anything that cannot be used.
     """
@@ -147,14 +147,15 @@ def load_config(path=None, settings=()):
 
 
 def _pairs(settings):
-    """{"section.key": value} of a mapping or of "section.key=value" words, the last one in authority."""
+    """{"section.key": value} of a mapping or of "section.key=value" words; of two for one key the last one
+    counts."""
     if isinstance(settings, Mapping):
         return {str(name): value for name, value in settings.items()}
     return dict(map(_read_setting, settings))
 
 
 def _push_out(tables, given):
-    """Drop what the file says and a setting makes meaningless: another kind, Moes numbers, no coating."""
+    """Drop keys of the file that a setting leaves without a use, as another kind does, or Moes numbers."""
     _remove(tables, FOREIGN.get(str(given.get("contact.kind")), ()))
     for kind in KINDS.values():
         _remove(tables, kind.pushed_out(given))
@@ -205,7 +206,7 @@ def _check_together(config, tables):
 
 
 def _check_foreign(kind, tables):
-    """A key that this kind of contact would not heed is a mistake."""
+    """A key that this kind of contact does not use is a mistake."""
     for name in FOREIGN[kind]:
         section, _, key = name.partition(".")
         given = tables.get(section, {})
@@ -225,7 +226,7 @@ def _read_toml(path):
 
 
 def _text(path):
-    """The text of a file, which TOML has in UTF-8; of a pipe, such as <(...), what comes out of it.
+    """The text of a file in UTF-8, as TOML demands, or what comes out of a pipe such as <(...).
 
     The null device is the empty configuration.
     """

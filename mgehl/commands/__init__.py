@@ -1,8 +1,8 @@
 """The commands of the command line, a module each.
 
-A module has `add(commands)`, which adds and returns its parser, and `execute`: of the options alone,
-or where `PARALLEL` is true of the options and the communicator, on every rank, PETSc being awake.
-Both return the exit status.
+A module has `add(commands)`, which adds its parser and returns it, and `execute`, which returns the exit
+status. Where `PARALLEL` is true, `execute(options, comm)` is called on every rank, after PETSc was started;
+elsewhere `execute(options)`.
 """
 
 from pathlib import Path

@@ -68,7 +68,7 @@ def _tell(timing):
 
 
 def _columns(benchmark):
-    """What is printed of every case; the times of parts are on the wall."""
+    """What is printed of every case; the times of parts are wall times."""
     return {
         timing.case: {
             "convolutions": timing.convolutions,

@@ -82,7 +82,7 @@ def _surface(config, contact, mesh):
 
 
 def _estimate(config, contact, mesh, ranks):
-    """Lines about memory and time, and what they rest on."""
+    """Lines about memory and time, and what these estimates are made from."""
     from mgehl.output.forecast import forecast
     from mgehl.output.surroundings import memory_GiB
 

@@ -34,7 +34,7 @@ KEY = {
 }
 
 COMPLETES = {"CONFIG": "FILE", "FILE": "FILE", "DIR": "DIR", "RUN": "DIR", "KEY=VALUE": "KEY"}
-"""Metavar of an argument, in all commands, and what completes it."""
+"""What completes an argument, by its metavar, in all commands."""
 
 
 def add(commands):

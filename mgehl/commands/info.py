@@ -10,7 +10,7 @@ PARALLEL = True
 """MPI tells how many ranks there are."""
 
 LONG = ("configured",)
-"""What only --json prints: PETSc's configure options fill a screen."""
+"""Keys that only --json prints: PETSc's configure options fill a screen."""
 
 
 def add(commands):

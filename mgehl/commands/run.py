@@ -54,7 +54,7 @@ def execute(options, comm):
 
 
 def _run(config, directory, start, comm, options, save_every, limit):
-    """Solve, watched by whoever may stop it."""
+    """Solve; a signal or a limit of time may stop it."""
     from mgehl.output.terminal import SILENT, speaker
     from mgehl.run import Watch, run
     from mgehl.stopping import StopWhenTold
@@ -66,7 +66,7 @@ def _run(config, directory, start, comm, options, save_every, limit):
 
 
 def _begin(options, comm, solve):
-    """Solve a new run in its directory, which is made and held."""
+    """Solve a new run in its directory, which is made and locked."""
     from mgehl.kinds import check_contact, contact_from
     from mgehl.output.checkpoint import keep_start
     from mgehl.output.directory import make_directory, prepare_directory
@@ -107,7 +107,7 @@ def _say_which(file):
 
 
 def _say_what_changed(config):
-    """A law beside a run that is not the one which it was solved with."""
+    """Warn of a law that was changed since the run beside which it lies."""
     from mgehl.output.laws import changed_copies
     from mgehl.saying import complain
 
@@ -116,7 +116,7 @@ def _say_what_changed(config):
 
 
 def _say_what_differs(directory, start, config):
-    """A start of another contact is a first guess, and may be a bad one."""
+    """Warn of a start from another contact: it is a first guess, and may be a bad one."""
     from mgehl.output.laws import law_files
     from mgehl.output.manifest import checksum
     from mgehl.saying import complain
@@ -132,7 +132,8 @@ def _say_what_differs(directory, start, config):
 
 
 def _resume(options, comm, solve):
-    """Go on with a run in its directory, which is held; one that has finished may need a picture."""
+    """Go on with a run in its directory, which is locked. Of a run that has finished draw the picture if it
+    has none."""
     from mgehl.output.files import on_first_rank
     from mgehl.output.finish import taken_up
     from mgehl.output.lock import locked
@@ -150,7 +151,7 @@ def _resume(options, comm, solve):
 
 
 def _check_alone(options):
-    """Raise UserError for what does not go with --resume."""
+    """Raise UserError for options that --resume does not allow."""
     for name, word in _WORDS.items():
         if getattr(options, name):
             raise UserError(f"--resume {options.resume}: goes on as it began, without {word}")

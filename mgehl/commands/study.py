@@ -30,13 +30,13 @@ STUDIES = {
 }
 
 DOUBLING = ("wedge", "schemes", "angle", "error")
-"""Studies whose orders and limits need grids of half the spacing of the one before."""
+"""Studies that need grids each of half the spacing of the one before: they tell orders and limits."""
 
 LARGEST_LISTS = {"line": 1, "rough": 1, "methods": 0, "accuracy": 0, "domain": 0}
-"""Grids that --nodes may name, where not any number."""
+"""How many grids --nodes may name, where that is limited."""
 
 DEFAULTS = {"direction": "both", "mean": "arithmetic"}
-"""Of options that study transition alone takes."""
+"""Defaults of options that only study transition takes."""
 
 _TAKES = {0: "has grids of its own", 1: "takes one grid"}
 
@@ -92,7 +92,7 @@ def execute(options, comm):
 
 
 def _solve(options, comm, directory, record):
-    """Solve all cases in the directory, which is held; return the `Study`."""
+    """Solve all cases in the directory, which is locked; return the `Study`."""
     from mgehl.output.files import on_first_rank
     from mgehl.output.study_directory import begin_study, finish_study
     from mgehl.saying import say

@@ -24,11 +24,11 @@ def mesh_from(config, contact):
 
 
 def settled(config, contact):
-    """The `Config` with numbers where its keys leave them to mgehl: a domain that is "auto"."""
+    """The `Config` with numbers in the place of "auto"."""
     return config.kind.settled(config, contact)
 
 
 def check_contact(config, contact):
-    """Raise ConfigError where values that are fine one by one make no contact together."""
+    """Raise ConfigError where values do not fit each other, though each is allowed."""
     with naming_keys(contact):
         config.kind.check(config, contact)

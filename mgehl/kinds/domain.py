@@ -8,10 +8,10 @@ from mgehl.model.starvation import Starvation
 
 
 def settled(config, contact):
-    """The `Config` with numbers for "auto": as small as the film of a formula allows, along the motion.
+    """The `Config` with numbers in the place of "auto".
 
-    A surface of the user's own is not asked: the domain is that of the smooth bodies. Layered bodies are
-    taken for half-spaces whose contact is as wide.
+    The domain is as small as the film of a formula allows, with most room upstream. It is that of the
+    smooth bodies: roughness is not looked at. Layered bodies count as half-spaces whose contact is as wide.
     """
     grid = config.grid
     open_ends = [name for name in ("x" if contact.is_plane else "xy") if getattr(grid, name) == AUTO]

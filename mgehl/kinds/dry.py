@@ -13,7 +13,7 @@ from mgehl.kinds.point import PointKind
 EFFORT = Effort((15.0, 60.0), 2.5, 400.0, "dry contacts on 129 to 1025 nodes took 17 to 60")
 
 ROOM = 1.5
-"""Where a domain that is "auto" ends, over the reach of the smooth contact: peaks carry load beyond it."""
+"""End of a domain that is "auto", over the reach of the smooth contact: peaks carry load beyond it."""
 
 OF_A_FLUID = (
     "lubricant", "motion", "relaxation", "contact.boundary_film", "discretization.couette",
@@ -23,10 +23,10 @@ OF_A_FLUID = (
     "solver.cycle_couette", "solver.first_nodes", "solver.inlet_cells", "solver.squeeze", "solver.error",
     "solver.release_budget",
 )  # fmt: skip
-"""Sections and keys that are heeded where there is a fluid, and may stand there where there is none."""
+"""Sections and keys that only a fluid uses. A dry contact accepts them and does nothing with them."""
 
 OF_MOES = ("lubricant", "motion")
-"""Those of them from which Moes numbers make a load."""
+"""Sections of a fluid that a dry contact uses all the same, to turn Moes numbers into a load."""
 
 
 class DryKind(LoadedKind):
@@ -36,7 +36,7 @@ class DryKind(LoadedKind):
     content = "Pressure and gap of a"
 
     def unused(self, config):
-        """What only a fluid heeds, too."""
+        """As for a lubricated contact, and what only a fluid uses."""
         needed = OF_MOES if config.moes.M is not None else ()
         return *super().unused(config), *(name for name in OF_A_FLUID if name not in needed)
 
@@ -49,7 +49,7 @@ class DryKind(LoadedKind):
         super().check_keys(config, tables)
 
     def contact(self, config):
-        """Of the other kind, at rest."""
+        """The contact of the lubricated kind, at rest."""
         return replace(super().contact(config), speed=0.0)
 
     def settled(self, config, contact):
@@ -63,7 +63,7 @@ class DryKind(LoadedKind):
         loaded_checks.check_reach(self.settled(config, contact).grid, contact)
 
     def effort(self, config):
-        """The same on every grid."""
+        """The `Effort` of a dry contact: the same on every grid."""
         return EFFORT
 
     def lines(self, config, contact, mesh):
@@ -100,7 +100,7 @@ class DryPoint(DryKind, PointKind):
     noun = "dry point contact"
 
     def contact(self, config):
-        """Without a direction of motion."""
+        """The contact, without a direction of motion."""
         return replace(super().contact(config), angle=0.0)
 
 

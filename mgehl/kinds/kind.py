@@ -9,16 +9,16 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Effort:
-    """What runs of some sort took where it was measured."""
+    """Work of runs of one sort, as it was measured."""
 
     convolutions: tuple[float, float]
-    """Fewest and most, in equivalents of one on the finest grid."""
+    """Fewest and most convolutions, in equivalents of one on the finest grid."""
     times_convolution: float
     """The whole time of a run in units of its convolutions' time."""
     bytes_per_node: float
     measured: str
     counted: bool = True
-    """False where a run makes none: they stand for its time alone."""
+    """False where a run makes no convolutions: the numbers then stand for its time alone."""
 
 
 class Kind:
@@ -33,15 +33,15 @@ class Kind:
     model: type
     """Class of the contact."""
     takes: tuple
-    """Sections ("motion") and keys ("motion.speed") that it heeds; every other one is foreign to it."""
+    """Sections ("motion") and keys ("motion.speed") that it uses; any other one is a mistake."""
     essential: dict
     """Keys that a case is made of, with values that converge in seconds."""
     short: dict = {}
-    """Keys whose values speak for themselves: functions from the value to a few words."""
+    """Keys whose values stand in titles without their name: functions from the value to a few words."""
     content = "Pressure and film of a lubricated"
-    """What its fields are: words before the noun."""
+    """What its fields are called: words before the noun."""
     cavitates = True
-    """Whether its film tears where nothing is said of that."""
+    """Whether its film tears where `discretization.cavitation` is not set."""
 
     @property
     def is_loaded(self):
@@ -49,22 +49,22 @@ class Kind:
         return self.model.is_loaded
 
     def unused(self, config):
-        """Sections and keys that it takes, but that the values of others make meaningless."""
+        """Sections and keys that this kind takes, but that the values of other keys leave without a use."""
         return ()
 
     def pushed_out(self, given):
-        """Sections and keys of a file that settings, {"section.key": value}, make meaningless."""
+        """Sections and keys of a file that settings, {"section.key": value}, leave without a use."""
         return ()
 
     def check_keys(self, config, tables):
-        """Raise ConfigError where values contradict each other; `tables` has only what was given."""
+        """Raise ConfigError where values contradict each other; `tables` has the keys that were given."""
 
     def contact(self, config):
         """The contact, as the model has it."""
         raise NotImplementedError
 
     def settled(self, config, contact):
-        """The `Config` with numbers where its keys leave them to mgehl."""
+        """The `Config` with numbers in the place of "auto"."""
         return config
 
     def mesh(self, config, contact):
@@ -72,7 +72,7 @@ class Kind:
         raise NotImplementedError
 
     def check(self, config, contact):
-        """Raise ConfigError where values that are fine one by one make no contact together."""
+        """Raise ConfigError where values do not fit each other, though each is allowed."""
 
     def effort(self, config):
         """The `Effort` of such a run."""
@@ -99,10 +99,10 @@ class Kind:
         raise NotImplementedError
 
     def scalars(self, solution):
-        """What a run comes to, {name: (value, unit, meaning)}, as NetCDF's conventions have it."""
+        """The numbers that a run results in, {name: (value, unit, meaning)}, named for NetCDF."""
         raise NotImplementedError
 
 
 def kept_together(text):
-    """A text that is not broken into lines."""
+    """The text with spaces at which no line is broken."""
     return text.replace(" ", "\u00a0")

@@ -23,10 +23,10 @@ class LoadedKind(Kind):
     """A contact whose film and pressure answer to a load."""
 
     load_unit: str
-    """In SI."""
+    """SI unit of the load."""
 
     def check_keys(self, config, tables):
-        """The viscosity law must have a meaning, and so must surfaces."""
+        """The viscosity law and the surfaces must be complete and free of contradictions."""
         surface.check_keys(config, tables)
         if is_own(config.lubricant.viscosity_law):
             return
@@ -37,7 +37,7 @@ class LoadedKind(Kind):
             raise ConfigError(f"lubricant.viscosity = {viscosity}: {error}") from None
 
     def unused(self, config):
-        """What the surfaces have no use for."""
+        """Keys that the surfaces do not use."""
         return tuple(surface.unused(config))
 
     def pushed_out(self, given):
@@ -45,11 +45,11 @@ class LoadedKind(Kind):
         return tuple(surface.pushed_out(given))
 
     def settled(self, config, contact):
-        """With a domain that does not starve the contact where it is "auto"."""
+        """With a domain in numbers, large enough not to starve the film, where it is "auto"."""
         return domain.settled(config, contact)
 
     def check(self, config, contact):
-        """The bodies must be half-spaces, the laws numbers, the domain large enough."""
+        """The contact must be small beside the bodies; otherwise as `check_fluid`."""
         loaded_checks.check_deformation(config, contact)
         loaded_checks.check_size(*self.size(config, contact))
         if contact.surface is not None:
@@ -57,7 +57,7 @@ class LoadedKind(Kind):
         self.check_fluid(config, contact)
 
     def check_fluid(self, config, contact):
-        """The laws must be numbers, the domain large enough for contact and inlet."""
+        """Laws must give numbers; the domain must be large enough for contact and inlet."""
         loaded_checks.check_own_laws(contact)
         loaded_checks.check_exponent(contact)
         loaded_checks.check_domain(self.settled(config, contact).grid, contact)
@@ -67,7 +67,7 @@ class LoadedKind(Kind):
         raise NotImplementedError
 
     def effort(self, config):
-        """That of the relaxation or of Newton's method."""
+        """The `Effort` of the relaxation or of Newton's method."""
         if config.solver.method != "relaxation":
             effort = self.newton_effort(config)
             return _with_bands(effort) if config.solver.error and config.solver.start == "film" else effort
@@ -145,7 +145,7 @@ def _bands(error):
 
 
 def _with_bands(effort):
-    """That of a run whose films get bands, too."""
+    """The `Effort` of a run whose films get bands, too."""
     (low, high), (least, most) = effort.convolutions, BANDS
     return replace(
         effort,
@@ -160,7 +160,7 @@ def speed_words(u):
 
 
 def lubricant_from(config):
-    """The lubricant, by built-in laws or the user's own. Raises ValueError where a law has no meaning."""
+    """The lubricant, by built-in laws or the user's own. Raises ValueError where the numbers fit no law."""
     section = config.lubricant
     ambient = section.viscosity, section.pressure_viscosity
     if is_own(section.viscosity_law):

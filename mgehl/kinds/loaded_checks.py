@@ -1,21 +1,21 @@
-"""What values that are fine one by one may get wrong together in a loaded contact."""
+"""Checks of a loaded contact: whether values that are allowed one by one fit each other."""
 
 from mgehl.errors import ConfigError
 from mgehl.model.images import wave_numbers
 from mgehl.model.own_laws import OwnCompliance, OwnDensity, OwnViscosity
 
 LARGEST_CONTACT = 0.5
-"""Semi-axis over radius up to which a body is taken for a half-space and a paraboloid."""
+"""Largest semi-axis over radius. Beyond it a body is neither a half-space nor a paraboloid."""
 
 LARGEST_EXPONENT = 200.0
-"""alpha p_h: the viscosity must stay a number."""
+"""Largest alpha p_h: above it the viscosity is no number a computer holds."""
 
 CHECKED_PRESSURE = 2.0
 """Pressure up to which a user's own laws are checked, over that of Hertz."""
 
 
 def check_deformation(config, contact):
-    """A user's own must be positive, and any must be a sum of images."""
+    """A deformation of the user's own must be positive. Any deformation must be a sum of images."""
     deformation = contact.deformation
     if isinstance(deformation, OwnCompliance):
         deformation.check(wave_numbers() / contact.hertz.a)
@@ -34,7 +34,7 @@ def check_size(key, size, radii, part):
 
 
 def check_own_laws(contact):
-    """A user's own laws must hold with their derivatives."""
+    """The derivatives of a user's own laws must be those of their values."""
     highest = CHECKED_PRESSURE * contact.hertz.p_h
     viscosity, density = contact.lubricant.viscosity_law, contact.lubricant.density_law
     if isinstance(viscosity, OwnViscosity):

@@ -37,4 +37,4 @@ _PLACES = {
     "contact.surface": lambda contact: contact.surface,
     "contact.deformation": lambda contact: contact.deformation,
 }
-"""Where a contact has what a key describes."""
+"""Where a contact keeps what a key describes."""

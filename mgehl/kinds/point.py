@@ -14,7 +14,7 @@ from mgehl.model.coating import Coating
 from mgehl.model.point import PointContact
 
 LARGEST_RADIUS_RATIO = 1e3
-"""Of the two radii: a longer ellipse is a line contact."""
+"""Largest ratio of the two radii: a longer ellipse is a line contact."""
 
 MOES_REPLACES = ("contact.load", "motion.speed")
 """Keys that moes.M and moes.L stand for."""
@@ -74,7 +74,7 @@ class PointKind(LoadedKind):
     }
 
     def unused(self, config):
-        """The coating of bodies without one, and what Moes numbers stand for."""
+        """The keys of a coating where there is none, and the keys that Moes numbers replace."""
         moes = MOES_REPLACES if config.moes.M is not None else ()
         coating = _without_coating(config.contact.deformation)
         return *coating, *moes, *super().unused(config)
@@ -87,7 +87,7 @@ class PointKind(LoadedKind):
         return *coating, *moes, *super().pushed_out(given)
 
     def check_keys(self, config, tables):
-        """Moes numbers come as two and alone; a coating belongs to coated bodies."""
+        """Moes numbers come as a pair, without load and speed; a coating belongs to coated bodies."""
         _check_moes(config.moes, tables)
         _check_coating(config, tables)
         super().check_keys(config, tables)
@@ -108,12 +108,12 @@ class PointKind(LoadedKind):
         return Mesh(grid.nodes, grid.nodes, grid.x, grid.y, contact.k_e)
 
     def check(self, config, contact):
-        """Besides what holds for any loaded contact the radii must not be too different."""
+        """As for any loaded contact; besides, the radii must not be too different."""
         _check_radii(config.contact)
         super().check(config, contact)
 
     def size(self, config, contact):
-        """That of the ellipse, as wide as a soft layer makes it."""
+        """The size of the ellipse, as wide as a soft layer makes it."""
         section, hertz, wide = config.contact, contact.hertz, contact.widening
         key = "moes.M" if config.moes.M is not None else "contact.load"
         size = f"{wide * hertz.a:.2g} m by {wide * hertz.b:.2g} m"
@@ -159,7 +159,7 @@ def angle_words(angle):
 
 
 def _without_coating(deformation):
-    """Sections that a deformation has no use for."""
+    """Sections that a deformation does not use."""
     return () if deformation == "coated" else ("coating",)
 
 

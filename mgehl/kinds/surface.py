@@ -27,14 +27,14 @@ HIGHEST = 0.1
 
 
 def unused(config):
-    """Sections and keys that the surfaces of a configuration make meaningless."""
+    """Sections and keys that the surfaces of a configuration do not use."""
     for name in NAMES:
         source = getattr(config, name).source
         yield from [name] if source is None else _not_taken(name, source)
 
 
 def pushed_out(given):
-    """Keys of a file that settings, {"section.key": value}, make meaningless."""
+    """Keys of a file that settings, {"section.key": value}, leave without a use."""
     for name in NAMES:
         kind = given.get(f"{name}.kind")
         if f"{name}.file" in given:
@@ -85,7 +85,7 @@ def _check_section(name, section, given):
 
 
 def _check_motion(name, section, angle):
-    """Of a body that moves the heights must be the same all along the motion."""
+    """The heights of a body that moves must be the same all along the motion."""
     if section.body == MOVING and surface_of(section).varies_along(direction(angle)):
         raise ConfigError(
             f'{name}.body = "moving": its heights change along the motion, and so the film with time; '
@@ -167,7 +167,7 @@ def check_surfaces(config, contact, mesh):
 
 
 def _about(error, key):
-    """What is wrong with a file that the key has named already."""
+    """What is wrong with a file, without its name: the key has said that already."""
     return error.what if repr(error.path) in key else str(error)
 
 

@@ -1,4 +1,4 @@
-"""Keys of [surface] and [second_surface], and which of them a surface of each source heeds."""
+"""Keys of [surface] and [second_surface], and which of them each kind of surface uses."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -107,7 +107,7 @@ TAKES = {
     "file": ("file", "height_unit", "position_unit", "spacing", "spacing_y", "continuation", "remove",
              *CUT_OFFS, *PLACE),
 }  # fmt: skip
-"""Keys that a surface of each source heeds."""
+"""Keys that each kind of surface uses."""
 
 NEEDS = {
     "waviness": ("amplitude",),

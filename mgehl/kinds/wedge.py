@@ -9,10 +9,10 @@ from mgehl.kinds.kind import Effort, Kind, kept_together
 from mgehl.model.wedge import PILLARS, WedgeBearing
 
 LARGEST_ASPECT = 100.0
-"""Of a pad's length and width."""
+"""Largest ratio of a pad's length and width."""
 
 FEWEST_CELLS = 2
-"""That a pillar must have, and the gap's way from the exit to nothing."""
+"""Cells that a pillar must have, and so must the distance from the exit to the line of no gap."""
 
 EFFORT = Effort(
     (1.0, 1.0), 300.0, 900.0, "a wedge makes no convolutions, but takes the time of some 300", False

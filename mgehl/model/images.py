@@ -20,7 +20,8 @@ RANGE = (1e-3, 1e5)
 SAMPLES = 801
 
 CHANGE = 0.01
-"""Part of c(k), or of its whole change, that it must differ by from one of its ends to be another."""
+"""By how much c(k) must differ from its value at an end of the range before it counts as changed: this part
+of c(k) itself, or of its whole change."""
 
 PER_OCTAVE = (2, 3, 4, 6, 8)
 """Images per factor of two in depth that are tried, until `ACCURACY` is reached."""

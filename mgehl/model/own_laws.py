@@ -25,7 +25,7 @@ SLOPE_TOLERANCE = 1e-3
 """Of a derivative, relative to the largest at any pressure."""
 
 NO_SLOPE = 1e-6
-"""Change over the whole range of pressures that is none."""
+"""A smaller change over the whole range of pressures counts as none."""
 
 AMBIENT_TOLERANCE = 1e-3
 """Of a law at p = 0, relative."""

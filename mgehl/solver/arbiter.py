@@ -1,25 +1,25 @@
-"""Eq. 2 as the arbiter: of partitions that all satisfy the gap conditions, it takes its pick.
+"""Eq. 2 as the arbiter between states that all satisfy the equations.
 
-A state that settled is an answer. What breaks Eq. 2 in it is let go and the sets settle again: contact
-pressures jump where a node opens, so the state found then may break Eq. 2 at more nodes, or not settle
-at all. The one that settled with the fewest is the answer. Nothing is changed here: the ruling says
-what is to be done.
+A state that settled is a possible answer. Contact nodes that break Eq. 2 in it are released, and the sets
+settle again. Where a node opens, the contact pressures beside it jump. So the next state may break Eq. 2 at
+more nodes, or not settle at all. The answer is the settled state that breaks it at the fewest nodes. This
+module changes nothing: its ruling says what is to be done.
 """
 
 from enum import Enum
 
 RELEASE_STEPS = 8
-"""Steps in which a set must settle again after Eq. 2 released some of it: it bounds trials that lead
-nowhere. From 1 to 40 the same steps in contact starts on 129 and 257 nodes."""
+"""Steps in which the sets must settle again after a release; more would be spent on trials that lead
+nowhere. Any value from 1 to 40 gives the same steps in contact starts on 129 and 257 nodes."""
 
 EARLY = 1e-5
-"""Residual from which Eq. 2 is asked where the fluid is solved apart. From 3e-6 to 1e-5 the same steps;
-mixed lubrication takes an eighth more convolutions with 1e-6, and as many fewer with 3e-5."""
+"""Residual below which Eq. 2 is checked where the fluid is solved apart. Values from 3e-6 to 1e-5 give the
+same steps; mixed lubrication takes an eighth more convolutions with 1e-6, and as many fewer with 3e-5."""
 
 EARLY_ROUNDS = 3
-"""Releases before the last digits: 2049 nodes take two; an edge that opens node by node has no end. From 1
-to 10 the same steps on 129 and 257 nodes; with none mixed lubrication takes 86 convolutions instead of
-61."""
+"""Most releases before the residual is small. 2049 nodes take two; an edge that opens node by node would
+never end. Values from 1 to 10 give the same steps on 129 and 257 nodes; with 0 mixed lubrication takes
+86 convolutions instead of 61."""
 
 
 class Ruling(Enum):
@@ -57,9 +57,9 @@ def rule(position, verdict, partition, fluid_apart):
 
 
 def _is_time_for_an_early_release(position):
-    """Whether Eq. 2 may be asked before the last digits.
+    """Whether Eq. 2 may be checked before the residual is small.
 
-    Where all of the ellipse is in contact and the fluid is solved apart, what breaks Eq. 2 is
-    known long before them, while a few nodes still turn: a round of release saves 3 to 5 steps.
+    In full contact, with the fluid solved apart, it is known early which nodes break Eq. 2, while a few
+    others still change. Releasing them early saves 3 to 5 steps.
     """
     return position.cycles[-1].residual <= EARLY and position.early_rounds < EARLY_ROUNDS

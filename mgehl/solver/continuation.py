@@ -1,4 +1,4 @@
-"""Continuation: a solution followed in speed, or from one mean of the mobility to another."""
+"""Continuation: a solution is followed in speed, or from one mean of the mobility to another."""
 
 from dataclasses import replace
 from functools import partial
@@ -11,11 +11,11 @@ from mgehl.solver.newton import Newton
 from mgehl.solver.problem import ContactProblem
 
 SMALLEST_STEP = 0.25
-"""Part of a first step below which one that failed is not halved again. From 0.05 to 1 the same steps on 65
+"""A step that failed is halved, down to this part of the first step. From 0.05 to 1 the same steps on 65
 and 129 nodes."""
 
 BEYOND = 8.0
-"""Ratio of speeds by which a start far from its branch's end is taken."""
+"""Factor between the wanted speed and one at which a start is far from the end of its branch."""
 
 FIRST_SHARE = 0.25
 """Share of another mean than the arithmetic that is taken first on the way from there. Films took 348
@@ -50,7 +50,7 @@ class Continuation:
         return self._begin_with_mean(contact, settings)
 
     def begin_beyond(self, speed, start):
-        """As `begin`, but at a speed where that start is at home, and from there to `speed`."""
+        """As `begin`, but first at a speed where such a start settles, and from there to `speed`."""
         first = speed * (BEYOND if start == "film" else 1.0 / BEYOND)
         problem, outcome = self.begin(first, start)
         if outcome.converged:
@@ -87,11 +87,12 @@ class Continuation:
         return carry(lambda t, state: self.at(speed, state, t), state, FIRST_SHARE)
 
     def _begin_with_mean(self, contact, settings):
-        """Another mean than the arithmetic, first where the grid resolves the inlet.
+        """Solve by another mean than the arithmetic one, first at a speed at which the grid resolves the
+        inlet.
 
-        Nested iteration finds it from the formula's film unless its flow folds: then it finds the
-        logarithmic one, and that mean is found from there. In the end the wanted speed is followed. What
-        lies on the way need not be exact.
+        Nested iteration finds the solution from the formula's film, unless the flow by this mean has a
+        fold. Then it finds that of the logarithmic mean, and the wanted mean is approached from there. At
+        last the wanted speed is approached. Solutions on the way need not be exact.
         """
         speed = contact.matched_speed(self._hierarchy.grids[-1].mesh, settings.nested.inlet_cells)
         scheme = settings.scheme
@@ -118,7 +119,8 @@ class Continuation:
 
 
 def begin(hierarchy, contact, settings, monitor, journal=NOTHING_KEPT):
-    """Solve `contact` from nothing, by whatever its mean of the mobility takes; as `nested_iteration`."""
+    """Solve `contact` without a start, in the way that its mean of the mobility needs; as
+    `nested_iteration`."""
     mean, nested = settings.scheme.face_mobility, settings.nested
     if is_mixed(contact, settings.scheme):
         return nested_iteration(hierarchy, contact, settings, monitor, journal)

@@ -7,17 +7,19 @@ from petsc4py import PETSc
 from mgehl.solver.problem import DIVERGED
 
 STALLS = 3
-"""Linear systems that GMRES may leave unsolved: where no state is near (a film that ends, a node at a fold)
-all that follow cost as much as they can and lead nowhere. From 1 on nothing that converges changes."""
+"""Linear systems that GMRES may leave unsolved before a solve is given up. Where no state is near (a film
+that ends, a node at a fold) all later ones would take the most iterations and lead nowhere. Values from
+1 on change nothing that converges."""
 
 UNSOLVED = 0.5
-"""Part of its residual from which what GMRES leaves of a linear system is unsolved: less is a step on the
-way (a ball of 188 nm rms at 0.04 mm/s settles after more than three that took all iterations)."""
+"""A linear system counts as unsolved where GMRES leaves more than this part of its residual. Less is still
+of use (a ball of 188 nm rms at 0.04 mm/s settles after more than three that took all iterations)."""
 
 STUCK = 0.9
-"""What a step that gained nothing leaves of the residual. Then the cavities are left to the next step:
-their relaxation in a gap held fixed and the step that moves it may take turns for ever. A ball at 3 m/s on
-65 nodes by 1B ends after 60 steps without this, and settles in 16 with it."""
+"""A step that leaves more than this part of the residual gained nothing. Then the cavities are not relaxed
+before the next step: their relaxation at a fixed gap and the step that moves the gap might undo each
+other for ever. A ball at 3 m/s on 65 nodes by 1B ends after 60 steps without this, and settles in 16
+with it."""
 
 
 @dataclass(frozen=True)

@@ -16,8 +16,9 @@ from mgehl.solver.relaxation import relax
 from mgehl.solver.rigid_gap import RigidGapFluid
 
 FLAT = 0.1
-"""Largest gap of the dry guess, and largest overlap, over the formula's film that is laid on it: less than
-no film at first is contact that is none (a ball of 188 nm rms at 0.04 mm/s: 2234 nodes)."""
+"""Largest gap, and largest overlap, that the dry guess may leave, over the formula's film that is laid on
+it. A larger overlap would make contact where there is none (a ball of 188 nm rms at 0.04 mm/s: 2234
+nodes)."""
 
 
 @dataclass(frozen=True)
@@ -26,7 +27,7 @@ class LevelSolve:
 
     nodes: int
     speed: float | None
-    """None without a fluid."""
+    """None where there is no fluid."""
     finest: bool
 
 
@@ -86,20 +87,22 @@ def first_guess(problem, start, P=None):
 
 
 def is_mixed(contact, scheme):
-    """Where film and contact share a rough surface: it is solved at once, on the finest grid.
+    """Whether peaks of a rough surface reach through the film: then it is solved on the finest grid alone.
 
-    Coarse grids do not see the surface, and the dry contact's pressure is nearer than any film's. A film
-    that is thicker than the roughness is found as that of smooth bodies: from the dry contact twice as
-    thick a film takes twice the work, and one three times as thick is not found (random balls, 257 nodes).
+    Coarse grids do not see the surface, and the dry contact's pressure is nearer to the answer than that of
+    any film. A film that is thicker than the roughness is found as that of smooth bodies: from the dry
+    contact a film twice as thick takes twice the work, and one three times as thick is not found (random
+    balls, 257 nodes).
     """
     return scheme.contact_law.is_continuous and contact.is_mixed
 
 
 def _first_mixed_guess(problem, start, P, film):
-    """The dry pressure `P` of the rough bodies, with a `film` between them, or next to none.
+    """The dry pressure `P` of the rough bodies, with a `film` between them, or nearly none.
 
-    A start from contact takes the thinnest film, and no node in contact: contact that must open all over
-    takes turns with the flow (a ball of 100 nm rms at 0.1 m/s ends after 60 steps so, and settles in 14).
+    A start from contact takes the thinnest film and no node in contact. With contact everywhere, nodes
+    would open and close for ever (a ball of 100 nm rms at 0.1 m/s: 60 steps without an end, 14 from the
+    thin film).
     """
     if start == "contact":
         film = max(FLAT * film, problem.scheme.contact_law.contact_gap)
@@ -117,10 +120,10 @@ def interpolate(transfer, problem, coarse):
 
 
 def planned_solves(meshes, contact, settings):
-    """(Level, `LevelSolve`) of what is solved on which of the `meshes`, coarsest first, and how fast.
+    """(Level, `LevelSolve`) of what is solved on which of the `meshes`, coarsest first, at which speed.
 
-    A film grows from the coarse grids, at speeds that they resolve and that do not lift the bodies off
-    each other; a start from contact, and the relaxation, know the finest alone.
+    A film begins on the coarse grids, at speeds that they resolve and that do not lift the bodies off each
+    other. A start from contact, and the relaxation, take the finest grid alone.
     """
     finest, nested = len(meshes) - 1, settings.nested
     at_once = settings.method == "relaxation" or is_mixed(contact, settings.scheme)

@@ -26,9 +26,9 @@ from mgehl.solver.squeeze import squeeze_rates
 from mgehl.solver.step_length import step_length
 
 FLUID_AHEAD = 0.1
-"""Residual of the fluid solved apart beside that of the last cycle, or the tolerance. From 0.03 to 0.1 the
-same Newton steps; at 0.01 and at 0.3 full contact on 257 nodes takes one more. Above 1 no solve would
-end."""
+"""Residual to which the fluid is solved apart, over that of the last cycle, or over the tolerance where
+that is larger. From 0.03 to 0.1 the same Newton steps; at 0.01 and at 0.3 full contact on 257 nodes
+takes one more. Above 1 no solve would end."""
 
 
 @dataclass(frozen=True)
@@ -104,7 +104,9 @@ class Newton:
         return position
 
     def solve(self, snes, _b, x):
-        """Called by PETSc. Exceptions wait for `run`: PETSc cannot free what one has passed through."""
+        """Called by PETSc. `run` raises any exception later: one that passed through PETSc would leave
+        objects that it cannot free.
+        """
         try:
             self._iterate(snes, x)
         except Exception as stopped:
@@ -155,13 +157,15 @@ class Newton:
 
     @property
     def _fluid_tolerance(self):
-        """Of the fluid solved apart: well ahead of the rest, whose next step moves the gap anyway."""
+        """Tolerance of the fluid solved apart. It is well below the residual of the rest; its next step
+        moves the gap anyway.
+        """
         cycles = self._position.cycles
         reached = cycles[-1].residual if cycles else 1.0
         return FLUID_AHEAD * max(reached, self._settings.tolerance)
 
     def _measure(self, snes, x):
-        """Evaluate the residual of the present state; a new line of the history."""
+        """Evaluate the residual of the present state; add a row to the history."""
         position, tolerance = self._position, self._settings.tolerance
         F, load = self._compute_function(snes, x)
         if self._fluid and position.changes.total == 0 and self._problem.rms(F) <= tolerance:
@@ -180,7 +184,7 @@ class Newton:
         state.H = self._problem.gap(state.P, state.H0)
 
     def _release(self, ruling, verdict, max_steps):
-        """Let go what breaks Eq. 2; the state that settled is kept as an answer."""
+        """Release contact that breaks Eq. 2; keep the state that settled as a possible answer."""
         position, partition = self._position, self._partition
         state = position.state
         if ruling is Ruling.TRY_RELEASE:
@@ -292,7 +296,7 @@ class Newton:
 
 
 def _first_cause(error):
-    """What was raised in a callback: newer PETSc makes an error of its own of it."""
+    """The exception that a callback raised: newer PETSc wraps it in an error of its own."""
     while isinstance(error, PETSc.Error) and error.__cause__:
         error = error.__cause__
     return error

@@ -1,4 +1,4 @@
-"""What a solve leaves: its history line by line, and how it ended."""
+"""What a solve leaves: its history row by row, and how it ended."""
 
 from dataclasses import dataclass, field
 
@@ -9,7 +9,7 @@ from mgehl.solver.record import Kept, Record
 
 @dataclass
 class Line(Kept):
-    """One line of the history: the state before a step, in units of P and H."""
+    """One row of the history: the state before a step, in units of P and H."""
 
     step: int
     residual: float

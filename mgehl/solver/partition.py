@@ -30,8 +30,8 @@ ROUND = 2
 """Turns of a node that closes and is torn open again."""
 
 SETTLED = 1.5
-"""Gap over the one it keeps up to which contact is asked whether fluid flows in: before it has come there
-its flow says nothing."""
+"""Largest gap of a contact node, over its boundary film, at which its inflow decides whether it opens. A
+larger gap is not closed yet, and its flow says nothing."""
 
 
 @dataclass
@@ -50,10 +50,10 @@ class Changes(Kept):
 
 @dataclass(frozen=True)
 class Contradiction(Kept):
-    """A node that can be neither: a film there closes, a contact there is torn open.
+    """A node that can be neither film nor contact: as film it closes, as contact it is torn open.
 
-    Nodes count from 1. `gap` is the last H at which it was taken for contact, `pressure` the last
-    P at which it was let go, `neighbours` the statuses west, east, before and after.
+    Nodes count from 1. `gap` is the H at which it last became contact, `pressure` the P at which it was
+    last released, `neighbours` the statuses west, east, before and after.
     """
 
     i: int
@@ -77,7 +77,7 @@ class Past(Kept):
     just_released: np.ndarray
     was_released: np.ndarray
     turns: np.ndarray
-    """Between film and contact."""
+    """How often the node went from film to contact and back."""
     closing_gap: np.ndarray
     torn_pressure: np.ndarray
 
@@ -95,9 +95,9 @@ class Past(Kept):
 
 
 class Partition:
-    """Moves nodes of a state between the sets; `past` is the nodes' own, and may be put back.
+    """Moves nodes of a state between the sets; `past` is what the nodes went through, and may be replaced.
 
-    An inflow of less than the `tolerance` of residuals opens no contact: it is none.
+    Contact opens where fluid flows in by more than the `tolerance` of residuals; less counts as no inflow.
     """
 
     def __init__(self, problem, release_budget, tolerance=0.0):
@@ -129,8 +129,9 @@ class Partition:
     def enter_contact(self, state, changes):
         """Nodes whose gap is closed, and fluid shut in from west and east, become contact.
 
-        One pass is enough: what was shut in had contact on both sides already, so it shuts in no other.
-        Contact that leaves its faces open shuts in nothing, and may close and open as often as it takes.
+        One pass is enough: shut-in fluid had contact on both sides already, so it shuts in no other.
+        Contact with open faces (`BoundaryFilm`) shuts in nothing, and may close and open any number of
+        times.
         """
         may_close = is_fluid(state.status) & ~self.past.just_released
         closed = may_close & self._contact_law.closed(state.H, self.past.was_released)
@@ -150,10 +151,11 @@ class Partition:
         changes.filled += self._grid.count(filled)
 
     def open_contact(self, state, inflow, changes):
-        """Contact that leaves its faces open becomes film where fluid flows in, and all of it behind that.
+        """Contact with open faces becomes film where fluid flows in, and so do the contact nodes that
+        follow it.
 
-        What flows in at the head of a run of contact is carried on through the whole of it: opened node by
-        node a run would take a step for each. What then does not open closes again.
+        Fluid that flows in at the head of a row of contact nodes is carried through all of them. Opened one
+        by one, each would take a step. Nodes that stay closed in the end close again in the next step.
         """
         in_contact, law = state.status == CONTACT, self._contact_law
         if law.closes_faces:

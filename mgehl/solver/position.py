@@ -14,12 +14,13 @@ class Step(Kept):
 
     linear_iterations: int = 0
     length: float = 0.0
-    """Part of Newton's step that was gone."""
+    """Part of Newton's step that was taken."""
 
 
 @dataclass
 class Trial(Kept):
-    """Eq. 2 tried on a state that settled: what was let go must settle again."""
+    """A trial whether Eq. 2 can hold: contact of a settled state was released, and the sets must settle
+    again."""
 
     answer: State
     """The state that settled, kept."""
@@ -51,7 +52,7 @@ class Position(Kept):
     step: Step = Step()
     trial: Trial | None = None
     early_rounds: int = 0
-    """Releases on Eq. 2 before the last digits."""
+    """Releases on Eq. 2 before the residual was small."""
     stalls: int = 0
     """Linear systems that were given up."""
 

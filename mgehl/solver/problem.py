@@ -14,8 +14,8 @@ from mgehl.grid.events import ASSEMBLY, event
 from mgehl.solver.record import Kept
 
 DIVERGED = 1e10
-"""Residual from which there is no way back; that of a first guess is below 1e4. From 1e3 to 1e14 nothing
-that converges changes."""
+"""Residual above which a solve counts as diverged; that of a first guess is below 1e4. Values from 1e3 to
+1e14 change nothing that converges."""
 
 
 @dataclass

@@ -49,7 +49,7 @@ class RelaxationSettings:
     load_every: int = RelaxationSection.load_every
     max_sweeps: int = RelaxationSection.max_sweeps
     report_every: int = 100
-    """Sweeps from one line of the history to the next."""
+    """Sweeps from one row of the history to the next."""
     tolerance: float = SolverSection.tolerance
 
 
@@ -184,7 +184,7 @@ class _Relaxation:
         state.H = problem.gap(state.P, state.H0)
 
     def sweep(self, step, state, evaluation, change):
-        """The state before a sweep, as a line of the history."""
+        """The state before a sweep, as a row of the history."""
         problem, grid = self._problem, self._problem.grid
         residual = problem.rms(problem.residual(evaluation, state.status))
         contact = state.status == CONTACT

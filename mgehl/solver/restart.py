@@ -16,17 +16,19 @@ from mgehl.solver.relaxation import relax
 
 
 def check_start(start, kind):
-    """Raise UserError where a `Solution` is no start for a contact of this kind."""
+    """Raise UserError where a `Solution` cannot start a contact of this kind."""
     other = start.config.contact.kind
     if other != kind or not start.contact.is_loaded:
         raise UserError(f"a {other} is no start for a {kind}")
 
 
 DIFFER = ("contact", "coating", "lubricant", "discretization")
-"""Sections of a configuration by which a start may be of another contact."""
+"""Sections of a configuration that describe the contact: where they differ, a start is of another contact.
+"""
 
 OF_A_CASE = ("contact.load", "contact.load_per_length")
-"""Keys of these in which a start may well differ: it is carried from one to the other."""
+"""Keys of these sections in which a start may differ: the solution is carried from its value to the new
+one."""
 
 
 def differences(start, config):

@@ -15,18 +15,18 @@ TOUCHED = 2.0
 three times the error, as Roache where nothing is known."""
 
 SLOWEST = 0.75
-"""Part of the scheme's order below which an observed one is not believed: the coarsest grid is too coarse
-to show one, or errors of two kinds cancel there."""
+"""An observed order below this part of the scheme's is not believed: the coarsest grid is too coarse to
+show it, or errors of two kinds cancel there."""
 
 FASTER = 0.5
-"""What an order may seem higher than the scheme's before the last difference is held to be small by chance.
-With 0 bands are wider, by a tenth in the median of the minimum film; with 1 some are too narrow on 129
-nodes, whose coarsest grid has errors of every order."""
+"""By how much the observed order may exceed the scheme's. Beyond that, the last difference is taken to be
+small by chance. With 0 bands are wider, by a tenth in the median of the minimum film; with 1 some are
+too narrow on 129 nodes, whose coarsest grid has errors of every order."""
 
 
 @dataclass(frozen=True)
 class Band:
-    """Half-width about a film that is to hold its limit, in the film's unit."""
+    """Half-width of the band about a film, within which its limit is to lie, in the film's unit."""
 
     half_width: float
     observed_order: float | None
@@ -37,11 +37,10 @@ def band(film, values, order, touched=False):
     """The `Band` about a `film` of nodes, from two or three `values` between nodes, finest grid's first.
 
     The last difference and the order tell the error (Richardson). The order is the scheme's, or the
-    observed one where that is somewhat lower. Where the last difference is smaller than that order makes
-    of the one before, and clearly, it is small by chance, as where it changes its sign: what it lacks is
-    added.
-    By what the film of nodes is off the value between nodes it is off its limit, too. `touched` says that
-    the second grid has contact.
+    observed one where that is somewhat lower. A last difference that is clearly smaller than the order and
+    the difference before let expect is small by chance, for example where it changes its sign: what it
+    lacks is added. So is the distance of the node's film from the value between the nodes. `touched` says
+    that the second grid has contact.
     """
     last, *before = (finer - coarser for finer, coarser in zip(values, values[1:], strict=False))
     observed = observed_order(last, *before)
@@ -52,12 +51,12 @@ def band(film, values, order, touched=False):
 
 
 def band_beside(film, others, order):
-    """The `Band` about a `film`, from one or two values of `others`, coarser grids' by a better scheme.
+    """The `Band` about a `film`, from one or two values of `others`: coarser grids', by a better scheme.
 
-    For a scheme of first order, whose error and that of the rest of the equations cancel now more, now
-    less: its own differences tell nothing. Of two others the limit is Richardson's, and what it is off the
-    finer one is added; of one it lies between film and other, since first order makes films too thick and
-    second order too thin.
+    This is for schemes of first order. Their own differences tell nothing, because their error cancels more
+    or less of the other errors. With two others the limit is Richardson's, and its distance from the finer
+    one is added. With one, the limit lies between film and other, since first order makes films too thick
+    and second order too thin.
     """
     finer, *coarser = others
     error = (finer - coarser[0]) / (2.0**order - 1.0) if coarser else 0.0
@@ -75,6 +74,6 @@ def believed(order, observed):
 
 
 def by_chance(order, last, before=0.0):
-    """What the error of a `last` difference lacks that is smaller than the one `before` lets expect."""
+    """What a `last` difference lacks where it is smaller than the one `before` it lets expect."""
     expected = abs(before) / 2.0 ** (order + FASTER)
     return max(0.0, expected - abs(last)) / (2.0**order - 1.0)

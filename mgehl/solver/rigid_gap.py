@@ -14,8 +14,8 @@ from mgehl.solver.cavitation import driven, relax_cavitation_set
 from mgehl.solver.problem import DIVERGED
 
 LARGEST_STEP = 0.3
-"""Of a pressure beside an elastic gap in p_h, here and in Newton's steps: near a fold none is too large.
-Here from 0.03 to 3 the same steps; for Newton's see `NewtonSettings`."""
+"""Largest change of a pressure in one step, in p_h, here and in Newton's steps: near a fold a longer step
+leads astray. Here from 0.03 to 3 the same steps; for Newton's see `NewtonSettings`."""
 
 LINEAR_TOLERANCE = 0.03
 """Of the linear systems of a rigid gap. From 0.01 to 0.1 the same Newton steps, but one more on both sides
@@ -100,7 +100,9 @@ class RigidGapFluid:
                 evaluation = problem.evaluate(state)
 
     def _give_back(self, state, separable, before, evaluation):
-        """Take out of `separable`, in place, what is so no more, its P as `before`; return how many."""
+        """Take nodes that are separable no more out of `separable`, in place, with their P as `before`;
+        return how many.
+        """
         lost = separable & ~self.separable(evaluation, state.status)
         separable[lost] = False
         state.P[lost] = before[lost]

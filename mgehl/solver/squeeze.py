@@ -1,15 +1,15 @@
-"""Implicit time steps with the squeeze flow d(rho H)/dt, longer as the residual falls.
+"""Implicit time steps that include the squeeze flow d(rho H)/dt.
 
-The squeeze flow keeps a Newton step from closing a film that the steady equations leave open: from
-one speed to the next the contact set then grows node by node and not in spots. A part of it is each
-node's own, by its residual over its film: a film of an atom's height that fluid flows into opens by
-a few of its heights a step.
+The time step grows as the residual falls. The squeeze flow keeps a Newton step from closing a film that the
+steady equations leave open. So, from one speed to the next, contact grows node by node and not in spots.
+Besides, each node has a part of the time step of its own, by its residual over its film: a film of an
+atom's height that fluid flows into opens by a few of its heights in a step.
 
-By a mean of the mobility that vanishes with either side, more pressure at a node, which makes its fluid
-stiffer, may drive less flow out of it: beyond that fold its pressure runs away, and Newton's step near
-it is as good as random. There the time step is so short that the node is stable by itself: it passes
-the fold slowly, the residual hardly falling, and the rest follows. On rough surfaces a valley's fluid pries
-the closed gap beside it open in the same way: the more it opens the more flows in.
+Means of the mobility that vanish with either side have a fold: more pressure makes the fluid stiffer, and
+may drive less flow out of the node. Beyond the fold the pressure runs away, and near it a Newton step is as
+good as random. There the time step is so short that the node is stable by itself. It passes the fold
+slowly, the residual hardly falls, and the rest follows. On rough surfaces, fluid in a valley opens the
+closed gap beside it in the same way: the wider the gap, the more flows in.
 """
 
 import numpy as np
@@ -26,9 +26,9 @@ full contact takes the same steps, mixed lubrication 65 to 58 convolutions, a fi
 to 419."""
 
 OF_NODES = {"arithmetic": 0.1, "logarithmic": 0.1, "linear-gap": 0.1, "geometric": 0.1, "harmonic": 1.0}
-"""Part of the rate that goes by a node's own residual and film, by the mean of the mobility. From nothing
-to ten times as much full contact takes the same steps, mixed lubrication 58 to 68 convolutions and a film
-by the geometric mean 337 to 373. Shut-in nodes need it."""
+"""Part of the rate that follows a node's own residual and film, for each mean of the mobility. From nothing
+to ten times as much, full contact takes the same steps, mixed lubrication 58 to 68 convolutions, and a
+film by the geometric mean 337 to 373. Shut-in nodes need it."""
 
 STABLE = 0.6
 """Rate per cell by which a node is kept from its fold: its neighbours bring it nearer. Points on 129 nodes
@@ -40,7 +40,7 @@ LAST_STEPS = 1e-6
 1e-5 the same by the geometric mean, by the harmonic 823 to 690 convolutions."""
 
 FILLING = 0.3
-"""Largest of a node's own rates, per cell, where fluid flows in."""
+"""Upper limit of a node's own rate, per cell, where fluid flows in."""
 
 THINNEST = 1e-9
 """Film of which a node's own rate is reckoned where H_th (1e-6 of the paper's ball) does not say more: so

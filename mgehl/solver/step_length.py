@@ -1,4 +1,4 @@
-"""How much of a Newton step is gone: no pressure and no film may change by too much at once."""
+"""How much of a Newton step is taken: no pressure and no film may change by too much at once."""
 
 import numpy as np
 

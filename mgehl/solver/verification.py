@@ -172,10 +172,10 @@ def _at_face(near, far, known, across):
 def complementarity_error(problem, state, evaluation):
     """Largest breach of the conditions that define the partition, in units of P and H.
 
-    Lubricated: P >= 0 (if the film cavitates) and H >= 0 (where bodies may touch).
-    Cavitated: P = 0, H >= 0 and no inflow. Contact: P >= 0 and H = 0, or the film that it keeps and no
-    inflow. Fluid shut in along the motion counts as 1. (H_th is where contact is entered; a node that would
-    be tensile in contact may stay film with a gap between 0 and H_th.)
+    Lubricated: P >= 0 (if the film cavitates) and H >= 0 (where bodies may touch). Cavitated: P = 0, H >= 0
+    and no inflow. Contact: P >= 0 and H = 0, or the boundary film and no inflow. Fluid shut in along the
+    motion counts as 1. A film node whose gap falls below H_th becomes contact. A node that contact has
+    released stays film until the bodies would overlap, so its gap may lie between 0 and H_th.
     """
     grid, status, scheme = problem.grid, state.status, problem.scheme
     law = scheme.contact_law

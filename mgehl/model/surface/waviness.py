@@ -9,7 +9,7 @@ from mgehl.model.frame import direction
 from mgehl.model.surface.surface import JUST, Surface
 
 NO_CHANGE = 1e-12
-"""Part of a wave number along a direction that is none."""
+"""A smaller part of a wave number along a direction counts as none."""
 
 
 @dataclass(frozen=True)
