@@ -11,7 +11,9 @@ import tomllib
 from pathlib import Path
 
 import pytest
+from mpi4py import MPI
 
+import mgehl
 from mgehl.cli import main, read
 from mgehl.commands.keys import describe_keys
 from mgehl.config import config_from_tables, load_config
@@ -72,6 +74,14 @@ def test_a_table_of_findings_is_the_one_the_runs_wrote(table):
 
 def test_first_case_is_a_valid_configuration():
     assert config_from_tables(tomllib.loads(FIRST_CASE)).contact.load == pytest.approx(250.0)
+
+
+def test_the_verdict_shown_is_that_of_the_first_case():
+    """All of it but the residuals, which are rounding."""
+    (shown,) = re.findall(r"```text\n(CONVERGED.*?)```", README, flags=re.DOTALL)
+    words = str(mgehl.solve(config_from_tables(tomllib.loads(FIRST_CASE)), MPI.COMM_SELF)).splitlines()
+    lines = [line for line in shown.splitlines() if not line.startswith("  residual")]
+    assert len(lines) > 5 and [line for line in lines if line not in words] == []
 
 
 def test_own_laws_are_a_valid_configuration(tmp_path, capsys):
