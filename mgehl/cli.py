@@ -7,7 +7,7 @@
     python -m mgehl report RUN
     python -m mgehl check CONFIG [--set key=value ...] [--ranks N]
     python -m mgehl new NAME [--kind point|line|wedge]
-    python -m mgehl keys | info | bench | completion
+    python -m mgehl keys | info | bench | completion | --version
 
 `mgehl --help` lists all commands; `mgehl.commands` holds them, a module each.
 
@@ -19,6 +19,7 @@ mgehl_fluid_ for the fluid solved apart), global ones none (-log_view). Unused o
 import argparse
 import logging
 import os
+import re
 import sys
 import time
 import warnings
@@ -28,12 +29,16 @@ from mgehl.commands import COMMANDS, USAGE
 from mgehl.errors import one_line
 from mgehl.failures import told
 from mgehl.petsc_options import check_options
+from mgehl.version import VERSION
 
 PATIENCE = 5.0
 """Seconds after which a rank with an error ends the job if the others do not join it."""
 
 LONGEST = 300
 """Characters of what is wrong with a command line."""
+
+QUOTED = re.compile(r"(?:[^\s']|'[^']*')+")
+"""A word of a shell, with what is quoted in it."""
 
 QUIET_PETSC = "-no_signal_handler"
 """PETSc takes over the signals otherwise, and ends a program whose reader has read enough."""
@@ -102,10 +107,17 @@ def _flushed(status, is_run):
 
 
 class _Help(argparse.HelpFormatter):
-    """Wraps everything but examples, which are to be copied."""
+    """Breaks lines at spaces; those of examples so that a shell takes what is copied."""
 
     def _fill_text(self, text, width, indent):
-        return text if text.startswith("example: ") else super()._fill_text(text, width, indent)
+        if not text.startswith("example: "):
+            return super()._fill_text(text, width, indent)
+        lines = [""]
+        for word in QUOTED.findall(text):
+            if lines[-1] and len(lines[-1]) + len(word) + 3 > width:
+                lines.append(" " * len("example:"))
+            lines[-1] += f" {word}" if lines[-1] else word
+        return " \\\n".join(lines)
 
 
 class _Parser(argparse.ArgumentParser):
@@ -130,6 +142,7 @@ def parser():
     top = _Parser(
         prog="mgehl", description="Multigrid for mixed and boundary lubrication of loaded contacts."
     )
+    top.add_argument("--version", action="version", version=f"mgehl {VERSION}")
     commands = top.add_subparsers(dest="command", required=True, metavar="COMMAND")
     for name in COMMANDS:
         module = import_module(f"mgehl.commands.{name}")
@@ -143,7 +156,7 @@ def read(own, petsc=()):
     for word in petsc:
         if word.startswith("--"):
             top.error(f"{word}: PETSc options take one dash and come last")
-    command = top.parse_args(own)
+    command = top.parse_args(own or ["--help"])
     for name, value in vars(command).items():
         _check_word(top, name, value if isinstance(value, list) else [value])
     return command

@@ -3,10 +3,14 @@
 from mgehl.commands import CONVERGED, add_configuration, add_settings
 from mgehl.config import default_config, load_config
 from mgehl.errors import UserError
+from mgehl.saying import columns, folded
 
 PARALLEL = False
 
 GiB = 2**30
+
+NAME = 11
+"""Columns of what a line is about."""
 
 
 def add(commands):
@@ -36,7 +40,9 @@ def execute(options):
     check_contact(config, contact)
     mesh = mesh_from(config, contact)
     print(f"{options.config or default_config()}: valid, a {config.kind.noun}\n")
-    print(*_described(config, contact, mesh), *_estimate(config, contact, mesh, options.ranks), sep="\n")
+    lines = *_described(config, contact, mesh), *_estimate(config, contact, mesh, options.ranks)
+    width = columns()
+    print(*(folded(line, " " * NAME, width) for line in lines), sep="\n")
     return CONVERGED
 
 
