@@ -43,7 +43,7 @@ def folded(line, indent, width):
 
     Words that are longer, such as paths, stay whole. Without a width the line stays as it is.
     """
-    if width is None or len(line) <= width:
+    if width is None or len(line) <= width or " " not in line[len(indent) :].strip():
         return line
     return textwrap.fill(
         line, max(width, len(indent) + NARROWEST), subsequent_indent=indent, break_long_words=False,

@@ -57,13 +57,14 @@ def _described(config, contact, mesh):
 
 def _inlet(config, contact, mesh):
     """Lines about the inlet on every grid."""
+    from mgehl.kinds.loaded import speed_words
     from mgehl.output.domain import domain_verdict, domain_words, film_lost, room_words
     from mgehl.output.forecast import LARGEST_NODES, inlet_grids
     from mgehl.output.resolution import RESOLVED_CELLS, expectation, resolving_nodes
 
     grids = inlet_grids(config, contact)
     for grid in grids:
-        at = "" if grid.speed is None else f"   solved at {1e3 * grid.speed:.4g} mm/s"
+        at = "" if grid.speed is None else f"   solved at {speed_words(grid.speed)}"
         yield f"grid {grid.nodes:5d}   {grid.cells:8.2f} cells in the inlet{at}"
     needed = resolving_nodes(contact, mesh)
     cells, start = grids[-1].cells, config.solver.start

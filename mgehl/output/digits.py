@@ -26,7 +26,7 @@ def with_band(value, half_width):
 
 def plain(value):
     """A film without a band: four digits after the point; of a diverged run four in all."""
-    return f"{value + 0.0:.4f}" if abs(value) < 1e7 else f"{value:.3e}"
+    return f"{round(value, 4) + 0.0:.4f}" if abs(value) < 1e7 else f"{value:.3e}"
 
 
 def decimals_of(half_width):
