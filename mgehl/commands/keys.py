@@ -9,7 +9,7 @@ from mgehl.saying import columns, folded
 PARALLEL = False
 
 NAME = 33
-"""Columns of a key's name."""
+"""Columns of a key's name and the space after it."""
 
 
 def add(commands):
@@ -35,7 +35,7 @@ def describe_keys():
     for name, section in SECTIONS.items():
         if section in told:
             lines.append(
-                f"{name + '.*':{NAME}}the keys of {told[section]} once more, for what is added to it"
+                f"{name + '.*':{NAME - 1}} the keys of {told[section]} once more, for what is added to it"
             )
             continue
         told[section] = name
@@ -44,5 +44,5 @@ def describe_keys():
             choices = f" ({', '.join(rules['words'])})" if rules["words"] else ""
             unit = f" {rules['unit']}" if rules["unit"] else ""
             default = f"unset{unit and ','}{unit}" if key.default is None else f"{key.default}{unit}"
-            lines.append(f"{name + '.' + key.name:{NAME}}{rules['help']}{choices} [{default}]")
+            lines.append(f"{name + '.' + key.name:{NAME - 1}} {rules['help']}{choices} [{default}]")
     return "\n".join(lines)
