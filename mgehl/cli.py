@@ -7,7 +7,7 @@
     python -m mgehl report RUN
     python -m mgehl check CONFIG [--set key=value ...] [--ranks N]
     python -m mgehl new NAME [--kind point|line|wedge]
-    python -m mgehl keys | info | bench | completion
+    python -m mgehl keys | info | bench | completion | --version
 
 `mgehl --help` lists all commands; `mgehl.commands` holds them, a module each.
 
@@ -19,6 +19,7 @@ mgehl_fluid_ for the fluid solved apart), global ones none (-log_view). Unused o
 import argparse
 import logging
 import os
+import re
 import sys
 import time
 import warnings
@@ -35,6 +36,9 @@ PATIENCE = 5.0
 
 LONGEST = 300
 """Characters of what is wrong with a command line."""
+
+QUOTED = re.compile(r"(?:[^\s']|'[^']*')+")
+"""A word of a shell, with what is quoted in it."""
 
 QUIET_PETSC = "-no_signal_handler"
 """PETSc takes over the signals otherwise, and ends a program whose reader has read enough."""
@@ -103,10 +107,17 @@ def _flushed(status, is_run):
 
 
 class _Help(argparse.HelpFormatter):
-    """Wraps everything but examples, which are to be copied."""
+    """Breaks lines at spaces; those of examples so that a shell takes what is copied."""
 
     def _fill_text(self, text, width, indent):
-        return text if text.startswith("example: ") else super()._fill_text(text, width, indent)
+        if not text.startswith("example: "):
+            return super()._fill_text(text, width, indent)
+        lines = [""]
+        for word in QUOTED.findall(text):
+            if lines[-1] and len(lines[-1]) + len(word) + 3 > width:
+                lines.append(" " * len("example:"))
+            lines[-1] += f" {word}" if lines[-1] else word
+        return " \\\n".join(lines)
 
 
 class _Parser(argparse.ArgumentParser):

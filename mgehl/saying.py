@@ -2,9 +2,13 @@
 
 import os
 import sys
+import textwrap
 from contextlib import suppress
 
 from mgehl.errors import printable
+
+NARROWEST = 20
+"""Columns of text that are left beside an indent, on however narrow a terminal."""
 
 
 def say(*words, sep=" "):
@@ -21,6 +25,30 @@ def complain(words):
         print(f"mgehl: {printable(words)}", file=sys.stderr, flush=True)
     except (OSError, ValueError):
         silence(sys.stderr)
+
+
+def columns():
+    """Columns of the terminal that standard output is, or that COLUMNS says; None where there is none."""
+    said = os.environ.get("COLUMNS", "")
+    if said.isdecimal() and int(said) > 0:
+        return int(said)
+    try:
+        return os.get_terminal_size(sys.stdout.fileno()).columns or None
+    except (OSError, ValueError, AttributeError):  # no terminal, or closed
+        return None
+
+
+def folded(line, indent, width):
+    """A line broken at spaces, so that none is longer than `width` columns; `indent` begins those after.
+
+    Words that are longer, such as paths, stay whole. Without a width the line stays as it is.
+    """
+    if width is None or len(line) <= width or " " not in line[len(indent) :].strip():
+        return line
+    return textwrap.fill(
+        line, max(width, len(indent) + NARROWEST), subsequent_indent=indent, break_long_words=False,
+        break_on_hyphens=False, drop_whitespace=True,
+    )  # fmt: skip
 
 
 def silence(stream):

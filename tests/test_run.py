@@ -120,7 +120,7 @@ def test_a_run_that_does_not_converge_still_leaves_everything(tmp_path):
 def test_it_says_what_it_does_and_whether_to_trust_it(tmp_path, capsys):
     run(config_from_tables(FILM), tmp_path, MPI.COMM_SELF, Watch(Lines()))
     out = capsys.readouterr().out
-    assert "grid    65" in out
+    assert "  65 nodes" in out and max(map(len, out.splitlines()[:5])) <= 80
     assert "\nCONVERGED" in out
     assert str(tmp_path) in out.splitlines()[-1]
 

@@ -3,10 +3,14 @@
 from mgehl.commands import CONVERGED, add_configuration, add_settings, shown
 from mgehl.config import chosen_config, load_config
 from mgehl.errors import UserError
+from mgehl.saying import columns, folded
 
 PARALLEL = False
 
 GiB = 2**30
+
+NAME = 11
+"""Columns of what a line is about."""
 
 
 def add(commands):
@@ -37,7 +41,9 @@ def execute(options):
     check_contact(config, contact)
     mesh = mesh_from(config, contact)
     print(f"{options.config or shown(file)}: valid, a {config.kind.noun}\n")
-    print(*_described(config, contact, mesh), *_estimate(config, contact, mesh, options.ranks), sep="\n")
+    lines = *_described(config, contact, mesh), *_estimate(config, contact, mesh, options.ranks)
+    width = columns()
+    print(*(folded(line, " " * NAME, width) for line in lines), sep="\n")
     return CONVERGED
 
 
@@ -52,13 +58,14 @@ def _described(config, contact, mesh):
 
 def _inlet(config, contact, mesh):
     """Lines about the inlet on every grid."""
+    from mgehl.kinds.loaded import speed_words
     from mgehl.output.domain import domain_verdict, domain_words, film_lost, room_words
     from mgehl.output.forecast import LARGEST_NODES, inlet_grids
     from mgehl.output.resolution import RESOLVED_CELLS, expectation, resolving_nodes
 
     grids = inlet_grids(config, contact)
     for grid in grids:
-        at = "" if grid.speed is None else f"   solved at {1e3 * grid.speed:.4g} mm/s"
+        at = "" if grid.speed is None else f"   solved at {speed_words(grid.speed)}"
         yield f"grid {grid.nodes:5d}   {grid.cells:8.2f} cells in the inlet{at}"
     needed = resolving_nodes(contact, mesh)
     cells, start = grids[-1].cells, config.solver.start

@@ -23,8 +23,10 @@ def add(commands):
 
 
 def execute(options):
-    """Print the table; write it as CSV, too, where asked to."""
+    """Print the table, drawn on a terminal and else in Markdown; write it as CSV, too, where asked to."""
+    from mgehl.output.drawn_table import drawn
     from mgehl.output.table import collect, markdown, with_bands, write_csv
+    from mgehl.saying import columns as terminal_columns
 
     try:
         rows = collect(options.runs)
@@ -39,5 +41,6 @@ def execute(options):
     unknown = [column for column in columns if column not in rows[0]]
     if unknown:
         raise UserError(f"--columns {unknown[0]}: known are {', '.join(rows[0])}")
-    print(markdown(rows, columns))
+    width = terminal_columns()
+    print(drawn(rows, columns, width) if width else markdown(rows, columns))
     return CONVERGED

@@ -5,12 +5,16 @@ from dataclasses import asdict
 
 from mgehl.commands import CONVERGED, add_configuration
 from mgehl.config import chosen_config, load_config
+from mgehl.saying import columns, folded
 
 PARALLEL = True
 """MPI tells how many ranks there are."""
 
 LONG = ("configured",)
 """Keys that only --json prints: PETSc's configure options fill a screen."""
+
+VALUE = 37
+"""Where the values begin."""
 
 
 def add(commands):
@@ -55,7 +59,8 @@ def _lines(sections):
         for position, (key, value) in enumerate(section.items()):
             words = key if key.isupper() else key.replace("_", " ")
             if key not in LONG:
-                yield f"{name if position == 0 else '':14} {words:21} {_text(value)}"
+                line = f"{name if position == 0 else '':14} {words:21} {_text(value)}"
+                yield folded(line, VALUE * " ", columns())
 
 
 def _text(value):

@@ -4,8 +4,12 @@ from dataclasses import fields
 
 from mgehl.commands import CONVERGED
 from mgehl.config import SECTIONS
+from mgehl.saying import columns, folded
 
 PARALLEL = False
+
+NAME = 33
+"""Columns of a key's name and the space after it."""
 
 
 def add(commands):
@@ -19,8 +23,9 @@ def add(commands):
 
 
 def execute(_options):
-    """Print the list."""
-    print(describe_keys())
+    """Print the list; on a terminal its lines are broken at spaces."""
+    width = columns()
+    print(*(folded(line, " " * NAME, width) for line in describe_keys().splitlines()), sep="\n")
     return CONVERGED
 
 
@@ -29,7 +34,9 @@ def describe_keys():
     lines, told = [], {}
     for name, section in SECTIONS.items():
         if section in told:
-            lines.append(f"{name + '.*':32} the keys of {told[section]} once more, for what is added to it")
+            lines.append(
+                f"{name + '.*':{NAME - 1}} the keys of {told[section]} once more, for what is added to it"
+            )
             continue
         told[section] = name
         for key in fields(section):
@@ -37,5 +44,5 @@ def describe_keys():
             choices = f" ({', '.join(rules['words'])})" if rules["words"] else ""
             unit = f" {rules['unit']}" if rules["unit"] else ""
             default = f"unset{unit and ','}{unit}" if key.default is None else f"{key.default}{unit}"
-            lines.append(f"{name + '.' + key.name:32} {rules['help']}{choices} [{default}]")
+            lines.append(f"{name + '.' + key.name:{NAME - 1}} {rules['help']}{choices} [{default}]")
     return "\n".join(lines)

@@ -41,6 +41,7 @@ def add(commands):
     how = parser.add_mutually_exclusive_group()
     how.add_argument("--quiet", action="store_true", help="print nothing but errors")
     how.add_argument("--json-lines", action="store_true", help="print a JSON object per cycle")
+    how.add_argument("--verbose", action="store_true", help="print all of each cycle and of the result")
     return parser
 
 
@@ -59,7 +60,8 @@ def _run(config, directory, start, comm, options, save_every, limit):
     from mgehl.run import Watch, run
     from mgehl.stopping import StopWhenTold
 
-    words = speaker(options.quiet, options.json_lines) if comm.rank == 0 else SILENT
+    spoken = speaker(options.quiet, options.json_lines, verbose=options.verbose)
+    words = spoken if comm.rank == 0 else SILENT
     hint = f"go on with: mgehl run --resume {quote(str(directory))}"
     with StopWhenTold(hint, limit) as stop, words:
         return run(config, directory, comm, Watch(words, save_every=save_every, stop=stop), start)

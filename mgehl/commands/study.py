@@ -55,9 +55,9 @@ def add(commands):
     parser.add_argument("--nodes", "--grid", metavar="N,N,...", help="grids instead of the study's own")
     parser.add_argument("--direction", choices=("down", "up", "both"),
                        help="branches that study transition follows (default: both)")  # fmt: skip
-    parser.add_argument("--mean", choices=FACE_MOBILITIES,
-                       help="mean of the mobility that study transition follows "
-                       "(default: arithmetic)")  # fmt: skip
+    parser.add_argument("--mean", choices=FACE_MOBILITIES, metavar="MEAN",
+                       help="mean of the mobility that study transition follows: "
+                       f"{', '.join(FACE_MOBILITIES)} (default: arithmetic)")  # fmt: skip
     parser.add_argument("--boundary-film", metavar="LENGTH",
                        help="film of adsorbed layers in study rough (default: 2 nm)")  # fmt: skip
     parser.add_argument("--out", metavar="DIR", help="directory of the results (default: runs/study-NAME)")

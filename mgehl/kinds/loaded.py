@@ -155,8 +155,8 @@ def _with_bands(effort):
 
 
 def speed_words(u):
-    """A speed in mm/s."""
-    return f"{1e3 * u:.4g} mm/s"
+    """A speed in mm/s, from 1 m/s on in m/s."""
+    return f"{u:.4g} m/s" if u >= 1.0 - 1e-12 else f"{1e3 * u:.4g} mm/s"
 
 
 def lubricant_from(config):

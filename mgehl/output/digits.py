@@ -6,6 +6,16 @@ MOST_DECIMALS = 9
 """Of nanometres: far below an atom, and within what a double holds."""
 
 
+def is_number(text):
+    """True of a number, and of one with its band."""
+    try:
+        for part in text.split(" ± "):
+            float(part)
+    except ValueError:
+        return False
+    return True
+
+
 def with_band(value, half_width):
     """A film and the half-width of its band, both of one unit; four decimals where there is no band."""
     if half_width is None or not (isfinite(value) and isfinite(half_width)):
@@ -16,7 +26,7 @@ def with_band(value, half_width):
 
 def plain(value):
     """A film without a band: four digits after the point; of a diverged run four in all."""
-    return f"{value + 0.0:.4f}" if abs(value) < 1e7 else f"{value:.3e}"
+    return f"{round(value, 4) + 0.0:.4f}" if abs(value) < 1e7 else f"{value:.3e}"
 
 
 def decimals_of(half_width):

@@ -59,8 +59,12 @@ class DryResult:
         """There is no film to have a band."""
         return NO_FILM
 
-    def __str__(self):
+    def words(self, verbose=True):
+        """The answer and whether it can be trusted; all that there is, or what most want to know."""
         return dry_words(self)
+
+    def __str__(self):
+        return self.words()
 
 
 def summarise_dry(problem, outcome, tolerance, work, wall_s, versions):

@@ -3,6 +3,7 @@
 import time
 from dataclasses import dataclass
 
+from mgehl.kinds.loaded import speed_words
 from mgehl.output.terminal import seconds_left
 
 
@@ -24,12 +25,15 @@ class Progress:
         row = self._row(self._kind, level, cycle)
         self.rows.append(row)
         left = seconds_left(self.rows, self._finest, self._tolerance)
-        self._speaker.row(row, self._kind.line(row), left)
+        self._speaker.row(row, self._line(self._kind, row), left)
 
     def beside(self, level, cycle):
         """Tell of a Newton cycle that is no part of the way to the answer, and forget it."""
         row = self._row(NEWTON, level, cycle)
-        self._speaker.row(row, NEWTON.line(row))
+        self._speaker.row(row, self._line(NEWTON, row))
+
+    def _line(self, kind, row):
+        return (kind.line if self._speaker.verbose else kind.short)(row)
 
     def _row(self, kind, level, cycle):
         speed = {} if level.speed is None else {"speed_mm_s": 1e3 * level.speed}
@@ -71,8 +75,17 @@ def newton_row(cycle, nm):
     }
 
 
+def short_line(row):
+    """A Newton cycle or a sweep on the terminal, in 80 columns."""
+    return (
+        f"{row['grid']:4d} nodes  {speed_words(1e-3 * row['speed_mm_s']):>9}  step {row['step']:2d}  "
+        f"residual {row['residual']:7.1e}  film {row['central_film_nm']:6.4g} nm  "
+        f"contact {row['contact_nodes']}"
+    )
+
+
 def newton_line(row):
-    """A Newton cycle on the terminal."""
+    """All of a Newton cycle."""
     return f"{_state(row)}  changed {row['changed_nodes']:5d}"
 
 
@@ -83,7 +96,7 @@ def sweep_row(sweep, nm):
 
 
 def sweep_line(row):
-    """A relaxation sweep on the terminal."""
+    """All of a relaxation sweep."""
     apart = f"lubr. {row['e_p_lubr']:8.2e}, solid {row['e_p_solid']:8.2e}"
     return f"{_state(row)}  e^p {row['e_p']:8.2e} ({apart})"
 
@@ -93,8 +106,16 @@ def dry_row(step, nm):
     return vars(step) | {"gap_nm": step.residual * nm}
 
 
+def short_dry_line(row):
+    """A set of pressed nodes on the terminal, in 80 columns."""
+    return (
+        f"{row['grid']:4d} nodes  step {row['step']:2d}  gap in contact {row['gap_nm']:7.1e} nm  "
+        f"contact {row['contact_nodes']}  changed {row['changed_nodes']}"
+    )
+
+
 def dry_line(row):
-    """A set of pressed nodes on the terminal."""
+    """All of a set of pressed nodes."""
     return (
         f"grid {row['grid']:5d}  dry  step {row['step']:2d}  gap in contact {row['gap_nm']:8.2e} nm  "
         f"contact {row['contact_nodes']:6d}  changed {row['changed_nodes']:5d}  "
@@ -104,15 +125,16 @@ def dry_line(row):
 
 @dataclass(frozen=True)
 class Kind:
-    """What history.csv keeps of a cycle and what the terminal shows of that."""
+    """What history.csv keeps of a cycle and what the terminal shows of that: all, or a short line."""
 
     row: object
     line: object
+    short: object
 
 
-NEWTON = Kind(newton_row, newton_line)
-RELAXATION = Kind(sweep_row, sweep_line)
-DRY = Kind(dry_row, dry_line)
+NEWTON = Kind(newton_row, newton_line, short_line)
+RELAXATION = Kind(sweep_row, sweep_line, short_line)
+DRY = Kind(dry_row, dry_line, short_dry_line)
 
 
 def _state_row(cycle, nm):

@@ -122,8 +122,12 @@ class Result:
             return "Eq. 2 is broken"
         return self.edge.wrong[0] or "Eq. 2 is broken"
 
+    def words(self, verbose=True):
+        """The answer and whether it can be trusted; all that there is, or what most want to know."""
+        return loaded_words(self, verbose)
+
     def __str__(self):
-        return loaded_words(self)
+        return self.words()
 
 
 def summarise(problem, outcome, tolerance, work, wall_s, versions):

@@ -7,12 +7,21 @@ from contextlib import suppress
 from dataclasses import asdict
 from math import ceil, inf, isfinite, log
 
+from mgehl.output.advice import what_next
 from mgehl.output.files import finite
-from mgehl.saying import complain, say
+from mgehl.saying import columns, complain, folded, say
+
+HANGING = "    "
+"""Before the rest of a line that is broken."""
+BAR = 24
+"""Columns of the bar."""
 
 
 class Silent:
     """Says nothing. The interface of the others, which are context managers, too."""
+
+    verbose = False
+    """Whether lines are to have all that there is."""
 
     def __enter__(self):
         return self
@@ -39,13 +48,22 @@ class Quiet(Silent):
 
 
 class Lines(Silent):
-    """A line per cycle, at last the answer and whether to trust it."""
+    """A line per cycle, at last the answer and whether to trust it.
+
+    On a terminal lines are broken at spaces. `verbose` ones have all, however long.
+    """
+
+    def __init__(self, verbose=False):
+        self.verbose = verbose
 
     def row(self, row, line, left=None):
         say(line)
 
     def end(self, solution, directory):
-        say(solution, f"  results in {directory}", sep="\n")
+        lines = solution.result.words(self.verbose).splitlines()
+        lines += [f"  {line}" for line in (*what_next(solution), f"results in {directory}")]
+        width = columns()
+        say(*(folded(line, HANGING, width) for line in lines), sep="\n")
 
 
 class JsonLines(Silent):
@@ -60,14 +78,18 @@ class JsonLines(Silent):
 
 
 class Live(Lines):
-    """Lines as ever, and under them a bar with the time that is left."""
+    """Lines as ever, and under them a bar with the time that is gone and left.
+
+    It moves to and fro as long as nobody can tell how long it takes.
+    """
 
     def __enter__(self):
-        from rich.progress import BarColumn, Progress, TextColumn
+        from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
-        words = TextColumn("{task.description}")
-        self._display = Progress(words, BarColumn(), TextColumn("{task.fields[left]}"), transient=True)
-        self._task = self._display.add_task("starting", total=1.0, left="")
+        words, left = TextColumn("{task.description}"), TextColumn("{task.fields[left]}")
+        bar = BarColumn(bar_width=BAR)
+        self._display = Progress(words, bar, TimeElapsedColumn(), left, transient=True)
+        self._task = self._display.add_task("first guess", total=None, left="")
         with _AS_LONG_AS_IT_SHOWS:
             self._display.start()
         return self
@@ -80,10 +102,11 @@ class Live(Lines):
         spent = row.get("seconds", 0.0)
         done = None if left is None else spent / max(spent + left, 1e-9)
         what = f"{row['grid']} nodes, step {row['step']}"
+        known = {} if done is None else {"total": 1.0, "completed": done}
         told = "" if left is None else f"about {ceil(left)} s left"
         with _AS_LONG_AS_IT_SHOWS:
             self._display.console.print(line, highlight=False, markup=False, soft_wrap=True)
-            self._display.update(self._task, description=what, completed=done, left=told)
+            self._display.update(self._task, description=what, left=told, **known)
 
     def end(self, solution, directory):
         with _AS_LONG_AS_IT_SHOWS:
@@ -95,13 +118,13 @@ _AS_LONG_AS_IT_SHOWS = suppress(OSError, ValueError)
 """A terminal may be closed."""
 
 
-def speaker(quiet=False, json_lines=False, stream=None):
+def speaker(quiet=False, json_lines=False, stream=None, verbose=False):
     """The speaker that options and the terminal ask for."""
     if quiet:
         return Quiet()
     if json_lines:
         return JsonLines()
-    return Live() if _shows(stream or sys.stdout) else Lines()
+    return (Live if _shows(stream or sys.stdout) else Lines)(verbose)
 
 
 def _shows(stream):

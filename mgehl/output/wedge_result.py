@@ -45,8 +45,12 @@ class WedgeResult:
         """None: the gap is given."""
         return Overlap(0, 0.0)
 
-    def __str__(self):
+    def words(self, verbose=True):
+        """The answer and whether it can be trusted; all that there is, or what most want to know."""
         return bearing_words(self)
+
+    def __str__(self):
+        return self.words()
 
 
 def summarise_wedge(problem, outcome, wall_s, versions):

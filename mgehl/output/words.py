@@ -7,6 +7,9 @@ from mgehl.output.domain import domain_words
 from mgehl.output.resolution import RESOLVED_CELLS, SEEN_CELLS
 from mgehl.output.surface import surface_words
 
+LISTED = 20
+"""Nodes that are named one by one."""
+
 FAILED = 'what now: configs/README.md, "It did not converge: what now?"'
 UNRESOLVED = 'how to do better: configs/README.md, "Choosing the domain and the grid"'
 
@@ -56,27 +59,27 @@ def dry_words(result):
     return "\n".join(lines + where_to_read(result))
 
 
-def loaded_words(result):
+def loaded_words(result, verbose=True):
     """The answer of a loaded contact, and whether and why it can be trusted."""
-    contact, inequality, resolution = result.contact, result.pressure_inequality, result.resolution
-    overlap = result.overlap
+    resolution = result.resolution
     verdict = "CONVERGED" if result.converged else "NOT CONVERGED"
     if result.settled and not result.converged:
         verdict = f"SETTLED, BUT {result.doubt.upper()}"
+    shown = surface_words(resolution.surface, resolution.surface_nodes)
     lines = [
         f"{verdict}: {result.reason}",
         f"  {films_words(result)}, largest pressure {_number(result.max_pressure_GPa)} GPa",
         f"  {band_words(result.error)}",
-        f"  residual {result.residual:.1e}, load error {result.load_error:.1e}, complementarity "
-        f"{result.complementarity_error:.1e}, flux imbalance {result.flux_imbalance:.1e}",
-        f"  contact: {contact.nodes} nodes, {100 * contact.area_fraction:.2f} % of the Hertz area; "
-        f"nodes {span(contact.x_nodes)} on Y = 0, {span(contact.y_nodes)} on X = 0; "
-        f"largest gap {contact.largest_gap_nm:.1e} nm",
-        f"  pressure inequality broken at {inequality.violations} of {inequality.checked} interface nodes",
+        *(_errors(result) if verbose else ()),
+        *_overlap(result.overlap),
+        *_contact(result, verbose),
         f"  inlet: {resolution.inlet_cells:.2f} cells, {ADVICE[resolution.verdict]}",
         f"  domain: {domain_words(resolution.domain, resolution.domain_loss_percent)}",
+        *((f"  surface: {shown}",) if shown else ()),
+        *(mixed_lines(result.mixed) if result.mixed else ()),
         f"  work: {result.work.convolutions:.1f} fine-grid convolutions, {result.work.steps} steps, "
         f"{result.wall_s:.1f} s on {result.ranks} ranks",
+        *(_nodes(result) if verbose else ()),
     ]
     if shown := surface_words(resolution.surface, resolution.surface_nodes):
         lines.insert(-1, f"  surface: {shown}")
@@ -98,6 +101,48 @@ def loaded_words(result):
     if inequality.violations > 20:
         lines.append(f"  ... and at {inequality.violations - 20} more nodes, listed in result.json")
     return "\n".join(lines + where_to_read(result))
+    return "\n".join(lines)
+
+
+def _errors(result):
+    yield (
+        f"  residual {result.residual:.1e}, load error {result.load_error:.1e}, complementarity "
+        f"{result.complementarity_error:.1e}, flux imbalance {result.flux_imbalance:.1e}"
+    )
+
+
+def _overlap(overlap):
+    if overlap.nodes:
+        yield f"  THE BODIES OVERLAP at {overlap.nodes} nodes by up to {overlap.largest_nm:.2e} nm"
+
+
+def _contact(result, verbose):
+    """The solid contact, and where its pressure is below the fluid's."""
+    contact, inequality = result.contact, result.pressure_inequality
+    where = (
+        f"; nodes {span(contact.x_nodes)} on Y = 0, {span(contact.y_nodes)} on X = 0; "
+        f"largest gap {contact.largest_gap_nm:.1e} nm"
+    )
+    size = f"{contact.nodes} nodes, {100 * contact.area_fraction:.2f} % of the Hertz area"
+    yield f"  contact: {size}{where if verbose else ''}"
+    if verbose or inequality.violations:
+        broken = f"{inequality.violations} of {inequality.checked}"
+        yield f"  pressure inequality broken at {broken} interface nodes"
+
+
+def _nodes(result):
+    """Nodes that break Eq. 2 or can be neither film nor contact."""
+    inequality = result.pressure_inequality
+    for each in inequality.nodes[:LISTED]:
+        yield f"  Eq. 2 violated at node ({each['i']}, {each['j']}) by {each['size']:.2e} p_h"
+    for each in result.contradictions[:LISTED]:
+        yield (
+            f"  node ({each['i']}, {each['j']}): as film its gap is {each['film_gap_nm']:.2e} nm, "
+            f"as contact its pressure {each['contact_pressure']:.2e} p_h; "
+            f"beside it {', '.join(each['neighbours'])}"
+        )
+    if inequality.violations > LISTED:
+        yield f"  ... and at {inequality.violations - LISTED} more nodes, listed in result.json"
 
 
 def mixed_lines(mixed):

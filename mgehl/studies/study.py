@@ -10,12 +10,13 @@ from mpi4py import MPI
 
 from mgehl.config import config_from_tables
 from mgehl.errors import OutputError, one_line
+from mgehl.output.drawn_table import drawn
 from mgehl.output.files import on_first_rank
 from mgehl.output.solution_record import record_of, solution_from
 from mgehl.output.table import markdown, write_csv
 from mgehl.output.whole_file import write_whole
 from mgehl.run import solve
-from mgehl.saying import complain, say
+from mgehl.saying import columns, complain, say
 from mgehl.studies.cache import PointCache, key_of
 
 PAPER = {"discretization": {"couette": "1B", "face_mobility": "arithmetic"}}
@@ -103,7 +104,7 @@ class Study:
             raise OutputError(f"{self.directory}: cannot be written: {error}") from None
         write_whole(self.directory / f"{name}.md", text + "\n")
         if self.speak:
-            say(f"\n{name}\n\n{text}\n")
+            say(f"\n{name}\n\n{drawn(rows, list(rows[0]), columns())}\n")
 
     def _draw(self, name, function, arguments):
         path = self.directory / f"{name}.png"

@@ -10,6 +10,8 @@ import pytest
 
 from mgehl.cli import main, parser
 from mgehl.commands import COMMANDS
+from mgehl.commands.info import VALUE
+from mgehl.version import VERSION
 
 ROOT = Path(__file__).resolve().parents[2]
 SMALL = ["grid.nodes=65", "motion.speed=0.5 m/s", "solver.start=film"]
@@ -45,13 +47,50 @@ def example(name):
     return [sys.executable if word == "python" else word for word in words]
 
 
+@pytest.mark.parametrize("columns", [80, 120])
 @pytest.mark.parametrize("name", COMMANDS)
-def test_help_ends_with_the_example_as_it_is_to_be_typed(name, capsys):
+def test_help_ends_with_the_example_as_it_is_to_be_typed(name, columns, capsys, monkeypatch):
+    """Broken where a shell goes on, so that no line is too long."""
+    monkeypatch.setenv("COLUMNS", str(columns))
     with pytest.raises(SystemExit) as stop:
         main([name, "--help"])
     assert stop.value.code == 0
-    last = capsys.readouterr().out.rstrip().splitlines()[-1]
-    assert last == subparser(name).epilog and last.startswith("example: ") and f"mgehl {name}" in last
+    text = capsys.readouterr().out.rstrip()
+    assert max(map(len, text.splitlines())) <= columns
+    last = text[text.rindex("example: ") :]
+    assert last.count("\n") == last.count(" \\\n") < len(last.splitlines())
+    typed = shlex.split(last.removeprefix("example: ").replace("\\\n", ""))
+    assert typed == shlex.split(subparser(name).epilog.removeprefix("example: "))
+    assert f"mgehl {name}" in last
+
+
+def test_mgehl_alone_is_a_question_for_help(capsys):
+    with pytest.raises(SystemExit) as stop:
+        main([])
+    out, err = capsys.readouterr()
+    assert stop.value.code == 0 and err == "" and all(f"\n    {name}" in out for name in COMMANDS)
+
+
+def test_its_version(capsys):
+    with pytest.raises(SystemExit) as stop:
+        main(["--version"])
+    assert stop.value.code == 0 and capsys.readouterr().out == f"mgehl {VERSION}\n"
+
+
+@pytest.mark.parametrize("columns", [80, 120])
+@pytest.mark.parametrize("command", ["keys", "info"])
+def test_lists_are_broken_at_spaces(command, columns, capsys, monkeypatch):
+    """Nothing is lost: put together again, the lines are those without a terminal."""
+    monkeypatch.delenv("COLUMNS", raising=False)
+    assert main([command]) == 0
+    whole = capsys.readouterr().out
+    monkeypatch.setenv("COLUMNS", str(columns))
+    assert main([command]) == 0
+    broken = capsys.readouterr().out
+    assert broken.split() == whole.split()
+    assert len(broken.splitlines()) > len(whole.splitlines())
+    too_long = [line.split()[-1] for line in broken.splitlines() if len(line) > columns]
+    assert all(len(word) > columns - VALUE for word in too_long), "but for paths"
 
 
 @pytest.mark.parametrize("name", COMMANDS)

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from mgehl.output.progress import NEWTON, Progress
+from mgehl.output.progress import DRY, NEWTON, RELAXATION, Progress
 from mgehl.output.terminal import SILENT, Silent
 from mgehl.solver.nested import LevelSolve
 from mgehl.solver.outcome import Cycle
@@ -21,8 +21,8 @@ def cycle(step):
 class Told(Silent):
     """Keeps what it is told."""
 
-    def __init__(self):
-        self.told = []
+    def __init__(self, verbose):
+        self.told, self.verbose = [], verbose
 
     def row(self, row, line, left=None):
         self.told.append((row, line, left))
@@ -56,15 +56,28 @@ def test_newton_steps_are_counted_on_all_grids():
     assert progress.steps == 3
 
 
-def test_it_tells_the_speaker_of_each_cycle():
-    speaker = Told()
+FEW = ("129", "7.5 mm/s", "step  1", "1.5e-05", " 2 nm", "11")
+ALL = ("129", "7.5 mm/s", "step  1", "1.50e-05", "-2.0e-07", "2.0000", "1.0000 nm", "11", "222")
+
+
+@pytest.mark.parametrize("verbose, words", [(False, FEW), (True, ALL)])
+def test_it_tells_the_speaker_of_each_cycle(verbose, words):
+    speaker = Told(verbose)
     progress = make_progress(speaker)
     progress(LEVEL, cycle(0))
     progress(LEVEL, cycle(1))
     (_, _, first), (row, line, left) = speaker.told
     assert row is progress.rows[1] and first is None and left >= 0.0
-    for word in ("129", "7.5 mm/s", "step  1", "1.50e-05", "-2.0e-07", "2.0000", "1.0000 nm", "11", "222"):
-        assert word in line
+    assert all(word in line for word in words), line
+    assert verbose or "-2.0e-07" not in line
+
+
+@pytest.mark.parametrize("kind", [NEWTON, RELAXATION, DRY])
+def test_a_short_line_has_eighty_columns_at_the_most(kind):
+    """Of a grid of 4097 nodes with all of them counted by five digits."""
+    row = {"grid": 4097, "speed_mm_s": 0.005, "step": 60, "residual": 1.2e-5, "central_film_nm": -1234.5,
+           "contact_nodes": 12345, "gap_nm": 1.2e-5, "changed_nodes": 12345}  # fmt: skip
+    assert 60 < len(kind.short(row)) <= 80
 
 
 def test_it_goes_on_from_its_record():

@@ -38,6 +38,23 @@ class TestWords:
         assert lines[0] == "a line" and lines[1] == "CONVERGED: all holds"
         assert lines[-1] == "  results in runs/here" and err == ""
 
+    def test_on_a_terminal_they_are_broken_at_spaces(self, capsys, monkeypatch):
+        reason = " ".join(40 * ["sets"])
+        self.say(Lines(), reason=reason)
+        whole = capsys.readouterr().out
+        monkeypatch.setenv("COLUMNS", "80")
+        self.say(Lines(), reason=reason)
+        broken = capsys.readouterr().out
+        assert max(map(len, broken.splitlines())) <= 80 < max(map(len, whole.splitlines()))
+        assert broken.split() == whole.split()
+        assert "\n    sets " in broken
+
+    def test_verbose_ones_have_all(self, capsys):
+        self.say(Lines(verbose=True))
+        verbose = capsys.readouterr().out
+        self.say(Lines())
+        assert "flux imbalance" in verbose and "flux imbalance" not in capsys.readouterr().out
+
     def test_a_quiet_one_says_nothing(self, capsys):
         self.say(Quiet())
         assert capsys.readouterr() == ("", "")
@@ -97,6 +114,7 @@ class TestLive:
         "from mgehl.errors import Stopped\n"
         "from mgehl.output.terminal import speaker\n"
         "with speaker() as words:\n"
+        "    time.sleep(0.6)\n"
         "    for step in range(4):\n"
         "        words.row({'grid': 65, 'step': step, 'seconds': 1.0 + step}, f'[line] {step} ' + 99 * 'x',"
         " None if step == 0 else 6.2)\n"
@@ -125,7 +143,13 @@ class TestLive:
         return shown.decode()
 
     def test_it_tells_grid_step_and_time_left(self, shown):
-        assert "65 nodes, step 3" in shown and "about 7 s left" in shown
+        assert "65 nodes, step 3" in shown and "about 7 s left" in shown and "0:00:00" in shown
+
+    def test_its_bar_moves_before_anything_is_known(self, shown):
+        """Frames before the first line of a cycle differ: the bar goes to and fro."""
+        before = shown[: shown.index("[line]")]
+        frames = [each for each in before.split("\r") if "first guess" in each]
+        assert len(set(frames)) > 2
         assert "━" in shown or "╸" in shown or "-" in shown
 
     def test_lines_stay_whole_above_it(self, shown):

@@ -64,6 +64,22 @@ class TestOfALoadedContact:
                      "4..6", "none", "5.00 cells", "80.5", "14 steps", "1 ranks"):  # fmt: skip
             assert part in text
 
+    def test_what_most_want_to_know_is_shorter_but_keeps_the_warnings(self):
+        few, whole = (make_result().words(verbose) for verbose in (False, True))
+        assert set(few.splitlines()) < {line.split("; nodes")[0] for line in whole.splitlines()}
+        for part in (
+            "CONVERGED",
+            "12.0000 nm",
+            "contact: 3 nodes",
+            "inequality broken at 1 of 8",
+            "5.00 cells",
+        ):
+            assert part in few
+        for part in ("complementarity", "largest gap", "violated at node"):
+            assert part in whole and part not in few
+        none = InequalityResult(8, 0, 0.0, 1.5, [])
+        assert "inequality" not in make_result(pressure_inequality=none).words(verbose=False)
+
     def test_failure_comes_first(self):
         text = str(make_result(converged=False, settled=False, reason="sets still change 60 steps"))
         assert text.startswith("NOT CONVERGED: sets still change 60 steps")

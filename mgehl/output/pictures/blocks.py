@@ -20,6 +20,10 @@ class Blocks:
         stride = ceil(max(len(X), len(Y)) / most)
         self._x, self._y = (np.arange(0, len(line), stride) for line in (X, Y))
         self.X, self.Y = _centres(X, self._x), _centres(Y, self._y)
+        self.limits = *_limits(self.X), *_limits(self.Y)
+        """Left, right, lower and upper end of the blocks' centres."""
+        self.extent = *_edges(X, stride, len(self.X)), *_edges(Y, stride, len(self.Y))
+        """The same of the edges of whole blocks: the last ones may reach beyond the nodes."""
 
     def least(self, values):
         """The least of each block's values: (ny, nx) to (len(Y), len(X))."""
@@ -35,3 +39,16 @@ class Blocks:
 
 def _centres(line, starts):
     return np.add.reduceat(line, starts) / np.diff(starts, append=len(line))
+
+
+def _limits(centres):
+    """Where a line of blocks begins and ends; a single one is a unit wide."""
+    first, last = float(centres[0]), float(centres[-1])
+    return (first, last) if last > first else (first - 0.5, first + 0.5)
+
+
+def _edges(line, stride, blocks):
+    """Where the first block of a line of nodes begins, and where so many whole blocks end."""
+    cell = (line[-1] - line[0]) / (len(line) - 1) if len(line) > 1 else 1.0
+    first = float(line[0]) - 0.5 * cell
+    return first, first + blocks * stride * cell

@@ -1,7 +1,6 @@
 """Several runs in one picture: centre lines of pressure and film, and how they converged."""
 
 from itertools import cycle
-from math import ceil
 
 import numpy as np
 from matplotlib.ticker import MaxNLocator
@@ -10,13 +9,14 @@ from mgehl.errors import UserError
 from mgehl.model.hertz import hertz_pressure
 from mgehl.output.center_line import center_line
 from mgehl.output.pictures import wedge_picture
+from mgehl.output.pictures.film_scale import DECADES, LINEAR_UP_TO
 from mgehl.output.pictures.history_picture import column, cycles, grids
 from mgehl.output.pictures.lines import ALONG_X, ALONG_Y, across, along, film_range, film_words, names
-from mgehl.output.pictures.style import COLOURS, GUIDE, HERTZ, inches, subplots
+from mgehl.output.pictures.style import COLOURS, GUIDE, HERTZ, legend_under_all, subplots
 from mgehl.output.pictures.titles import common_labels, common_title
 
-HANDLE, ROW = 8, 3
-"""Width of a legend's line and height of its row, in letters."""
+INSIDE, ROOM = 0.8, 2.0
+"""Part of the dry contact whose films make a logarithmic axis, and its room below them."""
 STROKES = ("-", "--", "-.", ":")
 """One for each round through the colours."""
 
@@ -85,8 +85,24 @@ def _compare(axes, solutions, labels, line):
     low, high = np.transpose(ranges)
     units = dict.fromkeys(film_words(solution.contact)[1] for solution in solutions)
     films.set(ylabel=" or ".join(units), ylim=(low.min(), high.max()), xlim=_widest(reach))
+    if logarithmic := _log_limits([line(solution)[::2] for solution in solutions], solutions):
+        films.set(yscale="log", ylim=logarithmic)
     pressures.set(ylabel="pressure, GPa")
     pressures.set_ylim(bottom=0.0)
+
+
+def _log_limits(lines, solutions):
+    """Ends in nm of a logarithmic axis of the films; None where they differ too little for one.
+
+    What counts are the films inside the dry contact, contact apart.
+    """
+    nm = [1e9 * each.contact.film_scale for each in solutions]
+    inside = [H[np.abs(X) < INSIDE] * scale for (X, H), scale in zip(lines, nm, strict=True)]
+    films = np.concatenate([film[film > 0.0] for film in inside])
+    if not len(films):
+        return None
+    low, high = max(films.min(), films.max() / DECADES), films.max()
+    return (low / ROOM, high * ROOM**2) if high > LINEAR_UP_TO * low else None
 
 
 def _widest(reach):
@@ -114,10 +130,6 @@ def _styles():
 def _finished(figure, axes, what, solutions):
     """The figure with its title and, below all panels, the legend of one of them."""
     named = {line.get_label(): line for line in axes.get_lines() if not line.get_label().startswith("_")}
-    width, height = figure.get_size_inches()
-    columns = max(1, int(width / inches(HANDLE + max(map(len, named)))))
-    room = inches(ROW) * (ceil(len(named) / columns) + 0.5) / height
-    figure.get_layout_engine().set(rect=(0.0, room, 1.0, 1.0 - room))
-    figure.legend(named.values(), named, loc="lower center", ncols=columns)
+    legend_under_all(figure, list(named.values()))
     figure.suptitle(f"{what}, {common_title(solutions)}")
     return figure

@@ -6,6 +6,7 @@ import numpy as np
 from matplotlib.ticker import MaxNLocator
 
 from mgehl.errors import OutputError
+from mgehl.kinds.loaded import speed_words
 from mgehl.output.pictures.style import COLOURS, inches, subplots
 from mgehl.output.pictures.titles import title
 
@@ -86,7 +87,7 @@ def _names(rows, row):
     nodes, speed = rows[row]["grid"], rows[row].get("speed_mm_s")
     names = [f"{nodes} nodes", f"{nodes}", ""]
     raised = speed is not None and abs(speed / rows[-1]["speed_mm_s"] - 1.0) > 1e-6
-    return [f"{nodes} nodes, {speed:.4g} mm/s", *names] if raised else names
+    return [f"{nodes} nodes, {speed_words(1e-3 * speed)}", *names] if raised else names
 
 
 def _longest(names, room):

@@ -52,6 +52,11 @@ def film_words(contact):
     return ("gap", "gap, nm") if contact.is_at_rest else ("film", "film thickness, nm")
 
 
+def dry_words(contact):
+    """What the gap of the dry contact is called: of a coated body it is not the coated one's."""
+    return f"dry contact (Hertz{'' if contact.deformation is None else ', uncoated'})"
+
+
 def draw_along(axes, solution):
     """The lines along x."""
     X, P, H = along(solution)
@@ -67,10 +72,13 @@ def draw_across(axes, solution):
 
 
 def film_range(position, film):
-    """Lower and upper end of a film axis: readable inside the dry contact, in the film's unit."""
+    """Lower and upper end of a film axis: readable inside the dry contact, in the film's unit.
+
+    It begins below 0 only where bodies overlap.
+    """
     inside = np.abs(position) < 0.8
     top = max(3.0 * float(np.max(film[inside], initial=0.0)), SMALLEST_FILM_RANGE)
-    return min(-0.05 * top, 1.1 * float(np.min(film))), top
+    return min(0.0, 1.1 * float(np.min(film))), top
 
 
 def add_millimetres(axes, name, scale):
@@ -88,7 +96,7 @@ def _draw(axes, contact, position, P, H, dry_gap):
     axes.set_ylabel("pressure, GPa", color=PRESSURE)
     films, (name, unit) = axes.twinx(), film_words(contact)
     film = films.plot(position, H * nm, color=FILM, label=name)
-    dry = films.plot(position, dry_gap * nm, ":", color=HERTZ, linewidth=1, label="dry contact (Hertz)")
+    dry = films.plot(position, dry_gap * nm, ":", color=HERTZ, linewidth=1, label=dry_words(contact))
     films.set(ylim=film_range(position, H * nm))
     films.set_ylabel(unit, color=FILM)
     legend_below(axes, [*pressure, *film, *dry])

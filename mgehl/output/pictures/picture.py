@@ -1,4 +1,4 @@
-"""The picture that a run of a loaded contact leaves: centre lines, map of the status."""
+"""The picture that a run of a loaded contact leaves: centre lines, map of the film."""
 
 from mgehl.output.pictures import lines, maps, style
 from mgehl.output.pictures.titles import title_with_films
@@ -11,11 +11,13 @@ def draw(path, solution):
     """Write the picture of a `Solution`'s whole-grid fields to `path`."""
     with style.applied():
         panels = 1 if solution.mesh.is_line else 3
-        figure, axes = style.subplots(1, panels, size=(1.5 + 3.7 * panels, 4.2), squeeze=False)
+        figure, axes = style.subplots(1, panels, size=(1.5 + 4.1 * panels, 4.4), squeeze=False)
         lines.draw_along(axes[0, 0], solution)
         if panels > 1:
             lines.draw_across(axes[0, 1], solution)
-            maps.draw_status(axes[0, 2], solution, BLOCKS)
-            axes[0, 2].set_title("status of the nodes")
+            what = lines.film_words(solution.contact)[0]
+            handles = maps.draw_film(axes[0, 2], solution, what, BLOCKS)
+            axes[0, 2].set_title(what)
+            style.legend_below(axes[0, 2], handles, columns=2)
         figure.suptitle(title_with_films(solution))
         style.save(figure, path)

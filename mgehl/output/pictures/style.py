@@ -10,6 +10,7 @@ import os
 from contextlib import contextmanager
 from contextvars import ContextVar
 from importlib import resources
+from math import ceil
 from pathlib import Path
 
 import matplotlib
@@ -25,10 +26,14 @@ MARKS = ("o", "s", "^", "v", "D", "<", ">")
 PRESSURE, FILM = COLOURS[:2]
 HERTZ, GUIDE, SOLID = "0.2", "0.8", "0.45"
 """Greys of the dry contact, of lines to guide the eye and of a wedge's pillar."""
-STATUS_COLOURS = ("0.85", "#56B4E9", "#F0E442", "#222222", "#D55E00")
+CONTACT_COLOUR = "#D55E00"
+"""Contact on the maps, and its outline."""
+STATUS_COLOURS = ("0.85", "#56B4E9", "#F0E442", CONTACT_COLOUR, "#222222")
 """Boundary, lubricated, cavitated, contact and overlap (Okabe and Ito)."""
-CONTACT_EDGE = "#D55E00"
-"""Outline of the contact on the maps."""
+HIDDEN = "0.88"
+"""What is beyond the scale of a map."""
+HANDLE, ROW = 8, 3
+"""Width of a legend's line and height of its row, in letters."""
 UNDER = 3.9
 """Height of an axis with its numbers and its name, in letters."""
 
@@ -71,11 +76,21 @@ def subplots(rows=1, columns=1, *, size, **options):
     return figure, figure.subplots(rows, columns, **options)
 
 
-def legend_below(axes, handles):
+def legend_below(axes, handles, columns=4):
     """The legend of one panel under the name of its axis."""
     axes.legend(
-        handles=handles, loc="upper center", bbox_to_anchor=(0.5, 0.0), borderaxespad=UNDER, ncols=4
+        handles=handles, loc="upper center", bbox_to_anchor=(0.5, 0.0), borderaxespad=UNDER, ncols=columns
     )
+
+
+def legend_under_all(figure, handles):
+    """The legend of a whole figure, in as few rows as it is wide for, below everything."""
+    width, height = figure.get_size_inches()
+    longest = max(len(each.get_label()) for each in handles)
+    columns = max(1, min(len(handles), int(width / inches(HANDLE + longest))))
+    room = inches(ROW) * (ceil(len(handles) / columns) + 0.5) / height
+    figure.get_layout_engine().set(rect=(0.0, room, 1.0, 1.0 - room))
+    figure.legend(handles=handles, loc="lower center", ncols=columns)
 
 
 def inches(letters):

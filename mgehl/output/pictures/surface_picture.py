@@ -1,13 +1,22 @@
 """The picture of a rough or wavy surface: heights with the contact on them, gap, distribution."""
 
 import numpy as np
+from matplotlib.colors import Normalize
 from matplotlib.patches import Patch
 
 from mgehl.discretization.status import CONTACT
-from mgehl.output.pictures.blocks import Blocks
-from mgehl.output.pictures.maps import WINDOW, add_arrow, drawn_status, film_scale, levels_of
-from mgehl.output.pictures.style import CONTACT_EDGE, FILM, HERTZ, STATUS_COLOURS, legend_below, subplots
-from mgehl.output.pictures.titles import position_labels, title
+from mgehl.output.pictures.lines import film_words
+from mgehl.output.pictures.maps import draw_film, view
+from mgehl.output.pictures.plane import (
+    add_arrow,
+    colour_bar,
+    draw_hertz,
+    draw_image,
+    drawn_status,
+    outline_contact,
+)
+from mgehl.output.pictures.style import FILM, HERTZ, STATUS_COLOURS, legend_below, subplots
+from mgehl.output.pictures.titles import map_labels, position_labels, title
 from mgehl.output.surface import surface_words
 from mgehl.output.words import mixed_note
 
@@ -28,8 +37,10 @@ def surface_picture(solution):
     if solution.mesh.is_line:
         _profile(axes[0], solution, heights[0])
     else:
-        _height_map(figure, axes[0], solution, heights)
-        _gap_map(figure, axes[1], solution)
+        _height_map(axes[0], solution, heights)
+        what = film_words(solution.contact)[0]
+        legend_below(axes[1], draw_film(axes[1], solution, what, MOST), columns=2)
+        axes[1].set_title(what)
     _distribution(axes[-1], solution, heights)
     resolution = solution.result.resolution
     shown = surface_words(resolution.surface, resolution.surface_nodes)
@@ -45,50 +56,18 @@ def heights_of(solution):
     return np.broadcast_to(heights, shape)
 
 
-def _window(mesh):
-    """The nodes about the dry contact, along x and along y."""
-    return [slice(*np.searchsorted(line, (-WINDOW, WINDOW))) for line in (mesh.X, mesh.Y)]
-
-
-def _height_map(figure, axes, solution, heights):
-    mesh, (i, j) = solution.mesh, _window(solution.mesh)
-    blocks = Blocks(mesh.X[i], mesh.Y[j], MOST)
-    nm = blocks.largest(1e9 * heights[j, i])
+def _height_map(axes, solution, heights):
+    blocks, nodes = view(solution, MOST)
+    nm = blocks.largest(1e9 * heights[nodes])
     low, high = np.percentile(nm, EDGES)
-    image = axes.pcolormesh(
-        blocks.X, blocks.Y, nm, cmap="gray", vmin=low, vmax=high, shading="nearest", rasterized=True
-    )
-    figure.colorbar(image, ax=axes, label="height, nm (a peak is positive)", extend="both")
-    contact = blocks.largest(drawn_status(solution.fields)[j, i]) == CONTACT
-    if contact.any():
-        axes.contourf(blocks.X, blocks.Y, contact, (0.5, 1.5), colors=[CONTACT_EDGE])
-        legend_below(axes, [Patch(color=CONTACT_EDGE, label="contact")])
-    _finish(axes, solution, "heights")
-
-
-def _gap_map(figure, axes, solution):
-    mesh, (i, j) = solution.mesh, _window(solution.mesh)
-    blocks = Blocks(mesh.X[i], mesh.Y[j], MOST)
-    film = blocks.least(1e9 * solution.contact.film_scale * solution.fields.H[j, i])
-    status = blocks.largest(drawn_status(solution.fields)[j, i])
-    norm = film_scale(blocks, film, status)
-    image = axes.pcolormesh(
-        blocks.X, blocks.Y, np.maximum(film, norm.vmin), norm=norm, shading="nearest", rasterized=True
-    )
-    bar, levels = figure.colorbar(image, ax=axes, label="gap, nm", extend="max"), levels_of(norm)
-    bar.set_ticks(levels, labels=[f"{level:g}" for level in levels], minor=False)
-    bar.minorticks_off()
-    contact = status == CONTACT
-    if contact.any():
-        axes.contourf(blocks.X, blocks.Y, contact, (0.5, 1.5), colors=[STATUS_COLOURS[CONTACT]])
-        legend_below(axes, [Patch(color=STATUS_COLOURS[CONTACT], label="contact")])
-    _finish(axes, solution, "gap")
-
-
-def _finish(axes, solution, name):
-    X, Y = position_labels(solution)
-    axes.set(xlabel=X, ylabel=Y, title=name, aspect="equal")
+    image = draw_image(axes, blocks, nm, Normalize(low, high), "gray")
+    colour_bar(axes, image, "height, nm (a peak is positive)", extend="both")
+    status = blocks.largest(drawn_status(solution.fields)[nodes])
+    contact = outline_contact(axes, blocks, status, filled=True)
+    x, y = map_labels(solution)
+    axes.set(xlabel=x, ylabel=y, title="heights")
     add_arrow(axes, solution.contact)
+    legend_below(axes, [*contact, draw_hertz(axes, solution.contact)])
 
 
 def _profile(axes, solution, heights):

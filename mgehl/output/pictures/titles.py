@@ -36,6 +36,11 @@ def position_labels(solution):
     return solution.config.kind.position_labels(solution.contact)
 
 
+def map_labels(solution):
+    """What the axes of a map show, which is drawn in mm."""
+    return ("x, mm", "y, mm") if solution.contact.is_loaded else position_labels(solution)
+
+
 def common_labels(solutions):
     """As `position_labels`, of loaded contacts: without the semi-axes where they differ."""
     found = {position_labels(solution) for solution in solutions}

@@ -1,6 +1,7 @@
 """Pictures of a wedge bearing: map of the pressure and its centre line."""
 
 import numpy as np
+from matplotlib.colors import Normalize
 
 from mgehl.discretization.status import CONTACT
 from mgehl.output.center_line import center_line
@@ -8,6 +9,8 @@ from mgehl.output.pictures import style
 from mgehl.output.pictures.blocks import Blocks
 from mgehl.output.pictures.titles import title
 
+SIGNED, ROUNDING = "RdBu_r", 1e-9
+"""Colours of pressures of both signs; part of the largest below which a negative one is none."""
 UNIT = "P = m$^2$p/($\\eta$u), 1/mm"
 
 
@@ -47,11 +50,21 @@ def pressure_map(axes, mesh, fields, limits=None):
     blocks = Blocks(mesh.X, mesh.Y)
     solid = blocks.largest(fields.status) == CONTACT
     P = np.ma.masked_where(solid, blocks.largest(fields.P))
-    low, high = limits or (float(P.min()), float(P.max()))
-    image = axes.pcolormesh(blocks.X, blocks.Y, P, vmin=low, vmax=high, shading="nearest", rasterized=True)
+    norm, colours = pressure_scale(*(limits or (float(P.min()), float(P.max()))))
+    image = axes.pcolormesh(
+        blocks.X, blocks.Y, P, norm=norm, cmap=colours, shading="nearest", rasterized=True
+    )
     axes.set_facecolor(style.SOLID)
     axes.set(xlabel="X, mm", ylabel="Y, mm", aspect="equal", title="pressure (solid grey)")
     return image
+
+
+def pressure_scale(low, high):
+    """Norm and colours of pressures: of both signs two colours about a white zero."""
+    if low >= -ROUNDING * high:
+        return Normalize(low, high), None
+    largest = max(-low, high)
+    return Normalize(-largest, largest), SIGNED
 
 
 def _draw_line(axes, solution):

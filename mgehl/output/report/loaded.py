@@ -3,6 +3,7 @@
 from math import isfinite
 
 from mgehl.output.digits import with_band
+from mgehl.output.report.doubt import mark_of, marked
 from mgehl.output.report.mixed import mixed_highlights, mixed_sections
 from mgehl.output.report.page import NO_NUMBER, Section, Text, number, table
 from mgehl.output.report.verification import checks_table, contact_tables
@@ -24,10 +25,10 @@ PEAKS = "Contact is on the peaks, where there is some"
 def highlights(solution):
     """The numbers that most readers come for."""
     result = solution.result
+    bare = "" if result.error.central_nm is not None else ", no band"
     return (
         *mixed_highlights(result.mixed),
-        ("central film", f"{_own_films(result)['central']} nm"),
-        ("minimum film", f"{_own_films(result)['minimum']} nm"),
+        *((f"{which} film", f"{shown} nm{bare}") for which, shown in _own_films(result).items()),
         ("largest pressure", f"{number(result.max_pressure_GPa, 4)} GPa"),
         ("contact / Hertz area", number(result.contact.area_fraction, 4)),
         ("cells in the inlet", f"{number(result.resolution.inlet_cells, 3)}"),
@@ -69,8 +70,9 @@ def _films(result):
         which = "minimum" if name.endswith("_minimum") else "central"
         formulas.setdefault(name.removesuffix(f"_{which}"), {})[which] = nm
     shown = _own_films(result)
-    rows = [("computed", shown["central"], "", shown["minimum"], "")]
-    rows += [_formula_row(name, films, own) for name, films in formulas.items()]
+    computed = marked("computed", mark_of(result))
+    rows = [(computed, shown["central"], "", shown["minimum"], "")]
+    rows += [_formula_row(name, films, own, result.converged) for name, films in formulas.items()]
     heads = ("film", "central, nm", "computed / formula", "minimum, nm", "computed / formula")
     return table("Computed films beside those of formulas for a full film", heads, rows)
 
@@ -102,11 +104,13 @@ def _own_films(result):
     }
 
 
-def _formula_row(name, films, own):
+def _formula_row(name, films, own, converged):
+    """Films of a formula; what did not converge is not compared with them."""
     cells = [FORMULAS.get(name, name.replace("_", " "))]
     for which in ("central", "minimum"):
         known = which in films
-        cells += [film(films[which]), _ratio(own[which], films[which])] if known else ["", ""]
+        ratio = _ratio(own[which], films[which]) if known and converged else ""
+        cells += [film(films[which]) if known else "", ratio]
     return cells
 
 
@@ -164,9 +168,11 @@ def _groups(solution):
         "L": "G(2U)^(1/4), of Moes",
     }
     rows = [(name, number(getattr(result.groups, name)), text) for name, text in meanings.items()]
-    film = f"film as (h/{radius})(2U)^(-1/2)"
-    rows.append(("H central", number(result.moes_film.central), f"computed central {film}"))
-    rows.append(("H minimum", number(result.moes_film.minimum), f"computed minimum {film}"))
+    film, mark = f"film as (h/{radius})(2U)^(-1/2)", mark_of(result)
+    rows += [
+        ("H central", number(result.moes_film.central), marked(f"computed central {film}", mark)),
+        ("H minimum", number(result.moes_film.minimum), marked(f"computed minimum {film}", mark)),
+    ]
     what = (
         "Dimensionless groups" if radius == "R_x" else "Dimensionless groups, R the radius along the motion"
     )

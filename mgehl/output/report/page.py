@@ -20,6 +20,9 @@ GOOD, DOUBTFUL, BAD = "good", "doubtful", "bad"
 LONGEST_UNBROKEN = 18
 """Characters of a text in a table that is not broken into lines."""
 
+WIDE = 1.3
+"""Width over height from which a picture is wide."""
+
 NO_NUMBER = "not finite"
 """What a number that is nan, infinite, or null in result.json is called."""
 
@@ -50,14 +53,15 @@ class Table:
 class Picture:
     """A picture as a data: URI; `alt` says in words what it shows.
 
-    A `wide` one gets a line of its own.
+    A wide one gets a line of its own; where the page is narrow, it scrolls.
     """
 
     block: ClassVar = "picture"
     caption: str
     alt: str
     uri: str
-    wide: bool = False
+    inches: float = 0.0
+    """Width of a wide one; 0 of others."""
 
 
 @dataclass(frozen=True)
@@ -115,9 +119,13 @@ def number(value, digits=6):
     return f"{value + 0.0:.{digits}g}"
 
 
-def picture(caption, alt, content, media, wide=False):
-    """A `Picture` of a file's bytes; `media` is "image/png" or "image/svg+xml"."""
-    return Picture(caption, alt, f"data:{media};base64,{b64encode(content).decode()}", wide)
+def picture(caption, alt, content, media, size):
+    """A `Picture` of a file's bytes, `size` inches (width, height); `media` is "image/png" or so."""
+    width, height = size
+    wide = width if width > WIDE * height else 0.0
+    return Picture(
+        caption, alt, f"data:{media};base64,{b64encode(content).decode()}", round(float(wide), 2)
+    )
 
 
 def render(page):

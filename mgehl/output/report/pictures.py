@@ -2,6 +2,7 @@
 
 from mgehl.output.pictures import style
 from mgehl.output.pictures.figures import drawn_by, figures
+from mgehl.output.report.doubt import mark_of
 from mgehl.output.report.family import family
 from mgehl.output.report.page import picture
 
@@ -18,6 +19,9 @@ def _picture(drawn, solution):
     own = family(solution)
     title = own.PICTURES.get(drawn.name, drawn.title)
     caption = title[0].upper() + title[1:]
-    alt = f"{caption}. {own.alternatives(solution.result)[drawn.name]}"
+    mark = mark_of(solution.result)
+    numbers = own.alternatives(solution.result)[drawn.name]
+    said = [f"{caption}.", f"{mark.capitalize()}:" if mark else "", numbers]
     content = style.rendered(drawn.figure, "svg")
-    return picture(f"{caption}.", alt, content, "image/svg+xml", wide=drawn.name in ("lines", "history"))
+    size = drawn.figure.get_size_inches()
+    return picture(f"{caption}.", " ".join(filter(None, said)), content, "image/svg+xml", size)

@@ -1,6 +1,7 @@
 """The page of one run: verdict, configuration, answer, checks, pictures, history, versions."""
 
 from mgehl.kinds.own import naming_keys
+from mgehl.output.report.doubt import mark_of, marked_numbers, marked_sections
 from mgehl.output.report.family import family
 from mgehl.output.report.page import BAD, DOUBTFUL, GOOD, Page, Section, Verdict
 from mgehl.output.report.parts import (
@@ -14,9 +15,9 @@ from mgehl.output.report.pictures import pictures
 
 def report(solution, name):
     """The `Page` of a `Solution` on rank 0; `name` is the run's, such as its directory's."""
-    parts = family(solution)
+    parts, mark = family(solution), mark_of(solution.result)
     with naming_keys(solution.contact):  # some numbers ask the user's own laws again
-        answer = parts.answer_sections(solution)
+        answer = marked_sections(parts.answer_sections(solution), mark)
     drawn = pictures(solution)
     maps_and_lines = [each for kind, each in drawn.items() if kind != "history"]
     of_history = [each for kind, each in drawn.items() if kind == "history"]
@@ -30,7 +31,8 @@ def report(solution, name):
         record_section(solution.result),
     )
     heading, judged = solution.config.kind.heading(solution), verdict(solution.result)
-    return Page(heading, f"Run {name}", sections, judged, parts.highlights(solution))
+    numbers = marked_numbers(parts.highlights(solution), mark)
+    return Page(heading, f"Run {name}", sections, judged, numbers)
 
 
 def verdict(result):

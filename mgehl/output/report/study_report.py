@@ -2,12 +2,16 @@
 
 import csv
 import re
+import struct
 from pathlib import Path
 
 from mgehl.errors import OutputError
 from mgehl.output.files import NAMES
 from mgehl.output.report.page import Cell, Page, Section, Text, picture, table
 from mgehl.output.report.study_record import read_record
+
+DPI = 150
+"""Of pictures of studies."""
 
 
 def is_study(directory):
@@ -76,7 +80,15 @@ def _picture(path):
     except OSError as error:
         raise OutputError(f"{path}: cannot be read: {error.strerror}") from None
     alt = f"Picture of the study: {name}. Its numbers are in the tables above."
-    return picture(name, alt, content, "image/png")
+    return picture(name, alt, content, "image/png", _inches(content))
+
+
+def _inches(png):
+    """Width and height of a PNG file, drawn with `DPI` dots to the inch; (0, 0) where it is none."""
+    if len(png) < 24 or not png.startswith(b"\x89PNG"):
+        return 0.0, 0.0
+    width, height = struct.unpack(">II", png[16:24])
+    return width / DPI, height / DPI
 
 
 def _origin(record):

@@ -54,3 +54,13 @@ def test_single_nodes_and_thin_lines_of_contact_stay():
     for j, i in nodes:
         expected[j // 7, i // 7] = CONTACT
     np.testing.assert_array_equal(drawn, expected)
+
+
+def test_an_image_of_blocks_ends_where_their_cells_do():
+    """Seven nodes in three blocks of three, the last of which reaches beyond; one block is a unit wide."""
+    _, each = blocks(7, 5, 3)
+    cell = 2.0 / 6
+    assert each.extent[:2] == pytest.approx((-1.0 - cell / 2, -1.0 - cell / 2 + 9 * cell))
+    assert each.limits[:2] == pytest.approx((each.X[0], each.X[-1]))
+    single = Blocks(np.array([2.0]), np.array([1.0, 3.0]))
+    assert single.extent == (1.5, 2.5, 0.0, 4.0) and single.limits == (1.5, 2.5, 1.0, 3.0)

@@ -50,6 +50,22 @@ def test_each_load_has_its_own_hertz_pressure_and_no_common_axis(make_solution, 
     assert axes[2].get_xlabel() == "X = x/a"
 
 
+def test_films_that_differ_much_are_drawn_on_a_logarithmic_axis(make_solution, drawn):
+    """Ten times as thick: no line of either is cut off inside the contact."""
+    runs = [make_solution(nodes=65), make_solution(nodes=65)]
+    assert drawn(compare_lines, runs, "ab").axes[2].get_yscale() == "linear"
+    runs[1].fields.H *= 10.0
+    axes = drawn(compare_lines, runs, "ab").axes[2]
+    thin, thick = (1e9 * run.film.min() for run in runs)
+    low, high = axes.get_ylim()
+    assert axes.get_yscale() == "log" and 0.0 < low < thin and thick < high
+
+
+def test_runs_without_any_film_have_a_linear_axis(make_solution, drawn):
+    runs = [make_solution(contact=1.05), make_solution(contact=1.05)]
+    assert drawn(compare_lines, runs, "ab").axes[2].get_yscale() == "linear"
+
+
 def test_line_contacts_have_no_lines_across(make_line, drawn):
     assert len(drawn(compare_lines, [make_line(65), make_line(129)], "ab").axes) == 2
 

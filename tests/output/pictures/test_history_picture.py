@@ -43,7 +43,7 @@ def test_grids_have_bands_and_names(make_solution, make_rows, drawn):
     spans = [(patch.get_xy()[0, 0], patch.get_xy()[2, 0]) for patch in errors.patches]
     assert spans == [(-0.5, 3.5), (7.5, 11.5)]
     named = {text.xy[0]: text.get_text() for text in errors.texts}
-    assert named == {1.5: "65 nodes, 1000 mm/s", 5.5: "129 nodes, 1000 mm/s", 9.5: "257 nodes"}
+    assert named == {1.5: "65 nodes, 1 m/s", 5.5: "129 nodes, 1 m/s", 9.5: "257 nodes"}
 
 
 def test_a_grid_without_room_has_a_short_name(make_solution, make_rows, drawn, check_texts):

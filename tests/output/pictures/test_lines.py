@@ -66,6 +66,12 @@ def test_texts(make_solution, make_line, drawn, check_texts):
                 "centre lines, 100 mm/s, 1859 N/mm, 65 nodes: converged")  # fmt: skip
 
 
+def test_the_dry_contact_of_a_coated_body_is_named_as_another(make_solution, drawn):
+    keys = ["contact.deformation=coated", "coating.thickness=40 um", "coating.modulus=4 GPa"]
+    film = panels_of(drawn(make_solution(settings=keys)))[0][1]
+    assert "dry contact (Hertz, uncoated)" in lines_of(film)
+
+
 def test_a_line_contact_has_one_panel(make_line, drawn):
     assert len(panels_of(drawn(make_line()))) == 1
 
@@ -81,14 +87,14 @@ def test_millimetres_along_the_upper_side(make_solution, drawn):
 def test_the_range_of_the_film_shows_what_is_inside_and_below():
     X = np.linspace(-2.0, 2.0, 41)
     film = np.where(np.abs(X) < 0.8, 40.0, 1e5)
-    assert film_range(X, film) == pytest.approx((-6.0, 120.0))
-    assert film_range(X, np.zeros(41)) == pytest.approx((-0.5, 10.0))
+    assert film_range(X, film) == (0.0, 120.0)
+    assert film_range(X, np.zeros(41)) == (0.0, 10.0)
     assert film_range(X, film - 100.0 * (X == 0.0)) == pytest.approx((-66.0, 120.0))
 
 
 def test_a_film_axis_of_a_grid_so_coarse_that_no_node_is_inside_the_dry_contact():
     position = np.array([-3.0, -1.0, 1.0, 3.0])
-    assert film_range(position, np.array([900.0, 40.0, 40.0, 900.0])) == (-0.5, SMALLEST_FILM_RANGE)
+    assert film_range(position, np.array([900.0, 40.0, 40.0, 900.0])) == (0.0, SMALLEST_FILM_RANGE)
 
 
 @pytest.mark.parametrize(

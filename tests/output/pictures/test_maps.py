@@ -3,12 +3,11 @@
 import numpy as np
 import pytest
 from matplotlib.collections import QuadMesh
-from matplotlib.colors import LogNorm, to_rgba
-from matplotlib.patches import FancyArrowPatch
+from matplotlib.colors import to_rgba
+from matplotlib.patches import Ellipse, FancyArrowPatch
 
 from mgehl.discretization.status import CONTACT, LUBRICATED
-from mgehl.output.pictures import maps, style
-from mgehl.output.pictures.blocks import Blocks
+from mgehl.output.pictures import maps, plane, style
 
 
 @pytest.fixture
@@ -24,43 +23,98 @@ def drawn():
 
 def image_of(axes):
     """Values of the map, (ny, nx)."""
-    (mesh,) = [each for each in axes.collections if isinstance(each, QuadMesh)]
-    ny, nx, _ = mesh.get_coordinates().shape
-    return np.asarray(mesh.get_array()).reshape(ny - 1, nx - 1)
+    images = [*axes.get_images(), *(each for each in axes.collections if isinstance(each, QuadMesh))]
+    (image,) = images
+    shape = image.get_coordinates().shape if isinstance(image, QuadMesh) else None
+    values = np.asarray(image.get_array())
+    return values.reshape(shape[0] - 1, shape[1] - 1) if shape else values
+
+
+def parts_of(figure):
+    """Axes of a map, and of its colour bar."""
+    (axes,) = figure.axes
+    (bar,) = axes.child_axes
+    return axes, bar
 
 
 def outline_of(axes, colour):
-    """Points of the outlines in a colour, (n, 2)."""
+    """Points of the outlines in a colour, (n, 2), in mm."""
     own = [each for each in axes.collections if not isinstance(each, QuadMesh) and len(each.get_edgecolor())
            and tuple(each.get_edgecolor()[0]) == to_rgba(colour)]  # fmt: skip
     return np.concatenate([path.vertices for each in own for path in each.get_paths()])
 
 
-def test_the_film_about_the_dry_contact_in_nm(make_solution, drawn):
+def in_a(solution, points):
+    """Points in mm as (X, Y)."""
+    return points / (1e3 * solution.contact.x_scale, 1e3 * solution.contact.y_scale)
+
+
+def labels_of(figure):
+    """What the legend of a figure says."""
+    return [text.get_text() for legend in figure.legends for text in legend.get_texts()]
+
+
+def test_the_film_in_nm_and_grey_where_it_is_thicker_than_any_inside_the_contact(make_solution, drawn):
     solution = make_solution()
-    axes, bar = drawn(maps.film_map, solution).axes
-    X, Y = solution.mesh.X, solution.mesh.Y
-    shown = 1e9 * solution.film[np.abs(Y) <= maps.WINDOW][:, np.abs(X) <= maps.WINDOW]
-    np.testing.assert_allclose(image_of(axes), shown)
+    figure = drawn(maps.film_map, solution)
+    axes, bar = parts_of(figure)
+    j, i = maps.view(solution)[1]
+    inside = 1e9 * solution.film.min()
+    film = 1e9 * solution.film[j, i]
+    np.testing.assert_allclose(image_of(axes), np.clip(film, inside / 1.1, 1.1 * inside))
     assert bar.get_ylabel() == "film thickness, nm"
+    faces = [(each, each.get_facecolor()) for each in axes.collections]
+    hidden = [each for each, face in faces if len(face) and tuple(face[0]) == to_rgba(style.HIDDEN)]
+    (patch,) = hidden
+    (thick,) = [path.to_polygons() for path in patch.get_paths()]
+    areas = [np.abs(np.trapz(polygon[:, 1], polygon[:, 0])) for polygon in thick]
+    whole = np.ptp(axes.get_xlim()) * np.ptp(axes.get_ylim())
+    hertz = np.pi * 1e6 * solution.contact.x_scale * solution.contact.y_scale
+    assert max(areas) == pytest.approx(whole)  # all around, but for the disc
+    assert min(areas) == pytest.approx(hertz, rel=0.1)
+    assert f"thicker than {1.1 * inside:.3g} nm" in labels_of(figure)
 
 
 def test_the_pressure_in_GPa(make_solution, drawn):
     solution = make_solution()
-    axes, bar = drawn(maps.pressure_map, solution).axes
-    np.testing.assert_allclose(image_of(axes), 1e-9 * solution.pressure)
+    axes, bar = parts_of(drawn(maps.pressure_map, solution))
+    np.testing.assert_allclose(image_of(axes), 1e-9 * solution.pressure[maps.view(solution)[1]])
     assert bar.get_ylabel() == "pressure, GPa"
 
 
 def test_the_status_and_where_the_bodies_overlap(make_solution, drawn):
     solution = make_solution(contact=0.4)
     solution.fields.H[3, 5] = -1e-4
-    (axes,) = drawn(maps.status_map, solution).axes
+    figure = drawn(maps.status_map, solution)
     expected = solution.status.copy()
-    expected[3, 5] = maps.OVERLAP
-    np.testing.assert_array_equal(image_of(axes), expected)
-    names = [text.get_text() for text in axes.get_legend().get_texts()]
-    assert names == ["lubricated", "cavitated", "contact", "overlap"]
+    expected[3, 5] = plane.OVERLAP
+    np.testing.assert_array_equal(image_of(figure.axes[0]), expected)
+    assert labels_of(figure) == ["lubricated", "cavitated", "contact", "overlap"]
+
+
+@pytest.mark.parametrize("function", [maps.film_map, maps.pressure_map, maps.status_map])
+def test_an_ellipse_of_six_to_one_is_drawn_as_one(make_solution, drawn, function, check_texts):
+    """True to scale, in mm; six times as high as wide."""
+    solution = make_solution(settings=["contact.radius_y=190 mm"])
+    contact = solution.contact
+    assert contact.y_scale > 5.0 * contact.x_scale
+    figure = drawn(function, solution)
+    axes = figure.axes[0]
+    assert axes.get_aspect() in (1.0, "equal")
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("x, mm", "y, mm")
+    for ellipse in (each for each in axes.patches if isinstance(each, Ellipse)):
+        assert ellipse.width == pytest.approx(2e3 * contact.x_scale)
+        assert ellipse.height == pytest.approx(2e3 * contact.y_scale)
+    check_texts(figure)
+
+
+@pytest.mark.parametrize("coated, words", [(False, "Hertz: a = b = "), (True, "Hertz, uncoated: a = b = ")])
+def test_the_dry_contact_is_named(make_solution, drawn, coated, words):
+    keys = ["contact.deformation=coated", "coating.thickness=40 um", "coating.modulus=4 GPa"]
+    solution = make_solution(settings=keys if coated else [])
+    size = f"{1e3 * solution.contact.x_scale:.3g} mm"
+    for function in (maps.film_map, maps.pressure_map):
+        assert words + size in labels_of(drawn(function, solution))
 
 
 @pytest.mark.parametrize("function", [maps.film_map, maps.pressure_map])
@@ -68,7 +122,7 @@ class TestOutlines:
     def test_of_the_contact(self, make_solution, drawn, function):
         """Half a cell about its disc of radius 0.4."""
         solution = make_solution(nodes=65, contact=0.4)
-        points = outline_of(drawn(function, solution).axes[0], style.CONTACT_EDGE)
+        points = in_a(solution, outline_of(drawn(function, solution).axes[0], style.CONTACT_COLOUR))
         assert len(points) > 20
         assert np.abs(np.hypot(*points.T) - 0.4).max() < solution.mesh.dX
 
@@ -76,60 +130,20 @@ class TestOutlines:
         solution = make_solution()
         i, j = solution.mesh.nearest(0.2, -0.3)
         solution.fields.status[j, i] = CONTACT
-        points = outline_of(drawn(function, solution).axes[0], style.CONTACT_EDGE)
+        points = in_a(solution, outline_of(drawn(function, solution).axes[0], style.CONTACT_COLOUR))
         node = np.array([solution.mesh.X[i], solution.mesh.Y[j]])
         np.testing.assert_allclose(points.mean(axis=0), node, atol=0.3 * solution.mesh.dX)
         assert np.abs(points - node).max() < 0.6 * solution.mesh.dX
 
     def test_of_the_cavity_but_not_where_the_boundary_ends_it(self, make_solution, drawn, function):
         solution = make_solution()
-        points = outline_of(drawn(function, solution).axes[0], "black")
+        points = in_a(solution, outline_of(drawn(function, solution).axes[0], "black"))
         assert np.abs(points[:, 0] - 0.5).max() < solution.mesh.dX
 
     def test_none_of_what_there_is_none(self, make_solution, drawn, function):
         solution = make_solution()
         solution.fields.status[:] = LUBRICATED
-        assert drawn(function, solution).axes[0].get_legend() is None
-
-
-class TestScale:
-    def scale(self, solution):
-        blocks = Blocks(solution.mesh.X, solution.mesh.Y)
-        return maps.film_scale(blocks, 1e9 * solution.film, solution.status)
-
-    def test_of_the_film_inside_the_dry_contact(self, make_solution):
-        """Its least film is the end of the scale, so that constrictions are read off it."""
-        solution = make_solution()
-        X, Y = solution.mesh.X[None, :], solution.mesh.Y[:, None]
-        solution.fields.H *= np.where(np.hypot(X, Y - 0.8) < 0.1, 0.5, 1.0)
-        norm = self.scale(solution)
-        inside = 1e9 * solution.film[np.hypot(X, Y) < 1.0]
-        assert norm.vmin == pytest.approx(inside.min()) and norm.vmax == pytest.approx(2 * inside.min())
-        assert not isinstance(norm, LogNorm)
-
-    def test_logarithmic_where_films_differ_much_and_over_three_decades_at_most(self, make_solution):
-        solution = make_solution()
-        solution.fields.H[16, 15] *= 1e-6
-        norm = self.scale(solution)
-        assert isinstance(norm, LogNorm)
-        assert norm.vmax == pytest.approx(1e3 * norm.vmin)
-
-    def test_of_one_film_has_room_about_it(self, make_solution):
-        solution = make_solution()
-        film = 1e9 * solution.film.min()
-        norm = self.scale(solution)
-        assert norm.vmin < 0.95 * film < 1.05 * film < norm.vmax
-
-    def test_without_any_film(self, make_solution):
-        solution = make_solution()
-        solution.fields.H[:] = 0.0
-        assert self.scale(solution).vmax == 10.0
-
-    def test_about_the_contact_where_it_is_full(self, make_solution):
-        solution = make_solution(contact=1.05)
-        norm = self.scale(solution)
-        assert 0.0 < norm.vmin < norm.vmax
-        assert norm.vmax > 1e9 * solution.contact.film_scale * 0.5
+        assert not {"contact", "cavitation"} & set(labels_of(drawn(function, solution)))
 
 
 def test_lines_of_equal_film_are_numbered_in_nm(make_solution, drawn):
@@ -137,7 +151,7 @@ def test_lines_of_equal_film_are_numbered_in_nm(make_solution, drawn):
     solution = make_solution(nodes=65)
     Y = solution.mesh.Y[:, None]
     solution.fields.H *= 1.0 - 0.5 * np.minimum(np.abs(Y), 1.0)
-    axes, bar = drawn(maps.film_map, solution).axes
+    axes, bar = parts_of(drawn(maps.film_map, solution))
     numbers = {float(text.get_text()) for text in axes.texts}
     assert len(numbers) >= 3
     assert numbers <= {float(label.get_text()) for label in bar.get_yticklabels()}
@@ -152,7 +166,7 @@ def test_texts(make_solution, drawn, check_texts, function, contact):
     what = {"film_map": "film thickness", "pressure_map": "pressure", "status_map": "status of the nodes"}
     verdict = "converged" if contact < 1.0 else "NOT converged"
     check_texts(
-        figure, "X = x/a, a = 0.4108 mm", "Y = y/b, b = 0.4108 mm",
+        figure, "x, mm", "y, mm",
         f"{what[function.__name__]}, 0.005 mm/s, 800 N, 33 x 33 nodes: {verdict}",
     )  # fmt: skip
 
@@ -183,10 +197,11 @@ class TestMotion:
         assert len(arrows_of(drawn(function, make_solution(settings=["motion.angle=30"])).axes[0])) == 1
 
     @pytest.mark.parametrize("angle", [0, 30, 90, 200])
-    def test_it_points_along_the_motion_in_units_of_a_and_b(self, make_solution, angle):
+    def test_it_points_along_the_motion(self, make_solution, angle):
+        """Of an ellipse, too: the map is true to scale."""
         contact = make_solution(settings=[f"motion.angle={angle}", "contact.radius_y=40 mm"]).contact
-        tail, head = maps.arrow_ends(contact, (-2.0, 1.0), (-1.5, 1.5))
-        x, y = (head - tail) * (contact.hertz.a, contact.hertz.b)
+        tail, head = plane.arrow_ends(contact, (-2.0, 1.0), (-1.5, 1.5))
+        x, y = head - tail
         assert np.cos(np.arctan2(y, x) - np.radians(angle)) == pytest.approx(1.0, abs=1e-12)
         for X, Y in (tail, head):
             assert -2.0 < X < 1.0 and -1.5 < Y < 1.5

@@ -32,14 +32,16 @@ def test_a_rough_contact_has_one_picture_more(make_solution, check_texts, contac
     solution = shown(make_solution(settings=RIDGE, contact=contact))
     pictures = figures(solution)
     assert [picture.name for picture in pictures] == [*TITLES, "surface"]
-    heights, gap, distribution = pictures[-1].figure.axes[:3]
-    assert [axes.get_title() for axes in (heights, gap)] == ["heights", "gap"]
+    heights, film, distribution = pictures[-1].figure.axes
+    assert [axes.get_title() for axes in (heights, film)] == ["heights", "film"]
     assert distribution.get_title().startswith(f"Sq {1e9 * solution.contact.roughness:.4g} nm, Ssk ")
     assert sum(patch.get_height() * patch.get_width() for patch in distribution.patches) == pytest.approx(
         1.0
     )
-    assert (heights.get_legend() is not None) == (contact > 0.0)
-    check_texts(pictures[-1].figure, "gap, nm", "height, nm (a peak is positive)")
+    for axes in (heights, film):
+        said = [text.get_text() for text in axes.get_legend().get_texts()]
+        assert ("contact" in said) == (contact > 0.0) and any(text.startswith("Hertz: ") for text in said)
+    check_texts(pictures[-1].figure, "film, nm", "height, nm (a peak is positive)")
     assert "6.3 nodes in its shortest wave: coarse" in pictures[-1].figure._suptitle.get_text()
 
 

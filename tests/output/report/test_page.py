@@ -71,7 +71,7 @@ def test_every_text_is_escaped():
         page_of(Text(hostile)),
         page_of(table(hostile, ("a",), [("b",)])),
         page_of(table("c", (hostile,), [(hostile,)], folded=True)),
-        page_of(picture(hostile, hostile, b"", "image/png")),
+        page_of(picture(hostile, hostile, b"", "image/png", (4.0, 4.0))),
         page_of(verdict=Verdict(BAD, hostile, hostile), highlights=((hostile, hostile),)),
         Page(hostile, hostile, (Section("one", hostile, ()),)),
     ]
@@ -81,10 +81,12 @@ def test_every_text_is_escaped():
 
 
 def test_a_picture_is_part_of_the_page():
-    html = render(page_of(picture("caption", "what it shows", b"\x89PNG", "image/png", wide=True)))
+    html = render(page_of(picture("caption", "what it shows", b"\x89PNG", "image/png", (8.4, 4.0))))
     data = b64encode(b"\x89PNG").decode()
     assert f'<img src="data:image/png;base64,{data}" alt="what it shows">' in html
-    assert '<figure class="wide">' in html and "<figcaption>caption</figcaption>" in html
+    assert (
+        '<figure class="wide" style="--inches: 8.4">' in html and "<figcaption>caption</figcaption>" in html
+    )
 
 
 def test_long_tables_are_folded_where_asked_for():

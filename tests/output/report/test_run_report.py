@@ -226,7 +226,7 @@ class TestLoaded:
         assert not [block for block in films.blocks[1:] if block.block == "table"]
 
     def test_a_line_contact_has_its_own_formula(self, line_run, quick):
-        rows = [row[0] for row in table_of(quick(line_run), FILMS)]
+        rows = [row[0] for row in table_of(quick(changed(line_run, converged=True)), FILMS)]
         assert rows == ["computed", "of the Dowson-Higginson type", "Ertel and Grubin"]
 
     def test_dimensionless_groups(self, film_run, quick):
@@ -269,6 +269,52 @@ class TestLoaded:
         assert "moes.M" in names and "motion.speed" not in names and "contact.load" not in names
 
 
+class TestWithoutSuccess:
+    """After a failure every number says so, and nothing is compared with a formula."""
+
+    MARKS = {"not converged": {"settled": False}, "in doubt": {"settled": True}}
+
+    @pytest.mark.parametrize("mark", MARKS)
+    def test_of_a_loaded_contact(self, film_run, quick, mark):
+        page = quick(changed(film_run, converged=False, **self.MARKS[mark]))
+        names = [name for name, _ in page.highlights]
+        assert names[-1] == "cells in the inlet" and all(name.endswith(f" ({mark})") for name in names[:-1])
+        rows = {row[0]: row[1:] for row in table_of(page, f"{FILMS} ({mark})")}
+        assert f"computed ({mark})" in rows
+        assert [rows["Hamrock and Dowson"][k] for k in (1, 3)] == ["", ""]
+        for section in page.sections:
+            if section.anchor in ("films", "contact", "mixed"):
+                assert all(
+                    each.caption.endswith(f"({mark})") for each in section.blocks if each.block == "table"
+                )
+        (groups,) = [section for section in page.sections if section.anchor == "groups"]
+        own = [row for row in groups.blocks[1].rows if row[0].text.startswith("H ")]
+        assert len(own) == 2 and all(row[2].text.endswith(f"({mark})") for row in own)
+
+    def test_of_a_wedge(self, wedge_run, quick):
+        page = quick(changed(wedge_run, converged=False))
+        assert all(name.endswith(" (not converged)") for name, _ in page.highlights)
+
+    def test_who_does_not_see_a_picture_is_told_too(self, line_run):
+        html = render(report(changed(line_run, converged=False, settled=False), "my-run"))
+        alternatives = [
+            value for tag, name, value in Reader(html).attributes if (tag, name) == ("img", "alt")
+        ]
+        assert alternatives and all(" Not converged: " in text for text in alternatives)
+
+    def test_a_success_has_no_mark(self, film_run, quick):
+        page = quick(film_run)
+        assert not any("(" in name for name, _ in page.highlights)
+
+
+def test_a_film_without_a_band_says_so_on_top(film_run, quick):
+    def central(solution):
+        return dict(quick(solution).highlights)["central film"]
+
+    assert "±" in central(film_run)
+    assert central(changed(film_run, error=no_band("not asked for"))).endswith(" nm, no band")
+
+
 class TestRoughBodies:
     """How film and contact share has a section; of smooth bodies there is none."""
 
@@ -285,7 +331,7 @@ class TestRoughBodies:
         assert ("lambda", "0.25") in page.highlights and ("load on contact", "12.5 %") in page.highlights
 
     def test_a_line_contact_s_areas_are_of_a_metre(self, line_run, quick):
-        page = quick(changed(line_run, mixed=replace(self.MIXED, per_metre=True)))
+        page = quick(changed(line_run, converged=True, mixed=replace(self.MIXED, per_metre=True)))
         rows = table_of(page, "Film and contact of the rough bodies; films within the Hertz width")
         assert ["largest patch", "1000", "µm² in each metre"] in rows
 

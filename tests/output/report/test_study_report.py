@@ -51,6 +51,16 @@ def test_pictures_in_the_order_of_their_numbers(directory):
     assert all("figure" in each.alt for each in pictures)
 
 
+def test_a_wide_picture_scrolls_on_a_narrow_page(directory):
+    """1500 dots of 150 to the inch are ten inches; what is no picture is not wide."""
+    header = b"\x89PNG\r\n\x1a\n\x00\x00\x00\x0dIHDR"
+    for k, size in (9, (1500, 600)), (10, (600, 600)):
+        (directory / f"figure_{k}.png").write_bytes(header + b"".join(n.to_bytes(4, "big") for n in size))
+    (directory / "other.png").write_bytes(b"nothing")
+    pictures = blocks_of(study_report(directory, STUDIES), "pictures")
+    assert [each.inches for each in pictures] == [10.0, 0.0, 0.0]
+
+
 def test_it_needs_nothing_from_outside(directory):
     html = re.sub(r'src="data:[^"]*"', "", render(study_report(directory, STUDIES)))
     assert not re.search(r"https?://|src=|url\(", html)

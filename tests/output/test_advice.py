@@ -1,0 +1,58 @@
+"""What to try after a run that did not converge."""
+
+from dataclasses import replace
+from types import SimpleNamespace
+
+import pytest
+from test_files import make_result
+
+from mgehl.config import load_config
+from mgehl.output.advice import MOST, what_next
+from mgehl.output.edge_result import NOT_SEEN
+from mgehl.output.resolution import Resolution
+from mgehl.output.solution import Solution
+
+
+def advice(settings=(), **changes):
+    """Of a run with these settings that did not converge."""
+    config = load_config(settings=["grid.nodes=65", *settings])
+    contact = SimpleNamespace(is_loaded=config.kind.is_loaded, is_at_rest=config.is_dry)
+    result = make_result(**({"converged": False} | changes))
+    return what_next(Solution(config, contact, None, None, [], result))
+
+
+def test_none_of_a_run_that_converged():
+    assert advice(converged=True) == []
+
+
+@pytest.mark.parametrize("start, other", [("film", "contact"), ("contact", "film")])
+def test_the_other_start(start, other):
+    head, *tries = advice([f"solver.start={start}"])
+    assert head == "what to try next:" and len(tries) <= MOST
+    assert any(f'solver.start = "{other}"' in each for each in tries)
+
+
+def test_a_grid_that_does_not_see_the_inlet_comes_first():
+    _, first, *_ = advice(resolution=Resolution(0.25, "grid-determined", "sufficient", 0.1))
+    assert "the inlet has 0.25 cells and needs 4" in first and "mgehl check" in first
+
+
+def test_a_surface_that_the_grid_does_not_show():
+    _, first, *_ = advice(resolution=Resolution(5.0, "resolved", "sufficient", 0.1, "grid-determined", 2.5))
+    assert first == "  grid.nodes = 129, or a surface without its short waves"
+
+
+def test_a_domain_that_cuts_the_contact():
+    _, first, *_ = advice(edge=replace(NOT_SEEN, pressure_ratio=0.5))
+    assert first.startswith('  grid.x = "auto" and grid.y = "auto"')
+
+
+def test_a_contact_of_too_few_nodes():
+    _, first, *_ = advice(edge=replace(NOT_SEEN, nodes_along_x=1))
+    assert first.startswith("  more nodes, or a smaller domain")
+
+
+@pytest.mark.parametrize("settings", [["contact.kind=wedge"], ["discretization.contact_model=dry"]])
+def test_what_has_no_film_is_told_nothing_of_one(settings):
+    text = "\n".join(advice(settings))
+    assert "max_steps" in text and "start" not in text
