@@ -25,6 +25,10 @@ class ContactLaw(ABC):
     def flow_gap(self, H):
         """The gap that the Poiseuille flow sees, and its derivative by H."""
 
+    def carried(self, H):
+        """The part of the gap that the surfaces carry along as fluid; its derivative by H is 1."""
+        return H
+
     @abstractmethod
     def closed(self, H, was_released):
         """Where fluid of gap H comes into contact; `was_released` of nodes that contact let go before."""
@@ -86,6 +90,14 @@ class BoundaryFilm(ContactLaw):
 
     def flow_gap(self, H):
         return np.maximum(H, self.film), H > self.film
+
+    def carried(self, H):
+        """What lies above the layers: they stick to the surfaces, and are not compressed.
+
+        Were they carried as fluid, they would have to become thicker wherever the pressure falls along
+        the motion: the rear half of no contact could stay closed.
+        """
+        return H - self.film
 
     def closed(self, H, was_released):
         return self.film >= H

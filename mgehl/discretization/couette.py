@@ -1,7 +1,8 @@
 """The Couette flow through a face by every differential scheme  [Liu eqs. 9-14, 17, 18, 31, 32].
 
 Each scheme is a sum of products c rho_a H_b over the nodes a, b near the face: W and E on its
-two sides, WW beyond W and EE beyond E. Value and linearisation come from the same table.
+two sides, WW beyond W and EE beyond E. Value and linearisation come from the same table. Of a gap that
+adsorbed layers keep open, H is what lies above the layers.
 """
 
 from dataclasses import dataclass
@@ -125,7 +126,7 @@ def _add_products(flow, terms, fluid, axis, first, last, weight):
         return axis.of_faces(array, first, last)
 
     for c, a, b in terms if first < last else ():
-        rho, H = axis.at(fluid.rho, SHIFT[a], first, last), axis.at(fluid.H, SHIFT[b], first, last)
+        rho, H = axis.at(fluid.rho, SHIFT[a], first, last), axis.at(fluid.carried, SHIFT[b], first, last)
         signed = c * weight
         here(flow.value)[:] += signed * rho * H
         if flow.by_P:

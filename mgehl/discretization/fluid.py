@@ -16,6 +16,8 @@ class Fluid:
 
     P: np.ndarray
     H: np.ndarray
+    carried: np.ndarray
+    """The part of H that the surfaces carry along as fluid."""
     rho: np.ndarray
     drho_dP: np.ndarray
     eps: np.ndarray
@@ -46,7 +48,10 @@ def fluid_state(P, H, contact, contact_law):
     gap, dgap_dH = contact_law.flow_gap(H)
     by_H2 = by_H3 * gap * gap
     eps = by_H2 * gap
-    return Fluid(P, H, rho, drho_dP, eps, eps * (drho_dP / rho - dlog_eta_dP), 3.0 * by_H2 * dgap_dH)
+    carried = contact_law.carried(H)
+    return Fluid(
+        P, H, carried, rho, drho_dP, eps, eps * (drho_dP / rho - dlog_eta_dP), 3.0 * by_H2 * dgap_dH
+    )
 
 
 def arithmetic_mean(a, b):

@@ -22,15 +22,15 @@ class Storage:
     @classmethod
     def begun(cls, fluid, rate):
         """A time step that begins with this ghosted `fluid`; None where there is no rate at all."""
-        return cls(rate, own(fluid.rho) * own(fluid.H)) if np.any(rate) else None
+        return cls(rate, own(fluid.rho) * own(fluid.carried)) if np.any(rate) else None
 
     def outflow(self, fluid):
         """What is stored instead of flowing on."""
-        return self.rate * (own(fluid.rho) * own(fluid.H) - self.before)
+        return self.rate * (own(fluid.rho) * own(fluid.carried) - self.before)
 
     def by_P(self, fluid):
         """Derivative of `outflow` by the node's own P, its H held."""
-        return self.rate * own(fluid.drho_dP) * own(fluid.H)
+        return self.rate * own(fluid.drho_dP) * own(fluid.carried)
 
     def by_H(self, fluid):
         """Derivative of `outflow` by the node's own H."""

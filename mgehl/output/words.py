@@ -81,27 +81,7 @@ def loaded_words(result, verbose=True):
         f"{result.wall_s:.1f} s on {result.ranks} ranks",
         *(_nodes(result) if verbose else ()),
     ]
-    if shown := surface_words(resolution.surface, resolution.surface_nodes):
-        lines.insert(-1, f"  surface: {shown}")
-    if result.mixed:
-        lines[-1:-1] = mixed_lines(result.mixed)
-    if overlap.nodes:
-        lines.insert(
-            5, f"  THE BODIES OVERLAP at {overlap.nodes} nodes by up to {overlap.largest_nm:.2e} nm"
-        )
-    lines += [
-        f"  Eq. 2 violated at node ({each['i']}, {each['j']}) by {each['size']:.2e} p_h"
-        for each in inequality.nodes[:20]
-    ]
-    lines += [
-        f"  node ({each['i']}, {each['j']}): as film its gap is {each['film_gap_nm']:.2e} nm, as contact "
-        f"its pressure {each['contact_pressure']:.2e} p_h; beside it {', '.join(each['neighbours'])}"
-        for each in result.contradictions[:20]
-    ]
-    if inequality.violations > 20:
-        lines.append(f"  ... and at {inequality.violations - 20} more nodes, listed in result.json")
     return "\n".join(lines + where_to_read(result))
-    return "\n".join(lines)
 
 
 def _errors(result):

@@ -29,10 +29,6 @@ converges changes."""
 ROUND = 2
 """Turns of a node that closes and is torn open again."""
 
-SETTLED = 1.5
-"""Largest gap of a contact node, over its boundary film, at which its inflow decides whether it opens. A
-larger gap is not closed yet, and its flow says nothing."""
-
 
 @dataclass
 class Changes(Kept):
@@ -151,17 +147,16 @@ class Partition:
         changes.filled += self._grid.count(filled)
 
     def open_contact(self, state, inflow, changes):
-        """Contact with open faces becomes film where fluid flows in, and so do the contact nodes that
-        follow it.
+        """Contact that leaves its faces open becomes film where fluid flows in, or is carried to.
 
-        Fluid that flows in at the head of a row of contact nodes is carried through all of them. Opened one
-        by one, each would take a step. Nodes that stay closed in the end close again in the next step.
+        Asked is the flow that it has with the gap it keeps: a node that has just closed, with less of it,
+        carries less away than that.
         """
         in_contact, law = state.status == CONTACT, self._contact_law
         if law.closes_faces:
             return
-        not_above = state.H <= SETTLED * law.contact_gap
-        opened = run_behind(in_contact & not_above & (inflow > self._tolerance), in_contact)
+        missing = np.maximum(law.contact_gap - state.H, 0.0) / self._grid.mesh.dX
+        opened = in_contact & (carried_through(inflow - missing, in_contact) > self._tolerance)
         state.status[opened] = LUBRICATED
         changes.released += self._grid.count(opened)
 
@@ -212,9 +207,15 @@ class Partition:
         changes.released += self._grid.count(released)
 
 
-def run_behind(heads, nodes):
-    """The `heads` with all `nodes` that follow each of them along its line without a gap: (lines, nx)."""
-    position = np.arange(nodes.shape[1])
-    last_head = np.maximum.accumulate(np.where(heads, position, -1), axis=1)
-    last_other = np.maximum.accumulate(np.where(nodes, -1, position), axis=1)
-    return nodes & (last_head > last_other)
+def carried_through(inflow, nodes):
+    """What each of the `nodes` has to carry on, its inflow and what comes from before it: (lines, nx).
+
+    Along each line what is more than nothing goes on to the next of a run of `nodes`; what those need less
+    than nothing for they take out of it. (Opened one by one a run would take a step for each; opened whole,
+    what the fluid does not reach closes again and opens others.)
+    """
+    gap = 1.0 + np.abs(inflow).sum(axis=1, keepdims=True)  # more than all that can flow in: begins anew
+    total = np.cumsum(np.where(nodes, inflow, -gap), axis=1)
+    before = np.zeros_like(total)
+    before[:, 1:] = np.minimum.accumulate(np.minimum(total, 0.0), axis=1)[:, :-1]
+    return total - before

@@ -122,51 +122,59 @@ def check_interface(problem, state):
     """Check P(contact) >= P(fluid) at the interface itself, nodes counted from 1  [Liu eqs. 1, 2].
 
     The paper compares the two sides of the interface, which lies between two nodes. Both pressures are
-    extrapolated to the face, each from two nodes of its side; how much that moves them is taken for the
-    error of each. So a pressure that rises or falls continuously through the interface breaks nothing, and
-    a jump that stays as the grid is refined is found on every grid. (Compared at the nodes alone, contact
-    behind a constriction, where the pressure falls, breaks the inequality on all grids alike.)
+    extrapolated to the face, each from nodes of its side, and each has an error (`_at_face`). The gap has
+    one, too: half of what it changes across the face, where a wake may begin, changes the pressure on
+    each side by as much as a node needs for that deflection. So a pressure that rises or falls continuously
+    through the interface breaks nothing, and a jump that stays as the grid is refined is found on every
+    grid. (Compared at the nodes alone, contact behind a constriction, where the pressure falls, breaks the
+    inequality on all grids alike.)
+
+    Measured on a ball with roughness of 100 nm rms, a boundary film of 2 nm, 0.5 mm/s: beside the interface
+    pressures of 257 and 513 nodes differ by 0.010 p_h (median), in one of ten nodes by more than 0.020.
 
     Contact one node wide through which the pressure falls has no second node that could tell the pressure
     at its upper face: it may be that of the fluid there, and breaks nothing on this axis. Where the
     pressure of such a node is the lowest of its line, fluid presses from both sides, and it is compared.
     """
-    grid, P, contact = problem.grid, state.P, state.status == CONTACT
-    ghosted = grid.halo(P), grid.halo_status(state.status)
+    grid = problem.grid
+    P, H, status = problem.ghosted(state)
+    contact, solid = state.status == CONTACT, is_solid(status)
     checked, excess = np.zeros(grid.shape, dtype=bool), np.zeros(grid.shape)
     for axis in problem.axes:
         for side in (-1, 1):
-            fluid, is_solid_there = _beside(axis, *ghosted, side)
-            behind, has_contact_behind = _beside(axis, *ghosted, -side)
-            beyond, has_no_fluid_beyond = _beside(axis, *ghosted, 2 * side)
-            of_contact = _at_face(P, behind, has_contact_behind, fluid)
-            of_fluid = _at_face(fluid, beyond, ~has_no_fluid_beyond, P)
+            is_solid_there, is_solid_behind = (_beside(axis, solid, shift) for shift in (side, -side))
+            of_contact = _at_face(axis, P, solid, side)
+            of_fluid = [_beside(axis, grid.halo(each), side) for each in _at_face(axis, P, solid, -side)]
+            of_gap = np.abs(_beside(axis, H, side) - state.H) / problem.K00
             here = contact & ~is_solid_there
             checked |= here
-            jump = (of_fluid[0] - of_fluid[1]) - (of_contact[0] + of_contact[1])
-            falls_through = ~has_contact_behind & (behind <= P)
+            jump = (of_fluid[0] - of_fluid[1]) - (of_contact[0] + of_contact[1]) - of_gap
+            falls_through = ~is_solid_behind & (_beside(axis, P, -side) <= state.P)
             np.maximum(excess, jump, out=excess, where=here & ~falls_through)
     return _inequality(grid, checked, excess)
 
 
-def _beside(axis, P, status, shift):
-    """Pressure of the nodes `shift` along an axis and whether they are solid; lines end as they are."""
-    lines, nx = own(P).shape
+def _beside(axis, ghosted, shift):
+    """What a ghosted array holds `shift` nodes along an axis, (lines, nx); lines end as they are."""
+    lines, nx = own(ghosted).shape
     if axis.number:
-        nodes = np.clip(np.arange(nx) + shift, 0, nx - 1)
-        return own(P)[:, nodes], is_solid(own(status))[:, nodes]
-    there = slice(HALO + shift, HALO + shift + lines)
-    return P[there], is_solid(status)[there]
+        return own(ghosted)[:, np.clip(np.arange(nx) + shift, 0, nx - 1)]
+    return ghosted[HALO + shift : HALO + shift + lines]
 
 
-def _at_face(near, far, known, across):
-    """A pressure half a cell beyond `near`, as it comes from `far`, and its error.
+def _at_face(axis, P, solid, side):
+    """Pressure of each node at its face on a `side`, as it comes from behind, and its error: (lines, nx).
 
-    Where there is no `far` node of this side it stays, and half of what it differs by `across` the face may
-    be missing.
+    The error is what the nearest node behind changes, and what the curvature of the two nearest does. Where
+    a node has none of its kind behind it, it is half of what its pressure changes to either side.
     """
-    step = np.where(known, 0.5 * (near - far), 0.0)
-    return near + step, np.where(known, np.abs(step), 0.5 * np.abs(near - across))
+    near, kind = own(P), own(solid)
+    across, behind, farther = (_beside(axis, P, shift * side) for shift in (1, -1, -2))
+    known, known_farther = (_beside(axis, solid, shift * side) == kind for shift in (-1, -2))
+    step = np.where(known, 0.5 * (near - behind), 0.0)
+    bend = np.where(known_farther, 0.375 * np.abs(near - 2.0 * behind + farther), np.abs(step))
+    unknown = 0.5 * np.maximum(np.abs(near - across), np.abs(near - behind))
+    return near + step, np.where(known, np.abs(step) + bend, unknown)
 
 
 def complementarity_error(problem, state, evaluation):

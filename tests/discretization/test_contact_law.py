@@ -33,6 +33,11 @@ def test_a_boundary_film_closes_continuously():
     assert slope.tolist() == [False, False, False, False, True]
 
 
+def test_the_layers_of_a_boundary_film_are_not_carried_as_fluid():
+    assert BoundaryFilm(0.01).carried(GAPS) == pytest.approx(GAPS - 0.01)
+    assert InterfaceConditions(0.01).carried(GAPS) is GAPS and UnifiedEquations(0.01).carried(GAPS) is GAPS
+
+
 def test_contact_keeps_no_gap_and_closes_its_faces_by_the_interface_conditions():
     law = InterfaceConditions(0.01)
     assert law.contact_gap == 0.0 and law.closes_faces

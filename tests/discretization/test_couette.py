@@ -21,7 +21,7 @@ def couette_flows(request):
     row = Row(request.param)
 
     def make(scheme, linearised=False, rho=RHO, gap=GAP, status=FILM, velocity=1.0):
-        fluid = SimpleNamespace(rho=row.lay(rho), H=row.lay(gap), drho_dP=row.lay(SLOPE))
+        fluid = SimpleNamespace(rho=row.lay(rho), carried=row.lay(gap), drho_dP=row.lay(SLOPE))
         solid, axis, table = is_solid(row.status(status)), row.axis(couette=velocity), SCHEMES[scheme]
         shape, flows = axis.at(solid).shape, []
         for terms in (table.leaving, table.entering):

@@ -24,7 +24,7 @@ MOTIONS = {"along x": (1.0, 0.0), "against x": (-1.0, 0.0), "at an angle": (0.6,
 def plain_fluid(P, H, rho, eps):
     """A fluid with given density and mobility and no derivatives."""
     zero = np.zeros_like(P)
-    return Fluid(P, H, rho, zero, eps, zero, zero)
+    return Fluid(P, H, H, rho, zero, eps, zero, zero)
 
 
 def flows_of(row, axis, P, H, rho, eps, scheme, status=None):
@@ -332,6 +332,16 @@ def test_with_the_boundary_film_the_flow_through_contact_goes_to_nothing(h_b, mi
             conductances(fluid, mixed.status, axis, scheme),
         )
         assert 0.0 < conductance[closed].max() < 8.0 * (h_b / 0.5) ** 2 * conductance.max()
+
+
+@every_scheme
+def test_contact_at_its_boundary_film_carries_nothing_wherever_the_pressure_falls(couette, mixed):
+    """Layers are not compressed: they need not become thicker behind a peak, so that it could not close."""
+    scheme = Scheme(couette, "linear-gap", contact_law=BoundaryFilm(0.1))
+    fluid = fluid_state(mixed.P, np.full_like(mixed.H, 0.1), mixed.contact, scheme.contact_law)
+    immobile = replace(fluid, eps=np.zeros_like(fluid.eps))
+    for axis in axes_of(mixed.mesh, scheme.motion):
+        assert all((flow.value == 0.0).all() for flow in flows(immobile, mixed.status, axis, scheme))
 
 
 @every_scheme

@@ -58,7 +58,8 @@ def dirichlet_error(cells, half_cells, edges):
     assert mesh.dX == pytest.approx(dX, rel=1e-12)
     eps = ghosted(1.0 + X)
     zero = np.zeros_like(eps)
-    fluid = Fluid(zero, eps * np.pi * np.cos(np.pi * mesh.X), zero + 1.0, zero, eps, zero, zero)
+    gap = eps * np.pi * np.cos(np.pi * mesh.X)
+    fluid = Fluid(zero, gap, gap, zero + 1.0, zero, eps, zero, zero)
     status = np.full((1, nx), LUBRICATED)
     status[:, [0, -1]] = BOUNDARY
     (axis,), scheme = axes_of(mesh, (1.0, 0.0)), Scheme("2C")

@@ -9,11 +9,10 @@ from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
 from mgehl.solver.partition import (
     RESTLESS,
     ROUND,
-    SETTLED,
     Changes,
     Contradiction,
     Partition,
-    run_behind,
+    carried_through,
 )
 from mgehl.solver.problem import State
 
@@ -371,19 +370,24 @@ class TestContinuousContact:
         partition.enter_contact(state, Changes())
         assert state.status[4, 4] == LUBRICATED
 
-    def test_it_opens_with_all_behind_where_fluid_flows_in(self, partition, pressed):
+    def test_it_opens_as_far_as_what_flows_in_is_carried(self, partition, pressed):
+        """0.1 flow in at node 4, node 5 needs 0.04 of it, node 6 more than what is left."""
         inflow, changes = np.full(pressed.P.shape, -1.0), Changes()
-        inflow[4, 4] = 0.1
+        inflow[4, 4], inflow[4, 5], inflow[4, 6] = 0.1, -0.04, -0.07
         partition.open_contact(pressed, inflow, changes)
-        assert pressed.status[4, 3:7].tolist() == [CONTACT, LUBRICATED, LUBRICATED, LUBRICATED]
-        only(changes, released=3)
+        assert pressed.status[4, 3:7].tolist() == [CONTACT, LUBRICATED, LUBRICATED, CONTACT]
+        only(changes, released=2)
 
-    def test_its_flow_says_nothing_before_it_has_come_to_its_gap(self, partition, pressed):
-        pressed.H[4, 4] = 1.01 * SETTLED * self.FILM
+    @pytest.mark.parametrize("missing, opens", [(0.9, True), (1.1, False)])
+    def test_asked_is_the_flow_it_has_with_the_gap_it_keeps(
+        self, partition, tiny_problem, pressed, missing, opens
+    ):
+        """A node that has just closed carries away less: it will not, as soon as it has its gap."""
         inflow = np.full(pressed.P.shape, -1.0)
-        inflow[4, 4] = 0.1
+        inflow[4, 4] = 0.1 * self.FILM / tiny_problem.grid.mesh.dX
+        pressed.H[4, 4] -= 0.1 * self.FILM * missing
         partition.open_contact(pressed, inflow, Changes())
-        assert (pressed.status[4, 3:7] == CONTACT).all()
+        assert (pressed.status[4, 4] == LUBRICATED) == opens
 
     def test_contact_that_closes_its_faces_is_not_asked(self, make_partition, pressed):
         make_partition().open_contact(pressed, np.ones(pressed.P.shape), Changes())
@@ -393,8 +397,9 @@ class TestContinuousContact:
         assert not partition.asks_eq_2 and make_partition().asks_eq_2
 
 
-def test_what_follows_a_head_along_its_line():
-    nodes = np.array([[0, 1, 1, 1, 0, 1, 1], [1, 1, 0, 1, 1, 1, 1]], dtype=bool)
-    heads = np.array([[0, 0, 1, 0, 0, 0, 0], [1, 0, 0, 0, 0, 1, 0]], dtype=bool)
-    expected = [[0, 0, 1, 1, 0, 0, 0], [1, 1, 0, 0, 0, 1, 1]]
-    assert run_behind(heads, nodes).astype(int).tolist() == expected
+def test_what_is_carried_through_a_run():
+    """2 flow in: 1 is needed, 1 goes on and is used up; another run begins with nothing."""
+    inflow = np.array([[9.0, 2.0, -1.0, -0.5, -3.0, 1.0, 9.0, -1.0, 0.5]])
+    nodes = np.array([[0, 1, 1, 1, 1, 1, 0, 1, 1]], dtype=bool)
+    carried = carried_through(inflow, nodes)[nodes]
+    assert carried == pytest.approx([2.0, 1.0, 0.5, -2.5, 1.0, -1.0, 0.5])

@@ -68,6 +68,18 @@ def test_contact_is_where_the_film_would_be_thinner(solve_rough):
     assert (problem.evaluate(state).inflow[contact] <= 0.0).all()
 
 
+@pytest.mark.parametrize("start", ["film", "contact"])
+@pytest.mark.parametrize("speed, steps, share", [(3e-4, 20, 0.08), (1e-5, 20, 0.5)])
+def test_contact_carries_much_of_the_load(solve_rough, start, speed, steps, share):
+    """Down to next to no flow, with a boundary film: settled, no overlap, Eq. 2 at the interface."""
+    problem, outcome = solve_rough(1e-7, speed, boundary_film=2e-9, start=start)
+    state = outcome.state
+    assert outcome.converged and outcome.cycles[-1].step <= steps
+    assert problem.load(np.where(state.status == CONTACT, state.P, 0.0)) > share * problem.load(state.P)
+    assert complementarity_error(problem, state, problem.evaluate(state)) < 1e-7
+    assert check_interface(problem, state).violations == []
+
+
 def test_it_is_solved_at_once_on_the_finest_grid(paper_contact):
     contact = paper_contact(1e-3, surface=Waves(1e-7, 2e-4))
     settings = SolverSettings(scheme=Scheme(face_mobility="linear-gap", contact_law=BoundaryFilm(1e-5)))

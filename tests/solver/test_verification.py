@@ -75,6 +75,18 @@ class TestInterface:
         state.status[4, 4] = CONTACT
         assert bool(check_interface(tiny_problem, state).violations) == found
 
+    def test_a_gap_that_opens_at_once_says_how_far_its_pressures_may_be_off(self, tiny_problem, across):
+        """A wake's edge: half of its step on either side is what a node's pressure of 0.3 deflects."""
+        P = np.r_[np.full(3, 0.8), np.full(3, 0.4)]
+        state = across(P)
+        state.H[state.status == CONTACT], state.H[state.status != CONTACT] = 0.0, 0.3 * tiny_problem.K00
+        assert check_interface(tiny_problem, state).worst == pytest.approx(0.4 - 0.3)
+
+    def test_a_pressure_that_turns_near_the_interface_holds(self, tiny_problem, across):
+        """0.03 from node to node, and no jump: the curvature of 0.04 on the fluid's side says so."""
+        state = across(np.array([0.79, 0.84, 0.835, 0.80, 0.79, 0.79]))
+        assert check_interface(tiny_problem, state).violations == []
+
     def test_without_contact_nothing_is_checked(self, tiny_problem, state):
         assert check_interface(tiny_problem, state).checked == 0
 
