@@ -54,6 +54,8 @@ class Position(Kept):
     """Releases on Eq. 2 before the last digits."""
     stalls: int = 0
     """Linear systems that were given up."""
+    memory: Kept | Record | None = None
+    """Of the linear systems before: what the linear solver has, or what was kept of it."""
 
     def record(self):
         return Record.of(
@@ -65,6 +67,7 @@ class Position(Kept):
             trial=self.trial,
             early_rounds=self.early_rounds,
             stalls=self.stalls,
+            memory=self.memory,
         )
 
     @classmethod
@@ -79,4 +82,5 @@ class Position(Kept):
             Trial.from_record(trial) if trial else None,
             record.values["early_rounds"],
             record.values["stalls"],
+            record.part("memory") or None,
         )
