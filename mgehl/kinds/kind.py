@@ -52,6 +52,10 @@ class Kind:
         """Sections and keys that it takes, but that the values of others make meaningless."""
         return ()
 
+    def unheeded(self, config):
+        """Others that may stand there all the same: they are kept, and not shown."""
+        return ()
+
     def pushed_out(self, given):
         """Sections and keys of a file that settings, {"section.key": value}, make meaningless."""
         return ()
