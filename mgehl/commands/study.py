@@ -25,6 +25,7 @@ STUDIES = {
     "angle": "films of surfaces that move at an angle to the axes of the contact",
     "domain": "what a domain of twice the size changes in the film, and what was estimated of it",
     "rough": "a rough ball from full film to nearly dry: load share, contact area, patches against lambda",
+    "waviness": "waves that stand still in full films: a line contact beside published numbers, a ball",
     "mixed": "rough balls drawn at random, from full film to boundary lubrication: verdicts and work",
     "dry": "dry contacts of smooth, wavy and rough balls beside a public code's numbers",
     "ranks": "messages, bytes, flops and time of an iteration on this run's ranks, and on many more",
