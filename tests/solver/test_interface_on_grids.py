@@ -55,8 +55,8 @@ def test_a_ball_inside_fluid_of_one_pressure_breaks_nothing(dry, nodes, is_wavy)
 def test_a_contact_held_closed_by_force_is_found(dry, p0):
     """The fluid would open its rim: found at every grid, and all along it where p0 is not small.
 
-    From the rim on the pressure rises as the root of the distance, so that the first node of a finer grid is
-    nearer to it and lower: less and less of the rim hides a small p0.
+    From the rim on the pressure rises as the root of the distance, so that the first node of a finer grid
+    is nearer to it and lower: less and less of the rim hides a small p0.
     """
     shares = []
     for nodes in NODES:
