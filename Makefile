@@ -99,6 +99,14 @@ rough: $(ENVIRONMENT)
 
 .PHONY: rough
 
+# make mixed     run studies mixed and waviness and write their tables to runs/tables; cases that did not converge say so in them
+mixed: $(ENVIRONMENT)
+	for s in mixed waviness; do ( $(ON) mpiexec -n 2 python -m mgehl study $$s --resume --quiet ); test $$? -le 1 || exit 1; done
+	for e in md csv; do cp runs/study-mixed/mixed.$$e runs/study-mixed/mixed-summary.$$e runs/tables/ || exit 1; \
+	  for t in line point; do cp runs/study-waviness/$$t.$$e runs/tables/waviness-$$t.$$e || exit 1; done; done
+
+.PHONY: mixed
+
 # make means   the film at 7.5 mm/s by the other means of the mobility, and by the scheme 2B, on 1025 and 2049 nodes
 means: $(ENVIRONMENT)
 	for m in geometric harmonic; do for n in 1025 2049; do ( $(ON) $(MGEHL) configs/full_film.toml --set grid.nodes=$$n \

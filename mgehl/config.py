@@ -69,13 +69,18 @@ class Config:
 
     @property
     def unused(self):
-        """Sections and keys that this contact does not use."""
+        """Sections and keys that this contact has no use for."""
+        return *self._meaningless, *self.kind.unheeded(self)
+
+    @property
+    def _meaningless(self):
+        """Those that may not even stand there."""
         return *FOREIGN[self.contact.kind], *self.kind.unused(self)
 
     def as_toml_tables(self):
         """Nested plain values, without the keys that are not set: what a TOML file can hold."""
         tables = {name: _without_none(section) for name, section in asdict(self).items()}
-        _remove(tables, self.unused)
+        _remove(tables, self._meaningless)
         return {name: table for name, table in tables.items() if table}
 
 

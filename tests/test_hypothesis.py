@@ -98,11 +98,7 @@ def test_every_configuration_is_read_or_refused(tables):
     with no_longer_than(PATIENCE):
         config = accepted(tables)
     if config is not None:
-        again = config_from_tables(tomllib.loads(tomli_w.dumps(config.as_toml_tables())))
-        if config.is_dry:  # of the fluid, which it has not, nothing is written
-            assert again.as_toml_tables() == config.as_toml_tables()
-        else:
-            assert again == config
+        assert config_from_tables(tomllib.loads(tomli_w.dumps(config.as_toml_tables()))) == config
 
 
 @settings(max_examples=300, **REPEATABLE)

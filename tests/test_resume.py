@@ -29,6 +29,8 @@ SOLVES = {"solve-0000.npz", "solve-0001.npz"}
 BEGUN = {"configuration.toml", "manifest.json"}
 """Of what is solved, in the checkpoint."""
 SMALL = ["--set", "grid.nodes=65", "--set", "motion.speed=0.5", "--set", "solver.start=film"]
+ROUGH = [str(Path(__file__).parents[1] / "configs" / "rough.toml"), "--set", "grid.nodes=65"]
+"""Film and contact on a rough ball: eight steps, by a linear solver that remembers those before."""
 SIGNALS = (
     (signal.SIGTERM, "SIGTERM", 143),
     (signal.SIGINT, "Ctrl-C", 130),
@@ -52,10 +54,16 @@ def uninterrupted():
     def make(settings):
         key = tuple(settings)
         if key not in made:
-            made[key] = solve(load_config(None, settings[1::2]), MPI.COMM_SELF)
+            made[key] = solve(configuration(settings), MPI.COMM_SELF)
         return made[key]
 
     return make
+
+
+def configuration(words):
+    """Of a command line: a file, or the usual one, and settings."""
+    path, words = (None, words) if words[0] == "--set" else (words[0], words[1:])
+    return load_config(path, words[1::2])
 
 
 def start(arguments, ranks=1):
@@ -149,9 +157,22 @@ class TestKills:
         assert exit_status("--resume", str(here)) == 0  # on one rank, whatever it was before
         assert_same(here, uninterrupted(FILM))
 
-    def killed(self, here, ranks, chance):
+    @pytest.mark.parametrize("kills, ranks", [(4, 1), (2, 2)])
+    def test_nor_what_a_rough_contact_has_learnt(self, uninterrupted, tmp_path, kills, ranks):
+        """Each kill falls within a step, all steps before it are saved; in the end on one rank."""
+        chance, here = random.Random(3), tmp_path / "here"
+        while kills and not (here / "result.json").exists():
+            kills -= self.killed(here, ranks, chance, ROUGH)
+            assert_nothing_is_half_written(here)
+        assert (here / "checkpoint" / "under-way.npz").exists()
+        assert exit_status("--resume", str(here)) == 0
+        assert_same(here, uninterrupted(ROUGH))
+
+    def killed(self, here, ranks, chance, settings=FILM):
         """Whether a run, or one that goes on, was killed on its way."""
-        arguments = ["--resume", str(here)] if has_begun(here) else [*FILM, "--out", str(here), "--force"]
+        arguments = (
+            ["--resume", str(here)] if has_begun(here) else [*settings, "--out", str(here), "--force"]
+        )
         process = start([*arguments, *ALWAYS, "--json-lines"], ranks)
         for _ in range(chance.choice([0, 1, 1, 2])):
             process.stdout.readline()
@@ -208,6 +229,19 @@ class TestStops:
             assert times < 40
         assert status == 0
         assert_same(tmp_path / "here", uninterrupted(SMALL))
+
+    @pytest.mark.parametrize("ranks", [1, 2])
+    def test_a_rough_contact_goes_on_by_the_same_work(self, uninterrupted, tmp_path, ranks):
+        """What was learnt of the linear systems is kept, for any number of ranks."""
+        words = [*ROUGH, "--out", "here"]
+        for _ in range(5):
+            assert exit_status(*words, "--time-limit", "1e-9") == 143
+            words = ["--resume", "here"]
+        assert end(start([*words, "--quiet"], ranks)) == (0, [])
+        whole = uninterrupted(ROUGH)
+        assert_same(tmp_path / "here", whole)
+        work = read_run(tmp_path / "here").result.work
+        assert work.convolutions == pytest.approx(whole.result.work.convolutions, rel=1e-12)
 
     def test_a_limit_of_time_on_two_ranks(self, tmp_path):
         status, said = end(start([*SMALL, "--out", "here", "--time-limit", "1e-9"], ranks=2))

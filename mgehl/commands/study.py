@@ -25,6 +25,8 @@ STUDIES = {
     "angle": "films of surfaces that move at an angle to the axes of the contact",
     "domain": "what a domain of twice the size changes in the film, and what was estimated of it",
     "rough": "a rough ball from full film to nearly dry: load share, contact area, patches against lambda",
+    "waviness": "waves that stand still in full films: a line contact beside published numbers, a ball",
+    "mixed": "rough balls drawn at random, from full film to boundary lubrication: verdicts and work",
     "dry": "dry contacts of smooth, wavy and rough balls beside a public code's numbers",
     "ranks": "messages, bytes, flops and time of an iteration on this run's ranks, and on many more",
 }
@@ -32,8 +34,11 @@ STUDIES = {
 DOUBLING = ("wedge", "schemes", "angle", "error")
 """Studies that need grids each of half the spacing of the one before: they tell orders and limits."""
 
-LARGEST_LISTS = {"line": 1, "rough": 1, "methods": 0, "accuracy": 0, "domain": 0}
+LARGEST_LISTS = {"line": 1, "rough": 1, "mixed": 1, "methods": 0, "accuracy": 0, "domain": 0}
 """How many grids --nodes may name, where that is limited."""
+
+LARGEST_NUMBER = 2**31
+"""Of --cases and --seed."""
 
 DEFAULTS = {"direction": "both", "mean": "arithmetic"}
 """Defaults of options that only study transition takes."""
@@ -60,6 +65,8 @@ def add(commands):
                        f"{', '.join(FACE_MOBILITIES)} (default: arithmetic)")  # fmt: skip
     parser.add_argument("--boundary-film", metavar="LENGTH",
                        help="film of adsorbed layers in study rough (default: 2 nm)")  # fmt: skip
+    parser.add_argument("--cases", metavar="N", help="cases that study mixed draws (default: 120)")
+    parser.add_argument("--seed", metavar="N", help="by which it draws them (default: 7)")
     parser.add_argument("--out", metavar="DIR", help="directory of the results (default: runs/study-NAME)")
     parser.add_argument("--force", action="store_true", help="start anew in a directory that exists")
     parser.add_argument(
@@ -82,7 +89,8 @@ def execute(options, comm):
     directory = Path(options.out or Path("runs") / f"study-{options.study}")
     mean, direction = options.mean or DEFAULTS["mean"], options.direction or DEFAULTS["direction"]
     asked = options.study, nodes, direction, mean
-    record = StudyRecord(*asked, comm.size, versions(), _boundary_film(options))
+    drawn = _number(options, "cases", 1), _number(options, "seed", 0)
+    record = StudyRecord(*asked, comm.size, versions(), _boundary_film(options), *drawn)
     on_first_rank(comm, make_directory, directory, options.force or options.resume)
     with locked(comm, directory):
         study = _solve(options, comm, directory, record)
@@ -100,6 +108,7 @@ def _solve(options, comm, directory, record):
 
     stage = comm.bcast(on_first_rank(comm, begin_study, directory, record, options.resume))
     asked = {"branch": record.branch, "mean": record.mean, "boundary_film": record.boundary_film}
+    asked |= {"wanted": record.cases, "seed": record.seed}
     study = Study(stage, comm, record.nodes, not options.quiet, home=directory, **asked)
     if not options.resume:
         on_first_rank(comm, study.cache.clear)
@@ -143,6 +152,18 @@ def _boundary_film(options):
     if options.study != "rough":
         raise ConfigError(f"--boundary-film {text}: means nothing to study {options.study}")
     return load_config(settings=[f"contact.boundary_film={text}"]).contact.boundary_film
+
+
+def _number(options, name, low):
+    """The whole number of an option of study mixed, `low` or more; None for the study's own."""
+    text = getattr(options, name)
+    if text is None:
+        return None
+    if options.study != "mixed":
+        raise ConfigError(f"--{name} {text}: means nothing to study {options.study}")
+    if not (text.isascii() and text.isdecimal() and low <= int(text) <= LARGEST_NUMBER):
+        raise ConfigError(f"--{name} {text}: must be a whole number from {low} to {LARGEST_NUMBER}")
+    return int(text)
 
 
 def _nodes(text):

@@ -143,9 +143,12 @@ class Grid:
         return self.comm.allreduce(mine, MPI.SUM)
 
     def gather(self, array):
-        """The whole (ny, nx) array on rank 0, None elsewhere: for what is written or shown."""
-        whole = np.empty((self.mesh.ny, self.mesh.nx), array.dtype) if self.comm.rank == 0 else None
-        self.comm.Gatherv(np.ascontiguousarray(array), self._parts_of(whole))
+        """The whole (..., ny, nx) array on rank 0, None elsewhere: for what is written or shown."""
+        several, size = array.shape[:-2], (self.mesh.ny, self.mesh.nx)
+        whole = np.empty((*several, *size), array.dtype) if self.comm.rank == 0 else None
+        for each in np.ndindex(several):
+            target = None if whole is None else whole[each]
+            self.comm.Gatherv(np.ascontiguousarray(array[each]), self._parts_of(target))
         return whole
 
     def whole_of_team(self, array):
@@ -156,9 +159,11 @@ class Grid:
         return whole
 
     def scatter(self, whole):
-        """The local lines of a whole array that rank 0 has."""
-        local = np.empty(self.shape, self.comm.bcast(None if whole is None else whole.dtype))
-        self.comm.Scatterv(self._parts_of(whole), local)
+        """The local lines, (..., lines, nx), of a whole array that rank 0 has."""
+        several, dtype = self.comm.bcast(None if whole is None else (whole.shape[:-2], whole.dtype))
+        local = np.empty((*several, *self.shape), dtype)
+        for each in np.ndindex(several):
+            self.comm.Scatterv(self._parts_of(None if whole is None else whole[each]), local[each])
         return local
 
     def _parts_of(self, whole):

@@ -35,10 +35,10 @@ class DryKind(LoadedKind):
     about = "A dry contact."
     content = "Pressure and gap of a"
 
-    def unused(self, config):
-        """As for a lubricated contact, and what only a fluid uses."""
+    def unheeded(self, config):
+        """What only a fluid heeds: the contact may get one again."""
         needed = OF_MOES if config.moes.M is not None else ()
-        return *super().unused(config), *(name for name in OF_A_FLUID if name not in needed)
+        return tuple(name for name in OF_A_FLUID if name not in needed)
 
     def check_keys(self, config, tables):
         """The relaxation is a method for a fluid."""

@@ -52,6 +52,10 @@ class Kind:
         """Sections and keys that this kind takes, but that the values of other keys leave without a use."""
         return ()
 
+    def unheeded(self, config):
+        """Others that may stand there all the same: they are kept, and not shown."""
+        return ()
+
     def pushed_out(self, given):
         """Sections and keys of a file that settings, {"section.key": value}, leave without a use."""
         return ()

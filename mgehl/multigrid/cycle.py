@@ -91,7 +91,9 @@ class MultigridSolver:
         self._smoothers = [smoother(jacobian, settings.omega) for jacobian in self.jacobians[1:]]
         coarse = CoarseSolve(self.jacobians[0])
         cycle = VCycle(self.jacobians, self._partitioned, self._smoothers, coarse, settings.sweeps)
-        self._preconditioner = Memory(self.jacobian, cycle) if self._rough else cycle
+        self.memory = Memory(self.jacobian, cycle) if self._rough else None
+        """Of the systems solved so far, where there is one."""
+        self._preconditioner = self.memory or cycle
 
     def _scheme_of(self, coarsenings):
         """The scheme of the cycle's operator on a grid so many times coarser than the finest."""

@@ -76,6 +76,20 @@ class BorderedSpace:
         if self._owns_border:
             entries[-1] = border
 
+    def parts(self, stack):
+        """Of many arrays of own entries, (k, own entries): those of P, (k, lines, nx), and the border's.
+
+        The border's k entries are a list that every rank knows (collective).
+        """
+        last, inner = self.grid.comm.size - 1, self.grid.shape[0] * self.grid.shape[1]
+        borders = self.grid.comm.bcast(stack[:, inner:].ravel().tolist(), root=last)
+        return stack[:, :inner].reshape(-1, *self.grid.shape), borders
+
+    def stack(self, P, borders):
+        """The arrays of own entries, (k, own entries), whose `parts` these are."""
+        flat = P.reshape(len(P), -1)
+        return np.column_stack([flat, borders]) if self._owns_border else flat
+
     def _lines(self, values):
         return values[: self.grid.shape[0] * self.grid.shape[1]].reshape(self.grid.shape)
 

@@ -64,6 +64,15 @@ class Memory:
         self._kept = self._images = None
         jacobian.witness = self._see
 
+    @property
+    def known(self):
+        """All `Corrections` that the next system is solved with; None before the first."""
+        return Corrections.stacked(self._seen) if self._seen else None
+
+    @known.setter
+    def known(self, corrections):
+        self._seen = corrections.parts()
+
     def _see(self, dP, dH, dH0):
         """Remember the correction that was made last, and its deflection."""
         if self._cause is None:

@@ -18,8 +18,12 @@ Every file is whole and has a checksum (`archive`). Its record has
     values              what the solver kept beside its arrays, by name
 
 The names of values and arrays are described in `solver.record`; here nothing is known of them. An
-array in a file is of the whole grid, (ny, nx). A run that goes on walks the same way again: what is
-finished is read instead of solved.
+array in a file is of the whole grid, (ny, nx), or of several such. A run that goes on walks the same
+way again: what is finished is read instead of solved.
+
+On a rough surface what the linear solver remembers makes up nearly all of what is under way: 75 to 150 MB
+on 257 nodes, saved in half a second, 450 MB on 513, in two. A solve of ten seconds on 257 has ended before
+it is saved once.
 """
 
 import json
@@ -38,7 +42,7 @@ from mgehl.solver.record import Record
 from mgehl.version import VERSION
 
 UNDER_WAY = "under-way.npz"
-FORMAT = 3
+FORMAT = 4
 """Of the files, goes up with every change of the layout or of a name; another one is not read."""
 
 
@@ -124,7 +128,7 @@ def scattered(grid, arrays):
     whole = (grid.mesh.ny, grid.mesh.nx)
     shapes = grid.comm.bcast({name: array.shape for name, array in arrays.items()})
     for name, shape in shapes.items():
-        if shape != whole:
+        if shape[-2:] != whole:
             raise ValueError(f"{name} is not of {whole[1]} x {whole[0]} nodes")
     return {name: grid.scatter(arrays.get(name)) for name in shapes}
 

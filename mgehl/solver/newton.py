@@ -22,6 +22,7 @@ from mgehl.solver.judge import UNSOLVED, is_stuck, judge, judge_system
 from mgehl.solver.outcome import Cycle, Outcome
 from mgehl.solver.partition import Changes, Partition
 from mgehl.solver.position import Position, Step, Trial
+from mgehl.solver.remembered import remembered
 from mgehl.solver.squeeze import squeeze_rates
 from mgehl.solver.step_length import step_length
 
@@ -92,6 +93,7 @@ class Newton:
         """Let SNES solve from a position; return the `Outcome`."""
         self._position, self._partition.past = position, position.past
         self._outcome, self._stopped = None, None
+        position.memory = remembered(self._multigrid, position.memory)
         self._snes.solve(None, self._unknown)
         if self._stopped:
             raise self._stopped

@@ -55,6 +55,8 @@ class Position(Kept):
     """Releases on Eq. 2 before the residual was small."""
     stalls: int = 0
     """Linear systems that were given up."""
+    memory: Kept | Record | None = None
+    """Of the linear systems before: what the linear solver has, or what was kept of it."""
 
     def record(self):
         return Record.of(
@@ -66,6 +68,7 @@ class Position(Kept):
             trial=self.trial,
             early_rounds=self.early_rounds,
             stalls=self.stalls,
+            memory=self.memory,
         )
 
     @classmethod
@@ -80,4 +83,5 @@ class Position(Kept):
             Trial.from_record(trial) if trial else None,
             record.values["early_rounds"],
             record.values["stalls"],
+            record.part("memory") or None,
         )

@@ -54,6 +54,13 @@ Of Newton's method under way:
     trial.reason trial.violations trial.released trial.limit trial.entered
         Why it had, how many nodes break Eq. 2 there, and what became of them since.
 
+Of the same on rough surfaces, arrays (corrections, lines, nx) and lists with an entry for each:
+
+    memory.P memory.H0 memory.deflection
+        Corrections that the linear systems before were solved by, and the deflections by those of P.
+    memory.residual memory.load_residual
+        What the multigrid cycle answers by them.
+
 Of the relaxation under way:
 
     next_sweep
@@ -67,7 +74,7 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Record:
-    """Values that JSON can hold, and arrays of this rank's lines, (lines, nx), by their names."""
+    """Values that JSON can hold, and arrays of this rank's lines, (..., lines, nx), by their names."""
 
     values: dict = field(default_factory=dict)
     arrays: dict = field(default_factory=dict)

@@ -34,10 +34,13 @@ one."""
 def differences(start, config):
     """Keys in which the `Config` of a start describes another contact than `config`."""
     ours, theirs = config.as_toml_tables(), start.config.as_toml_tables()
+    no_matter = {*OF_A_CASE, *config.unused}
     for section in DIFFER:
+        if section in no_matter:
+            continue
         one, other = ours.get(section, {}), theirs.get(section, {})
         for key in sorted(one.keys() | other.keys()):
-            if f"{section}.{key}" not in OF_A_CASE and _plain(one.get(key)) != _plain(other.get(key)):
+            if f"{section}.{key}" not in no_matter and _plain(one.get(key)) != _plain(other.get(key)):
                 yield f"{section}.{key}"
 
 

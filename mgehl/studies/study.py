@@ -49,6 +49,10 @@ class Study:
     """Directory of its points, where that is another than the one of tables and pictures."""
     boundary_film: float | None = None
     """In m, for study rough; None for its own choice."""
+    wanted: int | None = None
+    """Cases that study mixed draws; None for its own choice."""
+    seed: int | None = None
+    """By which it draws them."""
     _done: int = field(default=0, init=False)
     _started: float = field(default_factory=time.perf_counter, init=False)
 

@@ -106,6 +106,15 @@ def test_one_rank_gathers_what_it_has(hierarchy):
     np.testing.assert_array_equal(whole, values)
 
 
+def test_several_arrays_are_gathered_and_scattered_at_once(hierarchy):
+    grid = hierarchy.grids[0]
+    several = np.random.default_rng(1).random((3, *grid.shape))
+    whole = grid.gather(several)
+    np.testing.assert_array_equal(whole, several)
+    np.testing.assert_array_equal(grid.scatter(whole), several)
+    assert grid.scatter(grid.gather(several[:0])).shape == (0, *grid.shape)
+
+
 def test_grids_of_one_line_stay_one_line(make_line):
     line = make_line(129)
     assert [(grid.mesh.nx, grid.mesh.ny) for grid in line.grids] == [(33, 1), (65, 1), (129, 1)]

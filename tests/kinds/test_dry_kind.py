@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mgehl.config import config_from_tables, load_config
+from mgehl.config import SECTIONS, config_from_tables, load_config
 from mgehl.errors import ConfigError
 from mgehl.kinds import check_contact, contact_from, mesh_from, settled
 
@@ -44,11 +44,20 @@ def test_speed_and_lubricant_do_not_matter(speed):
     contact = contact_from(config)
     check_contact(config, contact)
     assert config.is_dry and contact.is_at_rest and contact.motion == (1.0, 0.0)
+    shown = {name for name in SECTIONS if name not in config.unused}
+    assert not {"motion", "lubricant", "relaxation"} & shown
+    assert {"discretization.couette", "solver.start"} <= set(config.unused)
+    assert not {"discretization.contact_model", "solver.tolerance", "solver.max_steps"} & set(config.unused)
+
+
+def test_the_keys_of_its_fluid_are_kept():
+    """So that it can get the fluid again."""
+    of_fluid = {"motion.speed": 3e-4, "lubricant.viscosity": 0.01, "solver.start": "film"}
+    config = load_config(None, DRY | of_fluid)
     tables = config.as_toml_tables()
-    assert not {"motion", "lubricant", "relaxation"} & tables.keys()
-    assert tables["discretization"] == {"contact_model": "dry"}
-    assert tables["solver"].keys() == {"tolerance", "max_steps"}
-    assert contact_from(config_from_tables(tables)).load == contact.load
+    assert config_from_tables(tables) == config
+    del tables["discretization"]["contact_model"]
+    assert config_from_tables(tables) == load_config(None, of_fluid)
 
 
 def test_moes_numbers_make_a_load_with_their_lubricant():

@@ -93,6 +93,21 @@ def test_remembering_makes_no_convolution(rough, solved):
     assert problem.deflection.count - before <= iterations + 1
 
 
+def test_what_is_known_can_be_taken_away_and_given_back(rough, solved):
+    """A solve from there takes the same iterations, to the same bits."""
+    problem, solver, _, evaluation, state = rough
+    assert solver.memory.known is None
+    solved()
+    known, answers = solver.memory.known, []
+    for _ in range(2):
+        solver.memory.known = known
+        solver.linearise(evaluation, problem.rows(state.status), 11.0)
+        answers.append((solved(), solver.memory.known))
+    assert answers[0][0] == answers[1][0]
+    for one, other in zip(*(vars(each).values() for _, each in answers), strict=True):
+        np.testing.assert_array_equal(one, other)
+
+
 def test_no_more_is_remembered_than_there_is_room_for(rough, monkeypatch):
     problem, solver, *_ = rough
     monkeypatch.setattr(memory, "NODES", 3 * problem.grid.mesh.nodes)

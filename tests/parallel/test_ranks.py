@@ -122,6 +122,10 @@ class TestGrid:
         gathered = grid.gather(lines(grid, values))
         assert (gathered is None) == (COMM.rank != 0)
         np.testing.assert_array_equal(COMM.bcast(gathered), values)
+        several = np.stack([lines(grid, values), lines(grid, 2.0 * values)])
+        whole = grid.gather(several)
+        np.testing.assert_array_equal(COMM.bcast(whole), [values, 2.0 * values])
+        np.testing.assert_array_equal(grid.scatter(whole), several)
 
     def test_reductions(self, pair):
         together, _ = pair(nodes=65)

@@ -5,10 +5,13 @@ import re
 from dataclasses import dataclass, fields, is_dataclass
 from functools import partial
 from math import inf, nan
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from mgehl.multigrid.jacobian import BorderedSpace
+from mgehl.multigrid.memory import Corrections
 from mgehl.solver import record as described
 from mgehl.solver.dry import DryStanding, DryStep
 from mgehl.solver.nested import first_guess
@@ -18,6 +21,7 @@ from mgehl.solver.position import Position, Step, Trial
 from mgehl.solver.problem import State
 from mgehl.solver.record import Kept, Record
 from mgehl.solver.relaxation import Standing, Sweep
+from mgehl.solver.remembered import Remembered
 
 CYCLE = Cycle(3, nan, -inf, 0.1 + 0.2, 5e-324, 11, 222, Changes(1, 2, 3, 4), 5, 1.0 / 3.0)
 SWEEP = Sweep(100, 1e-3, 0.0, 0.1, 0.2, 3, 4, 0.5, 0.25, 0.125)
@@ -65,6 +69,21 @@ def position(state):
     return Position(state, past, [CYCLE, CYCLE], Changes(5), Step(12, 0.7), trial, 3, 1)
 
 
+class Solver:
+    """As much of a linear solver as is asked for what it remembers."""
+
+    def __init__(self, grid, known=None):
+        self.space, self.memory = BorderedSpace(grid), SimpleNamespace(known=known)
+
+
+@pytest.fixture
+def corrections(tiny_problem):
+    """Three of them, random."""
+    nodes = tiny_problem.grid.mesh.nodes
+    sizes = nodes + 1, nodes, nodes + 1  # deflections have no border
+    return Corrections(*(np.random.default_rng(n).random((3, n)) for n in sizes))
+
+
 @pytest.fixture
 def standing(state):
     return Standing(state, [SWEEP, SWEEP], 137)
@@ -84,6 +103,17 @@ class TestThereAndBack:
         position = Position(state, Past.none(state.P.shape, 0))
         assert not position.record().part("trial")
         assert_equal(back(position), position)
+
+    def test_what_the_linear_solver_remembers(self, position, corrections, tiny_problem):
+        """In a position it stays a record until a linear solver takes it back."""
+        position.memory = Remembered(Solver(tiny_problem.grid, corrections))
+        solver = Solver(tiny_problem.grid)
+        Remembered(solver).take_back(back(position).memory)
+        assert_equal(solver.memory.known, corrections)
+
+    def test_before_the_first_linear_system_nothing_is_remembered(self, position, tiny_problem):
+        position.memory = Remembered(Solver(tiny_problem.grid))
+        assert back(position).memory is None
 
     def test_a_standing_of_the_relaxation(self, standing):
         assert_equal(back(standing), standing)
@@ -107,9 +137,10 @@ class TestThereAndBack:
             Standing.from_record(position.record())
 
 
-def test_the_names_are_those_described(position, standing, ended):
+def test_the_names_are_those_described(position, standing, ended, corrections, tiny_problem):
     """Who changes a name changes the format: the description, and its number in `output.checkpoint`."""
     names = set()
+    position.memory = Remembered(Solver(tiny_problem.grid, corrections))
     for kept in (position, standing, ended(CYCLE), ended(SWEEP), DryStanding(np.eye(3), [DRY]), ended(DRY)):
         names |= kept.record().values.keys() | kept.record().arrays.keys()
     lines = re.findall(r"^    (\S.*)$", described.__doc__, re.MULTILINE)

@@ -175,3 +175,15 @@ def test_what_tells_another_contact_is_named():
     assert list(differences(Start, same)) == []
     other = mgehl.load(None, {"contact.radius_y": 0.02, "lubricant.viscosity_law": "roelands"})
     assert list(differences(Start, other)) == ["contact.radius_y", "lubricant.viscosity_law"]
+
+
+def test_to_a_dry_contact_its_fluid_makes_no_difference():
+    import mgehl
+    from mgehl.solver.restart import differences
+
+    class Start:
+        config = mgehl.load(None, {"discretization.contact_model": "dry", "lubricant.viscosity": 0.01})
+
+    dry, wet = (mgehl.load(None, {"discretization.contact_model": model}) for model in ("dry", "lcic"))
+    assert list(differences(Start, dry)) == []
+    assert list(differences(Start, wet)) == ["lubricant.viscosity", "discretization.contact_model"]

@@ -169,6 +169,9 @@ class TestStudies:
                 assert carried == pytest.approx(1.0, abs=1e-4)
                 assert float(row["U of the paper"]) == pytest.approx(float(row["U"]) * 2.0 / 3.0, rel=1e-3)
                 assert max(float(row[e]) for e in ("e^p", "e^p lubr.", "e^p solid")) < 1e-4
+                broken, checked = map(int, row["at the interface"].split(" of "))
+                assert broken <= checked == int(row["Eq. 2 broken"].split(" of ")[1])
+                assert (broken == 0) == (float(row["there by at most p_h"]) == 0.0)
             slowest = [row for row in rows if row["speed mm/s"] == "0.005"]
             assert all(float(row["contact/Hertz area"]) > 0.95 for row in slowest)
             for picture in ("films", "figure-14"):

@@ -25,6 +25,9 @@ class StudyRecord:
     versions: dict
     boundary_film: float | None = None
     """In m, that study rough was asked for; None for its own, and of other studies."""
+    cases: int | None = None
+    """That study mixed was asked for, as `seed`; None as above."""
+    seed: int | None = None
 
 
 def write_record(directory, record):

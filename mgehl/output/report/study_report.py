@@ -96,6 +96,8 @@ def _origin(record):
     rows = [("grids", grids), ("branches", record.branch), ("mean of the mobility", record.mean)]
     if record.boundary_film is not None:
         rows += [("boundary film", f"{1e9 * record.boundary_film:.4g} nm")]
+    drawn = ("cases", record.cases), ("seed", record.seed)
+    rows += [(name, str(number)) for name, number in drawn if number is not None]
     rows += [("ranks", str(record.ranks))]
     rows += [(name, Cell(text, "code")) for name, text in record.versions.items()]
     return Section("origin", "How it was made", (table("Options and software", ("what", "value"), rows),))

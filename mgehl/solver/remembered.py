@@ -1,0 +1,47 @@
+"""What the linear solver remembers on a rough surface, as a part of what is kept of a solve."""
+
+from mgehl.multigrid.memory import Corrections
+from mgehl.solver.record import Kept, Record
+
+
+def remembered(multigrid, kept):
+    """What a `MultigridSolver` remembers from now on: first what was `kept`, a `Record` or None.
+
+    None of one without a memory.
+    """
+    if multigrid.memory is None:
+        return None
+    memory = Remembered(multigrid)
+    if kept:
+        memory.take_back(kept)
+    return memory
+
+
+class Remembered(Kept):
+    """The memory of a `MultigridSolver` as it is when it is asked: nothing is copied before.
+
+    It is kept whole, deflections, too: what is left out changes the digits of all that follows.
+    """
+
+    def __init__(self, multigrid):
+        self._memory, self._space = multigrid.memory, multigrid.space
+
+    def record(self):
+        """The `Record` of it; empty before the first linear system (collective)."""
+        known = self._memory.known
+        if known is None:
+            return Record()
+        P, H0 = self._space.parts(known.values)
+        flow, load = self._space.parts(known.causes)
+        H = known.deflections.reshape(P.shape)
+        return Record.of(P=P, H0=H0, deflection=H, residual=flow, load_residual=load)
+
+    def take_back(self, record):
+        """Remember what a `record` has, and nothing else."""
+        values, arrays, stack = record.values, record.arrays, self._space.stack
+        H = arrays["deflection"]
+        self._memory.known = Corrections(
+            stack(arrays["P"], values["H0"]),
+            H.reshape(len(H), -1),
+            stack(arrays["residual"], values["load_residual"]),
+        )

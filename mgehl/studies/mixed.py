@@ -1,0 +1,181 @@
+"""Rough balls drawn at random, from full film to boundary lubrication: how many are solved, by what work.
+
+Roughness, load and speed are drawn by their logarithms, Hurst's exponent evenly; each case has a surface
+of its own. Nothing is known of a case before it is solved, and nothing of one helps another.
+"""
+
+import time
+from dataclasses import asdict, dataclass
+from math import log
+
+import numpy as np
+
+from mgehl.config import config_from_tables
+from mgehl.run import solve
+from mgehl.studies.cache import key_of
+from mgehl.studies.study import merged
+
+NODES, CASES, SEED = 257, 120, 7
+
+RMS, LOAD, SPEED, HURST = (20e-9, 400e-9), (20.0, 800.0), (1e-5, 1.0), (0.5, 0.9)
+"""From, to: m, N, m/s."""
+
+CASE = {
+    "contact": {"radius_x": 12.7e-3, "radius_y": 12.7e-3, "reduced_modulus": 219.78e9},
+    "surface": {"kind": "self-affine", "shortest_wavelength": 30e-6, "longest_wavelength": 200e-6},
+    "grid": {"x": [-2.0, 1.5], "y": [-1.75, 1.75]},
+    "solver": {"start": "film", "error": False},
+}
+"""What all have: the usual scheme, no boundary film."""
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """What chance chose for a case; `number` counts from 1 and is the seed of its surface."""
+
+    number: int
+    rms: float
+    load: float
+    speed: float
+    hurst: float
+
+    @property
+    def title(self):
+        return f"{1e9 * self.rms:.0f} nm, {self.load:.0f} N, {1e3 * self.speed:.3g} mm/s"
+
+    def tables(self, nodes):
+        """Its configuration."""
+        own = {
+            "contact": {"load": self.load},
+            "surface": {"rms": self.rms, "hurst": self.hurst, "seed": self.number},
+            "motion": {"speed": self.speed},
+            "grid": {"nodes": nodes},
+        }
+        return merged(CASE, own)
+
+
+@dataclass(frozen=True)
+class Found:
+    """What came of a case; the processors' seconds are those of the run that solved it."""
+
+    converged: bool
+    settled: bool
+    doubt: str
+    reason: str
+    film_ratio: float
+    """lambda: the central film of a formula over Sq."""
+    contact_load_share: float
+    contact_nodes: int
+    nodes_in_wave: float
+    overlap: float
+    """Largest overlap outside of contact over Sq."""
+    convolutions: float
+    steps: int
+    cpu: float
+
+    @classmethod
+    def of(cls, result, cpu):
+        """Of a `Result`."""
+        mixed, work = result.mixed, result.work
+        return cls(
+            result.converged, result.settled, "" if result.converged else result.doubt, result.reason,
+            mixed.lambda_ratio, mixed.contact_load_share, result.contact.nodes,
+            result.resolution.surface_nodes, result.overlap.largest_nm / mixed.Sq_nm,
+            work.convolutions, work.steps, cpu,
+        )  # fmt: skip
+
+    @classmethod
+    def from_point(cls, plain, _arrays):
+        """Of a finished point of a study."""
+        return cls(**plain)
+
+    def shared(self):
+        """All of it is known to every rank."""
+        return self
+
+
+def run(study):
+    """Solve all; write the tables `mixed` and `mixed-summary`."""
+    (nodes,) = study.nodes or (NODES,)
+    drawn = draw(study.wanted or CASES, SEED if study.seed is None else study.seed)
+    study.cases = len(drawn)
+    found = [_solve(study, case, nodes) for case in drawn]
+    study.write_table("mixed", [row(*pair) for pair in zip(drawn, found, strict=True)])
+    study.write_table("mixed-summary", summary(found))
+
+
+def draw(cases, seed):
+    """So many `Drawn`; more of them begin with the same ones."""
+    chance, drawn = np.random.default_rng(seed), []
+    for number in range(1, cases + 1):
+        rms, load, speed = (_by_logarithm(chance, *ends) for ends in (RMS, LOAD, SPEED))
+        drawn.append(Drawn(number, rms, load, speed, float(chance.uniform(*HURST))))
+    return drawn
+
+
+def _by_logarithm(chance, low, high):
+    return float(np.exp(chance.uniform(log(low), log(high))))
+
+
+def _solve(study, case, nodes):
+    """From the study's points, or anew: of a point only the numbers are kept, no field."""
+    config = config_from_tables(case.tables(nodes))
+    key = key_of(["mixed", config.as_toml_tables()])
+    found = study.cache.load(key, Found.from_point)
+    if found is None:
+        started = time.process_time()
+        result = solve(config, study.comm).result
+        found = Found.of(result, study.comm.allreduce(time.process_time() - started))
+        study.cache.store(key, lambda: (asdict(found), {}))
+    study.failures += not found.converged
+    study.tell(f"{case.number:3d}: {case.title}", found)
+    return found
+
+
+def row(case, found):
+    """Text of one case."""
+    return {
+        "case": str(case.number),
+        "rms nm": f"{1e9 * case.rms:.1f}",
+        "load N": f"{case.load:.1f}",
+        "speed mm/s": f"{1e3 * case.speed:.4g}",
+        "Hurst": f"{case.hurst:.3f}",
+        "lambda": f"{found.film_ratio:.3g}",
+        "nodes in the shortest wave": f"{found.nodes_in_wave:.1f}",
+        "load on contact": f"{found.contact_load_share:.4f}",
+        "contact nodes": str(found.contact_nodes),
+        "overlap/Sq": f"{found.overlap:.1e}",
+        "convolutions": f"{found.convolutions:.1f}",
+        "steps": str(found.steps),
+        "CPU s": f"{found.cpu:.1f}",
+        "verdict": verdict(found),
+    }
+
+
+def verdict(found):
+    """Converged, or not a result and why."""
+    if found.converged:
+        return "converged"
+    return f"{found.doubt if found.settled else 'NOT CONVERGED'}: {found.reason}"
+
+
+def summary(found):
+    """Rows of what all come to."""
+    good = [each for each in found if each.converged]
+    doubted = sum(each.settled for each in found) - len(good)
+    numbers = {
+        "cases": str(len(found)),
+        "converged": f"{len(good)} ({100 * len(good) / len(found):.1f} %)",
+        "settled, and in doubt": str(doubted),
+        "not settled": str(len(found) - len(good) - doubted),
+        "convolutions, mean": _of(np.mean, "convolutions", found),
+        "convolutions, median": _of(np.median, "convolutions", found),
+        "convolutions of the converged, mean": _of(np.mean, "convolutions", good),
+        "CPU s, mean": _of(np.mean, "cpu", found),
+        "largest overlap/Sq of the converged": _of(np.max, "overlap", good, "{:.1e}"),
+    }
+    return [{"what": what, "value": value} for what, value in numbers.items()]
+
+
+def _of(function, name, found, shown="{:.1f}"):
+    return shown.format(function([getattr(each, name) for each in found])) if found else "none"

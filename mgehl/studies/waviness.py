@@ -1,0 +1,209 @@
+"""Waves that stand still in a full film: what they change in it, beside a published line contact.
+
+The contact flattens them, and what is left is mostly a uniform change of film, made in the inlet: a wave
+there holds back more or less of the flow by where its peaks are. What is told is the response to small
+waves, to those with a peak in the centre and to those a quarter of a length further on; half the
+difference between waves of either sign is free of what goes with the square of their height.
+"""
+
+from dataclasses import dataclass
+from math import hypot, pi, sqrt
+from pathlib import Path
+
+import numpy as np
+
+from mgehl.studies import venner_laws
+from mgehl.studies.study import merged
+
+SMALL = 0.01
+"""Amplitude of the waves over the smooth central film: with 0.002 the same four digits."""
+
+WITHIN = 0.5
+"""Distance from the centre within which the change of film is looked at: units of the half-width."""
+
+POINT_NODES = (257, 513)
+LENGTHS = (1.0, 0.5)
+"""Of waves on a line, over its half-width."""
+
+MODULUS, RADIUS, VISCOSITY, ALPHA = 220e9, 12.7e-3, 0.04, 2.2e-8
+
+FLUIDS = {
+    "Roelands, compressible": {
+        "viscosity_law": f"{Path(venner_laws.__file__)}:roelands",
+        "density_law": f"{Path(venner_laws.__file__)}:dowson_higginson",
+    },
+    "Barus, incompressible": {"viscosity_law": "barus", "density_law": "constant"},
+}
+
+LINES = ((100.0, 11.0, "Roelands, compressible"), (200.0, 10.0, "Barus, incompressible"))
+"""Moes' M and L, and the fluid."""
+
+REFERENCE = {(100.0, 1.0): 0.0817, (100.0, 0.5): 0.1888, (200.0, 1.0): 0.0492, (200.0, 0.5): 0.1251}
+"""Change of film over the waves' amplitude by M and length: an independent linear calculation, 2B on 2049
+nodes."""
+
+GRIDS = (("2B", "arithmetic", 2049), ("3B", "linear-gap", 4097))
+"""As the reference has it; and the usual scheme on 4097 nodes."""
+
+POINT = {
+    "contact": {"load": 800.0, "radius_x": RADIUS, "radius_y": RADIUS, "reduced_modulus": 219.78e9},
+    "motion": {"speed": 1.0},
+    "grid": {"x": [-2.5, 1.5], "y": [-2.0, 2.0]},
+    "discretization": {"couette": "3B", "face_mobility": "linear-gap"},
+    "solver": {"start": "film"},
+}
+"""The paper's ball in full film."""
+
+POINT_LENGTHS = (0.5, 0.25)
+"""Over the Hertz radius."""
+
+WAVES = {"across the motion": ("wavelength_x",), "both ways": ("wavelength_x", "wavelength_y")}
+
+
+@dataclass(frozen=True)
+class Response:
+    """Change of film over the waves' amplitude along the line of nodes through the centre."""
+
+    uniform: float
+    """Of all of it alike."""
+    wave: float
+    """Of the waves themselves, flattened."""
+    converged: bool
+    """All solves that it was made of."""
+    convolutions: float
+    """Mean of them."""
+
+
+def run(study):
+    """Solve all; write the tables `line` and `point`."""
+    nodes = study.nodes or POINT_NODES
+    of_lines = len(GRIDS) * len(LINES) * (1 + 4 * len(LENGTHS))
+    study.cases = of_lines + len(nodes) * (1 + 4 * len(WAVES) * len(POINT_LENGTHS))
+    rows = [row for grid in GRIDS for line in LINES for row in _line_rows(study, grid, line)]
+    study.write_table("line", rows)
+    study.write_table("point", _against_the_finest(_point_responses(study, nodes)))
+
+
+def line_case(M, L, fluid):
+    """The tables of a line contact of these Moes numbers."""
+    twice_U = (L / (ALPHA * MODULUS)) ** 4
+    return {
+        "contact": {
+            "kind": "line", "load_per_length": M * sqrt(twice_U) * MODULUS * RADIUS,
+            "radius_x": RADIUS, "reduced_modulus": MODULUS,
+        },
+        "lubricant": {"viscosity": VISCOSITY, "pressure_viscosity": ALPHA, **FLUIDS[fluid]},
+        "motion": {"speed": 0.5 * twice_U * MODULUS * RADIUS / VISCOSITY},
+        "grid": {"x": [-4.0, 1.5]},
+        "solver": {"start": "film"},
+    }  # fmt: skip
+
+
+def _line_rows(study, grid, line):
+    """Rows of one scheme and contact."""
+    (couette, mean, nodes), (M, L, fluid) = grid, line
+    scheme = {"couette": couette, "face_mobility": mean}
+    case = merged(line_case(*line), {"grid": {"nodes": nodes}, "discretization": scheme})
+    title = f"line M {M:g}, L {L:g}, {couette}, {nodes} nodes"
+    smooth = study.solve(title, case)
+    for length in LENGTHS:
+        found = respond(study, title, case, smooth, length, ("wavelength_x",))
+        known = REFERENCE[M, length]
+        yield {
+            "M": f"{M:g}", "L": f"{L:g}", "fluid": fluid,
+            "scheme": f"{couette}, {mean}", "nodes": str(nodes),
+            "smooth film (Moes)": f"{smooth.result.moes_film.central:.4f}",
+            "wavelength/b": f"{length:g}",
+            "change of film/A": f"{found.uniform:.4f}",
+            "reference": f"{known:.4f}",
+            "apart %": f"{100.0 * (found.uniform / known - 1.0):+.1f}",
+            "wave left/A": f"{found.wave:.4f}",
+            **_cost(found),
+        }  # fmt: skip
+
+
+def _cost(found):
+    return {
+        "convolutions": f"{found.convolutions:.0f}",
+        "converged": "yes" if found.converged else "no",
+    }
+
+
+def respond(study, title, case, smooth, length, keys):
+    """The `Response` to waves of a `length` over the semi-axis along the axes of `keys` (collective)."""
+    a = smooth.contact.x_scale
+    amplitude = SMALL * 1e-9 * smooth.result.central_film_nm
+    changes, results = [], []
+    for quarter in (0.0, 0.25):
+        films = []
+        for half in (0.0, 0.5):
+            surface = {"kind": "waviness", "amplitude": amplitude, "x": (quarter + half) * length * a}
+            surface |= dict.fromkeys(keys, length * a)
+            what = f"{title}, length {length:g}, {' '.join(keys)}, moved {quarter + half:g}"
+            solution = study.solve(what, merged(case, {"surface": surface}))
+            films.append(central_line(solution))
+            results.append(solution.result)
+        if study.first:
+            changes.append((films[0] - films[1]) / (2.0 * amplitude))
+    parts = fitted(smooth.mesh.X, changes, length) if study.first else None
+    convolutions = float(np.mean([result.work.convolutions for result in results]))
+    return Response(*study.comm.bcast(parts), all(result.converged for result in results), convolutions)
+
+
+def central_line(solution):
+    """Film in m along the line of nodes through the centre, on rank 0; None elsewhere."""
+    film = solution.film
+    return None if film is None else film[solution.mesh.nearest(0.0, 0.0)[1]]
+
+
+def fitted(X, changes, length):
+    """(uniform, wave): amplitudes of what two changes, of waves a quarter of a length apart, consist of.
+
+    The response to waves anywhere is the real part of one complex function times exp(-ik x0).
+    """
+    near = np.abs(X) <= WITHIN
+    response = (changes[0] + 1j * changes[1])[near]
+    wave = np.exp(2j * pi / length * X[near])
+    parts = np.stack([np.ones_like(wave), wave, wave.conj()], axis=1)
+    uniform, along, against = np.abs(np.linalg.lstsq(parts, response, rcond=None)[0])
+    return float(uniform), hypot(along, against)
+
+
+def _point_responses(study, nodes):
+    """{(waves, length): [(nodes, smooth film, Response), ...]}, coarse grids first."""
+    found = {}
+    for n in nodes:
+        case, title = merged(POINT, {"grid": {"nodes": n}}), f"point, {n} nodes"
+        smooth = study.solve(title, case)
+        for name, keys in WAVES.items():
+            for length in POINT_LENGTHS:
+                response = respond(study, title, case, smooth, length, keys)
+                found.setdefault((name, length), []).append((smooth, response))
+    return found
+
+
+def _against_the_finest(found):
+    """Rows, each beside the finest grid's."""
+    rows = []
+    for (name, length), grids in found.items():
+        finest = grids[-1][1]
+        for smooth, response in grids:
+            rows.append(
+                {
+                    "waves": name,
+                    "wavelength/a": f"{length:g}",
+                    "nodes": str(smooth.mesh.nx),
+                    "nodes in a wave": f"{length / smooth.mesh.dX:.0f}",
+                    "smooth film nm": f"{smooth.result.central_film_nm:.3f}",
+                    "change of film/A": f"{response.uniform:.4f}",
+                    "from the finest %": _apart(response.uniform, finest.uniform),
+                    "wave left/A": f"{response.wave:.4f}",
+                    "wave from the finest %": _apart(response.wave, finest.wave),
+                    **_cost(response),
+                }
+            )
+    return rows
+
+
+def _apart(value, finest):
+    return f"{100.0 * (value / finest - 1.0):+.1f}"

@@ -1,0 +1,82 @@
+"""Eq. 2 at the interface of contacts whose answer is known, grid by grid.
+
+The dry contact of a ball, solved on each grid, carries what a fluid of one pressure around it leaves of the
+load: its own pressure is then that of the fluid plus the dry one, on rough balls, too.
+"""
+
+import numpy as np
+import pytest
+
+from mgehl.discretization.status import BOUNDARY, CONTACT, LUBRICATED
+from mgehl.model.surface.waviness import Waviness
+from mgehl.solver.dry import carried, solve_dry
+from mgehl.solver.problem import State
+from mgehl.solver.verification import check_interface, check_pressure_inequality
+
+NODES = (65, 129, 257)
+PRESSURES = (0.01, 0.1, 0.5, 2.0)
+"""Of the fluid, in p_h."""
+
+
+@pytest.fixture
+def dry(make_problem, paper_contact):
+    """Function: problem and dry state of a ball on so many nodes a side, smooth or with waves of 500 nm."""
+
+    def solved(nodes, is_wavy=False):
+        waves = Waviness(5e-7, 2e-4, 2e-4) if is_wavy else None
+        problem = make_problem(paper_contact(speed=0.0, surface=waves), nodes=nodes)
+        guess = carried(problem, problem.contact.guessed_pressure(problem.grid.X, problem.grid.Y))
+        outcome = solve_dry(problem, guess, 1e-8, 60, lambda step: None)
+        assert outcome.converged
+        return problem, outcome.state
+
+    return solved
+
+
+def in_fluid(problem, dry, of_fluid, of_contact):
+    """A dry state with this pressure in the gap around it, and that much more in contact."""
+    pressed = dry.P > 0.0
+    status = np.where(problem.boundary, BOUNDARY, np.where(pressed, CONTACT, LUBRICATED)).astype(np.int8)
+    return State(np.where(pressed, dry.P + of_contact, of_fluid), dry.H0, dry.H, status)
+
+
+@pytest.mark.parametrize("is_wavy", [False, True], ids=["smooth", "wavy"])
+@pytest.mark.parametrize("nodes", NODES)
+def test_a_ball_inside_fluid_of_one_pressure_breaks_nothing(dry, nodes, is_wavy):
+    """At any grid: p0 + Hertz of the rest, p0 + the dry contact of rough bodies."""
+    problem, state = dry(nodes, is_wavy)
+    for pressure in PRESSURES:
+        whole = in_fluid(problem, state, pressure, pressure)
+        found = check_interface(problem, whole)
+        assert found.checked > nodes / 2 and found.violations == []
+
+
+@pytest.mark.parametrize("p0", PRESSURES)
+def test_a_contact_held_closed_by_force_is_found(dry, p0):
+    """The fluid would open its rim: found at every grid, and all along it where p0 is not small.
+
+    From the rim on the pressure rises as the root of the distance, so that the first node of a finer grid
+    is nearer to it and lower: less and less of the rim hides a small p0.
+    """
+    shares = []
+    for nodes in NODES:
+        problem, state = dry(nodes)
+        found = check_interface(problem, in_fluid(problem, state, p0, 0.0))
+        assert found.violations and found.worst <= p0
+        shares.append(len(found.violations) / found.checked)
+    assert shares[-1] > shares[0] or shares == [1.0, 1.0, 1.0]
+    assert p0 < 0.5 or shares[-1] == 1.0
+
+
+@pytest.mark.parametrize("nodes", NODES)
+def test_a_pressure_that_falls_through_a_contact_breaks_nothing(dry, nodes):
+    """Fluid of .4 p_h before a ball and none behind it, contact's pressure between them: no jump anywhere.
+
+    At the nodes the same state breaks Eq. 2 wherever the pressure falls out of the fluid into contact.
+    """
+    problem, state = dry(nodes)
+    falling = 0.4 * np.broadcast_to(1.0 / (1.0 + np.exp(4.0 * problem.grid.X)), state.P.shape)
+    status = in_fluid(problem, state, 0.0, 0.0).status
+    falls = State(falling, state.H0, state.H, status)
+    assert check_interface(problem, falls).violations == []
+    assert check_pressure_inequality(problem, falls).violations

@@ -1,0 +1,92 @@
+"""Study waviness: small waves at rest in full films, beside an independent linear calculation."""
+
+import csv
+
+import numpy as np
+import pytest
+from mpi4py import MPI
+
+from mgehl.cli import main
+from mgehl.studies import venner_laws, waviness
+from mgehl.studies.study import Study, merged
+from mgehl.studies.waviness import GRIDS, LINES, REFERENCE, fitted, line_case, respond
+
+
+def responses(directory, couette, mean, nodes, line):
+    """Smooth film by Moes, and what waves of each length change."""
+    scheme = {"grid": {"nodes": nodes}, "discretization": {"couette": couette, "face_mobility": mean}}
+    study, case = Study(directory, MPI.COMM_SELF, speak=False), merged(line_case(*line), scheme)
+    smooth = study.solve("smooth", case)
+    found = {
+        length: respond(study, "waves", case, smooth, length, ("wavelength_x",)) for length in (1.0, 0.5)
+    }
+    return smooth.result.moes_film.central, found
+
+
+@pytest.mark.parametrize("line, film", zip(LINES, (3.6315, 3.9852), strict=True))
+def test_by_the_scheme_of_the_reference_it_is_the_reference(tmp_path, line, film):
+    """To the digits that are given, smooth film and waves."""
+    smooth, found = responses(tmp_path, *GRIDS[0], line)
+    assert smooth == pytest.approx(film, abs=6e-5)
+    for length, each in found.items():
+        assert each.converged and each.uniform == pytest.approx(REFERENCE[line[0], length], rel=2e-3)
+
+
+@pytest.mark.parametrize("line", LINES)
+def test_by_the_usual_scheme_within_three_per_cent_of_it(tmp_path, line):
+    """On a quarter of the nodes that are asked for."""
+    _, found = responses(tmp_path, "3B", "linear-gap", 1025, line)
+    for length, each in found.items():
+        assert each.converged and each.uniform == pytest.approx(REFERENCE[line[0], length], rel=0.03)
+
+
+def test_waves_are_flattened_but_for_what_the_density_gives_way(tmp_path):
+    """a/A = C/(1 + C), C = h E' k/(4 B), where nothing flows through the wave [Hooke 2006]."""
+    _, found = responses(tmp_path, "3B", "linear-gap", 1025, LINES[0])
+    p = np.array([1.995e9])
+    density, slope = venner_laws.dowson_higginson(p)
+    film = 3.64 * (2.2e-8 * 220e9 / 11.0) ** -2 * waviness.RADIUS
+    b = 4.606e-4
+    C = film * 220e9 * (2.0 * np.pi / b) / 4.0 * (slope / density)[0]
+    assert found[1.0].wave == pytest.approx(C / (1.0 + C), rel=0.1)
+    assert found[0.5].wave == pytest.approx(2.0 * C / (1.0 + 2.0 * C), rel=0.1)
+
+
+@pytest.mark.parametrize("length", [1.0, 0.5, 0.25])
+def test_parts_of_a_response_are_told_apart(length):
+    X, k = np.linspace(-4.0, 1.5, 1025), 2.0 * np.pi / length
+    uniform, wave = 0.2 - 0.1j, 0.03 + 0.04j
+    changes = [
+        ((uniform + wave * np.exp(1j * k * X)) * np.exp(-1j * k * quarter * length)).real
+        for quarter in (0.0, 0.25)
+    ]
+    assert fitted(X, changes, length) == pytest.approx((abs(uniform), abs(wave)), rel=1e-9)
+
+
+def test_the_fluid():
+    p, step = np.array([0.0, 1e8, 1e9, 2e9]), 1e3
+    eta, slope = venner_laws.roelands(p, 0.04, 2.2e-8)
+    assert eta[0] == pytest.approx(0.04) and slope[0] == pytest.approx(0.04 * 2.2e-8)
+    for law in (lambda p: venner_laws.roelands(p, 0.04, 2.2e-8), venner_laws.dowson_higginson):
+        differences = (law(p + step)[0] - law(p - step)[0]) / (2.0 * step)
+        np.testing.assert_allclose(law(p)[1], differences, rtol=1e-4)
+
+
+def test_a_line_and_a_ball(tmp_path, monkeypatch):
+    """The tables, on tiny grids."""
+    monkeypatch.setattr(waviness, "GRIDS", (("2B", "arithmetic", 257),))
+    monkeypatch.setattr(waviness, "POINT_LENGTHS", (0.5,))
+    monkeypatch.setattr(waviness, "WAVES", {"across the motion": ("wavelength_x",)})
+    words = ["study", "waviness", "--nodes", "65,129", "--quiet", "--out", str(tmp_path / "here")]
+    assert main(words) == 0
+    tables = {}
+    for name in ("line", "point"):
+        with (tmp_path / "here" / f"{name}.csv").open() as file:
+            tables[name] = list(csv.DictReader(file))
+    assert [row["wavelength/b"] for row in tables["line"]] == ["1", "0.5"] * 2
+    assert [row["nodes"] for row in tables["point"]] == ["65", "129"]
+    coarse, fine = tables["point"]
+    assert fine["from the finest %"] == "+0.0"
+    ratio = float(coarse["change of film/A"]) / float(fine["change of film/A"]) - 1.0
+    assert float(coarse["from the finest %"]) == pytest.approx(100.0 * ratio, abs=0.1)
+    assert all(row["converged"] == "yes" for rows in tables.values() for row in rows)
