@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from mgehl.cli import main
-from mgehl.config import chosen_config
+from mgehl.config import chosen_config, default_config
 
 CONFIGS = Path(__file__).resolve().parents[2] / "configs"
 FILM = ["run", "--set", "grid.nodes=65", "--set", "motion.speed=3", "--set", "solver.start=film"]
@@ -58,12 +58,16 @@ class TestWithoutAConfiguration:
         assert main(["run"]) == 0
         words = capsys.readouterr().out
         assert f"no configuration named: solving {chosen_config()}\n" in words
-        assert "contact carries 0.22 % of the load" in words
+        assert "contact carries 4.51 % of the load" in words
         mixed = json.loads((tmp_path / "runs" / "rough" / "result.json").read_text())["mixed"]
-        assert mixed["patches"] == 5 and 0.3 < mixed["lambda_ratio"] < 0.33
+        assert mixed["patches"] == 30 and 0.032 < mixed["lambda_ratio"] < 0.034
 
-    def test_settings_alone_change_the_papers_ball(self, tmp_path):
-        assert main([*FILM, "--quiet"]) == 0
+    def test_settings_alone_change_the_papers_ball_and_that_is_said(self, tmp_path, capsys):
+        assert main(FILM) == 0
+        words = capsys.readouterr().out
+        assert (
+            f"no configuration named: solving {default_config()} with the keys that --set gives\n" in words
+        )
         config = tomllib.loads((tmp_path / "runs" / "point_contact" / "configuration.toml").read_text())
         assert config["contact"]["load"] == 800.0
 
@@ -71,4 +75,8 @@ class TestWithoutAConfiguration:
     def test_programs_that_listen_are_not_told(self, quiet, capsys, monkeypatch):
         monkeypatch.setattr("mgehl.commands.run.chosen_config", lambda *_: CONFIGS / "thick_film.toml")
         assert main(["run", quiet]) == 0
+        assert "solving" not in capsys.readouterr().out
+
+    def test_nor_is_who_names_one(self, capsys):
+        assert main([*FILM, str(CONFIGS / "thick_film.toml")]) == 0
         assert "solving" not in capsys.readouterr().out
