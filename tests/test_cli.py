@@ -379,7 +379,9 @@ def test_a_solver_type_that_cannot_be_followed_is_one_line(tmp_path):
     assert done.stderr.startswith("mgehl: -mgehl_snes_type") and len(done.stderr.splitlines()) == 1
 
 
-@pytest.mark.parametrize("arguments, where", [(["keys"], "commands.keys.execute"), (DRY, "run.run")])
+@pytest.mark.parametrize(
+    "arguments, where", [(["keys"], "commands.keys.execute"), ([*DRY, "--quiet"], "run.run")]
+)
 def test_ctrl_c_where_nothing_is_kept_is_one_line(capsys, monkeypatch, arguments, where):
     def interrupted(*_):
         raise KeyboardInterrupt
