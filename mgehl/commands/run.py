@@ -103,10 +103,10 @@ def _names_nothing(options):
 
 def _say_which(file, settings):
     """Say which configuration is solved, and that it is another one where keys are set."""
-    from mgehl.saying import say
+    from mgehl.saying import columns, folded, say
 
-    changed = " with the keys that --set gives" if settings else ""
-    say(f"mgehl: no configuration named: solving {shown(file)}{changed}")
+    changed = ", changed by --set" if settings else ""
+    say(folded(f"mgehl: no configuration named: solving {shown(file)}{changed}", "    ", columns()))
 
 
 def _say_what_changed(config):

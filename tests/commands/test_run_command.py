@@ -52,6 +52,7 @@ class TestWithoutAConfiguration:
     @pytest.fixture(autouse=True)
     def empty_directory(self, tmp_path, monkeypatch):
         monkeypatch.chdir(tmp_path)
+        monkeypatch.delenv("COLUMNS", raising=False)
 
     def test_the_rough_ball_converges_with_contact_in_its_film(self, tmp_path, capsys):
         """What `make run` shows: README has its picture."""
@@ -65,9 +66,7 @@ class TestWithoutAConfiguration:
     def test_settings_alone_change_the_papers_ball_and_that_is_said(self, tmp_path, capsys):
         assert main(FILM) == 0
         words = capsys.readouterr().out
-        assert (
-            f"no configuration named: solving {default_config()} with the keys that --set gives\n" in words
-        )
+        assert f"no configuration named: solving {default_config()}, changed by --set\n" in words
         config = tomllib.loads((tmp_path / "runs" / "point_contact" / "configuration.toml").read_text())
         assert config["contact"]["load"] == 800.0
 
