@@ -4,7 +4,7 @@
 # make clean    remove the environment (.venv); the next command sets it up anew
 #
 # What the pages show:
-# make pictures the pictures of the cases in configs/README.md (a minute or two)
+# make pictures the pictures of the cases and the table of speeds in configs/README.md (a few minutes)
 # make tables   the table "Measured" in runs/README.md
 # make studies, rough, means, transition, large   the other tables and pictures in runs/tables
 
@@ -30,21 +30,24 @@ clean:
 
 .PHONY: run test env clean
 
-# make pictures   run the six cases of configs/README.md and draw each into configs/pictures
+# make pictures   run the six cases of configs/README.md, draw each into configs/pictures, write the table of speeds
 PICTURES := configs/pictures
 CASES := runs/cases
 RUN_CASE := mpiexec -n 2 python -m mgehl run --force --quiet
+SPEEDS := 500 100 20 5 2 1 0.6 0.3 0.1
+OF_SPEEDS := run,converged,lambda,mean film nm,load on contact,contact/Hertz area,inlet cells,convolutions
 DRAW := mgehl plot --format png --dpi 90 --out runs/cases/plots
 pictures: $(ENVIRONMENT)
 	mkdir -p $(PICTURES)
 	for c in ball_bearing cam coated dent rough; do ( $(ON) $(RUN_CASE) configs/$$c.toml --out $(CASES)/$$c ) || exit 1; done
-	for u in 200 100 50; do ( $(ON) $(RUN_CASE) configs/rough.toml --set motion.speed="$$u mm/s" \
+	for u in $(SPEEDS); do ( $(ON) $(RUN_CASE) configs/rough.toml --set motion.speed="$$u mm/s" \
 	  --out $(CASES)/$$u-mm-s ) || exit 1; done
+	$(ON) mgehl collect $(SPEEDS:%=$(CASES)/%-mm-s) --columns "$(OF_SPEEDS)" --out runs/tables/speeds.csv > runs/tables/speeds.md
 	$(ON) $(RUN_CASE) configs/cam.toml --set motion.speed="0.15 m/s" --out $(CASES)/cam_slow
 	for c in ball_bearing coated dent rough; do ( $(ON) $(DRAW) $(CASES)/$$c --kind film && \
 	  mv $(CASES)/plots/film.png $(PICTURES)/$$c.png ) || exit 1; done
 	$(ON) $(DRAW) $(CASES)/cam $(CASES)/cam_slow --kind compare && mv $(CASES)/plots/compare-lines.png $(PICTURES)/cam.png
-	$(ON) $(DRAW) $(CASES)/200-mm-s $(CASES)/rough --kind compare && mv $(CASES)/plots/compare-lines.png $(PICTURES)/speeds.png
+	$(ON) $(DRAW) $(CASES)/20-mm-s $(CASES)/0.6-mm-s $(CASES)/0.1-mm-s --kind compare && mv $(CASES)/plots/compare-lines.png $(PICTURES)/speeds.png
 
 .PHONY: pictures
 

@@ -16,14 +16,40 @@ The layers, lowest first; none imports a higher one (``tests/test_layers.py`` as
 """
 
 import warnings
+from importlib import import_module
+from typing import TYPE_CHECKING
 
-with warnings.catch_warnings():
-    warnings.simplefilter("ignore", DeprecationWarning)  # of libraries, whose users are not ours
+from mgehl.version import VERSION
+
+if TYPE_CHECKING:
     from mgehl.api import load, solve
     from mgehl.config import Config
     from mgehl.errors import ConfigError, UserError
-    from mgehl.version import VERSION
 
 __version__ = VERSION
 
 __all__ = ["Config", "ConfigError", "UserError", "__version__", "load", "solve"]
+
+_MODULES = {
+    "Config": "mgehl.config",
+    "ConfigError": "mgehl.errors",
+    "UserError": "mgehl.errors",
+    "load": "mgehl.api",
+    "solve": "mgehl.api",
+}
+"""Where each name comes from. It is imported when it is first asked for: where numpy and numba are missing
+the command line can then still say how to put the environment on."""
+
+
+def __getattr__(name: str) -> object:
+    """A name of the interface."""
+    if name not in _MODULES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", DeprecationWarning)  # of libraries, whose users are not ours
+        value = globals()[name] = getattr(import_module(_MODULES[name]), name)
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

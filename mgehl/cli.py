@@ -127,8 +127,12 @@ class _Parser(argparse.ArgumentParser):
         super().__init__(*arguments, **{"formatter_class": _Help} | named)
 
     def error(self, message):
-        line = f"mgehl: {one_line(message, LONGEST)} (see {self.prog} --help)\n"
-        self.exit(USAGE, line if _is_first() else None)
+        self.exit(USAGE, f"mgehl: {one_line(message, LONGEST)} (see {self.prog} --help)\n")
+
+    def _print_message(self, message, file=None):
+        """Help, version and mistakes: of several ranks one says them."""
+        if _is_first():
+            super()._print_message(message, file)
 
 
 def _is_first():
@@ -157,8 +161,7 @@ def read(own, petsc=()):
         if word.startswith("--"):
             top.error(f"{word}: PETSc options take one dash and come last")
     if not own and not petsc:
-        if _is_first():
-            top.print_help()
+        top.print_help()
         top.exit()
     command = top.parse_args(own)
     for name, value in vars(command).items():

@@ -88,6 +88,16 @@ def test_the_version(capsys):
     assert capsys.readouterr().out == f"mgehl {VERSION}\n"
 
 
+@pytest.mark.parametrize("words", [["--version"], ["--help"], ["run", "--help"], ["run", "--nonsense"], []])
+def test_of_several_ranks_one_says_it(capsys, monkeypatch, words):
+    monkeypatch.setenv("OMPI_COMM_WORLD_RANK", "0")
+    first = exit_status(words)
+    assert "mgehl" in "".join(capsys.readouterr())
+    monkeypatch.setenv("OMPI_COMM_WORLD_RANK", "1")
+    assert exit_status(words) == first
+    assert capsys.readouterr() == ("", "")
+
+
 NOTHING = [
     ["run", ""], ["run", "--resume", ""], ["run", "--start-from", ""], ["run", "--out", ""],
     ["run", "--time-limit", ""], ["run", "--save-every", " "], ["run", "--set", ""], ["new", ""],
@@ -156,6 +166,19 @@ class TestFailures:
         done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True)
         assert done.returncode == 2 and len(done.stderr.splitlines()) == 1
         assert 'eval "$(make -s env)"' in done.stderr
+
+    @pytest.mark.parametrize("missing", ["numba", "numpy", "petsc4py"])
+    @pytest.mark.parametrize("words", [[], ["run"]])
+    def test_as_a_module_without_its_packages(self, missing, words):
+        """A python that has none of them can still read `python -m mgehl`."""
+        text = f"import sys, runpy; sys.modules['{missing}'] = None; sys.argv = ['mgehl', *{words}]; "
+        text += "runpy.run_module('mgehl', run_name='__main__')"
+        done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True)
+        if done.returncode == 0:  # the help needs nothing that is missing
+            assert words == [] and done.stderr == "" and "solve one contact" in done.stdout
+        else:
+            assert done.returncode == 2 and len(done.stderr.splitlines()) == 1
+            assert 'eval "$(make -s env)"' in done.stderr
 
     @pytest.mark.parametrize(
         "variables",
@@ -356,7 +379,9 @@ def test_a_solver_type_that_cannot_be_followed_is_one_line(tmp_path):
     assert done.stderr.startswith("mgehl: -mgehl_snes_type") and len(done.stderr.splitlines()) == 1
 
 
-@pytest.mark.parametrize("arguments, where", [(["keys"], "commands.keys.execute"), (DRY, "run.run")])
+@pytest.mark.parametrize(
+    "arguments, where", [(["keys"], "commands.keys.execute"), ([*DRY, "--quiet"], "run.run")]
+)
 def test_ctrl_c_where_nothing_is_kept_is_one_line(capsys, monkeypatch, arguments, where):
     def interrupted(*_):
         raise KeyboardInterrupt

@@ -70,7 +70,7 @@ def _inlet(config, contact, mesh):
     needed = resolving_nodes(contact, mesh)
     cells, start = grids[-1].cells, config.solver.start
     yield ""
-    yield f"expected   from a {start} start, {expectation(cells, start)}"
+    yield f"expected   from a {start} start, {expectation(cells, start, contact.is_mixed)}"
     verdict = "this grid does" if needed <= config.grid.nodes else f"recommended: grid.nodes={needed}"
     if needed > LARGEST_NODES:
         verdict = f"no grid up to {LARGEST_NODES} does; a higher speed or a smaller domain helps"

@@ -32,7 +32,7 @@ def add(commands):
     parser.add_argument("--format", action="append", metavar="F,F,...",
                      help="png, svg, pdf (default: png,pdf); may be repeated")  # fmt: skip
     parser.add_argument("--style", metavar="FILE", help="matplotlib style file laid over mgehl's own, "
-                     "mgehl/output/mgehl.mplstyle, which says how")  # fmt: skip
+                     "mgehl/output/pictures/mgehl.mplstyle, which says how")  # fmt: skip
     parser.add_argument("--dpi", type=int, metavar="N", help="dots to the inch of bitmaps (default: 150)")
     return parser
 

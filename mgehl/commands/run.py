@@ -89,23 +89,24 @@ def _begin(options, comm, solve):
     on_first_rank(comm, make_directory, directory, options.force)
     with locked(comm, directory):
         on_first_rank(comm, prepare_directory, directory)
-        if comm.rank == 0 and _chose_nothing(options):
-            _say_which(file)
+        if comm.rank == 0 and _names_nothing(options):
+            _say_which(file, options.settings)
         if start:
             on_first_rank(comm, keep_start, directory, options.start_from)
         return solve(config, directory, start)
 
 
-def _chose_nothing(options):
+def _names_nothing(options):
     """Whether a listener should be told which configuration is solved."""
-    return not (options.config or options.settings or options.quiet or options.json_lines)
+    return not (options.config or options.quiet or options.json_lines)
 
 
-def _say_which(file):
-    """Say which configuration is solved."""
-    from mgehl.saying import say
+def _say_which(file, settings):
+    """Say which configuration is solved, and that it is another one where keys are set."""
+    from mgehl.saying import columns, folded, say
 
-    say(f"mgehl: no configuration named: solving {shown(file)}")
+    changed = ", changed by --set" if settings else ""
+    say(folded(f"mgehl: no configuration named: solving {shown(file)}{changed}", "    ", columns()))
 
 
 def _say_what_changed(config):

@@ -46,6 +46,11 @@ UNSEEN = 2381.0
 """Most convolutions of films that the grid hardly sees: on 65 to 257 nodes at 0.1 to 20 mm/s."""
 UNSEEN_WORDS = f"films that a grid hardly sees took 299 to {UNSEEN:g}, and most did not settle"
 
+MIXED = 90.0, 1440.0
+"""Fewest and most convolutions of rough balls whose peaks reach through the film: 257 nodes, boundary film
+2 nm, 1 to 0.01 mm/s."""
+MIXED_WORDS = f"rough balls on 257 nodes took {MIXED[0]:g} to {MIXED[1]:g}, the more the slower they slid"
+
 
 @dataclass(frozen=True)
 class InletGrid:
@@ -111,10 +116,19 @@ def forecast(config, contact, mesh, ranks):
 def _effort(config, contact, mesh):
     """That of the kind; where the film is below what the grid sees a run may take far more."""
     effort = config.kind.effort(config)
+    if _is_mixed(config, contact, mesh):
+        return replace(effort, convolutions=MIXED, measured=MIXED_WORDS)
     if not _is_unseen(config, contact, mesh):
         return effort
     low, high = effort.convolutions
     return replace(effort, convolutions=(low, max(high, UNSEEN)), measured=UNSEEN_WORDS)
+
+
+def _is_mixed(config, contact, mesh):
+    """Whether it is a rough ball whose peaks reach through the film."""
+    if not contact.is_loaded or config.is_dry or mesh.is_line or config.solver.method != "newton-mg":
+        return False
+    return contact.is_mixed
 
 
 def _is_unseen(config, contact, mesh):

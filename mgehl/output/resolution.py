@@ -61,8 +61,10 @@ def resolving_nodes(contact, mesh):
     return nodes
 
 
-def expectation(cells, start):
-    """What a run finds with so many cells in its inlet."""
+def expectation(cells, start, is_mixed=False):
+    """What a run finds with so many cells in its inlet; `is_mixed`: peaks reach through the film."""
+    if is_mixed:
+        return "a film that the highest peaks may reach through: the run tells how much they carry"
     if cells >= RESOLVED_CELLS:
         return "a film that the grid resolves"
     if cells >= FILM_TOUCHES:

@@ -34,7 +34,9 @@ class ContactResult:
     x_nodes: tuple | None
     y_nodes: tuple | None
     largest_gap_nm: float
-    """Largest |H| of a contact node: what the zero-gap equation has left."""
+    """Largest |H| of a contact node: what the zero-gap equation has left, or the boundary film's."""
+    kept_gap_nm: float = 0.0
+    """Gap that adsorbed layers keep between bodies in contact (contact.boundary_film)."""
 
 
 @dataclass(frozen=True)
@@ -235,7 +237,8 @@ def contact_result(problem, state, nm):
     y_nodes = np.flatnonzero(np.concatenate(grid.comm.allgather(contact[:, i]))) + 1
     across = None if grid.mesh.is_line else _ends(y_nodes)
     ends = _ends(x_nodes), across
-    return ContactResult(nodes, nodes * cell / contact_area, carried, *ends, largest_gap)
+    kept = nm * problem.scheme.contact_law.contact_gap
+    return ContactResult(nodes, nodes * cell / contact_area, carried, *ends, largest_gap, kept)
 
 
 def _inequalities(problem, state):

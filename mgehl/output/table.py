@@ -92,7 +92,8 @@ def _loaded(result):
         "load error": _digits(result["load_error"], ".1e"),
         "load on contact": _digits(contact["load_fraction"], ".4f"),
         "contact/Hertz area": _digits(contact["area_fraction"], ".4f"),
-        "lambda": _lambda(result),
+        "lambda": _of_rough(result, "lambda_ratio"),
+        "mean film nm": _of_rough(result, "mean_film_nm"),
         "contact nodes on X": span(contact["x_nodes"]),
         "on Y": span(contact["y_nodes"]),
         "largest gap in contact nm": _digits(contact["largest_gap_nm"], ".1e"),
@@ -109,10 +110,10 @@ def _digits(number, digits):
     return "nan" if number is None else format(number, digits)
 
 
-def _lambda(result):
-    """Of rough bodies the smooth film of a formula over Sq; empty of smooth ones and of older runs."""
-    ratio = (result.get("mixed") or {}).get("lambda_ratio")
-    return "" if ratio is None else f"{ratio:.4g}"
+def _of_rough(result, name):
+    """A number of `MixedResult`; empty of smooth bodies, of older runs and where there is none."""
+    value = (result.get("mixed") or {}).get(name)
+    return "" if value is None else f"{value:.4g}"
 
 
 def _films(result):

@@ -73,7 +73,7 @@ def loaded_words(result, verbose=True):
         *(_errors(result) if verbose else ()),
         *_overlap(result.overlap),
         *_contact(result, verbose),
-        f"  inlet: {resolution.inlet_cells:.2f} cells, {ADVICE[resolution.verdict]}",
+        f"  inlet: {resolution.inlet_cells:.2f} cells, {_advice(result)[resolution.verdict]}",
         f"  domain: {domain_words(resolution.domain, resolution.domain_loss_percent)}",
         *((f"  surface: {shown}",) if shown else ()),
         *(mixed_lines(result.mixed) if result.mixed else ()),
@@ -99,15 +99,20 @@ def _overlap(overlap):
 def _contact(result, verbose):
     """The solid contact, and where its pressure is below the fluid's."""
     contact, inequality = result.contact, result.pressure_inequality
-    where = (
-        f"; nodes {span(contact.x_nodes)} on Y = 0, {span(contact.y_nodes)} on X = 0; "
-        f"largest gap {contact.largest_gap_nm:.1e} nm"
-    )
+    where = f"; nodes {span(contact.x_nodes)} on Y = 0, {span(contact.y_nodes)} on X = 0; {_gap(contact)}"
     size = f"{contact.nodes} nodes, {100 * contact.area_fraction:.2f} % of the Hertz area"
     yield f"  contact: {size}{where if verbose else ''}"
     if verbose or inequality.violations:
         broken = f"{inequality.violations} of {inequality.checked}"
         yield f"  pressure inequality broken at {broken} interface nodes"
+
+
+def _gap(contact):
+    """The largest gap in contact; of bodies that layers keep apart beside the layers' thickness."""
+    largest, kept = contact.largest_gap_nm, contact.kept_gap_nm
+    if not (kept and contact.nodes):
+        return f"largest gap {largest:.1e} nm"
+    return f"largest gap {largest:.4g} nm, the boundary film is {kept:.4g} nm"
 
 
 def _nodes(result):
@@ -167,6 +172,17 @@ ADVICE = {
     "grid-determined": f"grid-determined (below {SEEN_CELLS:g}): the contact set is the grid's, "
     "not the problem's",
 }
+
+ADVICE_ROUGH = ADVICE | {
+    "grid-determined": f"grid-determined (below {SEEN_CELLS:g}): a finer grid has another film "
+    "between the peaks"
+}
+"""Of rough bodies, whose peaks stand where they stand on every grid that shows them."""
+
+
+def _advice(result):
+    """What to think of an inlet, by its verdict."""
+    return ADVICE_ROUGH if result.mixed else ADVICE
 
 
 def films_words(result):

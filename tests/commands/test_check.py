@@ -49,6 +49,12 @@ def test_a_speed_that_no_grid_resolves_is_said(told):
     assert "no grid up to 16385 does" in told("full_film.toml", "--set", "motion.speed=1e-9")
 
 
+def test_of_a_rough_ball_it_is_said_that_peaks_come_through(told):
+    text = told("rough.toml")
+    assert "from a film start, a film that the highest peaks may reach through" in text
+    assert "decided by the grid" not in text and "did not settle" not in text
+
+
 def test_a_run_that_the_machine_cannot_hold_is_said(told, monkeypatch):
     monkeypatch.setattr("mgehl.output.surroundings.memory_GiB", lambda: 1.0)
     assert "MORE THAN THIS MACHINE'S 1.0" in told("full_film.toml")

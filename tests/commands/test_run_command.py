@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from mgehl.cli import main
-from mgehl.config import chosen_config
+from mgehl.config import chosen_config, default_config
 
 CONFIGS = Path(__file__).resolve().parents[2] / "configs"
 FILM = ["run", "--set", "grid.nodes=65", "--set", "motion.speed=3", "--set", "solver.start=film"]
@@ -52,18 +52,21 @@ class TestWithoutAConfiguration:
     @pytest.fixture(autouse=True)
     def empty_directory(self, tmp_path, monkeypatch):
         monkeypatch.chdir(tmp_path)
+        monkeypatch.delenv("COLUMNS", raising=False)
 
     def test_the_rough_ball_converges_with_contact_in_its_film(self, tmp_path, capsys):
         """What `make run` shows: README has its picture."""
         assert main(["run"]) == 0
         words = capsys.readouterr().out
         assert f"no configuration named: solving {chosen_config()}\n" in words
-        assert "contact carries 0.22 % of the load" in words
+        assert "contact carries 4.51 % of the load" in words
         mixed = json.loads((tmp_path / "runs" / "rough" / "result.json").read_text())["mixed"]
-        assert mixed["patches"] == 5 and 0.3 < mixed["lambda_ratio"] < 0.33
+        assert mixed["patches"] == 30 and 0.032 < mixed["lambda_ratio"] < 0.034
 
-    def test_settings_alone_change_the_papers_ball(self, tmp_path):
-        assert main([*FILM, "--quiet"]) == 0
+    def test_settings_alone_change_the_papers_ball_and_that_is_said(self, tmp_path, capsys):
+        assert main(FILM) == 0
+        words = capsys.readouterr().out
+        assert f"no configuration named: solving {default_config()}, changed by --set\n" in words
         config = tomllib.loads((tmp_path / "runs" / "point_contact" / "configuration.toml").read_text())
         assert config["contact"]["load"] == 800.0
 
@@ -71,4 +74,8 @@ class TestWithoutAConfiguration:
     def test_programs_that_listen_are_not_told(self, quiet, capsys, monkeypatch):
         monkeypatch.setattr("mgehl.commands.run.chosen_config", lambda *_: CONFIGS / "thick_film.toml")
         assert main(["run", quiet]) == 0
+        assert "solving" not in capsys.readouterr().out
+
+    def test_nor_is_who_names_one(self, capsys):
+        assert main([*FILM, str(CONFIGS / "thick_film.toml")]) == 0
         assert "solving" not in capsys.readouterr().out

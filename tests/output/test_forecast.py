@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mgehl.config import load_config
+from mgehl.config import chosen_config, load_config
 from mgehl.discretization.mesh import Mesh
 from mgehl.kinds import contact_from, mesh_from
 from mgehl.kinds.point import FILM
@@ -74,6 +74,15 @@ def test_a_film_that_the_grid_hardly_sees_may_take_far_more(one_second, speed, m
     found = foretold(film(speed=speed, **{"solver.error": False}))
     assert found.convolutions == (FILM.convolutions[0], most)
     assert ("hardly sees" in found.measured) == (most == module.UNSEEN)
+
+
+@pytest.mark.parametrize("start", ["film", "contact"])
+def test_where_peaks_reach_through_the_film_it_is_as_of_such_balls(one_second, start):
+    config = load_config(chosen_config(), {"solver.start": start})
+    found = foretold(config)
+    assert found.convolutions == module.MIXED and "rough balls" in found.measured
+    thick = load_config(chosen_config(), {"motion.speed": 0.5, "solver.error": False})
+    assert foretold(thick).convolutions == FILM.convolutions
 
 
 def test_a_convolution_grows_by_n_log_n_from_the_grid_that_was_timed(one_second):

@@ -14,7 +14,7 @@ from mgehl.model.lubricant import Barus, ConstantDensity, Lubricant
 from mgehl.model.surface import Waviness
 from mgehl.output.files import write_result
 from mgehl.output.mixed_result import Nodes, measured, mixed_result, patch_sizes, within_hertz
-from mgehl.output.table import _lambda
+from mgehl.output.table import _of_rough
 from mgehl.output.words import mixed_lines, mixed_note
 
 FILM, LOW = 0.5, 0.25
@@ -148,7 +148,7 @@ class Raised:
 
 def test_smooth_bodies_have_nothing_of_it(tiny_problem):
     assert mixed_result(tiny_problem, None) is None
-    assert _lambda({"mixed": None}) == _lambda({}) == ""
+    assert _of_rough({"mixed": None}, "lambda_ratio") == _of_rough({}, "lambda_ratio") == ""
 
 
 def test_it_is_in_result_json_and_in_words(contact, nodes, tmp_path):
@@ -158,7 +158,8 @@ def test_it_is_in_result_json_and_in_words(contact, nodes, tmp_path):
     write_result(tmp_path / "result.json", replace(result, groups={}))
     stored = json.loads((tmp_path / "result.json").read_text())
     assert stored["mixed"] == asdict(found)
-    assert _lambda(stored) == f"{found.lambda_ratio:.4g}"
+    assert _of_rough(stored, "lambda_ratio") == f"{found.lambda_ratio:.4g}"
+    assert _of_rough(stored, "mean_film_nm") == f"{found.mean_film_nm:.4g}"
     text = str(result)
     assert f"contact carries {100 * found.contact_load_share:.2f} % of the load" in text
     area = f"{1e12 * found.contact_area_m2:.4g} um^2"

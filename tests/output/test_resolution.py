@@ -35,3 +35,9 @@ def test_the_recommended_grid_is_the_first_that_resolves():
 )
 def test_what_is_expected_follows_from_cells_and_start(cells, start, words):
     assert words in expectation(cells, start)
+
+
+@pytest.mark.parametrize("cells, start", [(0.5, "film"), (0.5, "contact"), (5.0, "film")])
+def test_where_peaks_reach_through_the_film_the_grid_does_not_decide(cells, start):
+    words = expectation(cells, start, is_mixed=True)
+    assert "peaks" in words and "grid" not in words

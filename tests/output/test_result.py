@@ -5,6 +5,7 @@ from dataclasses import asdict, replace
 import numpy as np
 import pytest
 
+from mgehl.discretization.contact_law import BoundaryFilm, InterfaceConditions
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.status import BOUNDARY, CONTACT, LUBRICATED
 from mgehl.output.edge_result import EdgeResult
@@ -113,6 +114,13 @@ def test_contact_is_described_with_nodes_counted_from_one(summary, outcome, tiny
     assert contact.area_fraction == pytest.approx(5 * mesh.dX * mesh.dY / np.pi)
     nm = 1e9 * tiny_problem.contact.film_scale
     assert contact.largest_gap_nm == pytest.approx(1e-9 * nm)
+
+
+@pytest.mark.parametrize("law, kept", [(InterfaceConditions(0.01), 0.0), (BoundaryFilm(0.02), 0.02)])
+def test_the_film_that_layers_keep_stands_beside_the_gap(summary, tiny_problem, monkeypatch, law, kept):
+    monkeypatch.setattr(tiny_problem, "scheme", replace(tiny_problem.scheme, contact_law=law))
+    nm = 1e9 * tiny_problem.contact.film_scale
+    assert summary().contact.kept_gap_nm == pytest.approx(kept * nm)
 
 
 def test_pressure_is_in_gigapascal(summary, outcome, tiny_problem):

@@ -8,9 +8,12 @@ import pytest
 from made_solution import make_solution
 from test_files import make_result
 
+from mgehl.output.mixed_result import MixedResult
 from mgehl.output.resolution import Resolution
 from mgehl.output.result import ContactResult, InequalityResult
 from mgehl.output.words import FAILED, UNRESOLVED
+
+MIXED = MixedResult(0.25, 80.0, 0.125, 0.875, 3e-9, 0.0625, 7, 1e-9, 40.0, None, 90.0, 0.015)
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -112,6 +115,20 @@ class TestOfALoadedContact:
     )
     def test_a_coarse_inlet_is_a_warning(self, verdict, advice):
         assert advice in str(make_result(resolution=Resolution(0.5, verdict)))
+
+    def test_of_rough_bodies_it_does_not_decide_on_the_contact(self):
+        smooth = make_result(resolution=Resolution(0.5, "grid-determined"))
+        rough = replace(smooth, mixed=MIXED)
+        assert "contact set is the grid's" in str(smooth) and "contact set" not in str(rough)
+        assert "another film between the peaks" in str(rough)
+
+    def test_the_gap_in_contact_is_compared_with_the_layers_that_keep_it(self):
+        contact = make_result().contact
+        layers = replace(contact, largest_gap_nm=2.0, kept_gap_nm=2.0)
+        assert "largest gap 0.0e+00 nm" in str(make_result())
+        assert "; largest gap 2 nm, the boundary film is 2 nm" in str(make_result(contact=layers))
+        none = replace(layers, nodes=0, largest_gap_nm=0.0)
+        assert "largest gap 0.0e+00 nm" in str(make_result(contact=none))
 
     def test_a_surface_that_the_grid_does_not_show_is_a_warning(self):
         assert "surface" not in str(make_result())

@@ -17,6 +17,11 @@ RESOLUTION = {
     "grid-determined": Cell("grid-determined: the contact set is the grid's", DOUBTFUL),
 }
 
+RESOLUTION_ROUGH = RESOLUTION | {
+    "grid-determined": Cell("grid-determined: a finer grid has another film between the peaks", DOUBTFUL),
+}
+"""Of rough bodies."""
+
 SURFACE = {
     surface.RESOLVED: Cell("resolved", GOOD),
     surface.COARSE: Cell("coarse", DOUBTFUL),
@@ -54,7 +59,7 @@ def checks_table(solution):
             "cells in the inlet",
             number(resolution.inlet_cells, 3),
             f"at least {RESOLVED_CELLS:g}",
-            RESOLUTION[resolution.verdict],
+            (RESOLUTION_ROUGH if result.mixed else RESOLUTION)[resolution.verdict],
         ),
         (
             "film that a domain of twice the size would have more, %, estimated",
@@ -98,6 +103,7 @@ def contact_tables(result):
         ("contact nodes on Y = 0, counted from 1", span(contact.x_nodes)),
         ("contact nodes on X = 0, counted from 1", span(contact.y_nodes)),
         ("largest |gap| in contact, nm", number(contact.largest_gap_nm, 3)),
+        *_boundary_film(contact),
         ("largest overlap outside of contact, nm", number(result.overlap.largest_nm, 3)),
         ("cavitated nodes", str(result.cavitated_nodes)),
         ("interface nodes checked on Eq. 2", str(inequality.checked)),
@@ -113,6 +119,12 @@ def contact_tables(result):
         yield table("Nodes that break Eq. 2, counted from 1", ("i", "j", "by, p_h"), nodes, folded=True)
     if result.contradictions:
         yield _contradictions(result.contradictions)
+
+
+def _boundary_film(contact):
+    """The row of the film that layers keep, where there are any."""
+    if contact.kept_gap_nm:
+        yield "boundary film that keeps it, nm", number(contact.kept_gap_nm, 3)
 
 
 def _contradictions(nodes):

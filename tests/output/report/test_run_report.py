@@ -19,6 +19,7 @@ from mgehl.output.report.run_report import report, verdict
 VOID = {"meta", "img", "br", "hr", "link", "input"}
 SMALL = {"grid.nodes": 65}
 CHECKS = "What was checked on the final state"
+CONTACT_TABLE = "Solid contact, and fluid against contact pressure across its edge"
 FILMS = "Computed films beside those of formulas for a full film"
 
 
@@ -328,7 +329,25 @@ class TestRoughBodies:
             ("0.25", ""), ("80", "nm"), ("12.5", "%"), ("87.5", "%"), ("3000", "µm²"), ("6.25", "%"),
             ("7", ""), ("1000", "µm²"), ("40", "nm"), (NO_NUMBER, "nm"), ("90", "nm"), ("1.5", "%"),
         }  # fmt: skip
+        assert all(row[0] != "boundary film that keeps it, nm" for row in table_of(page, CONTACT_TABLE))
         assert ("lambda", "0.25") in page.highlights and ("load on contact", "12.5 %") in page.highlights
+
+    def test_the_boundary_film_stands_beside_the_gap_it_keeps(self, film_run, quick):
+        contact = replace(film_run.result.contact, largest_gap_nm=2.0, kept_gap_nm=2.0)
+        rows = table_of(quick(changed(film_run, contact=contact, mixed=self.MIXED)), CONTACT_TABLE)
+        assert rows[5:7] == [
+            ["largest |gap| in contact, nm", "2"],
+            ["boundary film that keeps it, nm", "2"],
+        ]
+
+    def test_a_coarse_inlet_does_not_decide_on_their_contact(self, film_run, quick):
+        resolution = replace(film_run.result.resolution, inlet_cells=0.5, verdict="grid-determined")
+        said = [
+            table_of(quick(changed(film_run, resolution=resolution, mixed=mixed)), CHECKS)
+            for mixed in (None, self.MIXED)
+        ]
+        words = [dict((row[0], row[-1]) for row in rows)["cells in the inlet"] for rows in said]
+        assert "contact set is the grid's" in words[0] and "film between the peaks" in words[1]
 
     def test_a_line_contact_s_areas_are_of_a_metre(self, line_run, quick):
         page = quick(changed(line_run, converged=True, mixed=replace(self.MIXED, per_metre=True)))
