@@ -100,12 +100,14 @@ def is_mixed(contact, scheme):
 def _first_mixed_guess(problem, start, P, film):
     """The dry pressure `P` of the rough bodies, with a `film` between them, or nearly none.
 
+    The film lies on the layers that contact keeps: without them below it, much of a film thinner than they are
+    would be contact that is none (a ball of 188 nm rms at 0.04 mm/s, 2 nm: 14000 nodes, and no end).
     A start from contact takes the thinnest film and no node in contact. With contact everywhere, nodes
     would open and close for ever (a ball of 100 nm rms at 0.1 m/s: 60 steps without an end, 14 from the
     thin film).
     """
-    if start == "contact":
-        film = max(FLAT * film, problem.scheme.contact_law.contact_gap)
+    layers = problem.scheme.contact_law.contact_gap
+    film = layers + (FLAT * film if start == "contact" else film)
     H0 = film - problem.mean(problem.gap(P, 0.0), P > 0.0)
     return problem.state(P, H0, np.full(problem.grid.shape, LUBRICATED))
 

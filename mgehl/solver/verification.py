@@ -26,6 +26,9 @@ domains that end 1.01 semi-axes from the centre, on one side, 0.02 to 0.9."""
 FEWEST_NODES = 4
 """That the loaded zone must have along each axis. Measured: 11 and more on domains that are "auto"."""
 
+ROUNDING = 1e-12
+"""Difference of pressures in p_h that may come from rounding: a pressure that is the same everywhere has some."""
+
 LOADED = 0.1
 """Pressure of the loaded zone over the largest: 0.995 semi-axes of a dry contact, more of a light one."""
 
@@ -143,14 +146,17 @@ def check_interface(problem, state):
     for axis in problem.axes:
         for side in (-1, 1):
             is_solid_there, is_solid_behind = (_beside(axis, solid, shift) for shift in (side, -side))
-            of_contact = _at_face(axis, P, solid, side)
-            of_fluid = [_beside(axis, grid.halo(each), side) for each in _at_face(axis, P, solid, -side)]
+            of_contact = _at_face(problem.axes, axis, P, solid, side)
+            of_fluid = [
+                _beside(axis, grid.halo(each), side)
+                for each in _at_face(problem.axes, axis, P, solid, -side)
+            ]
             of_gap = np.abs(_beside(axis, H, side) - state.H) / problem.K00
             here = contact & ~is_solid_there
             checked |= here
             jump = (of_fluid[0] - of_fluid[1]) - (of_contact[0] + of_contact[1]) - of_gap
             falls_through = ~is_solid_behind & (_beside(axis, P, -side) <= state.P)
-            np.maximum(excess, jump, out=excess, where=here & ~falls_through)
+            np.maximum(excess, jump, out=excess, where=here & ~falls_through & (jump > ROUNDING))
     return _inequality(grid, checked, excess)
 
 
@@ -162,11 +168,12 @@ def _beside(axis, ghosted, shift):
     return ghosted[HALO + shift : HALO + shift + lines]
 
 
-def _at_face(axis, P, solid, side):
+def _at_face(axes, axis, P, solid, side):
     """Pressure of each node at its face on a `side`, as it comes from behind, and its error: (lines, nx).
 
-    The error is what the nearest node behind changes, and what the curvature of the two nearest does. Where
-    a node has none of its kind behind it, it is half of what its pressure changes to either side.
+    The error is what the nearest node behind changes, what the curvature of the two nearest does, and how far
+    the pressure bends along the face. Where a node has none of its kind behind it, half of what its pressure
+    changes to either side stands for the first two.
     """
     near, kind = own(P), own(solid)
     across, behind, farther = (_beside(axis, P, shift * side) for shift in (1, -1, -2))
@@ -174,7 +181,13 @@ def _at_face(axis, P, solid, side):
     step = np.where(known, 0.5 * (near - behind), 0.0)
     bend = np.where(known_farther, 0.375 * np.abs(near - 2.0 * behind + farther), np.abs(step))
     unknown = 0.5 * np.maximum(np.abs(near - across), np.abs(near - behind))
-    return near + step, np.where(known, np.abs(step) + bend, unknown)
+    along = sum(_bend_of_a_cell(other, P) for other in axes if other is not axis)
+    return near + step, np.where(known, np.abs(step) + bend, unknown) + along
+
+
+def _bend_of_a_cell(axis, P):
+    """How far the pressure at the ends of a node's cell lies off a straight line through it, (lines, nx)."""
+    return 0.125 * np.abs(_beside(axis, P, -1) - 2.0 * own(P) + _beside(axis, P, 1))
 
 
 def complementarity_error(problem, state, evaluation):
