@@ -100,8 +100,8 @@ def is_mixed(contact, scheme):
 def _first_mixed_guess(problem, start, P, film):
     """The dry pressure `P` of the rough bodies, with a `film` between them, or nearly none.
 
-    The film lies on the layers that contact keeps: without them below it, much of a film thinner than they are
-    would be contact that is none (a ball of 188 nm rms at 0.04 mm/s, 2 nm: 14000 nodes, and no end).
+    The film lies on the layers that contact keeps. Without them a film thinner than they are would close
+    nearly everywhere (a ball of 188 nm rms at 0.04 mm/s, 2 nm: 14000 nodes, and no end).
     A start from contact takes the thinnest film and no node in contact. With contact everywhere, nodes
     would open and close for ever (a ball of 100 nm rms at 0.1 m/s: 60 steps without an end, 14 from the
     thin film).

@@ -27,7 +27,7 @@ FEWEST_NODES = 4
 """That the loaded zone must have along each axis. Measured: 11 and more on domains that are "auto"."""
 
 ROUNDING = 1e-12
-"""Difference of pressures in p_h that may come from rounding: a pressure that is the same everywhere has some."""
+"""Difference of pressures in p_h that may come from rounding alone."""
 
 LOADED = 0.1
 """Pressure of the loaded zone over the largest: 0.995 semi-axes of a dry contact, more of a light one."""
@@ -171,9 +171,9 @@ def _beside(axis, ghosted, shift):
 def _at_face(axes, axis, P, solid, side):
     """Pressure of each node at its face on a `side`, as it comes from behind, and its error: (lines, nx).
 
-    The error is what the nearest node behind changes, what the curvature of the two nearest does, and how far
-    the pressure bends along the face. Where a node has none of its kind behind it, half of what its pressure
-    changes to either side stands for the first two.
+    The error is what the nearest node behind changes, what the curvature of the two nearest does, and how
+    far the pressure bends along the face. Where a node has none of its kind behind it, half of what its
+    pressure changes to either side stands for the first two.
     """
     near, kind = own(P), own(solid)
     across, behind, farther = (_beside(axis, P, shift * side) for shift in (1, -1, -2))
@@ -186,7 +186,7 @@ def _at_face(axes, axis, P, solid, side):
 
 
 def _bend_of_a_cell(axis, P):
-    """How far the pressure at the ends of a node's cell lies off a straight line through it, (lines, nx)."""
+    """How far the pressure bends from the middle of a cell to its ends, (lines, nx)."""
     return 0.125 * np.abs(_beside(axis, P, -1) - 2.0 * own(P) + _beside(axis, P, 1))
 
 
