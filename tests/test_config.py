@@ -594,3 +594,20 @@ def test_objects_of_one_s_own():
     assert line.surface == contact.surface and line.deformation is None
     coated = contact_from(with_settings(*COATED, "coating.poisson=0.2"))
     assert coated.deformation == Coating(pytest.approx(10e-6), 400e9, 0.2, None, 0.3, 219.78e9)
+
+
+@pytest.mark.parametrize(
+    "rms, speed, start", [("20 nm", 1.0, "film"), ("20 nm", 1e-3, "contact"), (None, 1.0, "contact")]
+)
+def test_rough_bodies_whose_film_is_thicker_begin_with_it(rms, speed, start):
+    """Their contact would open all over; smooth bodies may have contact beside a film at one speed."""
+    from mgehl.solver.from_config import contact_from, settings_from
+
+    settings = {"solver.start": "contact", "contact.load": 100.0, "motion.speed": speed}
+    if rms:
+        waves = {"rms": rms, "shortest_wavelength": 3e-5, "longest_wavelength": 2e-4}
+        settings |= {"surface.kind": "self-affine"} | {
+            f"surface.{key}": value for key, value in waves.items()
+        }
+    config = with_settings(*(f"{key}={value}" for key, value in settings.items()))
+    assert settings_from(config, contact_from(config)).nested.start == start

@@ -67,7 +67,7 @@ def test_a_contact_held_closed_by_force_is_found_on_every_grid(dry, p0, least):
 
 
 def test_the_finer_the_grid_the_weaker_the_force_that_is_found(dry):
-    """The pressure rises as the root of the distance from the rim: a first node has as much as this fluid."""
+    """Pressure rises as the root of the distance from the rim: a first node has as much as this fluid."""
     shares = list(held_closed(dry, 0.1))
     assert shares[0] == 0.0 and 0.0 < shares[1] < shares[2]
 
