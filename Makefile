@@ -110,6 +110,21 @@ mixed: $(ENVIRONMENT)
 
 .PHONY: mixed
 
+# make layers    contact that keeps a boundary film of 2 nm: a rough surface on three grids, a smooth ball from film and contact
+BAND := configs/rough.toml --set contact.load="100 N" --set surface.shortest_wavelength="45 um" --set motion.speed="0.1 mm/s"
+SMOOTH := /dev/null --set contact.load="100 N" --set contact.boundary_film="2 nm" --set grid.nodes=257 \
+  --set "grid.x=[-2.0, 1.5]" --set "grid.y=[-1.75, 1.75]" --no-error
+MIXED := run,nodes,converged,Eq. 2 violations,load on contact,contact/Hertz area,mean film nm,convolutions,wall s
+LAYERS := run,converged,central nm,minimum nm,contact load,contact/Hertz area,Eq. 2 violations,inlet cells,convolutions
+layers: $(ENVIRONMENT)
+	for n in 257 513 1025; do ( $(ON) $(MGEHL) $(BAND) --set grid.nodes=$$n --out runs/band/$$n ) || exit 1; done
+	$(ON) mgehl collect runs/band/* --columns "$(MIXED)" --out runs/tables/band.csv > runs/tables/band.md
+	for u in 10 3 1 0.5 0.2 0.1; do for s in film contact; do ( $(ON) $(MGEHL) $(SMOOTH) --set motion.speed="$$u mm/s" \
+	  --set solver.start=$$s --out runs/layers/$$u-mm-s-$$s ); test $$? -le 1 || exit 1; done; done
+	$(ON) mgehl collect runs/layers/* --columns "$(LAYERS)" --out runs/tables/layers.csv > runs/tables/layers.md
+
+.PHONY: layers
+
 # make means   the film at 7.5 mm/s by the other means of the mobility, and by the scheme 2B, on 1025 and 2049 nodes
 means: $(ENVIRONMENT)
 	for m in geometric harmonic; do for n in 1025 2049; do ( $(ON) $(MGEHL) configs/full_film.toml --set grid.nodes=$$n \

@@ -73,7 +73,7 @@ def states(path, points):
         for point, (above, below) in zip(points, axes.T, strict=True):
             _status_map(above, point)
             image = _film_map(below, point, norm)
-        figure.colorbar(image, ax=axes, label="film in the lower row, nm (black: contact)", extend="both")
+        figure.colorbar(image, ax=axes, label="film in the lower row, nm (orange: contact)", extend="both")
         for row in axes:
             row[0].set_ylabel("Y = y/b")
         for panel in axes[1]:
