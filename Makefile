@@ -115,7 +115,7 @@ BAND := configs/rough.toml --set contact.load="100 N" --set surface.shortest_wav
 SMOOTH := /dev/null --set contact.load="100 N" --set contact.boundary_film="2 nm" --set grid.nodes=257 \
   --set "grid.x=[-2.0, 1.5]" --set "grid.y=[-1.75, 1.75]" --no-error
 MIXED := run,nodes,converged,Eq. 2 violations,load on contact,contact/Hertz area,mean film nm,convolutions,wall s
-LAYERS := run,converged,central nm,minimum nm,contact load,contact/Hertz area,Eq. 2 violations,inlet cells,convolutions
+LAYERS := run,converged,central nm,minimum nm,load on contact,contact/Hertz area,Eq. 2 violations,inlet cells,convolutions
 layers: $(ENVIRONMENT)
 	for n in 257 513 1025; do ( $(ON) $(MGEHL) $(BAND) --set grid.nodes=$$n --out runs/band/$$n ) || exit 1; done
 	$(ON) mgehl collect runs/band/* --columns "$(MIXED)" --out runs/tables/band.csv > runs/tables/band.md
