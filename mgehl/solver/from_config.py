@@ -82,7 +82,8 @@ def _start(config, contact):
 
     Contact of their peaks would open all over (20 nm rms at 1 m/s: no end in 180 s).
     """
-    opens = contact.is_loaded and contact.roughness > 0.0 and not contact.is_mixed
+    has_film = contact.is_loaded and not contact.is_at_rest
+    opens = has_film and contact.roughness > 0.0 and not contact.is_mixed
     is_found_from_a_film = config.discretization.face_mobility == LINEAR_GAP
     return "film" if opens and is_found_from_a_film else config.solver.start
 
