@@ -359,7 +359,8 @@ class TestStartFrom:
         "arguments, part",
         [
             (["--start-from", "nowhere", "--out", "new"], "nowhere: is no run directory"),
-            ([*SMALL, "--start-from", "before", "--out", "before", "--force"], "is the run's own directory"),
+            ([*SMALL, "--start-from", "before", "--out", "before", "--force"],
+             "is the run's own directory"),
             (["--start-from", "before", "--set", "contact.kind=line", "--out", "new"],
              "--start-from before: a point is no start for a line"),
             (["--start-from", "before", "--set", "contact.kind=wedge", "--out", "new"],
