@@ -106,7 +106,7 @@ class SolverSection:
     )  # fmt: skip
     tolerance: float = key_field(1e-8, "rms residual and load error at convergence", above=0.0, high=1e-2)
     start: str = key_field(
-        "film", "first guess: a full film, or contact (of rough bodies whose film is thicker: the film)",
+        "film", "first guess: a full film, or contact",
         choices=("film", "contact"), kind=str,
     )  # fmt: skip
     max_steps: int = key_field(60, "Newton steps on one grid at the most", low=0, high=10000, kind=int)

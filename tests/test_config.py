@@ -597,13 +597,20 @@ def test_objects_of_one_s_own():
 
 
 @pytest.mark.parametrize(
-    "rms, speed, start", [("20 nm", 1.0, "film"), ("20 nm", 1e-3, "contact"), (None, 1.0, "contact")]
+    "rms, speed, layers, start",
+    [
+        ("20 nm", 1.0, 0.0, "film"),
+        ("20 nm", 1.0, 2e-9, "contact"),
+        ("20 nm", 1e-3, 0.0, "contact"),
+        (None, 1.0, 0.0, "contact"),
+    ],
 )
-def test_rough_bodies_whose_film_is_thicker_begin_with_it(rms, speed, start):
-    """Their contact would open all over; smooth bodies may have contact beside a film at one speed."""
+def test_rough_bodies_whose_film_is_thicker_begin_with_it(rms, speed, layers, start):
+    """Contact that closes its faces would open all over; one with a boundary film opens by itself."""
     from mgehl.solver.from_config import contact_from, settings_from
 
     settings = {"solver.start": "contact", "contact.load": 100.0, "motion.speed": speed}
+    settings["contact.boundary_film"] = layers
     if rms:
         waves = {"rms": rms, "shortest_wavelength": 3e-5, "longest_wavelength": 2e-4}
         settings |= {"surface.kind": "self-affine"} | {

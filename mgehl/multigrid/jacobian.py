@@ -7,6 +7,8 @@ K is the full convolution and is never truncated or assembled. A bordered vector
 rank's lines of P and, on the last rank, one entry more for H0 (or for the load row).
 """
 
+from dataclasses import dataclass
+
 import numpy as np
 from petsc4py import PETSc
 
@@ -15,6 +17,14 @@ from mgehl.discretization.residual import linearise
 from mgehl.discretization.rows import PRESSURE
 from mgehl.discretization.storage import Storage
 from mgehl.grid.events import ASSEMBLY, event
+
+
+@dataclass(frozen=True)
+class LinearSystem:
+    """How the Jacobian is posed: the kind of row of each node and 1/time step, all (lines, nx)."""
+
+    rows: np.ndarray
+    rates: np.ndarray | float = 0.0
 
 
 class BorderedSpace:

@@ -80,10 +80,11 @@ CONTACT_LAWS = {"lcic": _interface_conditions, "unified": _unified_equations}
 def _start(config, contact):
     """Where the solve begins: rough bodies whose film is thicker than their roughness begin with it.
 
-    Contact of their peaks would open all over (20 nm rms at 1 m/s: no end in 180 s).
+    Contact that closes its faces would open all over (20 nm rms at 1 m/s: no end in 180 s). Contact that
+    keeps a boundary film opens by itself.
     """
-    has_film = contact.is_loaded and not contact.is_at_rest
-    opens = has_film and contact.roughness > 0.0 and not contact.is_mixed
+    may_close_faces = contact.is_loaded and not contact.is_at_rest and config.contact.boundary_film == 0.0
+    opens = may_close_faces and contact.roughness > 0.0 and not contact.is_mixed
     is_found_from_a_film = config.discretization.face_mobility == LINEAR_GAP
     return "film" if opens and is_found_from_a_film else config.solver.start
 

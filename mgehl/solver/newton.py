@@ -5,7 +5,7 @@ Jacobian, and the iteration asks SNES for them: PETSc's options, monitors and vi
 PC see what is solved.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -15,6 +15,7 @@ from mgehl.discretization.axes import own
 from mgehl.discretization.status import LUBRICATED
 from mgehl.errors import OptionError
 from mgehl.grid.events import linear_solve
+from mgehl.multigrid.jacobian import LinearSystem
 from mgehl.solver.arbiter import RELEASE_STEPS, Ruling, rule
 from mgehl.solver.cavitation import relax_cavitation_set
 from mgehl.solver.journal import NOTHING_KEPT
@@ -30,14 +31,6 @@ FLUID_AHEAD = 0.1
 """Residual to which the fluid is solved apart, over that of the last cycle, or over the tolerance where
 that is larger. From 0.03 to 0.1 the same Newton steps; at 0.01 and at 0.3 full contact on 257 nodes
 takes one more. Above 1 no solve would end."""
-
-
-@dataclass(frozen=True)
-class LinearSystem:
-    """How the Jacobian is posed: the kind of row of each node and 1/time step, all (lines, nx)."""
-
-    rows: np.ndarray
-    rates: np.ndarray | float = 0.0
 
 
 class Newton:
