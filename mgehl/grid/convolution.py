@@ -83,11 +83,11 @@ class _Transforms:
         self.grid = grid
         lines, modes = grid.shape[0], period_x // 2 + 1
         self._transpose = Transpose(grid.team, grid.team_starts, modes, MPI.COMPLEX16)
-        columns = self._transpose.columns
         self._x_real = pyfftw.zeros_aligned((lines, period_x))
         self._x_modes = pyfftw.zeros_aligned((lines, modes), dtype=complex)
-        self._received = pyfftw.zeros_aligned((max(period_y, grid.mesh.ny), columns), dtype=complex)
-        self._y_modes = self._received[:period_y]
+        rows = max(period_y, grid.mesh.ny)
+        self._received = pyfftw.zeros_aligned((rows, self._transpose.width), dtype=complex)
+        self._y_modes = self._received[:period_y, : self._transpose.columns]
         along_x = {"axes": (1,), "flags": FIXED, "threads": THREADS}
         self._x_forward = pyfftw.FFTW(self._x_real, self._x_modes, **along_x)
         self._x_backward = pyfftw.FFTW(self._x_modes, self._x_real, direction="FFTW_BACKWARD", **along_x)
@@ -142,7 +142,7 @@ class _Convolution(_Transforms):
         self._x_real[:, :nx] = K
         self._x_real[:, nx:] = K[:, -2:0:-1]
         self._x_forward.execute()
-        self._transpose.to_columns(self._x_modes, self._y_modes[:ny])
+        self._transpose.to_columns(self._x_modes, self._received[:ny])
         self._y_modes[ny:] = self._y_modes[ny - 2 : 0 : -1]
         self._y_forward()
         return self._y_modes.real / self._scale

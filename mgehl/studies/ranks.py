@@ -112,7 +112,7 @@ def _seconds_of_exchange(comm, nodes):
     starts = np.linspace(0, nodes, comm.size + 1).astype(int)
     transpose = Transpose(comm, starts, nodes, MPI.COMPLEX16)
     lines = np.zeros((int(np.diff(starts)[comm.rank]), nodes), dtype=complex)
-    columns = np.zeros((nodes, transpose.columns), dtype=complex)
+    columns = np.zeros((nodes, transpose.width), dtype=complex)
 
     def there_and_back():
         transpose.to_columns(lines, columns)
