@@ -4,9 +4,14 @@ import json
 import os
 import subprocess
 import sys
+from copy import deepcopy
+from importlib import util
 from pathlib import Path
 
 import pytest
+
+import mgehl
+from mgehl.discretization.status import CAVITATED, LUBRICATED
 
 TOOL = Path(__file__).parent / "tools" / "attack.py"
 
@@ -20,3 +25,56 @@ def test_a_few_find_nothing(attack, count):
     done = subprocess.run(words, capture_output=True, text=True, timeout=300, env=environment)
     assert done.returncode == 0, done.stdout + done.stderr
     assert json.loads(done.stdout.splitlines()[-1])["findings"] == 0
+
+
+class TestTheIndependentTest:
+    """It finds nothing wrong with what is right, and what is wrong with the rest."""
+
+    @pytest.fixture(scope="class")
+    def wrong(self):
+        spec = util.spec_from_file_location("attack_cases", TOOL.parent / "attack_cases.py")
+        module = util.module_from_spec(spec)
+        spec.loader.exec_module(module)
+        return module.wrong
+
+    @pytest.fixture(scope="class", params=[{}, {"contact.kind": "line"}], ids=["point", "line"])
+    def film(self, request):
+        settings = {"grid.nodes": 65, "solver.error": False, "motion.speed": 0.5, "solver.start": "film"}
+        return mgehl.solve(mgehl.load(None, settings | request.param))
+
+    def test_a_film_is_right(self, wrong, film):
+        assert film.result.converged and wrong(film) == ""
+
+    def test_a_gap_of_its_own(self, wrong, film):
+        assert wrong(changed(film, H=film.fields.H * (1.0 + 1e-4))).startswith("gap off")
+
+    def test_a_pressure_that_carries_less(self, wrong, film):
+        config = deepcopy(film.config)
+        object.__setattr__(config.contact, "load", 1.001 * config.contact.load)
+        object.__setattr__(config.contact, "load_per_length", 1.001 * config.contact.load_per_length)
+        found = changed(film)
+        found.config = config
+        assert wrong(found).startswith("load off")
+
+    def test_fluid_that_pulls(self, wrong, film, monkeypatch):
+        monkeypatch.setitem(wrong.__globals__, "_wrong_gap", lambda _: "")
+        monkeypatch.setitem(wrong.__globals__, "_wrong_load", lambda _: "")
+        P = film.fields.P.copy()
+        P[:, 5] = -1e-3
+        assert wrong(changed(film, P=P)).startswith("tension")
+        P[:, 5] = 1e-3
+        status = film.fields.status.copy()
+        status[:, 5] = CAVITATED
+        assert wrong(changed(film, P=P, status=status)) == "pressure in a cavity"
+        assert wrong(changed(film, H=film.fields.H - film.fields.H.max())).startswith("overlap")
+        P[:, 1:-1] = P.max()
+        status[:] = LUBRICATED
+        assert wrong(changed(film, P=P, status=status)).startswith("cut by the domain")
+
+
+def changed(solution, **fields):
+    """A copy with other fields."""
+    found = deepcopy(solution)
+    for name, values in fields.items():
+        setattr(found.fields, name, values)
+    return found

@@ -10,7 +10,8 @@
 
 Each prints a line for every finding and at last the counts as JSON; exit status 1 where there was a finding.
 Whatever is written is in a directory of its own, which goes in the end. Words, damage and flips are tried in
-forks of one process, which has everything imported: a thousand take minutes.
+forks of one process, which has everything imported: a thousand take minutes. With --fresh each command line is
+a process of its own, from the first import on.
 """
 
 import argparse
@@ -27,7 +28,7 @@ import time
 from collections import Counter
 from pathlib import Path
 
-import numpy as np
+from attack_cases import attack_cases
 
 STATUSES = {0, 1, 2, 129, 130, 141, 143}
 LIMIT = 60.0
@@ -93,6 +94,18 @@ def forked(words, folder):
     os.kill(child, signal.SIGKILL)
     os.waitpid(child, 0)
     return None, "", ""
+
+
+def alone(words, folder):
+    """(status, stdout, stderr) of a command line in a process of its own; None for a hang."""
+    process = command(words, limit=2**28)
+    try:
+        _, err = process.communicate(timeout=LIMIT)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        process.communicate()
+        return None, "", ""
+    return process.returncode, "", err
 
 
 def judge(findings, words, status, err):
@@ -233,13 +246,14 @@ def line_of(chance):
     return words
 
 
-def attack_words(count, chance, folder, findings):
+def attack_words(count, chance, folder, findings, fresh=False):
     """Command lines with malice."""
     warm()
     lay(folder)
     for _ in findings.rounds(count):
         words = line_of(chance)
-        status, _, err = forked(words, folder)
+        is_alone = fresh and "\0" not in "".join(words)  # no process can be started with that
+        status, _, err = (alone if is_alone else forked)(words, folder)
         judge(findings, words, status, err)
         untouched(findings, folder, words)
         for path in folder.iterdir():  # what a command made of nasty words
@@ -251,130 +265,6 @@ def attack_words(count, chance, folder, findings):
 
 
 KEPT = {"healthy", "stopped", "wedge", "good.toml", "bad.toml", "link", "pipe.npz", ".out", ".err"}
-
-
-def extreme(chance):
-    """Tables of a configuration whose numbers are anywhere in their ranges, and beyond what is sensible."""
-
-    def anywhere(low, high):
-        return float(f"{10 ** chance.uniform(np.log10(low), np.log10(high)):.4g}")
-
-    def ends():
-        near = chance.choice([1.01, 1.05, 1.3, 2.0, 10.0, 60.0])
-        far = chance.choice([1.01, 1.05, 1.3, 2.0, 10.0, 60.0])
-        return chance.choice(["auto", [-near, far]])
-
-    kind = chance.choice(["point", "point", "point", "line"])
-    contact = {"kind": kind, "radius_x": anywhere(1e-4, 1.0), "reduced_modulus": anywhere(1e8, 1e12)}
-    grid = {"nodes": 65, "x": ends()}
-    if kind == "point":
-        contact |= {"load": anywhere(1e-3, 1e5), "radius_y": contact["radius_x"] * anywhere(0.05, 20.0)}
-        grid["y"] = ends()
-    else:
-        contact["load_per_length"] = anywhere(1e2, 1e7)
-    discretization = {"contact_model": chance.choice(["lcic", "lcic", "lcic", "unified"])}
-    if chance.random() < 0.5:
-        discretization["face_mobility"] = chance.choice(
-            ["arithmetic", "logarithmic", "linear-gap", "geometric"]
-        )
-    if chance.random() < 0.2:
-        discretization["cavitation"] = False
-    return {
-        "contact": contact,
-        "lubricant": {"viscosity": anywhere(1e-4, 1e2), "pressure_viscosity": anywhere(1e-10, 1e-7)},
-        "motion": {"speed": anywhere(1e-9, 1e2)}
-        | ({"angle": chance.uniform(0, 360)} if kind == "point" else {}),
-        "grid": grid,
-        "discretization": discretization,
-        "solver": {"start": chance.choice(["film", "contact"]), "error": False, "max_steps": 20},
-    }
-
-
-def independent(solution):
-    """What is wrong with a solution that says "converged", from its fields alone."""
-    from mgehl.discretization.status import CONTACT
-    from mgehl.model.deformation import HalfPlane, HalfSpace  # noqa: F401  (what the deflection is of)
-
-    fields, mesh, contact = solution.fields, solution.mesh, solution.contact
-    P, H, status = fields.P, fields.H, fields.status
-    if not (np.isfinite(P).all() and np.isfinite(H).all()):
-        return "not finite"
-    tolerance = 1e-6
-    gap = direct_gap(solution, chosen := np.random.default_rng(1).integers(0, P.size, 12))
-    scale = max(1.0, float(np.abs(H).max()))
-    if np.abs(gap - H.ravel()[chosen]).max() > 1e-7 * scale:
-        return f"gap off by {np.abs(gap - H.ravel()[chosen]).max():.1e}"
-    load = mesh.dX * mesh.dY * P.sum()
-    if abs(load / contact.load_integral - 1.0) > 1e-6:
-        return f"load off by {load / contact.load_integral - 1.0:.1e}"
-    has_contact = solution.config.discretization.contact_model != "unified"
-    cavitates = solution.config.discretization.cavitation is not False
-    if (
-        cavitates
-        and P.min() < -tolerance
-        or (status == CONTACT).any()
-        and P[status == CONTACT].min() < -tolerance
-    ):
-        return f"tension {P.min():.1e}"
-    if has_contact and H.min() < -tolerance:
-        return f"overlap {H.min():.1e}"
-    if (status == CONTACT).any() and np.abs(H[status == CONTACT]).max() > tolerance:
-        return f"contact with a gap of {np.abs(H[status == CONTACT]).max():.1e}"
-    ring = np.r_[P[0], P[-1], P[:, 0], P[:, -1]] if not mesh.is_line else P[0, [0, -1]]
-    beside = P[0, [1, -2]] if mesh.is_line else np.r_[P[1], P[-2], P[:, 1], P[:, -2]]
-    edge = H[0, [0, -1]] if mesh.is_line else np.r_[H[0], H[-1], H[:, 0], H[:, -1]]
-    if np.abs(ring).max() > 0.0 or beside.max() > 0.0101 * P.max() or edge.min() < 0.0:
-        return f"cut by the domain: {beside.max() / P.max():.2g} of the pressure, gap {edge.min():.2g}"
-    loaded = 0.1 * P.max() <= P
-    if loaded.any(axis=0).sum() < 4 or (not mesh.is_line and loaded.any(axis=1).sum() < 4):
-        return "too few nodes"
-    return ""
-
-
-def direct_gap(solution, nodes):
-    """The gap at some nodes, summed over all others without a Fourier transform."""
-    from mgehl.discretization.influence import influence_coefficients
-
-    mesh, contact, P = solution.mesh, solution.contact, solution.fields.P
-    K = influence_coefficients(mesh, contact.kernel, 0, mesh.ny)
-    rows, columns = np.indices(P.shape)
-    found = []
-    for node in nodes:
-        j, i = divmod(int(node), mesh.nx)
-        deflection = (K[np.abs(rows - j), np.abs(columns - i)] * P).sum()
-        found.append(deflection + contact.undeformed_gap(mesh.X[i], mesh.Y[j]) + solution.H0)
-    return np.array(found)
-
-
-def attack_cases(count, chance, folder, findings):
-    """Extreme configurations; a verdict "converged" must stand an independent test."""
-    import mgehl
-    from mgehl.config import config_from_tables
-
-    def alarm(*_):
-        raise TimeoutError
-
-    signal.signal(signal.SIGALRM, alarm)
-    for _ in findings.rounds(count):
-        tables = extreme(chance)
-        signal.alarm(int(LIMIT))
-        try:
-            solution = mgehl.solve(config_from_tables(tables))
-            wrong = independent(solution) if solution.result.converged else ""
-            findings.tried("converged" if solution.result.converged else "settled" if solution.result.settled
-                           else "not converged")  # fmt: skip
-            if wrong:
-                findings.say(f"false: {wrong}: {json.dumps(tables)}")
-        except mgehl.UserError as error:
-            findings.tried("refused")
-            if "\n" in str(error):
-                findings.say(f"lines: {error}: {json.dumps(tables)}")
-        except TimeoutError:
-            findings.tried("more than a minute")
-        except Exception as error:
-            findings.say(f"{type(error).__name__}: {error}: {json.dumps(tables)}")
-        finally:
-            signal.alarm(0)
 
 
 READERS = [["report", "victim"], ["plot", "victim", "--kind", "lines", "--format", "png"], ["collect", "victim"],
@@ -446,13 +336,24 @@ def attack_flips(count, chance, folder, findings):
             findings.say(f"read all the same: bit of byte {position} of {path.name}, {words!r}")
 
 
-def command(words, ranks=1):
-    """A process of mgehl of its own, or a job of several."""
+def cases(count, chance, _folder, findings):
+    """Extreme configurations, in this process."""
+    attack_cases(count, chance, findings, int(LIMIT))
+
+
+def command(words, ranks=1, limit=None):
+    """A process of mgehl of its own, or a job of several; `limit` is that of a file's bytes."""
     environment = {k: v for k, v in os.environ.items() if not k.startswith(("OMPI_COMM", "PMIX_", "PRTE_"))}
     words = [sys.executable, "-m", "mgehl", *words]
     words = ["mpiexec", "-n", str(ranks), *words] if ranks > 1 else words
+    words = ["bash", "-c", f'ulimit -f {limit // 1024}; exec "$@"', "-", *words] if limit else words
     return subprocess.Popen(
-        words, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, env=environment
+        words,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        text=True,
+        errors="replace",
+        env=environment,
     )
 
 
@@ -500,20 +401,41 @@ def films(known={}):  # noqa: B006  (solved once)
     return known
 
 
+def wait_for_a_moment(chance, process, checkpoint, usual):
+    """Any moment of a run that usually takes so long; most of it is imports, so mostly one after these."""
+    started = time.monotonic()
+    if chance.random() < 0.25:
+        time.sleep(chance.uniform(0.1, 1.1) * usual)
+        return
+    before = checkpoint.stat().st_mtime_ns if checkpoint.exists() else None
+    while process.poll() is None and time.monotonic() - started < LIMIT:
+        if checkpoint.exists() and checkpoint.stat().st_mtime_ns != before:
+            break
+        time.sleep(0.001)
+    time.sleep(chance.uniform(0.0, 0.3) * usual)
+
+
 def attack_kills(count, chance, folder, findings, ranks=1):
     """SIGKILL at any moment, with --resume or --force after it; the end is the same."""
     from mgehl.output.stored import read_run
 
     words = ["run", "--set", "grid.nodes=65", "--set", "solver.start=film", "--no-error", "--quiet", "--out", "here",
              "--save-every", "0.001", "--set", "motion.speed=0.5"]  # fmt: skip
-    killed = 0
+    killed, begun_killed = 0, 0
+    started = time.monotonic()
+    status = command([*words, "--out", "whole"], ranks).wait()
+    usual = time.monotonic() - started
+    if status:
+        findings.say(f"the run without a kill: {status}")
     while killed < count:
         begun = any((folder / "here" / name / "manifest.json").exists() for name in (".", "checkpoint"))
         process = command(["run", "--resume", "here", "--quiet"] if begun else [*words, "--force"], ranks)
-        time.sleep(chance.uniform(0.5, 3.5))
+        wait_for_a_moment(chance, process, folder / "here" / "checkpoint", usual)
+        begun = begun or (folder / "here" / "checkpoint" / "manifest.json").exists()
         process.kill()
         _, err = process.communicate(timeout=LIMIT)
         killed += process.returncode == -signal.SIGKILL
+        begun_killed += begun and process.returncode == -signal.SIGKILL
         findings.tried(process.returncode)
         if process.returncode == 0:
             if abs(read_run(folder / "here").result.central_film_nm / films()[0.5] - 1.0) > 1e-9:
@@ -523,6 +445,7 @@ def attack_kills(count, chance, folder, findings, ranks=1):
             findings.say(f"{process.returncode}: {err}")
             shutil.rmtree(folder / "here", ignore_errors=True)
         time.sleep(0.3 if ranks > 1 else 0.0)
+    findings.counts["kills after it had begun"] = begun_killed
     begun = (folder / "here" / "checkpoint" / "manifest.json").exists()
     process = command(["run", "--resume", "here", "--quiet"] if begun else [*words, "--force"])
     _, err = process.communicate(timeout=LIMIT)
@@ -534,7 +457,7 @@ def attack_kills(count, chance, folder, findings, ranks=1):
 
 
 ATTACKS = {
-    "words": attack_words, "cases": attack_cases, "damage": attack_damage, "flips": attack_flips,
+    "words": attack_words, "cases": cases, "damage": attack_damage, "flips": attack_flips,
     "writers": attack_writers, "kills": attack_kills,
 }  # fmt: skip
 
@@ -545,13 +468,16 @@ def main():
     parser.add_argument("--count", type=int, default=20)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--ranks", type=int, default=1)
+    parser.add_argument("--fresh", action="store_true", help="each command line is a process of its own")
     parser.add_argument("--seconds", type=float, default=float("inf"), help="end after so long")
     options = parser.parse_args()
     findings, before = Findings(options.seconds), Path.cwd()
     with tempfile.TemporaryDirectory(prefix="attack-") as name:
         os.chdir(name)
         try:
-            more = {"ranks": options.ranks} if options.attack == "kills" else {}
+            more = {"kills": {"ranks": options.ranks}, "words": {"fresh": options.fresh}}.get(
+                options.attack, {}
+            )
             ATTACKS[options.attack](
                 options.count, random.Random(options.seed), Path(name), findings, **more
             )
