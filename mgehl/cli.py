@@ -25,7 +25,7 @@ import time
 import warnings
 from importlib import import_module
 
-from mgehl.commands import COMMANDS, USAGE
+from mgehl.commands import COMMANDS, USAGE, execute_on
 from mgehl.errors import one_line
 from mgehl.failures import told
 from mgehl.petsc_options import check_options
@@ -52,10 +52,10 @@ def main(arguments=None):
         os.getcwd()  # MPI says it in nineteen lines where that is gone
         own, petsc = split_options(sys.argv[1:] if arguments is None else arguments)
         command = read(own, petsc)
-        parallel = command.module.PARALLEL
-        status = _in_parallel(command, petsc) if parallel else command.module.execute(command)
+        is_alone = not command.module.PARALLEL and _rank() is None
+        status = command.module.execute(command) if is_alone else _in_parallel(command, petsc)
     except (Exception, KeyboardInterrupt) as error:
-        status = _say(error)
+        status = _say_before_mpi(error)
     return _flushed(status, bool(command) and command.module.PARALLEL)
 
 
@@ -87,6 +87,12 @@ def _say(error):
     if line:
         complain(line)
     return status
+
+
+def _say_before_mpi(error):
+    """Say what went wrong before ranks know of each other; mistakes are those of all, and one says them."""
+    status = told(error)[1]
+    return _say(error) if _is_first() or status != USAGE else status
 
 
 def _flushed(status, is_run):
@@ -136,9 +142,14 @@ class _Parser(argparse.ArgumentParser):
 
 
 def _is_first():
-    """Whether this is the rank that speaks, as mpiexec tells: a mistake need not start MPI."""
+    """Whether this is the rank that speaks: a mistake need not start MPI."""
+    return _rank() in (None, "0")
+
+
+def _rank():
+    """The rank that mpiexec tells; None where none was told."""
     names = ("OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK", "SLURM_PROCID")
-    return next((os.environ[name] for name in names if name in os.environ), "0") == "0"
+    return next((os.environ[name] for name in names if name in os.environ), None)
 
 
 def parser():
@@ -201,7 +212,7 @@ def _on_all_ranks(command, comm):
     """Execute on all ranks; where all fail they leave together, and one of them says why."""
     apart = comm.Dup()  # for errors: on `comm` the other ranks may be at something else
     try:
-        return command.module.execute(command, comm)
+        return execute_on(comm, command.module, command)
     except (Exception, KeyboardInterrupt) as error:
         together = _meet(apart)
         status = _say(error) if comm.rank == 0 or not together else told(error)[1]

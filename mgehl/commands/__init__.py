@@ -2,7 +2,7 @@
 
 A module has `add(commands)`, which adds its parser and returns it, and `execute`, which returns the exit
 status. Where `PARALLEL` is true, `execute(options, comm)` is called on every rank, after PETSc was started;
-elsewhere `execute(options)`.
+elsewhere `execute(options)`, of several ranks on the first.
 """
 
 from pathlib import Path
@@ -15,6 +15,15 @@ COMMANDS = (
 
 CONVERGED, NOT_CONVERGED, USAGE = 0, 1, 2
 """Exit statuses: done; not converged, or failed on the way; a mistake in the input."""
+
+
+def execute_on(comm, module, options):
+    """The exit status of a command's `module`; what needs one rank is done, and said, by the first."""
+    if module.PARALLEL:
+        return module.execute(options, comm)
+    from mgehl.output.files import from_first_rank
+
+    return comm.bcast(from_first_rank(comm, module.execute, options))
 
 
 def shown(file):
