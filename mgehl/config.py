@@ -5,6 +5,7 @@ Every mistake is one line that names the key, the value and what is allowed (`Co
 
 import difflib
 import os
+import select
 import stat
 import sysconfig
 import tomllib
@@ -23,6 +24,9 @@ from mgehl.kinds.wedge import WedgeSection
 
 COARSEST_NODES = 33
 """Nodes along each side of the coarsest grid, which is solved directly."""
+
+PATIENCE = 30.0
+"""Seconds without a word after which a pipe is given up."""
 
 LARGEST_FILE = 10**6
 """Bytes of a configuration."""
@@ -238,11 +242,31 @@ def _text(path):
     kind = path.stat().st_mode
     if not (stat.S_ISREG(kind) or stat.S_ISFIFO(kind) or path == Path(os.devnull)):
         raise OSError("is no file")
-    with path.open("rb") as file:
-        content = file.read(LARGEST_FILE + 1)
+    content = _out_of_pipe(path) if stat.S_ISFIFO(kind) else _beginning(path)
     if len(content) > LARGEST_FILE:
         raise OSError(f"has more than {LARGEST_FILE} bytes")
     return content.decode()
+
+
+def _beginning(path):
+    with path.open("rb") as file:
+        return file.read(LARGEST_FILE + 1)
+
+
+def _out_of_pipe(path):
+    """What comes out of a pipe until its writer ends, or says nothing for too long."""
+    content, number = b"", os.open(path, os.O_RDONLY | os.O_NONBLOCK)
+    try:
+        while len(content) <= LARGEST_FILE:
+            if not select.select([number], [], [], PATIENCE)[0]:
+                raise OSError(f"is a pipe into which nobody writes, for {PATIENCE:g} s")
+            part = os.read(number, LARGEST_FILE)
+            if not part:
+                break
+            content += part
+        return content
+    finally:
+        os.close(number)
 
 
 def _read_setting(setting):

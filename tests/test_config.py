@@ -1,5 +1,7 @@
 import os
 import re
+import subprocess
+import sys
 import tomllib
 from dataclasses import asdict, fields, replace
 from pathlib import Path
@@ -618,3 +620,35 @@ def test_rough_bodies_whose_film_is_thicker_begin_with_it(rms, speed, layers, st
         }
     config = with_settings(*(f"{key}={value}" for key, value in settings.items()))
     assert settings_from(config, contact_from(config)).nested.start == start
+
+
+class TestPipes:
+    """What a shell makes of <(...) is a configuration; a pipe into which nobody writes is none."""
+
+    def check(self, tmp_path, command):
+        """What `mgehl check` says of the output of a command."""
+        environment = {k: v for k, v in os.environ.items() if not k.startswith(("OMPI_", "PMIX_", "PRTE_"))}
+        words = ["bash", "-c", f"exec {sys.executable} -m mgehl check <({command})"]
+        return subprocess.run(
+            words, capture_output=True, text=True, cwd=tmp_path, env=environment, timeout=60
+        )
+
+    def test_what_comes_out_of_one(self, tmp_path):
+        done = self.check(tmp_path, "sleep 0.5; printf '[grid]\\nnodes = 129'")
+        assert (done.returncode, done.stderr) == (0, "") and "129" in done.stdout
+
+    @pytest.mark.parametrize("writes", ["", "[grid]"])
+    def test_one_that_nobody_ends(self, tmp_path, monkeypatch, writes):
+        monkeypatch.setattr("mgehl.config.PATIENCE", 0.05)
+        os.mkfifo(tmp_path / "pipe.toml")
+        held = os.open(tmp_path / "pipe.toml", os.O_RDWR) if writes else None
+        if writes:
+            os.write(held, writes.encode())
+        with pytest.raises(
+            ConfigError, match="pipe.toml: cannot be read: is a pipe into which nobody writes"
+        ):
+            load_config(tmp_path / "pipe.toml")
+
+    def test_one_without_end(self, tmp_path):
+        done = self.check(tmp_path, "exec cat /dev/zero")
+        assert done.returncode == 2 and "has more than" in done.stderr

@@ -97,6 +97,7 @@ REFUSED = {
     "contact.surface=laws.py:nowhere": "must be a height in m of at most 0.000411",
     "contact.deformation=laws.py:jump": "as a sum of images",
     "contact.deformation=laws.py:flat": "must take 1 arguments: k",
+    "contact.surface=pipe.py:flat": "cannot be read: is no file",
     "contact.surface=laws.txt:flat": "must be FILE.py:FUNCTION",
     "lubricant.viscosity_law=newton": "must be one of barus, roelands, FILE.py:FUNCTION",
 }
@@ -107,6 +108,7 @@ def test_what_cannot_be_used_is_one_line_before_anything_is_written(
     laws, setting, words, monkeypatch, capsys
 ):
     monkeypatch.chdir(laws.parent)
+    os.mkfifo("pipe.py")
     assert main(["run", "--set", "grid.nodes=65", "--set", setting, "--out", "here"]) == 2
     out, err = capsys.readouterr()
     key, _, value = setting.partition("=")
@@ -135,6 +137,59 @@ def test_a_law_that_fails_in_the_middle_of_a_run_is_one_line_with_its_key(tmp_pa
         f"mgehl: lubricant.density_law = '{tmp_path}/late.py:law': must return two arrays"
     )
     assert err.count("\n") == 1 and not Path("here/result.json").exists()
+
+
+TURNS = """
+import numpy as np
+calls = 0
+
+def law(p):
+    global calls
+    calls += 1
+    value, slope = 1.0 + 1e-10 * p, 1e-10 + 0.0 * p
+    return (value, slope) if calls < FIRST else (BAD)
+"""
+"""A law that is one until it is asked the FIRST time too often."""
+
+
+class TestALawThatTurnsLate:
+    """It is one where it is checked, and none in the middle of a run."""
+
+    WORDS = ["run", "--set", "grid.nodes=65", "--set", "motion.speed=0.5", "--set", "solver.start=film",
+             "--set", "lubricant.density_law=late.py:law", "--quiet", "--out", "here"]  # fmt: skip
+
+    @pytest.mark.parametrize("first", [6, 12, 18])
+    @pytest.mark.parametrize(
+        "bad, words",
+        [
+            ("value * np.nan, slope", "returns nan at "), ("value / 0.0, slope", "returns inf at "),
+            ("-value, slope", "returns -1"), ("value, slope * np.nan", "its derivative is nan at "),
+        ],
+        ids=["nan", "inf", "negative", "derivative"],
+    )  # fmt: skip
+    def test_is_one_line_with_its_key(self, tmp_path, monkeypatch, capsys, bad, words, first):
+        (tmp_path / "late.py").write_text(TURNS.replace("BAD", bad).replace("FIRST", str(first)))
+        monkeypatch.chdir(tmp_path)
+        assert main(self.WORDS) == 2
+        err = capsys.readouterr().err
+        assert err.startswith(f"mgehl: lubricant.density_law = '{tmp_path}/late.py:law': ") and words in err
+        assert err.count("\n") == 1 and not Path("here/result.json").exists()
+
+    def test_loses_nothing(self, tmp_path, monkeypatch, capsys):
+        """What was there stays; a run that had begun goes on when the law is one again."""
+        first = f"18 or not os.path.exists({str(tmp_path / 'broken')!r})"
+        text = TURNS.replace("BAD", "value * np.nan, slope").replace("FIRST", first)
+        (tmp_path / "late.py").write_text(f"import os\n{text}")
+        (tmp_path / "broken").touch()
+        monkeypatch.chdir(tmp_path)
+        assert main(["run", "--set", "contact.kind=wedge", "--set", "grid.nodes=65", "--out", "here"]) == 0
+        before = {path.name: path.read_bytes() for path in Path("here").iterdir() if path.is_file()}
+        assert main([*self.WORDS, "--force", "--save-every", "1e-9"]) == 2
+        after = {path.name: path.read_bytes() for path in Path("here").iterdir() if path.is_file()}
+        assert after == before and read_run("here").result.converged
+        (tmp_path / "broken").unlink()
+        assert main(["run", "--resume", "here", "--quiet"]) == 0
+        assert read_run("here").config.motion.speed == 0.5
 
 
 def test_a_run_with_own_laws_runs_again_from_its_configuration(laws, monkeypatch, tmp_path):

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from mgehl.commands import CONVERGED
-from mgehl.errors import OutputError, UserError
+from mgehl.errors import OutputError, UserError, printable
 from mgehl.kinds import KINDS
 
 PARALLEL = False
@@ -37,5 +37,6 @@ def execute(options):
     if path.exists() and not options.force:
         raise OutputError(f"{path} exists: add --force to replace it, or choose another name")
     write_whole(path, template(options.kind, path))
-    print(f"{path}: change what differs in your case, then: mpiexec -n 2 python -m mgehl run {path}")
+    name = printable(str(path))
+    print(f"{name}: change what differs in your case, then: mpiexec -n 2 python -m mgehl run {name}")
     return CONVERGED

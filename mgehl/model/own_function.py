@@ -142,6 +142,8 @@ def without_running(thing):
 @cache
 def _run(file):
     """The module of a file. (Importing it would leave a cache beside it, and may read a stale one.)"""
+    if Path(file).exists() and not Path(file).is_file():  # a pipe or a device may have no end
+        raise OSError("is no file")
     module = ModuleType(f"mgehl own {file}")
     module.__file__ = file
     code = compile(Path(file).read_bytes(), file, "exec")

@@ -27,6 +27,10 @@ SLOPE_TOLERANCE = 1e-3
 NO_SLOPE = 1e-6
 """A smaller change over the whole range of pressures counts as none."""
 
+HIGHEST = 10.0
+"""Pressure in p_h, above that of rough bodies' peaks, up to which a law must be one whenever it is asked.
+Only an iteration that diverges asks beyond: that ends, or begins anew on a finer grid."""
+
 AMBIENT_TOLERANCE = 1e-3
 """Of a law at p = 0, relative."""
 
@@ -41,7 +45,9 @@ class OwnViscosity:
 
     def log_viscosity(self, P, p_h):
         """Return ln(eta*) and d ln(eta*)/dP, shapes as P."""
-        value, slope = self._log_law(np.maximum(P, 0.0) * p_h)
+        p = np.maximum(P, 0.0) * p_h
+        eta, slope = _numbers(self.function, *self._law(p), p, HIGHEST * p_h)
+        value, slope = self._log(eta, slope)
         return value + slope * p_h * np.minimum(P, 0.0), slope * p_h
 
     def check(self, p_max, ambient="the viscosity that it is given"):
@@ -58,7 +64,10 @@ class OwnViscosity:
 
     def _log_law(self, p):
         """ln(eta*) and d ln(eta*)/dp at `p` in Pa."""
-        eta, slope = self._law(p)
+        return self._log(*self._law(p))
+
+    def _log(self, eta, slope):
+        """ln(eta*) and its derivative."""
         with np.errstate(all="ignore"):  # what is not positive shows as nan
             return np.log(eta / self.viscosity), slope / eta
 
@@ -74,7 +83,8 @@ class OwnDensity:
 
     def density(self, P, p_h):
         """Return rho* and d rho*/dP, shapes as P."""
-        rho, slope = self._law(np.maximum(P, 0.0) * p_h)
+        p = np.maximum(P, 0.0) * p_h
+        rho, slope = _numbers(self.function, *self._law(p), p, HIGHEST * p_h)
         return rho + slope * p_h * np.minimum(P, 0.0), slope * p_h
 
     def check(self, p_max):
@@ -98,14 +108,20 @@ class OwnSurface(Surface):
 
     def height(self, x, y):
         """Height in m at `x` and `y` in m, in the shape of both together."""
-        x, y = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(y, dtype=float))
-        return self.function.array(x.shape, x, y)
+        x, y, height = self._asked(x, y)
+        wrong = ~np.isfinite(height)
+        if wrong.any():
+            at = _first(wrong)
+            raise self.function.error(
+                f"returns {height[at]:.3g} at x = {x[at]:.3g} m, y = {y[at]:.3g} m; must be a height in m"
+            )
+        return height
 
     def check(self, x, y, highest):
         """Raise OwnFunctionError unless every height at (x[i], y[j]) is a number of at most `highest`."""
         self.function.check_arguments("x", "y")
         for line in y:
-            height = self.height(x[None, :], line)[0]
+            height = self._asked(x[None, :], line)[2][0]
             wrong = ~(np.abs(height) <= highest)
             if wrong.any():
                 i = int(wrong.argmax())
@@ -113,6 +129,11 @@ class OwnSurface(Surface):
                     f"returns {height[i]:.3g} at x = {x[i]:.3g} m, y = {line:.3g} m; must be a height in "
                     f"m of at most {highest:.3g}"
                 )
+
+    def _asked(self, x, y):
+        """`x`, `y` and the heights there, all in one shape."""
+        x, y = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(y, dtype=float))
+        return x, y, self.function.array(x.shape, x, y)
 
 
 @dataclass(frozen=True)
@@ -123,12 +144,14 @@ class OwnCompliance:
 
     def compliance(self, k):
         """At the wave numbers `k` in 1/m; shape as `k`."""
-        return self.function.array(np.shape(k), k)
+        found = self.function.array(np.shape(k), k)
+        _check_positive(self.function, found, k, "1/m")
+        return found
 
     def check(self, k):
         """Raise OwnFunctionError unless it is positive at all `k` in 1/m."""
         self.function.check_arguments("k")
-        _check_positive(self.function, self.compliance(k), k, "1/m")
+        self.compliance(k)
 
 
 def _as_nodes(law):
@@ -136,10 +159,32 @@ def _as_nodes(law):
     return lambda p: [each[:, 0] for each in law(p[:, None])]
 
 
+def _numbers(function, values, slopes, p, highest):
+    """Values and derivatives of a law at `p` in Pa, positive and finite up to `highest`.
+
+    It was one when it was checked, but may depend on more than the pressure, and is asked for higher ones.
+    """
+    is_law = (values > 0.0) & np.isfinite(values) & np.isfinite(slopes)
+    if is_law.all():
+        return values, slopes
+    wrong = ~is_law & (p <= highest)
+    if wrong.any():
+        at = _first(wrong)
+        _check_positive(function, values[at], p[at], "Pa")
+        raise function.error(f"its derivative is {slopes[at]:.3g} at {p[at]:.3g} Pa; must be a number")
+    return np.where(is_law, values, np.nan), slopes
+
+
+def _first(wrong):
+    """Index of the first node that is wrong, of any number of axes."""
+    return np.unravel_index(int(wrong.argmax()), wrong.shape)
+
+
 def _check_positive(function, values, at, unit):
+    values, at = np.atleast_1d(values, at)
     wrong = ~((values > 0.0) & np.isfinite(values))
     if wrong.any():
-        i = int(wrong.argmax())
+        i = _first(wrong)
         raise function.error(f"returns {values[i]:.3g} at {at[i]:.3g} {unit}; must be a positive number")
 
 

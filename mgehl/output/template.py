@@ -7,6 +7,7 @@ import tomli_w
 
 from mgehl.config import FOREIGN, SECTIONS
 from mgehl.config_value import describe_rules
+from mgehl.errors import printable
 from mgehl.kinds import KINDS
 
 WIDTH = 100
@@ -22,7 +23,7 @@ HEAD = """\
 
 def template(kind, file):
     """The text of a new configuration of this kind, to be saved as `file`."""
-    parts = [HEAD.format(title=KINDS[kind].about, file=file)]
+    parts = [HEAD.format(title=KINDS[kind].about, file=printable(str(file)))]
     for name, section in SECTIONS.items():
         keys = [key for key in fields(section) if not {name, f"{name}.{key.name}"} & set(FOREIGN[kind])]
         if keys:

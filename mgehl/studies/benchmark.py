@@ -4,6 +4,7 @@ A machine that others use is now faster, now slower. So a fixed FFT is timed bes
 what is compared are times in units of that reference.
 """
 
+import errno
 import json
 import resource
 import sys
@@ -207,6 +208,8 @@ def write_benchmark(path, benchmark):
 def read_benchmark(path):
     """A benchmark that `write_benchmark` wrote. Raises OutputError."""
     try:
+        if Path(path).exists() and not Path(path).is_file():  # a pipe or a device may have no end
+            raise OSError(errno.EINVAL, "is no file")
         return dacite.from_dict(Benchmark, json.loads(Path(path).read_text()))
     except OSError as error:
         raise OutputError(f"{path}: cannot be read: {error.strerror}") from None

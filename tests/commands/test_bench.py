@@ -36,6 +36,7 @@ def test_a_benchmark_is_printed_written_and_compared(capsys, tmp_path):
         (["--case", "frobnicate"], ["--case frobnicate", "film-257"]),
         (["--repeat", "0"], ["--repeat 0"]),
         (["--compare", "missing.json"], ["missing.json", "cannot be read"]),
+        (["--compare", "/dev/zero"], ["/dev/zero", "is no file"]),
         (["--compare", "two.json"], ["two.json", "2 ranks"]),
     ],
 )

@@ -93,3 +93,12 @@ def test_a_directory_that_is_not_there_is_one_line(capsys, empty_directory):
     out, err = capsys.readouterr()
     assert out == "" and "missing/mine.toml: cannot be written" in err and len(err.splitlines()) == 1
     assert not list(empty_directory.iterdir())
+
+
+@pytest.mark.parametrize("name", ["\udcff\udcfe", "two\nlines", "\x1b[2J"])
+def test_a_name_that_no_text_holds(capsys, empty_directory, name):
+    """Names of files are bytes; the page they stand in is a text, and one line."""
+    assert main(["new", name]) == 0
+    assert load_config(empty_directory / f"{name}.toml").contact.kind == "point"
+    out, err = capsys.readouterr()
+    assert err == "" and len(out.splitlines()) == 1 and out.strip().isprintable()

@@ -679,6 +679,32 @@ class TestCommandLine:
         assert [len(each) for each in COMM.allgather(lines)] == [1] + [0] * (COMM.size - 1)
         assert not (directory / "here").exists()
 
+    def test_a_law_that_turns_nan_late_is_said_once_and_loses_nothing(self, directory, capsys):
+        from mgehl.cli import main
+
+        if COMM.rank == 0:
+            (directory / "late.py").write_text(
+                "import numpy as np\ncalls = 0\ndef law(p):\n    global calls\n    calls += 1\n"
+                "    return (1.0 + 0.0 * p if calls < 18 else p * np.nan), 0.0 * p\n"
+            )
+        COMM.barrier()
+        words = ["--set", "grid.nodes=65", "--set", f"lubricant.density_law={directory}/late.py:law"]
+        words += [
+            "--set",
+            "motion.speed=0.5",
+            "--set",
+            "solver.start=film",
+            "--save-every",
+            "1e-9",
+            "--quiet",
+        ]
+        status = main(["run", *words, "--out", str(directory / "here")])
+        said = COMM.allgather(capsys.readouterr().err)
+        assert COMM.allgather(status) == [2] * COMM.size
+        assert [err.count("\n") for err in said] == [1] + [0] * (COMM.size - 1)
+        assert said[0].startswith("mgehl: lubricant.density_law = ") and "returns nan at" in said[0]
+        assert (directory / "here" / "checkpoint" / "under-way.npz").exists()
+
     def test_a_directory_that_exists_is_refused_on_every_rank(self, directory, capsys):
         from mgehl.cli import main
 
