@@ -25,6 +25,8 @@ def what_next(solution):
 def _tries(solution):
     """Sentences, the likeliest to help first."""
     result, config = solution.result, solution.config
+    if solution.is_dry:
+        yield from _of_domain(result.edge)
     if not solution.contact.is_loaded or solution.is_dry:
         yield "solver.max_steps: a higher one, where the residual still falls"
         yield "grid.nodes: another number of nodes"

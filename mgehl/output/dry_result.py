@@ -4,9 +4,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mgehl.output.edge_result import NOT_SEEN, EdgeResult, edge_result
 from mgehl.output.film_error import no_band
 from mgehl.output.result import ContactResult, Overlap, Work, contact_result, overlap_of
 from mgehl.output.words import dry_words
+
+PRESSED = 1e-12
+"""Pressure of contact over the largest, which a peak may have: more than rounding."""
 
 NO_FILM = no_band("there is no film")
 
@@ -25,7 +29,7 @@ class DryResult:
     """Everything result.json holds."""
 
     converged: bool
-    """Load and complementarity hold, and the contact ends within the domain."""
+    """Load and complementarity hold, and the contact ends within the domain, on enough nodes."""
     reason: str
     max_pressure_GPa: float
     approach_um: float
@@ -46,6 +50,7 @@ class DryResult:
     wall_s: float
     ranks: int
     versions: dict
+    edge: EdgeResult = NOT_SEEN
     mixed = None
     """There is no film to share the load with."""
 
@@ -80,7 +85,8 @@ def summarise_dry(problem, outcome, tolerance, work, wall_s, versions):
     load_error = problem.load_deficit(state.P)
     complementarity = _complementarity_error(grid, state)
     at_boundary = _boundary_nodes(problem, state, tolerance)
-    found = load_error, complementarity, at_boundary
+    edge = edge_result(problem, state, nm, PRESSED)
+    found = load_error, complementarity, at_boundary, edge.too_few
     converged, reason = _verdict(outcome, tolerance, *found)
     hertz = contact.hertz
     return DryResult(
@@ -99,6 +105,7 @@ def summarise_dry(problem, outcome, tolerance, work, wall_s, versions):
         wall_s=wall_s,
         ranks=grid.comm.size,
         versions=versions,
+        edge=edge,
     )
 
 
@@ -127,7 +134,7 @@ def _boundary_nodes(problem, state, tolerance):
     return grid.count(pressed | (problem.boundary & (state.H < -tolerance)))
 
 
-def _verdict(outcome, tolerance, load_error, complementarity, at_boundary):
+def _verdict(outcome, tolerance, load_error, complementarity, at_boundary, too_few):
     """Whether all holds, and what does not."""
     if not outcome.converged:
         return False, outcome.reason
@@ -140,4 +147,6 @@ def _verdict(outcome, tolerance, load_error, complementarity, at_boundary):
         )
     if not complementarity <= tolerance:
         return False, f"complementarity is broken by {complementarity:.1e}"
+    if too_few:
+        return False, too_few
     return True, "load, contact and gap hold, and the contact ends within the domain"

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from mgehl.solver.verification import FEWEST_NODES, LARGEST_EDGE_PRESSURE, check_edge
+from mgehl.solver.verification import FEWEST_NODES, LARGEST_EDGE_PRESSURE, LOADED, check_edge
 
 
 @dataclass(frozen=True)
@@ -32,20 +32,28 @@ class EdgeResult:
                 f"the pressure beside the domain's boundary is {100 * self.pressure_ratio:.2g} % of the "
                 f"largest, more than {100 * LARGEST_EDGE_PRESSURE:g} %: the domain cuts the contact"
             )
+        return ("the contact has too few nodes", self.too_few) if self.too_few else ("", "")
+
+    @property
+    def too_few(self):
+        """What is wrong with the number of nodes, in a sentence; empty where nothing is."""
         for axis, nodes in (("x", self.nodes_along_x), ("y", self.nodes_along_y)):
             if nodes is not None and nodes < FEWEST_NODES:
-                return "the contact has too few nodes", (
+                return (
                     f"the contact is {nodes} nodes wide along {axis}, and needs {FEWEST_NODES}: "
                     "a smaller domain or more nodes"
                 )
-        return "", ""
+        return ""
 
 
 NOT_SEEN = EdgeResult(0.0, 0, 0.0, FEWEST_NODES, None)
 """Of results made by hand."""
 
 
-def edge_result(problem, state, nm):
-    """The `EdgeResult` of a state; `nm` is nanometres per unit of H (collective)."""
-    edge = check_edge(problem, state)
+def edge_result(problem, state, nm, part=LOADED):
+    """The `EdgeResult` of a state; `nm` is nanometres per unit of H (collective).
+
+    The loaded zone has at least this `part` of the largest pressure.
+    """
+    edge = check_edge(problem, state, part)
     return EdgeResult(edge.pressure, edge.overlapping, nm * edge.largest_overlap, *edge.across)

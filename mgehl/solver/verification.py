@@ -47,12 +47,15 @@ class Edge:
     """Nodes along X and along Y that the loaded zone is wide; of a line contact None along Y."""
 
 
-def check_edge(problem, state):
-    """How the contact stands in its domain: what lies beyond was not solved (collective)."""
+def check_edge(problem, state, part=LOADED):
+    """How the contact stands in its domain: what lies beyond was not solved (collective).
+
+    The loaded zone has at least this `part` of the largest pressure.
+    """
     grid, P = problem.grid, state.P
     largest, overlap = grid.max(P), np.where(problem.boundary, -state.H, 0.0)
     beside = grid.max(P[_beside_boundary(grid)], initial=0.0)
-    loaded = largest * LOADED <= P
+    loaded = largest * part <= P
     columns = np.logical_or.reduce(grid.comm.allgather(loaded.any(axis=0)))
     across = None if grid.mesh.is_line else grid.count(loaded.any(axis=1))
     return Edge(

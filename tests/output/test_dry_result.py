@@ -76,6 +76,24 @@ def test_what_is_wrong_is_found(settled, harm, said):
     assert not result.converged and (said in result.reason or "the load is off" in result.reason)
 
 
+@pytest.mark.parametrize(
+    "grid, across", [({"x": (-60.0, 60.0)}, "1 nodes wide along x"), ({"y": (-30.0, 30.0)}, "along y")]
+)
+def test_contact_of_too_few_nodes_is_none(settled, grid, across):
+    """Load and gap hold there, too, and its largest pressure is anything."""
+    result = judged(*settled(**grid))
+    assert not result.converged and result.complementarity_error < 1e-10
+    assert across in result.reason and "needs 4: a smaller domain or more nodes" in result.reason
+
+
+def test_peaks_that_bear_more_than_the_rest_do_not_hide_it(settled):
+    """Contact is wide where any pressure is, however small beside that on a peak."""
+    problem, outcome = settled()
+    assert judged(problem, outcome).edge.nodes_along_x > 30
+    outcome.state.P[32, 32] *= 100.0
+    assert judged(problem, outcome).edge.nodes_along_x > 30
+
+
 def test_bodies_that_overlap_are_told(settled):
     problem, outcome = settled()
     beside = (outcome.state.P == 0.0) & ~problem.boundary

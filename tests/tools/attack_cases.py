@@ -227,7 +227,7 @@ def _wrong_place(solution):
     )  # fmt: skip
     if np.abs(ring).max() > 0.0 or beside.max() > 0.0101 * P.max() or edge.min() < 0.0:
         return f"cut by the domain: {beside.max() / P.max():.2g} of the pressure, gap {edge.min():.2g}"
-    loaded = 0.1 * P.max() <= P
+    loaded = P > 0.0 if solution.is_dry else 0.1 * P.max() <= P
     if loaded.any(axis=0).sum() < 4 or (not is_line and loaded.any(axis=1).sum() < 4):
         return "too few nodes"
     return ""
