@@ -57,10 +57,10 @@ def whole_file(path):
 
 
 def write_whole(path, text):
-    """Write `text` as a whole file. Raises OutputError."""
+    """Write `text` as a whole file. Names of files in it may be no text: escaped. Raises OutputError."""
     try:
         with whole_file(path) as part:
-            part.write_text(text, encoding="utf-8")
+            part.write_text(text, encoding="utf-8", errors="backslashreplace")
     except OSError as error:
         raise OutputError(f"{path}: cannot be written: {error.strerror or error}") from None
 

@@ -32,7 +32,7 @@ def write_vts(path, solution):
     _check_size(solution.mesh.nodes * (_COORDINATES + len(values)))
     path.touch()  # a place that cannot be written shows here
     plane = _plane(solution)
-    viewer = PETSc.Viewer().createVTK(str(path), mode="w", comm=PETSc.COMM_SELF)
+    viewer = PETSc.Viewer().createVTK(os.fsencode(path), mode="w", comm=PETSc.COMM_SELF)
     for name, array in values.items():
         _add(viewer, plane, name, array)
     _write(viewer, path)

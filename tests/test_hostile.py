@@ -1,0 +1,143 @@
+"""Names, limits and surroundings that are not meant well: an answer, or one line with its status.
+
+`tests/tools/attack.py` makes up many more by chance; here is what once went wrong, or is out of its reach.
+"""
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from mgehl.cli import main
+
+WEDGE = ["run", "--set", "contact.kind=wedge", "--set", "grid.nodes=65", "--quiet"]
+NAME = os.fsdecode(b"\xff\xfe")
+"""Of a directory: no text in UTF-8."""
+
+
+@pytest.fixture(autouse=True)
+def empty_directory(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+
+@pytest.fixture(scope="module")
+def finished(tmp_path_factory):
+    """Directory of a healthy run, to be copied."""
+    out = tmp_path_factory.mktemp("finished") / "wedge"
+    assert main([*WEDGE, "--out", str(out)]) == 0
+    return out
+
+
+def process(*words, before="", **variables):
+    """mgehl in a process of its own, after words of the shell."""
+    environment = {k: v for k, v in os.environ.items() if not k.startswith(("OMPI_COMM", "PMIX_", "PRTE_"))}
+    command = ["bash", "-c", f'{before} "$@"', "-", sys.executable, "-m", "mgehl", *words]
+    done = subprocess.run(
+        command, capture_output=True, text=True, errors="replace", timeout=120, env=environment | variables
+    )
+    # MPI's libraries may have a say on the machine: "[hwloc/linux] ...".
+    lines = [line for line in done.stderr.splitlines() if not line.startswith("[")]
+    return done.returncode, lines
+
+
+class TestNamesThatAreNoText:
+    READERS = [
+        ["report"], ["plot", "--kind", "lines", "--format", "png"], ["collect"], ["export", "--to", "npz"],
+        ["export", "--to", "vts"], ["export", "--to", "nc"], ["export", "--to", "csv"],
+        ["run", "--quiet", "--resume"],
+    ]  # fmt: skip
+
+    @pytest.mark.parametrize("words", READERS, ids=" ".join)
+    def test_a_run_there_is_read(self, finished, capsys, words):
+        shutil.copytree(finished, NAME)
+        position = 1 if words[0] != "run" else len(words)
+        assert main([*words[:position], NAME, *words[position:]]) == 0
+        assert capsys.readouterr().err == ""
+
+    def test_a_run_begins_stops_and_goes_on_there(self, capsys):
+        words = ["run", "--set", "grid.nodes=65", "--set", "solver.start=contact", "--quiet", "--out", NAME]
+        assert main([*words, "--time-limit", "1e-9"]) == 143
+        assert main(["run", "--resume", NAME, "--quiet"]) == 0
+        assert main(["run", f"{NAME}/configuration.toml", "--quiet", "--out", f"{NAME}/again"]) == 0
+        assert all(line.isprintable() for line in capsys.readouterr().err.splitlines())
+
+    def test_so_is_the_directory_of_a_law(self, capsys):
+        Path(NAME).mkdir()
+        (Path(NAME) / "law.py").write_text("def law(p):\n    return 1.0 + 1e-10 * p, 1e-10 + 0.0 * p\n")
+        words = ["run", "--set", "grid.nodes=65", "--set", "motion.speed=0.5", "--quiet", "--no-error"]
+        assert main([*words, "--set", f"lubricant.density_law={NAME}/law.py:law", "--out", "here"]) == 0
+        assert main(["run", "here/configuration.toml", "--quiet", "--no-error", "--out", "again"]) == 0
+
+
+def one_line(capsys, status, words, *parts):
+    assert main(words) == status
+    out, err = capsys.readouterr()
+    assert out == "" and err.count("\n") == 1 and err[:-1].isprintable()
+    assert all(part in err for part in parts), err
+
+
+def test_a_history_that_was_cut_is_not_collected(finished, capsys):
+    shutil.copytree(finished, "cut")
+    history = Path("cut/history.csv")
+    history.write_bytes(history.read_bytes()[:-7])
+    one_line(capsys, 2, ["collect", "cut"], "cut/history.csv: is damaged")
+
+
+@pytest.mark.parametrize("kind", ["line", "point"])
+def test_an_inlet_of_endless_cells_is_refused(capsys, kind):
+    words = ["run", "--set", f"contact.kind={kind}", "--set", "solver.inlet_cells=1e300"]
+    one_line(capsys, 2, words, "solver.inlet_cells = 1e+300: must be ")
+
+
+@pytest.mark.parametrize("kind, nodes", [("line", 129), ("point", 65)])
+def test_the_longest_inlet_ends(kind, nodes):
+    words = [
+        "run",
+        "--set",
+        f"contact.kind={kind}",
+        "--set",
+        f"grid.nodes={nodes}",
+        "--set",
+        "solver.error=false",
+    ]
+    assert main([*words, "--set", "solver.inlet_cells=1000", "--quiet", "--out", "here"]) in (0, 1)
+    assert Path("here/result.json").exists()
+
+
+def test_a_file_of_options_that_holds_none(capsys):
+    Path("options").write_text("-mgehl_ksp_rtol 0.1\nfrobnicate\n")
+    one_line(capsys, 2, ["run", "-options_file", "options"], "line 2 is no option: frobnicate")
+
+
+@pytest.mark.parametrize("style", ["/dev/zero", "pipe", "folder"])
+def test_a_style_without_end(finished, capsys, style):
+    os.mkfifo("pipe")
+    Path("folder").mkdir()
+    shutil.copytree(finished, "wedge")
+    one_line(capsys, 2, ["plot", "wedge", "--style", style], style, "cannot be read")
+
+
+def test_a_limit_of_memory_that_is_too_low():
+    """It ended in BLAS, or never."""
+    status, lines = process("run", "--set", "grid.nodes=513", "--out", "here", before="ulimit -v 700000;")
+    assert status == 2 and len(lines) == 1 and lines[0].startswith("mgehl: ")
+    assert not Path("here").exists()
+
+
+@pytest.mark.parametrize(
+    "variables",
+    [{"PYTHONWARNINGS": "error"}, {"LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}],
+)
+def test_surroundings_in_which_a_run_goes_on(variables):
+    assert process(*WEDGE, "--out", "über µ", **variables) == (0, [])
+    assert process("report", "über µ", **variables) == (0, [])
+    assert process("collect", "über µ", **variables) == (0, [])
+
+
+def test_without_any_surroundings():
+    """Where the packages are found without it, it runs; elsewhere it says how to put the environment on."""
+    status, lines = process(*WEDGE, "--out", "here", before="env -i")
+    assert (status, lines) == (0, []) or (status == 2 and len(lines) == 1 and "make -s env" in lines[0])
