@@ -68,6 +68,7 @@ class TestNamesThatAreNoText:
         Path(NAME).mkdir()
         (Path(NAME) / "law.py").write_text("def law(p):\n    return 1.0 + 1e-10 * p, 1e-10 + 0.0 * p\n")
         words = ["run", "--set", "grid.nodes=65", "--set", "motion.speed=0.5", "--quiet", "--no-error"]
+        words += ["--set", "solver.start=film"]
         assert main([*words, "--set", f"lubricant.density_law={NAME}/law.py:law", "--out", "here"]) == 0
         assert main(["run", "here/configuration.toml", "--quiet", "--no-error", "--out", "again"]) == 0
 
