@@ -25,6 +25,7 @@ import time
 import warnings
 from importlib import import_module
 
+from mgehl.address_space import check_address_space
 from mgehl.commands import COMMANDS, USAGE, execute_on
 from mgehl.errors import one_line
 from mgehl.failures import told
@@ -52,6 +53,7 @@ def main(arguments=None):
         os.getcwd()  # MPI says it in nineteen lines where that is gone
         own, petsc = split_options(sys.argv[1:] if arguments is None else arguments)
         command = read(own, petsc)
+        check_address_space()
         is_alone = not command.module.PARALLEL and _rank() is None
         status = command.module.execute(command) if is_alone else _in_parallel(command, petsc)
     except (Exception, KeyboardInterrupt) as error:

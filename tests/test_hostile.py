@@ -121,10 +121,14 @@ def test_a_style_without_end(finished, capsys, style):
     one_line(capsys, 2, ["plot", "wedge", "--style", style], style, "cannot be read")
 
 
-def test_a_limit_of_memory_that_is_too_low():
-    """It ended in BLAS, or never."""
-    status, lines = process("run", "--set", "grid.nodes=513", "--out", "here", before="ulimit -v 700000;")
-    assert status == 2 and len(lines) == 1 and lines[0].startswith("mgehl: ")
+@pytest.mark.parametrize("kilobytes", [450000, 560000, 700000])
+def test_a_limit_of_memory_that_is_too_low(kilobytes):
+    """It ended in BLAS, never, in a dozen lines of MPI, or in a unit that was not understood."""
+    before = f"ulimit -v {kilobytes};"
+    status, lines = process("run", "--set", "grid.nodes=513", "--out", "here", before=before)
+    assert (
+        status == 2 and len(lines) == 1 and lines[0].endswith(f"allows {kilobytes / 1024:.0f} (ulimit -v)")
+    ), lines
     assert not Path("here").exists()
 
 
