@@ -5,8 +5,6 @@ Every mistake is one line that names the key, the value and what is allowed (`Co
 
 import difflib
 import os
-import select
-import stat
 import sysconfig
 import tomllib
 from collections.abc import Mapping
@@ -14,6 +12,7 @@ from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 
 from mgehl import config_sections as sections
+from mgehl.config_file import text_of
 from mgehl.config_value import read_value, shown
 from mgehl.errors import ConfigError
 from mgehl.kinds import KINDS
@@ -24,12 +23,6 @@ from mgehl.kinds.wedge import WedgeSection
 
 COARSEST_NODES = 33
 """Nodes along each side of the coarsest grid, which is solved directly."""
-
-PATIENCE = 30.0
-"""Seconds without a word after which a pipe is given up."""
-
-LARGEST_FILE = 10**6
-"""Bytes of a configuration."""
 
 ROUGH_BALL, PAPERS_BALL = "rough.toml", "point_contact.toml"
 """Configurations that come with mgehl: the one it shows, and the one that settings alone change."""
@@ -227,46 +220,11 @@ def _check_foreign(kind, tables):
 
 def _read_toml(path):
     try:
-        return tomllib.loads(_text(path))
+        return tomllib.loads(text_of(path))
     except OSError as error:
         raise ConfigError(f"{path}: cannot be read: {error.strerror or error}") from None
     except (ValueError, RecursionError) as error:  # no TOML or no text, or a number or a nest too long
         raise ConfigError(f"{path}: not valid TOML: {error}") from None
-
-
-def _text(path):
-    """The text of a file in UTF-8, as TOML demands, or what comes out of a pipe such as <(...).
-
-    The null device is the empty configuration.
-    """
-    kind = path.stat().st_mode
-    if not (stat.S_ISREG(kind) or stat.S_ISFIFO(kind) or path == Path(os.devnull)):
-        raise OSError("is no file")
-    content = _out_of_pipe(path) if stat.S_ISFIFO(kind) else _beginning(path)
-    if len(content) > LARGEST_FILE:
-        raise OSError(f"has more than {LARGEST_FILE} bytes")
-    return content.decode()
-
-
-def _beginning(path):
-    with path.open("rb") as file:
-        return file.read(LARGEST_FILE + 1)
-
-
-def _out_of_pipe(path):
-    """What comes out of a pipe until its writer ends, or says nothing for too long."""
-    content, number = b"", os.open(path, os.O_RDONLY | os.O_NONBLOCK)
-    try:
-        while len(content) <= LARGEST_FILE:
-            if not select.select([number], [], [], PATIENCE)[0]:
-                raise OSError(f"is a pipe into which nobody writes, for {PATIENCE:g} s")
-            part = os.read(number, LARGEST_FILE)
-            if not part:
-                break
-            content += part
-        return content
-    finally:
-        os.close(number)
 
 
 def _read_setting(setting):

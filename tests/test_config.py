@@ -639,7 +639,7 @@ class TestPipes:
 
     @pytest.mark.parametrize("writes", ["", "[grid]"])
     def test_one_that_nobody_ends(self, tmp_path, monkeypatch, writes):
-        monkeypatch.setattr("mgehl.config.PATIENCE", 0.05)
+        monkeypatch.setattr("mgehl.config_file.PATIENCE", 0.05)
         os.mkfifo(tmp_path / "pipe.toml")
         held = os.open(tmp_path / "pipe.toml", os.O_RDWR) if writes else None
         if writes:
