@@ -66,6 +66,21 @@ class Transfer:
         fine[:, 1::2] = 0.5 * (fine[:, :-2:2] + fine[:, 2::2])
         return fine
 
+    @event(TRANSFERS)
+    def cubic(self, coarse):
+        """Cubic interpolation of a pressure to the fine grid, bilinear beside nodes that have none."""
+        ghosted = self._ranks.spread(coarse)
+        fine = np.empty(self.fine.shape)
+        even, odd = self._odd, 1 - self._odd
+        fine[even::2, ::2] = own(ghosted)
+        between = fine[odd::2, ::2]
+        first, count = HALO - self._odd - 1, len(between)
+        between[:] = _midway(*(ghosted[k : k + count] for k in range(first, first + 4)))
+        columns = np.pad(fine[:, ::2], ((0, 0), (1, 1)))
+        cells = self.coarse.mesh.nx - 1
+        fine[:, 1::2] = _midway(*(columns[:, k : k + cells] for k in range(4)))
+        return fine
+
 
 class PartitionedTransfer:
     """Full weighting of residuals and bilinear corrections, fluid and contact kept apart.
@@ -121,3 +136,11 @@ class PartitionedTransfer:
 def _inverse(weight, where):
     """1/weight on a set of nodes, 0 elsewhere and where there is no weight."""
     return np.divide(1.0, weight, out=np.zeros_like(weight), where=where & (weight > 0.0))
+
+
+def _midway(before, left, right, after):
+    """Pressure in the middle of `left` and `right`, of four that follow each other."""
+    linear = 0.5 * (left + right)
+    cubic = linear + 0.125 * (linear - 0.5 * (before + after))
+    has_pressure = np.minimum(np.minimum(before, left), np.minimum(right, after)) > 0.0
+    return np.where(has_pressure & (cubic > 0.0), cubic, linear)

@@ -219,11 +219,12 @@ class Newton:
         problem, position = self._problem, self._position
         state, changes = position.state, position.changes
         dP, dH0 = self._space.read(self._correction)
-        length = step_length(problem, self._evaluation, state, dP, dH0, self._settings.max_pressure_step)
+        limit = self._settings.max_pressure_step
+        length, H = step_length(problem, self._partition, self._evaluation, state, dP, dH0, limit)
         state.P -= length * dP
         state.H0 -= length * dH0
         self._partition.cut_tension(state.P, state.status, changes)
-        self._take_own_gap()
+        state.H = problem.gap(state.P, state.H0) if H is None else H
         self._partition.enter_contact(state, changes)
         position.step = replace(position.step, length=length)
 

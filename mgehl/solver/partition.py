@@ -106,12 +106,15 @@ class Partition:
         """Whether contact is let go by its pressure, and not by its flow."""
         return self._contact_law.closes_faces
 
+    def tension(self, P, status):
+        """Where fluid would be torn, and where contact, by negative pressures: two arrays (lines, nx)."""
+        negative = P < 0.0
+        torn = negative & (status == LUBRICATED) & self._problem.scheme.cavitation
+        return torn, negative & (status == CONTACT)
+
     def cut_tension(self, P, status, changes):
         """Set negative pressures to zero in place: fluid cavitates, contact is released."""
-        negative = P < 0.0
-        torn, tensile = negative & (status == LUBRICATED), negative & (status == CONTACT)
-        if not self._problem.scheme.cavitation:
-            torn[:] = False
+        torn, tensile = self.tension(P, status)
         self.past.torn_pressure[tensile] = P[tensile]
         self.past.turns += tensile & self._contact_law.closes_faces
         P[torn | tensile] = 0.0

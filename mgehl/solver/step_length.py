@@ -14,22 +14,29 @@ SMALLEST = 1e-300
 """So that nothing is divided by zero."""
 
 
-def step_length(problem, evaluation, state, dP, dH0, max_pressure_step):
-    """Part of the step -dP (lines, nx), -dH0 from an evaluated state, at most 1 (collective)."""
+def step_length(problem, partition, evaluation, state, dP, dH0, max_pressure_step):
+    """Part of the step -dP (lines, nx), -dH0 from an evaluated state, at most 1 (collective).
+
+    And the gap that it leads to, (lines, nx); None where that is not known.
+    """
     largest = problem.grid.max(np.abs(dP), initial=0.0)
     length = min(1.0, max_pressure_step / max(largest, SMALLEST))
-    if problem.scheme.contact_law.is_continuous:
-        length = min(length, longest_for_the_film(problem, evaluation, state, dP, dH0))
-    return length
+    if not problem.scheme.contact_law.is_continuous:
+        return length, None
+    P = state.P - length * dP
+    P[np.logical_or(*partition.tension(P, state.status))] = 0.0
+    H = problem.gap(P, state.H0 - length * dH0)
+    allowed = LARGEST_CHANGE / max(mean_change(problem, evaluation, state, H), SMALLEST)
+    return (length, H) if allowed >= 1.0 else (length * allowed, None)
 
 
-def longest_for_the_film(problem, evaluation, state, dP, dH0):
-    """Part of a step that changes the mean film by `LARGEST_CHANGE` of itself; a convolution.
+def mean_change(problem, evaluation, state, H):
+    """Mean change of the film over itself on the way to a gap H, (lines, nx).
 
     Deep valleys do not count: their gap says nothing of the film beside them.
     """
     is_thin = share_of_the_gap(problem, evaluation) > 0.5
     film = is_thin & (state.status == LUBRICATED) & (state.H > problem.scheme.contact_law.contact_gap)
-    change = np.abs(problem.deflection(dP) + dH0)[film] / state.H[film]
+    change = np.abs(H - state.H)[film] / state.H[film]
     total = problem.grid.sum(np.minimum(change, MOST_OF_A_NODE).sum())
-    return LARGEST_CHANGE * max(problem.grid.count(film), 1) / max(total, SMALLEST)
+    return total / max(problem.grid.count(film), 1)

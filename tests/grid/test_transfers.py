@@ -34,6 +34,25 @@ def test_bilinear_reproduces_bilinear_functions(transfer):
     )
 
 
+def test_cubic_reproduces_cubic_functions_between_nodes_with_pressure(transfer):
+    """Bilinear where a line ends: the function is no line there, and its mean is not its middle."""
+
+    def function(grid):
+        return 40.0 + grid.X**3 - 2.0 * grid.Y**3 + grid.X * grid.Y
+
+    found, expected = transfer.cubic(function(transfer.coarse)), function(transfer.fine)
+    np.testing.assert_allclose(found[2:-2, 2:-2], expected[2:-2, 2:-2], rtol=1e-14)
+    assert not np.allclose(found, expected, rtol=1e-6)
+
+
+def test_cubic_is_bilinear_beside_nodes_without_pressure_and_never_negative(transfer):
+    coarse = np.zeros(transfer.coarse.shape)
+    coarse[10, 10:13] = 1.0
+    np.testing.assert_array_equal(transfer.cubic(coarse), transfer.bilinear(coarse))
+    coarse[10, 9:14] = 100.0, 1.0, 1.0, 100.0, 0.0
+    np.testing.assert_array_equal(transfer.cubic(coarse)[20, 18:25], [100, 50.5, 1, 1, 1, 50.5, 100])
+
+
 def test_full_weighting_is_a_quarter_of_the_adjoint_of_bilinear(transfer):
     random = np.random.default_rng(1)
     fine = random.standard_normal(transfer.fine.shape)

@@ -265,6 +265,7 @@ class TestTransfers:
                 ("inject", fine, shared.fine, shared.coarse),
                 ("full_weighting", fine, shared.fine, shared.coarse),
                 ("bilinear", coarse, shared.coarse, shared.fine),
+                ("cubic", 5.0 + coarse, shared.coarse, shared.fine),
             ):
                 expected = getattr(serial, name)(values)
                 result = whole(target, getattr(shared, name)(lines(source, values)))

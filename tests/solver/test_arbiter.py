@@ -130,9 +130,9 @@ class TestInASolve:
         return sum(cycle.changes.released for cycle in solution.outcome.cycles)
 
     def test_of_two_settled_states_the_one_with_fewer_violations_is_kept(self, solve, paper_contact):
-        """129 nodes at 40 mm/s: 52 of 94 contact nodes are let go, and fewer close again."""
-        plain = solve(paper_contact(0.04), 129, newton={"release_budget": 0})
-        tried = solve(paper_contact(0.04), 129)
+        """129 nodes at 20 mm/s from contact: 16 contact nodes are let go, and fewer break Eq. 2 then."""
+        plain = solve(paper_contact(0.02), 129, start="contact", newton={"release_budget": 0})
+        tried = solve(paper_contact(0.02), 129, start="contact")
         self.assert_settled(plain)
         self.assert_settled(tried)
         assert 0 < self.broken(tried) < self.broken(plain)

@@ -6,33 +6,54 @@ import pytest
 from mgehl.discretization.contact_law import BoundaryFilm
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import CONTACT, LUBRICATED
+from mgehl.solver.partition import Partition
 from mgehl.solver.step_length import LARGEST_CHANGE, step_length
 
 
 @pytest.fixture
 def stiff(make_problem):
-    """Problem, its evaluation and a state: a film of 0.01 so stiff that no pressure drives it."""
+    """Problem, partition, evaluation and a state: a film of 0.01 so stiff that no pressure drives it."""
     scheme = Scheme(face_mobility="linear-gap", contact_law=BoundaryFilm(1e-3))
     problem = make_problem(nodes=9, scheme=scheme)
-    state = problem.state(np.full((9, 9), 2.0), 0.0, np.full((9, 9), LUBRICATED))
+    P, status = np.full((9, 9), 2.0), np.full((9, 9), LUBRICATED)
+    state = problem.state(P, 0.0, status)
+    problem.gap = lambda P, H0: np.full((9, 9), 0.01 + H0)  # as if no pressure bent anything
     state.H[:] = 0.01
-    return problem, problem.evaluate(state), state
+    return problem, Partition(problem, 0), problem.evaluate(state), state
 
 
 @pytest.mark.parametrize(
     "times, expected", [(0.25, 1.0), (1.0, LARGEST_CHANGE), (2.0, LARGEST_CHANGE / 2.0)]
 )
 def test_a_film_changes_by_half_of_itself_at_the_most(stiff, times, expected):
-    problem, evaluation, state = stiff
-    nothing = np.zeros((9, 9))
-    assert step_length(problem, evaluation, state, nothing, times * 0.01, 0.5) == pytest.approx(expected)
+    length, H = step_length(*stiff, np.zeros((9, 9)), times * 0.01, 0.5)
+    assert length == pytest.approx(expected)
+    assert (H is None) == (expected < 1.0)
 
 
 def test_what_is_no_film_does_not_count(stiff):
     """Half of the film in contact, whose gap a step may change as it will."""
-    problem, evaluation, state = stiff
+    state = stiff[-1]
     state.status[1:5, 1:-1], state.H[1:5, 1:-1] = CONTACT, 1e-3
-    assert step_length(problem, evaluation, state, np.zeros((9, 9)), 0.01, 0.5) == pytest.approx(0.5)
+    length, _ = step_length(*stiff, np.zeros((9, 9)), 0.01, 0.5)
+    assert length == pytest.approx(0.5)
+
+
+def test_the_gap_of_a_whole_step_takes_one_convolution(make_problem):
+    """With what is torn on the way."""
+    problem = make_problem(
+        nodes=9, scheme=Scheme(face_mobility="linear-gap", contact_law=BoundaryFilm(1e-3))
+    )
+    state = problem.state(np.full((9, 9), 0.2), 1.0, np.full((9, 9), LUBRICATED))
+    partition, evaluation = Partition(problem, 0), problem.evaluate(state)
+    dP = np.zeros((9, 9))
+    dP[4, 4] = 0.3
+    before = problem.deflection.count
+    length, H = step_length(problem, partition, evaluation, state, dP, 1e-3, 0.5)
+    assert (length, problem.deflection.count) == (1.0, before + 1)
+    torn = state.P.copy()
+    torn[4, 4] = 0.0
+    assert np.array_equal(H, problem.gap(torn, state.H0 - 1e-3))
 
 
 def test_the_largest_pressure_is_bounded_by_any_law(make_problem):
@@ -40,4 +61,5 @@ def test_the_largest_pressure_is_bounded_by_any_law(make_problem):
     state = problem.state(np.full((9, 9), 2.0), 1.0, np.full((9, 9), LUBRICATED))
     dP = np.zeros((9, 9))
     dP[4, 4] = -2.0
-    assert step_length(problem, problem.evaluate(state), state, dP, 9.0, 0.5) == 0.25
+    known = problem, Partition(problem, 0), problem.evaluate(state), state
+    assert step_length(*known, dP, 9.0, 0.5) == (0.25, None)
