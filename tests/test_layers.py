@@ -102,10 +102,11 @@ def test_the_three_lowest_layers_know_neither_petsc_nor_mpi(name):
 
 def test_configuration_knows_only_the_three_lowest_layers():
     """It validates names against their tables; everything else must be able to do without PETSc."""
-    parts = {"mgehl.config", "mgehl.config_sections", "mgehl.config_value"}
+    parts = {"mgehl.config", "mgehl.config_file", "mgehl.config_sections", "mgehl.config_value"}
     used = {each for part in parts for each in imports(part) if each.startswith("mgehl")} - parts - BENEATH
     assert used and {layer(each) for each in used} <= set(LAYERS[:3])
     assert not {each for each in imports("mgehl.config_value") if each.startswith("mgehl")} - BENEATH
+    assert not {each for each in imports("mgehl.config_file") if each.startswith("mgehl")}
 
 
 @every_module
