@@ -31,5 +31,13 @@ class Scheme:
         """True where the surfaces move at an angle to both axes."""
         return self.motion[0] != 0.0 and self.motion[1] != 0.0
 
+    def lets_peaks_touch(self, contact):
+        """Whether peaks of a rough `contact` reach through its film and close it continuously.
+
+        Such a contact has a way of its own: the first guess, the grids, the time steps, the smoother and
+        the memory are others than those of a smooth one.
+        """
+        return self.contact_law.is_continuous and contact.is_mixed
+
 
 INTERFACES = ("closed", "untreated")

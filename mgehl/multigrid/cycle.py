@@ -69,7 +69,7 @@ class MultigridSolver:
     ):
         self.contact, self._settings = contact, settings
         self._oblique = scheme.is_oblique and not (rigid or apart)
-        self._rough = contact.is_mixed and scheme.contact_law.is_continuous and not rigid
+        self._rough = scheme.lets_peaks_touch(contact) and not rigid
         couette = _of_cycle(settings.couette, scheme.couette)
         same = couette == scheme.couette
         self._scheme = scheme if same else replace(scheme, couette=couette)

@@ -31,7 +31,8 @@ def _tries(solution):
         return
     yield from _of_domain(result.edge)
     yield from _of_grid(result.resolution, config.grid.nodes)
-    yield OTHER[config.solver.start]
+    if not result.start_note:  # there, the other start was taken already
+        yield OTHER[config.solver.start]
     yield "--start-from RUN: from a run at a higher speed that converged; so step by step down to this one"
     yield f"solver.max_steps: more than {config.solver.max_steps}, where the residual still falls"
 

@@ -32,6 +32,9 @@ class Silent:
     def row(self, row, line, left=None):
         """A cycle: its row of the history, its line, and the seconds that are left, if known."""
 
+    def note(self, words):
+        """Something that a user should know before the first cycle."""
+
     def end(self, solution, directory):
         """The run has ended and its files are written."""
 
@@ -59,6 +62,9 @@ class Lines(Silent):
     def row(self, row, line, left=None):
         say(line)
 
+    def note(self, words):
+        say(folded(words, HANGING, columns()))
+
     def end(self, solution, directory):
         lines = solution.result.words(self.verbose).splitlines()
         lines += [f"  {line}" for line in (*what_next(solution), f"results in {directory}")]
@@ -71,6 +77,9 @@ class JsonLines(Silent):
 
     def row(self, row, line, left=None):
         say(json.dumps(finite({"cycle": row, "seconds_left": left})))
+
+    def note(self, words):
+        say(json.dumps({"note": words}))
 
     def end(self, solution, directory):
         result = finite(asdict(solution.result))
@@ -105,8 +114,16 @@ class Live(Lines):
         known = {} if done is None else {"total": 1.0, "completed": done}
         told = "" if left is None else f"about {ceil(left)} s left"
         with _AS_LONG_AS_IT_SHOWS:
-            self._display.console.print(line, highlight=False, markup=False, soft_wrap=True)
+            self._print(line)
             self._display.update(self._task, description=what, left=told, **known)
+
+    def _print(self, words):
+        """Put words above the bar."""
+        self._display.console.print(words, highlight=False, markup=False, soft_wrap=True)
+
+    def note(self, words):
+        with _AS_LONG_AS_IT_SHOWS:
+            self._print(folded(words, HANGING, columns()))
 
     def end(self, solution, directory):
         with _AS_LONG_AS_IT_SHOWS:

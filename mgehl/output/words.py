@@ -73,6 +73,7 @@ def loaded_words(result, verbose=True):
         *(_errors(result) if verbose else ()),
         *_overlap(result.overlap),
         *_contact(result, verbose),
+        *((f"  start: {result.start_note}",) if result.start_note else ()),
         f"  inlet: {resolution.inlet_cells:.2f} cells, {_advice(result)[resolution.verdict]}",
         f"  domain: {domain_words(resolution.domain, resolution.domain_loss_percent)}",
         *((f"  surface: {shown}",) if shown else ()),
