@@ -61,6 +61,8 @@ def run(config, directory, comm, watch=Watch(), start=None):
     directory = Path(directory)
     identity = comm.bcast(files.on_first_rank(comm, begin_run, directory, config))
     solution = solve(config, comm, replace(watch, directory=directory, identity=identity), start)
+    if comm.rank == 0:
+        watch.speaker.writing()
     files.on_first_rank(comm, finish_run, directory, solution)
     if comm.rank == 0:
         watch.speaker.end(solution, directory)

@@ -15,6 +15,8 @@ HANGING = "    "
 """Before the rest of a line that is broken."""
 BAR = 24
 """Columns of the bar."""
+ALMOST = 0.99
+"""Part of the bar that is drawn at the most: a full one would stop its clock, while results are written."""
 
 
 class Silent:
@@ -34,6 +36,9 @@ class Silent:
 
     def note(self, words):
         """Something that a user should know before the first cycle."""
+
+    def writing(self):
+        """The last cycle is done: files and picture follow."""
 
     def end(self, solution, directory):
         """The run has ended and its files are written."""
@@ -98,7 +103,7 @@ class Live(Lines):
         words, left = TextColumn("{task.description}"), TextColumn("{task.fields[left]}")
         bar = BarColumn(bar_width=BAR)
         self._display = Progress(words, bar, TimeElapsedColumn(), left, transient=True)
-        self._task = self._display.add_task("first guess", total=None, left="")
+        self._task = self._begin("first guess")
         with _AS_LONG_AS_IT_SHOWS:
             self._display.start()
         return self
@@ -109,7 +114,7 @@ class Live(Lines):
 
     def row(self, row, line, left=None):
         spent = row.get("seconds", 0.0)
-        done = None if left is None else spent / max(spent + left, 1e-9)
+        done = None if left is None else min(spent / max(spent + left, 1e-9), ALMOST)
         what = f"{row['grid']} nodes, step {row['step']}"
         known = {} if done is None else {"total": 1.0, "completed": done}
         told = "" if left is None else f"about {ceil(left)} s left"
@@ -120,6 +125,18 @@ class Live(Lines):
     def _print(self, words):
         """Put words above the bar."""
         self._display.console.print(words, highlight=False, markup=False, soft_wrap=True)
+
+    def writing(self):
+        with _AS_LONG_AS_IT_SHOWS:
+            before, self._task = self._task, self._begin("writing results", visible=False)
+            tasks = {task.id: task for task in self._display.tasks}
+            tasks[self._task].start_time = tasks[before].start_time
+            self._display.remove_task(before)
+            self._display.update(self._task, visible=True)
+
+    def _begin(self, what, visible=True):
+        """A bar that moves to and fro, for nobody can tell how long it takes."""
+        return self._display.add_task(what, total=None, left="", visible=visible)
 
     def note(self, words):
         with _AS_LONG_AS_IT_SHOWS:
