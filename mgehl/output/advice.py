@@ -4,14 +4,14 @@ from mgehl.output import surface
 from mgehl.output.resolution import RESOLVED_CELLS
 
 MOST = 3
-"""Things that are said to be tried."""
+"""Most pieces of advice that are given."""
 
 AUTO = 'grid.x = "auto" and grid.y = "auto": a domain that holds the contact and its inlet'
 OTHER = {
     "film": 'solver.start = "contact": from the other side, where the film is thinner than the grid sees',
     "contact": 'solver.start = "film": from the other side, where the bodies may come apart',
 }
-"""By what a run started from."""
+"""What else to try, by the start of the run."""
 
 
 def what_next(solution):
@@ -47,7 +47,7 @@ def _of_domain(edge):
 
 
 def _of_grid(resolution, nodes):
-    """A grid that does not see the surface, or the inlet."""
+    """A grid too coarse for the surface or the inlet."""
     if resolution.surface in (surface.COARSE, surface.GRIDS):
         yield f"grid.nodes = {2 * nodes - 1}, or a surface without its short waves"
     if resolution.verdict in ("coarse", "grid-determined"):

@@ -1,7 +1,7 @@
-"""What a run will meet and what it will take, as far as that can be told before it starts.
+"""What a run will take, as far as that can be told before it starts.
 
-Time is that of so many convolutions: one is timed on this machine, and what a run takes for each was
-measured (`mgehl bench`; two shared cores). None of it is more than an estimate.
+Its time is that of so many convolutions. One convolution is timed on this machine; how many a run takes,
+and how much time beside each, was measured (`mgehl bench`; two shared cores). All of it is an estimate.
 """
 
 import time
@@ -27,7 +27,7 @@ LARGEST_TIMED = 513
 """Nodes of the largest grid whose convolution is timed: half a second, most of it for the FFT's plan."""
 
 LARGEST_NODES = SECTIONS["grid"].__dataclass_fields__["nodes"].metadata["high"]
-"""That a grid may have along each side."""
+"""Most nodes that a grid may have along each side."""
 
 MiB = 2**20
 

@@ -12,7 +12,7 @@ from mgehl.output.files import finite
 from mgehl.saying import columns, complain, folded, say
 
 HANGING = "    "
-"""Before the rest of a line that is broken."""
+"""Indent of the rest of a line that is broken."""
 BAR = 24
 """Columns of the bar."""
 ALMOST = 0.99
@@ -23,7 +23,7 @@ class Silent:
     """Says nothing. The interface of the others, which are context managers, too."""
 
     verbose = False
-    """Whether lines are to have all that there is."""
+    """Whether lines have all numbers."""
 
     def __enter__(self):
         return self
@@ -56,7 +56,7 @@ class Quiet(Silent):
 
 
 class Lines(Silent):
-    """A line per cycle, at last the answer and whether to trust it.
+    """A line for each cycle; at the end the answer and whether to trust it.
 
     On a terminal lines are broken at spaces. `verbose` ones have all, however long.
     """
@@ -92,9 +92,8 @@ class JsonLines(Silent):
 
 
 class Live(Lines):
-    """Lines as ever, and under them a bar with the time that is gone and left.
-
-    It moves to and fro as long as nobody can tell how long it takes.
+    """Lines as `Lines` has them, and under them a bar with the time that is gone and left. It moves to and
+    fro as long as the time left is not known.
     """
 
     def __enter__(self):
@@ -135,7 +134,7 @@ class Live(Lines):
             self._display.update(self._task, visible=True)
 
     def _begin(self, what, visible=True):
-        """A bar that moves to and fro, for nobody can tell how long it takes."""
+        """A bar that moves to and fro: how long it takes is not known."""
         return self._display.add_task(what, total=None, left="", visible=visible)
 
     def note(self, words):
@@ -164,7 +163,8 @@ def speaker(quiet=False, json_lines=False, stream=None, verbose=False):
 def _shows(stream):
     """Whether it is a terminal that can show a bar.
 
-    Open MPI gives its ranks one without width, wherever their words go from there.
+    Open MPI gives its ranks a terminal of their own. It has the width of that on which mpiexec was started,
+    and none where the words go to a file.
     """
     try:
         return stream.isatty() and os.get_terminal_size(stream.fileno()).columns > 0
@@ -177,7 +177,7 @@ STEPS_A_GRID = 8
 
 
 def seconds_left(rows, finest, tolerance):
-    """Guess from the history the time to the end; None where it tells nothing.
+    """Guess the time to the end from the history; None where that is too short to tell.
 
     On the present grid residuals go on falling as in the last steps; a finer one takes a few
     steps, each four times as long.
