@@ -15,7 +15,6 @@ a valley opens the closed gap beside it in the same way: the wider the gap, the 
 import numpy as np
 
 from mgehl.discretization.axes import own
-from mgehl.discretization.fluid import FOLDING
 from mgehl.discretization.residual import linearise
 from mgehl.discretization.rows import FLOW
 from mgehl.discretization.status import beside_contact
@@ -59,8 +58,9 @@ def squeeze_rates(problem, evaluation, rows, F, settings):
         filling = np.where(own(evaluation.H) > law.thinnest, FILLING / problem.grid.mesh.dX, 0.0)
         own_part = np.where(F > 0.0, np.minimum(own_part, filling), own_part)
     rates = settings.squeeze * (rms / problem.grid.mesh.dX + own_part)
-    may_fold = law.is_continuous or mean in FOLDING
-    return np.maximum(rates, _stable_rates(problem, evaluation, rows, rms)) if may_fold else rates
+    if not problem.scheme.may_fold:
+        return rates
+    return np.maximum(rates, _stable_rates(problem, evaluation, rows, rms))
 
 
 def share_of_the_gap(problem, evaluation):
