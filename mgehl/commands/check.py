@@ -87,8 +87,8 @@ def _surface(config, contact, mesh):
     """Lines about what is on the bodies."""
     from mgehl.output.surface import surface_lines
 
-    for number, line in enumerate(surface_lines(config, contact, mesh)):
-        yield line if number else f"\n{line}"
+    lines = list(surface_lines(config, contact, mesh))
+    yield from ("", *lines) if lines else ()
 
 
 def _estimate(config, contact, mesh, ranks):
@@ -101,10 +101,9 @@ def _estimate(config, contact, mesh, ranks):
     enough = f"this machine has {have:.1f}" if need <= have else f"MORE THAN THIS MACHINE'S {have:.1f}"
     yield ""
     yield f"memory     about {need:.1f} GiB on {on} ({enough})"
-    yield f"time       about {_span(*map(_duration, found.seconds))} on {on}, an estimate:"
+    yield f"time       about {_duration(found.seconds)} on {on}, half or twice as much is usual:"
     if found.convolutions:
-        low, high = found.convolutions
-        yield f"           {_span(f'{low:.0f}', f'{high:.0f}')} convolutions expected: {found.measured};"
+        yield f"           about {float(f'{found.convolutions:.2g}'):g} convolutions: {found.measured};"
     else:
         yield f"           {found.measured};"
     cores = "1 core" if found.workers == 1 else f"{found.workers} cores"
@@ -113,11 +112,7 @@ def _estimate(config, contact, mesh, ranks):
         f"{found.timed_nodes} nodes timed just now; {cores} at work"
     )
     if found.convolutions:
-        yield "           a run that does not settle takes longer, up to solver.max_steps steps a grid"
-
-
-def _span(low, high):
-    return low if low == high else f"{low} to {high}"
+        yield "           a run that does not settle may take longer, up to solver.max_steps steps a grid"
 
 
 def _duration(seconds):
