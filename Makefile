@@ -11,11 +11,14 @@
 ENVIRONMENT := .venv/mgehl-env.sh
 ON := . ./$(ENVIRONMENT) &&
 
+# Processes that share the tests of one rank, file by file: what a file's tests share is solved once.
+WORKERS := 2
+
 run: $(ENVIRONMENT)
 	$(ON) mpiexec -n 2 python -m mgehl run $(ARGS)
 
 test: $(ENVIRONMENT)
-	$(ON) python -m pytest -m "not parallel"
+	$(ON) python -m pytest -m "not parallel" -n $(WORKERS) --dist loadfile
 	$(ON) mpiexec -n 2 python -m pytest -m parallel -q
 	$(ON) mpiexec -n 3 python -m pytest -m parallel -q
 

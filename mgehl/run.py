@@ -25,7 +25,7 @@ from mgehl.output.users_axes import in_users_axes
 from mgehl.output.wedge_result import summarise_wedge
 from mgehl.solver.continuation import begin
 from mgehl.solver.dry import guess_on_finest, solve_dry
-from mgehl.solver.from_config import set_up
+from mgehl.solver.from_config import set_up, start_of
 from mgehl.solver.journal import NOTHING_KEPT, told_to_stop
 from mgehl.solver.nested import LevelSolve, single_loop
 from mgehl.solver.problem import ContactProblem
@@ -61,6 +61,8 @@ def run(config, directory, comm, watch=Watch(), start=None):
     directory = Path(directory)
     identity = comm.bcast(files.on_first_rank(comm, begin_run, directory, config))
     solution = solve(config, comm, replace(watch, directory=directory, identity=identity), start)
+    if comm.rank == 0:
+        watch.speaker.writing()
     files.on_first_rank(comm, finish_run, directory, solution)
     if comm.rank == 0:
         watch.speaker.end(solution, directory)
@@ -97,6 +99,9 @@ def _solve_loaded(config, parts, comm, watch, start):
     contact, settings = parts.contact, parts.settings
     by_newton = settings.method == "newton-mg"
     tolerance = settings.newton.tolerance
+    start_note = "" if start else start_of(config, contact).instead
+    if start_note:
+        watch.speaker.note(f"start: {start_note}")
     hierarchy = parts.hierarchy(comm)
     try:
         kind = progress.NEWTON if by_newton else progress.RELAXATION
@@ -109,7 +114,7 @@ def _solve_loaded(config, parts, comm, watch, start):
         work = Work(monitor.convolutions, monitor.steps if by_newton else outcome.cycles[-1].step)
         result = summarise(problem, outcome, tolerance, work, monitor.seconds, versions())
         error = film_error(result, hierarchy, problem, outcome.state, settings, monitor, journal)
-        result = replace(result, error=error, wall_s=monitor.seconds)
+        result = replace(result, error=error, wall_s=monitor.seconds, start_note=start_note)
         return _solution(config, parts, problem, outcome.state, monitor.rows, result)
     finally:
         hierarchy.destroy()

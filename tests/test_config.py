@@ -609,7 +609,7 @@ def test_objects_of_one_s_own():
 )
 def test_rough_bodies_whose_film_is_thicker_begin_with_it(rms, speed, layers, start):
     """Contact that closes its faces would open all over; one with a boundary film opens by itself."""
-    from mgehl.solver.from_config import contact_from, settings_from
+    from mgehl.solver.from_config import contact_from, settings_from, start_of
 
     settings = {"solver.start": "contact", "contact.load": 100.0, "motion.speed": speed}
     settings["contact.boundary_film"] = layers
@@ -619,7 +619,9 @@ def test_rough_bodies_whose_film_is_thicker_begin_with_it(rms, speed, layers, st
             f"surface.{key}": value for key, value in waves.items()
         }
     config = with_settings(*(f"{key}={value}" for key, value in settings.items()))
-    assert settings_from(config, contact_from(config)).nested.start == start
+    contact = contact_from(config)
+    assert settings_from(config, contact).nested.start == start
+    assert bool(start_of(config, contact).instead) == (start == "film")
 
 
 class TestPipes:

@@ -62,15 +62,18 @@ def _inlet(config, contact, mesh):
     from mgehl.output.domain import domain_verdict, domain_words, film_lost, room_words
     from mgehl.output.forecast import LARGEST_NODES, inlet_grids
     from mgehl.output.resolution import RESOLVED_CELLS, expectation, resolving_nodes
+    from mgehl.solver.from_config import start_of
 
     grids = inlet_grids(config, contact)
     for grid in grids:
         at = "" if grid.speed is None else f"   solved at {speed_words(grid.speed)}"
         yield f"grid {grid.nodes:5d}   {grid.cells:8.2f} cells in the inlet{at}"
     needed = resolving_nodes(contact, mesh)
-    cells, start = grids[-1].cells, config.solver.start
+    cells, start = grids[-1].cells, start_of(config, contact)
     yield ""
-    yield f"expected   from a {start} start, {expectation(cells, start, contact.is_mixed)}"
+    if start.instead:
+        yield f"start      {start.instead}"
+    yield f"expected   from a {start.begins} start, {expectation(cells, start.begins, contact.is_mixed)}"
     verdict = "this grid does" if needed <= config.grid.nodes else f"recommended: grid.nodes={needed}"
     if needed > LARGEST_NODES:
         verdict = f"no grid up to {LARGEST_NODES} does; a higher speed or a smaller domain helps"
@@ -84,8 +87,8 @@ def _surface(config, contact, mesh):
     """Lines about what is on the bodies."""
     from mgehl.output.surface import surface_lines
 
-    for number, line in enumerate(surface_lines(config, contact, mesh)):
-        yield line if number else f"\n{line}"
+    lines = list(surface_lines(config, contact, mesh))
+    yield from ("", *lines) if lines else ()
 
 
 def _estimate(config, contact, mesh, ranks):
@@ -98,10 +101,9 @@ def _estimate(config, contact, mesh, ranks):
     enough = f"this machine has {have:.1f}" if need <= have else f"MORE THAN THIS MACHINE'S {have:.1f}"
     yield ""
     yield f"memory     about {need:.1f} GiB on {on} ({enough})"
-    yield f"time       about {_span(*map(_duration, found.seconds))} on {on}, an estimate:"
+    yield f"time       about {_duration(found.seconds)} on {on}, half or twice as much is usual:"
     if found.convolutions:
-        low, high = found.convolutions
-        yield f"           {_span(f'{low:.0f}', f'{high:.0f}')} convolutions expected: {found.measured};"
+        yield f"           about {float(f'{found.convolutions:.2g}'):g} convolutions: {found.measured};"
     else:
         yield f"           {found.measured};"
     cores = "1 core" if found.workers == 1 else f"{found.workers} cores"
@@ -110,11 +112,7 @@ def _estimate(config, contact, mesh, ranks):
         f"{found.timed_nodes} nodes timed just now; {cores} at work"
     )
     if found.convolutions:
-        yield "           a run that does not settle takes longer, up to solver.max_steps steps a grid"
-
-
-def _span(low, high):
-    return low if low == high else f"{low} to {high}"
+        yield "           a run that does not settle may take longer, up to solver.max_steps steps a grid"
 
 
 def _duration(seconds):

@@ -59,8 +59,19 @@ def _lines(sections):
         for position, (key, value) in enumerate(section.items()):
             words = key if key.isupper() else key.replace("_", " ")
             if key not in LONG:
-                line = f"{name if position == 0 else '':14} {words:21} {_text(value)}"
-                yield folded(line, VALUE * " ", columns())
+                yield from _broken(
+                    f"{name if position == 0 else '':14} {words:21}", _text(value), columns()
+                )
+
+
+def _broken(key, text, width):
+    """A value beside its key, broken at spaces; a path too long for that, which has none, below its key."""
+    line = f"{key} {text}"
+    if width and len(line) > width and " " not in text:
+        yield key.rstrip()
+        yield text.rjust(width)
+    else:
+        yield folded(line, VALUE * " ", width)
 
 
 def _text(value):

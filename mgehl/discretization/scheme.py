@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from mgehl.discretization.contact_law import ContactLaw, InterfaceConditions
+from mgehl.discretization.fluid import FOLDING
 
 
 @dataclass(frozen=True)
@@ -30,6 +31,19 @@ class Scheme:
     def is_oblique(self):
         """True where the surfaces move at an angle to both axes."""
         return self.motion[0] != 0.0 and self.motion[1] != 0.0
+
+    @property
+    def may_fold(self):
+        """True where more pressure at a node may drive less flow out of it."""
+        return self.contact_law.is_continuous or self.face_mobility in FOLDING
+
+    def lets_peaks_touch(self, contact):
+        """Whether peaks of a rough `contact` reach through its film and close it continuously.
+
+        Such a contact has a way of its own: the first guess, the grids, the time steps, the smoother and
+        the memory are others than those of a smooth one.
+        """
+        return self.contact_law.is_continuous and contact.is_mixed
 
 
 INTERFACES = ("closed", "untreated")

@@ -10,7 +10,7 @@ from mgehl.kinds.line import LineKind
 from mgehl.kinds.loaded import LoadedKind
 from mgehl.kinds.point import PointKind
 
-EFFORT = Effort((15.0, 60.0), 2.5, 400.0, "dry contacts on 129 to 1025 nodes took 17 to 60")
+EFFORT = Effort(35.0, 3e-8, 2e-3, 400.0, "dry contacts on 129 to 1025 nodes took 17 to 60")
 
 ROOM = 1.5
 """End of a domain that is "auto", over the reach of the smooth contact: peaks carry load beyond it."""

@@ -11,14 +11,16 @@ from dataclasses import dataclass
 class Effort:
     """Work of runs of one sort, as it was measured."""
 
-    convolutions: tuple[float, float]
-    """Fewest and most convolutions, in equivalents of one on the finest grid."""
-    times_convolution: float
-    """The whole time of a run in units of its convolutions' time."""
+    convolutions: float
+    """Those to be expected, in equivalents of one on the finest grid; half or twice as many are usual."""
+    node_seconds: float
+    """What a run takes besides for each convolution and node of the finest grid."""
+    beside: float
+    """Seconds that it takes besides for each convolution on however small a grid."""
     bytes_per_node: float
     measured: str
     counted: bool = True
-    """False where a run makes no convolutions: the numbers then stand for its time alone."""
+    """False where a run makes no convolutions: the number then stands for its time alone."""
 
 
 class Kind:

@@ -6,7 +6,7 @@ from mgehl.kinds.loaded import LoadedKind, lubricant_from
 from mgehl.kinds.surface import surface_from
 from mgehl.model.line import LineContact
 
-EFFORT = Effort((60.0, 200.0), 10.0, 2500.0, "line contacts on 1025 to 16385 nodes took 60 to 180")
+EFFORT = Effort(70.0, 3e-7, 5e-3, 2500.0, "line contacts on 1025 to 16385 nodes took 20 to 180")
 
 
 class LineKind(LoadedKind):

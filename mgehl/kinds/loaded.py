@@ -11,12 +11,12 @@ from mgehl.model.own_function import OwnFunction, is_own
 from mgehl.model.own_laws import OwnDensity, OwnViscosity
 
 RELAXATION = Effort(
-    (2e4, 2e4), 4.6, 500.0, "the relaxation has one a sweep, up to relaxation.max_sweeps"
+    2e4, 1e-7, 1e-3, 500.0, "the relaxation has one a sweep, up to relaxation.max_sweeps"
 )  # fmt: skip
 
 
-BANDS = (2.0, 20.0)
-"""Fewest and most convolutions that coarser grids took for the bands about a film (`study error`)."""
+BANDS, BANDS_WORDS = 10.0, "bands 2 to 23 more"
+"""Convolutions that coarser grids take for the bands about a film."""
 
 
 class LoadedKind(Kind):
@@ -72,7 +72,7 @@ class LoadedKind(Kind):
             effort = self.newton_effort(config)
             return _with_bands(effort) if config.solver.error and config.solver.start == "film" else effort
         sweeps = float(config.relaxation.max_sweeps)
-        return replace(RELAXATION, convolutions=(sweeps, sweeps))
+        return replace(RELAXATION, convolutions=sweeps)
 
     def newton_effort(self, config):
         """The `Effort` of a run by Newton's method."""
@@ -99,7 +99,7 @@ class LoadedKind(Kind):
             f"Hertz      {self.hertz_words(hertz)}   p_h {1e-9 * hertz.p_h:.4g} GPa",
             f"films, nm  {films}",
             f"load       {contact.load:.6g} {self.load_unit}   speed {contact.speed:.6g} m/s, "
-            "half the sum of both surfaces'",
+            "the mean of both surfaces' speeds",
         ]
 
     def parts(self, solution, times="x"):
@@ -146,12 +146,8 @@ def _bands(error):
 
 def _with_bands(effort):
     """The `Effort` of a run whose films get bands, too."""
-    (low, high), (least, most) = effort.convolutions, BANDS
-    return replace(
-        effort,
-        convolutions=(low + least, high + most),
-        measured=f"{effort.measured}, bands {least:g} to {most:g} more",
-    )
+    measured = f"{effort.measured}, {BANDS_WORDS}"
+    return replace(effort, convolutions=effort.convolutions + BANDS, measured=measured)
 
 
 def speed_words(u):

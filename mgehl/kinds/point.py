@@ -19,11 +19,9 @@ LARGEST_RADIUS_RATIO = 1e3
 MOES_REPLACES = ("contact.load", "motion.speed")
 """Keys that moes.M and moes.L stand for."""
 
-FILM = Effort((90.0, 240.0), 3.3, 1300.0, "full films on 65 to 4097 nodes took 90 to 233")
-CONTACT = Effort((25.0, 250.0), 20.0, 1800.0, "full contact on 65 to 2049 nodes took 24 to 254")
-MEAN = Effort(
-    (1000.0, 4000.0), 3.3, 1300.0, "folding means of the mobility took 1354 and 3617 on 129 nodes"
-)  # fmt: skip
+FILM = Effort(60.0, 2e-7, 0.01, 1300.0, "full films on 65 to 2049 nodes took 24 to 132")
+CONTACT = Effort(25.0, 6e-7, 0.01, 1800.0, "full contact on 257 to 1025 nodes took 20 to 31")
+MEAN = Effort(500.0, 2e-7, 0.01, 1300.0, "folding means of the mobility took 348 and 761 on 129 nodes")
 
 
 @dataclass(frozen=True)

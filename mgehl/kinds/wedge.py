@@ -15,7 +15,7 @@ FEWEST_CELLS = 2
 """Cells that a pillar must have, and so must the distance from the exit to the line of no gap."""
 
 EFFORT = Effort(
-    (1.0, 1.0), 300.0, 900.0, "a wedge makes no convolutions, but takes the time of some 300", False
+    1.0, 17e-6, 0.1, 900.0, "a wedge makes no convolutions", False
 )  # fmt: skip
 
 

@@ -1,18 +1,18 @@
 """The linear solver: a V-cycle as the right preconditioner of flexible GMRES.
 
-Coarse operators are rediscretised with P, H and status injected from the fine grid, and always
-with the arithmetic mean of the mobility: coarse neighbours differ by so much that a mean which
-vanishes with either side closes faces the fine grid has open (M = 20, L = 10 by the linear gap on 257
-nodes: 160 convolutions so, and 218 with the logarithmic mean). Where the
-surfaces move at an angle to the lines, coarse Couette flows have the finest grid's truncation error:
-waves across the motion would be carried along otherwise than there, and a coarse grid's correction of
-them would be a fraction of what it should be. The border travels with the residual, so H0 is corrected
-by the direct solve on the coarsest grid and the cycle needs no second solve for its column.
+Coarse operators are rediscretised with P, H and status injected from the fine grid, and always with the
+arithmetic mean of the mobility: coarse neighbours differ so much that a mean which vanishes with either
+side would close faces that are open on the fine grid (M = 20, L = 10 by the linear gap on 257 nodes: 160
+convolutions, and 218 with the logarithmic mean). Where the surfaces move at an angle to the lines, coarse
+Couette flows have the finest grid's truncation error. Otherwise coarse grids would carry waves across the
+motion along differently, and their correction of them would be a fraction of what it should be. The border
+travels with the residual, so H0 is corrected by the direct solve on the coarsest grid and the cycle needs
+no second solve for its column.
 
-On a rough surface peaks are as small as a coarse grid's cells. What GMRES learnt of their film in one step
-is remembered for the next (`memory`). In a thin film the mobility of one node says nothing of those around
-it: there it is averaged from grid to grid, and held (a ball of 100 nm rms at 1 mm/s: 12 iterations for 18,
-at 1 micrometre per second 12 for more than 60).
+On a rough surface peaks are as small as a coarse grid's cells. What GMRES learnt in one step is remembered
+for the next (`memory`). Where the film is thin besides, the mobility at one node says nothing of the nodes
+around it. There it is averaged from grid to grid and held fixed (a ball of 100 nm rms at 1 mm/s: 12
+iterations for 18, at 1 micrometre per second 12 for more than 60).
 """
 
 from contextlib import contextmanager
@@ -41,8 +41,8 @@ ball of lambda 1.7 takes 312 convolutions by the cycle for thin films and 644 by
 3 to 14 an eighth more."""
 
 LARGE_GRID, RESTART_OF_LARGE = 10_000_000, 6
-"""Nodes from which on GMRES is restarted, after so many iterations: it keeps two vectors of each, and
-PETSc takes ten at a time (4097 nodes a side: 2.4 GiB from the fourth iteration on)."""
+"""Nodes from which on GMRES is restarted, and after how many iterations: it keeps two vectors for each, and
+PETSc allocates ten at a time (4097 nodes a side: 2.4 GiB from the fourth iteration on)."""
 
 
 @dataclass(frozen=True)
@@ -57,7 +57,8 @@ class CycleSettings:
     couette: str = SolverSection.cycle_couette
     """Couette scheme of the cycle's operators; "same" is the one that is solved."""
     max_iterations: int = 100
-    """Of GMRES, which is not restarted: thin films on coarse grids take 100, and 30 at a time never end."""
+    """Most iterations of GMRES, which is not restarted: thin films on coarse grids take 100, and with a
+    restart after 30 they never end."""
     options_prefix: str = "mgehl_"
     """Under which PETSc options reach the solvers of a run."""
 
@@ -65,9 +66,9 @@ class CycleSettings:
 class MultigridSolver:
     """Flexible GMRES with one V-cycle for the bordered Jacobian of grid `level`.
 
-    With a `rigid` gap it solves for the fluid alone and makes no convolution. Where the fluid is settled
-    `apart` from the gap what is left is contact, which knows no direction of motion. Where peaks reach
-    through the film it has a smoother, coarse mobilities and a memory of their own.
+    With a `rigid` gap it solves for the fluid alone and makes no convolution. Where the fluid is solved
+    `apart` from the gap only contact is left, and contact knows no direction of motion. Rough surfaces have
+    a memory of their own, and where the film is thin a smoother and coarse mobilities.
     """
 
     def __init__(
@@ -160,18 +161,18 @@ class MultigridSolver:
 
     @property
     def _restart(self):
-        """Iterations that GMRES remembers: all, but where memory is short."""
+        """Iterations that GMRES remembers: all, unless the grid is so large that memory is short."""
         large = self.jacobian.grid.mesh.nodes > LARGE_GRID
         return RESTART_OF_LARGE if large else self._settings.max_iterations
 
 
 @contextmanager
 def _orthogonalised_twice(ksp, when):
-    """Where a KSP reads its options: GMRES orthogonalises twice, unless the user's option says otherwise.
+    """In this block a KSP reads that GMRES orthogonalises twice, unless the user's option says otherwise.
 
-    What is remembered makes its directions alike: after once only the residual may rise again. Elsewhere a
-    film that the grid cannot hold may do so: twice is enough where it is needed (65 nodes at 20 mm/s: 9
-    iterations on one rank, 5 on two, and 4 on any so).
+    Remembered corrections make its directions nearly alike: orthogonalised once only, the residual may rise
+    again. The same may happen with a film that the grid cannot hold. There it is done twice where it is
+    needed (65 nodes at 20 mm/s: 4 iterations on any number of ranks; before 9 on one rank and 5 on two).
     """
     options, name = PETSc.Options(ksp.getOptionsPrefix()), "ksp_gmres_cgs_refinement_type"
     is_ours = not options.hasName(name)

@@ -28,7 +28,8 @@ class LinearSystem:
 
 
 class BorderedSpace:
-    """Vectors (P, H0) on a grid: of all ranks, though some may have no line. The last one always has."""
+    """Vectors (P, H0) on a grid, over all ranks. Some ranks may have no line of the grid; the last one
+    always has."""
 
     def __init__(self, grid):
         self.grid = grid
@@ -54,7 +55,7 @@ class BorderedSpace:
         return _sent_from_last(self.grid.team, border) if self.grid.has_lines else border
 
     def read_own(self, vec):
-        """As `read` without a message: the border entry is 0 but on the last rank."""
+        """As `read` without a message: the border entry is that of the last rank, and 0 on the others."""
         values = vec.getArray(readonly=True)
         return self._lines(values), float(values[-1]) if self._owns_border else 0.0
 

@@ -1,12 +1,13 @@
-"""What GMRES learnt in the linear systems before: the corrections that the cycle knows least, and their
+"""What GMRES found in earlier linear systems: the corrections that the cycle misses most, and their
 deflections.
 
-On a rough surface each valley that peaks shut in is a soft mode of its own: all of its fluid may change its
-pressure almost freely, and the films behind it change along. Coarse grids, whose valleys leak, know it
-badly: GMRES finds it by itself, an iteration or more for each. From one Newton step to the next the modes
-hardly change. And the deflection of a correction does not change at all: what the new Jacobian makes of a
-remembered one is a stencil, without a convolution. Which are kept is told by their harmonic Ritz values:
-GMRES with recycling [Parks et al., SIAM J. Sci. Comput. 28 (2006) 1651], the Jacobian changing.
+On a rough surface each valley that peaks shut in is a soft mode of its own: the pressure of all its fluid
+may change almost freely, and the films behind it change with it. On coarse grids the valleys leak, so the
+cycle corrects these modes badly and GMRES has to find them, an iteration or more for each. From one Newton
+step to the next the modes hardly change. The deflection by a correction does not change at all, so the
+product of the new Jacobian with a remembered correction takes a stencil and no convolution. Harmonic Ritz
+values decide which are kept: GMRES with recycling [Parks et al., SIAM J. Sci. Comput. 28 (2006) 1651],
+while the Jacobian changes.
 """
 
 from dataclasses import dataclass
@@ -17,12 +18,12 @@ import scipy.linalg
 from mgehl.grid.events import LINES, event
 
 MOST, NODES = 40, 48_000_000
-"""Corrections that are kept from system to system at the most, and nodes of all that are remembered at a
-time: with their deflections and causes 1.2 GB. A ball of 218 nm rms at .3 mm/s takes 694 convolutions with
-40, 640 with 60, and fails where the last 40 are kept instead of the softest."""
+"""Most corrections that are kept from one system to the next, and most nodes of all that are remembered at
+a time: with their deflections and causes 1.2 GB. A ball of 218 nm rms at .3 mm/s takes 694 convolutions
+with 40, 640 with 60, and fails where the last 40 are kept instead of the softest."""
 
 INDEPENDENT = 1e-12
-"""Part of the largest eigenvalue from which what the corrections lead to is taken for independent."""
+"""Smallest eigenvalue, over the largest, of images that count as independent of each other."""
 
 
 @dataclass
@@ -34,7 +35,7 @@ class Corrections:
     deflections: np.ndarray
     """By those of P, without the border."""
     causes: np.ndarray
-    """The residuals that the cycle answers by them."""
+    """The residuals to which the cycle answered with them."""
 
     @classmethod
     def stacked(cls, parts):
@@ -42,7 +43,7 @@ class Corrections:
         return cls(*(np.array(each) for each in zip(*parts, strict=True)))
 
     def combined(self, weights):
-        """New ones; `weights` (corrections, new ones)."""
+        """New corrections, combined by `weights` (corrections, new ones)."""
         return Corrections(*(weights.T @ each for each in (self.values, self.deflections, self.causes)))
 
     def parts(self):
@@ -51,7 +52,8 @@ class Corrections:
 
 
 class Memory:
-    """Python context of a PC: the best of what is kept, and a `cycle` on the residual that it leaves.
+    """Python context of a PC: first the best of the kept corrections, then a `cycle` on the residual that
+    is left.
 
     It sees every product of the `jacobian` with a correction that it made. Vectors are a rank's own parts.
     """
@@ -83,7 +85,7 @@ class Memory:
         self._cause = None
 
     def setUp(self, pc):
-        """Take what is remembered to the present linearisation, and keep the softest of it."""
+        """Multiply what is remembered by the present Jacobian, and keep the softest of it."""
         self._cycle.setUp(pc)
         self._images = None
         if self._seen:
@@ -137,8 +139,9 @@ class Memory:
 def softest(gram, by_causes, most):
     """Weights (corrections, combinations) of at `most` combinations with orthonormal images.
 
-    `gram` holds the products of the images with each other, `by_causes` those of image i with cause k. What
-    depends on others is left out. Of the rest those are taken whose image is smallest beside the cause.
+    `gram` holds the products of the images with each other, `by_causes` those of image i with cause k.
+    Combinations that depend on others are left out. Of the rest those are taken whose image is smallest
+    beside its cause.
     """
     lengths = np.sqrt(np.diag(gram))
     scale = np.divide(1.0, lengths, out=np.zeros_like(lengths), where=lengths > 0.0)

@@ -27,7 +27,7 @@ class LineSmoother:
     visits = 1
     """Relaxations that one sweep takes."""
     hands_over_everywhere = True
-    """Whether a node takes what the lines beside it hand over, whatever it is."""
+    """Whether every node takes what the lines beside it hand over, driven or not."""
 
     def __init__(self, jacobian, omega):
         self._jacobian, self._omega = jacobian, omega
@@ -41,7 +41,7 @@ class LineSmoother:
         self._out = np.zeros(grid.shape)
 
     def free(self):
-        """Free what PETSc does not know of."""
+        """Free what PETSc does not free."""
 
     @event(LINES)
     def partition(self, rows):
@@ -68,7 +68,7 @@ class LineSmoother:
         return self._out
 
     def _solve_lines(self, r):
-        """Write to `_w` what the lines answer to the residual `r`."""
+        """Solve the lines for the residual `r`, into `_w`."""
         self._bands.solve(r, self._w)
 
     def view(self, viewer):
@@ -78,9 +78,9 @@ class LineSmoother:
 class RoughLineSmoother(LineSmoother):
     """The same where film and contact change from node to node, as on rough surfaces.
 
-    A stiff node hands nothing over to a line beside it whose node the pressure drives: that would leave a
-    residual there as large as its mobility, and lines that know nothing of each other could not answer it
-    (a ball of 400 nm rms at 1 mm/s: 17 iterations for 39).
+    A stiff node hands nothing over to a pressure-driven node of the line beside it. That would leave a
+    residual there as large as the node's mobility, which lines solved apart from each other could not
+    remove (a ball of 400 nm rms at 1 mm/s: 17 iterations for 39).
     """
 
     hands_over_everywhere = False
@@ -89,9 +89,9 @@ class RoughLineSmoother(LineSmoother):
 class CrossedLineSmoother(LineSmoother):
     """The same with lines along both axes: c = omega Q (X D^-1 Y)^-1 r.
 
-    X and Y are the parts of J Q along the x-lines and along the y-lines, D their diagonal: the product
-    is J Q but for what couples both. Lines of one kind alone leave waves across the motion, the more of
-    them the finer the grid; this damps them, too (M = 20, L = 10 by 2B on 257 nodes: 3 iterations of GMRES
+    X and Y are the parts of J Q along the x-lines and along the y-lines, D their diagonal: the product is J
+    Q but for what couples both. Lines along one axis alone leave waves across the motion, the more the
+    finer the grid; the product damps these, too (M = 20, L = 10 by 2B on 257 nodes: 3 iterations of GMRES
     at the most for 6). A relaxation goes along X first and then along Y, the next one the other way round.
     """
 
@@ -124,7 +124,7 @@ class CrossedLineSmoother(LineSmoother):
         self._y_bands.factor()
 
     def _solve_lines(self, r):
-        """First along one axis, then along the other; the next time the other way round."""
+        """Solve along one axis, then along the other; the next time in the other order."""
         if not self._y_lines:
             return
         if self._along_y_first:
@@ -155,7 +155,7 @@ class RigidLineSmoother:
         self._out = np.zeros(jacobian.grid.shape)
 
     def free(self):
-        """Nothing is held that PETSc does not know of."""
+        """Nothing is held that PETSc does not free."""
 
     def partition(self, rows):
         """Remember where the pressure is given; `rows` (lines, nx)."""

@@ -1,14 +1,14 @@
 """The V-cycle itself: from the coarsest grid up, a relaxation on each grid, no convolution on the finest.
 
-The deflection by a coarse grid's correction is taken there and interpolated with it, in place of one more
-convolution on the finer grid: what the two differ by is as short as its cells, and the relaxation that
-follows damps that. A relaxation before the coarse grids would take two convolutions more on the finest
+The deflection by a coarse grid's correction is convolved there and interpolated with it, instead of one
+more convolution on the finer grid. The difference is as short as the finer grid's cells, and the relaxation
+that follows damps it. A relaxation before the coarse grids would take two convolutions more on the finest
 grid in every iteration, for little more than one relaxation's worth of convergence.
 """
 
 
 class VCycle:
-    """Python context of a PC: y is what one V-cycle from zero makes of x.
+    """Python context of a PC: one V-cycle from zero solves for x and gives y.
 
     Of the grids of the `jacobians`, coarsest first. Grid l > 0 has the smoother and the
     `PartitionedTransfer` l - 1; on grid 0 the `coarse` solve is direct. A smoother relaxes `visits` times a
@@ -20,7 +20,7 @@ class VCycle:
         self._coarse, self._sweeps = coarse, sweeps
 
     def setUp(self, _pc):
-        """Factor what the grids solve by, of their present linearisation."""
+        """Factor the bands and matrices of the present linearisation on all grids."""
         self._coarse.factor()
         for smoother in self._smoothers:
             smoother.factor()

@@ -4,14 +4,14 @@ from mgehl.output import surface
 from mgehl.output.resolution import RESOLVED_CELLS
 
 MOST = 3
-"""Things that are said to be tried."""
+"""Most pieces of advice that are given."""
 
 AUTO = 'grid.x = "auto" and grid.y = "auto": a domain that holds the contact and its inlet'
 OTHER = {
     "film": 'solver.start = "contact": from the other side, where the film is thinner than the grid sees',
     "contact": 'solver.start = "film": from the other side, where the bodies may come apart',
 }
-"""By what a run started from."""
+"""What else to try, by the start of the run."""
 
 
 def what_next(solution):
@@ -33,7 +33,8 @@ def _tries(solution):
         return
     yield from _of_domain(result.edge)
     yield from _of_grid(result.resolution, config.grid.nodes)
-    yield OTHER[config.solver.start]
+    if not result.start_note:  # there, the other start was taken already
+        yield OTHER[config.solver.start]
     yield "--start-from RUN: from a run at a higher speed that converged; so step by step down to this one"
     yield f"solver.max_steps: more than {config.solver.max_steps}, where the residual still falls"
 
@@ -48,7 +49,7 @@ def _of_domain(edge):
 
 
 def _of_grid(resolution, nodes):
-    """A grid that does not see the surface, or the inlet."""
+    """A grid too coarse for the surface or the inlet."""
     if resolution.surface in (surface.COARSE, surface.GRIDS):
         yield f"grid.nodes = {2 * nodes - 1}, or a surface without its short waves"
     if resolution.verdict in ("coarse", "grid-determined"):

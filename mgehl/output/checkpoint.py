@@ -1,4 +1,4 @@
-"""A run's way on disk, so that it goes on where it was, whatever ended it.
+"""How far a run has come, on disk: whatever ends the run, it can go on from there.
 
 RUN/checkpoint/
     configuration.toml    what is solved, and laws/ with the functions of the user's own
@@ -17,12 +17,12 @@ Every file is whole and has a checksum (`archive`). Its record has
     progress            the history of the run until then, its convolutions and seconds
     values              what the solver kept beside its arrays, by name
 
-The names of values and arrays are described in `solver.record`; here nothing is known of them. An
-array in a file is of the whole grid, (ny, nx), or of several such. A run that goes on walks the same
-way again: what is finished is read instead of solved.
+The names of values and arrays are described in `solver.record`; here nothing is known of them. An array in
+a file is of the whole grid, (ny, nx), or of several such. A run that goes on repeats its solves in order;
+those that are finished are read instead of solved.
 
-On a rough surface what the linear solver remembers makes up nearly all of what is under way: 75 to 150 MB
-on 257 nodes, saved in half a second, 450 MB on 513, in two. A solve of ten seconds on 257 has ended before
+On a rough surface nearly all of under-way.npz is what the linear solver remembers: 75 to 150 MB on 257
+nodes, saved in half a second, 450 MB on 513 in two seconds. A solve of ten seconds on 257 nodes ends before
 it is saved once.
 """
 
@@ -43,11 +43,13 @@ from mgehl.version import VERSION
 
 UNDER_WAY = "under-way.npz"
 FORMAT = 4
-"""Of the files, goes up with every change of the layout or of a name; another one is not read."""
+"""Version of the files. It goes up with every change of the layout or of a name; files of another version
+are not read."""
 
 
 class Checkpoint(Journal):
-    """Keeps the way of the run of `config` in DIRECTORY/checkpoint, every `seconds` and after each solve.
+    """Keeps how far the run of `config` has come in DIRECTORY/checkpoint, every `seconds` and after each
+    solve.
 
     `progress` has the history, which is kept with it. `stop` is asked before every step; it
     returns None or the `Stopped` to raise, once the present position is saved.
@@ -82,7 +84,7 @@ class Checkpoint(Journal):
             raise stopped
 
     def finish(self, grid, outcome):
-        """Save the end of a solve; what was under way is behind (collective)."""
+        """Save the end of a solve, which is no longer under way (collective)."""
         self._write(grid, self._finished(self._solved), outcome)
         self._solved += 1
 
@@ -106,7 +108,8 @@ class Checkpoint(Journal):
         self._saved = time.monotonic()
 
     def _read(self, grid, path, made):
-        """What is `made` of a file that is there and about the next solve; the history goes on from it."""
+        """What is `made` of a file, where it is there and about the next solve; the history goes on from
+        it."""
         found = on_first_rank(grid.comm, load, path, self._configuration, self._identity)
         record, arrays = found or (None, {})
         record = grid.comm.bcast(record)
@@ -134,18 +137,18 @@ def scattered(grid, arrays):
 
 
 def clear(directory):
-    """Forget a run's way: it has arrived."""
+    """Remove the checkpoint of a run that has finished."""
     with suppress(OSError):  # what stays is not read: the result is there
         clear_checkpoint(directory)
 
 
 def is_begun(directory):
-    """Whether a directory has the way of a run that has not finished, or was just about to."""
+    """Whether a directory has the checkpoint of a run that has not finished, or was just about to."""
     return (RunFiles(directory).checkpoint / MANIFEST).exists()
 
 
 def keep_start(directory, start):
-    """Copy the files of the run that is started from beside the checkpoint. Raises OutputError."""
+    """Copy the files of the run that this one starts from into the checkpoint. Raises OutputError."""
     source, target = RunFiles(start).directory, start_of(directory)
     names = [*check_result(start).files, MANIFEST]
     try:
@@ -163,7 +166,7 @@ def start_of(directory):
 
 
 def damaged(path, error):
-    """What is said of a file in which an `error` was met."""
+    """The message about a file that raised an `error`."""
     return f"{path}: is damaged, or no checkpoint: {one_line(error)}; without it, the run begins earlier"
 
 

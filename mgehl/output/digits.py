@@ -3,7 +3,7 @@
 from math import ceil, floor, isfinite, log10
 
 MOST_DECIMALS = 9
-"""Of nanometres: far below an atom, and within what a double holds."""
+"""Most decimals of nanometres: far below an atom, and within what a double holds."""
 
 
 def is_number(text):

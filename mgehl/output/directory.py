@@ -1,8 +1,8 @@
-"""A run or study directory from its beginning to its end: what is in it, and what is never touched.
+"""The directory of a run or study: what is in it, how a result gets there, and what is never touched.
 
-A result is put together in a folder beside the one that is there, and replaces it when it is whole
-(`install`): a process that ends in between leaves the old one, or enough to go on with. Nothing is
-removed or replaced but plain files that a manifest names, as that manifest knows them.
+A new result is put together in a folder beside the old one, and replaces it when it is whole (`install`). A
+process that ends in between leaves the old result, or enough to go on with. Only plain files that a
+manifest names are removed or replaced, and only if they are still as it says.
 """
 
 import os
@@ -18,7 +18,7 @@ from mgehl.output.manifest import Manifest, checksum, checksums, read_manifest
 from mgehl.output.whole_file import clear_parts, is_folder, is_plain
 
 FINISHED = "finished"
-"""Folder of a result that is whole, or becomes so, until it is installed."""
+"""Folder of a result until it is installed."""
 
 DRAWN = ("picture.png",)
 """Files of a run that may be missing: they can be drawn again."""
@@ -43,7 +43,7 @@ def make_directory(path, force=False):
 
 
 def prepare_directory(directory):
-    """Make a held directory ready for a new run: its result stays, what one had reached goes.
+    """Make a locked directory ready for a new run: its result stays, the checkpoint of an earlier run goes.
 
     Raises OutputError where the new result would replace what mgehl did not write.
     """
@@ -86,7 +86,7 @@ def _foreign(path):
 
 
 def clear_checkpoint(directory):
-    """Forget what a run had reached: its own files only, whatever else lies in that folder."""
+    """Remove a checkpoint: mgehl's own files only, whatever else lies in that folder."""
     folder = Path(directory) / CHECKPOINT
     if not is_folder(folder):
         return
@@ -101,7 +101,7 @@ def clear_checkpoint(directory):
 
 
 def _own_files(folder):
-    """Plain files in a folder of a checkpoint that bear mgehl's names."""
+    """Plain files in the folder of a checkpoint that have names of mgehl's."""
     if not is_folder(folder):
         return []
     names = [each.name for each in folder.iterdir()]
@@ -115,7 +115,7 @@ def _own_files(folder):
 
 
 def clear_stage(stage):
-    """Make a folder for a result, without what a process that ended left there; return it.
+    """Make an empty folder for a result, removing what an earlier process left there; return it.
 
     Raises OSError.
     """
@@ -127,10 +127,9 @@ def clear_stage(stage):
 
 
 def install(directory, stage):
-    """Put the result in the folder `stage`, which has its manifest, in the place of the one that is there.
-
-    Raises OutputError where something else is in the way; what is in `stage` stays then. What a process
-    that ended here has left is installed by calling it again.
+    """Replace the result that is there by the one in the folder `stage`, which has its manifest. Raises
+    OutputError where something else is in the way; `stage` then stays as it is. If a process ends in the
+    middle, a second call finishes the work.
     """
     directory, stage = Path(directory), Path(stage)
     new, old = read_manifest(stage), read_manifest(directory)

@@ -1,7 +1,7 @@
-"""Whether a domain is large enough for its film, and in which words that is said.
+"""Whether a domain is large enough for its film, and the words for it.
 
-It follows from the contact, the domain and the film of a formula alone: what `mgehl check` says in advance
-a run says, too.
+The verdict follows from the contact, the domain and the film of a formula alone: `mgehl check` and the run
+say the same.
 """
 
 from math import isnan
@@ -9,7 +9,7 @@ from math import isnan
 from mgehl.model.starvation import Starvation
 
 STARVED_FROM = 1.0
-"""Per cent of film that a domain of twice the size would have more, from which on a domain starves."""
+"""A domain starves its film from so many per cent on that a domain of twice the size would have more."""
 
 SUFFICIENT, STARVED, UNKNOWN = "sufficient", "starved", "unknown"
 """Verdicts; the last of runs that older versions made."""

@@ -4,7 +4,7 @@ from mgehl.errors import printable
 from mgehl.output.digits import is_number
 
 WIDTH = 120
-"""Columns where nobody says how many there are."""
+"""Columns of the table where the width of the terminal is not known."""
 BETWEEN = 2
 """Spaces between columns."""
 
@@ -12,7 +12,7 @@ BETWEEN = 2
 def drawn(rows, columns, width=None):
     """Some columns of the rows, dictionaries of text; numbers stand on the right.
 
-    Columns that have no room beside the others follow below, the first one before them again.
+    Columns that have no room are drawn below, with the first column repeated before them.
     """
     cells = {column: [printable(row[column]) for row in rows] for column in columns}
     first, *others = columns

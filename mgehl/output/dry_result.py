@@ -65,7 +65,7 @@ class DryResult:
         return NO_FILM
 
     def words(self, verbose=True):
-        """The answer and whether it can be trusted; all that there is, or what most want to know."""
+        """The answer and whether it can be trusted: everything, or only what most want to know."""
         return dry_words(self)
 
     def __str__(self):

@@ -1,4 +1,4 @@
-"""How a contact stands in its domain and on its grid, and what is wrong with that in words."""
+"""Whether the domain holds the contact and the grid shows it; what is wrong, in words."""
 
 from dataclasses import dataclass
 
@@ -7,7 +7,7 @@ from mgehl.solver.verification import FEWEST_NODES, LARGEST_EDGE_PRESSURE, LOADE
 
 @dataclass(frozen=True)
 class EdgeResult:
-    """How the contact stands in its domain and on its grid: see `solver.verification.check_edge`."""
+    """Whether the domain holds the contact and the grid shows it: see `solver.verification.check_edge`."""
 
     pressure_ratio: float
     """Largest pressure beside the domain's boundary over the largest of all."""

@@ -10,10 +10,10 @@ from mgehl.solver.richardson import band, band_beside
 FILMS = ("central", "minimum")
 
 BETTER = {"couette": "3B", "face_mobility": "logarithmic"}
-"""What tells of films by a scheme of first order."""
+"""The scheme whose coarser grids give the error of a film by a scheme of first order."""
 
 POISEUILLE_ORDER = 2
-"""The Poiseuille flow's, by whichever mean of the mobility: no film converges faster."""
+"""Order of the Poiseuille flow by any mean of the mobility: no film converges faster."""
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,7 @@ class GridFilm:
 class FilmError:
     """Half-widths of the bands about the films, in nm: the limit of ever finer grids lies within.
 
-    Of this domain, that is: what a larger one would change is not in it.
+    The limit is that on this domain: what a larger domain would change is not in the band.
     """
 
     central_nm: float | None
@@ -50,7 +50,7 @@ class FilmError:
 
 
 def no_band(why):
-    """The `FilmError` of films that none can be told of."""
+    """The `FilmError` of films without a band."""
     return FilmError(None, None, why)
 
 
@@ -58,7 +58,7 @@ NOT_ASKED = no_band("not asked for (solver.error = false)")
 
 
 def why_no_band(result, contact):
-    """Why there can be no band about a `Result`'s films; empty where there may be one."""
+    """Why a `Result`'s films can have no band; empty where they may have one."""
     if contact.is_mixed:
         return "coarser grids, from which a band is told, do not see a rough surface"
     if not result.settled:

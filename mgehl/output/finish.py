@@ -1,4 +1,4 @@
-"""The beginning and the end of a run's directory: what is solved, then its result, then its picture."""
+"""How a run's directory begins, with what is solved, and how it is finished, with result and picture."""
 
 import hashlib
 import shutil
@@ -18,11 +18,11 @@ from mgehl.output.whole_file import whole_file
 from mgehl.saying import complain
 
 BEGUN = "begun run"
-"""Kind of the manifest in a checkpoint: of what is solved, not of what was found."""
+"""Kind of the manifest in a checkpoint, which is of what is solved and not of a result."""
 
 
 def begin_run(directory, config):
-    """Note what is solved in a directory; return the run's identity: of one that goes on, that it has.
+    """Write what is solved into a directory; return the run's identity. A run that goes on keeps its own.
 
     Raises OutputError.
     """
@@ -47,7 +47,8 @@ def begin_run(directory, config):
 
 
 def finish_run(directory, solution):
-    """Replace what is in the directory by the files of a `Solution`, draw its picture, forget the way.
+    """Replace the result in the directory by the files of a `Solution`, draw its picture, remove the
+    checkpoint.
 
     Raises OutputError where the disk does not take them; the checkpoint stays then.
     """
@@ -88,7 +89,7 @@ def _copy_laws(folder, stage, config):
 
 
 def draw_picture(directory, solution):
-    """Draw a finished run's picture; where that fails it is said, and the result stays as it is."""
+    """Draw a finished run's picture. If that fails, a message says so, and the result stays as it is."""
     paths = files.RunFiles(directory)
     part = paths.checkpoint / FINISHED / paths.picture.name
     try:
@@ -114,7 +115,7 @@ def _draw(path, solution):
 
 
 def draw_missing(directory):
-    """Draw the picture of a finished run if it has none, forget its way; return the result."""
+    """Draw the picture of a finished run if it has none, remove its checkpoint; return the result."""
     solution = read_run(directory)
     if not files.RunFiles(directory).picture.exists():
         draw_picture(directory, solution)
@@ -123,10 +124,9 @@ def draw_missing(directory):
 
 
 def taken_up(directory):
-    """(configuration, directory of the start, what is to be said) of a run to go on with.
-
-    The configuration is None where the run has finished: a result that was not yet in its place is put
-    there. The start is None where there was none. Raises OutputError.
+    """(configuration, directory of the start, messages) of a run to go on with. The configuration is None
+    where the run has finished; a result that is not yet in its place is put there. The start is None where
+    the run did not start from another one. Raises OutputError.
     """
     paths = files.RunFiles(directory)
     stage = paths.checkpoint / FINISHED

@@ -1,7 +1,8 @@
-"""What a run will meet and what it will take, as far as that can be told before it starts.
+"""What a run will take, as far as that can be told before it starts.
 
-Time is that of so many convolutions: one is timed on this machine, and what a run takes for each was
-measured (`mgehl bench`; two shared cores). None of it is more than an estimate.
+Its time is that of so many convolutions. One convolution is timed on this machine; how many a run takes,
+and how much time beside each, was measured (processor time on one rank, the cases of configs/). Runs that
+converge take half to twice the estimate.
 """
 
 import time
@@ -16,18 +17,19 @@ from mgehl.discretization.mesh import Mesh
 from mgehl.grid.convolution import Deflection
 from mgehl.grid.grid import single_grid
 from mgehl.kinds import mesh_from
+from mgehl.kinds.kind import Effort
 from mgehl.model.deformation import HalfPlane, HalfSpace
 from mgehl.multigrid.cycle import LARGE_GRID
-from mgehl.output.resolution import FILM_TOUCHES
+from mgehl.output.resolution import CONTACT_OPENS, FILM_TOUCHES
 from mgehl.output.surroundings import cores_allowed
-from mgehl.solver.from_config import settings_from
+from mgehl.solver.from_config import settings_from, start_of
 from mgehl.solver.nested import planned_solves
 
 LARGEST_TIMED = 513
 """Nodes of the largest grid whose convolution is timed: half a second, most of it for the FFT's plan."""
 
 LARGEST_NODES = SECTIONS["grid"].__dataclass_fields__["nodes"].metadata["high"]
-"""That a grid may have along each side."""
+"""Most nodes that a grid may have along each side."""
 
 MiB = 2**20
 
@@ -35,21 +37,30 @@ MiB = 2**20
 KEPT_BY_GMRES = 210.0
 """Bytes a node that GMRES does without on grids so large that it is restarted (`multigrid.cycle`)."""
 
-START_SECONDS, RANK_BYTES = 4.0, 330 * MiB
+START_SECONDS, RANK_BYTES = 3.0, 330 * MiB
 """Of every run: imports, plans, the coarsest grid, files, the picture; of every rank: the libraries."""
 
-BESIDE = 0.01, 0.03
-"""Seconds of what a run does besides for each convolution, on however small a grid: runs on 65 to 257
-nodes took 4 to 90 ms, those of many convolutions the least."""
+UNSEEN = Effort(
+    600.0, 2e-7, 2e-3, 1300.0, "films that a grid hardly sees took 230 to 1380, and few settled"
+)
+"""Films whose inlet has so few cells that they touch: 65 nodes, 5 to 100 mm/s. Each step takes many
+iterations."""
 
-UNSEEN = 2381.0
-"""Most convolutions of films that the grid hardly sees: on 65 to 257 nodes at 0.1 to 20 mm/s."""
-UNSEEN_WORDS = f"films that a grid hardly sees took 299 to {UNSEEN:g}, and most did not settle"
+SIDE_BY_SIDE = Effort(
+    120.0, 6e-7, 0.01, 1800.0, "film and contact side by side took 60 to 250 from a contact start"
+)  # fmt: skip
+"""Starts from contact on grids that see the inlet."""
 
-MIXED = 90.0, 1440.0
-"""Fewest and most convolutions of rough balls whose peaks reach through the film: 257 nodes, boundary film
-2 nm, 1 to 0.01 mm/s."""
-MIXED_WORDS = f"rough balls on 257 nodes took {MIXED[0]:g} to {MIXED[1]:g}, the more the slower they slid"
+HIGHEST, LOWER, THIN = 465.0, 0.36, 0.05
+"""Convolutions of balls whose roughness is as large as the dry contact is deep; the power with which they
+fall with less of it; lambda below which they rise (`study mixed`, 257 nodes, lambda below 1: of 98 cases
+nine in ten took half to twice as many)."""
+
+THINNER = {False: 0.36, True: 0.5}
+"""The power with which they rise with 1/lambda, without and with a boundary film (`study rough`)."""
+
+ROUGH = Effort(150.0, 2e-7, 0.01, 1300.0, "rough balls on 257 nodes took 67 to 2834")
+"""Balls whose peaks reach through the film; `_of_peaks` has their convolutions."""
 
 
 @dataclass(frozen=True)
@@ -70,8 +81,10 @@ class Forecast:
     """Of the finest grid, all together."""
     memory: float
     """Bytes, of all ranks."""
-    seconds: tuple[float, float]
-    convolutions: tuple[float, float] | None
+    seconds: float
+    """Half or twice as many are usual."""
+    convolutions: float | None
+    """None where a run makes none."""
     convolution_seconds: float
     """Of one on the finest grid, on one core."""
     timed_nodes: int
@@ -96,15 +109,13 @@ def forecast(config, contact, mesh, ranks):
     effort = _effort(config, contact, mesh)
     timed = _timed_mesh(mesh)
     second = time_convolution(timed) * _fft_work(mesh) / _fft_work(timed)
+    shared = second + effort.node_seconds * mesh.nodes
     workers = 1 if mesh.is_line else min(ranks, cores_allowed())
     copies = ranks if mesh.is_line else 1
     return Forecast(
         nodes=mesh.nodes,
         memory=ranks * RANK_BYTES + copies * _bytes_per_node(effort, mesh) * mesh.nodes,
-        seconds=tuple(
-            START_SECONDS + n * (effort.times_convolution * second / workers + beside)
-            for n, beside in zip(effort.convolutions, BESIDE, strict=True)
-        ),
+        seconds=START_SECONDS + effort.convolutions * (shared / workers + effort.beside),
         convolutions=effort.convolutions if effort.counted else None,
         convolution_seconds=second,
         timed_nodes=timed.nx,
@@ -114,28 +125,26 @@ def forecast(config, contact, mesh, ranks):
 
 
 def _effort(config, contact, mesh):
-    """That of the kind; where the film is below what the grid sees a run may take far more."""
-    effort = config.kind.effort(config)
-    if _is_mixed(config, contact, mesh):
-        return replace(effort, convolutions=MIXED, measured=MIXED_WORDS)
-    if not _is_unseen(config, contact, mesh):
-        return effort
-    low, high = effort.convolutions
-    return replace(effort, convolutions=(low, max(high, UNSEEN)), measured=UNSEEN_WORDS)
-
-
-def _is_mixed(config, contact, mesh):
-    """Whether it is a rough ball whose peaks reach through the film."""
+    """That of the kind; of a ball by its peaks, or by what the grid sees of its inlet."""
+    by_kind = config.kind.effort(config)
     if not contact.is_loaded or config.is_dry or mesh.is_line or config.solver.method != "newton-mg":
-        return False
-    return contact.is_mixed
+        return by_kind
+    start, cells = start_of(config, contact).begins, contact.inlet_cells(mesh)
+    if contact.is_mixed:
+        layers = config.contact.boundary_film > 0.0
+        return replace(ROUGH, convolutions=_of_peaks(contact, layers))
+    if start == "contact":
+        return SIDE_BY_SIDE if cells > CONTACT_OPENS else by_kind
+    if cells < FILM_TOUCHES:
+        return UNSEEN
+    return config.kind.effort(replace(config, solver=replace(config.solver, start=start)))
 
 
-def _is_unseen(config, contact, mesh):
-    """Whether a start from a film has had contact on such grids, and steps without end."""
-    if not contact.is_loaded or config.is_dry or mesh.is_line or config.solver.start != "film":
-        return False
-    return config.solver.method == "newton-mg" and contact.inlet_cells(mesh) < FILM_TOUCHES
+def _of_peaks(contact, has_layers):
+    """Convolutions of a ball whose peaks reach through the film."""
+    film_ratio = contact.expected_film / contact.roughness
+    thinner = max(THIN / film_ratio, 1.0) ** THINNER[has_layers]
+    return HIGHEST * (contact.roughness / contact.film_scale) ** LOWER * thinner
 
 
 def _bytes_per_node(effort, mesh):

@@ -41,9 +41,9 @@ def origins(config, directory):
 
 
 def as_they_were(config, manifest, directory):
-    """A `Config` with the laws where they were, if they still are the same there; and what is to be said.
-
-    What a law reads beside its file is found there. Elsewhere, as on another machine, the copies are run.
+    """A `Config` with the laws where they were when the run began, if they are still the same there; and
+    messages. There a law finds the files that it reads. Otherwise, as on another machine, the copies are
+    run.
     """
     there, said = {}, []
     for file, name in law_files(config).items():

@@ -19,7 +19,7 @@ PATIENCE = 3.0
 _OWNER = "mgehl process {} on {}\n"
 
 _WITHOUT_LOCKS = (errno.ENOLCK, errno.ENOSYS, errno.EOPNOTSUPP, errno.EINVAL)
-"""What file systems say that know no locks: there the manifest alone tells what belongs together."""
+"""Errors of file systems without locks: there the manifest alone tells what belongs together."""
 
 
 @contextmanager

@@ -1,4 +1,4 @@
-"""What is asked of a rough contact: how film and solid share load and area, and how thick the film is."""
+"""The numbers of a rough contact: how film and solid share load and area, and how thick the film is."""
 
 from dataclasses import dataclass
 
@@ -28,7 +28,7 @@ class MixedResult:
     contact_area_m2: float
     contact_area_over_hertz: float
     patches: int
-    """Stretches of contact that hang together, by sides or by corners of the cells."""
+    """Areas of contact that hang together, by sides or by corners of the cells."""
     largest_patch_m2: float
     mean_film_nm: float | None
     minimum_film_nm: float | None

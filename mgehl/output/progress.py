@@ -1,4 +1,4 @@
-"""What a run says while it runs: a line per cycle."""
+"""What a run says while it runs: a line of text for each cycle."""
 
 import time
 from dataclasses import dataclass
@@ -28,7 +28,7 @@ class Progress:
         self._speaker.row(row, self._line(self._kind, row), left)
 
     def beside(self, level, cycle):
-        """Tell of a Newton cycle that is no part of the way to the answer, and forget it."""
+        """Tell of a Newton cycle that does not lead to the answer; the history does not keep it."""
         row = self._row(NEWTON, level, cycle)
         self._speaker.row(row, self._line(NEWTON, row))
 
@@ -56,7 +56,7 @@ class Progress:
         return sum(1 for row in self.rows if row["step"] > 0)
 
     def record(self):
-        """All of it as plain data."""
+        """Everything that was collected, as plain data."""
         return {"rows": self.rows, "convolutions": self.convolutions, "seconds": self.seconds}
 
     def go_on(self, record):

@@ -1,4 +1,4 @@
-"""How well a grid resolves the inlet that builds the film, and what to expect of that.
+"""How well a grid resolves the inlet, where the film is made, and what to expect of it.
 
 A film is resolved where its inlet has cells enough and its domain is large enough.
 """
@@ -47,7 +47,7 @@ def resolution(contact, mesh):
 
 
 def _verdict(cells, domain):
-    """ "Resolved" needs cells in the inlet and room for it."""
+    """The verdict: "resolved" needs cells in the inlet and a domain that holds it."""
     if cells >= RESOLVED_CELLS:
         return "resolved" if domain == SUFFICIENT else domain
     return "coarse" if cells >= SEEN_CELLS else "grid-determined"

@@ -97,9 +97,10 @@ class Result:
     contact: ContactResult
     overlap: Overlap
     pressure_inequality: InequalityResult
-    """What `converged` asks for: at the nodes; of contact that closes continuously at the interface."""
+    """The comparison that `converged` asks for: at the nodes, or at the interface where contact closes
+    continuously."""
     other_inequality: InequalityResult
-    """The same, compared where `converged` does not ask."""
+    """The other comparison, which `converged` does not ask for."""
     contradictions: list
     """Nodes that can be neither film nor contact, of an iteration whose sets cycle."""
     cavitated_nodes: int
@@ -116,6 +117,8 @@ class Result:
     edge: EdgeResult = NOT_SEEN
     mixed: MixedResult | None = None
     """Film and contact of rough bodies; None of smooth ones."""
+    start_note: str = ""
+    """Where the run did not begin from what solver.start says: from what instead, and why."""
 
     @property
     def doubt(self):
@@ -125,7 +128,7 @@ class Result:
         return self.edge.wrong[0] or "Eq. 2 is broken"
 
     def words(self, verbose=True):
-        """The answer and whether it can be trusted; all that there is, or what most want to know."""
+        """The answer and whether it can be trusted: everything, or only what most want to know."""
         return loaded_words(self, verbose)
 
     def __str__(self):
@@ -196,7 +199,7 @@ def _verdict(outcome, tolerance, residual, load_error, complementarity):
 
 
 def _whether_more_holds(inequality, edge, overlap):
-    """What a settled state breaks besides; empty where it is nothing."""
+    """What a settled state breaks all the same, in words; empty where it breaks nothing."""
     if inequality.violations:
         return (
             f"contact pressure is below the fluid pressure beside it at {inequality.violations} of "
@@ -242,7 +245,7 @@ def contact_result(problem, state, nm):
 
 
 def _inequalities(problem, state):
-    """Eq. 2 where it is asked for, and compared the other way."""
+    """Eq. 2 by the comparison that `converged` asks for, and by the other one."""
     at_nodes = _inequality_result(check_pressure_inequality(problem, state), "at the nodes")
     at_interface = _inequality_result(check_interface(problem, state), "at the interface")
     both = at_nodes, at_interface

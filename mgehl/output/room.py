@@ -1,4 +1,4 @@
-"""Whether a run has room in memory, before libraries that end, or never end, without it are called."""
+"""Whether a run has room in memory: asked before libraries are called that crash or hang without it."""
 
 import resource
 from pathlib import Path
@@ -9,7 +9,7 @@ from mgehl.kinds import contact_from, mesh_from
 MiB = 2**20
 
 SPARE = 128 * MiB
-"""Buffers that BLAS and MPI take as they go."""
+"""Bytes of buffers that BLAS and MPI take during a run."""
 
 
 def check_room(config):

@@ -1,4 +1,4 @@
-"""A `Solution` as plain data and arrays, and the way back: what a study keeps of its points."""
+"""A `Solution` as plain data and arrays, and back again: what a study keeps of its points."""
 
 from dataclasses import asdict
 

@@ -23,7 +23,7 @@ from mgehl.output.wedge_result import WedgeResult
 
 
 def _real(value):
-    """A number of JSON: null stands for one that is not finite; a word is none."""
+    """A number of JSON: null stands for one that is not finite. Raises ValueError for a word."""
     if value is not None and (isinstance(value, bool) or not isinstance(value, int | float)):
         raise ValueError(f"{value!r} is no number")
     return nan if value is None else float(value)

@@ -1,4 +1,4 @@
-"""A study's directory: its tables are put together in a folder, and replace those before in the end."""
+"""A study's directory: new tables are put together in a folder, and replace the old ones at the end."""
 
 from pathlib import Path
 
@@ -15,7 +15,7 @@ ENDINGS = {".csv", ".md", ".png", ".json"}
 
 
 def begin_study(directory, record, resume):
-    """Make a held directory ready for a study; return the folder to write to.
+    """Make a locked directory ready for a study; return the folder to write to.
 
     Raises UserError where the directory is that of something else.
     """
@@ -49,7 +49,7 @@ def _check_kind(directory, record, resume):
 def finish_study(directory, stage, resume):
     """Put the tables and pictures of `stage` in the directory, in the place of those that were there.
 
-    With `resume` those stay that were not written anew. Raises OutputError.
+    With `resume`, tables that were not written anew stay. Raises OutputError.
     """
     old = read_manifest(directory)
     kept = old.files if old and resume else {}

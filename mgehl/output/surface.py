@@ -1,4 +1,4 @@
-"""How well a grid shows a surface, and in which words that is said: by a run and by `mgehl check`."""
+"""How well a grid shows a surface, and the words for it in a run and in `mgehl check`."""
 
 from math import inf, isinf
 
@@ -72,7 +72,7 @@ def _recommended(verdict, nodes, mesh):
 
 
 def _part_lines(key, part, contact, mesh):
-    """What should be known of a part of the surface."""
+    """Lines about one body's surface: its sign, its size, its tilt and its end."""
     if part.function is not None:
         yield f"           {key}: in earlier versions such heights added to the gap"
     if isinstance(part, Measured):

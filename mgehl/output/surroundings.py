@@ -1,4 +1,4 @@
-"""What a run would run on: versions, PETSc and MPI as they were built, threads, FFTs, the machine."""
+"""What a run runs on: versions, PETSc and MPI as they were built, threads, FFTs, the machine."""
 
 import os
 import platform

@@ -13,7 +13,7 @@ from mgehl.output.whole_file import whole_file
 from mgehl.output.words import span
 
 DEFAULT = "default"
-"""Said of a scheme that the configuration does not name: then the run has chosen it."""
+"""Stands for a scheme that the configuration does not name: the run chose it."""
 
 FILMS = ("central", "minimum")
 
@@ -36,7 +36,7 @@ def markdown(rows, columns):
 
 
 def _cell(text):
-    """What a file says, without what would end the cell or move the cursor."""
+    """Text of a file without characters that would end the cell or move the cursor."""
     return printable(text).replace("|", "\\|")
 
 
@@ -77,12 +77,12 @@ def _row(directory):
 
 
 def _bearing(result):
-    """What a wedge comes to: a load, and neither films nor contact."""
+    """Columns of a wedge: a load, and neither films nor contact."""
     return {"load N": f"{result['load_N']:.6g}", "residual": f"{result['residual']:.1e}"}
 
 
 def _loaded(result):
-    """What a loaded contact comes to."""
+    """Columns of a loaded contact."""
     contact, inequality = result["contact"], result["pressure_inequality"]
     return {
         **_films(result),

@@ -12,16 +12,18 @@ from mgehl.output.files import finite
 from mgehl.saying import columns, complain, folded, say
 
 HANGING = "    "
-"""Before the rest of a line that is broken."""
+"""Indent of the rest of a line that is broken."""
 BAR = 24
 """Columns of the bar."""
+ALMOST = 0.99
+"""Part of the bar that is drawn at the most: a full one would stop its clock, while results are written."""
 
 
 class Silent:
     """Says nothing. The interface of the others, which are context managers, too."""
 
     verbose = False
-    """Whether lines are to have all that there is."""
+    """Whether lines have all numbers."""
 
     def __enter__(self):
         return self
@@ -31,6 +33,12 @@ class Silent:
 
     def row(self, row, line, left=None):
         """A cycle: its row of the history, its line, and the seconds that are left, if known."""
+
+    def note(self, words):
+        """Something that a user should know before the first cycle."""
+
+    def writing(self):
+        """The last cycle is done: files and picture follow."""
 
     def end(self, solution, directory):
         """The run has ended and its files are written."""
@@ -48,7 +56,7 @@ class Quiet(Silent):
 
 
 class Lines(Silent):
-    """A line per cycle, at last the answer and whether to trust it.
+    """A line for each cycle; at the end the answer and whether to trust it.
 
     On a terminal lines are broken at spaces. `verbose` ones have all, however long.
     """
@@ -58,6 +66,9 @@ class Lines(Silent):
 
     def row(self, row, line, left=None):
         say(line)
+
+    def note(self, words):
+        say(folded(words, HANGING, columns()))
 
     def end(self, solution, directory):
         lines = solution.result.words(self.verbose).splitlines()
@@ -72,15 +83,17 @@ class JsonLines(Silent):
     def row(self, row, line, left=None):
         say(json.dumps(finite({"cycle": row, "seconds_left": left})))
 
+    def note(self, words):
+        say(json.dumps({"note": words}))
+
     def end(self, solution, directory):
         result = finite(asdict(solution.result))
         say(json.dumps({"result": result, "directory": str(directory)}))
 
 
 class Live(Lines):
-    """Lines as ever, and under them a bar with the time that is gone and left.
-
-    It moves to and fro as long as nobody can tell how long it takes.
+    """Lines as `Lines` has them, and under them a bar with the time that is gone and left. It moves to and
+    fro as long as the time left is not known.
     """
 
     def __enter__(self):
@@ -89,7 +102,7 @@ class Live(Lines):
         words, left = TextColumn("{task.description}"), TextColumn("{task.fields[left]}")
         bar = BarColumn(bar_width=BAR)
         self._display = Progress(words, bar, TimeElapsedColumn(), left, transient=True)
-        self._task = self._display.add_task("first guess", total=None, left="")
+        self._task = self._begin("first guess")
         with _AS_LONG_AS_IT_SHOWS:
             self._display.start()
         return self
@@ -100,13 +113,33 @@ class Live(Lines):
 
     def row(self, row, line, left=None):
         spent = row.get("seconds", 0.0)
-        done = None if left is None else spent / max(spent + left, 1e-9)
+        done = None if left is None else min(spent / max(spent + left, 1e-9), ALMOST)
         what = f"{row['grid']} nodes, step {row['step']}"
         known = {} if done is None else {"total": 1.0, "completed": done}
         told = "" if left is None else f"about {ceil(left)} s left"
         with _AS_LONG_AS_IT_SHOWS:
-            self._display.console.print(line, highlight=False, markup=False, soft_wrap=True)
+            self._print(line)
             self._display.update(self._task, description=what, left=told, **known)
+
+    def _print(self, words):
+        """Put words above the bar."""
+        self._display.console.print(words, highlight=False, markup=False, soft_wrap=True)
+
+    def writing(self):
+        with _AS_LONG_AS_IT_SHOWS:
+            before, self._task = self._task, self._begin("writing results", visible=False)
+            tasks = {task.id: task for task in self._display.tasks}
+            tasks[self._task].start_time = tasks[before].start_time
+            self._display.remove_task(before)
+            self._display.update(self._task, visible=True)
+
+    def _begin(self, what, visible=True):
+        """A bar that moves to and fro: how long it takes is not known."""
+        return self._display.add_task(what, total=None, left="", visible=visible)
+
+    def note(self, words):
+        with _AS_LONG_AS_IT_SHOWS:
+            self._print(folded(words, HANGING, columns()))
 
     def end(self, solution, directory):
         with _AS_LONG_AS_IT_SHOWS:
@@ -130,7 +163,8 @@ def speaker(quiet=False, json_lines=False, stream=None, verbose=False):
 def _shows(stream):
     """Whether it is a terminal that can show a bar.
 
-    Open MPI gives its ranks one without width, wherever their words go from there.
+    Open MPI gives its ranks a terminal of their own. It has the width of that on which mpiexec was started,
+    and none where the words go to a file.
     """
     try:
         return stream.isatty() and os.get_terminal_size(stream.fileno()).columns > 0
@@ -143,7 +177,7 @@ STEPS_A_GRID = 8
 
 
 def seconds_left(rows, finest, tolerance):
-    """Guess from the history the time to the end; None where it tells nothing.
+    """Guess the time to the end from the history; None where that is too short to tell.
 
     On the present grid residuals go on falling as in the last steps; a finer one takes a few
     steps, each four times as long.

@@ -1,4 +1,4 @@
-"""What was solved in a `Frame` as the user sees it: his axes, his scales, his nodes."""
+"""A solution found in a `Frame`, in the user's own axes, scales and nodes."""
 
 from dataclasses import replace
 

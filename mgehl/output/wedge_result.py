@@ -46,7 +46,7 @@ class WedgeResult:
         return Overlap(0, 0.0)
 
     def words(self, verbose=True):
-        """The answer and whether it can be trusted; all that there is, or what most want to know."""
+        """The answer and whether it can be trusted: everything, or only what most want to know."""
         return bearing_words(self)
 
     def __str__(self):

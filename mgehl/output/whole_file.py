@@ -1,4 +1,4 @@
-"""Files that are there whole, or not at all; and what is never written over."""
+"""Files that are written whole or not at all; and what is never overwritten."""
 
 import errno
 import os
@@ -36,7 +36,7 @@ def check_place(path):
 
 @contextmanager
 def whole_file(path):
-    """A path to write to; what is there becomes `path` at the end, flushed to the disk before.
+    """A path to write to. At the end that file is flushed to the disk and becomes `path`.
 
     Whatever ends the block, or the process, in between leaves the file of that name as it was. Raises
     OSError where what is there is no plain file.
@@ -66,7 +66,8 @@ def write_whole(path, text):
 
 
 def clear_parts(folder, name=None):
-    """Remove what processes that are dead, or this one, left of a file, or of all files of a folder."""
+    """Remove unfinished parts of a file, or of all files of a folder, that this process or dead ones
+    left."""
     with suppress(OSError):
         for each in os.scandir(folder):
             match = _PART.fullmatch(each.name)

@@ -8,14 +8,14 @@ from mgehl.output.resolution import RESOLVED_CELLS, SEEN_CELLS
 from mgehl.output.surface import surface_words
 
 LISTED = 20
-"""Nodes that are named one by one."""
+"""Most nodes that are named one by one."""
 
 FAILED = 'what now: configs/README.md, "It did not converge: what now?"'
 UNRESOLVED = 'how to do better: configs/README.md, "Choosing the domain and the grid"'
 
 
 def where_to_read(result):
-    """A list of the one line that says where to read on; empty where the answer can be used as it is."""
+    """The line that says where to read on, in a list; empty where the answer can be used as it is."""
     if not result.converged:
         return [f"  {FAILED}"]
     resolution = getattr(result, "resolution", None)
@@ -73,6 +73,7 @@ def loaded_words(result, verbose=True):
         *(_errors(result) if verbose else ()),
         *_overlap(result.overlap),
         *_contact(result, verbose),
+        *((f"  start: {result.start_note}",) if result.start_note else ()),
         f"  inlet: {resolution.inlet_cells:.2f} cells, {_advice(result)[resolution.verdict]}",
         f"  domain: {domain_words(resolution.domain, resolution.domain_loss_percent)}",
         *((f"  surface: {shown}",) if shown else ()),

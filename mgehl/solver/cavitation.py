@@ -12,18 +12,21 @@ from mgehl.discretization.kernels import relax_cavitation
 from mgehl.discretization.status import CAVITATED, LUBRICATED, is_fluid
 
 WEAKLY_COUPLED = 10.0
-"""A node is relaxed where its mobility/dX exceeds this multiple of its own influence. From 3 to 100 all
-converges, most with the same steps within a tenth; one film on 257 nodes takes 100 to 150 convolutions."""
+"""A node is relaxed where its mobility/dX exceeds this multiple of its own influence. With 3 to 100
+everything converges, nearly all of it in as many steps to a tenth; one film on 257 nodes takes 100 to 150
+convolutions."""
 
 LONG_WAVES = 0.01
-"""Smallest mobility of a relaxed node on a single line, whose fine grids couple waves of many cells where
-not neighbours: without it Newton's steps and these chase each other (thick films on 4097 nodes). From 0.003
-to 0.1 the same steps. A plane of 2049 by 2049 nodes does without, in fewer steps."""
+"""Smallest mobility of a node that is relaxed in a line contact. On its fine grids a node hardly moves its
+own gap, but long waves of pressure do. Without this limit Newton's steps and the relaxation undo each other
+(thick films on 4097 nodes). From 0.003 to 0.1 the same steps. A point contact of 2049 by 2049 nodes needs
+no limit, and takes fewer steps without one."""
 
 LIFTED = 0.1
-"""A node whose blocked flow lifts a gap held fixed by more than this part is left to Newton's steps: gap
-and pressure would take turns for ever (2049 nodes: 0.35 a step). From 0.03 to 0.1 the same steps but for
-one; at 0.01 mixed lubrication takes a fifth more."""
+"""Where the pressure that the inflow needs would lift the gap by more than this part of it, the node is
+left to Newton's steps: the relaxation holds the gap fixed, and gap and pressure would take turns for ever
+(2049 nodes: the gap changed by 0.35 of itself a step). From 0.03 to 0.1 the same steps but for one; at 0.01
+mixed lubrication takes a fifth more."""
 
 SWEEPS = 40
 """Sweeps over all lines at the most; they end when one changes no status. From 4 to 400 the same steps on
@@ -71,13 +74,13 @@ def weakly_coupled(problem, evaluation, status, multiple):
 
 
 def driven(problem, evaluation):
-    """Nodes whose flow the pressure drives out of the gap as it is, hardly lifting it: (lines, nx)."""
+    """Nodes where a pressure that carries the inflow away hardly lifts the gap: (lines, nx)."""
     lift = problem.K00 * np.abs(evaluation.source)
     return lift <= LIFTED * own(evaluation.H) * evaluation.conductance
 
 
 def _relaxable(problem, evaluation, state):
-    """Nodes that may be relaxed: as weakly coupled as that to waves of any length that matters."""
+    """Nodes that may be relaxed: neither their own pressure nor long waves of it move their gap much."""
     movable = weakly_coupled(problem, evaluation, state.status, WEAKLY_COUPLED)
     if problem.grid.mesh.is_line:
         movable &= own(evaluation.fluid.eps) > LONG_WAVES

@@ -1,8 +1,9 @@
-"""The same contact on coarser grids, each solved from the next finer answer: what errors are told from.
+"""The same contact on coarser grids, each solved from the next finer answer: the error of the films follows
+from the differences.
 
 A coarse grid of the nested iteration was solved at a speed that it resolves, and not to its end. Here the
-speed is the wanted one, and the start so near that few steps do: two grids take some fifteen per cent of
-the finest one's work.
+speed is the wanted one, and the start is so near that a few steps do. Two coarser grids take some fifteen
+per cent of the finest grid's work.
 """
 
 from dataclasses import dataclass, replace
@@ -21,8 +22,9 @@ COARSER = 2
 """Grids besides the finest: two differences show whether the error falls as the scheme's does."""
 
 TOLERANCE, MAX_STEPS = 1e-5, 10
-"""Of the coarser grids' residuals and steps. At 1e-4 a thick film is off by half a per cent (3 m/s, 65
-nodes); what has not settled after ten steps, four being usual, does not exist."""
+"""Largest residual and most steps on the coarser grids. With a residual of 1e-4 a thick film is off by half
+a per cent (3 m/s, 65 nodes). Four steps are usual; where ten do not settle there is no film to compare
+with."""
 
 
 @dataclass(frozen=True)
@@ -43,8 +45,8 @@ class GridFilms:
 def films_of_grids(hierarchy, problem, state, settings, scheme, monitor, journal=NOTHING_KEPT):
     """`GridFilms` of the finest grid, whose answer is `state`, and of the next coarser ones (collective).
 
-    Those are solved by a `Scheme` that may be another. None follows a grid that has contact, or no
-    answer. `monitor` and `journal` as of `nested_iteration`.
+    Those are solved by a `Scheme` that may be another. The list ends with the first grid that has contact,
+    or no answer. `monitor` and `journal` as of `nested_iteration`.
     """
     found, contact = [_films(problem, state, True)], problem.contact
     last = len(hierarchy.grids) - 1
@@ -64,7 +66,7 @@ def _films(problem, state, settled):
 
 
 def _injected(hierarchy, level, contact, state, scheme):
-    """The problem of a coarser grid, by what it sees of a surface, and the finer state at its nodes."""
+    """The problem on a coarser grid, its surface as that grid sees it, and the finer state at its nodes."""
     transfer, grid = hierarchy.transfers[level], hierarchy.grids[level]
     status = transfer.inject(state.status.astype(float)).astype(np.int8)
     seen = contact.seen_by(grid.mesh, hierarchy.grids[-1].mesh)

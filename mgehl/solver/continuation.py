@@ -6,7 +6,7 @@ from functools import partial
 from mgehl.discretization.fluid import FOLDING
 from mgehl.multigrid.cycle import MultigridSolver
 from mgehl.solver.journal import NOTHING_KEPT
-from mgehl.solver.nested import LevelSolve, is_mixed, nested_iteration
+from mgehl.solver.nested import LevelSolve, nested_iteration
 from mgehl.solver.newton import Newton
 from mgehl.solver.problem import ContactProblem
 
@@ -122,7 +122,7 @@ def begin(hierarchy, contact, settings, monitor, journal=NOTHING_KEPT):
     """Solve `contact` without a start, in the way that its mean of the mobility needs; as
     `nested_iteration`."""
     mean, nested = settings.scheme.face_mobility, settings.nested
-    if is_mixed(contact, settings.scheme):
+    if settings.scheme.lets_peaks_touch(contact):
         return nested_iteration(hierarchy, contact, settings, monitor, journal)
     resolved = contact.matched_speed(hierarchy.grids[-1].mesh, nested.inlet_cells) == contact.speed
     if mean == "arithmetic" or (mean not in FOLDING and resolved):

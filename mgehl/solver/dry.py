@@ -30,27 +30,27 @@ REDUCTION = 0.1
 within 5 %, over rough, wavy and smooth balls on 129 and 257 nodes."""
 
 SHARE = 0.01
-"""Of the tolerance, that gaps of pressed nodes may have. The pressure is least certain at the edge, which
-shifts by these two digits: with them nodes in contact are counted as they are. Four convolutions."""
+"""Largest gap of a pressed node, over the tolerance. The pressure is least certain at the contact's edge.
+With these two digits more the nodes in contact are counted right; they take four convolutions."""
 
 ROUNDING = 1e-13
-"""Of a gap, in units of H: a node with a smaller overlap does not enter."""
+"""Overlap, in units of H, below which a node does not enter: it may be rounding."""
 
 TRACE = 1e-200
 """Pressure by which a node belongs to a set: nothing beside any other, but more than 0."""
 
 MOST_ITERATIONS = 200
-"""Of conjugate gradients on one set: rough balls take fewer than 20."""
+"""Most iterations of conjugate gradients on one set: rough balls take fewer than 20."""
 
 GUESS, GUESS_GAP = 0.03, 1e-3
-"""By how much the pressure of a node of a first guess may be wrong, and its gap, in units of P and H: a
-mixed contact then takes as many Newton steps as from the exact one."""
+"""Errors that a first guess may have at a node, in units of P and of H. From it a mixed contact takes as
+many Newton steps as from the exact dry contact."""
 
 
 FIRST_NODES, NESTED_NODES = 65, 257
-"""Of the first coarse grid that is solved, and of the finest one from which on coarse grids save more than
-they take: 7 of 50 convolutions of a rough ball on 257 nodes, 13 of 61 on 513. Of a surface that they do not
-see (every node another height) they lose a tenth."""
+"""Nodes of the first coarse grid that is solved, and of the smallest finest grid for which coarse grids
+pay. They save 7 of 50 convolutions of a rough ball on 257 nodes, 13 of 61 on 513. Where they do not see the
+surface (another height at every node) they cost a tenth more."""
 
 
 @dataclass
@@ -161,8 +161,8 @@ def _why_not(step, gap, limit):
 class PressedNodes:
     """Pressure and gap of a problem while a set of its nodes is in contact (all methods collective).
 
-    `P` and `gap` are (lines, nx); the gap is that before the bodies approach each other, and `approach`,
-    its mean over the set, is by how much they do. The sum of P stays as it is: that which carries the load.
+    `P` and `gap` are (lines, nx). The gap is that before the bodies approach each other; `approach` is its
+    mean over the set: by so much they approach. The sum of P never changes: it carries the load.
     """
 
     def __init__(self, problem, P):
@@ -201,7 +201,7 @@ class PressedNodes:
         return MOST_ITERATIONS
 
     def _preconditioned(self):
-        """The gap's pressure on the set, which has no sum, and the product of both."""
+        """The pressure that the gap asks for on the set, its sum zero, and its product with the gap."""
         found = self._problem.deflection.inverted(self._left)
         mean = self._grid.sum(found[self.pressed].sum()) / self._nodes
         found = np.where(self.pressed, found - mean, 0.0)

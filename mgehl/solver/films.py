@@ -1,8 +1,8 @@
-"""Central and minimum film between the nodes: what a finer grid would say, were it no better.
+"""Central and minimum film between the nodes, so that films of different grids can be compared.
 
-The films that a run reports are those of nodes. A node lies at the centre by chance, and at the bottom of
-the smallest gap never: from grid to grid its film goes up and down with where it is, by a few per cent.
-Films that grids are compared by are taken from polynomials through the nodes around.
+The films that a run reports are those of nodes. A node lies at the centre by chance, and never at the
+bottom of the smallest gap. So its film goes up and down from grid to grid by a few per cent, with the place
+of the node alone. Films that are compared come from polynomials through the nodes around.
 """
 
 from dataclasses import dataclass

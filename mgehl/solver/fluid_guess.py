@@ -1,8 +1,7 @@
 """The fluid around a contact start: its first pressure and cavitation set, from coarser grids.
 
-A Newton step or a line sweep moves the boundary of the set by a few nodes, the more of them the
-finer the grid: from a pressure of zero 1025 nodes take 14 steps for it, at pressures of 1e-10, and
-from the coarser grids' 4.
+A Newton step or a line sweep moves the boundary of the set by a few nodes, so a fine grid needs many of
+them. On 1025 nodes it takes 14 steps from a pressure of zero, and 4 from the coarser grids' pressures.
 """
 
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED

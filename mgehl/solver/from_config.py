@@ -77,8 +77,24 @@ CONTACT_LAWS = {"lcic": _interface_conditions, "unified": _unified_equations}
 """By discretization.contact_model."""
 
 
-def _start(config, contact):
-    """Where the solve begins: rough bodies whose film is thicker than their roughness begin with it.
+@dataclass(frozen=True)
+class Start:
+    """From which of the keys' two starts a solve begins."""
+
+    begins: str
+    """"film" or "contact"."""
+    instead: str = ""
+    """In words from what and why, where solver.start asks for something else; otherwise empty."""
+
+
+FILM_INSTEAD = (
+    "a film, though solver.start asks for contact: the film is thicker than the roughness, "
+    "and contact would open everywhere"
+)
+
+
+def start_of(config, contact):
+    """The `Start` of a solve: rough bodies whose film is thicker than their roughness begin with a film.
 
     Contact that closes its faces would open all over (20 nm rms at 1 m/s: no end in 180 s). Contact that
     keeps a boundary film opens by itself.
@@ -86,7 +102,9 @@ def _start(config, contact):
     may_close_faces = contact.is_loaded and not contact.is_at_rest and config.contact.boundary_film == 0.0
     opens = may_close_faces and contact.roughness > 0.0 and not contact.is_mixed
     is_found_from_a_film = config.discretization.face_mobility == LINEAR_GAP
-    return "film" if opens and is_found_from_a_film else config.solver.start
+    if opens and is_found_from_a_film and config.solver.start == "contact":
+        return Start("film", FILM_INSTEAD)
+    return Start(config.solver.start)
 
 
 def settings_from(config, contact):
@@ -95,7 +113,7 @@ def settings_from(config, contact):
     return SolverSettings(
         method=solver.method,
         scheme=scheme_from(config, contact),
-        nested=NestedSettings(_start(config, contact), solver.first_nodes, solver.inlet_cells),
+        nested=NestedSettings(start_of(config, contact).begins, solver.first_nodes, solver.inlet_cells),
         newton=NewtonSettings(
             tolerance=solver.tolerance,
             max_steps=solver.max_steps,

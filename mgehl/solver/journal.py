@@ -4,10 +4,10 @@
 class Journal:
     """Keeps nothing. `output.checkpoint.Checkpoint` is the one that keeps everything on disk.
 
-    A run is a row of solves. Each asks first whether it was finished before (`recall`), then
-    whether it was under way (`standing`); it tells of every step and of its end. What it tells of
-    has a `record()`, and `made` makes the like of a `Record` again (`solver.record`). All methods
-    are collective on the communicator of `grid`.
+    A run is a row of solves. Each asks first whether it was finished before (`recall`), then whether it was
+    under way (`standing`); it tells of every step and of its end. What it tells of has a `record()`, and
+    `made` turns that `Record` back into an object (`solver.record`). All methods are collective on the
+    communicator of `grid`.
     """
 
     def recall(self, grid, made):

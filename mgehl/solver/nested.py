@@ -72,7 +72,7 @@ def first_guess(problem, start, P=None):
     grid, contact = problem.grid, problem.contact
     P = contact.guessed_pressure(grid.X, grid.Y) if P is None else P
     pressed = grid.X**2 + grid.Y**2 <= contact.widening**2
-    if is_mixed(problem.contact, problem.scheme):
+    if problem.scheme.lets_peaks_touch(problem.contact):
         film = contact.expected_film / contact.film_scale
         return _first_mixed_guess(problem, start, dry_pressure(problem, P, FLAT * film), film)
     if contact.deformation is not None or (start == "contact" and not contact.is_hertzian):
@@ -84,17 +84,6 @@ def first_guess(problem, start, P=None):
         return problem.state(P, film + H0, np.full(grid.shape, LUBRICATED))
     pressed = pressed & problem.scheme.contact_law.has_contact
     return problem.state(P, H0, np.where(pressed, CONTACT, LUBRICATED))
-
-
-def is_mixed(contact, scheme):
-    """Whether peaks of a rough surface reach through the film: then it is solved on the finest grid alone.
-
-    Coarse grids do not see the surface, and the dry contact's pressure is nearer to the answer than that of
-    any film. A film that is thicker than the roughness is found as that of smooth bodies: from the dry
-    contact a film twice as thick takes twice the work, and one three times as thick is not found (random
-    balls, 257 nodes).
-    """
-    return scheme.contact_law.is_continuous and contact.is_mixed
 
 
 def _first_mixed_guess(problem, start, P, film):
@@ -129,10 +118,14 @@ def planned_solves(meshes, contact, settings):
     """(Level, `LevelSolve`) of what is solved on which of the `meshes`, coarsest first, at which speed.
 
     A film begins on the coarse grids, at speeds that they resolve and that do not lift the bodies off each
-    other. A start from contact, and the relaxation, take the finest grid alone.
+    other. A start from contact, and the relaxation, take the finest grid alone. So do rough bodies whose
+    peaks touch: coarse grids do not see the surface, and the dry contact's pressure is nearer to the answer
+    than that of any film. A film thicker than the roughness is found as that of smooth bodies. From the dry
+    contact a film twice as thick takes twice the work, and one three times as thick is not found (random
+    balls, 257 nodes).
     """
     finest, nested = len(meshes) - 1, settings.nested
-    at_once = settings.method == "relaxation" or is_mixed(contact, settings.scheme)
+    at_once = settings.method == "relaxation" or settings.scheme.lets_peaks_touch(contact)
     alone = nested.start == "contact" or at_once
     for level, mesh in enumerate(meshes):
         if level == finest:
@@ -149,7 +142,7 @@ def _solve_level(hierarchy, level, problem, state, limits, settings, tell, journ
 
     prefix, fluid = settings.cycle.options_prefix, None
     law = problem.scheme.contact_law
-    if is_mixed(problem.contact, problem.scheme):
+    if problem.scheme.lets_peaks_touch(problem.contact):
         limits = limits.squeezed()
     elif settings.nested.start == "contact" and law.has_contact and law.closes_faces:
         limits = limits.squeezed()

@@ -19,7 +19,7 @@ from mgehl.multigrid.jacobian import LinearSystem
 from mgehl.solver.arbiter import RELEASE_STEPS, Ruling, rule
 from mgehl.solver.cavitation import relax_cavitation_set
 from mgehl.solver.journal import NOTHING_KEPT
-from mgehl.solver.judge import UNSOLVED, is_stuck, judge, judge_system
+from mgehl.solver.judge import UNSOLVED, idle_steps, is_stuck, judge, judge_system
 from mgehl.solver.outcome import Cycle, Outcome
 from mgehl.solver.partition import Changes, Partition
 from mgehl.solver.position import Position, Step, Trial
@@ -46,6 +46,7 @@ class Newton:
         self._fluid, self._monitor = fluid, monitor or (lambda cycle: None)
         self._space, self._load_scale = multigrid.space, multigrid.jacobian.load_scale
         self._partition = Partition(problem, settings.release_budget, settings.tolerance)
+        self._most_idle = idle_steps(problem.scheme, settings.squeeze)
         self._snes = PETSc.SNES().create(problem.grid.comm)
         self._snes.setOptionsPrefix(options_prefix)
         self._snes.setType(PETSc.SNES.Type.PYTHON)
@@ -116,7 +117,7 @@ class Newton:
             self._journal.step(self._problem.grid, position)
             self._settle()
             self._measure(snes, x)
-            verdict = judge(position, partition, tolerance, max_steps)
+            verdict = judge(position, partition, tolerance, max_steps, self._most_idle)
             ruling = rule(position, verdict, partition, self._fluid is not None)
             if ruling.ends:
                 break

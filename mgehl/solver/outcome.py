@@ -57,7 +57,7 @@ class Outcome(Kept):
 
     @classmethod
     def from_record(cls, record, line):
-        """As `Kept.from_record`; `line` is the kind of its history's lines."""
+        """As `Kept.from_record`; `line` is the class of a row of its history."""
         return cls(
             State.from_record(record.part("state")),
             record.values["converged"],

@@ -27,7 +27,7 @@ RESTLESS = 12
 converges changes."""
 
 ROUND = 2
-"""Turns of a node that closes and is torn open again."""
+"""Turns that a node takes to close and be torn open again."""
 
 
 @dataclass
@@ -152,8 +152,8 @@ class Partition:
     def open_contact(self, state, inflow, changes):
         """Contact that leaves its faces open becomes film where fluid flows in, or is carried to.
 
-        Asked is the flow that it has with the gap it keeps: a node that has just closed, with less of it,
-        carries less away than that.
+        What counts is the flow through the gap that contact keeps. A node that has just closed may have a
+        smaller gap, through which less flows away.
         """
         in_contact, law = state.status == CONTACT, self._contact_law
         if law.closes_faces:
@@ -213,9 +213,10 @@ class Partition:
 def carried_through(inflow, nodes):
     """What each of the `nodes` has to carry on, its inflow and what comes from before it: (lines, nx).
 
-    Along each line what is more than nothing goes on to the next of a run of `nodes`; what those need less
-    than nothing for they take out of it. (Opened one by one a run would take a step for each; opened whole,
-    what the fluid does not reach closes again and opens others.)
+    Along each line of the grid a run of `nodes` is filled from its first node on: what one cannot hold goes
+    on to the next, and a node that loses fluid takes it from there. (Opened one by one, a run would take a
+    step for each node. Opened whole, nodes that the fluid does not reach would close again and open
+    others.)
     """
     gap = 1.0 + np.abs(inflow).sum(axis=1, keepdims=True)  # more than all that can flow in: begins anew
     total = np.cumsum(np.where(nodes, inflow, -gap), axis=1)

@@ -53,7 +53,7 @@ class Problem:
 
     @event(ASSEMBLY)
     def evaluate_moved(self, evaluation, P):
-        """As `evaluate`, where only the fluid's pressure has changed since, to the ghosted `P`."""
+        """As `evaluate`, where only the fluid's pressure has changed since: `P` has it, ghosts too."""
         evaluation = evaluation.with_pressure(P)
         _ = evaluation.inflow
         return evaluation

@@ -12,14 +12,14 @@ Of every solve:
         Approach of the bodies in units of H.
     history.step history.residual history.load_error history.central history.minimum
     history.contact_nodes history.cavitated_nodes
-        Lists with an entry for each line of the history, the state before a step or a sweep.
+        Lists with an entry for each row of the history, the state before a step or a sweep.
 
 Of one by Newton's method:
 
     history.changes.cavitated history.changes.filled history.changes.entered history.changes.released
-        Nodes that changed their status since the line before.
+        Nodes that changed their status since the row before.
     history.linear_iterations history.step_length
-        What the step to this line took, and how much of it was gone.
+        Iterations of the step to this row, and the part of it that was taken.
 
 Of one by relaxation:
 
@@ -44,9 +44,9 @@ Of Newton's method under way:
     past.budget past.just_released past.was_released past.turns past.closing_gap past.torn_pressure
         Arrays: what the nodes went through.
     changes.cavitated changes.filled changes.entered changes.released
-        Nodes that changed their status since the last line of the history.
+        Nodes that changed their status since the last row of the history.
     step.linear_iterations step.length
-        What the last step took, and how much of it was gone.
+        Iterations of the last step, and the part of it that was taken.
     early_rounds stalls
         How often Eq. 2 was asked before the last digits; linear systems that were given up.
     trial.answer.P trial.answer.H trial.answer.status trial.answer.H0
@@ -81,7 +81,7 @@ class Record:
 
     @classmethod
     def of(cls, **named):
-        """Of values, arrays and parts: a `Record`, or what is `Kept`. What is None is left out."""
+        """A `Record` of values, arrays and parts; a part may be `Kept`. What is None is left out."""
         record = cls()
         for name, each in named.items():
             if isinstance(each, Kept):
@@ -97,7 +97,7 @@ class Record:
 
     @classmethod
     def table(cls, rows):
-        """Of many that keep the same values: a list of each; of none, nothing."""
+        """The `Record` of objects with the same values: a list for each value; empty without objects."""
         records = [row.record().values for row in rows]
         return cls({name: [values[name] for values in records] for name in records[0]} if records else {})
 

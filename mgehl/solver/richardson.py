@@ -11,8 +11,8 @@ UNSEEN = 0.5
 """The same where there are only two grids, and the order is the scheme's on trust."""
 
 TOUCHED = 2.0
-"""The same where the coarser grid has contact, and so not the film that it would have were it free to:
-three times the error, as Roache where nothing is known."""
+"""The same where the coarser grid has contact, and therefore another film: three times the error, as Roache
+has it where nothing is known."""
 
 SLOWEST = 0.75
 """An observed order below this part of the scheme's is not believed: the coarsest grid is too coarse to
@@ -37,10 +37,10 @@ def band(film, values, order, touched=False):
     """The `Band` about a `film` of nodes, from two or three `values` between nodes, finest grid's first.
 
     The last difference and the order tell the error (Richardson). The order is the scheme's, or the
-    observed one where that is somewhat lower. A last difference that is clearly smaller than the order and
-    the difference before let expect is small by chance, for example where it changes its sign: what it
-    lacks is added. So is the distance of the node's film from the value between the nodes. `touched` says
-    that the second grid has contact.
+    observed one where that is somewhat lower. From the order and the difference before, the last difference
+    can be foretold. One that is clearly smaller is small by chance, for example because it changes its
+    sign: what it lacks is added. So is the distance of the node's film from the value between the nodes.
+    `touched` says that the second grid has contact.
     """
     last, *before = (finer - coarser for finer, coarser in zip(values, values[1:], strict=False))
     observed = observed_order(last, *before)
@@ -74,6 +74,7 @@ def believed(order, observed):
 
 
 def by_chance(order, last, before=0.0):
-    """What a `last` difference lacks where it is smaller than the one `before` it lets expect."""
+    """By how much a `last` difference is smaller than the one `before` it foretells; zero where it is
+    not."""
     expected = abs(before) / 2.0 ** (order + FASTER)
     return max(0.0, expected - abs(last)) / (2.0**order - 1.0)

@@ -18,9 +18,9 @@ LARGEST_STEP = 0.3
 leads astray. Here from 0.03 to 3 the same steps; for Newton's see `NewtonSettings`."""
 
 LINEAR_TOLERANCE = 0.03
-"""Of the linear systems of a rigid gap. From 0.01 to 0.1 the same Newton steps, but one more on both sides
-in full contact on 257 nodes; the tighter, the more iterations of the fluid (35 to 20 in mixed
-lubrication)."""
+"""Relative tolerance of the linear systems of a rigid gap. From 0.01 to 0.1 the same Newton steps; 0.1
+takes fewer iterations of the fluid (20 in mixed lubrication, 35 with 0.01). At either end full contact on
+257 nodes takes a step more."""
 
 
 @dataclass(frozen=True)
@@ -61,18 +61,18 @@ class RigidGapFluid:
     def separable(self, evaluation, status):
         """Fluid nodes that this solver answers for: (lines, nx) bool.
 
-        Not films under contact pressure, whose viscosity makes them stiff: no flow is driven out of them.
+        Films under contact pressure are not among them: so viscous a fluid is driven out of no gap.
         """
         return is_fluid(status) & (own(evaluation.fluid.eps) > 0.0) & driven(self._problem, evaluation)
 
     def solve(self, state, tolerance, max_steps=30, before_step=lambda: None):
         """Bring the fluid of `state` into balance at its gap, in place; return the `SettledFluid`.
 
-        Ends when the rms inflow is below `tolerance` and the set has settled, or after
-        `max_steps` (in contact on 129 and 257 nodes 3 to 60 come to the same); the last step is the
-        residual that is left, without an iteration.
-        `before_step` is called before each and may raise what ends it. A node whose pressure rises
-        until it is separable no more is given back as it was, to whoever moves its gap.
+        Ends when the rms inflow is below `tolerance` and the set has settled, or after `max_steps` (in
+        contact on 129 and 257 nodes 3 to 60 come to the same); the last step is the residual that is left,
+        without an iteration. `before_step` is called before each and may raise what ends it. A node whose
+        pressure rises until it is no longer separable gets its old pressure back: the caller, who moves the
+        gap, solves for it.
         """
         problem, steps, before = self._problem, [], state.P.copy()
         evaluation = problem.evaluate(state)
@@ -100,8 +100,8 @@ class RigidGapFluid:
                 evaluation = problem.evaluate(state)
 
     def _give_back(self, state, separable, before, evaluation):
-        """Take nodes that are separable no more out of `separable`, in place, with their P as `before`;
-        return how many.
+        """Take nodes that are no longer separable out of `separable`, in place; they get the P of `before`.
+        Return how many.
         """
         lost = separable & ~self.separable(evaluation, state.status)
         separable[lost] = False

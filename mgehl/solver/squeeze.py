@@ -5,17 +5,16 @@ steady equations leave open. So, from one speed to the next, contact grows node 
 Besides, each node has a part of the time step of its own, by its residual over its film: a film of an
 atom's height that fluid flows into opens by a few of its heights in a step.
 
-Means of the mobility that vanish with either side have a fold: more pressure makes the fluid stiffer, and
-may drive less flow out of the node. Beyond the fold the pressure runs away, and near it a Newton step is as
-good as random. There the time step is so short that the node is stable by itself. It passes the fold
-slowly, the residual hardly falls, and the rest follows. On rough surfaces, fluid in a valley opens the
-closed gap beside it in the same way: the wider the gap, the more flows in.
+Where the mean of the mobility vanishes with either side, the flow out of a node has a fold: more pressure
+makes the fluid stiffer, and may drive less of it out. Beyond the fold the pressure runs away, and near it a
+Newton step is as good as random. There the time step is so short that the node is stable by itself. It
+passes the fold slowly: for some steps the residual hardly falls, then it does. On rough surfaces, fluid in
+a valley opens the closed gap beside it in the same way: the wider the gap, the more flows in.
 """
 
 import numpy as np
 
 from mgehl.discretization.axes import own
-from mgehl.discretization.fluid import FOLDING
 from mgehl.discretization.residual import linearise
 from mgehl.discretization.rows import FLOW
 from mgehl.discretization.status import beside_contact
@@ -59,8 +58,9 @@ def squeeze_rates(problem, evaluation, rows, F, settings):
         filling = np.where(own(evaluation.H) > law.thinnest, FILLING / problem.grid.mesh.dX, 0.0)
         own_part = np.where(F > 0.0, np.minimum(own_part, filling), own_part)
     rates = settings.squeeze * (rms / problem.grid.mesh.dX + own_part)
-    may_fold = law.is_continuous or mean in FOLDING
-    return np.maximum(rates, _stable_rates(problem, evaluation, rows, rms)) if may_fold else rates
+    if not problem.scheme.may_fold:
+        return rates
+    return np.maximum(rates, _stable_rates(problem, evaluation, rows, rms))
 
 
 def share_of_the_gap(problem, evaluation):

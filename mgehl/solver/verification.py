@@ -18,13 +18,13 @@ from mgehl.discretization.status import (
 )
 
 LARGEST_EDGE_PRESSURE = 0.01
-"""Pressure beside the domain's boundary, over the largest of all, that a contact inside of it may have.
-Measured: configurations of the repository up to 5e-4, domains that are "auto" up to 3e-4 (M from 1 to 200,
-65 and 129 nodes, point and line), starved films on the paper's domain up to 6e-3 (M = 10, 65 nodes);
-domains that end 1.01 semi-axes from the centre, on one side, 0.02 to 0.9."""
+"""Largest pressure beside the domain's boundary, over the largest of all, of a contact that lies inside the
+domain. Measured: configurations of the repository up to 5e-4, domains that are "auto" up to 3e-4 (M from 1
+to 200, 65 and 129 nodes, point and line), starved films on the paper's domain up to 6e-3 (M = 10, 65
+nodes); domains that end 1.01 semi-axes from the centre, on one side, 0.02 to 0.9."""
 
 FEWEST_NODES = 4
-"""That the loaded zone must have along each axis. Measured: 11 and more on domains that are "auto"."""
+"""Fewest nodes of the loaded zone along each axis. Measured: 11 and more on domains that are "auto"."""
 
 ROUNDING = 1e-12
 """Difference of pressures in p_h that may come from rounding alone."""
@@ -42,7 +42,7 @@ class Edge:
     overlapping: int
     """Nodes of the boundary where the gap is negative."""
     largest_overlap: float
-    """There, in units of H."""
+    """The largest overlap there, in units of H."""
     across: tuple
     """Nodes along X and along Y that the loaded zone is wide; of a line contact None along Y."""
 
@@ -129,9 +129,9 @@ def check_interface(problem, state):
 
     The paper compares the two sides of the interface, which lies between two nodes. Both pressures are
     extrapolated to the face, each from nodes of its side, and each has an error (`_at_face`). The gap has
-    one, too: half of what it changes across the face, where a wake may begin, changes the pressure on
-    each side by as much as a node needs for that deflection. So a pressure that rises or falls continuously
-    through the interface breaks nothing, and a jump that stays as the grid is refined is found on every
+    one, too: half of what it changes across the face, where a wake may begin, changes the pressure on each
+    side by as much as a node needs for that deflection. So a pressure that rises or falls continuously
+    through the interface does not break Eq. 2. A jump that stays as the grid is refined is found on every
     grid. (Compared at the nodes alone, contact behind a constriction, where the pressure falls, breaks the
     inequality on all grids alike.)
 
@@ -174,9 +174,9 @@ def _beside(axis, ghosted, shift):
 def _at_face(axes, axis, P, solid, side):
     """Pressure of each node at its face on a `side`, as it comes from behind, and its error: (lines, nx).
 
-    The error is what the nearest node behind changes, what the curvature of the two nearest does, and how
-    far the pressure bends along the face. Where a node has none of its kind behind it, half of what its
-    pressure changes to either side stands for the first two.
+    The error has three parts: the step to the nearest node behind, the curvature through the two nearest,
+    and how far the pressure bends along the face. Where no node of its kind is behind it, half the
+    pressure's change to either side stands for the first two.
     """
     near, kind = own(P), own(solid)
     across, behind, farther = (_beside(axis, P, shift * side) for shift in (1, -1, -2))
@@ -223,8 +223,8 @@ def complementarity_error(problem, state, evaluation):
 def flux_imbalance(problem, evaluation):
     """Flow into the film minus flow out of it over all its borders, relative to the inflow.
 
-    The film is all lubricated nodes; its borders are the domain's edge and the cavities. Rounding
-    and the residual are all that a conservative scheme may leave.
+    The film is all lubricated nodes; its borders are the domain's edge and the cavities. A conservative
+    scheme leaves nothing but rounding and the residual.
     """
     grid, mesh = problem.grid, problem.grid.mesh
     film, into = evaluation.status == LUBRICATED, []

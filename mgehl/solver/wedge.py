@@ -38,7 +38,7 @@ def solve_wedge(grid, bearing, scheme, options_prefix, tolerance, max_steps, bef
     state = problem.first_guess()
     try:
         steps = fluid.solve(state, tolerance, max_steps, before_step).steps
-        # Once more: what the tolerance left would show in the flow balance.
+        # Once more: what the first solve left would show in the flow balance.
         if steps[-1].residual <= tolerance:
             steps = steps[:-1] + fluid.solve(state, 0.0, 1).steps
     finally:

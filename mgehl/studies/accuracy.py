@@ -1,7 +1,8 @@
-"""What grid a film needs by each scheme: errors at 2, 4 and 8 cells in the inlet, of many full films.
+"""Which grid a film needs by each scheme: errors of many full films at 2, 4 and 8 cells in the inlet.
 
-The domain of a film is so long that its first grid has two cells in the inlet. All its grids have that
-domain: errors are the grid's alone. Limits are Richardson's, from the finest grids by the best scheme.
+The domain of a film is chosen so that its first grid has two cells in the inlet. All its grids have that
+domain, so that errors are the grid's alone. Limits are Richardson's, from the finest grids by the best
+scheme.
 """
 
 from dataclasses import dataclass
@@ -20,7 +21,7 @@ SCHEMES = (*product(("1B", "2B", "3B"), ("arithmetic", "logarithmic")), BEST)
 
 CELLS = (2, 4, 8)
 LARGEST = 257
-"""Nodes of the largest grid that every scheme is solved on, where a case does not begin there."""
+"""Nodes of the largest grid on which every scheme is solved, unless a case begins with that grid."""
 
 RADIUS = 12.7e-3
 OUTLET, BESIDE = 1.25, 6.0
@@ -29,7 +30,8 @@ OUTLET, BESIDE = 1.25, 6.0
 
 @dataclass(frozen=True)
 class Film:
-    """A full film: Moes numbers, radius across over radius along, law, nodes that have two cells."""
+    """A full film: Moes numbers, radius across over radius along, law, nodes that put two cells into the
+    inlet."""
 
     M: float
     L: float
@@ -44,7 +46,7 @@ class Film:
         return f"M {self.M:g}, L {self.L:g}{shape}, {self.law}"
 
     def tables(self):
-        """Of the contact alone."""
+        """Tables of the contact alone."""
         return {
             "moes": {"M": self.M, "L": self.L},
             "contact": {"radius_x": RADIUS, "radius_y": self.wide * RADIUS},
@@ -62,7 +64,7 @@ class Film:
         return {"x": [outlet - length, outlet], "y": [-half, half]}
 
     def grids(self):
-        """Nodes of the grids on which all schemes are solved, and of the one more for the limit."""
+        """Nodes of the grids on which all schemes are solved, and of one more grid for the limit."""
         grids = [self.nodes]
         while grids[-1] < LARGEST:
             grids.append(2 * grids[-1] - 1)
@@ -147,7 +149,7 @@ def _row(film, scheme, cells, solution, limits):
 
 
 def _summary(rows, scheme, cells):
-    """How far the films of a scheme are off at so many cells, and what they took."""
+    """Errors of a scheme's films at so many cells, and the work that they took."""
     which = {"couette": scheme[0], "mean": scheme[1], "cells": str(cells)}
     own = [row for row in rows if which.items() <= row.items()]
     good = [row for row in own if row["converged"] == "yes"]

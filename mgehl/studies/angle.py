@@ -1,7 +1,7 @@
-"""Entrainment at an angle to the axes: what the angle changes that it should not, and what it should.
+"""Entrainment at an angle to the axes: what the angle should change, and what it should not.
 
-A circular contact has the same films at every angle, but for the grid's error. An ellipse has others,
-which are set beside formulas. Full contact is the dry contact, whatever the angle.
+A circular contact has the same films at every angle, apart from the grid's error. The films of an ellipse
+change; they are compared with formulas. Full contact is the dry contact at every angle.
 """
 
 import numpy as np
@@ -14,14 +14,14 @@ from mgehl.studies.study import merged, papers_grid, plausible, richardson
 NODES = (129, 257, 513)
 SCHEMES = ("1B", "2B")
 SIDE = [-1.9, 1.9]
-"""Of a square: its corner is farther upstream than its side."""
+"""Ends of a square domain, which is larger: a corner is farther upstream than a side."""
 
 CIRCLE = {"motion": {"speed": 1.0}}
 CIRCLE_ANGLES = (0, 15, 30, 45)
 
 WIDE_SIDE = [-3.8, 3.8]
 WIDE_ANGLES = (0, 45)
-"""The same with the same cells on twice the domain, by 2B: what remains there is not the domain's."""
+"""The same cells on twice the domain, by 2B: a difference that remains there is not the domain's."""
 
 ELLIPSE = {
     "contact": {"load": 300.0, "radius_x": 10e-3, "radius_y": 83e-3},

@@ -1,7 +1,7 @@
 """Fixed cases with their work, time, memory and time per part, to compare two commits on one machine.
 
-A machine that others use is now faster, now slower. So a fixed FFT is timed beside every case, and
-what is compared are times in units of that reference.
+A machine that others use is now faster, now slower. So a fixed FFT is timed beside every case, and times
+are compared in units of it.
 """
 
 import errno
@@ -53,10 +53,10 @@ LARGE = {
     "film-1025": _point(1025, 0.0075),
     "contact-1025": _point(1025, 5e-6, "contact"),
 }
-"""Cases of a minute or so together."""
+"""Cases that take about a minute together."""
 
 WARM_UP = (_point(65, 5e-6, "contact"), _PILLAR | {"grid": {"nodes": 65}})
-"""Solved first and not timed: they compile and import what the first case would pay for."""
+"""Solved first and not timed, so that the first case does not pay for compiling and importing."""
 
 REFERENCE_NODES, REFERENCE_SECONDS = 256, 0.3
 """Side of the plane whose FFT is the reference, and how long it is repeated before and after a case."""
@@ -96,7 +96,8 @@ class Timing:
     reference: Clocks
     """Of one reference FFT beside this case."""
     memory_MiB: float
-    """Largest memory of a rank since the program began: a later case shows only what it takes more."""
+    """Largest memory of a rank since the program began: a later case shows only what it takes beyond the
+    earlier ones."""
     parts: dict
     """Name of a part and its seconds of wall time; "other" is the rest."""
 
@@ -158,7 +159,7 @@ def _mean(clocks):
 
 
 def _run(tables, comm):
-    """Solve and write everything, as a run does, into a directory that does not stay."""
+    """Solve and write everything, as a run does, into a directory that is removed."""
     with tempfile.TemporaryDirectory() as directory:
         return run(config_from_tables(merged(PAPER, tables)), Path(directory), comm)
 

@@ -1,4 +1,4 @@
-"""Films by three means of the mobility: what the mobility's error makes of them, grid by grid."""
+"""Films by three means of the mobility, grid by grid: they differ by the mobility's error."""
 
 from mgehl.studies.branch import Branches
 from mgehl.studies.study import merged
@@ -10,7 +10,7 @@ SPEEDS = (0.1, 0.06, 0.034, 0.02, 0.01, 0.0075, 0.004, 0.0015)
 """m/s, those of the design notes and the paper's."""
 
 STEPS = {"geometric": {"solver": {"max_steps": 60}}, "harmonic": {"solver": {"max_steps": 150}}}
-"""Single nodes at the film's edge come close to folds of these means: there they take many steps."""
+"""Most Newton steps: single nodes at the film's edge come close to folds of these means, and take many."""
 
 AGREEMENT = 0.05
 AGREEMENT_SPEED = 0.0075

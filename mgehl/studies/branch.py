@@ -3,10 +3,10 @@
     down  from the fastest speed and a full film
     up    from the slowest speed and full contact
 
-Where a branch ends (no state near the last one solves the equations at the next speed) the point
-is taken from the other branch, or from the other start, and says so. By another mean of the mobility a
-full film is begun from the arithmetic mean's at that speed, where that is known: on fine grids the two
-are close, and films of neighbouring speeds are not.
+A branch ends where no state near the last one solves the equations at the next speed. Then the point is
+taken from the other branch, or from the other start, and says so. A full film by another mean of the
+mobility begins with the arithmetic mean's film at that speed, where that is known. On fine grids these two
+are closer than films of neighbouring speeds.
 """
 
 import time
@@ -31,7 +31,8 @@ STARTS = {"down": "film", "up": "contact"}
 OTHER = {"down": "up", "up": "down"}
 
 STEPS_OF_START = 2
-"""Times the steps of other points: there is none nearer by to try it from (513 nodes at 7.5 mm/s: 40)."""
+"""Factor by which such a point may take more steps than others: there is no nearer one to try it from (513
+nodes at 7.5 mm/s: 40)."""
 
 
 @dataclass
@@ -49,7 +50,7 @@ class Point:
     sweep: tuple
     """e^p, e^p lubr. and e^p solid of one sweep of the paper's relaxation from here  [Liu eq. 45]."""
     obstacle: str
-    """Why it could not be reached the way that was tried first; empty where it could."""
+    """Why the way that was tried first did not lead to it; empty where it did."""
 
     def shared(self):
         """What every rank knows."""
@@ -62,7 +63,7 @@ class Point:
 
 
 class Branches:
-    """Both branches of one configuration's contact; a context manager, for the grids' sake."""
+    """Both branches of one configuration's contact; a context manager, which frees the grids."""
 
     def __init__(self, study, tables):
         self._config = config = config_from_tables(merged(PAPER, tables))
@@ -84,8 +85,8 @@ class Branches:
     def walk(self, branch, speeds, beside=(), arithmetic=()):
         """The points of a branch; `speeds` fast to slow for "down", slow to fast for "up".
 
-        `beside` holds points of the other branch, to go on from where this one ends, and `arithmetic`
-        those of the arithmetic mean, to turn to this one's.
+        `beside` holds points of the other branch, from which this one goes on where it ends. `arithmetic`
+        holds those of the arithmetic mean, from which this mean's films begin.
         """
         points = []
         for count in range(1, len(speeds) + 1):
@@ -137,7 +138,7 @@ class Branches:
         return Point(**plain | {"result": result, "sweep": tuple(plain["sweep"]), "fields": found})
 
     def _key(self, branch, way, jump, beside, arithmetic):
-        """What the answer at the end of the `way` depends on."""
+        """Everything on which the answer at the end of the `way` depends."""
         tables = {name: table for name, table in self._tables.items() if name != "motion"}
         turned = ["arithmetic mean"] if arithmetic else []
         return key_of([tables, branch, [float(speed) for speed in way], jump, len(beside), *turned])
@@ -184,7 +185,7 @@ class Branches:
         return self._continuation.follow(self._state(point), point.speed, speed)
 
     def _judged(self, problem, outcome, work, wall):
-        """What was found, and by how much a sweep of the paper's relaxation would change it."""
+        """The point that was found, with what a sweep of the paper's relaxation would change in it."""
         newton = self._settings.newton
         result = summarise(problem, outcome, newton.tolerance, work, wall, versions())
         once = RelaxationSettings(max_sweeps=0)

@@ -1,4 +1,4 @@
-"""Finished points of a study on disk: what took long is not computed twice, whatever ends a study."""
+"""Finished points of a study on disk: whatever ends a study, they are not computed twice."""
 
 import hashlib
 import json
@@ -19,10 +19,10 @@ COMPUTING = ("model", "discretization", "kinds", "grid", "multigrid", "solver", 
              "output/film_error.py", "output/mixed_result.py", "output/result.py", "output/surface.py",
              "output/wedge_result.py",
              "output/solution.py", "studies/branch.py")  # fmt: skip
-"""Layers and modules that make a point: one that other code made is computed anew."""
+"""Layers and modules that make a point: after a change in one of them points are computed anew."""
 
 FORMAT = 1
-"""Of a point's file; another one is not read."""
+"""Version of a point's file; files of another version are not read."""
 
 _POINT = re.compile(r"[0-9a-f]{24}\.npz")
 

@@ -1,8 +1,7 @@
-"""Whether the domain that "auto" chooses is large enough, and whether a starved film is told as one.
+"""Whether the domain that "auto" chooses is large enough, and whether a starved film is recognised.
 
-Each case is solved on domains and on others of twice the size, of equal cells: what these change in the
-film is set beside what was estimated. `auto` has the domains that mgehl chooses, `starved` those that lie
-nearer to the contact.
+Each case is solved on a domain and on one of twice the size, with equal cells. The change of the film is
+compared with the estimate. `auto` has the domains that mgehl chooses, `starved` smaller ones.
 """
 
 from mgehl.config import config_from_tables
@@ -12,7 +11,7 @@ from mgehl.output.domain import domain_verdict
 from mgehl.studies.study import merged
 
 PARTS = (0.3, 0.5)
-"""Of the room that "auto" leaves around the contact: nearer domains."""
+"""Parts of the room that "auto" leaves around the contact: the smaller domains."""
 
 NEAREST = 1.15
 """End of the nearest domain, in semi-axes."""
@@ -82,7 +81,7 @@ def run(study):
 
 
 def _nearer(ends, part):
-    """An interval with a part of the room beside the contact that another has; None of None."""
+    """An interval with a `part` of another one's room beside the contact; None of None."""
     if ends is None:
         return None
     return interval_on_nodes(*(max(1.0 + part * (abs(end) - 1.0), NEAREST) for end in ends))

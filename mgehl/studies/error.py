@@ -1,7 +1,8 @@
-"""Do the bands about films hold the limit: contacts of every sort, each beside a finer grid of its domain.
+"""Whether the bands about films hold the limit: contacts of every sort, each beside finer grids on its
+domain.
 
 The limit is Richardson's, from the two finest grids of the scheme that converges fastest; all schemes are
-held against it. A case is a contact on a grid that gives its inlet a cell at least.
+compared with it. A case is a contact on a grid that puts at least one cell into its inlet.
 """
 
 from dataclasses import dataclass
@@ -12,10 +13,10 @@ from mgehl.output.digits import with_band
 from mgehl.studies.study import merged
 
 NODES = (65, 129, 257)
-"""On which bands are asked for."""
+"""Nodes of the grids on which bands are made."""
 
 FINER = {"point": 1, "line": 2}
-"""Times that the last of them is refined for the limit, by kind of contact."""
+"""How often the last of these grids is refined for the limit, by kind of contact."""
 
 WIDE = {"x": [-3.5, 1.5], "y": [-2.5, 2.5]}
 WIDER = {"x": [-6.0, 3.0], "y": [-4.5, 4.5]}

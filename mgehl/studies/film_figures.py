@@ -3,7 +3,7 @@
 from mgehl.output.pictures.style import COLOURS, MARKS, applied, save, subplots
 
 PERCENT = (0.1, 0.2, 0.5, 1, 2, 5, 10)
-"""Marked on a logarithmic axis."""
+"""Numbers that are marked on a logarithmic axis."""
 
 
 def schemes(path, nodes, films):
@@ -69,7 +69,8 @@ def _points(rows, column):
 
 
 def angles(path, circle, ellipse):
-    """Off the film of 0 degrees against the spacing, a circle's; an ellipse's films against the angle."""
+    """A circle's distance from its film at 0 degrees against the spacing; an ellipse's films against the
+    angle."""
     with applied():
         figure, (off, films) = subplots(1, 2, size=(10.5, 4.6))
         turned = [row for row in circle if row["angle"] != "0"]

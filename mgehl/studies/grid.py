@@ -1,6 +1,6 @@
 """Full contact and full film on ever finer grids  [Liu figs. 11-13].
 
-What does not change with the grid is the problem's, what does is the grid's.
+What stays from grid to grid belongs to the problem; what changes belongs to the grid.
 """
 
 import numpy as np

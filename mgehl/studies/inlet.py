@@ -1,10 +1,9 @@
 """The line contact from far under-resolved to resolved inlets, from both starts.
 
-A contact that blocks the inlet is a solution as long as the fluid pressure that piles up before
-it stays below the contact pressure beside it [Liu eq. 25]. That pressure depends on the last gap
-before the contact, and so on the grid: the study shows down to which spacing contact survives.
-Beside the answers from both starts it solves the fluid in the gap of the dry contact, whose
-p_f/p_d exists on grids where no contact can be held any more.
+A contact that blocks the inlet is a solution as long as the fluid pressure that builds up before it stays
+below the contact pressure beside it [Liu eq. 25]. The fluid pressure depends on the last gap before the
+contact, and so on the grid: the study shows down to which spacing contact survives. It also solves the
+fluid in the gap of the dry contact, whose p_f/p_d exists even on grids that hold no contact.
 """
 
 from mgehl.studies.study import merged
@@ -60,7 +59,7 @@ def _solve(study, speed, nodes):
 
 
 def _ratio(result):
-    """p_f/p_d; a viscosity that grows with pressure lets it grow without bound."""
+    """p_f/p_d; where the viscosity grows with pressure it has no upper bound."""
     ratio = result.pressure_inequality.largest_ratio
     return f"{ratio:.3f}" if ratio < UNBOUNDED else "unbounded"
 

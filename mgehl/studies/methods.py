@@ -1,4 +1,5 @@
-"""Newton with multigrid beside the paper's relaxation, and the interface conditions beside none."""
+"""Newton with multigrid compared with the paper's relaxation, and the interface conditions with the unified
+equations."""
 
 from mgehl.studies.study import merged, papers_grid
 

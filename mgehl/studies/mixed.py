@@ -1,7 +1,7 @@
 """Rough balls drawn at random, from full film to boundary lubrication: how many are solved, by what work.
 
-Roughness, load and speed are drawn by their logarithms, Hurst's exponent evenly; each case has a surface
-of its own. Nothing is known of a case before it is solved, and nothing of one helps another.
+Roughness, load and speed are drawn by their logarithms, Hurst's exponent evenly; each case has a surface of
+its own. Each case is solved for itself: no case starts from another.
 """
 
 import time
@@ -26,7 +26,7 @@ CASE = {
     "grid": {"x": [-2.0, 1.5], "y": [-1.75, 1.75]},
     "solver": {"start": "film", "error": False},
 }
-"""What all have: the usual scheme, no boundary film."""
+"""What all cases have in common: the usual scheme, no boundary film."""
 
 
 @dataclass(frozen=True)
@@ -105,7 +105,7 @@ def run(study):
 
 
 def draw(cases, seed):
-    """So many `Drawn`; more of them begin with the same ones."""
+    """So many `Drawn`. A longer list begins with the same cases."""
     chance, drawn = np.random.default_rng(seed), []
     for number in range(1, cases + 1):
         rms, load, speed = (_by_logarithm(chance, *ends) for ends in (RMS, LOAD, SPEED))
@@ -118,7 +118,7 @@ def _by_logarithm(chance, low, high):
 
 
 def _solve(study, case, nodes):
-    """From the study's points, or anew: of a point only the numbers are kept, no field."""
+    """The case, from the study's points or solved. A point keeps numbers and no field."""
     config = config_from_tables(case.tables(nodes))
     key = key_of(["mixed", config.as_toml_tables()])
     found = study.cache.load(key, Found.from_point)
@@ -160,7 +160,7 @@ def verdict(found):
 
 
 def summary(found):
-    """Rows of what all come to."""
+    """Rows of the summary of all cases."""
     good = [each for each in found if each.converged]
     doubted = sum(each.settled for each in found) - len(good)
     numbers = {

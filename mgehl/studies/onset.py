@@ -1,8 +1,8 @@
 """The speeds at which contact appears going down, and full contact is lost going up, on each grid.
 
-Contact appears at the sides of the Hertz ellipse, on the last line of nodes inside: where it appears is
-bracketed once more on grids slightly wider or narrower across, whose last lines lie elsewhere in the
-cell that the side cuts.
+Contact appears at the sides of the Hertz ellipse, on the last line of nodes inside. So its speed is
+bracketed again on grids that are slightly wider or narrower across: there the last line lies elsewhere in
+the cell that the side cuts.
 """
 
 import numpy as np
@@ -21,7 +21,8 @@ FIRST_CELLS = 2.5
 """Cells in the inlet where the way down begins: above the loss of the film on every grid."""
 
 FIRST_CONTACT = 2.5e-5
-"""m/s on a grid of 1025 nodes where the way up begins, more on coarser ones as the loss is."""
+"""m/s at which the way up begins on 1025 nodes. On coarser grids full contact is lost at higher speeds, and
+the way begins higher."""
 
 STEP_UP = 1.5
 
@@ -137,7 +138,7 @@ def _bracket(name, bracket):
 
 
 def _found(result):
-    """What a branch turned to, or why it could not be followed any further."""
+    """What a branch became, or why it could not be followed any further."""
     if not result.settled:
         return f"nothing: {result.reason}"
     return f"contact at {result.contact.nodes} nodes, {result.contact.area_fraction:.4f} of Hertz's"

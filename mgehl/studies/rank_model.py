@@ -1,8 +1,8 @@
-"""What one iteration of GMRES with its cycle costs a rank: messages, bytes, flops, and so time.
+"""The cost of one iteration of GMRES with its cycle on a rank: messages, bytes, flops, and from these time.
 
 Counted from the algorithm, for a film on n by n nodes; only the `Constants` are measured. With contact each
-transfer has two halos instead of one. Collectives count as the textbook's: a broadcast or a sum takes log2
-of the ranks in messages one after the other, the exchange of a transform a message to each other rank.
+transfer has two halos instead of one. Collectives count as in textbooks: a broadcast or a sum over N ranks
+takes log2(N) messages one after the other, the exchange of a transform one message to every other rank.
 """
 
 from dataclasses import astuple, dataclass
@@ -99,7 +99,7 @@ class Level:
         return Cost(halos=neighbours, bytes=neighbours * HALO * self.nodes * REAL)
 
     def everyone(self):
-        """A number that all are told, or a sum that all make."""
+        """A broadcast or a sum of one number over all ranks."""
         hops = log2(self.ranks)
         return Cost(collective=hops, bytes=hops * REAL)
 
@@ -127,7 +127,8 @@ class Level:
     def transfers(self, coarse):
         """Restriction; interpolation of a correction and of its deflection, which is convolved there.
 
-        Lines of a coarse grid on fewer ranks move to and fro: who sends most has none to send there.
+        Lines of a coarse grid on fewer ranks move there and back: the rank that sends most keeps none of
+        them.
         """
         work = coarse.convolution() + Cost(sweeps=(8 + 2 * 4) * self.mine)
         if coarse.ranks == self.ranks:

@@ -1,7 +1,7 @@
 """A rough contact from full film to nearly dry: load share, contact area, patches and film by speed.
 
-Each speed is solved from a film and from contact, neither from its neighbour: where both ways end at the
-same state, it does not depend on the way.
+Each speed is solved from a film and from contact, and never from another speed. Where both lead to the same
+state, that state does not depend on the start.
 """
 
 from dataclasses import dataclass
@@ -37,7 +37,7 @@ CASE = {
     "grid": {"x": [-2.0, 1.5], "y": [-1.75, 1.75]},
     "discretization": {"couette": "1B", "face_mobility": "linear-gap"},
 }
-"""A ground disc and a ball. One scheme at all speeds: that of films behind peaks."""
+"""A ground disc and a ball. All speeds are solved by one scheme, which keeps a film behind peaks."""
 
 FITS = {"Aihara": aihara, "Zhou-Hoeprich": zhou_hoeprich, "1 - erf": error_function}
 

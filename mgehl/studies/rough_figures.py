@@ -9,10 +9,10 @@ from mgehl.output.pictures.blocks import Blocks
 from mgehl.output.pictures.style import COLOURS, STATUS_COLOURS, applied, legend_below, save, subplots
 
 STARTS = {"film": {"marker": "o", "markerfacecolor": "none"}, "contact": {"marker": "x"}}
-"""How the points of a start are drawn: both are seen where they lie on each other."""
+"""How the points of a start are drawn: both are seen where one covers the other."""
 
 WITHOUT = {"film": 0.985, "contact": 0.96}
-"""Where along the height of a panel the points of a start are marked that did not converge."""
+"""Height in a panel, from 0 to 1, at which points are marked that did not converge, by start."""
 
 WINDOW = 1.25
 """How far from the centre, in semi-axes, maps of states show."""
@@ -66,7 +66,7 @@ def _draw_fits(axes, points, fits):
 
 
 def states(path, points):
-    """Above what the nodes are, below the film, of some points; they are on one scale."""
+    """The status of the nodes above, the film below, at some speeds; all films on one scale."""
     with applied():
         figure, axes = subplots(2, len(points), size=(3.1 * len(points) + 1.0, 6.6), squeeze=False)
         norm = _norm(points)

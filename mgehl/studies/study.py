@@ -23,7 +23,7 @@ PAPER = {"discretization": {"couette": "1B", "face_mobility": "arithmetic"}}
 """What the paper differences by, and a study that does not say otherwise."""
 
 PLAUSIBLE_ORDERS = (0.5, 3.0)
-"""Outside of these, values are not near enough to their limit to tell it."""
+"""Orders outside of this range come from values that are too far from their limit to tell it."""
 
 PAPERS_DOMAIN = {"x": [-1.9, 1.3], "y": [-1.5, 1.5]}
 
@@ -38,15 +38,15 @@ class Study:
     """Nodes along each side, coarsest first; empty for the study's own choice."""
     speak: bool = True
     cases: int = 0
-    """How many there will be; set it before the first to be told the time left."""
+    """How many cases there will be. A study that sets it before the first tells the time left."""
     failures: int = field(default=0, init=False)
     """Cases that had to converge and did not."""
     branch: str = "both"
-    """Which branch a study of both is asked for: "down", "up" or "both"."""
+    """Branches that are wanted of a study of both: "down", "up" or "both"."""
     mean: str = "arithmetic"
     """Mean of the mobility, for a study that follows one."""
     home: Path | None = None
-    """Directory of its points, where that is another than the one of tables and pictures."""
+    """Directory of its points where it is not that of tables and pictures."""
     boundary_film: float | None = None
     """In m, for study rough; None for its own choice."""
     wanted: int | None = None
@@ -64,8 +64,8 @@ class Study:
     def solve(self, title, tables, must_converge=True):
         """Solve the configuration of nested `tables`; return the `Solution`.
 
-        Films get bands where the tables ask for them: studies compare grids themselves.
-        Where not to converge is an answer, too, it does not make the study a failure.
+        Films get no bands unless the tables ask for them: studies compare grids themselves. Where a case
+        without a solution is an answer, too, it does not make the study a failure.
         """
         config = _config(tables)
         key = key_of(config.as_toml_tables())
@@ -130,9 +130,8 @@ def _config(tables):
 
 
 def _verdict(result, must_converge):
-    """Nothing to say of a case that converged; a solution that breaks Eq. 2 is not one without end.
-
-    That there is no solution may be what the study asks: then it is no failure.
+    """Words after a case that did not converge; empty where it did. A state that settled and breaks Eq. 2
+    is called that. Where the study asks whether there is a solution, none is no failure.
     """
     if result.converged:
         return ""

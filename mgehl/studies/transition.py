@@ -18,7 +18,8 @@ COARSE = 257
 FASTEST_ON_COARSE = 0.1
 
 STEPS = {"max_steps": 30}
-"""A point that is found takes 10 to 20; one that is not is tried again from nearer by."""
+"""Most Newton steps: a point that is found takes 10 to 20, one that is not is tried again from a nearer
+one."""
 
 PAPER_RADIUS = 19.05e-3
 """The radius that the paper's labels U belong to; its other numbers belong to 12.7 mm."""

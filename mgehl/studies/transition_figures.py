@@ -11,7 +11,7 @@ PROFILES = 6
 """Speeds in Figure 14a and b, from the last full film to the first full contact."""
 
 FULL = 0.95
-"""Contact over Hertz area from which it is called full."""
+"""Contact over Hertz area from which on contact is called full."""
 
 INSIDE = 0.9
 """Part of the ellipse whose films must fit into a picture."""

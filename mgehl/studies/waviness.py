@@ -1,9 +1,9 @@
-"""Waves that stand still in a full film: what they change in it, beside a published line contact.
+"""Waves that stand still in a full film: how they change it, compared with a published line contact.
 
-The contact flattens them, and what is left is mostly a uniform change of film, made in the inlet: a wave
-there holds back more or less of the flow by where its peaks are. What is told is the response to small
-waves, to those with a peak in the centre and to those a quarter of a length further on; half the
-difference between waves of either sign is free of what goes with the square of their height.
+The contact flattens the waves. What is left is mostly a uniform change of film, made in the inlet: there a
+wave holds back more or less of the flow, depending on where its peaks are. The study tells the response to
+small waves, with a peak in the centre and a quarter of a length further on. Half the difference between
+waves of either sign has no part that grows with the square of their height.
 """
 
 from dataclasses import dataclass
@@ -65,9 +65,9 @@ class Response:
     """Change of film over the waves' amplitude along the line of nodes through the centre."""
 
     uniform: float
-    """Of all of it alike."""
+    """Of the uniform change of film."""
     wave: float
-    """Of the waves themselves, flattened."""
+    """Of the waves that are left in the film."""
     converged: bool
     """All solves that it was made of."""
     convolutions: float
@@ -157,7 +157,7 @@ def central_line(solution):
 
 
 def fitted(X, changes, length):
-    """(uniform, wave): amplitudes of what two changes, of waves a quarter of a length apart, consist of.
+    """(uniform, wave): the amplitudes in two changes of film, by waves a quarter of a length apart.
 
     The response to waves anywhere is the real part of one complex function times exp(-ik x0).
     """

@@ -72,6 +72,16 @@ def test_lines_are_aligned_and_short(capsys):
     assert max(map(len, lines)) < 160
 
 
+def test_a_path_that_is_too_long_stands_below_its_key(capsys, monkeypatch, tmp_path):
+    monkeypatch.setenv("COLUMNS", "80")
+    long = tmp_path / ((75 - len(str(tmp_path))) * "x")
+    long.write_text("")
+    assert main(["info", str(long)]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert max(map(len, lines)) <= 80
+    assert lines[0].split() == ["configuration", "file"] and lines[1].strip() == str(long)
+
+
 def test_a_configuration_that_cannot_be_read_is_one_line(capsys):
     assert main(["info", "missing.toml"]) == 2
     out, err = capsys.readouterr()

@@ -1,15 +1,21 @@
 """What is foretold agrees with what runs do, as far as it claims to."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
+from mpi4py import MPI
 
 from mgehl.config import chosen_config, load_config
 from mgehl.discretization.mesh import Mesh
 from mgehl.kinds import contact_from, mesh_from
-from mgehl.kinds.point import FILM
+from mgehl.kinds.point import CONTACT, FILM
 from mgehl.output import forecast as module
 from mgehl.output.forecast import forecast, inlet_grids, time_convolution
 from mgehl.output.resolution import resolution
+from mgehl.run import solve
+
+CONFIGS = Path(__file__).resolve().parents[2] / "configs"
 
 
 def film(nodes=257, speed=0.0075, **changes):
@@ -38,10 +44,6 @@ def test_inlet_cells_are_those_of_a_result():
 
 
 def test_speeds_are_those_that_the_nested_iteration_solves_at():
-    from mpi4py import MPI
-
-    from mgehl.run import solve
-
     config = film(nodes=129, speed=0.2)
     grids = inlet_grids(config, contact_from(config))
     rows = solve(config, MPI.COMM_SELF).rows
@@ -57,32 +59,64 @@ def test_from_contact_only_the_finest_grid_is_solved():
 
 
 def test_time_is_that_of_the_convolutions_on_the_cores_there_are(one_second):
-    low, high = FILM.convolutions
-    factor = FILM.times_convolution
     config = film(speed=0.5, **{"solver.error": False})
     one, two, three = (foretold(config, ranks) for ranks in (1, 2, 3))
-    each = [factor + beside for beside in module.BESIDE]
-    expected = [module.START_SECONDS + n * one for n, one in zip((low, high), each, strict=True)]
-    assert one.seconds == pytest.approx(tuple(expected))
+    each, n = 1.0 + FILM.node_seconds * 257**2, FILM.convolutions
+    assert one.seconds == pytest.approx(module.START_SECONDS + n * (each + FILM.beside))
     assert [found.workers for found in (one, two, three)] == [1, 2, 2]
-    assert two.seconds[0] - module.START_SECONDS == pytest.approx(low * (0.5 * factor + module.BESIDE[0]))
+    assert two.seconds == three.seconds == pytest.approx(one.seconds - 0.5 * n * each)
 
 
-@pytest.mark.parametrize("speed, most", [(1e-3, module.UNSEEN), (0.5, FILM.convolutions[1])])
-def test_a_film_that_the_grid_hardly_sees_may_take_far_more(one_second, speed, most):
-    """257 nodes at 1 mm/s took 299 convolutions and did not settle; 65 at 20 mm/s took 2381."""
+@pytest.mark.parametrize("speed, effort", [(1e-3, module.UNSEEN), (0.5, FILM)])
+def test_a_film_that_the_grid_hardly_sees_may_take_far_more(one_second, speed, effort):
     found = foretold(film(speed=speed, **{"solver.error": False}))
-    assert found.convolutions == (FILM.convolutions[0], most)
-    assert ("hardly sees" in found.measured) == (most == module.UNSEEN)
+    assert found.convolutions == effort.convolutions and found.measured == effort.measured
 
 
-@pytest.mark.parametrize("start", ["film", "contact"])
-def test_where_peaks_reach_through_the_film_it_is_as_of_such_balls(one_second, start):
-    config = load_config(chosen_config(), {"solver.start": start})
-    found = foretold(config)
-    assert found.convolutions == module.MIXED and "rough balls" in found.measured
-    thick = load_config(chosen_config(), {"motion.speed": 0.5, "solver.error": False})
-    assert foretold(thick).convolutions == FILM.convolutions
+@pytest.mark.parametrize("speed, effort", [(5e-6, CONTACT), (0.1, module.SIDE_BY_SIDE)])
+def test_a_contact_start_takes_more_where_a_film_comes_up(one_second, speed, effort):
+    found = foretold(film(speed=speed, **{"solver.start": "contact"}))
+    assert found.convolutions == effort.convolutions
+
+
+def test_a_start_that_is_replaced_is_foretold_as_what_replaces_it(one_second):
+    settings = {"contact.boundary_film": 0.0, "motion.speed": 1.0, "solver.start": "contact"}
+    asked, film = (load_config(chosen_config(), settings | more) for more in ({}, {"solver.start": "film"}))
+    assert foretold(asked).convolutions == foretold(film).convolutions
+
+
+class TestPeaks:
+    """Balls whose peaks reach through the film."""
+
+    @pytest.mark.parametrize("start", ["film", "contact"])
+    def test_they_are_foretold_by_roughness_and_film(self, one_second, start):
+        found = foretold(load_config(chosen_config(), {"solver.start": start}))
+        assert found.measured == module.ROUGH.measured
+        slower = foretold(load_config(chosen_config(), {"solver.start": start, "motion.speed": 1e-5}))
+        rougher = foretold(load_config(chosen_config(), {"solver.start": start, "surface.rms": 2e-7}))
+        assert found.convolutions < min(slower.convolutions, rougher.convolutions)
+
+    def test_a_thick_film_has_none(self, one_second):
+        thick = load_config(chosen_config(), {"motion.speed": 0.5, "solver.error": False})
+        assert foretold(thick).convolutions == FILM.convolutions
+
+
+@pytest.mark.parametrize(
+    "name, settings",
+    [
+        ("full_film", {"grid.nodes": 129, "motion.speed": 0.5}),
+        ("point_contact", {"grid.nodes": 129}),
+        ("rough", {}),
+        ("rough", {"discretization.contact_model": "dry"}),
+    ],
+    ids=["full film", "contact", "rough", "dry"],
+)
+def test_runs_take_half_to_twice_the_convolutions(one_second, name, settings):
+    config = load_config(CONFIGS / f"{name}.toml", settings)
+    result = solve(config, MPI.COMM_SELF).result
+    bands = 0.0 if config.is_dry else result.error.convolutions
+    taken = result.work.convolutions + bands
+    assert result.converged and 0.5 < taken / foretold(config).convolutions < 2.0
 
 
 def test_a_convolution_grows_by_n_log_n_from_the_grid_that_was_timed(one_second):

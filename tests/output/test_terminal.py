@@ -55,7 +55,13 @@ class TestWords:
         self.say(Lines())
         assert "flux imbalance" in verbose and "flux imbalance" not in capsys.readouterr().out
 
+    def test_a_note_is_broken_at_spaces_too(self, capsys, monkeypatch):
+        monkeypatch.setenv("COLUMNS", "40")
+        Lines().note("start: a film, " + 10 * "and so on ")
+        assert max(map(len, capsys.readouterr().out.splitlines())) <= 40
+
     def test_a_quiet_one_says_nothing(self, capsys):
+        Quiet().note("start: a film")
         self.say(Quiet())
         assert capsys.readouterr() == ("", "")
 
@@ -119,6 +125,9 @@ class TestLive:
         "        words.row({'grid': 65, 'step': step, 'seconds': 1.0 + step}, f'[line] {step} ' + 99 * 'x',"
         " None if step == 0 else 6.2)\n"
         "        time.sleep(0.15)\n"
+        "    words.row({'grid': 65, 'step': 4, 'seconds': 5.0}, '[line] 4', 0.0)\n"
+        "    words.writing()\n"
+        "    time.sleep(1.1)\n"
         "print('the end')\n"
     )
 
@@ -152,6 +161,12 @@ class TestLive:
         assert len(set(frames)) > 2
         assert "━" in shown or "╸" in shown or "-" in shown
 
+    def test_it_goes_on_moving_while_results_are_written(self, shown):
+        """With the time since the beginning, and no word of time that is left."""
+        frames = [each for each in shown.split("\r") if "writing results" in each]
+        assert len(set(frames)) > 2 and "left" not in "".join(frames)
+        assert "0:00:01" in frames[0] and "0:00:02" in frames[-1]
+
     def test_lines_stay_whole_above_it(self, shown):
         plain = re.sub(r"\x1b\[[0-9;?]*[A-Za-z]", "", shown)
         for step in range(4):
@@ -161,7 +176,7 @@ class TestLive:
         assert shown.rstrip().endswith("the end")
         assert "\x1b[?25l" in shown and shown.rindex("\x1b[?25h") > shown.rindex("\x1b[?25l")
         # The bar is wiped out before the end.
-        assert "\x1b[2K" in shown[shown.rindex("step 3") :]
+        assert "\x1b[2K" in shown[shown.rindex("writing results") :]
 
 
 def rows(residuals, grid=65, seconds=1.0, first=0.0):

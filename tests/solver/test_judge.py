@@ -1,13 +1,27 @@
 """The verdict on a position; looking at it changes nothing."""
 
 import copy
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from petsc4py import PETSc
 
+from mgehl.discretization.contact_law import BoundaryFilm
+from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import BOUNDARY, LUBRICATED
-from mgehl.solver.judge import GO_ON, STALLS, STUCK, is_stuck, judge, judge_system
+from mgehl.solver.judge import (
+    GO_ON,
+    IDLE_IN_TIME,
+    IDLE_STEPS,
+    STALLS,
+    STUCK,
+    idle_steps,
+    is_stuck,
+    judge,
+    judge_system,
+    steps_since_lowered,
+)
 from mgehl.solver.outcome import Cycle
 from mgehl.solver.partition import RESTLESS, Changes, Partition
 from mgehl.solver.position import Position, Trial
@@ -43,7 +57,7 @@ def verdict(partition, make_position):
     def ask(**fields):
         position = make_position(**fields)
         before = copy.deepcopy(vars(position))
-        found = judge(position, partition, TOLERANCE, MAX_STEPS)
+        found = judge(position, partition, TOLERANCE, MAX_STEPS, IDLE_STEPS)
         for name, value in vars(position).items():
             if name not in ("state", "past", "trial"):
                 assert value == before[name]
@@ -144,3 +158,56 @@ def test_two_steps_that_gain_nothing_are_stuck(make_position, residuals, stuck):
     position = make_position()
     position.cycles[:] = [make_position(residual).cycles[0] for residual in residuals]
     assert is_stuck(position) == stuck
+
+
+class TestIdleSteps:
+    """A residual that does not fall any more ends a solve before the last of the steps that it may take."""
+
+    @pytest.fixture
+    def idle(self, make_position, partition):
+        """Function: the verdict after a history of residuals."""
+
+        def ask(residuals, **fields):
+            position = make_position(step=10, **fields)
+            (last,) = position.cycles
+            position.cycles = [replace(last, residual=each) for each in residuals]
+            return judge(position, partition, TOLERANCE, MAX_STEPS, IDLE_STEPS)
+
+        return ask
+
+    def test_it_is_said_that_they_led_nowhere(self, idle):
+        stays = [1.0, *IDLE_STEPS * [0.95]]
+        assert idle(stays[:-1]) is GO_ON
+        found = idle(stays)
+        assert found.ends and not found.converged
+        assert found.reason == f"residual 9.5e-01 after 10 steps: the last {IDLE_STEPS} did not lower it"
+
+    def test_one_that_falls_slowly_goes_on(self, idle):
+        assert idle([0.98**k for k in range(40)]) is GO_ON
+
+    def test_one_that_rises_and_comes_back_is_idle(self, idle):
+        assert idle([1.0, 0.1, *[0.2 + 0.1 * (-1) ** k for k in range(IDLE_STEPS)]]).ends
+
+    def test_a_small_residual_may_wait_for_its_sets(self, idle):
+        assert idle((IDLE_STEPS + 3) * [TOLERANCE], changes=Changes(filled=1)) is GO_ON
+
+    def test_a_trial_of_eq_2_has_a_limit_of_its_own(self, idle):
+        assert idle([0.1 * TOLERANCE, *IDLE_STEPS * [0.5]], trial_until=14) is GO_ON
+
+    def test_time_steps_may_take_more(self):
+        """They pass folds slowly, and let contact spread node by node."""
+        assert idle_steps(Scheme(), 0.0) == IDLE_STEPS < IDLE_IN_TIME == idle_steps(Scheme(), 3.0)
+        assert idle_steps(Scheme(face_mobility="harmonic"), 0.0) == IDLE_IN_TIME
+        assert idle_steps(Scheme(contact_law=BoundaryFilm(0.1)), 0.0) == IDLE_IN_TIME
+
+    def test_they_are_counted_from_the_last_lower_one(self, make_position):
+        position = make_position()
+        (last,) = position.cycles
+        position.cycles = [replace(last, residual=each) for each in (1.0, 0.5, 0.48, 0.6, 0.44, 0.44)]
+        assert steps_since_lowered(position) == 1
+
+    def test_a_film_that_the_grid_does_not_hold_is_given_up(self, paper_contact, solve):
+        """20 mm/s on 65 nodes: 60 steps before, most of them without a change of the sets."""
+        ended = solve(paper_contact(0.02), 65).outcome
+        assert not ended.converged and "did not lower it" in ended.reason
+        assert ended.cycles[-1].step <= 30

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from mgehl.discretization.contact_law import InterfaceConditions, UnifiedEquations
-from mgehl.discretization.fluid import FACE_MOBILITIES
+from mgehl.discretization.fluid import FACE_MOBILITIES, FOLDING
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import CONTACT, LUBRICATED
 from mgehl.solver.problem import State
 from mgehl.solver.settings import NewtonSettings
-from mgehl.solver.squeeze import FOLDING, OF_NODES, SQUEEZE, STABLE, squeeze_rates
+from mgehl.solver.squeeze import OF_NODES, SQUEEZE, STABLE, squeeze_rates
 
 THIN = InterfaceConditions(1e-6)
 SETTINGS = NewtonSettings(squeeze=3.0)

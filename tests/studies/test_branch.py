@@ -67,10 +67,10 @@ class TestBothBranches:
 
 class TestJump:
     def test_a_branch_that_ends_goes_on_from_the_other_start(self, study):
-        """The film cannot be followed to 8 mm/s on 129 nodes: full contact is what there is."""
-        with Branches(study, transition.case(129)) as branches:
-            film, contact = branches.walk("down", [0.1, 0.008])
-        assert film.origin == "start" and film.result.central_film_nm > 70.0
+        """The film cannot be followed to 20 mm/s on 65 nodes: full contact is what there is."""
+        with Branches(study, transition.case(65)) as branches:
+            film, contact = branches.walk("down", [0.3, 0.02])
+        assert film.origin == "start" and film.result.central_film_nm > 140.0
         assert film.obstacle == "" and contact.obstacle != ""  # why it ended, kept with the point
         assert contact.origin == "other start" and contact.result.contact.area_fraction > 0.95
         assert contact.result.settled
@@ -266,7 +266,7 @@ def test_the_power_of_made_up_critical_speeds():
 
 class TestKill:
     SCRIPT = (
-        "import sys; from mgehl.studies import transition; transition.COUNT = 6; "
+        "import sys; from mgehl.studies import transition; transition.COUNT = 4; "
         "from mgehl.cli import main; sys.exit(main(sys.argv[1:]))"
     )
 
@@ -285,12 +285,12 @@ class TestKill:
         os.killpg(child.pid, signal.SIGKILL)
         child.wait()
         done = {path: path.stat().st_mtime_ns for path in points.glob("[!.]*.npz")}
-        assert 2 <= len(done) < 12 and not (killed / "transition-65.csv").exists()
+        assert 2 <= len(done) < 8 and not (killed / "transition-65.csv").exists()
         subprocess.run(self.command(killed, "--resume"), check=True, stdout=subprocess.DEVNULL)
         subprocess.run(self.command(alone), check=True, stdout=subprocess.DEVNULL)
         assert all(path.stat().st_mtime_ns == when for path, when in done.items())
         resumed, whole = (read(path / "transition-65.csv") for path in (killed, alone))
-        assert len(resumed) == 12
+        assert len(resumed) == 8
         for one, other in zip(resumed, whole, strict=True):
             assert one["branch"] == other["branch"] and one["from"] == other["from"]
             assert float(one["central nm"]) == pytest.approx(float(other["central nm"]), abs=1e-3)

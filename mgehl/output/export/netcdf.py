@@ -1,4 +1,4 @@
-"""Fields of a run as NetCDF-4 after the CF conventions: xarray and its like know what they read."""
+"""Fields of a run as NetCDF-4 after the CF conventions, which xarray and other programs know."""
 
 from datetime import UTC, datetime
 from functools import partial

@@ -45,10 +45,10 @@ DRY_TITLES = {
     "lines": "pressure and gap on the centre lines, against the contact of smooth bodies",
     "gap": "gap, with contact outlined",
 }
-"""What is another picture without a fluid, or shows something else."""
+"""Pictures that are others without a fluid, or show something else."""
 
 ROUGH = {"surface": "heights of the surface with the contact on them, the gap, their distribution"}
-"""What bodies that are not smooth have besides."""
+"""Pictures that bodies with a surface have besides."""
 
 _POINT = {
     "lines": centre_lines,

@@ -59,7 +59,7 @@ def colour_bar(axes, image, label, **options):
 
 
 def grey_beyond(axes, blocks, values, limit):
-    """Cover what is above the limit; the legend's handle where there is some."""
+    """Cover films above the limit in grey; return handles of the legend."""
     if min(values.shape) < 2 or not (values > limit).any():
         return []
     axes.contourf(blocks.X, blocks.Y, values, (limit, np.inf), colors=[HIDDEN])

@@ -9,7 +9,7 @@ def title(solution):
 
 
 def title_with_films(solution):
-    """As `title`; films that have bands are on a second line, film and contact of rough bodies, too."""
+    """As `title`, with a second line for films that have bands and for film and contact of rough bodies."""
     result = solution.result
     films = "" if result.error.central_nm is None else films_words(result)
     return "\n".join(filter(None, (title(solution), films, mixed_note(result.mixed))))

@@ -1,4 +1,4 @@
-"""The contact that is there, in mm: what maps show, and inside of which their scales hold."""
+"""Where the load is carried, in mm: maps show it, and their scales hold inside it."""
 
 from typing import NamedTuple
 

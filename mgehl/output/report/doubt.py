@@ -1,4 +1,4 @@
-"""Numbers of a state that did not converge are called so, wherever a page has them."""
+"""Numbers of a state that did not converge are marked as such everywhere on a page."""
 
 from dataclasses import replace
 
@@ -10,7 +10,7 @@ GIVEN = ("lambda", "cells in the inlet")
 
 
 def mark_of(result):
-    """What numbers of a `Result` or its like are called; nothing where it converged."""
+    """The mark on the numbers of a `Result` or its like; empty where it converged."""
     if result.converged:
         return ""
     return "in doubt" if result.settled else "not converged"

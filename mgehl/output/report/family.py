@@ -1,4 +1,4 @@
-"""What only pages of loaded contacts have, or only those of rigid bearings."""
+"""The module of a page's own sections: for loaded contacts, dry contacts and rigid bearings."""
 
 from mgehl.output.report import dry, loaded, wedge
 
