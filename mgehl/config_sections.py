@@ -109,7 +109,7 @@ class SolverSection:
         "film", "first guess: a full film, or contact",
         choices=("film", "contact"), kind=str,
     )  # fmt: skip
-    max_steps: int = key_field(60, "Newton steps on one grid at the most", low=0, high=10000, kind=int)
+    max_steps: int = key_field(200, "Newton steps on one grid at the most", low=0, high=10000, kind=int)
     linear_tolerance: float = key_field(
         0.1, "relative tolerance of GMRES in a Newton step", above=0.0, high=0.5
     )

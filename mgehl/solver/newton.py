@@ -18,19 +18,16 @@ from mgehl.grid.events import linear_solve
 from mgehl.multigrid.jacobian import LinearSystem
 from mgehl.solver.arbiter import RELEASE_STEPS, Ruling, rule
 from mgehl.solver.cavitation import relax_cavitation_set
+from mgehl.solver.foothold import LONGER, SHORTER, Foothold, led_astray
 from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.judge import UNSOLVED, idle_steps, is_stuck, judge, judge_system
 from mgehl.solver.outcome import Cycle, Outcome
 from mgehl.solver.partition import Changes, Partition
 from mgehl.solver.position import Position, Step, Trial
 from mgehl.solver.remembered import remembered
+from mgehl.solver.rigid_gap import ahead_of
 from mgehl.solver.squeeze import squeeze_rates
 from mgehl.solver.step_length import step_length
-
-FLUID_AHEAD = 0.1
-"""Residual to which the fluid is solved apart, over that of the last cycle, or over the tolerance where
-that is larger. From 0.03 to 0.1 the same Newton steps; at 0.01 and at 0.3 full contact on 257 nodes
-takes one more. Above 1 no solve would end."""
 
 
 class Newton:
@@ -46,6 +43,7 @@ class Newton:
         self._fluid, self._monitor = fluid, monitor or (lambda cycle: None)
         self._space, self._load_scale = multigrid.space, multigrid.jacobian.load_scale
         self._partition = Partition(problem, settings.release_budget, settings.tolerance)
+        self._in_time = problem.scheme.contact_law.is_continuous and settings.squeeze > 0.0
         self._most_idle = idle_steps(problem.scheme, settings.squeeze)
         self._snes = PETSc.SNES().create(problem.grid.comm)
         self._snes.setOptionsPrefix(options_prefix)
@@ -117,6 +115,8 @@ class Newton:
             self._journal.step(self._problem.grid, position)
             self._settle()
             self._measure(snes, x)
+            if led_astray(position):
+                self._go_back(snes, x)
             verdict = judge(position, partition, tolerance, max_steps, self._most_idle)
             ruling = rule(position, verdict, partition, self._fluid is not None)
             if ruling.ends:
@@ -137,7 +137,9 @@ class Newton:
         problem, state, changes = self._problem, self._position.state, self._position.changes
         if self._fluid:
             before = state.status.copy()
-            evaluation = self._fluid.solve(state, self._fluid_tolerance).evaluation
+            reached = self._position.cycles[-1].residual if self._position.cycles else 1.0
+            tolerance = ahead_of(max(reached, self._settings.tolerance))
+            evaluation = self._fluid.solve(state, tolerance).evaluation
             changes.cavitated += problem.grid.count(before != state.status)
         else:
             evaluation = problem.evaluate(state)
@@ -150,15 +152,6 @@ class Newton:
         self._partition.open_contact(state, self._evaluation.inflow, changes)
         if changes.released > opened:
             self._evaluation = problem.evaluate(state)
-
-    @property
-    def _fluid_tolerance(self):
-        """Tolerance of the fluid solved apart. It is well below the residual of the rest; its next step
-        moves the gap anyway.
-        """
-        cycles = self._position.cycles
-        reached = cycles[-1].residual if cycles else 1.0
-        return FLUID_AHEAD * max(reached, self._settings.tolerance)
 
     def _measure(self, snes, x):
         """Evaluate the residual of the present state; add a row to the history."""
@@ -204,7 +197,7 @@ class Newton:
             F = np.where(frozen, 0.0, F)
             self._space.write_pressure(self._rhs, F)
         rows = problem.rows(status, frozen)
-        rates = squeeze_rates(problem, self._evaluation, rows, F, self._settings)
+        rates = squeeze_rates(problem, self._evaluation, rows, F, self._settings, position.shorter)
         self._system = LinearSystem(rows, rates)
         snes.computeJacobian(x, *ksp.getOperators())
         with linear_solve():
@@ -219,6 +212,9 @@ class Newton:
         """Take the step, cut tension, let gaps close."""
         problem, position = self._problem, self._position
         state, changes = position.state, position.changes
+        if self._in_time:
+            position.foothold = Foothold.of(position)
+            position.shorter = max(1.0, LONGER * position.shorter)
         dP, dH0 = self._space.read(self._correction)
         limit = self._settings.max_pressure_step
         length, H = step_length(problem, self._partition, self._evaluation, state, dP, dH0, limit)
@@ -233,7 +229,7 @@ class Newton:
         """The `Outcome`, and what SNES is told of it."""
         position, reasons = self._position, PETSc.SNES.ConvergedReason
         if ruling is Ruling.KEEP:
-            self._restore(snes, x)
+            self._take_up(position.trial.answer, snes, x)
             outcome = Outcome(position.state, True, position.trial.reason, position.cycles)
         else:
             how = ruling is Ruling.ACCEPT, verdict.reason, position.cycles, list(verdict.contradictions)
@@ -243,22 +239,25 @@ class Newton:
             reasons.CONVERGED_FNORM_ABS if outcome.converged else reasons.DIVERGED_MAX_IT
         )
 
-    def _restore(self, snes, x):
-        """Make the kept answer the present state, and the last of the history."""
+    def _go_back(self, snes, x):
+        """Take up the state before the last step; time steps are shorter from there on."""
         position = self._position
-        position.state, position.changes, position.step = position.trial.answer, Changes(), Step()
+        position.past = self._partition.past = position.foothold.past
+        position.shorter, position.stalls = SHORTER * position.shorter, 0
+        self._take_up(position.foothold.state, snes, x)
+        position.foothold = None
+
+    def _take_up(self, state, snes, x):
+        """Make a state that was kept the present one, and the last of the history."""
+        position = self._position
+        position.state, position.changes, position.step = state, Changes(), Step()
         self._evaluation = self._problem.evaluate(position.state)
         self._tell(*self._compute_function(snes, x))
 
     def _tell(self, F, load):
         """Add the present state to the history, tell the monitors."""
-        position, problem, snes = self._position, self._problem, self._snes
-        state, step = position.state, position.step
-        cycle = Cycle(
-            len(position.cycles), problem.rms(F), load, *problem.films(state),
-            *problem.counts(state.status), position.changes, step.linear_iterations, step.length,
-        )  # fmt: skip
-        position.cycles.append(cycle)
+        snes, cycle = self._snes, self._position.row(self._problem, F, load)
+        self._position.cycles.append(cycle)
         self._monitor(cycle)
         snes.setIterationNumber(cycle.step)
         snes.setFunctionNorm(cycle.residual)

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, field
 
+from mgehl.solver.foothold import Foothold
 from mgehl.solver.outcome import Cycle
 from mgehl.solver.partition import Changes, Past
 from mgehl.solver.problem import State
@@ -55,8 +56,18 @@ class Position(Kept):
     """Releases on Eq. 2 before the residual was small."""
     stalls: int = 0
     """Linear systems that were given up."""
+    foothold: Foothold | None = None
+    """The state before the last step, where that was one in time."""
+    shorter: float = 1.0
+    """By how much time steps are shorter than their rule has them."""
     memory: Kept | Record | None = None
     """Of the linear systems before: what the linear solver has, or what was kept of it."""
+
+    def row(self, problem, F, load):
+        """Of the history, for the present state with its residual `F` and load error (collective)."""
+        state, step = self.state, self.step
+        measured = problem.rms(F), load, *problem.films(state), *problem.counts(state.status)
+        return Cycle(len(self.cycles), *measured, self.changes, step.linear_iterations, step.length)
 
     def record(self):
         return Record.of(
@@ -68,12 +79,14 @@ class Position(Kept):
             trial=self.trial,
             early_rounds=self.early_rounds,
             stalls=self.stalls,
+            foothold=self.foothold,
+            shorter=self.shorter,
             memory=self.memory,
         )
 
     @classmethod
     def from_record(cls, record):
-        trial = record.part("trial")
+        trial, foothold = record.part("trial"), record.part("foothold")
         return cls(
             State.from_record(record.part("state")),
             Past.from_record(record.part("past")),
@@ -83,5 +96,7 @@ class Position(Kept):
             Trial.from_record(trial) if trial else None,
             record.values["early_rounds"],
             record.values["stalls"],
+            Foothold.from_record(foothold) if foothold else None,
+            record.values["shorter"],
             record.part("memory") or None,
         )

@@ -49,6 +49,13 @@ Of Newton's method under way:
         Iterations of the last step, and the part of it that was taken.
     early_rounds stalls
         How often Eq. 2 was asked before the last digits; linear systems that were given up.
+    shorter
+        By how much time steps are shorter than their rule has them.
+    foothold.state.P foothold.state.H foothold.state.status foothold.state.H0
+        The state before the last step, where that was one in time.
+    foothold.past.budget foothold.past.just_released foothold.past.was_released foothold.past.turns
+    foothold.past.closing_gap foothold.past.torn_pressure foothold.residual
+        What its nodes had gone through, and its residual.
     trial.answer.P trial.answer.H trial.answer.status trial.answer.H0
         While Eq. 2 is tried: the state that had settled.
     trial.reason trial.violations trial.released trial.limit trial.entered

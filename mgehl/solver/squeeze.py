@@ -46,8 +46,11 @@ THINNEST = 1e-9
 that nothing is divided by zero. From 1e-12 to 1e-6 the same steps."""
 
 
-def squeeze_rates(problem, evaluation, rows, F, settings):
-    """1/time step of every node, (lines, nx), at a state of residual `F`; 0.0 where there is no squeeze."""
+def squeeze_rates(problem, evaluation, rows, F, settings, shorter=1.0):
+    """1/time step of every node, (lines, nx), at a state of residual `F`; 0.0 where there is no squeeze.
+
+    Time steps are `shorter` by that factor.
+    """
     if settings.squeeze == 0.0:
         return 0.0
     mean, law = problem.scheme.face_mobility, problem.scheme.contact_law
@@ -57,7 +60,7 @@ def squeeze_rates(problem, evaluation, rows, F, settings):
         # What flows in may fill a node at once, and bodies that overlap part at once: only closing is slow.
         filling = np.where(own(evaluation.H) > law.thinnest, FILLING / problem.grid.mesh.dX, 0.0)
         own_part = np.where(F > 0.0, np.minimum(own_part, filling), own_part)
-    rates = settings.squeeze * (rms / problem.grid.mesh.dX + own_part)
+    rates = shorter * settings.squeeze * (rms / problem.grid.mesh.dX + own_part)
     if not problem.scheme.may_fold:
         return rates
     return np.maximum(rates, _stable_rates(problem, evaluation, rows, rms))

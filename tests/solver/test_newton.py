@@ -15,33 +15,11 @@ from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import CAVITATED, LUBRICATED
 from mgehl.errors import Stopped
 from mgehl.model.lubricant import Barus
-from mgehl.multigrid.cycle import MultigridSolver
 from mgehl.run import solve as solve_config
 from mgehl.solver.journal import Journal
 from mgehl.solver.judge import STALLS
 from mgehl.solver.nested import first_guess
 from mgehl.solver.newton import Newton
-from mgehl.solver.problem import ContactProblem
-from mgehl.solver.settings import NewtonSettings
-
-
-@pytest.fixture
-def make_newton(make_hierarchy, paper_contact):
-    """Factory of (problem, Newton) on 65 nodes, for the film at 1 m/s; freed after the test."""
-    made = []
-
-    def make(monitor=None, options_prefix="test_", kind=Newton, contact=None, scheme=None, **limits):
-        contact, scheme = contact or paper_contact(), scheme or Scheme()
-        hierarchy = make_hierarchy(contact, 65)
-        problem = ContactProblem(hierarchy.grids[-1], hierarchy.deflections[-1], contact, scheme)
-        multigrid = MultigridSolver(hierarchy, 1, contact, scheme)
-        settings = NewtonSettings(**limits)
-        made.append(kind(problem, multigrid, settings, None, options_prefix, monitor))
-        return problem, made[-1]
-
-    yield make
-    for newton in made:
-        newton.free()
 
 
 def test_it_solves_from_the_hertz_pressure(make_newton):

@@ -14,6 +14,7 @@ from mgehl.multigrid.jacobian import BorderedSpace
 from mgehl.multigrid.memory import Corrections
 from mgehl.solver import record as described
 from mgehl.solver.dry import DryStanding, DryStep
+from mgehl.solver.foothold import Foothold
 from mgehl.solver.nested import first_guess
 from mgehl.solver.outcome import Cycle, Outcome
 from mgehl.solver.partition import Changes, Contradiction, Past
@@ -66,7 +67,8 @@ def position(state):
     past.turns[4, 4], past.was_released[3, 3], past.closing_gap[4, 4] = 7, True, nan
     answer = State(2.0 * state.P, -0.3, state.H, state.status)
     trial = Trial(answer, "settled", 17, 12, 40, 3)
-    return Position(state, past, [CYCLE, CYCLE], Changes(5), Step(12, 0.7), trial, 3, 1)
+    foothold = Foothold(answer, Past.none(state.P.shape, 1), 1e-4)
+    return Position(state, past, [CYCLE, CYCLE], Changes(5), Step(12, 0.7), trial, 3, 1, foothold, 5.6)
 
 
 class Solver:

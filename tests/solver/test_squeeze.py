@@ -40,6 +40,14 @@ def test_without_squeeze_there_is_none(problem, state_and_residual):
     assert rates_of(problem, *state_and_residual, NewtonSettings()) == 0.0
 
 
+def test_shorter_time_steps(problem, state_and_residual):
+    state, F = state_and_residual
+    now = problem.evaluate(state), problem.rows(state.status), F, SETTINGS
+    np.testing.assert_allclose(
+        squeeze_rates(problem, *now, shorter=5.6), 5.6 * squeeze_rates(problem, *now), rtol=1e-14
+    )
+
+
 def test_every_node_has_a_rate_and_those_that_are_far_from_balance_a_larger_one(
     problem, state_and_residual
 ):

@@ -110,7 +110,7 @@ NUMBERS = {
     "RELEASE_STEPS": tuned(APART, SOLVER + "arbiter:RELEASE_STEPS", values=(1, 2, 4, 6, 16, 40)),
     "EARLY": tuned(APART | LARGER, SOLVER + "arbiter:EARLY"),
     "EARLY_ROUNDS": tuned(APART | LARGER, SOLVER + "arbiter:EARLY_ROUNDS", values=(0, 1, 2, 4, 10)),
-    "FLUID_AHEAD": tuned(APART, SOLVER + "newton:FLUID_AHEAD"),
+    "FLUID_AHEAD": tuned(APART, SOLVER + "rigid_gap:FLUID_AHEAD"),
     "rigid_gap.LARGEST_STEP": tuned(APART, SOLVER + "rigid_gap:LARGEST_STEP"),
     "rigid_gap.LINEAR_TOLERANCE": tuned(
         APART, SOLVER + "rigid_gap:LINEAR_TOLERANCE", SOLVER + "rigid_gap:RigidGapFluid(linear_tolerance)"
