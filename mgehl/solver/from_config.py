@@ -117,6 +117,7 @@ def settings_from(config, contact):
         newton=NewtonSettings(
             tolerance=solver.tolerance,
             max_steps=solver.max_steps,
+            idle_steps=solver.idle_steps,
             linear_tolerance=solver.linear_tolerance,
             release_budget=solver.release_budget,
             squeeze=solver.squeeze,

@@ -44,7 +44,7 @@ class Newton:
         self._space, self._load_scale = multigrid.space, multigrid.jacobian.load_scale
         self._partition = Partition(problem, settings.release_budget, settings.tolerance)
         self._in_time = problem.scheme.contact_law.is_continuous and settings.squeeze > 0.0
-        self._most_idle = idle_steps(problem.scheme, settings.squeeze)
+        self._most_idle = settings.idle_steps or idle_steps(problem.scheme, settings.squeeze)
         self._snes = PETSc.SNES().create(problem.grid.comm)
         self._snes.setOptionsPrefix(options_prefix)
         self._snes.setType(PETSc.SNES.Type.PYTHON)

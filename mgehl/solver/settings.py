@@ -39,6 +39,8 @@ class NewtonSettings:
     tolerance: float = SolverSection.tolerance
     """For the rms residual and the load error."""
     max_steps: int = SolverSection.max_steps
+    idle_steps: int | None = SolverSection.idle_steps
+    """Steps that may leave the residual as it is; None: as many as `judge.idle_steps` has."""
     linear_tolerance: float = SolverSection.linear_tolerance
     """Relative tolerance of GMRES in a step. From 0.05 to 0.2 the work varies by a quarter, now more, now
     less: the looser, the more steps and the fewer iterations in each."""

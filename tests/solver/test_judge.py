@@ -211,3 +211,7 @@ class TestIdleSteps:
         ended = solve(paper_contact(0.02), 65).outcome
         assert not ended.converged and "did not lower it" in ended.reason
         assert ended.cycles[-1].step <= 30
+
+    def test_a_user_may_have_more_or_less_patience(self, paper_contact, solve):
+        ended = solve(paper_contact(0.02), 65, newton={"idle_steps": 3}).outcome
+        assert ended.reason.endswith("the last 3 did not lower it")

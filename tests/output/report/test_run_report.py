@@ -140,7 +140,7 @@ class TestEveryKind:
         rows = configuration_of(quick(run))
         assert rows["grid.nodes"][:2] == ["65", "257"]
         assert rows["motion.speed"][1] == "5e-06 m/s"
-        assert rows["solver.max_steps"][:2] == ["60", ""]
+        assert rows["solver.max_steps"][:2] == ["200", ""]
 
     def test_every_field_of_the_result(self, run, quick):
         record = dict(table_of(quick(run), "All fields of result.json"))
