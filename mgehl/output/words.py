@@ -32,7 +32,7 @@ def bearing_words(result):
             f"  residual {result.residual:.1e}, flux imbalance {result.flux_imbalance:.1e}, "
             f"flow through closed faces {result.closed_face_flow:.1e}",
             f"  solid nodes: {result.solid_nodes}, cavitated: {result.cavitated_nodes}",
-            f"  work: {result.linear_iterations} iterations, {result.wall_s:.1f} s on {result.ranks} ranks",
+            f"  work: {result.linear_iterations} iterations, {_took(result)}",
             *where_to_read(result),
         ]
     )
@@ -50,8 +50,7 @@ def dry_words(result):
         f"nodes {span(contact.x_nodes)} on Y = 0, {span(contact.y_nodes)} on X = 0; "
         f"largest gap {contact.largest_gap_nm:.1e} nm",
         f"  load error {result.load_error:.1e}, complementarity {result.complementarity_error:.1e}",
-        f"  work: {result.work.convolutions:.1f} fine-grid convolutions, {result.work.steps} steps, "
-        f"{result.wall_s:.1f} s on {result.ranks} ranks",
+        f"  work: {result.work.convolutions:.1f} fine-grid convolutions, {result.work.steps} steps, {_took(result)}",
     ]
     if result.overlap.nodes:
         nodes, largest = result.overlap.nodes, result.overlap.largest_nm
@@ -78,11 +77,15 @@ def loaded_words(result, verbose=True):
         f"  domain: {domain_words(resolution.domain, resolution.domain_loss_percent)}",
         *((f"  surface: {shown}",) if shown else ()),
         *(mixed_lines(result.mixed) if result.mixed else ()),
-        f"  work: {result.work.convolutions:.1f} fine-grid convolutions, {result.work.steps} steps, "
-        f"{result.wall_s:.1f} s on {result.ranks} ranks",
+        f"  work: {result.work.convolutions:.1f} fine-grid convolutions, {result.work.steps} steps, {_took(result)}",
         *(_nodes(result) if verbose else ()),
     ]
     return "\n".join(lines + where_to_read(result))
+
+
+def _took(result):
+    """How long it took, and on how many ranks."""
+    return f"{result.wall_s:.1f} s on {result.ranks} rank{'' if result.ranks == 1 else 's'}"
 
 
 def _errors(result):

@@ -14,18 +14,22 @@ from mgehl.solver.problem import State
 from mgehl.solver.record import Kept
 
 ASTRAY = 3.0
-"""Residual after a step, over that before it, from which on the step led astray."""
+"""Residual after a step, over that before it, from which on the step led astray. With 3, 5 and 10 a ball of
+265 nm rms at 0.04 mm/s settles in 2400 to 2800 convolutions; without going back it does not."""
 
 JUDGED = 1e-2
 """Residual below which a step may lead astray: before, contact spreads, and the residual rises with it."""
 
 HARD = 50
 """Iterations of GMRES that tell a fold: there the Jacobian is nearly singular. Where steps are of full
-length, only such a one leads astray: elsewhere the residual rises where sets change, and falls again."""
+length, only such a one leads astray: elsewhere the residual rises where sets change, and falls again.
+From 35 to 80 the work varies by a tenth; if every step may lead astray, balls that settle anyway take up to
+half more."""
 
 SHORTER, LONGER, SHORTEST = 8.0, 0.7, 1e5
 """By how much time steps become shorter where one led astray, what every step leaves of that, and by how
-much they are shorter at the most."""
+much they are shorter at the most. With 20 and 0.6 balls of 188 and 376 nm rms at 0.04 and 0.14 mm/s do not
+settle."""
 
 
 @dataclass

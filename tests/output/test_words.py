@@ -64,7 +64,7 @@ class TestOfALoadedContact:
         assert lines[0] == "CONVERGED: all holds"
         text = "\n".join(lines)
         for part in ("12.0000 nm", "1.0000 nm", "2.3000 GPa", "1.0e-09", "-1.0e-10", "3 nodes", "1.00 %",
-                     "4..6", "none", "5.00 cells", "80.5", "14 steps", "1 ranks"):  # fmt: skip
+                     "4..6", "none", "5.00 cells", "80.5", "14 steps", "s on 1 rank"):  # fmt: skip
             assert part in text
 
     def test_what_most_want_to_know_is_shorter_but_keeps_the_warnings(self):
