@@ -50,7 +50,7 @@ def dry_words(result):
         f"nodes {span(contact.x_nodes)} on Y = 0, {span(contact.y_nodes)} on X = 0; "
         f"largest gap {contact.largest_gap_nm:.1e} nm",
         f"  load error {result.load_error:.1e}, complementarity {result.complementarity_error:.1e}",
-        f"  work: {result.work.convolutions:.1f} fine-grid convolutions, {result.work.steps} steps, {_took(result)}",
+        _work(result),
     ]
     if result.overlap.nodes:
         nodes, largest = result.overlap.nodes, result.overlap.largest_nm
@@ -77,10 +77,15 @@ def loaded_words(result, verbose=True):
         f"  domain: {domain_words(resolution.domain, resolution.domain_loss_percent)}",
         *((f"  surface: {shown}",) if shown else ()),
         *(mixed_lines(result.mixed) if result.mixed else ()),
-        f"  work: {result.work.convolutions:.1f} fine-grid convolutions, {result.work.steps} steps, {_took(result)}",
+        _work(result),
         *(_nodes(result) if verbose else ()),
     ]
     return "\n".join(lines + where_to_read(result))
+
+
+def _work(result):
+    work = result.work
+    return f"  work: {work.convolutions:.1f} fine-grid convolutions, {work.steps} steps, {_took(result)}"
 
 
 def _took(result):
