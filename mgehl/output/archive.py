@@ -7,13 +7,14 @@ the rest of it and of all arrays.
 import hashlib
 import io
 import json
+import os
 from zipfile import ZipFile
 
 import numpy as np
 from numpy.lib import format as npy
 
 from mgehl.errors import OutputError
-from mgehl.output.whole_file import whole_file
+from mgehl.output.whole_file import is_plain, whole_file
 
 RECORD = "record.json"
 """Member of a file; the others are its arrays."""
@@ -38,8 +39,11 @@ def save(path, record, arrays):
 def unpacked(path):
     """(record, arrays, whether they are those that were saved) of a file.
 
-    What a damaged file raises is anybody's guess.
+    What a damaged file raises is anybody's guess; FileNotFoundError where there is none. A link, a pipe or
+    a device is not read: it may have no end.
     """
+    if os.path.lexists(path) and not is_plain(path):
+        raise ValueError("it is no plain file")
     with ZipFile(path) as archive:
         members = {name: archive.read(name) for name in archive.namelist()}
     record = dict(json.loads(members.pop(RECORD)))

@@ -82,15 +82,12 @@ class PointCache:
             raise OutputError(f"{self._folder}: cannot be cleared: {error}") from None
 
     def _read(self, key, made):
-        path = self._folder / f"{key}.npz"
-        if not is_plain(path):
-            return None
         try:
-            record, arrays, is_whole = unpacked(path)
+            record, arrays, is_whole = unpacked(self._folder / f"{key}.npz")
             if not is_whole or record["format"] != FORMAT or record["key"] != key:
                 return None
             return made(record["point"], arrays)
-        except Exception:  # what a damaged file raises is anybody's guess
+        except Exception:  # there is none, or it is damaged: what that raises is anybody's guess
             return None
 
     def _write(self, key, record):

@@ -1,6 +1,7 @@
 """A run's way on disk: what is kept comes back, what is damaged is refused, nothing is lost on the way."""
 
 import json
+import os
 from dataclasses import dataclass, replace
 from itertools import count
 from math import inf
@@ -288,6 +289,18 @@ class TestFile:
         ):
             write()
             assert "no checkpoint" in self.refused(path)
+
+    @pytest.mark.parametrize("target", ["moved.npz", "/dev/zero"])
+    def test_a_link_in_its_place(self, path, target):
+        """What it leads to is not read: it may have no end."""
+        path.rename(path.with_name("moved.npz"))
+        path.symlink_to(target)
+        assert "it is no plain file" in self.refused(path)
+
+    def test_a_pipe_in_its_place(self, path):
+        path.unlink()
+        os.mkfifo(path)
+        assert "it is no plain file" in self.refused(path)
 
     def test_nothing_is_unpickled(self, path):
         with ZipFile(path, "a") as archive, archive.open("array2.npy", "w") as member:
