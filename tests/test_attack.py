@@ -5,7 +5,7 @@ import os
 import subprocess
 import sys
 from copy import deepcopy
-from importlib import util
+from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -32,10 +32,9 @@ class TestTheIndependentTest:
 
     @pytest.fixture(scope="class")
     def wrong(self):
-        spec = util.spec_from_file_location("attack_cases", TOOL.parent / "attack_cases.py")
-        module = util.module_from_spec(spec)
-        spec.loader.exec_module(module)
-        return module.wrong
+        with pytest.MonkeyPatch.context() as patch:
+            patch.syspath_prepend(TOOL.parent)
+            return import_module("attack_cases").wrong
 
     @pytest.fixture(scope="class", params=[{}, {"contact.kind": "line"}], ids=["point", "line"])
     def film(self, request):

@@ -224,7 +224,7 @@ def relax_cavitation(first, P, lubricated, movable, source, along, across, passe
     return changes
 
 
-@compiled(inline="always")
+@compiled(fastmath={"contract"})
 def _slope(grown, x):
     """(e^x - 1 - x)/x^2 of `grown` = e^x - 1; near x = 0, where its digits cancel, by its series."""
     if abs(x) > NEAR:
@@ -232,7 +232,7 @@ def _slope(grown, x):
     return 0.5 + x / 6.0 * (1.0 + x / 4.0 * (1.0 + x / 5.0 * (1.0 + x / 6.0 * (1.0 + x / 7.0))))
 
 
-@compiled(inline="always")
+@compiled(fastmath={"contract"})
 def _logarithmic(a, b):
     """Logarithmic mean of two numbers and its slopes; zero where either vanishes.
 

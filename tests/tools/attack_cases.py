@@ -10,6 +10,7 @@ import signal
 from math import pi
 
 import numpy as np
+from attack_ground import LIMIT
 
 FILM_TOLERANCE = 1e-6
 """Breach of a gap that a converged answer may have, in units of H; of a pressure, in p_h."""
@@ -233,7 +234,7 @@ def _wrong_place(solution):
     return ""
 
 
-def attack_cases(count, chance, findings, limit):
+def attack_cases(count, chance, _folder, findings):
     """Extreme configurations; a verdict "converged" must stand an independent test.
 
     `count` of them are solved; those that are refused come besides.
@@ -246,12 +247,12 @@ def attack_cases(count, chance, findings, limit):
     solved = 0
     for _ in findings.rounds(20 * count):
         tables = extreme(chance)
-        signal.alarm(limit)
+        signal.alarm(int(LIMIT))
         try:
             solved += _attack(tables, findings)
         except TimeoutError:
             solved += 1
-            findings.tried(f"more than {limit} s")
+            findings.tried(f"more than {LIMIT:.0f} s")
             print("SLOW", json.dumps(tables), flush=True)
         except Exception as error:
             findings.say(f"{type(error).__name__}: {error}: {json.dumps(tables)}")

@@ -1,0 +1,85 @@
+"""Run directories that something damaged: nothing reads them as if they were whole."""
+
+import os
+import shutil
+
+from attack_ground import SMALL, forked, judge, lay, untouched, warm
+
+READERS = [
+    ["report", "victim"],
+    ["plot", "victim", "--kind", "lines", "--format", "png"],
+    ["collect", "victim"],
+    ["export", "victim", "--to", "npz", "--force"],
+    ["run", "--resume", "victim", "--quiet"],
+    ["run", *SMALL, "--start-from", "victim", "--out", "after", "--force"],
+]
+DAMAGES = ["missing", "cut", "empty", "swapped", "edited", "link", "pipe", "folder", "zero"]
+
+
+def attack_damage(count, chance, folder, findings):
+    """Run directories with files missing, cut, swapped, edited, linked or made devices."""
+    warm()
+    lay(folder)
+    forked(["run", *SMALL, "--set", "motion.speed=1e-4", "--out", "other"], folder)
+    for _ in findings.rounds(count):
+        victim = _copied(folder, chance.choice(["healthy", "healthy", "stopped"]))
+        path = chance.choice(
+            [path for path in victim.rglob("*") if path.is_file() and path.name != "picture.png"]
+        )
+        how = chance.choice(DAMAGES)
+        _damage(path, how, chance, folder)
+        words = chance.choice(READERS)
+        status, _, err = forked(words, folder)
+        judge(findings, [how, path.name, *words], status, err)
+        # A checkpoint may be missing: then the run begins earlier. Nothing else may pass.
+        if status == 0 and not (path.suffix == ".npz" and how == "missing"):
+            findings.say(f"read all the same: {how} {path.name}, {words!r}")
+        untouched(findings, folder, words)
+
+
+def attack_flips(count, chance, folder, findings):
+    """One bit of one file of a finished run."""
+    warm()
+    lay(folder)
+    for _ in findings.rounds(count):
+        victim = _copied(folder, "healthy")
+        path = chance.choice([each for each in victim.iterdir() if each.name != "picture.png"])
+        whole = bytearray(path.read_bytes())
+        position = chance.randrange(len(whole))
+        whole[position] ^= 1 << chance.randrange(8)
+        path.write_bytes(whole)
+        words = chance.choice(READERS)
+        status, _, err = forked(words, folder)
+        judge(findings, ["flip", path.name, position, *words], status, err)
+        if status == 0:
+            findings.say(f"read all the same: bit of byte {position} of {path.name}, {words!r}")
+
+
+def _copied(folder, name):
+    """A copy of a run, in the place of the copy before and of what was made of that."""
+    victim = folder / "victim"
+    for each in (victim, folder / "after"):
+        shutil.rmtree(each, ignore_errors=True)
+    return shutil.copytree(folder / name, victim)
+
+
+def _damage(path, how, chance, folder):
+    """Do one of DAMAGES to a file."""
+    whole, other = path.read_bytes(), folder / "other" / path.name
+    path.unlink()
+    if how == "cut":
+        path.write_bytes(whole[: chance.randrange(len(whole))])
+    elif how == "empty":
+        path.touch()
+    elif how == "swapped":
+        path.write_bytes(other.read_bytes() if other.exists() else b"{}")
+    elif how == "edited":
+        path.write_bytes(whole.replace(b"1", b"2"))
+    elif how == "link":
+        path.symlink_to(folder / "precious.txt")
+    elif how == "pipe":
+        os.mkfifo(path)
+    elif how == "folder":
+        path.mkdir()
+    elif how == "zero":
+        path.symlink_to("/dev/zero")
