@@ -13,20 +13,22 @@ event = PETSc.Log.EventDecorator
 """@event(NAME): log the calls of a function. Costs half a microsecond a call."""
 
 SETUP, DEFLECTION, LINES, ASSEMBLY = "mgehlSetUp", "mgehlDeflection", "mgehlLines", "mgehlAssembly"
-TRANSFERS, COARSE, FILES, LINEAR = "mgehlTransfers", "mgehlCoarse", "mgehlFiles", "mgehlLinear"
+TRANSFERS, COARSE, NEARBY = "mgehlTransfers", "mgehlCoarse", "mgehlNearby"
+FILES, LINEAR = "mgehlFiles", "mgehlLinear"
 
 PARTS = {
     "set-up": SETUP,
     "deflection": DEFLECTION,
     "line solves": LINES,
+    "nearby nodes": NEARBY,
     "assembly": ASSEMBLY,
     "transfers": TRANSFERS,
     "coarse solve": COARSE,
     "I/O": FILES,
 }
 """Parts that do not overlap, and their events: grids, kernels and FFT plans; convolutions; bands and
-their solution; residual and linearisation; between grids; the coarsest grid's direct solve; files that
-one rank reads or writes while the others wait."""
+their solution; what couples nearby nodes, and its solution; residual and linearisation; between grids; the
+coarsest grid's direct solve; files that one rank reads or writes while the others wait."""
 
 _MAIN = 0
 _linear_stage = PETSc.Log.Stage("mgehl linear solves")

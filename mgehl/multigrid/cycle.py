@@ -28,7 +28,7 @@ from mgehl.grid.transfers import PartitionedTransfer
 from mgehl.multigrid.coarse import CoarseSolve
 from mgehl.multigrid.jacobian import Jacobian
 from mgehl.multigrid.memory import Memory
-from mgehl.multigrid.smoother import smoother_of
+from mgehl.multigrid.smoother import ValleySmoother, smoother_of
 from mgehl.multigrid.vcycle import VCycle
 
 IN_THE_CYCLE = {"3B": "2B", "2C": "3B", "S2C": "3B"}
@@ -97,6 +97,8 @@ class MultigridSolver:
         self._partitioned = [PartitionedTransfer(transfer) for transfer in self._transfers]
         smoother = smoother_of(self.jacobian, self._thin)
         self._smoothers = [smoother(jacobian, settings.omega) for jacobian in self.jacobians[1:]]
+        if self._may_be_at_once:
+            self._smoothers[-1:] = [ValleySmoother(self.jacobians[-1], settings.omega)]
         coarse = CoarseSolve(self.jacobians[0])
         cycle = VCycle(self.jacobians, self._partitioned, self._smoothers, coarse, settings.sweeps)
         self.memory = Memory(self.jacobian, cycle) if self._rough else None
@@ -116,6 +118,21 @@ class MultigridSolver:
             smoother.free()
         for jacobian in (*self.jacobians, self.jacobian):
             jacobian.mat.destroy()
+
+    @property
+    def _may_be_at_once(self):
+        """Whether there are valleys that lines may fail to see, on the finest grid of several."""
+        return self._thin and not self.jacobian.grid.mesh.is_line and len(self.jacobians) > 1
+
+    @property
+    def at_once(self):
+        """Whether the finest grid's nearby nodes are solved at once: a linear system was hard."""
+        return self._may_be_at_once and self._smoothers[-1].at_once
+
+    @at_once.setter
+    def at_once(self, hard):
+        if self._may_be_at_once:
+            self._smoothers[-1].at_once = hard
 
     @property
     def space(self):

@@ -15,6 +15,14 @@ from mgehl.discretization.kernels import REACH, distribute
 from mgehl.discretization.rows import PRESSURE
 from mgehl.grid.events import LINES, event
 from mgehl.grid.transpose import YLines
+from mgehl.multigrid.nearby import NearbySolve
+
+PATIENCE = 30
+"""Relaxations of one linear system by lines; then nearby nodes are solved at once, which takes as long as
+some fifty relaxations."""
+
+LARGEST = 600_000
+"""Most nodes of a grid whose nearby nodes are solved at once: some 2.5 kB for each."""
 
 
 class LineSmoother:
@@ -61,9 +69,12 @@ class LineSmoother:
     def relax(self, r):
         """Correction for the residual `r`, both (lines, nx); the next call overwrites it."""
         self._solve_lines(r)
+        return self._distributed(self._omega, self.hands_over_everywhere)
+
+    def _distributed(self, omega, everywhere):
+        """The correction omega Q w; `everywhere` as of `kernels.distribute`."""
         self._jacobian.grid.halo(self._w, out=self._ghosted_w)
-        how = self._share, self._omega, self._out, self.hands_over_everywhere
-        distribute(self._ghosted_w, self._distributive, *how)
+        distribute(self._ghosted_w, self._distributive, self._share, omega, self._out, everywhere)
         self._out[self._given] = 0.0
         return self._out
 
@@ -84,6 +95,55 @@ class RoughLineSmoother(LineSmoother):
     """
 
     hands_over_everywhere = False
+
+
+class ValleySmoother(RoughLineSmoother):
+    """The same until a linear system has taken `PATIENCE` relaxations; from then on a `NearbySolve`, c = Q
+    T^-1 r: in the rest of that system and in all later ones.
+
+    A ball of 200 nm rms at 3.5 um/s, 257 nodes: 22 iterations of GMRES, and with lines alone no end after
+    110. On a grid for which a direct solve is too large it is left to the lines.
+    """
+
+    def __init__(self, jacobian, omega):
+        super().__init__(jacobian, omega)
+        self._nearby = NearbySolve(jacobian, _influence_nearby(jacobian), self._share)
+        self._left = PATIENCE
+        self.at_once = False
+        """Whether nearby nodes are solved at once."""
+
+    def free(self):
+        """Free the PETSc objects."""
+        self._nearby.free()
+
+    def partition(self, rows):
+        """As of a `LineSmoother`."""
+        super().partition(rows)
+        self._movable = self._jacobian.grid.halo(rows != PRESSURE)
+
+    def factor(self):
+        """Factor what the next relaxation needs."""
+        self._left = PATIENCE
+        if self.at_once:
+            self._nearby.factor(self._distributive, self._movable)
+        else:
+            super().factor()
+
+    def relax(self, r):
+        """As of a `LineSmoother`."""
+        if not self.at_once:
+            if self._left > 0 or self._jacobian.grid.mesh.nodes > LARGEST:
+                self._left -= 1
+                return super().relax(r)
+            self.at_once = True
+            self.factor()
+        self._nearby.solve(r, self._w)
+        return self._distributed(1.0, everywhere=True)
+
+    def view(self, viewer):
+        super().view(viewer)
+        if self.at_once:
+            self._nearby.view(viewer)
 
 
 class CrossedLineSmoother(LineSmoother):
@@ -179,7 +239,7 @@ class RigidLineSmoother:
 
 
 def smoother_of(jacobian, rough=False):
-    """The class of a grid's smoother: a rigid gap has no K, and a single line has nothing to cross."""
+    """The class of a grid's smoother: a rigid gap has no K, and a single line has nothing beside it."""
     if jacobian.rigid:
         return RigidLineSmoother
     if rough:

@@ -18,18 +18,21 @@ ASTRAY = 3.0
 265 nm rms at 0.04 mm/s settles in 2400 to 2800 convolutions; without going back it does not."""
 
 JUDGED = 1e-2
-"""Residual below which a step may lead astray: before, contact spreads, and the residual rises with it."""
+"""Residual below which a step may lead astray: before, contact spreads, and the residual rises with
+it. (Where nearby nodes are solved at once, a step may do so from the first.)"""
 
 HARD = 50
 """Iterations of GMRES that tell a fold: there the Jacobian is nearly singular. Where steps are of full
 length, only such a one leads astray: elsewhere the residual rises where sets change, and falls again.
 From 35 to 80 the work varies by a tenth; if every step may lead astray, balls that settle anyway take up to
-half more."""
+half more. Where nearby nodes are solved at once, GMRES takes few iterations near a fold, too: there every
+step may lead astray."""
 
-SHORTER, LONGER, SHORTEST = 8.0, 0.7, 1e5
+SHORTER, LONGER, SHORTEST, LONGEST = 8.0, 0.7, 1e5, 1e-4
 """By how much time steps become shorter where one led astray, what every step leaves of that, and by how
-much they are shorter at the most. With 20 and 0.6 balls of 188 and 376 nm rms at 0.04 and 0.14 mm/s do not
-settle."""
+much they are shorter at the most and at the least. With 20 and 0.6 balls of 188 and 376 nm rms at 0.04 and
+0.14 mm/s do not settle. Steps longer than their rule has them are taken only where every step is judged: a
+valley fills slowly, with a residual that stays what it is."""
 
 
 @dataclass
@@ -51,10 +54,27 @@ class Foothold(Kept):
         return cls(state, past, record.values["residual"])
 
 
-def led_astray(position):
-    """Whether the foothold is to be taken up again: after a linear system that was given up, too."""
+def led_astray(position, every_step=False):
+    """Whether the foothold is to be taken up again: after a linear system that was given up, too.
+
+    Where not `every_step` may lead astray, only one near a fold does, from a small residual.
+    """
     foothold, now = position.foothold, position.cycles[-1]
-    if foothold is None or foothold.residual >= JUDGED or position.shorter >= SHORTEST:
+    if foothold is None or position.shorter >= SHORTEST:
         return False
-    near_a_fold = position.shorter > 1.0 or now.linear_iterations >= HARD
+    if not every_step and foothold.residual >= JUDGED:
+        return False
+    near_a_fold = every_step or position.shorter > 1.0 or now.linear_iterations >= HARD
     return position.stalls > 0 or (near_a_fold and not now.residual <= ASTRAY * foothold.residual)
+
+
+def lengthened(position, every_step=False):
+    """By how much the next time steps are shorter than their rule has them, one step later.
+
+    Where the last step made the residual larger, the next one is the less longer for it.
+    """
+    if not every_step or position.foothold is None:
+        return max(1.0, LONGER * position.shorter)
+    before, now = position.foothold.residual, position.cycles[-1].residual
+    least = LONGEST if now < JUDGED else 1.0
+    return max(least, LONGER * max(1.0, now / before) * position.shorter)

@@ -18,7 +18,7 @@ from mgehl.grid.events import linear_solve
 from mgehl.multigrid.jacobian import LinearSystem
 from mgehl.solver.arbiter import RELEASE_STEPS, Ruling, rule
 from mgehl.solver.cavitation import relax_cavitation_set
-from mgehl.solver.foothold import LONGER, SHORTER, Foothold, led_astray
+from mgehl.solver.foothold import SHORTER, Foothold, led_astray, lengthened
 from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.judge import UNSOLVED, idle_steps, is_stuck, judge, judge_system
 from mgehl.solver.outcome import Cycle, Outcome
@@ -115,7 +115,7 @@ class Newton:
             self._journal.step(self._problem.grid, position)
             self._settle()
             self._measure(snes, x)
-            if led_astray(position):
+            if led_astray(position, self._multigrid.at_once):
                 self._go_back(snes, x)
             verdict = judge(position, partition, tolerance, max_steps, self._most_idle)
             ruling = rule(position, verdict, partition, self._fluid is not None)
@@ -213,8 +213,8 @@ class Newton:
         problem, position = self._problem, self._position
         state, changes = position.state, position.changes
         if self._in_time:
+            position.shorter = lengthened(position, self._multigrid.at_once)
             position.foothold = Foothold.of(position)
-            position.shorter = max(1.0, LONGER * position.shorter)
         dP, dH0 = self._space.read(self._correction)
         limit = self._settings.max_pressure_step
         length, H = step_length(problem, self._partition, self._evaluation, state, dP, dH0, limit)

@@ -24,7 +24,7 @@ class Remembered(Kept):
     """
 
     def __init__(self, multigrid):
-        self._memory, self._space = multigrid.memory, multigrid.space
+        self._multigrid, self._memory, self._space = multigrid, multigrid.memory, multigrid.space
 
     def record(self):
         """The `Record` of it; empty before the first linear system (collective)."""
@@ -34,12 +34,14 @@ class Remembered(Kept):
         P, H0 = self._space.parts(known.values)
         flow, load = self._space.parts(known.causes)
         H = known.deflections.reshape(P.shape)
-        return Record.of(P=P, H0=H0, deflection=H, residual=flow, load_residual=load)
+        at_once = self._multigrid.at_once
+        return Record.of(P=P, H0=H0, deflection=H, residual=flow, load_residual=load, at_once=at_once)
 
     def take_back(self, record):
         """Remember what a `record` has, and nothing else."""
         values, arrays, stack = record.values, record.arrays, self._space.stack
         H = arrays["deflection"]
+        self._multigrid.at_once = values["at_once"]
         self._memory.known = Corrections(
             stack(arrays["P"], values["H0"]),
             H.reshape(len(H), -1),

@@ -6,6 +6,7 @@ import pytest
 from mpi4py import MPI
 
 from mgehl.config import config_from_tables
+from mgehl.multigrid import smoother
 from mgehl.run import solve
 from mgehl.studies import rough
 from mgehl.studies.study import merged
@@ -28,3 +29,15 @@ def test_film_and_contact_are_those_of_one_rank(angle):
     assert together.mixed.contact_load_share == pytest.approx(together.contact.load_fraction, rel=1e-12)
     shares = together.mixed.contact_load_share + together.mixed.film_load_share
     assert shares == pytest.approx(1.0, abs=1e-7)
+
+
+def test_so_are_they_where_nearby_nodes_are_solved_at_once(monkeypatch):
+    """From the first relaxation on, on all grids but the coarsest."""
+    monkeypatch.setattr(smoother, "PATIENCE", 0)
+    long_waves = {"surface": {"rms": 20e-9, "shortest_wavelength": 90e-6}}
+    tables = merged(rough.case(65, 0.007, "film", 10e-9), long_waves, {"solver": {"error": False}})
+    found = [solve(config_from_tables(tables), comm).result for comm in (COMM, MPI.COMM_SELF)]
+    together, alone = found
+    assert together.converged and alone.converged
+    assert together.central_film_nm == pytest.approx(alone.central_film_nm, rel=1e-6)
+    assert asdict(together.mixed) == pytest.approx(asdict(alone.mixed), rel=1e-6)

@@ -8,7 +8,18 @@ import pytest
 
 from mgehl.discretization.contact_law import BoundaryFilm
 from mgehl.discretization.scheme import Scheme
-from mgehl.solver.foothold import ASTRAY, HARD, JUDGED, SHORTER, SHORTEST, Foothold, led_astray
+from mgehl.solver.foothold import (
+    ASTRAY,
+    HARD,
+    JUDGED,
+    LONGER,
+    LONGEST,
+    SHORTER,
+    SHORTEST,
+    Foothold,
+    led_astray,
+    lengthened,
+)
 from mgehl.solver.nested import first_guess
 from mgehl.solver.newton import Newton
 from mgehl.solver.squeeze import SQUEEZE
@@ -39,6 +50,23 @@ def test_a_step_leads_astray_where_the_residual_is_small_and_rises_by_much(befor
 def test_a_step_of_full_length_does_so_where_gmres_took_many_iterations():
     assert not led_astray(position(SMALL, 1.0, HARD - 1))
     assert led_astray(position(SMALL, 1.0, HARD - 1, shorter=SHORTER))
+
+
+@pytest.mark.parametrize("before", [SMALL, 1.0])
+def test_where_nearby_nodes_are_solved_at_once_every_step_may(before):
+    astray, fine = position(before, 1.01 * ASTRAY * before, 1), position(before, 0.99 * ASTRAY * before, 1)
+    assert led_astray(astray, every_step=True) and not led_astray(astray)
+    assert not led_astray(fine, every_step=True)
+
+
+@pytest.mark.parametrize(
+    "residual, every_step, least",
+    [(SMALL, True, LONGEST), (SMALL, False, 1.0), (1.01 * JUDGED, True, 1.0)],
+)
+def test_time_steps_become_longer_from_step_to_step(residual, every_step, least):
+    shortened = position(residual, residual, shorter=SHORTER)
+    assert lengthened(shortened, every_step) == LONGER * SHORTER
+    assert lengthened(position(residual, residual, shorter=least), every_step) == least
 
 
 def test_a_linear_system_that_was_given_up_led_nowhere():

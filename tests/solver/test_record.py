@@ -76,6 +76,7 @@ class Solver:
 
     def __init__(self, grid, known=None):
         self.space, self.memory = BorderedSpace(grid), SimpleNamespace(known=known)
+        self.at_once = known is not None
 
 
 @pytest.fixture
@@ -112,6 +113,7 @@ class TestThereAndBack:
         solver = Solver(tiny_problem.grid)
         Remembered(solver).take_back(back(position).memory)
         assert_equal(solver.memory.known, corrections)
+        assert solver.at_once
 
     def test_before_the_first_linear_system_nothing_is_remembered(self, position, tiny_problem):
         position.memory = Remembered(Solver(tiny_problem.grid))

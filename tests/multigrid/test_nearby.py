@@ -1,0 +1,100 @@
+"""The direct solve of what couples nearby nodes."""
+
+import numpy as np
+import pytest
+
+from mgehl.discretization.bands import distributive_nodes
+from mgehl.discretization.influence import influence_coefficients
+from mgehl.discretization.kernels import distribute
+from mgehl.discretization.mesh import HALO
+from mgehl.discretization.rows import PRESSURE, rows_of
+from mgehl.discretization.scheme import Scheme
+from mgehl.multigrid.nearby import NearbySolve
+
+SHARE = 0.25
+REACH = 1
+"""Nodes on each side whose deflection is in the matrix."""
+
+
+@pytest.fixture(params=["1B", "2B"])
+def jacobian(request, make_problem, rough_state, make_jacobian):
+    """Of a state with contact, film and a cavity."""
+    problem = make_problem(nodes=17, coarsest=17, scheme=Scheme(couette=request.param))
+    state = rough_state(problem, contact=True)
+    jacobian = make_jacobian(problem, state)
+    jacobian.rows = rows_of(state.status)
+    return jacobian
+
+
+@pytest.fixture
+def influence(jacobian):
+    """Coefficients [line, node] of all nodes on each other."""
+    mesh, kernel = jacobian.grid.mesh, jacobian.contact.kernel
+    return influence_coefficients(mesh, kernel, 0, mesh.ny + 1)[:, : mesh.nx + 1]
+
+
+@pytest.fixture
+def masks(jacobian):
+    """The ghosted masks of distributive nodes and of those whose pressure is not given."""
+    grid, eps = jacobian.grid, jacobian.linearisation.eps
+    distributive = distributive_nodes(eps, jacobian.rows, grid.mesh.dX, 0.4)
+    assert 0.1 < distributive.mean() < 0.9
+    return grid.halo(distributive), grid.halo(jacobian.rows != PRESSURE)
+
+
+@pytest.fixture
+def nearby(jacobian, influence):
+    solve = NearbySolve(jacobian, influence, SHARE)
+    yield solve
+    solve.free()
+
+
+def columns_of(jacobian, influence, masks):
+    """T column by column: what the Jacobian makes of each column of Q and of its near deflection."""
+    grid = jacobian.grid
+    lines, nx = grid.shape
+    distributive, free = masks
+    for j, i in np.ndindex(lines, nx):
+        w, column = np.zeros(grid.ghosted_shape), np.zeros(grid.shape)
+        w[j + HALO, i] = 1.0
+        distribute(w, distributive, SHARE, 1.0, column, True)
+        column[(free[HALO:-HALO] == 0.0) & (column != 1.0)] = 0.0
+        dH = np.zeros(grid.shape)
+        if free[j + HALO, i]:
+            spread = distributive[j + HALO, i]
+            near = [(b, a) for b, a in np.ndindex(lines, nx) if max(abs(b - j), abs(a - i)) <= REACH]
+            for b, a in near:
+                around = [(b + 1, a), (b - 1, a), (b, a + 1), (b, a - 1)]
+                handed = sum(influence[abs(bb - j), abs(aa - i)] for bb, aa in around)
+                dH[b, a] = influence[abs(b - j), abs(a - i)] - SHARE * spread * handed
+        yield jacobian.product(column, dH, 0.0).ravel().copy()
+
+
+def test_matrix_is_the_near_part_of_j_q(jacobian, influence, masks, nearby):
+    T = nearby.matrix(*masks)
+    found = T[:, :]
+    T.destroy()
+    expected = np.column_stack(list(columns_of(jacobian, influence, masks)))
+    np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-12 * np.abs(expected).max())
+
+
+def test_it_solves_with_that_matrix(jacobian, masks, nearby):
+    T = nearby.matrix(*masks)
+    dense = T[:, :]
+    T.destroy()
+    w, found = np.random.default_rng(4).standard_normal(jacobian.grid.shape), np.zeros(jacobian.grid.shape)
+    for _ in range(2):  # again and again
+        nearby.factor(*masks)
+        nearby.solve((dense @ w.ravel()).reshape(w.shape), found)
+        np.testing.assert_allclose(found, w, rtol=0.0, atol=1e-9)
+
+
+def test_without_a_package_each_rank_solves_the_whole(monkeypatch, jacobian, masks, nearby):
+    nearby.factor(*masks)
+    by_package, alone = np.zeros(jacobian.grid.shape), np.zeros(jacobian.grid.shape)
+    r = np.random.default_rng(4).standard_normal(jacobian.grid.shape)
+    nearby.solve(r, by_package)
+    monkeypatch.setattr("mgehl.multigrid.nearby.PACKAGES", ())
+    nearby.factor(*masks)
+    nearby.solve(r, alone)
+    np.testing.assert_allclose(alone, by_package, rtol=1e-8, atol=1e-12)
