@@ -22,12 +22,14 @@ before the next step: their relaxation at a fixed gap and the step that moves th
 other for ever. A ball at 3 m/s on 65 nodes by 1B ends after 60 steps without this, and settles in 16
 with it."""
 
-IDLE_STEPS, IDLE_IN_TIME = 15, 30
+IDLE_STEPS, IDLE_IN_TIME, IDLE_AT_ONCE = 15, 30, 60
 """Steps in a row that may leave more than `STUCK` of the least residual: then a solve is given up. The
 second number is for implicit time steps, which pass a fold slowly and let contact spread node by node. Of
 800 solves that converged, those by Newton's own steps took at most 4 such steps. In time a film start that
 ends in full contact took 14, the geometric mean 15, a rough ball of 197 nm rms 23. Films that the grid does
-not hold took 60 steps in vain (65 nodes, 20 and 50 mm/s); now some 20."""
+not hold took 60 steps in vain (65 nodes, 20 and 50 mm/s); now some 20. The third is for rough bodies
+whose nearby nodes are solved at once: valleys fill slowly, and until they are full the residual stays what
+it is."""
 
 
 @dataclass(frozen=True)
@@ -44,9 +46,14 @@ class Verdict:
 GO_ON = Verdict(ends=False)
 
 
-def idle_steps(scheme, squeeze):
-    """Steps without a lower residual that a solve may take by a `Scheme` and a rate of `squeeze`."""
-    return IDLE_IN_TIME if scheme.may_fold or squeeze > 0.0 else IDLE_STEPS
+def idle_steps(scheme, settings, at_once=False):
+    """Steps without a lower residual that a solve may take: as its `NewtonSettings` say, else by its
+    `Scheme`, its time steps, and whether nearby nodes are solved `at_once`."""
+    if settings.idle_steps:
+        return settings.idle_steps
+    if at_once:
+        return IDLE_AT_ONCE
+    return IDLE_IN_TIME if scheme.may_fold or settings.squeeze > 0.0 else IDLE_STEPS
 
 
 def judge(position, partition, tolerance, max_steps, most_idle):

@@ -44,7 +44,6 @@ class Newton:
         self._space, self._load_scale = multigrid.space, multigrid.jacobian.load_scale
         self._partition = Partition(problem, settings.release_budget, settings.tolerance)
         self._in_time = problem.scheme.contact_law.is_continuous and settings.squeeze > 0.0
-        self._most_idle = settings.idle_steps or idle_steps(problem.scheme, settings.squeeze)
         self._snes = PETSc.SNES().create(problem.grid.comm)
         self._snes.setOptionsPrefix(options_prefix)
         self._snes.setType(PETSc.SNES.Type.PYTHON)
@@ -117,7 +116,8 @@ class Newton:
             self._measure(snes, x)
             if led_astray(position, self._multigrid.at_once):
                 self._go_back(snes, x)
-            verdict = judge(position, partition, tolerance, max_steps, self._most_idle)
+            most_idle = idle_steps(self._problem.scheme, self._settings, self._multigrid.at_once)
+            verdict = judge(position, partition, tolerance, max_steps, most_idle)
             ruling = rule(position, verdict, partition, self._fluid is not None)
             if ruling.ends:
                 break

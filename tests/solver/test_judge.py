@@ -12,6 +12,7 @@ from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import BOUNDARY, LUBRICATED
 from mgehl.solver.judge import (
     GO_ON,
+    IDLE_AT_ONCE,
     IDLE_IN_TIME,
     IDLE_STEPS,
     STALLS,
@@ -26,6 +27,7 @@ from mgehl.solver.outcome import Cycle
 from mgehl.solver.partition import RESTLESS, Changes, Partition
 from mgehl.solver.position import Position, Trial
 from mgehl.solver.problem import DIVERGED, State
+from mgehl.solver.settings import NewtonSettings
 
 TOLERANCE, MAX_STEPS = 1e-8, 20
 REASONS = PETSc.KSP.ConvergedReason
@@ -196,9 +198,12 @@ class TestIdleSteps:
 
     def test_time_steps_may_take_more(self):
         """They pass folds slowly, and let contact spread node by node."""
-        assert idle_steps(Scheme(), 0.0) == IDLE_STEPS < IDLE_IN_TIME == idle_steps(Scheme(), 3.0)
-        assert idle_steps(Scheme(face_mobility="harmonic"), 0.0) == IDLE_IN_TIME
-        assert idle_steps(Scheme(contact_law=BoundaryFilm(0.1)), 0.0) == IDLE_IN_TIME
+        newton, in_time = NewtonSettings(squeeze=0.0), NewtonSettings(squeeze=3.0)
+        assert idle_steps(Scheme(), newton) == IDLE_STEPS < IDLE_IN_TIME == idle_steps(Scheme(), in_time)
+        assert idle_steps(Scheme(face_mobility="harmonic"), newton) == IDLE_IN_TIME
+        assert idle_steps(Scheme(contact_law=BoundaryFilm(0.1)), newton) == IDLE_IN_TIME
+        assert idle_steps(Scheme(), in_time, at_once=True) == IDLE_AT_ONCE > IDLE_IN_TIME
+        assert idle_steps(Scheme(), NewtonSettings(idle_steps=7), at_once=True) == 7
 
     def test_they_are_counted_from_the_last_lower_one(self, make_position):
         position = make_position()
