@@ -15,7 +15,6 @@ around it. There it is averaged from grid to grid and held fixed (a ball of 100 
 iterations for 18, at 1 micrometre per second 12 for more than 60).
 """
 
-from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -28,6 +27,7 @@ from mgehl.grid.transfers import PartitionedTransfer
 from mgehl.multigrid.coarse import CoarseSolve
 from mgehl.multigrid.jacobian import Jacobian
 from mgehl.multigrid.memory import Memory
+from mgehl.multigrid.options import by_default
 from mgehl.multigrid.smoother import ValleySmoother, smoother_of
 from mgehl.multigrid.vcycle import VCycle
 
@@ -166,14 +166,21 @@ class MultigridSolver:
             fine, rows = coarse, coarse_rows
 
     def configure(self, ksp, rtol):
-        """Make a KSP (of a SNES, say) this solver; its options may still change it."""
+        """Make a KSP (of a SNES, say) this solver; its options may still change it.
+
+        GMRES orthogonalises twice. Remembered corrections make its directions nearly alike: orthogonalised
+        once only, the residual may rise again. The same may happen with a film that the grid cannot hold.
+        There it is done twice where it is needed (65 nodes at 20 mm/s: 4 iterations on any number of ranks;
+        before 9 on one rank and 5 on two).
+        """
         ksp.setType(PETSc.KSP.Type.FGMRES)
         ksp.setOperators(self.jacobian.mat, self.jacobians[-1].mat)
         ksp.setTolerances(rtol=rtol, atol=0.0, max_it=self._settings.max_iterations)
         ksp.setGMRESRestart(self._restart)
         ksp.getPC().setType(PETSc.PC.Type.PYTHON)
         ksp.getPC().setPythonContext(self._preconditioner)
-        with _orthogonalised_twice(ksp, "refine_always" if self._rough else "refine_ifneeded"):
+        how = "refine_always" if self._rough else "refine_ifneeded"
+        with by_default(ksp.getOptionsPrefix(), ksp_gmres_cgs_refinement_type=how):
             ksp.setFromOptions()
 
     @property
@@ -181,23 +188,6 @@ class MultigridSolver:
         """Iterations that GMRES remembers: all, unless the grid is so large that memory is short."""
         large = self.jacobian.grid.mesh.nodes > LARGE_GRID
         return RESTART_OF_LARGE if large else self._settings.max_iterations
-
-
-@contextmanager
-def _orthogonalised_twice(ksp, when):
-    """In this block a KSP reads that GMRES orthogonalises twice, unless the user's option says otherwise.
-
-    Remembered corrections make its directions nearly alike: orthogonalised once only, the residual may rise
-    again. The same may happen with a film that the grid cannot hold. There it is done twice where it is
-    needed (65 nodes at 20 mm/s: 4 iterations on any number of ranks; before 9 on one rank and 5 on two).
-    """
-    options, name = PETSc.Options(ksp.getOptionsPrefix()), "ksp_gmres_cgs_refinement_type"
-    is_ours = not options.hasName(name)
-    if is_ours:
-        options[name] = when
-    yield
-    if is_ours:
-        options.delValue(name)
 
 
 def _of_cycle(asked, solved):

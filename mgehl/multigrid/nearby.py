@@ -12,36 +12,41 @@ from petsc4py import PETSc
 from mgehl.discretization.axes import own
 from mgehl.discretization.mesh import HALO
 from mgehl.grid.events import NEARBY, event
-from mgehl.multigrid.assembled import stencil_rows
+from mgehl.multigrid.options import by_default
 
 NEAR = np.array([(line, node) for line in (-1, 0, 1) for node in (-1, 0, 1)])
 """(lines, nodes) to the nodes whose deflection a correction has in the matrix. With itself alone a ball of
 200 nm rms takes 33 iterations of GMRES, with these 22, with two nodes on each side 18 and twice the
 time."""
 
+PREFIX = "mgehl_nearby_"
+"""Of PETSc's options."""
+
 PACKAGES = "mumps", "superlu_dist"
 """Direct solvers on several ranks, the best one first; without them each rank solves the whole."""
 
 
 class NearbySolve:
-    """LU of T, the near part of J Q on all lines; Q as in `kernels.build_bands`.
+    """LU of T = A Q + B N, the near part of J Q on all lines.
 
-    `K` holds the influence coefficients of the few nearest nodes [line, node], `share` is what Q hands to
-    each neighbour.
+    Q as in `kernels.build_bands`, N the deflection of near nodes by its columns. `K` holds the influence
+    coefficients of the few nearest nodes [line, node], `share` is what Q hands to each neighbour. The
+    places of T's entries stay the same, so the order of elimination is found once. It must not depend on
+    the entries (MUMPS's `icntl_6`): a run that goes on finds it from others.
     """
 
     def __init__(self, jacobian, K, share):
         self._jacobian, self._share = jacobian, share
         self._single = np.array([K[abs(line), abs(node)] for line, node in NEAR])
         self._around = np.array([_around(K, abs(line), abs(node)) for line, node in NEAR])
-        self._ksp, self._r, self._w = None, None, None
+        self._parts, self._products = [], [None, None]
+        self._ksp, self._vecs = None, ()
 
     def free(self):
         """Destroy the PETSc objects."""
-        for each in (self._ksp, self._r, self._w):
+        for each in (self._ksp, *self._vecs, *self._products, *self._parts):
             if each:
                 each.destroy()
-        self._ksp, self._r, self._w = None, None, None
 
     @event(NEARBY)
     def factor(self, distributive, free):
@@ -49,34 +54,34 @@ class NearbySolve:
 
         Masks (lines + 2 HALO, nx): the distributive nodes, and those whose pressure is not given.
         """
-        self.free()
         matrix = self.matrix(distributive, free)
-        self._r, self._w = matrix.createVecs()
-        self._ksp = PETSc.KSP().create(self._jacobian.grid.comm)
-        self._ksp.setOptionsPrefix("mgehl_nearby_")
-        self._ksp.setType(PETSc.KSP.Type.PREONLY)
-        self._ksp.setOperators(matrix)
-        _make_direct(self._ksp.getPC())
-        self._ksp.setFromOptions()
-        self._ksp.setUp()
-        matrix.destroy()
+        if self._ksp is None:
+            self._ksp = _direct_solver(matrix)
+            self._vecs = matrix.createVecs()
+        with by_default(PREFIX, mat_mumps_icntl_6=0):
+            self._ksp.setUp()
 
     @event(NEARBY)
     def solve(self, r, w):
         """Solve T w = r, both (lines, nx). A singular T gives a `w` that is not finite."""
-        self._r.setArray(r.ravel())
-        self._ksp.solve(self._r, self._w)
-        w[:] = self._w.getArray(readonly=True).reshape(w.shape)
+        right, left = self._vecs
+        right.setArray(r.ravel())
+        self._ksp.solve(right, left)
+        w[:] = left.getArray(readonly=True).reshape(w.shape)
 
     def matrix(self, distributive, free):
-        """T = A Q + B N, N the deflection of near nodes by a column of Q; arguments as of `factor`."""
-        lin = self._jacobian.linearisation
-        A, B = (self._mat(lin.offsets, stencil) for stencil in (lin.A, lin.B))
-        Q, N = (self._mat(NEAR, stencil) for stencil in self._columns(distributive, free))
-        T, BN = A.matMult(Q), B.matMult(N)
-        T.axpy(1.0, BN, PETSc.Mat.Structure.DIFFERENT_NONZERO_PATTERN)
-        for each in (A, B, Q, N, BN):
-            each.destroy()
+        """T, which the next call overwrites; arguments as of `factor`."""
+        grid, lin = self._jacobian.grid, self._jacobian.linearisation
+        if not self._parts:
+            places = lin.offsets, lin.offsets, NEAR, NEAR
+            self._parts = [StencilMatrix(grid, offsets) for offsets in places]
+        stencils = lin.A, lin.B, *self._columns(distributive, free)
+        for part, stencil in zip(self._parts, stencils, strict=True):
+            part.set(stencil)
+        A, B, Q, N = (part.mat for part in self._parts)
+        T, BN = self._products
+        T, BN = self._products = A.matMult(Q, result=T), B.matMult(N, result=BN)
+        T.axpy(1.0, BN, PETSc.Mat.Structure.SAME_NONZERO_PATTERN)
         return T
 
     def _columns(self, distributive, free):
@@ -89,14 +94,6 @@ class NearbySolve:
         Q = np.where(distance == 1, spread * own(free), 1.0 * (distance == 0))
         N = self._single[:, None, None] + self._around[:, None, None] * spread
         return Q, N * _beside(free)
-
-    def _mat(self, offsets, stencil):
-        """The distributed matrix of a stencil (offsets, lines, nx)."""
-        grid = self._jacobian.grid
-        rows = stencil_rows(offsets, stencil, grid.first * grid.mesh.nx, grid.mesh.nodes)
-        size = (rows.shape[0], PETSc.DECIDE)
-        csr = rows.indptr.astype(PETSc.IntType), rows.indices.astype(PETSc.IntType), rows.data
-        return PETSc.Mat().createAIJ((size, size), csr=csr, comm=grid.comm)
 
     def view(self, viewer):
         viewer.printfASCII("  LU of what couples nearby nodes\n")
@@ -114,9 +111,44 @@ def _beside(ghosted):
     return np.stack([padded[HALO + line :][:lines, 1 + node :][:, :nx] for line, node in NEAR])
 
 
-def _make_direct(pc):
-    """Make a PC the best direct solver that PETSc has; its options may change it."""
+def _direct_solver(matrix):
+    """A KSP that is the best direct solver that PETSc has for a matrix; options may change it."""
+    ksp = PETSc.KSP().create(matrix.comm)
+    ksp.setOptionsPrefix(PREFIX)
+    ksp.setType(PETSc.KSP.Type.PREONLY)
+    ksp.setOperators(matrix)
     packages = [name for name in PACKAGES if PETSc.Sys.hasExternalPackage(name)]
-    pc.setType(PETSc.PC.Type.LU if packages else PETSc.PC.Type.REDUNDANT)
+    ksp.getPC().setType(PETSc.PC.Type.LU if packages else PETSc.PC.Type.REDUNDANT)
     if packages:
-        pc.setFactorSolverType(packages[0])
+        ksp.getPC().setFactorSolverType(packages[0])
+    ksp.setFromOptions()
+    return ksp
+
+
+class StencilMatrix:
+    """The distributed matrix of a stencil (offsets, lines, nx), whose entries may be set again and again.
+
+    Nodes are numbered line by line. An entry that is zero keeps its place.
+    """
+
+    def __init__(self, grid, offsets):
+        self._order = np.lexsort((offsets[:, 1], offsets[:, 0]))
+        line, node = offsets[self._order].T
+        line = np.arange(grid.first, grid.last)[:, None, None] + line
+        node = np.arange(grid.mesh.nx)[:, None] + node
+        self._inside = (line >= 0) & (line < grid.mesh.ny) & (node >= 0) & (node < grid.mesh.nx)
+        counts = self._inside.sum(axis=-1).ravel()
+        self._rows = np.append(0, np.cumsum(counts)).astype(PETSc.IntType)
+        self._columns = (line * grid.mesh.nx + node)[self._inside].astype(PETSc.IntType)
+        csr = self._rows, self._columns, np.zeros(len(self._columns))
+        self.mat = PETSc.Mat().createAIJ(((len(counts), PETSc.DECIDE),) * 2, csr=csr, comm=grid.comm)
+
+    def set(self, stencil):
+        """Set all entries."""
+        values = np.moveaxis(stencil[self._order], 0, -1)[self._inside]
+        self.mat.setValuesCSR(self._rows, self._columns, values)
+        self.mat.assemble()
+
+    def destroy(self):
+        """Destroy the Mat."""
+        self.mat.destroy()

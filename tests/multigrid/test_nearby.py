@@ -71,17 +71,13 @@ def columns_of(jacobian, influence, masks):
 
 
 def test_matrix_is_the_near_part_of_j_q(jacobian, influence, masks, nearby):
-    T = nearby.matrix(*masks)
-    found = T[:, :]
-    T.destroy()
+    found = nearby.matrix(*masks)[:, :]
     expected = np.column_stack(list(columns_of(jacobian, influence, masks)))
     np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-12 * np.abs(expected).max())
 
 
 def test_it_solves_with_that_matrix(jacobian, masks, nearby):
-    T = nearby.matrix(*masks)
-    dense = T[:, :]
-    T.destroy()
+    dense = nearby.matrix(*masks)[:, :]
     w, found = np.random.default_rng(4).standard_normal(jacobian.grid.shape), np.zeros(jacobian.grid.shape)
     for _ in range(2):  # again and again
         nearby.factor(*masks)
@@ -89,12 +85,28 @@ def test_it_solves_with_that_matrix(jacobian, masks, nearby):
         np.testing.assert_allclose(found, w, rtol=0.0, atol=1e-9)
 
 
+def test_the_next_linearisation_changes_its_entries(jacobian, masks, nearby):
+    """Not their places: what was found of the first serves the second."""
+    nearby.factor(*masks)
+    jacobian.linearisation.A[:] *= np.linspace(0.5, 2.0, jacobian.grid.mesh.nx)
+    jacobian.linearisation.B[:] *= 0.5
+    test_it_solves_with_that_matrix(jacobian, masks, nearby)
+
+
+def test_it_does_not_depend_on_what_was_solved_before(jacobian, influence, masks, nearby):
+    """To the last bit: a run that goes on begins in the middle."""
+    r, later = np.random.default_rng(4).standard_normal(jacobian.grid.shape), []
+    nearby.factor(*masks)
+    jacobian.linearisation.A[:] *= 10.0 ** np.linspace(-3.0, 3.0, jacobian.grid.mesh.nx)
+    resumed = NearbySolve(jacobian, influence, SHARE)
+    for each in (nearby, resumed):
+        later.append(np.zeros(jacobian.grid.shape))
+        each.factor(*masks)
+        each.solve(r, later[-1])
+    resumed.free()
+    np.testing.assert_array_equal(*later)
+
+
 def test_without_a_package_each_rank_solves_the_whole(monkeypatch, jacobian, masks, nearby):
-    nearby.factor(*masks)
-    by_package, alone = np.zeros(jacobian.grid.shape), np.zeros(jacobian.grid.shape)
-    r = np.random.default_rng(4).standard_normal(jacobian.grid.shape)
-    nearby.solve(r, by_package)
     monkeypatch.setattr("mgehl.multigrid.nearby.PACKAGES", ())
-    nearby.factor(*masks)
-    nearby.solve(r, alone)
-    np.testing.assert_allclose(alone, by_package, rtol=1e-8, atol=1e-12)
+    test_it_solves_with_that_matrix(jacobian, masks, nearby)
