@@ -253,6 +253,7 @@ class Newton:
         position.state, position.changes, position.step = state, Changes(), Step()
         self._evaluation = self._problem.evaluate(position.state)
         self._tell(*self._compute_function(snes, x))
+        position.changes = Changes()
 
     def _tell(self, F, load):
         """Add the present state to the history, tell the monitors."""

@@ -61,12 +61,18 @@ def test_where_nearby_nodes_are_solved_at_once_every_step_may(before):
 
 @pytest.mark.parametrize(
     "residual, every_step, least",
-    [(SMALL, True, LONGEST), (SMALL, False, 1.0), (1.01 * JUDGED, True, 1.0)],
+    [(SMALL, False, 1.0), (1.01 * JUDGED, True, 1.0)],
 )
 def test_time_steps_become_longer_from_step_to_step(residual, every_step, least):
     shortened = position(residual, residual, shorter=SHORTER)
     assert lengthened(shortened, every_step) == LONGER * SHORTER
     assert lengthened(position(residual, residual, shorter=least), every_step) == least
+
+
+def test_where_every_step_is_judged_they_become_longer_than_their_rule_and_begin_again():
+    assert lengthened(position(SMALL, SMALL), every_step=True) == LONGER
+    assert lengthened(position(SMALL, 2.0 * SMALL), every_step=True) == 2.0 * LONGER
+    assert lengthened(position(SMALL, SMALL, shorter=LONGEST), every_step=True) == SHORTER
 
 
 def test_a_linear_system_that_was_given_up_led_nowhere():

@@ -7,8 +7,11 @@ from mgehl.discretization.contact_law import BoundaryFilm
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import CONTACT, LUBRICATED
 from mgehl.model.surface import Surface
+from mgehl.multigrid import smoother
+from mgehl.solver.journal import NOTHING_KEPT, Journal
 from mgehl.solver.nested import first_guess, nested_iteration, planned_solves
 from mgehl.solver.problem import ContactProblem
+from mgehl.solver.record import Record
 from mgehl.solver.settings import NestedSettings, SolverSettings
 from mgehl.solver.verification import check_interface, complementarity_error
 
@@ -28,13 +31,13 @@ class Waves(Surface):
 def solve_rough(paper_contact, make_hierarchy):
     """Function: problem and outcome of a wavy ball, by its amplitude, speed and boundary film in m."""
 
-    def run(amplitude, speed, boundary_film=2e-11, start="film"):
+    def run(amplitude, speed, boundary_film=2e-11, start="film", journal=NOTHING_KEPT):
         contact = paper_contact(speed, load=100.0, surface=Waves(amplitude, 2.05e-4))
         hierarchy = make_hierarchy(contact, 65, x=(-2.0, 1.5), y=(-1.75, 1.75))
         law = BoundaryFilm(boundary_film / contact.film_scale)
         scheme = Scheme("1B", "linear-gap", contact_law=law)
         settings = SolverSettings(scheme=scheme, nested=NestedSettings(start=start))
-        return nested_iteration(hierarchy, contact, settings, lambda *_: None)
+        return nested_iteration(hierarchy, contact, settings, lambda *_: None, journal)
 
     return run
 
@@ -101,3 +104,53 @@ def test_the_first_guess_is_the_dry_rough_contact(make_problem, paper_contact, s
     film = contact.expected_film / contact.film_scale * (1.0 if start == "film" else 0.1)
     assert problem.mean(state.H, state.P > 0.0) == pytest.approx(film + law.contact_gap, rel=1e-9)
     assert film > 0.0 and not (state.status == CONTACT).any()
+
+
+class Kept(Journal):
+    """What a checkpoint would have before every step on 65 nodes."""
+
+    def __init__(self):
+        self.records = []
+
+    def step(self, grid, position):
+        if grid.mesh.nx == 65:
+            record = position.record()
+            self.records.append(
+                Record(dict(record.values), {name: each.copy() for name, each in record.arrays.items()})
+            )
+
+
+class Standing(Journal):
+    """Of a run that was stopped there."""
+
+    def __init__(self, record):
+        self.record = record
+
+    def standing(self, grid, made):
+        return made(self.record) if grid.mesh.nx == 65 else None
+
+
+class TestNearbyNodesAtOnce:
+    """Waves of 400 nm at a smooth film of .04 nm; a linear system may take but 5 iterations by lines."""
+
+    @pytest.fixture
+    def solve(self, solve_rough, monkeypatch):
+        """Function: the outcome."""
+        monkeypatch.setattr(smoother, "PATIENCE", 5)
+        return lambda journal=NOTHING_KEPT: solve_rough(4e-7, 1e-6, journal=journal)[1]
+
+    def test_it_settles_where_lines_alone_do_not(self, solve, solve_rough, monkeypatch):
+        outcome = solve()
+        assert outcome.converged and len(outcome.cycles) < 120
+        monkeypatch.setattr(smoother, "PATIENCE", 1000)
+        _, by_lines = solve_rough(4e-7, 1e-6)
+        assert not by_lines.converged
+
+    def test_a_run_that_was_stopped_anywhere_goes_on_the_same(self, solve):
+        kept = Kept()
+        whole = solve(kept)
+        assert any(cycle.step_length == 0.0 for cycle in whole.cycles[1:])  # a step was taken back
+        for record in kept.records[9::25]:
+            rest = solve(Standing(record))
+            assert rest.cycles == whole.cycles
+            np.testing.assert_array_equal(rest.state.P, whole.state.P)
