@@ -131,7 +131,7 @@ layers: $(ENVIRONMENT)
 # make balls    a rough ball of 100 N without a boundary film, 20 to 400 nm rms, 1 m/s to 1 um/s, from film and contact (half an hour)
 BALL := /dev/null --set contact.load="100 N" --set surface.kind=self-affine --set surface.hurst=0.8 --set surface.seed=1 \
   --set surface.shortest_wavelength="30 um" --set surface.longest_wavelength="200 um" --set grid.nodes=257 \
-  --set "grid.x=[-2.0, 1.5]" --set "grid.y=[-1.75, 1.75]" --set solver.idle_steps=60 --no-error
+  --set "grid.x=[-2.0, 1.5]" --set "grid.y=[-1.75, 1.75]" --no-error
 BALLS := run,converged,lambda,central nm,load on contact,contact/Hertz area,Eq. 2 violations,convolutions,wall s
 balls: $(ENVIRONMENT)
 	for r in 20 100 200 400; do for u in 1 1e-1 1e-2 1e-3 1e-4 1e-5 1e-6; do for s in film contact; do \

@@ -43,6 +43,7 @@ class Newton:
         self._fluid, self._monitor = fluid, monitor or (lambda cycle: None)
         self._space, self._load_scale = multigrid.space, multigrid.jacobian.load_scale
         self._partition = Partition(problem, settings.release_budget, settings.tolerance)
+        # Where contact has a threshold, Eq. 2 lets nodes go from a settled state: that one must get worse.
         self._in_time = problem.scheme.contact_law.is_continuous and settings.squeeze > 0.0
         self._snes = PETSc.SNES().create(problem.grid.comm)
         self._snes.setOptionsPrefix(options_prefix)
