@@ -128,7 +128,7 @@ layers: $(ENVIRONMENT)
 
 .PHONY: layers
 
-# make balls    a rough ball of 100 N without a boundary film, 20 to 400 nm rms, 1 m/s to 1 um/s, from film and contact (half an hour)
+# make balls    a rough ball of 100 N without a boundary film, 20 to 400 nm rms, 1 m/s to 1 um/s, from film and contact (a quarter of an hour)
 BALL := /dev/null --set contact.load="100 N" --set surface.kind=self-affine --set surface.hurst=0.8 --set surface.seed=1 \
   --set surface.shortest_wavelength="30 um" --set surface.longest_wavelength="200 um" --set grid.nodes=257 \
   --set "grid.x=[-2.0, 1.5]" --set "grid.y=[-1.75, 1.75]" --no-error
