@@ -111,7 +111,8 @@ class SolverSection:
     )  # fmt: skip
     max_steps: int = key_field(200, "Newton steps on one grid at the most", low=0, high=10000, kind=int)
     idle_steps: int | None = key_field(
-        None, "steps in vain after which a solve is given up (unset: 15; of implicit time steps 30 to 60)",
+        None,
+        "steps in vain after which a solve is given up (unset: 15; in time steps 30, after a direct solve 60)",
         low=1, high=10000, kind=int,
     )  # fmt: skip
     linear_tolerance: float = key_field(

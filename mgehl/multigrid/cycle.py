@@ -95,10 +95,10 @@ class MultigridSolver:
             self.jacobian = Jacobian(grids[-1], deflections[-1], contact, scheme)
         self._transfers = hierarchy.transfers[:level]
         self._partitioned = [PartitionedTransfer(transfer) for transfer in self._transfers]
-        smoother = smoother_of(self.jacobian, self._thin)
-        self._smoothers = [smoother(jacobian, settings.omega) for jacobian in self.jacobians[1:]]
-        if self._may_be_at_once:
-            self._smoothers[-1:] = [ValleySmoother(self.jacobians[-1], settings.omega)]
+        self._smoothers = [
+            smoother_of(jacobian, self._thin, jacobian is self.jacobians[-1])(jacobian, settings.omega)
+            for jacobian in self.jacobians[1:]
+        ]
         coarse = CoarseSolve(self.jacobians[0])
         cycle = VCycle(self.jacobians, self._partitioned, self._smoothers, coarse, settings.sweeps)
         self.memory = Memory(self.jacobian, cycle) if self._rough else None
@@ -121,8 +121,8 @@ class MultigridSolver:
 
     @property
     def _may_be_at_once(self):
-        """Whether there are valleys that lines may fail to see, on the finest grid of several."""
-        return self._thin and not self.jacobian.grid.mesh.is_line and len(self.jacobians) > 1
+        """Whether the finest grid may have valleys that lines do not see."""
+        return bool(self._smoothers) and isinstance(self._smoothers[-1], ValleySmoother)
 
     @property
     def at_once(self):

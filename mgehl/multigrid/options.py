@@ -12,6 +12,8 @@ def by_default(prefix, **named):
     ours = {name: value for name, value in named.items() if not options.hasName(name)}
     for name, value in ours.items():
         options[name] = value
-    yield
-    for name in ours:
-        options.delValue(name)
+    try:
+        yield
+    finally:
+        for name in ours:
+            options.delValue(name)

@@ -8,7 +8,7 @@ from petsc4py import PETSc
 from mgehl.discretization.contact_law import BoundaryFilm
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import LUBRICATED
-from mgehl.model.surface import Surface
+from mgehl.model.surface.waviness import Waviness
 from mgehl.multigrid import smoother
 from mgehl.multigrid.cycle import MultigridSolver
 from mgehl.solver.problem import ContactProblem
@@ -17,14 +17,8 @@ HARD, EASY = 1e-4, 1e-2
 """Speeds in m/s."""
 
 
-class Waves(Surface):
-    """Heights of 800 nm in waves of half the Hertz radius."""
-
-    def __init__(self, a):
-        self.a = a
-
-    def height(self, x, y):
-        return -8e-7 * np.cos(4.0 * np.pi * x / self.a) * np.cos(4.0 * np.pi * y / self.a)
+WAVES = Waviness(8e-7, 2.05e-4, 2.05e-4, x=1.025e-4)
+"""Heights of 800 nm in waves of half the Hertz radius, a valley in the middle."""
 
 
 class System:
@@ -64,7 +58,7 @@ def system(make_hierarchy, paper_contact):
     made = []
 
     def make(speed=HARD):
-        made.append(System(make_hierarchy, paper_contact(speed, surface=Waves(4.1e-4))))
+        made.append(System(make_hierarchy, paper_contact(speed, surface=WAVES)))
         return made[-1]
 
     yield make
