@@ -108,6 +108,9 @@ rough: $(ENVIRONMENT)
 # make mixed     run studies mixed and waviness and write their tables to runs/tables; cases that did not converge say so in them
 mixed: $(ENVIRONMENT)
 	for s in mixed waviness; do ( $(ON) mpiexec -n 2 python -m mgehl study $$s --resume --quiet ); test $$? -le 1 || exit 1; done
+	( $(ON) mpiexec -n 2 python -m mgehl study mixed --nodes 513 --cases 20 --resume --quiet --out runs/study-mixed-513 ); test $$? -le 1
+	for e in md csv; do cp runs/study-mixed-513/mixed.$$e runs/tables/mixed-513.$$e && \
+	  cp runs/study-mixed-513/mixed-summary.$$e runs/tables/mixed-513-summary.$$e || exit 1; done
 	for e in md csv; do cp runs/study-mixed/mixed.$$e runs/study-mixed/mixed-summary.$$e runs/tables/ || exit 1; \
 	  for t in line point; do cp runs/study-waviness/$$t.$$e runs/tables/waviness-$$t.$$e || exit 1; done; done
 
