@@ -11,16 +11,17 @@
 ENVIRONMENT := .venv/mgehl-env.sh
 ON := . ./$(ENVIRONMENT) &&
 
-# Processes that share the tests of one rank, file by file: what a file's tests share is solved once.
-WORKERS := 2
+# Processes that share the tests of one rank, file by file: what a file's tests share is solved once. Some tests
+# wait, so there is one process more than cores.
+WORKERS := 3
 
 run: $(ENVIRONMENT)
 	$(ON) mpiexec -n 2 python -m mgehl run $(ARGS)
 
 test: $(ENVIRONMENT)
-	$(ON) python -m pytest -m "not parallel" -n $(WORKERS) --dist loadfile
-	$(ON) mpiexec -n 2 python -m pytest -m parallel -q
-	$(ON) mpiexec -n 3 python -m pytest -m parallel -q
+	$(ON) python -m pytest -m "not parallel" -n $(WORKERS) --dist loadfile --no-loadscope-reorder
+	$(ON) mpiexec -n 2 python -m pytest tests/parallel -m parallel -q
+	$(ON) mpiexec -n 3 python -m pytest tests/parallel -m parallel -q
 
 env: $(ENVIRONMENT)
 	@cat $(ENVIRONMENT)

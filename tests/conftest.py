@@ -4,6 +4,7 @@ PETSc and MPI are imported inside the fixtures that need them, so that the tests
 layers run without.
 """
 
+import signal
 import sys
 from dataclasses import dataclass
 
@@ -17,6 +18,24 @@ BODY = {"radius_x": 12.7e-3, "radius_y": 12.7e-3, "reduced_modulus": 219.78e9}
 DOMAIN = {"x": (-1.9, 1.3), "y": (-1.5, 1.5)}
 MOES_DOMAIN = {"x": (-4.5, 1.5), "y": (-3.0, 3.0)}
 VISCOSITY = Barus(0.096, 18.2e-9)
+
+LONGEST = (
+    "test_hypothesis.py", "test_resume.py", "test_readme.py", "test_branch.py", "test_attack.py",
+    "test_many_ranks.py", "test_rough.py", "test_checkpoint.py", "test_hostile.py", "test_cli.py",
+)  # fmt: skip
+"""Files that take longest. They begin first: else one process would be left alone with one at the end."""
+
+
+def pytest_configure():
+    """Ctrl-C is heard, also where a shell that started the tests in the background ignores it."""
+    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+def pytest_collection_modifyitems(items):
+    """The longest files first, all others in their order."""
+    place = {name: number for number, name in enumerate(LONGEST)}
+    items.sort(key=lambda item: place.get(item.path.name, len(LONGEST)))
 
 
 @pytest.fixture

@@ -134,21 +134,19 @@ class TestNearbyNodesAtOnce:
     """Waves of 400 nm at a smooth film of .04 nm; a linear system may take but 5 iterations by lines."""
 
     @pytest.fixture
-    def solve(self, solve_rough, monkeypatch):
+    def solve(self, solve_rough):
         """Function: the outcome."""
-        monkeypatch.setattr(smoother, "PATIENCE", 5)
         return lambda journal=NOTHING_KEPT: solve_rough(4e-7, 1e-6, journal=journal)[1]
 
-    def test_it_settles_where_lines_alone_do_not(self, solve, solve_rough, monkeypatch):
-        outcome = solve()
-        assert outcome.converged and len(outcome.cycles) < 120
+    def test_by_lines_alone_it_does_not_settle(self, solve, monkeypatch):
         monkeypatch.setattr(smoother, "PATIENCE", 1000)
-        _, by_lines = solve_rough(4e-7, 1e-6)
-        assert not by_lines.converged
+        assert not solve().converged
 
-    def test_a_run_that_was_stopped_anywhere_goes_on_the_same(self, solve):
+    def test_it_settles_and_a_run_that_was_stopped_on_the_way_goes_on_the_same(self, solve, monkeypatch):
+        monkeypatch.setattr(smoother, "PATIENCE", 5)
         kept = Kept()
         whole = solve(kept)
+        assert whole.converged and len(whole.cycles) < 120
         assert any(cycle.step_length == 0.0 for cycle in whole.cycles[1:])  # a step was taken back
         for record in kept.records[20::45]:
             rest = solve(Standing(record))
