@@ -107,13 +107,16 @@ def _overlap(overlap):
 
 def _contact(result, verbose):
     """The solid contact, and where its pressure is below the fluid's."""
-    contact, inequality = result.contact, result.pressure_inequality
+    contact, inequality, other = result.contact, result.pressure_inequality, result.other_inequality
     where = f"; nodes {span(contact.x_nodes)} on Y = 0, {span(contact.y_nodes)} on X = 0; {_gap(contact)}"
     size = f"{contact.nodes} nodes, {100 * contact.area_fraction:.2f} % of the Hertz area"
     yield f"  contact: {size}{where if verbose else ''}"
     if verbose or inequality.violations:
         broken = f"{inequality.violations} of {inequality.checked}"
         yield f"  pressure inequality broken at {broken} interface nodes"
+    if verbose and other.violations:
+        broken = f"{other.violations} of {other.checked}"
+        yield f"  compared between nodes, a cell apart: broken at {broken}, by up to {other.worst:.1e} p_h"
 
 
 def _gap(contact):

@@ -134,7 +134,7 @@ def _contact_rows(solutions):
     rows = []
     for solution in solutions:
         result, gmres = _outcome(solution)
-        contact, inequality = result.contact, result.pressure_inequality
+        contact, inequality = result.contact, result.other_inequality
         differ = int(np.count_nonzero((solution.fields.status == CONTACT) != first))
         rows.append(
             {

@@ -51,7 +51,7 @@ def _row(branches, mean, point):
         "central nm": f"{result.central_film_nm + 0.0:.3f}",
         "minimum nm": f"{result.minimum_film_nm + 0.0:.3f}",
         "contact/Hertz area": f"{result.contact.area_fraction:.4f}",
-        "Eq. 2 broken": str(result.pressure_inequality.violations),
+        "Eq. 2 broken": str(result.other_inequality.violations),
         "inlet cells": f"{result.resolution.inlet_cells:.2f}",
         "residual": f"{result.residual:.1e}",
         "central formula nm": f"{1e9 * formulas.hamrock_dowson_central:.3f}",

@@ -41,7 +41,7 @@ def line(path, rows):
 
 
 def inlet(path, rows):
-    """Central film and the pressure ratio at the interface against the cells in the inlet."""
+    """Central film and the pressure ratio beside the interface against the cells in the inlet."""
     with applied():
         figure, (films, ratios) = subplots(1, 2, size=(10.5, 4.6))
         for speed, colour in zip(dict.fromkeys(row["speed mm/s"] for row in rows), COLOURS, strict=False):
@@ -50,12 +50,10 @@ def inlet(path, rows):
                 label = f"{speed} mm/s, from {start}"
                 films.plot(*_points(own, f"central nm from {start}"), mark, color=colour, label=label)
                 ratios.plot(*_points(own, f"p_f/p_d from {start}"), mark, color=colour, label=label)
-            label = f"{speed} mm/s, gap of the dry contact"
-            ratios.plot(*_points(own, "p_f/p_d dry gap"), ":", color=colour, label=label)
         films.set(xscale="log", xlabel="cells in the inlet", ylabel="central film, nm (0: contact)")
         ratios.axhline(1.0, color="0.6", linewidth=0.8, zorder=0)
         ratios.set(xscale="log", yscale="log", xlabel="cells in the inlet", xlim=films.get_xlim())
-        ratios.set_ylabel("p$_f$/p$_d$ at the interface")
+        ratios.set_ylabel("p$_f$/p$_d$ beside the interface")
         for axes in (films, ratios):
             axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=2, frameon=False)
         figure.suptitle("Line contact, 2.26 GPa: what the grid decides")
@@ -64,7 +62,7 @@ def inlet(path, rows):
 
 def _points(rows, column):
     """Cells and numbers of the rows that have a number there."""
-    numbers = [row for row in rows if row[column] not in ("", "unbounded")]
+    numbers = [row for row in rows if row[column]]
     return _cells(numbers), [float(row[column]) for row in numbers]
 
 

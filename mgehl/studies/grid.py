@@ -105,7 +105,7 @@ def _film_rows(solutions):
 def _common(solution):
     """Columns of both tables."""
     result = solution.result
-    inequality, resolution = result.pressure_inequality, result.resolution
+    inequality, resolution = result.other_inequality, result.resolution
     return {
         "grid": str(solution.mesh.nx),
         "settled": "yes" if result.settled else "no",

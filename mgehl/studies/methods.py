@@ -84,7 +84,7 @@ def _model_rows(study):
         for model in ("lcic", "unified"):
             tables = merged(case, {"discretization": {"contact_model": model}})
             result = study.solve(f"{model}, {name}", tables, must_converge=False).result
-            inequality = result.pressure_inequality
+            inequality = result.other_inequality
             rows.append(
                 {
                     "case": name,

@@ -160,5 +160,5 @@ def _place(mesh, point):
 def _inequality(point):
     if point is None:
         return ""
-    inequality = point.result.pressure_inequality
+    inequality = point.result.other_inequality
     return f"{inequality.violations} of {inequality.checked}, {inequality.worst:.1e} p_h"

@@ -59,7 +59,7 @@ def row(branches, point):
     """Text of one point: the columns of the paper's Table 1, and ours."""
     result, contact = point.result, point.result.contact
     cells = result.resolution
-    at_nodes, at_interface = both_inequalities(result)
+    at_interface, at_nodes = result.pressure_inequality, result.other_inequality
     U = branches.contact.at_speed(point.speed).groups.U
     e_p, e_p_fluid, e_p_solid = (f"{error:.1e}" for error in point.sweep)
     return {
@@ -92,9 +92,3 @@ def row(branches, point):
         "convolutions": f"{result.work.convolutions:.0f}",
         "wall s": f"{result.wall_s:.1f}",
     }
-
-
-def both_inequalities(result):
-    """Eq. 2 compared at the nodes, and at the interface between them, whichever was asked for."""
-    both = result.pressure_inequality, result.other_inequality
-    return both if both[0].compared == "at the nodes" else both[::-1]

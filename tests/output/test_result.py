@@ -83,14 +83,24 @@ def test_what_newton_gave_up_is_not_converged(summary, outcome):
 
 
 def test_a_violation_of_eq_2_is_not_converged(summary, outcome):
-    touch(outcome.state, [(2, 5)])
-    outcome.state.P[2, 4] = 0.75
+    """Contact under 0.5 amid fluid of 0.75: at the interface it is 0.6875 at the most."""
+    outcome.state.P[1:-1, 1:-1], outcome.state.H[:] = 0.75, 0.0
+    touch(outcome.state, [(4, 5)])
     result = summary()
     assert not result.converged
     assert "1 of 1" in result.reason
-    inequality = result.pressure_inequality
-    assert (inequality.checked, inequality.violations, inequality.worst) == (1, 1, 0.25)
-    assert inequality.nodes == [{"i": 6, "j": 3, "size": 0.25}]
+    at_interface, at_nodes = result.pressure_inequality, result.other_inequality
+    assert (at_interface.checked, at_interface.violations, at_interface.worst) == (1, 1, 0.0625)
+    assert at_interface.nodes == [{"i": 6, "j": 5, "size": 0.0625}]
+    assert (at_nodes.checked, at_nodes.violations, at_nodes.worst) == (1, 1, 0.25)
+
+
+def test_a_pressure_that_falls_through_the_contact_breaks_eq_2_between_nodes_alone(summary, outcome):
+    outcome.state.P[2:-2, 2:-2] = np.linspace(0.7, 0.3, 5)
+    touch(outcome.state, [(4, 4)])
+    result = summary()
+    assert result.converged and result.pressure_inequality.violations == 0
+    assert (result.other_inequality.violations, result.other_inequality.checked) == (1, 1)
 
 
 def test_broken_complementarity_is_not_converged(summary, outcome):
