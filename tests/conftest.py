@@ -4,8 +4,10 @@ PETSc and MPI are imported inside the fixtures that need them, so that the tests
 layers run without.
 """
 
+import os
 import signal
 import sys
+import tempfile
 from dataclasses import dataclass
 
 import pytest
@@ -26,10 +28,17 @@ LONGEST = (
 """Files that take longest. They begin first: else one process would be left alone with one at the end."""
 
 
-def pytest_configure():
-    """Ctrl-C is heard, also where a shell that started the tests in the background ignores it."""
+def pytest_configure(config):
+    """Ctrl-C is heard, also where a shell that started the tests in the background ignores it. MPI's files
+    have a directory for each process that tests.
+
+    Open MPI's jobs share one directory, and a job that ends may remove it under another that begins.
+    """
     if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.default_int_handler)
+    files = tempfile.TemporaryDirectory(prefix="mpi-")
+    os.environ["OMPI_MCA_orte_tmpdir_base"] = files.name
+    config.add_cleanup(files.cleanup)
 
 
 def pytest_collection_modifyitems(items):
