@@ -48,7 +48,7 @@ LINES = (
 )
 """Load in N/m, speed in m/s, viscosity law, domain."""
 
-BEST = {"couette": "3B", "face_mobility": "logarithmic"}
+BEST = {"couette": "3B", "face_mobility": "linear-gap"}
 SCHEMES = (
     {"couette": "1B", "face_mobility": "arithmetic"},
     {"couette": "2B", "face_mobility": "arithmetic"},
