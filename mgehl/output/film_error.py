@@ -3,6 +3,7 @@
 from dataclasses import dataclass, replace
 
 from mgehl.discretization.order import couette_order
+from mgehl.output.resolution import SEEN_CELLS
 from mgehl.output.surface import GRIDS
 from mgehl.solver.coarser import films_of_grids
 from mgehl.solver.richardson import band, band_beside
@@ -114,34 +115,39 @@ def from_grids(result, grids, order, other=None):
     The coarser ones may be by an`other` `Scheme`.
     """
     coarser = grids[1]
-    touches = coarser.contact_nodes > 0
-    if not coarser.settled or (touches and coarser.central_nm <= 0.0):
+    if not coarser.settled or (coarser.contact_nodes and coarser.central_nm <= 0.0):
         return no_band(f"on {coarser.nodes} nodes, the next coarser grid, there is no film to compare with")
-    known = [each for each in grids if each.settled]
-    central, minimum = (_band(result, known, film, order, touches, other) for film in FILMS)
+    known, unlike = [each for each in grids if each.settled], "" if other else _unlike(result, *grids[:2])
+    central, minimum = (_band(result, known, film, order, bool(unlike), other) for film in FILMS)
     return FilmError(
         central.half_width,
         minimum.half_width,
-        _how(known, order, touches, other),
+        _how(known, order, other) + unlike,
         order,
         central.observed_order,
         minimum.observed_order,
     )
 
 
-def _band(result, grids, film, order, touches, other):
+def _unlike(result, finest, coarser):
+    """Why the next coarser grid has another film, which makes the band wider, in words; else empty."""
+    if coarser.contact_nodes:
+        return f"; wider, for on {coarser.nodes} nodes the film touches at {coarser.contact_nodes}"
+    if result.resolution.inlet_cells * (coarser.nodes - 1) / (finest.nodes - 1) < SEEN_CELLS:
+        return f"; wider, for on {coarser.nodes} nodes the inlet has less than a cell"
+    return ""
+
+
+def _band(result, grids, film, order, unlike, other):
     reported = getattr(result, f"{film}_film_nm")
     finest, *coarser = (getattr(each, f"{film}_nm") for each in grids)
     if other:
         return band_beside(reported, coarser, order)
-    return band(reported, [finest, *coarser], order, touches)
+    return band(reported, [finest, *coarser], order, unlike)
 
 
-def _how(films, order, touches, other):
+def _how(films, order, other):
     """How a band came about, in words."""
     nodes = " and ".join(str(grid.nodes) for grid in films[1:])
     by = f" by {other.couette} and the {other.face_mobility} mean" if other else ""
-    words = f"from the differences to {nodes} nodes{by}, of order {order}"
-    if touches:
-        words += f"; wider, for on {films[1].nodes} nodes the film touches at {films[1].contact_nodes}"
-    return words
+    return f"from the differences to {nodes} nodes{by}, of order {order}"

@@ -3,16 +3,20 @@
 from dataclasses import dataclass
 from math import log2
 
-SAFETY = 1.0 / 3.0
+SAFETY = 0.5
 """Part of the estimated error that is added to it where three grids show its order. Roache's grid
-convergence index adds a quarter."""
+convergence index adds a quarter. With a third, 72 of 80 bands of `study error` by the default scheme hold
+the limit, with a half 77."""
 
-UNSEEN = 0.5
+UNSEEN = 1.0
 """The same where there are only two grids, and the order is the scheme's on trust."""
 
-TOUCHED = 2.0
-"""The same where the coarser grid has contact, and therefore another film: three times the error, as Roache
-has it where nothing is known."""
+UNLIKE = 2.0
+"""The same where the coarser grid has another film, with contact or an inlet of less than a cell: three
+times the error, as Roache has it where nothing is known."""
+
+SMALLEST = 1e-4
+"""Half-width over the film at the least: films of two grids may differ by less, by chance."""
 
 SLOWEST = 0.75
 """An observed order below this part of the scheme's is not believed: the coarsest grid is too coarse to
@@ -33,21 +37,21 @@ class Band:
     """Of three grids; None of two, or where their differences are of different signs."""
 
 
-def band(film, values, order, touched=False):
+def band(film, values, order, unlike=False):
     """The `Band` about a `film` of nodes, from two or three `values` between nodes, finest grid's first.
 
     The last difference and the order tell the error (Richardson). The order is the scheme's, or the
     observed one where that is somewhat lower. From the order and the difference before, the last difference
     can be foretold. One that is clearly smaller is small by chance, for example because it changes its
     sign: what it lacks is added. So is the distance of the node's film from the value between the nodes.
-    `touched` says that the second grid has contact.
+    `unlike` says that the second grid has another film.
     """
     last, *before = (finer - coarser for finer, coarser in zip(values, values[1:], strict=False))
     observed = observed_order(last, *before)
     error, off = last / (2.0 ** believed(order, observed) - 1.0), values[0] - film
-    safety = TOUCHED if touched else SAFETY if before else UNSEEN
+    safety = UNLIKE if unlike else SAFETY if before else UNSEEN
     half_width = abs(error + off) + safety * (abs(error) + abs(off)) + by_chance(order, last, *before)
-    return Band(half_width, observed)
+    return Band(max(half_width, SMALLEST * abs(film)), observed)
 
 
 def band_beside(film, others, order):

@@ -6,7 +6,8 @@ from mgehl.solver.richardson import (
     FASTER,
     SAFETY,
     SLOWEST,
-    TOUCHED,
+    SMALLEST,
+    UNLIKE,
     UNSEEN,
     band,
     band_beside,
@@ -76,6 +77,10 @@ def test_between_a_film_of_first_order_and_one_of_second_lies_the_limit():
     assert band_beside(11.0, [9.0], 2).half_width == pytest.approx(2.0)
 
 
-def test_contact_on_the_coarser_grid_makes_the_band_three_times_the_error():
+def test_another_film_on_the_coarser_grid_makes_the_band_three_times_the_error():
     films = [10.0, 4.0]
-    assert band(10.0, films, 2, touched=True).half_width == pytest.approx((1.0 + TOUCHED) * 2.0)
+    assert band(10.0, films, 2, unlike=True).half_width == pytest.approx((1.0 + UNLIKE) * 2.0)
+
+
+def test_films_that_agree_by_chance_do_not_make_a_band_of_nothing():
+    assert band(10.0, [10.0, 10.0, 10.0], 2).half_width == pytest.approx(SMALLEST * 10.0)
