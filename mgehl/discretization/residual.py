@@ -28,8 +28,17 @@ class Linearisation:
     def turned(self, turn):
         """That of an elastic gap with X and Y exchanged; `turn` does that to an array of nodes."""
         offsets = np.ascontiguousarray(self.offsets[:, ::-1])
-        A, B = (np.stack([turn(array) for array in stencil]) for stencil in (self.A, self.B))
-        return Linearisation(offsets, A, B, turn(self.eps))
+        return Linearisation(offsets, _turned(self.A, turn), _turned(self.B, turn), turn(self.eps))
+
+
+def _turned(stencil, turn):
+    """A stencil of turned arrays, one after the other: two copies of all would be the most memory."""
+    first = turn(stencil[0])
+    turned = np.empty((len(stencil), *first.shape))
+    turned[0] = first
+    for of_offset, array in zip(turned[1:], stencil[1:], strict=True):
+        of_offset[:] = turn(array)
+    return turned
 
 
 def residual(evaluation, rows, storage=None):
