@@ -16,7 +16,7 @@ from mgehl.config import config_from_tables
 from mgehl.run import solve
 from mgehl.studies.study import papers_grid
 
-RANKS = 12
+RANKS = 9
 CASES = {
     "film": {"motion": {"speed": 3.0}, "grid": papers_grid(65)},
     "contact": {"motion": {"speed": 5e-6}, "grid": papers_grid(129), "solver": {"start": "contact"}},

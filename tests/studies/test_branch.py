@@ -206,13 +206,13 @@ class TestStudies:
                 assert row[f"{film} agrees to 5 %"] == ("yes" if close else "no")
 
     def test_onset(self, tmp_path, monkeypatch):
-        monkeypatch.setattr(onset, "PRECISION", 0.3)
+        monkeypatch.setattr(onset, "PRECISION", 0.6)
         monkeypatch.setattr(onset, "BEYOND", (1 / 3, 2 / 3))
         assert run(tmp_path / "o", "onset", "--nodes", "65") == 0
         (row,) = read(tmp_path / "o" / "onset.csv")
         for column in (onset.DOWN, onset.UP):
             low, high = (float(each) for each in row[f"{column}: between"].split(" and "))
-            assert low < float(row[column]) < high <= 1.301 * low
+            assert low < float(row[column]) < high <= 1.601 * low
         assert row[f"{onset.DOWN}: found there"].startswith("contact at ")
         assert float(row["inlet cells there"]) < 2.5
         own, other = read(tmp_path / "o" / "sides.csv")
@@ -266,7 +266,7 @@ def test_the_power_of_made_up_critical_speeds():
 
 class TestKill:
     SCRIPT = (
-        "import sys; from mgehl.studies import transition; transition.COUNT = 4; "
+        "import sys; from mgehl.studies import transition; transition.COUNT = 3; "
         "from mgehl.cli import main; sys.exit(main(sys.argv[1:]))"
     )
 
@@ -285,12 +285,12 @@ class TestKill:
         os.killpg(child.pid, signal.SIGKILL)
         child.wait()
         done = {path: path.stat().st_mtime_ns for path in points.glob("[!.]*.npz")}
-        assert 2 <= len(done) < 8 and not (killed / "transition-65.csv").exists()
+        assert 2 <= len(done) < 6 and not (killed / "transition-65.csv").exists()
         subprocess.run(self.command(killed, "--resume"), check=True, stdout=subprocess.DEVNULL)
         subprocess.run(self.command(alone), check=True, stdout=subprocess.DEVNULL)
         assert all(path.stat().st_mtime_ns == when for path, when in done.items())
         resumed, whole = (read(path / "transition-65.csv") for path in (killed, alone))
-        assert len(resumed) == 8
+        assert len(resumed) == 6
         for one, other in zip(resumed, whole, strict=True):
             assert one["branch"] == other["branch"] and one["from"] == other["from"]
             assert float(one["central nm"]) == pytest.approx(float(other["central nm"]), abs=1e-3)
