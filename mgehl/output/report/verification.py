@@ -107,9 +107,9 @@ def contact_tables(result):
         ("largest overlap outside of contact, nm", number(result.overlap.largest_nm, 3)),
         ("cavitated nodes", str(result.cavitated_nodes)),
         ("interface nodes checked on Eq. 2", str(inequality.checked)),
-        ("of them break it", str(inequality.violations)),
+        (f"of them break it, compared {inequality.compared}", str(inequality.violations)),
         ("largest violation, p_h", number(inequality.worst, 3)),
-        (f"compared {other.compared} instead: of them break it", str(other.violations)),
+        (f"of them break it, compared {other.compared}", str(other.violations)),
         ("largest violation there, p_h", number(other.worst, 3)),
         ("largest fluid over contact pressure", number(_largest_ratio(result), 3)),
     ]
