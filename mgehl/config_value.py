@@ -24,6 +24,9 @@ _QUANTITY = re.compile(rf"([-+]?[\d.]+(?:[eE][-+]?\d+)?)\s*((?:1\s*)?/)?\s*({_UN
 _NO_MATCH = re.match("(?P<number>)(?P<per>)(?P<units>)", "")
 """A quantity such as "7.5 mm/s" or "18.2 1/GPa", and one without a number, which no float reads."""
 
+LEFT_OUT = ("pandas", "xarray", "dask", "pint_pandas")
+"""What pint would import for the sake of its arrays, in two thirds of the time that pint takes."""
+
 
 def key_field(
     default, help, unit=None, above=None, low=None, high=None, choices=None, kind=float, own=None,
@@ -106,15 +109,13 @@ def _is_number(value):
 
 def _with_unit(key, unit, text):
     """The SI magnitude of a string such as "7.5 mm/s"."""
-    import pint  # slow to import, so only where a unit is met
-
     example = f'a number in {unit or "no unit"} or a string such as "1 {unit}"'
     # Only a number and a unit: pint would also evaluate an expression, 9**9**9 for one.
     number, per, units = (_QUANTITY.fullmatch(text.strip()) or _NO_MATCH).groups()
     try:
         quantity = float(number) * _units()(f"{'1/' if per else ''}{units or 'dimensionless'}")
         return float(quantity.to(unit or "dimensionless").magnitude)
-    except pint.DimensionalityError:
+    except _pint().DimensionalityError:
         raise ConfigError(f"{key} = {shown(text)}: wrong unit; must be {example}") from None
     except Exception:
         raise ConfigError(f"{key} = {shown(text)}: not understood; must be {example}") from None
@@ -122,9 +123,23 @@ def _with_unit(key, unit, text):
 
 @cache
 def _units():
-    import pint
+    return _pint().UnitRegistry()
 
-    return pint.UnitRegistry()
+
+@cache
+def _pint():
+    """The library of units: slow to import, so only where a unit is met, and without what is `LEFT_OUT`.
+
+    What the program has imported before, pint knows as ever.
+    """
+    left_out = [name for name in LEFT_OUT if name not in sys.modules]
+    sys.modules.update(dict.fromkeys(left_out))  # whoever imports one of them is told that it is not there
+    try:
+        import pint
+    finally:
+        for name in left_out:
+            del sys.modules[name]
+    return pint
 
 
 def _in_range(rules, number):

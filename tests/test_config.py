@@ -395,6 +395,15 @@ def test_configuration_cannot_be_changed():
         load_config().grid.nodes = 129
 
 
+def test_a_unit_does_not_import_what_takes_half_a_second():
+    """And leaves it to be imported later."""
+    code = (
+        "import os, sys; from mgehl.config import load_config; load_config(os.devnull, ['contact.load=8 N']); "
+        "assert 'pint' in sys.modules and not {'pandas', 'xarray'} & set(sys.modules); import xarray"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True)
+
+
 @pytest.mark.parametrize("text", ["9**9**9 N", "800 N # x", "8e2 N; 3", "N", "2 * 400 N", "1 N/0"])
 def test_a_quantity_is_a_number_and_a_unit_and_nothing_else(text):
     with pytest.raises(ConfigError, match="contact.load"):
