@@ -398,7 +398,8 @@ def test_configuration_cannot_be_changed():
 def test_a_unit_does_not_import_what_takes_half_a_second():
     """And leaves it to be imported later."""
     code = (
-        "import os, sys; from mgehl.config import load_config; load_config(os.devnull, ['contact.load=8 N']); "
+        "import os, sys; from mgehl.config import load_config; "
+        "load_config(os.devnull, ['contact.load=8 N']); "
         "assert 'pint' in sys.modules and not {'pandas', 'xarray'} & set(sys.modules); import xarray"
     )
     subprocess.run([sys.executable, "-c", code], check=True)
