@@ -83,6 +83,11 @@ class TestOfALoadedContact:
         none = InequalityResult(8, 0, 0.0, 1.5, [])
         assert "inequality" not in make_result(pressure_inequality=none).words(verbose=False)
 
+    def test_where_eq_2_is_compared_between_nodes_is_said_at_length(self):
+        result = make_result(other_inequality=InequalityResult(8, 3, 0.16, 1.5, []))
+        line = "compared between nodes, a cell apart: broken at 3 of 8, by up to 1.6e-01 p_h"
+        assert line in result.words() and line not in result.words(verbose=False)
+
     def test_failure_comes_first(self):
         text = str(make_result(converged=False, settled=False, reason="sets still change 60 steps"))
         assert text.startswith("NOT CONVERGED: sets still change 60 steps")

@@ -87,6 +87,15 @@ class TestWedge:
         assert [cell.strip() for cell in lines[-1].strip("|").split("|")] == list(rows[-1].values())
 
 
+def test_inlet(study):
+    """A line contact stays closed where its inlet has less than half a cell, and has a film from one on."""
+    closed, film = read(study("inlet", "129,1025") / "inlet.csv")[:2]
+    assert float(closed["inlet cells"]) < 0.5 and closed["from contact"] == "contact"
+    assert 0.0 < float(closed["p_f/p_d from contact"]) < 1.0 < float(film["inlet cells"])
+    assert film["from film"] == "film" and film["p_f/p_d from film"] == ""
+    assert float(film["minimum nm from film"]) > 10.0
+
+
 def test_schemes(study):
     """One grid: every scheme's film on 65 nodes as a run finds it, no limit."""
     directory = study("schemes", "65")
