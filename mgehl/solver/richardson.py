@@ -3,13 +3,12 @@
 from dataclasses import dataclass
 from math import log2
 
-SAFETY = 0.4
+SAFETY = 0.7
 """Part of the estimated error that is added to it where three grids show its order. Roache's grid
-convergence index adds a quarter. By the default scheme 76 of 80 bands of `study error` hold the limit, and
-half of them are up to 1.98 times as wide as the error. (With a third here and a half below 74 and 1.82,
-with a half and one 77 and 2.23.)"""
+convergence index adds a quarter. With 0.4 and 0.75 below, bands are a sixth narrower and 135 of 148 hold the
+limit, of random contacts of M from 10 to 2000 and L from 2 to 14 by the default scheme."""
 
-UNSEEN = 0.75
+UNSEEN = 1.0
 """The same where there are only two grids, and the order is the scheme's on trust."""
 
 UNLIKE = 2.0
