@@ -5,8 +5,8 @@ from math import log2
 
 SAFETY = 0.7
 """Part of the estimated error that is added to it where three grids show its order. Roache's grid
-convergence index adds a quarter. With 0.4 and 0.75 below, bands are a sixth narrower and 135 of 148 hold the
-limit, of random contacts of M from 10 to 2000 and L from 2 to 14 by the default scheme."""
+convergence index adds a quarter. With 0.4 and 0.75 below, bands are a sixth narrower, and 135 of 148 hold
+the limit: those of random contacts of M from 10 to 2000 and L from 2 to 14 by the default scheme."""
 
 UNSEEN = 1.0
 """The same where there are only two grids, and the order is the scheme's on trust."""
