@@ -1,7 +1,6 @@
 """Small samples of the attacks that tests/tools/attack.py makes by the thousand."""
 
 import json
-import os
 import subprocess
 import sys
 from copy import deepcopy
@@ -9,6 +8,7 @@ from importlib import import_module
 from pathlib import Path
 
 import pytest
+from processes import own_environment
 
 import mgehl
 from mgehl.discretization.status import CAVITATED, LUBRICATED
@@ -21,8 +21,7 @@ TOOL = Path(__file__).parent / "tools" / "attack.py"
 )
 def test_a_few_find_nothing(attack, count):
     words = [sys.executable, str(TOOL), attack, "--count", str(count), "--seed", "11"]
-    environment = {k: v for k, v in os.environ.items() if not k.startswith(("OMPI_COMM", "PMIX_", "PRTE_"))}
-    done = subprocess.run(words, capture_output=True, text=True, timeout=300, env=environment)
+    done = subprocess.run(words, capture_output=True, text=True, timeout=300, env=own_environment())
     assert done.returncode == 0, done.stdout + done.stderr
     assert json.loads(done.stdout.splitlines()[-1])["findings"] == 0
 
@@ -32,9 +31,7 @@ class TestTheIndependentTest:
 
     @pytest.fixture(scope="class")
     def wrong(self):
-        with pytest.MonkeyPatch.context() as patch:
-            patch.syspath_prepend(TOOL.parent)
-            return import_module("attack_cases").wrong
+        return import_module("attack_cases").wrong
 
     @pytest.fixture(scope="class", params=[{}, {"contact.kind": "line"}], ids=["point", "line"])
     def film(self, request):

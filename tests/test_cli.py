@@ -1,12 +1,12 @@
 """The command line: exit statuses, one-line errors, PETSc options."""
 
 import json
-import os
 import shlex
 import subprocess
 import sys
 
 import pytest
+from processes import own_environment
 
 from mgehl.cli import main, split_options
 from mgehl.version import VERSION
@@ -24,9 +24,8 @@ def empty_directory(tmp_path, monkeypatch):
 
 def mgehl(*arguments):
     """Run the command in a process of its own, without MPI variables of this one."""
-    environment = {k: v for k, v in os.environ.items() if not k.startswith(("OMPI_COMM", "PMIX_", "PRTE_"))}
     command = [sys.executable, "-m", "mgehl", *arguments]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=60, env=environment)
+    done = subprocess.run(command, capture_output=True, text=True, timeout=60, env=own_environment())
     # MPI's libraries may have a say on the machine: "[hwloc/linux] ...".
     own = [line for line in done.stderr.splitlines(keepends=True) if not line.startswith("[")]
     done.stderr = "".join(own)
@@ -51,9 +50,8 @@ def test_a_run_in_a_process_of_its_own(tmp_path):
 
 def piped(command, tmp_path):
     """(exit status, stdout, stderr) of a command of the shell, mgehl's the status of a pipe's first."""
-    environment = {k: v for k, v in os.environ.items() if not k.startswith(("OMPI_COMM", "PMIX_", "PRTE_"))}
     words = ["bash", "-c", f"set -o pipefail; {command.replace('mgehl', f'{sys.executable} -m mgehl', 1)}"]
-    done = subprocess.run(words, capture_output=True, text=True, timeout=60, env=environment)
+    done = subprocess.run(words, capture_output=True, text=True, timeout=60, env=own_environment())
     err = [line for line in done.stderr.splitlines() if not line.startswith("[")]
     assert len(err) <= 1 and "Traceback" not in done.stderr, done.stderr
     return done.returncode, done.stdout, "".join(err)

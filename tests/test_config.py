@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 import tomli_w
+from processes import own_environment
 
 from mgehl.config import (
     SECTIONS,
@@ -640,10 +641,9 @@ class TestPipes:
 
     def check(self, tmp_path, command):
         """What `mgehl check` says of the output of a command."""
-        environment = {k: v for k, v in os.environ.items() if not k.startswith(("OMPI_", "PMIX_", "PRTE_"))}
         words = ["bash", "-c", f"exec {sys.executable} -m mgehl check <({command})"]
         return subprocess.run(
-            words, capture_output=True, text=True, cwd=tmp_path, env=environment, timeout=60
+            words, capture_output=True, text=True, cwd=tmp_path, env=own_environment(), timeout=60
         )
 
     def test_what_comes_out_of_one(self, tmp_path):

@@ -10,6 +10,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from processes import own_environment
 
 from mgehl.cli import main
 
@@ -33,10 +34,10 @@ def finished(tmp_path_factory):
 
 def process(*words, before="", **variables):
     """mgehl in a process of its own, after words of the shell."""
-    environment = {k: v for k, v in os.environ.items() if not k.startswith(("OMPI_COMM", "PMIX_", "PRTE_"))}
     command = ["bash", "-c", f'{before} "$@"', "-", sys.executable, "-m", "mgehl", *words]
+    environment = own_environment(**variables)
     done = subprocess.run(
-        command, capture_output=True, text=True, errors="replace", timeout=120, env=environment | variables
+        command, capture_output=True, text=True, errors="replace", timeout=120, env=environment
     )
     # MPI's libraries may have a say on the machine: "[hwloc/linux] ...".
     lines = [line for line in done.stderr.splitlines() if not line.startswith("[")]

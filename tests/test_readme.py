@@ -1,7 +1,6 @@
 """What the pages show is what the code and the runs' files say."""
 
 import csv
-import os
 import re
 import shlex
 import shutil
@@ -12,6 +11,7 @@ from pathlib import Path
 
 import pytest
 from mpi4py import MPI
+from processes import own_environment
 
 import mgehl
 from mgehl.cli import main, read
@@ -164,13 +164,12 @@ def small(line):
 
 def test_commands_run_in_their_order(place):
     """Each as it stands, but on 65 nodes; a command leaves behind what the next one reads."""
-    environment = {k: v for k, v in os.environ.items() if not k.startswith(("OMPI_COMM", "PMIX_", "PRTE_"))}
     assert len(RUN) >= 8
     for line in RUN:
         done = subprocess.run(
             shlex.split(small(line)),
             cwd=place,
-            env=environment,
+            env=own_environment(),
             capture_output=True,
             text=True,
             timeout=120,

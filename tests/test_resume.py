@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from mpi4py import MPI
+from processes import own_environment
 
 from mgehl.cli import main
 from mgehl.config import load_config
@@ -68,12 +69,11 @@ def configuration(words):
 
 def start(arguments, ranks=1):
     """A process of `mgehl run`, without MPI variables of this one."""
-    environment = {k: v for k, v in os.environ.items() if not k.startswith(("OMPI_COMM", "PMIX_", "PRTE_"))}
     words = [sys.executable, "-m", "mgehl", "run", *arguments]
     if ranks > 1:
         words = ["mpiexec", "-n", str(ranks), *words]
     return subprocess.Popen(
-        words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment
+        words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=own_environment()
     )
 
 
@@ -486,9 +486,6 @@ class TestFailingRank:
     def run(self, tmp_path, what):
         """(exit status, stderr, seconds) of a run in which rank 1 does `what`."""
         (tmp_path / "driver.py").write_text(self.DRIVER.format(what=what))
-        environment = {
-            k: v for k, v in os.environ.items() if not k.startswith(("OMPI_COMM", "PMIX_", "PRTE_"))
-        }
         words = [
             "mpiexec",
             "-n",
@@ -502,7 +499,7 @@ class TestFailingRank:
             "here",
         ]
         began = time.monotonic()
-        done = subprocess.run(words, capture_output=True, text=True, env=environment, timeout=60)
+        done = subprocess.run(words, capture_output=True, text=True, env=own_environment(), timeout=60)
         return done.returncode, done.stderr, time.monotonic() - began
 
     def test_an_error_ends_all_with_its_message(self, tmp_path):

@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from processes import own_environment
 
 from mgehl.cli import main, parser
 from mgehl.commands import COMMANDS
@@ -15,14 +16,6 @@ from mgehl.version import VERSION
 
 ROOT = Path(__file__).resolve().parents[2]
 SMALL = ["grid.nodes=65", "motion.speed=0.5 m/s", "solver.start=film"]
-
-
-def own_environment():
-    """This one's, without what MPI set for this process and with mgehl importable anywhere."""
-    kept = {
-        k: v for k, v in os.environ.items() if not k.startswith(("OMPI_COMM", "PMIX_", "PRTE_", "PMI_"))
-    }
-    return kept | {"PYTHONPATH": os.pathsep.join([str(ROOT), os.environ.get("PYTHONPATH", "")])}
 
 
 @pytest.fixture(scope="module")
@@ -95,8 +88,10 @@ def test_lists_are_broken_at_spaces(command, columns, capsys, monkeypatch):
 
 @pytest.mark.parametrize("name", COMMANDS)
 def test_the_example_runs(name, directory):
+    path = os.pathsep.join([str(ROOT), os.environ.get("PYTHONPATH", "")])
+    environment = own_environment(PYTHONPATH=path)
     done = subprocess.run(
-        example(name), cwd=directory, env=own_environment(), capture_output=True, text=True, timeout=300
+        example(name), cwd=directory, env=environment, capture_output=True, text=True, timeout=300
     )
     assert done.returncode == 0, done.stdout + done.stderr
     assert "Traceback" not in done.stderr

@@ -3,7 +3,6 @@
 A serial test that starts the ranks itself, more of them than there are cores.
 """
 
-import os
 import pickle
 import subprocess
 import sys
@@ -11,6 +10,7 @@ import sys
 import numpy as np
 import pytest
 from mpi4py import MPI
+from processes import own_environment
 
 from mgehl.config import config_from_tables
 from mgehl.run import solve
@@ -40,9 +40,8 @@ def together(tmp_path_factory):
     directory = tmp_path_factory.mktemp("together")
     script, found = directory / "solve_all.py", directory / "found"
     script.write_text(SOLVE_ALL % CASES)
-    environment = {k: v for k, v in os.environ.items() if not k.startswith(("OMPI_COMM", "PMIX_", "PRTE_"))}
     words = ["mpiexec", "-n", str(RANKS), sys.executable, str(script), str(found)]
-    done = subprocess.run(words, capture_output=True, text=True, env=environment, timeout=300)
+    done = subprocess.run(words, capture_output=True, text=True, env=own_environment(), timeout=300)
     assert done.returncode == 0, done.stderr
     return pickle.loads(found.read_bytes())
 

@@ -8,6 +8,8 @@ import sys
 import time
 from collections import Counter
 
+from processes import own_environment
+
 STATUSES = {0, 1, 2, 129, 130, 141, 143}
 LIMIT = 60.0
 """Seconds that a command may take."""
@@ -98,7 +100,6 @@ def alone(words, folder):
 
 def command(words, ranks=1, limit=None):
     """A process of mgehl of its own, or a job of several; `limit` is that of a file's bytes."""
-    environment = {k: v for k, v in os.environ.items() if not k.startswith(("OMPI_COMM", "PMIX_", "PRTE_"))}
     words = [sys.executable, "-m", "mgehl", *words]
     words = ["mpiexec", "-n", str(ranks), *words] if ranks > 1 else words
     words = ["bash", "-c", f'ulimit -f {limit // 1024}; exec "$@"', "-", *words] if limit else words
@@ -108,7 +109,7 @@ def command(words, ranks=1, limit=None):
         stderr=subprocess.PIPE,
         text=True,
         errors="replace",
-        env=environment,
+        env=own_environment(),
     )
 
 
