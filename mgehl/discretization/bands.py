@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mgehl.discretization.kernels import REACH, build_bands, factor_bands, solve_bands
+from mgehl.discretization.band_kernels import REACH, banded, build_bands
 from mgehl.discretization.rows import GAP, PRESSURE
 
 STIFF = 0.3
@@ -12,6 +12,8 @@ the work stays within an eighth, now more, now less; with 0.03 line contacts tak
 REACH_OF_STENCIL = 2
 """What a stencil couples along its line: two nodes upstream, one downstream."""
 
+LOOPS = {reach: banded(reach) for reach in (REACH, REACH_OF_STENCIL)}
+"""(factor, solve) by the reach of a band."""
 
 LINES_BESIDE = 2
 """Lines on each side that a stencil couples a line to."""
@@ -52,6 +54,7 @@ class LineBands:
 
     def __init__(self, lines, nx, reach=REACH):
         self._factors = np.zeros((lines, nx, 2 * reach + 1))
+        self._factor, self._solve = LOOPS[reach]
 
     def build(self, linearisation, distributive, kappa, share):
         """Fill the bands with those of J Q for a linearisation; `factor` comes next."""
@@ -65,7 +68,7 @@ class LineBands:
 
     def factor(self):
         """Factor the bands in place."""
-        factor_bands(self._factors)
+        self._factor(self._factors)
 
     def factor_stencil(self, linearisation):
         """Factor what the stencil A of a rigid gap couples along the lines."""
@@ -73,8 +76,8 @@ class LineBands:
         for (beside, ahead), A in zip(linearisation.offsets, linearisation.A, strict=True):
             if beside == 0:
                 self._factors[:, :, REACH_OF_STENCIL + ahead] = A
-        factor_bands(self._factors)
+        self._factor(self._factors)
 
     def solve(self, r, w):
         """Solve all lines for the right-hand sides `r`; write `w`; both (lines, nx)."""
-        solve_bands(self._factors, r, w)
+        self._solve(self._factors, r, w)

@@ -8,10 +8,6 @@ import numpy as np
 from mgehl.discretization.compiled import compiled
 from mgehl.discretization.mesh import HALO
 
-REACH = 4
-"""Neighbours on each side that a line's band couples where the gap is elastic. With 3 to 10 the
-convolutions are the same within a tenth; the bands take more time and memory, the wider they are."""
-
 NEAR = 0.02
 """Logarithm of the ratio of two mobilities below which the slopes of their logarithmic mean are a series:
 there the series has 16 digits, the formula 14."""
@@ -28,8 +24,16 @@ def apply_jacobian(offsets, A, B, dP, dH, dH0, out):
         out[j] = 0.0
         for k in range(len(offsets)):
             line, node = j + HALO + offsets[k, 0], offsets[k, 1]
-            for i in range(max(0, -node), min(nx, nx - node)):
-                out[j, i] += A[k, j, i] * dP[line, i + node] + B[k, j, i] * (dH[line, i + node] + dH0)
+            first, end = max(0, -node), min(nx, nx - node)
+            here, there = slice(first, end), slice(first + node, end + node)
+            _add(A[k, j, here], B[k, j, here], dP[line, there], dH[line, there], dH0, out[j, here])
+
+
+@compiled(fastmath={"contract"})
+def _add(a, b, p, h, h0, out):
+    """out += a p + b (h + h0): of whole arrays, for a loop that runs on vectors."""
+    for i in range(out.size):
+        out[i] += a[i] * p[i] + b[i] * (h[i] + h0)
 
 
 @compiled(fastmath={"contract"})
@@ -40,98 +44,23 @@ def apply_stencil(offsets, A, dP, out):
         out[j] = 0.0
         for k in range(len(offsets)):
             line, node = j + HALO + offsets[k, 0], offsets[k, 1]
-            for i in range(max(0, -node), min(nx, nx - node)):
-                out[j, i] += A[k, j, i] * dP[line, i + node]
+            first, end = max(0, -node), min(nx, nx - node)
+            _add_part(A[k, j, first:end], dP[line, first + node : end + node], out[j, first:end])
 
 
 @compiled(fastmath={"contract"})
-def build_bands(offsets, A, B, distributive, kappa, share, bands):
-    """Fill `bands` (lines, nx, 2 reach + 1) with each line's part of J Q.
-
-    Column m of Q is 1 at node m and, where `distributive[j, m]`, -share at its neighbours.
-    `kappa[d, l, k]` is the deflection k nodes along and l lines beside a unit column of kind d.
-    """
-    lines, nx, width = bands.shape
-    reach = width // 2
-    spreads, diagonals = np.zeros(nx + 2 * reach), np.zeros((width, nx))
-    for j in range(lines):
-        spreads[reach : reach + nx] = distributive[j]
-        diagonals[:] = 0.0
-        for o in range(len(offsets)):
-            beside, ahead = abs(offsets[o, 0]), offsets[o, 1]
-            for k in range(-reach, reach + 1):
-                distance, diagonal, spread = abs(k - ahead), diagonals[k + reach], spreads[k + reach :]
-                single, more = kappa[0, beside, distance], kappa[1, beside, distance]
-                _add_product(B[o, j], spread, single, more - single, diagonal)
-                if beside + distance == 0:
-                    _add_product(A[o, j], spread, 1.0, 0.0, diagonal)
-                elif beside + distance == 1:
-                    _add_product(A[o, j], spread, 0.0, -share, diagonal)
-        _set_band(diagonals, bands[j])
-
-
-@compiled(fastmath={"contract"})
-def _add_product(b, spreads, single, more, diagonal):
-    """diagonal += b (single + more spreads): a function of its own, for a loop that runs on vectors."""
-    for i in range(diagonal.size):
-        diagonal[i] += b[i] * (single + more * spreads[i])
-
-
-@compiled(fastmath={"contract"})
-def _set_band(diagonals, band):
-    """A line's band (nx, width) of its diagonals (width, nx), without what is beyond the line's ends."""
-    width, nx = diagonals.shape
-    reach = width // 2
-    for i in range(nx):
-        for k in range(width):
-            band[i, k] = diagonals[k, i] if 0 <= i + k - reach < nx else 0.0
-
-
-@compiled(fastmath={"contract"}, error_model="numpy")
-def factor_bands(bands):
-    """LU factors in place, without pivoting; the diagonal holds the reciprocal pivots.
-
-    A singular line gives factors that are not finite: the iteration that made it ends by itself.
-    """
-    lines, nx, width = bands.shape
-    reach = width // 2
-    for j in range(lines):
-        band = bands[j]
-        for i in range(nx):
-            pivot = 1.0 / band[i, reach]
-            band[i, reach] = pivot
-            for below in range(1, min(reach, nx - 1 - i) + 1):
-                row = i + below
-                factor = band[row, reach - below] * pivot
-                band[row, reach - below] = factor
-                for k in range(1, reach + 1):
-                    band[row, reach - below + k] -= factor * band[i, reach + k]
-
-
-@compiled(fastmath={"contract"})
-def solve_bands(bands, r, w):
-    """Solve every line with the factors of `factor_bands`; `r` and `w` are (lines, nx)."""
-    lines, nx, width = bands.shape
-    reach = width // 2
-    for j in range(lines):
-        band = bands[j]
-        for i in range(nx):
-            value = r[j, i]
-            for k in range(max(-reach, -i), 0):
-                value -= band[i, reach + k] * w[j, i + k]
-            w[j, i] = value
-        for i in range(nx - 1, -1, -1):
-            value = w[j, i]
-            for k in range(1, min(reach, nx - 1 - i) + 1):
-                value -= band[i, reach + k] * w[j, i + k]
-            w[j, i] = value * band[i, reach]
+def _add_part(a, p, out):
+    """out += a p."""
+    for i in range(out.size):
+        out[i] += a[i] * p[i]
 
 
 @compiled(fastmath={"contract"})
 def distribute(w, distributive, share, omega, out, everywhere=True):
-    """out = omega Q w, Q as in `build_bands`; `w` and `distributive` ghosted, `out` (lines, nx).
+    """out = omega Q w; `w` and `distributive` ghosted, `out` (lines, nx).
 
-    If not `everywhere`, only distributive nodes take what the lines beside them hand over.
+    Q as in `band_kernels.build_bands`. If not `everywhere`, only distributive nodes take what the lines
+    beside them hand over.
     """
     lines, nx = out.shape
     for j in range(lines):

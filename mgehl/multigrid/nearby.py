@@ -29,10 +29,10 @@ PACKAGES = "mumps", "superlu_dist"
 class NearbySolve:
     """LU of T = A Q + B N, the near part of J Q on all lines.
 
-    Q as in `kernels.build_bands`, N the deflection of near nodes by its columns. `K` holds the influence
-    coefficients of the few nearest nodes [line, node], `share` is what Q hands to each neighbour. The
-    places of T's entries stay the same, so the order of elimination is found once. It must not depend on
-    the entries (MUMPS's `icntl_6`): a run that goes on finds it from others.
+    Q as in `band_kernels.build_bands`, N the deflection of near nodes by its columns. `K` holds the
+    influence coefficients of the few nearest nodes [line, node], `share` is what Q hands to each neighbour.
+    The places of T's entries stay the same, so the order of elimination is found once. It must not depend
+    on the entries (MUMPS's `icntl_6`): a run that goes on finds it from others.
     """
 
     def __init__(self, jacobian, K, share):

@@ -3,6 +3,7 @@
 import numpy as np
 
 from mgehl.discretization.axes import own
+from mgehl.discretization.band_kernels import REACH
 from mgehl.discretization.bands import (
     LINES_BESIDE,
     REACH_OF_STENCIL,
@@ -11,7 +12,7 @@ from mgehl.discretization.bands import (
     influence_of_columns,
 )
 from mgehl.discretization.influence import influence_coefficients
-from mgehl.discretization.kernels import REACH, distribute
+from mgehl.discretization.kernels import distribute
 from mgehl.discretization.rows import PRESSURE
 from mgehl.grid.events import LINES, event
 from mgehl.grid.transpose import YLines

@@ -11,7 +11,7 @@ from math import ceil, log2
 import numpy as np
 
 from mgehl.config import COARSEST_NODES
-from mgehl.discretization.kernels import REACH
+from mgehl.discretization.band_kernels import REACH
 from mgehl.discretization.mesh import HALO
 from mgehl.grid.ownership import ownerships
 

@@ -3,6 +3,7 @@ import pytest
 from dense import ALONG_X, BOTH_WAYS, dense_JQ, dense_stencil, line_stencils
 
 from mgehl.discretization.axes import HALO
+from mgehl.discretization.band_kernels import REACH, build_bands
 from mgehl.discretization.bands import (
     LINES_BESIDE,
     REACH_OF_STENCIL,
@@ -12,7 +13,6 @@ from mgehl.discretization.bands import (
     influence_of_columns,
 )
 from mgehl.discretization.influence import influence_coefficients
-from mgehl.discretization.kernels import REACH, build_bands
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.residual import Linearisation
 from mgehl.discretization.rows import FLOW, GAP, PRESSURE

@@ -2,26 +2,18 @@
 
 import numpy as np
 import pytest
-from dense import ALONG_X, BOTH_WAYS, dense_JQ, dense_Q, dense_stencil, line_stencils
+from dense import ALONG_X, BOTH_WAYS, dense_Q, dense_stencil, line_stencils
 
 from mgehl.discretization.axes import HALO, own
-from mgehl.discretization.bands import LINES_BESIDE, influence_of_columns
-from mgehl.discretization.influence import influence_coefficients
 from mgehl.discretization.kernels import (
-    REACH,
     apply_jacobian,
     apply_stencil,
-    build_bands,
     distribute,
-    factor_bands,
     flow_sources,
     linear_gap_means,
     logarithmic_means,
     relax_cavitation,
-    solve_bands,
 )
-from mgehl.discretization.mesh import Mesh
-from mgehl.model.deformation import HalfSpace
 
 every_stencil = pytest.mark.parametrize("offsets", [ALONG_X, BOTH_WAYS], ids=["along x", "both ways"])
 
@@ -66,51 +58,6 @@ def test_coefficients_of_nodes_beyond_a_line_s_ends_are_not_used(rng):
         A[k][:, beyond] = B[k][:, beyond] = np.nan
     apply_jacobian(offsets, A, B, dP, dH, 0.3, cut)
     np.testing.assert_array_equal(found, cut)
-
-
-@pytest.mark.parametrize("distributed", [0.0, 0.5, 1.0], ids=["identity", "partly", "all"])
-@pytest.mark.parametrize("k_e, share", [(1.0, 0.25), (0.6, 0.25), (0.6, 0.5)])
-@every_stencil
-def test_build_bands_is_the_band_of_J_Q(offsets, distributed, k_e, share, rng):
-    """Entry (i, m) of each line is that of (A + B K) Q with dense K and Q, up to REACH nodes away."""
-    mesh = Mesh(15, 11, (-1.9, 1.3), (-1.5, 1.5), k_e)
-    lines, nx = 3, mesh.nx
-    K = influence_coefficients(mesh, HalfSpace(0.2))
-    A, B = line_stencils(rng, offsets, lines, nx)
-    distributive = rng.random((lines, nx)) < distributed
-    # A line's ends are given; their column would reach outside the domain.
-    distributive[:, [0, -1]] = False
-    bands, kappa = np.full((lines, nx, 2 * REACH + 1), np.nan), influence_of_columns(K, share)
-    build_bands(np.array(offsets), A, B, distributive, kappa, share, bands)
-    JQ = dense_JQ(offsets, A, B, K, distributive, share, REACH)
-    expected = np.zeros_like(bands)
-    for j, i, k in np.ndindex(*bands.shape):
-        if 0 <= i + k - REACH < nx:
-            expected[j, i, k] = JQ[j, i, j, i + k - REACH]
-    np.testing.assert_allclose(bands, expected, rtol=1e-12, atol=1e-13)
-
-
-def test_the_stencils_of_these_tests_reach_as_far_as_the_bands_know():
-    assert {abs(line) for line, _ in BOTH_WAYS} == set(range(LINES_BESIDE + 1))
-
-
-@pytest.mark.parametrize("nx", [2, 5, 6, 23])
-def test_banded_solve_against_dense(nx, rng):
-    """Lines shorter and longer than the band; what a band holds outside the line is ignored."""
-    lines = 3
-    bands = rng.standard_normal((lines, nx, 2 * REACH + 1))
-    bands[:, :, REACH] += 12.0
-    dense = np.zeros((lines, nx, nx))
-    for j, i, k in np.ndindex(*bands.shape):
-        if 0 <= i + k - REACH < nx:
-            dense[j, i, i + k - REACH] = bands[j, i, k]
-        else:
-            bands[j, i, k] = np.nan
-    r, w = rng.standard_normal((lines, nx)), np.full((lines, nx), np.nan)
-    factor_bands(bands)
-    solve_bands(bands, r, w)
-    expected = [np.linalg.solve(matrix, line) for matrix, line in zip(dense, r, strict=True)]
-    np.testing.assert_allclose(w, expected, rtol=1e-12, atol=1e-14)
 
 
 @pytest.mark.parametrize("share", [0.25, 0.5])

@@ -5,7 +5,7 @@ from copy import deepcopy
 import numpy as np
 import pytest
 
-from mgehl.discretization.kernels import build_bands
+from mgehl.discretization.band_kernels import build_bands
 from mgehl.discretization.status import BOUNDARY, CONTACT, LUBRICATED
 from mgehl.multigrid.cycle import MultigridSolver
 from mgehl.solver.arbiter import EARLY, EARLY_ROUNDS, Ruling, rule
