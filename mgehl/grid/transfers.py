@@ -4,7 +4,7 @@ import numpy as np
 
 from mgehl.discretization.axes import own
 from mgehl.discretization.mesh import HALO
-from mgehl.discretization.rows import FLOW
+from mgehl.discretization.rows import FLOW, GAP
 from mgehl.discretization.status import CONTACT
 from mgehl.grid.events import TRANSFERS, event
 from mgehl.grid.ownership import coarsened
@@ -89,7 +89,7 @@ class PartitionedTransfer:
     kind is averaged over nodes of its own kind only. A contact row is -H/dX on every grid: what
     is gathered on the fine one shrinks with the ratio of the spacings (leaving that out makes the
     coarse correction twice too large, and the cycle slower with every refinement). Rows and
-    corrections of boundary and cavitated nodes are zero.
+    corrections of boundary and cavitated nodes are zero, and those of contact in a rigid gap.
     """
 
     def __init__(self, transfer):
@@ -101,14 +101,17 @@ class PartitionedTransfer:
         transfer = self._transfer
         self._fine_film, self._coarse_film = fine[1] == FLOW, coarse[1] == FLOW
         fine_contact, coarse_contact = fine[0] == CONTACT, coarse[0] == CONTACT
-        self._any_contact = transfer.coarse.count(coarse_contact) > 0
-        if self._any_contact:
+        self._film_share, self._contact_moves = self._fine_film, False
+        if not transfer.coarse.count(coarse_contact):
+            return
+        spread = transfer.bilinear(coarse_contact.astype(float))
+        self._film_share = _inverse(1.0 - spread, where=self._fine_film)
+        self._contact_moves = transfer.fine.count(fine[1] == GAP) > 0
+        if self._contact_moves:
             self._fine_contact, self._coarse_contact = fine_contact, coarse_contact
             gathered = transfer.full_weighting(fine_contact.astype(float))
             self._restrict_contact = 0.5 * _inverse(gathered, where=coarse_contact)
-            spread = transfer.bilinear(coarse_contact.astype(float))
-            self._prolong_contact = _inverse(spread, where=fine_contact)
-            self._prolong_film = _inverse(1.0 - spread, where=self._fine_film)
+            self._contact_share = _inverse(spread, where=fine_contact)
 
     def bilinear(self, coarse):
         """A field that knows neither fluid nor contact, such as a deflection, on the fine grid."""
@@ -119,7 +122,7 @@ class PartitionedTransfer:
         """Residual (lines, nx) of the fine grid to the coarse one."""
         transfer = self._transfer
         coarse = transfer.full_weighting(fine * self._fine_film) * self._coarse_film
-        if self._any_contact:
+        if self._contact_moves:
             coarse += transfer.full_weighting(fine * self._fine_contact) * self._restrict_contact
         return coarse
 
@@ -127,10 +130,10 @@ class PartitionedTransfer:
     def prolong(self, coarse):
         """Correction (lines, nx) of the coarse grid to the fine one."""
         transfer = self._transfer
-        if not self._any_contact:
-            return transfer.bilinear(coarse) * self._fine_film
-        contact = transfer.bilinear(coarse * self._coarse_contact) * self._prolong_contact
-        return contact + transfer.bilinear(coarse * ~self._coarse_contact) * self._prolong_film
+        if not self._contact_moves:
+            return transfer.bilinear(coarse) * self._film_share
+        contact = transfer.bilinear(coarse * self._coarse_contact) * self._contact_share
+        return contact + transfer.bilinear(coarse * ~self._coarse_contact) * self._film_share
 
 
 def _inverse(weight, where):

@@ -162,6 +162,14 @@ class TestPartitioned:
         np.testing.assert_array_equal(partitioned.prolong(coarse_ones)[rows == PRESSURE], 0.0)
         assert (partitioned.prolong(coarse_ones)[status == CONTACT] > 0.0).all()
 
+    def test_contact_in_a_rigid_gap_has_no_part_in_it(self, transfer, partitioned, status, coarse_status):
+        """Its pressure is given. Film beside it is corrected as where contact moves."""
+        rigid = PartitionedTransfer(transfer)
+        rigid.partition(*((each, rows_of(each, rigid=True)) for each in (coarse_status, status)))
+        assert not rigid.restrict(np.where(status == CONTACT, 1.0, 0.0)).any()
+        film = np.random.default_rng(5).random(coarse_status.shape) * (coarse_status == LUBRICATED)
+        np.testing.assert_array_equal(rigid.prolong(film), partitioned.prolong(film))
+
     def test_contact_that_disappears_is_forgotten(self, partitioned, status, coarse_status):
         film = np.where(status == CONTACT, LUBRICATED, status)
         coarse_film = np.where(coarse_status == CONTACT, LUBRICATED, coarse_status)
