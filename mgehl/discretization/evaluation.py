@@ -6,7 +6,7 @@ from functools import cached_property
 import numpy as np
 
 from mgehl.discretization.axes import axes_of, own
-from mgehl.discretization.faces import conductances, flows
+from mgehl.discretization.faces import conductances, flows, mobility_of_faces
 from mgehl.discretization.fluid import fluid_state
 from mgehl.discretization.kernels import flow_sources
 
@@ -29,7 +29,10 @@ class Evaluation:
         if scheme == self.scheme:
             return self
         parts = self.P, self.H, self.status, self.mesh, self.contact
-        return Evaluation(*parts, scheme, self.fluid)
+        other = Evaluation(*parts, scheme, self.fluid)
+        if scheme.mean == self.scheme.mean:
+            other.mobilities = self.mobilities
+        return other
 
     def with_pressure(self, P):
         """The same gap and solids under another ghosted pressure; laws are asked only where it changed.
@@ -48,9 +51,22 @@ class Evaluation:
         return Evaluation(self.P, self.H, self.status, self.mesh, self.contact, self.scheme, fluid)
 
     @cached_property
+    def mobilities(self):
+        """`FaceMobility` of the faces along each axis."""
+        return [mobility_of_faces(self.fluid, axis, self.scheme) for axis in self.axes]
+
+    @cached_property
     def flows(self):
         """(leaving W, entering E) along each axis."""
-        return [flows(self.fluid, self.status, axis, self.scheme) for axis in self.axes]
+        return list(self._of_axes(flows))
+
+    def linearised_flows(self, rigid=False):
+        """The same with their derivatives by P and, unless the gap is `rigid`, by H."""
+        return list(self._of_axes(flows, linearised=True, rigid=rigid))
+
+    def _of_axes(self, function, **how):
+        for axis, mobility in zip(self.axes, self.mobilities, strict=True):
+            yield function(self.fluid, self.status, axis, self.scheme, mobility=mobility, **how)
 
     @cached_property
     def inflow(self):
@@ -65,7 +81,7 @@ class Evaluation:
     @cached_property
     def conductances(self):
         """Of the faces along X, (lines, nx - 1), and Y, (lines + 1, nx); these zero on a single line."""
-        found = [conductances(self.fluid, self.status, axis, self.scheme) for axis in self.axes]
+        found = list(self._of_axes(conductances))
         if self.mesh.is_line:
             lines, nx = own(self.P).shape
             found.append(np.zeros((lines + 1, nx)))

@@ -4,6 +4,8 @@ This is the only place where a flow is computed, along X and Y by the same lines
 for both kinds of flow, which is the whole of the no-flow half of the interface conditions [Liu eq. 4].
 """
 
+from dataclasses import replace
+
 import numpy as np
 
 from mgehl.discretization.couette import SHIFT, E, W, add_couette, couette_scheme, nodes_of
@@ -29,20 +31,24 @@ class Flow:
             array *= is_open
 
 
-def flows(fluid, status, axis, scheme, linearised=False, rigid=False):
+def flows(fluid, status, axis, scheme, linearised=False, rigid=False, mobility=None):
     """Flows (leaving W, entering E) through the faces along an axis: couette rho H - eps dP/distance.
 
     `fluid` and `status` are ghosted; the two are one object for a conservative scheme. Derivatives only
-    if they are to be `linearised`, by H unless `rigid`.
+    if they are to be `linearised`, by H unless `rigid`. `mobility` is that of the faces, where it is known.
     """
-    table, derivatives = couette_scheme(scheme.couette, scheme.coarsenings), (linearised, rigid)
-    leaving = _flow(fluid, status, axis, scheme, table.leaving, table.near, *derivatives)
-    if table.conservative or not axis.couette:
-        return leaving, leaving
-    return leaving, _flow(fluid, status, axis, scheme, table.entering, table.near, *derivatives)
+    mobility = mobility_of_faces(fluid, axis, scheme) if mobility is None else mobility
+    table = couette_scheme(scheme.couette, scheme.coarsenings)
+
+    def flow(terms):
+        return _flow(fluid, status, axis, scheme, mobility, terms, table.near, linearised, rigid)
+
+    leaving = flow(table.leaving)
+    conservative = table.conservative or not axis.couette
+    return leaving, leaving if conservative else flow(table.entering)
 
 
-def _flow(fluid, status, axis, scheme, terms, near, linearised, rigid):
+def _flow(fluid, status, axis, scheme, mobility, terms, near, linearised, rigid):
     """One flow, its Couette part by `terms`, beside what is solid by `near`."""
     solid = is_solid(status, scheme.contact_law.closes_faces)
     is_open = open_faces(solid, axis)
@@ -50,7 +56,7 @@ def _flow(fluid, status, axis, scheme, terms, near, linearised, rigid):
     if axis.couette:
         nodes |= nodes_of(terms) | nodes_of(near)
     flow = Flow(is_open.shape, nodes if linearised else (), rigid)
-    _add_poiseuille(flow, fluid, axis, scheme)
+    _add_poiseuille(flow, fluid, axis, mobility)
     if scheme.couette_at_interface == "untreated":
         # Contact stops the pressure flow alone; nothing passes a wall.
         flow.close(is_open)
@@ -64,10 +70,9 @@ def _flow(fluid, status, axis, scheme, terms, near, linearised, rigid):
     return flow
 
 
-def _add_poiseuille(flow, fluid, axis, scheme):
+def _add_poiseuille(flow, fluid, axis, mobility):
     """Add -eps (P_E - P_W)/distance with eps the face's mean mobility  [Liu eqs. 7, 16, 30]."""
     (west, east), distance = (_on_side(fluid, axis, side) for side in (W, E)), axis.distance
-    mobility, by_gap = _mobility(fluid, axis, scheme)
     eps, (by_west, by_east) = mobility.value, mobility.by_eps
     gradient = (east("P") - west("P")) / distance
     flow.value -= eps * gradient
@@ -78,7 +83,7 @@ def _add_poiseuille(flow, fluid, axis, scheme):
     if flow.by_H:
         flow.by_H[W] -= gradient * by_west * west("deps_dH")
         flow.by_H[E] -= gradient * by_east * east("deps_dH")
-        for node, slope in zip((W, E), by_gap, strict=False):
+        for node, slope in zip((W, E), mobility.by_gap, strict=False):
             flow.by_H[node] -= gradient * slope
 
 
@@ -87,21 +92,22 @@ def _on_side(fluid, axis, side):
     return lambda name: axis.at(getattr(fluid, name), SHIFT[side])
 
 
-def _mobility(fluid, axis, scheme):
-    """The `FaceMobility` of the faces along an axis, and its slopes by H beside those by eps."""
+def mobility_of_faces(fluid, axis, scheme):
+    """The `FaceMobility` of the faces along an axis; its slopes by the gap are by H."""
     sides = (W, E)
     eps = [axis.at(fluid.eps, SHIFT[side]) for side in sides]
     gaps = [scheme.contact_law.flow_gap(axis.at(fluid.H, SHIFT[side])) for side in sides]
     mobility = face_mobility(scheme, eps, [gap for gap, _ in gaps])
-    return mobility, [slope * by_H for slope, (_, by_H) in zip(mobility.by_gap, gaps, strict=False)]
+    by_H = tuple(slope * by_H for slope, (_, by_H) in zip(mobility.by_gap, gaps, strict=False))
+    return replace(mobility, by_gap=by_H)
 
 
-def conductances(fluid, status, axis, scheme):
+def conductances(fluid, status, axis, scheme, mobility=None):
     """Mobility of the faces along an axis over cell times distance, zero where closed.
 
     With them the Poiseuille flow into a node is a sum over its faces of conductance times pressure
-    difference. `fluid` and `status` are ghosted.
+    difference. `fluid` and `status` are ghosted; `mobility` as of `flows`.
     """
-    eps = _mobility(fluid, axis, scheme)[0].value
+    mobility = mobility_of_faces(fluid, axis, scheme) if mobility is None else mobility
     solid = is_solid(status, scheme.contact_law.closes_faces)
-    return eps * open_faces(solid, axis) / (axis.distance * axis.cell)
+    return mobility.value * open_faces(solid, axis) / (axis.distance * axis.cell)

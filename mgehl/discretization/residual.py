@@ -9,7 +9,6 @@ import numpy as np
 
 from mgehl.discretization.axes import own
 from mgehl.discretization.couette import SHIFT
-from mgehl.discretization.faces import flows
 from mgehl.discretization.rows import FLOW, GAP, PRESSURE
 
 
@@ -56,8 +55,7 @@ def residual(evaluation, rows, storage=None):
 
 def linearise(evaluation, rows, storage=None, rigid=False):
     """Derivatives of `residual` by P (A) and, unless the gap is `rigid`, by H (B)."""
-    state, fluid = (evaluation.fluid, evaluation.status), evaluation.fluid
-    found = [flows(*state, axis, evaluation.scheme, True, rigid) for axis in evaluation.axes]
+    fluid, found = evaluation.fluid, evaluation.linearised_flows(rigid)
     offsets = _offsets(evaluation.axes, found)
     A = _net_inflow(evaluation, offsets, found, "by_P")
     B = None if rigid else _net_inflow(evaluation, offsets, found, "by_H")

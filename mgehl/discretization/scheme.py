@@ -33,6 +33,11 @@ class Scheme:
         return self.motion[0] != 0.0 and self.motion[1] != 0.0
 
     @property
+    def mean(self):
+        """All that decides how the mobility of a face follows from that of its nodes."""
+        return self.face_mobility, self.mobility_share, self.contact_law
+
+    @property
     def may_fold(self):
         """True where more pressure at a node may drive less flow out of it."""
         return self.contact_law.is_continuous or self.face_mobility in FOLDING

@@ -190,6 +190,8 @@ class TestFluidIsEvaluatedOnce:
         first = mixed.evaluation(Scheme("1B"))
         second = first.by(Scheme("2B"))
         assert first.by(Scheme("1B")) is first and second.fluid is first.fluid
+        assert second.mobilities is first.mobilities
+        assert first.by(Scheme("1B", "geometric")).mobilities is not first.mobilities
         assert len(calls) == 1
         np.testing.assert_array_equal(second.inflow, mixed.evaluation(Scheme("2B")).inflow)
         assert (second.inflow != first.inflow).any()
