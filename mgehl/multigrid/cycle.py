@@ -96,8 +96,8 @@ class MultigridSolver:
         self._transfers = hierarchy.transfers[:level]
         self._partitioned = [PartitionedTransfer(transfer) for transfer in self._transfers]
         self._smoothers = [
-            smoother_of(jacobian, self._thin, jacobian is self.jacobians[-1])(jacobian, settings.omega)
-            for jacobian in self.jacobians[1:]
+            smoother_of(each, self._thin, each is self.jacobians[-1], apart)(each, settings.omega)
+            for each in self.jacobians[1:]
         ]
         coarse = CoarseSolve(self.jacobians[0])
         cycle = VCycle(self.jacobians, self._partitioned, self._smoothers, coarse, settings.sweeps)

@@ -108,6 +108,13 @@ def test_a_single_line_is_not_crossed(line_film, make_jacobian):
     assert smoother_of(make_jacobian(solution.problem, solution.outcome.state)) is LineSmoother
 
 
+def test_contact_whose_fluid_is_solved_apart_is_not_crossed(rough_state, make_problem, make_jacobian):
+    problem = make_problem(nodes=NODES)
+    jacobian = make_jacobian(problem, rough_state(problem, contact=True))
+    assert smoother_of(jacobian) is CrossedLineSmoother
+    assert smoother_of(jacobian, apart=True) is LineSmoother
+
+
 class TestLinesAlongBothAxes:
     """The crossed smoother, of a motion at an angle, against dense matrices, on a grid that a band spans.
 
