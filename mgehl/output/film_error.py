@@ -6,7 +6,7 @@ from mgehl.discretization.order import couette_order
 from mgehl.output.resolution import SEEN_CELLS
 from mgehl.output.surface import GRIDS
 from mgehl.solver.coarser import films_of_grids
-from mgehl.solver.richardson import band, band_beside
+from mgehl.solver.richardson import band, band_beside, band_of_smallest
 
 FILMS = ("central", "minimum")
 
@@ -19,13 +19,18 @@ POISEUILLE_ORDER = 2
 
 @dataclass(frozen=True)
 class GridFilm:
-    """Films of a grid at the run's speed, in nm, between the nodes where need be."""
+    """Films of a grid at the run's speed, in nm, between the nodes where need be.
+
+    On a coarser grid the minimum is that of the finer one, less what differs at their common nodes around.
+    """
 
     nodes: int
     central_nm: float
     minimum_nm: float
     contact_nodes: int
     settled: bool
+    spread_nm: float = 0.0
+    """By how much that varies from node to node."""
 
 
 @dataclass(frozen=True)
@@ -96,7 +101,8 @@ def film_error(result, hierarchy, problem, state, settings, progress, journal):
 
 def _in_nm(grid, nm):
     films = grid.films
-    return GridFilm(grid.nodes, nm * films.central, nm * films.minimum, grid.contact_nodes, grid.settled)
+    central, minimum, spread = (nm * each for each in (films.central, films.minimum, films.spread))
+    return GridFilm(grid.nodes, central, minimum, grid.contact_nodes, grid.settled, spread)
 
 
 def scheme_order(scheme):
@@ -143,6 +149,8 @@ def _band(result, grids, film, order, unlike, other):
     finest, *coarser = (getattr(each, f"{film}_nm") for each in grids)
     if other:
         return band_beside(reported, coarser, order)
+    if film == "minimum":
+        return band_of_smallest(reported, [finest, *coarser], grids[1].spread_nm, order, unlike)
     return band(reported, [finest, *coarser], order, unlike)
 
 

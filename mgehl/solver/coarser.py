@@ -12,7 +12,7 @@ from functools import partial
 import numpy as np
 
 from mgehl.multigrid.cycle import MultigridSolver
-from mgehl.solver.films import Films, films_between_nodes
+from mgehl.solver.films import Films, films_beside, films_between_nodes
 from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.nested import LevelSolve
 from mgehl.solver.newton import Newton
@@ -48,21 +48,23 @@ def films_of_grids(hierarchy, problem, state, settings, scheme, monitor, journal
     Those are solved by a `Scheme` that may be another. The list ends with the first grid that has contact,
     or no answer. `monitor` and `journal` as of `nested_iteration`.
     """
-    found, contact = [_films(problem, state, True)], problem.contact
+    films, contact = films_between_nodes(problem, state), problem.contact
+    found = [_grid_films(problem, state, films, True)]
     last = len(hierarchy.grids) - 1
     for level in range(last - 1, max(last - 1 - COARSER, -1), -1):
+        H = hierarchy.transfers[level].inject(state.H)
         problem, state = _injected(hierarchy, level, contact, state, scheme)
         outcome = _solve(hierarchy, level, problem, state, settings, monitor, journal)
-        state = outcome.state
-        found.append(_films(problem, state, outcome.converged))
+        state, films = outcome.state, films_beside(problem, outcome.state, films, H)
+        found.append(_grid_films(problem, state, films, outcome.converged))
         if not found[-1].is_film:
             break
     return found
 
 
-def _films(problem, state, settled):
+def _grid_films(problem, state, films, settled):
     contact_nodes, _ = problem.counts(state.status)
-    return GridFilms(problem.grid.mesh.nx, films_between_nodes(problem, state), contact_nodes, settled)
+    return GridFilms(problem.grid.mesh.nx, films, contact_nodes, settled)
 
 
 def _injected(hierarchy, level, contact, state, scheme):

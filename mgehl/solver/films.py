@@ -22,6 +22,9 @@ class Films(Kept):
 
     central: float
     minimum: float
+    spread: float = 0.0
+    """Of a coarser grid: by how much its difference from the finer one varies around the smallest gap, a
+    standard deviation."""
 
 
 def films_between_nodes(problem, state):
@@ -30,6 +33,25 @@ def films_between_nodes(problem, state):
     whole, found = grid.gather(state.H), None
     if whole is not None:
         found = Films(value_at(whole, grid.mesh, 0.0, 0.0), smallest(whole))
+    return grid.comm.bcast(found)
+
+
+def films_beside(problem, state, finer, H):
+    """`Films` of a coarser grid, to be compared with the `finer` grid's, whose gap at this grid's nodes is
+    `H`, (lines, nx) (collective).
+
+    The smallest gap differs from the finer grid's by the mean of the gaps' differences at the node where
+    `H` is smallest and those around it. Its own smallest gap would tell less: it is too narrow there for
+    a polynomial through its nodes, and may lie elsewhere (on 129 nodes the difference would have the
+    wrong sign as often as not).
+    """
+    grid = problem.grid
+    whole, of_finer, found = grid.gather(state.H), grid.gather(H), None
+    if whole is not None:
+        differences = (of_finer - whole)[_around_lowest(of_finer)]
+        minimum = finer.minimum - float(np.mean(differences))
+        central = value_at(whole, grid.mesh, 0.0, 0.0)
+        found = Films(central, minimum, float(np.std(differences)))
     return grid.comm.bcast(found)
 
 
@@ -60,6 +82,11 @@ def smallest(H):
     if inside and 0 < j < len(H) - 1:
         return _bottom_around(H[j - 1 : j + 2, i - 1 : i + 2])
     return float(H[j, i])
+
+
+def _around_lowest(H):
+    """Slices of the nodes around the lowest of H, (ny, nx), and itself: nine, or three on a line."""
+    return tuple(slice(max(at - 1, 0), at + 2) for at in np.unravel_index(np.argmin(H), H.shape))
 
 
 def _bottom_along(H):

@@ -4,13 +4,17 @@ import pytest
 
 from mgehl.solver.richardson import (
     FASTER,
+    OFF,
     SAFETY,
     SLOWEST,
     SMALLEST,
+    SPREADS,
+    SPREADS_UNLIKE,
     UNLIKE,
     UNSEEN,
     band,
     band_beside,
+    band_of_smallest,
     believed,
     by_chance,
     observed_order,
@@ -84,3 +88,22 @@ def test_another_film_on_the_coarser_grid_makes_the_band_three_times_the_error()
 
 def test_films_that_agree_by_chance_do_not_make_a_band_of_nothing():
     assert band(10.0, [10.0, 10.0, 10.0], 2).half_width == pytest.approx(SMALLEST * 10.0)
+
+
+class TestTheSmallestGap:
+    def test_its_safety_is_the_spread_of_the_difference(self):
+        films = values(30.0, 2, 0.4, 3)
+        told = band_of_smallest(films[0], films, 0.9, 2)
+        assert told.half_width == pytest.approx(0.4 + SPREADS * 0.9 / 3.0)
+        wider = band_of_smallest(films[0], films, 0.9, 2, unlike=True)
+        assert wider.half_width == pytest.approx(0.4 + SPREADS_UNLIKE * 0.9 / 3.0)
+        assert told.observed_order == pytest.approx(2.0)
+
+    def test_what_the_smallest_node_is_off_the_bottom_is_known_but_for_a_part(self):
+        films = values(30.0, 2, 0.4, 2)
+        told = band_of_smallest(films[0] + 0.6, films, 0.0, 2)
+        assert told.half_width == pytest.approx(0.2 + OFF * 0.6 + SAFETY * 0.4)
+        assert told.observed_order is None
+
+    def test_it_is_never_nothing(self):
+        assert band_of_smallest(10.0, [10.0, 10.0], 0.0, 2).half_width == pytest.approx(SMALLEST * 10.0)
