@@ -4,6 +4,7 @@ import pytest
 
 from mgehl.solver.richardson import (
     FASTER,
+    IRREGULAR,
     OFF,
     SAFETY,
     SLOWEST,
@@ -43,9 +44,9 @@ def test_the_known_answer_of_three_grids():
 def test_what_a_node_is_off_the_film_between_nodes_it_is_off_the_limit():
     films = values(30.0, 2, 0.4, 3)
     above = band(films[0] + 0.1, films, 2).half_width
-    assert above == pytest.approx(0.3 + SAFETY * 0.5)
+    assert above == pytest.approx(0.3 + SAFETY * 0.4 + OFF * 0.1)
     below = band(films[0] - 0.1, films, 2).half_width
-    assert below == pytest.approx(0.5 + SAFETY * 0.5)
+    assert below == pytest.approx(0.5 + SAFETY * 0.4 + OFF * 0.1)
 
 
 def test_a_difference_that_is_small_by_chance_does_not_make_a_small_band():
@@ -64,6 +65,13 @@ def test_slower_convergence_than_the_schemes_is_believed_down_to_a_part():
     assert believed(2, 2.7) == 2
     assert believed(2, None) == 2
     assert believed(2, 2 * SLOWEST - 0.01) == 2
+
+
+@pytest.mark.parametrize("order, part", [(1.9, SAFETY), (2.4, SAFETY), (1.4, IRREGULAR)])
+def test_more_is_added_where_three_grids_show_another_order(order, part):
+    films = [10.0, 9.0, 9.0 - 2.0**order]
+    error = 1.0 / (2.0 ** believed(2, order) - 1.0)
+    assert band(10.0, films, 2).half_width == pytest.approx((1.0 + part) * error)
 
 
 def test_no_order_is_seen_where_differences_change_their_sign():
@@ -102,7 +110,7 @@ class TestTheSmallestGap:
     def test_what_the_smallest_node_is_off_the_bottom_is_known_but_for_a_part(self):
         films = values(30.0, 2, 0.4, 2)
         told = band_of_smallest(films[0] + 0.6, films, 0.0, 2)
-        assert told.half_width == pytest.approx(0.2 + OFF * 0.6 + SAFETY * 0.4)
+        assert told.half_width == pytest.approx(0.2 + OFF * 0.6 + IRREGULAR * 0.4)
         assert told.observed_order is None
 
     def test_it_is_never_nothing(self):
