@@ -328,11 +328,17 @@ class TestResume:
 
 
 class TestStartFrom:
-    @pytest.fixture
-    def before(self, tmp_path):
+    @pytest.fixture(scope="class")
+    def finished(self, tmp_path_factory):
         """A finished film of 0.5 m/s on 65 nodes."""
-        assert exit_status(*SMALL, "--out", "before") == 0
-        return tmp_path / "before"
+        path = tmp_path_factory.mktemp("finished") / "before"
+        assert exit_status(*SMALL, "--out", str(path)) == 0
+        return path
+
+    @pytest.fixture
+    def before(self, tmp_path, finished):
+        """A copy of it."""
+        return Path(shutil.copytree(finished, tmp_path / "before"))
 
     @pytest.mark.parametrize("change", ["grid.nodes=129", "motion.speed=0.6"])
     def test_another_grid_and_another_speed(self, before, tmp_path, uninterrupted, change):

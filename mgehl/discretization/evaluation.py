@@ -50,6 +50,14 @@ class Evaluation:
         fluid = replace(self.fluid, eps=eps, deps_dP=rigid, deps_dH=rigid)
         return Evaluation(self.P, self.H, self.status, self.mesh, self.contact, self.scheme, fluid)
 
+    def forget(self):
+        """Drop what was found of the faces; it is found again when it is asked for.
+
+        A linear solve does not ask, and needs the memory.
+        """
+        for name in ("mobilities", "flows", "conductances", "conductance", "source"):
+            self.__dict__.pop(name, None)
+
     @cached_property
     def mobilities(self):
         """`FaceMobility` of the faces along each axis."""

@@ -148,6 +148,7 @@ class MultigridSolver:
         if self.jacobian is not self.jacobians[-1]:
             self.jacobian.linearise(evaluation, rows, rate)
         self.jacobians[-1].linearise(evaluation, rows, rate)
+        evaluation.forget()
         fine = [own(ghosted) for ghosted in (evaluation.P, evaluation.H, evaluation.status)]
         eps = own(evaluation.fluid.eps)
         for level in range(len(self.jacobians) - 1, 0, -1):

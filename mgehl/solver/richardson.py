@@ -77,7 +77,7 @@ def band_of_smallest(film, values, spread, order, unlike=False):
     last, *before = (finer - coarser for finer, coarser in zip(values, values[1:], strict=False))
     part, off = 1.0 / (2.0**order - 1.0), values[0] - film
     safety = (SPREADS_UNLIKE if unlike else SPREADS) * part * spread + OFF * abs(off)
-    unseen = 0.0 if before else IRREGULAR * part * abs(last)
+    unseen = 0.0 if before else SAFETY * part * abs(last)
     half_width = abs(part * last + off) + safety + unseen
     return Band(max(half_width, SMALLEST * abs(film)), observed_order(last, *before))
 

@@ -186,6 +186,14 @@ class TestFluidIsEvaluatedOnce:
             getattr(evaluation, name)
         assert len(calls) == 1
 
+    def test_what_was_forgotten_is_found_again(self, mixed):
+        evaluation = mixed.evaluation()
+        before, conductance = evaluation.inflow.copy(), evaluation.conductance.copy()
+        evaluation.forget()
+        assert not {"flows", "mobilities", "conductance"} & vars(evaluation).keys()
+        np.testing.assert_array_equal(evaluation.inflow, before)
+        np.testing.assert_array_equal(evaluation.conductance, conductance)
+
     def test_another_scheme_shares_it_and_has_its_own_flows(self, calls, mixed):
         first = mixed.evaluation(Scheme("1B"))
         second = first.by(Scheme("2B"))

@@ -110,7 +110,7 @@ class TestTheSmallestGap:
     def test_what_the_smallest_node_is_off_the_bottom_is_known_but_for_a_part(self):
         films = values(30.0, 2, 0.4, 2)
         told = band_of_smallest(films[0] + 0.6, films, 0.0, 2)
-        assert told.half_width == pytest.approx(0.2 + OFF * 0.6 + IRREGULAR * 0.4)
+        assert told.half_width == pytest.approx(0.2 + OFF * 0.6 + SAFETY * 0.4)
         assert told.observed_order is None
 
     def test_it_is_never_nothing(self):

@@ -131,12 +131,15 @@ class Standing(Journal):
 
 
 class TestNearbyNodesAtOnce:
-    """Waves of 400 nm at a smooth film of .04 nm; a linear system may take but 5 iterations by lines."""
+    """Waves of 400 nm at a smooth film of .08 nm; a linear system may take but 5 iterations by lines.
+
+    It takes 44 to 51 steps, by rounding; at a third of the speed 68 to 200 or none.
+    """
 
     @pytest.fixture
     def solve(self, solve_rough):
         """Function: the outcome."""
-        return lambda journal=NOTHING_KEPT: solve_rough(4e-7, 1e-6, journal=journal)[1]
+        return lambda journal=NOTHING_KEPT: solve_rough(4e-7, 3e-6, journal=journal)[1]
 
     def test_by_lines_alone_it_does_not_settle(self, solve, monkeypatch):
         monkeypatch.setattr(smoother, "PATIENCE", 1000)
@@ -146,9 +149,9 @@ class TestNearbyNodesAtOnce:
         monkeypatch.setattr(smoother, "PATIENCE", 5)
         kept = Kept()
         whole = solve(kept)
-        assert whole.converged and len(whole.cycles) < 120
+        assert whole.converged and len(whole.cycles) < 80
         assert any(cycle.step_length == 0.0 for cycle in whole.cycles[1:])  # a step was taken back
-        for record in kept.records[20::45]:
+        for record in kept.records[10::20]:
             rest = solve(Standing(record))
             assert rest.cycles == whole.cycles
             np.testing.assert_array_equal(rest.state.P, whole.state.P)
