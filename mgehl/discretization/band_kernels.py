@@ -59,16 +59,21 @@ def _set_band(diagonals, band):
             band[i, k] = diagonals[k, i] if 0 <= i + k - reach < nx else 0.0
 
 
-def banded(reach):
-    """(factor, solve): functions for bands (lines, nx, 2 reach + 1)."""
+@compiled(fastmath={"contract"})
+def _eliminate(band, node, below, reach):
+    """Take a node's unknown out of the row of one `below` it."""
+    row = node + below
+    band[row, reach - below] *= band[node, reach]
+    for k in range(1, reach + 1):
+        band[row, reach - below + k] -= band[row, reach - below] * band[node, reach + k]
 
-    @compiled(fastmath={"contract"})
-    def eliminate(band, node, below):
-        """Take a node's unknown out of the row of one `below` it."""
-        row = node + below
-        band[row, reach - below] *= band[node, reach]
-        for k in range(1, reach + 1):
-            band[row, reach - below + k] -= band[row, reach - below] * band[node, reach + k]
+
+def banded(reach):
+    """(factor, solve): functions for bands (lines, nx, 2 reach + 1).
+
+    What they close over must be numbers: numba would keep a function that closes over another anew in every
+    process.
+    """
 
     @compiled(fastmath={"contract"}, error_model="numpy")
     def factor(bands):
@@ -87,10 +92,10 @@ def banded(reach):
                 band[i, reach] = 1.0 / band[i, reach]
                 if i + reach < nx:
                     for below in range(1, reach + 1):
-                        eliminate(band, i, below)
+                        _eliminate(band, i, below, reach)
                 else:
                     for below in range(1, nx - i):
-                        eliminate(band, i, below)
+                        _eliminate(band, i, below, reach)
 
     @compiled(fastmath={"contract"})
     def solve(bands, r, w):

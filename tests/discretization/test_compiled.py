@@ -43,3 +43,21 @@ def test_without_any_place_functions_are_compiled_again(tmp_path):
     environment = dict(os.environ) | {"PYTHONPATH": str(Path(mgehl.__file__).parents[1])}
     done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, env=environment)
     assert done.returncode == 0, done.stderr
+
+
+def test_another_process_compiles_nothing_again():
+    """A function that closes over another would be kept anew by every process."""
+    text = (
+        "import numpy as np\n"
+        "from mgehl.discretization.band_kernels import banded\n"
+        "bands, r, w = np.full((3, 6, 9), 2.0), np.ones((3, 6)), np.ones((3, 6))\n"
+        "factor, solve = banded(4)\n"
+        "factor(bands)\n"
+        "solve(bands, r, w)\n"
+        "print(sum(sum(each.stats.cache_misses.values()) for each in (factor, solve)))\n"
+    )
+    environment = dict(os.environ) | {"PYTHONPATH": str(Path(mgehl.__file__).parents[1])}
+    for misses in (None, "0\n"):
+        done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, env=environment)
+        assert done.returncode == 0, done.stderr
+        assert misses is None or done.stdout == misses
