@@ -17,7 +17,7 @@ TOOL = Path(__file__).parent / "tools" / "attack.py"
 
 
 @pytest.mark.parametrize(
-    "attack, count", [("words", 5), ("cases", 4), ("damage", 3), ("flips", 3), ("writers", 1)]
+    "attack, count", [("words", 10), ("cases", 6), ("damage", 5), ("flips", 5), ("writers", 1)]
 )
 def test_a_few_find_nothing(attack, count):
     words = [sys.executable, str(TOOL), attack, "--count", str(count), "--seed", "11"]

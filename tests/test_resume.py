@@ -140,9 +140,9 @@ def assert_same(directory, solution):
 
 
 class TestKills:
-    """SIGKILL, twelve times at random moments: whenever a line or two have been said, and a while later."""
+    """SIGKILL, twenty times at random moments: whenever a line or two have been said, and a while later."""
 
-    @pytest.mark.parametrize("kills, ranks, seed", [(9, 1, 1), (3, 2, 2)])
+    @pytest.mark.parametrize("kills, ranks, seed", [(15, 1, 1), (5, 2, 2)])
     def test_nothing_is_lost(self, uninterrupted, tmp_path, kills, ranks, seed):
         chance, here, runs = random.Random(seed), tmp_path / "0", 1
         while kills:
@@ -157,7 +157,7 @@ class TestKills:
         assert exit_status("--resume", str(here)) == 0  # on one rank, whatever it was before
         assert_same(here, uninterrupted(FILM))
 
-    @pytest.mark.parametrize("kills, ranks", [(2, 1), (1, 2)])
+    @pytest.mark.parametrize("kills, ranks", [(4, 1), (2, 2)])
     def test_nor_what_a_rough_contact_has_learnt(self, uninterrupted, tmp_path, kills, ranks):
         """Each kill falls within a step, all steps before it are saved; in the end on one rank."""
         chance, here = random.Random(3), tmp_path / "here"
