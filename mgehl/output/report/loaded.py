@@ -100,7 +100,9 @@ def _grids(error):
         (str(grid.nodes), film(grid.central_nm), film(grid.minimum_nm), str(grid.contact_nodes))
         for grid in error.grids
     ]
-    yield table("Films of the grids that the bands come from, between the nodes where need be", heads, rows)
+    yield table(
+        "Films of the grids that the bands come from, each compared at the same places", heads, rows
+    )
 
 
 def _own_films(result):

@@ -214,7 +214,7 @@ class TestLoaded:
         assert rows["Ertel and Grubin"][2:] == ["", ""]
 
     def test_the_grids_that_bands_come_from_are_listed(self, film_run, quick):
-        what = "Films of the grids that the bands come from, between the nodes where need be"
+        what = "Films of the grids that the bands come from, each compared at the same places"
         rows = table_of(quick(film_run), what)
         assert [row[0] for row in rows] == [str(each.nodes) for each in film_run.result.error.grids]
 
