@@ -42,8 +42,8 @@ def films_beside(problem, state, finer, H):
 
     The smallest gap differs from the finer grid's by the mean of the gaps' differences at the node where
     `H` is smallest and those around it. Its own smallest gap would tell less: it is too narrow there for
-    a polynomial through its nodes, and may lie elsewhere (on 129 nodes the difference would have the
-    wrong sign as often as not).
+    a polynomial through its nodes, and may lie elsewhere (on 129 nodes the difference often has the
+    wrong sign).
     """
     grid = problem.grid
     whole, of_finer, found = grid.gather(state.H), grid.gather(H), None
