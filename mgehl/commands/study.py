@@ -37,6 +37,9 @@ DOUBLING = ("wedge", "schemes", "angle", "error")
 LARGEST_LISTS = {"line": 1, "rough": 1, "mixed": 1, "methods": 0, "accuracy": 0, "domain": 0}
 """How many grids --nodes may name, where that is limited."""
 
+DRAW = ("mixed", "error")
+"""Studies that draw cases at random, one of them where it is asked to."""
+
 LARGEST_NUMBER = 2**31
 """Of --cases and --seed."""
 
@@ -65,8 +68,9 @@ def add(commands):
                        f"{', '.join(FACE_MOBILITIES)} (default: arithmetic)")  # fmt: skip
     parser.add_argument("--boundary-film", metavar="LENGTH",
                        help="film of adsorbed layers in study rough (default: 2 nm)")  # fmt: skip
-    parser.add_argument("--cases", metavar="N", help="cases that study mixed draws (default: 120)")
-    parser.add_argument("--seed", metavar="N", help="by which it draws them (default: 7)")
+    parser.add_argument("--cases", metavar="N", help="random cases that study mixed solves (default: 120), "
+                       "or study error instead of its list")  # fmt: skip
+    parser.add_argument("--seed", metavar="N", help="by which they are drawn (default: 7)")
     parser.add_argument("--out", metavar="DIR", help="directory of the results (default: runs/study-NAME)")
     parser.add_argument("--force", action="store_true", help="start anew in a directory that exists")
     parser.add_argument(
@@ -155,11 +159,11 @@ def _boundary_film(options):
 
 
 def _number(options, name, low):
-    """The whole number of an option of study mixed, `low` or more; None for the study's own."""
+    """The whole number of an option of studies that `DRAW`, `low` or more; None for the study's own."""
     text = getattr(options, name)
     if text is None:
         return None
-    if options.study != "mixed":
+    if options.study not in DRAW:
         raise ConfigError(f"--{name} {text}: means nothing to study {options.study}")
     if not (text.isascii() and text.isdecimal() and low <= int(text) <= LARGEST_NUMBER):
         raise ConfigError(f"--{name} {text}: must be a whole number from {low} to {LARGEST_NUMBER}")

@@ -51,10 +51,7 @@ class Evaluation:
         return Evaluation(self.P, self.H, self.status, self.mesh, self.contact, self.scheme, fluid)
 
     def forget(self):
-        """Drop what was found of the faces; it is found again when it is asked for.
-
-        A linear solve does not ask, and needs the memory.
-        """
+        """Drop what was found of the faces; it is found again when it is asked for."""
         for name in ("mobilities", "flows", "conductances", "conductance", "source"):
             self.__dict__.pop(name, None)
 

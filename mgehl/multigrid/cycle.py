@@ -143,7 +143,7 @@ class MultigridSolver:
         """Linearise on every grid about the finest grid's evaluated state, with its kinds of `rows`.
 
         `rate` is 1/time step of an implicit step, or one for each node, (lines, nx); zero for the
-        steady equations.
+        steady equations. What the evaluation knows of the faces is dropped: the solve needs the memory.
         """
         if self.jacobian is not self.jacobians[-1]:
             self.jacobian.linearise(evaluation, rows, rate)

@@ -50,7 +50,7 @@ class Study:
     boundary_film: float | None = None
     """In m, for study rough; None for its own choice."""
     wanted: int | None = None
-    """Cases that study mixed draws; None for its own choice."""
+    """Random cases of studies that draw some; None for its own choice."""
     seed: int | None = None
     """By which it draws them."""
     _done: int = field(default=0, init=False)

@@ -45,6 +45,21 @@ def test_the_limit_is_one_contacts_whatever_the_scheme(tables):
     assert len({row["central limit nm"] for row in cases}) == 2
 
 
+def test_random_contacts_take_the_place_of_the_list(tmp_path):
+    error.run(Study(tmp_path, MPI.COMM_SELF, (65,), speak=False, wanted=2, seed=3))
+    cases = read(tmp_path / "cases.csv")
+    assert [row["scheme"] for row in cases] == 2 * [error._name(error.BEST)]
+    drawn = [f"M {M}, L {L}, R_y/R_x {ratio:g}, {law}" for M, L, ratio, law, _ in error.draw(2, 3)]
+    assert [row["contact"] for row in cases] == drawn
+
+
+def test_a_longer_list_of_random_contacts_begins_with_the_same_ones():
+    drawn = list(error.draw(40, 7))
+    assert drawn[:3] == list(error.draw(3, 7)) != list(error.draw(3, 8))
+    assert {ratio for _, _, ratio, *_ in drawn} == set(error.RATIOS)
+    assert all(10.0 <= M <= 2000.0 and 2.0 <= L <= 14.0 for M, L, *_ in drawn)
+
+
 def test_the_limit_is_richardsons():
     grids = tuple(GridFilm(n, 4.0 * h, h, 0, True) for n, h in ((129, 10.0), (65, 7.0)))
     assert _limits(FilmError(1.0, 1.0, "", 2, grids=grids)) == {"central": 44.0, "minimum": 11.0}
