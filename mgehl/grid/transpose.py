@@ -25,7 +25,8 @@ class Transpose:
         lines = np.diff(line_starts)
         my_lines, my_columns = int(lines[comm.rank]), int(bounds[comm.rank + 1] - bounds[comm.rank])
         self.columns, self.width = my_columns, my_columns | 1
-        whole_lines, whole_columns = (my_lines, columns), (int(line_starts[-1]), self.width)
+        self._all_lines = int(line_starts[-1])
+        whole_lines, whole_columns = (my_lines, columns), (self._all_lines, self.width)
         self._line_parts, self._column_parts = [], []
         for rank in range(comm.size):
             width = int(bounds[rank + 1] - bounds[rank])
@@ -40,6 +41,12 @@ class Transpose:
         for part in (*self._line_parts, *self._column_parts):
             part.Free()
 
+    def room_for_columns(self, by_lines):
+        """An array for the columns of lines, (all lines, width): the same one where they are all here."""
+        if self._comm.size == 1:
+            return by_lines
+        return np.zeros((self._all_lines, self.width), dtype=by_lines.dtype)
+
     def to_columns(self, by_lines, by_columns):
         """Send lines, receive columns: (my lines, columns) to (all lines, width)."""
         self._exchange(by_lines, self._line_parts, by_columns, self._column_parts)
@@ -49,6 +56,8 @@ class Transpose:
         self._exchange(by_columns, self._column_parts, by_lines, self._line_parts)
 
     def _exchange(self, source, source_parts, target, target_parts):
+        if source is target:
+            return
         if self._comm.size == 1:
             columns = self.columns
             np.copyto(target[:, :columns], source[:, :columns])

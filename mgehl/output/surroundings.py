@@ -12,7 +12,7 @@ from mpi4py import MPI
 from petsc4py import PETSc
 
 from mgehl.discretization.kernels import distribute
-from mgehl.grid.convolution import FIXED, THREADS, TIMED
+from mgehl.grid.transforms import FIXED, THREADS, TIMED
 from mgehl.version import VERSION
 
 PACKAGES = (
