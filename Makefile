@@ -81,7 +81,7 @@ tables: $(ENVIRONMENT)
 
 .PHONY: tables
 
-# make large   the film on 4097 nodes a side: 18 GiB, two minutes on two cores
+# make large   the film on 4097 nodes a side: 14 GiB, two minutes on two cores
 large: $(ENVIRONMENT)
 	$(ON) $(MGEHL) configs/full_film.toml --set grid.nodes=4097 --out runs/large/full-film-4097
 	$(ON) mgehl collect runs/large/* --out runs/tables/large.csv > runs/tables/large.md

@@ -53,13 +53,19 @@ class LineBands:
     """Factored banded systems of all local lines, each node coupled to `reach` on each side."""
 
     def __init__(self, lines, nx, reach=REACH):
-        self._factors = np.zeros((lines, nx, 2 * reach + 1))
+        self._shape, self._factors = (lines, nx, 2 * reach + 1), None
         self._factor, self._solve = LOOPS[reach]
 
-    def build(self, linearisation, distributive, kappa, share):
-        """Fill the bands with those of J Q for a linearisation; `factor` comes next."""
-        lin = linearisation
-        build_bands(lin.offsets, lin.A, lin.B, distributive, kappa, share, self._factors)
+    def build(self, linearisation, distributive, kappa, share, lines=slice(None)):
+        """Fill the bands of some `lines` with those of J Q for their linearisation; `factor` comes next."""
+        if self._factors is None:
+            self._factors = np.empty(self._shape)
+        lin, bands = linearisation, self._factors[lines]
+        build_bands(lin.offsets, lin.A, lin.B, distributive, kappa, share, bands)
+
+    def forget(self):
+        """Free the memory of the bands."""
+        self._factors = None
 
     @property
     def diagonal(self):
@@ -72,6 +78,8 @@ class LineBands:
 
     def factor_stencil(self, linearisation):
         """Factor what the stencil A of a rigid gap couples along the lines."""
+        if self._factors is None:
+            self._factors = np.empty(self._shape)
         self._factors[:] = 0.0
         for (beside, ahead), A in zip(linearisation.offsets, linearisation.A, strict=True):
             if beside == 0:
@@ -79,5 +87,5 @@ class LineBands:
         self._factor(self._factors)
 
     def solve(self, r, w):
-        """Solve all lines for the right-hand sides `r`; write `w`; both (lines, nx)."""
+        """Solve all lines for the right-hand sides `r`; write `w`, which may be `r`; both (lines, nx)."""
         self._solve(self._factors, r, w)

@@ -41,7 +41,7 @@ class Evaluation:
         """
         changed = P != self.P
         part = fluid_state(P[changed], self.H[changed], self.contact, self.scheme.contact_law)
-        fluid = self.fluid.with_part(changed, part)
+        fluid = self.fluid.under(P, changed, part)
         return Evaluation(P, self.H, self.status, self.mesh, self.contact, self.scheme, fluid)
 
     def with_mobility(self, eps):

@@ -1,10 +1,13 @@
 """Nodal state of the lubricant and the mobility of a face between two nodes."""
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from mgehl.discretization.kernels import linear_gap_means, logarithmic_means
+
+OF_PRESSURE = "rho", "drho_dP", "eps", "deps_dP", "deps_dH"
+"""What the pressure decides of a fluid."""
 
 
 @dataclass
@@ -24,14 +27,13 @@ class Fluid:
     deps_dP: np.ndarray
     deps_dH: np.ndarray
 
-    def with_part(self, nodes, part):
-        """A copy that is another fluid, `part`, on the `nodes` of a mask."""
-        parts = []
-        for field in fields(self):
-            array = getattr(self, field.name).copy()
-            array[nodes] = getattr(part, field.name)
-            parts.append(array)
-        return Fluid(*parts)
+    def under(self, P, nodes, part):
+        """The same gap under another pressure `P`, with the fluid `part` on the `nodes` of a mask."""
+        changed = {"P": P}
+        for name in OF_PRESSURE:
+            changed[name] = getattr(self, name).copy()
+            changed[name][nodes] = getattr(part, name)
+        return replace(self, **changed)
 
 
 def fluid_state(P, H, contact, contact_law):

@@ -2,6 +2,7 @@
 
 from mgehl.grid.convolution import Deflection
 from mgehl.grid.events import SETUP, event
+from mgehl.grid.freed_memory import give_back_large_arrays, is_large
 from mgehl.grid.grid import build_grids
 from mgehl.grid.transfers import Transfer
 
@@ -14,6 +15,8 @@ class Hierarchy:
 
     @event(SETUP)
     def __init__(self, mesh, coarsest_nodes, kernel, comm):
+        if is_large(mesh):
+            give_back_large_arrays()
         self.grids = build_grids(mesh, coarsest_nodes, comm)
         self.transfers = [Transfer(*pair) for pair in zip(self.grids[:-1], self.grids[1:], strict=True)]
         self.deflections = [Deflection(grid, kernel) for grid in self.grids]

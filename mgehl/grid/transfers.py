@@ -131,7 +131,9 @@ class PartitionedTransfer:
         """Correction (lines, nx) of the coarse grid to the fine one."""
         transfer = self._transfer
         if not self._contact_moves:
-            return transfer.bilinear(coarse) * self._film_share
+            fine = transfer.bilinear(coarse)
+            fine *= self._film_share
+            return fine
         contact = transfer.bilinear(coarse * self._coarse_contact) * self._contact_share
         return contact + transfer.bilinear(coarse * ~self._coarse_contact) * self._film_share
 

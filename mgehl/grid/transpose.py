@@ -3,8 +3,13 @@
 The team's: ranks without lines take no part.
 """
 
+from math import ceil
+
 import numpy as np
 from mpi4py import MPI
+
+PIECE = 2**18
+"""Nodes of a rank in a piece of its y-lines: what they have stays in the cache."""
 
 
 class Transpose:
@@ -18,19 +23,22 @@ class Transpose:
     libraries cannot express; the exchange itself is one MPI_Alltoallw.
     """
 
-    def __init__(self, comm, line_starts, columns, kind):
-        """Of arrays of `kind`, an MPI datatype; every rank of `comm` has lines, from `line_starts` on."""
+    def __init__(self, comm, line_starts, columns, kind, shares=None):
+        """Of arrays of `kind`, an MPI datatype; every rank of `comm` has lines, from `line_starts` on.
+
+        `shares` are the (first, end) of each rank's columns, by default all of them.
+        """
         self._comm, self._kind = comm, kind
-        bounds = np.linspace(0, columns, comm.size + 1).astype(int)
+        shares = even_shares(columns, comm.size) if shares is None else shares
+        self._mine = slice(*shares[comm.rank])
         lines = np.diff(line_starts)
-        my_lines, my_columns = int(lines[comm.rank]), int(bounds[comm.rank + 1] - bounds[comm.rank])
+        my_lines, my_columns = int(lines[comm.rank]), self._mine.stop - self._mine.start
         self.columns, self.width = my_columns, my_columns | 1
         self._all_lines = int(line_starts[-1])
         whole_lines, whole_columns = (my_lines, columns), (self._all_lines, self.width)
         self._line_parts, self._column_parts = [], []
-        for rank in range(comm.size):
-            width = int(bounds[rank + 1] - bounds[rank])
-            self._line_parts.append(self._part(whole_lines, (my_lines, width), (0, int(bounds[rank]))))
+        for rank, (first, end) in enumerate(shares):
+            self._line_parts.append(self._part(whole_lines, (my_lines, end - first), (0, first)))
             height = int(lines[rank])
             self._column_parts.append(
                 self._part(whole_columns, (height, my_columns), (int(line_starts[rank]), 0))
@@ -49,31 +57,40 @@ class Transpose:
 
     def to_columns(self, by_lines, by_columns):
         """Send lines, receive columns: (my lines, columns) to (all lines, width)."""
-        self._exchange(by_lines, self._line_parts, by_columns, self._column_parts)
+        if self._comm.size > 1:
+            self._exchange(by_lines, self._line_parts, by_columns, self._column_parts)
+        elif by_columns is not by_lines:
+            by_columns[:, : self.columns] = by_lines[:, self._mine]
 
     def to_lines(self, by_columns, by_lines):
         """The way back."""
-        self._exchange(by_columns, self._column_parts, by_lines, self._line_parts)
+        if self._comm.size > 1:
+            self._exchange(by_columns, self._column_parts, by_lines, self._line_parts)
+        elif by_columns is not by_lines:
+            by_lines[:, self._mine] = by_columns[:, : self.columns]
 
     def _exchange(self, source, source_parts, target, target_parts):
         if source is target:
             return
-        if self._comm.size == 1:
-            columns = self.columns
-            np.copyto(target[:, :columns], source[:, :columns])
-        else:
-            ones, zeros = [1] * self._comm.size, [0] * self._comm.size
-            self._comm.Alltoallw([source, ones, zeros, source_parts], [target, ones, zeros, target_parts])
+        ones, zeros = [1] * self._comm.size, [0] * self._comm.size
+        self._comm.Alltoallw([source, ones, zeros, source_parts], [target, ones, zeros, target_parts])
 
     def _part(self, whole, part, start):
         return self._kind.Create_subarray(whole, part, start).Commit()
 
 
+def even_shares(columns, ranks):
+    """(first, end) of the columns of each rank."""
+    bounds = [columns * rank // ranks for rank in range(ranks + 1)]
+    return list(zip(bounds[:-1], bounds[1:], strict=True))
+
+
 class YLines:
     """The same nodes dealt out by lines along Y: arrays (my columns, ny), contiguous along Y."""
 
-    def __init__(self, grid):
-        self._transpose = Transpose(grid.team, grid.team_starts, grid.mesh.nx, MPI.DOUBLE)
+    def __init__(self, grid, shares=None):
+        """`shares` as of a `Transpose`."""
+        self._transpose = Transpose(grid.team, grid.team_starts, grid.mesh.nx, MPI.DOUBLE, shares)
         self._exchanged = np.zeros((grid.mesh.ny, self._transpose.width))
         self._mine = self._exchanged[:, : self._transpose.columns]
         self.shape = self._mine.shape[::-1]
@@ -91,3 +108,16 @@ class YLines:
         """Doubles of y-lines as x-lines, written to `out` (lines, nx)."""
         self._mine[:] = array.T
         self._transpose.to_lines(self._exchanged, out)
+
+
+def pieces_of_y_lines(grid):
+    """(slice of a rank's y-lines, `YLines` of these alone), one piece after the other."""
+    shares = even_shares(grid.mesh.nx, grid.team.size)
+    pieces = ceil(grid.mesh.nodes / grid.team.size / PIECE)
+    cuts = [even_shares(end - first, pieces) for first, end in shares]
+    for cut in zip(*cuts, strict=True):
+        some = YLines(
+            grid, [(first + a, first + b) for (first, _), (a, b) in zip(shares, cut, strict=True)]
+        )
+        yield slice(*cut[grid.team.rank]), some
+        some.destroy()

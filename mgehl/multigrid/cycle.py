@@ -23,12 +23,14 @@ from petsc4py import PETSc
 from mgehl.config_sections import SolverSection
 from mgehl.discretization.axes import own
 from mgehl.discretization.evaluation import Evaluation
+from mgehl.grid.freed_memory import is_large
 from mgehl.grid.transfers import PartitionedTransfer
 from mgehl.multigrid.coarse import CoarseSolve
 from mgehl.multigrid.jacobian import Jacobian
 from mgehl.multigrid.memory import Memory
 from mgehl.multigrid.options import by_default
-from mgehl.multigrid.smoother import ValleySmoother, smoother_of
+from mgehl.multigrid.smoother import ValleySmoother
+from mgehl.multigrid.smoother_choice import smoother_of
 from mgehl.multigrid.vcycle import VCycle
 
 IN_THE_CYCLE = {"3B": "2B", "2C": "3B", "S2C": "3B"}
@@ -40,9 +42,9 @@ THICK = 2.0
 ball of lambda 1.7 takes 312 convolutions by the cycle for thin films and 644 by the other, balls of lambda
 3 to 14 an eighth more."""
 
-LARGE_GRID, RESTART_OF_LARGE = 10_000_000, 6
-"""Nodes from which on GMRES is restarted, and after how many iterations: it keeps two vectors for each, and
-PETSc allocates ten at a time (4097 nodes a side: 2.4 GiB from the fourth iteration on)."""
+RESTART_OF_LARGE = 6
+"""Iterations after which GMRES is restarted on a large grid: it keeps two vectors for each, and PETSc
+allocates ten at a time (4097 nodes a side: 2.4 GiB from the fourth iteration on)."""
 
 
 @dataclass(frozen=True)
@@ -166,6 +168,12 @@ class MultigridSolver:
             self._partitioned[level - 1].partition((status, coarse_rows), (fine[-1], rows))
             fine, rows = coarse, coarse_rows
 
+    def forget(self):
+        """Where memory is short, free that of the linearisation and its factors: the next has others."""
+        if self._memory_is_short:
+            for part in (*self.jacobians, self.jacobian, *self._smoothers):
+                part.forget()
+
     def configure(self, ksp, rtol):
         """Make a KSP (of a SNES, say) this solver; its options may still change it.
 
@@ -187,8 +195,11 @@ class MultigridSolver:
     @property
     def _restart(self):
         """Iterations that GMRES remembers: all, unless the grid is so large that memory is short."""
-        large = self.jacobian.grid.mesh.nodes > LARGE_GRID
-        return RESTART_OF_LARGE if large else self._settings.max_iterations
+        return RESTART_OF_LARGE if self._memory_is_short else self._settings.max_iterations
+
+    @property
+    def _memory_is_short(self):
+        return is_large(self.jacobian.grid.mesh)
 
 
 def _of_cycle(asked, solved):

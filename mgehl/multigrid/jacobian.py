@@ -148,6 +148,10 @@ class Jacobian:
         self.given = rows == PRESSURE
         self.mat.stateIncrease()
 
+    def forget(self):
+        """Free the memory of the linearisation."""
+        self.linearisation = None
+
     def mult(self, _mat, x, y):
         """y = J x; one convolution unless the gap is rigid."""
         dP, dH0 = self.space.read_in_team(x)

@@ -6,6 +6,8 @@ that follows damps it. A relaxation before the coarse grids would take two convo
 grid in every iteration, for little more than one relaxation's worth of convergence.
 """
 
+import numpy as np
+
 
 class VCycle:
     """Python context of a PC: one V-cycle from zero solves for x and gives y.
@@ -51,8 +53,9 @@ class VCycle:
         """The correction `c`, whose deflection is `dH`, after the relaxations of grid `level`."""
         jacobian, smoother = self._jacobians[level], self._smoothers[level - 1]
         for left in range(self._sweeps * smoother.visits - 1, -1, -1):
-            relaxed = smoother.relax(r - jacobian.product(c, dH, dH0))
-            c = c + relaxed
+            product = jacobian.product(c, dH, dH0)
+            relaxed = smoother.relax(np.subtract(r, product, out=product))
+            c += relaxed
             if left and not jacobian.rigid:
-                dH = dH + jacobian.deflection(relaxed)
+                dH += jacobian.deflection(relaxed)
         return c

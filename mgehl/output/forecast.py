@@ -15,11 +15,11 @@ from mpi4py import MPI
 from mgehl.config import COARSEST_NODES, SECTIONS
 from mgehl.discretization.mesh import Mesh
 from mgehl.grid.convolution import Deflection
+from mgehl.grid.freed_memory import is_large
 from mgehl.grid.grid import single_grid
 from mgehl.kinds import mesh_from
 from mgehl.kinds.kind import Effort
 from mgehl.model.deformation import HalfPlane, HalfSpace
-from mgehl.multigrid.cycle import LARGE_GRID
 from mgehl.output.resolution import CONTACT_OPENS, FILM_TOUCHES
 from mgehl.output.surroundings import cores_allowed
 from mgehl.solver.from_config import settings_from, start_of
@@ -34,8 +34,9 @@ LARGEST_NODES = SECTIONS["grid"].__dataclass_fields__["nodes"].metadata["high"]
 MiB = 2**20
 
 
-KEPT_BY_GMRES = 210.0
-"""Bytes a node that GMRES does without on grids so large that it is restarted (`multigrid.cycle`)."""
+SAVED_ON_LARGE_GRIDS = 450.0
+"""Bytes a node that are given back in time, or not asked for, where memory is short
+(`grid.freed_memory`)."""
 
 START_SECONDS, RANK_BYTES = 3.0, 330 * MiB
 """Of every run: imports, plans, the coarsest grid, files, the picture; of every rank: the libraries."""
@@ -153,8 +154,8 @@ def _of_peaks(contact, has_layers):
 
 
 def _bytes_per_node(effort, mesh):
-    """Measured ones, less what GMRES keeps where it is not restarted."""
-    return effort.bytes_per_node - (KEPT_BY_GMRES if mesh.nodes > LARGE_GRID else 0.0)
+    """Measured ones, less what is saved where memory is short."""
+    return effort.bytes_per_node - (SAVED_ON_LARGE_GRIDS if is_large(mesh) else 0.0)
 
 
 def time_convolution(mesh, repeats=5):

@@ -69,7 +69,7 @@ class Newton:
         self._multigrid.free()
 
     def run(self, state, journal=NOTHING_KEPT):
-        """Solve from `state`, which is not changed; return the `Outcome`.
+        """Solve from `state`, which is the solve's own from now on; return the `Outcome`.
 
         The `journal` is told of every step, and may know this solve or its first part already.
         """
@@ -77,7 +77,7 @@ class Newton:
         outcome = journal.recall(grid, partial(Outcome.from_record, line=Cycle))
         if outcome is None:
             standing = journal.standing(grid, Position.from_record)
-            outcome = self._go_on(standing or self._beginning(state.copy()))
+            outcome = self._go_on(standing or self._beginning(state))
             journal.finish(grid, outcome)
         return outcome
 
@@ -98,9 +98,7 @@ class Newton:
         return position
 
     def solve(self, snes, _b, x):
-        """Called by PETSc. `run` raises any exception later: one that passed through PETSc would leave
-        objects that it cannot free.
-        """
+        """Called by PETSc, which could not free objects if an exception passed: `run` raises it later."""
         try:
             self._iterate(snes, x)
         except Exception as stopped:
@@ -203,6 +201,7 @@ class Newton:
         snes.computeJacobian(x, *ksp.getOperators())
         with linear_solve():
             ksp.solve(self._rhs, self._correction)
+        self._multigrid.forget()
         position.step = Step(ksp.getIterationNumber())
         reason = ksp.getConvergedReason()
         if reason == PETSc.KSP.ConvergedReason.DIVERGED_MAX_IT:

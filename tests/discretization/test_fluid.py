@@ -47,7 +47,7 @@ def test_a_fluid_evaluated_in_parts_is_the_fluid_evaluated_at_once(contact):
     changed = moved != P
     before = fluid_state(P, H, contact, LCIC)
     part = fluid_state(moved[changed], H[changed], contact, LCIC)
-    pieced, whole = before.with_part(changed, part), fluid_state(moved, H, contact, LCIC)
+    pieced, whole = before.under(moved, changed, part), fluid_state(moved, H, contact, LCIC)
     for name in ("P", "H", "rho", "drho_dP", "eps", "deps_dP", "deps_dH"):
         assert (getattr(pieced, name) == getattr(whole, name)).all()
     assert (before.P == P).all()

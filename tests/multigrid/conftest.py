@@ -2,6 +2,9 @@ import pytest
 
 from mgehl.model.line import LineContact
 from mgehl.model.lubricant import Barus, DowsonHigginson, Lubricant
+from mgehl.multigrid.smoother_choice import smoother_of
+
+OMEGA = 0.8
 
 
 @pytest.fixture
@@ -16,3 +19,19 @@ def line_film(solve):
         return solution
 
     return run
+
+
+@pytest.fixture
+def make_smoother():
+    """Factory of factored smoothers of a linearised `Jacobian` with these rows; freed after the test."""
+    made = []
+
+    def make(jacobian, rows, kind=None):
+        made.append((kind or smoother_of(jacobian))(jacobian, OMEGA))
+        made[-1].partition(rows)
+        made[-1].factor()
+        return made[-1]
+
+    yield make
+    for smoother in made:
+        smoother.free()

@@ -212,10 +212,13 @@ class TestIdleSteps:
         assert steps_since_lowered(position) == 1
 
     def test_a_film_that_the_grid_does_not_hold_is_given_up(self, paper_contact, solve):
-        """12 mm/s on 65 nodes: 60 steps before, most of them without a change of the sets."""
+        """12 mm/s on 65 nodes: 60 steps before, most of them without a change of the sets.
+
+        Rounding decides how long the residual falls now and then: 15 to 18 steps were seen.
+        """
         ended = solve(paper_contact(0.012), 65).outcome
         assert not ended.converged and "did not lower it" in ended.reason
-        assert ended.cycles[-1].step <= 30
+        assert ended.cycles[-1].step <= 2 * IDLE_STEPS + 15
 
     def test_a_user_may_have_more_or_less_patience(self, paper_contact, solve):
         ended = solve(paper_contact(0.012), 65, newton={"idle_steps": 3}).outcome

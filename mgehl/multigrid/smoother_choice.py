@@ -1,0 +1,29 @@
+"""Which smoother a grid of the cycle has."""
+
+from mgehl.multigrid.crossed_lines import CliffSmoother, CrossedLineSmoother
+from mgehl.multigrid.smoother import LineSmoother, RigidLineSmoother, RoughLineSmoother, ValleySmoother
+
+FINE = 100_000
+"""Nodes from which on cliffs are asked for. On 257 nodes a side lines that cross take a tenth fewer
+convolutions in spite of them; on 513 they take more: by a tenth, twice, thrice (a ball bearing)."""
+
+
+def smoother_of(jacobian, rough=False, finest=False, apart=False):
+    """The class of a grid's smoother: a rigid gap has no K, and a single line has nothing beside it.
+
+    Where the fluid is solved `apart` hardly more than contact is left, which has no direction: lines along
+    X take as many convolutions there, and a tenth less time.
+    """
+    if jacobian.rigid:
+        return RigidLineSmoother
+    if rough:
+        return ValleySmoother if finest and not jacobian.grid.mesh.is_line else RoughLineSmoother
+    if apart or jacobian.grid.mesh.is_line:
+        return LineSmoother
+    return CliffSmoother if finest and _may_have_cliffs(jacobian) else CrossedLineSmoother
+
+
+def _may_have_cliffs(jacobian):
+    """Whether lines that cross may fail; a motion at an angle to the lines needs both kinds."""
+    scheme, mesh = jacobian.scheme, jacobian.grid.mesh
+    return mesh.nodes > FINE and scheme.face_mobility != "arithmetic" and not scheme.is_oblique

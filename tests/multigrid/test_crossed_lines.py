@@ -1,0 +1,99 @@
+"""The smoother with lines along both axes, and where its lines must not cross."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from mpi4py import MPI
+
+import mgehl
+from mgehl.discretization.bands import distributive_nodes
+from mgehl.discretization.influence import influence_coefficients
+from mgehl.discretization.rows import FLOW, GAP, PRESSURE
+from mgehl.discretization.scheme import Scheme
+from mgehl.multigrid.crossed_lines import CLIFF, CrossedLineSmoother, cliffs
+
+OMEGA = 0.8
+CONFIGS = Path(__file__).parents[2] / "configs"
+
+
+class TestLinesAlongBothAxes:
+    """Of a motion at an angle, against dense matrices, on a grid that a band spans.
+
+    A band is cut at 4 nodes, and the ends of a line are 5 apart: they and what is beside them are given, so
+    that nothing moves there.
+    """
+
+    NODES = 6
+
+    @pytest.fixture
+    def jacobian(self, make_problem, paper_contact, rough_state, make_jacobian):
+        contact = paper_contact(radius_y=20e-3, angle=30.0)
+        problem = make_problem(contact, Scheme("2B", motion=contact.motion), nodes=self.NODES)
+        return make_jacobian(problem, rough_state(problem))
+
+    @pytest.fixture
+    def rows(self):
+        """Nodes that are distributive in the middle but for one; the pressures about them are given."""
+        rows = np.full((self.NODES, self.NODES), PRESSURE)
+        rows[2:-2, 2:-2] = FLOW
+        rows[2, 3], rows[3, 2] = GAP, PRESSURE
+        return rows
+
+    @pytest.fixture
+    def smoother(self, jacobian, rows, make_smoother):
+        return make_smoother(jacobian, rows, CrossedLineSmoother)
+
+    def parts(self, jacobian, rows, make_vec):
+        """Q, and the parts of J Q along the x-lines, along the y-lines and on the diagonal."""
+        n, K = self.NODES, influence_coefficients(jacobian.grid.mesh, jacobian.contact.kernel)
+        distributive = distributive_nodes(jacobian.linearisation.eps, rows, jacobian.grid.mesh.dX, K[0, 0])
+        assert distributive.any()
+        Q = np.eye(n * n).reshape(n, n, n, n)
+        for j, i in np.argwhere(distributive):
+            for line, node in ((j - 1, i), (j + 1, i), (j, i - 1), (j, i + 1)):
+                Q[line, node, j, i] = -0.25
+        JQ, out = np.empty_like(Q), make_vec(jacobian.space)
+        for j, i in np.ndindex(n, n):
+            jacobian.mat.mult(make_vec(jacobian.space, Q[:, :, j, i]), out)
+            JQ[:, :, j, i] = jacobian.space.read(out)[0]
+        same = np.eye(n, dtype=bool)
+        of_line, of_column = same[:, None, :, None], same[None, :, None, :]
+        X, Y, D = (np.where(kept, JQ, 0.0) for kept in (of_line, of_column, of_line & of_column))
+        return (each.reshape(n * n, n * n) for each in (Q, X, Y, D))
+
+    def test_first_along_x_and_then_along_y_and_the_next_time_the_other_way_round(
+        self, smoother, jacobian, rows, make_vec
+    ):
+        Q, X, Y, D = self.parts(jacobian, rows, make_vec)
+        r = np.random.default_rng(8).standard_normal((self.NODES, self.NODES))
+        r[[0, -1]], r[:, [0, -1]] = 0.0, 0.0
+        for first, then in ((X, Y), (Y, X), (X, Y)):
+            correction = smoother.relax(r)
+            w = np.linalg.solve(first @ np.linalg.solve(D, then), r.ravel())
+            expected = np.where(rows == PRESSURE, 0.0, OMEGA * (Q @ w).reshape(r.shape))
+            np.testing.assert_allclose(correction, expected, rtol=1e-9, atol=1e-11 * np.abs(expected).max())
+
+    def test_new_rows_begin_along_x_again(self, smoother):
+        """A factorisation must not depend on how many relaxations came before it."""
+        corrections = []
+        for _ in range(2):
+            smoother.factor()
+            corrections.append(smoother.relax(np.ones((self.NODES, self.NODES))).copy())
+        np.testing.assert_array_equal(*corrections)
+
+
+class TestCliffs:
+    def test_they_are_steep_and_begin_where_the_pressure_drives_the_flow(self):
+        high = 2.0 * CLIFF
+        eps = np.array([[high, 1.0, 1.0], [high, 3.0, 0.0], [1.0, 1e-9, 1.0]])
+        assert cliffs(eps, driven=10.0) == 1
+        assert cliffs(eps, driven=2.0) == 2
+        assert cliffs(eps, driven=0.5) == 4
+
+    def test_a_thick_film_is_solved_in_spite_of_them(self):
+        """513 nodes: 93 convolutions, and 144 by lines that cross."""
+        scheme = {"discretization.couette": "3B", "discretization.face_mobility": "linear-gap"}
+        settings = scheme | {"grid.nodes": 513, "solver.error": False}
+        solution = mgehl.solve(mgehl.load(CONFIGS / "moes_200_10.toml", settings), MPI.COMM_SELF)
+        assert solution.summary.converged and solution.summary.work.convolutions < 115.0
