@@ -5,14 +5,15 @@ from mgehl.multigrid.smoother import LineSmoother, RigidLineSmoother, RoughLineS
 
 FINE = 100_000
 """Nodes from which on cliffs are asked for. On 257 nodes a side lines that cross take a tenth fewer
-convolutions in spite of them; on 513 they take more: by a tenth, twice, thrice (a ball bearing)."""
+convolutions in spite of them; on 513 they take as many to three times as many (a ball bearing)."""
 
 
 def smoother_of(jacobian, rough=False, finest=False, apart=False):
     """The class of a grid's smoother: a rigid gap has no K, and a single line has nothing beside it.
 
     Where the fluid is solved `apart` hardly more than contact is left, which has no direction: lines along
-    X take as many convolutions there, and a tenth less time.
+    X take as many convolutions there, and a tenth less time. A motion at an angle to the lines needs both
+    kinds, cliffs or not.
     """
     if jacobian.rigid:
         return RigidLineSmoother
@@ -20,10 +21,5 @@ def smoother_of(jacobian, rough=False, finest=False, apart=False):
         return ValleySmoother if finest and not jacobian.grid.mesh.is_line else RoughLineSmoother
     if apart or jacobian.grid.mesh.is_line:
         return LineSmoother
-    return CliffSmoother if finest and _may_have_cliffs(jacobian) else CrossedLineSmoother
-
-
-def _may_have_cliffs(jacobian):
-    """Whether lines that cross may fail; a motion at an angle to the lines needs both kinds."""
-    scheme, mesh = jacobian.scheme, jacobian.grid.mesh
-    return mesh.nodes > FINE and scheme.face_mobility != "arithmetic" and not scheme.is_oblique
+    asks_for_cliffs = finest and jacobian.grid.mesh.nodes > FINE and not jacobian.scheme.is_oblique
+    return CliffSmoother if asks_for_cliffs else CrossedLineSmoother

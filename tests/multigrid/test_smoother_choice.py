@@ -1,7 +1,5 @@
 """Which smoother a grid has."""
 
-from dataclasses import replace
-
 import pytest
 
 from mgehl.discretization.scheme import Scheme
@@ -26,19 +24,19 @@ def test_contact_whose_fluid_is_solved_apart_is_not_crossed(rough_state, make_pr
 
 
 @pytest.mark.parametrize(
-    "scheme, angle, finest, kind",
+    "fine, angle, finest, kind",
     [
-        (Scheme("3B", face_mobility="linear-gap"), 0.0, True, CliffSmoother),
-        (Scheme("3B", face_mobility="linear-gap"), 0.0, False, CrossedLineSmoother),
-        (Scheme("3B", face_mobility="linear-gap"), 30.0, True, CrossedLineSmoother),
-        (Scheme("3B"), 0.0, True, CrossedLineSmoother),
+        (NODES, 0.0, True, CliffSmoother),
+        (NODES**2, 0.0, True, CrossedLineSmoother),
+        (NODES, 0.0, False, CrossedLineSmoother),
+        (NODES, 30.0, True, CrossedLineSmoother),
     ],
-    ids=["vanishing mean", "a coarse grid", "at an angle", "arithmetic mean"],
+    ids=["a fine grid", "a coarse one", "not the finest", "at an angle"],
 )
 def test_cliffs_are_asked_for_where_lines_that_cross_may_fail(
-    make_problem, paper_contact, rough_state, make_jacobian, monkeypatch, scheme, angle, finest, kind
+    make_problem, paper_contact, rough_state, make_jacobian, monkeypatch, fine, angle, finest, kind
 ):
-    monkeypatch.setattr(smoother_choice, "FINE", NODES)
+    monkeypatch.setattr(smoother_choice, "FINE", fine)
     contact = paper_contact(angle=angle)
-    problem = make_problem(contact, replace(scheme, motion=contact.motion), nodes=NODES)
+    problem = make_problem(contact, Scheme("3B", motion=contact.motion), nodes=NODES)
     assert smoother_of(make_jacobian(problem, rough_state(problem)), finest=finest) is kind
