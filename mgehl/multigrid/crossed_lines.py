@@ -85,8 +85,8 @@ class CliffSmoother(CrossedLineSmoother):
 
     The mobile node of a cliff acts on the other one, which hardly acts back. The product of lines that
     cross is a poor approximation of that, most of all in the first steps on a grid. Thick films have cliffs
-    at their pressure spike. M = 200, L = 10 by 3B on 1025 nodes takes 131 convolutions for 448 by the linear
-    gap, and 96 for 123 by the arithmetic mean.
+    at their pressure spike. M = 200, L = 10 by 3B on 1025 nodes takes 131 convolutions for 448 by the
+    linear gap, and 96 for 123 by the arithmetic mean.
     """
 
     def partition(self, rows):
