@@ -70,8 +70,6 @@ class Transpose:
             by_lines[:, self._mine] = by_columns[:, : self.columns]
 
     def _exchange(self, source, source_parts, target, target_parts):
-        if source is target:
-            return
         ones, zeros = [1] * self._comm.size, [0] * self._comm.size
         self._comm.Alltoallw([source, ones, zeros, source_parts], [target, ones, zeros, target_parts])
 

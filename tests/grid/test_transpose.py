@@ -5,8 +5,9 @@ import pytest
 from mpi4py import MPI
 
 from mgehl.discretization.mesh import Mesh
+from mgehl.grid import transpose
 from mgehl.grid.grid import single_grid
-from mgehl.grid.transpose import Transpose, YLines
+from mgehl.grid.transpose import Transpose, YLines, pieces_of_y_lines
 
 NX, NY = 7, 5
 
@@ -53,14 +54,24 @@ def test_turned_back_is_what_it_was(y_lines):
     np.testing.assert_array_equal(back, array)
 
 
+def test_pieces_are_the_whole(grid, y_lines, monkeypatch):
+    monkeypatch.setattr(transpose, "PIECE", 2 * NY + 1)
+    array = np.random.default_rng(3).random((NY, NX))
+    parts = [(part, some.turned(array)) for part, some in pieces_of_y_lines(grid)]
+    whole = y_lines.turned(array)
+    assert len(parts) == 4 and parts[0][0].start == 0 and parts[-1][0].stop == NX
+    for part, turned in parts:
+        np.testing.assert_array_equal(turned, whole[part])
+
+
 def test_complex_numbers_are_exchanged_too():
-    transpose = Transpose(MPI.COMM_SELF, np.array([0, NY]), NX, MPI.DOUBLE_COMPLEX)
+    exchange = Transpose(MPI.COMM_SELF, np.array([0, NY]), NX, MPI.DOUBLE_COMPLEX)
     try:
         lines = np.arange(NX * NY).reshape(NY, NX) * (1.0 + 2.0j)
-        columns, back = (np.empty((NY, transpose.columns), complex) for _ in range(2))
-        transpose.to_columns(lines, columns)
-        transpose.to_lines(columns, back)
+        columns, back = (np.empty((NY, exchange.columns), complex) for _ in range(2))
+        exchange.to_columns(lines, columns)
+        exchange.to_lines(columns, back)
         np.testing.assert_array_equal(columns, lines)
         np.testing.assert_array_equal(back, lines)
     finally:
-        transpose.destroy()
+        exchange.destroy()

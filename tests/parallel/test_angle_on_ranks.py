@@ -6,8 +6,9 @@ from mpi4py import MPI
 
 from mgehl.config import config_from_tables
 from mgehl.discretization.mesh import Mesh
+from mgehl.grid import transpose
 from mgehl.grid.grid import single_grid
-from mgehl.grid.transpose import YLines
+from mgehl.grid.transpose import YLines, pieces_of_y_lines
 from mgehl.run import solve
 from mgehl.studies.study import papers_grid
 
@@ -59,4 +60,19 @@ def test_lines_along_y_are_whole_on_a_rank():
     finally:
         if y_lines:
             y_lines.destroy()
+        grid.destroy()
+
+
+def test_pieces_of_the_y_lines_are_the_whole(monkeypatch):
+    nx, ny = 17, 65
+    monkeypatch.setattr(transpose, "PIECE", nx * ny // (3 * COMM.size))
+    whole = np.random.default_rng(1).random((ny, nx))
+    grid = single_grid(Mesh(nx, ny, (-1.9, 1.3), (-1.5, 1.5)), COMM)
+    try:
+        mine = whole[grid.first : grid.last]
+        parts = [some.turned(mine) for _, some in pieces_of_y_lines(grid)] if grid.has_lines else []
+        turned = np.concatenate([np.empty((0, ny)), *parts])
+        assert len(parts) > 1 or not grid.has_lines
+        np.testing.assert_array_equal(np.concatenate(COMM.allgather(turned)), whole.T)
+    finally:
         grid.destroy()

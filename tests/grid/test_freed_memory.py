@@ -1,0 +1,53 @@
+"""Memory that is freed is given back, where memory is short."""
+
+import platform
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from processes import own_environment
+
+from mgehl.grid import freed_memory
+
+FREE = """
+import numpy as np
+from petsc4py import PETSc
+from mgehl.grid.freed_memory import give_back_large_arrays
+
+def resident():
+    return int(open("/proc/self/statm").read().split()[1]) * 4096 / 2**20
+
+give_back_large_arrays()
+before = resident()
+array = np.ones(2**23)
+held = resident() - before
+del array
+print(held, resident() - before)
+"""
+
+
+@pytest.mark.skipif(platform.libc_ver()[0] != "glibc", reason="no glibc")
+def test_a_freed_array_is_given_back():
+    """PETSc's libraries may have told the C library to keep it."""
+    command = [sys.executable, "-c", FREE]
+    done = subprocess.run(command, capture_output=True, text=True, env=own_environment())
+    held, left = map(float, done.stdout.split())
+    assert held > 60.0 and left < 4.0
+
+
+def test_a_film_is_the_same_where_memory_is_short(solve, paper_contact, monkeypatch):
+    usual = solve(paper_contact(), 65).outcome
+    monkeypatch.setattr(freed_memory, "LARGE_GRID", 0)
+    short = solve(paper_contact(), 65).outcome
+    assert len(short.cycles) == len(usual.cycles)
+    np.testing.assert_allclose(short.state.P, usual.state.P, rtol=0.0, atol=1e-12)
+
+
+def test_large_grids_are_those_of_many_nodes():
+    class Mesh:
+        nodes = 4097**2
+
+    assert freed_memory.is_large(Mesh)
+    Mesh.nodes = 2049**2
+    assert not freed_memory.is_large(Mesh)
