@@ -5,7 +5,8 @@ from mgehl.multigrid.smoother import LineSmoother, RigidLineSmoother, RoughLineS
 
 FINE = 100_000
 """Nodes from which on cliffs are asked for. On 257 nodes a side lines that cross take a tenth fewer
-convolutions in spite of them; on 513 they take as many to three times as many (a ball bearing)."""
+convolutions in spite of them. On 513 and 1025 they take from a tenth fewer to three times as many, and a
+fifth to a third more time (eleven random ellipses, round balls, a ball bearing)."""
 
 
 def smoother_of(jacobian, rough=False, finest=False, apart=False):
