@@ -34,7 +34,7 @@ LARGEST_NODES = SECTIONS["grid"].__dataclass_fields__["nodes"].metadata["high"]
 MiB = 2**20
 
 
-SAVED_ON_LARGE_GRIDS = 450.0
+SAVED_ON_LARGE_GRIDS = 430.0
 """Bytes a node that are given back in time, or not asked for, where memory is short
 (`grid.freed_memory`)."""
 

@@ -127,8 +127,8 @@ def test_a_convolution_grows_by_n_log_n_from_the_grid_that_was_timed(one_second)
 
 
 def test_memory_is_that_of_the_run_that_was_measured(one_second):
-    """A film on 4097 by 4097 nodes took 13.9 GiB on two ranks."""
-    assert foretold(film(nodes=4097), 2).memory / 2**30 == pytest.approx(13.9, rel=0.02)
+    """A film on 4097 by 4097 nodes took 14.2 to 14.4 GiB on two ranks."""
+    assert foretold(film(nodes=4097), 2).memory / 2**30 == pytest.approx(14.3, rel=0.01)
 
 
 def test_a_line_contact_is_solved_whole_on_every_rank(one_second):
