@@ -88,6 +88,18 @@ large: $(ENVIRONMENT)
 
 .PHONY: large
 
+# make thick   convolutions and GMRES of thick films by four schemes on four grids (five minutes)
+THICK := runs/thick
+OF_THICK := run,nodes,converged,central nm,minimum nm,convolutions,Newton steps on finest,most GMRES iterations
+thick: $(ENVIRONMENT)
+	for m in 20 200; do for s in 2B/arithmetic 3B/arithmetic 3B/logarithmic 3B/linear-gap; do for n in 129 257 513 1025; do \
+	  ( $(ON) $(MGEHL) configs/moes_$${m}_10.toml --no-error --set grid.nodes=$$n \
+	  --set discretization.couette=$${s%/*} --set discretization.face_mobility=$${s#*/} \
+	  --out $(THICK)/M-$$m-$${s%/*}-$${s#*/}-$$n ) || exit 1; done; done; done
+	$(ON) mgehl collect $(THICK)/* --columns "$(OF_THICK)" --out runs/tables/thick.csv > runs/tables/thick.md
+
+.PHONY: thick
+
 # make studies   run the studies and write their tables to runs/tables
 studies: $(ENVIRONMENT)
 	for s in wedge schemes angle error; do ( $(ON) mpiexec -n 2 python -m mgehl study $$s --force --quiet ) || exit 1; done

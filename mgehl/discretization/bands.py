@@ -58,10 +58,14 @@ class LineBands:
 
     def build(self, linearisation, distributive, kappa, share, lines=slice(None)):
         """Fill the bands of some `lines` with those of J Q for their linearisation; `factor` comes next."""
+        lin, bands = linearisation, self._room()[lines]
+        build_bands(lin.offsets, lin.A, lin.B, distributive, kappa, share, bands)
+
+    def _room(self):
+        """The array of the bands, whatever is in it."""
         if self._factors is None:
             self._factors = np.empty(self._shape)
-        lin, bands = linearisation, self._factors[lines]
-        build_bands(lin.offsets, lin.A, lin.B, distributive, kappa, share, bands)
+        return self._factors
 
     def forget(self):
         """Free the memory of the bands."""
@@ -78,12 +82,11 @@ class LineBands:
 
     def factor_stencil(self, linearisation):
         """Factor what the stencil A of a rigid gap couples along the lines."""
-        if self._factors is None:
-            self._factors = np.empty(self._shape)
-        self._factors[:] = 0.0
+        bands = self._room()
+        bands[:] = 0.0
         for (beside, ahead), A in zip(linearisation.offsets, linearisation.A, strict=True):
             if beside == 0:
-                self._factors[:, :, REACH_OF_STENCIL + ahead] = A
+                bands[:, :, REACH_OF_STENCIL + ahead] = A
         self._factor(self._factors)
 
     def solve(self, r, w):

@@ -31,9 +31,9 @@ class Deflection:
 
     def destroy(self):
         """Free the MPI datatypes."""
-        for transforms in (self._convolution, self._inverse):
-            if transforms:
-                transforms.destroy()
+        for product in (self._convolution, self._inverse):
+            if product:
+                product.transforms.destroy()
 
     @event(DEFLECTION)
     def __call__(self, P):
@@ -64,15 +64,14 @@ class _Convolution:
 
     def __init__(self, grid, kernel):
         mesh = grid.mesh
-        self._transforms = PlaneTransforms(grid, 2 * (mesh.nx - 1), max(2 * (mesh.ny - 1), 1))
-        self.destroy = self._transforms.destroy
+        self.transforms = PlaneTransforms(grid, 2 * (mesh.nx - 1), max(2 * (mesh.ny - 1), 1))
         self._result = np.zeros(grid.shape)
         K = influence_coefficients(mesh, kernel, grid.first, grid.last)
-        self._spectrum = self._transforms.spectrum(K)
-        self._spectrum /= self._transforms.scale
+        self._spectrum = self.transforms.spectrum(K)
+        self._spectrum /= self.transforms.scale
 
     def __call__(self, P):
-        self._transforms.product(P, self._spectrum, self._result)
+        self.transforms.product(P, self._spectrum, self._result)
         return self._result
 
 
@@ -81,13 +80,12 @@ class _Inverse:
 
     def __init__(self, grid, kernel):
         mesh = grid.mesh
-        self._transforms = PlaneTransforms(grid, mesh.nx - 1, max(mesh.ny - 1, 1))
-        self.destroy = self._transforms.destroy
+        self.transforms = PlaneTransforms(grid, mesh.nx - 1, max(mesh.ny - 1, 1))
         self._result = np.zeros(grid.shape)
         self._spectrum = self._inverse_spectrum(grid, kernel)
 
     def __call__(self, D):
-        self._transforms.product(D[:, :-1], self._spectrum, self._result[:, :-1])
+        self.transforms.product(D[:, :-1], self._spectrum, self._result[:, :-1])
         return self._result
 
     def _inverse_spectrum(self, grid, kernel):
@@ -96,9 +94,9 @@ class _Inverse:
         lines = np.arange(grid.first, grid.last)
         lines = np.minimum(lines, np.abs(mesh.ny - 1 - lines))
         K = influence_coefficients(mesh, kernel, lines.min(), lines.max() + 1)[lines - lines.min()]
-        size = np.abs(self._transforms.spectrum(K[:, np.minimum(np.arange(x), x - np.arange(x))]))
+        size = np.abs(self.transforms.spectrum(K[:, np.minimum(np.arange(x), x - np.arange(x))]))
         largest = grid.team.allreduce(float(np.max(size, initial=0.0)), MPI.MAX)
-        found = 1.0 / (np.maximum(size, SMALLEST * largest) * self._transforms.scale)
+        found = 1.0 / (np.maximum(size, SMALLEST * largest) * self.transforms.scale)
         if grid.team.rank == 0:
             found[0, 0] = 0.0
         return found

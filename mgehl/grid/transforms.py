@@ -27,8 +27,8 @@ BLOCK = 32_768
 class PlaneTransforms:
     """The transforms of a rank with lines, planned, of planes that repeat themselves after a period.
 
-    A spectrum is that of an even kernel, so it is real and as even: (columns, period_y // 2 + 1), of this
-    rank's columns of modes.
+    A spectrum belongs to an even kernel. So it is real, and even, too, and half of it is stored: (columns,
+    period_y // 2 + 1), of this rank's columns of modes.
     """
 
     def __init__(self, grid, period_x, period_y):

@@ -26,7 +26,7 @@ class Transpose:
     def __init__(self, comm, line_starts, columns, kind, shares=None):
         """Of arrays of `kind`, an MPI datatype; every rank of `comm` has lines, from `line_starts` on.
 
-        `shares` are the (first, end) of each rank's columns, by default all of them.
+        `shares` are the (first, end) of each rank's columns; by default all columns, evenly.
         """
         self._comm, self._kind = comm, kind
         shares = even_shares(columns, comm.size) if shares is None else shares
