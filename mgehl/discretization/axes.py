@@ -42,6 +42,11 @@ class Axis:
         nodes = slice(start + first, start + last)
         return ghosted[HALO:-HALO, nodes] if self.number else ghosted[nodes]
 
+    @property
+    def sides(self):
+        """For compiled loops: the line of W, the line of E and the node of E of the first face."""
+        return (HALO, HALO, 1) if self.number else (HALO - 1, HALO, 0)
+
     def reachable(self, ghosted, shifts):
         """The faces first, last between which all nodes at the `shifts` beyond W are in the array."""
         length = ghosted.shape[1] if self.number else len(ghosted)

@@ -10,6 +10,7 @@ import numpy as np
 
 from mgehl.discretization.couette import SHIFT, E, W, add_couette, couette_scheme, nodes_of
 from mgehl.discretization.fluid import face_mobility
+from mgehl.discretization.kernels import add_poiseuille, add_poiseuille_slopes
 from mgehl.discretization.status import WALL, is_solid, open_faces
 
 
@@ -72,24 +73,21 @@ def _flow(fluid, status, axis, scheme, mobility, terms, near, linearised, rigid)
 
 def _add_poiseuille(flow, fluid, axis, mobility):
     """Add -eps (P_E - P_W)/distance with eps the face's mean mobility  [Liu eqs. 7, 16, 30]."""
-    (west, east), distance = (_on_side(fluid, axis, side) for side in (W, E)), axis.distance
-    eps, (by_west, by_east) = mobility.value, mobility.by_eps
-    gradient = (east("P") - west("P")) / distance
-    flow.value -= eps * gradient
+    faces = flow.value.shape[1]
+    distance = np.full(faces, axis.distance)
+    add_poiseuille(axis.sides, fluid.P, mobility.value, distance, flow.value)
+    by_eps = [slope if np.ndim(slope) else np.full((1, faces), slope) for slope in mobility.by_eps]
+    for slopes, eps_by in ((flow.by_P, fluid.deps_dP), (flow.by_H, fluid.deps_dH)):
+        if slopes:
+            add_poiseuille_slopes(axis.sides, fluid.P, distance, *by_eps, eps_by, slopes[W], slopes[E])
     if flow.by_P:
-        conductance = eps / distance
-        flow.by_P[W] += conductance - gradient * by_west * west("deps_dP")
-        flow.by_P[E] -= conductance + gradient * by_east * east("deps_dP")
-    if flow.by_H:
-        flow.by_H[W] -= gradient * by_west * west("deps_dH")
-        flow.by_H[E] -= gradient * by_east * east("deps_dH")
-        for node, slope in zip((W, E), mobility.by_gap, strict=False):
+        conductance = mobility.value / distance
+        flow.by_P[W] += conductance
+        flow.by_P[E] -= conductance
+    if flow.by_H and mobility.by_gap:
+        gradient = (axis.at(fluid.P, SHIFT[E]) - axis.at(fluid.P, SHIFT[W])) / distance
+        for node, slope in zip((W, E), mobility.by_gap, strict=True):
             flow.by_H[node] -= gradient * slope
-
-
-def _on_side(fluid, axis, side):
-    """A part of the fluid, by its name, at the nodes on one side of the faces."""
-    return lambda name: axis.at(getattr(fluid, name), SHIFT[side])
 
 
 def mobility_of_faces(fluid, axis, scheme):

@@ -76,6 +76,48 @@ def distribute(w, distributive, share, omega, out, everywhere=True):
             out[j, i] = omega * (w[g, i] - share * spread)
 
 
+@compiled()
+def add_poiseuille(sides, P, mobility, distance, flow):
+    """flow -= mobility (P_E - P_W)/distance through faces (lines, faces) along an axis.
+
+    `P` is ghosted, `sides` as of an `Axis`, `distance` one for each face of a line.
+    """
+    line_w, line_e, node_e = sides
+    lines, faces = flow.shape
+    for j in range(lines):
+        west, east = P[j + line_w, :faces], P[j + line_e, node_e : node_e + faces]
+        _subtract_flow(mobility[j], west, east, distance, flow[j])
+
+
+@compiled()
+def _subtract_flow(mobility, west, east, distance, flow):
+    for i in range(flow.size):
+        flow[i] -= mobility[i] * ((east[i] - west[i]) / distance[i])
+
+
+@compiled()
+def add_poiseuille_slopes(sides, P, distance, by_eps_w, by_eps_e, eps_by, by_w, by_e):
+    """What that flow changes by as the mobilities of W and E change, added to `by_w` and `by_e`.
+
+    The nodes' mobilities rise by `eps_by`, ghosted, and with each of them the face's by `by_eps_w`,
+    `by_eps_e`: as the faces, or one line that stands for all.
+    """
+    line_w, line_e, node_e = sides
+    lines, faces = by_w.shape
+    for j in range(lines):
+        w, e, end = j + line_w, j + line_e, node_e + faces
+        west, east = P[w, :faces], P[e, node_e:end]
+        share = j if len(by_eps_w) > 1 else 0
+        _subtract_slopes(west, east, distance, by_eps_w[share], eps_by[w, :faces], by_w[j])
+        _subtract_slopes(west, east, distance, by_eps_e[share], eps_by[e, node_e:end], by_e[j])
+
+
+@compiled()
+def _subtract_slopes(west, east, distance, by_eps, eps_by, slope):
+    for i in range(slope.size):
+        slope[i] -= (east[i] - west[i]) / distance[i] * by_eps[i] * eps_by[i]
+
+
 @compiled(fastmath={"contract"})
 def flow_sources(inflow, P, along, across, source):
     """source = inflow - L P: the net inflow of a node without its Poiseuille flow.

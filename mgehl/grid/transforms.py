@@ -16,9 +16,9 @@ THREADS = 1
 TIMED, FIXED = ("FFTW_MEASURE",), ("FFTW_ESTIMATE",)
 """Plans: the fastest of several that are tried, on 4097 nodes a third faster, or one always."""
 
-LARGE = 2000
-"""Nodes of a period from which on plans are timed: that takes half a second, and what it saves on 513
-nodes needs a hundred convolutions to pay for it."""
+LARGE = 4000
+"""Nodes of a period from which on plans are timed: that takes a second. On 1025 nodes it saves 3 ms a
+convolution, so it would need some 250 of them to pay for it, on 2049 nodes 50."""
 
 BLOCK = 32_768
 """Numbers of a block: half a megabyte where they are complex."""

@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 from dense import ALONG_X, BOTH_WAYS, dense_Q, dense_stencil, line_stencils
 
-from mgehl.discretization.axes import HALO, own
+from mgehl.discretization.axes import HALO, Axis, own
 from mgehl.discretization.kernels import (
+    add_poiseuille,
+    add_poiseuille_slopes,
     apply_jacobian,
     apply_stencil,
     distribute,
@@ -73,6 +75,38 @@ def test_distribute(share, rng):
         * (dense_Q(distributive, share) @ w.ravel()).reshape(lines + 4 * HALO, nx)[2 * HALO : -2 * HALO]
     )
     np.testing.assert_allclose(out, expected, rtol=1e-14, atol=1e-15)
+
+
+@pytest.fixture(params=[1, 0], ids=["along x", "along y"])
+def axis(request):
+    return Axis(request.param, 0.5, 0.25, 1.0)
+
+
+def gradients(P, axis, distance):
+    return (axis.at(P, 1) - axis.at(P, 0)) / distance
+
+
+def test_add_poiseuille(axis, rng):
+    P = rng.standard_normal((4 + 2 * HALO, 7))
+    distance = rng.uniform(0.1, 1.0, axis.at(P).shape[1])
+    mobility, before = rng.standard_normal((2, *axis.at(P).shape))
+    flow = before.copy()
+    add_poiseuille(axis.sides, P, mobility, distance, flow)
+    np.testing.assert_allclose(flow, before - mobility * gradients(P, axis, distance), rtol=1e-13)
+
+
+@pytest.mark.parametrize("alone", [False, True], ids=["by face", "one line for all"])
+def test_add_poiseuille_slopes(axis, alone, rng):
+    P, eps_by = rng.standard_normal((2, 4 + 2 * HALO, 7))
+    lines, faces = axis.at(P).shape
+    distance = rng.uniform(0.1, 1.0, faces)
+    by_eps = rng.standard_normal((2, 1 if alone else lines, faces))
+    before = rng.standard_normal((2, lines, faces))
+    found = before.copy()
+    add_poiseuille_slopes(axis.sides, P, distance, *by_eps, eps_by, *found)
+    for side in (0, 1):
+        change = gradients(P, axis, distance) * by_eps[side] * axis.at(eps_by, side)
+        np.testing.assert_allclose(found[side], before[side] - change, rtol=1e-13, atol=1e-14)
 
 
 def poiseuille_inflow(P, along, across):
