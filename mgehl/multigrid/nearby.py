@@ -37,8 +37,7 @@ class NearbySolve:
 
     def __init__(self, jacobian, K, share):
         self._jacobian, self._share = jacobian, share
-        self._single = np.array([K[abs(line), abs(node)] for line, node in NEAR])
-        self._around = np.array([_around(K, abs(line), abs(node)) for line, node in NEAR])
+        self._single, self._around = columns_of_deflection(K)
         self._parts, self._products = [], [None, None]
         self._ksp, self._vecs = None, ()
 
@@ -97,6 +96,15 @@ class NearbySolve:
 
     def view(self, viewer):
         viewer.printfASCII("  LU of what couples nearby nodes\n")
+
+
+def columns_of_deflection(K):
+    """Deflection at the `NEAR` nodes by a unit pressure, and by those of its four neighbours together.
+
+    `K` as of a `NearbySolve`.
+    """
+    places = np.abs(NEAR)
+    return np.array([K[tuple(at)] for at in places]), np.array([_around(K, *at) for at in places])
 
 
 def _around(K, line, node):

@@ -3,11 +3,6 @@
 from mgehl.multigrid.crossed_lines import CliffSmoother, CrossedLineSmoother
 from mgehl.multigrid.smoother import LineSmoother, RigidLineSmoother, RoughLineSmoother, ValleySmoother
 
-FINE = 100_000
-"""Nodes from which on cliffs are asked for. On 257 nodes a side lines that cross take a tenth fewer
-convolutions in spite of them. On 513 and 1025 they take from a tenth fewer to three times as many, and a
-fifth to a third more time (eleven random ellipses, round balls, a ball bearing)."""
-
 
 def smoother_of(jacobian, rough=False, finest=False, apart=False):
     """The class of a grid's smoother: a rigid gap has no K, and a single line has nothing beside it.
@@ -22,5 +17,4 @@ def smoother_of(jacobian, rough=False, finest=False, apart=False):
         return ValleySmoother if finest and not jacobian.grid.mesh.is_line else RoughLineSmoother
     if apart or jacobian.grid.mesh.is_line:
         return LineSmoother
-    asks_for_cliffs = finest and jacobian.grid.mesh.nodes > FINE and not jacobian.scheme.is_oblique
-    return CliffSmoother if asks_for_cliffs else CrossedLineSmoother
+    return CliffSmoother if finest else CrossedLineSmoother

@@ -1,20 +1,15 @@
-"""The smoother with lines along both axes, and where its lines must not cross."""
-
-from pathlib import Path
+"""The smoother with lines along both axes."""
 
 import numpy as np
 import pytest
-from mpi4py import MPI
 
-import mgehl
 from mgehl.discretization.bands import distributive_nodes
 from mgehl.discretization.influence import influence_coefficients
 from mgehl.discretization.rows import FLOW, GAP, PRESSURE
 from mgehl.discretization.scheme import Scheme
-from mgehl.multigrid.crossed_lines import CLIFF, CrossedLineSmoother, cliffs
+from mgehl.multigrid.crossed_lines import CrossedLineSmoother
 
 OMEGA = 0.8
-CONFIGS = Path(__file__).parents[2] / "configs"
 
 
 class TestLinesAlongBothAxes:
@@ -81,19 +76,3 @@ class TestLinesAlongBothAxes:
             smoother.factor()
             corrections.append(smoother.relax(np.ones((self.NODES, self.NODES))).copy())
         np.testing.assert_array_equal(*corrections)
-
-
-class TestCliffs:
-    def test_they_are_steep_and_begin_where_the_pressure_drives_the_flow(self):
-        high = 2.0 * CLIFF
-        eps = np.array([[high, 1.0, 1.0], [high, 3.0, 0.0], [1.0, 1e-9, 1.0]])
-        assert cliffs(eps, driven=10.0) == 1
-        assert cliffs(eps, driven=2.0) == 2
-        assert cliffs(eps, driven=0.5) == 4
-
-    def test_a_thick_film_is_solved_in_spite_of_them(self):
-        """513 nodes: 93 convolutions, and 144 by lines that cross."""
-        scheme = {"discretization.couette": "3B", "discretization.face_mobility": "linear-gap"}
-        settings = scheme | {"grid.nodes": 513, "solver.error": False}
-        solution = mgehl.solve(mgehl.load(CONFIGS / "moes_200_10.toml", settings), MPI.COMM_SELF)
-        assert solution.summary.converged and solution.summary.work.convolutions < 115.0

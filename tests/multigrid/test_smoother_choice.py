@@ -3,7 +3,6 @@
 import pytest
 
 from mgehl.discretization.scheme import Scheme
-from mgehl.multigrid import smoother_choice
 from mgehl.multigrid.crossed_lines import CliffSmoother, CrossedLineSmoother
 from mgehl.multigrid.smoother import LineSmoother
 from mgehl.multigrid.smoother_choice import smoother_of
@@ -23,20 +22,10 @@ def test_contact_whose_fluid_is_solved_apart_is_not_crossed(rough_state, make_pr
     assert smoother_of(jacobian, apart=True) is LineSmoother
 
 
-@pytest.mark.parametrize(
-    "fine, angle, finest, kind",
-    [
-        (NODES, 0.0, True, CliffSmoother),
-        (NODES**2, 0.0, True, CrossedLineSmoother),
-        (NODES, 0.0, False, CrossedLineSmoother),
-        (NODES, 30.0, True, CrossedLineSmoother),
-    ],
-    ids=["a fine grid", "a coarse one", "not the finest", "at an angle"],
-)
-def test_cliffs_are_asked_for_where_lines_that_cross_may_fail(
-    make_problem, paper_contact, rough_state, make_jacobian, monkeypatch, fine, angle, finest, kind
-):
-    monkeypatch.setattr(smoother_choice, "FINE", fine)
+@pytest.mark.parametrize("angle", [0.0, 30.0])
+def test_the_finest_grid_looks_for_cliffs(make_problem, paper_contact, rough_state, make_jacobian, angle):
     contact = paper_contact(angle=angle)
     problem = make_problem(contact, Scheme("3B", motion=contact.motion), nodes=NODES)
-    assert smoother_of(make_jacobian(problem, rough_state(problem)), finest=finest) is kind
+    jacobian = make_jacobian(problem, rough_state(problem))
+    assert smoother_of(jacobian, finest=True) is CliffSmoother
+    assert smoother_of(jacobian) is CrossedLineSmoother

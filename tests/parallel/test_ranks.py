@@ -15,12 +15,14 @@ from mpi4py import MPI
 from mgehl.config import config_from_tables
 from mgehl.discretization.axes import own
 from mgehl.discretization.mesh import HALO
+from mgehl.discretization.residual import Linearisation
 from mgehl.discretization.rows import rows_of
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED, WALL
 from mgehl.errors import OutputError, Stopped
 from mgehl.grid.regroup import Move
 from mgehl.grid.transfers import PartitionedTransfer
+from mgehl.multigrid.cliffs import CliffZone
 from mgehl.multigrid.jacobian import BorderedSpace
 from mgehl.output.checkpoint import Checkpoint
 from mgehl.run import Watch
@@ -286,6 +288,25 @@ class TestTransfers:
         prolonged = whole(shared.fine, partitioned.prolong(lines(shared.coarse, coarse)))
         np.testing.assert_allclose(restricted, expected.restrict(fine), rtol=0.0, atol=1e-13)
         np.testing.assert_allclose(prolonged, expected.prolong(coarse), rtol=0.0, atol=1e-13)
+
+
+def test_zones_of_cliffs_equal_the_serial_ones(pair):
+    """Around a cliff that goes through all lines."""
+    both, offsets = [], np.array([(0, 0), (0, -2), (0, -1), (0, 1), (-1, 0), (1, 0)])
+    K = 1.0 / (1.0 + np.add.outer(np.arange(6), np.arange(8)))
+    for hierarchy in pair():
+        grid = hierarchy.grids[-1]
+        A, B = (np.stack([lines(grid, random(grid, 10 * k + n)) for k in range(6)]) for n in (0, 1))
+        masks = [lines(grid, random(grid, 2 + k) > limit) for k, limit in enumerate((2.0, 0.0, -2.0))]
+        found, distributive, free = masks
+        found[:, 7] = True
+        zone = CliffZone(grid, K, 0.25)
+        zone.factor(found, Linearisation(offsets, A, B, None), distributive, free)
+        r, w = (lines(grid, random(grid, 70 + k)) for k in (0, 1))
+        zone.solve(r, w)
+        both.append(whole(grid, w) if grid.comm.size > 1 else w)
+    np.testing.assert_allclose(*both, rtol=1e-9, atol=1e-9)
+    assert np.any(both[0] != random(hierarchy.grids[-1], 71))
 
 
 def test_the_border_is_known_to_every_rank(pair, make_vec):
