@@ -33,9 +33,9 @@ at L = 10: of a line contact, on the way from upstream; of a ball, from both sid
 SLENDER = 0.63
 """b over a of the contact whose film falls half as fast as a line contact's: fluid gets in from beside."""
 
-RIGID, LIGHT = 2.0, 3.5
-"""Power of the load with which a ball's rigid film falls, and how sharply that ends as the elastic film
-outgrows the rigid one."""
+RIGID, LIGHT, ELASTIC = 2.0, 3.5, 0.07
+"""Power of the load with which a ball's rigid film falls, how sharply that ends as the elastic film
+outgrows the rigid one, and the power of the elastic film [Hamrock and Dowson]."""
 
 OUTSIDE, LINE_OUTSIDE = 1.15, 3.0
 """Load lost over that beyond a side, of point and line contacts: a side's pressure of zero lowers that
@@ -156,7 +156,7 @@ class Starvation:
             return 1.0 / (1.0 + (max(elastic, min(piezoviscous)) / rigid) ** LIGHT)
         rigid, elastic, _, _ = films.point_asymptotes(like.groups, like.radius_x / like.radius_y)
         # Less of wide contacts, by as much as they are wide.
-        return RIGID * min(1.0, like.k_e) / (1.0 + (elastic / rigid) ** LIGHT)
+        return min(1.0, like.k_e) * (RIGID / (1.0 + (elastic / rigid) ** LIGHT) + ELASTIC)
 
 
 def _twice(ends):
