@@ -22,7 +22,10 @@ class Evaluation:
         self.P, self.H, self.status = P, H, status
         self.mesh, self.contact, self.scheme = mesh, contact, scheme
         self.axes = axes_of(mesh, scheme.motion)
-        self.fluid = fluid_state(P, H, contact, scheme.contact_law) if fluid is None else fluid
+        self.fluid = self._evaluated_fluid() if fluid is None else fluid
+
+    def _evaluated_fluid(self):
+        return fluid_state(self.P, self.H, self.contact, self.scheme.contact_law)
 
     def by(self, scheme):
         """The same state and fluid, differenced by another scheme of the same contact law."""
@@ -54,6 +57,16 @@ class Evaluation:
         """Drop what was found of the faces; it is found again when it is asked for."""
         for name in ("mobilities", "flows", "conductances", "conductance", "source"):
             self.__dict__.pop(name, None)
+
+    def forget_fluid(self):
+        """Drop the fluid, too. Not for an evaluation `with_mobility`: the laws know nothing of that."""
+        self.forget()
+        self.__dict__.pop("fluid", None)
+
+    @cached_property
+    def fluid(self):
+        """The `Fluid` at the nodes."""
+        return self._evaluated_fluid()
 
     @cached_property
     def mobilities(self):

@@ -33,9 +33,9 @@ at L = 10: of a line contact, on the way from upstream; of a ball, from both sid
 SLENDER = 0.63
 """b over a of the contact whose film falls half as fast as a line contact's: fluid gets in from beside."""
 
-RIGID, LIGHT, ELASTIC = 2.0, 3.5, 0.07
+RIGID, LIGHT, ELASTIC = 2.0, 3.5, 0.02
 """Power of the load with which a ball's rigid film falls, how sharply that ends as the elastic film
-outgrows the rigid one, and the power of the elastic film [Hamrock and Dowson]."""
+outgrows the rigid one, and the power that is left: M = 8 to 20 need a little more room for it."""
 
 OUTSIDE, LINE_OUTSIDE = 1.15, 3.0
 """Load lost over that beyond a side, of point and line contacts: a side's pressure of zero lowers that

@@ -145,7 +145,8 @@ class MultigridSolver:
         """Linearise on every grid about the finest grid's evaluated state, with its kinds of `rows`.
 
         `rate` is 1/time step of an implicit step, or one for each node, (lines, nx); zero for the
-        steady equations. What the evaluation knows of the faces is dropped: the solve needs the memory.
+        steady equations. What the evaluation knows of the faces is dropped, where memory is short what it
+        knows of the fluid, too: the solve needs the room.
         """
         if self.jacobian is not self.jacobians[-1]:
             self.jacobian.linearise(evaluation, rows, rate)
@@ -159,14 +160,16 @@ class MultigridSolver:
             coarse = [inject(array) for array in fine]
             status, coarse_rows = coarse[-1], inject(rows)
             rate = inject(rate) if np.ndim(rate) else rate
-            evaluation = _evaluate(jacobian, *coarse)
+            found = _evaluate(jacobian, *coarse)
             if self._thin:
                 eps = transfer.averaged(eps)
-                evaluation = evaluation.with_mobility(jacobian.grid.halo(eps))
-            jacobian.linearise(evaluation, coarse_rows, rate)
+                found = found.with_mobility(jacobian.grid.halo(eps))
+            jacobian.linearise(found, coarse_rows, rate)
             self._smoothers[level - 1].partition(rows)
             self._partitioned[level - 1].partition((status, coarse_rows), (fine[-1], rows))
             fine, rows = coarse, coarse_rows
+        if self._memory_is_short:
+            evaluation.forget_fluid()
 
     def forget(self):
         """Where memory is short, free that of the linearisation and its factors: the next has others."""

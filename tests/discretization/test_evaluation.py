@@ -288,3 +288,13 @@ class TestXAndYAreTheSame:
         scheme = Scheme(couette, motion=(0.6, 0.8))
         squeezed, plain = plane(scheme, k_e=0.5).inflow, plane(scheme).inflow
         np.testing.assert_allclose(squeezed, plain, rtol=1e-12, atol=1e-13)
+
+
+def test_a_fluid_that_was_dropped_is_found_again(film):
+    evaluation = film.evaluation()
+    fluid, inflow = evaluation.fluid, evaluation.inflow
+    evaluation.forget_fluid()
+    assert "fluid" not in vars(evaluation) and "mobilities" not in vars(evaluation)
+    assert evaluation.fluid is not fluid
+    np.testing.assert_array_equal(evaluation.fluid.deps_dP, fluid.deps_dP)
+    np.testing.assert_array_equal(evaluation.inflow, inflow)
