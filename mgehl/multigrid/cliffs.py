@@ -12,6 +12,7 @@ from scipy.sparse.linalg import splu
 
 from mgehl.discretization.axes import own
 from mgehl.discretization.mesh import HALO
+from mgehl.grid.events import NEARBY, event
 from mgehl.multigrid.nearby import NEAR, columns_of_deflection
 
 CLIFF = 100.0
@@ -23,7 +24,7 @@ BESIDE = 1
 tenth, with none half as much again."""
 
 LARGEST = 200_000
-"""Most nodes that are solved at once, some kilobytes for each. An arc on 1025 nodes has 7000."""
+"""Most nodes that are solved at once, some kilobytes for each. On 1025 nodes a spike has 2000."""
 
 
 def cliffs(eps, driven):
@@ -64,6 +65,7 @@ class CliffZone:
         self._nodes = self._reached = np.zeros(0, dtype=int)
         self._rows = self._lu = None
 
+    @event(NEARBY)
     def factor(self, found, linearisation, distributive, free):
         """Factor T = A Q + B N of the zone around the nodes that were `found` to stand at a cliff.
 
@@ -79,10 +81,8 @@ class CliffZone:
         reached = self._around(between, NEAR)
         distributive, free = (self._of(reached, mask) for mask in (distributive, free))
         Q, N = self._columns(between, reached, distributive, free)
-        A, B = (
-            self._stencils(stencil, nodes, between, offsets)
-            for stencil in (linearisation.A, linearisation.B)
-        )
+        stencils = linearisation.A, linearisation.B
+        A, B = (self._matrix(self._of(nodes, each).T, nodes, between, offsets) for each in stencils)
         self._nodes, self._reached, self._rows = nodes, reached, A @ Q + B @ N
         matrix = self._rows[:, np.searchsorted(reached, nodes)]
         try:
@@ -129,10 +129,6 @@ class CliffZone:
         line, node = (at[:, None] + offsets.T[axis] for axis, at in enumerate(np.divmod(nodes, mesh.nx)))
         inside = (line >= 0) & (line < mesh.ny) & (node >= 0) & (node < mesh.nx)
         return line * mesh.nx + node, inside
-
-    def _stencils(self, stencil, nodes, columns, offsets):
-        """The matrix of a stencil's rows at some nodes."""
-        return self._matrix(self._of(nodes, stencil).T, nodes, columns, offsets)
 
     def _columns(self, nodes, columns, distributive, free):
         """Rows of Q and N at some nodes; masks of the `columns`.

@@ -92,7 +92,7 @@ class CliffSmoother(CrossedLineSmoother):
         super().partition(rows)
         grid = self._jacobian.grid
         eps = grid.halo(self._jacobian.linearisation.eps)
-        self._cliffs = cliffs(eps, STIFF * self._K00 * grid.mesh.dX)
+        self._cliffs = cliffs(eps, STIFF * self._K00 * grid.mesh.dX) & ~self._given
 
     def forget(self):
         """Free the memory of the factors."""
