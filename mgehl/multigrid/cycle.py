@@ -182,8 +182,8 @@ class MultigridSolver:
 
         GMRES orthogonalises twice. Remembered corrections make its directions nearly alike: orthogonalised
         once only, the residual may rise again. The same may happen with a film that the grid cannot hold.
-        There it is done twice where it is needed (65 nodes at 20 mm/s: 4 iterations on any number of ranks;
-        before 9 on one rank and 5 on two).
+        There it is done twice where it is needed (65 nodes at 12 mm/s: 8 iterations on any number of ranks;
+        orthogonalised once 9, 10 and 14 on one to three).
         """
         ksp.setType(PETSc.KSP.Type.FGMRES)
         ksp.setOperators(self.jacobian.mat, self.jacobians[-1].mat)
