@@ -1,0 +1,69 @@
+"""A few nodes of a grid, which all ranks know, and sparse matrices of stencils among them."""
+
+import numpy as np
+from scipy.sparse import csr_matrix
+
+
+class NodeSet:
+    """Nodes of a grid by their `numbers`, counted line by line, in rising order: the same on all ranks with
+    lines."""
+
+    def __init__(self, grid, numbers):
+        self._grid, self._numbers = grid, numbers
+        self._first = grid.first * grid.mesh.nx
+        ends = self._first, grid.last * grid.mesh.nx
+        self._mine = slice(*np.searchsorted(numbers, ends))
+
+    @classmethod
+    def where(cls, grid, mask):
+        """The nodes where a mask (lines, nx) is True on any rank."""
+        first = grid.first * grid.mesh.nx
+        return cls(grid, _of_all(grid, np.flatnonzero(mask) + first))
+
+    def __len__(self):
+        return len(self._numbers)
+
+    def around(self, offsets):
+        """The nodes at `offsets` (lines, nodes) from these."""
+        numbers, inside = self._places(offsets)
+        return NodeSet(self._grid, np.unique(numbers[inside]))
+
+    def values(self, array):
+        """What an array (..., lines, nx) has at the nodes, wherever they are: (..., nodes)."""
+        nodes = array.reshape(*array.shape[:-2], -1)
+        return _of_all(self._grid, nodes[..., self._own])
+
+    def add(self, array, values):
+        """Add the nodes' `values` to an array (lines, nx), in place; each rank to its own."""
+        array.ravel()[self._own] += values[self._mine]
+
+    def neighbours(self, others, offsets):
+        """Which of `others` lie at `offsets`, (nodes, offsets), and a mask: False, and the first one, where
+        that is outside the domain."""
+        numbers, inside = self._places(offsets)
+        return np.searchsorted(others._numbers, np.where(inside, numbers, others._numbers[0])), inside
+
+    def matrix(self, stencil, columns, offsets):
+        """The sparse matrix of a `stencil` (nodes, offsets), whose `columns` hold the nodes at the offsets."""
+        there, inside = self.neighbours(columns, offsets)
+        rows = np.broadcast_to(np.arange(len(self))[:, None], there.shape)
+        entries = stencil[inside], (rows[inside], there[inside])
+        return csr_matrix(entries, shape=(len(self), len(columns)))
+
+    @property
+    def _own(self):
+        """Places of this rank's nodes in its own lines."""
+        return self._numbers[self._mine] - self._first
+
+    def _places(self, offsets):
+        """Numbers (nodes, offsets) of the nodes at `offsets` from each, and which are in the domain."""
+        mesh = self._grid.mesh
+        lines, nodes = np.divmod(self._numbers, mesh.nx)
+        line, node = lines[:, None] + offsets[:, 0], nodes[:, None] + offsets[:, 1]
+        inside = (line >= 0) & (line < mesh.ny) & (node >= 0) & (node < mesh.nx)
+        return line * mesh.nx + node, inside
+
+
+def _of_all(grid, part):
+    """The parts (..., nodes) of all ranks with lines, one after the other."""
+    return part if grid.team.size == 1 else np.concatenate(grid.team.allgather(part), axis=-1)
