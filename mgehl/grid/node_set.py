@@ -44,7 +44,7 @@ class NodeSet:
         return np.searchsorted(others._numbers, np.where(inside, numbers, others._numbers[0])), inside
 
     def matrix(self, stencil, columns, offsets):
-        """The sparse matrix of a `stencil` (nodes, offsets), whose `columns` hold the nodes at the offsets."""
+        """The sparse matrix of a `stencil` (nodes, offsets); all nodes at the offsets are `columns`."""
         there, inside = self.neighbours(columns, offsets)
         rows = np.broadcast_to(np.arange(len(self))[:, None], there.shape)
         entries = stencil[inside], (rows[inside], there[inside])
