@@ -83,9 +83,9 @@ def _net_inflow(evaluation, offsets, found, derivative):
     stencil = np.zeros((len(offsets), *own(evaluation.P).shape))
     position = {offset: k for k, offset in enumerate(offsets)}
     for axis, (leaving, entering) in zip(evaluation.axes, found, strict=True):
-        apart = [leaving] if entering is leaving else [leaving, entering]
-        for array in (array for flow in apart for array in getattr(flow, derivative).values()):
-            array /= axis.cell
+        for flow in dict.fromkeys((leaving, entering)):  # often one
+            for array in getattr(flow, derivative).values():
+                array /= axis.cell
         # A node is the E of the face through which fluid enters it, and the W of the other.
         for node, array in getattr(entering, derivative).items():
             at = stencil[position[axis.offset(SHIFT[node] - 1)]]

@@ -8,8 +8,8 @@ def smoother_of(jacobian, rough=False, finest=False, apart=False):
     """The class of a grid's smoother: a rigid gap has no K, and a single line has nothing beside it.
 
     Where the fluid is solved `apart` hardly more than contact is left, which has no direction: lines along
-    X take as many convolutions there, and a tenth less time. A motion at an angle to the lines needs both
-    kinds, cliffs or not.
+    X take as many convolutions there, and a tenth less time. Cliffs are left to the finest grid: looked for
+    on all of them they save 3 %.
     """
     if jacobian.rigid:
         return RigidLineSmoother
