@@ -37,7 +37,7 @@ IN_THE_CYCLE = {"2C": "3B", "S2C": "3B"}
 """Couette schemes of the cycle's operators where the solved one's leave waves of two cells: lines do not
 damp them."""
 
-IN_ANOTHER_CYCLE = IN_THE_CYCLE | {"3B": "2B"}
+ASKEW_OR_APART = IN_THE_CYCLE | {"3B": "2B"}
 """The same where the surfaces move at an angle to the lines (30 degrees on 513 nodes: 132 convolutions for
 194), and where fluid and contact are solved apart (0.5 mm/s on 257 nodes: 133 for 333). Elsewhere 3B takes
 a third less by its own operators (M = 20, L = 10 on 257 nodes: 53 for 79)."""
@@ -85,7 +85,7 @@ class MultigridSolver:
         self._oblique = scheme.is_oblique and not (rigid or apart)
         self._rough = contact.roughness > 0.0 and not rigid
         self._thin = self._rough and contact.expected_film < THICK * contact.roughness
-        better = IN_ANOTHER_CYCLE if self._oblique or rigid or apart else IN_THE_CYCLE
+        better = ASKEW_OR_APART if self._oblique or rigid or apart else IN_THE_CYCLE
         couette = _of_cycle(settings.couette, scheme.couette, better)
         same = couette == scheme.couette
         self._scheme = scheme if same else replace(scheme, couette=couette)

@@ -9,7 +9,6 @@ J Q on the whole grid is a sparse matrix that has these modes as they are.
 import numpy as np
 from petsc4py import PETSc
 
-from mgehl.discretization.axes import own
 from mgehl.discretization.mesh import HALO
 from mgehl.grid.events import NEARBY, event
 from mgehl.multigrid.options import by_default
@@ -18,6 +17,9 @@ NEAR = np.array([(line, node) for line in (-1, 0, 1) for node in (-1, 0, 1)])
 """(lines, nodes) to the nodes whose deflection a correction has in the matrix. With itself alone a ball of
 200 nm rms takes 33 iterations of GMRES, with these 22, with two nodes on each side 18 and twice the
 time."""
+
+CENTRE = 4
+"""Place of the node itself among them."""
 
 PREFIX = "mgehl_nearby_"
 """Of PETSc's options."""
@@ -36,8 +38,7 @@ class NearbySolve:
     """
 
     def __init__(self, jacobian, K, share):
-        self._jacobian, self._share = jacobian, share
-        self._single, self._around = columns_of_deflection(K)
+        self._jacobian, self._columns = jacobian, NearColumns(K, share)
         self._parts, self._products = [], [None, None]
         self._ksp, self._vecs = None, ()
 
@@ -74,7 +75,7 @@ class NearbySolve:
         if not self._parts:
             places = lin.offsets, lin.offsets, NEAR, NEAR
             self._parts = [StencilMatrix(grid, offsets) for offsets in places]
-        stencils = lin.A, lin.B, *self._columns(distributive, free)
+        stencils = lin.A, lin.B, *self._columns.stencils(_beside(distributive), _beside(free))
         for part, stencil in zip(self._parts, stencils, strict=True):
             part.set(stencil)
         A, B, Q, N = (part.mat for part in self._parts)
@@ -83,28 +84,35 @@ class NearbySolve:
         T.axpy(1.0, BN, PETSc.Mat.Structure.SAME_NONZERO_PATTERN)
         return T
 
-    def _columns(self, distributive, free):
-        """Stencils of Q and N, each (9, lines, nx): what a node has of the columns of the nodes around it.
-
-        Where the pressure is given a column has no deflection, and what is handed over there is dropped.
-        """
-        spread = -self._share * _beside(distributive)
-        distance = np.abs(NEAR).sum(axis=1)[:, None, None]
-        Q = np.where(distance == 1, spread * own(free), 1.0 * (distance == 0))
-        N = self._single[:, None, None] + self._around[:, None, None] * spread
-        return Q, N * _beside(free)
-
     def view(self, viewer):
         viewer.printfASCII("  LU of what couples nearby nodes\n")
 
 
-def columns_of_deflection(K):
-    """Deflection at the `NEAR` nodes by a unit pressure, and by those of its four neighbours together.
+class NearColumns:
+    """What a node has of the columns of Q and N that stand at the nodes around it.
 
-    `K` as of a `NearbySolve`.
+    `K` and `share` as of a `NearbySolve`.
     """
-    places = np.abs(NEAR)
-    return np.array([K[tuple(at)] for at in places]), np.array([_around(K, *at) for at in places])
+
+    def __init__(self, K, share):
+        places = np.abs(NEAR)
+        self._share, self._beside = share, places.sum(axis=1)
+        self._single = np.array([K[tuple(at)] for at in places])
+        self._around = np.array([_around(K, *at) for at in places])
+
+    def stencils(self, distributive, free):
+        """Of Q and of N, (9, ...), for masks (9, ...) of the nodes around each, in the order of `NEAR`.
+
+        Where the pressure is given, so that a node is not `free`, a column has no deflection, and what is
+        handed over there is dropped.
+        """
+        one_each = (len(NEAR), *[1] * (np.ndim(free) - 1))
+        beside, single, around = (
+            each.reshape(one_each) for each in (self._beside, self._single, self._around)
+        )
+        spread, itself = -self._share * distributive, free[CENTRE]
+        Q = np.where(beside == 1, spread * itself, 1.0 * (beside == 0))
+        return Q, (single + around * spread) * free
 
 
 def _around(K, line, node):

@@ -211,6 +211,11 @@ class TestIdleSteps:
         position.cycles = [replace(last, residual=each) for each in (1.0, 0.5, 0.48, 0.6, 0.44, 0.44)]
         assert steps_since_lowered(position) == 1
 
+    def test_a_film_that_the_grid_does_not_hold_is_given_up(self, paper_contact, solve):
+        """For what reason is decided by rounding."""
+        ended = solve(paper_contact(0.012), 65).outcome
+        assert not ended.converged and ended.cycles[-1].step < 60
+
     def test_a_film_that_can_be_solved_no_further_is_given_up(self, paper_contact, solve):
         """Rounding ends the fall of the residual at some 1e-12."""
         ended = solve(paper_contact(1.0), 65, newton={"tolerance": 1e-30}).outcome
