@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mgehl.discretization.kernels import add_of_faces
 from mgehl.discretization.mesh import HALO
 
 
@@ -76,6 +77,14 @@ class Axis:
     def left(self, array):
         """Of an array of faces those through which it leaves them."""
         return array[:, 1:] if self.number else array[1:]
+
+    def add_entering(self, flow, inflow):
+        """Add to the inflow of the nodes, (lines, nx), what enters those of `inner` by a flow of faces."""
+        add_of_faces(self.number, 0, flow, self.cell, inflow)
+
+    def subtract_leaving(self, flow, inflow):
+        """Subtract what leaves them."""
+        add_of_faces(self.number, 1, flow, -self.cell, inflow)
 
     def offset(self, shift):
         """(lines, nodes) from a node to the one `shift` along the axis."""

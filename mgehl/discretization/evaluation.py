@@ -91,8 +91,8 @@ class Evaluation:
         """Net inflow/(dX dY) of every node, whatever its status: (lines, nx); zero on the ends of lines."""
         inflow = np.zeros(own(self.P).shape)
         for axis, (leaving, entering) in zip(self.axes, self.flows, strict=True):
-            net = axis.entered(entering.value) - axis.left(leaving.value)
-            axis.inner(inflow)[:] += net / axis.cell
+            axis.add_entering(entering.value, inflow)
+            axis.subtract_leaving(leaving.value, inflow)
         inflow[:, [0, -1]] = 0.0
         return inflow
 

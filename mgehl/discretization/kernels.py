@@ -118,6 +118,26 @@ def _subtract_slopes(west, east, distance, by_eps, eps_by, slope):
         slope[i] -= (east[i] - west[i]) / distance[i] * by_eps[i] * eps_by[i]
 
 
+@compiled()
+def add_of_faces(number, which, flow, cell, inflow):
+    """Add flow/cell of the face before (`which` 0) or behind (1) each node along an axis of that `number`.
+
+    Along X `flow` is (lines, nx - 1) and the ends of lines are left alone, along Y (lines + 1, nx).
+    """
+    lines, nx = inflow.shape
+    for j in range(lines):
+        if number:
+            _add_over(flow[j, which : which + nx - 2], cell, inflow[j, 1 : nx - 1])
+        else:
+            _add_over(flow[j + which], cell, inflow[j])
+
+
+@compiled()
+def _add_over(flow, cell, inflow):
+    for i in range(inflow.size):
+        inflow[i] += flow[i] / cell
+
+
 @compiled(fastmath={"contract"})
 def flow_sources(inflow, P, along, across, source):
     """source = inflow - L P: the net inflow of a node without its Poiseuille flow.
@@ -136,6 +156,18 @@ def flow_sources(inflow, P, along, across, source):
                 + across[j, i] * (P[g - 1, i] - centre)
                 + across[j + 1, i] * (P[g + 1, i] - centre)
             )
+
+
+@compiled()
+def lifted_by_less(K00, part, source, H, conductance, found):
+    """Where the pressure source/conductance would lift the gap of its node by less than a `part` of H.
+
+    All (lines, nx); K00 is a node's influence on itself.
+    """
+    lines, nx = found.shape
+    for j in range(lines):
+        for i in range(nx):
+            found[j, i] = K00 * abs(source[j, i]) <= part * H[j, i] * conductance[j, i]
 
 
 @compiled(fastmath={"contract"})

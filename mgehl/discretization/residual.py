@@ -79,20 +79,15 @@ def _offsets(axes, found):
 
 
 def _net_inflow(evaluation, offsets, found, derivative):
-    """Stencil of the net inflow from one kind of derivatives of the flows, which are used up."""
+    """Stencil of the net inflow from one kind of derivatives of the flows."""
     stencil = np.zeros((len(offsets), *own(evaluation.P).shape))
     position = {offset: k for k, offset in enumerate(offsets)}
     for axis, (leaving, entering) in zip(evaluation.axes, found, strict=True):
-        for flow in dict.fromkeys((leaving, entering)):  # often one
-            for array in getattr(flow, derivative).values():
-                array /= axis.cell
         # A node is the E of the face through which fluid enters it, and the W of the other.
         for node, array in getattr(entering, derivative).items():
-            at = stencil[position[axis.offset(SHIFT[node] - 1)]]
-            axis.inner(at)[:] += axis.entered(array)
+            axis.add_entering(array, stencil[position[axis.offset(SHIFT[node] - 1)]])
         for node, array in getattr(leaving, derivative).items():
-            at = stencil[position[axis.offset(SHIFT[node])]]
-            axis.inner(at)[:] -= axis.left(array)
+            axis.subtract_leaving(array, stencil[position[axis.offset(SHIFT[node])]])
     return stencil
 
 

@@ -8,7 +8,7 @@ P >= 0, net inflow <= 0 can be solved there at the present gap, by projected lin
 import numpy as np
 
 from mgehl.discretization.axes import own
-from mgehl.discretization.kernels import relax_cavitation
+from mgehl.discretization.kernels import lifted_by_less, relax_cavitation
 from mgehl.discretization.status import CAVITATED, LUBRICATED, is_fluid
 
 WEAKLY_COUPLED = 10.0
@@ -75,8 +75,9 @@ def weakly_coupled(problem, evaluation, status, multiple):
 
 def driven(problem, evaluation):
     """Nodes where a pressure that carries the inflow away hardly lifts the gap: (lines, nx)."""
-    lift = problem.K00 * np.abs(evaluation.source)
-    return lift <= LIFTED * own(evaluation.H) * evaluation.conductance
+    found = np.empty(evaluation.source.shape, dtype=bool)
+    lifted_by_less(problem.K00, LIFTED, evaluation.source, own(evaluation.H), evaluation.conductance, found)
+    return found
 
 
 def _relaxable(problem, evaluation, state):

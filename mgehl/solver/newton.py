@@ -142,10 +142,10 @@ class Newton:
             changes.cavitated += problem.grid.count(before != state.status)
         else:
             evaluation = problem.evaluate(state)
+            if not is_stuck(self._position):
+                moved, evaluation = relax_cavitation_set(problem, state, evaluation)
+                changes.cavitated += moved
         self._evaluation = evaluation
-        if not is_stuck(self._position):
-            moved, self._evaluation = relax_cavitation_set(problem, state, evaluation)
-            changes.cavitated += moved
         self._partition.fill(state, self._evaluation.inflow, changes)
         opened = changes.released
         self._partition.open_contact(state, self._evaluation.inflow, changes)

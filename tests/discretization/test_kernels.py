@@ -6,12 +6,14 @@ from dense import ALONG_X, BOTH_WAYS, dense_Q, dense_stencil, line_stencils
 
 from mgehl.discretization.axes import HALO, Axis, own
 from mgehl.discretization.kernels import (
+    add_of_faces,
     add_poiseuille,
     add_poiseuille_slopes,
     apply_jacobian,
     apply_stencil,
     distribute,
     flow_sources,
+    lifted_by_less,
     linear_gap_means,
     logarithmic_means,
     relax_cavitation,
@@ -122,6 +124,21 @@ def conductances(rng, lines, nx, closed=0.0):
     return along, across
 
 
+@pytest.mark.parametrize("number", [0, 1], ids=["along Y", "along X"])
+@pytest.mark.parametrize("which", [0, 1], ids=["entering", "leaving"])
+def test_add_of_faces(number, which, rng):
+    """A node's faces are those before and behind it; ends of lines along X have none."""
+    flow = rng.standard_normal((4, 6) if number else (5, 7))
+    inflow = rng.standard_normal((4, 7))
+    expected = inflow.copy()
+    if number:
+        expected[:, 1:-1] += flow[:, which : which + 5] / 0.3
+    else:
+        expected += flow[which : which + 4] / 0.3
+    add_of_faces(number, which, flow, 0.3, inflow)
+    np.testing.assert_array_equal(inflow, expected)
+
+
 def test_flow_sources(rng):
     """Inflow less L P at inner nodes; line ends keep what they had."""
     lines, nx = 4, 7
@@ -159,6 +176,16 @@ def sweep_to_rest(P, lubricated, movable, source, along, across, passes):
         if changes == 0 and np.abs(P - before).max() < 1e-14:
             return
     raise AssertionError("the sweeps did not come to rest")
+
+
+def test_lifted_by_less(rng):
+    """Without a division: a node that is shut in answers, too."""
+    source, H, conductance = rng.standard_normal((3, 4, 7))
+    conductance[0], source[0, :3] = 0.0, 0.0
+    found = np.empty((4, 7), dtype=bool)
+    lifted_by_less(0.5, 0.3, source, H, conductance, found)
+    np.testing.assert_array_equal(found, 0.5 * np.abs(source) <= 0.3 * H * conductance)
+    assert found[0, :3].all() and not found[0, 3:].any() and found.any()
 
 
 @pytest.mark.parametrize("passes", [1, 2, 5])
