@@ -41,6 +41,6 @@ def _solve(hierarchy, level, problem, state, settings):
     multigrid = MultigridSolver(hierarchy, level, *how, rigid=True)
     fluid = RigidGapFluid(problem, multigrid, settings.cycle.options_prefix + "fluid_")
     try:
-        fluid.solve(state, settings.nested.coarse_tolerance)
+        fluid.solve(state, settings.nested.coarse_tolerance, to_rest=False)
     finally:
         fluid.free()

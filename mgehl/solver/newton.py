@@ -138,7 +138,7 @@ class Newton:
             before = state.status.copy()
             reached = self._position.cycles[-1].residual if self._position.cycles else 1.0
             tolerance = ahead_of(max(reached, self._settings.tolerance))
-            evaluation = self._fluid.solve(state, tolerance).evaluation
+            evaluation = self._fluid.solve(state, tolerance, to_rest=False).evaluation
             changes.cavitated += problem.grid.count(before != state.status)
         else:
             evaluation = problem.evaluate(state)

@@ -73,14 +73,15 @@ class RigidGapFluid:
         """
         return is_fluid(status) & (own(evaluation.fluid.eps) > 0.0) & driven(self._problem, evaluation)
 
-    def solve(self, state, tolerance, max_steps=30, before_step=lambda: None):
+    def solve(self, state, tolerance, max_steps=30, before_step=lambda: None, to_rest=True):
         """Bring the fluid of `state` into balance at its gap, in place; return the `SettledFluid`.
 
         Ends when the rms inflow is below `tolerance` and the set has settled, or after `max_steps` (in
         contact on 129 and 257 nodes 3 to 60 come to the same); the last step is the residual that is left,
         without an iteration. `before_step` is called before each and may raise what ends it. A node whose
         pressure rises until it is no longer separable gets its old pressure back: the caller, who moves the
-        gap, solves for it.
+        gap, solves for it. Nor need cavities come `to_rest` for such a caller: 33 contact starts take as
+        many convolutions without, and a sixth less time.
         """
         problem, steps, before = self._problem, [], state.P.copy()
         evaluation = problem.evaluate(state)
@@ -92,7 +93,8 @@ class RigidGapFluid:
             lubricated = state.status == LUBRICATED
             residual = np.where(separable & lubricated, evaluation.inflow, 0.0)
             rms = problem.rms(residual)
-            settled = rms <= tolerance and given_back + moved + problem.grid.count(filled) == 0
+            restless = given_back + problem.grid.count(filled) + (moved if to_rest else 0)
+            settled = rms <= tolerance and restless == 0
             if settled or len(steps) == max_steps or not rms < DIVERGED:
                 return SettledFluid([*steps, FluidStep(rms, 0)], evaluation)
             before_step()
