@@ -14,8 +14,8 @@ OVERLAP = len(NAMES)
 """Drawn as a status: nodes outside of contact whose gap is negative."""
 ARROW = 0.13
 """Length of the arrow that shows the motion, over the shorter side of the map."""
-FINE, TIMES = 1400, 4
-"""Points along a side up to which outlines are drawn between the nodes, and how many for each node."""
+FINE, LEAST, TIMES = 800, 2, 4
+"""Points along a side that outlines are drawn through, and for each node how many at the least and most."""
 FEW, ROUNDING = 12, 0.5
 """Nodes of a set below which its edge is not rounded, and the width of the rounding in nodes."""
 TICKS, BAR = 7, 0.04
@@ -68,8 +68,8 @@ def grey_beyond(axes, blocks, values, limit):
 
 def between(blocks, values):
     """Points along X and Y and values between those of blocks, for lines without corners."""
-    times = max(1, min(TIMES, FINE // max(values.shape)))
-    fine = zoom(np.asarray(values, dtype=float), times, order=3, mode="nearest") if times > 1 else values
+    times = max(LEAST, min(TIMES, FINE // max(values.shape)))
+    fine = zoom(np.asarray(values, dtype=float), times, order=3, mode="nearest")
     X, Y = (
         np.interp(np.linspace(0, len(line) - 1, n), np.arange(len(line)), line)
         for line, n in zip((blocks.X, blocks.Y), fine.shape[::-1], strict=True)
@@ -84,10 +84,10 @@ def rounded(blocks, mask):
     """
     labels, _ = label(mask, np.ones((3, 3)))
     few = mask & (np.bincount(labels.ravel())[labels] < FEW)
-    X, Y, small = between(blocks, few)
-    *_, large = between(blocks, mask & ~few)
+    X, Y, large = between(blocks, mask & ~few)
     times = len(Y) / len(blocks.Y)
-    return X, Y, np.maximum(small, gaussian_filter(large, ROUNDING * times, mode="nearest"))
+    smooth = gaussian_filter(large, ROUNDING * times, mode="nearest")
+    return X, Y, np.maximum(smooth, between(blocks, few)[2]) if few.any() else smooth
 
 
 def outline(axes, blocks, status, filled):
