@@ -57,8 +57,6 @@ class RigidGapFluid:
         self._ksp.setOptionsPrefix(options_prefix)
         multigrid.configure(self._ksp, linear_tolerance)
         self._rhs, self._correction = (multigrid.space.create_vec() for _ in range(2))
-        self._rows = None
-        """Kinds of the rows of the last linear system."""
 
     def free(self):
         """Destroy the PETSc objects."""
@@ -98,8 +96,7 @@ class RigidGapFluid:
             if settled or len(steps) == max_steps or not rms < DIVERGED:
                 return SettledFluid([*steps, FluidStep(rms, 0)], evaluation)
             before_step()
-            self._linearise(state, evaluation, separable, is_first=not steps)
-            self._correct(state, residual, separable)
+            self._correct(state, evaluation, residual, separable)
             steps.append(FluidStep(rms, self._ksp.getIterationNumber()))
             if problem.scheme.cavitation:
                 torn = (state.P < 0.0) & separable
@@ -119,28 +116,15 @@ class RigidGapFluid:
         state.P[lost] = before[lost]
         return self._problem.grid.count(lost)
 
-    def _linearise(self, state, evaluation, separable, is_first):
-        """Linearise for the pressure of `separable` film; the other fluid's is held.
-
-        The first step at a gap is taken with the linear system of the last gap if all rows are of the same
-        kind: between Newton's steps the gap hardly moves (on 257 and 513 nodes from 0.05 to 2 mm/s as many
-        steps in all, or 3 more of 50, in a tenth less time).
-        """
-        held = (state.status == LUBRICATED) & ~separable
-        rows = rows_of(state.status, True, held)
-        stands = is_first and self._rows is not None
-        if not (stands and self._problem.grid.count(rows != self._rows) == 0):
-            self._multigrid.linearise(evaluation, rows)
-            self._rows = rows
-
-    def _correct(self, state, residual, separable):
-        """One Newton step of the pressure of `separable` film."""
-        space = self._multigrid.space
+    def _correct(self, state, evaluation, residual, separable):
+        """One Newton step of the pressure of `separable` film; the other fluid's is held."""
+        space, film = self._multigrid.space, state.status == LUBRICATED
+        self._multigrid.linearise(evaluation, rows_of(state.status, True, film & ~separable))
         space.write(self._rhs, -residual, 0.0)
         with linear_solve():
             self._ksp.solve(self._rhs, self._correction)
         # Elsewhere the correction is zero but for the rounding of an algebraic multigrid.
-        solved = (state.status == LUBRICATED) & separable
+        solved = film & separable
         step = space.read_pressure(self._correction)[solved]
         state.P[solved] += np.clip(step, -LARGEST_STEP, LARGEST_STEP) if self._problem.is_elastic else step
 
