@@ -29,8 +29,10 @@ class GridFilm:
     minimum_nm: float
     contact_nodes: int
     settled: bool
+    around_nm: float = 0.0
+    """Difference from the finer grid around the centre, a root mean square."""
     spread_nm: float = 0.0
-    """By how much that varies from node to node."""
+    """By how much the difference varies around the smallest gap, a standard deviation."""
 
 
 @dataclass(frozen=True)
@@ -101,8 +103,10 @@ def film_error(result, hierarchy, problem, state, settings, progress, journal):
 
 def _in_nm(grid, nm):
     films = grid.films
-    central, minimum, spread = (nm * each for each in (films.central, films.minimum, films.spread))
-    return GridFilm(grid.nodes, central, minimum, grid.contact_nodes, grid.settled, spread)
+    central, minimum, around, spread = (
+        nm * each for each in (films.central, films.minimum, films.around, films.spread)
+    )
+    return GridFilm(grid.nodes, central, minimum, grid.contact_nodes, grid.settled, around, spread)
 
 
 def scheme_order(scheme):
@@ -151,7 +155,7 @@ def _band(result, grids, film, order, unlike, other):
         return band_beside(reported, coarser, order)
     if film == "minimum":
         return band_of_smallest(reported, [finest, *coarser], grids[1].spread_nm, order, unlike)
-    return band(reported, [finest, *coarser], order, unlike)
+    return band(reported, [finest, *coarser], grids[1].around_nm, order, unlike)
 
 
 def _how(films, order, other):

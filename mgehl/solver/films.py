@@ -16,15 +16,25 @@ _WEIGHTS = np.array([0.5, 1.0, 0.5])
 """Of the nodes in the fit of a paraboloid: those in the corners count least."""
 
 
+AROUND = 3
+"""Nodes on each side of the centre over which a difference of films is looked at."""
+
+ALONG, BESIDE = 2, np.array([0.5, 1.0, 0.5])
+"""Nodes before and behind the smallest gap over which a difference of films is averaged, and the weights of
+its line and the ones beside: across the motion films differ from line to line anyway. With nine nodes that
+count alike half the bands of the minimum film are a tenth wider."""
+
+
 @dataclass(frozen=True)
 class Films(Kept):
     """Central and minimum film in units of H."""
 
     central: float
     minimum: float
+    around: float = 0.0
+    """Of a coarser grid: its difference from the finer one around the centre, a root mean square."""
     spread: float = 0.0
-    """Of a coarser grid: by how much its difference from the finer one varies around the smallest gap, a
-    standard deviation."""
+    """The same around the smallest gap, a standard deviation."""
 
 
 def films_between_nodes(problem, state):
@@ -40,19 +50,35 @@ def films_beside(problem, state, finer, H):
     """`Films` of a coarser grid, to be compared with the `finer` grid's, whose gap at this grid's nodes is
     `H`, (lines, nx) (collective).
 
-    The smallest gap differs from the finer grid's by the mean of the gaps' differences at the node where
-    `H` is smallest and those around it. Its own smallest gap would tell less: it is too narrow there for
-    a polynomial through its nodes, and may lie elsewhere (on 129 nodes the difference often has the
-    wrong sign).
+    The smallest gap differs from the finer grid's by the mean of the gaps' differences at the nodes around
+    the one where `H` is smallest. Its own smallest gap would tell less: it is too narrow there for a
+    polynomial through its nodes, and may lie elsewhere (on 129 nodes the difference often has the wrong
+    sign).
     """
     grid = problem.grid
     whole, of_finer, found = grid.gather(state.H), grid.gather(H), None
     if whole is not None:
-        differences = (of_finer - whole)[_around_lowest(of_finer)]
-        minimum = finer.minimum - float(np.mean(differences))
+        difference = of_finer - whole
+        mean, spread = _mean_and_spread(difference, *np.unravel_index(np.argmin(of_finer), of_finer.shape))
         central = value_at(whole, grid.mesh, 0.0, 0.0)
-        found = Films(central, minimum, float(np.std(differences)))
+        found = Films(central, finer.minimum - mean, _around_centre(difference, grid.mesh), spread)
     return grid.comm.bcast(found)
+
+
+def _mean_and_spread(values, j, i):
+    """Weighted mean and standard deviation of values (ny, nx) at a node and those around it."""
+    lines = slice(max(j - 1, 0), j + 2)
+    part = values[lines, max(i - ALONG, 0) : i + ALONG + 1]
+    weights = BESIDE[lines.start - j + 1 :][: len(part), None] * np.ones(part.shape)
+    mean = np.average(part, weights=weights)
+    return float(mean), float(np.sqrt(np.average((part - mean) ** 2, weights=weights)))
+
+
+def _around_centre(values, mesh):
+    """Root mean square of values (ny, nx) at the nodes around the centre."""
+    at = (int(np.argmin(np.abs(nodes))) for nodes in (mesh.Y, mesh.X))
+    part = values[tuple(slice(max(k - AROUND, 0), k + AROUND + 1) for k in at)]
+    return float(np.sqrt(np.mean(part**2)))
 
 
 def value_at(H, mesh, X, Y):
@@ -82,11 +108,6 @@ def smallest(H):
     if inside and 0 < j < len(H) - 1:
         return _bottom_around(H[j - 1 : j + 2, i - 1 : i + 2])
     return float(H[j, i])
-
-
-def _around_lowest(H):
-    """Slices of the nodes around the lowest of H, (ny, nx), and itself: nine, or three on a line."""
-    return tuple(slice(max(at - 1, 0), at + 2) for at in np.unravel_index(np.argmin(H), H.shape))
 
 
 def _bottom_along(H):
