@@ -56,7 +56,7 @@ LOADS, MATERIALS = (10.0, 2000.0), (2.0, 14.0)
 RATIOS, LAWS = (0.5, 1.0, 1.0, 2.0, 4.0), ("barus", "roelands")
 """What random contacts are drawn from: M by its logarithm, L, R_y/R_x and viscosity laws."""
 
-SEED = 7
+SEED = 11
 
 BEST = {"couette": "3B", "face_mobility": "linear-gap"}
 SCHEMES = (

@@ -96,7 +96,7 @@ class TestHowWideItIs:
     def test_two_grids(self, film):
         error = from_grids(film, grids(10.0, 7.0), 2)
         assert error.central_nm == pytest.approx(hypot(1.0, AROUND) * 4.0)
-        assert error.minimum_nm == pytest.approx(1.0 + SAFETY + SPREADS_OF_TWO * 0.3)
+        assert error.minimum_nm == pytest.approx(hypot(1.0 + SAFETY, SPREADS_OF_TWO * 0.3))
         assert error.central_order is None and error.order == 2 and "65 nodes" in error.how
 
     def test_three_grids_show_an_order(self, film):
@@ -111,7 +111,7 @@ class TestHowWideItIs:
             error.central_nm == pytest.approx(hypot(1.0, AROUND_UNLIKE) * 4.0)
             and "touches at 4" in error.how
         )
-        assert error.minimum_nm == pytest.approx(1.0 + SAFETY + WIDER * SPREADS_OF_TWO * 0.3)
+        assert error.minimum_nm == pytest.approx(hypot(1.0 + SAFETY, WIDER * SPREADS_OF_TWO * 0.3))
 
     def test_so_does_an_inlet_of_less_than_a_cell_there(self, film):
         film = replace(film, resolution=Resolution(1.9, "coarse"))
@@ -120,7 +120,7 @@ class TestHowWideItIs:
             error.central_nm == pytest.approx(hypot(1.0, AROUND_UNLIKE) * 4.0)
             and "less than a cell" in error.how
         )
-        assert error.minimum_nm == pytest.approx(1.0 + SAFETY + WIDER * SPREADS_OF_TWO * 0.3)
+        assert error.minimum_nm == pytest.approx(hypot(1.0 + SAFETY, WIDER * SPREADS_OF_TWO * 0.3))
 
     def test_a_scheme_of_first_order_is_told_of_by_another(self, film):
         other = telling_scheme(Scheme(couette="1B"))

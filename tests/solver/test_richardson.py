@@ -1,5 +1,7 @@
 """Bands from the films of grids."""
 
+from math import hypot
+
 import pytest
 
 from mgehl.solver.richardson import (
@@ -110,21 +112,27 @@ def test_films_that_agree_by_chance_do_not_make_a_band_of_nothing():
 
 
 class TestTheSmallestGap:
-    def test_its_safety_is_the_spread_of_the_difference(self):
+    """Errors of 0.4, of second order, that differ by 0.3 from node to node."""
+
+    @pytest.mark.parametrize("unlike, wider", [(False, 1.0), (True, WIDER)])
+    def test_its_safety_is_the_spread_of_the_difference(self, unlike, wider):
         films = values(30.0, 2, 0.4, 3)
-        told = band_of_smallest(films[0], films, 0.9, 2)
-        assert told.half_width == pytest.approx(0.4 + SPREADS * 0.9 / 3.0)
-        wider = band_of_smallest(films[0], films, 0.9, 2, unlike=True)
-        assert wider.half_width == pytest.approx(0.4 + WIDER * SPREADS * 0.9 / 3.0)
-        of_two = band_of_smallest(films[0], films[:2], 0.9, 2)
-        assert of_two.half_width == pytest.approx((1.0 + SAFETY) * 0.4 + SPREADS_OF_TWO * 0.3)
+        told = band_of_smallest(films[0], films, 0.9, 2, unlike)
+        assert told.half_width == pytest.approx(0.4 + wider * SPREADS * 0.3)
         assert told.observed_order == pytest.approx(2.0)
 
-    def test_what_the_smallest_node_is_off_the_bottom_is_known_but_for_a_part(self):
+    @pytest.mark.parametrize("unlike, wider", [(False, 1.0), (True, WIDER)])
+    def test_of_two_grids_it_is_added_as_squares_are(self, unlike, wider):
         films = values(30.0, 2, 0.4, 2)
-        told = band_of_smallest(films[0] + 0.6, films, 0.0, 2)
-        assert told.half_width == pytest.approx(0.2 + OFF * 0.6 + SAFETY * 0.4)
+        told = band_of_smallest(films[0], films, 0.9, 2, unlike)
+        assert told.half_width == pytest.approx(hypot((1.0 + SAFETY) * 0.4, wider * SPREADS_OF_TWO * 0.3))
         assert told.observed_order is None
+
+    @pytest.mark.parametrize("off, least", [(-0.6, 1.0), (0.6, 0.6)])
+    def test_the_error_makes_what_the_node_is_off_the_bottom_larger_but_not_smaller(self, off, least):
+        films = values(30.0, 2, 0.4, 3)
+        told = band_of_smallest(films[0] + off, films, 0.0, 2)
+        assert told.half_width == pytest.approx(least + OFF * abs(off))
 
     def test_it_is_never_nothing(self):
         assert band_of_smallest(10.0, [10.0, 10.0], 0.0, 2).half_width == pytest.approx(SMALLEST * 10.0)
