@@ -16,11 +16,11 @@ UNLIKE = 2.0
 """The same where the coarser grid has another film, with contact or an inlet of less than a cell: three
 times the error, as Roache has it where nothing is known."""
 
-AROUND, AROUND_UNLIKE = 1.2, 2.5
-"""Safety where there are only two grids: how many times the error's root mean square around the centre is
-added, as squares are. Two films may agree in one point by chance, hardly in all points around it. The
-second number is for another film on the coarser grid. Of 128 contacts on 65 nodes 98 of 100 bands hold the
-limit. With twice the error of the centre alone it would be 88."""
+UNSEEN, UNSEEN_UNLIKE = 1.2, 2.5
+"""Safety where there are only two grids, which show no order: how many times the error's root mean square
+around the centre is added, as squares are. Two films may agree in one point by chance, hardly in all points
+around it. The second number is for another film on the coarser grid. Of 128 contacts on 65 nodes 98 of 100
+bands hold the limit. With twice the error of the centre alone it would be 88."""
 
 SMALLEST = 1e-4
 """Half-width over the film at the least: films of two grids may differ by less, by chance."""
@@ -71,7 +71,7 @@ def band(film, values, around, order, unlike=False):
         safety = UNLIKE if unlike else safety_of(order, observed)
         half_width = error + safety * abs(part * last) + by_chance(order, last, *before)
     else:
-        half_width = hypot(error, (AROUND_UNLIKE if unlike else AROUND) * part * around)
+        half_width = hypot(error, (UNSEEN_UNLIKE if unlike else UNSEEN) * part * around)
     return Band(max(half_width + OFF * abs(off), SMALLEST * abs(film)), observed)
 
 

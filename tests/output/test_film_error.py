@@ -20,7 +20,7 @@ from mgehl.output.film_error import (
 from mgehl.output.resolution import Resolution
 from mgehl.output.result import ContactResult, Overlap
 from mgehl.run import solve
-from mgehl.solver.richardson import AROUND, AROUND_UNLIKE, SAFETY, SPREADS, SPREADS_OF_TWO, WIDER
+from mgehl.solver.richardson import SAFETY, SPREADS, SPREADS_OF_TWO, UNSEEN, UNSEEN_UNLIKE, WIDER
 from mgehl.studies.study import papers_grid
 
 FILM = {"motion": {"speed": 1.0}, "grid": papers_grid(65), "discretization": {"couette": "2B"}}
@@ -95,7 +95,7 @@ class TestWhetherThereIsOne:
 class TestHowWideItIs:
     def test_two_grids(self, film):
         error = from_grids(film, grids(10.0, 7.0), 2)
-        assert error.central_nm == pytest.approx(hypot(1.0, AROUND) * 4.0)
+        assert error.central_nm == pytest.approx(hypot(1.0, UNSEEN) * 4.0)
         assert error.minimum_nm == pytest.approx(hypot(1.0 + SAFETY, SPREADS_OF_TWO * 0.3))
         assert error.central_order is None and error.order == 2 and "65 nodes" in error.how
 
@@ -108,7 +108,7 @@ class TestHowWideItIs:
     def test_contact_on_the_next_grid_makes_it_wider_and_is_said(self, film):
         error = from_grids(film, grids(10.0, 7.0, contact=4), 2)
         assert (
-            error.central_nm == pytest.approx(hypot(1.0, AROUND_UNLIKE) * 4.0)
+            error.central_nm == pytest.approx(hypot(1.0, UNSEEN_UNLIKE) * 4.0)
             and "touches at 4" in error.how
         )
         assert error.minimum_nm == pytest.approx(hypot(1.0 + SAFETY, WIDER * SPREADS_OF_TWO * 0.3))
@@ -117,7 +117,7 @@ class TestHowWideItIs:
         film = replace(film, resolution=Resolution(1.9, "coarse"))
         error = from_grids(film, grids(10.0, 7.0), 2)
         assert (
-            error.central_nm == pytest.approx(hypot(1.0, AROUND_UNLIKE) * 4.0)
+            error.central_nm == pytest.approx(hypot(1.0, UNSEEN_UNLIKE) * 4.0)
             and "less than a cell" in error.how
         )
         assert error.minimum_nm == pytest.approx(hypot(1.0 + SAFETY, WIDER * SPREADS_OF_TWO * 0.3))

@@ -5,8 +5,6 @@ from math import hypot
 import pytest
 
 from mgehl.solver.richardson import (
-    AROUND,
-    AROUND_UNLIKE,
     FASTER,
     IRREGULAR,
     OFF,
@@ -16,6 +14,8 @@ from mgehl.solver.richardson import (
     SPREADS,
     SPREADS_OF_TWO,
     UNLIKE,
+    UNSEEN,
+    UNSEEN_UNLIKE,
     WIDER,
     band,
     band_beside,
@@ -37,7 +37,7 @@ def test_where_errors_fall_by_the_order_the_error_is_told_and_a_part_added(order
     assert band(films[0], films, 0.0, order).half_width == pytest.approx((1.0 + SAFETY) * 0.4)
 
 
-@pytest.mark.parametrize("unlike, times", [(False, AROUND), (True, AROUND_UNLIKE)])
+@pytest.mark.parametrize("unlike, times", [(False, UNSEEN), (True, UNSEEN_UNLIKE)])
 def test_of_two_grids_the_difference_around_the_centre_is_the_safety(unlike, times):
     """Errors of 0.3 at the centre and 0.4 around it, of second order."""
     films = values(30.0, 2, 0.3, 2)
