@@ -33,7 +33,7 @@ class TestCliffs:
         assert cliffs(eps, driven=10.0).tolist() == [[False, True, True, False]]
 
     def test_both_sides_across_lines(self):
-        eps = ghosted([[self.HIGH, 50.0], [self.HIGH, 1.0], [1.0, 1.0]])
+        eps = ghosted([[self.HIGH, 0.5 * CLIFF], [self.HIGH, 1.0], [1.0, 1.0]])
         assert cliffs(eps, driven=10.0).tolist() == [[False, False], [True, True], [True, False]]
 
     def test_a_line_of_the_rank_beside_counts(self):
