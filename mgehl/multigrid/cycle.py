@@ -40,7 +40,7 @@ damp them."""
 ASKEW_OR_APART = IN_THE_CYCLE | {"3B": "2B"}
 """The same where the surfaces move at an angle to the lines (30 degrees on 513 nodes: 132 convolutions for
 194), and where fluid and contact are solved apart (0.5 mm/s on 257 nodes: 133 for 333). Elsewhere 3B takes
-a third less by its own operators (M = 20, L = 10 on 257 nodes: 53 for 79)."""
+a third less by its own operators (M = 20, L = 10 on 257 nodes: 55 for 78)."""
 
 THICK = 2.0
 """Film that smooth bodies would have over the roughness from which on the cycle is that of smooth bodies. A
