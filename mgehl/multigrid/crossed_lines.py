@@ -80,7 +80,7 @@ class CliffSmoother(CrossedLineSmoother):
     """The same, and then a direct solve of the nodes around cliffs of the mobility (`CliffZone`).
 
     Thick films have cliffs at their pressure spike. M = 200, L = 10 by 3B and the linear gap on 513 nodes
-    takes 43 convolutions, by lines alone 376.
+    takes 42 convolutions, by lines alone 376.
     """
 
     def __init__(self, jacobian, omega):

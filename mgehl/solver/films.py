@@ -20,9 +20,9 @@ AROUND = 3
 """Nodes on each side of the centre over which a difference of films is looked at."""
 
 ALONG, BESIDE = 2, np.array([0.5, 1.0, 0.5])
-"""Nodes before and behind the smallest gap over which a difference of films is averaged, and the weights of
-its line and the ones beside: across the motion films differ from line to line anyway. With nine nodes that
-count alike half the bands of the minimum film are a tenth wider."""
+"""Nodes on each side of the smallest gap, along its line, over which a difference of films is averaged, and
+weights of the line before, its own and the one after: films differ from line to line anyway. With nine
+nodes that count alike half the bands of the minimum film are a tenth wider."""
 
 
 @dataclass(frozen=True)
@@ -66,7 +66,7 @@ def films_beside(problem, state, finer, H):
 
 
 def _mean_and_spread(values, j, i):
-    """Weighted mean and standard deviation of values (ny, nx) at a node and those around it."""
+    """Mean and standard deviation, weighted by line, of values (ny, nx) at a node and those around it."""
     lines = slice(max(j - 1, 0), j + 2)
     part = values[lines, max(i - ALONG, 0) : i + ALONG + 1]
     weights = BESIDE[lines.start - j + 1 :][: len(part), None] * np.ones(part.shape)
