@@ -15,7 +15,7 @@ class Evaluation:
     """What the pressure, gap and status of a state mean for the flow; the three are ghosted.
 
     Whoever needs a part of it is handed the whole. It holds what the state was when it was made:
-    a state that has changed is evaluated anew.
+    a state that has changed is evaluated anew, or its evaluation is told of the new pressure.
     """
 
     def __init__(self, P, H, status, mesh, contact, scheme, fluid=None):
@@ -37,15 +37,18 @@ class Evaluation:
             other.mobilities = self.mobilities
         return other
 
-    def with_pressure(self, P):
-        """The same gap and solids under another ghosted pressure; laws are asked only where it changed.
+    def change_pressure(self, P):
+        """In place: the same gap and solids under another ghosted pressure; laws are asked only where it
+        changed.
 
         Which fluid is film and which is cavity makes no difference to the flows.
         """
         changed = P != self.P
         part = fluid_state(P[changed], self.H[changed], self.contact, self.scheme.contact_law)
-        fluid = self.fluid.under(P, changed, part)
-        return Evaluation(P, self.H, self.status, self.mesh, self.contact, self.scheme, fluid)
+        self.fluid.change(P, changed, part)
+        self.P = P
+        self.forget()
+        self.__dict__.pop("inflow", None)
 
     def with_mobility(self, eps):
         """The same state with another ghosted mobility, which neither pressure nor gap moves."""

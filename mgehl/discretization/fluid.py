@@ -1,6 +1,6 @@
 """Nodal state of the lubricant and the mobility of a face between two nodes."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -27,13 +27,11 @@ class Fluid:
     deps_dP: np.ndarray
     deps_dH: np.ndarray
 
-    def under(self, P, nodes, part):
-        """The same gap under another pressure `P`, with the fluid `part` on the `nodes` of a mask."""
-        changed = {"P": P}
+    def change(self, P, nodes, part):
+        """In place: under another pressure `P`, with the fluid `part` on the `nodes` of a mask."""
+        self.P = P
         for name in OF_PRESSURE:
-            changed[name] = getattr(self, name).copy()
-            changed[name][nodes] = getattr(part, name)
-        return replace(self, **changed)
+            getattr(self, name)[nodes] = getattr(part, name)
 
 
 def fluid_state(P, H, contact, contact_law):

@@ -38,14 +38,13 @@ one film on 257 nodes a sixth less."""
 
 
 def relax_cavitation_set(problem, state, evaluation):
-    """Relax P and status of the weakly coupled fluid; return how many nodes changed, and the evaluation.
+    """Relax P and status of the weakly coupled fluid; return how many nodes changed.
 
-    `evaluation` is that of `state`, what is returned that of the state after. Updates `state` in place,
-    but only if the set moved: otherwise Newton's pressures stand. Zebra order by global line number, so
-    the number of ranks does not matter.
+    Updates `state` and its `evaluation` in place, but only if the set moved: otherwise Newton's pressures
+    stand. Zebra order by global line number, so the number of ranks does not matter.
     """
     if not problem.scheme.cavitation:
-        return 0, evaluation
+        return 0
     grid, P = problem.grid, evaluation.P.copy()
     faces = evaluation.source, *evaluation.conductances
     movable = _relaxable(problem, evaluation, state)
@@ -63,8 +62,8 @@ def relax_cavitation_set(problem, state, evaluation):
     if moved:
         state.P[:] = own(P)
         state.status[:] = relaxed
-        evaluation = problem.evaluate_moved(evaluation, P)
-    return moved, evaluation
+        problem.change_pressure(evaluation, P)
+    return moved
 
 
 def weakly_coupled(problem, evaluation, status, multiple):

@@ -26,6 +26,10 @@ TOLERANCE, MAX_STEPS = 1e-5, 10
 a per cent (3 m/s, 65 nodes). Four steps are usual; where ten do not settle there is no film to compare
 with."""
 
+SPREADING_STEPS = 3
+"""Steps in a row in which contact may spread there. Of 500 such solves ten came to contact that spread so,
+and none of these settled. Eight settled with contact on the way: it spread for two at the most."""
+
 
 @dataclass(frozen=True)
 class GridFilms:
@@ -78,7 +82,8 @@ def _injected(hierarchy, level, contact, state, scheme):
 
 def _solve(hierarchy, level, problem, state, settings, monitor, journal):
     tolerance = max(TOLERANCE, settings.newton.tolerance)
-    limits = replace(settings.newton, tolerance=tolerance, max_steps=MAX_STEPS, release_budget=0)
+    newton = replace(settings.newton, tolerance=tolerance, max_steps=MAX_STEPS, release_budget=0)
+    limits = replace(newton, spreading_steps=SPREADING_STEPS)
     multigrid = MultigridSolver(hierarchy, level, problem.contact, problem.scheme, settings.cycle)
     tell = partial(monitor, LevelSolve(problem.grid.mesh.nx, problem.contact.speed, False))
     newton = Newton(problem, multigrid, limits, None, settings.cycle.options_prefix, tell)

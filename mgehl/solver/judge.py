@@ -1,6 +1,7 @@
 """Whether an iteration has come to its end, and why: looks at a position, changes nothing."""
 
 from dataclasses import dataclass
+from itertools import pairwise, takewhile
 from math import inf
 
 from petsc4py import PETSc
@@ -33,6 +34,19 @@ it is."""
 
 
 @dataclass(frozen=True)
+class Limits:
+    """When a solve has come to its end."""
+
+    tolerance: float
+    """For the rms residual and the load error."""
+    max_steps: int
+    idle_steps: int
+    """Steps in a row that may leave the residual as it is."""
+    spreading_steps: int | None = None
+    """Steps in a row in which contact may spread; None: any."""
+
+
+@dataclass(frozen=True)
 class Verdict:
     """Of a position: go on, settled, or given up."""
 
@@ -46,21 +60,24 @@ class Verdict:
 GO_ON = Verdict(ends=False)
 
 
-def idle_steps(scheme, settings, at_once=False):
-    """Steps without a lower residual that a solve may take: as its `NewtonSettings` say, else by its
-    `Scheme`, its time steps, and whether nearby nodes are solved `at_once`."""
-    if settings.idle_steps:
-        return settings.idle_steps
+def limits_of(settings, scheme, tolerance, max_steps, at_once=False):
+    """The `Limits` of a solve by `NewtonSettings`, a `Scheme`, and whether nearby nodes are solved
+    `at_once`."""
+    idle = settings.idle_steps or _idle_steps(settings, scheme, at_once)
+    return Limits(tolerance, max_steps, idle, settings.spreading_steps)
+
+
+def _idle_steps(settings, scheme, at_once):
     if at_once:
         return IDLE_AT_ONCE
     return IDLE_IN_TIME if scheme.may_fold or settings.squeeze > 0.0 else IDLE_STEPS
 
 
-def judge(position, partition, tolerance, max_steps, most_idle):
+def judge(position, partition, limits):
     """The `Verdict` on a position whose last cycle has just been measured (collective)."""
     cycle = position.cycles[-1]
-    limit = position.trial.limit if position.trial else max_steps
-    small = cycle.residual <= tolerance and abs(cycle.load_error) <= tolerance
+    limit = position.trial.limit if position.trial else limits.max_steps
+    small = cycle.residual <= limits.tolerance and abs(cycle.load_error) <= limits.tolerance
     if small and cycle.changes.total == 0:
         return Verdict(True, True, "residual, load and sets settled")
     if not cycle.residual < DIVERGED:
@@ -69,8 +86,12 @@ def judge(position, partition, tolerance, max_steps, most_idle):
         return _never_settling(partition.contradictions(position.state.status), cycle.step)
     if position.stalls == STALLS:
         return Verdict(True, reason=f"{STALLS} linear systems in {cycle.step} steps could not be solved")
-    if not (position.trial or small) and steps_since_lowered(position) >= most_idle:
-        return Verdict(True, reason=_idle(cycle, most_idle))
+    if not (position.trial or small) and steps_since_lowered(position) >= limits.idle_steps:
+        return Verdict(True, reason=_idle(cycle, limits.idle_steps))
+    if limits.spreading_steps and steps_of_spreading(position) >= limits.spreading_steps:
+        return Verdict(
+            True, reason=f"contact spreads, to {cycle.contact_nodes} nodes in {cycle.step} steps"
+        )
     if cycle.step >= limit:
         settled = "sets still change after" if small else f"residual {cycle.residual:.1e} after"
         return Verdict(True, reason=f"{settled} {cycle.step} steps")
@@ -91,6 +112,13 @@ def steps_since_lowered(position):
         if cycle.residual < STUCK * least:
             least, since = cycle.residual, 0
     return since
+
+
+def steps_of_spreading(position):
+    """Steps in a row, up to the last, by which contact had more nodes after than before."""
+    nodes = [cycle.contact_nodes for cycle in reversed(position.cycles)]
+    grew = (after > before for after, before in pairwise(nodes))
+    return sum(takewhile(bool, grew))
 
 
 def judge_system(reason, position):

@@ -20,7 +20,7 @@ from mgehl.solver.arbiter import RELEASE_STEPS, Ruling, rule
 from mgehl.solver.cavitation import relax_cavitation_set
 from mgehl.solver.foothold import SHORTER, Foothold, led_astray, lengthened
 from mgehl.solver.journal import NOTHING_KEPT
-from mgehl.solver.judge import UNSOLVED, idle_steps, is_stuck, judge, judge_system
+from mgehl.solver.judge import UNSOLVED, is_stuck, judge, judge_system, limits_of
 from mgehl.solver.outcome import Cycle, Outcome
 from mgehl.solver.partition import Changes, Partition
 from mgehl.solver.position import Position, Step, Trial
@@ -107,7 +107,7 @@ class Newton:
 
     def _iterate(self, snes, x):
         """One solve from top to bottom."""
-        position, partition = self._position, self._partition
+        position, partition, scheme = self._position, self._partition, self._problem.scheme
         _, tolerance, _, max_steps = snes.getTolerances()
         while True:
             self._journal.step(self._problem.grid, position)
@@ -115,8 +115,8 @@ class Newton:
             self._measure(snes, x)
             if led_astray(position, self._multigrid.at_once):
                 self._go_back(snes, x)
-            most_idle = idle_steps(self._problem.scheme, self._settings, self._multigrid.at_once)
-            verdict = judge(position, partition, tolerance, max_steps, most_idle)
+            limits = limits_of(self._settings, scheme, tolerance, max_steps, self._multigrid.at_once)
+            verdict = judge(position, partition, limits)
             ruling = rule(position, verdict, partition, self._fluid is not None)
             if ruling.ends:
                 break
@@ -138,14 +138,12 @@ class Newton:
             before = state.status.copy()
             reached = self._position.cycles[-1].residual if self._position.cycles else 1.0
             tolerance = ahead_of(max(reached, self._settings.tolerance))
-            evaluation = self._fluid.solve(state, tolerance, to_rest=False).evaluation
+            self._evaluation = self._fluid.solve(state, tolerance, to_rest=False).evaluation
             changes.cavitated += problem.grid.count(before != state.status)
         else:
-            evaluation = problem.evaluate(state)
+            self._evaluation = problem.evaluate(state)
             if not is_stuck(self._position):
-                moved, evaluation = relax_cavitation_set(problem, state, evaluation)
-                changes.cavitated += moved
-        self._evaluation = evaluation
+                changes.cavitated += relax_cavitation_set(problem, state, self._evaluation)
         self._partition.fill(state, self._evaluation.inflow, changes)
         opened = changes.released
         self._partition.open_contact(state, self._evaluation.inflow, changes)

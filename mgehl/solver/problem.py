@@ -52,11 +52,11 @@ class Problem:
         return evaluation
 
     @event(ASSEMBLY)
-    def evaluate_moved(self, evaluation, P):
-        """As `evaluate`, where only the fluid's pressure has changed since: `P` has it, ghosts too."""
-        evaluation = evaluation.with_pressure(P)
+    def change_pressure(self, evaluation, P):
+        """Tell an evaluation that the fluid's pressure has changed, and nothing else: `P` has it, ghosts
+        too. Its net inflow is known then."""
+        evaluation.change_pressure(P)
         _ = evaluation.inflow
-        return evaluation
 
     def ghosted(self, state):
         """P, H and status of a state with the neighbours' lines."""

@@ -85,7 +85,7 @@ class RigidGapFluid:
         evaluation = problem.evaluate(state)
         separable, given_back = self.separable(evaluation, state.status), 0
         while True:
-            moved, evaluation = relax_cavitation_set(problem, state, evaluation)
+            moved = relax_cavitation_set(problem, state, evaluation)
             filled = separable & (state.status == CAVITATED) & (evaluation.inflow > 0.0)
             state.status[filled] = LUBRICATED
             lubricated = state.status == LUBRICATED

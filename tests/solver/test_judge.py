@@ -17,10 +17,11 @@ from mgehl.solver.judge import (
     IDLE_STEPS,
     STALLS,
     STUCK,
-    idle_steps,
+    Limits,
     is_stuck,
     judge,
     judge_system,
+    limits_of,
     steps_since_lowered,
 )
 from mgehl.solver.outcome import Cycle
@@ -30,6 +31,7 @@ from mgehl.solver.problem import DIVERGED, State
 from mgehl.solver.settings import NewtonSettings
 
 TOLERANCE, MAX_STEPS = 1e-8, 20
+LIMITS = Limits(TOLERANCE, MAX_STEPS, IDLE_STEPS)
 REASONS = PETSc.KSP.ConvergedReason
 
 
@@ -59,7 +61,7 @@ def verdict(partition, make_position):
     def ask(**fields):
         position = make_position(**fields)
         before = copy.deepcopy(vars(position))
-        found = judge(position, partition, TOLERANCE, MAX_STEPS, IDLE_STEPS)
+        found = judge(position, partition, LIMITS)
         for name, value in vars(position).items():
             if name not in ("state", "past", "trial"):
                 assert value == before[name]
@@ -173,7 +175,7 @@ class TestIdleSteps:
             position = make_position(step=10, **fields)
             (last,) = position.cycles
             position.cycles = [replace(last, residual=each) for each in residuals]
-            return judge(position, partition, TOLERANCE, MAX_STEPS, IDLE_STEPS)
+            return judge(position, partition, LIMITS)
 
         return ask
 
@@ -199,11 +201,15 @@ class TestIdleSteps:
     def test_time_steps_may_take_more(self):
         """They pass folds slowly, and let contact spread node by node."""
         newton, in_time = NewtonSettings(squeeze=0.0), NewtonSettings(squeeze=3.0)
-        assert idle_steps(Scheme(), newton) == IDLE_STEPS < IDLE_IN_TIME == idle_steps(Scheme(), in_time)
-        assert idle_steps(Scheme(face_mobility="harmonic"), newton) == IDLE_IN_TIME
-        assert idle_steps(Scheme(contact_law=BoundaryFilm(0.1)), newton) == IDLE_IN_TIME
-        assert idle_steps(Scheme(), in_time, at_once=True) == IDLE_AT_ONCE > IDLE_IN_TIME
-        assert idle_steps(Scheme(), NewtonSettings(idle_steps=7), at_once=True) == 7
+
+        def idle_steps(settings, scheme, at_once=False):
+            return limits_of(settings, scheme, TOLERANCE, MAX_STEPS, at_once).idle_steps
+
+        assert idle_steps(newton, Scheme()) == IDLE_STEPS < IDLE_IN_TIME == idle_steps(in_time, Scheme())
+        assert idle_steps(newton, Scheme(face_mobility="harmonic")) == IDLE_IN_TIME
+        assert idle_steps(newton, Scheme(contact_law=BoundaryFilm(0.1))) == IDLE_IN_TIME
+        assert idle_steps(in_time, Scheme(), at_once=True) == IDLE_AT_ONCE > IDLE_IN_TIME
+        assert idle_steps(NewtonSettings(idle_steps=7), Scheme(), at_once=True) == 7
 
     def test_they_are_counted_from_the_last_lower_one(self, make_position):
         position = make_position()
@@ -225,3 +231,31 @@ class TestIdleSteps:
     def test_a_user_may_have_more_or_less_patience(self, paper_contact, solve):
         ended = solve(paper_contact(1.0), 65, newton={"tolerance": 1e-30, "idle_steps": 3}).outcome
         assert ended.reason.endswith("the last 3 did not lower it")
+
+
+class TestSpreadingContact:
+    """A solve that is of use only as a film may end as soon as contact spreads and spreads."""
+
+    @pytest.fixture
+    def spreading(self, make_position, partition):
+        """Function: the verdict after a history of contact nodes."""
+
+        def ask(nodes, steps=3):
+            position = make_position(step=len(nodes) - 1)
+            (last,) = position.cycles
+            position.cycles = [replace(last, contact_nodes=each) for each in nodes]
+            return judge(position, partition, replace(LIMITS, spreading_steps=steps))
+
+        return ask
+
+    def test_it_is_given_up_after_so_many_steps(self, spreading):
+        assert spreading([4, 8, 12]) is GO_ON
+        found = spreading([4, 8, 12, 18])
+        assert found.ends and not found.converged
+        assert found.reason == "contact spreads, to 18 nodes in 3 steps"
+
+    def test_steps_must_follow_each_other(self, spreading):
+        assert spreading([4, 8, 12, 12, 18]) is GO_ON
+
+    def test_elsewhere_it_may_spread_for_ever(self, spreading):
+        assert spreading(list(range(10)), steps=None) is GO_ON
