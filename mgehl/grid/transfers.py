@@ -31,6 +31,16 @@ class Transfer:
         return self._ranks.collect(np.ascontiguousarray(fine[self._odd :: 2, ::2]))
 
     @event(TRANSFERS)
+    def halfway(self, ghosted, offset):
+        """Values of a ghosted fine array halfway to the coarse nodes at an `offset` (line, node), one of
+        the two 0 and the other 1 or -1. At the ends of lines, where there is no such node, any value."""
+        line, node = offset
+        first, end = self._odd + HALO, self.fine.shape[0] + HALO
+        nodes = np.arange(0, self.fine.mesh.nx, 2) + node
+        beside = np.take(ghosted[first + line : end + line : 2], nodes, axis=1, mode="clip")
+        return self._ranks.collect(beside)
+
+    @event(TRANSFERS)
     def full_weighting(self, fine):
         """Weighted mean of the nine fine values around each inner coarse node, on a single line of three.
 

@@ -26,6 +26,7 @@ from mgehl.discretization.evaluation import Evaluation
 from mgehl.grid.freed_memory import is_large
 from mgehl.grid.transfers import PartitionedTransfer
 from mgehl.multigrid.coarse import CoarseSolve
+from mgehl.multigrid.film_ends import end_halfway
 from mgehl.multigrid.jacobian import Jacobian
 from mgehl.multigrid.memory import Memory
 from mgehl.multigrid.options import by_default
@@ -171,6 +172,7 @@ class MultigridSolver:
                 eps = transfer.averaged(eps)
                 found = found.with_mobility(jacobian.grid.halo(eps))
             jacobian.linearise(found, coarse_rows, rate)
+            end_halfway(jacobian.linearisation, coarse_rows, transfer, rows, fine[-1])
             self._smoothers[level - 1].partition(rows)
             self._partitioned[level - 1].partition((status, coarse_rows), (fine[-1], rows))
             fine, rows = coarse, coarse_rows

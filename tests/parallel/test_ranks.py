@@ -273,6 +273,15 @@ class TestTransfers:
                 result = whole(target, getattr(shared, name)(lines(source, values)))
                 np.testing.assert_allclose(result, expected, rtol=0.0, atol=1e-14, err_msg=name)
 
+    @pytest.mark.parametrize("offset", [(-1, 0), (1, 0), (0, -1), (0, 1)])
+    def test_halfway_between_coarse_nodes(self, pair, offset):
+        together, alone = pair(nodes=129)
+        for shared, serial in zip(together.transfers, alone.transfers, strict=True):
+            fine = random(serial.fine)
+            found = shared.halfway(shared.fine.halo(lines(shared.fine, fine)), offset)
+            expected = serial.halfway(serial.fine.halo(fine), offset)
+            np.testing.assert_array_equal(whole(shared.coarse, found), expected)
+
     def test_partitioned_ones_too(self, pair):
         together, alone = pair(nodes=65)
         shared, serial = together.transfers[0], alone.transfers[0]
