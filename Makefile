@@ -19,7 +19,7 @@ run: $(ENVIRONMENT)
 	$(ON) mpiexec -n 2 python -m mgehl run $(ARGS)
 
 test: $(ENVIRONMENT)
-	$(ON) python -m pytest -m "not parallel" -n $(WORKERS) --dist loadfile --no-loadscope-reorder
+	$(ON) python -m pytest -m "not parallel" -n $(WORKERS) --dist loadfile
 	$(ON) mpiexec -n 2 python -m pytest tests/parallel -m parallel -q
 	$(ON) mpiexec -n 3 python -m pytest tests/parallel -m parallel -q
 

@@ -32,8 +32,10 @@ def pytest_configure(config):
     """Ctrl-C is heard, also where a shell that started the tests in the background ignores it. MPI's files
     have a directory for each process that tests.
 
-    Open MPI's jobs share one directory, and a job that ends may remove it under another that begins.
+    Open MPI's jobs share one directory, and a job that ends may remove it under another that begins. Newer
+    pytest-xdist would begin with the files of most tests, not with the `LONGEST`.
     """
+    config.option.loadscopereorder = False
     if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.default_int_handler)
     files = tempfile.TemporaryDirectory(prefix="mpi-")

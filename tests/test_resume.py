@@ -422,7 +422,7 @@ class TestFullDisk:
             ("40k", "0.001", BEGUN),
             ("300k", "0.001", {"under-way.npz", *BEGUN}),
             ("160k", "60", {"history.csv", *BEGUN, *SOLVES}),
-            ("276k", "60", {"history.csv", "fields.h5", *BEGUN, *SOLVES}),
+            ("264k", "60", {"history.csv", "fields.h5", *BEGUN, *SOLVES}),
         ],
     )
     def test_it_is_one_line_and_the_run_goes_on_later(self, disk, uninterrupted, size, save_every, there):
