@@ -1,7 +1,7 @@
 """Whether an iteration has come to its end, and why: looks at a position, changes nothing."""
 
 from dataclasses import dataclass
-from itertools import pairwise, takewhile
+from itertools import pairwise
 from math import inf
 
 from petsc4py import PETSc
@@ -43,7 +43,7 @@ class Limits:
     idle_steps: int
     """Steps in a row that may leave the residual as it is."""
     spreading_steps: int | None = None
-    """Steps in a row in which contact may spread; None: any."""
+    """Steps in which contact may spread; None: any."""
 
 
 @dataclass(frozen=True)
@@ -115,10 +115,9 @@ def steps_since_lowered(position):
 
 
 def steps_of_spreading(position):
-    """Steps in a row, up to the last, by which contact had more nodes after than before."""
-    nodes = [cycle.contact_nodes for cycle in reversed(position.cycles)]
-    grew = (after > before for after, before in pairwise(nodes))
-    return sum(takewhile(bool, grew))
+    """Steps after which contact had more nodes than before."""
+    nodes = [cycle.contact_nodes for cycle in position.cycles]
+    return sum(after > before for before, after in pairwise(nodes))
 
 
 def judge_system(reason, position):

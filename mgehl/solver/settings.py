@@ -42,7 +42,7 @@ class NewtonSettings:
     idle_steps: int | None = SolverSection.idle_steps
     """Steps that may leave the residual as it is; None: as many as `judge` has for its scheme."""
     spreading_steps: int | None = None
-    """Steps in a row in which contact may spread before a solve is given up; None: any."""
+    """Steps in which contact may spread before a solve is given up; None: any."""
     linear_tolerance: float = SolverSection.linear_tolerance
     """Relative tolerance of GMRES in a step. From 0.05 to 0.2 the work varies by a quarter, now more, now
     less: the looser, the more steps and the fewer iterations in each."""
