@@ -17,16 +17,16 @@ SIDE_BY_SIDE = 2
 
 
 @compiled(fastmath={"contract"})
-def build_bands(offsets, A, B, distributive, kappa, share, bands):
-    """Fill `bands` (lines, nx, 2 reach + 1) with each line's part of J Q.
+def build_bands(offsets, A, B, distributive, kappa, share, bands, first, last):
+    """Fill lines first ... last - 1 of `bands` (lines, nx, 2 reach + 1) with each line's part of J Q.
 
     Column m of Q is 1 at node m and, where `distributive[j, m]`, -share at its neighbours.
     `kappa[d, l, k]` is the deflection k nodes along and l lines beside a unit column of kind d.
     """
-    lines, nx, width = bands.shape
+    _, nx, width = bands.shape
     reach = width // 2
     spreads, diagonals = np.zeros(nx + 2 * reach), np.zeros((width, nx))
-    for j in range(lines):
+    for j in range(first, last):
         spreads[reach : reach + nx] = distributive[j]
         diagonals[:] = 0.0
         for o in range(len(offsets)):

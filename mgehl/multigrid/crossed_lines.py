@@ -43,14 +43,11 @@ class CrossedLineSmoother(LineSmoother):
         self._along_y_first = False
         if not self._y_lines:
             return
-        self._build_x_lines()
-        self._diagonal = self._bands.diagonal.copy()
-        self._bands.factor()
+        self._diagonal = self._factor_x_lines()
         for lines, some in pieces_of_y_lines(self._jacobian.grid):
             lin, distributive = self._jacobian.linearisation, own(self._distributive)
             turned = lin.turned(some.turned), some.turned(distributive) > 0.0
-            self._y_bands.build(*turned, self._y_kappa, self._share, lines)
-        self._y_bands.factor()
+            self._y_bands.factor(*turned, self._y_kappa, self._share, lines)
 
     def _solve_lines(self, r):
         """Solve along one axis, then along the other; the next time in the other order."""

@@ -64,12 +64,12 @@ class LineSmoother:
     @event(LINES)
     def factor(self):
         """Factor the bands of the present linearisation."""
-        self._build_x_lines()
-        self._bands.factor()
+        self._factor_x_lines()
 
-    def _build_x_lines(self):
+    def _factor_x_lines(self):
+        """And return their diagonal, (lines, nx)."""
         distributive = own(self._distributive)
-        self._bands.build(self._jacobian.linearisation, distributive, self._kappa, self._share)
+        return self._bands.factor(self._jacobian.linearisation, distributive, self._kappa, self._share)
 
     @event(LINES)
     def relax(self, r):

@@ -31,7 +31,9 @@ def test_build_bands_is_the_band_of_J_Q(offsets, distributed, k_e, share, rng):
     # A line's ends are given; their column would reach outside the domain.
     distributive[:, [0, -1]] = False
     bands, kappa = np.full((lines, nx, 2 * REACH + 1), np.nan), influence_of_columns(K, share)
-    build_bands(np.array(offsets), A, B, distributive, kappa, share, bands)
+    build_bands(np.array(offsets), A, B, distributive, kappa, share, bands, 0, 1)
+    assert np.isnan(bands[1:]).all()
+    build_bands(np.array(offsets), A, B, distributive, kappa, share, bands, 1, lines)
     JQ = dense_JQ(offsets, A, B, K, distributive, share, REACH)
     expected = np.zeros_like(bands)
     for j, i, k in np.ndindex(*bands.shape):

@@ -5,6 +5,7 @@ from dense import ALONG_X, BOTH_WAYS, dense_JQ, dense_stencil, line_stencils
 from mgehl.discretization.axes import HALO
 from mgehl.discretization.band_kernels import REACH, build_bands
 from mgehl.discretization.bands import (
+    AT_A_TIME,
     LINES_BESIDE,
     REACH_OF_STENCIL,
     STIFF,
@@ -102,7 +103,7 @@ def test_line_bands_solve_the_lines_of_a_stencil(offsets):
 def test_line_bands_solve_the_band_of_J_Q(offsets, share):
     """LineBands against numpy.linalg.solve on the dense lines of (A + B K) Q cut to the band."""
     rng = np.random.default_rng(5)
-    lines, nx = 3, MESH.nx
+    lines, nx = AT_A_TIME + 1, MESH.nx
     A, B = line_stencils(rng, offsets, lines, nx)
     distributive = rng.random((lines, nx)) < 0.5
     distributive[:, [0, -1]] = False
@@ -111,8 +112,10 @@ def test_line_bands_solve_the_band_of_J_Q(offsets, share):
     bands, kappa = LineBands(lines, nx), influence_of_columns(K, share)
     # A second factorisation must not see the first.
     for stencils in ((B, A), (A, B)):
-        bands.build(Linearisation(np.array(offsets), *stencils, None), distributive, kappa, share)
-        bands.factor()
+        diagonal = bands.factor(
+            Linearisation(np.array(offsets), *stencils, None), distributive, kappa, share
+        )
+    np.testing.assert_allclose(diagonal, np.einsum("jiji->ji", JQ), rtol=1e-13)
     bands.solve(r, w)
     offset = np.subtract.outer(np.arange(nx), np.arange(nx))
     for j in range(lines):
@@ -154,7 +157,8 @@ def test_rows_of_a_differenced_gap_sum_to_zero(kind):
 
     def row_sums(kappa):
         bands = np.empty((1, nx, 2 * REACH + 1))
-        build_bands(linear.offsets, linear.A, linear.B, distributive & bool(kind), kappa, 0.5, bands)
+        stencils = linear.offsets, linear.A, linear.B
+        build_bands(*stencils, distributive & bool(kind), kappa, 0.5, bands, 0, 1)
         # A row that reaches a line's end meets the end's column, which is never distributed.
         return bands[0, REACH + 1 : -REACH - 1].sum(axis=1)
 
@@ -169,8 +173,7 @@ def test_long_lines_of_a_differenced_gap_have_a_bounded_solution():
     def largest(kappa, nx):
         linear, distributive = wedge_term(nx)
         bands, r, w = LineBands(1, nx), np.zeros((1, nx)), np.empty((1, nx))
-        bands.build(linear, distributive, kappa, 0.5)
-        bands.factor()
+        bands.factor(linear, distributive, kappa, 0.5)
         r[0, nx // 4] = 1.0
         bands.solve(r, w)
         return np.abs(w).max()
