@@ -172,7 +172,8 @@ class MultigridSolver:
                 eps = transfer.averaged(eps)
                 found = found.with_mobility(jacobian.grid.halo(eps))
             jacobian.linearise(found, coarse_rows, rate)
-            end_halfway(jacobian.linearisation, coarse_rows, transfer, rows, fine[-1])
+            if not self._thin:
+                end_halfway(jacobian.linearisation, coarse_rows, transfer, rows, fine[-1])
             self._smoothers[level - 1].partition(rows)
             self._partitioned[level - 1].partition((status, coarse_rows), (fine[-1], rows))
             fine, rows = coarse, coarse_rows
