@@ -60,7 +60,7 @@ class LineBands:
         self._factor, self._solve = LOOPS[reach]
 
     def factor(self, linearisation, distributive, kappa, share, lines=slice(None)):
-        """Factor what J Q couples along some `lines`, for their linearisation; return its diagonal there.
+        """Factor what J Q couples along some `lines`, for their linearisation; return its diagonal.
 
         A few lines at a time: their bands are still in the processor's cache when they are factored.
         """

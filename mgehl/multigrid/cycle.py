@@ -76,7 +76,8 @@ class MultigridSolver:
 
     With a `rigid` gap it solves for the fluid alone and makes no convolution. Where the fluid is solved
     `apart` from the gap only contact is left, and contact knows no direction of motion. Rough surfaces have
-    a memory of their own, and where the film is thin a smoother and coarse mobilities.
+    a memory of their own, and where the film is thin a smoother, coarse mobilities, and coarse films that
+    end at nodes.
     """
 
     def __init__(

@@ -67,7 +67,7 @@ class LineSmoother:
         self._factor_x_lines()
 
     def _factor_x_lines(self):
-        """And return their diagonal, (lines, nx)."""
+        """Factor the bands of the x-lines; return their diagonal before that, (lines, nx)."""
         distributive = own(self._distributive)
         return self._bands.factor(self._jacobian.linearisation, distributive, self._kappa, self._share)
 

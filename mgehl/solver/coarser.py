@@ -82,8 +82,8 @@ def _injected(hierarchy, level, contact, state, scheme):
 
 def _solve(hierarchy, level, problem, state, settings, monitor, journal):
     tolerance = max(TOLERANCE, settings.newton.tolerance)
-    newton = replace(settings.newton, tolerance=tolerance, max_steps=MAX_STEPS, release_budget=0)
-    limits = replace(newton, spreading_steps=SPREADING_STEPS)
+    ends = {"max_steps": MAX_STEPS, "spreading_steps": SPREADING_STEPS, "release_budget": 0}
+    limits = replace(settings.newton, tolerance=tolerance, **ends)
     multigrid = MultigridSolver(hierarchy, level, problem.contact, problem.scheme, settings.cycle)
     tell = partial(monitor, LevelSolve(problem.grid.mesh.nx, problem.contact.speed, False))
     newton = Newton(problem, multigrid, limits, None, settings.cycle.options_prefix, tell)
