@@ -16,30 +16,51 @@ SIDE_BY_SIDE = 2
 """Lines that are solved side by side: a line waits for its own results, two take hardly longer than one."""
 
 
-@compiled(fastmath={"contract"})
-def build_bands(offsets, A, B, distributive, kappa, share, bands, first, last):
-    """Fill lines first ... last - 1 of `bands` (lines, nx, 2 reach + 1) with each line's part of J Q.
+@compiled()
+def span_of(given, lines):
+    """(first, end) of the nodes that the systems of some `lines`, (first, end), need.
 
-    Column m of Q is 1 at node m and, where `distributive[j, m]`, -share at its neighbours.
-    `kappa[d, l, k]` is the deflection k nodes along and l lines beside a unit column of kind d.
+    From the first node that is not `given`, with the given one before it, to the last and the one after
+    it: what a distributive node hands over to a given one has to be taken back there.
     """
-    _, nx, width = bands.shape
-    reach = width // 2
-    spreads, diagonals = np.zeros(nx + 2 * reach), np.zeros((width, nx))
-    for j in range(first, last):
-        spreads[reach : reach + nx] = distributive[j]
+    nx = given.shape[1]
+    first, end = nx, 0
+    for j in range(lines[0], lines[1]):
+        i = 0
+        while i < first and given[j, i]:
+            i += 1
+        first, i = i, nx
+        while i > end and given[j, i - 1]:
+            i -= 1
+        end = i
+    return (max(first - 1, 0), min(end + 1, nx)) if first < end else (0, 0)
+
+
+@compiled(fastmath={"contract"})
+def build_bands(offsets, A, B, distributive, kappa, share, bands, lines, nodes):
+    """Fill some `nodes` of some `lines` of `bands` (lines, nx, 2 reach + 1) with each line's part of J Q.
+
+    Nodes and lines are (first, end). Column m of Q is 1 at node m and, where `distributive[j, m]`, -share
+    at its neighbours. `kappa[d, l, k]` is the deflection k nodes along and l lines beside a unit column of
+    kind d.
+    """
+    reach = bands.shape[2] // 2
+    first, end = nodes
+    spreads, diagonals = np.zeros(end - first + 2 * reach), np.zeros((bands.shape[2], end - first))
+    for j in range(lines[0], lines[1]):
+        spreads[reach : reach + end - first] = distributive[j, first:end]
         diagonals[:] = 0.0
         for o in range(len(offsets)):
             beside, ahead = abs(offsets[o, 0]), offsets[o, 1]
             for k in range(-reach, reach + 1):
                 distance, diagonal, spread = abs(k - ahead), diagonals[k + reach], spreads[k + reach :]
                 single, more = kappa[0, beside, distance], kappa[1, beside, distance]
-                _add_product(B[o, j], spread, single, more - single, diagonal)
+                _add_product(B[o, j, first:end], spread, single, more - single, diagonal)
                 if beside + distance == 0:
-                    _add_product(A[o, j], spread, 1.0, 0.0, diagonal)
+                    _add_product(A[o, j, first:end], spread, 1.0, 0.0, diagonal)
                 elif beside + distance == 1:
-                    _add_product(A[o, j], spread, 0.0, -share, diagonal)
-        _set_band(diagonals, bands[j])
+                    _add_product(A[o, j, first:end], spread, 0.0, -share, diagonal)
+        _set_band(diagonals, bands[j, first:end])
 
 
 @compiled(fastmath={"contract"})
@@ -51,12 +72,18 @@ def _add_product(b, spreads, single, more, diagonal):
 
 @compiled(fastmath={"contract"})
 def _set_band(diagonals, band):
-    """A line's band (nx, width) of its diagonals (width, nx), without what is beyond the line's ends."""
+    """A band (nodes, width) of its diagonals (width, nodes), without what is beyond its ends."""
     width, nx = diagonals.shape
     reach = width // 2
     for i in range(nx):
         for k in range(width):
             band[i, k] = diagonals[k, i] if 0 <= i + k - reach < nx else 0.0
+
+
+@compiled()
+def _same(span, other):
+    """Whether two spans begin and end at the same nodes."""
+    return span[0] == other[0] and span[1] == other[1]
 
 
 @compiled(fastmath={"contract"})
@@ -76,15 +103,15 @@ def banded(reach):
     """
 
     @compiled(fastmath={"contract"}, error_model="numpy")
-    def factor(bands):
-        """LU factors in place, without pivoting; the diagonal holds the reciprocal pivots.
+    def factor(bands, nodes):
+        """LU factors of the `nodes` (first, end) of all lines in place, without pivoting.
 
-        What a band has beyond its line's ends becomes zero. A singular line gives factors that are not
-        finite: the iteration that made it ends by itself.
+        The diagonal holds the reciprocal pivots. What a band has beyond these nodes becomes zero. A
+        singular line gives factors that are not finite: the iteration that made it ends by itself.
         """
-        lines, nx, _ = bands.shape
-        for j in range(lines):
-            band = bands[j]
+        nx = nodes[1] - nodes[0]
+        for j in range(len(bands)):
+            band = bands[j, nodes[0] : nodes[1]]
             for i in range(min(reach, nx)):
                 band[i, : reach - i] = 0.0
                 band[nx - 1 - i, reach + 1 + i :] = 0.0
@@ -98,23 +125,33 @@ def banded(reach):
                         _eliminate(band, i, below, reach)
 
     @compiled(fastmath={"contract"})
-    def solve(bands, r, w):
-        """Solve every line with the factors; `r` and `w` are (lines, nx)."""
+    def solve(bands, spans, r, w):
+        """Solve every line with the factors for the nodes of its span (first, end); the others become zero.
+
+        `r` and `w` are (lines, nx), `spans` (lines, 2).
+        """
         lines, nx, _ = bands.shape
         x = np.zeros((nx + 2 * reach, SIDE_BY_SIDE))
-        for first in range(0, lines, SIDE_BY_SIDE):
-            side_by_side = min(SIDE_BY_SIDE, lines - first)
-            for i in range(nx):
-                for each in range(side_by_side):
-                    value = r[first + each, i]
+        line = 0
+        while line < lines:
+            first, end = spans[line]
+            together = 1
+            while together < min(SIDE_BY_SIDE, lines - line) and _same(spans[line + together], spans[line]):
+                together += 1
+            for i in range(first, end):
+                for each in range(together):
+                    value = r[line + each, i]
                     for k in range(reach):
-                        value -= bands[first + each, i, k] * x[i + k, each]
+                        value -= bands[line + each, i, k] * x[i + k, each]
                     x[reach + i, each] = value
-            for i in range(nx - 1, -1, -1):
-                for each in range(side_by_side):
+            for i in range(end - 1, first - 1, -1):
+                for each in range(together):
                     value = x[reach + i, each]
                     for k in range(reach + 1, 2 * reach + 1):
-                        value -= bands[first + each, i, k] * x[i + k, each]
-                    x[reach + i, each] = w[first + each, i] = value * bands[first + each, i, reach]
+                        value -= bands[line + each, i, k] * x[i + k, each]
+                    x[reach + i, each] = w[line + each, i] = value * bands[line + each, i, reach]
+            w[line : line + together, :first] = 0.0
+            w[line : line + together, end:] = 0.0
+            line += together
 
     return factor, solve

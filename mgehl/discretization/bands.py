@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mgehl.discretization.band_kernels import REACH, banded, build_bands
+from mgehl.discretization.band_kernels import REACH, banded, build_bands, span_of
 from mgehl.discretization.rows import GAP, PRESSURE
 
 STIFF = 0.3
@@ -53,24 +53,32 @@ def influence_of_columns(K, share):
 
 
 class LineBands:
-    """Factored banded systems of all local lines, each node coupled to `reach` on each side."""
+    """Factored banded systems of all local lines, each node coupled to `reach` on each side.
+
+    A line's system has the nodes of its span alone (`span_of`): a cavity behind the contact is a quarter of
+    all nodes.
+    """
 
     def __init__(self, lines, nx, reach=REACH):
         self._shape, self._factors = (lines, nx, 2 * reach + 1), None
+        self._spans = np.tile([0, nx], (lines, 1))
         self._factor, self._solve = LOOPS[reach]
 
-    def factor(self, linearisation, distributive, kappa, share, lines=slice(None)):
+    def factor(self, linearisation, distributive, given, kappa, share, lines=slice(None)):
         """Factor what J Q couples along some `lines`, for their linearisation; return its diagonal.
 
-        A few lines at a time: their bands are still in the processor's cache when they are factored.
+        It is zero beyond the spans. A few lines at a time: their bands are still in the processor's cache
+        when they are factored.
         """
-        lin, bands = linearisation, self._room()[lines]
-        diagonal = np.empty(bands.shape[:2])
+        lin, bands, spans = linearisation, self._room()[lines], self._spans[lines]
+        diagonal = np.zeros(bands.shape[:2])
         for first in range(0, len(bands), AT_A_TIME):
             some = slice(first, min(first + AT_A_TIME, len(bands)))
-            build_bands(lin.offsets, lin.A, lin.B, distributive, kappa, share, bands, some.start, some.stop)
-            diagonal[some] = bands[some, :, REACH]
-            self._factor(bands[some])
+            few = some.start, some.stop
+            spans[some] = nodes = span_of(given, few)
+            build_bands(lin.offsets, lin.A, lin.B, distributive, kappa, share, bands, few, nodes)
+            diagonal[some, slice(*nodes)] = bands[some, slice(*nodes), REACH]
+            self._factor(bands[some], nodes)
         return diagonal
 
     def _room(self):
@@ -84,14 +92,14 @@ class LineBands:
         self._factors = None
 
     def factor_stencil(self, linearisation):
-        """Factor what the stencil A of a rigid gap couples along the lines."""
+        """Factor what the stencil A of a rigid gap couples along the lines, all their nodes."""
         bands = self._room()
         bands[:] = 0.0
         for (beside, ahead), A in zip(linearisation.offsets, linearisation.A, strict=True):
             if beside == 0:
                 bands[:, :, REACH_OF_STENCIL + ahead] = A
-        self._factor(self._factors)
+        self._factor(bands, (0, bands.shape[1]))
 
     def solve(self, r, w):
         """Solve all lines for the right-hand sides `r`; write `w`, which may be `r`; both (lines, nx)."""
-        self._solve(self._factors, r, w)
+        self._solve(self._factors, self._spans, r, w)

@@ -35,8 +35,8 @@ def _turned(stencil, turn):
     first = turn(stencil[0])
     turned = np.empty((len(stencil), *first.shape))
     turned[0] = first
-    for of_offset, array in zip(turned[1:], stencil[1:], strict=True):
-        of_offset[:] = turn(array)
+    for array, of_offset in zip(stencil[1:], turned[1:], strict=True):
+        turn(array, of_offset)
     return turned
 
 

@@ -62,6 +62,10 @@ class Transpose:
         elif by_columns is not by_lines:
             by_columns[:, : self.columns] = by_lines[:, self._mine]
 
+    def columns_of(self, by_lines):
+        """View of this rank's columns, (all lines, columns), where all lines are here; None elsewhere."""
+        return by_lines[:, self._mine] if self._comm.size == 1 else None
+
     def to_lines(self, by_columns, by_lines):
         """The way back."""
         if self._comm.size > 1:
@@ -97,15 +101,25 @@ class YLines:
         """Free the MPI datatypes."""
         self._transpose.destroy()
 
-    def turned(self, array):
-        """An array of x-lines, (lines, nx) of any type that a double holds, as y-lines."""
-        self._transpose.to_columns(np.ascontiguousarray(array, dtype=float), self._exchanged)
-        return np.ascontiguousarray(self._mine.T)
+    def turned(self, array, out=None):
+        """An array of x-lines, (lines, nx) of any type that a double holds, as y-lines (in `out`)."""
+        out = np.empty(self.shape) if out is None else out
+        by_lines = np.ascontiguousarray(array, dtype=float)
+        columns = self._transpose.columns_of(by_lines)
+        if columns is None:
+            self._transpose.to_columns(by_lines, self._exchanged)
+            columns = self._mine
+        out[:] = columns.T
+        return out
 
     def turn_back(self, array, out):
         """Doubles of y-lines as x-lines, written to `out` (lines, nx)."""
-        self._mine[:] = array.T
-        self._transpose.to_lines(self._exchanged, out)
+        columns = self._transpose.columns_of(out)
+        if columns is None:
+            self._mine[:] = array.T
+            self._transpose.to_lines(self._exchanged, out)
+        else:
+            columns[:] = array.T
 
 
 def pieces_of_y_lines(grid):

@@ -45,9 +45,9 @@ class CrossedLineSmoother(LineSmoother):
             return
         self._diagonal = self._factor_x_lines()
         for lines, some in pieces_of_y_lines(self._jacobian.grid):
-            lin, distributive = self._jacobian.linearisation, own(self._distributive)
-            turned = lin.turned(some.turned), some.turned(distributive) > 0.0
-            self._y_bands.factor(*turned, self._y_kappa, self._share, lines)
+            linearisation = self._jacobian.linearisation.turned(some.turned)
+            nodes = some.turned(own(self._distributive)) > 0.0, some.turned(self._given) > 0.0
+            self._y_bands.factor(linearisation, *nodes, self._y_kappa, self._share, lines)
 
     def _solve_lines(self, r):
         """Solve along one axis, then along the other; the next time in the other order."""

@@ -68,8 +68,8 @@ class LineSmoother:
 
     def _factor_x_lines(self):
         """Factor the bands of the x-lines; return their diagonal before that, (lines, nx)."""
-        distributive = own(self._distributive)
-        return self._bands.factor(self._jacobian.linearisation, distributive, self._kappa, self._share)
+        nodes = own(self._distributive), self._given
+        return self._bands.factor(self._jacobian.linearisation, *nodes, self._kappa, self._share)
 
     @event(LINES)
     def relax(self, r):
