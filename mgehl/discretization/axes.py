@@ -13,6 +13,16 @@ import numpy as np
 from mgehl.discretization.kernels import add_of_faces
 from mgehl.discretization.mesh import HALO
 
+AT_A_TIME = 2**14
+"""Nodes of the lines that are worked on at a time: all that their flows are made of stays in the cache."""
+
+
+def few_lines(array):
+    """Slices of the lines of an array (lines, nx), a few at a time."""
+    lines, nx = array.shape
+    few = max(1, AT_A_TIME // nx)
+    return [slice(first, min(first + few, lines)) for first in range(0, lines, few)]
+
 
 def own(ghosted):
     """The rank's own lines of a ghosted array (a view)."""
@@ -59,6 +69,10 @@ class Axis:
     def of_faces(self, array, first=0, last=None):
         """View of the faces first ... last - 1 of an array of faces."""
         return array[:, first:last] if self.number else array[first:last]
+
+    def of_lines(self, array, lines):
+        """View of the faces of some `lines` of nodes (a slice) of an array of faces."""
+        return array[lines] if self.number else array[lines.start : lines.stop + 1]
 
     def inner(self, array):
         """View of the nodes (lines, nx) between two faces: all but the ends of lines along X."""

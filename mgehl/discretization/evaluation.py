@@ -5,7 +5,7 @@ from functools import cached_property
 
 import numpy as np
 
-from mgehl.discretization.axes import axes_of, own
+from mgehl.discretization.axes import HALO, axes_of, own
 from mgehl.discretization.faces import conductances, flows, mobility_of_faces
 from mgehl.discretization.fluid import fluid_state
 from mgehl.discretization.kernels import flow_sources
@@ -36,6 +36,15 @@ class Evaluation:
         if scheme.mean == self.scheme.mean:
             other.mobilities = self.mobilities
         return other
+
+    def of_lines(self, lines):
+        """The same of some of its own `lines` alone (a slice): views."""
+        ghosted = slice(lines.start, lines.stop + 2 * HALO)
+        state = (array[ghosted] for array in (self.P, self.H, self.status))
+        part = Evaluation(*state, self.mesh, self.contact, self.scheme, self.fluid.of(ghosted))
+        of_axes = zip(self.axes, self.mobilities, strict=True)
+        part.mobilities = [mobility.of_lines(axis, lines) for axis, mobility in of_axes]
+        return part
 
     def change_pressure(self, P):
         """In place: the same gap and solids under another ghosted pressure; laws are asked only where it

@@ -28,6 +28,8 @@ class Flow:
 
     def close(self, is_open):
         """Nothing passes where `is_open` is False."""
+        if is_open.all():
+            return
         for array in (self.value, *self.by_P.values(), *self.by_H.values()):
             array *= is_open
 
@@ -53,10 +55,7 @@ def _flow(fluid, status, axis, scheme, mobility, terms, near, linearised, rigid)
     """One flow, its Couette part by `terms`, beside what is solid by `near`."""
     solid = is_solid(status, scheme.contact_law.closes_faces)
     is_open = open_faces(solid, axis)
-    nodes = {W, E}
-    if axis.couette:
-        nodes |= nodes_of(terms) | nodes_of(near)
-    flow = Flow(is_open.shape, nodes if linearised else (), rigid)
+    flow = Flow(is_open.shape, _nodes_of_flow(axis, terms, near) if linearised else (), rigid)
     _add_poiseuille(flow, fluid, axis, mobility)
     if scheme.couette_at_interface == "untreated":
         # Contact stops the pressure flow alone; nothing passes a wall.
@@ -71,21 +70,31 @@ def _flow(fluid, status, axis, scheme, mobility, terms, near, linearised, rigid)
     return flow
 
 
+def nodes_of_flows(axis, scheme):
+    """Positions of the nodes that the `flows` (leaving W, entering E) along an axis depend on."""
+    table = couette_scheme(scheme.couette, scheme.coarsenings)
+    return [_nodes_of_flow(axis, terms, table.near) for terms in (table.leaving, table.entering)]
+
+
+def _nodes_of_flow(axis, terms, near):
+    return {W, E} | (nodes_of(terms) | nodes_of(near) if axis.couette else set())
+
+
 def _add_poiseuille(flow, fluid, axis, mobility):
     """Add -eps (P_E - P_W)/distance with eps the face's mean mobility  [Liu eqs. 7, 16, 30]."""
     faces = flow.value.shape[1]
-    distance = np.full(faces, axis.distance)
-    add_poiseuille(axis.sides, fluid.P, mobility.value, distance, flow.value)
+    closeness = np.full(faces, 1.0 / axis.distance)
+    conductance = mobility.value * closeness
+    add_poiseuille(axis.sides, fluid.P, conductance, flow.value)
     by_eps = [slope if np.ndim(slope) else np.full((1, faces), slope) for slope in mobility.by_eps]
     for slopes, eps_by in ((flow.by_P, fluid.deps_dP), (flow.by_H, fluid.deps_dH)):
         if slopes:
-            add_poiseuille_slopes(axis.sides, fluid.P, distance, *by_eps, eps_by, slopes[W], slopes[E])
+            add_poiseuille_slopes(axis.sides, fluid.P, closeness, *by_eps, eps_by, slopes[W], slopes[E])
     if flow.by_P:
-        conductance = mobility.value / distance
         flow.by_P[W] += conductance
         flow.by_P[E] -= conductance
     if flow.by_H and mobility.by_gap:
-        gradient = (axis.at(fluid.P, SHIFT[E]) - axis.at(fluid.P, SHIFT[W])) / distance
+        gradient = (axis.at(fluid.P, SHIFT[E]) - axis.at(fluid.P, SHIFT[W])) * closeness
         for node, slope in zip((W, E), mobility.by_gap, strict=True):
             flow.by_H[node] -= gradient * slope
 

@@ -1,6 +1,6 @@
 """Nodal state of the lubricant and the mobility of a face between two nodes."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 
@@ -26,6 +26,10 @@ class Fluid:
     eps: np.ndarray
     deps_dP: np.ndarray
     deps_dH: np.ndarray
+
+    def of(self, lines):
+        """That of some lines of nodes (a slice): views."""
+        return Fluid(*(getattr(self, each.name)[lines] for each in fields(self)))
 
     def change(self, P, nodes, part):
         """In place: under another pressure `P`, with the fluid `part` on the `nodes` of a mask."""
@@ -115,6 +119,14 @@ class FaceMobility:
     by_eps: tuple
     by_gap: tuple = ()
     """Nothing where the mobilities say it all."""
+
+    def of_lines(self, axis, lines):
+        """That of the faces of some `lines` of nodes (a slice), which lie along an `axis`."""
+
+        def some(slopes):
+            return tuple(axis.of_lines(each, lines) if np.ndim(each) else each for each in slopes)
+
+        return FaceMobility(axis.of_lines(self.value, lines), some(self.by_eps), some(self.by_gap))
 
 
 def face_mobility(scheme, eps, gaps):

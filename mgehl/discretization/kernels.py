@@ -77,45 +77,53 @@ def distribute(w, distributive, share, omega, out, everywhere=True):
 
 
 @compiled()
-def add_poiseuille(sides, P, mobility, distance, flow):
-    """flow -= mobility (P_E - P_W)/distance through faces (lines, faces) along an axis.
+def add_poiseuille(sides, P, conductance, flow):
+    """flow -= conductance (P_E - P_W) through faces (lines, faces) along an axis.
 
-    `P` is ghosted, `sides` as of an `Axis`, `distance` one for each face of a line.
+    `P` is ghosted, `sides` as of an `Axis`.
     """
     line_w, line_e, node_e = sides
     lines, faces = flow.shape
     for j in range(lines):
         west, east = P[j + line_w, :faces], P[j + line_e, node_e : node_e + faces]
-        _subtract_flow(mobility[j], west, east, distance, flow[j])
+        _subtract_flow(conductance[j], west, east, flow[j])
 
 
 @compiled()
-def _subtract_flow(mobility, west, east, distance, flow):
+def _subtract_flow(conductance, west, east, flow):
     for i in range(flow.size):
-        flow[i] -= mobility[i] * ((east[i] - west[i]) / distance[i])
+        flow[i] -= conductance[i] * (east[i] - west[i])
 
 
 @compiled()
-def add_poiseuille_slopes(sides, P, distance, by_eps_w, by_eps_e, eps_by, by_w, by_e):
+def add_poiseuille_slopes(sides, P, closeness, by_eps_w, by_eps_e, eps_by, by_w, by_e):
     """What that flow changes by as the mobilities of W and E change, added to `by_w` and `by_e`.
 
     The nodes' mobilities rise by `eps_by`, ghosted, and with each of them the face's by `by_eps_w`,
-    `by_eps_e`: as the faces, or one line that stands for all.
+    `by_eps_e`: as the faces, or one line that stands for all. `closeness` is 1/distance of the pressures,
+    one for each face of a line.
     """
     line_w, line_e, node_e = sides
     lines, faces = by_w.shape
+    gradient = np.empty(faces)
     for j in range(lines):
         w, e, end = j + line_w, j + line_e, node_e + faces
-        west, east = P[w, :faces], P[e, node_e:end]
+        _gradient(P[w, :faces], P[e, node_e:end], closeness, gradient)
         share = j if len(by_eps_w) > 1 else 0
-        _subtract_slopes(west, east, distance, by_eps_w[share], eps_by[w, :faces], by_w[j])
-        _subtract_slopes(west, east, distance, by_eps_e[share], eps_by[e, node_e:end], by_e[j])
+        _subtract_slopes(gradient, by_eps_w[share], eps_by[w, :faces], by_w[j])
+        _subtract_slopes(gradient, by_eps_e[share], eps_by[e, node_e:end], by_e[j])
 
 
 @compiled()
-def _subtract_slopes(west, east, distance, by_eps, eps_by, slope):
+def _gradient(west, east, closeness, gradient):
+    for i in range(gradient.size):
+        gradient[i] = (east[i] - west[i]) * closeness[i]
+
+
+@compiled()
+def _subtract_slopes(gradient, by_eps, eps_by, slope):
     for i in range(slope.size):
-        slope[i] -= (east[i] - west[i]) / distance[i] * by_eps[i] * eps_by[i]
+        slope[i] -= gradient[i] * by_eps[i] * eps_by[i]
 
 
 @compiled()
@@ -127,15 +135,15 @@ def add_of_faces(number, which, flow, cell, inflow):
     lines, nx = inflow.shape
     for j in range(lines):
         if number:
-            _add_over(flow[j, which : which + nx - 2], cell, inflow[j, 1 : nx - 1])
+            _add_product(flow[j, which : which + nx - 2], 1.0 / cell, inflow[j, 1 : nx - 1])
         else:
-            _add_over(flow[j + which], cell, inflow[j])
+            _add_product(flow[j + which], 1.0 / cell, inflow[j])
 
 
 @compiled()
-def _add_over(flow, cell, inflow):
+def _add_product(flow, factor, inflow):
     for i in range(inflow.size):
-        inflow[i] += flow[i] / cell
+        inflow[i] += flow[i] * factor
 
 
 @compiled(fastmath={"contract"})

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mgehl.discretization.axes import own
+from mgehl.discretization.axes import few_lines, own
 from mgehl.discretization.couette import SHIFT
+from mgehl.discretization.faces import nodes_of_flows
 from mgehl.discretization.rows import FLOW, GAP, PRESSURE
 
 
@@ -53,45 +54,54 @@ def residual(evaluation, rows, storage=None):
     return F
 
 
-def linearise(evaluation, rows, storage=None, rigid=False):
-    """Derivatives of `residual` by P (A) and, unless the gap is `rigid`, by H (B)."""
-    fluid, found = evaluation.fluid, evaluation.linearised_flows(rigid)
-    offsets = _offsets(evaluation.axes, found)
-    A = _net_inflow(evaluation, offsets, found, "by_P")
-    B = None if rigid else _net_inflow(evaluation, offsets, found, "by_H")
-    if storage is not None:
-        A[0] -= storage.by_P(fluid)
+def linearise(evaluation, rows, storage=None, rigid=False, room=None):
+    """Derivatives of `residual` by P (A) and, unless the gap is `rigid`, by H (B).
+
+    Of a few lines at a time: their flows are still in the processor's cache when they are added up. The
+    arrays of `room`, a `Linearisation` of the same kind that nobody needs any more, are used again.
+    """
+    fluid, dX = evaluation.fluid, evaluation.mesh.dX
+    offsets = _offsets(evaluation)
+    A, B = (room.A, room.B) if room else _empty_stencils((len(offsets), *rows.shape), rigid)
+    for lines in few_lines(rows):
+        part = evaluation.of_lines(lines)
+        found = part.linearised_flows(rigid)
+        is_film = (rows[lines] == FLOW).astype(float)
+        _set_net_inflow(A[:, lines], part, offsets, found, "by_P", is_film)
+        A[0, lines] -= (rows[lines] == PRESSURE) * (1.0 / dX)
         if not rigid:
-            B[0] -= storage.by_H(fluid)
-    _set_given(A, rows, PRESSURE, evaluation.mesh.dX)
-    if not rigid:
-        _set_given(B, rows, GAP, evaluation.mesh.dX)
+            _set_net_inflow(B[:, lines], part, offsets, found, "by_H", is_film)
+            B[0, lines] -= (rows[lines] == GAP) * (1.0 / dX)
+    if storage is not None:
+        A[0] -= storage.by_P(fluid) * (rows == FLOW)
+        if not rigid:
+            B[0] -= storage.by_H(fluid) * (rows == FLOW)
     return Linearisation(np.array(offsets), A, B, own(fluid.eps))
 
 
-def _offsets(axes, found):
+def _empty_stencils(shape, rigid):
+    return np.empty(shape), None if rigid else np.empty(shape)
+
+
+def _offsets(evaluation):
     """Where the flows into and out of a node look to, the node itself first."""
     offsets = {}
-    for axis, (leaving, entering) in zip(axes, found, strict=True):
-        shifts = [SHIFT[node] for node in leaving.by_P] + [SHIFT[node] - 1 for node in entering.by_P]
+    for axis in evaluation.axes:
+        leaving, entering = nodes_of_flows(axis, evaluation.scheme)
+        shifts = [SHIFT[node] for node in leaving] + [SHIFT[node] - 1 for node in entering]
         offsets |= dict.fromkeys(axis.offset(shift) for shift in sorted(shifts))
     return [(0, 0), *(offset for offset in offsets if offset != (0, 0))]
 
 
-def _net_inflow(evaluation, offsets, found, derivative):
-    """Stencil of the net inflow from one kind of derivatives of the flows."""
-    stencil = np.zeros((len(offsets), *own(evaluation.P).shape))
+def _set_net_inflow(stencil, part, offsets, found, derivative, is_film):
+    """Set the stencil (offsets, lines, nx) of the net inflow, of the film's rows, from one kind of
+    derivatives of the flows."""
+    stencil[:] = 0.0
     position = {offset: k for k, offset in enumerate(offsets)}
-    for axis, (leaving, entering) in zip(evaluation.axes, found, strict=True):
+    for axis, (leaving, entering) in zip(part.axes, found, strict=True):
         # A node is the E of the face through which fluid enters it, and the W of the other.
         for node, array in getattr(entering, derivative).items():
             axis.add_entering(array, stencil[position[axis.offset(SHIFT[node] - 1)]])
         for node, array in getattr(leaving, derivative).items():
             axis.subtract_leaving(array, stencil[position[axis.offset(SHIFT[node])]])
-    return stencil
-
-
-def _set_given(stencil, rows, kind, dX):
-    """In place: only the film's rows keep their flow; those of the given `kind` are -1/dX of their own."""
-    stencil *= rows == FLOW
-    stencil[0] -= (rows == kind) / dX
+    stencil *= is_film

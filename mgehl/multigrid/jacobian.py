@@ -143,8 +143,8 @@ class Jacobian:
     def linearise(self, evaluation, rows, rate=0.0):
         """Linearise about an evaluated state with these kinds of rows, for time steps 1/`rate` long."""
         storage = Storage.begun(evaluation.fluid, rate)
-        self.linearisation = None  # both at once would be a tenth of a run's memory
-        self.linearisation = linearise(evaluation.by(self.scheme), rows, storage, self.rigid)
+        before = self.linearisation
+        self.linearisation = linearise(evaluation.by(self.scheme), rows, storage, self.rigid, room=before)
         self.given = rows == PRESSURE
         self.mat.stateIncrease()
 
