@@ -112,9 +112,8 @@ def test_line_bands_solve_the_band_of_J_Q(offsets, share):
     bands, kappa = LineBands(lines, nx), influence_of_columns(K, share)
     # A second factorisation must not see the first.
     for stencils in ((B, A), (A, B)):
-        diagonal = bands.factor(
-            Linearisation(np.array(offsets), *stencils, None), distributive, kappa, share
-        )
+        linear, given = Linearisation(np.array(offsets), *stencils, None), np.zeros((lines, nx), bool)
+        diagonal = bands.factor(linear, distributive, given, kappa, share)
     np.testing.assert_allclose(diagonal, np.einsum("jiji->ji", JQ), rtol=1e-13)
     bands.solve(r, w)
     offset = np.subtract.outer(np.arange(nx), np.arange(nx))
@@ -158,7 +157,7 @@ def test_rows_of_a_differenced_gap_sum_to_zero(kind):
     def row_sums(kappa):
         bands = np.empty((1, nx, 2 * REACH + 1))
         stencils = linear.offsets, linear.A, linear.B
-        build_bands(*stencils, distributive & bool(kind), kappa, 0.5, bands, 0, 1)
+        build_bands(*stencils, distributive & bool(kind), kappa, 0.5, bands, (0, 1), (0, nx))
         # A row that reaches a line's end meets the end's column, which is never distributed.
         return bands[0, REACH + 1 : -REACH - 1].sum(axis=1)
 
@@ -173,7 +172,7 @@ def test_long_lines_of_a_differenced_gap_have_a_bounded_solution():
     def largest(kappa, nx):
         linear, distributive = wedge_term(nx)
         bands, r, w = LineBands(1, nx), np.zeros((1, nx)), np.empty((1, nx))
-        bands.factor(linear, distributive, kappa, 0.5)
+        bands.factor(linear, distributive, np.zeros((1, nx), bool), kappa, 0.5)
         r[0, nx // 4] = 1.0
         bands.solve(r, w)
         return np.abs(w).max()

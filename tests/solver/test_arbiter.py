@@ -179,7 +179,7 @@ class TestInASolve:
 
         def build_singular(*arguments):
             build_bands(*arguments)
-            *_, bands, first, last = arguments
+            *_, bands, (first, last), _ = arguments
             if first <= 30 < last:
                 bands[30, 20] = 0.0
 

@@ -121,7 +121,7 @@ def test_factors_of_a_singular_line_are_not_finite():
     bands = np.zeros((3, 20, 2 * REACH + 1))
     bands[:, :, REACH] = 2.0
     bands[1] = 0.0
-    banded(REACH)[0](bands)
+    banded(REACH)[0](bands, (0, 20))
     assert not np.all(np.isfinite(bands[1]))
     np.testing.assert_array_equal(bands[[0, 2], :, REACH], 0.5)
 
@@ -131,7 +131,7 @@ def test_a_line_that_becomes_singular_ends_it_with_a_reason(make_newton, monkeyp
 
     def build_singular(*arguments):
         build_bands(*arguments)
-        *_, bands, first, last = arguments
+        *_, bands, (first, last), _ = arguments
         if first <= 30 < last:
             bands[30, 20] = 0.0
 
