@@ -13,14 +13,15 @@ import numpy as np
 from mgehl.discretization.kernels import add_of_faces
 from mgehl.discretization.mesh import HALO
 
-AT_A_TIME = 2**14
-"""Nodes of the lines that are worked on at a time: all that their flows are made of stays in the cache."""
+FEW = 2**14
+"""Nodes of a few lines: all that their flows are made of stays in the processor's cache. From 2**14 to
+2**16 a linearisation on 1025 nodes a side takes the same time, with 2**12 two thirds more."""
 
 
 def few_lines(array):
     """Slices of the lines of an array (lines, nx), a few at a time."""
     lines, nx = array.shape
-    few = max(1, AT_A_TIME // nx)
+    few = max(1, FEW // nx)
     return [slice(first, min(first + few, lines)) for first in range(0, lines, few)]
 
 

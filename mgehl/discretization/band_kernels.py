@@ -81,9 +81,15 @@ def _set_band(diagonals, band):
 
 
 @compiled()
-def _same(span, other):
-    """Whether two spans begin and end at the same nodes."""
-    return span[0] == other[0] and span[1] == other[1]
+def _side_by_side(spans, line):
+    """How many lines from this one on, at most `SIDE_BY_SIDE`, have the same span."""
+    first, end = spans[line]
+    together = 1
+    while together < min(SIDE_BY_SIDE, len(spans) - line):
+        if spans[line + together, 0] != first or spans[line + together, 1] != end:
+            break
+        together += 1
+    return together
 
 
 @compiled(fastmath={"contract"})
@@ -134,10 +140,7 @@ def banded(reach):
         x = np.zeros((nx + 2 * reach, SIDE_BY_SIDE))
         line = 0
         while line < lines:
-            first, end = spans[line]
-            together = 1
-            while together < min(SIDE_BY_SIDE, lines - line) and _same(spans[line + together], spans[line]):
-                together += 1
+            (first, end), together = spans[line], _side_by_side(spans, line)
             for i in range(first, end):
                 for each in range(together):
                     value = r[line + each, i]

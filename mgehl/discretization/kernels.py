@@ -132,12 +132,12 @@ def add_of_faces(number, which, flow, cell, inflow):
 
     Along X `flow` is (lines, nx - 1) and the ends of lines are left alone, along Y (lines + 1, nx).
     """
-    lines, nx = inflow.shape
+    (lines, nx), factor = inflow.shape, 1.0 / cell
     for j in range(lines):
         if number:
-            _add_product(flow[j, which : which + nx - 2], 1.0 / cell, inflow[j, 1 : nx - 1])
+            _add_product(flow[j, which : which + nx - 2], factor, inflow[j, 1 : nx - 1])
         else:
-            _add_product(flow[j + which], 1.0 / cell, inflow[j])
+            _add_product(flow[j + which], factor, inflow[j])
 
 
 @compiled()

@@ -60,18 +60,14 @@ def linearise(evaluation, rows, storage=None, rigid=False, room=None):
     Of a few lines at a time: their flows are still in the processor's cache when they are added up. The
     arrays of `room`, a `Linearisation` of the same kind that nobody needs any more, are used again.
     """
-    fluid, dX = evaluation.fluid, evaluation.mesh.dX
-    offsets = _offsets(evaluation)
+    fluid, offsets = evaluation.fluid, _offsets(evaluation)
     A, B = (room.A, room.B) if room else _empty_stencils((len(offsets), *rows.shape), rigid)
     for lines in few_lines(rows):
         part = evaluation.of_lines(lines)
         found = part.linearised_flows(rigid)
-        is_film = (rows[lines] == FLOW).astype(float)
-        _set_net_inflow(A[:, lines], part, offsets, found, "by_P", is_film)
-        A[0, lines] -= (rows[lines] == PRESSURE) * (1.0 / dX)
+        _set_rows(A[:, lines], rows[lines], PRESSURE, part, offsets, found, "by_P")
         if not rigid:
-            _set_net_inflow(B[:, lines], part, offsets, found, "by_H", is_film)
-            B[0, lines] -= (rows[lines] == GAP) * (1.0 / dX)
+            _set_rows(B[:, lines], rows[lines], GAP, part, offsets, found, "by_H")
     if storage is not None:
         A[0] -= storage.by_P(fluid) * (rows == FLOW)
         if not rigid:
@@ -93,9 +89,11 @@ def _offsets(evaluation):
     return [(0, 0), *(offset for offset in offsets if offset != (0, 0))]
 
 
-def _set_net_inflow(stencil, part, offsets, found, derivative, is_film):
-    """Set the stencil (offsets, lines, nx) of the net inflow, of the film's rows, from one kind of
-    derivatives of the flows."""
+def _set_rows(stencil, rows, given, part, offsets, found, derivative):
+    """Set a stencil (offsets, lines, nx) from one kind of derivatives of the flows that were `found`.
+
+    Rows of the film have the net inflow, those of the `given` kind -1/dX of their own, others nothing.
+    """
     stencil[:] = 0.0
     position = {offset: k for k, offset in enumerate(offsets)}
     for axis, (leaving, entering) in zip(part.axes, found, strict=True):
@@ -104,4 +102,5 @@ def _set_net_inflow(stencil, part, offsets, found, derivative, is_film):
             axis.add_entering(array, stencil[position[axis.offset(SHIFT[node] - 1)]])
         for node, array in getattr(leaving, derivative).items():
             axis.subtract_leaving(array, stencil[position[axis.offset(SHIFT[node])]])
-    stencil *= is_film
+    stencil *= (rows == FLOW).astype(float)  # not bool: it would be converted once for each offset
+    stencil[0] -= (rows == given) / part.mesh.dX

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from handmade import ALONG, Row
 
-from mgehl.discretization.axes import HALO, axes_of, own
+from mgehl.discretization.axes import HALO, axes_of, few_lines, own
 from mgehl.discretization.mesh import Mesh
 
 along_both = pytest.mark.parametrize("along", ALONG)
@@ -19,6 +19,27 @@ def numbered():
 def step(along):
     """What a node further along the axis adds."""
     return 1.0 if along == "x" else 100.0
+
+
+@pytest.mark.parametrize(
+    "lines, few, expected", [(5, 2, [2, 2, 1]), (4, 2, [2, 2]), (3, 9, [3]), (0, 2, [])]
+)
+def test_few_lines_are_all_lines_in_order(lines, few, expected, monkeypatch):
+    monkeypatch.setattr("mgehl.discretization.axes.FEW", few * NX + NX // 2)
+    array = np.zeros((lines, NX))
+    parts = [array[some] for some in few_lines(array)]
+    assert [len(part) for part in parts] == expected
+    for part in parts:
+        part += 1.0
+    assert (array == 1.0).all()
+
+
+@along_both
+def test_faces_of_some_lines(along):
+    """The same that the nodes of these lines alone have."""
+    axis, array, lines = Row(along).axis(), numbered(), slice(1, 3)
+    part = array[lines.start : lines.stop + 2 * HALO]
+    np.testing.assert_array_equal(axis.of_lines(axis.at(array), lines), axis.at(part))
 
 
 def test_own_lines_are_a_view():

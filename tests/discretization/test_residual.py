@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from dense import dense_stencil
 
-from mgehl.discretization.axes import own
+from mgehl.discretization.axes import few_lines, own
 from mgehl.discretization.contact_law import UnifiedEquations
 from mgehl.discretization.couette import SCHEMES
 from mgehl.discretization.evaluation import Evaluation
@@ -123,6 +123,24 @@ def test_a_frozen_node_keeps_its_pressure_and_its_neighbours_their_rows(film):
 def test_mobility_is_that_of_the_own_nodes(mixed):
     evaluation = mixed.evaluation()
     np.testing.assert_array_equal(linearise(evaluation, mixed.rows()).eps, own(evaluation.fluid.eps))
+
+
+@rigid_or_not
+@every_mean
+@pytest.mark.parametrize("motion", [(1.0, 0.0), AT_AN_ANGLE], ids=["along x", "at an angle"])
+def test_a_few_lines_at_a_time_give_what_all_at_once_do(motion, mean, rigid, mixed, monkeypatch):
+    """To the last digit, in the arrays of a linearisation that is not needed any more, too."""
+    scheme = Scheme("2B", mean, motion=motion)
+    evaluation, rows = mixed.evaluation(scheme), mixed.rows(rigid)
+    whole = linearise(evaluation, rows, rigid=rigid)
+    monkeypatch.setattr("mgehl.discretization.axes.FEW", rows.shape[1])
+    assert len(few_lines(rows)) == len(rows) > 2
+    room = linearise(evaluation, np.full_like(rows, PRESSURE), rigid=rigid)
+    parts = linearise(evaluation, rows, rigid=rigid, room=room)
+    assert parts.A is room.A and parts.B is room.B
+    np.testing.assert_array_equal(parts.A, whole.A)
+    if not rigid:
+        np.testing.assert_array_equal(parts.B, whole.B)
 
 
 def test_a_single_line_has_no_stencil_across(contact):
