@@ -65,10 +65,10 @@ class LineBands:
         self._factor, self._solve = LOOPS[reach]
 
     def factor(self, linearisation, distributive, given, kappa, share, lines=slice(None)):
-        """Factor what J Q couples along some `lines`, for their linearisation; return its diagonal.
+        """Factor what J Q couples along some `lines`, for their linearisation.
 
-        It is zero beyond the spans. A few lines at a time: their bands are still in the processor's cache
-        when they are factored.
+        Return its diagonal, (lines, nx), zero beyond the spans. A few lines at a time: their bands are
+        still in the processor's cache when they are factored.
         """
         lin, bands, spans = linearisation, self._room()[lines], self._spans[lines]
         diagonal = np.zeros(bands.shape[:2])

@@ -141,10 +141,12 @@ class Jacobian:
 
     @event(ASSEMBLY)
     def linearise(self, evaluation, rows, rate=0.0):
-        """Linearise about an evaluated state with these kinds of rows, for time steps 1/`rate` long."""
-        storage = Storage.begun(evaluation.fluid, rate)
-        before = self.linearisation
-        self.linearisation = linearise(evaluation.by(self.scheme), rows, storage, self.rigid, room=before)
+        """Linearise about an evaluated state with these kinds of rows, for time steps 1/`rate` long.
+
+        In the arrays of the linearisation before, which nobody may need any more.
+        """
+        storage, room = Storage.begun(evaluation.fluid, rate), self.linearisation
+        self.linearisation = linearise(evaluation.by(self.scheme), rows, storage, self.rigid, room)
         self.given = rows == PRESSURE
         self.mat.stateIncrease()
 
