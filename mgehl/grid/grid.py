@@ -151,12 +151,18 @@ class Grid:
             self.comm.Gatherv(np.ascontiguousarray(array[each]), self._parts_of(target))
         return whole
 
-    def whole_of_team(self, array):
-        """The whole (ny, nx) array on every rank of the team: for a coarsest grid only."""
-        whole = np.empty((self.mesh.ny, self.mesh.nx), dtype=array.dtype)
-        sizes = np.diff(self.team_starts) * self.mesh.nx
-        self.team.Allgatherv(np.ascontiguousarray(array), (whole, sizes))
+    def to_last(self, array):
+        """The whole (ny, nx) array on the team's last rank, None on the others: for a coarsest grid."""
+        last = self.team.size - 1
+        whole = np.empty((self.mesh.ny, self.mesh.nx), array.dtype) if self.team.rank == last else None
+        self.team.Gatherv(np.ascontiguousarray(array), self._parts_in_team(whole), root=last)
         return whole
+
+    def from_last(self, whole):
+        """The local lines, (lines, nx), of a whole array of doubles that the team's last rank has."""
+        local = np.empty(self.shape)
+        self.team.Scatterv(self._parts_in_team(whole), local, root=self.team.size - 1)
+        return local
 
     def scatter(self, whole):
         """The local lines, (..., lines, nx), of a whole array that rank 0 has."""
@@ -168,7 +174,14 @@ class Grid:
 
     def _parts_of(self, whole):
         """What MPI takes for the whole array that rank 0 has, dealt out in lines."""
-        return None if whole is None else (np.ascontiguousarray(whole), np.diff(self.starts) * self.mesh.nx)
+        return self._parts(whole, self.starts)
+
+    def _parts_in_team(self, whole):
+        """The same for the whole array that the team's last rank has."""
+        return self._parts(whole, self.team_starts)
+
+    def _parts(self, whole, starts):
+        return None if whole is None else (np.ascontiguousarray(whole), np.diff(starts) * self.mesh.nx)
 
 
 def single_grid(mesh, comm):

@@ -1,4 +1,4 @@
-"""A few nodes of a grid, which all ranks know, and sparse matrices of stencils among them."""
+"""A few nodes of a grid, which all ranks know; what arrays have there is gathered on the first rank."""
 
 import numpy as np
 from scipy.sparse import csr_matrix
@@ -6,19 +6,20 @@ from scipy.sparse import csr_matrix
 
 class NodeSet:
     """Nodes of a grid by their `numbers`, counted line by line, in rising order: the same on all ranks with
-    lines."""
+    lines. Their values are `here` on the first of these."""
 
     def __init__(self, grid, numbers):
         self._grid, self._numbers = grid, numbers
         self._first = grid.first * grid.mesh.nx
         ends = self._first, grid.last * grid.mesh.nx
         self._mine = slice(*np.searchsorted(numbers, ends))
+        self.here = grid.team.rank == 0
 
     @classmethod
     def where(cls, grid, mask):
         """The nodes where a mask (lines, nx) is True on any rank."""
         first = grid.first * grid.mesh.nx
-        return cls(grid, _of_all(grid, np.flatnonzero(mask) + first))
+        return cls(grid, np.concatenate(grid.team.allgather(np.flatnonzero(mask) + first)))
 
     def __len__(self):
         return len(self._numbers)
@@ -29,13 +30,14 @@ class NodeSet:
         return NodeSet(self._grid, np.unique(numbers[inside]))
 
     def values(self, array):
-        """What an array (..., lines, nx) has at the nodes, wherever they are: (..., nodes)."""
+        """What an array (..., lines, nx) has at the nodes, (..., nodes), where it is `here`; else None."""
         nodes = array.reshape(*array.shape[:-2], -1)
-        return _of_all(self._grid, nodes[..., self._own])
+        parts = self._grid.team.gather(nodes[..., self._own])
+        return np.concatenate(parts, axis=-1) if self.here else None
 
     def add(self, array, values):
-        """Add the nodes' `values` to an array (lines, nx), in place; each rank to its own."""
-        array.ravel()[self._own] += values[self._mine]
+        """Add `values` of the nodes, known where they are `here`, to an array (lines, nx), in place."""
+        array.ravel()[self._own] += self._grid.team.bcast(values)[self._mine]
 
     def neighbours(self, others, offsets):
         """Which of `others` lie at `offsets`, (nodes, offsets), and a mask: False, and the first one, where
@@ -62,8 +64,3 @@ class NodeSet:
         line, node = lines[:, None] + offsets[:, 0], nodes[:, None] + offsets[:, 1]
         inside = (line >= 0) & (line < mesh.ny) & (node >= 0) & (node < mesh.nx)
         return line * mesh.nx + node, inside
-
-
-def _of_all(grid, part):
-    """The parts (..., nodes) of all ranks with lines, one after the other."""
-    return part if grid.team.size == 1 else np.concatenate(grid.team.allgather(part), axis=-1)

@@ -3,8 +3,11 @@
 At the pressure spike of a thick film the mobility falls by orders of magnitude from one node to the next.
 The mobile node of such a cliff acts on the stiff one, which hardly acts back. No order in which lines are
 solved sees that along an arc: waves of two cells across it are left. The nodes on both sides of the arc are
-few. The near part of J Q among them is a sparse matrix, which every rank factors as a whole.
+few. The near part of J Q among them is a sparse matrix, which the first rank factors, while the last one
+factors the coarsest grid's (`coarse`).
 """
+
+from contextlib import suppress
 
 import numpy as np
 from scipy.sparse.linalg import splu
@@ -54,7 +57,7 @@ class CliffZone:
     """The nodes around the cliffs of a grid, and the direct solve of what couples them.
 
     `K` holds the influence coefficients of the few nearest nodes [line, node], `share` is what Q hands to
-    each neighbour.
+    each neighbour. All methods are the team's.
     """
 
     def __init__(self, grid, K, share):
@@ -63,14 +66,13 @@ class CliffZone:
 
     def forget(self):
         """Free the memory of the zone and its factors."""
-        self._nodes = self._reached = self._rows = self._lu = None
+        self._nodes = self._reached = self._parts = self._rows = self._lu = None
 
     @event(NEARBY)
-    def factor(self, found, linearisation, distributive, free):
-        """Factor T = A Q + B N of the zone around the nodes that were `found` to stand at a cliff.
+    def gather(self, found, linearisation, distributive, free):
+        """Tell the first rank what the zone around the nodes that were `found` to stand at a cliff is.
 
-        Q as in `band_kernels.build_bands`, N the deflection of near nodes by its columns. Masks
-        (lines, nx): those nodes, the distributive ones, and those whose pressure is not given.
+        Masks (lines, nx): those nodes, the distributive ones, and those whose pressure is not given.
         """
         self.forget()
         nodes = NodeSet.where(self._grid, found).around(AROUND)
@@ -79,21 +81,42 @@ class CliffZone:
         offsets = linearisation.offsets
         between = nodes.around(offsets)
         reached = between.around(NEAR)
-        there = between.neighbours(reached, NEAR)[0].T
-        columns = self._columns.stencils(reached.values(distributive)[there], reached.values(free)[there])
-        Q, N = (between.matrix(each.T, reached, NEAR) for each in columns)
-        stencils = linearisation.A, linearisation.B
-        A, B = (nodes.matrix(nodes.values(each).T, between, offsets) for each in stencils)
-        rows = A @ Q + B @ N
-        itself, _ = nodes.neighbours(reached, ITSELF)
-        try:
-            self._lu = splu(rows[:, itself[:, 0]].tocsc(), permc_spec="MMD_AT_PLUS_A")
-        except RuntimeError:  # singular: the lines are left alone
+        masks = [reached.values(mask) for mask in (distributive, free)]
+        stencils = [nodes.values(stencil) for stencil in (linearisation.A, linearisation.B)]
+        self._nodes, self._reached = nodes, reached
+        if nodes.here:
+            self._parts = between, offsets, masks, stencils
+
+    @event(NEARBY)
+    def factor(self):
+        """Factor T = A Q + B N of the zone on the first rank; the others return at once.
+
+        Q as in `band_kernels.build_bands`, N the deflection of near nodes by its columns. A singular zone
+        is left to the lines.
+        """
+        if self._parts is None:
             return
-        self._nodes, self._reached, self._rows = nodes, reached, rows
+        rows, self._parts = self._rows_of(*self._parts), None
+        itself, _ = self._nodes.neighbours(self._reached, ITSELF)
+        with suppress(RuntimeError):
+            self._lu = splu(rows[:, itself[:, 0]].tocsc(), permc_spec="MMD_AT_PLUS_A")
+            self._rows = rows
+
+    def _rows_of(self, between, offsets, masks, stencils):
+        """T of the zone's nodes, and what its columns `reached` around them have in their rows."""
+        nodes, reached = self._nodes, self._reached
+        there = between.neighbours(reached, NEAR)[0].T
+        columns = self._columns.stencils(*(mask[there] for mask in masks))
+        Q, N = (between.matrix(each.T, reached, NEAR) for each in columns)
+        A, B = (nodes.matrix(each.T, between, offsets) for each in stencils)
+        return A @ Q + B @ N
 
     def solve(self, r, w):
         """Solve the zone for the residual `r`, with `w` as it is around it; in place, both (lines, nx)."""
-        if self._lu:
-            left = self._nodes.values(r) - self._rows @ self._reached.values(w)
-            self._nodes.add(w, self._lu.solve(left))
+        if self._nodes is None:
+            return
+        nodes, dw = self._nodes, None
+        right, before = nodes.values(r), self._reached.values(w)
+        if nodes.here:
+            dw = self._lu.solve(right - self._rows @ before) if self._lu else np.zeros(len(nodes))
+        nodes.add(w, dw)

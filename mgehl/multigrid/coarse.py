@@ -1,4 +1,4 @@
-"""Direct solve of the bordered Jacobian on the coarsest grid, redundantly on every rank that has lines."""
+"""Direct solve of the bordered Jacobian on the coarsest grid, on the last rank, which has the border."""
 
 import warnings
 
@@ -12,60 +12,67 @@ from mgehl.multigrid.assembled import stencil_rows
 
 
 class CoarseSolve:
-    """LU of J with its border, sparse in a rigid gap; ranks without lines have nothing to do."""
+    """LU of J with its border, sparse in a rigid gap; ranks without lines have nothing to do.
+
+    While the last rank factors, the first one factors what stands at cliffs of the finest grid (`cliffs`).
+    """
 
     def __init__(self, jacobian):
         self._jacobian = jacobian
-        if jacobian.grid.has_lines and not jacobian.rigid:
+        if jacobian.space.owns_border and not jacobian.rigid:
             self._K = dense_influence(jacobian.grid.mesh, jacobian.contact.kernel)
 
     @event(COARSE)
     def factor(self):
         """Gather the stencils, form the matrix and factor it."""
-        if self._jacobian.grid.has_lines:
-            self._factor()
+        jacobian = self._jacobian
+        if not jacobian.grid.has_lines:
+            return
+        stencils = [jacobian.linearisation.A] + ([] if jacobian.rigid else [jacobian.linearisation.B])
+        rows = [self._rows(stencil) for stencil in stencils]
+        given = jacobian.grid.to_last(jacobian.given)
+        if jacobian.space.owns_border:
+            self._invert = _sparse_inverse(*rows) if jacobian.rigid else self._dense_inverse(*rows, given)
 
-    def _factor(self):
+    def _dense_inverse(self, A, B, given):
+        """Function that solves J with its border."""
         with warnings.catch_warnings():
             # Of a singular matrix: the iteration that made it ends by itself.
             warnings.simplefilter("ignore", LinAlgWarning)
-            self._invert = self._sparse_inverse() if self._jacobian.rigid else self._dense_inverse()
-
-    def _sparse_inverse(self):
-        """Function that solves for the fluid in a rigid gap: its stencil is all that couples its nodes."""
-        A = self._gather(self._jacobian.linearisation.A)
-        try:
-            fluid = splu(A.tocsc())
-        except RuntimeError:  # singular: likewise
-            return lambda whole: np.full_like(whole, np.nan)
-        return lambda whole: np.append(fluid.solve(whole[:-1]), whole[-1])
-
-    def _dense_inverse(self):
-        """Function that solves J with its border."""
-        jacobian = self._jacobian
-        lin, given = jacobian.linearisation, jacobian.grid.whole_of_team(jacobian.given).ravel()
-        A, B = self._gather(lin.A), self._gather(lin.B)
-        return DenseInverse(A, B, self._K, jacobian.load_weight, given)
+            return DenseInverse(A, B, self._K, self._jacobian.load_weight, given.ravel())
 
     @event(COARSE)
     def solve(self, r, load):
-        """Corrections of P, (lines, nx), and of H0 for a residual; the last rank alone knows its `load`."""
-        space, grid = self._jacobian.space, self._jacobian.grid
+        """Corrections of P, (lines, nx), and of H0 for a residual.
+
+        The last rank alone knows the residual's `load`, and alone is told the correction of H0.
+        """
+        grid, dP, dH0 = self._jacobian.grid, None, 0.0
         if not grid.has_lines:
-            return r, 0.0
-        whole = np.append(grid.whole_of_team(r).ravel(), space.border_in_team(load))
-        solution = self._invert(whole)
-        lines = solution[:-1].reshape(grid.mesh.ny, grid.mesh.nx)
-        return lines[grid.first : grid.last], float(solution[-1])
+            return r, dH0
+        whole = grid.to_last(r)
+        if self._jacobian.space.owns_border:
+            dP, (dH0,) = np.split(self._invert(np.append(whole, load)), [-1])
+        return grid.from_last(dP), dH0
 
     def view(self, viewer):
-        viewer.printfASCII("  LU with the border, redundant on every rank with lines\n")
+        viewer.printfASCII("  LU with the border, on the last rank\n")
 
-    def _gather(self, stencil):
-        """Sparse matrix of a stencil (offsets, local lines, nx) of all ranks with lines."""
+    def _rows(self, stencil):
+        """Sparse matrix of a stencil (offsets, local lines, nx) of all ranks with lines; None but on the
+        last."""
         grid, offsets = self._jacobian.grid, self._jacobian.linearisation.offsets
-        whole = np.stack([grid.whole_of_team(position) for position in stencil])
-        return stencil_rows(offsets, whole, 0, grid.mesh.nodes)
+        whole = [grid.to_last(position) for position in stencil]
+        return None if whole[0] is None else stencil_rows(offsets, np.stack(whole), 0, grid.mesh.nodes)
+
+
+def _sparse_inverse(A):
+    """Function that solves for the fluid in a rigid gap: its stencil is all that couples its nodes."""
+    try:
+        fluid = splu(A.tocsc())
+    except RuntimeError:  # singular: the iteration that made it ends by itself
+        return lambda whole: np.full_like(whole, np.nan)
+    return lambda whole: np.append(fluid.solve(whole[:-1]), whole[-1])
 
 
 class DenseInverse:
@@ -81,7 +88,8 @@ class DenseInverse:
         self._A, self._B, self._K, self._load_weight = A[self._free], B[self._free], K, load_weight
         matrix = np.empty((len(self._free) + 1,) * 2, order="F")  # as LAPACK has it: no copy
         matrix[:-1, :-1] = self._B @ np.take(K, self._free, axis=1)  # in a sixth of K[:, free]'s time
-        matrix[:-1, :-1] += self._A[:, self._free].toarray()
+        near = self._A[:, self._free].tocoo()
+        matrix[near.row, near.col] += near.data
         matrix[:-1, -1] = self._B.sum(axis=1).ravel()
         matrix[-1, :-1], matrix[-1, -1] = load_weight, 0.0
         self._lu = lu_factor(matrix, overwrite_a=True, check_finite=False)

@@ -85,11 +85,12 @@ class CliffSmoother(CrossedLineSmoother):
         self._zone = CliffZone(jacobian.grid, influence_nearby(jacobian), self._share)
 
     def partition(self, rows):
-        """As of a `LineSmoother`; find the cliffs."""
+        """As of a `LineSmoother`; find the cliffs and gather what is around them."""
         super().partition(rows)
-        grid = self._jacobian.grid
-        eps = grid.halo(self._jacobian.linearisation.eps)
-        self._cliffs = cliffs(eps, STIFF * self._K00 * grid.mesh.dX) & ~self._given
+        if self._y_lines:
+            grid, linearisation = self._jacobian.grid, self._jacobian.linearisation
+            found = cliffs(grid.halo(linearisation.eps), STIFF * self._K00 * grid.mesh.dX) & ~self._given
+            self._zone.gather(found, linearisation, own(self._distributive), ~self._given)
 
     def forget(self):
         """Free the memory of the factors."""
@@ -97,11 +98,10 @@ class CliffSmoother(CrossedLineSmoother):
         self._zone.forget()
 
     def factor(self):
-        """Factor lines and zone of the present linearisation."""
+        """Factor zone and lines of the present linearisation: lines wait for other ranks, the zone does
+        not."""
+        self._zone.factor()
         super().factor()
-        if self._y_lines:
-            linearisation, distributive = self._jacobian.linearisation, own(self._distributive)
-            self._zone.factor(self._cliffs, linearisation, distributive, ~self._given)
 
     def _solve_lines(self, r):
         super()._solve_lines(r)

@@ -33,8 +33,9 @@ class BorderedSpace:
 
     def __init__(self, grid):
         self.grid = grid
-        self._owns_border = grid.comm.rank == grid.comm.size - 1
-        self.local_size = grid.shape[0] * grid.shape[1] + int(self._owns_border)
+        self.owns_border = grid.comm.rank == grid.comm.size - 1
+        """Whether this is the last rank, which has the entry of H0, or of the load."""
+        self.local_size = grid.shape[0] * grid.shape[1] + int(self.owns_border)
 
     def create_vec(self):
         """A new vector of this space."""
@@ -57,7 +58,7 @@ class BorderedSpace:
     def read_own(self, vec):
         """As `read` without a message: the border entry is that of the last rank, and 0 on the others."""
         values = vec.getArray(readonly=True)
-        return self._lines(values), float(values[-1]) if self._owns_border else 0.0
+        return self._lines(values), float(values[-1]) if self.owns_border else 0.0
 
     def read_pressure(self, vec):
         """The pressure part alone, a view (lines, nx): no rank needs to ask another."""
@@ -66,7 +67,7 @@ class BorderedSpace:
     def write(self, vec, P, border):
         """Set a vector from its pressure part and its border entry."""
         self.write_pressure(vec, P)
-        if self._owns_border:
+        if self.owns_border:
             vec.getArray()[-1] = border
 
     def write_pressure(self, vec, P):
@@ -78,13 +79,13 @@ class BorderedSpace:
 
         Where ranks have lines; 0 on the others.
         """
-        border = float(entries[-1]) if self._owns_border else 0.0
+        border = float(entries[-1]) if self.owns_border else 0.0
         return self._lines(entries), self.border_in_team(border)
 
     def fill(self, entries, P, border):
         """Set an array of a rank's own entries from its pressure part and the border entry."""
         self._lines(entries)[:] = P
-        if self._owns_border:
+        if self.owns_border:
             entries[-1] = border
 
     def parts(self, stack):
@@ -99,7 +100,7 @@ class BorderedSpace:
     def stack(self, P, borders):
         """The arrays of own entries, (k, own entries), whose `parts` these are."""
         flat = P.reshape(len(P), -1)
-        return np.column_stack([flat, borders]) if self._owns_border else flat
+        return np.column_stack([flat, borders]) if self.owns_border else flat
 
     def _lines(self, values):
         return values[: self.grid.shape[0] * self.grid.shape[1]].reshape(self.grid.shape)

@@ -22,9 +22,12 @@ class VCycle:
         self._coarse, self._sweeps = coarse, sweeps
 
     def setUp(self, _pc):
-        """Factor the bands and matrices of the present linearisation on all grids."""
+        """Factor the bands and matrices of the present linearisation on all grids.
+
+        The finest first: what one rank factors alone there, it factors while another does the coarsest.
+        """
         self._coarse.factor()
-        for smoother in self._smoothers:
+        for smoother in reversed(self._smoothers):
             smoother.factor()
 
     def apply(self, _pc, x, y):

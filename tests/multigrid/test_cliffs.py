@@ -79,7 +79,8 @@ class TestZone:
 
         def solve(found):
             zone = CliffZone(jacobian.grid, influence_nearby(jacobian), SHARE)
-            zone.factor(found, jacobian.linearisation, *masks)
+            zone.gather(found, jacobian.linearisation, *masks)
+            zone.factor()
             r, before = np.random.default_rng(3).standard_normal((2, NODES, NODES))
             w = before.copy()
             zone.solve(r, w)

@@ -310,7 +310,8 @@ def test_zones_of_cliffs_equal_the_serial_ones(pair):
         found, distributive, free = masks
         found[:, 7] = True
         zone = CliffZone(grid, K, 0.25)
-        zone.factor(found, Linearisation(offsets, A, B, None), distributive, free)
+        zone.gather(found, Linearisation(offsets, A, B, None), distributive, free)
+        zone.factor()
         r, w = (lines(grid, random(grid, 70 + k)) for k in (0, 1))
         zone.solve(r, w)
         both.append(whole(grid, w) if grid.comm.size > 1 else w)
