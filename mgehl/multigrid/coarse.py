@@ -23,23 +23,28 @@ class CoarseSolve:
             self._K = dense_influence(jacobian.grid.mesh, jacobian.contact.kernel)
 
     @event(COARSE)
-    def factor(self):
-        """Gather the stencils, form the matrix and factor it."""
+    def gather(self):
+        """Tell the last rank what the present linearisation is."""
         jacobian = self._jacobian
-        if not jacobian.grid.has_lines:
-            return
-        stencils = [jacobian.linearisation.A] + ([] if jacobian.rigid else [jacobian.linearisation.B])
-        rows = [self._rows(stencil) for stencil in stencils]
-        given = jacobian.grid.to_last(jacobian.given)
-        if jacobian.space.owns_border:
-            self._invert = _sparse_inverse(*rows) if jacobian.rigid else self._dense_inverse(*rows, given)
+        if jacobian.grid.has_lines:
+            lin = jacobian.linearisation
+            stencils = [lin.A] if jacobian.rigid else [lin.A, lin.B]
+            self._rows = [self._gathered(stencil) for stencil in stencils]
+            self._given = jacobian.grid.to_last(jacobian.given)
 
-    def _dense_inverse(self, A, B, given):
+    @event(COARSE)
+    def factor(self):
+        """Form the matrix on the last rank and factor it; the others return at once."""
+        if self._jacobian.space.owns_border:
+            inverse = _sparse_inverse if self._jacobian.rigid else self._dense_inverse
+            self._invert = inverse(*self._rows)
+
+    def _dense_inverse(self, A, B):
         """Function that solves J with its border."""
         with warnings.catch_warnings():
             # Of a singular matrix: the iteration that made it ends by itself.
             warnings.simplefilter("ignore", LinAlgWarning)
-            return DenseInverse(A, B, self._K, self._jacobian.load_weight, given.ravel())
+            return DenseInverse(A, B, self._K, self._jacobian.load_weight, self._given.ravel())
 
     @event(COARSE)
     def solve(self, r, load):
@@ -58,7 +63,7 @@ class CoarseSolve:
     def view(self, viewer):
         viewer.printfASCII("  LU with the border, on the last rank\n")
 
-    def _rows(self, stencil):
+    def _gathered(self, stencil):
         """Sparse matrix of a stencil (offsets, local lines, nx) of all ranks with lines; None but on the
         last."""
         grid, offsets = self._jacobian.grid, self._jacobian.linearisation.offsets

@@ -98,10 +98,9 @@ class CliffSmoother(CrossedLineSmoother):
         self._zone.forget()
 
     def factor(self):
-        """Factor zone and lines of the present linearisation: lines wait for other ranks, the zone does
-        not."""
-        self._zone.factor()
+        """Factor lines and zone of the present linearisation."""
         super().factor()
+        self._zone.factor()
 
     def _solve_lines(self, r):
         super()._solve_lines(r)

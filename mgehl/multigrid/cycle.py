@@ -109,8 +109,8 @@ class MultigridSolver:
             smoother_of(each, self._thin, each is self.jacobians[-1], apart)(each, settings.omega)
             for each in self.jacobians[1:]
         ]
-        coarse = CoarseSolve(self.jacobians[0])
-        cycle = VCycle(self.jacobians, self._partitioned, self._smoothers, coarse, settings.sweeps)
+        self._coarse = CoarseSolve(self.jacobians[0])
+        cycle = VCycle(self.jacobians, self._partitioned, self._smoothers, self._coarse, settings.sweeps)
         self.memory = Memory(self.jacobian, cycle) if self._rough else None
         """Of the systems solved so far, where there is one."""
         self._preconditioner = self.memory or cycle
@@ -178,6 +178,7 @@ class MultigridSolver:
             self._smoothers[level - 1].partition(rows)
             self._partitioned[level - 1].partition((status, coarse_rows), (fine[-1], rows))
             fine, rows = coarse, coarse_rows
+        self._coarse.gather()
         if self._memory_is_short:
             evaluation.forget_fluid()
 

@@ -24,11 +24,11 @@ class VCycle:
     def setUp(self, _pc):
         """Factor the bands and matrices of the present linearisation on all grids.
 
-        The finest first: what one rank factors alone there, it factors while another does the coarsest.
+        The finest last, and then the coarsest: what a rank factors alone it factors while another does so.
         """
-        self._coarse.factor()
-        for smoother in reversed(self._smoothers):
+        for smoother in self._smoothers:
             smoother.factor()
+        self._coarse.factor()
 
     def apply(self, _pc, x, y):
         """y = V x."""

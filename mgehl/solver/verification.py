@@ -146,6 +146,8 @@ def check_interface(problem, state):
     P, H, status = problem.ghosted(state)
     contact, solid = state.status == CONTACT, is_solid(status)
     checked, excess = np.zeros(grid.shape, dtype=bool), np.zeros(grid.shape)
+    if not grid.count(contact):
+        return _inequality(grid, checked, excess)
     for axis in problem.axes:
         for side in (-1, 1):
             is_solid_there, is_solid_behind = (_beside(axis, solid, shift) for shift in (side, -side))

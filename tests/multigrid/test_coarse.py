@@ -31,6 +31,7 @@ def invert(make_vec):
         P = np.where(problem.boundary, 0.0, np.random.default_rng(8).standard_normal(problem.grid.shape))
         x, y = make_vec(space, P, 0.4), make_vec(space)
         jacobian.mat.mult(x, y)
+        coarse.gather()
         coarse.factor()
         solved = make_vec(space, *coarse.solve(*space.read(y)))
         jacobian.mat.mult(solved, x)
@@ -62,6 +63,7 @@ def test_it_follows_the_linearisation(make_problem, states, make_jacobian, inver
     problem = make_problem(nodes=NODES)
     jacobian = make_jacobian(problem, states["film"])
     coarse = CoarseSolve(jacobian)
+    coarse.gather()
     coarse.factor()
     state = states["contact"]
     jacobian.linearise(problem.evaluate(state), problem.rows(state.status))
