@@ -34,7 +34,7 @@ class Constants:
     sweeps: float
     """Flops per second in all the rest."""
     direct: float
-    """Seconds of the coarsest grid's direct solve, which every rank there repeats."""
+    """Seconds of the coarsest grid's direct solve, which the last rank does."""
     calls: float
     """Seconds that calls take on each grid, however few nodes it has."""
 
@@ -138,10 +138,10 @@ class Level:
         return self.halo() + Cost(halos=2 * between, bytes=3 * REAL * moved) + work
 
     def direct(self):
-        """The dense factors applied to what all ranks of the coarsest grid gather."""
-        hops, unknowns = log2(self.ranks), self.nodes**2 + 1
-        gathered = Cost(collective=hops, bytes=REAL * (unknowns - self.mine))
-        return self.everyone() + gathered + Cost(direct=1, grids=1)
+        """The dense factors applied to what the last rank gathers from the others, and sends back to them."""
+        hops, others = log2(self.ranks), self.nodes**2 - self.mine
+        gathered, sent_back = Cost(collective=hops), Cost(collective=hops, bytes=REAL * others)
+        return gathered + sent_back + self.everyone() + Cost(direct=1, grids=1)
 
 
 def levels(nodes, ranks):
