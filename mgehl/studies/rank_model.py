@@ -138,7 +138,7 @@ class Level:
         return self.halo() + Cost(halos=2 * between, bytes=3 * REAL * moved) + work
 
     def direct(self):
-        """The dense factors applied to what the last rank gathers from the others, and sends back to them."""
+        """The dense factors applied to what the last rank gathers, and sends back to the others."""
         hops, others = log2(self.ranks), self.nodes**2 - self.mine
         gathered, sent_back = Cost(collective=hops), Cost(collective=hops, bytes=REAL * others)
         return gathered + sent_back + self.everyone() + Cost(direct=1, grids=1)
