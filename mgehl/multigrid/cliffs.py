@@ -111,12 +111,13 @@ class CliffZone:
         A, B = (nodes.matrix(each.T, between, offsets) for each in stencils)
         return A @ Q + B @ N
 
-    def solve(self, r, w):
-        """Solve the zone for the residual `r`, with `w` as it is around it; in place, both (lines, nx)."""
+    def solve(self, r, w, weight=1.0):
+        """Solve the zone for `weight` times the residual `r`, with `w` as it is around it; in place, both
+        (lines, nx)."""
         if self._nodes is None:
             return
         nodes, dw = self._nodes, None
         right, before = nodes.values(r), self._reached.values(w)
         if nodes.here:
-            dw = self._lu.solve(right - self._rows @ before) if self._lu else np.zeros(len(nodes))
+            dw = self._lu.solve(weight * right - self._rows @ before) if self._lu else np.zeros(len(nodes))
         nodes.add(w, dw)

@@ -8,6 +8,13 @@ from mgehl.grid.transpose import YLines, pieces_of_y_lines
 from mgehl.multigrid.cliffs import CliffZone, cliffs
 from mgehl.multigrid.smoother import LineSmoother, influence_nearby
 
+AT_CLIFFS = 1.2
+"""Times the residual that is solved for around cliffs, on grids that hold the film. Lines and cliffs are
+damped alike, by a half, and lines do not see waves along a spike: these would be the last that are left.
+With 1.2 thick films on 257 to 1025 nodes take up to a quarter less work than with 1, a few of them a
+twentieth more; with 1.3 up to an eighth more than with 1.2; with 2, undamped, up to two and a half times as
+much."""
+
 
 class CrossedLineSmoother(LineSmoother):
     """The same with lines along both axes: c = omega Q (X D^-1 Y)^-1 r.
@@ -80,9 +87,12 @@ class CliffSmoother(CrossedLineSmoother):
     takes 42 convolutions, by lines alone 376.
     """
 
+    sees_cliffs = True
+
     def __init__(self, jacobian, omega):
         super().__init__(jacobian, omega)
         self._zone = CliffZone(jacobian.grid, influence_nearby(jacobian), self._share)
+        self._weight = AT_CLIFFS if jacobian.holds_film else 1.0
 
     def partition(self, rows):
         """As of a `LineSmoother`; find the cliffs and gather what is around them."""
@@ -105,4 +115,4 @@ class CliffSmoother(CrossedLineSmoother):
     def _solve_lines(self, r):
         super()._solve_lines(r)
         if self._y_lines:
-            self._zone.solve(r, self._w)
+            self._zone.solve(r, self._w, self._weight)

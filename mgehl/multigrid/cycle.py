@@ -1,4 +1,4 @@
-"""The linear solver: a V-cycle as the right preconditioner of flexible GMRES.
+"""The linear solver: an F-cycle as the right preconditioner of flexible GMRES.
 
 Coarse operators are rediscretised with P, H and status injected from the fine grid, and always with the
 arithmetic mean of the mobility: coarse neighbours differ so much that a mean which vanishes with either
@@ -26,13 +26,13 @@ from mgehl.discretization.evaluation import Evaluation
 from mgehl.grid.freed_memory import is_large
 from mgehl.grid.transfers import PartitionedTransfer
 from mgehl.multigrid.coarse import CoarseSolve
+from mgehl.multigrid.fcycle import FCycle
 from mgehl.multigrid.film_ends import end_halfway
 from mgehl.multigrid.jacobian import Jacobian
 from mgehl.multigrid.memory import Memory
 from mgehl.multigrid.options import by_default
 from mgehl.multigrid.smoother import ValleySmoother
 from mgehl.multigrid.smoother_choice import smoother_of
-from mgehl.multigrid.vcycle import VCycle
 
 IN_THE_CYCLE = {"2C": "3B", "S2C": "3B"}
 """Couette schemes of the cycle's operators where the solved one's leave waves of two cells: lines do not
@@ -72,7 +72,7 @@ class CycleSettings:
 
 
 class MultigridSolver:
-    """Flexible GMRES with one V-cycle for the bordered Jacobian of grid `level`.
+    """Flexible GMRES with one F-cycle for the bordered Jacobian of grid `level`.
 
     With a `rigid` gap it solves for the fluid alone and makes no convolution. Where the fluid is solved
     `apart` from the gap only contact is left, and contact knows no direction of motion. Rough surfaces have
@@ -110,7 +110,7 @@ class MultigridSolver:
             for each in self.jacobians[1:]
         ]
         self._coarse = CoarseSolve(self.jacobians[0])
-        cycle = VCycle(self.jacobians, self._partitioned, self._smoothers, self._coarse, settings.sweeps)
+        cycle = FCycle(self.jacobians, self._partitioned, self._smoothers, self._coarse, settings.sweeps)
         self.memory = Memory(self.jacobian, cycle) if self._rough else None
         """Of the systems solved so far, where there is one."""
         self._preconditioner = self.memory or cycle

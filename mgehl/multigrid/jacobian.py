@@ -17,6 +17,7 @@ from mgehl.discretization.residual import linearise
 from mgehl.discretization.rows import PRESSURE
 from mgehl.discretization.storage import Storage
 from mgehl.grid.events import ASSEMBLY, event
+from mgehl.model.contact import RESOLVED_CELLS
 
 
 @dataclass(frozen=True)
@@ -140,6 +141,11 @@ class Jacobian:
         self.mat = PETSc.Mat().createPython((size, size), self, comm=grid.comm)
         self.mat.setUp()
 
+    @property
+    def holds_film(self):
+        """Whether the grid has the cells in the inlet that a film needs."""
+        return self.contact.inlet_cells(self.grid.mesh) >= RESOLVED_CELLS
+
     @event(ASSEMBLY)
     def linearise(self, evaluation, rows, rate=0.0):
         """Linearise about an evaluated state with these kinds of rows, for time steps 1/`rate` long.
@@ -161,11 +167,15 @@ class Jacobian:
         if self.rigid:
             self.space.write(y, self.product(dP, None, dH0), dH0)
         else:
-            load = self.load_weight * self.grid.sum_of_team(dP.sum())
+            load = self.load_of(dP)
             dH = self.deflection(dP)
             if self.witness:
                 self.witness(dP, dH, dH0)
             self.space.write(y, self.product(dP, dH, dH0), load)
+
+    def load_of(self, dP):
+        """s^T dP: what a correction of P, (lines, nx), adds to the load; known to ranks with lines only."""
+        return self.load_weight * self.grid.sum_of_team(dP.sum())
 
     def product(self, dP, dH, dH0):
         """A dP + B (dH + dH0), (lines, nx), of a known deflection `dH`; the next call overwrites it.

@@ -34,6 +34,8 @@ class LineSmoother:
 
     visits = 1
     """Relaxations that one sweep takes."""
+    sees_cliffs = False
+    """Whether it relaxes what stands at cliffs of the mobility as well as the rest."""
     hands_over_everywhere = True
     """Whether every node takes what the lines beside it hand over, driven or not."""
 
@@ -156,6 +158,7 @@ class RigidLineSmoother:
     """The same of a rigid gap, c = omega T^-1 r: without K there is nothing to distribute."""
 
     visits = 2
+    sees_cliffs = False
 
     def __init__(self, jacobian, omega):
         self._jacobian, self._omega = jacobian, omega
