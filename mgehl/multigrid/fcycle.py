@@ -15,7 +15,7 @@ not hold the film, its spike is not the finest one's, and to solve for it twice 
 
 import numpy as np
 
-SECOND = 0.75
+SECOND = 0.8
 """How much of the second visit's correction is taken. With all of it thick films on 129 to 1025 nodes take
 up to an eighth more work, a few of them a twentieth less."""
 

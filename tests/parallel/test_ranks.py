@@ -22,6 +22,7 @@ from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
 from mgehl.errors import OutputError, Stopped
 from mgehl.grid.regroup import Move
 from mgehl.grid.transfers import PartitionedTransfer
+from mgehl.model.contact import RESOLVED_CELLS
 from mgehl.multigrid.cliffs import CliffZone
 from mgehl.multigrid.jacobian import BorderedSpace
 from mgehl.output.checkpoint import Checkpoint
@@ -517,6 +518,16 @@ class TestOtherKinds:
         assert together.result.work == COMM.bcast(alone.result.work)
         film = COMM.bcast(alone.result.central_film_nm)
         assert together.result.central_film_nm == pytest.approx(film, rel=1e-9, abs=1e-5)
+
+    def test_film_whose_coarse_grids_are_visited_twice(self):
+        tables = {"motion": {"speed": 8.0}, "grid": papers_grid(129)}
+        config = config_from_tables(merged(tables, {"solver": {"error": False}}))
+        together, alone = solve_config(config, COMM), solve_config(config, MPI.COMM_SELF)
+        assert alone.contact.inlet_cells(alone.mesh) > 2 * RESOLVED_CELLS
+        assert together.result.converged and alone.result.converged
+        np.testing.assert_allclose(COMM.bcast(together.fields).P, alone.fields.P, rtol=0.0, atol=1e-9)
+        assert together.result.central_film_nm == pytest.approx(alone.result.central_film_nm, rel=1e-9)
+        assert together.result.work == alone.result.work
 
     def test_unified_equations(self):
         tables = {
