@@ -8,7 +8,7 @@ from mgehl.config import config_from_tables
 from mgehl.kinds import contact_from, settled
 from mgehl.model.room import interval_on_nodes
 from mgehl.output.domain import domain_verdict
-from mgehl.studies.study import merged
+from mgehl.studies.study import BEST, merged
 
 PARTS = (0.3, 0.5)
 """Parts of the room that "auto" leaves around the contact: the smaller domains."""
@@ -46,6 +46,7 @@ CASES = {
     ),
     "ball bearing": (BALL_BEARING, 129),
     "M 5, L 5": (moes(5.0, 5.0), 257),
+    "M 5, L 5, more nodes": (moes(5.0, 5.0), 1025),
     "M 8, L 3": (moes(8.0, 3.0), 129),
     "M 12, L 8": (moes(12.0, 8.0), 129),
     "M 20, L 10": (moes(20.0, 10.0), 129),
@@ -70,7 +71,7 @@ def run(study):
     study.cases = 2 * (1 + len(PARTS)) * len(CASES)
     auto, near = [], []
     for name, (tables, nodes) in CASES.items():
-        tables = merged({"discretization": {"couette": "2B"}}, tables, {"grid": {"nodes": nodes}})
+        tables = merged({"discretization": BEST}, tables, {"grid": {"nodes": nodes}})
         config = config_from_tables(tables)
         grid = settled(config, contact_from(config)).grid
         ends = (grid.x, None if config.contact.kind == "line" else grid.y)

@@ -14,7 +14,7 @@ from statistics import median
 import numpy as np
 
 from mgehl.output.digits import with_band
-from mgehl.studies.study import merged
+from mgehl.studies.study import BEST, merged
 
 NODES = (65, 129, 257)
 """Nodes of the grids on which bands are made."""
@@ -58,7 +58,6 @@ RATIOS, LAWS = (0.5, 1.0, 1.0, 2.0, 4.0), ("barus", "roelands")
 
 SEED = 11
 
-BEST = {"couette": "3B", "face_mobility": "linear-gap"}
 SCHEMES = (
     {"couette": "1B", "face_mobility": "arithmetic"},
     {"couette": "2B", "face_mobility": "arithmetic"},

@@ -22,6 +22,9 @@ from mgehl.studies.cache import PointCache, key_of
 PAPER = {"discretization": {"couette": "1B", "face_mobility": "arithmetic"}}
 """What the paper differences by, and a study that does not say otherwise."""
 
+BEST = {"couette": "3B", "face_mobility": "linear-gap"}
+"""What a case of one's own is differenced by."""
+
 PLAUSIBLE_ORDERS = (0.5, 3.0)
 """Orders outside of this range come from values that are too far from their limit to tell it."""
 
