@@ -62,6 +62,7 @@ class ConstantViscosity:
     """eta* = 1."""
 
     viscosity: float
+    pressure_viscosity = 0.0
 
     def log_viscosity(self, P, _p_h):
         """Return ln(eta*) and d ln(eta*)/dP, shapes as P."""

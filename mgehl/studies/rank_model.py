@@ -152,7 +152,7 @@ def levels(nodes, ranks):
 
 
 def cycle(grids):
-    """One V-cycle, a relaxation after the coarse grids."""
+    """One V-cycle, a relaxation after the coarse grids: what a film takes that no coarse grid holds."""
     total = grids[0].direct()
     for coarse, fine in zip(grids[:-1], grids[1:], strict=True):
         total += fine.transfers(coarse) + fine.stencils() + fine.relaxation() + Cost(grids=1)

@@ -6,6 +6,7 @@ import pytest
 from mgehl.discretization.contact_law import BoundaryFilm
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import CONTACT, LUBRICATED
+from mgehl.model.lubricant import Barus, DowsonHigginson, Lubricant
 from mgehl.solver.partition import Partition
 from mgehl.solver.step_length import LARGEST_CHANGE, step_length
 
@@ -63,3 +64,16 @@ def test_the_largest_pressure_is_bounded_by_any_law(make_problem):
     dP[4, 4] = -2.0
     known = problem, Partition(problem, 0), problem.evaluate(state), state
     assert step_length(*known, dP, 9.0, 0.5) == (0.25, None)
+
+
+@pytest.mark.parametrize("alpha_bar, more", [(40.0, 1.0), (20.0, 1.0), (10.0, 2.0), (0.0, np.inf)])
+def test_pressures_change_by_more_where_the_viscosity_is_less_steep(
+    make_problem, paper_contact, alpha_bar, more
+):
+    alpha = alpha_bar / paper_contact().pressure_scale
+    contact = paper_contact(lubricant=Lubricant(Barus(0.096, alpha), DowsonHigginson()))
+    problem = make_problem(contact, nodes=9)
+    state = problem.state(np.full((9, 9), 0.2), 1.0, np.full((9, 9), LUBRICATED))
+    known = problem, Partition(problem, 0), problem.evaluate(state), state
+    length, _ = step_length(*known, np.full((9, 9), 4.0), 0.0, 0.3)
+    assert length == pytest.approx(min(1.0, more * 0.3 / 4.0), rel=1e-12)
