@@ -8,7 +8,7 @@ The layers, lowest first; none imports a higher one (``tests/test_layers.py`` as
 ``discretization``  finite volumes on one grid: face flows, residual, influence, line bands
 ``kinds``           point, line, wedge: the keys they take, what is built of them, their words
 ``grid``            PETSc DMDA hierarchy, transfers between grids, distributed convolution
-``multigrid``       line smoother, coarse solve, PCMG cycle for the bordered Jacobian
+``multigrid``       line smoothers, coarse solve, F-cycle for the bordered Jacobian
 ``solver``          Newton, contact and cavitation partition, nested iteration, verification
 ``output``          files, pictures, tables, progress
 ``studies``         many solves and what they show

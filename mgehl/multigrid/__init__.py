@@ -1,1 +1,1 @@
-"""Multigrid for the bordered Jacobian: PETSc's PCMG with a distributive line smoother."""
+"""Multigrid for the bordered Jacobian: an F-cycle with a distributive line smoother, for flexible GMRES."""

@@ -21,7 +21,7 @@ from mgehl.multigrid.nearby import NEAR, NearColumns
 CLIFF = 10.0
 """Ratio of the mobilities of neighbours from which on it counts as a cliff. With 100 most films on 129 to
 1025 nodes take as much work or up to a sixth more, few of them less; the first step of M = 20 by the
-logarithmic mean takes 16 iterations of GMRES on 1025 nodes, with 10 it takes 6."""
+logarithmic mean takes 16 iterations of GMRES on 1025 nodes, with 10 it takes 6 (both by V-cycles)."""
 
 BESIDE = 1
 """Nodes on each side of a cliff's two that are solved with them. With 2 the work is the same within 3 %,

@@ -14,7 +14,7 @@ from mgehl.multigrid.assembled import stencil_rows
 class CoarseSolve:
     """LU of J with its border, sparse in a rigid gap; ranks without lines have nothing to do.
 
-    While the last rank factors, the first one factors what stands at cliffs of the finest grid (`cliffs`).
+    While the last rank factors, the first one factors what stands at cliffs (`cliffs`).
     """
 
     def __init__(self, jacobian):

@@ -9,11 +9,10 @@ from mgehl.multigrid.cliffs import CliffZone, cliffs
 from mgehl.multigrid.smoother import LineSmoother, influence_nearby
 
 AT_CLIFFS = 1.2
-"""Times the residual that is solved for around cliffs, on grids that hold the film. Lines and cliffs are
-damped alike, by a half, and lines do not see waves along a spike: these would be the last that are left.
-With 1.2 thick films on 257 to 1025 nodes take up to a quarter less work than with 1, a few of them a
-twentieth more; with 1.3 up to an eighth more than with 1.2; with 2, undamped, up to two and a half times as
-much."""
+"""Times the residual that is solved for around cliffs, on grids that hold the film. Lines do not see waves
+along a spike: damped as lines are, by omega = 0.8, these would be the last that are left. With 1.2 thick
+films on 257 to 1025 nodes take up to a quarter less work than with 1, a few of them a twentieth more; with
+1.3 up to an eighth more than with 1.2; with 2 up to two and a half times as much."""
 
 
 class CrossedLineSmoother(LineSmoother):
@@ -53,7 +52,7 @@ class CrossedLineSmoother(LineSmoother):
         self._diagonal = self._factor_x_lines()
         for lines, some in pieces_of_y_lines(self._jacobian.grid):
             linearisation = self._jacobian.linearisation.turned(some.turned)
-            nodes = some.turned(own(self._distributive)) > 0.0, some.turned(self._given) > 0.0
+            nodes = some.turned(own(self._distributive)) > 0.0, some.turned(self._jacobian.given) > 0.0
             self._y_bands.factor(linearisation, *nodes, self._y_kappa, self._share, lines)
 
     def _solve_lines(self, r):
@@ -84,14 +83,14 @@ class CliffSmoother(CrossedLineSmoother):
     """The same, and then a direct solve of the nodes around cliffs of the mobility (`CliffZone`).
 
     Thick films have cliffs at their pressure spike. M = 200, L = 10 by 3B and the linear gap on 513 nodes
-    takes 42 convolutions, by lines alone 376.
+    takes 38 convolutions; by V-cycles it took 42, by lines alone 376.
     """
 
     sees_cliffs = True
 
     def __init__(self, jacobian, omega):
         super().__init__(jacobian, omega)
-        self._zone = CliffZone(jacobian.grid, influence_nearby(jacobian), self._share)
+        self._zone = CliffZone(jacobian.grid, self._near, self._share)
         self._weight = AT_CLIFFS if jacobian.holds_film else 1.0
 
     def partition(self, rows):
@@ -99,20 +98,26 @@ class CliffSmoother(CrossedLineSmoother):
         super().partition(rows)
         if self._y_lines:
             grid, linearisation = self._jacobian.grid, self._jacobian.linearisation
-            found = cliffs(grid.halo(linearisation.eps), STIFF * self._K00 * grid.mesh.dX) & ~self._given
-            self._zone.gather(found, linearisation, own(self._distributive), ~self._given)
+            free = ~self._jacobian.given
+            found = cliffs(grid.halo(linearisation.eps), STIFF * self._K00 * grid.mesh.dX) & free
+            self._zone.gather(found, linearisation, own(self._distributive), free)
 
     def forget(self):
         """Free the memory of the factors."""
         super().forget()
         self._zone.forget()
 
-    def factor(self):
-        """Factor lines and zone of the present linearisation."""
-        super().factor()
+    def factor_alone(self):
+        """Factor the zone, on the first rank."""
         self._zone.factor()
 
     def _solve_lines(self, r):
         super()._solve_lines(r)
         if self._y_lines:
             self._zone.solve(r, self._w, self._weight)
+
+    def view(self, viewer):
+        super().view(viewer)
+        viewer.printfASCII(
+            f"    and nodes around cliffs at once, for {self._weight:g} times the residual\n"
+        )

@@ -7,8 +7,9 @@ grid in every iteration, for little more than one relaxation's worth of converge
 
 At a thick film's spike a coarse grid's correction overshoots, and the next finer one's overshoots more: the
 more grids, the more iterations. So coarse grids that hold the film, and whose smoother sees cliffs, are
-visited twice. The second visit, a V-cycle, takes back what the first one overshot (M = 20, L = 10 by 3B and
-the arithmetic mean on 1025 nodes: 3 iterations at most for 5, 93 convolutions for 132). Where a grid does
+visited twice by each visit to the next finer one. The second time, a V-cycle, takes back what the first one
+overshot (M = 20, L = 10 by 3B and the arithmetic mean on 1025 nodes: 3 iterations at most for 5, 93
+convolutions for 132). Where a grid does
 not hold the film, its spike is not the finest one's, and to solve for it twice leads astray (7.5 mm/s on
 1025 nodes: not solved after 349 convolutions, but after 38 by V-cycles).
 """
@@ -24,8 +25,8 @@ class FCycle:
     """Python context of a PC: one cycle from zero solves for x and gives y.
 
     Of the grids of the `jacobians`, coarsest first. Grid l > 0 has the smoother and the
-    `PartitionedTransfer` l - 1; on grid 0 the `coarse` solve is direct. A smoother relaxes `visits` times a
-    sweep. Where no coarse grid is visited twice it is a V-cycle.
+    `PartitionedTransfer` l - 1; on grid 0 the `coarse` solve is direct. A sweep is a smoother's
+    `relaxations`. Where no coarse grid is visited twice it is a V-cycle.
     """
 
     def __init__(self, jacobians, transfers, smoothers, coarse, sweeps):
@@ -35,10 +36,12 @@ class FCycle:
     def setUp(self, _pc):
         """Factor the bands and matrices of the present linearisation on all grids.
 
-        The finest last, and then the coarsest: what a rank factors alone it factors while another does so.
+        What one rank factors alone comes last: the first one does its part while the last one does another.
         """
         for smoother in self._smoothers:
             smoother.factor()
+        for smoother in self._smoothers:
+            smoother.factor_alone()
         self._coarse.factor()
 
     def apply(self, _pc, x, y):
@@ -49,13 +52,14 @@ class FCycle:
     def view(self, _pc, viewer):
         grids = len(self._jacobians)
         twice = sum(self._is_visited_twice(level) for level in range(grids - 1))
-        viewer.printfASCII(f"  F-cycle on {grids} grids, {twice} of them visited twice\n")
+        name = f"F-cycle, to {twice} of them twice," if twice else "V-cycle"
+        viewer.printfASCII(f"  {name} on {grids} grids\n")
         for context in (self._coarse, *self._smoothers):
             context.view(viewer)
 
     def _is_visited_twice(self, level):
-        """Whether a coarse grid is, by an F-cycle; the solve on the coarsest one is direct."""
-        return level > 0 and self._jacobians[level].holds_film and self._smoothers[level - 1].sees_cliffs
+        """Whether a coarse grid is: those that hold the film see cliffs. The coarsest solve is direct."""
+        return level > 0 and self._smoothers[level - 1].sees_cliffs
 
     def _corrections(self, level, r, load, again):
         """Of P, (lines, nx), and of H0 for a residual on a grid; the border on the last rank alone.
@@ -81,9 +85,9 @@ class FCycle:
         dH = jacobian.deflection(e)
         if not (again and self._is_visited_twice(level)):
             return e, dH, dH0
-        e, dH = e.copy(), dH.copy()  # the second visit overwrites both
-        left = r - jacobian.product(e, dH, jacobian.space.border_in_team(dH0))
-        more, more_H0 = self._corrections(level, left, load - jacobian.load_of(e), again=False)
+        dH = dH.copy()  # the next deflection on this grid overwrites it
+        rest = r - jacobian.product(e, dH, jacobian.space.border_in_team(dH0))
+        more, more_H0 = self._corrections(level, rest, load - jacobian.load_of(e), again=False)
         more *= SECOND
         e += more
         dH += jacobian.deflection(more)
@@ -92,10 +96,10 @@ class FCycle:
     def _relaxed(self, level, r, c, dH, dH0):
         """The correction `c`, whose deflection is `dH`, after the relaxations of grid `level`."""
         jacobian, smoother = self._jacobians[level], self._smoothers[level - 1]
-        for left in range(self._sweeps * smoother.visits - 1, -1, -1):
+        for to_come in range(self._sweeps * smoother.relaxations - 1, -1, -1):
             product = jacobian.product(c, dH, dH0)
             relaxed = smoother.relax(np.subtract(r, product, out=product))
             c += relaxed
-            if left and not jacobian.rigid:
+            if to_come and not jacobian.rigid:
                 dH += jacobian.deflection(relaxed)
         return c

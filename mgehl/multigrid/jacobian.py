@@ -49,8 +49,7 @@ class BorderedSpace:
 
     def read_in_team(self, vec):
         """As `read` where only ranks with lines ask for the border; 0 on the others."""
-        P, border = self.read_own(vec)
-        return P, self.border_in_team(border)
+        return self.parts_in_team(vec.getArray(readonly=True))
 
     def border_in_team(self, border):
         """The last rank's border entry on every rank with lines."""
@@ -58,8 +57,7 @@ class BorderedSpace:
 
     def read_own(self, vec):
         """As `read` without a message: the border entry is that of the last rank, and 0 on the others."""
-        values = vec.getArray(readonly=True)
-        return self._lines(values), float(values[-1]) if self.owns_border else 0.0
+        return self._own_parts(vec.getArray(readonly=True))
 
     def read_pressure(self, vec):
         """The pressure part alone, a view (lines, nx): no rank needs to ask another."""
@@ -67,9 +65,7 @@ class BorderedSpace:
 
     def write(self, vec, P, border):
         """Set a vector from its pressure part and its border entry."""
-        self.write_pressure(vec, P)
-        if self.owns_border:
-            vec.getArray()[-1] = border
+        self.fill(vec.getArray(), P, border)
 
     def write_pressure(self, vec, P):
         """Set the pressure part alone."""
@@ -80,8 +76,12 @@ class BorderedSpace:
 
         Where ranks have lines; 0 on the others.
         """
-        border = float(entries[-1]) if self.owns_border else 0.0
-        return self._lines(entries), self.border_in_team(border)
+        P, border = self._own_parts(entries)
+        return P, self.border_in_team(border)
+
+    def _own_parts(self, entries):
+        """The same without a message: the border entry is 0 on all ranks but the last."""
+        return self._lines(entries), float(entries[-1]) if self.owns_border else 0.0
 
     def fill(self, entries, P, border):
         """Set an array of a rank's own entries from its pressure part and the border entry."""

@@ -32,8 +32,8 @@ class LineSmoother:
     overshoots on smooth corrections; K Q decays fast enough for a band.
     """
 
-    visits = 1
-    """Relaxations that one sweep takes."""
+    relaxations = 1
+    """Of one sweep."""
     sees_cliffs = False
     """Whether it relaxes what stands at cliffs of the mobility as well as the rest."""
     hands_over_everywhere = True
@@ -42,9 +42,9 @@ class LineSmoother:
     def __init__(self, jacobian, omega):
         self._jacobian, self._omega = jacobian, omega
         grid = jacobian.grid
-        near = influence_nearby(jacobian)
+        self._near = influence_nearby(jacobian)
         self._share = 0.5 if grid.mesh.is_line else 0.25
-        self._K00, self._kappa = near[0, 0], influence_of_columns(near, self._share)
+        self._K00, self._kappa = self._near[0, 0], influence_of_columns(self._near, self._share)
         self._bands = LineBands(*grid.shape)
         self._w = np.zeros(grid.shape)
         self._ghosted_w = np.zeros(grid.ghosted_shape)
@@ -57,7 +57,6 @@ class LineSmoother:
         """Choose the distributive nodes of the present linearisation; `rows` (lines, nx)."""
         grid, eps = self._jacobian.grid, self._jacobian.linearisation.eps
         self._distributive = grid.halo(distributive_nodes(eps, rows, grid.mesh.dX, self._K00))
-        self._given = rows == PRESSURE
 
     def forget(self):
         """Free the memory of the factors."""
@@ -68,9 +67,12 @@ class LineSmoother:
         """Factor the bands of the present linearisation."""
         self._factor_x_lines()
 
+    def factor_alone(self):
+        """Factor what one rank factors for all: of lines nothing."""
+
     def _factor_x_lines(self):
         """Factor the bands of the x-lines; return their diagonal before that, (lines, nx)."""
-        nodes = own(self._distributive), self._given
+        nodes = own(self._distributive), self._jacobian.given
         return self._bands.factor(self._jacobian.linearisation, *nodes, self._kappa, self._share)
 
     @event(LINES)
@@ -83,7 +85,7 @@ class LineSmoother:
         """The correction omega Q w in the place of w; `everywhere` as of `kernels.distribute`."""
         self._jacobian.grid.halo(self._w, out=self._ghosted_w)
         distribute(self._ghosted_w, self._distributive, self._share, omega, self._w, everywhere)
-        self._w[self._given] = 0.0
+        self._w[self._jacobian.given] = 0.0
         return self._w
 
     def _solve_lines(self, r):
@@ -115,7 +117,7 @@ class ValleySmoother(RoughLineSmoother):
 
     def __init__(self, jacobian, omega):
         super().__init__(jacobian, omega)
-        self._nearby = NearbySolve(jacobian, influence_nearby(jacobian), self._share)
+        self._nearby = NearbySolve(jacobian, self._near, self._share)
         self._left = PATIENCE
         self.at_once = False
         """Whether nearby nodes are solved at once."""
@@ -157,7 +159,7 @@ class ValleySmoother(RoughLineSmoother):
 class RigidLineSmoother:
     """The same of a rigid gap, c = omega T^-1 r: without K there is nothing to distribute."""
 
-    visits = 2
+    relaxations = 2
     sees_cliffs = False
 
     def __init__(self, jacobian, omega):
@@ -168,9 +170,8 @@ class RigidLineSmoother:
     def free(self):
         """Nothing is held that PETSc does not free."""
 
-    def partition(self, rows):
-        """Remember where the pressure is given; `rows` (lines, nx)."""
-        self._given = rows == PRESSURE
+    def partition(self, _rows):
+        """Nothing depends on the kinds of rows."""
 
     def forget(self):
         """Free the memory of the factors."""
@@ -181,12 +182,15 @@ class RigidLineSmoother:
         """Factor the lines of the present linearisation."""
         self._bands.factor_stencil(self._jacobian.linearisation)
 
+    def factor_alone(self):
+        """Of lines one rank factors nothing for all."""
+
     @event(LINES)
     def relax(self, r):
         """Correction for the residual `r`, both (lines, nx); the next call overwrites it."""
         self._bands.solve(r, self._out)
         self._out *= self._omega
-        self._out[self._given] = 0.0
+        self._out[self._jacobian.given] = 0.0
         return self._out
 
     def view(self, viewer):

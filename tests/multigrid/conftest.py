@@ -30,6 +30,7 @@ def make_smoother():
         made.append((kind or smoother_of(jacobian))(jacobian, OMEGA))
         made[-1].partition(rows)
         made[-1].factor()
+        made[-1].factor_alone()
         return made[-1]
 
     yield make

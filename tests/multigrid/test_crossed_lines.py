@@ -38,6 +38,7 @@ class TestLinesAlongBothAxes:
 
     @pytest.fixture
     def smoother(self, jacobian, rows, make_smoother):
+        jacobian.given = rows == PRESSURE
         return make_smoother(jacobian, rows, CrossedLineSmoother)
 
     def parts(self, jacobian, rows, make_vec):

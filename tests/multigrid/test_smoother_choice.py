@@ -22,6 +22,16 @@ def test_contact_whose_fluid_is_solved_apart_is_not_crossed(rough_state, make_pr
     assert smoother_of(jacobian, apart=True) is LineSmoother
 
 
+def test_coarse_grids_that_hold_the_film_look_for_cliffs(
+    make_problem, paper_contact, rough_state, make_jacobian
+):
+    for speed, kind in (1.0, CrossedLineSmoother), (8.0, CliffSmoother):
+        contact = paper_contact(speed)
+        problem = make_problem(contact, nodes=NODES)
+        assert (contact.inlet_cells(problem.grid.mesh) >= 4.0) == (kind is CliffSmoother)
+        assert smoother_of(make_jacobian(problem, rough_state(problem))) is kind
+
+
 @pytest.mark.parametrize("angle", [0.0, 30.0])
 def test_the_finest_grid_looks_for_cliffs(make_problem, paper_contact, rough_state, make_jacobian, angle):
     contact = paper_contact(angle=angle)

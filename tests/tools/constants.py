@@ -73,7 +73,7 @@ def tuned(cases, *places, values=(), is_factor=False):
     return Tuned(places, cases, values, is_factor)
 
 
-SOLVER, DISCRETE = "mgehl.solver.", "mgehl.discretization."
+SOLVER, DISCRETE, CYCLE = "mgehl.solver.", "mgehl.discretization.", "mgehl.multigrid."
 NEWTON = SOLVER + "settings:NewtonSettings"
 NUMBERS = {
     "REACH": tuned(
@@ -89,6 +89,10 @@ NUMBERS = {
     "max_pressure_step": tuned(
         LOADED, NEWTON + "(max_pressure_step)", values=(0.03, 0.1, 0.2, 0.5, 1.0, 3.0)
     ),
+    "STEEP": tuned(LOADED, SOLVER + "step_length:STEEP", values=(10.0, 13.0, 17.0, 27.0, 40.0)),
+    "SECOND": tuned(LOADED, CYCLE + "fcycle:SECOND", values=(0.5, 0.7, 0.75, 0.85, 0.9, 1.0)),
+    "AT_CLIFFS": tuned(LOADED, CYCLE + "crossed_lines:AT_CLIFFS", values=(1.0, 1.1, 1.3, 1.5)),
+    "CLIFF": tuned(LOADED, CYCLE + "cliffs:CLIFF", values=(3.0, 5.0, 20.0, 100.0)),
     "DIVERGED": tuned(LOADED, SOLVER + "problem:DIVERGED", values=(1e3, 1e4, 1e6, 1e14)),
     "STALLS": tuned(LOADED, SOLVER + "judge:STALLS", values=(1, 2, 4, 10)),
     "RESTLESS": tuned(LOADED, SOLVER + "partition:RESTLESS", values=(4, 6, 8, 20, 40)),
