@@ -6,12 +6,11 @@ that follows damps it. A relaxation before the coarse grids would take two convo
 grid in every iteration, for little more than one relaxation's worth of convergence.
 
 At a thick film's spike a coarse grid's correction overshoots, and the next finer one's overshoots more: the
-more grids, the more iterations. So coarse grids that hold the film, and whose smoother sees cliffs, are
-visited twice by each visit to the next finer one. The second time, a V-cycle, takes back what the first one
-overshot (M = 20, L = 10 by 3B and the arithmetic mean on 1025 nodes: 3 iterations at most for 5, 93
-convolutions for 132). Where a grid does
-not hold the film, its spike is not the finest one's, and to solve for it twice leads astray (7.5 mm/s on
-1025 nodes: not solved after 349 convolutions, but after 38 by V-cycles).
+more grids, the more iterations. So F visits the next coarser grid twice, first by F and then by V, where that
+grid holds the film. The second visit takes back what the first one overshot (M = 20, L = 10 by 3B and the
+arithmetic mean on 1025 nodes: 3 iterations at most for 5, 93 convolutions for 132). Where a grid does not
+hold the film, its spike is not the finest one's, and to solve for it twice leads astray (7.5 mm/s on 1025
+nodes: not solved after 349 convolutions, but after 38 by V-cycles).
 """
 
 import numpy as np
@@ -52,8 +51,8 @@ class FCycle:
     def view(self, _pc, viewer):
         grids = len(self._jacobians)
         twice = sum(self._is_visited_twice(level) for level in range(grids - 1))
-        name = f"F-cycle, to {twice} of them twice," if twice else "V-cycle"
-        viewer.printfASCII(f"  {name} on {grids} grids\n")
+        name = f"F-cycle, {twice} of them visited twice" if twice else "V-cycle"
+        viewer.printfASCII(f"  {grids} grids, {name}\n")
         for context in (self._coarse, *self._smoothers):
             context.view(viewer)
 
