@@ -5,12 +5,12 @@ more convolution on the finer grid. The difference is as short as the finer grid
 that follows damps it. A relaxation before the coarse grids would take two convolutions more on the finest
 grid in every iteration, for little more than one relaxation's worth of convergence.
 
-At a thick film's spike a coarse grid's correction overshoots, and the next finer one's overshoots more: the
-more grids, the more iterations. So F visits the next coarser grid twice, first by F and then by V, where that
-grid holds the film. The second visit takes back what the first one overshot (M = 20, L = 10 by 3B and the
-arithmetic mean on 1025 nodes: 3 iterations at most for 5, 93 convolutions for 132). Where a grid does not
-hold the film, its spike is not the finest one's, and to solve for it twice leads astray (7.5 mm/s on 1025
-nodes: not solved after 349 convolutions, but after 38 by V-cycles).
+At a thick film's spike a coarse grid's correction overshoots, and the next finer one's overshoots more:
+the more grids, the more iterations. So F visits the next coarser grid twice, first by F and then by V,
+where that grid holds the film. The second visit takes back what the first one overshot (M = 20, L = 10 by
+3B and the arithmetic mean on 1025 nodes: 3 iterations at most for 5, 93 convolutions for 132). Where a
+grid does not hold the film, its spike is not the finest one's, and to solve for it twice leads astray (7.5
+mm/s on 1025 nodes: not solved after 349 convolutions, but after 38 by V-cycles).
 """
 
 import numpy as np
