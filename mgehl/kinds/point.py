@@ -19,7 +19,7 @@ LARGEST_RADIUS_RATIO = 1e3
 MOES_REPLACES = ("contact.load", "motion.speed")
 """Keys that moes.M and moes.L stand for."""
 
-FILM = Effort(45.0, 2.6e-7, 0.013, 1300.0, "full films on 65 to 2049 nodes took 22 to 133")
+FILM = Effort(45.0, 2.6e-7, 0.013, 1300.0, "full films on 65 to 2049 nodes took 22 to 106")
 CONTACT = Effort(25.0, 4e-7, 0.01, 1800.0, "full contact on 257 to 1025 nodes took 18 to 31")
 MEAN = Effort(500.0, 2e-7, 0.01, 1300.0, "folding means of the mobility took 348 and 761 on 129 nodes")
 

@@ -2,12 +2,12 @@
 
 Coarse operators are rediscretised with P, H and status injected from the fine grid, and always with the
 arithmetic mean of the mobility: coarse neighbours differ so much that a mean which vanishes with either
-side would close faces that are open on the fine grid (M = 20, L = 10 by the linear gap on 513 nodes: 68
-convolutions, 123 with its own mean and 178 with the logarithmic one). Where the surfaces move at an angle
-to the lines, coarse Couette flows have the finest grid's truncation error. Otherwise coarse grids would
-carry waves across the motion along differently, and their correction of them would be a fraction of what it
-should be. The border travels with the residual, so H0 is corrected by the direct solve on the coarsest grid
-and the cycle needs no second solve for its column.
+side would close faces that are open on the fine grid (30 mm/s by the linear gap on 513 nodes: 34
+convolutions, 44 with its own mean; films that coarse grids hold take as many by either). Where the
+surfaces move at an angle to the lines, coarse Couette flows have the finest grid's truncation error.
+Otherwise coarse grids would carry waves across the motion along differently, and their correction of them
+would be a fraction of what it should be. The border travels with the residual, so H0 is corrected by the
+direct solve on the coarsest grid and the cycle needs no second solve for its column.
 
 On a rough surface peaks are as small as a coarse grid's cells. What GMRES learnt in one step is remembered
 for the next (`memory`). Where the film is thin besides, the mobility at one node says nothing of the nodes
