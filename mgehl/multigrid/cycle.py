@@ -88,9 +88,7 @@ class MultigridSolver:
         self._rough = contact.roughness > 0.0 and not rigid
         self._thin = self._rough and contact.expected_film < THICK * contact.roughness
         better = ASKEW_OR_APART if self._oblique or rigid or apart else IN_THE_CYCLE
-        couette = _of_cycle(settings.couette, scheme.couette, better)
-        same = couette == scheme.couette
-        self._scheme = scheme if same else replace(scheme, couette=couette)
+        self._scheme = _scheme_of_cycle(settings.couette, scheme, better)
         grids, deflections = hierarchy.grids[: level + 1], hierarchy.deflections[: level + 1]
         if rigid:
             deflections = [None] * len(grids)
@@ -101,7 +99,7 @@ class MultigridSolver:
         """Of the cycle's grids, coarsest first."""
         self.jacobian = self.jacobians[-1]
         """What is solved."""
-        if not same:
+        if self._scheme is not scheme:
             self.jacobian = Jacobian(grids[-1], deflections[-1], contact, scheme)
         self._transfers = hierarchy.transfers[:level]
         self._partitioned = [PartitionedTransfer(transfer) for transfer in self._transfers]
@@ -216,9 +214,10 @@ class MultigridSolver:
         return is_large(self.jacobian.grid.mesh)
 
 
-def _of_cycle(asked, solved, better):
-    """The Couette scheme of the cycle's operators: the solved one unless there is a `better` one."""
-    return better.get(solved, solved) if asked == "same" else asked
+def _scheme_of_cycle(asked, solved, better):
+    """The `solved` scheme with the Couette flow `asked` for: "same" is its own, or a `better` one."""
+    couette = better.get(solved.couette, solved.couette) if asked == "same" else asked
+    return solved if couette == solved.couette else replace(solved, couette=couette)
 
 
 def _evaluate(jacobian, P, H, status):
