@@ -111,7 +111,7 @@ class CliffZone:
         A, B = (nodes.matrix(each.T, between, offsets) for each in stencils)
         return A @ Q + B @ N
 
-    def solve(self, r, w, weight=1.0):
+    def solve(self, r, w, weight):
         """Solve the zone for `weight` times the residual `r`, with `w` as it is around it; in place, both
         (lines, nx)."""
         if self._nodes is None:

@@ -12,12 +12,12 @@ from statistics import median
 from mgehl.config import config_from_tables
 from mgehl.kinds import contact_from
 from mgehl.studies.schemes import saw_tooth
-from mgehl.studies.study import merged, plausible, richardson
+from mgehl.studies.study import BEST, merged, plausible, richardson
 
-BEST = ("3B", "linear-gap")
+LIMITS_BY = tuple(BEST.values())
 """Couette scheme and mean of the mobility that give the limits."""
 
-SCHEMES = (*product(("1B", "2B", "3B"), ("arithmetic", "logarithmic")), BEST)
+SCHEMES = (*product(("1B", "2B", "3B"), ("arithmetic", "logarithmic")), LIMITS_BY)
 
 CELLS = (2, 4, 8)
 LARGEST = 257
@@ -91,7 +91,7 @@ def _rows_of_film(study, film):
     """Every scheme on every grid beside the limit."""
     grids, finest = film.grids()
     solved = {scheme: [_solve(study, film, n, *scheme) for n in grids] for scheme in SCHEMES}
-    limits = _limits([*solved[BEST], _solve(study, film, finest, *BEST)])
+    limits = _limits([*solved[LIMITS_BY], _solve(study, film, finest, *LIMITS_BY)])
     return [
         _row(film, scheme, CELLS[k], solution, limits)
         for scheme, solutions in solved.items()

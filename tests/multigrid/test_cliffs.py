@@ -75,7 +75,7 @@ class TestZone:
 
     @pytest.fixture
     def solved(self, jacobian, masks):
-        """Function: w after the solve of the zone around some nodes, the residual and w before."""
+        """Function: w after the solve of the zone around some nodes, the weighted residual and w before."""
 
         def solve(found):
             zone = CliffZone(jacobian.grid, influence_nearby(jacobian), SHARE)
@@ -83,8 +83,8 @@ class TestZone:
             zone.factor()
             r, before = np.random.default_rng(3).standard_normal((2, NODES, NODES))
             w = before.copy()
-            zone.solve(r, w)
-            return w, r, before
+            zone.solve(r, w, 1.5)
+            return w, 1.5 * r, before
 
         return solve
 

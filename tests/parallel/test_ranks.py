@@ -314,7 +314,7 @@ def test_zones_of_cliffs_equal_the_serial_ones(pair):
         zone.gather(found, Linearisation(offsets, A, B, None), distributive, free)
         zone.factor()
         r, w = (lines(grid, random(grid, 70 + k)) for k in (0, 1))
-        zone.solve(r, w)
+        zone.solve(r, w, 1.2)
         both.append(whole(grid, w) if grid.comm.size > 1 else w)
     np.testing.assert_allclose(*both, rtol=1e-9, atol=1e-9)
     assert np.any(both[0] != random(hierarchy.grids[-1], 71))
