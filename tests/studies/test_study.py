@@ -8,16 +8,15 @@ from mpi4py import MPI
 
 from mgehl.config import config_from_tables
 from mgehl.errors import OutputError
-from mgehl.kinds import contact_from, settled
+from mgehl.run import set_up
 from mgehl.studies.study import BEST, Study, merged, observed_order, richardson
 
 FILM = {"motion": {"speed": 1.0}, "grid": {"nodes": 65}}
 
 
 def test_a_case_of_ones_own_is_differenced_by_the_best():
-    config = config_from_tables(FILM)
-    found = settled(config, contact_from(config)).discretization
-    assert {"couette": found.couette, "face_mobility": found.face_mobility} == BEST
+    scheme = set_up(config_from_tables(FILM)).settings.scheme
+    assert {"couette": scheme.couette, "face_mobility": scheme.face_mobility} == BEST
 
 
 @pytest.mark.parametrize("order", [0.5, 1, 2, 3])
