@@ -69,6 +69,10 @@ class GridSection:
         AUTO, "domain along x in units of the Hertz semi-axis a: two numbers, or by the film", kind=tuple
     )
     y: tuple | str = key_field(AUTO, "the same along y in units of the semi-axis b", kind=tuple)
+    load_beyond: bool | None = key_field(
+        None, "whether the load that is carried beyond the domain is counted (unset: where it is light)",
+        kind=bool,
+    )  # fmt: skip
 
 
 @dataclass(frozen=True)

@@ -59,7 +59,7 @@ def _described(config, contact, mesh):
 def _inlet(config, contact, mesh):
     """Lines about the inlet on every grid."""
     from mgehl.kinds.loaded import speed_words
-    from mgehl.output.domain import domain_verdict, domain_words, film_lost, room_words
+    from mgehl.output.domain import beyond_words, domain_verdict, domain_words, film_lost, room_words
     from mgehl.output.forecast import LARGEST_NODES, inlet_grids
     from mgehl.output.resolution import RESOLVED_CELLS, expectation, resolving_nodes
     from mgehl.solver.from_config import start_of
@@ -80,6 +80,7 @@ def _inlet(config, contact, mesh):
     lost = film_lost(contact, mesh)
     yield f"domain     {room_words(mesh)}"
     yield f"           {domain_words(domain_verdict(lost), lost)}"
+    yield from (f"load       {words}" for words in beyond_words(100.0 * contact.share_beyond(mesh)))
     yield f"resolved   with {RESOLVED_CELLS:.0f} cells in the inlet, from {needed} nodes on: {verdict}"
 
 

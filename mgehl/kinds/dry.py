@@ -16,9 +16,9 @@ ROOM = 1.5
 """End of a domain that is "auto", over the reach of the smooth contact: peaks carry load beyond it."""
 
 OF_A_FLUID = (
-    "lubricant", "motion", "relaxation", "contact.boundary_film", "discretization.couette",
-    "discretization.face_mobility", "discretization.unified_gap", "discretization.couette_at_interface",
-    "discretization.cavitation", "discretization.film_threshold",
+    "lubricant", "motion", "relaxation", "contact.boundary_film", "grid.load_beyond",
+    "discretization.couette", "discretization.face_mobility", "discretization.unified_gap",
+    "discretization.couette_at_interface", "discretization.cavitation", "discretization.film_threshold",
     "solver.method", "solver.start", "solver.linear_tolerance", "solver.sweeps", "solver.omega",
     "solver.cycle_couette", "solver.first_nodes", "solver.inlet_cells", "solver.squeeze", "solver.error",
     "solver.release_budget", "solver.idle_steps",

@@ -95,7 +95,7 @@ class PointKind(LoadedKind):
         section, moes, lubricant = config.contact, config.moes, lubricant_from(config)
         body = (section.radius_x, section.radius_y, section.reduced_modulus)
         more = {"surface": surface_from(config), "deformation": _deformation_from(config)}
-        more["angle"] = config.motion.angle
+        more |= {"angle": config.motion.angle, "load_beyond": config.grid.load_beyond}
         if moes.M is not None:
             return PointContact.from_moes(moes.M, moes.L, *body, lubricant, **more)
         return PointContact(section.load, *body, config.motion.speed, lubricant, **more)

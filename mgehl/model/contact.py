@@ -48,6 +48,8 @@ class LoadedContact:
     """It has no end across the motion."""
     is_light = False
     """The load is so light that the bodies hardly yield: the pressure is not that of Hertz."""
+    counts_load_beyond = False
+    """The film need not carry in its domain what is carried beyond it."""
     motion = (1.0, 0.0)
     """The surfaces move towards +X."""
 
@@ -137,6 +139,14 @@ class LoadedContact:
         The widening by a soft layer is estimated, and low by up to a third.
         """
         return self.widening if self.widening <= 1.0 else min(self.widening**2, 1.3 * self.widening)
+
+    def share_beyond(self, mesh):
+        """Part of the load that the film in the domain of a mesh need not carry: others do, beyond it."""
+        return 0.0
+
+    def load_within(self, mesh):
+        """The integral of P over the domain of a mesh, less what is carried beyond it  [Liu eq. 50]."""
+        return self.load_integral * (1.0 - self.share_beyond(mesh))
 
     @property
     def is_at_rest(self):

@@ -8,6 +8,7 @@ from mgehl.model import films
 from mgehl.model.coating import Coating
 from mgehl.model.contact import Groups, LoadedContact
 from mgehl.model.deformation import HalfSpace, LayeredHalfSpace
+from mgehl.model.far_field import share_beyond
 from mgehl.model.frame import Frame, SurfaceInFrame, direction
 from mgehl.model.hertz import hertz_contact, hertz_gap
 from mgehl.model.images import fit_images
@@ -17,6 +18,10 @@ from mgehl.model.surface import Surface
 
 LOAD = 2.0 * pi / 3.0
 """Dimensionless load: the integral of P over X and Y  [Liu eq. 50]."""
+
+FLOATS = 3.0
+"""A film answers to the load where that of rigid bodies, so many times, is thicker than that of elastic
+ones: balls of M below 8.2."""
 
 
 def radii_along(angle, radius_x, radius_y):
@@ -62,6 +67,8 @@ class PointContact(LoadedContact):
     """What the bodies are in depth, if not half-spaces of the reduced modulus."""
     angle: float = 0.0
     """Direction of the motion in degrees, from +x towards +y."""
+    load_beyond: bool | None = None
+    """Whether the load that is carried beyond the domain is counted; None: where the film answers to it."""
 
     load_integral = LOAD
     contact_area = pi
@@ -151,9 +158,26 @@ class PointContact(LoadedContact):
     @property
     def is_light(self):
         """By Moes' isoviscous films: that of rigid bodies is thicker than that of elastic ones."""
-        like = self.likeness
-        rigid, elastic, _, _ = films.point_asymptotes(like.groups, like.radius_x / like.radius_y)
+        rigid, elastic = self._isoviscous_films
         return rigid > elastic
+
+    @property
+    def counts_load_beyond(self):
+        """Whether the film need not carry in its domain what is carried beyond it."""
+        if self.is_at_rest or self.load_beyond is not None:
+            return bool(self.load_beyond) and not self.is_at_rest
+        rigid, elastic = self._isoviscous_films
+        return FLOATS * rigid > elastic
+
+    @property
+    def _isoviscous_films(self):
+        """Moes' films of rigid and of elastic bodies, H_Moes."""
+        like = self.likeness
+        return films.point_asymptotes(like.groups, like.radius_x / like.radius_y)[:2]
+
+    def share_beyond(self, mesh):
+        """Part of the load that the film in the domain of a mesh need not carry."""
+        return share_beyond(self, mesh.x, mesh.y) if self.counts_load_beyond else 0.0
 
     @property
     def inlet_length(self):

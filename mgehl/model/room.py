@@ -3,9 +3,9 @@
 Its sides are tried at the distances by which each of them takes the same share of the film, until what they
 take together is little enough. Upstream is where the motion comes from, at whatever angle.
 
-At light loads (M below 8) that would be a hundred semi-axes, on which few grids resolve the film. What the
-load asks for it gets only as far as the inlet keeps its cells: with more nodes the domain grows, and the
-film stays resolved.
+Where the load beyond the domain is not counted (`far_field`), light loads ask for a hundred semi-axes, on
+which few grids resolve the film. What the load asks for it gets only as far as the inlet keeps its
+cells: with more nodes the domain grows, and the film stays resolved.
 """
 
 from math import ceil, hypot, sqrt

@@ -7,12 +7,13 @@ m* = 1 + 3.06 [(R_x/b)^2 H]^0.58 a ball has lost some 4 % by that.
 
 The second is load. Far outside the bodies are rigid, the pressure is Kapitza's, and the load it carries
 beyond a distance falls only as 1 over that distance, or over its square in a line contact. It rules where a
-film answers to the load: M below 8.
+film answers to the load: M below 8. Where it is counted (`far_field`), only what is not known of it is
+lost.
 
 The side downstream takes nothing: one at 1.2 semi-axes gives the film of one at 3 to 0.1 %.
 
 The constants were fitted to pairs of solutions on a small and a large domain of equal cells. An estimate is
-good to a factor of two: `study domain` measures it.
+good to a factor of two, but where a domain cuts into a light film: `study domain` measures it.
 """
 
 from dataclasses import dataclass
@@ -25,6 +26,7 @@ import numpy as np
 from mgehl.model import films
 from mgehl.model.approach import STEPS, Approach
 from mgehl.model.contact import LoadedContact
+from mgehl.model.far_field import kapitza_factor
 
 UPSTREAM, BESIDE = (0.66, 0.53), (0.08, 0.15)
 """Powers of the part of the reduced pressure that is left with which the central and the minimum film fall
@@ -40,6 +42,14 @@ outgrows the rigid one, and the power that is left: M = 8 to 20 need a little mo
 OUTSIDE, LINE_OUTSIDE = 1.15, 3.0
 """Load lost over that beyond a side, of point and line contacts: a side's pressure of zero lowers that
 within, too, in a line contact by as much everywhere."""
+
+UNKNOWN, UNKNOWN_BY_WIDTH = 0.02, 1.2
+"""Part of the load beyond a side that is lost all the same where it is counted, of a ball, and the power of
+b/a with which it grows: so far is it known."""
+
+COUNTED = 0.5
+"""Part of the reduced pressure's loss that is left where the load beyond is counted: that counts, too, what
+the sides take away within (`far_field.OUTSIDE`)."""
 
 NO_FILM = 1e-12
 """Least film, in units of H: a contact at rest has an inlet without length."""
@@ -125,6 +135,8 @@ class Starvation:
         L, wide = self.like.groups.L, inf if self.contact.is_plane else 1.0 / self.like.k_e
         # Isoviscous films answer less to the pressure of the inlet.
         answer = 0.36 + 0.96 * L / (L + 5.0)
+        if self.contact.counts_load_beyond:
+            answer *= COUNTED
         upstream, beside = answer / (1.0 + (SLENDER / wide) ** 2), 2.0 * answer / (1.0 + wide**1.6)
         return [(upstream * up, beside * by) for up, by in zip(UPSTREAM, BESIDE, strict=True)]
 
@@ -137,12 +149,13 @@ class Starvation:
     def by_load(self):
         """-ln of the film left without the load beyond a side, times its distance in m to the `order`.
 
-        Upstream and beside. Kapitza's p = c x/h^2 with c = 4 eta u R_x/(1 + 2 R_x/(3 R_y)).
+        Upstream and beside.
         """
         like = self.like
         x, y = like.radius_x, inf if self.contact.is_plane else like.radius_y
-        c = 4.0 * like.lubricant.viscosity * like.speed * x / (1.0 + 2.0 * x / (3.0 * y))
-        share = self._answer_to_load * c / like.load
+        share = self._answer_to_load * kapitza_factor(like.lubricant, like.speed, x, y) * x / like.load
+        if self.contact.counts_load_beyond:
+            share *= UNKNOWN * max(1.0, 1.0 / like.k_e) ** UNKNOWN_BY_WIDTH
         if self.contact.is_plane:
             return LINE_OUTSIDE * share * 2.0 * x, 0.0
         return OUTSIDE * share * 2.0 * pi * sqrt(x * y), OUTSIDE * share * 4.0 * y

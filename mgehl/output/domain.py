@@ -42,6 +42,11 @@ def domain_words(verdict, lost):
     )
 
 
+def beyond_words(percent):
+    """How much of the load is left to the film beyond a domain, in a list; empty where nothing is."""
+    return [f"{percent:.1f} % of it is left to the film beyond the domain"] if percent else []
+
+
 def room_words(mesh):
     """The ends of a domain."""
     x = f"x from {mesh.x[0]:g} to {mesh.x[1]:g} a"

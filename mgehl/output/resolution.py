@@ -33,6 +33,8 @@ class Resolution:
     """Whether the grid shows the surface: "smooth", "resolved", "coarse" or "grid-determined"."""
     surface_nodes: float | None = None
     """Nodes in the shortest wave of the surface; None without waves."""
+    load_beyond_percent: float = 0.0
+    """Of the load, what is left to the film beyond the domain: of a light one more than nothing."""
 
 
 def resolution(contact, mesh):
@@ -41,9 +43,8 @@ def resolution(contact, mesh):
     domain = domain_verdict(lost)
     nodes = surface.wave_nodes(contact, mesh)
     shown = surface.surface_verdict(contact, nodes)
-    return Resolution(
-        cells, _verdict(cells, domain), domain, lost, shown, nodes if isfinite(nodes) else None
-    )
+    found = cells, _verdict(cells, domain), domain, lost, shown, nodes if isfinite(nodes) else None
+    return Resolution(*found, 100.0 * contact.share_beyond(mesh))
 
 
 def _verdict(cells, domain):

@@ -3,7 +3,7 @@
 from math import isfinite
 
 from mgehl.output.digits import with_band
-from mgehl.output.domain import domain_words
+from mgehl.output.domain import beyond_words, domain_words
 from mgehl.output.resolution import RESOLVED_CELLS, SEEN_CELLS
 from mgehl.output.surface import surface_words
 
@@ -75,6 +75,7 @@ def loaded_words(result, verbose=True):
         *((f"  start: {result.start_note}",) if result.start_note else ()),
         f"  inlet: {resolution.inlet_cells:.2f} cells, {_advice(result)[resolution.verdict]}",
         f"  domain: {domain_words(resolution.domain, resolution.domain_loss_percent)}",
+        *(f"  load: {words}" for words in beyond_words(resolution.load_beyond_percent)),
         *((f"  surface: {shown}",) if shown else ()),
         *(mixed_lines(result.mixed) if result.mixed else ()),
         _work(result),

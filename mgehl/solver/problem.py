@@ -91,6 +91,7 @@ class ContactProblem(Problem):
         self.deflection = deflection
         self.K00 = influence_coefficients(grid.mesh, contact.kernel, 0, 1)[0, 0]
         self._undeformed = contact.undeformed_gap(grid.X, grid.Y)
+        self._load_within = contact.load_within(grid.mesh)
 
     def gap(self, P, H0):
         """H of [Liu eq. 48] under the pressure P; one convolution."""
@@ -110,8 +111,8 @@ class ContactProblem(Problem):
         return State(P, H0, self.gap(P, H0), status)
 
     def load_deficit(self, P):
-        """Integral of P minus the load  [Liu eq. 50]."""
-        return self.load(P) - self.contact.load_integral
+        """Integral of P minus the load that the domain carries  [Liu eq. 50]."""
+        return self.load(P) - self._load_within
 
     def mean(self, array, nodes):
         """Mean of an array (lines, nx) over some nodes of all ranks."""

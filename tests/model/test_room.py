@@ -8,6 +8,7 @@ from mgehl.model.contact import RESOLVED_CELLS
 from mgehl.model.room import ALLOWED, NEAREST, PARTS, domain_for
 from mgehl.model.starvation import Starvation
 from mgehl.studies.domain import line, moes
+from mgehl.studies.study import merged
 
 NODES, FARTHEST = 257, 1000.0
 
@@ -77,12 +78,20 @@ def test_a_soft_layer_s_contact_has_room_for_what_is_not_known_of_it():
 
 
 def test_a_light_load_has_the_room_in_which_the_grid_resolves_its_inlet():
-    found = starvation(moes(5.0, 5.0))
+    """Where the film in the domain carries it alone."""
+    found = starvation(merged(moes(5.0, 5.0), {"grid": {"load_beyond": False}}))
     domains = {nodes: domain_for(found, nodes, FARTHEST) for nodes in (257, 513, 2049)}
     for nodes, (x, y) in domains.items():
         assert (x[1] - x[0]) / (nodes - 1) * RESOLVED_CELLS < 1.1 * found.contact.inlet_length
         assert found.lost(x, y) <= ALLOWED or nodes < 1000
     assert domains[257][0][0] > domains[513][0][0] > domains[2049][0][0]
+
+
+def test_a_light_load_that_is_counted_beyond_the_domain_needs_no_more_nodes():
+    found = starvation(moes(5.0, 5.0))
+    few, many = (domain_for(found, nodes, FARTHEST) for nodes in (129, 2049))
+    assert few == many and -14.0 < few[0][0] < -6.0
+    assert found.lost(*few) <= ALLOWED
 
 
 def test_no_side_is_farther_than_farthest():

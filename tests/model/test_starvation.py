@@ -10,8 +10,11 @@ from mgehl.kinds import contact_from
 from mgehl.model.frame import Frame
 from mgehl.model.starvation import Starvation
 from mgehl.studies.domain import line, moes
+from mgehl.studies.study import merged
 
 WIDE = (-100.0, 100.0)
+WITHIN = merged(moes(5.0, 5.0), {"grid": {"load_beyond": False}})
+"""A light load that the film in the domain carries alone."""
 
 
 def starvation(tables, film=None):
@@ -32,7 +35,7 @@ def taken(found, x, y):
         (moes(200.0, 10.0), (-2.269, 3.0), (-4.0, 4.0), 1.39, 0.92),
         (moes(200.0, 2.0), (-1.490, 3.0), (-4.0, 4.0), 2.46, 0.79),
         (moes(100.0, 10.0), (-8.0, 3.0), (-1.639, 1.639), 0.84, 2.52),
-        (moes(5.0, 5.0), (-5.75, 10.0), (-20.0, 20.0), -1.38, 7.5),
+        (WITHIN, (-5.75, 10.0), (-20.0, 20.0), -1.38, 7.5),
         (moes(100.0, 5.0, radius_y=50.8e-3), (-2.314, 3.6), (-2.776, 2.776), 4.18, 2.53),
     ],
 )  # fmt: skip
@@ -47,6 +50,12 @@ def test_on_hamrock_and_dowson_s_boundary_a_ball_has_lost_some_per_cent(M, L):
     found = starvation(moes(M, L))
     boundary = 1.0 + 3.06 * found.dimensionless_film**0.58
     assert 2.0 < taken(found, (-boundary, 100.0), WIDE)[0] < 6.0
+
+
+def test_a_light_load_that_is_counted_beyond_the_domain_takes_little():
+    x, y = (-30.0, 3.0), (-15.0, 15.0)
+    counted, within = starvation(moes(5.0, 5.0)).lost(x, y), starvation(WITHIN).lost(x, y)
+    assert counted < 0.2 < 2.0 < within
 
 
 def test_of_a_line_contact_only_upstream_counts():

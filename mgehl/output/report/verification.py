@@ -67,9 +67,16 @@ def checks_table(solution):
             f"below {STARVED_FROM:g}",
             DOMAIN[resolution.domain],
         ),
+        *_beyond_row(resolution.load_beyond_percent),
         *_surface_row(resolution),
     ]
     return table(CHECKS, CHECK_HEADS, rows)
+
+
+def _beyond_row(percent):
+    """The row about load beyond the domain, where that is counted."""
+    if percent:
+        yield informing("load that is left to the film beyond the domain, %", percent)
 
 
 def _surface_row(resolution):

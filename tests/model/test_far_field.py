@@ -1,0 +1,113 @@
+"""Kapitza's pressure far outside, and the load that it carries beyond a domain."""
+
+from dataclasses import replace
+from math import pi
+
+import numpy as np
+import pytest
+from scipy.integrate import dblquad
+
+from mgehl.config import config_from_tables
+from mgehl.kinds import contact_from, mesh_from
+from mgehl.model.far_field import MOST, kapitza_factor, kapitza_load_beyond, share_beyond
+from mgehl.model.frame import Frame
+from mgehl.studies.domain import moes
+from mgehl.studies.study import merged
+
+X, Y = (-20.0, 2.0), (-12.0, 12.0)
+ELLIPSE = {"radius_x": 10e-3, "radius_y": 40e-3}
+
+
+def contact(M=3.0, L=2.0, angle=0.0, **bodies):
+    return contact_from(config_from_tables(merged(moes(M, L, **bodies), {"motion": {"angle": angle}})))
+
+
+def kapitza_pressure(ball, x, y):
+    """By the formula as it is printed, x and y in m."""
+    h = ball.flooded_film + x**2 / (2.0 * ball.radius_x) + y**2 / (2.0 * ball.radius_y)
+    radii = ball.radius_x, ball.radius_y
+    K_x = kapitza_factor(ball.lubricant, ball.speed * ball.motion[0], *radii)
+    K_y = kapitza_factor(ball.lubricant, ball.speed * ball.motion[1], *radii[::-1])
+    return -(K_x * x + K_y * y) / h**2, h
+
+
+@pytest.mark.parametrize("angle", [0.0, 30.0])
+def test_kapitza_s_pressure_solves_reynolds_equation(angle):
+    """div(h^3 grad p) = 12 eta u . grad h by central differences, at some places."""
+    ball = contact(angle=angle, **ELLIPSE)
+    step = 1e-3 * ball.x_scale
+    shifts = step * np.array([-0.5, 0.5])
+
+    def flux(x, y, along):
+        dx, dy = (0.5 * step, 0.0) if along == 0 else (0.0, 0.5 * step)
+        ahead, behind = kapitza_pressure(ball, x + dx, y + dy)[0], kapitza_pressure(ball, x - dx, y - dy)[0]
+        return kapitza_pressure(ball, x, y)[1] ** 3 * (ahead - behind) / step
+
+    for x, y in ball.x_scale * np.array([(-20.0, 3.0), (-5.0, 15.0), (4.0, -8.0)]):
+        by_x, by_y = (flux(x + s, y, 0) for s in shifts), (flux(x, y + s, 1) for s in shifts)
+        div = sum(np.subtract(*pair) for pair in (tuple(by_x), tuple(by_y))) / -step
+        u, v = (ball.speed * part for part in ball.motion)
+        wedge = 12.0 * ball.lubricant.viscosity * (u * x / ball.radius_x + v * y / ball.radius_y)
+        assert div == pytest.approx(wedge, rel=1e-5)
+
+
+@pytest.mark.parametrize("angle", [0.0, 30.0])
+def test_load_beyond_a_rectangle_by_another_quadrature(angle):
+    """Within a larger rectangle by cells, less that within the rectangle, and more beyond the larger."""
+    ball = contact(angle=angle)
+
+    def pressing(y, x):
+        return max(kapitza_pressure(ball, x, y)[0], 0.0)
+
+    ends = [end * ball.x_scale for end in (*X, *Y)]
+    far = 40.0 * ball.x_scale
+    inside = dblquad(pressing, *ends, epsabs=1e-9, epsrel=1e-7)[0]
+    within_larger = dblquad(pressing, -far, far, -far, far, epsabs=1e-9, epsrel=1e-7)[0]
+    beyond_larger = kapitza_load_beyond(ball, (-40.0, 40.0), (-40.0, 40.0))
+    assert kapitza_load_beyond(ball, X, Y) == pytest.approx(
+        within_larger - inside + beyond_larger, rel=1e-4
+    )
+
+
+def test_far_away_it_falls_as_one_over_the_distance():
+    """Beyond a circle it is 8 K R^2/distance, beyond a square (1 + pi/4)/2 of that."""
+    ball = contact()
+    at = {d: kapitza_load_beyond(ball, (-d, d), (-d, d)) for d in (1e3, 2e3)}
+    assert at[1e3] == pytest.approx(2.0 * at[2e3], rel=1e-3)
+    K = kapitza_factor(ball.lubricant, ball.speed, ball.radius_x, ball.radius_y)
+    beyond_circle = 8.0 * K * ball.radius_x**2 / (1e3 * ball.x_scale)
+    assert at[1e3] == pytest.approx(0.5 * (1.0 + pi / 4.0) * beyond_circle, rel=1e-3)
+
+
+@pytest.mark.parametrize("angle", [90, 135, 200, 315])
+def test_it_is_the_same_in_the_axes_of_the_solver(angle):
+    ball = contact(angle=angle, **ELLIPSE)
+    frame = Frame.of(angle)[0]
+    there = kapitza_load_beyond(ball.in_frame(frame), *frame.intervals(X, Y))
+    assert there == pytest.approx(kapitza_load_beyond(ball, X, Y), rel=1e-9)
+
+
+@pytest.mark.parametrize("M, counts", [(3.0, True), (8.0, True), (10.0, False), (200.0, False)])
+def test_the_load_beyond_is_counted_where_the_film_answers_to_it(M, counts):
+    assert contact(M, 5.0).counts_load_beyond is counts
+    for said in (True, False):
+        assert replace(contact(M, 5.0), load_beyond=said).counts_load_beyond is said
+
+
+def test_the_key_reaches_the_contact_and_the_domain_s_load():
+    tables = merged(moes(3.0, 2.0), {"grid": {"x": X, "y": Y}})
+    found = {}
+    for said in (True, False):
+        config = config_from_tables(merged(tables, {"grid": {"load_beyond": said}}))
+        ball = contact_from(config)
+        found[said] = ball.load_within(mesh_from(config, ball)) / ball.load_integral
+    assert found[False] == 1.0
+    assert found[True] == 1.0 - share_beyond(ball, X, Y) < 0.9
+
+
+def test_a_contact_at_rest_has_no_film_that_could_carry():
+    assert not replace(contact(), speed=0.0, load_beyond=True).counts_load_beyond
+
+
+def test_a_domain_that_ends_in_the_film_carries_half_all_the_same():
+    assert share_beyond(contact(1.0, 3.0), (-1.2, 1.2), (-1.2, 1.2)) == MOST
