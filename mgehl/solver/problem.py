@@ -58,6 +58,11 @@ class Problem:
         evaluation.change_pressure(P)
         _ = evaluation.inflow
 
+    def change_fluid(self, evaluation, state):
+        """The same where the fluid's sets have changed, too: the evaluation is told of those of `state`."""
+        evaluation.status = self.grid.halo_status(state.status)
+        self.change_pressure(evaluation, self.grid.halo(state.P))
+
     def ghosted(self, state):
         """P, H and status of a state with the neighbours' lines."""
         grid = self.grid

@@ -102,10 +102,10 @@ class RigidGapFluid:
                 torn = (state.P < 0.0) & separable
                 state.P[torn] = 0.0
                 state.status[torn] = CAVITATED
-            evaluation = problem.evaluate(state)
+            problem.change_fluid(evaluation, state)
             given_back = self._give_back(state, separable, before, evaluation)
             if given_back:
-                evaluation = problem.evaluate(state)
+                problem.change_fluid(evaluation, state)
 
     def _give_back(self, state, separable, before, evaluation):
         """Take nodes that are no longer separable out of `separable`, in place; they get the P of `before`.

@@ -77,6 +77,18 @@ def test_a_spoiled_set_is_restored(film, spoil):
 
 
 @pytest.mark.parametrize("spoil", [dry_cavity, torn_rim])
+def test_an_evaluation_is_told_of_other_pressures_and_sets(film, spoil):
+    problem, state = film.problem, film.outcome.state.copy()
+    evaluation = problem.evaluate(state)
+    spoil(film, state)
+    state.P[state.status == LUBRICATED] *= 1.01
+    problem.change_fluid(evaluation, state)
+    anew = problem.evaluate(state)
+    for name in ("P", "H", "status", "inflow", "conductance"):
+        np.testing.assert_array_equal(getattr(evaluation, name), getattr(anew, name), err_msg=name)
+
+
+@pytest.mark.parametrize("spoil", [dry_cavity, torn_rim])
 def test_complementarity_holds_where_it_relaxes(film, spoil):
     problem = film.problem
     state = film.outcome.state.copy()
