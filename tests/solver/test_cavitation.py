@@ -5,7 +5,7 @@ import pytest
 
 from mgehl.discretization.axes import HALO
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
-from mgehl.solver.cavitation import WEAKLY_COUPLED, relax_cavitation_set, weakly_coupled
+from mgehl.solver.cavitation import WEAKLY_COUPLED, is_at_rest, relax_cavitation_set, weakly_coupled
 
 
 @pytest.fixture
@@ -74,6 +74,14 @@ def test_a_spoiled_set_is_restored(film, spoil):
     assert np.count_nonzero(differ) < 0.1 * spoiled
     assert max(state.P[differ].max(initial=0.0), solved.P[differ].max(initial=0.0)) < 1e-5
     np.testing.assert_allclose(state.P, solved.P, rtol=0.0, atol=1e-4)
+
+
+@pytest.mark.parametrize("spoil", [dry_cavity, torn_rim])
+def test_a_set_at_rest_is_told_from_a_spoiled_one(film, spoil):
+    problem, state = film.problem, film.outcome.state.copy()
+    assert is_at_rest(problem, state, problem.evaluate(state))
+    spoil(film, state)
+    assert not is_at_rest(problem, state, problem.evaluate(state))
 
 
 @pytest.mark.parametrize("spoil", [dry_cavity, torn_rim])
