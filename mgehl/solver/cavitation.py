@@ -69,7 +69,7 @@ def relax_cavitation_set(problem, state, evaluation):
 def is_at_rest(problem, state, evaluation):
     """Whether no film pulls and no fluid flows into a cavity: nothing asks for another set at this gap.
 
-    Where the gap moves, too, the relaxation knows more: it finds out what the pressure will ask for (M = 20,
+    Where the gap moves, too, the relaxation knows more: it finds what the pressure will ask for (M = 20,
     L = 10 by 2B on 513 nodes: 39 convolutions for 43).
     """
     pulls = (state.status == LUBRICATED) & (state.P <= 0.0)
