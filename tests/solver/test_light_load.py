@@ -1,0 +1,45 @@
+"""A light load on oil: its film is the same on domains of any size, for what is carried beyond counts."""
+
+import pytest
+
+import mgehl
+from mgehl.config import config_from_tables
+from mgehl.model.room import interval_on_nodes
+from mgehl.studies.domain import moes
+from mgehl.studies.study import merged
+
+
+@pytest.fixture(scope="module")
+def central_film():
+    """The central film in nm of M = 3, L = 2 on a domain that ends so far upstream; equal cells."""
+
+    def found(end, **grid):
+        x, y = interval_on_nodes(end, end / 8.0), (-end / 2.0, end / 2.0)
+        tables = {"grid": {"nodes": int(4 * end) + 1, "x": x, "y": y, **grid}, "solver": {"error": False}}
+        solution = mgehl.solve(config_from_tables(merged(moes(3.0, 2.0), tables)))
+        assert solution.result.converged
+        return solution.result.central_film_nm
+
+    return found
+
+
+def test_three_domains_have_one_film(central_film):
+    """A quarter, an eighth and a sixteenth of the load is carried beyond, and the film answers to its
+    square."""
+    small, larger, largest = (central_film(end) for end in (16.0, 32.0, 64.0))
+    assert small == pytest.approx(largest, rel=0.01)
+    assert larger == pytest.approx(largest, rel=0.003)
+
+
+def test_a_domain_that_carries_all_of_the_load_has_less_film_the_smaller_it_is(central_film):
+    small, larger = (central_film(end, load_beyond=False) for end in (16.0, 32.0))
+    counted = central_film(32.0)
+    assert small < 0.9 * larger < 0.8 * counted
+
+
+def test_the_answer_says_how_much_is_carried_beyond():
+    tables = merged(moes(3.0, 2.0), {"grid": {"nodes": 65}, "solver": {"error": False}})
+    result = mgehl.solve(config_from_tables(tables)).result
+    assert 10.0 < result.resolution.load_beyond_percent < 30.0
+    part = f"{result.resolution.load_beyond_percent:.1f} %"
+    assert f"load: {part} of it is left to the film beyond the domain" in str(result)
