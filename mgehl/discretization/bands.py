@@ -15,8 +15,9 @@ REACH_OF_STENCIL = 2
 LOOPS = {reach: banded(reach) for reach in (REACH, REACH_OF_STENCIL)}
 """(factor, solve) by the reach of a band."""
 
-AT_A_TIME = 4
-"""Lines that are filled and factored before the next ones: a fifth less time than all at once."""
+AT_A_TIME, STENCILS_AT_A_TIME = 4, 16
+"""Lines that are filled and factored before the next ones, where the gap is elastic and where it is rigid:
+a fifth less time than all at once."""
 
 LINES_BESIDE = 2
 """Lines on each side that a stencil couples a line to."""
@@ -91,14 +92,19 @@ class LineBands:
         """Free the memory of the bands."""
         self._factors = None
 
-    def factor_stencil(self, linearisation):
-        """Factor what the stencil A of a rigid gap couples along the lines, all their nodes."""
-        bands = self._room()
-        bands[:] = 0.0
-        for (beside, ahead), A in zip(linearisation.offsets, linearisation.A, strict=True):
-            if beside == 0:
-                bands[:, :, REACH_OF_STENCIL + ahead] = A
-        self._factor(bands, (0, bands.shape[1]))
+    def factor_stencil(self, linearisation, given):
+        """Factor what the stencil A of a rigid gap couples along the lines."""
+        bands, spans = self._room(), self._spans
+        stencil = zip(linearisation.offsets, linearisation.A, strict=True)
+        along = [(ahead, A) for (beside, ahead), A in stencil if beside == 0]
+        for first in range(0, len(bands), STENCILS_AT_A_TIME):
+            some = slice(first, min(first + STENCILS_AT_A_TIME, len(bands)))
+            spans[some] = nodes = span_of(given, (some.start, some.stop))
+            part = bands[some, slice(*nodes)]
+            part[:] = 0.0
+            for ahead, A in along:
+                part[:, :, REACH_OF_STENCIL + ahead] = A[some, slice(*nodes)]
+            self._factor(bands[some], nodes)
 
     def solve(self, r, w):
         """Solve all lines for the right-hand sides `r`; write `w`, which may be `r`; both (lines, nx)."""

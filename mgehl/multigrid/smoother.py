@@ -180,7 +180,7 @@ class RigidLineSmoother:
     @event(LINES)
     def factor(self):
         """Factor the lines of the present linearisation."""
-        self._bands.factor_stencil(self._jacobian.linearisation)
+        self._bands.factor_stencil(self._jacobian.linearisation, self._jacobian.given)
 
     def factor_alone(self):
         """Of lines one rank factors nothing for all."""

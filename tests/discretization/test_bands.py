@@ -8,6 +8,7 @@ from mgehl.discretization.bands import (
     AT_A_TIME,
     LINES_BESIDE,
     REACH_OF_STENCIL,
+    STENCILS_AT_A_TIME,
     STIFF,
     LineBands,
     distributive_nodes,
@@ -81,16 +82,25 @@ def test_distributed_column_hardly_reaches_beyond_the_band():
     assert distributed == pytest.approx(0.5 * line.dX * np.log(1.0 - 1.0 / REACH**2), rel=0.05)
 
 
+def given_ends(lines, nx):
+    """Two masks of given nodes: none; and from three to six at each end, some between, whole lines."""
+    nodes, line = np.arange(nx), np.arange(lines)[:, None]
+    ends = (nodes < 3 + line % 4) | (nodes >= nx - 3 - line % 3) | (nodes == 8)
+    return np.zeros((lines, nx), dtype=bool), ends | (line >= STENCILS_AT_A_TIME)
+
+
 @every_stencil
 def test_line_bands_solve_the_lines_of_a_stencil(offsets):
     """A rigid gap: factor_stencil against numpy.linalg.solve, twice with the same bands."""
     rng = np.random.default_rng(6)
-    lines, nx = 3, MESH.nx
-    r, w = rng.standard_normal((lines, nx)), np.empty((lines, nx))
+    lines, nx = STENCILS_AT_A_TIME + 2, MESH.nx
     bands = LineBands(lines, nx, REACH_OF_STENCIL)
-    for A in line_stencils(rng, offsets, lines, nx):
+    for A, given in zip(line_stencils(rng, offsets, lines, nx), given_ends(lines, nx), strict=True):
         A[0] += 8.0
-        bands.factor_stencil(Linearisation(np.array(offsets), A, None, None))
+        A[:, given] = 0.0
+        A[0, given] = -7.0
+        r, w = np.where(given, 0.0, rng.standard_normal((lines, nx))), np.empty((lines, nx))
+        bands.factor_stencil(Linearisation(np.array(offsets), A, None, None), given)
         bands.solve(r, w)
         J = dense_stencil(offsets, A).reshape(lines, nx, lines + 2 * HALO, nx)
         for j in range(lines):
