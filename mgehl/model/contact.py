@@ -49,7 +49,7 @@ class LoadedContact:
     is_light = False
     """The load is so light that the bodies hardly yield: the pressure is not that of Hertz."""
     counts_load_beyond = False
-    """The film need not carry in its domain what is carried beyond it."""
+    """Whether the film in the domain is spared the load that is carried beyond it."""
     motion = (1.0, 0.0)
     """The surfaces move towards +X."""
 
@@ -141,7 +141,7 @@ class LoadedContact:
         return self.widening if self.widening <= 1.0 else min(self.widening**2, 1.3 * self.widening)
 
     def share_beyond(self, mesh):
-        """Part of the load that the film in the domain of a mesh need not carry: others do, beyond it."""
+        """Part of the load that the film in the domain of a mesh need not carry."""
         return 0.0
 
     def load_within(self, mesh):

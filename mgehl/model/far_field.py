@@ -13,7 +13,7 @@ from math import log
 
 import numpy as np
 
-OUTSIDE, WIDE = 1.65, 0.07
+MISSING, WIDE = 1.65, 0.07
 """Load that is missing in a domain over Kapitza's load beyond it: of a ball, and how much less it is by the
 square of ln b/a where the contact is wide.
 
@@ -37,7 +37,8 @@ def kapitza_factor(lubricant, speed, along, across):
 
 def kapitza_load_beyond(contact, x, y):
     """Newtons that Kapitza's pressure carries upstream beyond a domain, its ends in units of X and Y."""
-    c, s = np.cos(_angles()), np.sin(_angles())
+    angles = (np.arange(DIRECTIONS) + 0.5) * 2.0 * np.pi / DIRECTIONS
+    c, s = np.cos(angles), np.sin(angles)
     motion_x, motion_y = contact.motion
     radii, lubricant, speed = (contact.radius_x, contact.radius_y), contact.lubricant, contact.speed
     K_x = kapitza_factor(lubricant, speed * motion_x, *radii)
@@ -48,14 +49,10 @@ def kapitza_load_beyond(contact, x, y):
     return float(np.mean(pressing * _along_rays(way, curvature, contact.flooded_film)) * 2.0 * np.pi)
 
 
-def share_beyond(contact, x, y):
+def missing_share(contact, x, y):
     """Part of a contact's load that is missing in a domain, its ends in units of X and Y."""
-    outside = OUTSIDE - WIDE * min(log(contact.likeness.k_e), 0.0) ** 2
-    return min(outside * kapitza_load_beyond(contact, x, y) / contact.load, MOST)
-
-
-def _angles():
-    return (np.arange(DIRECTIONS) + 0.5) * 2.0 * np.pi / DIRECTIONS
+    missing = MISSING - WIDE * min(log(contact.likeness.k_e), 0.0) ** 2
+    return min(missing * kapitza_load_beyond(contact, x, y) / contact.load, MOST)
 
 
 def _way(part, ends, scale):

@@ -8,7 +8,7 @@ from mgehl.model import films
 from mgehl.model.coating import Coating
 from mgehl.model.contact import Groups, LoadedContact
 from mgehl.model.deformation import HalfSpace, LayeredHalfSpace
-from mgehl.model.far_field import share_beyond
+from mgehl.model.far_field import missing_share
 from mgehl.model.frame import Frame, SurfaceInFrame, direction
 from mgehl.model.hertz import hertz_contact, hertz_gap
 from mgehl.model.images import fit_images
@@ -20,8 +20,8 @@ LOAD = 2.0 * pi / 3.0
 """Dimensionless load: the integral of P over X and Y  [Liu eq. 50]."""
 
 FLOATS = 3.0
-"""A film answers to the load where that of rigid bodies, so many times, is thicker than that of elastic
-ones: balls of M below 8.2."""
+"""A film answers to the load where so many times that of rigid bodies is thicker than that of elastic ones:
+balls of M below 8.2."""
 
 
 def radii_along(angle, radius_x, radius_y):
@@ -163,9 +163,11 @@ class PointContact(LoadedContact):
 
     @property
     def counts_load_beyond(self):
-        """Whether the film need not carry in its domain what is carried beyond it."""
-        if self.is_at_rest or self.load_beyond is not None:
-            return bool(self.load_beyond) and not self.is_at_rest
+        """Whether the film in the domain is spared the load that is carried beyond it."""
+        if self.is_at_rest:
+            return False
+        if self.load_beyond is not None:
+            return self.load_beyond
         rigid, elastic = self._isoviscous_films
         return FLOATS * rigid > elastic
 
@@ -177,7 +179,7 @@ class PointContact(LoadedContact):
 
     def share_beyond(self, mesh):
         """Part of the load that the film in the domain of a mesh need not carry."""
-        return share_beyond(self, mesh.x, mesh.y) if self.counts_load_beyond else 0.0
+        return missing_share(self, mesh.x, mesh.y) if self.counts_load_beyond else 0.0
 
     @property
     def inlet_length(self):

@@ -49,7 +49,7 @@ b/a with which it grows: so far is it known."""
 
 COUNTED = 0.5
 """Part of the reduced pressure's loss that is left where the load beyond is counted: that counts, too, what
-the sides take away within (`far_field.OUTSIDE`)."""
+the sides take away within (`far_field.MISSING`)."""
 
 NO_FILM = 1e-12
 """Least film, in units of H: a contact at rest has an inlet without length."""

@@ -66,7 +66,7 @@ def relax_cavitation_set(problem, state, evaluation):
     return moved
 
 
-def is_at_rest(problem, state, evaluation):
+def cavities_rest(problem, state, evaluation):
     """Whether no film pulls and no fluid flows into a cavity: nothing asks for another set at this gap.
 
     Where the gap moves, too, the relaxation knows more: it finds what the pressure will ask for (M = 20,

@@ -10,7 +10,7 @@ from mgehl.discretization.evaluation import Evaluation
 from mgehl.discretization.rows import rows_of
 from mgehl.discretization.status import CAVITATED, LUBRICATED, is_fluid
 from mgehl.grid.events import linear_solve
-from mgehl.solver.cavitation import driven, is_at_rest, relax_cavitation_set
+from mgehl.solver.cavitation import cavities_rest, driven, relax_cavitation_set
 from mgehl.solver.problem import DIVERGED
 
 LARGEST_STEP = 0.3
@@ -85,7 +85,7 @@ class RigidGapFluid:
         evaluation = problem.evaluate(state)
         separable, given_back = self.separable(evaluation, state.status), 0
         while True:
-            at_rest = is_at_rest(problem, state, evaluation)
+            at_rest = cavities_rest(problem, state, evaluation)
             moved = 0 if at_rest else relax_cavitation_set(problem, state, evaluation)
             filled = separable & (state.status == CAVITATED) & (evaluation.inflow > 0.0)
             state.status[filled] = LUBRICATED

@@ -5,7 +5,7 @@ import pytest
 
 from mgehl.discretization.axes import HALO
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
-from mgehl.solver.cavitation import WEAKLY_COUPLED, is_at_rest, relax_cavitation_set, weakly_coupled
+from mgehl.solver.cavitation import WEAKLY_COUPLED, cavities_rest, relax_cavitation_set, weakly_coupled
 
 
 @pytest.fixture
@@ -79,9 +79,9 @@ def test_a_spoiled_set_is_restored(film, spoil):
 @pytest.mark.parametrize("spoil", [dry_cavity, torn_rim])
 def test_a_set_at_rest_is_told_from_a_spoiled_one(film, spoil):
     problem, state = film.problem, film.outcome.state.copy()
-    assert is_at_rest(problem, state, problem.evaluate(state))
+    assert cavities_rest(problem, state, problem.evaluate(state))
     spoil(film, state)
-    assert not is_at_rest(problem, state, problem.evaluate(state))
+    assert not cavities_rest(problem, state, problem.evaluate(state))
 
 
 @pytest.mark.parametrize("spoil", [dry_cavity, torn_rim])
