@@ -6,9 +6,8 @@ padded plane is ever held: a convolution takes two thirds of the time and less t
 
 import numpy as np
 import pyfftw
-from mpi4py import MPI
 
-from mgehl.grid.transpose import Transpose
+from mgehl.grid.plane import even_widths, plane_of
 
 THREADS = 1
 """Of an FFT: the ranks share the work."""
@@ -34,35 +33,34 @@ class PlaneTransforms:
     def __init__(self, grid, period_x, period_y):
         """`period_x` is even; nodes that a period has no room for are those of the domain's boundary."""
         lines, modes = grid.shape[0], period_x // 2 + 1
-        self._transpose = Transpose(grid.team, grid.team_starts, modes, MPI.COMPLEX16)
-        self._by_lines = np.zeros((lines, modes), dtype=complex)
-        self._by_columns = self._transpose.room_for_columns(self._by_lines)
-        self._columns = self._by_columns[:, : self._transpose.columns]
+        self._modes = plane_of(grid.team, grid.team_starts, even_widths(modes, grid.team.size), complex)
         self._along_x = _AlongX(period_x, lines)
-        self._along_y = _AlongY(period_y, self._transpose.columns)
+        self._along_y = _AlongY(period_y, self._modes.columns.shape[1])
         self.scale = period_x * period_y
         """By which a product is larger than it should be."""
 
     def destroy(self):
         """Free the MPI datatypes."""
-        self._transpose.destroy()
+        self._modes.destroy()
 
     def spectrum(self, kernel):
         """That of an even `kernel` (lines, up to a period): the rest of the period is its mirror image."""
-        self._along_x.forward(kernel, self._by_lines, even=True)
-        self._transpose.to_columns(self._by_lines, self._by_columns)
-        return self._along_y.spectrum(self._columns)
+        self._along_x.forward(kernel, self._modes.lines, even=True)
+        self._modes.to_columns()
+        spectrum = self._along_y.spectrum(self._modes.columns)
+        self._modes.release()
+        return spectrum
 
     def product(self, nodes, spectrum, out):
         """Convolve `nodes` (lines, up to a period) with the kernel of a `spectrum`; write `out`, as wide.
 
         It is `scale` times too large.
         """
-        self._along_x.forward(nodes, self._by_lines)
-        self._transpose.to_columns(self._by_lines, self._by_columns)
-        self._along_y.multiply(self._columns, spectrum)
-        self._transpose.to_lines(self._by_columns, self._by_lines)
-        self._along_x.backward(self._by_lines, out)
+        self._along_x.forward(nodes, self._modes.lines)
+        self._modes.to_columns()
+        self._along_y.multiply(self._modes.columns, spectrum)
+        self._modes.to_lines()
+        self._along_x.backward(self._modes.lines, out)
 
 
 class _AlongX:

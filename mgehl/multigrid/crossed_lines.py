@@ -4,7 +4,7 @@ from mgehl.discretization.axes import own
 from mgehl.discretization.band_kernels import REACH
 from mgehl.discretization.bands import STIFF, LineBands, influence_of_columns
 from mgehl.grid.events import LINES, event
-from mgehl.grid.transpose import YLines, pieces_of_y_lines
+from mgehl.grid.y_lines import YLines
 from mgehl.multigrid.cliffs import CliffZone, cliffs
 from mgehl.multigrid.smoother import LineSmoother, influence_nearby
 
@@ -30,7 +30,7 @@ class CrossedLineSmoother(LineSmoother):
         self._y_kappa = influence_of_columns(influence_nearby(jacobian, turned=True), self._share)
         self._y_lines = YLines(grid) if grid.has_lines else None
         if self._y_lines:
-            self._y_bands = LineBands(*self._y_lines.shape)
+            self._y_bands = LineBands(*self._y_lines.whole.shape)
 
     def free(self):
         """Free the MPI datatypes."""
@@ -50,9 +50,9 @@ class CrossedLineSmoother(LineSmoother):
         if not self._y_lines:
             return
         self._diagonal = self._factor_x_lines()
-        for lines, some in pieces_of_y_lines(self._jacobian.grid):
-            linearisation = self._jacobian.linearisation.turned(some.turned)
-            nodes = some.turned(own(self._distributive)) > 0.0, some.turned(self._jacobian.given) > 0.0
+        for lines, piece in self._y_lines.pieces:
+            linearisation = self._jacobian.linearisation.turned(piece.turned)
+            nodes = piece.turned(own(self._distributive)) > 0.0, piece.turned(self._jacobian.given) > 0.0
             self._y_bands.factor(linearisation, *nodes, self._y_kappa, self._share, lines)
 
     def _solve_lines(self, r):
@@ -70,9 +70,9 @@ class CrossedLineSmoother(LineSmoother):
         self._along_y_first = not self._along_y_first
 
     def _solve_y_lines(self, r):
-        w = self._y_lines.turned(r)
+        w = self._y_lines.whole.turned(r)
         self._y_bands.solve(w, w)
-        self._y_lines.turn_back(w, self._w)
+        self._y_lines.whole.turn_back(w, self._w)
 
     def view(self, viewer):
         words = f"omega {self._omega}, {REACH} neighbours"

@@ -2,11 +2,12 @@
 
 import numpy as np
 import pytest
+from scipy.sparse import random as random_sparse
 
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import CAVITATED, CONTACT
 from mgehl.multigrid.assembled import stencil_rows
-from mgehl.multigrid.coarse import CoarseSolve, dense_influence
+from mgehl.multigrid.coarse import CoarseSolve, dense_influence, fill_bordered
 
 NODES = 33
 
@@ -88,3 +89,16 @@ def test_stencil_rows_place_the_neighbours():
     expected[2, :4] = 2.0, 3.0, 1.0, 4.0
     expected[[0, 1, 3], 2] = 5.0, 6.0, 7.0
     np.testing.assert_array_equal(row, expected)
+
+
+def test_the_dense_matrix_is_the_jacobian_of_the_free_nodes():
+    rng, nodes = np.random.default_rng(5), 12
+    A, B = (random_sparse(nodes, nodes, 0.3, "csr", random_state=rng) for _ in range(2))
+    K, free = rng.random((nodes, nodes)), np.array([0, 3, 4, 7, 11])
+    matrix = np.full((6, 6), np.nan)
+    rows = [(each.indptr, each.indices, each.data) for each in (A[free], B[free])]
+    fill_bordered(matrix, free, *rows, K, 0.7)
+    expected = (A + B @ K)[np.ix_(free, free)]
+    np.testing.assert_allclose(matrix[:-1, :-1], expected, rtol=1e-14)
+    np.testing.assert_allclose(matrix[:-1, -1], np.ravel(B[free].sum(axis=1)), rtol=1e-14)
+    np.testing.assert_array_equal(matrix[-1], [0.7] * 5 + [0.0])

@@ -1,13 +1,13 @@
-"""Lines along X and lines along Y of the same nodes; several ranks are tested in tests/parallel."""
+"""Lines along Y of nodes whose lines along X are given; several ranks are tested in tests/parallel."""
 
 import numpy as np
 import pytest
 from mpi4py import MPI
 
 from mgehl.discretization.mesh import Mesh
-from mgehl.grid import transpose
+from mgehl.grid import y_lines as module
 from mgehl.grid.grid import single_grid
-from mgehl.grid.transpose import Transpose, YLines, pieces_of_y_lines
+from mgehl.grid.y_lines import YLines
 
 NX, NY = 7, 5
 
@@ -22,7 +22,7 @@ def grid():
 @pytest.fixture
 def y_lines(grid):
     made = YLines(grid)
-    yield made
+    yield made.whole
     made.destroy()
 
 
@@ -55,23 +55,9 @@ def test_turned_back_is_what_it_was(y_lines):
 
 
 def test_pieces_are_the_whole(grid, y_lines, monkeypatch):
-    monkeypatch.setattr(transpose, "PIECE", 2 * NY + 1)
+    monkeypatch.setattr(module, "PIECE", 2 * NY + 1)
     array = np.random.default_rng(3).random((NY, NX))
-    parts = [(part, some.turned(array)) for part, some in pieces_of_y_lines(grid)]
-    whole = y_lines.turned(array)
+    whole, parts = y_lines.turned(array), YLines(grid).pieces
     assert len(parts) == 4 and parts[0][0].start == 0 and parts[-1][0].stop == NX
-    for part, turned in parts:
-        np.testing.assert_array_equal(turned, whole[part])
-
-
-def test_complex_numbers_are_exchanged_too():
-    exchange = Transpose(MPI.COMM_SELF, np.array([0, NY]), NX, MPI.DOUBLE_COMPLEX)
-    try:
-        lines = np.arange(NX * NY).reshape(NY, NX) * (1.0 + 2.0j)
-        columns, back = (np.empty((NY, exchange.columns), complex) for _ in range(2))
-        exchange.to_columns(lines, columns)
-        exchange.to_lines(columns, back)
-        np.testing.assert_array_equal(columns, lines)
-        np.testing.assert_array_equal(back, lines)
-    finally:
-        exchange.destroy()
+    for lines, piece in parts:
+        np.testing.assert_array_equal(piece.turned(array), whole[lines])

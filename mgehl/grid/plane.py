@@ -1,0 +1,123 @@
+"""A plane of numbers that ranks fill line by line and read column by column, or the other way round.
+
+Ranks of one machine have one array for it (`SharedPlane`): nothing is sent and nothing is copied, they only
+wait for each other. Ranks of several machines have an array for their lines and one for their columns, and
+send each other what the others need (`SentPlane`).
+
+The lines follow the multigrid hierarchy's ownership, which block-distributing transpose libraries cannot
+express.
+"""
+
+import numpy as np
+from mpi4py.util.dtlib import from_numpy_dtype
+
+from mgehl.grid.shared_memory import shared_array
+
+
+def plane_of(comm, line_starts, widths, dtype):
+    """A plane of zeros; every rank of `comm` has lines, from `line_starts` on, and calls this.
+
+    `widths` are the numbers of columns of each rank.
+    """
+    shape = int(line_starts[-1]), _odd(sum(widths))
+    whole = np.zeros(shape, dtype) if comm.size == 1 else shared_array(comm, shape, dtype)
+    if whole is None:
+        return SentPlane(comm, line_starts, widths, dtype)
+    return SharedPlane(comm, line_starts, widths, whole)
+
+
+def even_shares(columns, ranks):
+    """(first, end) of the columns of each rank; no other has more than the last one."""
+    bounds = [columns * rank // ranks for rank in range(ranks + 1)]
+    return list(zip(bounds[:-1], bounds[1:], strict=True))
+
+
+def even_widths(columns, ranks):
+    """How many columns each rank has of these shares."""
+    return [end - first for first, end in even_shares(columns, ranks)]
+
+
+def _odd(width):
+    """A width of no less.
+
+    Rows that lie a power of two apart share few places of a cache, and transforms along Y took up to ten
+    times as long.
+    """
+    return width | 1
+
+
+class SharedPlane:
+    """The plane of ranks that have one array for it, `whole` (all lines, all columns or one more)."""
+
+    def __init__(self, comm, line_starts, widths, whole):
+        self._comm, columns = comm, sum(widths)
+        self.starts = _starts(widths)
+        """The first column of each rank."""
+        self.lines = whole[line_starts[comm.rank] : line_starts[comm.rank + 1], :columns]
+        """This rank's, (lines, all columns)."""
+        first = self.starts[comm.rank]
+        self.columns = whole[:, first : first + widths[comm.rank]]
+        """This rank's, (all lines, columns)."""
+
+    def destroy(self):
+        """Nothing is held that Python does not free."""
+
+    def to_columns(self):
+        """From now on the columns have what ranks wrote to their lines."""
+        self._comm.Barrier()
+
+    def to_lines(self):
+        """The way back."""
+        self._comm.Barrier()
+
+    def release(self):
+        """Columns that were not written are read: the lines may be written again."""
+        self._comm.Barrier()
+
+
+class SentPlane:
+    """The same of ranks that send each other what they have, by one MPI_Alltoallw."""
+
+    def __init__(self, comm, line_starts, widths, dtype):
+        self._comm, self._kind = comm, from_numpy_dtype(dtype)
+        self.starts, heights = _starts(widths), np.diff(line_starts).tolist()
+        mine, all_columns = widths[comm.rank], sum(widths)
+        self.lines = np.zeros((heights[comm.rank], all_columns), dtype)
+        self._columns = np.zeros((sum(heights), _odd(mine)), dtype)
+        self.columns = self._columns[:, :mine]
+        self._line_parts = [
+            self._part(self.lines, (len(self.lines), width), (0, start))
+            for start, width in zip(self.starts, widths, strict=True)
+        ]
+        self._column_parts = [
+            self._part(self._columns, (height, mine), (start, 0))
+            for start, height in zip(_starts(heights), heights, strict=True)
+        ]
+
+    def destroy(self):
+        """Free the MPI datatypes."""
+        for part in (*self._line_parts, *self._column_parts):
+            part.Free()
+
+    def to_columns(self):
+        """Send lines, receive columns."""
+        self._exchange(self.lines, self._line_parts, self._columns, self._column_parts)
+
+    def to_lines(self):
+        """Send columns, receive lines."""
+        self._exchange(self._columns, self._column_parts, self.lines, self._line_parts)
+
+    def release(self):
+        """Nobody reads what others write."""
+
+    def _exchange(self, source, source_parts, target, target_parts):
+        ones, zeros = [1] * self._comm.size, [0] * self._comm.size
+        self._comm.Alltoallw([source, ones, zeros, source_parts], [target, ones, zeros, target_parts])
+
+    def _part(self, array, shape, start):
+        return self._kind.Create_subarray(array.shape, shape, start).Commit()
+
+
+def _starts(lengths):
+    """Where each begins that follows the others before it."""
+    return [sum(lengths[:rank]) for rank in range(len(lengths))]

@@ -1,0 +1,45 @@
+"""Lines and columns of one plane; several ranks are tested in tests/parallel."""
+
+import numpy as np
+import pytest
+from mpi4py import MPI
+
+from mgehl.grid.plane import SentPlane, SharedPlane, even_shares, even_widths, plane_of
+
+LINES, COLUMNS = 5, 8
+STARTS = np.array([0, LINES])
+
+
+@pytest.fixture(params=["alone", "sent"])
+def plane(request):
+    make = {"alone": plane_of, "sent": SentPlane}[request.param]
+    made = make(MPI.COMM_SELF, STARTS, [COLUMNS], complex)
+    yield made
+    made.destroy()
+
+
+def test_columns_have_what_was_written_to_the_lines(plane):
+    lines = np.arange(LINES * COLUMNS).reshape(LINES, COLUMNS) * (1.0 + 2.0j)
+    plane.lines[:] = lines
+    plane.to_columns()
+    np.testing.assert_array_equal(plane.columns, lines)
+    plane.columns[:] += 1.0
+    plane.to_lines()
+    np.testing.assert_array_equal(plane.lines, lines + 1.0)
+
+
+def test_a_rank_that_is_alone_copies_nothing():
+    plane = plane_of(MPI.COMM_SELF, STARTS, [COLUMNS], float)
+    assert isinstance(plane, SharedPlane) and np.shares_memory(plane.lines, plane.columns)
+
+
+def test_rows_are_no_power_of_two_apart(plane):
+    assert plane.columns.strides[0] == (COLUMNS + 1) * plane.columns.itemsize
+
+
+def test_no_rank_has_more_columns_than_the_last():
+    for columns in range(1, 12):
+        for ranks in range(1, 6):
+            widths = even_widths(columns, ranks)
+            assert sum(widths) == columns and max(widths) == widths[-1] <= min(widths) + 1
+            assert even_shares(columns, ranks)[-1] == (columns - widths[-1], columns)
