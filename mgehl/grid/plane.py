@@ -71,7 +71,10 @@ class SharedPlane:
         self._comm.Barrier()
 
     def release(self):
-        """Columns that were not written are read: the lines may be written again."""
+        """All ranks have read what they need: lines and columns may be written again.
+
+        Whoever reads his columns and writes them, and then reads his lines, needs not say so.
+        """
         self._comm.Barrier()
 
 
@@ -108,7 +111,7 @@ class SentPlane:
         self._exchange(self._columns, self._column_parts, self.lines, self._line_parts)
 
     def release(self):
-        """Nobody reads what others write."""
+        """As of a `SharedPlane`; no rank reads what another one writes."""
 
     def _exchange(self, source, source_parts, target, target_parts):
         ones, zeros = [1] * self._comm.size, [0] * self._comm.size

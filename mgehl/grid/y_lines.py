@@ -81,3 +81,4 @@ class SomeYLines:
         self._plane.to_lines()
         for here, in_plane in self._places:
             out[:, here] = self._plane.lines[:, in_plane]
+        self._plane.release()

@@ -91,6 +91,7 @@ def test_lines_along_y_are_whole_on_a_rank(kind, grid, whole):
         turned = lines.whole.turned(mine)
         lines.whole.turned(mine + 1.0)
         lines.whole.turn_back(2.0 * turned, back)
+        lines.whole.turn_back(3.0 * turned, np.empty_like(mine))  # which does not change what came before
         lines.destroy()
     np.testing.assert_array_equal(np.concatenate(COMM.allgather(turned)), whole.T)
     np.testing.assert_array_equal(back, 2.0 * mine)
