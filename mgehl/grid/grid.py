@@ -124,6 +124,15 @@ class Grid:
             mask[(lines == 0) | (lines == self.mesh.ny - 1)] = True
         return mask
 
+    def beside_boundary(self):
+        """Masks (lines, nx) of the nodes next to the ends of X, and of those next to the ends of Y."""
+        beside_x, beside_y = np.zeros((2, *self.shape), dtype=bool)
+        beside_x[:, [1, -2]] = True
+        lines = np.arange(self.first, self.last)
+        if not self.mesh.is_line:
+            beside_y[(lines == 1) | (lines == self.mesh.ny - 2)] = True
+        return beside_x, beside_y
+
     def sum(self, value):
         """Sum of one number per rank."""
         return self.comm.allreduce(float(value), MPI.SUM)

@@ -124,13 +124,8 @@ def _overlap(grid, state, nm, tolerance):
 
 def _boundary_nodes(problem, state, tolerance):
     """Pressed nodes beside the boundary, and boundary nodes where the bodies would overlap."""
-    grid, mesh = problem.grid, problem.grid.mesh
-    beside = np.zeros(grid.shape, dtype=bool)
-    beside[:, [1, -2]] = True
-    if not mesh.is_line:
-        lines = np.arange(grid.first, grid.last)
-        beside[(lines == 1) | (lines == mesh.ny - 2)] = True
-    pressed = (state.P > 0.0) & beside
+    grid = problem.grid
+    pressed = (state.P > 0.0) & np.logical_or(*grid.beside_boundary())
     return grid.count(pressed | (problem.boundary & (state.H < -tolerance)))
 
 

@@ -10,7 +10,7 @@ class EdgeResult:
     """Whether the domain holds the contact and the grid shows it: see `solver.verification.check_edge`."""
 
     pressure_ratio: float
-    """Largest pressure beside the domain's boundary over the largest of all."""
+    """Largest pressure near the domain's boundary over the largest of all."""
     overlapping: int
     """Nodes of the boundary where the bodies overlap."""
     largest_nm: float
@@ -29,7 +29,7 @@ class EdgeResult:
             )
         if self.pressure_ratio > LARGEST_EDGE_PRESSURE:
             return "the domain cuts the contact", (
-                f"the pressure beside the domain's boundary is {100 * self.pressure_ratio:.2g} % of the "
+                f"the pressure near the domain's boundary is {100 * self.pressure_ratio:.2g} % of the "
                 f"largest, more than {100 * LARGEST_EDGE_PRESSURE:g} %: the domain cuts the contact"
             )
         return ("the contact has too few nodes", self.too_few) if self.too_few else ("", "")

@@ -9,6 +9,7 @@ from mgehl.solver.problem import State
 from mgehl.solver.verification import (
     FEWEST_NODES,
     LARGEST_EDGE_PRESSURE,
+    NEAR,
     check_edge,
     check_interface,
     check_pressure_inequality,
@@ -106,8 +107,19 @@ class TestEdge:
 
     @pytest.mark.parametrize("node", [(1, 4), (7, 4), (4, 1), (4, 7), (1, 1), (7, 7)])
     def test_the_pressure_beside_each_side_is_seen(self, tiny_problem, dome, node):
-        dome.P[node] = 0.25
-        assert check_edge(tiny_problem, dome).pressure == 0.25
+        dome.P[node], mesh = 0.25, tiny_problem.grid.mesh
+        cell = min(cell for cell, k in zip((mesh.dY, mesh.dX), node, strict=True) if k in (1, 7))
+        assert check_edge(tiny_problem, dome).pressure == pytest.approx(0.25 * NEAR / cell, rel=1e-14)
+
+    @pytest.mark.parametrize("nodes", [9, 17, 33])
+    def test_it_does_not_depend_on_the_cells(self, make_problem, nodes):
+        """Of a pressure that rises from all sides in proportion to the distance, to 1.5 in the middle."""
+        problem = make_problem(nodes=nodes)
+        mesh = problem.grid.mesh
+        from_x, from_y = (np.minimum(at - at[0], at[-1] - at) for at in (mesh.X, mesh.Y))
+        P = np.minimum(from_x[None, :], from_y[:, None])
+        edge = check_edge(problem, State(P, 0.0, np.ones(P.shape), np.ones(P.shape, np.int8)))
+        assert edge.pressure == pytest.approx(NEAR / 1.5, rel=1e-12)
 
     @pytest.mark.parametrize("node", [(0, 4), (8, 4), (4, 0), (4, 8), (0, 0)])
     def test_bodies_that_overlap_on_the_boundary_are_seen(self, tiny_problem, dome, node):
