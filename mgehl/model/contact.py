@@ -48,8 +48,8 @@ class LoadedContact:
     """It has no end across the motion."""
     is_light = False
     """The load is so light that the bodies hardly yield: the pressure is not that of Hertz."""
-    counts_load_beyond = False
-    """Whether the film in the domain is spared the load that is carried beyond it."""
+    counted_beyond = 0.0
+    """Part of the load carried beyond the domain that the film within is spared, 0 to 1."""
     motion = (1.0, 0.0)
     """The surfaces move towards +X."""
 

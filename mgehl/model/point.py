@@ -19,9 +19,10 @@ from mgehl.model.surface import Surface
 LOAD = 2.0 * pi / 3.0
 """Dimensionless load: the integral of P over X and Y  [Liu eq. 50]."""
 
-FLOATS = 3.0
-"""A film answers to the load where so many times that of rigid bodies is thicker than that of elastic ones:
-balls of M below 8.2."""
+ANSWERS, DOES_NOT = 0.33, 0.1
+"""Film of rigid bodies over that of elastic ones from which on a film answers to its load as a floating one
+does, and below which it does not: balls of M = 8.2 and 15.6. All of the load beyond the domain is counted
+there and none here, and a part in between, so that films do not jump."""
 
 
 def radii_along(angle, radius_x, radius_y):
@@ -162,14 +163,14 @@ class PointContact(LoadedContact):
         return rigid > elastic
 
     @property
-    def counts_load_beyond(self):
-        """Whether the film in the domain is spared the load that is carried beyond it."""
+    def counted_beyond(self):
+        """Part of the load carried beyond the domain that the film within is spared, 0 to 1."""
         if self.is_at_rest:
-            return False
+            return 0.0
         if self.load_beyond is not None:
-            return self.load_beyond
+            return float(self.load_beyond)
         rigid, elastic = self._isoviscous_films
-        return FLOATS * rigid > elastic
+        return min(max((rigid / elastic - DOES_NOT) / (ANSWERS - DOES_NOT), 0.0), 1.0)
 
     @property
     def _isoviscous_films(self):
@@ -179,7 +180,8 @@ class PointContact(LoadedContact):
 
     def share_beyond(self, mesh):
         """Part of the load that the film in the domain of a mesh need not carry."""
-        return missing_share(self, mesh.x, mesh.y) if self.counts_load_beyond else 0.0
+        counted = self.counted_beyond
+        return counted * missing_share(self, mesh.x, mesh.y) if counted else 0.0
 
     @property
     def inlet_length(self):

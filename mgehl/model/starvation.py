@@ -7,8 +7,8 @@ m* = 1 + 3.06 [(R_x/b)^2 H]^0.58 a ball has lost some 4 % by that.
 
 The second is load. Far outside the bodies are rigid, the pressure is Kapitza's, and the load it carries
 beyond a distance falls only as 1 over that distance, or over its square in a line contact. It rules where a
-film answers to the load: M below 8. Where it is counted (`far_field`), only what is not known of it is
-lost.
+film answers to the load: M below 8. What is counted of it (`far_field`) is not lost, but for the part that
+is not known.
 
 The side downstream takes nothing: one at 1.2 semi-axes gives the film of one at 3 to 0.1 %.
 
@@ -135,8 +135,7 @@ class Starvation:
         L, wide = self.like.groups.L, inf if self.contact.is_plane else 1.0 / self.like.k_e
         # Isoviscous films answer less to the pressure of the inlet.
         answer = 0.36 + 0.96 * L / (L + 5.0)
-        if self.contact.counts_load_beyond:
-            answer *= COUNTED
+        answer *= 1.0 - (1.0 - COUNTED) * self.contact.counted_beyond
         upstream, beside = answer / (1.0 + (SLENDER / wide) ** 2), 2.0 * answer / (1.0 + wide**1.6)
         return [(upstream * up, beside * by) for up, by in zip(UPSTREAM, BESIDE, strict=True)]
 
@@ -154,8 +153,8 @@ class Starvation:
         like = self.like
         x, y = like.radius_x, inf if self.contact.is_plane else like.radius_y
         share = self._answer_to_load * kapitza_factor(like.lubricant, like.speed, x, y) * x / like.load
-        if self.contact.counts_load_beyond:
-            share *= UNKNOWN * max(1.0, 1.0 / like.k_e) ** UNKNOWN_BY_WIDTH
+        unknown = min(UNKNOWN * max(1.0, 1.0 / like.k_e) ** UNKNOWN_BY_WIDTH, 1.0)
+        share *= 1.0 - (1.0 - unknown) * self.contact.counted_beyond
         if self.contact.is_plane:
             return LINE_OUTSIDE * share * 2.0 * x, 0.0
         return OUTSIDE * share * 2.0 * pi * sqrt(x * y), OUTSIDE * share * 4.0 * y

@@ -43,8 +43,8 @@ def domain_words(verdict, lost):
 
 
 def beyond_words(percent):
-    """How much of the load is left to the film beyond a domain, in a list; empty where nothing is."""
-    return [f"{percent:.1f} % of it is left to the film beyond the domain"] if percent else []
+    """How much of the load is left to the film beyond a domain, in a list; empty where hardly any is."""
+    return [f"{percent:.1f} % of it is left to the film beyond the domain"] if percent >= 0.05 else []
 
 
 def room_words(mesh):
