@@ -18,8 +18,8 @@ from mgehl.output.checkpoint import Checkpoint
 from mgehl.output.dry_result import summarise_dry
 from mgehl.output.film_error import film_error
 from mgehl.output.finish import begin_run, finish_run
+from mgehl.output.memory_limit import check_memory
 from mgehl.output.result import Work, summarise
-from mgehl.output.room import check_room
 from mgehl.output.solution import Fields, Solution
 from mgehl.output.users_axes import in_users_axes
 from mgehl.output.wedge_result import summarise_wedge
@@ -75,7 +75,7 @@ def solve(config, comm, watch=Watch(), start=None):
     A single line of nodes, as of a line contact, rank 0 solves and tells the others.
     """
     config = settled(config, contact_from(config))
-    check_room(config)
+    check_memory(config, comm.size)
     parts = set_up(config)
     watch = watch if comm.rank == 0 else replace(watch, speaker=terminal.SILENT)
     if not parts.mesh.is_line:

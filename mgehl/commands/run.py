@@ -74,13 +74,13 @@ def _begin(options, comm, solve):
     from mgehl.output.directory import make_directory, prepare_directory
     from mgehl.output.files import on_first_rank
     from mgehl.output.lock import locked
-    from mgehl.output.room import check_room
+    from mgehl.output.memory_limit import check_memory
 
     settings = [*options.settings, *([NO_ERROR] if options.no_error else [])]
     file = chosen_config(options.config, options.settings)
     config = load_config(file, settings)
     check_contact(config, contact_from(config))
-    check_room(config)
+    check_memory(config, comm.size)
     on_first_rank(comm, _say_what_changed, config)
     start = _start(options.start_from, config, comm) if options.start_from else None
     if start and comm.rank == 0:

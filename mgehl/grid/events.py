@@ -26,9 +26,10 @@ PARTS = {
     "coarse solve": COARSE,
     "I/O": FILES,
 }
-"""Parts that do not overlap, and their events: grids, kernels and FFT plans; convolutions; bands and
-their solution; what couples nearby nodes, and its solution; residual and linearisation; between grids; the
-coarsest grid's direct solve; files that one rank reads or writes while the others wait."""
+"""Parts that do not overlap, and their events: grids, kernels and FFT plans; convolutions; bands, their
+solution, and that of the nodes at cliffs; what couples nearby nodes, and the rest of its solution; residual
+and linearisation; between grids; the coarsest grid's direct solve; files that one rank reads or writes
+while the others wait."""
 
 _MAIN = 0
 _linear_stage = PETSc.Log.Stage("mgehl linear solves")

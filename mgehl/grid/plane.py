@@ -73,7 +73,8 @@ class SharedPlane:
     def release(self):
         """All ranks have read what they need: lines and columns may be written again.
 
-        Whoever reads his columns and writes them, and then reads his lines, needs not say so.
+        Not needed where `to_columns` or `to_lines` comes between a rank's reading and another's writing:
+        these wait, too.
         """
         self._comm.Barrier()
 

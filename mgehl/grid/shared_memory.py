@@ -31,10 +31,15 @@ def _new_file(size):
     """Path of a file of so many bytes, which take no room yet; None if there can be none."""
     try:
         descriptor, path = tempfile.mkstemp(prefix="mgehl-", dir=DIRECTORY)
-        with open(descriptor, "wb") as file:
-            file.truncate(size)
     except OSError:
         return None
+    try:
+        os.truncate(descriptor, size)
+    except OSError:
+        os.unlink(path)
+        return None
+    finally:
+        os.close(descriptor)
     return path
 
 

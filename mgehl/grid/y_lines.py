@@ -17,12 +17,13 @@ class YLines:
         shares = even_shares(grid.mesh.nx, grid.team.size)
         count = ceil(grid.mesh.nodes / grid.team.size / PIECE)
         cuts = [_cut(share, count) for share in shares]
-        widest = [cut[-1] for cut in cuts]
-        self._planes = [_plane(grid, columns) for columns in (shares, widest)]
+        self._planes = [_plane(grid, shares)]
+        if count > 1:
+            self._planes.append(_plane(grid, [cut[-1] for cut in cuts]))
         self.whole = SomeYLines(grid, shares, self._planes[0])
         first = shares[grid.team.rank][0]
         self.pieces = [
-            (slice(a - first, b - first), SomeYLines(grid, columns, self._planes[1]))
+            (slice(a - first, b - first), SomeYLines(grid, columns, self._planes[-1]))
             for (a, b), columns in zip(cuts[grid.team.rank], zip(*cuts, strict=True), strict=True)
         ]
         """(which of a rank's y-lines, `SomeYLines`), one piece after the other."""

@@ -33,7 +33,6 @@ LARGEST_NODES = SECTIONS["grid"].__dataclass_fields__["nodes"].metadata["high"]
 
 MiB = 2**20
 
-
 SAVED_ON_LARGE_GRIDS = 430.0
 """Bytes a node that are given back in time, or not asked for, where memory is short
 (`grid.freed_memory`)."""
@@ -116,10 +115,9 @@ def forecast(config, contact, mesh, ranks):
     second = time_convolution(timed) * _fft_work(mesh) / _fft_work(timed)
     shared = second + effort.node_seconds * mesh.nodes
     workers = 1 if mesh.is_line else min(ranks, cores_allowed())
-    copies = ranks if mesh.is_line else 1
     return Forecast(
         nodes=mesh.nodes,
-        memory=ranks * RANK_BYTES + copies * _bytes_per_node(effort, mesh) * mesh.nodes,
+        memory=ranks * RANK_BYTES + _bytes_of_nodes(effort, mesh, ranks),
         seconds=START_SECONDS + effort.convolutions * (shared / workers + effort.beside),
         convolutions=effort.convolutions if effort.counted else None,
         convolution_seconds=second,
@@ -127,6 +125,17 @@ def forecast(config, contact, mesh, ranks):
         workers=workers,
         measured=effort.measured,
     )
+
+
+def bytes_of_nodes(config, contact, mesh, ranks):
+    """Bytes that a run takes for its nodes, on all ranks together."""
+    return _bytes_of_nodes(_effort(config, contact, mesh), mesh, ranks)
+
+
+def _bytes_of_nodes(effort, mesh, ranks):
+    """Of each rank for the whole line of a line contact. Less what is saved where memory is short."""
+    saved = SAVED_ON_LARGE_GRIDS if is_large(mesh) else 0.0
+    return (ranks if mesh.is_line else 1) * (effort.bytes_per_node - saved) * mesh.nodes
 
 
 def _effort(config, contact, mesh):
@@ -151,11 +160,6 @@ def _of_peaks(contact, has_layers):
     thinner = max(THIN / film_ratio, 1.0) ** THINNER[has_layers]
     highest = HIGHEST[has_layers]
     return highest * (contact.roughness / contact.film_scale) ** LOWER * thinner
-
-
-def _bytes_per_node(effort, mesh):
-    """Measured ones, less what is saved where memory is short."""
-    return effort.bytes_per_node - (SAVED_ON_LARGE_GRIDS if is_large(mesh) else 0.0)
 
 
 def time_convolution(mesh, repeats=5):

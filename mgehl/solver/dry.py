@@ -131,7 +131,7 @@ def dry_pressure(problem, P, largest_gap=GUESS_GAP):
 def carried(problem, P):
     """A guess made a pressure: none at the boundary, nowhere a pull, and it carries the load."""
     P = np.where(problem.boundary, 0.0, np.maximum(P, 0.0))
-    return P * (problem.contact.load_integral / problem.load(P))
+    return problem.carrying(P)
 
 
 def _settle(problem, standing, tolerance, max_steps, monitor, journal):

@@ -119,6 +119,10 @@ class ContactProblem(Problem):
         """Integral of P minus the load that the domain carries  [Liu eq. 50]."""
         return self.load(P) - self._load_within
 
+    def carrying(self, P):
+        """The pressure times what makes it carry the domain's load."""
+        return P * (self._load_within / self.load(P))
+
     def mean(self, array, nodes):
         """Mean of an array (lines, nx) over some nodes of all ranks."""
         return self.grid.sum(array[nodes].sum()) / self.grid.count(nodes)

@@ -13,7 +13,7 @@ import numpy as np
 from mgehl.config import config_from_tables
 from mgehl.run import solve
 from mgehl.studies.cache import key_of
-from mgehl.studies.study import merged
+from mgehl.studies.study import merged, verdict
 
 NODES, CASES, SEED = 257, 120, 7
 
@@ -150,13 +150,6 @@ def row(case, found):
         "CPU s": f"{found.cpu:.1f}",
         "verdict": verdict(found),
     }
-
-
-def verdict(found):
-    """Converged, or not a result and why."""
-    if found.converged:
-        return "converged"
-    return f"{found.doubt if found.settled else 'NOT CONVERGED'}: {found.reason}"
 
 
 def summary(found):

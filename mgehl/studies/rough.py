@@ -10,7 +10,7 @@ import numpy as np
 
 from mgehl.discretization.mesh import Mesh
 from mgehl.model.load_share import aihara, error_function, zhou_hoeprich
-from mgehl.studies.study import merged
+from mgehl.studies.study import merged, verdict
 
 NODES = 257
 FASTEST, SLOWEST, COUNT = 1.0, 1e-5, 20
@@ -155,10 +155,3 @@ def _difference(both):
         return ""
     shares = [point.result.mixed.contact_load_share for point in both]
     return f"{abs(shares[0] - shares[1]):.1e}"
-
-
-def verdict(result):
-    """Converged, or not a result and why."""
-    if result.converged:
-        return "converged"
-    return f"{'Eq. 2 is broken' if result.settled else 'NOT CONVERGED'}: {result.reason}"

@@ -142,6 +142,13 @@ def _verdict(result, must_converge):
     return f"  {result.doubt.upper() if result.settled else other}: {result.reason}"
 
 
+def verdict(found):
+    """Converged, or not a result and why."""
+    if found.converged:
+        return "converged"
+    return f"{found.doubt if found.settled else 'NOT CONVERGED'}: {found.reason}"
+
+
 def papers_grid(nodes):
     """So many nodes a side on the domain of Liu's section 4.3."""
     return {"nodes": nodes, **PAPERS_DOMAIN}

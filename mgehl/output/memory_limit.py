@@ -5,20 +5,21 @@ from pathlib import Path
 
 from mgehl.errors import UserError
 from mgehl.kinds import contact_from, mesh_from
-
-MiB = 2**20
+from mgehl.output.forecast import MiB, bytes_of_nodes
 
 SPARE = 128 * MiB
 """Bytes of buffers that BLAS and MPI take during a run."""
 
 
-def check_room(config):
-    """Raise UserError where a limit of this process (ulimit -v) is below what the run will take."""
+def check_memory(config, ranks):
+    """Raise UserError where a limit of this process (ulimit -v) is below what one of so many ranks will
+    take."""
     limit, _ = resource.getrlimit(resource.RLIMIT_AS)
     if limit == resource.RLIM_INFINITY:
         return
-    mesh = mesh_from(config, contact_from(config))
-    need = _taken() + SPARE + config.kind.effort(config).bytes_per_node * mesh.nodes
+    contact = contact_from(config)
+    mesh = mesh_from(config, contact)
+    need = _taken() + SPARE + bytes_of_nodes(config, contact, mesh, ranks) / ranks
     if need > limit:
         raise UserError(
             f"grid.nodes = {config.grid.nodes}: takes about {need / MiB:.0f} MiB of address space, and "
