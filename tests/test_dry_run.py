@@ -54,6 +54,16 @@ def test_its_page_knows_no_fluid(rough):
         assert word not in own
 
 
+def test_pictures_and_page_of_a_surface_by_a_formula(tmp_path):
+    waves = {"kind": "waviness", "amplitude": "100 nm", "wavelength_x": "100 um", "wavelength_y": "100 um"}
+    directory = tmp_path / "wavy"
+    assert run(directory, **{f"surface.{key}": value for key, value in waves.items()}) == 0
+    assert main(["plot", str(directory), "--format", "png"]) == 0
+    assert (directory / "plots" / "surface.png").exists()
+    assert main(["report", str(directory)]) == 0
+    assert "Contact is on the peaks" in (directory / "report.html").read_text()
+
+
 def test_of_a_line(tmp_path):
     keys = {"contact.kind": "line", "discretization.contact_model": "dry", "grid.nodes": "1025"}
     words = [word for key, value in keys.items() for word in ("--set", f"{key}={value}")]

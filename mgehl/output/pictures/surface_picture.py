@@ -17,7 +17,7 @@ from mgehl.output.pictures.plane import (
 )
 from mgehl.output.pictures.style import FILM, HERTZ, STATUS_COLOURS, legend_below, subplots
 from mgehl.output.pictures.titles import map_labels, position_labels, title
-from mgehl.output.surface import surface_words
+from mgehl.output.surface import surface_verdict, surface_words, wave_nodes
 from mgehl.output.words import mixed_note
 
 BARS = "0.7"
@@ -42,8 +42,8 @@ def surface_picture(solution):
         legend_below(axes[1], draw_film(axes[1], solution, what, MOST), columns=2)
         axes[1].set_title(what)
     _distribution(axes[-1], solution, heights)
-    resolution = solution.result.resolution
-    shown = surface_words(resolution.surface, resolution.surface_nodes)
+    nodes = wave_nodes(solution.contact, solution.mesh)
+    shown = surface_words(surface_verdict(solution.contact, nodes), nodes)
     notes = shown, mixed_note(solution.result.mixed)
     figure.suptitle("\n".join(filter(None, (f"surface, {title(solution)}", *notes))))
     return figure

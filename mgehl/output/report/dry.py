@@ -1,7 +1,7 @@
 """Sections that the page of a dry contact has besides those of every run."""
 
 from mgehl.output.report.checks import CHECK_HEADS, CHECKS, absent, limited
-from mgehl.output.report.loaded import work_section
+from mgehl.output.report.loaded import PEAKS, work_section
 from mgehl.output.report.page import Section, number, table
 from mgehl.output.report.parts import span
 
@@ -40,6 +40,7 @@ def alternatives(result):
         "gap": f"{result.contact.nodes} nodes have none.",
         "pressure": f"Its maximum is {largest}.",
         "status": f"{result.contact.nodes} nodes are in contact.",
+        "surface": f"{PEAKS}.",
         "history": f"It took {result.work.steps} sets of pressed nodes.",
     }
 
