@@ -16,7 +16,7 @@ from mgehl.model.surface.surface import JUST, step_of
 
 SAMPLES = 65
 """Heights along each side from which the roughness is reckoned: the same whatever the grid."""
-SEEN_CELLS = 4.0
+SHOWN_CELLS = 4.0
 """Cells of a coarse grid in the shortest wave that it is shown."""
 RESOLVED_CELLS = 4.0
 """Cells in the inlet from which on the film does not change with the grid."""
@@ -48,6 +48,8 @@ class LoadedContact:
     """It has no end across the motion."""
     is_light = False
     """The load is so light that the bodies hardly yield: the pressure is not that of Hertz."""
+    is_soft = False
+    """The bodies yield to pressures that do not stiffen the oil: rubber, or steel in water."""
     counted_beyond = 0.0
     """Part of the load carried beyond the domain that the film within is spared, 0 to 1."""
     motion = (1.0, 0.0)
@@ -110,7 +112,7 @@ class LoadedContact:
         return max(map(step_of, self._nodes(mesh)))
 
     def seen_by(self, mesh, finest):
-        """The contact as a coarser `mesh` than the `finest` sees it: no waves shorter than `SEEN_CELLS`.
+        """The contact as a coarser `mesh` than the `finest` sees it: no waves shorter than `SHOWN_CELLS`.
 
         A surface that has none is left as it is, to the last bit.
         """
@@ -118,7 +120,7 @@ class LoadedContact:
             return self
         x, y = self._nodes(finest)
         cells = [step_of(nodes) for nodes in self._nodes(mesh)]
-        wavelengths = tuple(SEEN_CELLS * cell for cell in cells)
+        wavelengths = tuple(SHOWN_CELLS * cell for cell in cells)
         if mesh.nx == finest.nx or self.shortest_wave(finest) >= (1.0 - JUST) * max(wavelengths):
             return self
         return replace(self, surface=self.surface.filtered(wavelengths, x, y))
@@ -145,7 +147,10 @@ class LoadedContact:
         return 0.0
 
     def load_within(self, mesh):
-        """The integral of P over the domain of a mesh, less what is carried beyond it  [Liu eq. 50]."""
+        """The integral of P that the domain of a mesh takes: the load less what is missing there.
+
+        [Liu eq. 50]
+        """
         return self.load_integral * (1.0 - self.share_beyond(mesh))
 
     @property
@@ -226,8 +231,13 @@ class LoadedContact:
 
     @property
     def inlet_length(self):
-        """Length of the zone that builds the film, in units of a: s* = (h/C)^(2/3)."""
-        return (self.grubin_film / self._edge_gap) ** (2.0 / 3.0)
+        """Length of the zone that builds the film, in units of a; of layered bodies an estimate."""
+        like = self.likeness
+        return self._inlet_of(like.flooded_film if self.is_soft else like.grubin_film)
+
+    def _inlet_of(self, film):
+        """s* = (h/C)^(2/3) of a film in metres."""
+        return (film / self._edge_gap) ** (2.0 / 3.0)
 
     def cell_along_motion(self, mesh):
         """Length of a mesh's cell in units of a, as the truncation error along the motion has it."""
@@ -240,6 +250,9 @@ class LoadedContact:
     def matched_speed(self, mesh, cells):
         """Lowest speed not below `speed` that keeps `cells` cells of a mesh along X in the inlet.
 
-        s* grows with the square root of u, so the speed follows in one step.
+        s* grows with the square root of u, so the speed follows in one step. The inlet is that of Ertel and
+        Grubin. Of soft bodies it is too short, and the speed higher than it need be: from there all of 92
+        soft contacts are found, from the speed of their own inlet 86.
         """
-        return self.speed * max(1.0, (cells * mesh.dX / self.inlet_length) ** 2)
+        inlet = self._inlet_of(self.likeness.grubin_film)
+        return self.speed * max(1.0, (cells * mesh.dX / inlet) ** 2)

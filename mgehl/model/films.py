@@ -2,6 +2,10 @@
 
 from math import exp, log, sqrt
 
+SOFT = 2.0
+"""Isoviscous film over the piezoviscous one from which on bodies that yield are called soft: the formulas
+of Ertel and Grubin say half of their film there, and less."""
+
 
 def hamrock_dowson(groups, radius_x, ellipticity):
     """Central and minimum film of Hamrock and Dowson; `ellipticity` k = b/a."""
@@ -66,6 +70,16 @@ def moes_line(groups, radius_x):
     isoviscous, piezoviscous = RI ** (7 / 3) + EI ** (7 / 3), RP**-3.5 + EP**-3.5
     H = (isoviscous ** (3 * s / 7) + piezoviscous ** (-2 * s / 7)) ** (1.0 / s)
     return H * radius_x * sqrt(2.0 * groups.U)
+
+
+def is_isoviscous(RI, EI, RP, EP):
+    """Whether a film is as thick as oil makes it that the pressure does not stiffen."""
+    return max(RI, EI) > min(RP, EP)
+
+
+def is_soft(RI, EI, RP, EP):
+    """Whether the bodies yield to a pressure that hardly stiffens the oil."""
+    return EI > max(RI, SOFT * min(RP, EP))
 
 
 def regime(RI, EI, RP, EP):

@@ -83,9 +83,15 @@ class LineContact(LoadedContact):
         return films.regime(*films.line_asymptotes(self.groups))
 
     @property
+    def is_soft(self):
+        """As of any contact, by Moes' asymptotes."""
+        return films.is_soft(*films.line_asymptotes(self.groups))
+
+    @property
     def expected_film(self):
         """Central film in metres to start from."""
-        return self.formulas.dowson_higginson_central
+        isoviscous = films.is_isoviscous(*films.line_asymptotes(self.groups))
+        return self.flooded_film if isoviscous else self.formulas.dowson_higginson_central
 
     @property
     def flooded_film(self):

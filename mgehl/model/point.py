@@ -159,7 +159,7 @@ class PointContact(LoadedContact):
     @property
     def is_light(self):
         """By Moes' isoviscous films: that of rigid bodies is thicker than that of elastic ones."""
-        rigid, elastic = self._isoviscous_films
+        rigid, elastic, *_ = self._asymptotes
         return rigid > elastic
 
     @property
@@ -169,25 +169,24 @@ class PointContact(LoadedContact):
             return 0.0
         if self.load_beyond is not None:
             return float(self.load_beyond)
-        rigid, elastic = self._isoviscous_films
+        rigid, elastic, *_ = self._asymptotes
         return min(max((rigid / elastic - DOES_NOT) / (ANSWERS - DOES_NOT), 0.0), 1.0)
 
     @property
-    def _isoviscous_films(self):
-        """Moes' films of rigid and of elastic bodies, H_Moes."""
+    def _asymptotes(self):
+        """Moes' films, H_Moes, as of `films.point_asymptotes`."""
         like = self.likeness
-        return films.point_asymptotes(like.groups, like.radius_x / like.radius_y)[:2]
+        return films.point_asymptotes(like.groups, like.radius_x / like.radius_y)
 
     def share_beyond(self, mesh):
         """Part of the load that the film in the domain of a mesh need not carry."""
         counted = self.counted_beyond
         return counted * missing_share(self, mesh.x, mesh.y) if counted else 0.0
 
-    @property
-    def inlet_length(self):
-        """As that of any contact, in units of a; of layered bodies an estimate."""
+    def _inlet_of(self, film):
+        """As of any contact, in units of this one's a."""
         like = self.likeness
-        return super(PointContact, like).inlet_length * self.widening * like.hertz.a / self.hertz.a
+        return super(PointContact, like)._inlet_of(film) * self.widening * like.hertz.a / self.hertz.a
 
     def cell_along_motion(self, mesh):
         """|c|^3 dX + |s|^3 dY/k_e of a motion along (c, s): twice the diffusion along it of scheme 1B."""
@@ -236,9 +235,15 @@ class PointContact(LoadedContact):
         return films.regime(*films.point_asymptotes(self.groups, like.radius_x / like.radius_y))
 
     @property
+    def is_soft(self):
+        """As of any contact, by Moes' asymptotes."""
+        return films.is_soft(*self._asymptotes)
+
+    @property
     def expected_film(self):
         """Central film in metres to start from."""
-        return self.likeness.formulas.hamrock_dowson_central
+        isoviscous = films.is_isoviscous(*self._asymptotes)
+        return self.flooded_film if isoviscous else self.likeness.formulas.hamrock_dowson_central
 
     @property
     def flooded_film(self):

@@ -10,12 +10,13 @@ LARGEST_CHANGE, MOST_OF_A_NODE = 0.5, 20.0
 most. A valley that a step empties lifts the bodies by several films: a ball of 136 nm rms at 0.03 mm/s does
 not settle in 60 steps with a mean of 1 or of 0.2, nor without a limit."""
 
-STEEP = 19.0
+STEEP, MOST_MORE = 19.0, 2.0
 """alpha p_h below which a step may change pressures by more, in proportion: a longer step goes wrong
 because the viscosity does not follow its tangent. A pressure spike grows from grid to grid by p_h and
 more, which takes many short steps: M = 20, L = 10 (alpha p_h = 10) on 1025 nodes by 3B and the arithmetic
 mean 17 without this, 12 with it. With 15 to 20 as many within two; with alpha p_h from 20 on longer steps
-do harm as often as good."""
+do harm as often as good. And how many times as much at the most: of soft bodies a longer step closes the
+film, and they do not part again (of 92 soft contacts on 129 and 513 nodes 32 did not converge)."""
 
 SMALLEST = 1e-300
 """So that nothing is divided by zero."""
@@ -40,7 +41,7 @@ def step_length(problem, partition, evaluation, state, dP, dH0, max_pressure_ste
 def _more(contact):
     """How many times as much pressures may change as where the viscosity is steep; at least 1."""
     alpha_bar = contact.lubricant.pressure_viscosity * contact.pressure_scale
-    return max(1.0, STEEP / max(alpha_bar, SMALLEST))
+    return min(max(1.0, STEEP / max(alpha_bar, SMALLEST)), MOST_MORE)
 
 
 def mean_change(problem, evaluation, state, H):

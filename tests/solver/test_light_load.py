@@ -42,4 +42,4 @@ def test_the_answer_says_how_much_is_carried_beyond():
     result = mgehl.solve(config_from_tables(tables)).result
     assert 10.0 < result.resolution.load_beyond_percent < 30.0
     part = f"{result.resolution.load_beyond_percent:.1f} %"
-    assert f"load: {part} of it is left to the film beyond the domain" in str(result)
+    assert f"load: {part} of it is carried beyond the domain" in str(result)
