@@ -1,5 +1,9 @@
 """What to try after a run that did not converge."""
 
+from dataclasses import replace
+
+from mgehl.config_value import AUTO as AUTOMATIC
+from mgehl.kinds import settled
 from mgehl.output import surface
 from mgehl.output.resolution import RESOLVED_CELLS
 
@@ -7,6 +11,10 @@ MOST = 3
 """Most pieces of advice that are given."""
 
 AUTO = 'grid.x = "auto" and grid.y = "auto": a domain that holds the contact and its inlet'
+LARGER = 1.5
+"""Times the domain that is advised where "auto" is not enough: roughness makes a contact wider."""
+JUST = 1e-6
+"""Semi-axes that do not matter."""
 OTHER = {
     "film": 'solver.start = "contact": from the other side, where the film is thinner than the grid sees',
     "contact": 'solver.start = "film": from the other side, where the bodies may come apart',
@@ -26,12 +34,12 @@ def _tries(solution):
     """Sentences, the likeliest to help first."""
     result, config = solution.result, solution.config
     if solution.is_dry:
-        yield from _of_domain(result.edge)
+        yield from _of_domain(solution)
     if not solution.contact.is_loaded or solution.is_dry:
         yield "solver.max_steps: a higher one, where the residual still falls"
         yield "grid.nodes: another number of nodes"
         return
-    yield from _of_domain(result.edge)
+    yield from _of_domain(solution)
     yield from _of_grid(result.resolution, config.grid.nodes)
     if not result.start_note:  # there, the other start was taken already
         yield OTHER[config.solver.start]
@@ -39,13 +47,31 @@ def _tries(solution):
     yield f"solver.max_steps: more than {config.solver.max_steps}, where the residual still falls"
 
 
-def _of_domain(edge):
+def _of_domain(solution):
     """A domain that cuts the contact, or a contact of too few nodes."""
-    few = "too few nodes" in edge.wrong[0]
-    if few:
+    edge = solution.result.edge
+    if edge.cuts:
+        yield _larger(solution) if _has_autos_room(solution) else AUTO
+    elif edge.too_few:
         yield "more nodes, or a smaller domain: the contact has too few nodes"
-    elif edge.wrong[0]:
-        yield AUTO
+
+
+def _has_autos_room(solution):
+    """Whether the domain is as large as the one that "auto" chooses."""
+    config = solution.config
+    open_grid = replace(config.grid, x=AUTOMATIC, y=AUTOMATIC)
+    auto = settled(replace(config, grid=open_grid), solution.contact).grid
+    pairs = ((config.grid.x, auto.x), *([] if solution.contact.is_plane else [(config.grid.y, auto.y)]))
+    return all(ends[0] <= room[0] + JUST and ends[1] >= room[1] - JUST for ends, room in pairs)
+
+
+def _larger(solution):
+    """A larger domain, in numbers."""
+    grid = solution.config.grid
+    names = "x" if solution.contact.is_plane else "xy"
+    ends = [[round(LARGER * end, 2) for end in getattr(grid, name)] for name in names]
+    said = " and ".join(f"grid.{name} = {each}" for name, each in zip(names, ends, strict=True))
+    return f"{said}: the contact is wider than that of smooth bodies"
 
 
 def _of_grid(resolution, nodes):

@@ -43,8 +43,9 @@ def domain_words(verdict, lost):
 
 
 def beyond_words(percent):
-    """How much of the load is left to the film beyond a domain, in a list; empty where hardly any is."""
-    return [f"{percent:.1f} % of it is left to the film beyond the domain"] if percent >= 0.05 else []
+    """How much of the load the film in a domain need not carry, in a list; empty where hardly any."""
+    words = f"{percent:.1f} % of it is carried beyond the domain, or would be within but for its sides"
+    return [words] if percent >= 0.05 else []
 
 
 def room_words(mesh):

@@ -35,6 +35,11 @@ class EdgeResult:
         return ("the contact has too few nodes", self.too_few) if self.too_few else ("", "")
 
     @property
+    def cuts(self):
+        """Whether the domain cuts the contact."""
+        return self.overlapping > 0 or self.pressure_ratio > LARGEST_EDGE_PRESSURE
+
+    @property
     def too_few(self):
         """What is wrong with the number of nodes, in a sentence; empty where nothing is."""
         for axis, nodes in (("x", self.nodes_along_x), ("y", self.nodes_along_y)):

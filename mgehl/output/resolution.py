@@ -34,7 +34,7 @@ class Resolution:
     surface_nodes: float | None = None
     """Nodes in the shortest wave of the surface; None without waves."""
     load_beyond_percent: float = 0.0
-    """Of the load, what is left to the film beyond the domain: of a light one more than nothing."""
+    """Of the load, what the film in the domain need not carry: of a light one more than nothing."""
 
 
 def resolution(contact, mesh):

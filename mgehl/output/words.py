@@ -43,8 +43,8 @@ def dry_words(result):
     contact, hertz = result.contact, result.hertz
     lines = [
         f"{'CONVERGED' if result.converged else 'NOT CONVERGED'}: {result.reason}",
-        f"  largest pressure {_number(result.max_pressure_GPa)} GPa, that of Hertz "
-        f"{_number(hertz.max_pressure_GPa)}",
+        f"  largest pressure {pressure_words(result.max_pressure_GPa)}, that of Hertz "
+        f"{pressure_words(hertz.max_pressure_GPa)}",
         f"  approach {_number(result.approach_um)} um, that of Hertz {_number(hertz.approach_um)}",
         f"  contact: {contact.nodes} nodes, {100 * contact.area_fraction:.2f} % of the Hertz area; "
         f"nodes {span(contact.x_nodes)} on Y = 0, {span(contact.y_nodes)} on X = 0; "
@@ -67,14 +67,14 @@ def loaded_words(result, verbose=True):
     shown = surface_words(resolution.surface, resolution.surface_nodes)
     lines = [
         f"{verdict}: {result.reason}",
-        f"  {films_words(result)}, largest pressure {_number(result.max_pressure_GPa)} GPa",
+        f"  {films_words(result)}, largest pressure {pressure_words(result.max_pressure_GPa)}",
         f"  {band_words(result.error)}",
         *(_errors(result) if verbose else ()),
         *_overlap(result.overlap),
         *_contact(result, verbose),
         *((f"  start: {result.start_note}",) if result.start_note else ()),
         f"  inlet: {resolution.inlet_cells:.2f} cells, {_advice(result)[resolution.verdict]}",
-        f"  domain: {domain_words(resolution.domain, resolution.domain_loss_percent)}",
+        f"  domain: {_domain(result)}",
         *(f"  load: {words}" for words in beyond_words(resolution.load_beyond_percent)),
         *((f"  surface: {shown}",) if shown else ()),
         *(mixed_lines(result.mixed) if result.mixed else ()),
@@ -82,6 +82,13 @@ def loaded_words(result, verbose=True):
         *(_nodes(result) if verbose else ()),
     ]
     return "\n".join(lines + where_to_read(result))
+
+
+def _domain(result):
+    """Whether it is large enough; nothing is known of its film where it cuts the contact."""
+    if result.edge.cuts:
+        return "too small: it cuts the contact"
+    return domain_words(result.resolution.domain, result.resolution.domain_loss_percent)
 
 
 def _work(result):
@@ -186,9 +193,10 @@ ADVICE = {
     "not the problem's",
 }
 
+ANOTHER = "another grid or scheme has another film between the peaks, and another load on contact"
 ADVICE_ROUGH = ADVICE | {
-    "grid-determined": f"grid-determined (below {SEEN_CELLS:g}): a finer grid has another film "
-    "between the peaks"
+    "coarse": f"coarse (below {RESOLVED_CELLS:g}): {ANOTHER}",
+    "grid-determined": f"grid-determined (below {SEEN_CELLS:g}): {ANOTHER}",
 }
 """Of rough bodies, whose peaks stand where they stand on every grid that shows them."""
 
@@ -208,6 +216,13 @@ def films_words(result):
 def band_words(error):
     """How the bands of a `FilmError` came about, or why there are none."""
     return f"{'no band' if error.central_nm is None else 'bands'}: {error.how}"
+
+
+def pressure_words(GPa):
+    """Four digits after the point, or, of soft and light contacts, four in MPa or kPa."""
+    for unit, size in (("GPa", 1.0), ("MPa", 1e-3), ("kPa", 1e-6)):
+        if abs(GPa) >= 0.1 * size or unit == "kPa":
+            return f"{_number(GPa)} GPa" if unit == "GPa" else f"{GPa / size:.4g} {unit}"
 
 
 def _number(value):

@@ -1,12 +1,13 @@
 """What to try after a run that did not converge."""
 
+import re
 from dataclasses import replace
-from types import SimpleNamespace
 
 import pytest
 from test_files import make_result
 
 from mgehl.config import load_config
+from mgehl.kinds import contact_from, settled
 from mgehl.output.advice import MOST, what_next
 from mgehl.output.edge_result import NOT_SEEN
 from mgehl.output.resolution import Resolution
@@ -16,7 +17,8 @@ from mgehl.output.solution import Solution
 def advice(settings=(), **changes):
     """Of a run with these settings that did not converge."""
     config = load_config(settings=["grid.nodes=65", *settings])
-    contact = SimpleNamespace(is_loaded=config.kind.is_loaded, is_at_rest=config.is_dry)
+    contact = contact_from(config)
+    config = settled(config, contact)
     result = make_result(**({"converged": False} | changes))
     return what_next(Solution(config, contact, None, None, [], result))
 
@@ -49,8 +51,16 @@ def test_a_start_that_was_replaced_is_not_advised():
 
 
 def test_a_domain_that_cuts_the_contact():
-    _, first, *_ = advice(edge=replace(NOT_SEEN, pressure_ratio=0.5))
+    _, first, *_ = advice(["grid.x=[-1.05, 1.3]"], edge=replace(NOT_SEEN, pressure_ratio=0.5))
     assert first.startswith('  grid.x = "auto" and grid.y = "auto"')
+
+
+def test_a_domain_that_is_auto_already_and_cuts_the_contact():
+    """Of rough bodies: a larger one, in numbers."""
+    _, first, *_ = advice(edge=replace(NOT_SEEN, pressure_ratio=0.5))
+    pattern = r"  grid.x = \[(.*), (.*)\] and grid.y = \[(.*), (.*)\]: the contact is wider.*"
+    ends = re.fullmatch(pattern, first)
+    assert all(abs(float(end)) > 1.8 for end in ends.groups())
 
 
 def test_a_contact_of_too_few_nodes():

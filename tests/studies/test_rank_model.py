@@ -9,7 +9,7 @@ from mgehl.studies.rank_model import Constants, iteration, levels
 
 COUNTED = {(129, 4): (28, 30), (257, 8): (40, 98), (65, 16): (12 + 6, 74)}
 """Messages of an iteration, of the rank that sends most, counted in Grid.halo, Move (lines that move) and
-Transpose (exchanges): the difference of 7 and 2 iterations over 5."""
+the exchanges: the difference of 7 and 2 iterations over 5."""
 
 
 @pytest.mark.parametrize("case", COUNTED)

@@ -77,7 +77,8 @@ def test_a_study_whose_points_do_not_converge_says_so(tmp_path, monkeypatch):
 def point(speed, converged=True, start="film", share=0.5):
     mixed = MixedResult(1e2 * speed, 100.0, share, 1.0 - share, 1e-9, 0.25, 7, 1e-10, 40.0, 2.0, 80.0, 0.1)
     result = SimpleNamespace(
-        converged=converged, settled=True, reason="it is wrong", mixed=mixed, work=Work(80.0, 9),
+        converged=converged, settled=True, doubt="Eq. 2 is broken", reason="it is wrong", mixed=mixed,
+        work=Work(80.0, 9),
         resolution=SimpleNamespace(surface_nodes=9.5),
     )  # fmt: skip
     status = np.full((9, 9), LUBRICATED)

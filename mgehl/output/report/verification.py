@@ -8,6 +8,7 @@ from mgehl.output.report.parts import span
 from mgehl.output.resolution import RESOLVED_CELLS
 from mgehl.output.result import COMPLEMENTARITY_TOLERANCE
 from mgehl.output.surface import RESOLVED_NODES
+from mgehl.output.words import ANOTHER
 from mgehl.solver.verification import FEWEST_NODES, LARGEST_EDGE_PRESSURE
 
 RESOLUTION = {
@@ -18,7 +19,7 @@ RESOLUTION = {
 }
 
 RESOLUTION_ROUGH = RESOLUTION | {
-    "grid-determined": Cell("grid-determined: a finer grid has another film between the peaks", DOUBTFUL),
+    verdict: Cell(f"{verdict}: {ANOTHER}", DOUBTFUL) for verdict in ("coarse", "grid-determined")
 }
 """Of rough bodies."""
 
@@ -76,7 +77,7 @@ def checks_table(solution):
 def _beyond_row(percent):
     """The row about load beyond the domain, where that is counted."""
     if percent:
-        yield informing("load that is left to the film beyond the domain, %", percent)
+        yield informing("load that the film in the domain need not carry, %", percent)
 
 
 def _surface_row(resolution):

@@ -42,7 +42,10 @@ def test_a_rough_contact_has_one_picture_more(make_solution, check_texts, contac
         said = [text.get_text() for text in axes.get_legend().get_texts()]
         assert ("contact" in said) == (contact > 0.0) and any(text.startswith("Hertz: ") for text in said)
     check_texts(pictures[-1].figure, "film, nm", "height, nm (a peak is positive)")
-    assert "3.3 nodes in its shortest wave: THE SURFACE IS THE GRID" in pictures[-1].figure._suptitle.get_text()
+    assert (
+        "3.3 nodes in its shortest wave: THE SURFACE IS THE GRID"
+        in pictures[-1].figure._suptitle.get_text()
+    )
 
 
 def test_of_a_line_it_is_a_line(make_line, check_texts):
