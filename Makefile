@@ -147,6 +147,16 @@ layers: $(ENVIRONMENT)
 
 .PHONY: layers
 
+# make rough-schemes   who carries the load of configs/rough.toml by three schemes on two grids (ten minutes)
+OF_SCHEMES := run,converged,inlet cells,load on contact,contact/Hertz area,Eq. 2 violations,mean film nm,convolutions
+rough-schemes: $(ENVIRONMENT)
+	for n in 257 513; do for c in 1B 2B 3B; do ( $(ON) $(MGEHL) configs/rough.toml --set grid.nodes=$$n \
+	  --set discretization.couette=$$c --out runs/rough-schemes/$$c-$$n ); test $$? -le 1 || exit 1; done; done
+	$(ON) mgehl collect runs/rough-schemes/* --columns "$(OF_SCHEMES)" --out runs/tables/rough-schemes.csv \
+	  > runs/tables/rough-schemes.md
+
+.PHONY: rough-schemes
+
 # make balls    a rough ball of 100 N without a boundary film, 20 to 400 nm rms, 1 m/s to 1 um/s, from film and contact (a quarter of an hour)
 BALL := /dev/null --set contact.load="100 N" --set surface.kind=self-affine --set surface.hurst=0.8 --set surface.seed=1 \
   --set surface.shortest_wavelength="30 um" --set surface.longest_wavelength="200 um" --set grid.nodes=257 \
