@@ -16,15 +16,15 @@ from mgehl.model.surface.surface import JUST, step_of
 
 SAMPLES = 65
 """Heights along each side from which the roughness is reckoned: the same whatever the grid."""
-SOFTEST = 3.0
-"""Times that the inlet of soft bodies may be longer than the one by which speeds on coarse grids go. Without
-this limit rubber (E' 20 MPa in oil, 257 nodes) begins at 300 m/s and takes 703 convolutions, with it 112;
-with 2 one of 92 soft contacts is not found."""
-
 SHOWN_CELLS = 4.0
 """Cells of a coarse grid in the shortest wave that it is shown."""
 RESOLVED_CELLS = 4.0
 """Cells in the inlet from which on the film does not change with the grid."""
+
+SOFTEST = 3.0
+"""Times that the inlet of soft bodies may be longer than the one by which speeds on coarse grids go. By
+that one alone rubber (E' 20 MPa in oil, 257 nodes) begins at 300 m/s and takes 703 convolutions, with this
+limit 112; with 2 one of 92 soft contacts is not found."""
 
 
 @dataclass(frozen=True)
