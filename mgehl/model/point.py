@@ -19,10 +19,10 @@ from mgehl.model.surface import Surface
 LOAD = 2.0 * pi / 3.0
 """Dimensionless load: the integral of P over X and Y  [Liu eq. 50]."""
 
-ANSWERS, DOES_NOT = 0.33, 0.1
-"""Film of rigid bodies over that of elastic ones from which on a film answers to its load as a floating one
-does, and below which it does not: balls of M = 8.2 and 15.6. All of the load beyond the domain is counted
-there and none here, and a part in between, so that films do not jump."""
+COUNTED_FROM, COUNTED_WHOLLY = 0.1, 0.33
+"""Film of rigid bodies over that of elastic ones from which on a part of the load beyond the domain is
+counted, and from which on all of it: balls of M = 15.6 and 8.2. The more the bodies float, the more the
+film answers to the load; a part in between, so that films do not jump."""
 
 
 def radii_along(angle, radius_x, radius_y):
@@ -170,7 +170,8 @@ class PointContact(LoadedContact):
         if self.load_beyond is not None:
             return float(self.load_beyond)
         rigid, elastic, *_ = self._asymptotes
-        return min(max((rigid / elastic - DOES_NOT) / (ANSWERS - DOES_NOT), 0.0), 1.0)
+        above = (rigid / elastic - COUNTED_FROM) / (COUNTED_WHOLLY - COUNTED_FROM)
+        return min(max(above, 0.0), 1.0)
 
     @property
     def _asymptotes(self):

@@ -46,7 +46,7 @@ class Solution:
     rows: list[dict[str, float]]
     result: Result | WedgeResult | DryResult
     H0: float = 0.0
-    """Approach of the bodies in units of H  [Liu eq. 48]; 0 for a wedge."""
+    """Constant part of the gap in units of H  [Liu eq. 48], less the closer the bodies; 0 for a wedge."""
     local: Fields | None = None
     first_line: int = 0
 

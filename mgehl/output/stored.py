@@ -85,7 +85,7 @@ def read_config(files):
 
 
 def read_fields(path, mesh):
-    """`Fields` of the whole grid and the approach H0 from a fields.h5 of this mesh."""
+    """`Fields` of the whole grid and H0 from a fields.h5 of this mesh."""
     try:
         with h5netcdf.File(path, "r") as file:
             fields = Fields(*(np.asarray(file[name]) for name in ("P", "H", "status")))

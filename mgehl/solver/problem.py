@@ -20,7 +20,7 @@ DIVERGED = 1e10
 
 @dataclass
 class State(Kept):
-    """A solution on one grid: local lines of pressure, gap and status, and the approach H0."""
+    """A solution on one grid: local lines of pressure, gap and status, and H0."""
 
     P: np.ndarray
     H0: float
