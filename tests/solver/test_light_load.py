@@ -43,3 +43,11 @@ def test_the_answer_says_how_much_is_carried_beyond():
     assert 10.0 < result.resolution.load_beyond_percent < 30.0
     part = f"{result.resolution.load_beyond_percent:.1f} %"
     assert f"load: {part} of it is carried beyond the domain" in str(result)
+
+
+@pytest.mark.parametrize("nodes", [65, 129])
+def test_a_contact_thirty_times_as_wide_as_long_ends_within_its_domain(nodes):
+    """Its pressure near the sides is a hundredth of the largest, on every grid."""
+    wide = moes(10.0, 5.0, radius_x=5e-3, radius_y=0.15)
+    result = mgehl.solve(config_from_tables(merged(wide, {"grid": {"nodes": nodes}}))).result
+    assert result.converged and result.edge.pressure_ratio == pytest.approx(0.009, rel=0.05)
