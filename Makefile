@@ -88,6 +88,13 @@ large: $(ENVIRONMENT)
 
 .PHONY: large
 
+# make bench   seconds of three cases on 1025 nodes, on one rank and on two (four minutes; nothing else may run)
+BENCH := --case film-1025 --case contact-1025 --case thick-1025 --repeat 3
+bench: $(ENVIRONMENT)
+	for r in 1 2; do ( $(ON) mpiexec -n $$r python -m mgehl bench $(BENCH) > runs/tables/bench-$$r.txt ) || exit 1; done
+
+.PHONY: bench
+
 # make thick   convolutions and GMRES of thick films by four schemes on four grids (five minutes)
 THICK := runs/thick
 OF_THICK := run,nodes,converged,central nm,minimum nm,convolutions,Newton steps on finest,most GMRES iterations
@@ -103,8 +110,8 @@ thick: $(ENVIRONMENT)
 # make studies   run the studies and write their tables to runs/tables
 studies: $(ENVIRONMENT)
 	for s in wedge schemes angle error; do ( $(ON) mpiexec -n 2 python -m mgehl study $$s --force --quiet ) || exit 1; done
-	for s in line inlet methods domain accuracy; do ( $(ON) python -m mgehl study $$s --force --quiet ) || exit 1; done
-	for s in wedge schemes angle error line inlet methods domain accuracy; do for f in runs/study-$$s/*.md runs/study-$$s/*.csv; do \
+	for s in line inlet methods domain accuracy soft; do ( $(ON) python -m mgehl study $$s --force --quiet ) || exit 1; done
+	for s in wedge schemes angle error line inlet methods domain accuracy soft; do for f in runs/study-$$s/*.md runs/study-$$s/*.csv; do \
 	  cp $$f runs/tables/$$s-$$(basename $$f) || exit 1; done; done
 	cp runs/study-angle/films.png runs/tables/angle-films.png
 	$(ON) mpiexec -n 2 python -m mgehl study error --cases 40 --force --quiet --out runs/study-error-random

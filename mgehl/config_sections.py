@@ -70,7 +70,7 @@ class GridSection:
     )
     y: tuple | str = key_field(AUTO, "the same along y in units of the semi-axis b", kind=tuple)
     load_beyond: bool | None = key_field(
-        None, "whether the load that is carried beyond the domain is counted (unset: of a light one)",
+        None, "whether load carried beyond the domain is counted (unset: where films answer to it)",
         kind=bool,
     )  # fmt: skip
 

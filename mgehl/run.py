@@ -3,12 +3,10 @@
 import time
 from dataclasses import dataclass, replace
 from functools import partial
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 import numpy as np
 from mpi4py import MPI
-from petsc4py import PETSc
 
 from mgehl.grid.grid import single_grid
 from mgehl.kinds import contact_from, settled
@@ -21,6 +19,7 @@ from mgehl.output.finish import begin_run, finish_run
 from mgehl.output.memory_limit import check_memory
 from mgehl.output.result import Work, summarise
 from mgehl.output.solution import Fields, Solution
+from mgehl.output.surroundings import versions
 from mgehl.output.users_axes import in_users_axes
 from mgehl.output.wedge_result import summarise_wedge
 from mgehl.solver.continuation import begin
@@ -31,7 +30,6 @@ from mgehl.solver.nested import LevelSolve, single_loop
 from mgehl.solver.problem import ContactProblem
 from mgehl.solver.restart import interpolated, solve_from
 from mgehl.solver.wedge import solve_wedge
-from mgehl.version import VERSION
 
 
 @dataclass(frozen=True)
@@ -182,15 +180,3 @@ def _solution(config, parts, problem, state, rows, result):
     whole = local.gathered(grid)
     solution = Solution(config, parts.contact, grid.mesh, whole, rows, result, state.H0, local, grid.first)
     return in_users_axes(solution, parts.frame, grid)
-
-
-def versions():
-    """Versions of what computes."""
-    packages = ("numpy", "scipy", "mpi4py", "petsc4py", "pyfftw", "numba")
-    found = {"mgehl": VERSION, "petsc": ".".join(map(str, PETSc.Sys.getVersion()))}
-    for package in packages:
-        try:
-            found[package] = version(package)
-        except PackageNotFoundError:
-            found[package] = "unknown"
-    return found

@@ -24,6 +24,7 @@ STUDIES = {
     "accuracy": "errors of full films at 2, 4 and 8 cells in the inlet, by every scheme of a full film",
     "angle": "films of surfaces that move at an angle to the axes of the contact",
     "domain": "what a domain of twice the size changes in the film, and what was estimated of it",
+    "soft": "soft bodies in thin oil: which films are found, beside Moes' formulas",
     "rough": "a rough ball from full film to nearly dry: load share, contact area, patches against lambda",
     "waviness": "waves that stand still in full films: a line contact beside published numbers, a ball",
     "mixed": "rough balls drawn at random, from full film to boundary lubrication: verdicts and work",
@@ -34,7 +35,7 @@ STUDIES = {
 DOUBLING = ("wedge", "schemes", "angle", "error")
 """Studies that need grids each of half the spacing of the one before: they tell orders and limits."""
 
-LARGEST_LISTS = {"line": 1, "rough": 1, "mixed": 1, "methods": 0, "accuracy": 0, "domain": 0}
+LARGEST_LISTS = {"line": 1, "rough": 1, "mixed": 1, "methods": 0, "accuracy": 0, "domain": 0, "soft": 0}
 """How many grids --nodes may name, where that is limited."""
 
 DRAW = ("mixed", "error")
@@ -86,7 +87,7 @@ def execute(options, comm):
     from mgehl.output.files import on_first_rank
     from mgehl.output.lock import locked
     from mgehl.output.report.study_record import StudyRecord
-    from mgehl.run import versions
+    from mgehl.output.surroundings import versions
     from mgehl.saying import complain
 
     nodes = _checked_nodes(options)

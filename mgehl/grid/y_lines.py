@@ -54,11 +54,11 @@ class SomeYLines:
         first, end = columns[grid.team.rank]
         self.shape = end - first, grid.mesh.ny
         self._mine, self._plane = slice(first, end), plane
-        starts = plane.starts if plane else [0]
-        self._places = [
-            (slice(first, end), slice(start, start + end - first))
-            for (first, end), start in zip(columns, starts, strict=True)
-        ]
+        if plane:
+            self._places = [
+                (slice(first, end), slice(start, start + end - first))
+                for (first, end), start in zip(columns, plane.starts, strict=True)
+            ]
 
     def turned(self, array, out=None):
         """An array of x-lines, (lines, nx) of any type that a double holds, as y-lines (in `out`)."""

@@ -51,10 +51,8 @@ class LoadedContact:
     """The gap answers to the pressure, whose integral is a load."""
     is_plane = False
     """It has no end across the motion."""
-    is_light = False
+    hardly_yields = False
     """The load is so light that the bodies hardly yield: the pressure is not that of Hertz."""
-    is_soft = False
-    """The bodies yield to pressures that do not stiffen the oil: rubber, or steel in water."""
     counted_beyond = 0.0
     """Part of the load carried beyond the domain that the film within is spared, 0 to 1."""
     motion = (1.0, 0.0)
@@ -133,6 +131,22 @@ class LoadedContact:
     def _nodes(self, mesh):
         """Lines of a mesh's nodes along x and along y, in m."""
         return mesh.X * self.x_scale, mesh.Y * self.y_scale
+
+    @property
+    def asymptotes(self):
+        """Moes' films, H_Moes, of the contact that formulas know: rigid and elastic isoviscous, the same
+        piezoviscous."""
+        raise NotImplementedError
+
+    @property
+    def is_soft(self):
+        """Whether the bodies yield to pressures that hardly stiffen the oil: rubber, or steel in water."""
+        return films.is_soft(*self.asymptotes)
+
+    @property
+    def expected_film(self):
+        """Central film in metres to start from, by the formula of its regime."""
+        return self.flooded_film if films.is_isoviscous(*self.asymptotes) else self._piezoviscous_film
 
     @property
     def is_mixed(self):

@@ -80,18 +80,16 @@ class LineContact(LoadedContact):
     @property
     def regime(self):
         """Whether bodies and viscosity answer to the pressure, by Moes' asymptotes."""
-        return films.regime(*films.line_asymptotes(self.groups))
+        return films.regime(*self.asymptotes)
 
     @property
-    def is_soft(self):
-        """As of any contact, by Moes' asymptotes."""
-        return films.is_soft(*films.line_asymptotes(self.groups))
+    def asymptotes(self):
+        """As of any contact."""
+        return films.line_asymptotes(self.groups)
 
     @property
-    def expected_film(self):
-        """Central film in metres to start from."""
-        isoviscous = films.is_isoviscous(*films.line_asymptotes(self.groups))
-        return self.flooded_film if isoviscous else self.formulas.dowson_higginson_central
+    def _piezoviscous_film(self):
+        return self.formulas.dowson_higginson_central
 
     @property
     def flooded_film(self):

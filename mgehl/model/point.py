@@ -157,9 +157,9 @@ class PointContact(LoadedContact):
         return self.aligned._likeness
 
     @property
-    def is_light(self):
+    def hardly_yields(self):
         """By Moes' isoviscous films: that of rigid bodies is thicker than that of elastic ones."""
-        rigid, elastic, *_ = self._asymptotes
+        rigid, elastic, *_ = self.asymptotes
         return rigid > elastic
 
     @property
@@ -169,13 +169,13 @@ class PointContact(LoadedContact):
             return 0.0
         if self.load_beyond is not None:
             return float(self.load_beyond)
-        rigid, elastic, *_ = self._asymptotes
+        rigid, elastic, *_ = self.asymptotes
         above = (rigid / elastic - COUNTED_FROM) / (COUNTED_WHOLLY - COUNTED_FROM)
         return min(max(above, 0.0), 1.0)
 
     @property
-    def _asymptotes(self):
-        """Moes' films, H_Moes, as of `films.point_asymptotes`."""
+    def asymptotes(self):
+        """As of any contact."""
         like = self.likeness
         return films.point_asymptotes(like.groups, like.radius_x / like.radius_y)
 
@@ -236,15 +236,8 @@ class PointContact(LoadedContact):
         return films.regime(*films.point_asymptotes(self.groups, like.radius_x / like.radius_y))
 
     @property
-    def is_soft(self):
-        """As of any contact, by Moes' asymptotes."""
-        return films.is_soft(*self._asymptotes)
-
-    @property
-    def expected_film(self):
-        """Central film in metres to start from."""
-        isoviscous = films.is_isoviscous(*self._asymptotes)
-        return self.flooded_film if isoviscous else self.likeness.formulas.hamrock_dowson_central
+    def _piezoviscous_film(self):
+        return self.likeness.formulas.hamrock_dowson_central
 
     @property
     def flooded_film(self):

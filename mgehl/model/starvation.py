@@ -23,10 +23,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mgehl.model import films
-from mgehl.model.approach import STEPS, Approach
 from mgehl.model.contact import LoadedContact
 from mgehl.model.far_field import kapitza_factor
+from mgehl.model.way_in import STEPS, WayIn
 
 UPSTREAM, BESIDE = (0.66, 0.53), (0.08, 0.15)
 """Powers of the part of the reduced pressure that is left with which the central and the minimum film fall
@@ -121,13 +120,13 @@ class Starvation:
 
     @cached_property
     def upstream(self):
-        """The `Approach` along the motion."""
-        return Approach(self.dimensionless_film, self.like.dry_gap(1.0 + STEPS, np.zeros(STEPS.size)))
+        """The `WayIn` along the motion."""
+        return WayIn(self.dimensionless_film, self.like.dry_gap(1.0 + STEPS, np.zeros(STEPS.size)))
 
     @cached_property
     def beside(self):
-        """The `Approach` across it."""
-        return Approach(self.dimensionless_film, self.like.dry_gap(np.zeros(STEPS.size), 1.0 + STEPS))
+        """The `WayIn` across it."""
+        return WayIn(self.dimensionless_film, self.like.dry_gap(np.zeros(STEPS.size), 1.0 + STEPS))
 
     @cached_property
     def powers(self):
@@ -164,9 +163,9 @@ class Starvation:
         """Power of the load with which the film falls: of a rigid one, where that is the thickest."""
         like = self.like
         if self.contact.is_plane:
-            rigid, elastic, *piezoviscous = films.line_asymptotes(like.groups)
+            rigid, elastic, *piezoviscous = like.asymptotes
             return 1.0 / (1.0 + (max(elastic, min(piezoviscous)) / rigid) ** LIGHT)
-        rigid, elastic, _, _ = films.point_asymptotes(like.groups, like.radius_x / like.radius_y)
+        rigid, elastic, *_ = like.asymptotes
         # Less of wide contacts, by as much as they are wide.
         return min(1.0, like.k_e) * (RIGID / (1.0 + (elastic / rigid) ** LIGHT) + ELASTIC)
 

@@ -6,26 +6,11 @@ the line smoother (a wedge of 1025 by 1025 nodes: 7 iterations instead of 30, in
 
 import numpy as np
 from petsc4py import PETSc
-from scipy.sparse import coo_array
 
 from mgehl.discretization.residual import linearise
 from mgehl.grid.events import ASSEMBLY, event
 from mgehl.multigrid.jacobian import BorderedSpace
-
-
-def stencil_rows(offsets, stencil, first_row, columns):
-    """Sparse rows of a stencil (offsets, lines, nx) whose first node is row `first_row` of the whole.
-
-    Nodes are numbered line by line; `columns` is their number, or one more for a border.
-    """
-    _, lines, nx = stencil.shape
-    rows = np.arange(lines * nx)
-    parts = []
-    for (line, node), values in zip(offsets, stencil.reshape(len(offsets), -1), strict=True):
-        used = values != 0.0
-        parts.append((rows[used], first_row + rows[used] + line * nx + node, values[used]))
-    row, column, value = (np.concatenate(part) for part in zip(*parts, strict=True))
-    return coo_array((value, (row, column)), shape=(lines * nx, columns)).tocsr()
+from mgehl.multigrid.stencil_matrix import stencil_rows
 
 
 class AssembledSolver:

@@ -9,7 +9,7 @@ from scipy.sparse.linalg import splu
 from mgehl.discretization.compiled import compiled
 from mgehl.discretization.influence import influence_coefficients
 from mgehl.grid.events import COARSE, event
-from mgehl.multigrid.assembled import stencil_rows
+from mgehl.multigrid.stencil_matrix import stencil_rows
 
 
 class CoarseSolve:

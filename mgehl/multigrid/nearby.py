@@ -12,6 +12,7 @@ from petsc4py import PETSc
 from mgehl.discretization.mesh import HALO
 from mgehl.grid.events import NEARBY, event
 from mgehl.multigrid.options import by_default
+from mgehl.multigrid.stencil_matrix import StencilMatrix
 
 NEAR = np.array([(line, node) for line in (-1, 0, 1) for node in (-1, 0, 1)])
 """(lines, nodes) to the nodes whose deflection a correction has in the matrix. With itself alone a ball of
@@ -139,32 +140,3 @@ def _direct_solver(matrix):
         ksp.getPC().setFactorSolverType(packages[0])
     ksp.setFromOptions()
     return ksp
-
-
-class StencilMatrix:
-    """The distributed matrix of a stencil (offsets, lines, nx), whose entries may be set again and again.
-
-    Nodes are numbered line by line. An entry that is zero keeps its place.
-    """
-
-    def __init__(self, grid, offsets):
-        self._order = np.lexsort((offsets[:, 1], offsets[:, 0]))
-        line, node = offsets[self._order].T
-        line = np.arange(grid.first, grid.last)[:, None, None] + line
-        node = np.arange(grid.mesh.nx)[:, None] + node
-        self._inside = (line >= 0) & (line < grid.mesh.ny) & (node >= 0) & (node < grid.mesh.nx)
-        counts = self._inside.sum(axis=-1).ravel()
-        self._rows = np.append(0, np.cumsum(counts)).astype(PETSc.IntType)
-        self._columns = (line * grid.mesh.nx + node)[self._inside].astype(PETSc.IntType)
-        csr = self._rows, self._columns, np.zeros(len(self._columns))
-        self.mat = PETSc.Mat().createAIJ(((len(counts), PETSc.DECIDE),) * 2, csr=csr, comm=grid.comm)
-
-    def set(self, stencil):
-        """Set all entries."""
-        values = np.moveaxis(stencil[self._order], 0, -1)[self._inside]
-        self.mat.setValuesCSR(self._rows, self._columns, values)
-        self.mat.assemble()
-
-    def destroy(self):
-        """Destroy the Mat."""
-        self.mat.destroy()

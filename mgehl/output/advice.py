@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from mgehl.config_value import AUTO as AUTOMATIC
+from mgehl.config_value import AUTO
 from mgehl.kinds import settled
 from mgehl.output import surface
 from mgehl.output.resolution import RESOLVED_CELLS
@@ -10,11 +10,12 @@ from mgehl.output.resolution import RESOLVED_CELLS
 MOST = 3
 """Most pieces of advice that are given."""
 
-AUTO = 'grid.x = "auto" and grid.y = "auto": a domain that holds the contact and its inlet'
 LARGER = 1.5
 """Times the domain that is advised where "auto" is not enough: roughness makes a contact wider."""
+
 JUST = 1e-6
 """Semi-axes that do not matter."""
+
 OTHER = {
     "film": 'solver.start = "contact": from the other side, where the film is thinner than the grid sees',
     "contact": 'solver.start = "film": from the other side, where the bodies may come apart',
@@ -51,27 +52,27 @@ def _of_domain(solution):
     """A domain that cuts the contact, or a contact of too few nodes."""
     edge = solution.result.edge
     if edge.cuts:
-        yield _larger(solution) if _has_autos_room(solution) else AUTO
+        yield _other_domain(solution.config, solution.contact)
     elif edge.too_few:
         yield "more nodes, or a smaller domain: the contact has too few nodes"
 
 
-def _has_autos_room(solution):
-    """Whether the domain is as large as the one that "auto" chooses."""
-    config = solution.config
-    open_grid = replace(config.grid, x=AUTOMATIC, y=AUTOMATIC)
-    auto = settled(replace(config, grid=open_grid), solution.contact).grid
-    pairs = ((config.grid.x, auto.x), *([] if solution.contact.is_plane else [(config.grid.y, auto.y)]))
-    return all(ends[0] <= room[0] + JUST and ends[1] >= room[1] - JUST for ends, room in pairs)
+def _other_domain(config, contact):
+    """That of "auto", or a larger one in numbers where this one has as much room already."""
+    names = "x" if contact.is_plane else "xy"
+    open_grid = replace(config.grid, **dict.fromkeys(names, AUTO))
+    auto = settled(replace(config, grid=open_grid), contact).grid
+    if not all(_holds(getattr(config.grid, name), getattr(auto, name)) for name in names):
+        keys = " and ".join(f'grid.{name} = "auto"' for name in names)
+        return f"{keys}: a domain that holds the contact and its inlet"
+    larger = {name: [round(LARGER * end, 2) for end in getattr(config.grid, name)] for name in names}
+    keys = " and ".join(f"grid.{name} = {ends}" for name, ends in larger.items())
+    return f"{keys}: the contact is wider than that of smooth bodies"
 
 
-def _larger(solution):
-    """A larger domain, in numbers."""
-    grid = solution.config.grid
-    names = "x" if solution.contact.is_plane else "xy"
-    ends = [[round(LARGER * end, 2) for end in getattr(grid, name)] for name in names]
-    said = " and ".join(f"grid.{name} = {each}" for name, each in zip(names, ends, strict=True))
-    return f"{said}: the contact is wider than that of smooth bodies"
+def _holds(ends, others):
+    """Whether an interval holds another one."""
+    return ends[0] <= others[0] + JUST and ends[1] >= others[1] - JUST
 
 
 def _of_grid(resolution, nodes):

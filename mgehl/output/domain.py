@@ -44,7 +44,7 @@ def domain_words(verdict, lost):
 
 def beyond_words(percent):
     """How much of the load the film in a domain need not carry, in a list; empty where hardly any."""
-    words = f"{percent:.1f} % of it is carried beyond the domain, or would be within but for its sides"
+    words = f"{percent:.1f} % of it is carried beyond the domain or lost at its sides, the rest within"
     return [words] if percent >= 0.05 else []
 
 

@@ -22,22 +22,27 @@ class EdgeResult:
     @property
     def wrong(self):
         """What is wrong, in a few words and in a sentence; both empty where nothing is."""
-        if self.overlapping:
-            return "the bodies overlap on the boundary", (
-                f"the bodies overlap at {self.overlapping} nodes of the domain's boundary by up to "
-                f"{self.largest_nm:.3g} nm: the domain cuts the contact"
-            )
-        if self.pressure_ratio > LARGEST_EDGE_PRESSURE:
-            return "the domain cuts the contact", (
-                f"the pressure near the domain's boundary is {100 * self.pressure_ratio:.2g} % of the "
-                f"largest, more than {100 * LARGEST_EDGE_PRESSURE:g} %: the domain cuts the contact"
-            )
+        if self.cuts:
+            return self._cut
         return ("the contact has too few nodes", self.too_few) if self.too_few else ("", "")
 
     @property
     def cuts(self):
         """Whether the domain cuts the contact."""
         return self.overlapping > 0 or self.pressure_ratio > LARGEST_EDGE_PRESSURE
+
+    @property
+    def _cut(self):
+        """The same in words."""
+        if self.overlapping:
+            return "the bodies overlap on the boundary", (
+                f"the bodies overlap at {self.overlapping} nodes of the domain's boundary by up to "
+                f"{self.largest_nm:.3g} nm: the domain cuts the contact"
+            )
+        return "the domain cuts the contact", (
+            f"the pressure near the domain's boundary is {100 * self.pressure_ratio:.2g} % of the "
+            f"largest, more than {100 * LARGEST_EDGE_PRESSURE:g} %: the domain cuts the contact"
+        )
 
     @property
     def too_few(self):

@@ -110,14 +110,14 @@ def inlet_grids(config, contact):
 
 def forecast(config, contact, mesh, ranks):
     """The `Forecast` of a run on so many ranks; times a convolution."""
-    effort = _effort(config, contact, mesh)
+    effort = effort_of(config, contact, mesh)
     timed = _timed_mesh(mesh)
     second = time_convolution(timed) * _fft_work(mesh) / _fft_work(timed)
     shared = second + effort.node_seconds * mesh.nodes
     workers = 1 if mesh.is_line else min(ranks, cores_allowed())
     return Forecast(
         nodes=mesh.nodes,
-        memory=ranks * RANK_BYTES + _bytes_of_nodes(effort, mesh, ranks),
+        memory=ranks * RANK_BYTES + bytes_of_nodes(effort, mesh, ranks),
         seconds=START_SECONDS + effort.convolutions * (shared / workers + effort.beside),
         convolutions=effort.convolutions if effort.counted else None,
         convolution_seconds=second,
@@ -127,18 +127,16 @@ def forecast(config, contact, mesh, ranks):
     )
 
 
-def bytes_of_nodes(config, contact, mesh, ranks):
-    """Bytes that a run takes for its nodes, on all ranks together."""
-    return _bytes_of_nodes(_effort(config, contact, mesh), mesh, ranks)
+def bytes_of_nodes(effort, mesh, ranks):
+    """Bytes for the nodes, on all ranks together: of a line contact each has all of them.
 
-
-def _bytes_of_nodes(effort, mesh, ranks):
-    """Of each rank for the whole line of a line contact. Less what is saved where memory is short."""
+    Less what is saved where memory is short.
+    """
     saved = SAVED_ON_LARGE_GRIDS if is_large(mesh) else 0.0
     return (ranks if mesh.is_line else 1) * (effort.bytes_per_node - saved) * mesh.nodes
 
 
-def _effort(config, contact, mesh):
+def effort_of(config, contact, mesh):
     """That of the kind; of a ball by its peaks, or by what the grid sees of its inlet."""
     by_kind = config.kind.effort(config)
     if not contact.is_loaded or config.is_dry or mesh.is_line or config.solver.method != "newton-mg":

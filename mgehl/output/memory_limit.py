@@ -5,21 +5,20 @@ from pathlib import Path
 
 from mgehl.errors import UserError
 from mgehl.kinds import contact_from, mesh_from
-from mgehl.output.forecast import MiB, bytes_of_nodes
+from mgehl.output.forecast import MiB, bytes_of_nodes, effort_of
 
 SPARE = 128 * MiB
 """Bytes of buffers that BLAS and MPI take during a run."""
 
 
 def check_memory(config, ranks):
-    """Raise UserError where a limit of this process (ulimit -v) is below what one of so many ranks will
-    take."""
+    """Raise UserError where this process, one of so many ranks, may not take what it will (ulimit -v)."""
     limit, _ = resource.getrlimit(resource.RLIMIT_AS)
     if limit == resource.RLIM_INFINITY:
         return
     contact = contact_from(config)
     mesh = mesh_from(config, contact)
-    need = _taken() + SPARE + bytes_of_nodes(config, contact, mesh, ranks) / ranks
+    need = _taken() + SPARE + bytes_of_nodes(effort_of(config, contact, mesh), mesh, ranks) / ranks
     if need > limit:
         raise UserError(
             f"grid.nodes = {config.grid.nodes}: takes about {need / MiB:.0f} MiB of address space, and "

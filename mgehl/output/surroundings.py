@@ -15,9 +15,9 @@ from mgehl.discretization.kernels import distribute
 from mgehl.grid.transforms import FIXED, THREADS, TIMED
 from mgehl.version import VERSION
 
-PACKAGES = (
-    "numpy", "scipy", "numba", "pyfftw", "mpi4py", "petsc4py", "h5netcdf", "matplotlib", "pint", "dacite",
-)  # fmt: skip
+COMPUTING = "numpy", "scipy", "mpi4py", "petsc4py", "pyfftw", "numba"
+PACKAGES = *COMPUTING, "h5netcdf", "matplotlib", "pint", "dacite"
+"""On which the numbers of a run depend; all that it uses."""
 
 THREAD_VARIABLES = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
 
@@ -124,6 +124,12 @@ def memory_GiB():
     return os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") / 2**30
 
 
+def versions():
+    """Name and version of what computes: mgehl, PETSc, packages; "unknown" where one does not say."""
+    found = {"mgehl": VERSION, "petsc": _petsc_version()}
+    return found | {package: _version(package) or "unknown" for package in COMPUTING}
+
+
 def _version(package):
     try:
         return version(package)
@@ -131,11 +137,15 @@ def _version(package):
         return None
 
 
+def _petsc_version():
+    return ".".join(map(str, PETSc.Sys.getVersion()))
+
+
 def _petsc(comm):
     where, log = petsc4py.get_config(), _log(comm)
     scalar = PETSc.ScalarType()
     return Petsc(
-        version=".".join(map(str, PETSc.Sys.getVersion())),
+        version=_petsc_version(),
         directory=where["PETSC_DIR"],
         arch=where.get("PETSC_ARCH", ""),
         precision=f"{scalar.dtype.name}, {scalar.itemsize} bytes",

@@ -219,10 +219,10 @@ def band_words(error):
 
 
 def pressure_words(GPa):
-    """Four digits after the point, or, of soft and light contacts, four in MPa or kPa."""
-    for unit, size in (("GPa", 1.0), ("MPa", 1e-3), ("kPa", 1e-6)):
-        if abs(GPa) >= 0.1 * size or unit == "kPa":
-            return f"{_number(GPa)} GPa" if unit == "GPa" else f"{GPa / size:.4g} {unit}"
+    """A pressure; that of a soft or light contact in MPa or kPa."""
+    if GPa < 1e-4:
+        return f"{1e6 * GPa:.4g} kPa"
+    return f"{1e3 * GPa:.4g} MPa" if GPa < 0.1 else f"{_number(GPa)} GPa"
 
 
 def _number(value):

@@ -132,7 +132,7 @@ def planned_solves(meshes, contact, settings):
             yield level, LevelSolve(mesh.nx, contact.speed, True)
         elif mesh.nx >= nested.first_nodes and not alone:
             speed = contact.matched_speed(mesh, nested.inlet_cells)
-            if not contact.at_speed(speed).is_light:
+            if not contact.at_speed(speed).hardly_yields:
                 yield level, LevelSolve(mesh.nx, speed, False)
 
 

@@ -9,7 +9,7 @@ Of every solve:
     state.P state.H state.status
         Arrays (lines, nx): pressure and gap in units of P and H, what the nodes are.
     state.H0
-        Approach of the bodies in units of H.
+        Constant part of the gap in units of H.
     history.step history.residual history.load_error history.central history.minimum
     history.contact_nodes history.cavitated_nodes
         Lists with an entry for each row of the history, the state before a step or a sweep.

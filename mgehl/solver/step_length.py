@@ -15,8 +15,8 @@ STEEP, MOST_MORE = 19.0, 2.0
 because the viscosity does not follow its tangent. A pressure spike grows from grid to grid by p_h and
 more, which takes many short steps: M = 20, L = 10 (alpha p_h = 10) on 1025 nodes by 3B and the arithmetic
 mean 17 without this, 12 with it. With 15 to 20 as many within two; with alpha p_h from 20 on longer steps
-do harm as often as good. And how many times as much at the most: of soft bodies a longer step closes the
-film, and they do not part again (of 92 soft contacts on 129 and 513 nodes 32 did not converge)."""
+do harm as often as good. `MOST_MORE` is how many times as much at the most: a longer step closes the film
+of soft bodies, and they do not part again (without it 32 of 92 in `study soft` did not converge)."""
 
 SMALLEST = 1e-300
 """So that nothing is divided by zero."""

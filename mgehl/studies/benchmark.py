@@ -20,8 +20,9 @@ import numpy as np
 from mgehl.config import config_from_tables
 from mgehl.errors import OutputError
 from mgehl.grid.events import seconds_by_part, start_logging
+from mgehl.output.surroundings import versions
 from mgehl.output.whole_file import write_whole
-from mgehl.run import run, versions
+from mgehl.run import run
 from mgehl.studies.study import PAPER, PAPERS_DOMAIN, merged, papers_grid
 
 
@@ -52,6 +53,13 @@ LARGE = {
     "contact-513": _point(513, 5e-6, "contact"),
     "film-1025": _point(1025, 0.0075),
     "contact-1025": _point(1025, 5e-6, "contact"),
+    "thick-1025": {
+        "moes": {"M": 200.0, "L": 10.0},
+        "lubricant": {"density_law": "constant"},
+        "discretization": {"couette": "2B", "face_mobility": "arithmetic"},
+        "grid": {"nodes": 1025, "x": [-4.5, 1.5], "y": [-3.0, 3.0]},
+        "solver": {"error": False},
+    },
 }
 """Cases that take about a minute together."""
 

@@ -19,7 +19,7 @@ from mgehl.output.result import Work, summarise
 from mgehl.output.solution import Fields
 from mgehl.output.solution_record import arrays_of, fields_from
 from mgehl.output.stored import result_from
-from mgehl.run import versions
+from mgehl.output.surroundings import versions
 from mgehl.solver.continuation import Continuation
 from mgehl.solver.from_config import set_up
 from mgehl.solver.problem import State

@@ -11,18 +11,8 @@ from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import CONTACT, LUBRICATED
 from mgehl.grid.grid import single_grid
 from mgehl.model.wedge import WedgeBearing
-from mgehl.multigrid.assembled import AssembledSolver, stencil_rows
+from mgehl.multigrid.assembled import AssembledSolver
 from mgehl.solver.wedge import WedgeProblem
-
-
-def test_rows_of_a_rank_are_rows_of_the_whole():
-    offsets = [(0, 0), (0, -2), (0, -1), (0, 1), (-2, 0), (-1, 0), (1, 0)]
-    stencil = np.random.default_rng(1).uniform(1.0, 2.0, (len(offsets), 6, 7))
-    stencil[:, [0, 1, -1]] = 0.0
-    stencil[:, :, [0, 1, -1]] = 0.0
-    whole = stencil_rows(offsets, stencil, 0, 43).toarray()
-    part = stencil_rows(offsets, stencil[:, 2:5], 2 * 7, 43).toarray()
-    np.testing.assert_array_equal(part, whole[14:35])
 
 
 @pytest.fixture

@@ -6,7 +6,6 @@ from scipy.sparse import random as random_sparse
 
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import CAVITATED, CONTACT
-from mgehl.multigrid.assembled import stencil_rows
 from mgehl.multigrid.coarse import CoarseSolve, dense_influence, fill_bordered
 
 NODES = 33
@@ -77,18 +76,6 @@ def test_dense_influence_is_the_convolution(make_problem):
     K = dense_influence(problem.grid.mesh, problem.contact.kernel)
     expected = problem.deflection(P)
     np.testing.assert_allclose((K @ P.ravel()).reshape(P.shape), expected, rtol=0.0, atol=1e-13)
-
-
-def test_stencil_rows_place_the_neighbours():
-    lines, nx = 4, 5
-    offsets = [(0, 0), (0, -2), (0, -1), (0, 1), (-2, 0), (-1, 0), (1, 0)]
-    stencil = np.zeros((len(offsets), lines, nx))
-    stencil[:, 2, 2] = 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0
-    row = stencil_rows(offsets, stencil, 0, lines * nx).toarray()[2 * nx + 2].reshape(lines, nx)
-    expected = np.zeros((lines, nx))
-    expected[2, :4] = 2.0, 3.0, 1.0, 4.0
-    expected[[0, 1, 3], 2] = 5.0, 6.0, 7.0
-    np.testing.assert_array_equal(row, expected)
 
 
 def test_the_dense_matrix_is_the_jacobian_of_the_free_nodes():

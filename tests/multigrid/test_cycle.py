@@ -9,9 +9,9 @@ import mgehl
 from mgehl.discretization.rows import rows_of
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
-from mgehl.multigrid.assembled import stencil_rows
 from mgehl.multigrid.coarse import dense_influence
 from mgehl.multigrid.cycle import MultigridSolver
+from mgehl.multigrid.stencil_matrix import stencil_rows
 from mgehl.solver.problem import ContactProblem
 
 SIZES = (65, 129)

@@ -6,30 +6,20 @@ from mpi4py import MPI
 from mgehl.config import config_from_tables
 from mgehl.kinds import contact_from, mesh_from, settled
 from mgehl.run import solve
-
-E, ALPHA, ETA, R = 8e9, 12e-9, 0.05, 10e-3
-"""Of polymer on steel in a thin oil; SI."""
+from mgehl.studies.soft import soft
 
 
-def soft(kind, M, L, nodes, ratio=1.0):
-    """The configuration of a soft contact by Moes' numbers."""
-    two_U = (L / (ALPHA * E)) ** 4
-    lubricant = {"viscosity": ETA, "pressure_viscosity": ALPHA, "density_law": "constant"}
-    contact = {"kind": kind, "radius_x": R, "reduced_modulus": E}
-    if kind == "line":
-        contact["load_per_length"] = M * two_U**0.5 * E * R
-    else:
-        contact |= {"load": M * two_U**0.75 * E * R**2, "radius_y": ratio * R}
-    motion = {"speed": 0.5 * two_U * E * R / ETA}
-    tables = {"contact": contact, "lubricant": lubricant, "motion": motion, "grid": {"nodes": nodes}}
-    return config_from_tables(tables | {"solver": {"error": False}})
+def solved(kind, M, L, ratio=1.0):
+    """The solution of a soft contact by Moes' numbers."""
+    tables = soft(kind, M, L, ratio)
+    return solve(config_from_tables(tables | {"solver": {"error": False}}), MPI.COMM_SELF)
 
 
 @pytest.mark.parametrize("L", [0.3, 0.8])
 @pytest.mark.parametrize("M", [5.0, 30.0, 100.0])
 def test_lines_converge_to_moes_film(M, L):
     """One of six did, by steps that closed the film and a relaxation that took the load away."""
-    solution = solve(soft("line", M, L, 513), MPI.COMM_SELF)
+    solution = solved("line", M, L)
     result = solution.result
     assert result.converged and result.work.convolutions < 90.0
     assert 1e-9 * result.central_film_nm == pytest.approx(solution.contact.flooded_film, rel=0.15)
@@ -37,7 +27,7 @@ def test_lines_converge_to_moes_film(M, L):
 
 @pytest.mark.parametrize("M, L, ratio", [(50.0, 0.5, 1.0), (200.0, 0.8, 4.0)])
 def test_points_converge_to_moes_film(M, L, ratio):
-    solution = solve(soft("point", M, L, 129, ratio), MPI.COMM_SELF)
+    solution = solved("point", M, L, ratio)
     result = solution.result
     assert result.converged and result.work.convolutions < 110.0
     assert 1e-9 * result.central_film_nm == pytest.approx(solution.contact.flooded_film, rel=0.25)
@@ -45,7 +35,7 @@ def test_points_converge_to_moes_film(M, L, ratio):
 
 def test_their_inlet_is_that_of_their_own_film():
     """Which is longer than Ertel's and Grubin's: the speed on coarse grids goes by that one."""
-    config = soft("line", 30.0, 0.3, 129)
+    config = config_from_tables(soft("line", 30.0, 0.3))
     contact = contact_from(config)
     mesh = mesh_from(settled(config, contact), contact)
     assert contact.is_soft and contact.expected_film == contact.flooded_film

@@ -50,7 +50,7 @@ def checks_table(solution):
         absent("nodes where the bodies overlap", overlap.nodes, otherwise=CARE),
         informing("imbalance of the flux", result.flux_imbalance),
         limited(
-            "pressure beside the domain's boundary over the largest",
+            "pressure near the domain's boundary over the largest",
             result.edge.pressure_ratio,
             LARGEST_EDGE_PRESSURE,
         ),

@@ -11,7 +11,7 @@ STEPS = np.geomspace(1e-6, 1e5, 500)
 
 
 @dataclass(frozen=True)
-class Approach:
+class WayIn:
     """A straight way to the edge of a contact."""
 
     film: float

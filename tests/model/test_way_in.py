@@ -1,0 +1,29 @@
+"""Grubin's integral, by the length of the way to the contact."""
+
+import numpy as np
+import pytest
+
+from mgehl.model.way_in import STEPS, WayIn
+
+
+@pytest.fixture
+def way_in():
+    """To a wedge: its integral from s to the end is (h + 2 s)/(2 (h + s)^2)."""
+    return WayIn(0.3, STEPS)
+
+
+@pytest.mark.parametrize("way", [0.01, 0.3, 2.0, 50.0])
+def test_what_is_missing_is_the_integral_beyond(way_in, way):
+    part = 0.3 * (0.3 + 2.0 * way) / (0.3 + way) ** 2
+    assert way_in.missing(way) == pytest.approx(-np.log1p(-part), rel=1e-2)
+
+
+def test_the_way_of_what_is_missing(way_in):
+    for way in (0.01, 1.0, 300.0):
+        assert way_in.way(way_in.missing(way)) == pytest.approx(way, rel=1e-9)
+
+
+def test_no_way_leaves_nothing_and_a_longer_one_leaves_more(way_in):
+    assert way_in.missing(0.0) > 10.0
+    missing = [way_in.missing(way) for way in np.geomspace(1e-3, 1e3, 30)]
+    assert all(np.diff(missing) < 0.0)
