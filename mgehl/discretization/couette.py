@@ -99,35 +99,48 @@ def nodes_of(terms):
     return {node for _, a, b in terms for node in (a, b)}
 
 
+@dataclass(frozen=True)
+class Part:
+    """The products `terms` through the faces first ... last - 1, a `share` of them at each face."""
+
+    terms: tuple
+    first: int
+    last: int
+    share: float | np.ndarray = 1.0
+
+
 def add_couette(flow, terms, near, fluid, solid, axis):
     """Add to `flow` through the faces along an axis the Couette flow by `terms`.
 
     `fluid` and `solid` are ghosted. The products `near` are used where a far node is solid, or is not
     there.
     """
+    for part in _parts(terms, near, solid, axis):
+        _add_products(flow, part, fluid, axis, axis.couette)
+
+
+def _parts(terms, near, solid, axis):
+    """The `Part`s that make up the flow."""
     far = nodes_of(terms) & {WW, EE}
-    faces = axis.faces(solid)
     first, last = axis.reachable(solid, [SHIFT[node] for node in far])
-    _add_products(flow, near, fluid, axis, 0, first, axis.couette)
-    _add_products(flow, near, fluid, axis, last, faces, axis.couette)
+    ends = [Part(near, 0, first), Part(near, last, axis.faces(solid))]
     blocked = [axis.at(solid, SHIFT[node], first, last) for node in sorted(far)]
     if not any(each.any() for each in blocked):
-        _add_products(flow, terms, fluid, axis, first, last, axis.couette)
-    else:
-        beside = np.logical_or.reduce(blocked)
-        _add_products(flow, terms, fluid, axis, first, last, axis.couette * ~beside)
-        _add_products(flow, near, fluid, axis, first, last, axis.couette * beside)
+        return [*ends, Part(terms, first, last)]
+    beside = np.logical_or.reduce(blocked)
+    return [*ends, Part(terms, first, last, ~beside), Part(near, first, last, beside)]
 
 
-def _add_products(flow, terms, fluid, axis, first, last, weight):
-    """Add weight c rho_a H_b through the faces first ... last - 1, with its derivatives if asked for."""
+def _add_products(flow, part, fluid, axis, velocity):
+    """Add `velocity` times the products c rho_a H_b of a part, with the derivatives that `flow` has."""
+    first, last = part.first, part.last
 
     def here(array):
         return axis.of_faces(array, first, last)
 
-    for c, a, b in terms if first < last else ():
+    for c, a, b in part.terms if first < last else ():
         rho, H = axis.at(fluid.rho, SHIFT[a], first, last), axis.at(fluid.carried, SHIFT[b], first, last)
-        signed = c * weight
+        signed = c * (velocity * part.share)
         here(flow.value)[:] += signed * rho * H
         if flow.by_P:
             here(flow.by_P[a])[:] += signed * axis.at(fluid.drho_dP, SHIFT[a], first, last) * H

@@ -5,7 +5,7 @@ import pytest
 from handmade import ALONG, Row
 
 from mgehl.discretization.couette import EE, SCHEMES, WW, E, W, add_couette, couette_scheme
-from mgehl.discretization.faces import Flow
+from mgehl.discretization.flow import Flow
 from mgehl.discretization.status import CONTACT, LUBRICATED, is_solid
 
 # One row of five nodes with small whole numbers, so that every flow is exact.

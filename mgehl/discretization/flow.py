@@ -1,0 +1,23 @@
+"""What flows through the faces along an axis."""
+
+import numpy as np
+
+
+class Flow:
+    """A flow through the faces along an axis and its derivatives by P and H at the nodes it depends on.
+
+    `by_P` and `by_H` map node positions (WW, W, E, EE) to arrays of the flow's shape; no nodes,
+    no derivatives, and none by H of a `rigid` gap.
+    """
+
+    def __init__(self, shape, nodes=(), rigid=False):
+        self.value = np.zeros(shape)
+        self.by_P = {node: np.zeros(shape) for node in sorted(nodes)}
+        self.by_H = {node: np.zeros(shape) for node in sorted(nodes) if not rigid}
+
+    def close(self, is_open):
+        """Nothing passes where `is_open` is False."""
+        if is_open.all():
+            return
+        for array in (self.value, *self.by_P.values(), *self.by_H.values()):
+            array *= is_open
