@@ -79,7 +79,7 @@ class GridSection:
 class DiscretizationSection:
     couette: str | None = key_field(
         None,
-        "differential scheme of the Couette flow (unset: 3B, and 1B where peaks reach through the film)",
+        "differential scheme of the Couette flow (unset: 3B, and 3L of rough bodies)",
         choices=tuple(SCHEMES), kind=str,
     )  # fmt: skip
     face_mobility: str = key_field(

@@ -27,12 +27,13 @@ STUDIES = {
     "soft": "soft bodies in thin oil: which films are found, beside Moes' formulas",
     "rough": "a rough ball from full film to nearly dry: load share, contact area, patches against lambda",
     "waviness": "waves that stand still in full films: a line contact beside published numbers, a ball",
+    "peaks": "rough balls on three grids by two schemes: how much of film and contact is the grid's",
     "mixed": "rough balls drawn at random, from full film to boundary lubrication: verdicts and work",
     "dry": "dry contacts of smooth, wavy and rough balls beside a public code's numbers",
     "ranks": "messages, bytes, flops and time of an iteration on this run's ranks, and on many more",
 }
 
-DOUBLING = ("wedge", "schemes", "angle", "error")
+DOUBLING = ("wedge", "schemes", "angle", "error", "peaks")
 """Studies that need grids each of half the spacing of the one before: they tell orders and limits."""
 
 LARGEST_LISTS = {"line": 1, "rough": 1, "mixed": 1, "methods": 0, "accuracy": 0, "domain": 0, "soft": 0}

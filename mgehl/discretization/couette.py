@@ -2,12 +2,16 @@
 
 Each scheme is a sum of products c rho_a H_b over the nodes a, b near the face: W and E on its
 two sides, WW beyond W and EE beyond E. Value and linearisation come from the same table. Of a gap that
-adsorbed layers keep open, H is what lies above the layers.
+adsorbed layers keep open, H is what lies above the layers. The flow of a limited scheme differs from that
+of the node upstream (1B) by no more than a part of it.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from math import inf, isfinite
 
 import numpy as np
+
+from mgehl.discretization.flow import Flow
 
 WW, W, E, EE = 0, 1, 2, 3
 """Node positions relative to the face between W and E, along whichever axis."""
@@ -28,6 +32,8 @@ class CouetteScheme:
     leaving: tuple
     entering: tuple
     near: tuple = ()
+    limit: float = inf
+    """By how much of 1B's flow the flow may differ from that."""
 
     @property
     def conservative(self):
@@ -39,6 +45,14 @@ _2B = ((1.5, W, W), (-0.5, WW, WW))
 _2C = ((0.5, W, W), (0.5, E, E))
 _3B = ((2 / 6, E, E), (5 / 6, W, W), (-1 / 6, WW, WW))
 """Third order, upwind biased."""
+_HALF = 0.5
+"""Limit of 3L. Behind a peak the film falls to nothing from one node to the next. There 3B would carry
+fluid away from a node that has none, and the film would be less than none: of 18 random rough balls 5 do
+not converge. With a limit below 1 the flow ends with the node's film, and all do. Of `configs/rough.toml`
+contact carries 4.5, 13 and 19 % of the load on 257 nodes by 1B, 3L and 3B, 17 % on fine grids. (With a
+third for the least flow it does not converge on 513 nodes. A monotone limiter would cut the crest of
+every wave.)
+"""
 _S1B_LEAVING = ((2.0, W, W), (-1.0, WW, W))
 _S1B_ENTERING = ((1.0, E, W),)
 _S2C = ((0.5, W, E), (0.5, E, W))
@@ -66,6 +80,7 @@ SCHEMES = {
     "2B": CouetteScheme(_2B, _2B, near=_2C),
     "2C": CouetteScheme(_2C, _2C),
     "3B": CouetteScheme(_3B, _3B, near=_2C),
+    "3L": CouetteScheme(_3B, _3B, near=_2C, limit=_HALF),
     "S1B": CouetteScheme(_S1B_LEAVING, _S1B_ENTERING, near=_1B),
     "S2C": CouetteScheme(_S2C, _S2C),
     "S2B-v": CouetteScheme(_apart(W, (WW, E), (W, WW)), _apart(E, (W, EE), (W, WW)), near=_S2C),
@@ -86,7 +101,8 @@ def couette_scheme(name, coarsenings=0):
         return scheme
     share = 0.5**coarsenings
     near = _blended(scheme.near or scheme.leaving, _2C, share)
-    return CouetteScheme(_blended(scheme.leaving, _3B, share), _blended(scheme.entering, _3B, share), near)
+    leaving, entering = _blended(scheme.leaving, _3B, share), _blended(scheme.entering, _3B, share)
+    return CouetteScheme(leaving, entering, near, scheme.limit)
 
 
 def _blended(terms, others, share):
@@ -108,14 +124,21 @@ class Part:
     last: int
     share: float | np.ndarray = 1.0
 
+    def where(self, faces, axis):
+        """The part at those faces alone where the mask `faces`, of all faces, is True."""
+        return replace(self, share=self.share * axis.of_faces(faces, self.first, self.last))
 
-def add_couette(flow, terms, near, fluid, solid, axis):
-    """Add to `flow` through the faces along an axis the Couette flow by `terms`.
 
-    `fluid` and `solid` are ghosted. The products `near` are used where a far node is solid, or is not
-    there.
+def add_couette(flow, terms, scheme, fluid, solid, axis):
+    """Add to `flow` through the faces along an axis the Couette flow by `terms` of a `CouetteScheme`.
+
+    `fluid` and `solid` are ghosted. The scheme's products `near` are used where a far node is solid, or is
+    not there.
     """
-    for part in _parts(terms, near, solid, axis):
+    parts = _parts(terms, scheme.near, solid, axis)
+    if isfinite(scheme.limit):
+        parts = _within(scheme.limit, parts, fluid, axis)
+    for part in parts:
         _add_products(flow, part, fluid, axis, axis.couette)
 
 
@@ -129,6 +152,25 @@ def _parts(terms, near, solid, axis):
         return [*ends, Part(terms, first, last)]
     beside = np.logical_or.reduce(blocked)
     return [*ends, Part(terms, first, last, ~beside), Part(near, first, last, beside)]
+
+
+def _within(limit, parts, fluid, axis):
+    """The parts of a flow that is to differ from 1B's by no more than a `limit` of it.
+
+    Where it would, 1B's flow times 1 - limit or 1 + limit takes its place, with its derivatives.
+    """
+    least, most = 1.0 - limit, 1.0 + limit
+    upstream = axis.at(fluid.rho) * axis.at(fluid.carried)
+    carried = Flow(upstream.shape)
+    for part in parts:
+        _add_products(carried, part, fluid, axis, velocity=1.0)
+    too_much = carried.value > most * upstream
+    too_little = (carried.value < least * upstream) & ~too_much
+    limited = too_much | too_little
+    if not limited.any():
+        return parts
+    of_upstream = Part(_1B, 0, axis.faces(fluid.rho), most * too_much + least * too_little)
+    return [*(part.where(~limited, axis) for part in parts), of_upstream]
 
 
 def _add_products(flow, part, fluid, axis, velocity):

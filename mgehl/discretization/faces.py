@@ -25,18 +25,18 @@ def flows(fluid, status, axis, scheme, linearised=False, rigid=False, mobility=N
     table = couette_scheme(scheme.couette, scheme.coarsenings)
 
     def flow(terms):
-        return _flow(fluid, status, axis, scheme, mobility, terms, table.near, linearised, rigid)
+        return _flow(fluid, status, axis, scheme, mobility, terms, table, linearised, rigid)
 
     leaving = flow(table.leaving)
     conservative = table.conservative or not axis.couette
     return leaving, leaving if conservative else flow(table.entering)
 
 
-def _flow(fluid, status, axis, scheme, mobility, terms, near, linearised, rigid):
-    """One flow, its Couette part by `terms`, beside what is solid by `near`."""
+def _flow(fluid, status, axis, scheme, mobility, terms, table, linearised, rigid):
+    """One flow, its Couette part by `terms` of the `CouetteScheme`."""
     solid = is_solid(status, scheme.contact_law.closes_faces)
     is_open = open_faces(solid, axis)
-    flow = Flow(is_open.shape, _nodes_of_flow(axis, terms, near) if linearised else (), rigid)
+    flow = Flow(is_open.shape, _nodes_of_flow(axis, terms, table) if linearised else (), rigid)
     _add_poiseuille(flow, fluid, axis, mobility)
     if scheme.couette_at_interface == "untreated":
         # Contact stops the pressure flow alone; nothing passes a wall.
@@ -46,7 +46,7 @@ def _flow(fluid, status, axis, scheme, mobility, terms, near, linearised, rigid)
     else:
         stops = solid
     if axis.couette:
-        add_couette(flow, terms, near, fluid, stops, axis)
+        add_couette(flow, terms, table, fluid, stops, axis)
     flow.close(is_open)
     return flow
 
@@ -54,11 +54,11 @@ def _flow(fluid, status, axis, scheme, mobility, terms, near, linearised, rigid)
 def nodes_of_flows(axis, scheme):
     """Positions of the nodes that the `flows` (leaving W, entering E) along an axis depend on."""
     table = couette_scheme(scheme.couette, scheme.coarsenings)
-    return [_nodes_of_flow(axis, terms, table.near) for terms in (table.leaving, table.entering)]
+    return [_nodes_of_flow(axis, terms, table) for terms in (table.leaving, table.entering)]
 
 
-def _nodes_of_flow(axis, terms, near):
-    return {W, E} | (nodes_of(terms) | nodes_of(near) if axis.couette else set())
+def _nodes_of_flow(axis, terms, table):
+    return {W, E} | (nodes_of(terms) | nodes_of(table.near) if axis.couette else set())
 
 
 def _add_poiseuille(flow, fluid, axis, mobility):

@@ -40,9 +40,10 @@ def set_up(config):
     return SetUp(contact, mesh.in_frame(frame), settings_from(config, contact), frame)
 
 
-IN_FILMS, IN_MIXED = "3B", "1B"
-"""The Couette flow's schemes where the configuration names none. A film that falls to nothing from one node
-to the next, as behind a peak, stays a film by the first order; by the third it might be less than none."""
+OF_SMOOTH, OF_ROUGH = "3B", "3L"
+"""The Couette flow's schemes of smooth and of rough bodies where the configuration names none. Behind a
+peak the film falls to nothing from one node to the next; without limits it might be less than none. By 1B
+it stays a film, too, but on a usual grid one up to twice as thick (`mgehl study peaks`)."""
 
 
 def scheme_from(config, contact):
@@ -52,7 +53,7 @@ def scheme_from(config, contact):
     section = config.discretization
     cavitation = config.kind.cavitates if section.cavitation is None else section.cavitation
     return Scheme(
-        couette=section.couette or (IN_MIXED if contact.is_mixed else IN_FILMS),
+        couette=section.couette or (OF_ROUGH if contact.roughness > 0.0 else OF_SMOOTH),
         face_mobility=section.face_mobility,
         couette_at_interface=section.couette_at_interface,
         motion=contact.motion,

@@ -26,7 +26,7 @@ def couette_flows(request):
         shape, flows = axis.at(solid).shape, []
         for terms in (table.leaving, table.entering):
             flow = Flow(shape, (WW, W, E, EE) if linearised else ())
-            add_couette(flow, terms, table.near, fluid, solid, axis)
+            add_couette(flow, terms, table, fluid, solid, axis)
             flow.value = row.faces(flow.value)
             for derivatives in (flow.by_P, flow.by_H):
                 derivatives |= {node: row.faces(array) for node, array in derivatives.items()}
@@ -57,6 +57,7 @@ def difference(couette_flows):
         ("2B", 42.5, 42.5),
         ("2C", 49.0, 49.0),
         ("3B", 281.0 / 6.0, 281.0 / 6.0),
+        ("3L", 281.0 / 6.0, 281.0 / 6.0),
         ("S1B", 44.0, 55.0),
         ("S2C", 47.0, 47.0),
     ],
@@ -69,10 +70,13 @@ def test_flow_through_an_inner_face(couette_flows, scheme, leaves, enters):
 
 @pytest.mark.parametrize(
     "scheme, enters",
-    [("1B", 14.0), ("2B", 23.5), ("2C", 23.5), ("3B", 23.5), ("S1B", 21.0), ("S2C", 21.5)],
+    [("1B", 14.0), ("2B", 23.5), ("2C", 23.5), ("3B", 23.5), ("3L", 21.0), ("S1B", 21.0), ("S2C", 21.5)],
 )
 def test_flow_through_the_first_face_needs_no_node_upstream(couette_flows, scheme, enters):
-    """1B 2*7;  2B, 3B and 2C (14 + 33)/2;  S1B 14 + (3 - 2) 7;  S2C 23.5 - (3 - 2)(11 - 7)/2."""
+    """1B 2*7;  2B, 3B and 2C (14 + 33)/2;  3L 14 and half of it.
+
+    S1B 14 + (3 - 2) 7;  S2C 23.5 - (3 - 2)(11 - 7)/2.
+    """
     assert couette_flows(scheme)[1].value[0] == enters
 
 
@@ -130,7 +134,8 @@ def test_second_order_backward_schemes_agree_on_a_linear_gap_of_constant_density
 
 
 @pytest.mark.parametrize(
-    "scheme, flow", [("2B", 49.0), ("3B", 49.0), ("S2B-v", 47.0), ("S2B-vi", 47.0), ("S1B", 33.0)]
+    "scheme, flow",
+    [("2B", 49.0), ("3B", 49.0), ("3L", 49.0), ("S2B-v", 47.0), ("S2B-vi", 47.0), ("S1B", 33.0)],
 )
 def test_nothing_is_extrapolated_from_the_far_side_of_a_contact(couette_flows, scheme, flow):
     """With node 0 solid, the face between nodes 1 and 2 uses 2C, S2C or 1B of these two nodes."""
@@ -149,7 +154,7 @@ def test_flow_is_the_velocity_s_multiple_and_turns_round_with_it(couette_flows, 
 
 def test_schemes_of_a_difference_of_rho_H_are_conservative():
     conservative = [name for name, scheme in SCHEMES.items() if scheme.conservative]
-    assert conservative == ["1B", "2B", "2C", "3B", "S2C"]
+    assert conservative == ["1B", "2B", "2C", "3B", "3L", "S2C"]
 
 
 THIRD = [(1 / 3, E, E), (5 / 6, W, W), (-1 / 6, WW, WW)]
@@ -163,6 +168,7 @@ THIRD = [(1 / 3, E, E), (5 / 6, W, W), (-1 / 6, WW, WW)]
         ("2B", [(1.5, W, W), (-0.5, WW, WW)], [(1.5, W, W), (-0.5, WW, WW)]),
         ("2C", [(0.5, W, W), (0.5, E, E)], [(0.5, W, W), (0.5, E, E)]),
         ("3B", THIRD, THIRD),
+        ("3L", THIRD, THIRD),
         ("S1B", [(2.0, W, W), (-1.0, WW, W)], [(1.0, E, W)]),
         ("S2C", [(0.5, W, E), (0.5, E, W)], [(0.5, W, E), (0.5, E, W)]),
     ],
@@ -183,6 +189,52 @@ def test_uniform_fluid_passes_unchanged_by_every_scheme(couette_flows, scheme):
     """With uniform rho and H every face carries rho H."""
     leaving, entering = couette_flows(scheme, rho=np.full(5, 2.0), gap=np.full(5, 3.0))
     assert (leaving.value == 6.0).all() and (entering.value == 6.0).all()
+
+
+# Through the face between nodes 1 and 2, WW, W, E: by 3B (5 W + 2 E - WW)/6. The first may be carried.
+@pytest.mark.parametrize(
+    "gap, by_3B, by_3L",
+    [
+        ([6.0, 6.0, 12.0], 8.0, 8.0),
+        ([0.0, 6.0, 30.0], 15.0, 9.0),  # the film grows: half as much again as that of W
+        ([30.0, 6.0, 3.0], 1.0, 3.0),  # it falls: half of it
+        ([6.0, 0.0, 18.0], 5.0, 0.0),  # a node without a film hands nothing on
+        ([6.0, 0.0, 0.0], -1.0, 0.0),
+    ],
+)
+def test_3L_differs_from_the_film_of_the_node_upstream_by_half_of_it(couette_flows, gap, by_3B, by_3L):
+    row = {"rho": np.ones(5), "gap": np.array([*gap, 0.0, 0.0])}
+    assert couette_flows("3B", **row)[0].value[1] == pytest.approx(by_3B, rel=1e-15)
+    for velocity in (1.0, -2.0):
+        flow = couette_flows("3L", **row, velocity=velocity)[0].value[1]
+        assert flow == pytest.approx(velocity * by_3L, rel=1e-15)
+
+
+def test_3L_is_limited_beside_contact_too(couette_flows):
+    """There by 2C of W and E, node 0 being solid: (6 + 30)/2 is three times 6."""
+    row = {"rho": np.ones(5), "gap": np.array([0.0, 6.0, 30.0, 0.0, 0.0])}
+    assert couette_flows("3L", **row, status=[CONTACT, *FILM[1:]])[0].value[1] == 9.0
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_derivatives_of_a_limited_flow_are_those_of_its_value(couette_flows, seed):
+    """Random films that limits apply to at some faces: one node's gap, then one node's density, moves."""
+    chance, step = np.random.default_rng(seed), 1e-7
+    gap, rho = chance.uniform(0.1, 5.0, 5) ** 2, chance.uniform(1.0, 1.3, 5)
+    flow = couette_flows("3L", linearised=True, rho=rho, gap=gap)[0]
+    assert (flow.value != couette_flows("3B", rho=rho, gap=gap)[0].value).any()
+    for node in range(5):
+        moved = gap + step * (np.arange(5) == node)
+        denser = rho + step * SLOPE * (np.arange(5) == node)
+        by_H = (couette_flows("3L", rho=rho, gap=moved)[0].value - flow.value) / step
+        by_P = (couette_flows("3L", rho=denser, gap=gap)[0].value - flow.value) / step
+        for face in range(4):
+            position = node - face + W  # of the node beside the face
+            if position in (WW, W, E, EE):
+                assert by_H[face] == pytest.approx(flow.by_H[position][face], abs=1e-5)
+                assert by_P[face] == pytest.approx(flow.by_P[position][face], abs=1e-5)
+            else:
+                assert by_H[face] == by_P[face] == 0.0
 
 
 @pytest.mark.parametrize("power", [1, 2, 3])

@@ -5,7 +5,7 @@ import pytest
 from mgehl.discretization.couette import SCHEMES, couette_scheme
 from mgehl.discretization.order import _difference, couette_order
 
-ORDERS = {"1B": 1, "2B": 2, "2C": 2, "S1B": 1, "S2C": 2, "S2B-v": 2, "S2B-vi": 2, "3B": 3}
+ORDERS = {"1B": 1, "2B": 2, "2C": 2, "S1B": 1, "S2C": 2, "S2B-v": 2, "S2B-vi": 2, "3B": 3, "3L": 3}
 
 
 @pytest.mark.parametrize("name", SCHEMES)
