@@ -140,7 +140,8 @@ mixed: $(ENVIRONMENT)
 .PHONY: mixed
 
 # make layers    contact that keeps a boundary film of 2 nm: a rough surface on three grids, a smooth ball from film and contact
-BAND := configs/rough.toml --set contact.load="100 N" --set surface.shortest_wavelength="45 um" --set motion.speed="0.1 mm/s"
+BAND := configs/rough.toml --set contact.load="100 N" --set surface.shortest_wavelength="45 um" --set motion.speed="0.1 mm/s" \
+  --set discretization.couette=1B
 SMOOTH := /dev/null --set contact.load="100 N" --set contact.boundary_film="2 nm" --set grid.nodes=257 \
   --set "grid.x=[-2.0, 1.5]" --set "grid.y=[-1.75, 1.75]" --no-error
 MIXED := run,nodes,converged,Eq. 2 violations,load on contact,contact/Hertz area,mean film nm,convolutions,wall s
@@ -154,10 +155,10 @@ layers: $(ENVIRONMENT)
 
 .PHONY: layers
 
-# make rough-schemes   who carries the load of configs/rough.toml by three schemes on two grids (ten minutes)
+# make rough-schemes   who carries the load of configs/rough.toml by four schemes on three grids (ten minutes)
 OF_SCHEMES := run,converged,inlet cells,load on contact,contact/Hertz area,Eq. 2 violations,mean film nm,convolutions
 rough-schemes: $(ENVIRONMENT)
-	for n in 257 513; do for c in 1B 2B 3B; do ( $(ON) $(MGEHL) configs/rough.toml --set grid.nodes=$$n \
+	for n in 257 513 1025; do for c in 1B 2B 3B 3L; do ( $(ON) $(MGEHL) configs/rough.toml --set grid.nodes=$$n \
 	  --set discretization.couette=$$c --out runs/rough-schemes/$$c-$$n ); test $$? -le 1 || exit 1; done; done
 	$(ON) mgehl collect runs/rough-schemes/* --columns "$(OF_SCHEMES)" --out runs/tables/rough-schemes.csv \
 	  > runs/tables/rough-schemes.md
@@ -167,7 +168,7 @@ rough-schemes: $(ENVIRONMENT)
 # make balls    a rough ball of 100 N without a boundary film, 20 to 400 nm rms, 1 m/s to 1 um/s, from film and contact (a quarter of an hour)
 BALL := /dev/null --set contact.load="100 N" --set surface.kind=self-affine --set surface.hurst=0.8 --set surface.seed=1 \
   --set surface.shortest_wavelength="30 um" --set surface.longest_wavelength="200 um" --set grid.nodes=257 \
-  --set "grid.x=[-2.0, 1.5]" --set "grid.y=[-1.75, 1.75]" --no-error
+  --set "grid.x=[-2.0, 1.5]" --set "grid.y=[-1.75, 1.75]" --set discretization.couette=1B --no-error
 BALLS := run,converged,lambda,central nm,load on contact,contact/Hertz area,Eq. 2 violations,convolutions,wall s
 balls: $(ENVIRONMENT)
 	for r in 20 100 200 400; do for u in 1 1e-1 1e-2 1e-3 1e-4 1e-5 1e-6; do for s in film contact; do \

@@ -18,3 +18,14 @@ def test_what_is_configured_is_told():
     assert settings.newton.tolerance == settings.relaxation.tolerance == 1e-6
     assert (settings.nested.start, settings.nested.inlet_cells) == ("contact", 3.0)
     assert settings.cycle.sweeps == 2 and settings.newton.squeeze == 5.0
+
+
+def test_rough_bodies_are_differenced_by_the_limited_scheme_unless_told_otherwise():
+    """However thick the film is, and smooth bodies as ever."""
+    rough = {"kind": "self-affine", "rms": 1e-7, "shortest_wavelength": 4e-5, "longest_wavelength": 2e-4}
+    for speed in (1e-3, 10.0):
+        tables = {"surface": rough, "motion": {"speed": speed}}
+        assert set_up(config_from_tables(tables)).settings.scheme.couette == "3L"
+        named = tables | {"discretization": {"couette": "1B"}}
+        assert set_up(config_from_tables(named)).settings.scheme.couette == "1B"
+        assert set_up(config_from_tables({"motion": {"speed": speed}})).settings.scheme.couette == "3B"
