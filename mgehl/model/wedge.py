@@ -59,6 +59,7 @@ class WedgeBearing:
     is_loaded = False
     is_at_rest = False
     is_mixed = False
+    roughness = 0.0
     """The gap is given."""
     lambda_ = 6.0
     """Reynolds coefficient of d(H^3 dP/dX)/dX = 6 dH/dX."""

@@ -38,7 +38,7 @@ IN_THE_CYCLE = {"2C": "3B", "S2C": "3B"}
 """Couette schemes of the cycle's operators where the solved one's leave waves of two cells: lines do not
 damp them."""
 
-ASKEW_OR_APART = IN_THE_CYCLE | {"3B": "2B", "3L": "2B"}
+ASKEW_OR_APART = IN_THE_CYCLE | {"3B": "2B"}
 """The same where the surfaces move at an angle to the lines (30 degrees on 513 nodes: 132 convolutions for
 194), and where fluid and contact are solved apart (0.5 mm/s on 257 nodes: 133 for 333). Elsewhere 3B takes
 a third less by its own operators (M = 20, L = 10 on 257 nodes: 55 for 78)."""

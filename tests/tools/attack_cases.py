@@ -78,7 +78,7 @@ def _discretization(chance):
         means = ["arithmetic", "logarithmic", "linear-gap", "geometric"]
         found["face_mobility"] = chance.choice(means)
     if chance.random() < 0.2:
-        found["couette"] = chance.choice(["1B", "2B", "3B", "2C"])
+        found["couette"] = chance.choice(["1B", "2B", "3B", "3L", "2C"])
     if chance.random() < 0.2 and found["contact_model"] != "dry":
         found["cavitation"] = False
     return found
