@@ -35,7 +35,7 @@ CASE = {
         "seed": 1,
     },
     "grid": {"x": [-2.0, 1.5], "y": [-1.75, 1.75]},
-    "discretization": {"couette": "1B", "face_mobility": "linear-gap"},
+    "discretization": {"couette": "3L", "face_mobility": "linear-gap"},
 }
 """A ground disc and a ball. All speeds are solved by one scheme, which keeps a film behind peaks."""
 
