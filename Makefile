@@ -155,6 +155,13 @@ layers: $(ENVIRONMENT)
 
 .PHONY: layers
 
+# make peaks     run study peaks and write its tables to runs/tables (half an hour)
+peaks: $(ENVIRONMENT)
+	( $(ON) mpiexec -n 2 python -m mgehl study peaks --resume --quiet )
+	for t in balls summary; do for e in md csv; do cp runs/study-peaks/$$t.$$e runs/tables/peaks-$$t.$$e || exit 1; done; done
+
+.PHONY: peaks
+
 # make rough-schemes   who carries the load of configs/rough.toml by four schemes on three grids (ten minutes)
 OF_SCHEMES := run,converged,inlet cells,load on contact,contact/Hertz area,Eq. 2 violations,mean film nm,convolutions
 rough-schemes: $(ENVIRONMENT)
