@@ -104,7 +104,7 @@ def _points(mixed, beside):
 
 
 def _summary(rows, scheme, nodes):
-    """Errors of a scheme on a grid over all balls, those of the load over balls that touch, and its work."""
+    """Errors of a scheme on a grid over all balls, of the load over those that touch, and its work."""
     which = {"couette": scheme, "nodes": str(nodes)}
     found = [row for row in rows if which.items() <= row.items()]
     touching = [row for row in found if float(row["load on contact %"]) > 0.0]

@@ -12,7 +12,7 @@ from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import BOUNDARY, LUBRICATED
 from mgehl.solver.judge import (
     GO_ON,
-    IDLE_AT_ONCE,
+    IDLE_CONTINUOUS,
     IDLE_IN_TIME,
     IDLE_STEPS,
     STALLS,
@@ -207,8 +207,8 @@ class TestIdleSteps:
 
         assert idle_steps(newton, Scheme()) == IDLE_STEPS < IDLE_IN_TIME == idle_steps(in_time, Scheme())
         assert idle_steps(newton, Scheme(face_mobility="harmonic")) == IDLE_IN_TIME
-        assert idle_steps(newton, Scheme(contact_law=BoundaryFilm(0.1))) == IDLE_IN_TIME
-        assert idle_steps(in_time, Scheme(), at_once=True) == IDLE_AT_ONCE > IDLE_IN_TIME
+        assert idle_steps(newton, Scheme(contact_law=BoundaryFilm(0.1))) == IDLE_CONTINUOUS
+        assert idle_steps(in_time, Scheme(), at_once=True) == IDLE_CONTINUOUS > IDLE_IN_TIME
         assert idle_steps(NewtonSettings(idle_steps=7), Scheme(), at_once=True) == 7
 
     def test_they_are_counted_from_the_last_lower_one(self, make_position):
