@@ -30,8 +30,7 @@ second number is for implicit time steps, which pass a fold slowly and let conta
 ends in full contact took 14, the geometric mean 15, a rough ball of 197 nm rms 23. Films that the grid does
 not hold took 60 steps in vain (65 nodes, 20 and 50 mm/s); now some 20. The third is for contact that closes
 continuously, and where nearby nodes are solved at once: valleys fill slowly, and until they are full the
-residual stays what it is (a ball of 104 nm rms at 0.02 mm/s on two ranks settles after more than 30 steps in
-vain)."""
+residual stays what it is (a ball of 104 nm rms at 0.02 mm/s settles after more than 30 steps in vain)."""
 
 
 @dataclass(frozen=True)
