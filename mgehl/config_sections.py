@@ -116,7 +116,7 @@ class SolverSection:
     max_steps: int = key_field(200, "Newton steps on one grid at the most", low=0, high=10000, kind=int)
     idle_steps: int | None = key_field(
         None,
-        "steps in vain after which a solve is given up (unset: 15; in time 30, of rough bodies 60)",
+        "steps in vain after which a solve is given up (unset: 15; in time 30, rough or layered bodies 60)",
         low=1, high=10000, kind=int,
     )  # fmt: skip
     linear_tolerance: float = key_field(
