@@ -16,6 +16,7 @@ from mgehl.output.checkpoint import Checkpoint
 from mgehl.output.dry_result import summarise_dry
 from mgehl.output.film_error import film_error
 from mgehl.output.finish import begin_run, finish_run
+from mgehl.output.gap_error import gap_error
 from mgehl.output.memory_limit import check_memory
 from mgehl.output.result import Work, summarise
 from mgehl.output.solution import Fields, Solution
@@ -111,8 +112,10 @@ def _solve_loaded(config, parts, comm, watch, start):
         problem, outcome = method(hierarchy, contact, settings, monitor=monitor, journal=journal)
         work = Work(monitor.convolutions, monitor.steps if by_newton else outcome.cycles[-1].step)
         result = summarise(problem, outcome, tolerance, work, monitor.seconds, versions())
-        error = film_error(result, hierarchy, problem, outcome.state, settings, monitor, journal)
-        result = replace(result, error=error, wall_s=monitor.seconds, start_note=start_note)
+        of_run = result, hierarchy, problem, outcome.state, settings, monitor, journal
+        mixed = result.mixed and replace(result.mixed, error=gap_error(*of_run))
+        bands = {"error": film_error(*of_run), "mixed": mixed}
+        result = replace(result, **bands, wall_s=monitor.seconds, start_note=start_note)
         return _solution(config, parts, problem, outcome.state, monitor.rows, result)
     finally:
         hierarchy.destroy()

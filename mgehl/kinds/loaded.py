@@ -15,6 +15,8 @@ RELAXATION = Effort(
 )  # fmt: skip
 
 
+HALF_WIDTH = "half-width of the band about it that holds its limit on ever finer grids"
+
 BANDS, BANDS_WORDS = 10.0, "bands 2 to 23 more"
 """Convolutions that coarser grids take for the bands about a film."""
 
@@ -126,6 +128,7 @@ class LoadedKind(Kind):
             "central_film": (1e-9 * result.central_film_nm, "m", "film at the centre of the contact"),
             "minimum_film": (1e-9 * result.minimum_film_nm, "m", "smallest film"),
             **_bands(result.error),
+            **dict(_gaps(result.mixed)),
             "maximum_pressure": (1e9 * result.max_pressure_GPa, "Pa", "largest pressure"),
             "group_U": (groups.U, "1", "speed parameter U"),
             "group_W": (groups.W, "1", "load parameter W"),
@@ -138,10 +141,23 @@ class LoadedKind(Kind):
 def _bands(error):
     """Half-widths of the bands about the films, where there are any."""
     widths = {"central_film": error.central_nm, "minimum_film": error.minimum_nm}
-    meaning = "half-width of the band about it that holds its limit on ever finer grids"
     return {
-        f"{film}_error": (1e-9 * width, "m", meaning) for film, width in widths.items() if width is not None
+        f"{film}_error": (1e-9 * width, "m", HALF_WIDTH)
+        for film, width in widths.items()
+        if width is not None
     }
+
+
+def _gaps(mixed):
+    """Mean gaps of rough bodies, and their bands where there are any."""
+    if not mixed or mixed.mean_gap_nm is None:
+        return
+    yield "mean_gap", (1e-9 * mixed.mean_gap_nm, "m", "mean gap within the Hertz ellipse, contact included")
+    yield "loaded_gap", (1e-9 * mixed.loaded_gap_nm, "m", "mean gap by pressure")
+    error = mixed.error
+    if error and error.mean_nm is not None:
+        yield "mean_gap_error", (1e-9 * error.mean_nm, "m", HALF_WIDTH)
+        yield "loaded_gap_error", (1e-9 * error.loaded_nm, "m", HALF_WIDTH)
 
 
 def _with_bands(effort):

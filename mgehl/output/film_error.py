@@ -68,7 +68,7 @@ NOT_ASKED = no_band("not asked for (solver.error = false)")
 def why_no_band(result, contact):
     """Why a `Result`'s films can have no band; empty where they may have one."""
     if contact.is_mixed:
-        return "coarser grids, from which a band is told, do not see a rough surface"
+        return "a single node of a rough surface says little; see the mean gap"
     if not result.settled:
         return "the run has not settled"
     if result.edge.wrong[0]:

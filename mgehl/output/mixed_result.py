@@ -6,9 +6,15 @@ import numpy as np
 from scipy import ndimage
 
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED, is_fluid
+from mgehl.output.gap_error import GapError
+from mgehl.solver.gaps import gaps_of, within_hertz
 
 BESIDE = np.ones((3, 3))
 """Nodes of one patch: all eight around a node are its neighbours."""
+
+
+NEAR = 1.1
+"""Films of so many boundary films are contact on another grid, or by another tolerance."""
 
 
 @dataclass(frozen=True)
@@ -38,6 +44,14 @@ class MixedResult:
     """Part of the nodes within the Hertz ellipse where the film is torn: cavitated."""
     per_metre: bool = False
     """Whether areas are those of one metre: of a line contact."""
+    mean_gap_nm: float | None = None
+    """Of all nodes within the ellipse, film, contact and torn film alike; None in older results."""
+    loaded_gap_nm: float | None = None
+    """Mean of all nodes by their pressure: the gap on which the load rests."""
+    near_contact_load_share: float | None = None
+    """Part of the load on films at most `NEAR` times as thick as the boundary film that contact keeps."""
+    error: GapError | None = None
+    """Bands about the mean gaps; None where peaks do not reach through the film."""
 
     @property
     def hertz_region(self):
@@ -69,7 +83,8 @@ def mixed_result(problem, state):
     if contact.surface is None:
         return None
     whole = [grid.gather(each) for each in (state.P, state.H, state.status, _heights(grid, contact))]
-    return grid.comm.bcast(None if whole[0] is None else measured(contact, grid.mesh, Nodes(*whole)))
+    kept = problem.scheme.contact_law.contact_gap
+    return grid.comm.bcast(None if whole[0] is None else measured(contact, grid.mesh, Nodes(*whole), kept))
 
 
 def _heights(grid, contact):
@@ -78,14 +93,15 @@ def _heights(grid, contact):
     return np.array(np.broadcast_to(heights - contact.mean_height, grid.shape))
 
 
-def measured(contact, mesh, nodes):
-    """The `MixedResult` of all `Nodes` of a `mesh`."""
+def measured(contact, mesh, nodes, kept=0.0):
+    """The `MixedResult` of all `Nodes` of a `mesh`; contact keeps a gap of `kept`, in units of H."""
     solid, inside, Sq = nodes.status == CONTACT, within_hertz(mesh), contact.roughness
     film = inside & (nodes.status == LUBRICATED)
     cell = mesh.dX * mesh.dY
     square_metres = mesh.dX * contact.x_scale * (1.0 if mesh.is_line else mesh.dY * contact.y_scale)
-    nm = 1e9 * contact.film_scale * nodes.H
-    sizes = patch_sizes(solid)
+    unit_nm = 1e9 * contact.film_scale
+    nm, sizes, gaps = unit_nm * nodes.H, patch_sizes(solid), gaps_of(mesh, nodes.P, nodes.H)
+    near = (nodes.status == LUBRICATED) & (nodes.H <= NEAR * kept)
     return MixedResult(
         lambda_ratio=contact.expected_film / Sq if Sq else None,
         Sq_nm=1e9 * Sq,
@@ -100,13 +116,10 @@ def measured(contact, mesh, nodes):
         valley_film_nm=_of_some(np.mean, nm[film & (nodes.heights < -Sq)]),
         torn_share=float(np.mean(nodes.status[inside] == CAVITATED)),
         per_metre=mesh.is_line,
+        mean_gap_nm=unit_nm * gaps.mean,
+        loaded_gap_nm=unit_nm * gaps.loaded,
+        near_contact_load_share=float(cell * nodes.P[near].sum() / contact.load_integral),
     )
-
-
-def within_hertz(mesh):
-    """Nodes within the Hertz ellipse, or a line contact's width: (ny, nx)."""
-    across = np.zeros(1) if mesh.is_line else mesh.Y
-    return mesh.X[None, :] ** 2 + across[:, None] ** 2 <= 1.0
 
 
 def patch_sizes(solid):

@@ -11,12 +11,8 @@ from mgehl.output.film_error import NOT_ASKED, FilmError
 from mgehl.output.mixed_result import MixedResult, mixed_result
 from mgehl.output.resolution import Resolution, resolution
 from mgehl.output.words import loaded_words
-from mgehl.solver.verification import (
-    check_interface,
-    check_pressure_inequality,
-    complementarity_error,
-    flux_imbalance,
-)
+from mgehl.solver.inequality import check_interface, check_pressure_inequality
+from mgehl.solver.verification import complementarity_error, flux_imbalance
 
 COMPLEMENTARITY_TOLERANCE = 1e-6
 """Breach of P >= 0, H >= 0 and no inflow (units of P and H) that a converged answer may have,

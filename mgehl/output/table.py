@@ -15,7 +15,7 @@ from mgehl.output.words import span
 DEFAULT = "default"
 """Stands for a scheme that the configuration does not name: the run chose it."""
 
-FILMS = ("central", "minimum")
+FILMS, GAPS = ("central", "minimum"), ("mean", "loaded")
 
 
 def collect(directories):
@@ -92,6 +92,7 @@ def _loaded(result):
         "load error": _digits(result["load_error"], ".1e"),
         "load on contact": _digits(contact["load_fraction"], ".4f"),
         "contact/Hertz area": _digits(contact["area_fraction"], ".4f"),
+        **_gaps(result),
         "lambda": _of_rough(result, "lambda_ratio"),
         "mean film nm": _of_rough(result, "mean_film_nm"),
         "contact nodes on X": span(contact["x_nodes"]),
@@ -124,17 +125,29 @@ def _films(result):
     return columns | {f"{film} ± nm": "" if band is None else f"{band:.4g}" for film, band in bands.items()}
 
 
+def _gaps(result):
+    """The same of the mean gaps of rough bodies."""
+    mixed = result.get("mixed") or {}
+    error = mixed.get("error") or {}
+    found = {gap: mixed.get(f"{gap}_gap_nm") for gap in GAPS}
+    bands = {gap: error.get(f"{gap}_nm") for gap in GAPS}
+    return {f"{gap} gap nm": "" if nm is None else f"{nm:.6g}" for gap, nm in found.items()} | {
+        f"{gap} gap ± nm": "" if band is None else f"{band:.4g}" for gap, band in bands.items()
+    }
+
+
 def with_bands(rows):
-    """The rows of `collect` as they are shown: films with their bands and no more digits than they have."""
+    """The rows of `collect` as they are shown: films and gaps with their bands and no more digits than they
+    have."""
     return [_with_bands(row) for row in rows]
 
 
 def _with_bands(row):
-    bands = {film: row.get(f"{film} ± nm") for film in FILMS}
+    numbers = [*FILMS, *(f"{gap} gap" for gap in GAPS)]
     shown = {
-        f"{film} nm": with_band(float(row[f"{film} nm"]), float(bands[film]))
-        for film in FILMS
-        if bands.get(film)
+        f"{name} nm": with_band(float(row[f"{name} nm"]), float(row[f"{name} ± nm"]))
+        for name in numbers
+        if row.get(f"{name} ± nm")
     }
     return {name: text for name, text in (row | shown).items() if "±" not in name}
 

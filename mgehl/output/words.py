@@ -1,9 +1,8 @@
 """A result in words: what a run, a `Solution` and a script print of it."""
 
-from math import isfinite
-
 from mgehl.output.digits import with_band
 from mgehl.output.domain import beyond_words, domain_words
+from mgehl.output.mixed_words import mixed_lines
 from mgehl.output.resolution import RESOLVED_CELLS, SEEN_CELLS
 from mgehl.output.surface import surface_words
 
@@ -150,41 +149,6 @@ def _nodes(result):
         yield f"  ... and at {inequality.violations - LISTED} more nodes, listed in result.json"
 
 
-def mixed_lines(mixed):
-    """Film and contact of rough bodies: who carries the load, on which area, and how thick the film is."""
-    patches = counted(mixed.patches, "patch", "patches")
-    unit = mixed.area_unit.replace("µm²", "um^2")
-    largest = f", the largest {1e12 * mixed.largest_patch_m2:.4g} {unit}" if mixed.patches else ""
-    return [
-        f"  lambda {_known(mixed.lambda_ratio)} (smooth film of the formula over Sq {mixed.Sq_nm:.4g} nm): "
-        f"contact carries {100 * mixed.contact_load_share:.2f} % of the load, the film "
-        f"{100 * mixed.film_load_share:.2f} %",
-        f"  real contact area {1e12 * mixed.contact_area_m2:.4g} {unit}, "
-        f"{100 * mixed.contact_area_over_hertz:.2f} % of the Hertz area, in {patches}{largest}",
-        f"  film within the {mixed.hertz_region}: mean {_known(mixed.mean_film_nm)} nm, minimum "
-        f"{_known(mixed.minimum_film_nm)} nm, {_known(mixed.valley_film_nm)} nm in valleys deeper than Sq; "
-        f"torn on {100 * mixed.torn_share:.2f} % of it",
-    ]
-
-
-def mixed_note(mixed):
-    """The same in a line, under the title of a picture; nothing of smooth bodies."""
-    if not mixed:
-        return ""
-    if not mixed.patches:
-        return f"lambda {_known(mixed.lambda_ratio)}, no contact"
-    return (
-        f"lambda {_known(mixed.lambda_ratio)}, contact carries {100 * mixed.contact_load_share:.1f} % "
-        f"of the load on {100 * mixed.contact_area_over_hertz:.1f} % of the Hertz area, in "
-        f"{counted(mixed.patches, 'patch', 'patches')}"
-    )
-
-
-def counted(number, one, more):
-    """A number of things, by their name in the singular or the plural."""
-    return f"{number} {one if number == 1 else more}"
-
-
 ADVICE = {
     "resolved": "resolved",
     "starved": "enough, but the domain is too small for the film",
@@ -228,11 +192,6 @@ def pressure_words(GPa):
 def _number(value):
     """Four digits after the point; of a diverged run four in all."""
     return f"{value + 0.0:.4f}" if abs(value) < 1e7 else f"{value:.3e}"
-
-
-def _known(value):
-    """Three digits; of a number that does not exist a dash."""
-    return "-" if value is None or not isfinite(value) else f"{value:.3g}"
 
 
 def span(ends):

@@ -13,9 +13,11 @@ from mgehl.model.line import LineContact
 from mgehl.model.lubricant import Barus, ConstantDensity, Lubricant
 from mgehl.model.surface import Waviness
 from mgehl.output.files import write_result
-from mgehl.output.mixed_result import Nodes, measured, mixed_result, patch_sizes, within_hertz
+from mgehl.output.gap_error import GapError, no_band
+from mgehl.output.mixed_result import Nodes, measured, mixed_result, patch_sizes
+from mgehl.output.mixed_words import mixed_lines, mixed_note
 from mgehl.output.table import _of_rough
-from mgehl.output.words import mixed_lines, mixed_note
+from mgehl.solver.gaps import within_hertz
 
 FILM, LOW = 0.5, 0.25
 WAVES = Waviness(100e-9, 1e-4, None)
@@ -118,8 +120,53 @@ def test_a_line_contact_has_areas_of_a_metre_of_it():
     assert found.contact_area_over_hertz == pytest.approx(3 * 0.25 / 2.0)
     assert found.contact_load_share == pytest.approx(0.75 / (np.pi / 2.0))
     assert found.patches == 2 and found.mean_film_nm == pytest.approx(FILM * 1e9 * contact.film_scale)
-    _, area, films = mixed_lines(found)
-    assert f"{1e12 * found.contact_area_m2:.4g} um^2 in each metre" in area and "Hertz width" in films
+    _, area, gap, films = mixed_lines(found)
+    assert f"{1e12 * found.contact_area_m2:.4g} um^2 in each metre" in area
+    assert "Hertz width" in gap and "Hertz width" in films
+
+
+def test_films_hardly_thicker_than_contact_are_told_apart(contact, nodes):
+    """A tenth thicker at the most: these may be contact on another grid."""
+    touch(nodes, (4, 8), P=3.0)
+    nodes.H[4, 8], nodes.H[4, 6], nodes.H[4, 10] = 0.1, 0.1099, 0.1101
+    nodes.P[4, 6], nodes.P[4, 10] = 2.0, 4.0
+    found = measured(contact, MESH, nodes, kept=0.1)
+    cell = MESH.dX * MESH.dY / contact.load_integral
+    assert found.contact_load_share == pytest.approx(3.0 * cell)
+    assert found.near_contact_load_share == pytest.approx(2.0 * cell)
+    percent = [f"{100.0 * part * cell:.2f} %" for part in (3.0, 2.0, 4.0)]
+    assert "contact carries {} of the load, films at most a tenth thicker {}, other films {}".format(
+        *percent
+    ) in "\n".join(mixed_lines(found))
+
+
+def test_the_mean_gaps_count_contact_and_torn_film_too(contact, nodes):
+    touch(nodes, (4, 8), P=3.0)
+    nodes.status[4, 6], nodes.P[4, 10] = CAVITATED, 1.0
+    found, nm = measured(contact, MESH, nodes), 1e9 * contact.film_scale
+    inside = within_hertz(MESH).sum()
+    assert found.mean_gap_nm == pytest.approx(nm * FILM * (inside - 1) / inside)
+    assert found.loaded_gap_nm == pytest.approx(nm * FILM / 4.0)
+    assert found.mean_film_nm == pytest.approx(nm * FILM)
+
+
+def test_mean_gaps_are_said_with_their_bands(contact, nodes):
+    found = replace(measured(contact, MESH, nodes), mean_gap_nm=13.741, loaded_gap_nm=2.9112)
+    bare = "\n".join(mixed_lines(found))
+    assert "mean 13.7 nm within the Hertz ellipse, 2.91 nm by pressure" in bare and "band" not in bare
+    banded = replace(found, error=GapError(0.0636, 0.0488, "from the differences to 129 nodes"))
+    said = "\n".join(mixed_lines(banded))
+    assert "mean 13.74 ± 0.07 nm within the Hertz ellipse, 2.91 ± 0.05 nm by pressure" in said
+    assert "bands of both: from the differences to 129 nodes" in said
+    assert mixed_note(banded).endswith(", no contact, mean gap 13.74 ± 0.07 nm")
+    none = replace(found, error=no_band("not asked for"))
+    assert "no band of the gap: not asked for" in "\n".join(mixed_lines(none))
+    assert "gap" not in mixed_note(none)
+
+
+def test_an_older_result_has_no_mean_gap(contact, nodes):
+    older = replace(measured(contact, MESH, nodes), mean_gap_nm=None, loaded_gap_nm=None)
+    assert "contact included" not in "\n".join(mixed_lines(older))
 
 
 def test_heights_are_about_the_mean_that_sq_is_of(contact, make_problem):

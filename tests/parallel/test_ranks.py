@@ -28,12 +28,13 @@ from mgehl.multigrid.jacobian import BorderedSpace
 from mgehl.output.checkpoint import Checkpoint
 from mgehl.run import Watch
 from mgehl.run import solve as solve_config
+from mgehl.solver.inequality import check_pressure_inequality
 from mgehl.solver.nested import single_loop
 from mgehl.solver.problem import ContactProblem, State
 from mgehl.solver.relaxation import RelaxationSettings
 from mgehl.solver.settings import NestedSettings, NewtonSettings, SolverSettings
 from mgehl.solver.squeeze import squeeze_rates
-from mgehl.solver.verification import check_pressure_inequality, complementarity_error, flux_imbalance
+from mgehl.solver.verification import complementarity_error, flux_imbalance
 from mgehl.studies.branch import Branches
 from mgehl.studies.study import Study, merged, papers_grid
 from mgehl.studies.wedge import case as wedge_case

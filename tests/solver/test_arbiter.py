@@ -9,12 +9,13 @@ from mgehl.discretization.band_kernels import build_bands
 from mgehl.discretization.status import BOUNDARY, CONTACT, LUBRICATED
 from mgehl.multigrid.cycle import MultigridSolver
 from mgehl.solver.arbiter import EARLY, EARLY_ROUNDS, Ruling, rule
+from mgehl.solver.inequality import check_pressure_inequality
 from mgehl.solver.judge import GO_ON, Verdict
 from mgehl.solver.outcome import Cycle
 from mgehl.solver.partition import Changes, Partition
 from mgehl.solver.position import Position, Trial
 from mgehl.solver.problem import State
-from mgehl.solver.verification import check_pressure_inequality, complementarity_error
+from mgehl.solver.verification import complementarity_error
 
 NODES = [(3, 3), (3, 4), (5, 5)]
 """Contact in a film of P = 0.5: the first two lie under it, the third above."""

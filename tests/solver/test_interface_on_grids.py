@@ -10,8 +10,8 @@ import pytest
 from mgehl.discretization.status import BOUNDARY, CONTACT, LUBRICATED
 from mgehl.model.surface.waviness import Waviness
 from mgehl.solver.dry import carried, solve_dry
+from mgehl.solver.inequality import check_interface, check_pressure_inequality
 from mgehl.solver.problem import State
-from mgehl.solver.verification import check_interface, check_pressure_inequality
 
 NODES = (65, 129, 257)
 PRESSURES = (0.01, 0.1, 0.5, 2.0)

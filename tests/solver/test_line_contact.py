@@ -14,7 +14,8 @@ from mgehl.model.hertz import hertz_pressure
 from mgehl.model.line import LineContact
 from mgehl.model.lubricant import Barus, DowsonHigginson, Lubricant
 from mgehl.run import solve as solve_config
-from mgehl.solver.verification import check_pressure_inequality, closed_face_flow, complementarity_error
+from mgehl.solver.inequality import check_pressure_inequality
+from mgehl.solver.verification import closed_face_flow, complementarity_error
 
 LINE = {"ny": 1, "x": (-2.5, 1.5), "y": (0.0, 0.0)}
 

@@ -7,9 +7,9 @@ from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.status import CONTACT, LUBRICATED
 from mgehl.model.hertz import hertz_pressure
 from mgehl.model.point import LOAD
+from mgehl.solver.inequality import check_pressure_inequality
 from mgehl.solver.nested import planned_solves
 from mgehl.solver.settings import NestedSettings, SolverSettings
-from mgehl.solver.verification import check_pressure_inequality
 
 MOES_DOMAIN = {"x": (-4.5, 1.5), "y": (-3.0, 3.0)}
 

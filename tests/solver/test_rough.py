@@ -8,12 +8,13 @@ from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import CONTACT, LUBRICATED
 from mgehl.model.surface import Surface
 from mgehl.multigrid import smoother
+from mgehl.solver.inequality import check_interface
 from mgehl.solver.journal import NOTHING_KEPT, Journal
 from mgehl.solver.nested import first_guess, nested_iteration, planned_solves
 from mgehl.solver.problem import ContactProblem
 from mgehl.solver.record import Record
 from mgehl.solver.settings import NestedSettings, SolverSettings
-from mgehl.solver.verification import check_interface, complementarity_error
+from mgehl.solver.verification import complementarity_error
 
 
 class Waves(Surface):

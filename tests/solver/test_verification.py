@@ -5,15 +5,13 @@ import pytest
 
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
+from mgehl.solver.inequality import check_pressure_inequality
 from mgehl.solver.problem import State
 from mgehl.solver.verification import (
     FEWEST_NODES,
     LARGEST_EDGE_PRESSURE,
     NEAR,
-    SAFETY,
     check_edge,
-    check_interface,
-    check_pressure_inequality,
     closed_face_flow,
     complementarity_error,
     flux_imbalance,
@@ -28,68 +26,6 @@ def state(tiny_problem):
     shape = tiny_problem.grid.shape
     status = np.where(tiny_problem.boundary, BOUNDARY, LUBRICATED).astype(np.int8)
     return State(np.zeros(shape), 0.0, np.ones(shape), status)
-
-
-class TestInterface:
-    """Eq. 2 at the face between film and contact, along x and y."""
-
-    @pytest.fixture(params=["along x", "along y"])
-    def across(self, request, state):
-        """Function: the state with these pressures of nodes 1 to 6, film and from node 4 on contact."""
-
-        def make(P):
-            for array, values in ((state.P, P), (state.status, [LUBRICATED] * 3 + [CONTACT] * 3)):
-                (array.T if request.param == "along y" else array)[:, 1:7] = values
-            return state
-
-        return make
-
-    @pytest.mark.parametrize("slope", [0.1, -0.1])
-    def test_a_pressure_that_goes_on_through_the_interface_holds(self, tiny_problem, across, slope):
-        """Falling, it breaks the comparison of the nodes."""
-        state = across(1.0 + slope * np.arange(6))
-        assert check_interface(tiny_problem, state).violations == []
-        at_nodes = {(each.i, each.j) for each in check_pressure_inequality(tiny_problem, state).violations}
-        assert bool(at_nodes & ({(5, j) for j in range(1, 10)} | {(i, 5) for i in range(1, 10)})) == (
-            slope < 0.0
-        )
-
-    @pytest.mark.parametrize("slope", [0.1, 0.0, -0.1])
-    def test_a_jump_to_less_pressure_is_found(self, tiny_problem, across, slope):
-        """Of 0.5; each side's step to the face, half of the slope, may be wrong by more than its size."""
-        P = 1.0 + slope * np.arange(6)
-        P[3:] -= 0.5
-        result = check_interface(tiny_problem, across(P))
-        assert len(result.violations) >= 7 and result.worst == pytest.approx(0.5 - SAFETY * abs(slope))
-
-    def test_the_edge_of_a_dry_contact_in_fluid_of_one_pressure_holds(self, tiny_problem, across):
-        """p0, and p0 + sqrt of the distance inside, wherever the edge lies between the nodes."""
-        for inside in (1e-6, 0.01, 0.1, 0.5, 0.99):
-            P = np.r_[np.full(3, 0.3), 0.3 + np.sqrt(inside + np.arange(3.0))]
-            assert check_interface(tiny_problem, across(P)).violations == []
-
-    @pytest.mark.parametrize("behind, found", [(0.0, False), (0.24, False), (0.26, True), (0.6, True)])
-    def test_contact_one_node_wide(self, tiny_problem, state, behind, found):
-        """The pressure that falls through it breaks nothing; fluid that presses from both sides does."""
-        state.P[:], state.P[:, 5:] = 0.8, behind
-        state.P[3, 4], state.P[4, 4], state.P[5, 4], state.P[6, 4] = 0.2, 0.25, 0.3, 0.35
-        state.status[4, 4] = CONTACT
-        assert bool(check_interface(tiny_problem, state).violations) == found
-
-    def test_a_gap_that_opens_at_once_says_how_far_its_pressures_may_be_off(self, tiny_problem, across):
-        """A wake's edge: half of its step on either side is what a node's pressure of 0.3 deflects."""
-        P = np.r_[np.full(3, 0.8), np.full(3, 0.4)]
-        state = across(P)
-        state.H[state.status == CONTACT], state.H[state.status != CONTACT] = 0.0, 0.3 * tiny_problem.K00
-        assert check_interface(tiny_problem, state).worst == pytest.approx(0.4 - SAFETY * 0.3)
-
-    def test_a_pressure_that_turns_near_the_interface_holds(self, tiny_problem, across):
-        """0.03 from node to node, and no jump: the curvature of 0.04 on the fluid's side says so."""
-        state = across(np.array([0.79, 0.84, 0.835, 0.80, 0.79, 0.79]))
-        assert check_interface(tiny_problem, state).violations == []
-
-    def test_without_contact_nothing_is_checked(self, tiny_problem, state):
-        assert check_interface(tiny_problem, state).checked == 0
 
 
 class TestEdge:
@@ -136,76 +72,6 @@ class TestEdge:
 
     def test_its_limits_leave_room_for_what_was_measured(self):
         assert 6.4e-3 < LARGEST_EDGE_PRESSURE < 1.5e-2 and 3 < FEWEST_NODES <= 7
-
-
-class TestPressureInequality:
-    def test_without_contact_nothing_is_checked(self, tiny_problem, state):
-        result = check_pressure_inequality(tiny_problem, state)
-        assert (result.checked, result.violations, result.worst) == (0, [], 0.0)
-
-    @pytest.mark.parametrize("beside", [(2, 4), (2, 6), (1, 5), (3, 5)], ids=["W", "E", "S", "N"])
-    def test_a_violation_on_each_side(self, tiny_problem, state, beside):
-        state.status[2, 5], state.P[2, 5] = CONTACT, 0.5
-        state.P[beside] = 0.75
-        result = check_pressure_inequality(tiny_problem, state)
-        assert result.checked == 1
-        (violation,) = result.violations
-        assert (violation.i, violation.j) == (6, 3)  # counted from 1
-        assert violation.size == result.worst == 0.25
-
-    def test_the_largest_of_several_neighbours_counts(self, tiny_problem, state):
-        state.status[NODE], state.P[NODE] = CONTACT, 0.5
-        state.P[4, 3], state.P[4, 5], state.P[5, 4] = 0.6, 0.8, 0.7
-        result = check_pressure_inequality(tiny_problem, state)
-        assert [violation.size for violation in result.violations] == [pytest.approx(0.3)]
-
-    def test_several_violations_are_all_named(self, tiny_problem, state):
-        for i in (2, 6):
-            state.status[4, i], state.P[4, i] = CONTACT, 0.1
-        state.P[4, 4], state.P[3, 6], state.P[3, 2] = 1.0, 0.4, 0.2
-        result = check_pressure_inequality(tiny_problem, state)
-        places = {(each.i, each.j): each.size for each in result.violations}
-        assert places == {(3, 5): pytest.approx(0.1), (7, 5): pytest.approx(0.3)}
-        assert result.worst == pytest.approx(0.3)
-
-    def test_equal_pressures_hold(self, tiny_problem, state):
-        state.status[NODE], state.P[NODE], state.P[4, 3] = CONTACT, 0.5, 0.5
-        result = check_pressure_inequality(tiny_problem, state)
-        assert (result.checked, result.violations) == (1, [])
-
-    def test_contact_inside_contact_is_not_interface(self, tiny_problem, state):
-        state.status[3:6, 3:6], state.P[3:6, 3:6] = CONTACT, 0.9
-        state.P[NODE] = 0.1
-        result = check_pressure_inequality(tiny_problem, state)
-        assert (result.checked, result.violations) == (8, [])
-
-
-class TestLargestRatio:
-    """Fluid pressure over the contact pressure beside it."""
-
-    def ratio(self, problem, state):
-        return check_pressure_inequality(problem, state).largest_ratio
-
-    def test_without_contact_or_fluid_pressure_it_is_zero(self, tiny_problem, state):
-        assert self.ratio(tiny_problem, state) == 0.0
-        state.status[NODE] = CONTACT
-        assert self.ratio(tiny_problem, state) == 0.0
-
-    def test_of_several_nodes_the_largest_counts_violation_or_not(self, tiny_problem, state):
-        state.status[4, 2] = state.status[4, 6] = CONTACT
-        state.P[4, 2], state.P[4, 1], state.P[3, 2] = 0.5, 0.25, 0.375
-        assert self.ratio(tiny_problem, state) == 0.75
-        state.P[4, 6], state.P[4, 7] = 0.25, 0.5
-        assert self.ratio(tiny_problem, state) == 2.0
-
-    def test_contact_inside_contact_does_not_count(self, tiny_problem, state):
-        state.status[3:6, 3:6], state.P[3:6, 3:6] = CONTACT, 0.5
-        state.P[NODE], state.P[4, 2] = 0.001, 0.25
-        assert self.ratio(tiny_problem, state) == 0.5
-
-    def test_beside_contact_without_pressure_it_is_infinite(self, tiny_problem, state):
-        state.status[NODE], state.P[4, 3] = CONTACT, 1e-9
-        assert self.ratio(tiny_problem, state) == np.inf
 
 
 class TestClosedFaceFlow:

@@ -5,6 +5,7 @@ from matplotlib.colors import Normalize
 from matplotlib.patches import Patch
 
 from mgehl.discretization.status import CONTACT
+from mgehl.output.mixed_words import mixed_note
 from mgehl.output.pictures.lines import film_words
 from mgehl.output.pictures.maps import draw_film, view
 from mgehl.output.pictures.plane import (
@@ -18,7 +19,6 @@ from mgehl.output.pictures.plane import (
 from mgehl.output.pictures.style import FILM, HERTZ, STATUS_COLOURS, legend_below, subplots
 from mgehl.output.pictures.titles import map_labels, position_labels, title
 from mgehl.output.surface import surface_verdict, surface_words, wave_nodes
-from mgehl.output.words import mixed_note
 
 BARS = "0.7"
 BINS = 61

@@ -1,6 +1,7 @@
 """What a picture is of and what its axes show, in a line each."""
 
-from mgehl.output.words import films_words, mixed_note
+from mgehl.output.mixed_words import mixed_note
+from mgehl.output.words import films_words
 
 
 def title(solution):

@@ -3,11 +3,12 @@
 from math import isfinite
 
 from mgehl.output.digits import with_band
+from mgehl.output.mixed_words import mixed_note
 from mgehl.output.report.doubt import mark_of, marked
 from mgehl.output.report.mixed import mixed_highlights, mixed_sections
 from mgehl.output.report.page import NO_NUMBER, Section, Text, number, table
 from mgehl.output.report.verification import checks_table, contact_tables
-from mgehl.output.words import band_words, mixed_note
+from mgehl.output.words import band_words
 
 FORMULAS = {
     "hamrock_dowson": "Hamrock and Dowson",

@@ -1,6 +1,7 @@
 """What the page of a rough contact has besides: how film and solid share load and area."""
 
-from mgehl.output.report.page import Section, number, table
+from mgehl.output.mixed_words import gap_band_words, mean_gaps
+from mgehl.output.report.page import Section, Text, number, table
 
 
 def mixed_highlights(mixed):
@@ -8,14 +9,46 @@ def mixed_highlights(mixed):
     if mixed:
         yield "lambda", number(mixed.lambda_ratio, 3)
         yield "load on contact", f"{number(100 * mixed.contact_load_share, 4)} %"
+        if mixed.mean_gap_nm is not None:
+            yield "mean gap", f"{mean_gaps(mixed)[0]} nm"
 
 
 def mixed_sections(mixed):
     """The section of a `MixedResult`; none of smooth bodies."""
     if mixed:
         caption = "Film and contact of the rough bodies; films within the " + mixed.hertz_region
-        rows = table(caption, ("quantity", "value", "unit"), _rows(mixed))
-        yield Section("mixed", "How film and contact share", (rows,))
+        blocks = [table(caption, ("quantity", "value", "unit"), [*_rows(mixed), *_gap_rows(mixed)])]
+        if mixed.error:
+            words = gap_band_words(mixed.error)
+            blocks += [Text(f"{words[0].upper()}{words[1:]}."), *_grids(mixed.error)]
+        yield Section("mixed", "How film and contact share", tuple(blocks))
+
+
+def _gap_rows(mixed):
+    """What hardly depends on the grid; nothing of an older result."""
+    if mixed.mean_gap_nm is None:
+        return
+    mean, loaded = mean_gaps(mixed)
+    yield f"mean gap within the {mixed.hertz_region}, contact included", mean, "nm"
+    yield "mean gap by pressure: where the load rests", loaded, "nm"
+    near = number(100 * mixed.near_contact_load_share, 4)
+    yield "part of the load on films at most a tenth thicker than contact's", near, "%"
+
+
+def _grids(error):
+    """Mean gaps of the grids that the bands come from, where there are some."""
+    if error.grids:
+        rows = [
+            (
+                str(grid.nodes),
+                number(grid.mean_nm, 4),
+                number(grid.loaded_nm, 4),
+                number(100 * grid.contact_load_share, 4),
+            )
+            for grid in error.grids
+        ]
+        heads = ("nodes along x", "mean gap, nm", "by pressure, nm", "load on contact, %")
+        yield table("Mean gaps of the grids that the bands come from", heads, rows)
 
 
 def _rows(mixed):

@@ -10,6 +10,7 @@ from mpi4py import MPI
 
 import mgehl
 from mgehl.output.film_error import no_band
+from mgehl.output.gap_error import GapError, GridGap
 from mgehl.output.mixed_result import MixedResult
 from mgehl.output.report.loaded import film
 from mgehl.output.report.page import BAD, DOUBTFUL, GOOD, NO_NUMBER, render
@@ -331,6 +332,18 @@ class TestRoughBodies:
         }  # fmt: skip
         assert all(row[0] != "boundary film that keeps it, nm" for row in table_of(page, CONTACT_TABLE))
         assert ("lambda", "0.25") in page.highlights and ("load on contact", "12.5 %") in page.highlights
+
+    def test_mean_gaps_have_their_bands_and_the_grids_these_come_from(self, film_run, quick):
+        grids = (GridGap(257, 13.74, 2.911, 0.1319, True), GridGap(129, 13.84, 2.976, 0.1219, True))
+        error = GapError(0.06, 0.05, "from the differences to 129 nodes", grids)
+        gaps = {"mean_gap_nm": 13.74, "loaded_gap_nm": 2.911, "near_contact_load_share": 0.25}
+        page = quick(changed(film_run, mixed=replace(self.MIXED, **gaps, error=error)))
+        rows = table_of(page, "Film and contact of the rough bodies; films within the Hertz ellipse")
+        values = [value for _, value, _ in rows[-3:]]
+        assert values == ["13.74 ± 0.06", "2.91 ± 0.05", "25"]
+        grids = table_of(page, "Mean gaps of the grids that the bands come from")
+        assert grids == [["257", "13.74", "2.911", "13.19"], ["129", "13.84", "2.976", "12.19"]]
+        assert ("mean gap", "13.74 ± 0.06 nm") in page.highlights
 
     def test_the_boundary_film_stands_beside_the_gap_it_keeps(self, film_run, quick):
         contact = replace(film_run.result.contact, largest_gap_nm=2.0, kept_gap_nm=2.0)

@@ -1,0 +1,93 @@
+"""Film and contact of rough bodies in words: what carries the load, how wide gaps are, how thick films."""
+
+from math import isfinite
+
+from mgehl.output.digits import with_band
+
+
+def mixed_lines(mixed):
+    """Film and contact of rough bodies: what carries the load, on which area, how wide the gap is and how
+    thick the film."""
+    patches = counted(mixed.patches, "patch", "patches")
+    unit = mixed.area_unit.replace("µm²", "um^2")
+    largest = f", the largest {1e12 * mixed.largest_patch_m2:.4g} {unit}" if mixed.patches else ""
+    return [
+        f"  lambda {_known(mixed.lambda_ratio)} (smooth film of the formula over Sq {mixed.Sq_nm:.4g} nm): "
+        f"contact carries {_shares(mixed)}",
+        f"  real contact area {1e12 * mixed.contact_area_m2:.4g} {unit}, "
+        f"{100 * mixed.contact_area_over_hertz:.2f} % of the Hertz area, in {patches}{largest}",
+        *_mean_gaps(mixed),
+        f"  film within the {mixed.hertz_region}: mean {_known(mixed.mean_film_nm)} nm, minimum "
+        f"{_known(mixed.minimum_film_nm)} nm, {_known(mixed.valley_film_nm)} nm in valleys deeper than Sq; "
+        f"torn on {100 * mixed.torn_share:.2f} % of it",
+    ]
+
+
+def _shares(mixed):
+    """What carries the load; films of which another grid may make contact are named apart."""
+    contact, near, film = (
+        100.0 * (share or 0.0)
+        for share in (mixed.contact_load_share, mixed.near_contact_load_share, mixed.film_load_share)
+    )
+    if not (mixed.patches and near):
+        return f"{contact:.2f} % of the load, the film {film:.2f} %"
+    return (
+        f"{contact:.2f} % of the load, films at most a tenth thicker {near:.2f} %, other films "
+        f"{film - near:.2f} %"
+    )
+
+
+def _mean_gaps(mixed):
+    """Mean gaps with their bands, and how these came about; nothing of an older result."""
+    if mixed.mean_gap_nm is None:
+        return
+    mean, loaded = mean_gaps(mixed)
+    yield (
+        f"  gap, contact included: mean {mean} nm within the {mixed.hertz_region}, {loaded} nm by pressure "
+        f"(where the load rests)"
+    )
+    if mixed.error:
+        yield f"  {gap_band_words(mixed.error)}"
+
+
+def gap_band_words(error):
+    """How the bands of a `GapError` came about, or why there are none."""
+    return f"{'no band of the gap' if error.mean_nm is None else 'bands of both'}: {error.how}"
+
+
+def mean_gaps(mixed):
+    """Both mean gaps of a `MixedResult` in nm, with their bands."""
+    bands = (mixed.error.mean_nm, mixed.error.loaded_nm) if mixed.error else (None, None)
+    gaps = mixed.mean_gap_nm, mixed.loaded_gap_nm
+    return [
+        _known(gap) if band is None else with_band(gap, band) for gap, band in zip(gaps, bands, strict=True)
+    ]
+
+
+def mixed_note(mixed):
+    """The same in a line, under the title of a picture; nothing of smooth bodies."""
+    if not mixed:
+        return ""
+    gap = f", mean gap {mean_gaps(mixed)[0]} nm" if mixed.error and mixed.error.mean_nm else ""
+    return f"lambda {_known(mixed.lambda_ratio)}, {_patches(mixed)}{gap}"
+
+
+def _patches(mixed):
+    """Where contact is, and what it carries."""
+    if not mixed.patches:
+        return "no contact"
+    return (
+        f"contact carries {100 * mixed.contact_load_share:.1f} % "
+        f"of the load on {100 * mixed.contact_area_over_hertz:.1f} % of the Hertz area, in "
+        f"{counted(mixed.patches, 'patch', 'patches')}"
+    )
+
+
+def counted(number, one, more):
+    """A number of things, by their name in the singular or the plural."""
+    return f"{number} {one if number == 1 else more}"
+
+
+def _known(value):
+    """Three digits; of a number that does not exist a dash."""
+    return "-" if value is None or not isfinite(value) else f"{value:.3g}"

@@ -1,0 +1,108 @@
+"""Bands about the mean gaps of rough bodies."""
+
+import json
+from types import SimpleNamespace
+
+import pytest
+from mpi4py import MPI
+
+from mgehl.config import config_from_tables
+from mgehl.output.gap_error import ALIKE, SMALLEST, SPREAD, GridGap, from_grids, half_width, why_no_band
+from mgehl.run import solve
+from mgehl.studies.study import merged
+
+WAVY = {
+    "contact": {"load": 20.0, "boundary_film": 2e-9},
+    "surface": {"kind": "waviness", "amplitude": 5e-8, "wavelength_x": 8e-5},
+    "grid": {"x": [-2.0, 1.5], "y": [-1.75, 1.75]},
+    "motion": {"speed": 1e-3},
+    "solver": {"error": True},
+}
+"""A ball with ridges across the motion, in mixed lubrication."""
+
+
+def test_alike_grids_show_the_second_order():
+    """A third of the difference, as Richardson has it, and a part of what differs from node to node."""
+    assert half_width(10.0, 10.3, 0.5) == pytest.approx(0.1 + SPREAD * 0.5)
+
+
+def test_grids_far_apart_the_first():
+    difference = 2.0 * ALIKE * 10.0
+    assert half_width(10.0, 10.0 - difference, 1.0) == pytest.approx(difference + SPREAD * 1.0)
+
+
+def test_no_band_is_narrower_than_a_gap_can_be_believed():
+    assert half_width(10.0, 10.0, 0.0) == 10.0 * SMALLEST
+
+
+def grid(nodes, settled=True):
+    return GridGap(nodes, 10.0, 2.0, 0.25, settled, 0.5, 0.1)
+
+
+def test_where_the_coarser_grid_did_not_settle_there_is_none():
+    error = from_grids((grid(257), grid(129, settled=False)))
+    assert error.mean_nm is error.loaded_nm is None and "on 129 nodes" in error.how
+
+
+def test_without_a_coarser_grid_there_is_none():
+    assert from_grids((grid(33),)).mean_nm is None
+
+
+@pytest.mark.parametrize(
+    "settled, touch, edge, words",
+    [
+        (False, True, "", "not settled"),
+        (True, False, "", "closes its faces"),
+        (True, True, "the domain cuts it", "cuts"),
+        (True, True, "", ""),
+    ],
+)
+def test_why_there_may_be_none(settled, touch, edge, words):
+    result = SimpleNamespace(settled=settled, edge=SimpleNamespace(wrong=(edge, "")))
+    problem = SimpleNamespace(scheme=SimpleNamespace(lets_peaks_touch=lambda contact: touch), contact=None)
+    why = why_no_band(result, problem)
+    assert words in why and bool(why) == bool(words)
+
+
+class TestOfAWavyBall:
+    @pytest.fixture(scope="class")
+    def solved(self):
+        """Function: the `Result` on so many nodes."""
+        found = {}
+
+        def result(nodes, **solver):
+            key = nodes, *solver
+            if key not in found:
+                tables = merged(WAVY, {"grid": {"nodes": nodes}, "solver": solver})
+                found[key] = solve(config_from_tables(tables), MPI.COMM_SELF).result
+            return found[key]
+
+        return result
+
+    def test_the_bands_hold_the_gaps_of_a_grid_four_times_as_fine(self, solved):
+        coarse, fine = solved(65), solved(257)
+        assert coarse.converged and fine.converged and fine.mixed.contact_load_share > 0.0
+        for gap in ("mean", "loaded"):
+            values = [getattr(each.mixed, f"{gap}_gap_nm") for each in (coarse, fine)]
+            width = getattr(coarse.mixed.error, f"{gap}_nm")
+            assert 0.0 < abs(values[1] - values[0]) < width < 0.4 * values[0]
+
+    def test_the_coarser_grid_has_the_gaps_of_its_own_run(self, solved):
+        (finest, coarser) = solved(129).mixed.error.grids
+        own = solved(65).mixed
+        assert (finest.nodes, coarser.nodes) == (129, 65)
+        assert finest.mean_nm == pytest.approx(solved(129).mixed.mean_gap_nm, rel=1e-12)
+        assert coarser.mean_nm == pytest.approx(own.mean_gap_nm, rel=1e-3)
+        assert coarser.loaded_nm == pytest.approx(own.loaded_gap_nm, rel=1e-3)
+
+    def test_it_takes_a_part_of_the_work_that_is_not_counted_as_the_run_s(self, solved):
+        result, without = solved(129), solved(129, error=False)
+        assert 0.0 < result.mixed.error.convolutions < 0.35 * result.work.convolutions
+        assert result.work == without.work
+        assert without.mixed.error.mean_nm is None and "not asked for" in without.mixed.error.how
+
+    def test_it_is_said(self, solved):
+        text = str(solved(129))
+        assert "bands of both: from the differences to 65 nodes" in text
+        assert "±" in next(line for line in text.splitlines() if "gap, contact included" in line)
+        assert json.dumps(solved(129).mixed.error.how)
