@@ -29,17 +29,27 @@ STUDIES = {
     "waviness": "waves that stand still in full films: a line contact beside published numbers, a ball",
     "peaks": "rough balls on three grids by two schemes: how much of film and contact is the grid's",
     "mixed": "rough balls drawn at random, from full film to boundary lubrication: verdicts and work",
+    "gaps": "bands about the mean gaps of rough balls drawn at random, beside a grid twice as fine",
     "dry": "dry contacts of smooth, wavy and rough balls beside a public code's numbers",
     "ranks": "messages, bytes, flops and time of an iteration on this run's ranks, and on many more",
 }
 
-DOUBLING = ("wedge", "schemes", "angle", "error", "peaks")
+DOUBLING = ("wedge", "schemes", "angle", "error", "peaks", "gaps")
 """Studies that need grids each of half the spacing of the one before: they tell orders and limits."""
 
-LARGEST_LISTS = {"line": 1, "rough": 1, "mixed": 1, "methods": 0, "accuracy": 0, "domain": 0, "soft": 0}
+LARGEST_LISTS = {
+    "line": 1,
+    "rough": 1,
+    "mixed": 1,
+    "methods": 0,
+    "accuracy": 0,
+    "domain": 0,
+    "soft": 0,
+    "gaps": 2,
+}
 """How many grids --nodes may name, where that is limited."""
 
-DRAW = ("mixed", "error")
+DRAW = ("mixed", "error", "gaps")
 """Studies that draw cases at random, one of them where it is asked to."""
 
 LARGEST_NUMBER = 2**31
@@ -48,7 +58,7 @@ LARGEST_NUMBER = 2**31
 DEFAULTS = {"direction": "both", "mean": "arithmetic"}
 """Defaults of options that only study transition takes."""
 
-_TAKES = {0: "has grids of its own", 1: "takes one grid"}
+_TAKES = {0: "has grids of its own", 1: "takes one grid", 2: "takes two grids"}
 
 
 def add(commands):
@@ -70,8 +80,8 @@ def add(commands):
                        f"{', '.join(FACE_MOBILITIES)} (default: arithmetic)")  # fmt: skip
     parser.add_argument("--boundary-film", metavar="LENGTH",
                        help="film of adsorbed layers in study rough (default: 2 nm)")  # fmt: skip
-    parser.add_argument("--cases", metavar="N", help="random cases that study mixed solves (default: 120), "
-                       "or study error instead of its list")  # fmt: skip
+    parser.add_argument("--cases", metavar="N", help="random cases that studies mixed (default: 120) and "
+                       "gaps (40) solve, or study error instead of its list")  # fmt: skip
     parser.add_argument("--seed", metavar="N", help="by which they are drawn (default: 7)")
     parser.add_argument("--out", metavar="DIR", help="directory of the results (default: runs/study-NAME)")
     parser.add_argument("--force", action="store_true", help="start anew in a directory that exists")
@@ -130,6 +140,8 @@ def _checked_nodes(options):
     nodes = _nodes(options.nodes)
     if options.study in DOUBLING:
         _check_doubling(nodes)
+    if options.study == "gaps" and len(nodes) == 1:
+        raise ConfigError(f"--nodes {options.nodes}: study gaps takes two grids")
     if len(nodes) > LARGEST_LISTS.get(options.study, len(nodes)):
         raise ConfigError(
             f"--nodes {options.nodes}: study {options.study} {_TAKES[LARGEST_LISTS[options.study]]}"

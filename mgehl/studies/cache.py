@@ -16,8 +16,8 @@ FOLDER = "points"
 
 COMPUTING = ("model", "discretization", "kinds", "grid", "multigrid", "solver", "run.py",
              "output/domain.py", "output/resolution.py", "output/edge_result.py", "output/dry_result.py",
-             "output/film_error.py", "output/mixed_result.py", "output/result.py", "output/surface.py",
-             "output/wedge_result.py",
+             "output/film_error.py", "output/gap_error.py", "output/mixed_result.py", "output/result.py",
+             "output/surface.py", "output/wedge_result.py",
              "output/solution.py", "output/users_axes.py", "studies/branch.py")  # fmt: skip
 """Layers and modules that make a point: after a change in one of them points are computed anew."""
 

@@ -108,12 +108,13 @@ def draw(cases, seed):
     """So many `Drawn`. A longer list begins with the same cases."""
     chance, drawn = np.random.default_rng(seed), []
     for number in range(1, cases + 1):
-        rms, load, speed = (_by_logarithm(chance, *ends) for ends in (RMS, LOAD, SPEED))
+        rms, load, speed = (by_logarithm(chance, *ends) for ends in (RMS, LOAD, SPEED))
         drawn.append(Drawn(number, rms, load, speed, float(chance.uniform(*HURST))))
     return drawn
 
 
-def _by_logarithm(chance, low, high):
+def by_logarithm(chance, low, high):
+    """A number between two, drawn evenly by its logarithm."""
     return float(np.exp(chance.uniform(log(low), log(high))))
 
 
