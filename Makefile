@@ -162,6 +162,16 @@ peaks: $(ENVIRONMENT)
 
 .PHONY: peaks
 
+# make gaps      run study gaps, and configs/rough.toml with bands on three grids; write both to runs/tables (half an hour)
+OF_GAPS := run,nodes,converged,inlet cells,mean gap nm,loaded gap nm,load on contact,mean film nm,convolutions
+gaps: $(ENVIRONMENT)
+	( $(ON) mpiexec -n 2 python -m mgehl study gaps --resume --quiet )
+	for t in gaps gaps-summary; do for e in md csv; do cp runs/study-gaps/$$t.$$e runs/tables/$$t.$$e || exit 1; done; done
+	for n in 257 513 1025; do ( $(ON) $(MGEHL) configs/rough.toml --set grid.nodes=$$n --out runs/rough-gaps/$$n ) || exit 1; done
+	$(ON) mgehl collect runs/rough-gaps/* --columns "$(OF_GAPS)" --out runs/tables/rough-gaps.csv > runs/tables/rough-gaps.md
+
+.PHONY: gaps
+
 # make rough-schemes   who carries the load of configs/rough.toml by four schemes on three grids (ten minutes)
 OF_SCHEMES := run,converged,inlet cells,load on contact,contact/Hertz area,Eq. 2 violations,mean film nm,convolutions
 rough-schemes: $(ENVIRONMENT)
