@@ -18,6 +18,9 @@ small by chance. Of 57 random balls on 257 nodes, by which this and `ALIKE` were
 hold the limit. In the median they are 2.2 and 2.6 times as wide as the error. `study gaps` tries them on
 others."""
 
+WIDEST = 0.5
+"""Half-width over the gap from which on a band would tell nothing: there is none."""
+
 SMALLEST = 1e-4
 """Half-width over the gap at the least."""
 
@@ -95,6 +98,9 @@ def from_grids(grids):
         return no_band(f"on {coarser.nodes} nodes, the next coarser grid, no state settled to compare with")
     mean = half_width(finest.mean_nm, coarser.mean_nm, coarser.mean_apart_nm)
     loaded = half_width(finest.loaded_nm, coarser.loaded_nm, coarser.loaded_apart_nm)
+    if mean > WIDEST * finest.mean_nm or loaded > WIDEST * finest.loaded_nm:
+        means = f"{coarser.mean_nm:.3g} and {coarser.loaded_nm:.3g} nm"
+        return no_band(f"on {coarser.nodes} nodes the means are {means}, too far from these")
     return GapError(mean, loaded, f"from the differences to {coarser.nodes} nodes")
 
 

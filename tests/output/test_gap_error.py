@@ -1,6 +1,7 @@
 """Bands about the mean gaps of rough bodies."""
 
 import json
+from dataclasses import replace
 from types import SimpleNamespace
 
 import pytest
@@ -42,6 +43,13 @@ def grid(nodes, settled=True):
 def test_where_the_coarser_grid_did_not_settle_there_is_none():
     error = from_grids((grid(257), grid(129, settled=False)))
     assert error.mean_nm is error.loaded_nm is None and "on 129 nodes" in error.how
+
+
+@pytest.mark.parametrize("mean, loaded", [(30.0, 2.0), (10.0, 6.0)])
+def test_where_the_coarser_grid_has_another_gap_there_is_none(mean, loaded):
+    error = from_grids((grid(257), replace(grid(129), mean_nm=mean, loaded_nm=loaded)))
+    assert error.mean_nm is error.loaded_nm is None
+    assert error.how == f"on 129 nodes the means are {mean:.3g} and {loaded:.3g} nm, too far from these"
 
 
 def test_without_a_coarser_grid_there_is_none():
