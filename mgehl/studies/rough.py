@@ -141,6 +141,8 @@ def _numbers(mixed):
         "minimum film nm": _film(mixed.minimum_film_nm),
         "mean film nm": _film(mixed.mean_film_nm),
         "film in valleys nm": _film(mixed.valley_film_nm),
+        "mean gap nm": f"{mixed.mean_gap_nm:.4f}",
+        "gap by pressure nm": f"{mixed.loaded_gap_nm:.4f}",
         "torn": f"{mixed.torn_share:.4f}",
     }
 
