@@ -75,7 +75,8 @@ def test_a_study_whose_points_do_not_converge_says_so(tmp_path, monkeypatch):
 
 
 def point(speed, converged=True, start="film", share=0.5):
-    mixed = MixedResult(1e2 * speed, 100.0, share, 1.0 - share, 1e-9, 0.25, 7, 1e-10, 40.0, 2.0, 80.0, 0.1)
+    numbers = 1e2 * speed, 100.0, share, 1.0 - share, 1e-9, 0.25, 7, 1e-10, 40.0, 2.0, 80.0, 0.1
+    mixed = MixedResult(*numbers, mean_gap_nm=9.5, loaded_gap_nm=3.25)
     result = SimpleNamespace(
         converged=converged, settled=True, doubt="Eq. 2 is broken", reason="it is wrong", mixed=mixed,
         work=Work(80.0, 9),
@@ -92,6 +93,7 @@ class TestPointsThatAreNoResults:
         both = [point(1.0), point(1.0, converged=False, start="contact")]
         good, bad = (rough.row(each, both) for each in both)
         assert {bad[name] for name in NUMBERS} == {""} and good["patches"] == "7"
+        assert (good["mean gap nm"], good["gap by pressure nm"]) == ("9.5000", "3.2500")
         assert bad["verdict"] == "Eq. 2 is broken: it is wrong"
         assert good["load on contact apart from the other start"] == ""
 
