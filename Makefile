@@ -40,7 +40,7 @@ CASES := runs/cases
 RUN_CASE := mpiexec -n 2 python -m mgehl run --force --quiet
 SPEEDS := 500 100 20 5 2 1 0.6 0.3 0.1
 OF_SPEEDS := run,converged,lambda,mean film nm,load on contact,contact/Hertz area,inlet cells,convolutions
-DRAW := mgehl plot --format png --dpi 90 --out runs/cases/plots
+DRAW := mgehl plot --format png --dpi 88 --out runs/cases/plots
 pictures: $(ENVIRONMENT)
 	mkdir -p $(PICTURES)
 	for c in ball_bearing cam coated dent rough; do ( $(ON) $(RUN_CASE) configs/$$c.toml --out $(CASES)/$$c ) || exit 1; done
