@@ -3,7 +3,7 @@ from the differences.
 
 A coarse grid of the nested iteration was solved at a speed that it resolves, and not to its end. Here the
 speed is the wanted one, and the start is so near that a few steps do. Two coarser grids take some fifteen
-per cent of the finest grid's work. Of rough bodies whose peaks touch one coarser grid takes as much; it
+per cent of the finest grid's work. Of rough bodies whose peaks touch one coarser grid takes 5 to 30; it
 sees the surface as it is, for else it would have another contact.
 """
 
