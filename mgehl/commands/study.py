@@ -37,17 +37,10 @@ STUDIES = {
 DOUBLING = ("wedge", "schemes", "angle", "error", "peaks", "gaps")
 """Studies that need grids each of half the spacing of the one before: they tell orders and limits."""
 
-LARGEST_LISTS = {
-    "line": 1,
-    "rough": 1,
-    "mixed": 1,
-    "methods": 0,
-    "accuracy": 0,
-    "domain": 0,
-    "soft": 0,
-    "gaps": 2,
-}
-"""How many grids --nodes may name, where that is limited."""
+GRIDS = {"line": (0, 1), "rough": (0, 1), "mixed": (0, 1), "gaps": (0, 2)} | dict.fromkeys(
+    ("methods", "accuracy", "domain", "soft"), (0,)
+)
+"""How many grids --nodes may name, where that is limited; 0 for the study's own."""
 
 DRAW = ("mixed", "error", "gaps")
 """Studies that draw cases at random, one of them where it is asked to."""
@@ -140,12 +133,9 @@ def _checked_nodes(options):
     nodes = _nodes(options.nodes)
     if options.study in DOUBLING:
         _check_doubling(nodes)
-    if options.study == "gaps" and len(nodes) == 1:
-        raise ConfigError(f"--nodes {options.nodes}: study gaps takes two grids")
-    if len(nodes) > LARGEST_LISTS.get(options.study, len(nodes)):
-        raise ConfigError(
-            f"--nodes {options.nodes}: study {options.study} {_TAKES[LARGEST_LISTS[options.study]]}"
-        )
+    allowed = GRIDS.get(options.study, (len(nodes),))
+    if len(nodes) not in allowed:
+        raise ConfigError(f"--nodes {options.nodes}: study {options.study} {_TAKES[max(allowed)]}")
     for name in DEFAULTS:
         if getattr(options, name) is not None and options.study != "transition":
             raise ConfigError(f"--{name}: study {options.study} does not take it, study transition does")

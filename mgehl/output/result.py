@@ -226,7 +226,7 @@ def contact_result(problem, state, nm):
     """The `ContactResult` of a state; `nm` is nanometres in a unit of H (collective)."""
     grid, contact_area = problem.grid, problem.contact.contact_area
     contact = state.status == CONTACT
-    carried = problem.load(np.where(contact, state.P, 0.0)) / problem.contact.load_integral
+    carried = problem.share_of_load(state.P, contact)
     largest_gap = nm * grid.max(np.abs(state.H[contact]), initial=0.0)
     cell = grid.mesh.dX * grid.mesh.dY
     nodes = grid.count(contact)

@@ -103,8 +103,7 @@ def gaps_of_grids(hierarchy, problem, state, settings, monitor, journal=NOTHING_
 
 
 def _grid_gaps(problem, state, settled, apart=None):
-    on_contact = problem.load(np.where(state.status == CONTACT, state.P, 0.0))
-    share = on_contact / problem.contact.load_integral
+    share = problem.share_of_load(state.P, state.status == CONTACT)
     return GridGaps(problem.grid.mesh.nx, gaps(problem, state), share, settled, apart)
 
 

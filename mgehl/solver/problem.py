@@ -119,6 +119,10 @@ class ContactProblem(Problem):
         """Integral of P minus the load that the domain carries  [Liu eq. 50]."""
         return self.load(P) - self._load_within
 
+    def share_of_load(self, P, nodes):
+        """Part of the load that some nodes carry, a mask (lines, nx)."""
+        return self.load(np.where(nodes, P, 0.0)) / self.contact.load_integral
+
     def carrying(self, P):
         """The pressure times what makes it carry the domain's load."""
         return P * (self._load_within / self.load(P))

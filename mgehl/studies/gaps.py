@@ -8,14 +8,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mgehl.studies.mixed import by_logarithm
-from mgehl.studies.peaks import COMMON
+from mgehl.studies.rough_ball import BALL, HURST, RMS, by_logarithm
 from mgehl.studies.study import merged
 
 NODES, CASES, SEED = (257, 513), 40, 7
 
-RMS, LOAD, SPEED, HURST = (20e-9, 400e-9), (20.0, 500.0), (5e-5, 0.1), (0.5, 0.9)
-"""From, to: m, N, m/s."""
+LOAD, SPEED = (20.0, 500.0), (5e-5, 0.1)
+"""From, to: N, m/s."""
 SHORTEST, LAYERS = (30e-6, 40e-6, 60e-6), (0.0, 1e-9, 2e-9, 5e-9)
 """Wavelengths and boundary films, in m."""
 
@@ -55,9 +54,9 @@ class Drawn:
             "motion": {"speed": self.speed},
             "grid": {"nodes": nodes},
             "discretization": {"couette": "3L", "face_mobility": "linear-gap"},
-            "solver": {"error": error},
+            "solver": {"start": "film", "error": error},
         }
-        return merged(COMMON, own)
+        return merged(BALL, own)
 
 
 def run(study):

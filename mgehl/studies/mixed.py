@@ -6,26 +6,23 @@ its own. Each case is solved for itself: no case starts from another.
 
 import time
 from dataclasses import asdict, dataclass
-from math import log
 
 import numpy as np
 
 from mgehl.config import config_from_tables
 from mgehl.run import solve
 from mgehl.studies.cache import key_of
+from mgehl.studies.rough_ball import BALL, HURST, RMS, by_logarithm
 from mgehl.studies.study import merged, verdict
 
 NODES, CASES, SEED = 257, 120, 7
 
-RMS, LOAD, SPEED, HURST = (20e-9, 400e-9), (20.0, 800.0), (1e-5, 1.0), (0.5, 0.9)
-"""From, to: m, N, m/s."""
+LOAD, SPEED = (20.0, 800.0), (1e-5, 1.0)
+"""From, to: N, m/s."""
 
-CASE = {
-    "contact": {"radius_x": 12.7e-3, "radius_y": 12.7e-3, "reduced_modulus": 219.78e9},
-    "surface": {"kind": "self-affine", "shortest_wavelength": 30e-6, "longest_wavelength": 200e-6},
-    "grid": {"x": [-2.0, 1.5], "y": [-1.75, 1.75]},
-    "solver": {"start": "film", "error": False},
-}
+CASE = merged(
+    BALL, {"surface": {"shortest_wavelength": 30e-6}, "solver": {"start": "film", "error": False}}
+)
 """What all cases have in common: the usual scheme, no boundary film."""
 
 
@@ -111,11 +108,6 @@ def draw(cases, seed):
         rms, load, speed = (by_logarithm(chance, *ends) for ends in (RMS, LOAD, SPEED))
         drawn.append(Drawn(number, rms, load, speed, float(chance.uniform(*HURST))))
     return drawn
-
-
-def by_logarithm(chance, low, high):
-    """A number between two, drawn evenly by its logarithm."""
-    return float(np.exp(chance.uniform(log(low), log(high))))
 
 
 def _solve(study, case, nodes):

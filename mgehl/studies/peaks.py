@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mgehl.studies.rough_ball import BALL
 from mgehl.studies.study import merged
 
 NODES = 257, 513
@@ -15,14 +16,9 @@ COMPARED_WITH = "3L"
 """1B is far from its limit there still (`configs/rough.toml`: 10 % of the load on contact where 3B and 3L
 have 17 %)."""
 
-COMMON = {
-    "contact": {"radius_x": 12.7e-3, "radius_y": 12.7e-3, "reduced_modulus": 219.78e9},
-    "surface": {
-        "kind": "self-affine", "hurst": 0.8, "shortest_wavelength": 40e-6, "longest_wavelength": 200e-6,
-    },
-    "grid": {"x": [-2.0, 1.5], "y": [-1.75, 1.75]},
-    "solver": {"start": "film"},
-}  # fmt: skip
+COMMON = merged(
+    BALL, {"surface": {"hurst": 0.8, "shortest_wavelength": 40e-6}, "solver": {"start": "film"}}
+)
 """What all cases have in common."""
 
 

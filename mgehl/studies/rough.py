@@ -10,6 +10,7 @@ import numpy as np
 
 from mgehl.discretization.mesh import Mesh
 from mgehl.model.load_share import aihara, error_function, zhou_hoeprich
+from mgehl.studies.rough_ball import BALL
 from mgehl.studies.study import merged, verdict
 
 NODES = 257
@@ -24,20 +25,15 @@ STARTS = ("film", "contact")
 SHOWN = 4
 """States in the picture of states."""
 
-CASE = {
-    "contact": {"load": 100.0, "radius_x": 12.7e-3, "radius_y": 12.7e-3, "reduced_modulus": 219.78e9},
-    "surface": {
-        "kind": "self-affine",
-        "rms": 100e-9,
-        "hurst": 0.8,
-        "shortest_wavelength": 30e-6,
-        "longest_wavelength": 200e-6,
-        "seed": 1,
+CASE = merged(
+    BALL,
+    {
+        "contact": {"load": 100.0},
+        "surface": {"rms": 100e-9, "hurst": 0.8, "shortest_wavelength": 30e-6, "seed": 1},
+        "discretization": {"couette": "3L", "face_mobility": "linear-gap"},
     },
-    "grid": {"x": [-2.0, 1.5], "y": [-1.75, 1.75]},
-    "discretization": {"couette": "3L", "face_mobility": "linear-gap"},
-}
-"""A ground disc and a ball. All speeds are solved by one scheme, which keeps a film behind peaks."""
+)
+"""All speeds are solved by one scheme, which keeps a film behind peaks."""
 
 FITS = {"Aihara": aihara, "Zhou-Hoeprich": zhou_hoeprich, "1 - erf": error_function}
 

@@ -1,11 +1,13 @@
 """Fixtures that tests of the solver share."""
 
+import numpy as np
 import pytest
 
 from mgehl.discretization.scheme import Scheme
+from mgehl.discretization.status import BOUNDARY, LUBRICATED
 from mgehl.multigrid.cycle import MultigridSolver
 from mgehl.solver.newton import Newton
-from mgehl.solver.problem import ContactProblem
+from mgehl.solver.problem import ContactProblem, State
 from mgehl.solver.settings import NewtonSettings
 
 
@@ -26,3 +28,11 @@ def make_newton(make_hierarchy, paper_contact):
     yield make
     for newton in made:
         newton.free()
+
+
+@pytest.fixture
+def state(tiny_problem):
+    """All film without pressure and a gap of 1."""
+    shape = tiny_problem.grid.shape
+    status = np.where(tiny_problem.boundary, BOUNDARY, LUBRICATED).astype(np.int8)
+    return State(np.zeros(shape), 0.0, np.ones(shape), status)

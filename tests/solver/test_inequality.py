@@ -3,19 +3,10 @@
 import numpy as np
 import pytest
 
-from mgehl.discretization.status import BOUNDARY, CONTACT, LUBRICATED
+from mgehl.discretization.status import CONTACT, LUBRICATED
 from mgehl.solver.inequality import SAFETY, check_interface, check_pressure_inequality
-from mgehl.solver.problem import State
 
 NODE = (4, 4)
-
-
-@pytest.fixture
-def state(tiny_problem):
-    """All film without pressure and a gap of 1."""
-    shape = tiny_problem.grid.shape
-    status = np.where(tiny_problem.boundary, BOUNDARY, LUBRICATED).astype(np.int8)
-    return State(np.zeros(shape), 0.0, np.ones(shape), status)
 
 
 class TestInterface:

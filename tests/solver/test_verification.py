@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from mgehl.discretization.scheme import Scheme
-from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
+from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
 from mgehl.solver.inequality import check_pressure_inequality
 from mgehl.solver.problem import State
 from mgehl.solver.verification import (
@@ -18,14 +18,6 @@ from mgehl.solver.verification import (
 )
 
 NODE = (4, 4)
-
-
-@pytest.fixture
-def state(tiny_problem):
-    """All film without pressure and a gap of 1."""
-    shape = tiny_problem.grid.shape
-    status = np.where(tiny_problem.boundary, BOUNDARY, LUBRICATED).astype(np.int8)
-    return State(np.zeros(shape), 0.0, np.ones(shape), status)
 
 
 class TestEdge:
