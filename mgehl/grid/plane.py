@@ -32,6 +32,13 @@ def even_shares(columns, ranks):
     return list(zip(bounds[:-1], bounds[1:], strict=True))
 
 
+def shares_of_work(work, ranks):
+    """The same of columns that take so much `work` each: ranks have equal parts of it, to half a column."""
+    done = np.cumsum(work)
+    cuts = np.searchsorted(done - 0.5 * work, done[-1] * np.arange(1, ranks) / ranks).tolist()
+    return list(zip([0, *cuts], [*cuts, len(work)], strict=True))
+
+
 def even_widths(columns, ranks):
     """How many columns each rank has of these shares."""
     return [end - first for first, end in even_shares(columns, ranks)]

@@ -4,17 +4,35 @@ from math import ceil
 
 import numpy as np
 
-from mgehl.grid.plane import even_shares, plane_of
+from mgehl.grid.plane import even_shares, plane_of, shares_of_work
 
 PIECE = 2**18
 """Nodes of a rank in a piece of its y-lines: what they have stays in the cache."""
+
+UNEVEN = 1.05
+"""Times the mean work of a rank that one may have before lines are dealt out anew."""
 
 
 class YLines:
     """A grid's y-lines, all of them and in pieces. The team's: ranks without lines take no part."""
 
     def __init__(self, grid):
-        shares = even_shares(grid.mesh.nx, grid.team.size)
+        self._grid, self._shares, self._planes = grid, None, []
+        self._deal_out(even_shares(grid.mesh.nx, grid.team.size))
+
+    def follow(self, work):
+        """Deal the lines out anew if one rank has too much of their `work` (nx,); whether they were."""
+        most, fair = max(work[slice(*share)].sum() for share in self._shares), work.sum() / len(self._shares)
+        shares = shares_of_work(work, len(self._shares))
+        if most <= UNEVEN * fair or shares == self._shares:
+            return False
+        self.destroy()
+        self._deal_out(shares)
+        return True
+
+    def _deal_out(self, shares):
+        """Give each rank its share, (first, end) of the lines."""
+        grid, self._shares = self._grid, shares
         count = ceil(grid.mesh.nodes / grid.team.size / PIECE)
         cuts = [_cut(share, count) for share in shares]
         self._planes = [_plane(grid, shares)]
