@@ -10,8 +10,8 @@ from mgehl.model.starvation import Starvation
 def settled(config, contact):
     """The `Config` with numbers in the place of "auto".
 
-    The domain is as small as the film of a formula allows, with most room upstream. It is that of the
-    smooth bodies: roughness is not looked at. Layered bodies count as half-spaces whose contact is as wide.
+    The domain is as small as the film of a formula and the peaks that may touch allow, with most room
+    upstream. Layered bodies count as half-spaces whose contact is as wide.
     """
     grid = config.grid
     open_ends = [name for name in ("x" if contact.is_plane else "xy") if getattr(grid, name) == AUTO]

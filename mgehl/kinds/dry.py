@@ -9,11 +9,13 @@ from mgehl.kinds.kind import Effort
 from mgehl.kinds.line import LineKind
 from mgehl.kinds.loaded import LoadedKind
 from mgehl.kinds.point import PointKind
+from mgehl.model.peaks import reach_of_peaks
+from mgehl.model.room import end_beyond
 
 EFFORT = Effort(35.0, 3e-8, 2e-3, 400.0, "dry contacts on 129 to 1025 nodes took 17 to 60")
 
 ROOM = 1.5
-"""End of a domain that is "auto", over the reach of the smooth contact: peaks carry load beyond it."""
+"""End of a domain that is "auto", over the reach of the smooth contact."""
 
 OF_A_FLUID = (
     "lubricant", "motion", "relaxation", "contact.boundary_film", "grid.load_beyond",
@@ -53,10 +55,10 @@ class DryKind(LoadedKind):
         return replace(super().contact(config), speed=0.0)
 
     def settled(self, config, contact):
-        """A domain that is "auto" ends so far from the smooth contact."""
-        end = ROOM * contact.reach
-        names = [name for name in ("x" if contact.is_plane else "xy") if getattr(config.grid, name) == AUTO]
-        return replace(config, grid=replace(config.grid, **{name: (-end, end) for name in names}))
+        """A domain that is "auto" ends so far from the smooth contact and its peaks."""
+        peaks = zip("x" if contact.is_plane else "xy", reach_of_peaks(contact, 0.0), strict=False)
+        found = {name: _ends(contact, peak) for name, peak in peaks if getattr(config.grid, name) == AUTO}
+        return replace(config, grid=replace(config.grid, **found))
 
     def check_fluid(self, config, contact):
         """The smooth contact must lie in the domain."""
@@ -92,6 +94,12 @@ class DryKind(LoadedKind):
             "contact_nodes": (float(result.contact.nodes), "1", "nodes in contact"),
             "contact_area": (result.contact.area_fraction, "1", "contact area over that of Hertz"),
         }
+
+
+def _ends(contact, peak):
+    """The ends of an axis along which a peak touches so far from the centre."""
+    end = max(ROOM * contact.reach, end_beyond(peak))
+    return -end, end
 
 
 class DryPoint(DryKind, PointKind):

@@ -3,6 +3,7 @@
 `contact.surface`, a function of the user's own, adds to them.
 """
 
+from contextlib import contextmanager
 from dataclasses import fields
 
 import numpy as np
@@ -154,16 +155,30 @@ def check_surfaces(config, contact, mesh):
     radius = min(config.contact.radius_x, np.inf if contact.is_plane else config.contact.radius_y)
     x, y = mesh.X * contact.x_scale, mesh.Y * contact.y_scale
     for key, surface in parts_of(config):
-        try:
+        with _naming(key):
             if isinstance(surface, OwnSurface):
                 surface.check(x, y, contact.hertz.a)
             else:
                 _check_heights(key, surface, x, y, radius)
                 _check_size(key, surface, contact)
-        except OwnFunctionError as error:
-            raise ConfigError(f"contact.surface = {error}") from None
-        except SurfaceFileError as error:
-            raise ConfigError(f"{key}: {_about(error, key)}") from None
+
+
+def check_known(config):
+    """Raise ConfigError unless every surface has a height: "auto" asks for more of them."""
+    for key, surface in parts_of(config):
+        with _naming(key):
+            surface.height(np.zeros((1, 1)), np.zeros((1, 1)))
+
+
+@contextmanager
+def _naming(key):
+    """What is wrong with a surface becomes a ConfigError with its key."""
+    try:
+        yield
+    except OwnFunctionError as error:
+        raise ConfigError(f"contact.surface = {error}") from None
+    except SurfaceFileError as error:
+        raise ConfigError(f"{key}: {_about(error, key)}") from None
 
 
 def _about(error, key):

@@ -3,6 +3,8 @@
 Its sides are tried at the distances by which each of them takes the same share of the film, until what they
 take together is little enough. Upstream is where the motion comes from, at whatever angle.
 
+Peaks of rough bodies that touch outside the contact of smooth ones (`peaks`) lie within, too.
+
 Where the load beyond the domain is not counted (`far_field`), light loads ask for a hundred semi-axes, on
 which few grids resolve the film. What the load asks for it gets only as far as the inlet keeps its
 cells: with more nodes the domain grows, and the film stays resolved.
@@ -13,12 +15,13 @@ from math import ceil, hypot, sqrt
 import numpy as np
 
 from mgehl.model.contact import RESOLVED_CELLS
+from mgehl.model.peaks import reach_of_peaks
 
 ALLOWED = 0.3
 """Per cent of film, as estimated, that a domain of twice the size may have more: truly it may be 0.5."""
 
 NEAREST = 0.25
-"""Semi-axes of the contact between it and every side, where the film asks for less."""
+"""Semi-axes between the contact, peaks outside it too, and every side, where the film asks for less."""
 
 SHARES = np.geomspace(0.1, ALLOWED / 400.0, 80)
 """Of the film, that one side may take: tried from the largest on, to a quarter of what all may."""
@@ -39,25 +42,35 @@ def domain_for(starvation, nodes, farthest):
     The film and its contact are those of a `Starvation`. With too few `nodes` a side, at light loads, it
     loses more.
     """
+    peaks = reach_of_peaks(starvation.contact, starvation.film)
     for share in SHARES:
-        x, y = _ends(starvation, share, nodes, farthest)
+        x, y = _ends(starvation, share, nodes, farthest, peaks)
         if starvation.lost(x, y) <= ALLOWED:
             break
     return x, y
 
 
-def _ends(starvation, share, nodes, farthest):
-    """x and y whose sides each take a share."""
+def _ends(starvation, share, nodes, farthest, peaks):
+    """x and y whose sides each take a share, and which hold the `peaks` that reach so far along X and Y."""
     upstream, beside, downstream = _rooms(starvation, share, nodes)
     # The contact of a soft layer may be wider than it is thought to be.
     wider = starvation.contact.reach / starvation.contact.widening
     ends = []
-    for side in starvation.sides:
+    for side, peak in zip(starvation.sides, np.repeat(peaks, 2), strict=False):
         along = abs(side.toward) * (upstream if side.toward > 0.0 else downstream)
         room = hypot(along, sqrt(1.0 - side.toward**2) * beside) + wider * side.half
-        ends.append(min(STEP * ceil(room / side.unit / STEP - 1e-9), farthest))
+        ends.append(min(max(_rounded_up(room / side.unit), end_beyond(peak)), farthest))
     west, east, *across = ends
     return interval_on_nodes(west, east), interval_on_nodes(*across) if across else (0.0, 0.0)
+
+
+def end_beyond(peak):
+    """End of a domain that holds a peak which touches so far from the centre; 0 where none does."""
+    return _rounded_up(peak + NEAREST) if peak else 0.0
+
+
+def _rounded_up(end):
+    return STEP * ceil(end / STEP - 1e-9)
 
 
 def interval_on_nodes(before, after):

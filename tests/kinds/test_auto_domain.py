@@ -3,10 +3,13 @@
 import os
 
 import pytest
+from mpi4py import MPI
 
 from mgehl.config import load_config
 from mgehl.errors import ConfigError
 from mgehl.kinds import check_contact, contact_from, mesh_from, settled
+from mgehl.model.peaks import reach_of_peaks
+from mgehl.run import solve
 
 
 def loaded(*settings):
@@ -61,3 +64,28 @@ def test_a_soft_layer_and_waves_have_a_domain():
     config, contact = loaded("contact.load=100", "motion.speed=0.5", *coating)
     check_contact(config, contact)
     assert mesh_from(config, contact).x[1] > contact.reach
+
+
+LIGHT_AND_ROUGH = [
+    "contact.radius_x=2.7 mm", "contact.radius_y=2.7 mm", "contact.load=0.12", "motion.speed=0.03",
+    "lubricant.viscosity=0.0075", "lubricant.pressure_viscosity=9.5 1/GPa", "grid.nodes=129",
+    "surface.kind=self-affine", "surface.rms=66 nm", "surface.hurst=0.5", "surface.seed=5",
+    "surface.shortest_wavelength=9 um", "surface.longest_wavelength=47 um",
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("more", [[], ["discretization.contact_model=dry"]])
+def test_peaks_that_touch_outside_the_smooth_contact_lie_within(more):
+    """A domain for smooth bodies cut them off: the run said so, and told the user to take "auto"."""
+    config, contact = loaded(*LIGHT_AND_ROUGH, *more)
+    (X, Y), grid = reach_of_peaks(contact, 0.0), settled(config, contact).grid
+    assert X > 2.0 and min(-grid.x[0], grid.x[1]) > X + 0.2 and min(-grid.y[0], grid.y[1]) > Y + 0.2
+    assert solve(config, MPI.COMM_SELF).result.converged
+
+
+def test_peaks_within_the_contact_ask_for_nothing():
+    rough = ["contact.load=800", "motion.speed=0.1", "surface.kind=waviness", "surface.wavelength_x=0.1 mm"]
+    smooth, low, high = (
+        settled(*loaded(*rough, f"surface.amplitude={height} nm")).grid for height in (0, 10, 3000)
+    )
+    assert low == smooth and high.x[1] > smooth.x[1]

@@ -1,0 +1,71 @@
+"""How far from the centre peaks of rough bodies may touch."""
+
+import numpy as np
+import pytest
+
+from mgehl.config import config_from_tables
+from mgehl.kinds import contact_from
+from mgehl.model.peaks import DISTANCES, FARTHEST, reach_of_peaks
+from mgehl.studies.study import merged
+
+WAVES = {"kind": "waviness", "wavelength_x": 10e-6, "wavelength_y": 10e-6}
+LIGHT = {"contact": {"load": 1.0}, "motion": {"speed": 0.01}}
+ONE_STEP = DISTANCES[1] / DISTANCES[0]
+
+
+def reach(tables, film=0.0):
+    """That of a contact, and the contact."""
+    contact = contact_from(config_from_tables(tables))
+    return reach_of_peaks(contact, film), contact
+
+
+def waves(height):
+    """A light ball with waves of an amplitude in m, whose crests meet at the centre."""
+    return merged(LIGHT, {"surface": WAVES | {"amplitude": height}})
+
+
+@pytest.mark.parametrize("height", [20e-9, 100e-9, 1e-6])
+def test_there_the_gap_of_the_dry_contact_is_as_high(height):
+    (X, Y), contact = reach(waves(height))
+    assert X == Y > 1.0
+    gaps = contact.film_scale * contact.dry_gap(np.array([X / ONE_STEP, X]), np.zeros(2))
+    assert gaps[0] < height - contact.mean_height <= gaps[1]
+
+
+def test_a_film_keeps_the_bodies_apart():
+    (bare, _), contact = reach(waves(100e-9))
+    (less, _), _ = reach(waves(100e-9), 50e-9)
+    assert 1.0 < less < bare
+    assert reach(waves(100e-9), 100e-9 - contact.mean_height)[0] == (0.0, 0.0)
+
+
+def test_smooth_bodies_and_valleys_touch_nowhere_else():
+    assert reach(LIGHT)[0] == (0.0, 0.0)
+    dent = {"surface": {"kind": "dent", "amplitude": 1e-6, "width": 3e-6, "x": 30e-6}}
+    assert max(reach(merged(LIGHT, dent), 200e-9)[0]) == 0.0
+
+
+def test_across_a_wide_contact_it_is_less_in_units_of_its_width():
+    (X, Y), contact = reach(merged(waves(100e-9), {"contact": {"radius_y": 0.1}}))
+    assert contact.y_scale > 2.0 * contact.x_scale and 1.0 < Y < X
+    gap = contact.film_scale * contact.dry_gap(np.zeros(1), np.array([Y]))[0]
+    assert gap == pytest.approx(100e-9 - contact.mean_height, rel=0.1)
+
+
+def test_a_line_contact_has_none_across():
+    line = {"contact": {"kind": "line", "load_per_length": 1e3}, "motion": {"speed": 0.01}}
+    ridges = {"surface": {"kind": "waviness", "amplitude": 1e-6, "wavelength_x": 10e-6}}
+    (X, Y), _ = reach(merged(line, ridges))
+    assert X > 1.0 and Y == 0.0
+
+
+def test_a_peak_outside_of_the_contact_is_found():
+    """The first peaks reach farther than the contact; on the way there is a higher one."""
+    ridge = {"kind": "ridge", "amplitude": 300e-9, "width": 20e-6, "x": 60e-6, "angle": 90}
+    (alone, _), _ = reach(waves(100e-9))
+    (both, _), contact = reach(merged(waves(100e-9), {"second_surface": ridge}))
+    assert contact.x_scale < 60e-6 < alone * contact.x_scale and both > 1.3 * alone
+
+
+def test_what_is_too_high_reaches_to_the_last_distance():
+    assert reach(waves(1e-4))[0] == (FARTHEST, FARTHEST)
