@@ -22,9 +22,9 @@ class YLines:
 
     def follow(self, work):
         """Deal the lines out anew if one rank has too much of their `work` (nx,); whether they were."""
-        most, fair = max(work[slice(*share)].sum() for share in self._shares), work.sum() / len(self._shares)
-        shares = shares_of_work(work, len(self._shares))
-        if most <= UNEVEN * fair or shares == self._shares:
+        ranks, shares = len(self._shares), shares_of_work(work, len(self._shares))
+        most = max(work[slice(*share)].sum() for share in self._shares)
+        if most * ranks <= UNEVEN * work.sum() or shares == self._shares:
             return False
         self.destroy()
         self._deal_out(shares)

@@ -17,7 +17,7 @@ DISTANCES = np.geomspace(1.0, FARTHEST, 240)
 
 
 def reach_of_peaks(contact, film):
-    """How far along X and along Y, in their units, a peak reaches through gap and `film` (m); 0 if none does.
+    """How far along X and Y, in their units, a peak reaches through gap and `film` (m); 0 where none does.
 
     The highest peak is looked for within the semi-axes, and then as far as that one reaches.
     """

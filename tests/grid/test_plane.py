@@ -4,7 +4,14 @@ import numpy as np
 import pytest
 from mpi4py import MPI
 
-from mgehl.grid.plane import SentPlane, SharedPlane, even_shares, even_widths, plane_of
+from mgehl.grid.plane import (
+    SentPlane,
+    SharedPlane,
+    even_shares,
+    even_widths,
+    plane_of,
+    shares_of_work,
+)
 
 LINES, COLUMNS = 5, 8
 STARTS = np.array([0, LINES])
@@ -43,3 +50,18 @@ def test_no_rank_has_more_columns_than_the_last():
             widths = even_widths(columns, ranks)
             assert sum(widths) == columns and max(widths) == widths[-1] <= min(widths) + 1
             assert even_shares(columns, ranks)[-1] == (columns - widths[-1], columns)
+
+
+def test_shares_of_work_are_equal_to_half_a_column():
+    work = np.random.default_rng(2).random(101) + 0.1
+    for ranks in (1, 2, 3, 7):
+        shares = shares_of_work(work, ranks)
+        assert [first for first, _ in shares] == [0, *(end for _, end in shares[:-1])]
+        assert shares[-1][1] == len(work)
+        parts = [work[first:end].sum() for first, end in shares]
+        assert max(parts) - work.sum() / ranks <= work.max() and len(shares) == ranks
+
+
+def test_shares_of_equal_work_are_even():
+    assert shares_of_work(np.ones(8), 2) == even_shares(8, 2)
+    assert shares_of_work(np.array([1.0, 1.0, 1.0, 1.0, 0.0, 0.0]), 2) == [(0, 2), (2, 6)]

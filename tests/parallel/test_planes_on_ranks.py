@@ -108,6 +108,25 @@ def test_pieces_of_the_y_lines_are_the_whole(kind, grid, whole, monkeypatch):
     np.testing.assert_array_equal(np.concatenate(COMM.allgather(turned)), whole.T)
 
 
+def test_y_lines_that_were_dealt_out_anew_are_whole(kind, grid, whole, monkeypatch):
+    """All of the work is in the first third of the lines, so the last rank has most of the others."""
+    monkeypatch.setattr(y_lines, "PIECE", NX * NY // (3 * COMM.size))
+    work, mine = np.where(np.arange(NX) < NX // 3, 1.0, 0.01), whole[grid.first : grid.last]
+    turned, pieces, back = np.empty((0, NY)), np.empty((0, NY)), np.empty_like(mine)
+    if grid.has_lines:
+        lines = YLines(grid)
+        assert lines.follow(work) == (COMM.size > 1) and not lines.follow(work)
+        turned = lines.whole.turned(mine)
+        pieces = np.concatenate([piece.turned(mine) for _, piece in lines.pieces])
+        lines.whole.turn_back(2.0 * turned, back)
+        lines.destroy()
+    everywhere = COMM.allgather(turned)
+    np.testing.assert_array_equal(np.concatenate(everywhere), whole.T)
+    np.testing.assert_array_equal(np.concatenate(COMM.allgather(pieces)), whole.T)
+    np.testing.assert_array_equal(back, 2.0 * mine)
+    assert COMM.size == 1 or len(everywhere[-1]) > NX // 2
+
+
 def test_a_film_is_the_same_to_the_last_digit(monkeypatch):
     config = config_from_tables(FILM)
     shared = solve(config, COMM)
