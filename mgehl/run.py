@@ -25,7 +25,7 @@ from mgehl.output.users_axes import in_users_axes
 from mgehl.output.wedge_result import summarise_wedge
 from mgehl.solver.continuation import begin
 from mgehl.solver.dry import guess_on_finest, solve_dry
-from mgehl.solver.from_config import set_up, start_of
+from mgehl.solver.from_config import set_up
 from mgehl.solver.journal import NOTHING_KEPT, told_to_stop
 from mgehl.solver.nested import LevelSolve, single_loop
 from mgehl.solver.problem import ContactProblem
@@ -98,9 +98,6 @@ def _solve_loaded(config, parts, comm, watch, start):
     contact, settings = parts.contact, parts.settings
     by_newton = settings.method == "newton-mg"
     tolerance = settings.newton.tolerance
-    start_note = "" if start else start_of(config, contact).instead
-    if start_note:
-        watch.speaker.note(f"start: {start_note}")
     hierarchy = parts.hierarchy(comm)
     try:
         kind = progress.NEWTON if by_newton else progress.RELAXATION
@@ -115,7 +112,7 @@ def _solve_loaded(config, parts, comm, watch, start):
         of_run = result, hierarchy, problem, outcome.state, settings, monitor, journal
         mixed = result.mixed and replace(result.mixed, error=gap_error(*of_run))
         bands = {"error": film_error(*of_run), "mixed": mixed}
-        result = replace(result, **bands, wall_s=monitor.seconds, start_note=start_note)
+        result = replace(result, **bands, wall_s=monitor.seconds)
         return _solution(config, parts, problem, outcome.state, monitor.rows, result)
     finally:
         hierarchy.destroy()

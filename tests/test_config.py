@@ -611,29 +611,25 @@ def test_objects_of_one_s_own():
 
 
 @pytest.mark.parametrize(
-    "rms, speed, layers, start",
+    "settings, continuous",
     [
-        ("20 nm", 1.0, 0.0, "film"),
-        ("20 nm", 1.0, 2e-9, "contact"),
-        ("20 nm", 1e-3, 0.0, "contact"),
-        (None, 1.0, 0.0, "contact"),
+        ([], False),
+        (["contact.boundary_film=2 nm"], True),
+        (["surface.kind=waviness", "surface.amplitude=20 nm", "surface.wavelength_x=0.1 mm"], True),
+        (["contact.reduced_modulus=2 GPa", "contact.load=10"], True),
+        (
+            ["contact.reduced_modulus=2 GPa", "contact.load=10", "discretization.face_mobility=arithmetic"],
+            False,
+        ),
     ],
 )
-def test_rough_bodies_whose_film_is_thicker_begin_with_it(rms, speed, layers, start):
-    """Contact that closes its faces would open all over; one with a boundary film opens by itself."""
-    from mgehl.solver.from_config import contact_from, settings_from, start_of
+def test_rough_and_soft_bodies_close_continuously(settings, continuous):
+    """Whatever their film: parts of it may close on the way."""
+    from mgehl.solver.from_config import contact_from, settings_from
 
-    settings = {"solver.start": "contact", "contact.load": 100.0, "motion.speed": speed}
-    settings["contact.boundary_film"] = layers
-    if rms:
-        waves = {"rms": rms, "shortest_wavelength": 3e-5, "longest_wavelength": 2e-4}
-        settings |= {"surface.kind": "self-affine"} | {
-            f"surface.{key}": value for key, value in waves.items()
-        }
-    config = with_settings(*(f"{key}={value}" for key, value in settings.items()))
-    contact = contact_from(config)
-    assert settings_from(config, contact).nested.start == start
-    assert bool(start_of(config, contact).instead) == (start == "film")
+    config = with_settings("motion.speed=1", *settings)
+    law = settings_from(config, contact_from(config)).scheme.contact_law
+    assert law.is_continuous is continuous
 
 
 class TestPipes:

@@ -62,18 +62,15 @@ def _inlet(config, contact, mesh):
     from mgehl.output.domain import beyond_words, domain_verdict, domain_words, film_lost, room_words
     from mgehl.output.forecast import LARGEST_NODES, inlet_grids
     from mgehl.output.resolution import RESOLVED_CELLS, expectation, resolving_nodes
-    from mgehl.solver.from_config import start_of
 
     grids = inlet_grids(config, contact)
     for grid in grids:
         at = "" if grid.speed is None else f"   solved at {speed_words(grid.speed)}"
         yield f"grid {grid.nodes:5d}   {grid.cells:8.2f} cells in the inlet{at}"
     needed = resolving_nodes(contact, mesh)
-    cells, start = grids[-1].cells, start_of(config, contact)
+    cells, start = grids[-1].cells, config.solver.start
     yield ""
-    if start.instead:
-        yield f"start      {start.instead}"
-    yield f"expected   from a {start.begins} start, {expectation(cells, start.begins, contact.is_mixed)}"
+    yield f"expected   from a {start} start, {expectation(cells, start, contact.is_mixed)}"
     verdict = "this grid does" if needed <= config.grid.nodes else f"recommended: grid.nodes={needed}"
     if needed > LARGEST_NODES:
         verdict = f"no grid up to {LARGEST_NODES} does; a higher speed or a smaller domain helps"

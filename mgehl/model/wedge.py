@@ -58,7 +58,7 @@ class WedgeBearing:
 
     is_loaded = False
     is_at_rest = False
-    is_mixed = False
+    is_mixed = is_soft = False
     roughness = 0.0
     """The gap is given."""
     lambda_ = 6.0

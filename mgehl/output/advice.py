@@ -42,8 +42,7 @@ def _tries(solution):
         return
     yield from _of_domain(solution)
     yield from _of_grid(result.resolution, config.grid.nodes)
-    if not result.start_note:  # there, the other start was taken already
-        yield OTHER[config.solver.start]
+    yield OTHER[config.solver.start]
     yield "--start-from RUN: from a run at a higher speed that converged; so step by step down to this one"
     yield f"solver.max_steps: more than {config.solver.max_steps}, where the residual still falls"
 

@@ -22,7 +22,7 @@ from mgehl.kinds.kind import Effort
 from mgehl.model.deformation import HalfPlane, HalfSpace
 from mgehl.output.resolution import CONTACT_OPENS, FILM_TOUCHES
 from mgehl.output.surroundings import cores_allowed
-from mgehl.solver.from_config import settings_from, start_of
+from mgehl.solver.from_config import settings_from
 from mgehl.solver.nested import planned_solves
 
 LARGEST_TIMED = 513
@@ -140,15 +140,15 @@ def effort_of(config, contact, mesh):
     by_kind = config.kind.effort(config)
     if not contact.is_loaded or config.is_dry or mesh.is_line or config.solver.method != "newton-mg":
         return by_kind
-    start, cells = start_of(config, contact).begins, contact.inlet_cells(mesh)
+    cells = contact.inlet_cells(mesh)
     if contact.is_mixed:
         layers = config.contact.boundary_film > 0.0
         return replace(ROUGH, convolutions=_of_peaks(contact, layers))
-    if start == "contact":
+    if config.solver.start == "contact":
         return SIDE_BY_SIDE if cells > CONTACT_OPENS else by_kind
     if cells < FILM_TOUCHES:
         return UNSEEN
-    return config.kind.effort(replace(config, solver=replace(config.solver, start=start)))
+    return by_kind
 
 
 def _of_peaks(contact, has_layers):

@@ -112,8 +112,6 @@ class Result:
     edge: EdgeResult = NOT_SEEN
     mixed: MixedResult | None = None
     """Film and contact of rough bodies; None of smooth ones."""
-    start_note: str = ""
-    """Where the run did not begin from what solver.start says: from what instead, and why."""
 
     @property
     def doubt(self):

@@ -34,9 +34,6 @@ class Silent:
     def row(self, row, line, left=None):
         """A cycle: its row of the history, its line, and the seconds that are left, if known."""
 
-    def note(self, words):
-        """Something that a user should know before the first cycle."""
-
     def writing(self):
         """The last cycle is done: files and picture follow."""
 
@@ -67,9 +64,6 @@ class Lines(Silent):
     def row(self, row, line, left=None):
         say(line)
 
-    def note(self, words):
-        say(folded(words, HANGING, columns()))
-
     def end(self, solution, directory):
         lines = solution.result.words(self.verbose).splitlines()
         lines += [f"  {line}" for line in (*what_next(solution), f"results in {directory}")]
@@ -82,9 +76,6 @@ class JsonLines(Silent):
 
     def row(self, row, line, left=None):
         say(json.dumps(finite({"cycle": row, "seconds_left": left})))
-
-    def note(self, words):
-        say(json.dumps({"note": words}))
 
     def end(self, solution, directory):
         result = finite(asdict(solution.result))
@@ -136,10 +127,6 @@ class Live(Lines):
     def _begin(self, what, visible=True):
         """A bar that moves to and fro: how long it takes is not known."""
         return self._display.add_task(what, total=None, left="", visible=visible)
-
-    def note(self, words):
-        with _AS_LONG_AS_IT_SHOWS:
-            self._print(folded(words, HANGING, columns()))
 
     def end(self, solution, directory):
         with _AS_LONG_AS_IT_SHOWS:

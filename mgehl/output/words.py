@@ -71,7 +71,6 @@ def loaded_words(result, verbose=True):
         *(_errors(result) if verbose else ()),
         *_overlap(result.overlap),
         *_contact(result, verbose),
-        *((f"  start: {result.start_note}",) if result.start_note else ()),
         f"  inlet: {resolution.inlet_cells:.2f} cells, {_advice(result)[resolution.verdict]}",
         f"  domain: {_domain(result)}",
         *(f"  load: {words}" for words in beyond_words(resolution.load_beyond_percent)),

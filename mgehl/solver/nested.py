@@ -142,10 +142,10 @@ def _solve_level(hierarchy, level, problem, state, limits, settings, tell, journ
 
     prefix, fluid = settings.cycle.options_prefix, None
     law = problem.scheme.contact_law
-    if problem.scheme.lets_peaks_touch(problem.contact):
+    from_contact = settings.nested.start == "contact" and law.has_contact
+    if from_contact or problem.scheme.lets_peaks_touch(problem.contact):
         limits = limits.squeezed()
-    elif settings.nested.start == "contact" and law.has_contact and law.closes_faces:
-        limits = limits.squeezed()
+    if from_contact and law.closes_faces:
         guess_fluid(hierarchy, level, problem, state, settings)
         fluid = RigidGapFluid(problem, multigrid(rigid=True), prefix + "fluid_")
     try:

@@ -55,13 +55,6 @@ def test_of_a_rough_ball_it_is_said_that_peaks_come_through(told):
     assert "decided by the grid" not in text and "did not settle" not in text
 
 
-def test_a_start_that_will_be_replaced_is_said(told):
-    text = told("rough.toml", "--set", "contact.boundary_film=0", "--set", "solver.start=contact",
-                "--set", "motion.speed=1")  # fmt: skip
-    assert "start      a film, though solver.start asks for contact" in text
-    assert "from a film start" in text and "from a contact start" not in text
-
-
 def test_a_run_that_the_machine_cannot_hold_is_said(told, monkeypatch):
     monkeypatch.setattr("mgehl.output.surroundings.memory_GiB", lambda: 1.0)
     assert "MORE THAN THIS MACHINE'S 1.0" in told("full_film.toml")

@@ -44,12 +44,6 @@ def test_a_surface_that_the_grid_does_not_show():
     assert first == "  grid.nodes = 129, or a surface without its short waves"
 
 
-def test_a_start_that_was_replaced_is_not_advised():
-    tried = "\n".join(advice(["solver.start=contact"]))
-    replaced = "\n".join(advice(["solver.start=contact"], start_note="a film, though"))
-    assert "solver.start" in tried and "solver.start" not in replaced
-
-
 def test_a_domain_that_cuts_the_contact():
     _, first, *_ = advice(["grid.x=[-1.05, 1.3]"], edge=replace(NOT_SEEN, pressure_ratio=0.5))
     assert first.startswith('  grid.x = "auto" and grid.y = "auto"')

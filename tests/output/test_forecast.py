@@ -79,12 +79,6 @@ def test_a_contact_start_takes_more_where_a_film_comes_up(one_second, speed, eff
     assert found.convolutions == effort.convolutions
 
 
-def test_a_start_that_is_replaced_is_foretold_as_what_replaces_it(one_second):
-    settings = {"contact.boundary_film": 0.0, "motion.speed": 1.0, "solver.start": "contact"}
-    asked, film = (load_config(chosen_config(), settings | more) for more in ({}, {"solver.start": "film"}))
-    assert foretold(asked).convolutions == foretold(film).convolutions
-
-
 class TestPeaks:
     """Balls whose peaks reach through the film."""
 

@@ -55,13 +55,7 @@ class TestWords:
         self.say(Lines())
         assert "flux imbalance" in verbose and "flux imbalance" not in capsys.readouterr().out
 
-    def test_a_note_is_broken_at_spaces_too(self, capsys, monkeypatch):
-        monkeypatch.setenv("COLUMNS", "40")
-        Lines().note("start: a film, " + 10 * "and so on ")
-        assert max(map(len, capsys.readouterr().out.splitlines())) <= 40
-
     def test_a_quiet_one_says_nothing(self, capsys):
-        Quiet().note("start: a film")
         self.say(Quiet())
         assert capsys.readouterr() == ("", "")
 

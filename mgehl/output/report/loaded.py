@@ -40,9 +40,7 @@ def answer_sections(solution):
     """Films, checks, contact and groups."""
     result = solution.result
     return (
-        Section(
-            "films", "Films", (_films(result), _bands(result.error), *_grids(result.error), *_start(result))
-        ),
+        Section("films", "Films", (_films(result), _bands(result.error), *_grids(result.error))),
         Section("checks", "Can it be trusted", (checks_table(solution),)),
         Section("contact", "Contact and Eq. 2", tuple(contact_tables(result))),
         *mixed_sections(result.mixed),
@@ -84,12 +82,6 @@ def _bands(error):
     """How the bands about the films came about, or why there are none."""
     words = band_words(error)
     return Text(f"{words[0].upper()}{words[1:]}.")
-
-
-def _start(result):
-    """From what the solve began, where that is not what was asked for."""
-    if result.start_note:
-        yield Text(f"The solve began from {result.start_note}.")
 
 
 def _grids(error):
