@@ -5,7 +5,14 @@ import pytest
 
 from mgehl.discretization.axes import HALO
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
-from mgehl.solver.cavitation import WEAKLY_COUPLED, cavities_rest, relax_cavitation_set, weakly_coupled
+from mgehl.solver import cavitation as module
+from mgehl.solver.cavitation import (
+    LOST,
+    WEAKLY_COUPLED,
+    cavities_rest,
+    relax_cavitation_set,
+    weakly_coupled,
+)
 
 
 @pytest.fixture
@@ -74,6 +81,30 @@ def test_a_spoiled_set_is_restored(film, spoil):
     assert np.count_nonzero(differ) < 0.1 * spoiled
     assert max(state.P[differ].max(initial=0.0), solved.P[differ].max(initial=0.0)) < 1e-5
     np.testing.assert_allclose(state.P, solved.P, rtol=0.0, atol=1e-4)
+
+
+def lost(part, monkeypatch):
+    """Have the relaxation leave the gap's fluid with this part less of the load, one node of it torn."""
+
+    def relax(_first, P, lubricated, *_):
+        P *= (1.0 - part) ** 0.5  # for each of the two colours of the last sweep
+        changed = lubricated[2, 2]
+        lubricated[2, 2] = False
+        return int(changed)
+
+    monkeypatch.setattr(module, "relax_cavitation", relax)
+    monkeypatch.setattr(module, "SWEEPS", 1)
+    monkeypatch.setattr(module, "_relaxable", lambda *_: np.ones((65, 65), dtype=bool))
+
+
+@pytest.mark.parametrize("part, moves", [(0.5 * LOST, True), (1.5 * LOST, False)])
+def test_what_would_take_the_load_away_is_left_alone(film, monkeypatch, part, moves):
+    problem, state = film.problem, film.outcome.state.copy()
+    lost(part, monkeypatch)
+    before, load = state.copy(), state.P.sum()
+    assert (relax(problem, state) > 0) is moves
+    assert state.P.sum() == pytest.approx((1.0 - part * moves) * load)
+    assert np.array_equal(state.status, before.status) is not moves
 
 
 @pytest.mark.parametrize("spoil", [dry_cavity, torn_rim])

@@ -50,6 +50,21 @@ def test_a_wide_contact_has_a_film(angle):
     assert result.central_film_nm == pytest.approx(387.0, rel=0.01)
 
 
+def test_ridges_along_the_motion_on_a_soft_ball():
+    """At the gap of the second step the relaxation took two thirds of the load away."""
+    tables = {
+        "contact": {"radius_x": 3.4e-3, "radius_y": 3.4e-3, "reduced_modulus": 4e9, "load": 1.2},
+        "lubricant": {"viscosity": 0.042, "pressure_viscosity": 16e-9},
+        "motion": {"speed": 0.048},
+        "surface": {"kind": "waviness", "amplitude": 0.33e-6, "wavelength_y": 31e-6},
+        "grid": {"nodes": 129},
+        "solver": {"error": False},
+    }
+    result = solve(config_from_tables(tables), MPI.COMM_SELF).result
+    assert result.converged and result.work.convolutions < 800.0
+    assert result.mixed.lambda_ratio < 0.5
+
+
 def test_their_inlet_is_that_of_their_own_film():
     """Which is longer than Ertel's and Grubin's: the speed on coarse grids goes by that one."""
     config = config_from_tables(soft("line", 30.0, 0.3))
