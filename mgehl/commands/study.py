@@ -29,6 +29,7 @@ STUDIES = {
     "waviness": "waves that stand still in full films: a line contact beside published numbers, a ball",
     "peaks": "rough balls on three grids by two schemes: how much of film and contact is the grid's",
     "mixed": "rough balls drawn at random, from full film to boundary lubrication: verdicts and work",
+    "machine": "rough contacts of machines drawn at random, with all else left to mgehl: verdicts and gaps",
     "gaps": "bands about the mean gaps of rough balls drawn at random, beside a grid twice as fine",
     "dry": "dry contacts of smooth, wavy and rough balls beside a public code's numbers",
     "ranks": "messages, bytes, flops and time of an iteration on this run's ranks, and on many more",
@@ -37,12 +38,16 @@ STUDIES = {
 DOUBLING = ("wedge", "schemes", "angle", "error", "peaks", "gaps")
 """Studies that need grids each of half the spacing of the one before: they tell orders and limits."""
 
-GRIDS = {"line": (0, 1), "rough": (0, 1), "mixed": (0, 1), "gaps": (0, 2)} | dict.fromkeys(
-    ("methods", "accuracy", "domain", "soft"), (0,)
-)
+GRIDS = {
+    "line": (0, 1),
+    "rough": (0, 1),
+    "mixed": (0, 1),
+    "machine": (0, 1),
+    "gaps": (0, 2),
+} | dict.fromkeys(("methods", "accuracy", "domain", "soft"), (0,))
 """How many grids --nodes may name, where that is limited; 0 for the study's own."""
 
-DRAW = ("mixed", "error", "gaps")
+DRAW = ("mixed", "machine", "error", "gaps")
 """Studies that draw cases at random, one of them where it is asked to."""
 
 LARGEST_NUMBER = 2**31
@@ -73,8 +78,8 @@ def add(commands):
                        f"{', '.join(FACE_MOBILITIES)} (default: arithmetic)")  # fmt: skip
     parser.add_argument("--boundary-film", metavar="LENGTH",
                        help="film of adsorbed layers in study rough (default: 2 nm)")  # fmt: skip
-    parser.add_argument("--cases", metavar="N", help="random cases that studies mixed (default: 120) and "
-                       "gaps (40) solve, or study error instead of its list")  # fmt: skip
+    parser.add_argument("--cases", metavar="N", help="random cases that studies mixed and machine (default: "
+                       "120) and gaps (40) solve, or study error instead of its list")  # fmt: skip
     parser.add_argument("--seed", metavar="N", help="by which they are drawn (default: 7)")
     parser.add_argument("--out", metavar="DIR", help="directory of the results (default: runs/study-NAME)")
     parser.add_argument("--force", action="store_true", help="start anew in a directory that exists")

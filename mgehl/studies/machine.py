@@ -1,0 +1,195 @@
+"""Rough contacts of machines drawn at random: bodies, oils, directions and finishes of every sort.
+
+Domain, scheme and start are left to mgehl, as a user who knows little of them leaves them. How many are
+solved, and how well are their mean gaps known?
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mgehl.config import config_from_tables
+from mgehl.kinds import contact_from, mesh_from
+from mgehl.output.digits import with_band
+from mgehl.studies.rough_ball import by_logarithm
+from mgehl.studies.study import merged, verdict
+
+NODES, CASES, SEED = 257, 120, 7
+
+HARD, SOFT = (226e9, 226e9, 226e9, 110e9), (20e9, 4e9)
+"""E' in Pa: steel more often than bronze; soft metals and polymers."""
+PRESSURE, PRESSURE_OF_SOFT = (0.4e9, 2.2e9), (0.01, 0.03)
+"""Pressure of the smooth dry contact, from, to: of hard bodies in Pa, of soft ones over E'."""
+RADIUS, RATIO = (2e-3, 5e-2), (0.3, 8.0)
+"""R_x in m, and R_y over it, which is 1 of two in five."""
+SPEED, VISCOSITY, PRESSURE_VISCOSITY = (1e-3, 3.0), (4e-3, 0.3), (8e-9, 24e-9)
+LAMBDA, RMS = (0.03, 3.0), (1e-8, 1e-6)
+"""Film of smooth bodies over the roughness, as far as the roughness in m stays within its limits."""
+SHORTEST, LONGEST = (0.12, 0.4), (2.0, 12.0)
+"""The shortest wave over the smaller semi-axis, and the longest over the shortest."""
+FEWEST = 4.0
+"""Nodes in the shortest wave: with fewer the grid shows another surface, and mgehl says so."""
+LAYERS = (0.0, 0.0, 0.0, 2e-9, 5e-9)
+"""Boundary films in m."""
+
+LEFT_TO_MGEHL = {
+    "discretization": {"couette": "3L", "face_mobility": "linear-gap"},
+    "solver": {"error": True},
+}
+"""What a study would otherwise choose itself."""
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """What chance chose for a case; `number` counts from 1 and is the seed of its surface."""
+
+    number: int
+    tables: dict
+    """Its configuration but for the grid, nested."""
+
+    @property
+    def title(self):
+        contact, surface = self.tables["contact"], self.tables["surface"]
+        return f"{self.number}: {1e-9 * contact['reduced_modulus']:.0f} GPa, {surface['kind']}"
+
+
+def run(study):
+    """Solve all; write the tables `machine` and `machine-summary`."""
+    (nodes,) = study.nodes or (NODES,)
+    drawn = draw(study.wanted or CASES, SEED if study.seed is None else study.seed)
+    study.cases = len(drawn)
+    rows = []
+    for case in drawn:
+        tables = merged(LEFT_TO_MGEHL, case.tables, {"grid": {"nodes": nodes}})
+        solution = study.solve(case.title, tables)
+        rows.append(row(case, solution.contact, solution.result))
+    study.write_table("machine", rows)
+    study.write_table("machine-summary", summary(rows))
+
+
+def draw(cases, seed):
+    """So many `Drawn` whose waves `NODES` nodes show. A longer list begins with the same cases."""
+    drawn = []
+    for number in range(1, cases + 1):
+        chance = np.random.default_rng([seed, number])
+        drawn.append(_drawn(chance, number))
+        while _nodes_in_wave(drawn[-1]) < FEWEST:
+            drawn[-1] = _drawn(chance, number)
+    return drawn
+
+
+def _nodes_in_wave(case):
+    """Nodes in the shortest wave on the domain that the case gets."""
+    config = config_from_tables(merged(case.tables, {"grid": {"nodes": NODES}}))
+    contact = contact_from(config)
+    mesh = mesh_from(config, contact)
+    return contact.shortest_wave(mesh) / contact.longest_cell(mesh)
+
+
+def _drawn(chance, number):
+    """One case: bodies and oil first, then a roughness for their film and their contact."""
+    smooth = {
+        "contact": _bodies(chance) | {"boundary_film": float(chance.choice(LAYERS))},
+        "lubricant": {
+            "viscosity": by_logarithm(chance, *VISCOSITY),
+            "pressure_viscosity": by_logarithm(chance, *PRESSURE_VISCOSITY),
+            "viscosity_law": str(chance.choice(("barus", "roelands"))),
+        },
+        "motion": {"speed": by_logarithm(chance, *SPEED), "angle": _angle(chance)},
+    }
+    contact = contact_from(config_from_tables(smooth))
+    rms = float(np.clip(contact.expected_film / by_logarithm(chance, *LAMBDA), *RMS))
+    shortest = by_logarithm(chance, *SHORTEST) * min(contact.hertz.a, contact.hertz.b)
+    return Drawn(number, smooth | {"surface": _surface(chance, number, rms, shortest)})
+
+
+def _bodies(chance):
+    """Radii, modulus and the load that presses smooth bodies as hard as was drawn."""
+    soft = chance.random() < 1.0 / 3.0
+    modulus = float(chance.choice(SOFT if soft else HARD))
+    pressure = (
+        modulus * by_logarithm(chance, *PRESSURE_OF_SOFT) if soft else by_logarithm(chance, *PRESSURE)
+    )
+    radius = by_logarithm(chance, *RADIUS)
+    ratio = by_logarithm(chance, *RATIO) if chance.random() < 0.6 else 1.0
+    bodies = {"radius_x": radius, "radius_y": ratio * radius, "reduced_modulus": modulus}
+    of_one_newton = contact_from(config_from_tables({"contact": bodies | {"load": 1.0}})).hertz.p_h
+    return bodies | {"load": (pressure / of_one_newton) ** 3}
+
+
+def _angle(chance):
+    """Direction of the motion in degrees: along x two times in three."""
+    return float(chance.uniform(5.0, 85.0)) if chance.random() < 1.0 / 3.0 else 0.0
+
+
+def _surface(chance, number, rms, shortest):
+    """A random surface, or ridges along, across or both."""
+    if chance.random() < 0.4:
+        waves = {f"wavelength_{name}": shortest * by_logarithm(chance, 1.0, 3.0) for name in "xy"}
+        left_out = chance.choice(("wavelength_x", "wavelength_y", ""))
+        waves.pop(str(left_out), None)
+        return {"kind": "waviness", "amplitude": rms * 2.0 ** (0.5 * len(waves)), **waves}
+    return {
+        "kind": "self-affine",
+        "rms": rms,
+        "hurst": float(chance.uniform(0.5, 0.95)),
+        "seed": number,
+        "shortest_wavelength": shortest,
+        "longest_wavelength": shortest * by_logarithm(chance, *LONGEST),
+        "aspect": float(chance.choice((1.0, 1.0, 3.0, 6.0))),
+        "angle": _angle(chance),
+    }
+
+
+def row(case, contact, result):
+    """Text of one case, from its contact and its `Result`."""
+    mixed, surface = result.mixed, case.tables["surface"]
+    mean, loaded = (mixed.error.mean_nm, mixed.error.loaded_nm) if mixed.error else (None, None)
+    return {
+        "case": str(case.number),
+        "E' GPa": f"{1e-9 * contact.reduced_modulus:.0f}",
+        "p_h GPa": f"{1e-9 * contact.hertz.p_h:.3g}",
+        "R_y/R_x": f"{contact.radius_y / contact.radius_x:.2f}",
+        "angle": f"{case.tables['motion']['angle']:.0f}",
+        "surface": _finish(surface),
+        "Sq nm": f"{mixed.Sq_nm:.0f}",
+        "layers nm": f"{1e9 * case.tables['contact']['boundary_film']:.0f}",
+        "lambda": f"{mixed.lambda_ratio:.3g}",
+        "inlet cells": f"{result.resolution.inlet_cells:.2f}",
+        "nodes in the shortest wave": f"{result.resolution.surface_nodes:.1f}",
+        "load on contact %": f"{100.0 * mixed.contact_load_share:.2f}",
+        "mean gap nm": with_band(mixed.mean_gap_nm, mean),
+        "by pressure nm": with_band(mixed.loaded_gap_nm, loaded),
+        "convolutions": f"{result.work.convolutions:.1f}",
+        "verdict": verdict(result),
+    }
+
+
+def _finish(surface):
+    """A surface in a word or two."""
+    if surface["kind"] == "waviness":
+        ways = [name for name in "xy" if f"wavelength_{name}" in surface]
+        return f"waves along {' and '.join(ways)}"
+    return f"random {surface['aspect']:.0f}:1"
+
+
+def summary(rows):
+    """Rows of the summary: verdicts, work, and how many gaps have a band."""
+    converged = [each for each in rows if each["verdict"] == "converged"]
+    lost = sum(each["verdict"].startswith("NOT CONVERGED") for each in rows)
+    touching = [each for each in converged if float(each["lambda"]) < 1.0]
+    numbers = {
+        "cases": str(len(rows)),
+        "converged": f"{len(converged)} ({100 * len(converged) / len(rows):.1f} %)",
+        "settled, and in doubt": str(len(rows) - len(converged) - lost),
+        "not settled": str(lost),
+        "convolutions of the converged, mean": _of(np.mean, converged),
+        "convolutions of the converged, median": _of(np.median, converged),
+        "lambda below 1, converged": str(len(touching)),
+        "of these, a mean gap with a band": str(sum("±" in each["mean gap nm"] for each in touching)),
+    }
+    return [{"what": what, "value": value} for what, value in numbers.items()]
+
+
+def _of(function, rows):
+    return f"{function([float(each['convolutions']) for each in rows]):.1f}" if rows else "none"
