@@ -73,12 +73,12 @@ def draw(cases, seed):
     for number in range(1, cases + 1):
         chance = np.random.default_rng([seed, number])
         drawn.append(_drawn(chance, number))
-        while _nodes_in_wave(drawn[-1]) < FEWEST:
+        while nodes_in_wave(drawn[-1]) < FEWEST:
             drawn[-1] = _drawn(chance, number)
     return drawn
 
 
-def _nodes_in_wave(case):
+def nodes_in_wave(case):
     """Nodes in the shortest wave on the domain that the case gets."""
     config = config_from_tables(merged(case.tables, {"grid": {"nodes": NODES}}))
     contact = contact_from(config)
@@ -100,7 +100,7 @@ def _drawn(chance, number):
     contact = contact_from(config_from_tables(smooth))
     rms = float(np.clip(contact.expected_film / by_logarithm(chance, *LAMBDA), *RMS))
     shortest = by_logarithm(chance, *SHORTEST) * min(contact.hertz.a, contact.hertz.b)
-    return Drawn(number, smooth | {"surface": _surface(chance, number, rms, shortest)})
+    return Drawn(number, smooth | {"surface": surface_of(chance, number, rms, shortest)})
 
 
 def _bodies(chance):
@@ -122,7 +122,7 @@ def _angle(chance):
     return float(chance.uniform(5.0, 85.0)) if chance.random() < 1.0 / 3.0 else 0.0
 
 
-def _surface(chance, number, rms, shortest):
+def surface_of(chance, number, rms, shortest):
     """A random surface, or ridges along, across or both."""
     if chance.random() < 0.4:
         waves = {f"wavelength_{name}": shortest * by_logarithm(chance, 1.0, 3.0) for name in "xy"}
@@ -151,7 +151,7 @@ def row(case, contact, result):
         "p_h GPa": f"{1e-9 * contact.hertz.p_h:.3g}",
         "R_y/R_x": f"{contact.radius_y / contact.radius_x:.2f}",
         "angle": f"{case.tables['motion']['angle']:.0f}",
-        "surface": _finish(surface),
+        "surface": finish(surface),
         "Sq nm": f"{mixed.Sq_nm:.0f}",
         "layers nm": f"{1e9 * case.tables['contact']['boundary_film']:.0f}",
         "lambda": f"{mixed.lambda_ratio:.3g}",
@@ -165,7 +165,7 @@ def row(case, contact, result):
     }
 
 
-def _finish(surface):
+def finish(surface):
     """A surface in a word or two."""
     if surface["kind"] == "waviness":
         ways = [name for name in "xy" if f"wavelength_{name}" in surface]
