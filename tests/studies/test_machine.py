@@ -20,7 +20,7 @@ def read(path):
 @pytest.fixture
 def one_case(monkeypatch):
     """A steel ball with long waves, which 65 nodes show."""
-    waves = {"kind": "waviness", "amplitude": 50e-9, "wavelength_x": 0.1e-3}
+    waves = {"kind": "waviness", "amplitude": 100e-9, "wavelength_x": 0.1e-3}
     bodies = {
         "radius_x": 0.01,
         "radius_y": 0.01,
@@ -28,7 +28,7 @@ def one_case(monkeypatch):
         "load": 50.0,
         "boundary_film": 2e-9,
     }
-    motion = {"speed": 0.05, "angle": 0.0}
+    motion = {"speed": 0.01, "angle": 0.0}
     monkeypatch.setattr(
         machine, "draw", lambda *_: [Drawn(1, {"contact": bodies, "motion": motion, "surface": waves})]
     )
@@ -44,7 +44,7 @@ def test_a_case(tmp_path, one_case, monkeypatch, steps, verdict):
     (found,) = read(here / "machine.csv")
     assert found["verdict"].startswith(verdict) and found["surface"] == "waves along x"
     assert (found["E' GPa"], found["layers nm"]) == ("226", "2")
-    assert float(found["Sq nm"]) == pytest.approx(50.0 / 2.0**0.5, abs=1.0)
+    assert float(found["Sq nm"]) == pytest.approx(100.0 / 2.0**0.5, abs=1.0)
     assert ("±" in found["mean gap nm"]) is bool(steps)
     said = {each["what"]: each["value"] for each in read(here / "machine-summary.csv")}
     assert said["converged"] == ("1 (100.0 %)" if steps else "0 (0.0 %)")
