@@ -59,7 +59,7 @@ def _described(config, contact, mesh):
 def _inlet(config, contact, mesh):
     """Lines about the inlet on every grid."""
     from mgehl.kinds.loaded import speed_words
-    from mgehl.output.domain import beyond_words, domain_verdict, domain_words, film_lost, room_words
+    from mgehl.output import domain
     from mgehl.output.forecast import LARGEST_NODES, inlet_grids
     from mgehl.output.resolution import RESOLVED_CELLS, expectation, resolving_nodes
 
@@ -74,10 +74,11 @@ def _inlet(config, contact, mesh):
     verdict = "this grid does" if needed <= config.grid.nodes else f"recommended: grid.nodes={needed}"
     if needed > LARGEST_NODES:
         verdict = f"no grid up to {LARGEST_NODES} does; a higher speed or a smaller domain helps"
-    lost = film_lost(contact, mesh)
-    yield f"domain     {room_words(mesh)}"
-    yield f"           {domain_words(domain_verdict(lost), lost)}"
-    yield from (f"load       {words}" for words in beyond_words(100.0 * contact.share_beyond(mesh)))
+    lost = domain.film_lost(contact, mesh)
+    yield f"domain     {domain.room_words(mesh)}"
+    yield f"           {domain.domain_words(domain.domain_verdict(lost), lost)}"
+    yield from (f"           {words}" for words in domain.peaks_words(contact, mesh))
+    yield from (f"load       {words}" for words in domain.beyond_words(100.0 * contact.share_beyond(mesh)))
     yield f"resolved   with {RESOLVED_CELLS:.0f} cells in the inlet, from {needed} nodes on: {verdict}"
 
 

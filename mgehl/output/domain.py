@@ -6,6 +6,7 @@ say the same.
 
 from math import isnan
 
+from mgehl.model.peaks import reach_of_peaks
 from mgehl.model.starvation import Starvation
 
 STARVED_FROM = 1.0
@@ -46,6 +47,16 @@ def beyond_words(percent):
     """How much of the load the film in a domain need not carry, in a list; empty where hardly any."""
     words = f"{percent:.1f} % of it is carried beyond the domain or lost at its sides, the rest within"
     return [words] if percent >= 0.05 else []
+
+
+def peaks_words(contact, mesh):
+    """How far out peaks may touch, in a list; empty where the domain of a mesh holds them."""
+    reach = reach_of_peaks(contact, contact.flooded_film)
+    sides = zip(reach, (mesh.x,) if mesh.is_line else (mesh.x, mesh.y), "ab", strict=False)
+    outside = [f"{peak:.2f} {unit}" for peak, ends, unit in sides if peak > min(-ends[0], ends[1])]
+    if not outside:
+        return []
+    return [f"peaks may touch up to {' and '.join(outside)} from the centre, outside of it"]
 
 
 def room_words(mesh):
