@@ -139,6 +139,13 @@ mixed: $(ENVIRONMENT)
 
 .PHONY: mixed
 
+# make machine   run study machine and write its tables to runs/tables (a quarter of an hour); cases that did not converge say so
+machine: $(ENVIRONMENT)
+	( $(ON) mpiexec -n 2 python -m mgehl study machine --resume --quiet ); test $$? -le 1
+	for t in machine machine-summary; do for e in md csv; do cp runs/study-machine/$$t.$$e runs/tables/$$t.$$e || exit 1; done; done
+
+.PHONY: machine
+
 # make layers    contact that keeps a boundary film of 2 nm: a rough surface on three grids, a smooth ball from film and contact
 BAND := configs/rough.toml --set contact.load="100 N" --set surface.shortest_wavelength="45 um" --set motion.speed="0.1 mm/s" \
   --set discretization.couette=1B
