@@ -66,7 +66,9 @@ class MotionSection:
 class GridSection:
     nodes: int = key_field(257, "nodes along each side, 2^k + 1", low=65, high=16385, kind=int)
     x: tuple | str = key_field(
-        AUTO, "domain along x in units of the Hertz semi-axis a: two numbers, or by the film", kind=tuple
+        AUTO,
+        "domain along x in units of the Hertz semi-axis a: two numbers, or by film and peaks",
+        kind=tuple,
     )
     y: tuple | str = key_field(AUTO, "the same along y in units of the semi-axis b", kind=tuple)
     load_beyond: bool | None = key_field(
@@ -116,7 +118,7 @@ class SolverSection:
     max_steps: int = key_field(200, "Newton steps on one grid at the most", low=0, high=10000, kind=int)
     idle_steps: int | None = key_field(
         None,
-        "steps in vain after which a solve is given up (unset: 15; in time 30, rough or layered bodies 60)",
+        "steps in vain after which a solve is given up (unset: 15; in time 30; rough, soft, layered 60)",
         low=1, high=10000, kind=int,
     )  # fmt: skip
     linear_tolerance: float = key_field(

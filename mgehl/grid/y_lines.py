@@ -10,7 +10,7 @@ PIECE = 2**18
 """Nodes of a rank in a piece of its y-lines: what they have stays in the cache."""
 
 UNEVEN = 1.05
-"""Times the mean work of a rank that one may have before lines are dealt out anew."""
+"""How many times as much work as need be a rank may have before lines are dealt out anew."""
 
 
 class YLines:
@@ -22,9 +22,8 @@ class YLines:
 
     def follow(self, work):
         """Deal the lines out anew if one rank has too much of their `work` (nx,); whether they were."""
-        ranks, shares = len(self._shares), shares_of_work(work, len(self._shares))
-        most = max(work[slice(*share)].sum() for share in self._shares)
-        if most * ranks <= UNEVEN * work.sum() or shares == self._shares:
+        shares = shares_of_work(work, len(self._shares))
+        if _most(work, self._shares) <= UNEVEN * _most(work, shares):
             return False
         self.destroy()
         self._deal_out(shares)
@@ -51,6 +50,11 @@ class YLines:
         for plane in self._planes:
             if plane:
                 plane.destroy()
+
+
+def _most(work, shares):
+    """The largest share of the work."""
+    return max(work[slice(*share)].sum() for share in shares)
 
 
 def _cut(share, count):

@@ -14,9 +14,14 @@ def settled(config, contact):
     upstream. Layered bodies count as half-spaces whose contact is as wide.
     """
     grid = config.grid
-    open_ends = [name for name in ("x" if contact.is_plane else "xy") if getattr(grid, name) == AUTO]
-    if not open_ends:
+    names = open_ends(grid, contact)
+    if not names:
         return config
     starvation = Starvation(contact, contact.flooded_film)
     found = dict(zip("xy", domain_for(starvation, grid.nodes, FARTHEST), strict=True))
-    return replace(config, grid=replace(grid, **{name: found[name] for name in open_ends}))
+    return replace(config, grid=replace(grid, **{name: found[name] for name in names}))
+
+
+def open_ends(grid, contact):
+    """The axes of a grid's section that are "auto"."""
+    return [name for name in ("x" if contact.is_plane else "xy") if getattr(grid, name) == AUTO]

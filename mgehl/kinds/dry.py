@@ -2,9 +2,8 @@
 
 from dataclasses import replace
 
-from mgehl.config_value import AUTO
 from mgehl.errors import ConfigError
-from mgehl.kinds import loaded_checks
+from mgehl.kinds import domain, loaded_checks
 from mgehl.kinds.kind import Effort
 from mgehl.kinds.line import LineKind
 from mgehl.kinds.loaded import LoadedKind
@@ -56,8 +55,11 @@ class DryKind(LoadedKind):
 
     def settled(self, config, contact):
         """A domain that is "auto" ends so far from the smooth contact and its peaks."""
-        peaks = zip("x" if contact.is_plane else "xy", reach_of_peaks(contact, 0.0), strict=False)
-        found = {name: _ends(contact, peak) for name, peak in peaks if getattr(config.grid, name) == AUTO}
+        open_ends = domain.open_ends(config.grid, contact)
+        if not open_ends:
+            return config
+        peaks = dict(zip("xy", reach_of_peaks(contact, 0.0), strict=True))
+        found = {name: _ends(contact, peaks[name]) for name in open_ends}
         return replace(config, grid=replace(config.grid, **found))
 
     def check_fluid(self, config, contact):

@@ -55,7 +55,7 @@ class LoadedKind(Kind):
         loaded_checks.check_deformation(config, contact)
         loaded_checks.check_size(*self.size(config, contact))
         if contact.surface is not None:
-            surface.check_known(config)
+            surface.check_known(config, contact)
             surface.check_surfaces(config, contact, self.mesh(config, contact))
         self.check_fluid(config, contact)
 

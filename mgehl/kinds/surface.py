@@ -163,11 +163,15 @@ def check_surfaces(config, contact, mesh):
                 _check_size(key, surface, contact)
 
 
-def check_known(config):
-    """Raise ConfigError unless every surface has a height: "auto" asks for more of them."""
+def check_known(config, contact):
+    """Raise ConfigError unless every surface has heights: an "auto" domain asks for them."""
+    side = contact.hertz.a * np.linspace(-1.0, 1.0, 3)
     for key, surface in parts_of(config):
         with _naming(key):
-            surface.height(np.zeros((1, 1)), np.zeros((1, 1)))
+            if isinstance(surface, OwnSurface):
+                surface.check(side, side, contact.hertz.a)
+            else:
+                surface.height(side[None, :], side[:, None])
 
 
 @contextmanager

@@ -140,7 +140,10 @@ class LoadedContact:
 
     @property
     def is_soft(self):
-        """Whether the bodies yield to pressures that hardly stiffen the oil: rubber, or steel in water."""
+        """Whether the bodies yield to pressures that hardly stiffen the oil: rubber, or steel in water.
+
+        Or so by the formulas' regime, in which any bodies are that hardly move.
+        """
         return films.is_soft(*self.asymptotes)
 
     @property

@@ -70,7 +70,7 @@ def end_beyond(peak):
 
 
 def _rounded_up(end):
-    return STEP * ceil(end / STEP - 1e-9)
+    return round(STEP * ceil(end / STEP - 1e-9), 4)
 
 
 def interval_on_nodes(before, after):

@@ -71,10 +71,17 @@ def _interface_conditions(config, contact):
     nodes: 2600 nodes, and no end; so it has a film after 117 convolutions).
     """
     section, boundary_film = config.discretization, config.contact.boundary_film
-    may_touch = contact.roughness > 0.0 or contact.is_soft
+    may_touch = contact.roughness > 0.0 or _has_soft_film(config, contact)
     if boundary_film > 0.0 or (may_touch and section.face_mobility == LINEAR_GAP):
         return BoundaryFilm(max(boundary_film, section.film_threshold) / contact.film_scale)
     return InterfaceConditions(section.film_threshold / contact.film_scale)
+
+
+def _has_soft_film(config, contact):
+    """Whether a solve leads to a film of soft bodies: nearly at rest all count as soft, and touch."""
+    if not contact.is_soft or config.solver.start != "film":
+        return False
+    return contact.expected_film > config.discretization.film_threshold
 
 
 def _unified_equations(config, contact):

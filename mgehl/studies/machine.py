@@ -25,10 +25,8 @@ RADIUS, RATIO = (2e-3, 5e-2), (0.3, 8.0)
 SPEED, VISCOSITY, PRESSURE_VISCOSITY = (1e-3, 3.0), (4e-3, 0.3), (8e-9, 24e-9)
 LAMBDA, RMS = (0.03, 3.0), (1e-8, 1e-6)
 """Film of smooth bodies over the roughness, as far as the roughness in m stays within its limits."""
-SHORTEST, LONGEST = (0.12, 0.4), (2.0, 12.0)
-"""The shortest wave over the smaller semi-axis, and the longest over the shortest."""
-FEWEST = 4.0
-"""Nodes in the shortest wave: with fewer the grid shows another surface, and mgehl says so."""
+SHORTEST, LONGEST = (6.0, 20.0), (2.0, 12.0)
+"""The shortest wave in cells of `NODES` nodes on the smooth bodies' domain, and the longest over it."""
 LAYERS = (0.0, 0.0, 0.0, 2e-9, 5e-9)
 """Boundary films in m."""
 
@@ -68,22 +66,8 @@ def run(study):
 
 
 def draw(cases, seed):
-    """So many `Drawn` whose waves `NODES` nodes show. A longer list begins with the same cases."""
-    drawn = []
-    for number in range(1, cases + 1):
-        chance = np.random.default_rng([seed, number])
-        drawn.append(_drawn(chance, number))
-        while nodes_in_wave(drawn[-1]) < FEWEST:
-            drawn[-1] = _drawn(chance, number)
-    return drawn
-
-
-def nodes_in_wave(case):
-    """Nodes in the shortest wave on the domain that the case gets."""
-    config = config_from_tables(merged(case.tables, {"grid": {"nodes": NODES}}))
-    contact = contact_from(config)
-    mesh = mesh_from(config, contact)
-    return contact.shortest_wave(mesh) / contact.longest_cell(mesh)
+    """So many `Drawn`. A longer list begins with the same cases."""
+    return [_drawn(np.random.default_rng([seed, number]), number) for number in range(1, cases + 1)]
 
 
 def _drawn(chance, number):
@@ -97,9 +81,10 @@ def _drawn(chance, number):
         },
         "motion": {"speed": by_logarithm(chance, *SPEED), "angle": _angle(chance)},
     }
-    contact = contact_from(config_from_tables(smooth))
+    config = config_from_tables(merged(smooth, {"grid": {"nodes": NODES}}))
+    contact = contact_from(config)
     rms = float(np.clip(contact.expected_film / by_logarithm(chance, *LAMBDA), *RMS))
-    shortest = by_logarithm(chance, *SHORTEST) * min(contact.hertz.a, contact.hertz.b)
+    shortest = by_logarithm(chance, *SHORTEST) * contact.longest_cell(mesh_from(config, contact))
     return Drawn(number, smooth | {"surface": surface_of(chance, number, rms, shortest)})
 
 

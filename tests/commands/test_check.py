@@ -57,7 +57,7 @@ def test_of_a_rough_ball_it_is_said_that_peaks_come_through(told):
 
 def test_peaks_that_touch_outside_of_the_domain_are_said(told):
     near = "--set", "grid.x=[-1.2, 1.1]", "--set", "grid.y=[-2, 2]", "--set", "motion.speed=0.001"
-    words = "peaks may touch up to 1.37 a from the centre, outside of it"
+    words = "peaks may touch up to 1.13 a from the centre, outside of it"
     assert words in told("rough.toml", *near) and "peaks may touch" not in told("rough.toml")
     auto = "--set", "grid.x=auto", "--set", "grid.y=auto"
     assert "peaks may touch" not in told("rough.toml", *auto)

@@ -5,12 +5,11 @@ import pytest
 
 from mgehl.config import config_from_tables
 from mgehl.kinds import contact_from
-from mgehl.model.peaks import DISTANCES, FARTHEST, reach_of_peaks
+from mgehl.model.peaks import LOOKED_AT_LAST, reach_of_peaks
 from mgehl.studies.study import merged
 
 WAVES = {"kind": "waviness", "wavelength_x": 10e-6, "wavelength_y": 10e-6}
 LIGHT = {"contact": {"load": 1.0}, "motion": {"speed": 0.01}}
-ONE_STEP = DISTANCES[1] / DISTANCES[0]
 
 
 def reach(tables, film=0.0):
@@ -25,11 +24,12 @@ def waves(height):
 
 
 @pytest.mark.parametrize("height", [20e-9, 100e-9, 1e-6])
-def test_there_the_gap_of_the_dry_contact_is_as_high(height):
+def test_there_the_last_crest_is_as_high_as_the_gap(height):
+    """The next one, a wavelength farther out, is lower than the gap."""
     (X, Y), contact = reach(waves(height))
     assert X == Y > 1.0
-    gaps = contact.film_scale * contact.dry_gap(np.array([X / ONE_STEP, X]), np.zeros(2))
-    assert gaps[0] < height - contact.mean_height <= gaps[1]
+    gaps = contact.film_scale * contact.dry_gap(np.array([X, X + 10e-6 / contact.x_scale]), np.zeros(2))
+    assert gaps[0] < height < gaps[1]
 
 
 def test_a_film_keeps_the_bodies_apart():
@@ -48,8 +48,23 @@ def test_smooth_bodies_and_valleys_touch_nowhere_else():
 def test_across_a_wide_contact_it_is_less_in_units_of_its_width():
     (X, Y), contact = reach(merged(waves(100e-9), {"contact": {"radius_y": 0.1}}))
     assert contact.y_scale > 2.0 * contact.x_scale and 1.0 < Y < X
-    gap = contact.film_scale * contact.dry_gap(np.zeros(1), np.array([Y]))[0]
-    assert gap == pytest.approx(100e-9 - contact.mean_height, rel=0.1)
+
+
+@pytest.mark.parametrize("across", [False, True])
+def test_a_ridge_reaches_along_itself_alone(across):
+    """On a ball under 1 N it touches far out along y, and within the contact along x."""
+    ridge = {"kind": "ridge", "amplitude": 200e-9, "width": 20e-6, "angle": 90.0 if across else 0.0}
+    (X, Y), _ = reach(merged(LIGHT, {"surface": ridge}))
+    along, beside = (X, Y) if across else (Y, X)
+    assert along > 1.3 and beside < 1.0
+
+
+def test_waves_with_a_valley_in_the_middle_are_found():
+    """At whatever phase: the highest peak need not be at the centre."""
+    middle = waves(1e-6)
+    beside = merged(waves(1e-6), {"surface": {"x": 5e-6}})
+    (here, _), (there, _) = reach(middle)[0], reach(beside)[0]
+    assert there == pytest.approx(here, abs=0.3)
 
 
 def test_a_line_contact_has_none_across():
@@ -67,5 +82,6 @@ def test_a_peak_outside_of_the_contact_is_found():
     assert contact.x_scale < 60e-6 < alone * contact.x_scale and both > 1.3 * alone
 
 
-def test_what_is_too_high_reaches_to_the_last_distance():
-    assert reach(waves(1e-4))[0] == (FARTHEST, FARTHEST)
+def test_what_is_too_high_is_looked_for_so_far():
+    (X, Y), _ = reach(waves(1e-4))
+    assert LOOKED_AT_LAST - 1.0 < X == Y <= LOOKED_AT_LAST
