@@ -139,7 +139,7 @@ mixed: $(ENVIRONMENT)
 
 .PHONY: mixed
 
-# make machine   run study machine and write its tables to runs/tables (a quarter of an hour); cases that did not converge say so
+# make machine   run study machine and write its tables to runs/tables (ten minutes); cases that did not converge say so
 machine: $(ENVIRONMENT)
 	( $(ON) mpiexec -n 2 python -m mgehl study machine --resume --quiet ); test $$? -le 1
 	for t in machine machine-summary; do for e in md csv; do cp runs/study-machine/$$t.$$e runs/tables/$$t.$$e || exit 1; done; done

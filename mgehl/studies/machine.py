@@ -14,7 +14,7 @@ from mgehl.output.digits import with_band
 from mgehl.studies.rough_ball import by_logarithm
 from mgehl.studies.study import merged, verdict
 
-NODES, CASES, SEED = 257, 120, 7
+NODES, CASES, SEED = 257, 60, 7
 
 HARD, SOFT = (226e9, 226e9, 226e9, 110e9), (20e9, 4e9)
 """E' in Pa: steel more often than bronze; soft metals and polymers."""
