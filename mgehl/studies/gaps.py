@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mgehl.studies.rough_ball import BALL, HURST, RMS, by_logarithm
+from mgehl.studies.rough_ball import BALL, HURST, RMS, DrawnBall, by_logarithm
 from mgehl.studies.study import merged
 
 NODES, CASES, SEED = (257, 513), 40, 7
@@ -23,23 +23,15 @@ GAPS = {"mean": "mean gap", "loaded": "by pressure"}
 
 
 @dataclass(frozen=True)
-class Drawn:
-    """What chance chose for a case; `number` counts from 1 and is the seed of its surface. SI units."""
+class Drawn(DrawnBall):
+    """A ball with a shortest wave and layers of its own, in m."""
 
-    number: int
-    rms: float
-    load: float
-    speed: float
-    hurst: float
     shortest: float
     layers: float
 
     @property
     def title(self):
-        return (
-            f"{self.number}: {1e9 * self.rms:.0f} nm, {self.load:.0f} N, {1e3 * self.speed:.3g} mm/s, "
-            f"layers {1e9 * self.layers:g} nm"
-        )
+        return f"{self.number}: {super().title}, layers {1e9 * self.layers:g} nm"
 
     def tables(self, nodes, error):
         """Its configuration, with bands or without."""

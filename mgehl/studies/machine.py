@@ -108,7 +108,7 @@ def _angle(chance):
 
 
 def surface_of(chance, number, rms, shortest):
-    """A random surface, or ridges along, across or both."""
+    """A random surface, or waves along x, along y or both."""
     if chance.random() < 0.4:
         waves = {f"wavelength_{name}": shortest * by_logarithm(chance, 1.0, 3.0) for name in "xy"}
         left_out = chance.choice(("wavelength_x", "wavelength_y", ""))

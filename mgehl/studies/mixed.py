@@ -12,7 +12,7 @@ import numpy as np
 from mgehl.config import config_from_tables
 from mgehl.run import solve
 from mgehl.studies.cache import key_of
-from mgehl.studies.rough_ball import BALL, HURST, RMS, by_logarithm
+from mgehl.studies.rough_ball import BALL, HURST, RMS, DrawnBall, by_logarithm
 from mgehl.studies.study import merged, verdict
 
 NODES, CASES, SEED = 257, 120, 7
@@ -26,19 +26,8 @@ CASE = merged(
 """What all cases have in common: the usual scheme, no boundary film."""
 
 
-@dataclass(frozen=True)
-class Drawn:
-    """What chance chose for a case; `number` counts from 1 and is the seed of its surface."""
-
-    number: int
-    rms: float
-    load: float
-    speed: float
-    hurst: float
-
-    @property
-    def title(self):
-        return f"{1e9 * self.rms:.0f} nm, {self.load:.0f} N, {1e3 * self.speed:.3g} mm/s"
+class Drawn(DrawnBall):
+    """A ball without layers."""
 
     def tables(self, nodes):
         """Its configuration."""

@@ -1,5 +1,6 @@
 """The rough ball of several studies: what its cases have in common, and how chance draws others."""
 
+from dataclasses import dataclass
 from math import log
 
 import numpy as np
@@ -13,6 +14,21 @@ BALL = {
 
 RMS, HURST = (20e-9, 400e-9), (0.5, 0.9)
 """From, to: roughness in m, Hurst's exponent."""
+
+
+@dataclass(frozen=True)
+class DrawnBall:
+    """What chance chose for a ball, in SI units; `number` counts from 1 and is the seed of its surface."""
+
+    number: int
+    rms: float
+    load: float
+    speed: float
+    hurst: float
+
+    @property
+    def title(self):
+        return f"{1e9 * self.rms:.0f} nm, {self.load:.0f} N, {1e3 * self.speed:.3g} mm/s"
 
 
 def by_logarithm(chance, low, high):
