@@ -62,7 +62,7 @@ def run(config, directory, comm, watch=Watch(), start=None):
     solution = solve(config, comm, replace(watch, directory=directory, identity=identity), start)
     if comm.rank == 0:
         watch.speaker.writing()
-    files.on_first_rank(comm, finish_run, directory, solution)
+    finish_run(comm, directory, solution)
     if comm.rank == 0:
         watch.speaker.end(solution, directory)
     return solution.result

@@ -3,6 +3,7 @@
 from dataclasses import dataclass, replace
 
 import numpy as np
+from mpi4py import MPI
 from numpy.typing import NDArray
 
 from mgehl.config import Config
@@ -84,6 +85,19 @@ class Solution:
     def summary(self) -> Result | WedgeResult | DryResult:
         """Films, verdicts, contact, formulas and work: what result.json holds."""
         return self.result
+
+    def fields_on(self, comm: MPI.Comm, rank: int) -> Fields | None:
+        """The whole-grid fields, which rank 0 has, on another rank, too; None elsewhere (collective)."""
+        if comm.rank not in (0, rank):
+            return None
+        shape = self.mesh.ny, self.mesh.nx
+        fields = self.fields or Fields(np.empty(shape), np.empty(shape), np.empty(shape, np.int8))
+        for array in (fields.P, fields.H, fields.status):
+            if comm.rank == 0:
+                comm.Send(np.ascontiguousarray(array), rank)
+            else:
+                comm.Recv(array, 0)
+        return fields
 
     def shared(self) -> "Solution":
         """What every rank knows."""

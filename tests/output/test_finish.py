@@ -23,11 +23,11 @@ def empty_directory(tmp_path, monkeypatch):
 
 
 def test_a_picture_that_cannot_be_drawn_costs_nothing(tmp_path, capsys, monkeypatch):
-    def broken(path, solution):
+    def broken(solution):
         raise RuntimeError("Failed to process string with tex because latex could not be found")
 
     with monkeypatch.context() as change:
-        change.setattr("mgehl.output.pictures.picture.draw", broken)
+        change.setattr("mgehl.output.pictures.picture.drawn", broken)
         assert main(DRY) == 0
     (line,) = capsys.readouterr().err.splitlines()
     assert "picture.png: cannot be drawn: Failed to process string" in line

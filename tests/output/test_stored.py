@@ -43,7 +43,7 @@ def written(tmp_path_factory):
             config = config_from_tables(KINDS[kind])
             made[kind] = solve(config, MPI.COMM_SELF), directory
             begin_run(directory, config)
-            finish_run(directory, made[kind][0])
+            finish_run(MPI.COMM_SELF, directory, made[kind][0])
         return made[kind]
 
     return make

@@ -72,3 +72,34 @@ MISTAKES = [
 @pytest.mark.parametrize("words", MISTAKES, ids=" ".join)
 def test_mistakes(directory, capsys, words):
     said_once(capsys, 2, *words)
+
+
+class TestPicture:
+    """The last rank draws it."""
+
+    SMALL = ["run", "--set", "grid.nodes=65", "--quiet", "--no-error"]
+    KINDS = {
+        "ball": [*SMALL, "--set", "grid.x=[-1.9, 1.3]", "--set", "grid.y=[-1.5, 1.5]"],
+        "line": [*SMALL, "--set", "contact.kind=line", "--set", "motion.speed=0.5"],
+        "wedge": WEDGE,
+    }
+
+    @pytest.mark.parametrize("kind", KINDS)
+    def test_it_is_the_one_that_is_drawn_from_the_files(self, directory, kind):
+        assert main([*self.KINDS[kind], "--out", "here"]) in (0, 1)
+        drawn = COMM.bcast((directory / "here" / "picture.png").read_bytes() if COMM.rank == 0 else None)
+        if COMM.rank == 0:
+            (directory / "here" / "picture.png").unlink()
+        COMM.barrier()
+        assert main(["run", "--resume", "here", "--quiet"]) in (0, 1)
+        assert (directory / "here" / "picture.png").read_bytes() == drawn
+
+    def test_one_that_cannot_be_drawn_costs_nothing(self, directory, capsys, monkeypatch):
+        def broken(solution):
+            raise RuntimeError("no latex")
+
+        monkeypatch.setattr("mgehl.output.pictures.wedge_picture.drawn", broken)
+        assert main([*WEDGE, "--out", "here"]) == 0
+        said = COMM.allgather(capsys.readouterr().err)
+        assert "picture.png: cannot be drawn: no latex" in said[0] and not any(said[1:])
+        assert (directory / "here" / "result.json").exists()

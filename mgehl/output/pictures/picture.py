@@ -7,8 +7,8 @@ BLOCKS = 350
 """Blocks of nodes along a side of its small map, about as many as it has dots."""
 
 
-def draw(path, solution):
-    """Write the picture of a `Solution`'s whole-grid fields to `path`."""
+def drawn(solution):
+    """The picture of a `Solution`'s whole-grid fields, as the bytes of a PNG file."""
     with style.applied():
         panels = 1 if solution.mesh.is_line else 3
         figure, axes = style.subplots(1, panels, size=(1.5 + 4.1 * panels, 4.4), squeeze=False)
@@ -20,4 +20,4 @@ def draw(path, solution):
             axes[0, 2].set_title(what)
             style.legend_below(axes[0, 2], handles, columns=2)
         figure.suptitle(title_with_films(solution))
-        style.save(figure, path)
+        return style.rendered(figure, "png")

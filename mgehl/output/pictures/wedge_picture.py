@@ -14,15 +14,15 @@ SIGNED, ROUNDING = "RdBu_r", 1e-9
 UNIT = "P = m$^2$p/($\\eta$u), 1/mm"
 
 
-def draw(path, solution):
-    """Write the picture that a run leaves, of a `Solution`, to `path`."""
+def drawn(solution):
+    """The picture that a run leaves, of a `Solution`, as the bytes of a PNG file."""
     with style.applied():
         figure, axes = style.subplots(1, 2, size=(10.5, 3.9))
         image = pressure_map(axes[0], solution.mesh, solution.fields)
         figure.colorbar(image, ax=axes[0], label=UNIT)
         _draw_line(axes[1], solution)
         figure.suptitle(title(solution))
-        style.save(figure, path)
+        return style.rendered(figure, "png")
 
 
 def centre_line(solution):

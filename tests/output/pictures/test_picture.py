@@ -14,7 +14,7 @@ from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
 from mgehl.model.hertz import hertz_pressure
 from mgehl.output.film_error import NOT_ASKED
 from mgehl.output.pictures import style
-from mgehl.output.pictures.picture import draw
+from mgehl.output.pictures.picture import drawn
 from mgehl.output.result import Overlap
 from mgehl.output.solution import Fields, Solution
 
@@ -51,7 +51,7 @@ def solution(mesh, fields, paper_contact):
 def image(tmp_path, solution):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        draw(tmp_path / "picture.png", solution)
+        (tmp_path / "picture.png").write_bytes(drawn(solution))
     return plt.imread(tmp_path / "picture.png")[..., :3]
 
 
@@ -80,7 +80,7 @@ def test_the_curves_are_drawn(image):
 def test_the_map_shows_the_set_that_is_given(tmp_path, solution, image):
     status = solution.fields.status
     status[status == CONTACT] = LUBRICATED
-    draw(tmp_path / "film.png", solution)
+    (tmp_path / "film.png").write_bytes(drawn(solution))
     film = plt.imread(tmp_path / "film.png")[..., :3]
     assert share(film, style.CONTACT_COLOUR) < 0.2 * share(image, style.CONTACT_COLOUR)
 
