@@ -34,6 +34,13 @@ LOST = 0.1
 gap fixed that is far from an answer (a soft ball with ridges along the motion: two thirds of the load, and
 the bodies closed for good; with 0.5 that ball is not found). A line contact takes four steps more by it."""
 
+GAINED = 0.2
+"""Part of the load that a relaxation may add where peaks touch, over the film of smooth bodies in units of
+H. Such bodies begin with all of the load on the dry contact. What is added lifts them, by about as many
+units of H as it is parts of the load; around a film that is too thick the next relaxation adds more (a
+steel ellipse of 52 nm rms with a film of 27 nm: 690 nm after eight steps, and no end). With 0.03 to 0.3
+such contacts settle, with 1 not all; others take the same steps or fewer."""
+
 SWEEPS = 40
 """Sweeps over all lines at the most; they end when one changes no status. From 4 to 400 the same steps on
 129 and 257 nodes: the finer the grid, the further a boundary has to go."""
@@ -65,7 +72,7 @@ def relax_cavitation_set(problem, state, evaluation):
             break
     relaxed = np.where(movable, np.where(lubricated, LUBRICATED, CAVITATED), state.status)
     moved = grid.count(relaxed != state.status)
-    if moved and not _loses_load(grid, state.P, own(P)):
+    if moved and _may_carry(problem, grid.sum(state.P.sum()), grid.sum(own(P).sum())):
         state.P[:] = own(P)
         state.status[:] = relaxed
         problem.change_pressure(evaluation, P)
@@ -73,9 +80,13 @@ def relax_cavitation_set(problem, state, evaluation):
     return 0
 
 
-def _loses_load(grid, P, relaxed):
-    """Whether the `relaxed` pressure carries too little of what P, both (lines, nx), carries."""
-    return grid.sum(relaxed.sum()) < (1.0 - LOST) * grid.sum(P.sum())
+def _may_carry(problem, before, after):
+    """Whether a relaxation may change the load, in any unit, from `before` to `after`."""
+    contact, least = problem.contact, (1.0 - LOST) * before
+    if not problem.scheme.lets_peaks_touch(contact):
+        return least <= after
+    film = contact.expected_film / contact.film_scale
+    return least <= after <= (1.0 + GAINED * film) * before
 
 
 def cavities_rest(problem, state, evaluation):

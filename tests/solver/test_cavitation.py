@@ -7,6 +7,7 @@ from mgehl.discretization.axes import HALO
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
 from mgehl.solver import cavitation as module
 from mgehl.solver.cavitation import (
+    GAINED,
     LOST,
     WEAKLY_COUPLED,
     cavities_rest,
@@ -83,11 +84,11 @@ def test_a_spoiled_set_is_restored(film, spoil):
     np.testing.assert_allclose(state.P, solved.P, rtol=0.0, atol=1e-4)
 
 
-def lost(part, monkeypatch):
-    """Have the relaxation leave the gap's fluid with this part less of the load, one node of it torn."""
+def carrying(part, monkeypatch):
+    """Have the relaxation leave the gap's fluid with this part of the load, one node of it torn."""
 
     def relax(_first, P, lubricated, *_):
-        P *= (1.0 - part) ** 0.5  # for each of the two colours of the last sweep
+        P *= part**0.5  # for each of the two colours of the last sweep
         changed = lubricated[2, 2]
         lubricated[2, 2] = False
         return int(changed)
@@ -97,14 +98,29 @@ def lost(part, monkeypatch):
     monkeypatch.setattr(module, "_relaxable", lambda *_: np.ones((65, 65), dtype=bool))
 
 
-@pytest.mark.parametrize("part, moves", [(0.5 * LOST, True), (1.5 * LOST, False)])
-def test_what_would_take_the_load_away_is_left_alone(film, monkeypatch, part, moves):
-    problem, state = film.problem, film.outcome.state.copy()
-    lost(part, monkeypatch)
+def moves(problem, state, part, monkeypatch):
+    """Whether a relaxation that leaves this part of the load is taken, and changes what it should."""
+    carrying(part, monkeypatch)
     before, load = state.copy(), state.P.sum()
-    assert (relax(problem, state) > 0) is moves
-    assert state.P.sum() == pytest.approx((1.0 - part * moves) * load)
-    assert np.array_equal(state.status, before.status) is not moves
+    taken = relax(problem, state) > 0
+    assert state.P.sum() == pytest.approx((part if taken else 1.0) * load)
+    assert np.array_equal(state.status, before.status) is not taken
+    return taken
+
+
+@pytest.mark.parametrize("lost, taken", [(0.5 * LOST, True), (1.5 * LOST, False), (-5.0, True)])
+def test_what_would_take_the_load_away_is_left_alone(film, monkeypatch, lost, taken):
+    assert moves(film.problem, film.outcome.state.copy(), 1.0 - lost, monkeypatch) is taken
+
+
+@pytest.mark.parametrize("gained, taken", [(0.9, True), (1.1, False), (-1.0, True)])
+def test_where_peaks_touch_what_would_lift_the_bodies_is_left_alone(film, monkeypatch, gained, taken):
+    """In parts of what may be added."""
+    problem, contact = film.problem, film.problem.contact
+    film_of_formula = contact.expected_film / contact.film_scale
+    monkeypatch.setattr(type(problem.scheme), "lets_peaks_touch", lambda *_: True)
+    part = 1.0 + gained * GAINED * film_of_formula
+    assert moves(problem, film.outcome.state.copy(), part, monkeypatch) is taken
 
 
 @pytest.mark.parametrize("spoil", [dry_cavity, torn_rim])
