@@ -11,6 +11,7 @@ from mgehl.discretization.scheme import Scheme
 from mgehl.solver.foothold import (
     ASTRAY,
     HARD,
+    IN_VAIN,
     JUDGED,
     LONGER,
     LONGEST,
@@ -73,6 +74,21 @@ def test_where_every_step_is_judged_they_become_longer_than_their_rule_and_begin
     assert lengthened(position(SMALL, SMALL), every_step=True) == LONGER
     assert lengthened(position(SMALL, 2.0 * SMALL), every_step=True) == 2.0 * LONGER
     assert lengthened(position(SMALL, SMALL, shorter=LONGEST), every_step=True) == SHORTER
+
+
+@pytest.mark.parametrize("times", [1, 2])
+def test_steps_in_vain_may_go_round_in_a_circle_which_shorter_ones_leave(times):
+    gone_round = position(SMALL, SMALL)
+    gone_round.cycles *= times * IN_VAIN
+    assert lengthened(gone_round) == 1.0
+    gone_round.cycles.append(gone_round.cycles[0])
+    assert lengthened(gone_round) == SHORTER
+    gone_round.shorter = 10.0 * SHORTER
+    assert lengthened(gone_round) == 10.0 * LONGER * SHORTER
+    gone_round.cycles.append(SimpleNamespace(residual=0.5 * SMALL))
+    assert lengthened(gone_round) == 10.0 * LONGER * SHORTER
+    gone_round.shorter = 1.0
+    assert lengthened(gone_round) == 1.0
 
 
 def test_a_linear_system_that_was_given_up_led_nowhere():
