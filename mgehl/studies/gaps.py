@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mgehl.studies.rough_ball import BALL, HURST, RMS, DrawnBall, by_logarithm
-from mgehl.studies.study import merged
+from mgehl.studies.study import merged, statistic
 
 NODES, CASES, SEED = (257, 513), 40, 7
 
@@ -130,5 +130,4 @@ def summary(rows):
 
 
 def _median(values):
-    found = list(values)
-    return f"{np.median(found):.2f}" if found else "none"
+    return statistic(np.median, values, "{:.2f}")

@@ -12,7 +12,7 @@ from mgehl.config import config_from_tables
 from mgehl.kinds import contact_from, mesh_from
 from mgehl.output.digits import with_band
 from mgehl.studies.rough_ball import by_logarithm
-from mgehl.studies.study import merged, verdict
+from mgehl.studies.study import merged, statistic, verdict
 
 NODES, CASES, SEED = 257, 60, 7
 
@@ -162,19 +162,16 @@ def summary(rows):
     """Rows of the summary: verdicts, work, and how many gaps have a band."""
     converged = [each for each in rows if each["verdict"] == "converged"]
     lost = sum(each["verdict"].startswith("NOT CONVERGED") for each in rows)
+    work = [float(each["convolutions"]) for each in converged]
     touching = [each for each in converged if float(each["lambda"]) < 1.0]
     numbers = {
         "cases": str(len(rows)),
         "converged": f"{len(converged)} ({100 * len(converged) / len(rows):.1f} %)",
         "settled, and in doubt": str(len(rows) - len(converged) - lost),
         "not settled": str(lost),
-        "convolutions of the converged, mean": _of(np.mean, converged),
-        "convolutions of the converged, median": _of(np.median, converged),
+        "convolutions of the converged, mean": statistic(np.mean, work),
+        "convolutions of the converged, median": statistic(np.median, work),
         "lambda below 1, converged": str(len(touching)),
         "of these, a mean gap with a band": str(sum("±" in each["mean gap nm"] for each in touching)),
     }
     return [{"what": what, "value": value} for what, value in numbers.items()]
-
-
-def _of(function, rows):
-    return f"{function([float(each['convolutions']) for each in rows]):.1f}" if rows else "none"

@@ -13,7 +13,7 @@ from mgehl.config import config_from_tables
 from mgehl.run import solve
 from mgehl.studies.cache import key_of
 from mgehl.studies.rough_ball import BALL, HURST, RMS, DrawnBall, by_logarithm
-from mgehl.studies.study import merged, verdict
+from mgehl.studies.study import merged, statistic, verdict
 
 NODES, CASES, SEED = 257, 120, 7
 
@@ -143,14 +143,14 @@ def summary(found):
         "converged": f"{len(good)} ({100 * len(good) / len(found):.1f} %)",
         "settled, and in doubt": str(doubted),
         "not settled": str(len(found) - len(good) - doubted),
-        "convolutions, mean": _of(np.mean, "convolutions", found),
-        "convolutions, median": _of(np.median, "convolutions", found),
-        "convolutions of the converged, mean": _of(np.mean, "convolutions", good),
-        "CPU s, mean": _of(np.mean, "cpu", found),
-        "largest overlap/Sq of the converged": _of(np.max, "overlap", good, "{:.1e}"),
+        "convolutions, mean": statistic(np.mean, _each("convolutions", found)),
+        "convolutions, median": statistic(np.median, _each("convolutions", found)),
+        "convolutions of the converged, mean": statistic(np.mean, _each("convolutions", good)),
+        "CPU s, mean": statistic(np.mean, _each("cpu", found)),
+        "largest overlap/Sq of the converged": statistic(np.max, _each("overlap", good), "{:.1e}"),
     }
     return [{"what": what, "value": value} for what, value in numbers.items()]
 
 
-def _of(function, name, found, shown="{:.1f}"):
-    return shown.format(function([getattr(each, name) for each in found])) if found else "none"
+def _each(name, found):
+    return [getattr(each, name) for each in found]

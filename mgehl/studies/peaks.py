@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mgehl.studies.rough_ball import BALL
-from mgehl.studies.study import merged
+from mgehl.studies.study import merged, statistic
 
 NODES = 257, 513
 """The grids of all schemes. The next finer one is what they are compared with, by `COMPARED_WITH`."""
@@ -106,14 +106,13 @@ def _summary(rows, scheme, nodes):
     touching = [row for row in found if float(row["load on contact %"]) > 0.0]
     return which | {
         "converged": f"{sum(row['converged'] == 'yes' for row in found)} of {len(found)}",
-        "mean film: median error %": _of(np.median, found, "off by %"),
-        "largest": _of(np.max, found, "off by %"),
-        "load on contact: median error in points": _of(np.median, touching, "off by points"),
-        "largest in points": _of(np.max, touching, "off by points"),
+        "mean film: median error %": statistic(np.median, _sizes("off by %", found)),
+        "largest": statistic(np.max, _sizes("off by %", found)),
+        "load on contact: median error in points": statistic(np.median, _sizes("off by points", touching)),
+        "largest in points": statistic(np.max, _sizes("off by points", touching)),
         "convolutions, mean": f"{np.mean([float(row['convolutions']) for row in found]):.0f}",
     }
 
 
-def _of(function, rows, name):
-    sizes = [abs(float(row[name])) for row in rows if row[name]]
-    return f"{function(sizes):.1f}" if sizes else "none"
+def _sizes(name, rows):
+    return [abs(float(row[name])) for row in rows if row[name]]

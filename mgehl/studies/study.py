@@ -184,3 +184,9 @@ def richardson(values):
 def plausible(order):
     """True of an observed order that a second-order code may have on its way to the limit."""
     return PLAUSIBLE_ORDERS[0] <= order <= PLAUSIBLE_ORDERS[1]
+
+
+def statistic(function, values, shown="{:.1f}"):
+    """A mean, median or the like of some values, as a summary tells it; "none" where there are none."""
+    values = list(values)
+    return shown.format(function(values)) if values else "none"
