@@ -62,6 +62,7 @@ def _inlet(config, contact, mesh):
     from mgehl.output import domain
     from mgehl.output.forecast import LARGEST_NODES, inlet_grids
     from mgehl.output.resolution import RESOLVED_CELLS, expectation, resolving_nodes
+    from mgehl.solver.from_config import scheme_from
 
     grids = inlet_grids(config, contact)
     for grid in grids:
@@ -70,7 +71,8 @@ def _inlet(config, contact, mesh):
     needed = resolving_nodes(contact, mesh)
     cells, start = grids[-1].cells, config.solver.start
     yield ""
-    yield f"expected   from a {start} start, {expectation(cells, start, contact.is_mixed)}"
+    begins_closed = start == "contact" and scheme_from(config, contact).contact_law.closes_faces
+    yield f"expected   from a {start} start, {expectation(cells, begins_closed, contact.is_mixed)}"
     verdict = "this grid does" if needed <= config.grid.nodes else f"recommended: grid.nodes={needed}"
     if needed > LARGEST_NODES:
         verdict = f"no grid up to {LARGEST_NODES} does; a higher speed or a smaller domain helps"

@@ -62,14 +62,17 @@ def resolving_nodes(contact, mesh):
     return nodes
 
 
-def expectation(cells, start, is_mixed=False):
-    """What a run finds with so many cells in its inlet; `is_mixed`: peaks reach through the film."""
+def expectation(cells, begins_closed, is_mixed=False):
+    """What a run finds with so many cells in its inlet.
+
+    `begins_closed`: from contact whose faces are closed. `is_mixed`: peaks reach through the film.
+    """
     if is_mixed:
         return "a film that the highest peaks may reach through: the run tells how much they carry"
     if cells >= RESOLVED_CELLS:
         return "a film that the grid resolves"
     if cells >= FILM_TOUCHES:
         return "a film that changes with the grid"
-    if start == "contact" and cells < CONTACT_OPENS:
+    if begins_closed and cells < CONTACT_OPENS:
         return "full contact, whose inlet the grid does not see"
     return "film and contact side by side; where they meet is decided by the grid"

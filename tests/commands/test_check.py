@@ -55,6 +55,16 @@ def test_of_a_rough_ball_it_is_said_that_peaks_come_through(told):
     assert "decided by the grid" not in text and "did not settle" not in text
 
 
+def test_full_contact_is_foretold_where_contact_closes_its_faces(told):
+    coarse = "--set", "motion.speed=2e-4", "--set", "grid.nodes=129", "--set", "solver.start=contact"
+    rough = "--set", "surface.kind=waviness", "--set", "surface.amplitude=1e-10"
+    waves = *rough, "--set", "surface.wavelength_x=5e-5"
+    assert "full contact" in told("full_film.toml", *coarse)
+    assert "full contact" in told("full_film.toml", *coarse, *waves)
+    by_linear_gap = "--set", "discretization.face_mobility=linear-gap"
+    assert "side by side" in told("full_film.toml", *coarse, *waves, *by_linear_gap)
+
+
 def test_peaks_that_touch_outside_of_the_domain_are_said(told):
     near = "--set", "grid.x=[-1.2, 1.1]", "--set", "grid.y=[-2, 2]", "--set", "motion.speed=0.001"
     words = "peaks may touch up to 1.13 a from the centre, outside of it"

@@ -24,20 +24,20 @@ def test_the_recommended_grid_is_the_first_that_resolves():
 
 
 @pytest.mark.parametrize(
-    "cells, start, words",
+    "cells, begins_closed, words",
     [
-        (4.0, "film", "resolves"),
-        (2.0, "contact", "changes with the grid"),
-        (1.0, "film", "side by side"),
-        (0.5, "film", "side by side"),
-        (0.5, "contact", "full contact"),
+        (4.0, False, "resolves"),
+        (2.0, True, "changes with the grid"),
+        (1.0, False, "side by side"),
+        (0.5, False, "side by side"),
+        (0.5, True, "full contact"),
     ],
 )
-def test_what_is_expected_follows_from_cells_and_start(cells, start, words):
-    assert words in expectation(cells, start)
+def test_what_is_expected_follows_from_cells_and_start(cells, begins_closed, words):
+    assert words in expectation(cells, begins_closed)
 
 
-@pytest.mark.parametrize("cells, start", [(0.5, "film"), (0.5, "contact"), (5.0, "film")])
-def test_where_peaks_reach_through_the_film_the_grid_does_not_decide(cells, start):
-    words = expectation(cells, start, is_mixed=True)
+@pytest.mark.parametrize("cells, begins_closed", [(0.5, False), (0.5, True), (5.0, False)])
+def test_where_peaks_reach_through_the_film_the_grid_does_not_decide(cells, begins_closed):
+    words = expectation(cells, begins_closed, is_mixed=True)
     assert "peaks" in words and "grid" not in words
