@@ -63,15 +63,17 @@ def why_no_band(result, problem):
     """Why the mean gaps of a `Result` can have no band; empty where they may have one."""
     if not result.settled:
         return "the run has not settled"
-    if not problem.scheme.lets_peaks_touch(problem.contact):
+    if problem.scheme.contact_law.closes_faces:
         return "contact that closes its faces begins and ends where the grid has it"
     return result.edge.wrong[0]
 
 
 def gap_error(result, hierarchy, problem, state, settings, progress, journal):
-    """The `GapError` of a `Result`, from the next coarser grid; None unless peaks reach through the film
-    (collective). Otherwise as `film_error.film_error`."""
-    if not problem.contact.is_mixed:
+    """The `GapError` of a `Result`, from the next coarser grid; None of smooth bodies (collective).
+
+    Otherwise as `film_error.film_error`.
+    """
+    if not problem.contact.roughness:
         return None
     why_not = why_no_band(result, problem)
     if why_not or not settings.error:

@@ -56,17 +56,18 @@ def test_without_a_coarser_grid_there_is_none():
 
 
 @pytest.mark.parametrize(
-    "settled, touch, edge, words",
+    "settled, closes, edge, words",
     [
-        (False, True, "", "not settled"),
-        (True, False, "", "closes its faces"),
-        (True, True, "the domain cuts it", "cuts"),
-        (True, True, "", ""),
+        (False, False, "", "not settled"),
+        (True, True, "", "closes its faces"),
+        (True, False, "the domain cuts it", "cuts"),
+        (True, False, "", ""),
     ],
 )
-def test_why_there_may_be_none(settled, touch, edge, words):
+def test_why_there_may_be_none(settled, closes, edge, words):
     result = SimpleNamespace(settled=settled, edge=SimpleNamespace(wrong=(edge, "")))
-    problem = SimpleNamespace(scheme=SimpleNamespace(lets_peaks_touch=lambda contact: touch), contact=None)
+    law = SimpleNamespace(closes_faces=closes)
+    problem = SimpleNamespace(scheme=SimpleNamespace(contact_law=law))
     why = why_no_band(result, problem)
     assert words in why and bool(why) == bool(words)
 
@@ -112,3 +113,31 @@ class TestOfAWavyBall:
         text = str(solved(129))
         assert "bands of both: from the differences to 65 nodes" in text
         assert "±" in next(line for line in text.splitlines() if "gap, contact included" in line)
+
+
+class TestOfAThickFilm:
+    """Ridges of 30 nm under a film of 60."""
+
+    @pytest.fixture(scope="class")
+    def solved(self):
+        """Results on 65 and 257 nodes."""
+        thick = {"motion": {"speed": 0.1}, "surface": {"amplitude": 3e-8}}
+        tables = [merged(WAVY, thick, {"grid": {"nodes": nodes}}) for nodes in (65, 257)]
+        return [solve(config_from_tables(each), MPI.COMM_SELF).result for each in tables]
+
+    def test_the_bands_hold_the_gaps_of_a_grid_four_times_as_fine(self, solved):
+        coarse, fine = (each.mixed for each in solved)
+        assert coarse.lambda_ratio > 2.0 and solved[0].converged and solved[1].converged
+        assert abs(fine.mean_gap_nm - coarse.mean_gap_nm) < coarse.error.mean_nm < 0.1 * fine.mean_gap_nm
+        assert abs(fine.loaded_gap_nm - coarse.loaded_gap_nm) < coarse.error.loaded_nm
+
+    def test_both_sorts_of_bands_take_a_third_more_work_at_most(self, solved):
+        (_, result) = solved
+        bands = result.error.convolutions + result.mixed.error.convolutions
+        assert result.error.central_nm is not None
+        assert 0.0 < bands < 0.35 * result.work.convolutions
+
+
+def test_smooth_bodies_have_none():
+    smooth = {"motion": {"speed": 0.3}, "grid": {"nodes": 65}}
+    assert solve(config_from_tables(smooth), MPI.COMM_SELF).result.mixed is None

@@ -84,15 +84,20 @@ class TestWhatIsDrawn:
         assert 0.1 < np.mean([angle > 0.0 for angle in angles]) < 0.6
 
 
-def test_the_summary_counts_bands_of_peaks_alone():
+def test_the_summary_counts_bands_of_what_converged():
     rows = [
         {"verdict": "converged", "lambda": "0.5", "mean gap nm": "5.0 ± 0.2", "convolutions": "100.0"},
         {"verdict": "converged", "lambda": "0.5", "mean gap nm": "5.0000", "convolutions": "200.0"},
-        {"verdict": "converged", "lambda": "2.5", "mean gap nm": "5.0000", "convolutions": "600.0"},
-        {"verdict": "Eq. 2 is broken: x", "lambda": "0.5", "mean gap nm": "5", "convolutions": "9.0"},
+        {"verdict": "converged", "lambda": "2.5", "mean gap nm": "5.0 ± 0.1", "convolutions": "600.0"},
+        {
+            "verdict": "Eq. 2 is broken: x",
+            "lambda": "0.5",
+            "mean gap nm": "5.0 ± 0.1",
+            "convolutions": "9.0",
+        },
     ]
     said = {each["what"]: each["value"] for each in summary(rows)}
-    assert (said["lambda below 1, converged"], said["of these, a mean gap with a band"]) == ("2", "1")
+    assert said["of the converged, with a band about the mean gap"] == "2"
     assert (said["converged"], said["settled, and in doubt"], said["not settled"]) == (
         "3 (75.0 %)",
         "1",
