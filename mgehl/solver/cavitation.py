@@ -39,7 +39,8 @@ GAINED = 0.2
 H. Such bodies begin with all of the load on the dry contact. What is added lifts them, by about as many
 units of H as it is parts of the load; around a film that is too thick the next relaxation adds more (a
 steel ellipse of 52 nm rms with a film of 27 nm: 690 nm after eight steps, and no end). With 0.03 to 0.3
-such contacts settle, with 1 not all; others take the same steps or fewer."""
+five such contacts settle, with 1 three. Of 29 others (`study machine`), with 0.3 and without, two take two
+fifths and two thirds more work by it, eight take less, and all together a tenth less."""
 
 SWEEPS = 40
 """Sweeps over all lines at the most; they end when one changes no status. From 4 to 400 the same steps on
