@@ -43,7 +43,7 @@ does not settle without)."""
 IN_VAIN = 15
 """Steps that gained nothing, after which time steps become shorter, by `SHORTER` (a ball of 104 nm rms at
 0.02 mm/s: eight nodes turned for 60 steps; with 8, 64 or 4096 times shorter ones it settles). Where every
-step is judged, ever longer ones may be what leads round (a ball of 188 nm rms at 0.04 mm/s: two nodes)."""
+step is judged, time steps change by themselves."""
 
 
 @dataclass
@@ -84,10 +84,8 @@ def lengthened(position, every_step=False):
 
     Where the last step made the residual larger, the next one is the less longer for it.
     """
-    if _goes_round(position):
-        return max(SHORTER, LONGER * position.shorter)
     if not every_step or position.foothold is None:
-        return max(1.0, LONGER * position.shorter)
+        return max(SHORTER if _goes_round(position) else 1.0, LONGER * position.shorter)
     before, now = position.foothold.residual, position.cycles[-1].residual
     shorter = LONGER * max(1.0, now / before) * position.shorter
     if now >= JUDGED:
