@@ -53,7 +53,7 @@ SIDE_BY_SIDE = Effort(
 
 HIGHEST = {False: 465.0, True: 235.0}
 """Convolutions of balls whose roughness is as large as the dry contact is deep, without and with a boundary
-film. On 257 nodes 89 of 102 balls without took half to twice as many (`study mixed`, lambda below 1)."""
+film. On 257 nodes 94 of 102 balls without took half to twice as many (`study mixed`, lambda below 1)."""
 
 LOWER, THIN = 0.36, 0.05
 """The power with which they fall with less roughness; lambda below which they rise."""
