@@ -23,6 +23,7 @@ from mgehl.output.solution import Fields, Solution
 from mgehl.output.surroundings import versions
 from mgehl.output.users_axes import in_users_axes
 from mgehl.output.wedge_result import summarise_wedge
+from mgehl.solver.coarser import CoarserGrids
 from mgehl.solver.continuation import begin
 from mgehl.solver.dry import guess_on_finest, solve_dry
 from mgehl.solver.from_config import set_up
@@ -109,9 +110,9 @@ def _solve_loaded(config, parts, comm, watch, start):
         problem, outcome = method(hierarchy, contact, settings, monitor=monitor, journal=journal)
         work = Work(monitor.convolutions, monitor.steps if by_newton else outcome.cycles[-1].step)
         result = summarise(problem, outcome, tolerance, work, monitor.seconds, versions())
-        of_run = result, hierarchy, problem, outcome.state, settings, monitor, journal
-        mixed = result.mixed and replace(result.mixed, error=gap_error(*of_run))
-        bands = {"error": film_error(*of_run), "mixed": mixed}
+        coarser = CoarserGrids(hierarchy, problem, outcome.state, settings, monitor.beside, journal)
+        mixed = result.mixed and replace(result.mixed, error=gap_error(result, coarser, monitor))
+        bands = {"mixed": mixed, "error": film_error(result, coarser, monitor)}
         result = replace(result, **bands, wall_s=monitor.seconds)
         return _solution(config, parts, problem, outcome.state, monitor.rows, result)
     finally:

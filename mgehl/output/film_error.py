@@ -5,7 +5,6 @@ from dataclasses import dataclass, replace
 from mgehl.discretization.order import couette_order
 from mgehl.output.resolution import SEEN_CELLS
 from mgehl.output.surface import GRIDS
-from mgehl.solver.coarser import films_of_grids
 from mgehl.solver.richardson import band, band_beside, band_of_smallest
 
 FILMS = ("central", "minimum")
@@ -84,19 +83,19 @@ def why_no_band(result, contact):
     return ""
 
 
-def film_error(result, hierarchy, problem, state, settings, progress, journal):
-    """The `FilmError` of a `Result`, from solutions on coarser grids (collective).
+def film_error(result, coarser, progress):
+    """The `FilmError` of a `Result`, from its `CoarserGrids` (collective).
 
-    `progress` tells of their cycles and counts their convolutions; `journal` as of `nested_iteration`.
+    `progress` counts their convolutions.
     """
-    why_not = why_no_band(result, problem.contact)
+    settings, contact = coarser.settings, coarser.problem.contact
+    why_not = why_no_band(result, contact)
     if why_not or not settings.error:
         return no_band(why_not) if why_not else NOT_ASKED
     before = progress.convolutions
     scheme = telling_scheme(settings.scheme)
-    films = films_of_grids(hierarchy, problem, state, settings, scheme, progress.beside, journal)
-    nm = 1e9 * problem.contact.film_scale
-    grids = tuple(_in_nm(each, nm) for each in films)
+    nm = 1e9 * contact.film_scale
+    grids = tuple(_in_nm(each, nm) for each in coarser.films(scheme))
     told = from_grids(result, grids, scheme_order(scheme), scheme if scheme != settings.scheme else None)
     return replace(told, grids=grids, convolutions=progress.convolutions - before)
 

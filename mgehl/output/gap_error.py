@@ -3,7 +3,6 @@
 from dataclasses import dataclass, replace
 
 from mgehl.output.film_error import NOT_ASKED
-from mgehl.solver.coarser import gaps_of_grids
 
 OF_SECOND_ORDER, OF_FIRST_ORDER = 1.0 / 3.0, 1.0
 """How many times the difference to the next coarser grid a gap's error is, by Richardson."""
@@ -68,20 +67,17 @@ def why_no_band(result, problem):
     return result.edge.wrong[0]
 
 
-def gap_error(result, hierarchy, problem, state, settings, progress, journal):
-    """The `GapError` of a `Result`, from the next coarser grid; None of smooth bodies (collective).
-
-    Otherwise as `film_error.film_error`.
-    """
+def gap_error(result, coarser, progress):
+    """The `GapError` of a `Result`; None of smooth bodies (collective). Otherwise as
+    `film_error.film_error`."""
+    problem = coarser.problem
     if not problem.contact.roughness:
         return None
     why_not = why_no_band(result, problem)
-    if why_not or not settings.error:
+    if why_not or not coarser.settings.error:
         return no_band(why_not or NOT_ASKED.how)
-    before = progress.convolutions
-    nm = 1e9 * problem.contact.film_scale
-    found = gaps_of_grids(hierarchy, problem, state, settings, progress.beside, journal)
-    grids = tuple(_in_nm(each, nm) for each in found)
+    before, nm = progress.convolutions, 1e9 * problem.contact.film_scale
+    grids = tuple(_in_nm(each, nm) for each in coarser.gaps())
     return replace(from_grids(grids), grids=grids, convolutions=progress.convolutions - before)
 
 

@@ -66,42 +66,82 @@ class GridGaps:
     """Of a coarser grid: the mean sizes by which its gaps differ from the finer one's."""
 
 
-def films_of_grids(hierarchy, problem, state, settings, scheme, monitor, journal=NOTHING_KEPT):
-    """`GridFilms` of the finest grid, whose answer is `state`, and of the next coarser ones (collective).
+class CoarserGrids:
+    """What the coarser grids say of a run's answer, the `state` of its `problem`. None is solved twice.
 
-    Those are solved by a `Scheme` that may be another. The list ends with the first grid that has contact,
-    or no answer. `monitor` and `journal` as of `nested_iteration`.
+    `monitor` and `journal` as of `nested_iteration`.
     """
-    films, contact = films_between_nodes(problem, state), problem.contact
-    limits = replace(settings.newton, max_steps=MAX_STEPS, spreading_steps=SPREADING_STEPS)
-    found = [_grid_films(problem, state, films, True)]
-    last = len(hierarchy.grids) - 1
-    for level in range(last - 1, max(last - 1 - COARSER, -1), -1):
-        H = hierarchy.transfers[level].inject(state.H)
-        seen = contact.seen_by(hierarchy.grids[level].mesh, hierarchy.grids[-1].mesh)
-        problem, state = _injected(hierarchy, level, seen, state, scheme)
-        outcome = _solve(hierarchy, level, problem, state, settings, monitor, journal, limits)
-        state, films = outcome.state, films_beside(problem, outcome.state, films, H)
-        found.append(_grid_films(problem, state, films, outcome.converged))
-        if not found[-1].is_film:
-            break
-    return found
 
+    def __init__(self, hierarchy, problem, state, settings, monitor, journal=NOTHING_KEPT):
+        self.problem, self.settings = problem, settings
+        self._hierarchy, self._state = hierarchy, state
+        self._monitor, self._journal = monitor, journal
+        self._of_gaps = None
+        """Problem and `Outcome` by which `gaps` were told."""
 
-def gaps_of_grids(hierarchy, problem, state, settings, monitor, journal=NOTHING_KEPT):
-    """`GridGaps` of the finest grid, whose answer is `state`, and of the next coarser one, if there is one
-    (collective); otherwise as `films_of_grids`."""
-    found, level = [_grid_gaps(problem, state, True)], len(hierarchy.grids) - 2
-    if level >= 0:
-        H, scheme = hierarchy.transfers[level].inject(state.H), problem.scheme
-        problem, state = _injected(hierarchy, level, problem.contact, state, scheme)
-        touch = problem.scheme.lets_peaks_touch(problem.contact)
-        limits = settings.newton.squeezed() if touch else settings.newton
+    def films(self, scheme):
+        """`GridFilms` of the finest grid and of the next coarser ones (collective).
+
+        Those are solved by a `Scheme` that may be another. The list ends with the first grid that has
+        contact, or no answer.
+        """
+        problem, state, grids = self.problem, self._state, self._hierarchy.grids
+        films = films_between_nodes(problem, state)
+        found, last = [_grid_films(problem, state, films, True)], len(grids) - 1
+        for level in range(last - 1, max(last - 1 - COARSER, -1), -1):
+            H = self._hierarchy.transfers[level].inject(state.H)
+            seen = self.problem.contact.seen_by(grids[level].mesh, grids[-1].mesh)
+            problem, outcome = self._film(level, seen, state, scheme)
+            state, films = outcome.state, films_beside(problem, outcome.state, films, H)
+            found.append(_grid_films(problem, state, films, outcome.converged))
+            if not found[-1].is_film:
+                break
+        return found
+
+    def gaps(self):
+        """`GridGaps` of the finest grid and of the next coarser one, if there is one (collective)."""
+        found, level = [_grid_gaps(self.problem, self._state, True)], len(self._hierarchy.grids) - 2
+        if level >= 0:
+            H = self._hierarchy.transfers[level].inject(self._state.H)
+            self._of_gaps = problem, outcome = self._whole(level)
+            apart = differences(problem, outcome.state, H)
+            found.append(_grid_gaps(problem, outcome.state, outcome.converged, apart))
+        return found
+
+    def _whole(self, level):
+        """Problem and `Outcome` of the contact with all of its surface, by the scheme of the run."""
+        contact, scheme, limits = self.problem.contact, self.problem.scheme, self.settings.newton
+        limits = limits.squeezed() if scheme.lets_peaks_touch(contact) else limits
         limits = replace(limits, max_steps=MAX_STEPS_OF_ROUGH)
-        outcome = _solve(hierarchy, level, problem, state, settings, monitor, journal, limits)
-        apart = differences(problem, outcome.state, H)
-        found.append(_grid_gaps(problem, outcome.state, outcome.converged, apart))
-    return found
+        return self._solve(level, contact, self._state, scheme, limits)
+
+    def _film(self, level, contact, state, scheme):
+        """Problem and `Outcome` of a film; those that have told the gaps, where they are the same."""
+        if self._of_gaps and _is_of(self._of_gaps[0], self._hierarchy.grids[level], contact, scheme):
+            return self._of_gaps
+        limits = replace(self.settings.newton, max_steps=MAX_STEPS, spreading_steps=SPREADING_STEPS)
+        return self._solve(level, contact, state, scheme, limits)
+
+    def _solve(self, level, contact, state, scheme, limits):
+        """Problem and `Outcome` of a contact on a coarser grid, from the finer `state` at its nodes.
+
+        By these `NewtonSettings`, but for the tolerance; Eq. 2 lets nothing go.
+        """
+        hierarchy, cycle = self._hierarchy, self.settings.cycle
+        problem, state = _injected(hierarchy, level, contact, state, scheme)
+        limits = replace(limits, tolerance=max(TOLERANCE, limits.tolerance), release_budget=0)
+        multigrid = MultigridSolver(hierarchy, level, contact, scheme, cycle)
+        tell = partial(self._monitor, LevelSolve(problem.grid.mesh.nx, contact.speed, False))
+        newton = Newton(problem, multigrid, limits, None, cycle.options_prefix, tell)
+        try:
+            return problem, newton.run(state, self._journal)
+        finally:
+            newton.free()
+
+
+def _is_of(problem, grid, contact, scheme):
+    """Whether it is the problem of this very contact, on this grid, by this `Scheme`."""
+    return problem.grid is grid and problem.contact is contact and problem.scheme == scheme
 
 
 def _grid_gaps(problem, state, settled, apart=None):
@@ -120,15 +160,3 @@ def _injected(hierarchy, level, contact, state, scheme):
     status = transfer.inject(state.status.astype(float)).astype(np.int8)
     coarser = ContactProblem(grid, hierarchy.deflections[level], contact, scheme)
     return coarser, coarser.state(transfer.inject(state.P), state.H0, status)
-
-
-def _solve(hierarchy, level, problem, state, settings, monitor, journal, limits):
-    """The `Outcome` of a grid by these `NewtonSettings`, but for the tolerance; Eq. 2 lets nothing go."""
-    limits = replace(limits, tolerance=max(TOLERANCE, limits.tolerance), release_budget=0)
-    multigrid = MultigridSolver(hierarchy, level, problem.contact, problem.scheme, settings.cycle)
-    tell = partial(monitor, LevelSolve(problem.grid.mesh.nx, problem.contact.speed, False))
-    newton = Newton(problem, multigrid, limits, None, settings.cycle.options_prefix, tell)
-    try:
-        return newton.run(state, journal)
-    finally:
-        newton.free()

@@ -137,6 +137,11 @@ class TestOfAThickFilm:
         assert result.error.central_nm is not None
         assert 0.0 < bands < 0.35 * result.work.convolutions
 
+    def test_the_next_coarser_grid_is_solved_once_for_both(self, solved):
+        (_, result) = solved
+        assert [each.nodes for each in result.error.grids] == [257, 129, 65]
+        assert 0.0 < result.error.convolutions < 0.3 * result.mixed.error.convolutions
+
 
 def test_smooth_bodies_have_none():
     smooth = {"motion": {"speed": 0.3}, "grid": {"nodes": 65}}

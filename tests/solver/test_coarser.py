@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mgehl.discretization.scheme import Scheme
-from mgehl.solver.coarser import MAX_STEPS, films_of_grids
+from mgehl.solver.coarser import MAX_STEPS, CoarserGrids
 from mgehl.solver.nested import nested_iteration
 from mgehl.solver.settings import SolverSettings
 
@@ -24,14 +24,9 @@ def film(paper_contact, make_hierarchy):
         assert outcome.converged
         told = []
         before = outcome.state.copy()
-        grids = films_of_grids(
-            hierarchy,
-            problem,
-            outcome.state,
-            SETTINGS,
-            scheme or SETTINGS.scheme,
-            lambda level, cycle: told.append((level, cycle)),
-        )
+        tell = lambda level, cycle: told.append((level, cycle))  # noqa: E731
+        coarser = CoarserGrids(hierarchy, problem, outcome.state, SETTINGS, tell)
+        grids = coarser.films(scheme or SETTINGS.scheme)
         for name in ("P", "H", "status"):
             np.testing.assert_array_equal(getattr(outcome.state, name), getattr(before, name))
         return grids, told, 1e9 * contact.film_scale
