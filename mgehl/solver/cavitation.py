@@ -35,12 +35,13 @@ gap fixed that is far from an answer (a soft ball with ridges along the motion: 
 the bodies closed for good; with 0.5 that ball is not found). A line contact takes four steps more by it."""
 
 GAINED = 0.2
-"""Part of the load that a relaxation may add where peaks touch, over the film of smooth bodies in units of
-H. Such bodies begin with all of the load on the dry contact. What is added lifts them, by about as many
-units of H as it is parts of the load; around a film that is too thick the next relaxation adds more (a
-steel ellipse of 52 nm rms with a film of 27 nm: 690 nm after eight steps, and no end). With 0.03 to 0.3
-five such contacts settle, with 1 three. Of 29 others (`study machine`), with 0.3 and without, two take two
-fifths and two thirds more work by it, eight take less, and all together a tenth less."""
+"""Part of the load that a relaxation may add between rough bodies, over the film of smooth ones in units of
+H. Where peaks touch they begin with all of the load on the dry contact, else with that of the coarser grid,
+which may not show them. What is added lifts the bodies, by about as many units of H as it is parts of the
+load; around a film that is too thick the next relaxation adds more (a steel ellipse of 52 nm rms with a
+film of 27 nm: 690 nm after eight steps, and no end). With 0.03 to 0.3 five such contacts settle, with 1
+three. Of 29 others (`study machine`), with 0.3 and without, two take two fifths and two thirds more work
+by it, eight take less, and all together a tenth less."""
 
 SWEEPS = 40
 """Sweeps over all lines at the most; they end when one changes no status. From 4 to 400 the same steps on
@@ -84,7 +85,7 @@ def relax_cavitation_set(problem, state, evaluation):
 def _may_carry(problem, before, after):
     """Whether a relaxation may change the load, in any unit, from `before` to `after`."""
     contact, least = problem.contact, (1.0 - LOST) * before
-    if not problem.scheme.lets_peaks_touch(contact):
+    if not contact.roughness:
         return least <= after
     film = contact.expected_film / contact.film_scale
     return least <= after <= (1.0 + GAINED * film) * before

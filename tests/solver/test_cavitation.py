@@ -113,12 +113,16 @@ def test_what_would_take_the_load_away_is_left_alone(film, monkeypatch, lost, ta
     assert moves(film.problem, film.outcome.state.copy(), 1.0 - lost, monkeypatch) is taken
 
 
+def test_smooth_bodies_may_be_lifted(film, monkeypatch):
+    assert moves(film.problem, film.outcome.state.copy(), 2.0, monkeypatch)
+
+
 @pytest.mark.parametrize("gained, taken", [(0.9, True), (1.1, False), (-1.0, True)])
-def test_where_peaks_touch_what_would_lift_the_bodies_is_left_alone(film, monkeypatch, gained, taken):
+def test_what_would_lift_rough_bodies_is_left_alone(film, monkeypatch, gained, taken):
     """In parts of what may be added."""
     problem, contact = film.problem, film.problem.contact
     film_of_formula = contact.expected_film / contact.film_scale
-    monkeypatch.setattr(type(problem.scheme), "lets_peaks_touch", lambda *_: True)
+    monkeypatch.setattr(type(contact), "roughness", 1e-8)
     part = 1.0 + gained * GAINED * film_of_formula
     assert moves(problem, film.outcome.state.copy(), part, monkeypatch) is taken
 

@@ -35,12 +35,27 @@ POLYMER = {
 }
 """Waves at an angle to the motion, lambda 0.6."""
 
+RIDGES = {
+    "contact": {"radius_x": 2.92e-3, "radius_y": 2.92e-3, "reduced_modulus": 226e9, "load": 13.2},
+    "lubricant": {"viscosity": 0.0149, "pressure_viscosity": 9.6e-9, "viscosity_law": "roelands"},
+    "motion": {"speed": 1.37},
+    "surface": {
+        "kind": "waviness",
+        "amplitude": 110e-9,
+        "wavelength_x": 28.3e-6,
+        "wavelength_y": 19.6e-6,
+    },
+}
+"""Short waves along both axes under a film as thick as they are, which coarser grids do not see."""
 
-@pytest.mark.parametrize("case, mean_gap", [(STEEL, 25.84), (POLYMER, 581.9)], ids=["steel", "polymer"])
+CASES = [(STEEL, 25.84), (POLYMER, 581.9), (RIDGES, 59.494)]
+
+
+@pytest.mark.parametrize("case, mean_gap", CASES, ids=["steel", "polymer", "ridges"])
 def test_no_relaxation_of_cavities_lifts_the_bodies(case, mean_gap):
     """Each added to the load, the more the thicker the film was: it came to ten times its thickness."""
     tables = case | {"grid": {"nodes": 129}, "solver": {"error": False}}
     result = solve(config_from_tables(tables), MPI.COMM_SELF).result
     assert result.converged and result.contact.nodes == 0
-    assert result.work.convolutions < 300.0
+    assert result.work.convolutions < 260.0
     assert result.mixed.mean_gap_nm == pytest.approx(mean_gap, rel=1e-3)
