@@ -48,6 +48,11 @@ THICK = 2.0
 ball of lambda 1.7 takes 312 convolutions by the cycle for thin films and 644 by the other, balls of lambda
 3 to 14 an eighth more."""
 
+DIRECT = 4097
+"""Most nodes of a line between rough bodies that is solved directly. What a valley couples to others leads
+through the peaks beside it, and coarse grids do not see them: of 40 such contacts (513 to 2049 nodes) by
+the cycle 14 were not found, most of them in linear systems that were never solved."""
+
 RESTART_OF_LARGE = 6
 """Iterations after which GMRES is restarted on a large grid: it keeps two vectors for each, and PETSc
 allocates ten at a time (4097 nodes a side: 2.4 GiB from the fourth iteration on)."""
@@ -89,11 +94,12 @@ class MultigridSolver:
         self._thin = self._rough and contact.expected_film < THICK * contact.roughness
         better = ASKEW_OR_APART if self._oblique or rigid or apart else IN_THE_CYCLE
         self._scheme = _scheme_of_cycle(settings.couette, scheme, better)
-        grids, deflections = hierarchy.grids[: level + 1], hierarchy.deflections[: level + 1]
+        first = self._first_grid(hierarchy.grids, level)
+        grids, deflections = hierarchy.grids[first : level + 1], hierarchy.deflections[first : level + 1]
         if rigid:
             deflections = [None] * len(grids)
         self.jacobians = [
-            Jacobian(grid, deflection, contact, self._scheme_of(level - number))
+            Jacobian(grid, deflection, contact, self._scheme_of(level - first - number))
             for number, (grid, deflection) in enumerate(zip(grids, deflections, strict=True))
         ]
         """Of the cycle's grids, coarsest first."""
@@ -101,7 +107,7 @@ class MultigridSolver:
         """What is solved."""
         if self._scheme is not scheme:
             self.jacobian = Jacobian(grids[-1], deflections[-1], contact, scheme)
-        self._transfers = hierarchy.transfers[:level]
+        self._transfers = hierarchy.transfers[first:level]
         self._partitioned = [PartitionedTransfer(transfer) for transfer in self._transfers]
         self._smoothers = [
             smoother_of(each, self._thin, each is self.jacobians[-1], apart)(each, settings.omega)
@@ -109,9 +115,15 @@ class MultigridSolver:
         ]
         self._coarse = CoarseSolve(self.jacobians[0])
         cycle = FCycle(self.jacobians, self._partitioned, self._smoothers, self._coarse, settings.sweeps)
-        self.memory = Memory(self.jacobian, cycle) if self._rough else None
+        self.memory = Memory(self.jacobian, cycle) if self._rough and self._smoothers else None
         """Of the systems solved so far, where there is one."""
         self._preconditioner = self.memory or cycle
+
+    def _first_grid(self, grids, level):
+        """Which grid is the coarsest of the cycle: of rough lines the finest that may be solved directly."""
+        if not (self._rough and grids[level].mesh.is_line):
+            return 0
+        return max(number for number in range(level + 1) if number == 0 or grids[number].mesh.nx <= DIRECT)
 
     def _scheme_of(self, coarsenings):
         """The scheme of the cycle's operator on a grid so many times coarser than the finest."""
