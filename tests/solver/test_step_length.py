@@ -66,6 +66,19 @@ def test_the_largest_pressure_is_bounded_by_any_law(make_problem):
     assert step_length(*known, dP, 9.0, 0.5) == (0.25, None)
 
 
+@pytest.mark.parametrize("highest, expected", [(0.5, 0.25), (2.0, 0.5), (8.0, 1.0)])
+def test_on_rough_bodies_it_is_bounded_beside_the_largest_of_the_peaks(
+    make_problem, monkeypatch, highest, expected
+):
+    problem = make_problem(nodes=9)
+    monkeypatch.setattr(type(problem.contact), "roughness", 1e-8)
+    state = problem.state(np.full((9, 9), highest), 1.0, np.full((9, 9), LUBRICATED))
+    dP = np.zeros((9, 9))
+    dP[4, 4] = -2.0
+    known = problem, Partition(problem, 0), problem.evaluate(state), state
+    assert step_length(*known, dP, 9.0, 0.5)[0] == expected
+
+
 @pytest.mark.parametrize(
     "alpha_bar, more", [(40.0, 1.0), (STEEP, 1.0), (STEEP / 1.5, 1.5), (0.0, MOST_MORE)]
 )
