@@ -146,6 +146,13 @@ machine: $(ENVIRONMENT)
 
 .PHONY: machine
 
+# make rollers   the same of rough line contacts (five minutes)
+rollers: $(ENVIRONMENT)
+	( $(ON) python -m mgehl study rollers --resume --quiet ); test $$? -le 1
+	for t in rollers rollers-summary; do for e in md csv; do cp runs/study-rollers/$$t.$$e runs/tables/$$t.$$e || exit 1; done; done
+
+.PHONY: rollers
+
 # make layers    contact that keeps a boundary film of 2 nm: a rough surface on three grids, a smooth ball from film and contact
 BAND := configs/rough.toml --set contact.load="100 N" --set surface.shortest_wavelength="45 um" --set motion.speed="0.1 mm/s" \
   --set discretization.couette=1B

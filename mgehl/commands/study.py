@@ -30,6 +30,7 @@ STUDIES = {
     "peaks": "rough balls on three grids by two schemes: how much of film and contact is the grid's",
     "mixed": "rough balls drawn at random, from full film to boundary lubrication: verdicts and work",
     "machine": "rough contacts of machines drawn at random, with all else left to mgehl: verdicts and gaps",
+    "rollers": "rough line contacts drawn at random: verdicts and gaps",
     "gaps": "bands about the mean gaps of rough balls drawn at random, beside a grid twice as fine",
     "dry": "dry contacts of smooth, wavy and rough balls beside a public code's numbers",
     "ranks": "messages, bytes, flops and time of an iteration on this run's ranks, and on many more",
@@ -43,11 +44,12 @@ GRIDS = {
     "rough": (0, 1),
     "mixed": (0, 1),
     "machine": (0, 1),
+    "rollers": (0, 1),
     "gaps": (0, 2),
 } | dict.fromkeys(("methods", "accuracy", "domain", "soft"), (0,))
 """How many grids --nodes may name, where that is limited; 0 for the study's own."""
 
-DRAW = ("mixed", "machine", "error", "gaps")
+DRAW = ("mixed", "machine", "rollers", "error", "gaps")
 """Studies that draw cases at random, one of them where it is asked to."""
 
 LARGEST_NUMBER = 2**31

@@ -120,7 +120,7 @@ class MultigridSolver:
         self._preconditioner = self.memory or cycle
 
     def _first_grid(self, grids, level):
-        """Which grid is the coarsest of the cycle: of rough lines the finest that may be solved directly."""
+        """The coarsest grid of the cycle: of rough lines the finest one that may be solved directly."""
         if not (self._rough and grids[level].mesh.is_line):
             return 0
         return max(number for number in range(level + 1) if number == 0 or grids[number].mesh.nx <= DIRECT)

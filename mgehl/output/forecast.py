@@ -20,6 +20,7 @@ from mgehl.grid.grid import single_grid
 from mgehl.kinds import mesh_from
 from mgehl.kinds.kind import Effort
 from mgehl.model.deformation import HalfPlane, HalfSpace
+from mgehl.multigrid.cycle import DIRECT
 from mgehl.output.resolution import CONTACT_OPENS, FILM_TOUCHES
 from mgehl.output.surroundings import cores_allowed
 from mgehl.solver.from_config import settings_from
@@ -64,6 +65,14 @@ THINNER = {False: 0.36, True: 0.5}
 ROUGH = Effort(150.0, 2e-7, 0.01, 8000.0, "rough balls on 257 nodes took 31 to 1840")
 """Balls whose peaks reach through the film; `_of_peaks` has their convolutions. What GMRES and its memory
 keep grows with the iterations: on 257 nodes runs took 650 to 1070 MiB."""
+
+ROUGH_LINE = Effort(
+    90.0, 3e-7, 2e-3, 5000.0, "rough lines on 1025 nodes took 13 to 1600, half of them 36 to 133"
+)
+"""Line contacts of rough bodies, but for the direct solves (`study rollers`). Two matrices are kept."""
+
+DIRECT_SECONDS = 0.24
+"""Of the direct solves, for each convolution, on `DIRECT` nodes."""
 
 
 @dataclass(frozen=True)
@@ -138,8 +147,10 @@ def bytes_of_nodes(effort, mesh, ranks):
 def effort_of(config, contact, mesh):
     """That of the kind; of a ball by its peaks, or by what the grid sees of its inlet."""
     by_kind = config.kind.effort(config)
-    if not contact.is_loaded or config.is_dry or mesh.is_line or config.solver.method != "newton-mg":
+    if not contact.is_loaded or config.is_dry or config.solver.method != "newton-mg":
         return by_kind
+    if mesh.is_line:
+        return _of_rough_line(mesh) if contact.roughness else by_kind
     cells = contact.inlet_cells(mesh)
     if contact.is_mixed:
         layers = config.contact.boundary_film > 0.0
@@ -149,6 +160,14 @@ def effort_of(config, contact, mesh):
     if cells < FILM_TOUCHES:
         return UNSEEN
     return by_kind
+
+
+def _of_rough_line(mesh):
+    """That of direct solves."""
+    direct = min(mesh.nx, DIRECT)
+    seconds = ROUGH_LINE.beside + DIRECT_SECONDS * (direct / DIRECT) ** 3
+    each = ROUGH_LINE.bytes_per_node + 2.0 * 8.0 * direct**2 / mesh.nx
+    return replace(ROUGH_LINE, beside=seconds, bytes_per_node=each)
 
 
 def _of_peaks(contact, has_layers):

@@ -163,7 +163,11 @@ def _begin_touching(hierarchy, contact, settings, monitor, journal):
     if outcome.converged or settings.nested.start != "film":
         return problem, outcome
     continuation = Continuation(hierarchy, contact, settings, monitor, journal)
-    return _of_its_own(contact, settings, *continuation.from_thick_film())
+    found = _of_its_own(contact, settings, *continuation.from_thick_film())
+    if found[1].converged:
+        return found
+    outcome.reason += f"; nor from a thick film: {found[1].reason}"
+    return problem, outcome
 
 
 def _of_its_own(contact, settings, problem, outcome):

@@ -53,16 +53,24 @@ class Drawn:
 
 def run(study):
     """Solve all; write the tables `machine` and `machine-summary`."""
-    (nodes,) = study.nodes or (NODES,)
-    drawn = draw(study.wanted or CASES, SEED if study.seed is None else study.seed)
+    run_drawn(study, "machine", draw, row, NODES, CASES)
+
+
+def run_drawn(study, name, draw, row, nodes, cases):
+    """Solve what `draw(cases, seed)` finds; write a table of the `row` of each case and a summary.
+
+    On so many `nodes`, and so many `cases`, where the study is not told others.
+    """
+    (nodes,) = study.nodes or (nodes,)
+    drawn = draw(study.wanted or cases, SEED if study.seed is None else study.seed)
     study.cases = len(drawn)
     rows = []
     for case in drawn:
         tables = merged(LEFT_TO_MGEHL, case.tables, {"grid": {"nodes": nodes}})
         solution = study.solve(case.title, tables)
         rows.append(row(case, solution.contact, solution.result))
-    study.write_table("machine", rows)
-    study.write_table("machine-summary", summary(rows))
+    study.write_table(name, rows)
+    study.write_table(f"{name}-summary", summary(rows))
 
 
 def draw(cases, seed):
@@ -73,33 +81,57 @@ def draw(cases, seed):
 def _drawn(chance, number):
     """One case: bodies and oil first, then a roughness for their film and their contact."""
     smooth = {
-        "contact": _bodies(chance) | {"boundary_film": float(chance.choice(LAYERS))},
-        "lubricant": {
-            "viscosity": by_logarithm(chance, *VISCOSITY),
-            "pressure_viscosity": by_logarithm(chance, *PRESSURE_VISCOSITY),
-            "viscosity_law": str(chance.choice(("barus", "roelands"))),
-        },
+        "contact": _bodies(chance) | layers(chance),
+        "lubricant": oil(chance),
         "motion": {"speed": by_logarithm(chance, *SPEED), "angle": _angle(chance)},
     }
-    config = config_from_tables(merged(smooth, {"grid": {"nodes": NODES}}))
-    contact = contact_from(config)
-    rms = float(np.clip(contact.expected_film / by_logarithm(chance, *LAMBDA), *RMS))
-    shortest = by_logarithm(chance, *SHORTEST) * contact.longest_cell(mesh_from(config, contact))
+    rms, shortest = rms_and_shortest(chance, smooth, NODES, SHORTEST)
     return Drawn(number, smooth | {"surface": surface_of(chance, number, rms, shortest)})
 
 
 def _bodies(chance):
     """Radii, modulus and the load that presses smooth bodies as hard as was drawn."""
-    soft = chance.random() < 1.0 / 3.0
-    modulus = float(chance.choice(SOFT if soft else HARD))
-    pressure = (
-        modulus * by_logarithm(chance, *PRESSURE_OF_SOFT) if soft else by_logarithm(chance, *PRESSURE)
-    )
+    modulus, pressure = modulus_and_pressure(chance)
     radius = by_logarithm(chance, *RADIUS)
     ratio = by_logarithm(chance, *RATIO) if chance.random() < 0.6 else 1.0
     bodies = {"radius_x": radius, "radius_y": ratio * radius, "reduced_modulus": modulus}
-    of_one_newton = contact_from(config_from_tables({"contact": bodies | {"load": 1.0}})).hertz.p_h
-    return bodies | {"load": (pressure / of_one_newton) ** 3}
+    return bodies | {"load": (pressure / p_h_of_one(bodies, "load")) ** 3}
+
+
+def modulus_and_pressure(chance):
+    """E' and the pressure of the smooth dry contact, Pa: soft bodies one time in three."""
+    soft = chance.random() < 1.0 / 3.0
+    modulus = float(chance.choice(SOFT if soft else HARD))
+    if soft:
+        return modulus, modulus * by_logarithm(chance, *PRESSURE_OF_SOFT)
+    return modulus, by_logarithm(chance, *PRESSURE)
+
+
+def p_h_of_one(bodies, load):
+    """Pressure of the smooth dry contact, Pa, under a load of one (N or N/m), whose key is `load`."""
+    return contact_from(config_from_tables({"contact": bodies | {load: 1.0}})).hertz.p_h
+
+
+def layers(chance):
+    """What sticks to the surfaces."""
+    return {"boundary_film": float(chance.choice(LAYERS))}
+
+
+def oil(chance):
+    """Section [lubricant]."""
+    return {
+        "viscosity": by_logarithm(chance, *VISCOSITY),
+        "pressure_viscosity": by_logarithm(chance, *PRESSURE_VISCOSITY),
+        "viscosity_law": str(chance.choice(("barus", "roelands"))),
+    }
+
+
+def rms_and_shortest(chance, smooth, nodes, shortest):
+    """Roughness for the film of smooth bodies, and the shortest wave, m, from, to so many cells."""
+    config = config_from_tables(merged(smooth, {"grid": {"nodes": nodes}}))
+    contact = contact_from(config)
+    rms = float(np.clip(contact.expected_film / by_logarithm(chance, *LAMBDA), *RMS))
+    return rms, by_logarithm(chance, *shortest) * contact.longest_cell(mesh_from(config, contact))
 
 
 def _angle(chance):
@@ -128,15 +160,21 @@ def surface_of(chance, number, rms, shortest):
 
 def row(case, contact, result):
     """Text of one case, from its contact and its `Result`."""
-    mixed, surface = result.mixed, case.tables["surface"]
-    mean, loaded = (mixed.error.mean_nm, mixed.error.loaded_nm) if mixed.error else (None, None)
     return {
         "case": str(case.number),
         "E' GPa": f"{1e-9 * contact.reduced_modulus:.0f}",
         "p_h GPa": f"{1e-9 * contact.hertz.p_h:.3g}",
         "R_y/R_x": f"{contact.radius_y / contact.radius_x:.2f}",
         "angle": f"{case.tables['motion']['angle']:.0f}",
-        "surface": finish(surface),
+        "surface": finish(case.tables["surface"]),
+    } | found(case, result)
+
+
+def found(case, result):
+    """Text of roughness, film, gaps with their bands, and work."""
+    mixed = result.mixed
+    mean, loaded = (mixed.error.mean_nm, mixed.error.loaded_nm) if mixed.error else (None, None)
+    return {
         "Sq nm": f"{mixed.Sq_nm:.0f}",
         "layers nm": f"{1e9 * case.tables['contact']['boundary_film']:.0f}",
         "lambda": f"{mixed.lambda_ratio:.3g}",

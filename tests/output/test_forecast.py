@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from mpi4py import MPI
 
-from mgehl.config import chosen_config, load_config
+from mgehl.config import chosen_config, config_from_tables, load_config
 from mgehl.discretization.mesh import Mesh
 from mgehl.kinds import contact_from, mesh_from
 from mgehl.kinds.point import CONTACT, FILM
@@ -65,6 +65,27 @@ def test_time_is_that_of_the_convolutions_on_the_cores_there_are(one_second):
     assert one.seconds == pytest.approx(module.START_SECONDS + n * (each + FILM.beside))
     assert [found.workers for found in (one, two, three)] == [1, 2, 2]
     assert two.seconds == three.seconds == pytest.approx(one.seconds - 0.5 * n * each)
+
+
+def rough_line(nodes):
+    tables = {
+        "contact": {"kind": "line", "load_per_length": 847e3, "radius_x": 18.5e-3},
+        "motion": {"speed": 0.05},
+        "surface": {"kind": "waviness", "amplitude": 200e-9, "wavelength_x": 44e-6},
+        "grid": {"nodes": nodes},
+    }
+    return foretold(config_from_tables(tables))
+
+
+def test_rough_lines_keep_two_matrices_and_factor_one(one_second):
+    """As far as they are solved directly: from there on the matrices stay the same."""
+    some, twice, largest, beyond = (rough_line(nodes) for nodes in (1025, 2049, 4097, 8193))
+    assert 0.0 < twice.memory - some.memory - 16.0 * (2049**2 - 1025**2) < 6000.0 * 1025
+    assert 0.0 < beyond.memory - largest.memory < 6000.0 * 4097
+    rises = [
+        more.seconds - less.seconds for less, more in ((some, twice), (twice, largest), (largest, beyond))
+    ]
+    assert rises[1] > 6.0 * rises[0] > 0.0 and rises[2] < 0.2 * rises[1]
 
 
 @pytest.mark.parametrize("speed, effort", [(1e-3, module.UNSEEN), (0.5, FILM)])

@@ -1,0 +1,115 @@
+"""Line contacts of rough bodies: no oil flows around a peak."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from mpi4py import MPI
+
+import mgehl.solver.continuation as module
+from mgehl.config import config_from_tables
+from mgehl.kinds import contact_from
+from mgehl.multigrid import cycle
+from mgehl.run import solve
+from mgehl.solver.continuation import COVERED, Continuation, begin
+from mgehl.solver.from_config import set_up
+from mgehl.solver.gaps import gaps
+from mgehl.studies.study import merged
+
+ROLLER = {
+    "contact": {
+        "kind": "line",
+        "radius_x": 18.5e-3,
+        "reduced_modulus": 226e9,
+        "load_per_length": 847e3,
+        "boundary_film": 5e-9,
+    },
+    "lubricant": {"viscosity": 0.0236, "pressure_viscosity": 16.7e-9},
+    "motion": {"speed": 0.05},
+    "surface": {"kind": "waviness", "amplitude": 200e-9, "wavelength_x": 44e-6},
+    "grid": {"nodes": 257, "x": [-2.0, 1.5]},
+    "solver": {"error": False},
+}
+"""Ridges across the motion, 1.3 GPa, lambda 0.3."""
+
+
+def rows_of(**changes):
+    """Result and history of the roller."""
+    solution = solve(config_from_tables(merged(ROLLER, changes)), MPI.COMM_SELF)
+    return solution.result, solution.rows
+
+
+def test_each_linear_system_is_solved_at_once():
+    result, rows = rows_of()
+    assert result.converged and result.work.steps < 60
+    assert {row["linear_iterations"] for row in rows[1:]} == {1}
+
+
+def test_above_the_largest_direct_solve_the_grids_of_the_cycle_lead_to_the_same(monkeypatch):
+    at_once, _ = rows_of()
+    monkeypatch.setattr(cycle, "DIRECT", 65)
+    result, rows = rows_of()
+    assert result.converged and max(row["linear_iterations"] for row in rows) > 1
+    assert result.mixed.mean_gap_nm == pytest.approx(at_once.mixed.mean_gap_nm, rel=1e-5)
+
+
+def test_smooth_lines_are_solved_by_the_cycle():
+    smooth = {name: table for name, table in ROLLER.items() if name != "surface"}
+    config = config_from_tables(merged(smooth, {"motion": {"speed": 1.0}}))
+    rows = solve(config, MPI.COMM_SELF).rows
+    assert max(row["linear_iterations"] for row in rows) > 1
+
+
+class TestFromAThickFilm:
+    @pytest.fixture
+    def parts(self):
+        """Contact, hierarchy, settings."""
+        config = config_from_tables(ROLLER)
+        parts = set_up(config)
+        hierarchy = parts.hierarchy(MPI.COMM_SELF)
+        yield contact_from(config), hierarchy, parts.settings
+        hierarchy.destroy()
+
+    def test_the_speed_falls_from_a_covering_film_to_the_contact_s_own(self, parts):
+        contact, hierarchy, settings = parts
+        told = []
+        tell = lambda level, cycle: told.append(level.speed)  # noqa: E731
+        problem, outcome = Continuation(hierarchy, contact, settings, tell).from_thick_film()
+        assert outcome.converged and problem.contact.speed == contact.speed == told[-1]
+        thickest = contact.at_speed(max(told)).expected_film
+        assert thickest >= COVERED * contact.roughness > contact.expected_film
+        assert np.all(np.diff(told) <= 0.0)
+
+    def test_it_is_the_same_answer_as_from_the_dry_contact(self, parts):
+        contact, hierarchy, settings = parts
+        found = [
+            Continuation(hierarchy, contact, settings).from_thick_film(),
+            begin(hierarchy, contact, settings, lambda level, cycle: None),
+        ]
+        one, other = (gaps(problem, outcome.state).mean for problem, outcome in found)
+        assert one == pytest.approx(other, rel=1e-6)
+
+    @pytest.mark.parametrize("start, converged", [("film", True), ("contact", False)])
+    def test_it_is_the_way_where_the_other_fails(self, parts, monkeypatch, start, converged):
+        """A start from contact asks for that side and no other."""
+        contact, hierarchy, settings = parts
+        settings = replace(settings, nested=replace(settings.nested, start=start))
+        nested, asked = module.nested_iteration, []
+
+        def failing(hierarchy, contact, *others):
+            asked.append(contact.speed)
+            problem, outcome = nested(hierarchy, contact, *others)
+            outcome.converged &= len(asked) > 1
+            return problem, outcome
+
+        monkeypatch.setattr(module, "nested_iteration", failing)
+        problem, outcome = begin(hierarchy, contact, settings, lambda level, cycle: None)
+        assert outcome.converged is converged and problem.contact.speed == contact.speed
+        assert len(asked) == 1 + converged and asked[0] == contact.speed
+
+    def test_where_both_fail_the_state_is_of_the_contact_s_own_speed(self, parts):
+        contact, hierarchy, settings = parts
+        settings = replace(settings, newton=replace(settings.newton, max_steps=2))
+        problem, outcome = begin(hierarchy, contact, settings, lambda level, cycle: None)
+        assert not outcome.converged and problem.contact.speed == contact.speed
+        assert "after 2 steps; nor from a thick film: a stage on the way" in outcome.reason
