@@ -109,7 +109,7 @@ class Continuation:
         if outcome.converged and scheme != goal[1]:
             walk = self._walk(speed == contact.speed)
             problem, outcome = carry(lambda t, state: walk.at(speed, state, t), outcome.state)
-        return self._slow_down(problem, outcome, speed, exactly=False)
+        return self._slow_down(problem, outcome, speed, contact.speed, exactly=False)
 
     def from_thick_film(self):
         """Solve from a speed at which the film covers the peaks, and slow down: film fills the valleys on
@@ -124,14 +124,13 @@ class Continuation:
         while faster.expected_film < COVERED * contact.roughness:
             faster = faster.at_speed(SPEED_RATIO * faster.speed)
         found = begin(self._hierarchy, faster, settings, self._monitor, self._journal)
-        return self._slow_down(*found, faster.speed, exactly=True)
+        return self._slow_down(*found, faster.speed, contact.speed, exactly=True)
 
-    def _slow_down(self, problem, outcome, speed, exactly):
-        """From the solution at a higher `speed` to the contact's own, as far as there is one.
+    def _slow_down(self, problem, outcome, speed, goal, exactly):
+        """From the solution at a higher `speed` to that at the `goal`, as far as there is one.
 
         On the way `exactly`, or with a coarse grid's tolerance.
         """
-        goal = self._contact.speed
         while outcome.converged and speed != goal:
             slower = max(goal, speed / SPEED_RATIO)
             problem, outcome = self._walk(exactly or slower == goal).follow(outcome.state, speed, slower)
