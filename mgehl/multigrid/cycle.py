@@ -12,7 +12,8 @@ direct solve on the coarsest grid and the cycle needs no second solve for its co
 On a rough surface peaks are as small as a coarse grid's cells. What GMRES learnt in one step is remembered
 for the next (`memory`). Where the film is thin besides, the mobility at one node says nothing of the nodes
 around it. There it is averaged from grid to grid and held fixed (a ball of 100 nm rms at 1 mm/s: 12
-iterations for 18, at 1 micrometre per second 12 for more than 60).
+iterations for 18, at 1 micrometre per second 12 for more than 60). A line between rough bodies is the
+coarsest grid itself, whose solve is direct.
 """
 
 from dataclasses import dataclass, replace

@@ -52,7 +52,8 @@ class FCycle:
         grids = len(self._jacobians)
         twice = sum(self._is_visited_twice(level) for level in range(grids - 1))
         name = f"F-cycle, {twice} of them visited twice" if twice else "V-cycle"
-        viewer.printfASCII(f"  {grids} grids, {name}\n")
+        if grids > 1:
+            viewer.printfASCII(f"  {grids} grids, {name}\n")
         for context in (self._coarse, *self._smoothers):
             context.view(viewer)
 
