@@ -100,7 +100,7 @@ class MultigridSolver:
         if rigid:
             deflections = [None] * len(grids)
         self.jacobians = [
-            Jacobian(grid, deflection, contact, self._scheme_of(level - first - number))
+            Jacobian(grid, deflection, contact, self._scheme_of(len(grids) - 1 - number))
             for number, (grid, deflection) in enumerate(zip(grids, deflections, strict=True))
         ]
         """Of the cycle's grids, coarsest first."""

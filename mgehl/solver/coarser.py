@@ -67,7 +67,9 @@ class GridGaps:
 
 
 class CoarserGrids:
-    """What the coarser grids say of a run's answer, the `state` of its `problem`. None is solved twice.
+    """What the coarser grids say of a run's answer, the `state` of its `problem`.
+
+    Whoever wants both asks for the `gaps` first: `films` takes over what was solved for them.
 
     `monitor` and `journal` as of `nested_iteration`.
     """

@@ -27,7 +27,8 @@ SPEED_RATIO = 2.0
 convolutions, with 1.3 1068, from 3 on 691; by the geometric mean it makes no difference at 0.5 m/s."""
 
 COVERED = 1.5
-"""Film of smooth bodies over the roughness from which on peaks lie under a film."""
+"""Film of smooth bodies over the roughness at which the walk down in speed begins: more than 1, or that
+solve would begin from the dry contact, too. Others were not tried."""
 
 
 class Continuation:
@@ -162,10 +163,10 @@ def _begin_touching(hierarchy, contact, settings, monitor, journal):
     if outcome.converged or settings.nested.start != "film":
         return problem, outcome
     continuation = Continuation(hierarchy, contact, settings, monitor, journal)
-    found = _of_its_own(contact, settings, *continuation.from_thick_film())
-    if found[1].converged:
-        return found
-    outcome.reason += f"; nor from a thick film: {found[1].reason}"
+    slowed, last = _of_its_own(contact, settings, *continuation.from_thick_film())
+    if last.converged:
+        return slowed, last
+    outcome.reason += f"; nor from a thick film: {last.reason}"
     return problem, outcome
 
 

@@ -75,7 +75,12 @@ def run_drawn(study, name, draw, row, nodes, cases):
 
 def draw(cases, seed):
     """So many `Drawn`. A longer list begins with the same cases."""
-    return [_drawn(np.random.default_rng([seed, number]), number) for number in range(1, cases + 1)]
+    return several(_drawn, cases, seed)
+
+
+def several(drawn, cases, seed):
+    """So many of what `drawn(chance, number)` returns, each from a chance of its own."""
+    return [drawn(np.random.default_rng([seed, number]), number) for number in range(1, cases + 1)]
 
 
 def _drawn(chance, number):
@@ -85,8 +90,19 @@ def _drawn(chance, number):
         "lubricant": oil(chance),
         "motion": {"speed": by_logarithm(chance, *SPEED), "angle": _angle(chance)},
     }
-    rms, shortest = rms_and_shortest(chance, smooth, NODES, SHORTEST)
-    return Drawn(number, smooth | {"surface": surface_of(chance, number, rms, shortest)})
+    return finished(chance, number, smooth, surface_of, NODES, SHORTEST)
+
+
+def finished(chance, number, smooth, surface_of, nodes, shortest):
+    """The `Drawn` of `smooth` bodies with a surface, whose roughness goes by their film.
+
+    Its shortest wave has from, to so many cells of the smooth bodies' domain on so many nodes.
+    """
+    config = config_from_tables(merged(smooth, {"grid": {"nodes": nodes}}))
+    contact = contact_from(config)
+    rms = float(np.clip(contact.expected_film / by_logarithm(chance, *LAMBDA), *RMS))
+    wave = by_logarithm(chance, *shortest) * contact.longest_cell(mesh_from(config, contact))
+    return Drawn(number, smooth | {"surface": surface_of(chance, number, rms, wave)})
 
 
 def _bodies(chance):
@@ -126,14 +142,6 @@ def oil(chance):
     }
 
 
-def rms_and_shortest(chance, smooth, nodes, shortest):
-    """Roughness for the film of smooth bodies, and the shortest wave, m, from, to so many cells."""
-    config = config_from_tables(merged(smooth, {"grid": {"nodes": nodes}}))
-    contact = contact_from(config)
-    rms = float(np.clip(contact.expected_film / by_logarithm(chance, *LAMBDA), *RMS))
-    return rms, by_logarithm(chance, *shortest) * contact.longest_cell(mesh_from(config, contact))
-
-
 def _angle(chance):
     """Direction of the motion in degrees: along x two times in three."""
     return float(chance.uniform(5.0, 85.0)) if chance.random() < 1.0 / 3.0 else 0.0
@@ -146,6 +154,12 @@ def surface_of(chance, number, rms, shortest):
         left_out = chance.choice(("wavelength_x", "wavelength_y", ""))
         waves.pop(str(left_out), None)
         return {"kind": "waviness", "amplitude": rms * 2.0 ** (0.5 * len(waves)), **waves}
+    alike = self_affine(chance, number, rms, shortest)
+    return alike | {"aspect": float(chance.choice((1.0, 1.0, 3.0, 6.0))), "angle": _angle(chance)}
+
+
+def self_affine(chance, number, rms, shortest):
+    """A random surface without a direction."""
     return {
         "kind": "self-affine",
         "rms": rms,
@@ -153,21 +167,26 @@ def surface_of(chance, number, rms, shortest):
         "seed": number,
         "shortest_wavelength": shortest,
         "longest_wavelength": shortest * by_logarithm(chance, *LONGEST),
-        "aspect": float(chance.choice((1.0, 1.0, 3.0, 6.0))),
-        "angle": _angle(chance),
     }
 
 
 def row(case, contact, result):
     """Text of one case, from its contact and its `Result`."""
+    of_point = {
+        "R_y/R_x": f"{contact.radius_y / contact.radius_x:.2f}",
+        "angle": f"{case.tables['motion']['angle']:.0f}",
+        "surface": finish(case.tables["surface"]),
+    }
+    return bodies(case, contact) | of_point | found(case, result)
+
+
+def bodies(case, contact):
+    """Text of a case's number, modulus and pressure."""
     return {
         "case": str(case.number),
         "E' GPa": f"{1e-9 * contact.reduced_modulus:.0f}",
         "p_h GPa": f"{1e-9 * contact.hertz.p_h:.3g}",
-        "R_y/R_x": f"{contact.radius_y / contact.radius_x:.2f}",
-        "angle": f"{case.tables['motion']['angle']:.0f}",
-        "surface": finish(case.tables["surface"]),
-    } | found(case, result)
+    }
 
 
 def found(case, result):

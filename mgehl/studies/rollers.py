@@ -3,20 +3,19 @@
 No oil can flow around such a peak. As in study `machine`, domain, scheme and start are left to mgehl.
 """
 
-import numpy as np
-
 from mgehl.studies.machine import (
-    LONGEST,
     RADIUS,
     SPEED,
-    Drawn,
+    bodies,
+    finished,
     found,
     layers,
     modulus_and_pressure,
     oil,
     p_h_of_one,
-    rms_and_shortest,
     run_drawn,
+    self_affine,
+    several,
 )
 from mgehl.studies.rough_ball import by_logarithm
 
@@ -33,46 +32,34 @@ def run(study):
 
 def draw(cases, seed):
     """So many `Drawn`. A longer list begins with the same cases."""
-    return [_drawn(np.random.default_rng([seed, number]), number) for number in range(1, cases + 1)]
+    return several(_drawn, cases, seed)
 
 
 def _drawn(chance, number):
-    """One case: bodies and oil first, then a roughness for their film and their contact."""
+    """One case: a cylinder and its oil first, then a roughness for their film and their contact."""
     smooth = {
-        "contact": _bodies(chance) | layers(chance),
+        "contact": _cylinder(chance) | layers(chance),
         "lubricant": oil(chance),
         "motion": {"speed": by_logarithm(chance, *SPEED)},
     }
-    rms, shortest = rms_and_shortest(chance, smooth, NODES, SHORTEST)
-    return Drawn(number, smooth | {"surface": surface_of(chance, number, rms, shortest)})
+    return finished(chance, number, smooth, surface_of, NODES, SHORTEST)
 
 
-def _bodies(chance):
+def _cylinder(chance):
     """Radius, modulus and the load that presses smooth bodies as hard as was drawn."""
     modulus, pressure = modulus_and_pressure(chance)
-    bodies = {"kind": "line", "radius_x": by_logarithm(chance, *RADIUS), "reduced_modulus": modulus}
-    return bodies | {"load_per_length": (pressure / p_h_of_one(bodies, "load_per_length")) ** 2}
+    body = {"kind": "line", "radius_x": by_logarithm(chance, *RADIUS), "reduced_modulus": modulus}
+    return body | {"load_per_length": (pressure / p_h_of_one(body, "load_per_length")) ** 2}
 
 
 def surface_of(chance, number, rms, shortest):
     """Waves, or a random profile."""
     if chance.random() < 0.5:
         return {"kind": "waviness", "amplitude": rms * 2.0**0.5, "wavelength_x": shortest}
-    return {
-        "kind": "self-affine",
-        "rms": rms,
-        "hurst": float(chance.uniform(0.5, 0.95)),
-        "seed": number,
-        "shortest_wavelength": shortest,
-        "longest_wavelength": shortest * by_logarithm(chance, *LONGEST),
-    }
+    return self_affine(chance, number, rms, shortest)
 
 
 def row(case, contact, result):
     """Text of one case, from its contact and its `Result`."""
-    return {
-        "case": str(case.number),
-        "E' GPa": f"{1e-9 * contact.reduced_modulus:.0f}",
-        "p_h GPa": f"{1e-9 * contact.hertz.p_h:.3g}",
-        "profile": "waves" if case.tables["surface"]["kind"] == "waviness" else "random",
-    } | found(case, result)
+    profile = "waves" if case.tables["surface"]["kind"] == "waviness" else "random"
+    return bodies(case, contact) | {"profile": profile} | found(case, result)

@@ -33,22 +33,23 @@ ROLLER = {
 """Ridges across the motion, 1.3 GPa, lambda 0.3."""
 
 
-def rows_of(**changes):
+def solved(**changes):
     """Result and history of the roller."""
     solution = solve(config_from_tables(merged(ROLLER, changes)), MPI.COMM_SELF)
     return solution.result, solution.rows
 
 
 def test_each_linear_system_is_solved_at_once():
-    result, rows = rows_of()
+    result, rows = solved()
     assert result.converged and result.work.steps < 60
     assert {row["linear_iterations"] for row in rows[1:]} == {1}
+    assert {row["speed_mm_s"] for row in rows} == {50.0}, "from the dry contact, without a walk"
 
 
 def test_above_the_largest_direct_solve_the_grids_of_the_cycle_lead_to_the_same(monkeypatch):
-    at_once, _ = rows_of()
+    at_once, _ = solved()
     monkeypatch.setattr(cycle, "DIRECT", 65)
-    result, rows = rows_of()
+    result, rows = solved()
     assert result.converged and max(row["linear_iterations"] for row in rows) > 1
     assert result.mixed.mean_gap_nm == pytest.approx(at_once.mixed.mean_gap_nm, rel=1e-5)
 
