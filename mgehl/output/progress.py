@@ -18,10 +18,14 @@ class Progress:
         self._kind, self._nm, self._hierarchy, self._speaker = kind, 1e9 * film_scale, hierarchy, speaker
         self._finest, self._tolerance = hierarchy.grids[-1].mesh.nx, tolerance
         self._started, self._convolutions_before = time.perf_counter(), 0.0
+        self._news = ""
         self.rows = []
 
     def __call__(self, level, cycle):
         """Take one cycle."""
+        if level.news != self._news:
+            self._speaker.news(level.news)
+            self._news = level.news
         row = self._row(self._kind, level, cycle)
         self.rows.append(row)
         left = seconds_left(self.rows, self._finest, self._tolerance)

@@ -34,6 +34,9 @@ class Silent:
     def row(self, row, line, left=None):
         """A cycle: its row of the history, its line, and the seconds that are left, if known."""
 
+    def news(self, words):
+        """The run takes another way, in words."""
+
     def writing(self):
         """The last cycle is done: files and picture follow."""
 
@@ -64,6 +67,9 @@ class Lines(Silent):
     def row(self, row, line, left=None):
         say(line)
 
+    def news(self, words):
+        say(folded(words, HANGING, columns()))
+
     def end(self, solution, directory):
         lines = solution.result.words(self.verbose).splitlines()
         lines += [f"  {line}" for line in (*what_next(solution), f"results in {directory}")]
@@ -72,10 +78,13 @@ class Lines(Silent):
 
 
 class JsonLines(Silent):
-    """A JSON object per cycle and one of the result, for programs that watch."""
+    """A JSON object per cycle, one of the result and one of any news, for programs that watch."""
 
     def row(self, row, line, left=None):
         say(json.dumps(finite({"cycle": row, "seconds_left": left})))
+
+    def news(self, words):
+        say(json.dumps({"news": words}))
 
     def end(self, solution, directory):
         result = finite(asdict(solution.result))
@@ -111,6 +120,10 @@ class Live(Lines):
         with _AS_LONG_AS_IT_SHOWS:
             self._print(line)
             self._display.update(self._task, description=what, left=told, **known)
+
+    def news(self, words):
+        with _AS_LONG_AS_IT_SHOWS:
+            self._print(folded(words, HANGING, columns()))
 
     def _print(self, words):
         """Put words above the bar."""

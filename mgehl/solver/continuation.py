@@ -162,7 +162,12 @@ def _begin_touching(hierarchy, contact, settings, monitor, journal):
     problem, outcome = nested_iteration(hierarchy, contact, settings, monitor, journal)
     if outcome.converged or settings.nested.start != "film":
         return problem, outcome
-    continuation = Continuation(hierarchy, contact, settings, monitor, journal)
+    news = f"not found from the dry contact: {outcome.reason}; now from a thick film"
+
+    def tell(level, cycle):
+        monitor(replace(level, news=news), cycle)
+
+    continuation = Continuation(hierarchy, contact, settings, tell, journal)
     slowed, last = _of_its_own(contact, settings, *continuation.from_thick_film())
     if last.converged:
         return slowed, last

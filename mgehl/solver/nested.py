@@ -29,6 +29,8 @@ class LevelSolve:
     speed: float | None
     """None where there is no fluid."""
     finest: bool
+    news: str = ""
+    """What its user should know of the way here; empty where all goes as planned."""
 
 
 def nested_iteration(hierarchy, contact, settings, monitor, journal=NOTHING_KEPT):

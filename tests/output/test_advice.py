@@ -62,6 +62,19 @@ def test_a_contact_of_too_few_nodes():
     assert first.startswith("  more nodes, or a smaller domain")
 
 
+ROUGH = ["surface.kind=self-affine", "surface.shortest_wavelength=30 um", "surface.longest_wavelength=1 mm",
+         "motion.speed=5 mm/s", "discretization.face_mobility=linear-gap"]  # fmt: skip
+
+
+@pytest.mark.parametrize("rms, start, told", [
+    ("1 um", "film", False), ("1 um", "contact", True), ("0.1 nm", "film", True)
+])  # fmt: skip
+def test_what_was_tried_already_is_not_advised(rms, start, told):
+    """Where peaks touch, a film start ends with a walk down in speed."""
+    text = "\n".join(advice([*ROUGH, f"surface.rms={rms}", f"solver.start={start}"]))
+    assert ("--start-from" in text) is told
+
+
 @pytest.mark.parametrize("settings", [["contact.kind=wedge"], ["discretization.contact_model=dry"]])
 def test_what_has_no_film_is_told_nothing_of_one(settings):
     text = "\n".join(advice(settings))

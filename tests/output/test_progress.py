@@ -1,6 +1,7 @@
 """What a run says while it runs."""
 
 import json
+from dataclasses import replace
 from types import SimpleNamespace
 
 import pytest
@@ -26,6 +27,9 @@ class Told(Silent):
 
     def row(self, row, line, left=None):
         self.told.append((row, line, left))
+
+    def news(self, words):
+        self.told.append(words)
 
 
 def make_progress(speaker=SILENT, convolutions=0.0):
@@ -70,6 +74,17 @@ def test_it_tells_the_speaker_of_each_cycle(verbose, words):
     assert row is progress.rows[1] and first is None and left >= 0.0
     assert all(word in line for word in words), line
     assert verbose or "-2.0e-07" not in line
+
+
+def test_news_are_told_once_and_before_the_cycles_that_they_lead_to():
+    speaker = Told(verbose=False)
+    progress = make_progress(speaker)
+    other = replace(LEVEL, news="another way")
+    for step, level in enumerate([LEVEL, other, other]):
+        progress(level, cycle(step))
+    assert [each if isinstance(each, str) else each[0]["step"] for each in speaker.told] == [
+        0, "another way", 1, 2
+    ]  # fmt: skip
 
 
 @pytest.mark.parametrize("kind", [NEWTON, RELAXATION, DRY])

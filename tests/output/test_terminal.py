@@ -38,6 +38,22 @@ class TestWords:
         assert lines[0] == "a line" and lines[1] == "CONVERGED: all holds"
         assert lines[-1] == "  results in runs/here" and err == ""
 
+    NEWS = " ".join(40 * ["news"])
+
+    @pytest.mark.parametrize("kind", [Lines, Live])
+    def test_news_are_broken_at_spaces(self, capsys, monkeypatch, kind):
+        monkeypatch.setenv("COLUMNS", "80")
+        with kind() as words:
+            words.news(self.NEWS)
+        out = capsys.readouterr().out
+        assert out.split() == self.NEWS.split() and max(map(len, out.splitlines())) <= 80
+
+    def test_news_as_json_and_not_at_all(self, capsys):
+        JsonLines().news(self.NEWS)
+        assert json.loads(capsys.readouterr().out) == {"news": self.NEWS}
+        Quiet().news(self.NEWS)
+        assert capsys.readouterr() == ("", "")
+
     def test_on_a_terminal_they_are_broken_at_spaces(self, capsys, monkeypatch):
         reason = " ".join(40 * ["sets"])
         self.say(Lines(), reason=reason)

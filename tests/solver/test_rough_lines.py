@@ -104,9 +104,12 @@ class TestFromAThickFilm:
             return problem, outcome
 
         monkeypatch.setattr(module, "nested_iteration", failing)
-        problem, outcome = begin(hierarchy, contact, settings, lambda level, cycle: None)
+        told = []
+        tell = lambda level, cycle: told.append(level.news)  # noqa: E731
+        problem, outcome = begin(hierarchy, contact, settings, tell)
         assert outcome.converged is converged and problem.contact.speed == contact.speed
         assert len(asked) == 1 + converged and asked[0] == contact.speed
+        assert told[0] == "" and told[-1].endswith("now from a thick film" if converged else "")
 
     def test_where_both_fail_the_state_is_of_the_contact_s_own_speed(self, parts):
         contact, hierarchy, settings = parts
