@@ -55,16 +55,16 @@ def build_bands(offsets, A, B, distributive, kappa, share, bands, lines, nodes):
             for k in range(-reach, reach + 1):
                 distance, diagonal, spread = abs(k - ahead), diagonals[k + reach], spreads[k + reach :]
                 single, more = kappa[0, beside, distance], kappa[1, beside, distance]
-                _add_product(B[o, j, first:end], spread, single, more - single, diagonal)
+                add_product(B[o, j, first:end], spread, single, more - single, diagonal)
                 if beside + distance == 0:
-                    _add_product(A[o, j, first:end], spread, 1.0, 0.0, diagonal)
+                    add_product(A[o, j, first:end], spread, 1.0, 0.0, diagonal)
                 elif beside + distance == 1:
-                    _add_product(A[o, j, first:end], spread, 0.0, -share, diagonal)
+                    add_product(A[o, j, first:end], spread, 0.0, -share, diagonal)
         _set_band(diagonals, bands[j, first:end])
 
 
 @compiled(fastmath={"contract"})
-def _add_product(b, spreads, single, more, diagonal):
+def add_product(b, spreads, single, more, diagonal):
     """diagonal += b (single + more spreads): a function of its own, for a loop that runs on vectors."""
     for i in range(diagonal.size):
         diagonal[i] += b[i] * (single + more * spreads[i])
@@ -74,10 +74,12 @@ def _add_product(b, spreads, single, more, diagonal):
 def _set_band(diagonals, band):
     """A band (nodes, width) of its diagonals (width, nodes), without what is beyond its ends."""
     width, nx = diagonals.shape
-    reach = width // 2
     for i in range(nx):
         for k in range(width):
-            band[i, k] = diagonals[k, i] if 0 <= i + k - reach < nx else 0.0
+            band[i, k] = diagonals[k, i]
+    for i in range(min(width // 2, nx)):
+        band[i, : width // 2 - i] = 0.0
+        band[nx - 1 - i, width // 2 + 1 + i :] = 0.0
 
 
 @compiled()

@@ -65,13 +65,13 @@ class LineBands:
         self._spans = np.tile([0, nx], (lines, 1))
         self._factor, self._solve = LOOPS[reach]
 
-    def factor(self, linearisation, distributive, given, kappa, share, lines=slice(None)):
-        """Factor what J Q couples along some `lines`, for their linearisation.
+    def factor(self, linearisation, distributive, given, kappa, share):
+        """Factor what J Q couples along the lines.
 
         Return its diagonal, (lines, nx), zero beyond the spans. A few lines at a time: their bands are
         still in the processor's cache when they are factored.
         """
-        lin, bands, spans = linearisation, self._room()[lines], self._spans[lines]
+        lin, bands, spans = linearisation, self._room(), self._spans
         diagonal = np.zeros(bands.shape[:2])
         for first in range(0, len(bands), AT_A_TIME):
             some = slice(first, min(first + AT_A_TIME, len(bands)))

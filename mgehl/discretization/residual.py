@@ -25,21 +25,6 @@ class Linearisation:
     eps: np.ndarray
     """The nodes' mobility, (lines, nx): it tells a smoother where the Poiseuille flow is weak."""
 
-    def turned(self, turn):
-        """That of an elastic gap with X and Y exchanged; `turn` does that to an array of nodes."""
-        offsets = np.ascontiguousarray(self.offsets[:, ::-1])
-        return Linearisation(offsets, _turned(self.A, turn), _turned(self.B, turn), turn(self.eps))
-
-
-def _turned(stencil, turn):
-    """A stencil of turned arrays, one after the other: two copies of all would be the most memory."""
-    first = turn(stencil[0])
-    turned = np.empty((len(stencil), *first.shape))
-    turned[0] = first
-    for array, of_offset in zip(stencil[1:], turned[1:], strict=True):
-        turn(array, of_offset)
-    return turned
-
 
 def residual(evaluation, rows, storage=None):
     """The row of the nonlinear residual that each node has, (lines, nx) as `rows`.

@@ -99,6 +99,17 @@ class Grid:
         out[HALO:-HALO] = array
         return out
 
+    def lines_around(self, array, count):
+        """As `halo`, with `count` lines of each neighbour, at most `MIN_LINES`; (lines + 2 count, nx)."""
+        lines, team = len(array), self.team
+        around = np.zeros((lines + 2 * count, *array.shape[1:]), array.dtype)
+        around[count : count + lines] = array
+        before = team.rank - 1 if team.rank else MPI.PROC_NULL
+        behind = team.rank + 1 if team.rank + 1 < team.size else MPI.PROC_NULL
+        team.Sendrecv(around[count : 2 * count], before, recvbuf=around[count + lines :], source=behind)
+        team.Sendrecv(around[lines : count + lines], behind, recvbuf=around[:count], source=before)
+        return around
+
     def halo_status(self, status):
         """As `halo` for node statuses: what is outside the domain is WALL."""
         ghosted = self.halo(status)

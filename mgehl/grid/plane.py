@@ -60,10 +60,15 @@ class SharedPlane:
         self._comm, columns = comm, sum(widths)
         self.starts = _starts(widths)
         """The first column of each rank."""
-        self.lines = whole[line_starts[comm.rank] : line_starts[comm.rank + 1], :columns]
+        self.whole_lines = whole[line_starts[comm.rank] : line_starts[comm.rank + 1]]
+        """This rank's in one piece, (lines, all columns or one more)."""
+        self.lines = self.whole_lines[:, :columns]
         """This rank's, (lines, all columns)."""
-        first = self.starts[comm.rank]
-        self.columns = whole[:, first : first + widths[comm.rank]]
+        self.whole, first = whole, self.starts[comm.rank]
+        """An array in one piece, (all lines, ...), that has this rank's columns in it."""
+        self.places = first, first + widths[comm.rank]
+        """(first, end) of these there."""
+        self.columns = whole[:, slice(*self.places)]
         """This rank's, (all lines, columns)."""
 
     def destroy(self):
@@ -93,15 +98,15 @@ class SentPlane:
         self._comm, self._kind = comm, from_numpy_dtype(dtype)
         self.starts, heights = _starts(widths), np.diff(line_starts).tolist()
         mine, all_columns = widths[comm.rank], sum(widths)
-        self.lines = np.zeros((heights[comm.rank], all_columns), dtype)
-        self._columns = np.zeros((sum(heights), _odd(mine)), dtype)
-        self.columns = self._columns[:, :mine]
+        self.lines = self.whole_lines = np.zeros((heights[comm.rank], all_columns), dtype)
+        self.whole, self.places = np.zeros((sum(heights), _odd(mine)), dtype), (0, mine)
+        self.columns = self.whole[:, :mine]
         self._line_parts = [
             self._part(self.lines, (len(self.lines), width), (0, start))
             for start, width in zip(self.starts, widths, strict=True)
         ]
         self._column_parts = [
-            self._part(self._columns, (height, mine), (start, 0))
+            self._part(self.whole, (height, mine), (start, 0))
             for start, height in zip(_starts(heights), heights, strict=True)
         ]
 
@@ -112,11 +117,11 @@ class SentPlane:
 
     def to_columns(self):
         """Send lines, receive columns."""
-        self._exchange(self.lines, self._line_parts, self._columns, self._column_parts)
+        self._exchange(self.lines, self._line_parts, self.whole, self._column_parts)
 
     def to_lines(self):
         """Send columns, receive lines."""
-        self._exchange(self._columns, self._column_parts, self.lines, self._line_parts)
+        self._exchange(self.whole, self._column_parts, self.lines, self._line_parts)
 
     def release(self):
         """As of a `SharedPlane`; no rank reads what another one writes."""

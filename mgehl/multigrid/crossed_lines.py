@@ -1,25 +1,18 @@
 """The distributive line smoother with lines along both axes."""
 
-import numpy as np
-from mpi4py import MPI
-
 from mgehl.discretization.axes import own
 from mgehl.discretization.band_kernels import REACH
-from mgehl.discretization.bands import STIFF, LineBands, influence_of_columns
+from mgehl.discretization.bands import STIFF, influence_of_columns
 from mgehl.grid.events import LINES, event
-from mgehl.grid.y_lines import YLines
 from mgehl.multigrid.cliffs import CliffZone, cliffs
 from mgehl.multigrid.smoother import LineSmoother, influence_nearby
+from mgehl.multigrid.y_bands import YBands
 
 AT_CLIFFS = 1.2
 """Times the residual that is solved for around cliffs, on grids that hold the film. Lines do not see waves
 along a spike: damped as lines are, by omega = 0.8, these would be the last that are left. With 1.2 thick
 films on 257 to 1025 nodes take up to a quarter less work than with 1, a few of them a twentieth more; with
 1.3 up to an eighth more than with 1.2; with 2 up to two and a half times as much."""
-
-COPIED = 0.5
-"""Work of copying a node to its y-line and back, over that of solving for it. From 0.2 to 1 the same time.
-It also keeps a line for every rank, where nothing is solved on some lines."""
 
 
 class CrossedLineSmoother(LineSmoother):
@@ -34,61 +27,43 @@ class CrossedLineSmoother(LineSmoother):
     def __init__(self, jacobian, omega):
         super().__init__(jacobian, omega)
         grid = jacobian.grid
-        self._y_kappa = influence_of_columns(influence_nearby(jacobian, turned=True), self._share)
-        self._y_lines = YLines(grid) if grid.has_lines else None
-        if self._y_lines:
-            self._y_bands = LineBands(*self._y_lines.whole.shape)
+        kappa = influence_of_columns(influence_nearby(jacobian, turned=True), self._share)
+        self._y_bands = YBands(grid, kappa, self._share) if grid.has_lines else None
 
     def free(self):
         """Free the MPI datatypes."""
-        if self._y_lines:
-            self._y_lines.destroy()
+        if self._y_bands:
+            self._y_bands.destroy()
 
     def forget(self):
         """Free the memory of the factors."""
         super().forget()
-        if self._y_lines:
+        if self._y_bands:
             self._y_bands.forget()
 
     @event(LINES)
     def factor(self):
         """Factor the bands of the present linearisation; the next relaxation begins along X."""
         self._along_y_first = False
-        if not self._y_lines:
+        if not self._y_bands:
             return
         self._diagonal = self._factor_x_lines()
-        if self._y_lines.follow(self._work_of_y_lines()):
-            self._y_bands = LineBands(*self._y_lines.whole.shape)
-        for lines, piece in self._y_lines.pieces:
-            linearisation = self._jacobian.linearisation.turned(piece.turned)
-            nodes = piece.turned(own(self._distributive)) > 0.0, piece.turned(self._jacobian.given) > 0.0
-            self._y_bands.factor(linearisation, *nodes, self._y_kappa, self._share, lines)
-
-    def _work_of_y_lines(self):
-        """Of each, (nx,): a cavity behind the contact would leave the rank idle whose lines it takes."""
-        grid = self._jacobian.grid
-        solved = np.count_nonzero(~self._jacobian.given, axis=0).astype(float)
-        grid.team.Allreduce(MPI.IN_PLACE, solved)
-        return solved + COPIED * grid.mesh.ny
+        nodes = own(self._distributive), self._jacobian.given
+        self._y_bands.factor(self._jacobian.linearisation, *nodes)
 
     def _solve_lines(self, r):
         """Solve along one axis, then along the other; the next time in the other order."""
-        if not self._y_lines:
+        if not self._y_bands:
             return
         if self._along_y_first:
-            self._solve_y_lines(r)
+            self._y_bands.solve(r, self._w)
             self._w *= self._diagonal
             self._bands.solve(self._w, self._w)
         else:
             self._bands.solve(r, self._w)
             self._w *= self._diagonal
-            self._solve_y_lines(self._w)
+            self._y_bands.solve(self._w, self._w)
         self._along_y_first = not self._along_y_first
-
-    def _solve_y_lines(self, r):
-        w = self._y_lines.whole.turned(r)
-        self._y_bands.solve(w, w)
-        self._y_lines.whole.turn_back(w, self._w)
 
     def view(self, viewer):
         words = f"omega {self._omega}, {REACH} neighbours"
@@ -112,7 +87,7 @@ class CliffSmoother(CrossedLineSmoother):
     def partition(self, rows):
         """As of a `LineSmoother`; find the cliffs and gather what is around them."""
         super().partition(rows)
-        if self._y_lines:
+        if self._y_bands:
             grid, linearisation = self._jacobian.grid, self._jacobian.linearisation
             free = ~self._jacobian.given
             found = cliffs(grid.halo(linearisation.eps), STIFF * self._K00 * grid.mesh.dX) & free
@@ -129,7 +104,7 @@ class CliffSmoother(CrossedLineSmoother):
 
     def _solve_lines(self, r):
         super()._solve_lines(r)
-        if self._y_lines:
+        if self._y_bands:
             self._zone.solve(r, self._w, self._weight)
 
     def view(self, viewer):

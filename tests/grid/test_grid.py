@@ -52,6 +52,12 @@ def test_halo_surrounds_with_zero_lines_outside_the_domain(hierarchy):
     np.testing.assert_array_equal(beyond(ghosted), 0.0)
 
 
+def test_lines_around_are_zero_outside_the_domain(hierarchy):
+    values = np.arange(33.0 * 33.0).reshape(33, 33) + 1.0
+    around = hierarchy.grids[0].lines_around(values, 3)
+    np.testing.assert_array_equal(around, np.pad(values, ((3, 3), (0, 0))))
+
+
 @pytest.mark.parametrize("kind", [bool, np.int8, float])
 def test_halo_keeps_the_type(hierarchy, kind):
     grid = hierarchy.grids[0]

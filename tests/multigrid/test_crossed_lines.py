@@ -17,7 +17,7 @@ class TestLinesAlongBothAxes:
     """Of a motion at an angle, against dense matrices, on a grid that a band spans.
 
     A band is cut at 4 nodes, and the ends of a line are 5 apart: they and what is beside them are given, so
-    that nothing moves there. Four lines have a span together; beyond it w is zero.
+    that nothing moves there. Four lines along X have a span together; beyond spans w is zero.
     """
 
     NODES = 6
@@ -59,12 +59,24 @@ class TestLinesAlongBothAxes:
         X, Y, D = (np.where(kept, JQ, 0.0) for kept in (of_line, of_column, of_line & of_column))
         return (each.reshape(n * n, n * n) for each in (Q, X, Y, D))
 
-    def in_spans(self, rows):
+    def in_x_spans(self, rows):
         """The nodes that the systems of lines along X have, of these rows."""
         inside = np.zeros(rows.shape, bool)
         for first in range(0, len(rows), AT_A_TIME):
             lines = slice(first, min(first + AT_A_TIME, len(rows)))
             inside[lines, slice(*span_of(rows == PRESSURE, (lines.start, lines.stop)))] = True
+        assert inside.any() and not inside.all()
+        return inside
+
+    def in_y_spans(self, rows):
+        """Those of lines along Y: between the outermost nodes that move there or on a line beside."""
+        moves = rows != PRESSURE
+        beside = moves.copy()
+        beside[1:] |= moves[:-1]
+        beside[:-1] |= moves[1:]
+        nodes = np.arange(rows.shape[1])
+        first, end = beside.argmax(axis=1), rows.shape[1] - beside[:, ::-1].argmax(axis=1)
+        inside = beside.any(axis=1)[:, None] & (nodes >= first[:, None]) & (nodes < end[:, None])
         assert inside.any() and not inside.all()
         return inside
 
@@ -81,7 +93,7 @@ class TestLinesAlongBothAxes:
         Q, X, Y, D = self.parts(jacobian, rows, make_vec)
         r = np.random.default_rng(8).standard_normal((self.NODES, self.NODES))
         r[[0, -1]], r[:, [0, -1]] = 0.0, 0.0
-        along_x, along_y = (X, self.in_spans(rows)), (Y, self.in_spans(rows.T).T)
+        along_x, along_y = (X, self.in_x_spans(rows)), (Y, self.in_y_spans(rows))
         for first, then in ((along_x, along_y), (along_y, along_x), (along_x, along_y)):
             correction = smoother.relax(r)
             w = self.solved(*then, np.diag(D) * self.solved(*first, r.ravel()))

@@ -8,12 +8,16 @@ import pytest
 from mpi4py import MPI
 
 from mgehl.config import config_from_tables
+from mgehl.discretization.bands import influence_of_columns
+from mgehl.discretization.influence import influence_coefficients
 from mgehl.discretization.mesh import Mesh
-from mgehl.grid import plane, shared_memory, y_lines
+from mgehl.discretization.residual import Linearisation
+from mgehl.grid import plane, shared_memory
 from mgehl.grid.grid import single_grid
 from mgehl.grid.plane import SentPlane, SharedPlane, even_widths, plane_of
 from mgehl.grid.shared_memory import shared_array
-from mgehl.grid.y_lines import YLines
+from mgehl.model.deformation import HalfSpace
+from mgehl.multigrid.y_bands import YBands
 from mgehl.run import solve
 from mgehl.studies.study import papers_grid
 
@@ -43,8 +47,11 @@ def grid():
 
 
 @pytest.fixture
-def whole():
-    return np.random.default_rng(1).random((NY, NX))
+def alone():
+    """The same grid on one rank."""
+    made = single_grid(Mesh(NX, NY, (-1.9, 1.3), (-1.5, 1.5)), MPI.COMM_SELF)
+    yield made
+    made.destroy()
 
 
 def test_all_ranks_see_what_one_writes():
@@ -83,48 +90,38 @@ def test_columns_have_what_all_wrote_to_their_lines(kind):
         made.destroy()
 
 
-def test_lines_along_y_are_whole_on_a_rank(kind, grid, whole):
-    lines = YLines(grid) if grid.has_lines else None
-    mine = whole[grid.first : grid.last]
-    turned, back = np.empty((0, NY)), np.empty_like(mine)
-    if lines:
-        turned = lines.whole.turned(mine)
-        lines.whole.turned(mine + 1.0)
-        lines.whole.turn_back(2.0 * turned, back)
-        lines.whole.turn_back(3.0 * turned, np.empty_like(mine))  # which does not change what came before
-        lines.destroy()
-    np.testing.assert_array_equal(np.concatenate(COMM.allgather(turned)), whole.T)
-    np.testing.assert_array_equal(back, 2.0 * mine)
-
-
-def test_pieces_of_the_y_lines_are_the_whole(kind, grid, whole, monkeypatch):
-    monkeypatch.setattr(y_lines, "PIECE", NX * NY // (3 * COMM.size))
-    turned = np.empty((0, NY))
+def solved_y_lines(grid, moving):
+    """Right-hand sides solved on the y-lines of a random system, and how many a rank has; `moving`,
+    (NY, NX), are the nodes that are not given."""
+    rng = np.random.default_rng(1)
+    offsets = np.array([(0, 0), (0, -1), (0, 1), (-1, 0), (1, 0)])
+    A, B = rng.standard_normal((2, len(offsets), NY, NX))
+    A[0] += 12.0
+    distributive, r = moving & (rng.random((NY, NX)) < 0.5), rng.standard_normal((NY, NX))
+    kappa = influence_of_columns(influence_coefficients(grid.mesh, HalfSpace(0.2)), 0.25)
+    mine, w, share = slice(grid.first, grid.last), np.empty(grid.shape), 0
     if grid.has_lines:
-        lines, mine = YLines(grid), whole[grid.first : grid.last]
-        turned = np.concatenate([piece.turned(mine) for _, piece in lines.pieces])
-        assert len(lines.pieces) > 1
-        lines.destroy()
-    np.testing.assert_array_equal(np.concatenate(COMM.allgather(turned)), whole.T)
+        y_bands = YBands(grid, kappa, 0.25)
+        lin = Linearisation(offsets, *(each[:, mine].copy() for each in (A, B)), None)
+        for _ in range(2):  # the second time over what was there
+            y_bands.factor(lin, distributive[mine], ~moving[mine])
+            y_bands.solve(r[mine], w)
+        first, end = y_bands._mine
+        share = end - first
+        y_bands.destroy()
+    return np.concatenate(grid.comm.allgather(w)), grid.comm.allgather(share)
 
 
-def test_y_lines_that_were_dealt_out_anew_are_whole(kind, grid, whole, monkeypatch):
-    """All of the work is in the first third of the lines, so the last rank has most of the others."""
-    monkeypatch.setattr(y_lines, "PIECE", NX * NY // (3 * COMM.size))
-    work, mine = np.where(np.arange(NX) < NX // 3, 1.0, 0.01), whole[grid.first : grid.last]
-    turned, pieces, back = np.empty((0, NY)), np.empty((0, NY)), np.empty_like(mine)
-    if grid.has_lines:
-        lines = YLines(grid)
-        assert lines.follow(work) == (COMM.size > 1) and not lines.follow(work)
-        turned = lines.whole.turned(mine)
-        pieces = np.concatenate([piece.turned(mine) for _, piece in lines.pieces])
-        lines.whole.turn_back(2.0 * turned, back)
-        lines.destroy()
-    everywhere = COMM.allgather(turned)
-    np.testing.assert_array_equal(np.concatenate(everywhere), whole.T)
-    np.testing.assert_array_equal(np.concatenate(COMM.allgather(pieces)), whole.T)
-    np.testing.assert_array_equal(back, 2.0 * mine)
-    assert COMM.size == 1 or len(everywhere[-1]) > 2 * NX // 3
+@pytest.mark.parametrize("columns", [NX, NX // 3], ids=["everywhere", "in the first third of the plane"])
+def test_y_lines_are_solved_as_by_one_rank(kind, grid, alone, columns):
+    """To the last bit; where something moves on few of them each rank has its share of those."""
+    moving = np.zeros((NY, NX), bool)
+    moving[1:-1, 1:columns] = True
+    moving[:4] &= np.arange(NX) < NX // 4
+    (expected, _), (found, shares) = (solved_y_lines(each, moving) for each in (alone, grid))
+    np.testing.assert_array_equal(found, expected)
+    assert found.any() and sum(shares) == NX
+    assert COMM.size == 1 or columns == NX or shares[-1] > 2 * NX // 3
 
 
 def test_a_film_is_the_same_to_the_last_digit(monkeypatch):

@@ -20,6 +20,7 @@ from mgehl.discretization.rows import rows_of
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED, WALL
 from mgehl.errors import OutputError, Stopped
+from mgehl.grid.ownership import MIN_LINES
 from mgehl.grid.regroup import Move
 from mgehl.grid.transfers import PartitionedTransfer
 from mgehl.model.contact import RESOLVED_CELLS
@@ -102,6 +103,17 @@ class TestGrid:
         ghosted = grid.halo(lines(grid, values))
         assert ghosted.dtype == kind
         np.testing.assert_array_equal(ghosted, padded[grid.first : grid.last + 2 * HALO])
+
+    @pytest.mark.parametrize("kind", [float, bool])
+    def test_as_many_lines_of_the_neighbours_as_they_have_at_the_least(self, pair, kind):
+        together, _ = pair(nodes=65)
+        for grid in together.grids:
+            values = (random(grid) > 0.0).astype(kind)
+            padded = np.pad(values, ((MIN_LINES, MIN_LINES), (0, 0)))
+            if grid.has_lines:
+                around = grid.lines_around(lines(grid, values), MIN_LINES)
+                assert around.dtype == kind
+                np.testing.assert_array_equal(around, padded[grid.first : grid.last + 2 * MIN_LINES])
 
     def test_only_beyond_the_domain_are_walls(self, pair):
         together, alone = pair(nodes=65)
