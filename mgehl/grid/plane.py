@@ -19,11 +19,25 @@ def plane_of(comm, line_starts, widths, dtype):
 
     `widths` are the numbers of columns of each rank.
     """
-    shape = int(line_starts[-1]), _odd(sum(widths))
-    whole = np.zeros(shape, dtype) if comm.size == 1 else shared_array(comm, shape, dtype)
-    if whole is None:
-        return SentPlane(comm, line_starts, widths, dtype)
-    return SharedPlane(comm, line_starts, widths, whole)
+    return planes_of(comm, line_starts, widths, dtype, (1,))[0]
+
+
+def planes_of(comm, line_starts, widths, dtype, numbers):
+    """Planes of zeros in which each line has so many `numbers` of lines.
+
+    All are of one kind: a rank's columns are at the same places in each.
+    """
+    starts, width = [each * line_starts for each in numbers], _odd(sum(widths))
+    wholes = [_room(comm, (int(each[-1]), width), dtype) for each in starts]
+    if any(whole is None for whole in wholes):
+        return [SentPlane(comm, each, widths, dtype) for each in starts]
+    pairs = zip(starts, wholes, strict=True)
+    return [SharedPlane(comm, each, widths, whole) for each, whole in pairs]
+
+
+def _room(comm, shape, dtype):
+    """Zeros that all ranks see; None where that cannot be."""
+    return np.zeros(shape, dtype) if comm.size == 1 else shared_array(comm, shape, dtype)
 
 
 def even_shares(columns, ranks):
@@ -33,9 +47,14 @@ def even_shares(columns, ranks):
 
 
 def shares_of_work(work, ranks):
-    """The same of columns that take so much `work` each: ranks have equal parts of it, to half a column."""
-    done = np.cumsum(work)
-    cuts = np.searchsorted(done - 0.5 * work, done[-1] * np.arange(1, ranks) / ranks).tolist()
+    """The same of columns that take so much `work` each: ranks have equal parts of it, to half a column.
+
+    Each has a column at the least; there must be as many.
+    """
+    done, inner = np.cumsum(work), np.arange(1, ranks)
+    cuts = np.searchsorted(done - 0.5 * work, done[-1] * inner / ranks)
+    cuts = np.maximum.accumulate(np.maximum(cuts - inner, 0)) + inner
+    cuts = np.minimum(cuts, len(work) - ranks + inner).tolist()
     return list(zip([0, *cuts], [*cuts, len(work)], strict=True))
 
 
@@ -85,8 +104,8 @@ class SharedPlane:
     def release(self):
         """All ranks have read what they need: lines and columns may be written again.
 
-        Not needed where `to_columns` or `to_lines` comes between a rank's reading and another's writing:
-        these wait, too.
+        Needed where nothing else that waits for all, `to_columns` or `to_lines`, comes between a rank's
+        reading and another's writing.
         """
         self._comm.Barrier()
 

@@ -28,24 +28,25 @@ class CrossedLineSmoother(LineSmoother):
         super().__init__(jacobian, omega)
         grid = jacobian.grid
         kappa = influence_of_columns(influence_nearby(jacobian, turned=True), self._share)
-        self._y_bands = YBands(grid, kappa, self._share) if grid.has_lines else None
+        self._has_lines = grid.has_lines
+        if self._has_lines:
+            self._y_bands = YBands(grid, kappa, self._share)
 
     def free(self):
         """Free the MPI datatypes."""
-        if self._y_bands:
-            self._y_bands.destroy()
+        self.forget()
 
     def forget(self):
         """Free the memory of the factors."""
         super().forget()
-        if self._y_bands:
+        if self._has_lines:
             self._y_bands.forget()
 
     @event(LINES)
     def factor(self):
         """Factor the bands of the present linearisation; the next relaxation begins along X."""
         self._along_y_first = False
-        if not self._y_bands:
+        if not self._has_lines:
             return
         self._diagonal = self._factor_x_lines()
         nodes = own(self._distributive), self._jacobian.given
@@ -53,7 +54,7 @@ class CrossedLineSmoother(LineSmoother):
 
     def _solve_lines(self, r):
         """Solve along one axis, then along the other; the next time in the other order."""
-        if not self._y_bands:
+        if not self._has_lines:
             return
         if self._along_y_first:
             self._y_bands.solve(r, self._w)
@@ -87,7 +88,7 @@ class CliffSmoother(CrossedLineSmoother):
     def partition(self, rows):
         """As of a `LineSmoother`; find the cliffs and gather what is around them."""
         super().partition(rows)
-        if self._y_bands:
+        if self._has_lines:
             grid, linearisation = self._jacobian.grid, self._jacobian.linearisation
             free = ~self._jacobian.given
             found = cliffs(grid.halo(linearisation.eps), STIFF * self._K00 * grid.mesh.dX) & free
@@ -104,7 +105,7 @@ class CliffSmoother(CrossedLineSmoother):
 
     def _solve_lines(self, r):
         super()._solve_lines(r)
-        if self._y_bands:
+        if self._has_lines:
             self._zone.solve(r, self._w, self._weight)
 
     def view(self, viewer):

@@ -62,6 +62,16 @@ def test_shares_of_work_are_equal_to_half_a_column():
         assert max(parts) - work.sum() / ranks <= work.max() and len(shares) == ranks
 
 
+@pytest.mark.parametrize("where", [0, 8, 16], ids=["at the beginning", "in the middle", "at the end"])
+@pytest.mark.parametrize("ranks", [1, 2, 8, 17])
+def test_each_rank_has_a_column_where_few_take_work(where, ranks):
+    work = np.zeros(17)
+    work[where] = 5.0
+    shares = shares_of_work(work, ranks)
+    assert [first for first, _ in shares] == [0, *(end for _, end in shares[:-1])]
+    assert shares[-1][1] == 17 and all(first < end for first, end in shares)
+
+
 def test_shares_of_equal_work_are_even():
     assert shares_of_work(np.ones(8), 2) == even_shares(8, 2)
     assert shares_of_work(np.array([1.0, 1.0, 1.0, 1.0, 0.0, 0.0]), 2) == [(0, 2), (2, 6)]

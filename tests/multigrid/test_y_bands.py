@@ -33,7 +33,7 @@ def kappa(grid):
 def y_bands(grid, kappa):
     made = YBands(grid, kappa, SHARE)
     yield made
-    made.destroy()
+    made.forget()
 
 
 @pytest.fixture
