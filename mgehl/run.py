@@ -23,8 +23,8 @@ from mgehl.output.solution import Fields, Solution
 from mgehl.output.surroundings import versions
 from mgehl.output.users_axes import in_users_axes
 from mgehl.output.wedge_result import summarise_wedge
+from mgehl.solver.beginning import begin
 from mgehl.solver.coarser import CoarserGrids
-from mgehl.solver.continuation import begin
 from mgehl.solver.dry import guess_on_finest, solve_dry
 from mgehl.solver.from_config import set_up
 from mgehl.solver.journal import NOTHING_KEPT, told_to_stop

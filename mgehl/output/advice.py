@@ -6,7 +6,7 @@ from mgehl.config_value import AUTO
 from mgehl.kinds import settled
 from mgehl.output import surface
 from mgehl.output.resolution import RESOLVED_CELLS
-from mgehl.solver.from_config import scheme_from
+from mgehl.solver.beginning import NOR_FROM_A_FILM
 
 MOST = 3
 """Most pieces of advice that are given."""
@@ -44,15 +44,9 @@ def _tries(solution):
     yield from _of_domain(solution)
     yield from _of_grid(result.resolution, config.grid.nodes)
     yield OTHER[config.solver.start]
-    if not _was_slowed_down(solution):
+    if NOR_FROM_A_FILM not in result.reason:
         yield "--start-from RUN: from a run at a higher speed that converged; so step by step down"
     yield f"solver.max_steps: more than {config.solver.max_steps}, where the residual still falls"
-
-
-def _was_slowed_down(solution):
-    """Whether the run went step by step down in speed already."""
-    config, contact = solution.config, solution.contact
-    return config.solver.start == "film" and scheme_from(config, contact).lets_peaks_touch(contact)
 
 
 def _of_domain(solution):

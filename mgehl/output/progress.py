@@ -23,7 +23,7 @@ class Progress:
 
     def __call__(self, level, cycle):
         """Take one cycle."""
-        if level.news != self._news:
+        if level.news and level.news != self._news:
             self._speaker.news(level.news)
             self._news = level.news
         row = self._row(self._kind, level, cycle)

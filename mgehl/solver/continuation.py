@@ -26,15 +26,12 @@ SPEED_RATIO = 2.0
 """Ratio of speeds that one step may try where nothing says less. A film by the harmonic mean takes 761
 convolutions, with 1.3 1068, from 3 on 691; by the geometric mean it makes no difference at 0.5 m/s."""
 
-COVERED = 1.5
-"""Film of smooth bodies over the roughness at which the walk down in speed begins: more than 1, or that
-solve would begin from the dry contact, too. Others were not tried."""
-
 
 class Continuation:
     """One contact on the finest grid of a hierarchy at any speed, each solution from another.
 
-    `monitor` is called as by `nested_iteration`. All solves are of the coupled film and contact.
+    `monitor` is called as by `nested_iteration`. All solves are of the coupled film and contact. Where one
+    on the way is not found, the problem that is returned is the one that was asked for, none the less.
     """
 
     def __init__(
@@ -45,21 +42,21 @@ class Continuation:
         self._settings = replace(settings, newton=settings.newton.squeezed())
 
     def begin(self, speed, start):
-        """Solve at `speed` from nothing: a "film" or a "contact" start."""
+        """Solve at `speed` without a solution to begin with: a "film" or a "contact" start."""
         nested = replace(self._settings.nested, start=start)
         contact = self._contact.at_speed(speed)
         settings = replace(self._settings, nested=nested)
         if start == "contact" or settings.scheme.face_mobility == "arithmetic":
             return nested_iteration(self._hierarchy, contact, settings, self._monitor, self._journal)
-        return self._begin_with_mean(contact, settings)
+        return self._asked(speed, *self._begin_with_mean(contact, settings))
 
     def begin_beyond(self, speed, start):
         """As `begin`, but first at a speed where such a start settles, and from there to `speed`."""
         first = speed * (BEYOND if start == "film" else 1.0 / BEYOND)
         problem, outcome = self.begin(first, start)
         if outcome.converged:
-            problem, outcome = self.follow(outcome.state, first, speed)
-        return problem, outcome
+            problem, outcome = self._follow(outcome.state, first, speed)
+        return self._asked(speed, problem, outcome)
 
     def at(self, speed, state, share=1.0):
         """Solve at `speed` from `state`; return the problem and the `Outcome`."""
@@ -80,15 +77,23 @@ class Continuation:
 
     def follow(self, state, first_speed, last_speed):
         """Carry the `state` at one speed to another, in steps of equal ratio."""
+        return self._asked(last_speed, *self._follow(state, first_speed, last_speed))
 
+    def turn(self, speed, state):
+        """Turn the `state` that solves the arithmetic mean's equations at `speed` to the scheme's mean."""
+        found = carry(lambda t, state: self.at(speed, state, t), state, FIRST_SHARE)
+        return self._asked(speed, *found)
+
+    def slow_down(self, problem, outcome):
+        """From the solution of a faster contact to that of its own speed, as far as there is one."""
+        speed = self._contact.speed
+        return self._asked(speed, *self._slow_down(problem, outcome, speed, exactly=True))
+
+    def _follow(self, state, first_speed, last_speed):
         def solve(t, state):
             return self.at(first_speed ** (1.0 - t) * last_speed**t, state)
 
         return carry(solve, state)
-
-    def turn(self, speed, state):
-        """Turn the `state` that solves the arithmetic mean's equations at `speed` to the scheme's mean."""
-        return carry(lambda t, state: self.at(speed, state, t), state, FIRST_SHARE)
 
     def _begin_with_mean(self, contact, settings):
         """Solve by another mean than the arithmetic one, first at a speed at which the grid resolves the
@@ -110,86 +115,45 @@ class Continuation:
         if outcome.converged and scheme != goal[1]:
             walk = self._walk(speed == contact.speed)
             problem, outcome = carry(lambda t, state: walk.at(speed, state, t), outcome.state)
-        return self._slow_down(problem, outcome, speed, contact.speed, exactly=False)
+        return self._slow_down(problem, outcome, contact.speed, exactly=False)
 
-    def from_thick_film(self):
-        """Solve from a speed at which the film covers the peaks, and slow down: film fills the valleys on
-        the way.
-
-        The other way is from the dry contact, whose valleys are empty. Between rough lines they fill one
-        after the other from the inlet on, for all must flow over the peaks. Solutions on the way are exact:
-        of seven lines that are not found from the dry contact one fails with 1e-6, and a second with 1e-4.
-        """
-        contact, settings = self._contact, self._settings
-        faster = contact
-        while faster.expected_film < COVERED * contact.roughness:
-            faster = faster.at_speed(SPEED_RATIO * faster.speed)
-        found = begin(self._hierarchy, faster, settings, self._monitor, self._journal)
-        return self._slow_down(*found, faster.speed, contact.speed, exactly=True)
-
-    def _slow_down(self, problem, outcome, speed, goal, exactly):
-        """From the solution at a higher `speed` to that at the `goal`, as far as there is one.
+    def _slow_down(self, problem, outcome, goal, exactly):
+        """From a solution to that at the speed `goal`; with the problem of the last stage that was tried.
 
         On the way `exactly`, or with a coarse grid's tolerance.
         """
+        speed = problem.contact.speed
         while outcome.converged and speed != goal:
             slower = max(goal, speed / SPEED_RATIO)
-            problem, outcome = self._walk(exactly or slower == goal).follow(outcome.state, speed, slower)
+            problem, outcome = self._walk(exactly or slower == goal)._follow(outcome.state, speed, slower)
             speed = slower
         return problem, outcome
 
-    def _walk(self, to_the_end):
-        """Itself, or, for what only leads to another solution, the same with a coarse grid's tolerance."""
-        settings = self._settings if to_the_end else self._settings.roughly()
+    def _walk(self, exactly):
+        """The same, or with a coarse grid's tolerance, for what only leads to another solution."""
+        settings = self._settings if exactly else self._settings.roughly()
         return Continuation(self._hierarchy, self._contact, settings, self._monitor, self._journal)
 
+    def _asked(self, speed, problem, outcome):
+        """The problem that was asked for, where that of the `outcome` is a stage on the way to it.
 
-def begin(hierarchy, contact, settings, monitor, journal=NOTHING_KEPT):
-    """Solve `contact` without a start, in the way that its mean of the mobility needs; as
-    `nested_iteration`."""
-    mean, nested = settings.scheme.face_mobility, settings.nested
-    if settings.scheme.lets_peaks_touch(contact):
-        return _begin_touching(hierarchy, contact, settings, monitor, journal)
-    resolved = contact.matched_speed(hierarchy.grids[-1].mesh, nested.inlet_cells) == contact.speed
-    if mean == "arithmetic" or (mean not in FOLDING and resolved):
-        return nested_iteration(hierarchy, contact, settings, monitor, journal)
-    continuation = Continuation(hierarchy, contact, settings, monitor, journal)
-    return _of_its_own(contact, settings, *continuation.begin(contact.speed, nested.start))
-
-
-def _begin_touching(hierarchy, contact, settings, monitor, journal):
-    """The same where peaks touch: from the dry contact, and where that fails from a thick film."""
-    problem, outcome = nested_iteration(hierarchy, contact, settings, monitor, journal)
-    if outcome.converged or settings.nested.start != "film":
-        return problem, outcome
-    news = f"not found from the dry contact: {outcome.reason}; now from a thick film"
-
-    def tell(level, cycle):
-        monitor(replace(level, news=news), cycle)
-
-    continuation = Continuation(hierarchy, contact, settings, tell, journal)
-    slowed, last = _of_its_own(contact, settings, *continuation.from_thick_film())
-    if last.converged:
-        return slowed, last
-    outcome.reason += f"; nor from a thick film: {last.reason}"
-    return problem, outcome
+        Its state is no solution of these equations, and is judged by them.
+        """
+        if outcome.converged:
+            return problem, outcome
+        scheme, contact = self._settings.scheme, self._contact.at_speed(speed)
+        stage = problem.scheme, problem.contact.speed
+        if stage == (scheme, speed):
+            return problem, outcome
+        reason = f"{_stage(*stage)} was not found: {outcome.reason}"
+        asked = ContactProblem(problem.grid, problem.deflection, contact, scheme)
+        return asked, replace(outcome, reason=reason)
 
 
-def _of_its_own(contact, settings, problem, outcome):
-    """The problem that was to be solved, where the `outcome` is that of a stage on the way to it.
-
-    Its state is no solution of these equations, and is judged by them.
-    """
-    scheme, speed = problem.scheme, problem.contact.speed
-    if scheme == settings.scheme and speed == contact.speed:
-        return problem, outcome
-    outcome.converged = False
+def _stage(scheme, speed):
+    """A stage on the way, in words."""
     share = f", {100 * scheme.mobility_share:.3g} % of it" if scheme.mobility_share < 1.0 else ""
-    outcome.reason = (
-        f"a stage on the way ({scheme.face_mobility} mean{share}, {1e3 * speed:.4g} mm/s) has no solution: "
-        f"{outcome.reason}"
-    )
-    return ContactProblem(problem.grid, problem.deflection, contact, settings.scheme), outcome
+    return f"a stage on the way ({scheme.face_mobility} mean{share}, {1e3 * speed:.4g} mm/s)"
 
 
 def carry(solve, state, step=1.0):

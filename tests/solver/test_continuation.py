@@ -155,6 +155,22 @@ def test_steps_in_speed_have_equal_ratios(make, monkeypatch):
     assert outcome.converged and outcome.state == 0.0625
 
 
+def test_where_a_stage_is_not_found_the_problem_is_still_the_one_that_was_asked_for(make):
+    """And its state is judged by it: a run that starts from another one says so, too."""
+    followed = make()
+    _, first = followed.continuation.begin(1.0, "film")
+    hurried = followed.continuation
+    hurried._settings = replace(hurried._settings, newton=replace(hurried._settings.newton, max_steps=1))
+    problem, outcome = hurried.follow(first.state, 1.0, 0.25)
+    assert not outcome.converged and problem.contact.speed == 0.25
+    speed = 1e3 * followed.speeds[-1]
+    assert 250.0 < speed < 1000.0
+    stage = f"a stage on the way (arithmetic mean, {speed:.4g} mm/s) was not found: "
+    assert outcome.reason.startswith(stage)
+    problem, outcome = hurried.at(0.25, first.state)
+    assert "stage" not in outcome.reason
+
+
 def test_contact_followed_to_another_speed_keeps_its_set(make):
     """Twice 0.005 mm/s is too slow for the fluid to open a node of the Hertz circle."""
     followed = make()
@@ -256,5 +272,5 @@ def test_a_stage_on_the_way_is_no_answer_of_its_own():
     solution = mgehl.solve(mgehl.load(None, settings | {"discretization.face_mobility": "geometric"}))
     result = solution.result
     assert not result.settled and not result.converged
-    assert "a stage on the way (logarithmic mean" in result.reason and "has no solution" in result.reason
+    assert "a stage on the way (logarithmic mean" in result.reason and "was not found: " in result.reason
     assert solution.contact.speed == 1.2

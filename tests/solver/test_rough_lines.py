@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from mpi4py import MPI
 
-import mgehl.solver.continuation as module
+import mgehl.solver.beginning as module
 from mgehl.config import config_from_tables
 from mgehl.kinds import contact_from
 from mgehl.multigrid import cycle
 from mgehl.run import solve
-from mgehl.solver.continuation import COVERED, Continuation, begin
+from mgehl.solver.beginning import COVERED, NOR_FROM_A_FILM, begin, begin_thick
 from mgehl.solver.from_config import set_up
 from mgehl.solver.gaps import gaps
 from mgehl.studies.study import merged
@@ -75,7 +75,7 @@ class TestFromAThickFilm:
         contact, hierarchy, settings = parts
         told = []
         tell = lambda level, cycle: told.append(level.speed)  # noqa: E731
-        problem, outcome = Continuation(hierarchy, contact, settings, tell).from_thick_film()
+        problem, outcome = begin_thick(hierarchy, contact, settings, tell)
         assert outcome.converged and problem.contact.speed == contact.speed == told[-1]
         thickest = contact.at_speed(max(told)).expected_film
         assert thickest >= COVERED * contact.roughness > contact.expected_film
@@ -84,8 +84,7 @@ class TestFromAThickFilm:
     def test_it_is_the_same_answer_as_from_the_dry_contact(self, parts):
         contact, hierarchy, settings = parts
         found = [
-            Continuation(hierarchy, contact, settings).from_thick_film(),
-            begin(hierarchy, contact, settings, lambda level, cycle: None),
+            way(hierarchy, contact, settings, lambda level, cycle: None) for way in (begin_thick, begin)
         ]
         one, other = (gaps(problem, outcome.state).mean for problem, outcome in found)
         assert one == pytest.approx(other, rel=1e-6)
@@ -116,4 +115,4 @@ class TestFromAThickFilm:
         settings = replace(settings, newton=replace(settings.newton, max_steps=2))
         problem, outcome = begin(hierarchy, contact, settings, lambda level, cycle: None)
         assert not outcome.converged and problem.contact.speed == contact.speed
-        assert "after 2 steps; nor from a thick film: a stage on the way" in outcome.reason
+        assert f"after 2 steps; {NOR_FROM_A_FILM}: a stage on the way" in outcome.reason
