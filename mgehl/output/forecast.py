@@ -125,7 +125,7 @@ def forecast(config, contact, mesh, ranks):
     workers = 1 if mesh.is_line else min(ranks, cores_allowed())
     return Forecast(
         nodes=mesh.nodes,
-        memory=ranks * RANK_BYTES + bytes_of_nodes(effort, mesh, ranks),
+        memory=ranks * RANK_BYTES + bytes_of_nodes(effort, mesh),
         seconds=START_SECONDS + effort.convolutions * (shared / workers + effort.beside),
         convolutions=effort.convolutions if effort.counted else None,
         convolution_seconds=second,
@@ -135,13 +135,15 @@ def forecast(config, contact, mesh, ranks):
     )
 
 
-def bytes_of_nodes(effort, mesh, ranks):
-    """Bytes for the nodes, on all ranks together: of a line contact each has all of them.
-
-    Less what is saved where memory is short.
-    """
+def bytes_of_nodes(effort, mesh):
+    """Bytes for the nodes, on all ranks together, less what is saved where memory is short."""
     saved = SAVED_ON_LARGE_GRIDS if is_large(mesh) else 0.0
-    return (ranks if mesh.is_line else 1) * (effort.bytes_per_node - saved) * mesh.nodes
+    return (effort.bytes_per_node - saved) * mesh.nodes
+
+
+def bytes_of_rank(effort, mesh, ranks):
+    """The same on the rank that has most of them: one solves a line contact."""
+    return bytes_of_nodes(effort, mesh) / (1 if mesh.is_line else ranks)
 
 
 def effort_of(config, contact, mesh):

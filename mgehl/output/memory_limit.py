@@ -5,7 +5,7 @@ from pathlib import Path
 
 from mgehl.errors import UserError
 from mgehl.kinds import contact_from, mesh_from
-from mgehl.output.forecast import MiB, bytes_of_nodes, effort_of
+from mgehl.output.forecast import MiB, bytes_of_rank, effort_of
 
 SPARE = 128 * MiB
 """Bytes of buffers that BLAS and MPI take during a run."""
@@ -18,7 +18,7 @@ def check_memory(config, ranks):
         return
     contact = contact_from(config)
     mesh = mesh_from(config, contact)
-    need = _taken() + SPARE + bytes_of_nodes(effort_of(config, contact, mesh), mesh, ranks) / ranks
+    need = _taken() + SPARE + bytes_of_rank(effort_of(config, contact, mesh), mesh, ranks)
     if need > limit:
         raise UserError(
             f"grid.nodes = {config.grid.nodes}: takes about {need / MiB:.0f} MiB of address space, and "

@@ -3,6 +3,7 @@
 import csv
 import json
 import tomllib
+from itertools import pairwise
 from pathlib import Path
 
 from mgehl.errors import UserError, printable
@@ -70,9 +71,11 @@ def _row(directory):
     row["most GMRES iterations"] = max(
         (each.get("linear_iterations", "0") for each in finest), key=int, default=""
     )
-    if len(finest) > 1 and "seconds" in finest[0]:
-        row["Newton steps on finest"] = str(len(finest) - 1)
-        row["us a step and node"] = f"{1e6 * _seconds_per_step(finest) / nodes**2:.3f}"
+    steps = [float(each["seconds"]) - float(before["seconds"]) for before, each in _steps(finest)]
+    if steps:
+        row["Newton steps on finest"] = str(len(steps))
+        of_all = nodes if config["contact"]["kind"] == "line" else nodes**2
+        row["us a step and node"] = f"{1e6 * sum(steps) / len(steps) / of_all:.3f}"
     return row | {"wall s": f"{result['wall_s']:.1f}"}
 
 
@@ -152,8 +155,7 @@ def _with_bands(row):
     return {name: text for name, text in (row | shown).items() if "±" not in name}
 
 
-def _seconds_per_step(finest):
-    """Mean time between the cycles of the finest grid."""
-    if len(finest) < 2:
-        return 0.0
-    return (float(finest[-1]["seconds"]) - float(finest[0]["seconds"])) / (len(finest) - 1)
+def _steps(finest):
+    """Rows of the history before and after each step on the finest grid; a run may solve on it several
+    times, from step 0 each."""
+    return [pair for pair in pairwise(finest) if "seconds" in pair[1] and int(pair[1]["step"]) > 0]

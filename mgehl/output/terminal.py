@@ -180,9 +180,9 @@ def seconds_left(rows, finest, tolerance):
     """Guess the time to the end from the history; None where that is too short to tell.
 
     On the present grid residuals go on falling as in the last steps; a finer one takes a few
-    steps, each four times as long.
+    steps, each four times as long. A walk in speed has more solves to come, of which nothing is known here.
     """
-    here = [row for row in rows if row["grid"] == rows[-1]["grid"]]
+    here = _present_solve(rows)
     if len(here) < 2 or not isfinite(here[-1]["residual"]):
         return None
     each = (here[-1]["seconds"] - here[0]["seconds"]) / (len(here) - 1)
@@ -191,6 +191,14 @@ def seconds_left(rows, finest, tolerance):
         nodes, each = 2 * nodes - 1, 4.0 * each
         left += STEPS_A_GRID * each
     return left
+
+
+def _present_solve(rows):
+    """The last rows, of one solve on one grid: a run may solve on the finest grid several times."""
+    first = len(rows) - 1
+    while first > 0 and rows[first]["step"] > 0:
+        first -= 1
+    return rows[first:]
 
 
 def _steps_left(rows, tolerance):

@@ -4,51 +4,28 @@ Domain, scheme and start are left to mgehl, as a user who knows little of them l
 solved, and how well are their mean gaps known?
 """
 
-from dataclasses import dataclass
-
-import numpy as np
-
-from mgehl.config import config_from_tables
-from mgehl.kinds import contact_from, mesh_from
-from mgehl.output.digits import with_band
+from mgehl.studies.drawn import (
+    RADIUS,
+    SPEED,
+    bodies,
+    finished,
+    found,
+    layers,
+    modulus_and_pressure,
+    oil,
+    p_h_of_one,
+    run_drawn,
+    self_affine,
+    several,
+)
 from mgehl.studies.rough_ball import by_logarithm
-from mgehl.studies.study import merged, statistic, verdict
 
-NODES, CASES, SEED = 257, 60, 7
+NODES, CASES = 257, 60
 
-HARD, SOFT = (226e9, 226e9, 226e9, 110e9), (20e9, 4e9)
-"""E' in Pa: steel more often than bronze; soft metals and polymers."""
-PRESSURE, PRESSURE_OF_SOFT = (0.4e9, 2.2e9), (0.01, 0.03)
-"""Pressure of the smooth dry contact, from, to: of hard bodies in Pa, of soft ones over E'."""
-RADIUS, RATIO = (2e-3, 5e-2), (0.3, 8.0)
-"""R_x in m, and R_y over it, which is 1 of two in five."""
-SPEED, VISCOSITY, PRESSURE_VISCOSITY = (1e-3, 3.0), (4e-3, 0.3), (8e-9, 24e-9)
-LAMBDA, RMS = (0.03, 3.0), (1e-8, 1e-6)
-"""Film of smooth bodies over the roughness, as far as the roughness in m stays within its limits."""
-SHORTEST, LONGEST = (6.0, 20.0), (2.0, 12.0)
-"""The shortest wave in cells of `NODES` nodes on the smooth bodies' domain, and the longest over it."""
-LAYERS = (0.0, 0.0, 0.0, 2e-9, 5e-9)
-"""Boundary films in m."""
-
-LEFT_TO_MGEHL = {
-    "discretization": {"couette": "3L", "face_mobility": "linear-gap"},
-    "solver": {"error": True},
-}
-"""What a study would otherwise choose itself."""
-
-
-@dataclass(frozen=True)
-class Drawn:
-    """What chance chose for a case; `number` counts from 1 and is the seed of its surface."""
-
-    number: int
-    tables: dict
-    """Its configuration but for the grid, nested."""
-
-    @property
-    def title(self):
-        contact, surface = self.tables["contact"], self.tables["surface"]
-        return f"{self.number}: {1e-9 * contact['reduced_modulus']:.0f} GPa, {surface['kind']}"
+RATIO = (0.3, 8.0)
+"""R_y over R_x, from, to; 1 of two in five."""
+SHORTEST = (6.0, 20.0)
+"""The shortest wave in cells of `NODES` nodes on the smooth bodies' domain."""
 
 
 def run(study):
@@ -56,31 +33,9 @@ def run(study):
     run_drawn(study, "machine", draw, row, NODES, CASES)
 
 
-def run_drawn(study, name, draw, row, nodes, cases):
-    """Solve what `draw(cases, seed)` finds; write a table of the `row` of each case and a summary.
-
-    On so many `nodes`, and so many `cases`, where the study is not told others.
-    """
-    (nodes,) = study.nodes or (nodes,)
-    drawn = draw(study.wanted or cases, SEED if study.seed is None else study.seed)
-    study.cases = len(drawn)
-    rows = []
-    for case in drawn:
-        tables = merged(LEFT_TO_MGEHL, case.tables, {"grid": {"nodes": nodes}})
-        solution = study.solve(case.title, tables)
-        rows.append(row(case, solution.contact, solution.result))
-    study.write_table(name, rows)
-    study.write_table(f"{name}-summary", summary(rows))
-
-
 def draw(cases, seed):
     """So many `Drawn`. A longer list begins with the same cases."""
     return several(_drawn, cases, seed)
-
-
-def several(drawn, cases, seed):
-    """So many of what `drawn(chance, number)` returns, each from a chance of its own."""
-    return [drawn(np.random.default_rng([seed, number]), number) for number in range(1, cases + 1)]
 
 
 def _drawn(chance, number):
@@ -93,18 +48,6 @@ def _drawn(chance, number):
     return finished(chance, number, smooth, surface_of, NODES, SHORTEST)
 
 
-def finished(chance, number, smooth, surface_of, nodes, shortest):
-    """The `Drawn` of `smooth` bodies with a surface, whose roughness goes by their film.
-
-    Its shortest wave has from, to so many cells of the smooth bodies' domain on so many nodes.
-    """
-    config = config_from_tables(merged(smooth, {"grid": {"nodes": nodes}}))
-    contact = contact_from(config)
-    rms = float(np.clip(contact.expected_film / by_logarithm(chance, *LAMBDA), *RMS))
-    wave = by_logarithm(chance, *shortest) * contact.longest_cell(mesh_from(config, contact))
-    return Drawn(number, smooth | {"surface": surface_of(chance, number, rms, wave)})
-
-
 def _bodies(chance):
     """Radii, modulus and the load that presses smooth bodies as hard as was drawn."""
     modulus, pressure = modulus_and_pressure(chance)
@@ -112,34 +55,6 @@ def _bodies(chance):
     ratio = by_logarithm(chance, *RATIO) if chance.random() < 0.6 else 1.0
     bodies = {"radius_x": radius, "radius_y": ratio * radius, "reduced_modulus": modulus}
     return bodies | {"load": (pressure / p_h_of_one(bodies, "load")) ** 3}
-
-
-def modulus_and_pressure(chance):
-    """E' and the pressure of the smooth dry contact, Pa: soft bodies one time in three."""
-    soft = chance.random() < 1.0 / 3.0
-    modulus = float(chance.choice(SOFT if soft else HARD))
-    if soft:
-        return modulus, modulus * by_logarithm(chance, *PRESSURE_OF_SOFT)
-    return modulus, by_logarithm(chance, *PRESSURE)
-
-
-def p_h_of_one(bodies, load):
-    """Pressure of the smooth dry contact, Pa, under a load of one (N or N/m), whose key is `load`."""
-    return contact_from(config_from_tables({"contact": bodies | {load: 1.0}})).hertz.p_h
-
-
-def layers(chance):
-    """What sticks to the surfaces."""
-    return {"boundary_film": float(chance.choice(LAYERS))}
-
-
-def oil(chance):
-    """Section [lubricant]."""
-    return {
-        "viscosity": by_logarithm(chance, *VISCOSITY),
-        "pressure_viscosity": by_logarithm(chance, *PRESSURE_VISCOSITY),
-        "viscosity_law": str(chance.choice(("barus", "roelands"))),
-    }
 
 
 def _angle(chance):
@@ -158,18 +73,6 @@ def surface_of(chance, number, rms, shortest):
     return alike | {"aspect": float(chance.choice((1.0, 1.0, 3.0, 6.0))), "angle": _angle(chance)}
 
 
-def self_affine(chance, number, rms, shortest):
-    """A random surface without a direction."""
-    return {
-        "kind": "self-affine",
-        "rms": rms,
-        "hurst": float(chance.uniform(0.5, 0.95)),
-        "seed": number,
-        "shortest_wavelength": shortest,
-        "longest_wavelength": shortest * by_logarithm(chance, *LONGEST),
-    }
-
-
 def row(case, contact, result):
     """Text of one case, from its contact and its `Result`."""
     of_point = {
@@ -180,54 +83,9 @@ def row(case, contact, result):
     return bodies(case, contact) | of_point | found(case, result)
 
 
-def bodies(case, contact):
-    """Text of a case's number, modulus and pressure."""
-    return {
-        "case": str(case.number),
-        "E' GPa": f"{1e-9 * contact.reduced_modulus:.0f}",
-        "p_h GPa": f"{1e-9 * contact.hertz.p_h:.3g}",
-    }
-
-
-def found(case, result):
-    """Text of roughness, film, gaps with their bands, and work."""
-    mixed = result.mixed
-    mean, loaded = (mixed.error.mean_nm, mixed.error.loaded_nm) if mixed.error else (None, None)
-    return {
-        "Sq nm": f"{mixed.Sq_nm:.0f}",
-        "layers nm": f"{1e9 * case.tables['contact']['boundary_film']:.0f}",
-        "lambda": f"{mixed.lambda_ratio:.3g}",
-        "inlet cells": f"{result.resolution.inlet_cells:.2f}",
-        "nodes in the shortest wave": f"{result.resolution.surface_nodes:.1f}",
-        "load on contact %": f"{100.0 * mixed.contact_load_share:.2f}",
-        "mean gap nm": with_band(mixed.mean_gap_nm, mean),
-        "by pressure nm": with_band(mixed.loaded_gap_nm, loaded),
-        "convolutions": f"{result.work.convolutions:.1f}",
-        "verdict": verdict(result),
-    }
-
-
 def finish(surface):
     """A surface in a word or two."""
     if surface["kind"] == "waviness":
         ways = [name for name in "xy" if f"wavelength_{name}" in surface]
         return f"waves along {' and '.join(ways)}"
     return f"random {surface['aspect']:.0f}:1"
-
-
-def summary(rows):
-    """Rows of the summary: verdicts, work, and how many gaps have a band."""
-    converged = [each for each in rows if each["verdict"] == "converged"]
-    lost = sum(each["verdict"].startswith("NOT CONVERGED") for each in rows)
-    work = [float(each["convolutions"]) for each in converged]
-    banded = sum("±" in each["mean gap nm"] for each in converged)
-    numbers = {
-        "cases": str(len(rows)),
-        "converged": f"{len(converged)} ({100 * len(converged) / len(rows):.1f} %)",
-        "settled, and in doubt": str(len(rows) - len(converged) - lost),
-        "not settled": str(lost),
-        "convolutions of the converged, mean": statistic(np.mean, work),
-        "convolutions of the converged, median": statistic(np.median, work),
-        "of the converged, with a band about the mean gap": str(banded),
-    }
-    return [{"what": what, "value": value} for what, value in numbers.items()]

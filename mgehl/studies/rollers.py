@@ -3,7 +3,7 @@
 No oil can flow around such a peak. As in study `machine`, domain, scheme and start are left to mgehl.
 """
 
-from mgehl.studies.machine import (
+from mgehl.studies.drawn import (
     RADIUS,
     SPEED,
     bodies,

@@ -11,7 +11,15 @@ from mgehl.discretization.mesh import Mesh
 from mgehl.kinds import contact_from, mesh_from
 from mgehl.kinds.point import CONTACT, FILM
 from mgehl.output import forecast as module
-from mgehl.output.forecast import forecast, inlet_grids, time_convolution
+from mgehl.output.forecast import (
+    RANK_BYTES,
+    bytes_of_nodes,
+    bytes_of_rank,
+    effort_of,
+    forecast,
+    inlet_grids,
+    time_convolution,
+)
 from mgehl.output.resolution import resolution
 from mgehl.run import solve
 
@@ -146,10 +154,20 @@ def test_memory_is_that_of_the_run_that_was_measured(one_second):
     assert foretold(film(nodes=4097), 2).memory / 2**30 == pytest.approx(14.3, rel=0.01)
 
 
-def test_a_line_contact_is_solved_whole_on_every_rank(one_second):
+def test_a_line_contact_is_solved_by_one_rank(one_second):
+    """The others have their libraries."""
     line = load_config(settings={"contact.kind": "line", "motion.speed": 0.1, "grid.nodes": 4097})
     one, two = foretold(line, 1), foretold(line, 2)
-    assert two.memory == pytest.approx(2 * one.memory) and two.seconds == one.seconds
+    assert two.memory == pytest.approx(one.memory + RANK_BYTES) and two.seconds == one.seconds
+
+
+@pytest.mark.parametrize("kind, part", [("point", 0.25), ("line", 1.0)])
+def test_what_one_rank_has_of_the_nodes(kind, part):
+    config = load_config(settings={"contact.kind": kind, "motion.speed": 0.1, "grid.nodes": 257})
+    contact = contact_from(config)
+    mesh = mesh_from(config, contact)
+    effort = effort_of(config, contact, mesh)
+    assert bytes_of_rank(effort, mesh, 4) == pytest.approx(part * bytes_of_nodes(effort, mesh))
 
 
 def test_a_convolution_is_timed_on_this_machine():

@@ -191,7 +191,7 @@ class TestLive:
 
 def rows(residuals, grid=65, seconds=1.0, first=0.0):
     return [
-        {"grid": grid, "residual": residual, "seconds": first + k * seconds}
+        {"grid": grid, "step": k, "residual": residual, "seconds": first + k * seconds}
         for k, residual in enumerate(residuals)
     ]
 
@@ -201,6 +201,13 @@ class TestSecondsLeft:
         """From 1e-3 to 1e-8 there are five steps at a decade each, of two seconds."""
         history = rows([1.0, 1e-1, 1e-2, 1e-3], seconds=2.0)
         assert seconds_left(history, 65, 1e-8) == pytest.approx(10.0)
+
+    def test_an_earlier_solve_on_the_same_grid_does_not_count(self):
+        """Of a walk in speed: neither its residuals nor the time in between."""
+        before = rows([1.0, 1e-2, 1e-8], seconds=50.0)
+        history = before + rows([1.0, 1e-1, 1e-2, 1e-3], seconds=2.0, first=300.0)
+        assert seconds_left(history, 65, 1e-8) == pytest.approx(10.0)
+        assert seconds_left(history[: len(before) + 1], 65, 1e-8) is None
 
     def test_only_the_last_steps_count(self):
         slow_at_first = rows([1.0, 0.99, 0.98, 1e-1, 1e-2, 1e-3, 1e-4])

@@ -8,8 +8,9 @@ import pytest
 from mgehl.cli import main
 from mgehl.config import config_from_tables
 from mgehl.kinds import contact_from
-from mgehl.studies import machine
-from mgehl.studies.machine import Drawn, draw, summary
+from mgehl.studies import drawn, machine
+from mgehl.studies.drawn import HARD, PRESSURE, PRESSURE_OF_SOFT, SOFT, Drawn
+from mgehl.studies.machine import draw
 
 
 def read(path):
@@ -36,8 +37,8 @@ def one_case(monkeypatch):
 
 @pytest.mark.parametrize("steps, verdict", [(100, "converged"), (0, "NOT CONVERGED: ")])
 def test_a_case(tmp_path, one_case, monkeypatch, steps, verdict):
-    limits = machine.LEFT_TO_MGEHL | {"solver": {"error": True, "max_steps": steps}}
-    monkeypatch.setattr(machine, "LEFT_TO_MGEHL", limits)
+    limits = drawn.AS_BY_DEFAULT | {"solver": {"error": True, "max_steps": steps}}
+    monkeypatch.setattr(drawn, "AS_BY_DEFAULT", limits)
     here = tmp_path / "machine"
     status = main(["study", "machine", "--nodes", "65", "--quiet", "--out", str(here)])
     assert status == (0 if steps else 1)
@@ -62,11 +63,11 @@ class TestWhatIsDrawn:
     def test_pressures_and_films_are_what_was_drawn(self, cases):
         contacts = [contact_from(config_from_tables(case.tables)) for case in cases]
         moduli = {contact.reduced_modulus for contact in contacts}
-        assert moduli == {*machine.HARD, *machine.SOFT}
+        assert moduli == {*HARD, *SOFT}
         for contact in contacts:
-            of_soft = contact.reduced_modulus in machine.SOFT
+            of_soft = contact.reduced_modulus in SOFT
             p_h = contact.hertz.p_h / (contact.reduced_modulus if of_soft else 1.0)
-            low, high = machine.PRESSURE_OF_SOFT if of_soft else machine.PRESSURE
+            low, high = PRESSURE_OF_SOFT if of_soft else PRESSURE
             assert low * (1.0 - 1e-9) <= p_h <= high * (1.0 + 1e-9)
 
     def test_surfaces_have_the_roughness_they_were_given(self):
@@ -82,25 +83,3 @@ class TestWhatIsDrawn:
         assert {"waves along x", "waves along y", "waves along x and y", "random 1:1"} <= surfaces
         angles = [case.tables["motion"]["angle"] for case in cases]
         assert 0.1 < np.mean([angle > 0.0 for angle in angles]) < 0.6
-
-
-def test_the_summary_counts_bands_of_what_converged():
-    rows = [
-        {"verdict": "converged", "lambda": "0.5", "mean gap nm": "5.0 ± 0.2", "convolutions": "100.0"},
-        {"verdict": "converged", "lambda": "0.5", "mean gap nm": "5.0000", "convolutions": "200.0"},
-        {"verdict": "converged", "lambda": "2.5", "mean gap nm": "5.0 ± 0.1", "convolutions": "600.0"},
-        {
-            "verdict": "Eq. 2 is broken: x",
-            "lambda": "0.5",
-            "mean gap nm": "5.0 ± 0.1",
-            "convolutions": "9.0",
-        },
-    ]
-    said = {each["what"]: each["value"] for each in summary(rows)}
-    assert said["of the converged, with a band about the mean gap"] == "2"
-    assert (said["converged"], said["settled, and in doubt"], said["not settled"]) == (
-        "3 (75.0 %)",
-        "1",
-        "0",
-    )
-    assert said["convolutions of the converged, mean"] == "300.0"

@@ -8,7 +8,7 @@ from mgehl.cli import main
 from mgehl.config import config_from_tables
 from mgehl.kinds import contact_from
 from mgehl.studies import rollers
-from mgehl.studies.machine import HARD, PRESSURE, PRESSURE_OF_SOFT, SOFT, Drawn
+from mgehl.studies.drawn import HARD, PRESSURE, PRESSURE_OF_SOFT, SOFT, Drawn
 from mgehl.studies.rollers import draw
 
 

@@ -31,7 +31,7 @@ def history(solution):
         _draw_sets(axes[1, 0], position, rows, sets)
     for panel in axes[:, 0]:
         mark_grids(panel, position, rows)
-    name_grids(axes[0, 0], position, rows)
+    name_grids(axes[0, 0], position, rows, 1e3 * solution.contact.speed)
     axes[-1, 0].set_xlabel(unit)
     axes[-1, 0].xaxis.set_major_locator(MaxNLocator(integer=True))
     figure.suptitle(f"convergence, {title(solution)}")
@@ -57,10 +57,10 @@ def column(rows, name):
 
 
 def grids(rows):
-    """First and last row of each stay on one grid."""
-    nodes = column(rows, "grid")
-    stays = [list(stay) for _, stay in groupby(range(len(rows)), key=lambda k: nodes[k])]
-    return [(stay[0], stay[-1]) for stay in stays]
+    """First and last row of each stay on one grid at one speed."""
+    column(rows, "grid")  # each has one
+    stays = groupby(range(len(rows)), key=lambda k: (rows[k]["grid"], rows[k].get("speed_mm_s")))
+    return [(stay[0], stay[-1]) for stay in (list(each) for _, each in stays)]
 
 
 def mark_grids(axes, position, rows):
@@ -71,22 +71,22 @@ def mark_grids(axes, position, rows):
         axes.axvspan(ends[first], ends[last + 1], color="0.94", zorder=0, linewidth=0)
 
 
-def name_grids(axes, position, rows):
-    """Each grid's name above its band, as long as there is room for."""
+def name_grids(axes, position, rows, own_speed):
+    """Each grid's name above its band, as long as there is room for; the run's own speed is in mm/s."""
     ends = _ends(position)
     inch = axes.figure.get_figwidth() * 0.9 / (ends[-1] - ends[0])
     for first, last in grids(rows):
         left, right = ends[first], ends[last + 1]
-        name = _longest(_names(rows, last), inch * (right - left))
+        name = _longest(_names(rows[last], own_speed), inch * (right - left))
         axes.annotate(name, (0.5 * (left + right), 1.0), (0, 3), ha="center", va="bottom",
                       xycoords=axes.get_xaxis_transform(), textcoords="offset points")  # fmt: skip
 
 
-def _names(rows, row):
+def _names(row, own_speed):
     """What a grid may be called: its nodes and, where it is not the run's own, the speed."""
-    nodes, speed = rows[row]["grid"], rows[row].get("speed_mm_s")
+    nodes, speed = row["grid"], row.get("speed_mm_s")
     names = [f"{nodes} nodes", f"{nodes}", ""]
-    raised = speed is not None and abs(speed / rows[-1]["speed_mm_s"] - 1.0) > 1e-6
+    raised = speed is not None and abs(speed / own_speed - 1.0) > 1e-6
     return [f"{nodes} nodes, {speed_words(1e-3 * speed)}", *names] if raised else names
 
 

@@ -8,6 +8,10 @@ from mgehl.output.pictures import style
 from mgehl.output.pictures.history_picture import column, cycles, grids, history
 
 
+OWN_SPEED = ["motion.speed=0.5 m/s"]
+"""That of the last rows of `make_rows`."""
+
+
 @pytest.fixture
 def drawn():
     """Function that draws a run's history and returns its figure."""
@@ -38,8 +42,8 @@ def test_residual_load_error_and_sets_against_the_cycles_in_order(make_solution,
 
 def test_grids_have_bands_and_names(make_solution, make_rows, drawn):
     """Every other one is grey, from half a cycle before its first to half a cycle after its last."""
-    figure = drawn(make_solution(rows=make_rows(grids=(65, 129, 257), cycles=4)))
-    errors = figure.axes[0]
+    rows = make_rows(grids=(65, 129, 257), cycles=4)
+    errors = drawn(make_solution(rows=rows, settings=OWN_SPEED)).axes[0]
     spans = [(patch.get_xy()[0, 0], patch.get_xy()[2, 0]) for patch in errors.patches]
     assert spans == [(-0.5, 3.5), (7.5, 11.5)]
     named = {text.xy[0]: text.get_text() for text in errors.texts}
@@ -48,7 +52,7 @@ def test_grids_have_bands_and_names(make_solution, make_rows, drawn):
 
 def test_a_grid_without_room_has_a_short_name(make_solution, make_rows, drawn, check_texts):
     rows = make_rows(grids=(65,), cycles=3) + make_rows(grids=(129,), cycles=40)
-    figure = drawn(make_solution(rows=rows))
+    figure = drawn(make_solution(rows=rows, settings=OWN_SPEED))
     assert [text.get_text() for text in figure.axes[0].texts] == ["65", "129 nodes"]
     check_texts(figure)
 
@@ -85,6 +89,16 @@ def test_one_cycle(make_solution, make_rows, drawn):
 def test_grids_come_back():
     rows = [{"grid": nodes} for nodes in (65, 65, 129, 65)]
     assert grids(rows) == [(0, 1), (2, 2), (3, 3)]
+
+
+def test_speeds_on_one_grid_are_told_apart(make_solution, make_rows, drawn):
+    """Of a walk in speed; the run's own has no name, wherever it stands."""
+    own = 1e3 * make_solution().contact.speed
+    rows = [row | {"speed_mm_s": speed} for speed in (own, 500.0, 250.0)
+            for row in make_rows(grids=(129,), cycles=20)]  # fmt: skip
+    assert grids(rows) == [(0, 19), (20, 39), (40, 59)]
+    texts = [text.get_text() for text in drawn(make_solution(rows=rows)).axes[0].texts]
+    assert texts == ["129 nodes", "129 nodes, 500 mm/s", "129 nodes, 250 mm/s"]
 
 
 @pytest.mark.parametrize("rows", [[{"grid": 1}], [{"residual": "x"}]])
