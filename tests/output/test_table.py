@@ -45,14 +45,14 @@ def test_steps_of_several_solves_are_those_within_each():
 
 def test_time_a_node_is_of_all_nodes_and_no_more(tmp_path):
     """A line has as many as it says, a plane that squared."""
-    for kind in ("line", "point"):
-        settings = [f"contact.kind={kind}", "grid.nodes=65", "motion.speed=1 m/s"]
+    for kind, nodes in (("line", 257), ("point", 65)):
+        settings = [f"contact.kind={kind}", f"grid.nodes={nodes}", "motion.speed=1 m/s"]
         command = ["run", *(word for each in settings for word in ("--set", each)), "--quiet", "--no-error"]
         assert main([*command, "--out", str(tmp_path / kind)]) == 0
     rows = collect([tmp_path / "line", tmp_path / "point"])
-    for row, nodes in zip(rows, (65, 65**2), strict=True):
-        name = tmp_path / row["run"] / "history.csv"
-        finest = [each for each in _read(name) if each["grid"] == "65"]
+    for row, nodes in zip(rows, (257, 65**2), strict=True):
+        history = _read(tmp_path / row["run"] / "history.csv")
+        finest = [each for each in history if each["grid"] == row["nodes"]]
         seconds = [float(b["seconds"]) - float(a["seconds"]) for a, b in _steps(finest)]
         mean = 1e6 * sum(seconds) / len(seconds) / nodes
         assert float(row["us a step and node"]) == pytest.approx(mean, abs=1e-3)

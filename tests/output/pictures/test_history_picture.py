@@ -7,7 +7,6 @@ from mgehl.errors import OutputError
 from mgehl.output.pictures import style
 from mgehl.output.pictures.history_picture import column, cycles, grids, history
 
-
 OWN_SPEED = ["motion.speed=0.5 m/s"]
 """That of the last rows of `make_rows`."""
 
