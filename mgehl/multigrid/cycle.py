@@ -32,7 +32,7 @@ from mgehl.multigrid.film_ends import end_halfway
 from mgehl.multigrid.jacobian import Jacobian
 from mgehl.multigrid.memory import Memory
 from mgehl.multigrid.options import by_default
-from mgehl.multigrid.smoother import ValleySmoother
+from mgehl.multigrid.smoother import AT_ONCE
 from mgehl.multigrid.smoother_choice import smoother_of
 
 IN_THE_CYCLE = {"2C": "3B", "S2C": "3B"}
@@ -141,19 +141,20 @@ class MultigridSolver:
             jacobian.mat.destroy()
 
     @property
-    def _may_be_at_once(self):
-        """Whether the finest grid may have valleys that lines do not see."""
-        return bool(self._smoothers) and isinstance(self._smoothers[-1], ValleySmoother)
-
-    @property
     def at_once(self):
         """Whether the finest grid's nearby nodes are solved at once: a linear system was hard."""
-        return self._may_be_at_once and self._smoothers[-1].at_once
+        return self.way == AT_ONCE
 
-    @at_once.setter
-    def at_once(self, hard):
-        if self._may_be_at_once:
-            self._smoothers[-1].at_once = hard
+    @property
+    def way(self):
+        """How the finest grid's next linear system begins (`smoother.ValleySmoother`); "" if there is but
+        one."""
+        return self._smoothers[-1].way if self._smoothers else ""
+
+    @way.setter
+    def way(self, way):
+        if way:
+            self._smoothers[-1].way = way
 
     @property
     def space(self):

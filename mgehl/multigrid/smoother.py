@@ -1,5 +1,7 @@
 """Damped Jacobi line relaxation, distributive where the Poiseuille flow is weak."""
 
+from math import inf
+
 import numpy as np
 
 from mgehl.discretization.axes import own
@@ -21,8 +23,17 @@ PATIENCE = 30
 """Relaxations of one linear system by lines; then nearby nodes are solved at once. To factor them takes as
 long as some fifteen iterations."""
 
+MOST_AT_ONCE = 50
+"""Relaxations of one linear system with nearby nodes at once; then it is finished by lines, and so are all
+later ones. Of 60 contacts of machines on 257 nodes (`mgehl.studies.machine`) two took more than 16, both of
+soft polymer, 39 and 70. The second takes 37 s for 105 by this, with 30 it takes 55; a dented one on 513
+nodes 128 s for some 500."""
+
 LARGEST = 600_000
-"""Most nodes of a grid whose nearby nodes are solved at once: some 2.5 kB for each."""
+"""Most nodes of a grid whose nearby nodes are solved at once: 4 to 9 kB for each."""
+
+BY_LINES, AT_ONCE, BY_LINES_AGAIN = "by lines", "nearby nodes at once", "by lines again"
+"""Ways of a `ValleySmoother`."""
 
 
 class LineSmoother:
@@ -38,6 +49,8 @@ class LineSmoother:
     """Whether it relaxes what stands at cliffs of the mobility as well as the rest."""
     hands_over_everywhere = True
     """Whether every node takes what the lines beside it hand over, driven or not."""
+    way = ""
+    """Which of several ways it takes; there is but one."""
 
     def __init__(self, jacobian, omega):
         self._jacobian, self._omega = jacobian, omega
@@ -45,7 +58,7 @@ class LineSmoother:
         self._near = influence_nearby(jacobian)
         self._share = 0.5 if grid.mesh.is_line else 0.25
         self._K00, self._kappa = self._near[0, 0], influence_of_columns(self._near, self._share)
-        self._bands = LineBands(*grid.shape)
+        self._bands = LineBands(*grid.shape, before=grid.first)
         self._w = np.zeros(grid.shape)
         self._ghosted_w = np.zeros(grid.ghosted_shape)
 
@@ -112,15 +125,15 @@ class ValleySmoother(RoughLineSmoother):
     T^-1 r: in the rest of that system and in all later ones.
 
     A ball of 200 nm rms at 3.5 um/s on 257 nodes takes 22 iterations of GMRES; by lines alone it was not
-    solved after 110. Grids of more than `LARGEST` nodes keep the lines.
+    solved after 110. Grids of more than `LARGEST` nodes keep the lines, and where a system takes more than
+    `MOST_AT_ONCE` relaxations all later ones are left to the lines again: in soft bodies what a valley
+    couples to is not near.
     """
 
     def __init__(self, jacobian, omega):
         super().__init__(jacobian, omega)
         self._nearby = NearbySolve(jacobian, self._near, self._share)
-        self._left = PATIENCE
-        self.at_once = False
-        """Whether nearby nodes are solved at once."""
+        self.way, self._taken = BY_LINES, 0  # the present way, and relaxations of this system by it
 
     def free(self):
         """Free the PETSc objects."""
@@ -133,26 +146,34 @@ class ValleySmoother(RoughLineSmoother):
 
     def factor(self):
         """Factor what the next relaxation needs."""
-        self._left = PATIENCE
-        if self.at_once:
+        self._taken = 0
+        if self.way == AT_ONCE:
             self._nearby.factor(self._distributive, self._movable)
         else:
             super().factor()
 
     def relax(self, r):
         """As of a `LineSmoother`."""
-        if not self.at_once:
-            if self._left > 0 or self._jacobian.grid.mesh.nodes > LARGEST:
-                self._left -= 1
-                return super().relax(r)
-            self.at_once = True
+        if self._taken == self._most:
+            self.way = AT_ONCE if self.way == BY_LINES else BY_LINES_AGAIN
             self.factor()
+        self._taken += 1
+        if self.way != AT_ONCE:
+            return super().relax(r)
         self._nearby.solve(r, self._w)
         return self._distributed(1.0, everywhere=True)
 
+    @property
+    def _most(self):
+        """Relaxations of a system after which another way is taken."""
+        if self.way == AT_ONCE:
+            return MOST_AT_ONCE
+        has_another = self.way == BY_LINES and self._jacobian.grid.mesh.nodes <= LARGEST
+        return PATIENCE if has_another else inf
+
     def view(self, viewer):
         super().view(viewer)
-        if self.at_once:
+        if self.way == AT_ONCE:
             self._nearby.view(viewer)
 
 
@@ -161,11 +182,12 @@ class RigidLineSmoother:
 
     relaxations = 2
     sees_cliffs = False
+    way = ""
 
     def __init__(self, jacobian, omega):
-        self._jacobian, self._omega = jacobian, omega
-        self._bands = LineBands(*jacobian.grid.shape, REACH_OF_STENCIL)
-        self._out = np.zeros(jacobian.grid.shape)
+        self._jacobian, self._omega, grid = jacobian, omega, jacobian.grid
+        self._bands = LineBands(*grid.shape, REACH_OF_STENCIL, grid.first)
+        self._out = np.zeros(grid.shape)
 
     def free(self):
         """Nothing is held that PETSc does not free."""

@@ -67,8 +67,8 @@ Of the same on rough surfaces, arrays (corrections, lines, nx) and lists with an
         Corrections that the linear systems before were solved by, and the deflections by those of P.
     memory.residual memory.load_residual
         What the multigrid cycle answers by them.
-    memory.at_once
-        Whether nearby nodes are solved at once, since a linear system was hard.
+    memory.way
+        By lines, nearby nodes at once since a linear system was hard, or by lines again.
 
 Of the relaxation under way:
 

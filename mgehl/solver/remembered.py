@@ -34,14 +34,14 @@ class Remembered(Kept):
         P, H0 = self._space.parts(known.values)
         flow, load = self._space.parts(known.causes)
         H = known.deflections.reshape(P.shape)
-        at_once = self._multigrid.at_once
-        return Record.of(P=P, H0=H0, deflection=H, residual=flow, load_residual=load, at_once=at_once)
+        way = self._multigrid.way
+        return Record.of(P=P, H0=H0, deflection=H, residual=flow, load_residual=load, way=way)
 
     def take_back(self, record):
         """Remember what a `record` has, and nothing else."""
         values, arrays, stack = record.values, record.arrays, self._space.stack
         H = arrays["deflection"]
-        self._multigrid.at_once = values["at_once"]
+        self._multigrid.way = values["way"]
         self._memory.known = Corrections(
             stack(arrays["P"], values["H0"]),
             H.reshape(len(H), -1),

@@ -76,7 +76,7 @@ def by_lines(system, monkeypatch):
 
 def test_at_once_it_takes_a_third_of_the_iterations(system, by_lines):
     hard = system()
-    hard.multigrid.at_once = True
+    hard.multigrid.way = smoother.AT_ONCE
     assert hard.iterations() < 0.4 * by_lines and by_lines > 80
 
 
@@ -86,6 +86,22 @@ def test_a_hard_system_is_finished_at_once_and_the_next_one_begins_so(system, by
     assert hard.multigrid.at_once
     assert smoother.PATIENCE < first < by_lines
     assert second < first - 0.5 * smoother.PATIENCE
+
+
+def test_what_is_no_better_at_once_is_left_to_the_lines_again(system, monkeypatch):
+    """In the middle of that system, and for good."""
+    monkeypatch.setattr(smoother, "PATIENCE", 10)
+    monkeypatch.setattr(smoother, "MOST_AT_ONCE", 3)
+    hard = system()
+    hard.multigrid.configure(hard.ksp, 1e-2)
+    assert hard.iterations() > smoother.PATIENCE + smoother.MOST_AT_ONCE
+    assert hard.multigrid.way == smoother.BY_LINES_AGAIN and not hard.multigrid.at_once
+    again = hard.iterations()
+    assert hard.multigrid.way == smoother.BY_LINES_AGAIN
+    monkeypatch.setattr(smoother, "PATIENCE", 1000)
+    by_lines = system()
+    by_lines.multigrid.configure(by_lines.ksp, 1e-2)
+    assert again == by_lines.iterations()
 
 
 def test_an_easy_one_is_left_to_the_lines(system):
@@ -106,6 +122,5 @@ def test_smooth_bodies_have_no_valleys(make_hierarchy, paper_contact):
     contact = paper_contact(HARD)
     hierarchy = make_hierarchy(contact, 65)
     multigrid = MultigridSolver(hierarchy, len(hierarchy.grids) - 1, contact, Scheme())
-    multigrid.at_once = True
-    assert not multigrid.at_once
+    assert multigrid.way == "" and not multigrid.at_once
     multigrid.free()

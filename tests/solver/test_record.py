@@ -12,6 +12,7 @@ import pytest
 
 from mgehl.multigrid.jacobian import BorderedSpace
 from mgehl.multigrid.memory import Corrections
+from mgehl.multigrid.smoother import AT_ONCE, BY_LINES
 from mgehl.solver import record as described
 from mgehl.solver.dry import DryStanding, DryStep
 from mgehl.solver.foothold import Foothold
@@ -76,7 +77,7 @@ class Solver:
 
     def __init__(self, grid, known=None):
         self.space, self.memory = BorderedSpace(grid), SimpleNamespace(known=known)
-        self.at_once = known is not None
+        self.way = AT_ONCE if known is not None else BY_LINES
 
 
 @pytest.fixture
@@ -113,7 +114,7 @@ class TestThereAndBack:
         solver = Solver(tiny_problem.grid)
         Remembered(solver).take_back(back(position).memory)
         assert_equal(solver.memory.known, corrections)
-        assert solver.at_once
+        assert solver.way == AT_ONCE
 
     def test_before_the_first_linear_system_nothing_is_remembered(self, position, tiny_problem):
         position.memory = Remembered(Solver(tiny_problem.grid))
