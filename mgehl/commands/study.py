@@ -80,9 +80,9 @@ def add(commands):
                        f"{', '.join(FACE_MOBILITIES)} (default: arithmetic)")  # fmt: skip
     parser.add_argument("--boundary-film", metavar="LENGTH",
                        help="film of adsorbed layers in study rough (default: 2 nm)")  # fmt: skip
-    parser.add_argument("--cases", metavar="N", help="random cases that studies mixed (120 by default), "
-                       "machine (60) and gaps (40) solve, or study error instead of its list")  # fmt: skip
-    parser.add_argument("--seed", metavar="N", help="by which they are drawn (default: 7)")
+    parser.add_argument("--cases", metavar="N", help=f"random cases that a study ({', '.join(DRAW)}) "
+                       "solves instead of its own")  # fmt: skip
+    parser.add_argument("--seed", metavar="N", help="by which they are drawn (default: the study's own)")
     parser.add_argument("--out", metavar="DIR", help="directory of the results (default: runs/study-NAME)")
     parser.add_argument("--force", action="store_true", help="start anew in a directory that exists")
     parser.add_argument(

@@ -42,7 +42,7 @@ def build_bands(offsets, A, B, distributive, kappa, share, bands, lines, nodes):
 
     Nodes and lines are (first, end). Column m of Q is 1 at node m and, where `distributive[j, m]`, -share
     at its neighbours. `kappa[d, l, k]` is the deflection k nodes along and l lines beside a unit column of
-    kind d.
+    kind d. What a band has beyond these nodes does not matter to `banded`'s factor.
     """
     reach = bands.shape[2] // 2
     first, end = nodes
@@ -70,16 +70,13 @@ def add_product(b, spreads, single, more, diagonal):
         diagonal[i] += b[i] * (single + more * spreads[i])
 
 
-@compiled(fastmath={"contract"})
+@compiled()
 def _set_band(diagonals, band):
-    """A band (nodes, width) of its diagonals (width, nodes), without what is beyond its ends."""
+    """A band (nodes, width) of its diagonals (width, nodes)."""
     width, nx = diagonals.shape
     for i in range(nx):
         for k in range(width):
             band[i, k] = diagonals[k, i]
-    for i in range(min(width // 2, nx)):
-        band[i, : width // 2 - i] = 0.0
-        band[nx - 1 - i, width // 2 + 1 + i :] = 0.0
 
 
 @compiled()

@@ -1,5 +1,7 @@
 """Banded systems of the x-lines for the distributive line smoother."""
 
+from itertools import pairwise
+
 import numpy as np
 
 from mgehl.discretization.band_kernels import REACH, banded, build_bands, span_of
@@ -57,12 +59,13 @@ class LineBands:
     """Factored banded systems of all local lines, each node coupled to `reach` on each side.
 
     A line's system has the nodes of its span alone (`span_of`): a cavity behind the contact is a quarter of
-    all nodes.
+    all nodes. A few lines have a span together, by their numbers on the whole grid, of which `before` come
+    before these: so spans are the same on any number of ranks.
     """
 
-    def __init__(self, lines, nx, reach=REACH):
+    def __init__(self, lines, nx, reach=REACH, before=0):
         self._shape, self._factors = (lines, nx, 2 * reach + 1), None
-        self._spans = np.tile([0, nx], (lines, 1))
+        self._spans, self._before = np.tile([0, nx], (lines, 1)), before
         self._factor, self._solve = LOOPS[reach]
 
     def factor(self, linearisation, distributive, given, kappa, share):
@@ -73,14 +76,19 @@ class LineBands:
         """
         lin, bands, spans = linearisation, self._room(), self._spans
         diagonal = np.zeros(bands.shape[:2])
-        for first in range(0, len(bands), AT_A_TIME):
-            some = slice(first, min(first + AT_A_TIME, len(bands)))
+        for some in self._groups(AT_A_TIME):
             few = some.start, some.stop
             spans[some] = nodes = span_of(given, few)
             build_bands(lin.offsets, lin.A, lin.B, distributive, kappa, share, bands, few, nodes)
             diagonal[some, slice(*nodes)] = bands[some, slice(*nodes), REACH]
             self._factor(bands[some], nodes)
         return diagonal
+
+    def _groups(self, size):
+        """Slices of so many lines; the first and the last may have fewer."""
+        lines = self._shape[0]
+        ends = [0, *range(size - self._before % size, lines, size), lines]
+        return [slice(*pair) for pair in pairwise(ends)]
 
     def _room(self):
         """The array of the bands, whatever is in it."""
@@ -97,8 +105,7 @@ class LineBands:
         bands, spans = self._room(), self._spans
         stencil = zip(linearisation.offsets, linearisation.A, strict=True)
         along = [(ahead, A) for (beside, ahead), A in stencil if beside == 0]
-        for first in range(0, len(bands), STENCILS_AT_A_TIME):
-            some = slice(first, min(first + STENCILS_AT_A_TIME, len(bands)))
+        for some in self._groups(STENCILS_AT_A_TIME):
             spans[some] = nodes = span_of(given, (some.start, some.stop))
             part = bands[some, slice(*nodes)]
             part[:] = 0.0

@@ -7,9 +7,10 @@ may hold none. The last rank has lines on every grid: it has H0, too.
 import numpy as np
 
 MIN_LINES = 4
-"""Lines that a rank which works on a grid has at the least. A halo of two lines needs 2. By the model of
-`study ranks`, for 129 to 16385 nodes on 20 to 512 ranks, 4 and 8 are equally fast; with 2 an iteration
-takes up to a fifth longer, for the messages, and with 16 up to a third, for ranks that are idle."""
+"""Lines that a rank which works on a grid has at the least. A halo needs 2, the bands of y-lines as many as
+they reach, 4. By the model of `study ranks`, for 129 to 16385 nodes on 20 to 512 ranks, 4 and 8 are equally
+fast; with 2 an iteration takes up to a fifth longer, for the messages, and with 16 up to a third, for ranks
+that are idle."""
 
 
 def ownerships(lines, grids, ranks):

@@ -15,8 +15,6 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.linalg
 
-from mgehl.grid.events import LINES, event
-
 MOST, NODES = 40, 48_000_000
 """Most corrections that are kept from one system to the next, and most nodes of all that are remembered at
 a time: with their deflections and causes 1.2 GB. A ball of 218 nm rms at .3 mm/s takes 694 convolutions
@@ -91,7 +89,6 @@ class Memory:
         if self._seen:
             self._take_over(Corrections.stacked(self._seen))
 
-    @event(LINES)
     def _take_over(self, known):
         """Keep combinations whose images are orthonormal."""
         images = self._products(known)

@@ -51,7 +51,7 @@ class MixedResult:
     near_contact_load_share: float | None = None
     """Part of the load on films at most `NEAR` times as thick as the boundary film that contact keeps."""
     error: GapError | None = None
-    """Bands about the mean gaps; None where peaks do not reach through the film."""
+    """Bands about the mean gaps; None in older results."""
 
     @property
     def hertz_region(self):

@@ -14,8 +14,8 @@ from mgehl.solver.cavitation import cavities_rest, driven, relax_cavitation_set
 from mgehl.solver.problem import DIVERGED
 
 LARGEST_STEP = 0.3
-"""Largest change of a pressure in one step, in p_h, here and in Newton's steps: near a fold a longer step
-leads astray. Here from 0.03 to 3 the same steps; for Newton's see `NewtonSettings`."""
+"""Largest change of a pressure in one step, in p_h here, and as `NewtonSettings` says in Newton's steps:
+near a fold a longer step leads astray. Here from 0.03 to 3 the same steps."""
 
 LINEAR_TOLERANCE = 0.03
 """Relative tolerance of the linear systems of a rigid gap. From 0.01 to 0.1 the same Newton steps; 0.1

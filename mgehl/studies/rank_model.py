@@ -121,8 +121,8 @@ class Level:
     def relaxation(self):
         """All lines' bands along both axes solved, and what they give distributed."""
         others = self.ranks - 1
-        turned = Cost(exchanged=2 * others, bytes=2 * REAL * self.mine * others / self.ranks)
-        return self.halo() + turned + Cost(sweeps=(2 * (4 * REACH + 2) + 8) * self.mine)
+        sent = Cost(exchanged=2 * others, bytes=2 * REAL * self.mine * others / self.ranks)
+        return self.halo() + sent + Cost(sweeps=(2 * (4 * REACH + 2) + 8) * self.mine)
 
     def transfers(self, coarse):
         """Restriction; interpolation of a correction and of its deflection, which is convolved there.

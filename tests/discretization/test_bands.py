@@ -132,6 +132,28 @@ def test_line_bands_solve_the_band_of_J_Q(offsets, share):
         np.testing.assert_allclose(w[j], np.linalg.solve(line, r[j]), rtol=1e-11, atol=1e-13)
 
 
+@pytest.mark.parametrize("before", [0, 1, AT_A_TIME - 1, AT_A_TIME])
+def test_lines_have_their_spans_with_the_same_lines_on_any_number_of_ranks(before):
+    """Some lines of a plane alone are solved as they are among all."""
+    rng = np.random.default_rng(7)
+    lines, nx = 2 * AT_A_TIME + 3, MESH.nx
+    A, B = line_stencils(rng, ALONG_X, lines, nx)
+    given = np.arange(nx) < rng.integers(1, 7, lines)[:, None]
+    A[1:, given], B[:, given] = 0.0, 0.0
+    distributive = (rng.random((lines, nx)) < 0.5) & ~given
+    r, kappa = rng.standard_normal((lines, nx)), influence_of_columns(K, 0.25)
+    found = []
+    for first in (0, before):
+        bands, w = LineBands(lines - first, nx, before=first), np.empty((lines - first, nx))
+        stencils = (np.ascontiguousarray(each[:, first:]) for each in (A, B))
+        nodes = distributive[first:], given[first:]
+        diagonal = bands.factor(Linearisation(np.array(ALONG_X), *stencils, None), *nodes, kappa, 0.25)
+        bands.solve(r[first:], w)
+        found.append((diagonal[-AT_A_TIME:], w[-AT_A_TIME:]))
+    np.testing.assert_array_equal(*(diagonal for diagonal, _ in found))
+    np.testing.assert_array_equal(*(w for _, w in found))
+
+
 def wedge_term(nx):
     """Stencils of a pure Couette flow by 1B, d H/dX of a line in steps of 1; its ends are given."""
     here, upstream = 0, 1

@@ -4,11 +4,13 @@ import numpy as np
 import pytest
 from mpi4py import MPI
 
+from mgehl.discretization.band_kernels import REACH
 from mgehl.discretization.bands import LineBands, influence_of_columns
 from mgehl.discretization.influence import influence_coefficients
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.residual import Linearisation
 from mgehl.grid.grid import single_grid
+from mgehl.grid.ownership import MIN_LINES
 from mgehl.model.deformation import HalfSpace
 from mgehl.multigrid.y_bands import YBands
 
@@ -57,6 +59,10 @@ def turned(linearisation):
     """With X and Y exchanged."""
     A, B = (np.ascontiguousarray(each.transpose(0, 2, 1)) for each in (linearisation.A, linearisation.B))
     return Linearisation(np.ascontiguousarray(OFFSETS[:, ::-1]), A, B, None)
+
+
+def test_bands_reach_no_line_that_is_not_a_neighbours():
+    assert REACH <= MIN_LINES
 
 
 def test_y_lines_are_solved_as_the_x_lines_of_the_turned_plane(y_bands, kappa, rng):
