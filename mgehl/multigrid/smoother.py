@@ -155,6 +155,8 @@ class ValleySmoother(RoughLineSmoother):
     def relax(self, r):
         """As of a `LineSmoother`."""
         if self._taken == self._most:
+            if self.way == AT_ONCE:
+                self._nearby.free()  # for good
             self.way = AT_ONCE if self.way == BY_LINES else BY_LINES_AGAIN
             self.factor()
         self._taken += 1

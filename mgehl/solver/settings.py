@@ -47,10 +47,10 @@ class NewtonSettings:
     """Relative tolerance of GMRES in a step. From 0.05 to 0.2 the work varies by a quarter, now more, now
     less: the looser, the more steps and the fewer iterations in each."""
     max_pressure_step: float = LARGEST_STEP
-    """Largest change of a pressure in one step, over p_h, of rough bodies over the largest pressure; more where
-    the viscosity is not steep (`step_length`). A longer step is shortened as a whole. From 0.2 to 0.5 films
-    take the same work within a tenth (a motion at 30 degrees 271 to 187 convolutions), contact starts the
-    same steps."""
+    """Largest change of a pressure in one step, over p_h (of rough bodies over the largest pressure). Where
+    the viscosity is not steep it may be larger (`step_length`). A longer step is shortened as a whole. From
+    0.2 to 0.5 films take the same work within a tenth (a motion at 30 degrees 271 to 187 convolutions),
+    contact starts the same steps."""
     release_budget: int = SolverSection.release_budget
     """Times a contact node may be released on Eq. 2. With 1 the same steps; with 0 mixed lubrication ends
     with nodes that break Eq. 2."""
