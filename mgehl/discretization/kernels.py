@@ -56,24 +56,48 @@ def _add_part(a, p, out):
 
 
 @compiled(fastmath={"contract"})
-def distribute(w, distributive, share, omega, out, everywhere=True):
+def distribute(w, distributive, share, omega, out, along_x=True, along_y=True):
     """out = omega Q w; `w` and `distributive` ghosted, `out` (lines, nx).
 
-    Q as in `band_kernels.build_bands`. If not `everywhere`, only distributive nodes take what the lines
-    beside them hand over.
+    Q as in `band_kernels.build_bands`. A node that is not distributive takes what those beside it hand over
+    along X and along Y, or along one of them only.
     """
     lines, nx = out.shape
     for j in range(lines):
         for i in range(nx):
             g = j + HALO
             spread = 0.0
-            if everywhere or distributive[g, i]:
+            if along_y or distributive[g, i]:
                 spread = w[g - 1, i] * distributive[g - 1, i] + w[g + 1, i] * distributive[g + 1, i]
-            if i > 0:
-                spread += w[g, i - 1] * distributive[g, i - 1]
-            if i < nx - 1:
-                spread += w[g, i + 1] * distributive[g, i + 1]
+            if along_x or distributive[g, i]:
+                if i > 0:
+                    spread += w[g, i - 1] * distributive[g, i - 1]
+                if i < nx - 1:
+                    spread += w[g, i + 1] * distributive[g, i + 1]
             out[j, i] = omega * (w[g, i] - share * spread)
+
+
+@compiled(fastmath={"contract"})
+def deflect_nearby(K, p, out):
+    """out = deflection by the pressure `p`, ghosted, of a node and the eight around it; `out` (lines, nx).
+
+    `K` holds the influence coefficients [line, node] of a node on itself and on those beside it, (2, 2).
+    """
+    for j in range(len(out)):
+        _deflect_line(K, p[j + HALO - 1], p[j + HALO], p[j + HALO + 1], out[j])
+
+
+@compiled(fastmath={"contract"})
+def _deflect_line(K, before, here, behind, out):
+    """One line of it: a function of its own, for a loop that runs on vectors."""
+    last = out.size - 1
+    for i in range(1, last):
+        corners = before[i - 1] + before[i + 1] + behind[i - 1] + behind[i + 1]
+        out[i] = K[0, 0] * here[i] + K[0, 1] * (here[i - 1] + here[i + 1])
+        out[i] += K[1, 0] * (before[i] + behind[i]) + K[1, 1] * corners
+    for i, beside in ((0, 1), (last, last - 1)):
+        out[i] = K[0, 0] * here[i] + K[0, 1] * here[beside] + K[1, 0] * (before[i] + behind[i])
+        out[i] += K[1, 1] * (before[beside] + behind[beside])
 
 
 @compiled()

@@ -15,14 +15,8 @@ films on 257 to 1025 nodes take up to a quarter less work than with 1, a few of 
 1.3 up to an eighth more than with 1.2; with 2 up to two and a half times as much."""
 
 
-class CrossedLineSmoother(LineSmoother):
-    """The same with lines along both axes: c = omega Q (X D^-1 Y)^-1 r.
-
-    X and Y are the parts of J Q along the x-lines and along the y-lines, D their diagonal: the product is J
-    Q but for what couples both. Lines along one axis alone leave waves across the motion, the more the
-    finer the grid; the product damps these, too (M = 20, L = 10 by 2B on 257 nodes: 64 convolutions for
-    88). A relaxation goes along X first and then along Y, the next one the other way round.
-    """
+class LinesBothWays(LineSmoother):
+    """A smoother that has the bands of lines along both axes."""
 
     def __init__(self, jacobian, omega):
         super().__init__(jacobian, omega)
@@ -44,13 +38,26 @@ class CrossedLineSmoother(LineSmoother):
 
     @event(LINES)
     def factor(self):
-        """Factor the bands of the present linearisation; the next relaxation begins along X."""
+        """Factor the bands of the present linearisation."""
+        if self._has_lines:
+            self._diagonal = self._factor_x_lines()
+            nodes = own(self._distributive), self._jacobian.given
+            self._y_bands.factor(self._jacobian.linearisation, *nodes)
+
+
+class CrossedLineSmoother(LinesBothWays):
+    """The same with lines along both axes: c = omega Q (X D^-1 Y)^-1 r.
+
+    X and Y are the parts of J Q along the x-lines and along the y-lines, D their diagonal: the product is J
+    Q but for what couples both. Lines along one axis alone leave waves across the motion, the more the
+    finer the grid; the product damps these, too (M = 20, L = 10 by 2B on 257 nodes: 64 convolutions for
+    88). A relaxation goes along X first and then along Y, the next one the other way round.
+    """
+
+    def factor(self):
+        """As of `LinesBothWays`; the next relaxation begins along X."""
         self._along_y_first = False
-        if not self._has_lines:
-            return
-        self._diagonal = self._factor_x_lines()
-        nodes = own(self._distributive), self._jacobian.given
-        self._y_bands.factor(self._jacobian.linearisation, *nodes)
+        super().factor()
 
     def _solve_lines(self, r):
         """Solve along one axis, then along the other; the next time in the other order."""

@@ -32,8 +32,8 @@ from mgehl.multigrid.film_ends import end_halfway
 from mgehl.multigrid.jacobian import Jacobian
 from mgehl.multigrid.memory import Memory
 from mgehl.multigrid.options import by_default
-from mgehl.multigrid.smoother import AT_ONCE
 from mgehl.multigrid.smoother_choice import smoother_of
+from mgehl.multigrid.valleys import AT_ONCE
 
 IN_THE_CYCLE = {"2C": "3B", "S2C": "3B"}
 """Couette schemes of the cycle's operators where the solved one's leave waves of two cells: lines do not
@@ -147,8 +147,8 @@ class MultigridSolver:
 
     @property
     def way(self):
-        """How the finest grid's next linear system begins (`smoother.ValleySmoother`); "" if there is but
-        one."""
+        """How the finest grid's next linear system begins (of a `ValleySmoother`); "" where there is
+        one way only."""
         return self._smoothers[-1].way if self._smoothers else ""
 
     @way.setter

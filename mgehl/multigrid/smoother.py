@@ -1,7 +1,5 @@
 """Damped Jacobi line relaxation, distributive where the Poiseuille flow is weak."""
 
-from math import inf
-
 import numpy as np
 
 from mgehl.discretization.axes import own
@@ -15,25 +13,7 @@ from mgehl.discretization.bands import (
 )
 from mgehl.discretization.influence import influence_coefficients
 from mgehl.discretization.kernels import distribute
-from mgehl.discretization.rows import PRESSURE
 from mgehl.grid.events import LINES, event
-from mgehl.multigrid.nearby import NearbySolve
-
-PATIENCE = 30
-"""Relaxations of one linear system by lines; then nearby nodes are solved at once. To factor them takes as
-long as some fifteen iterations."""
-
-MOST_AT_ONCE = 50
-"""Relaxations of one linear system with nearby nodes at once; then it is finished by lines, and so are all
-later ones. Of 60 contacts of machines on 257 nodes (`mgehl.studies.machine`) two took more than 16, both of
-soft polymer, 39 and 70. The second takes 37 s for 105 by this, with 30 it takes 55; a dented one on 513
-nodes 128 s for some 500."""
-
-LARGEST = 600_000
-"""Most nodes of a grid whose nearby nodes are solved at once: 4 to 9 kB for each."""
-
-BY_LINES, AT_ONCE, BY_LINES_AGAIN = "by lines", "nearby nodes at once", "by lines again"
-"""Ways of a `ValleySmoother`."""
 
 
 class LineSmoother:
@@ -47,8 +27,6 @@ class LineSmoother:
     """Of one sweep."""
     sees_cliffs = False
     """Whether it relaxes what stands at cliffs of the mobility as well as the rest."""
-    hands_over_everywhere = True
-    """Whether every node takes what the lines beside it hand over, driven or not."""
     way = ""
     """Which of several ways it takes; there is but one."""
 
@@ -92,12 +70,12 @@ class LineSmoother:
     def relax(self, r):
         """Correction for the residual `r`, both (lines, nx); the next call overwrites it."""
         self._solve_lines(r)
-        return self._distributed(self._omega, self.hands_over_everywhere)
+        return self._distributed(self._omega)
 
-    def _distributed(self, omega, everywhere):
-        """The correction omega Q w in the place of w; `everywhere` as of `kernels.distribute`."""
+    def _distributed(self, omega, along_x=True, along_y=True):
+        """The correction omega Q w in the place of w; what is handed over as of `kernels.distribute`."""
         self._jacobian.grid.halo(self._w, out=self._ghosted_w)
-        distribute(self._ghosted_w, self._distributive, self._share, omega, self._w, everywhere)
+        distribute(self._ghosted_w, self._distributive, self._share, omega, self._w, along_x, along_y)
         self._w[self._jacobian.given] = 0.0
         return self._w
 
@@ -107,76 +85,6 @@ class LineSmoother:
 
     def view(self, viewer):
         viewer.printfASCII(f"  distributive x-line Jacobi, omega {self._omega}, {REACH} neighbours\n")
-
-
-class RoughLineSmoother(LineSmoother):
-    """The same where film and contact change from node to node, as on rough surfaces.
-
-    A stiff node hands nothing over to a pressure-driven node of the line beside it. That would leave a
-    residual there as large as the node's mobility, which lines solved apart from each other could not
-    remove (a ball of 400 nm rms at 1 mm/s: 17 iterations for 39).
-    """
-
-    hands_over_everywhere = False
-
-
-class ValleySmoother(RoughLineSmoother):
-    """The same until a linear system has taken `PATIENCE` relaxations; from then on a `NearbySolve`, c = Q
-    T^-1 r: in the rest of that system and in all later ones.
-
-    A ball of 200 nm rms at 3.5 um/s on 257 nodes takes 22 iterations of GMRES; by lines alone it was not
-    solved after 110. Grids of more than `LARGEST` nodes keep the lines, and where a system takes more than
-    `MOST_AT_ONCE` relaxations all later ones are left to the lines again: in soft bodies what a valley
-    couples to is not near.
-    """
-
-    def __init__(self, jacobian, omega):
-        super().__init__(jacobian, omega)
-        self._nearby = NearbySolve(jacobian, self._near, self._share)
-        self.way, self._taken = BY_LINES, 0  # the present way, and relaxations of this system by it
-
-    def free(self):
-        """Free the PETSc objects."""
-        self._nearby.free()
-
-    def partition(self, rows):
-        """As of a `LineSmoother`."""
-        super().partition(rows)
-        self._movable = self._jacobian.grid.halo(rows != PRESSURE)
-
-    def factor(self):
-        """Factor what the next relaxation needs."""
-        self._taken = 0
-        if self.way == AT_ONCE:
-            self._nearby.factor(self._distributive, self._movable)
-        else:
-            super().factor()
-
-    def relax(self, r):
-        """As of a `LineSmoother`."""
-        if self._taken == self._most:
-            if self.way == AT_ONCE:
-                self._nearby.free()  # for good
-            self.way = AT_ONCE if self.way == BY_LINES else BY_LINES_AGAIN
-            self.factor()
-        self._taken += 1
-        if self.way != AT_ONCE:
-            return super().relax(r)
-        self._nearby.solve(r, self._w)
-        return self._distributed(1.0, everywhere=True)
-
-    @property
-    def _most(self):
-        """Relaxations of a system after which another way is taken."""
-        if self.way == AT_ONCE:
-            return MOST_AT_ONCE
-        has_another = self.way == BY_LINES and self._jacobian.grid.mesh.nodes <= LARGEST
-        return PATIENCE if has_another else inf
-
-    def view(self, viewer):
-        super().view(viewer)
-        if self.way == AT_ONCE:
-            self._nearby.view(viewer)
 
 
 class RigidLineSmoother:

@@ -1,7 +1,8 @@
 """Which smoother a grid of the cycle has."""
 
 from mgehl.multigrid.crossed_lines import CliffSmoother, CrossedLineSmoother
-from mgehl.multigrid.smoother import LineSmoother, RigidLineSmoother, RoughLineSmoother, ValleySmoother
+from mgehl.multigrid.smoother import LineSmoother, RigidLineSmoother
+from mgehl.multigrid.valleys import RoughLineSmoother, ValleySmoother
 
 
 def smoother_of(jacobian, thin=False, finest=False, apart=False):
@@ -14,8 +15,10 @@ def smoother_of(jacobian, thin=False, finest=False, apart=False):
     """
     if jacobian.rigid:
         return RigidLineSmoother
+    if jacobian.grid.mesh.is_line:
+        return LineSmoother
     if thin:
-        return ValleySmoother if finest and not jacobian.grid.mesh.is_line else RoughLineSmoother
-    if apart or jacobian.grid.mesh.is_line:
+        return ValleySmoother if finest else RoughLineSmoother
+    if apart:
         return LineSmoother
     return CliffSmoother if finest or jacobian.holds_film else CrossedLineSmoother

@@ -11,6 +11,7 @@ from mgehl.discretization.kernels import (
     add_poiseuille_slopes,
     apply_jacobian,
     apply_stencil,
+    deflect_nearby,
     distribute,
     flow_sources,
     lifted_by_less,
@@ -77,6 +78,19 @@ def test_distribute(share, rng):
         * (dense_Q(distributive, share) @ w.ravel()).reshape(lines + 4 * HALO, nx)[2 * HALO : -2 * HALO]
     )
     np.testing.assert_allclose(out, expected, rtol=1e-14, atol=1e-15)
+
+
+@pytest.mark.parametrize("nx", [2, 3, 8])
+def test_deflect_nearby(nx, rng):
+    """Of pressures on the lines and on those beside them; beyond the ends of a line there is none."""
+    lines, K = 3, rng.random((2, 2))
+    p, out = rng.standard_normal((lines + 2 * HALO, nx)), np.full((lines, nx), np.nan)
+    deflect_nearby(K, p, out)
+    expected, padded = np.zeros((lines, nx)), np.pad(p, ((0, 0), (1, 1)))
+    for line, node in np.ndindex(3, 3):
+        beside = padded[HALO - 1 + line :][:lines, node : node + nx]
+        expected += K[abs(line - 1), abs(node - 1)] * beside
+    np.testing.assert_allclose(out, expected, rtol=1e-13, atol=1e-14)
 
 
 @pytest.fixture(params=[1, 0], ids=["along x", "along y"])

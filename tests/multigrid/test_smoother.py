@@ -7,6 +7,7 @@ from mgehl.discretization.rows import rows_of
 from mgehl.discretization.status import BOUNDARY, CAVITATED, LUBRICATED
 from mgehl.multigrid.crossed_lines import CrossedLineSmoother
 from mgehl.multigrid.smoother import LineSmoother, RigidLineSmoother
+from mgehl.multigrid.valleys import RoughLineSmoother
 
 NODES = 65
 
@@ -17,7 +18,7 @@ def film(solve, paper_contact):
     return solve(paper_contact(), NODES)
 
 
-@pytest.fixture(params=[LineSmoother, CrossedLineSmoother])
+@pytest.fixture(params=[LineSmoother, CrossedLineSmoother, RoughLineSmoother])
 def relax(request, film, make_jacobian, make_smoother, make_vec):
     """Function: norms of error and residual after 0, 1, 2 ... relaxations of J e = 0."""
     state = film.outcome.state

@@ -9,11 +9,11 @@ from mgehl.discretization.contact_law import BoundaryFilm
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import LUBRICATED
 from mgehl.model.surface.waviness import Waviness
-from mgehl.multigrid import smoother
+from mgehl.multigrid import valleys
 from mgehl.multigrid.cycle import MultigridSolver
 from mgehl.solver.problem import ContactProblem
 
-HARD, EASY = 1e-4, 1e-2
+HARD, MIDDLING, EASY = 1e-4, 1e-3, 0.1
 """Speeds in m/s."""
 
 
@@ -30,18 +30,23 @@ class System:
         self.problem = ContactProblem(hierarchy.grids[-1], hierarchy.deflections[-1], contact, scheme)
         self.multigrid = MultigridSolver(hierarchy, len(hierarchy.grids) - 1, contact, scheme)
         self.ksp = PETSc.KSP().create(MPI.COMM_SELF)
-        self.multigrid.configure(self.ksp, 1e-3)
+        self.multigrid.configure(self.ksp, 1e-2)
         self.b, self.x = (self.multigrid.space.create_vec() for _ in range(2))
         noise = np.random.default_rng(1).standard_normal(self.problem.grid.shape)
         self.multigrid.space.write(self.b, np.where(self.problem.boundary, 0.0, noise), 0.3)
 
-    def iterations(self):
-        """Of GMRES, without what it remembers of earlier systems."""
+    def linearise(self):
+        """About the dry pressure of smooth bodies with a film."""
         problem = self.problem
         P = problem.contact.guessed_pressure(problem.grid.X, problem.grid.Y)
-        state = problem.state(P, problem.touching(P) + 1e-2, np.full(problem.grid.shape, LUBRICATED))
+        films = np.full(problem.grid.shape, LUBRICATED)
+        self.state = problem.state(P, problem.touching(P) + 1e-2, films)
+        self.multigrid.linearise(problem.evaluate(self.state), problem.rows(self.state.status))
+
+    def iterations(self):
+        """Of GMRES, without what it remembers of earlier systems."""
         self.multigrid.memory._seen = []
-        self.multigrid.linearise(problem.evaluate(state), problem.rows(state.status))
+        self.linearise()
         self.ksp.solve(self.b, self.x)
         assert self.ksp.getConvergedReason() > 0
         return self.ksp.getIterationNumber()
@@ -66,17 +71,66 @@ def system(make_hierarchy, paper_contact):
         each.free()
 
 
+class TestLinesAlongYInValleys:
+    """The finest grid's smoother by lines, on the system of waves."""
+
+    @pytest.fixture
+    def linearised(self, system):
+        """Function: the `RoughLineSmoother` at a speed, and a residual."""
+
+        def make(speed):
+            made = system(speed)
+            made.linearise()
+            smoother = valleys.RoughLineSmoother(made.multigrid.jacobian, 0.8)
+            smoother.partition(made.problem.rows(made.state.status))
+            smoother.factor()
+            return smoother, made.multigrid.space.read_pressure(made.b)
+
+        return make
+
+    def test_where_the_pressure_drives_nothing_lines_along_x_are_all(self, linearised, monkeypatch):
+        monkeypatch.setattr(valleys, "DRIVEN", 1e30)
+        smoother, r = linearised(EASY)
+        along_x = smoother.relax(r).copy()
+        smoother._bands.solve(r, smoother._w)
+        np.testing.assert_array_equal(along_x, smoother._distributed(0.8, along_y=False))
+
+    def test_lines_along_y_are_solved_for_what_is_left_at_driven_nodes(self, linearised):
+        smoother, r = linearised(EASY)
+        jacobian, driven = smoother._jacobian, smoother._driven
+        assert 0 < np.count_nonzero(driven) < np.count_nonzero(~jacobian.given)
+        whole = smoother.relax(r.copy()).copy()
+        smoother._bands.solve(r, smoother._w)
+        along_x = smoother._distributed(0.8, along_y=False).copy()
+        K, padded = smoother._near, np.pad(along_x, 1)
+        lines, nx = along_x.shape
+        near = sum(
+            K[abs(line - 1), abs(node - 1)] * padded[line : line + lines, node : node + nx]
+            for line, node in np.ndindex(3, 3)
+        )
+        rest = np.where(driven, r - jacobian.product(along_x, near, 0.0), 0.0)
+        smoother._y_bands.solve(rest, smoother._w)
+        expected = along_x + smoother._distributed(0.8, along_x=False)
+        np.testing.assert_allclose(whole, expected, rtol=1e-9, atol=1e-12 * np.abs(expected).max())
+        assert np.abs(whole - along_x).max() > 0.0
+
+    def test_given_pressures_get_no_correction(self, linearised):
+        smoother, r = linearised(EASY)
+        correction = smoother.relax(np.ones_like(r))
+        assert not correction[smoother._jacobian.given].any()
+
+
 @pytest.fixture
 def by_lines(system, monkeypatch):
     """Iterations of the hard system where lines alone relax it."""
     with monkeypatch.context() as patch:
-        patch.setattr(smoother, "PATIENCE", 1000)
+        patch.setattr(valleys, "PATIENCE", 1000)
         return system().iterations()
 
 
 def test_at_once_it_takes_a_third_of_the_iterations(system, by_lines):
     hard = system()
-    hard.multigrid.way = smoother.AT_ONCE
+    hard.multigrid.way = valleys.AT_ONCE
     assert hard.iterations() < 0.4 * by_lines and by_lines > 80
 
 
@@ -84,35 +138,31 @@ def test_a_hard_system_is_finished_at_once_and_the_next_one_begins_so(system, by
     hard = system()
     first, second = hard.iterations(), hard.iterations()
     assert hard.multigrid.at_once
-    assert smoother.PATIENCE < first < by_lines
-    assert second < first - 0.5 * smoother.PATIENCE
+    assert valleys.PATIENCE < first < by_lines
+    assert second < first - 0.5 * valleys.PATIENCE
 
 
 def test_what_is_no_better_at_once_is_left_to_the_lines_again(system, monkeypatch):
     """In the middle of that system, and for good."""
-    monkeypatch.setattr(smoother, "PATIENCE", 10)
-    monkeypatch.setattr(smoother, "MOST_AT_ONCE", 3)
-    hard = system()
-    hard.multigrid.configure(hard.ksp, 1e-2)
-    assert hard.iterations() > smoother.PATIENCE + smoother.MOST_AT_ONCE
-    assert hard.multigrid.way == smoother.BY_LINES_AGAIN and not hard.multigrid.at_once
+    monkeypatch.setattr(valleys, "PATIENCE", 10)
+    monkeypatch.setattr(valleys, "MOST_AT_ONCE", 3)
+    hard = system(MIDDLING)
+    assert hard.iterations() > valleys.PATIENCE + valleys.MOST_AT_ONCE
+    assert hard.multigrid.way == valleys.BY_LINES_AGAIN and not hard.multigrid.at_once
     again = hard.iterations()
-    assert hard.multigrid.way == smoother.BY_LINES_AGAIN
-    monkeypatch.setattr(smoother, "PATIENCE", 1000)
-    by_lines = system()
-    by_lines.multigrid.configure(by_lines.ksp, 1e-2)
-    assert again == by_lines.iterations()
+    assert hard.multigrid.way == valleys.BY_LINES_AGAIN
+    monkeypatch.setattr(valleys, "PATIENCE", 1000)
+    assert again == system(MIDDLING).iterations()
 
 
 def test_an_easy_one_is_left_to_the_lines(system):
     easy = system(EASY)
-    easy.multigrid.configure(easy.ksp, 1e-2)
-    assert easy.iterations() < smoother.PATIENCE
+    assert easy.iterations() < valleys.PATIENCE
     assert not easy.multigrid.at_once
 
 
 def test_a_large_grid_is_left_to_the_lines(system, by_lines, monkeypatch):
-    monkeypatch.setattr(smoother, "LARGEST", 1000)
+    monkeypatch.setattr(valleys, "LARGEST", 1000)
     large = system()
     assert large.iterations() == by_lines
     assert not large.multigrid.at_once

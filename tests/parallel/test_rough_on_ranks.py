@@ -6,7 +6,7 @@ import pytest
 from mpi4py import MPI
 
 from mgehl.config import config_from_tables
-from mgehl.multigrid import smoother
+from mgehl.multigrid import valleys
 from mgehl.run import solve
 from mgehl.studies import rough
 from mgehl.studies.study import merged
@@ -42,7 +42,7 @@ def test_film_and_contact_are_those_of_one_rank(angle):
 
 def test_so_are_they_where_nearby_nodes_are_solved_at_once(monkeypatch):
     """From the first relaxation on, on all grids but the coarsest."""
-    monkeypatch.setattr(smoother, "PATIENCE", 0)
+    monkeypatch.setattr(valleys, "PATIENCE", 0)
     long_waves = {"surface": {"rms": 20e-9, "shortest_wavelength": 90e-6}}
     tables = merged(rough.case(65, 0.007, "film", 10e-9), long_waves, {"solver": {"error": False}})
     found = [solve(config_from_tables(tables), comm).result for comm in (COMM, MPI.COMM_SELF)]

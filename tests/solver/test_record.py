@@ -12,7 +12,7 @@ import pytest
 
 from mgehl.multigrid.jacobian import BorderedSpace
 from mgehl.multigrid.memory import Corrections
-from mgehl.multigrid.smoother import AT_ONCE, BY_LINES
+from mgehl.multigrid.valleys import AT_ONCE, BY_LINES
 from mgehl.solver import record as described
 from mgehl.solver.dry import DryStanding, DryStep
 from mgehl.solver.foothold import Foothold

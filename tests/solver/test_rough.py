@@ -7,13 +7,13 @@ from mgehl.discretization.contact_law import BoundaryFilm
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import CONTACT, LUBRICATED
 from mgehl.model.surface import Surface
-from mgehl.multigrid import smoother
+from mgehl.multigrid import valleys
 from mgehl.solver.inequality import check_interface
 from mgehl.solver.journal import NOTHING_KEPT, Journal
 from mgehl.solver.nested import first_guess, nested_iteration, planned_solves
 from mgehl.solver.problem import ContactProblem
 from mgehl.solver.record import Record
-from mgehl.solver.settings import NestedSettings, SolverSettings
+from mgehl.solver.settings import NestedSettings, NewtonSettings, SolverSettings
 from mgehl.solver.verification import complementarity_error
 
 
@@ -33,13 +33,15 @@ def solve_rough(paper_contact, make_hierarchy):
     """Function: problem and outcome of a wavy ball, by its amplitude, speed and boundary film in m."""
 
     def run(
-        amplitude, speed, boundary_film=2e-11, start="film", journal=NOTHING_KEPT, couette="1B", nodes=65
-    ):
+        amplitude, speed, boundary_film=2e-11, start="film", journal=NOTHING_KEPT, couette="1B", nodes=65,
+        tolerance=1e-8,
+    ):  # fmt: skip
         contact = paper_contact(speed, load=100.0, surface=Waves(amplitude, 2.05e-4))
         hierarchy = make_hierarchy(contact, nodes, x=(-2.0, 1.5), y=(-1.75, 1.75))
         law = BoundaryFilm(boundary_film / contact.film_scale)
         scheme = Scheme(couette, "linear-gap", contact_law=law)
-        settings = SolverSettings(scheme=scheme, nested=NestedSettings(start=start))
+        newton, nested = NewtonSettings(tolerance=tolerance), NestedSettings(start=start)
+        settings = SolverSettings(scheme=scheme, newton=newton, nested=nested)
         return nested_iteration(hierarchy, contact, settings, lambda *_: None, journal)
 
     return run
@@ -84,10 +86,13 @@ def test_behind_peaks_a_film_of_3L_is_never_less_than_none(solve_rough):
 
 @pytest.mark.parametrize("couette", ["1B", "3L"])
 def test_from_a_film_and_from_contact_it_is_the_same_state(solve_rough, couette):
-    """Closing is continuous: there is no second branch."""
-    found = [solve_rough(1e-7, 1e-3, start=start, couette=couette) for start in ("film", "contact")]
+    """Closing is continuous: there is no second branch. What solves are apart by, their tolerance is."""
+    found = [
+        solve_rough(1e-7, 1e-3, start=start, couette=couette, tolerance=1e-10)
+        for start in ("film", "contact")
+    ]
     films = [problem.films(outcome.state) for problem, outcome in found]
-    np.testing.assert_allclose(*films, rtol=1e-5)
+    np.testing.assert_allclose(*films, rtol=1e-6)
 
 
 def test_contact_is_where_the_film_would_be_thinner(solve_rough):
@@ -162,25 +167,25 @@ class Standing(Journal):
 
 
 class TestNearbyNodesAtOnce:
-    """Waves of 400 nm at a smooth film of .08 nm; a linear system may take but 5 iterations by lines.
+    """Waves of 400 nm at a smooth film of .1 nm; a linear system may take but 5 iterations by lines.
 
-    It takes 44 to 51 steps, by rounding; at a third of the speed 68 to 200 or none.
+    It takes 59 to 76 steps, by how many it may take: 2 to 30. At half the speed it takes up to 171.
     """
 
     @pytest.fixture
     def solve(self, solve_rough):
         """Function: the outcome."""
-        return lambda journal=NOTHING_KEPT: solve_rough(4e-7, 3e-6, journal=journal)[1]
+        return lambda journal=NOTHING_KEPT: solve_rough(4e-7, 4e-6, journal=journal)[1]
 
-    def test_by_lines_alone_it_takes_many_times_the_iterations(self, solve, monkeypatch):
+    def test_by_lines_alone_it_takes_several_times_the_iterations(self, solve, monkeypatch):
         def iterations(patience):
-            monkeypatch.setattr(smoother, "PATIENCE", patience)
+            monkeypatch.setattr(valleys, "PATIENCE", patience)
             return sum(cycle.linear_iterations for cycle in solve().cycles)
 
-        assert iterations(1000) > 10 * iterations(5)
+        assert iterations(1000) > 3 * iterations(5)
 
     def test_it_settles_and_a_run_that_was_stopped_on_the_way_goes_on_the_same(self, solve, monkeypatch):
-        monkeypatch.setattr(smoother, "PATIENCE", 5)
+        monkeypatch.setattr(valleys, "PATIENCE", 5)
         kept = Kept()
         whole = solve(kept)
         assert whole.converged and len(whole.cycles) < 80

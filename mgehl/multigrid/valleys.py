@@ -1,0 +1,155 @@
+"""The smoothers where film and contact change from node to node, as on rough surfaces."""
+
+from math import inf
+
+import numpy as np
+
+from mgehl.discretization.kernels import deflect_nearby
+from mgehl.discretization.rows import PRESSURE
+from mgehl.grid.events import LINES, event
+from mgehl.multigrid.crossed_lines import LinesBothWays
+from mgehl.multigrid.nearby import NearbySolve
+
+DRIVEN = 30.0
+"""Mobility/dX over a node's own influence from which on it is relaxed along Y, too. With 5 and 150 eight
+rough contacts take the same work within a tenth. Without it steel balls take up to a half more: where the
+pressure does not drive the flow by far, it is the gap that moves, along X alone."""
+
+PATIENCE = 30
+"""Relaxations of one linear system by lines; then nearby nodes are solved at once. To factor them takes as
+long as some fifteen iterations."""
+
+MOST_AT_ONCE = 50
+"""Relaxations of one linear system with nearby nodes at once; then it is finished by lines, and so are all
+later ones. Of 60 contacts of machines on 257 nodes (`mgehl.studies.machine`) two took more than 16, both of
+soft polymer, 39 and 70. The second takes 37 s for 105 by this, with 30 it takes 55; a dented one on 513
+nodes 128 s for some 500."""
+
+LARGEST = 600_000
+"""Most nodes of a grid whose nearby nodes are solved at once: 4 to 9 kB for each."""
+
+BY_LINES, AT_ONCE, BY_LINES_AGAIN = "by lines", "nearby nodes at once", "by lines again"
+"""Ways of a `ValleySmoother`."""
+
+
+class RoughLineSmoother(LinesBothWays):
+    """Lines along X, and then along Y where the pressure drives the flow by far, as in valleys.
+
+    c = c_X + omega Q Y^-1 D (r - J c_X), c_X = omega Q X^-1 r: J with the deflection of near nodes alone, D
+    the nodes that are driven. Oil leaves a valley in any direction (a polymer with peaks of 430 nm rms, six
+    times as long along X as along Y: 147 convolutions for 1522 by lines along X). The product of lines both
+    ways (`CrossedLineSmoother`) is of no use here: where a driven node stands beside a stiff one it leaves
+    a residual as large as the driven one's mobility.
+
+    For the same reason a stiff node hands nothing over to a driven one beside its line: lines solved apart
+    from each other could not remove what that would leave (a ball of 400 nm rms at 1 mm/s: 17 iterations
+    for 39).
+    """
+
+    def __init__(self, jacobian, omega):
+        super().__init__(jacobian, omega)
+        grid = jacobian.grid
+        self._correction, self._deflection = np.zeros(grid.shape), np.zeros(grid.shape)
+        self._ghosted_c = np.zeros(grid.ghosted_shape)
+
+    def partition(self, rows):
+        """As of a `LineSmoother`."""
+        super().partition(rows)
+        jacobian = self._jacobian
+        least = DRIVEN * self._K00 * jacobian.grid.mesh.dX
+        self._driven = (jacobian.linearisation.eps > least) & ~jacobian.given
+        self._some_are_driven = jacobian.grid.sum_of_team(np.count_nonzero(self._driven)) > 0
+
+    @event(LINES)
+    def factor(self):
+        """Factor the bands of the present linearisation, along Y where they are needed."""
+        if self._some_are_driven:
+            super().factor()
+        else:
+            self._factor_x_lines()
+
+    @event(LINES)
+    def relax(self, r):
+        """As of a `LineSmoother`."""
+        if not self._some_are_driven:
+            self._bands.solve(r, self._w)
+            return self._distributed(self._omega, along_y=False)
+        rest, correction = r.copy(), self._correction  # the product overwrites `r`
+        self._bands.solve(r, self._w)
+        correction[:] = self._distributed(self._omega, along_y=False)
+        rest -= self._near_product(correction)
+        rest *= self._driven
+        if self._has_lines:
+            self._y_bands.solve(rest, self._w)
+        correction += self._distributed(self._omega, along_x=False)
+        return correction
+
+    def _near_product(self, c):
+        """J c, (lines, nx), but for the deflection by nodes that are not around a node."""
+        self._jacobian.grid.halo(c, out=self._ghosted_c)
+        deflect_nearby(self._near[:2, :2], self._ghosted_c, self._deflection)
+        return self._jacobian.product(c, self._deflection, 0.0)
+
+    def view(self, viewer):
+        viewer.printfASCII(f"  distributive Jacobi along x-lines, omega {self._omega}\n")
+        viewer.printfASCII("    and then along y-lines where the pressure drives the flow by far\n")
+
+
+class ValleySmoother(RoughLineSmoother):
+    """The same until a linear system has taken `PATIENCE` relaxations; from then on a `NearbySolve`, c = Q
+    T^-1 r: in the rest of that system and in all later ones.
+
+    A ball of 200 nm rms at 3.5 um/s on 257 nodes takes 22 iterations of GMRES; by lines alone it was not
+    solved after 110. Grids of more than `LARGEST` nodes keep the lines, and where a system takes more than
+    `MOST_AT_ONCE` relaxations all later ones are left to the lines again: in soft bodies what a valley
+    couples to is not near.
+    """
+
+    def __init__(self, jacobian, omega):
+        super().__init__(jacobian, omega)
+        self._nearby = NearbySolve(jacobian, self._near, self._share)
+        self.way, self._taken = BY_LINES, 0  # the present way, and relaxations of this system by it
+
+    def free(self):
+        """Free the PETSc objects and the MPI datatypes."""
+        super().free()
+        self._nearby.free()
+
+    def partition(self, rows):
+        """As of a `LineSmoother`."""
+        super().partition(rows)
+        self._movable = self._jacobian.grid.halo(rows != PRESSURE)
+
+    def factor(self):
+        """Factor what the next relaxation needs."""
+        self._taken = 0
+        if self.way == AT_ONCE:
+            self._nearby.factor(self._distributive, self._movable)
+        else:
+            super().factor()
+
+    def relax(self, r):
+        """As of a `LineSmoother`."""
+        if self._taken == self._most:
+            if self.way == AT_ONCE:
+                self._nearby.free()  # for good
+            self.way = AT_ONCE if self.way == BY_LINES else BY_LINES_AGAIN
+            self.factor()
+        self._taken += 1
+        if self.way != AT_ONCE:
+            return super().relax(r)
+        self._nearby.solve(r, self._w)
+        return self._distributed(1.0)
+
+    @property
+    def _most(self):
+        """Relaxations of a system after which another way is taken."""
+        if self.way == AT_ONCE:
+            return MOST_AT_ONCE
+        has_another = self.way == BY_LINES and self._jacobian.grid.mesh.nodes <= LARGEST
+        return PATIENCE if has_another else inf
+
+    def view(self, viewer):
+        super().view(viewer)
+        if self.way == AT_ONCE:
+            self._nearby.view(viewer)
