@@ -36,7 +36,6 @@ class LinesBothWays(LineSmoother):
         if self._has_lines:
             self._y_bands.forget()
 
-    @event(LINES)
     def factor(self):
         """Factor the bands of the present linearisation."""
         if self._has_lines:
@@ -54,6 +53,7 @@ class CrossedLineSmoother(LinesBothWays):
     88). A relaxation goes along X first and then along Y, the next one the other way round.
     """
 
+    @event(LINES)
     def factor(self):
         """As of `LinesBothWays`; the next relaxation begins along X."""
         self._along_y_first = False
