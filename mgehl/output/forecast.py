@@ -62,7 +62,7 @@ LOWER, THIN = 0.36, 0.05
 THINNER = {False: 0.36, True: 0.5}
 """The power with which they rise with 1/lambda, without and with a boundary film (`study rough`)."""
 
-ROUGH = Effort(150.0, 2e-7, 0.01, 8000.0, "rough balls on 257 nodes took 30 to 1783")
+ROUGH = Effort(150.0, 2e-7, 0.01, 8000.0, "rough balls on 257 nodes took 30 to 1092")
 """Balls whose peaks reach through the film; `_of_peaks` has their convolutions. What GMRES and its memory
 keep grows with the iterations: on 257 nodes runs took 650 to 1070 MiB."""
 
