@@ -51,20 +51,28 @@ def build_bands(offsets, A, B, distributive, kappa, share, bands, lines, nodes):
         spreads[reach : reach + end - first] = distributive[j, first:end]
         diagonals[:] = 0.0
         for o in range(len(offsets)):
-            beside, ahead = abs(offsets[o, 0]), offsets[o, 1]
+            a, b, beside = A[o, j, first:end], B[o, j, first:end], abs(offsets[o, 0])
             for k in range(-reach, reach + 1):
-                distance, diagonal, spread = abs(k - ahead), diagonals[k + reach], spreads[k + reach :]
-                single, more = kappa[0, beside, distance], kappa[1, beside, distance]
-                add_product(B[o, j, first:end], spread, single, more - single, diagonal)
-                if beside + distance == 0:
-                    add_product(A[o, j, first:end], spread, 1.0, 0.0, diagonal)
-                elif beside + distance == 1:
-                    add_product(A[o, j, first:end], spread, 0.0, -share, diagonal)
+                places = beside, abs(k - offsets[o, 1])
+                add_coupling(a, b, places, spreads[k + reach :], kappa, share, diagonals[k + reach])
         _set_band(diagonals, bands[j, first:end])
 
 
+@compiled()
+def add_coupling(a, b, places, spreads, kappa, share, diagonal):
+    """Add to a `diagonal` of the band what A and B, a and b at one offset, make of the columns of J Q that
+    stand so many lines beside and nodes along, `places`, from that offset."""
+    beside, along = places
+    single, more = kappa[0, beside, along], kappa[1, beside, along]
+    _add_product(b, spreads, single, more - single, diagonal)
+    if beside + along == 0:
+        _add_product(a, spreads, 1.0, 0.0, diagonal)
+    elif beside + along == 1:
+        _add_product(a, spreads, 0.0, -share, diagonal)
+
+
 @compiled(fastmath={"contract"})
-def add_product(b, spreads, single, more, diagonal):
+def _add_product(b, spreads, single, more, diagonal):
     """diagonal += b (single + more spreads): a function of its own, for a loop that runs on vectors."""
     for i in range(diagonal.size):
         diagonal[i] += b[i] * (single + more * spreads[i])

@@ -4,7 +4,7 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from mgehl.discretization.kernels import linear_gap_means, logarithmic_means
+from mgehl.discretization.mean_kernels import linear_gap_means, logarithmic_means
 
 OF_PRESSURE = "rho", "drho_dP", "eps", "deps_dP", "deps_dH"
 """What the pressure decides of a fluid."""

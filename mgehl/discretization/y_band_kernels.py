@@ -11,7 +11,7 @@ would take four times as long. The tests say the same slowly.
 
 import numpy as np
 
-from mgehl.discretization.band_kernels import add_product
+from mgehl.discretization.band_kernels import add_coupling
 from mgehl.discretization.compiled import compiled
 
 
@@ -50,14 +50,12 @@ def build_y_bands(offsets, A, B, distributive, kappa, share, spans, bands):
             of_distance[:] = 0.0
             spread = spreads[(j + k - reach) % width, first:end]
             for o in range(len(offsets)):
-                ahead, beside = offsets[o, 0], abs(offsets[o, 1])
-                distance = abs(k - ahead)
-                single, more = kappa[0, beside, distance], kappa[1, beside, distance]
-                add_product(B[o, j, first:end], spread, single, more - single, of_distance)
-                if beside + distance == 0:
-                    add_product(A[o, j, first:end], spread, 1.0, 0.0, of_distance)
-                elif beside + distance == 1:
-                    add_product(A[o, j, first:end], spread, 0.0, -share, of_distance)
+                a, b, places = (
+                    A[o, j, first:end],
+                    B[o, j, first:end],
+                    (abs(offsets[o, 1]), abs(k - offsets[o, 0])),
+                )
+                add_coupling(a, b, places, spread, kappa, share, of_distance)
 
 
 @compiled(fastmath={"contract"}, error_model="numpy")
