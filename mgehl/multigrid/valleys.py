@@ -11,9 +11,9 @@ from mgehl.multigrid.crossed_lines import LinesBothWays
 from mgehl.multigrid.nearby import NearbySolve
 
 DRIVEN = 30.0
-"""Mobility/dX over a node's own influence from which on it is relaxed along Y, too. With 5 and 150 eight
-rough contacts take the same work within a tenth. Without it steel balls take up to a half more: where the
-pressure does not drive the flow by far, it is the gap that moves, along X alone."""
+"""Mobility/dX over a node's own influence from which on it is relaxed along Y, too: elsewhere it is the gap
+that moves, along X alone. Of eight rough contacts seven take with 5 and 150 the same work within a tenth,
+one a quarter and a third more. With 0 six take a third less to a quarter more."""
 
 PATIENCE = 30
 """Relaxations of one linear system by lines; then nearby nodes are solved at once. To factor them takes as
@@ -26,7 +26,7 @@ soft polymer, 39 and 70. The second takes 37 s for 105 by this, with 30 it takes
 nodes 128 s for some 500."""
 
 LARGEST = 600_000
-"""Most nodes of a grid whose nearby nodes are solved at once: 4 to 9 kB for each."""
+"""Most nodes of a grid whose nearby nodes are solved at once: 9 kB for each on 513 nodes a side."""
 
 BY_LINES, AT_ONCE, BY_LINES_AGAIN = "by lines", "nearby nodes at once", "by lines again"
 """Ways of a `ValleySmoother`."""
@@ -36,14 +36,14 @@ class RoughLineSmoother(LinesBothWays):
     """Lines along X, and then along Y where the pressure drives the flow by far, as in valleys.
 
     c = c_X + omega Q Y^-1 D (r - J c_X), c_X = omega Q X^-1 r: J with the deflection of near nodes alone, D
-    the nodes that are driven. Oil leaves a valley in any direction (a polymer with peaks of 430 nm rms, six
-    times as long along X as along Y: 147 convolutions for 1522 by lines along X). The product of lines both
+    the nodes that are driven. Oil leaves a valley in any direction (a polymer with peaks of 450 nm rms, six
+    times as long along X as along Y: 134 convolutions for 1522 by lines along X). The product of lines both
     ways (`CrossedLineSmoother`) is of no use here: where a driven node stands beside a stiff one it leaves
     a residual as large as the driven one's mobility.
 
     For the same reason a stiff node hands nothing over to a driven one beside its line: lines solved apart
-    from each other could not remove what that would leave (a ball of 400 nm rms at 1 mm/s: 17 iterations
-    for 39).
+    from each other could not remove what that would leave (by lines along X alone a ball of 400 nm rms at
+    1 mm/s takes 17 iterations for 39).
     """
 
     def __init__(self, jacobian, omega):
