@@ -21,9 +21,9 @@ long as some fifteen iterations."""
 
 MOST_AT_ONCE = 50
 """Relaxations of one linear system with nearby nodes at once; then it is finished by lines, and so are all
-later ones. Of 60 contacts of machines on 257 nodes (`mgehl.studies.machine`) two took more than 16, both of
-soft polymer, 39 and 70. The second takes 37 s for 105 by this, with 30 it takes 55; a dented one on 513
-nodes 128 s for some 500."""
+later ones. A dented polymer on 513 nodes takes 119 s by this, and without it was not done after 330: there
+an iteration at once takes three times as long as one by lines. Other values were tried with an earlier
+smoother only (30: half more)."""
 
 LARGEST = 600_000
 """Most nodes of a grid whose nearby nodes are solved at once: 9 kB for each on 513 nodes a side."""
