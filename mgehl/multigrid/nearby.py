@@ -30,7 +30,7 @@ PACKAGES = "mumps", "superlu_dist"
 
 
 class NearbySolve:
-    """LU of T = A Q + B N, the near part of J Q on all lines.
+    """LU of T = A Q + B N, the near part of J Q, between the nodes of a `zone`, a mask (lines, nx).
 
     Q as in `band_kernels.build_bands`, N the deflection of near nodes by its columns. `K` holds the
     influence coefficients of the few nearest nodes [line, node], `share` is what Q hands to each neighbour.
@@ -38,14 +38,16 @@ class NearbySolve:
     on the entries (MUMPS's `icntl_6`): a run that goes on finds it from others.
     """
 
-    def __init__(self, jacobian, K, share):
-        self._jacobian, self._columns = jacobian, NearColumns(K, share)
+    def __init__(self, jacobian, K, share, zone):
+        self._jacobian, self._columns, self._zone = jacobian, NearColumns(K, share), zone
         self._parts, self._products = [], [None, None]
-        self._ksp, self._vecs = None, ()
+        self._places = self._within = self._ksp = None
+        self._vecs = ()
 
     def free(self):
         """Destroy the PETSc objects."""
-        for each in (self._ksp, *self._vecs, *self._products, *self._parts):
+        everything = self._ksp, self._within, self._places, *self._vecs, *self._products, *self._parts
+        for each in everything:
             if each:
                 each.destroy()
 
@@ -56,22 +58,30 @@ class NearbySolve:
         Masks (lines + 2 HALO, nx): the distributive nodes, and those whose pressure is not given.
         """
         matrix = self.matrix(distributive, free)
+        if self._places is None:
+            numbers = np.flatnonzero(self._zone) + self._jacobian.grid.first * self._zone.shape[1]
+            self._places = PETSc.IS().createGeneral(numbers.astype(PETSc.IntType), comm=matrix.comm)
+        self._within = matrix.createSubMatrix(self._places, self._places, self._within)
         if self._ksp is None:
-            self._ksp = _direct_solver(matrix)
-            self._vecs = matrix.createVecs()
+            self._ksp = _direct_solver(self._within)
+            self._vecs = self._within.createVecs()
         with by_default(PREFIX, mat_mumps_icntl_6=0):
             self._ksp.setUp()
 
     @event(NEARBY)
     def solve(self, r, w):
-        """Solve T w = r, both (lines, nx). A singular T gives a `w` that is not finite."""
+        """Solve T w = r in the zone, both (lines, nx); beyond it w is zero.
+
+        A singular T gives a `w` that is not finite.
+        """
         right, left = self._vecs
-        right.setArray(r.ravel())
+        right.setArray(r[self._zone])
         self._ksp.solve(right, left)
-        w[:] = left.getArray(readonly=True).reshape(w.shape)
+        w[:] = 0.0
+        w[self._zone] = left.getArray(readonly=True)
 
     def matrix(self, distributive, free):
-        """T, which the next call overwrites; arguments as of `factor`."""
+        """T of all nodes, which the next call overwrites; arguments as of `factor`."""
         grid, lin = self._jacobian.grid, self._jacobian.linearisation
         if not self._parts:
             places = lin.offsets, lin.offsets, NEAR, NEAR
@@ -86,7 +96,7 @@ class NearbySolve:
         return T
 
     def view(self, viewer):
-        viewer.printfASCII("  LU of what couples nearby nodes\n")
+        viewer.printfASCII("  LU of what couples nearby nodes around the contact\n")
 
 
 class NearColumns:

@@ -69,7 +69,8 @@ class TestZone:
     @pytest.fixture
     def matrix(self, jacobian, masks):
         """The near part of J Q, as the solve of all nearby nodes has it."""
-        nearby = NearbySolve(jacobian, influence_nearby(jacobian), SHARE)
+        everywhere = np.ones(jacobian.grid.shape, dtype=bool)
+        nearby = NearbySolve(jacobian, influence_nearby(jacobian), SHARE, everywhere)
         yield nearby.matrix(*(jacobian.grid.halo(mask) for mask in masks))[:, :]
         nearby.free()
 

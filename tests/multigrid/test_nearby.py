@@ -42,9 +42,16 @@ def masks(jacobian):
     return grid.halo(distributive), grid.halo(jacobian.rows != PRESSURE)
 
 
+@pytest.fixture(params=["everywhere", "in the middle"])
+def zone(request, jacobian):
+    """The nodes that are solved for, a mask."""
+    grid = jacobian.grid
+    return (grid.X**2 + grid.Y**2 < 1.0) | (request.param == "everywhere")
+
+
 @pytest.fixture
-def nearby(jacobian, influence):
-    solve = NearbySolve(jacobian, influence, SHARE)
+def nearby(jacobian, influence, zone):
+    solve = NearbySolve(jacobian, influence, SHARE, zone)
     yield solve
     solve.free()
 
@@ -76,29 +83,30 @@ def test_matrix_is_the_near_part_of_j_q(jacobian, influence, masks, nearby):
     np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-12 * np.abs(expected).max())
 
 
-def test_it_solves_with_that_matrix(jacobian, masks, nearby):
+def test_it_solves_with_that_matrix_in_its_zone(jacobian, masks, zone, nearby):
     dense = nearby.matrix(*masks)[:, :]
-    w, found = np.random.default_rng(4).standard_normal(jacobian.grid.shape), np.zeros(jacobian.grid.shape)
+    w, found = np.random.default_rng(4).standard_normal(jacobian.grid.shape), np.ones(jacobian.grid.shape)
+    w[~zone] = 0.0
     for _ in range(2):  # again and again
         nearby.factor(*masks)
         nearby.solve((dense @ w.ravel()).reshape(w.shape), found)
         np.testing.assert_allclose(found, w, rtol=0.0, atol=1e-9)
 
 
-def test_the_next_linearisation_changes_its_entries(jacobian, masks, nearby):
+def test_the_next_linearisation_changes_its_entries(jacobian, masks, zone, nearby):
     """Not their places: what was found of the first serves the second."""
     nearby.factor(*masks)
     jacobian.linearisation.A[:] *= np.linspace(0.5, 2.0, jacobian.grid.mesh.nx)
     jacobian.linearisation.B[:] *= 0.5
-    test_it_solves_with_that_matrix(jacobian, masks, nearby)
+    test_it_solves_with_that_matrix_in_its_zone(jacobian, masks, zone, nearby)
 
 
-def test_it_does_not_depend_on_what_was_solved_before(jacobian, influence, masks, nearby):
+def test_it_does_not_depend_on_what_was_solved_before(jacobian, influence, masks, zone, nearby):
     """To the last bit: a run that goes on begins in the middle."""
     r, later = np.random.default_rng(4).standard_normal(jacobian.grid.shape), []
     nearby.factor(*masks)
     jacobian.linearisation.A[:] *= 10.0 ** np.linspace(-3.0, 3.0, jacobian.grid.mesh.nx)
-    resumed = NearbySolve(jacobian, influence, SHARE)
+    resumed = NearbySolve(jacobian, influence, SHARE, zone)
     for each in (nearby, resumed):
         later.append(np.zeros(jacobian.grid.shape))
         each.factor(*masks)
@@ -107,6 +115,6 @@ def test_it_does_not_depend_on_what_was_solved_before(jacobian, influence, masks
     np.testing.assert_array_equal(*later)
 
 
-def test_without_a_package_each_rank_solves_the_whole(monkeypatch, jacobian, masks, nearby):
+def test_without_a_package_each_rank_solves_the_whole(monkeypatch, jacobian, masks, zone, nearby):
     monkeypatch.setattr("mgehl.multigrid.nearby.PACKAGES", ())
-    test_it_solves_with_that_matrix(jacobian, masks, nearby)
+    test_it_solves_with_that_matrix_in_its_zone(jacobian, masks, zone, nearby)

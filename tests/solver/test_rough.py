@@ -169,7 +169,7 @@ class Standing(Journal):
 class TestNearbyNodesAtOnce:
     """Waves of 400 nm at a smooth film of .1 nm; a linear system may take but 5 iterations by lines.
 
-    It takes 59 to 76 steps, by how many it may take: 2 to 30. At half the speed it takes up to 171.
+    It takes 60 to 79 steps where it may take 5, 15 or 30.
     """
 
     @pytest.fixture
@@ -177,12 +177,12 @@ class TestNearbyNodesAtOnce:
         """Function: the outcome."""
         return lambda journal=NOTHING_KEPT: solve_rough(4e-7, 4e-6, journal=journal)[1]
 
-    def test_by_lines_alone_it_takes_several_times_the_iterations(self, solve, monkeypatch):
+    def test_by_lines_alone_it_takes_more_than_twice_the_iterations(self, solve, monkeypatch):
         def iterations(patience):
             monkeypatch.setattr(valleys, "PATIENCE", patience)
             return sum(cycle.linear_iterations for cycle in solve().cycles)
 
-        assert iterations(1000) > 3 * iterations(5)
+        assert iterations(1000) > 2 * iterations(5)
 
     def test_it_settles_and_a_run_that_was_stopped_on_the_way_goes_on_the_same(self, solve, monkeypatch):
         monkeypatch.setattr(valleys, "PATIENCE", 5)
