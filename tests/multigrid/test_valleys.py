@@ -120,6 +120,45 @@ class TestLinesAlongYInValleys:
         assert not correction[smoother._jacobian.given].any()
 
 
+class TestAtOnceAroundTheContact:
+    """The finest grid's smoother after a hard system: a direct solve in a zone, lines beyond."""
+
+    @pytest.fixture
+    def smoother(self, system, monkeypatch):
+        """In a zone that is narrower than the contact."""
+        monkeypatch.setattr(valleys, "ZONE", 0.5)
+        made = system()
+        made.linearise()
+        smoother = valleys.ValleySmoother(made.multigrid.jacobian, 0.8)
+        smoother.way = valleys.AT_ONCE
+        smoother.partition(made.problem.rows(made.state.status))
+        smoother.factor()
+        assert 100 < np.count_nonzero(smoother._zone) < 0.1 * smoother._zone.size
+        yield smoother
+        smoother.free()
+
+    @pytest.fixture
+    def r(self, smoother):
+        return np.random.default_rng(3).standard_normal(smoother._zone.shape)
+
+    def test_the_zone_takes_what_lines_beyond_it_leave(self, smoother, r):
+        zone, w = smoother._zone, np.zeros(r.shape)
+        beyond = valleys.RoughLineSmoother.relax(smoother, np.where(zone, 0.0, r)).copy()
+        smoother._nearby.solve(r - smoother._near_product(beyond), w)
+        found = smoother.relax(r.copy())
+        smoother._w[:] = w
+        expected = beyond + smoother._distributed(1.0)
+        np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-9 * np.abs(expected).max())
+
+    def test_far_beyond_it_lines_are_all(self, smoother, r):
+        """Q hands something over to the nodes beside the zone, and to none beyond these."""
+        by_lines = valleys.RoughLineSmoother.relax(smoother, np.where(smoother._zone, 0.0, r)).copy()
+        changed = smoother.relax(r.copy()) != by_lines
+        near = np.pad(smoother._zone, 1)
+        reached = near[1:-1, 1:-1] | near[:-2, 1:-1] | near[2:, 1:-1] | near[1:-1, :-2] | near[1:-1, 2:]
+        assert changed[smoother._zone].any() and not changed[~reached].any()
+
+
 @pytest.fixture
 def by_lines(system, monkeypatch):
     """Iterations of the hard system where lines alone relax it."""
