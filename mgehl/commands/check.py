@@ -98,10 +98,11 @@ def _estimate(config, contact, mesh, ranks):
     from mgehl.output.surroundings import memory_GiB
 
     found, have = forecast(config, contact, mesh, ranks), memory_GiB()
-    need, on = found.memory / GiB, "1 rank" if ranks == 1 else f"{ranks} ranks"
-    enough = f"this machine has {have:.1f}" if need <= have else f"MORE THAN THIS MACHINE'S {have:.1f}"
+    on, most = "1 rank" if ranks == 1 else f"{ranks} ranks", found.most_memory / GiB
+    enough = f"this machine has {have:.1f}" if most <= have else f"MORE THAN THIS MACHINE'S {have:.1f}"
+    more = f", up to {most:.1f} where the linear systems are hard" if most > found.memory / GiB else ""
     yield ""
-    yield f"memory     about {need:.1f} GiB on {on} ({enough})"
+    yield f"memory     about {found.memory / GiB:.1f} GiB on {on}{more} ({enough})"
     yield f"time       about {_duration(found.seconds)} on {on}, half or twice as much is usual:"
     if found.convolutions:
         yield f"           about {float(f'{found.convolutions:.2g}'):g} convolutions: {found.measured};"

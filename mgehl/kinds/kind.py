@@ -21,6 +21,8 @@ class Effort:
     measured: str
     counted: bool = True
     """False where a run makes no convolutions: the number then stands for its time alone."""
+    most_bytes_per_node: float = 0.0
+    """Where some runs need more: the most of them."""
 
 
 class Kind:

@@ -62,9 +62,12 @@ LOWER, THIN = 0.36, 0.05
 THINNER = {False: 0.36, True: 0.5}
 """The power with which they rise with 1/lambda, without and with a boundary film (`study rough`)."""
 
-ROUGH = Effort(150.0, 2e-7, 0.01, 8000.0, "rough balls on 257 nodes took 30 to 1092")
+ROUGH = Effort(
+    150.0, 2e-7, 0.01, 5000.0, "rough balls on 257 nodes took 30 to 1313", most_bytes_per_node=12500.0
+)
 """Balls whose peaks reach through the film; `_of_peaks` has their convolutions. What GMRES and its memory
-keep grows with the iterations: on 257 nodes runs took 650 to 1070 MiB."""
+keep grows with the iterations: on 257 nodes runs took 450 to 680 MiB. Those whose nearby nodes were solved
+at once took 1010 to 1100, and 11.4 GiB on 1025 nodes, where one by lines took 4.0."""
 
 ROUGH_LINE = Effort(
     90.0, 3e-7, 2e-3, 5000.0, "rough lines on 1025 nodes took 13 to 1600, half of them 36 to 133"
@@ -93,6 +96,8 @@ class Forecast:
     """Of the finest grid, all together."""
     memory: float
     """Bytes, of all ranks."""
+    most_memory: float
+    """Those of runs that need the most."""
     seconds: float
     """Half or twice as many are usual."""
     convolutions: float | None
@@ -126,6 +131,7 @@ def forecast(config, contact, mesh, ranks):
     return Forecast(
         nodes=mesh.nodes,
         memory=ranks * RANK_BYTES + bytes_of_nodes(effort, mesh),
+        most_memory=ranks * RANK_BYTES + most_bytes_of_nodes(effort, mesh),
         seconds=START_SECONDS + effort.convolutions * (shared / workers + effort.beside),
         convolutions=effort.convolutions if effort.counted else None,
         convolution_seconds=second,
@@ -141,9 +147,15 @@ def bytes_of_nodes(effort, mesh):
     return (effort.bytes_per_node - saved) * mesh.nodes
 
 
+def most_bytes_of_nodes(effort, mesh):
+    """The same of runs that need the most."""
+    more = max(effort.most_bytes_per_node - effort.bytes_per_node, 0.0)
+    return bytes_of_nodes(effort, mesh) + more * mesh.nodes
+
+
 def bytes_of_rank(effort, mesh, ranks):
-    """The same on the rank that has most of them: one solves a line contact."""
-    return bytes_of_nodes(effort, mesh) / (1 if mesh.is_line else ranks)
+    """The most on the rank that has most of the nodes: one solves a line contact."""
+    return most_bytes_of_nodes(effort, mesh) / (1 if mesh.is_line else ranks)
 
 
 def effort_of(config, contact, mesh):

@@ -13,6 +13,7 @@ from mgehl.kinds.point import CONTACT, FILM
 from mgehl.output import forecast as module
 from mgehl.output.forecast import (
     RANK_BYTES,
+    MiB,
     bytes_of_nodes,
     bytes_of_rank,
     effort_of,
@@ -152,6 +153,13 @@ def test_a_convolution_grows_by_n_log_n_from_the_grid_that_was_timed(one_second)
 def test_memory_is_that_of_the_run_that_was_measured(one_second):
     """A film on 4097 by 4097 nodes took 14.2 to 14.4 GiB on two ranks."""
     assert foretold(film(nodes=4097), 2).memory / 2**30 == pytest.approx(14.3, rel=0.01)
+
+
+def test_rough_balls_may_need_more_memory_than_most_do(one_second):
+    """On 257 nodes 450 to 680 MiB, with nearby nodes solved at once 1010 to 1100."""
+    rough, smooth = foretold(load_config(CONFIGS / "rough.toml")), foretold(film(nodes=257))
+    assert 450.0 < rough.memory / MiB < 680.0 < 1010.0 < rough.most_memory / MiB < 1130.0
+    assert smooth.most_memory == smooth.memory
 
 
 def test_a_line_contact_is_solved_by_one_rank(one_second):
