@@ -143,7 +143,7 @@ def test_rough_bodies_need_more_memory_and_ranks_share_it(monkeypatch):
     monkeypatch.setattr(memory_limit, "_taken", lambda: 0)
     monkeypatch.setattr(memory_limit.resource, "getrlimit", lambda which: (2**30, 2**30))
     memory_limit.check_memory(config_from_tables(smooth), 1)
-    with pytest.raises(UserError, match="takes about 2"):
+    with pytest.raises(UserError, match="takes about 3"):
         memory_limit.check_memory(config_from_tables(rough), 1)
     memory_limit.check_memory(config_from_tables(rough), 4)
 
