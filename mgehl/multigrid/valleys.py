@@ -21,9 +21,8 @@ long as some fifteen iterations."""
 
 MOST_AT_ONCE = 50
 """Relaxations of one linear system with nearby nodes at once; then it is finished by lines, and so are all
-later ones. A dented polymer on 513 nodes takes 119 s by this, and without it was not done after 330: there
-an iteration at once takes three times as long as one by lines. Other values were tried with an earlier
-smoother only (30: half more)."""
+later ones. When all nodes were solved at once a dented polymer on 513 nodes took 119 s by this, and without
+it was not done after 330. Other values were tried with an earlier smoother only (30: half more)."""
 
 ZONE = 1.25
 """How far nearby nodes are solved at once, over the reach of the dry contact. Beyond it films are thick, or
@@ -132,8 +131,12 @@ class ValleySmoother(RoughLineSmoother):
 
     def factor(self):
         """Factor what the next relaxation needs."""
-        self._taken = 0
         super().factor()
+        self._begin()
+
+    def _begin(self):
+        """Begin to count relaxations by the present way, lines being factored."""
+        self._taken = 0
         if self.way == AT_ONCE:
             self._nearby.factor(self._distributive, self._movable)
 
@@ -143,10 +146,12 @@ class ValleySmoother(RoughLineSmoother):
             if self.way == AT_ONCE:
                 self._nearby.free()  # for good
             self.way = AT_ONCE if self.way == BY_LINES else BY_LINES_AGAIN
-            self.factor()
+            self._begin()
         self._taken += 1
-        if self.way != AT_ONCE:
-            return super().relax(r)
+        return self._relax_at_once(r) if self.way == AT_ONCE else super().relax(r)
+
+    def _relax_at_once(self, r):
+        """Lines for what is beyond the zone, then the zone for what they leave."""
         rest = r.copy()  # lines overwrite `r`, and the zone `_w`
         r[self._zone] = 0.0
         correction = super().relax(r).copy()
