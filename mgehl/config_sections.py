@@ -121,6 +121,9 @@ class SolverSection:
         "steps in vain after which a solve is given up (unset: 15; in time 30; rough, soft, layered 60)",
         low=1, high=10000, kind=int,
     )  # fmt: skip
+    max_work: int = key_field(
+        3000, "convolutions after which a run ends without an answer", low=10, high=10**7, kind=int
+    )
     linear_tolerance: float = key_field(
         0.1, "relative tolerance of GMRES in a Newton step", above=0.0, high=0.5
     )

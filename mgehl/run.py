@@ -98,7 +98,7 @@ def _solve_loaded(config, parts, comm, watch, start):
     """A loaded contact, by either method."""
     contact, settings = parts.contact, parts.settings
     by_newton = settings.method == "newton-mg"
-    tolerance = settings.newton.tolerance
+    tolerance = config.solver.tolerance
     hierarchy = parts.hierarchy(comm)
     try:
         kind = progress.NEWTON if by_newton else progress.RELAXATION
@@ -176,7 +176,7 @@ def _solve_bearing(config, parts, comm, watch):
 
 def _solution(config, parts, problem, state, rows, result):
     """The `Solution` of a final state (collective)."""
-    local = Fields(state.P, state.H, state.status)
+    local = Fields(state.P, state.H, state.status, state.p, state.filling)
     grid = problem.grid
     whole = local.gathered(grid)
     solution = Solution(config, parts.contact, grid.mesh, whole, rows, result, state.H0, local, grid.first)

@@ -47,6 +47,11 @@ class Axis:
         """How many faces lie behind each other along the axis, for a ghosted array."""
         return ghosted.shape[1] - 1 if self.number else len(ghosted) - 2 * HALO + 1
 
+    def of_whole(self, ghosted):
+        """Shape of an array of all faces, for a ghosted array."""
+        lines = len(ghosted) - 2 * HALO
+        return (lines, ghosted.shape[1] - 1) if self.number else (lines + 1, ghosted.shape[1])
+
     def at(self, ghosted, shift=0, first=0, last=None):
         """View at the nodes `shift` beyond W (0: W, 1: E) of the faces first ... last - 1."""
         last = self.faces(ghosted) if last is None else last

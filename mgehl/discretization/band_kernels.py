@@ -88,6 +88,18 @@ def _set_band(diagonals, band):
 
 
 @compiled()
+def empty_columns(bands, contents):
+    """Empty the columns of `contents`, a mask (lines, nx): they deflect nothing."""
+    lines, nx, width = bands.shape
+    reach = width // 2
+    for j in range(lines):
+        for i in range(nx):
+            if contents[j, i]:
+                for k in range(max(0, reach + i - nx + 1), min(width, reach + i + 1)):
+                    bands[j, i + reach - k, k] = 0.0
+
+
+@compiled()
 def _side_by_side(spans, line):
     """How many lines from this one on, at most `SIDE_BY_SIDE`, have the same span."""
     first, end = spans[line]

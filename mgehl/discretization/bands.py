@@ -4,7 +4,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from mgehl.discretization.band_kernels import REACH, banded, build_bands, span_of
+from mgehl.discretization.band_kernels import REACH, banded, build_bands, empty_columns, span_of
 from mgehl.discretization.rows import GAP, PRESSURE
 
 STIFF = 0.3
@@ -68,11 +68,12 @@ class LineBands:
         self._spans, self._before = np.tile([0, nx], (lines, 1)), before
         self._factor, self._solve = LOOPS[reach]
 
-    def factor(self, linearisation, distributive, given, kappa, share):
+    def factor(self, linearisation, distributive, given, kappa, share, contents=None):
         """Factor what J Q couples along the lines.
 
         Return its diagonal, (lines, nx), zero beyond the spans. A few lines at a time: their bands are
-        still in the processor's cache when they are factored.
+        still in the processor's cache when they are factored. The unknowns of `contents`, a mask, deflect
+        nothing; they are carried on.
         """
         lin, bands, spans = linearisation, self._room(), self._spans
         diagonal = np.zeros(bands.shape[:2])
@@ -80,6 +81,11 @@ class LineBands:
             few = some.start, some.stop
             spans[some] = nodes = span_of(given, few)
             build_bands(lin.offsets, lin.A, lin.B, distributive, kappa, share, bands, few, nodes)
+            if contents is not None and contents[some].any():
+                empty_columns(bands[some], contents[some])
+                for (beside, ahead), by_content in lin.carried.items():
+                    if beside == 0:
+                        bands[some, :, bands.shape[2] // 2 + ahead] += by_content[some]
             diagonal[some, slice(*nodes)] = bands[some, slice(*nodes), REACH]
             self._factor(bands[some], nodes)
         return diagonal
@@ -103,7 +109,7 @@ class LineBands:
     def factor_stencil(self, linearisation, given):
         """Factor what the stencil A of a rigid gap couples along the lines."""
         bands, spans = self._room(), self._spans
-        stencil = zip(linearisation.offsets, linearisation.A, strict=True)
+        stencil = zip(linearisation.offsets, linearisation.by_unknown, strict=True)
         along = [(ahead, A) for (beside, ahead), A in stencil if beside == 0]
         for some in self._groups(STENCILS_AT_A_TIME):
             spans[some] = nodes = span_of(given, (some.start, some.stop))

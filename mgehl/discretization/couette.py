@@ -39,6 +39,10 @@ class CouetteScheme:
     def conservative(self):
         return self.leaving == self.entering
 
+    def limited(self):
+        """The same within 3L's limit."""
+        return self if self.leaving == _1B else replace(self, limit=min(self.limit, _HALF))
+
 
 _1B = ((1.0, W, W),)
 _2B = ((1.5, W, W), (-0.5, WW, WW))
@@ -187,4 +191,7 @@ def _add_products(flow, part, fluid, axis, velocity):
         if flow.by_P:
             here(flow.by_P[a])[:] += signed * axis.at(fluid.drho_dP, SHIFT[a], first, last) * H
         if flow.by_H:
-            here(flow.by_H[b])[:] += signed * rho
+            by_H = signed * rho
+            if fluid.follows is not None:
+                by_H = by_H * axis.at(fluid.follows, SHIFT[b], first, last)
+            here(flow.by_H[b])[:] += by_H

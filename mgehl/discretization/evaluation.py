@@ -6,9 +6,10 @@ from functools import cached_property
 import numpy as np
 
 from mgehl.discretization.axes import HALO, axes_of, own
-from mgehl.discretization.faces import conductances, flows, mobility_of_faces
+from mgehl.discretization.faces import carried, conductances, flows, mobility_of_faces
 from mgehl.discretization.fluid import fluid_state
 from mgehl.discretization.kernels import flow_sources
+from mgehl.discretization.status import CAVITATED, CONTACT
 
 
 class Evaluation:
@@ -18,23 +19,35 @@ class Evaluation:
     a state that has changed is evaluated anew, or its evaluation is told of the new pressure.
     """
 
-    def __init__(self, P, H, status, mesh, contact, scheme, fluid=None):
-        self.P, self.H, self.status = P, H, status
+    def __init__(self, P, H, status, mesh, contact, scheme, fluid=None, filling=None):
+        self.P, self.H, self.status, self.filling = P, H, status, filling
         self.mesh, self.contact, self.scheme = mesh, contact, scheme
         self.axes = axes_of(mesh, scheme.motion)
         self.fluid = self._evaluated_fluid() if fluid is None else fluid
 
     def _evaluated_fluid(self):
-        return fluid_state(self.P, self.H, self.contact, self.scheme.contact_law)
+        touching, torn = self.status == CONTACT, self.status == CAVITATED
+        cavities = (torn, self.filling) if self.filling is not None and torn.any() else (None, None)
+        return fluid_state(self.P, self.H, self.contact, self.scheme.contact_law, touching, *cavities)
 
     def by(self, scheme):
         """The same state and fluid, differenced by another scheme of the same contact law."""
         if scheme == self.scheme:
             return self
         parts = self.P, self.H, self.status, self.mesh, self.contact
-        other = Evaluation(*parts, scheme, self.fluid)
+        other = Evaluation(*parts, scheme, self.fluid, self.filling)
         if scheme.mean == self.scheme.mean:
             other.mobilities = self.mobilities
+        return other
+
+    def filled(self, filling):
+        """The same with other contents of the cavities; full ones where `filling` is None."""
+        torn = None if filling is None else self.status == CAVITATED
+        contents = (torn, np.where(torn, filling, 1.0)) if torn is not None and torn.any() else (None, None)
+        fluid = replace(self.fluid, torn=contents[0], filling=contents[1])
+        parts = self.P, self.H, self.status, self.mesh, self.contact, self.scheme
+        other = Evaluation(*parts, fluid, filling)
+        other.mobilities = self.mobilities
         return other
 
     def of_lines(self, lines):
@@ -46,24 +59,13 @@ class Evaluation:
         part.mobilities = [mobility.of_lines(axis, lines) for axis, mobility in of_axes]
         return part
 
-    def change_pressure(self, P):
-        """In place: the same gap and solids under another ghosted pressure; laws are asked only where it
-        changed.
-
-        Which fluid is film and which is cavity makes no difference to the flows.
-        """
-        changed = P != self.P
-        part = fluid_state(P[changed], self.H[changed], self.contact, self.scheme.contact_law)
-        self.fluid.change(P, changed, part)
-        self.P = P
-        self.forget()
-        self.__dict__.pop("inflow", None)
-
     def with_mobility(self, eps):
         """The same state with another ghosted mobility, which neither pressure nor gap moves."""
         rigid = np.zeros(np.shape(eps))
         fluid = replace(self.fluid, eps=eps, deps_dP=rigid, deps_dH=rigid)
-        return Evaluation(self.P, self.H, self.status, self.mesh, self.contact, self.scheme, fluid)
+        return Evaluation(
+            self.P, self.H, self.status, self.mesh, self.contact, self.scheme, fluid, self.filling
+        )
 
     def forget(self):
         """Drop what was found of the faces; it is found again when it is asked for."""
@@ -97,6 +99,10 @@ class Evaluation:
     def _of_axes(self, function, **how):
         for axis, mobility in zip(self.axes, self.mobilities, strict=True):
             yield function(self.fluid, self.status, axis, self.scheme, mobility=mobility, **how)
+
+    def carried_full(self):
+        """What the surfaces carry through the faces along each axis where all cavities are full."""
+        return list(self._of_axes(carried))
 
     @cached_property
     def inflow(self):

@@ -8,9 +8,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from mgehl.discretization.couette import SHIFT, E, W, add_couette, couette_scheme, nodes_of
+from mgehl.discretization.couette import SHIFT, E, W, add_couette, nodes_of
 from mgehl.discretization.flow import Flow
-from mgehl.discretization.fluid import face_mobility
+from mgehl.discretization.fluid import FaceMobility, face_mobility
 from mgehl.discretization.kernels import add_poiseuille, add_poiseuille_slopes
 from mgehl.discretization.status import WALL, is_solid, open_faces
 
@@ -22,7 +22,7 @@ def flows(fluid, status, axis, scheme, linearised=False, rigid=False, mobility=N
     if they are to be `linearised`, by H unless `rigid`. `mobility` is that of the faces, where it is known.
     """
     mobility = mobility_of_faces(fluid, axis, scheme) if mobility is None else mobility
-    table = couette_scheme(scheme.couette, scheme.coarsenings)
+    table = scheme.couette_flow
 
     def flow(terms):
         return _flow(fluid, status, axis, scheme, mobility, terms, table, linearised, rigid)
@@ -46,14 +46,48 @@ def _flow(fluid, status, axis, scheme, mobility, terms, table, linearised, rigid
     else:
         stops = solid
     if axis.couette:
-        add_couette(flow, terms, table, fluid, stops, axis)
+        _add_carried(flow, terms, table, fluid, stops, axis)
     flow.close(is_open)
     return flow
 
 
+def _add_carried(flow, terms, table, fluid, stops, axis):
+    """Add the Couette flow: that of full gaps times the filling of the node it comes from.
+
+    So what leaves a cavity that is full is what would leave it as a film, by every scheme.
+    """
+    if fluid.torn is None:
+        add_couette(flow, terms, table, fluid, stops, axis)
+        return
+    of_full = Flow(flow.value.shape, flow.by_P, not flow.by_H)
+    add_couette(of_full, terms, table, fluid, stops, axis)
+    behind = of_full.value < 0.0  # against the axis: a wedge's plate
+    filling, torn = (
+        np.where(behind, axis.at(part, SHIFT[E]), axis.at(part, SHIFT[W]))
+        for part in (fluid.filling, fluid.torn)
+    )
+    flow.value += filling * of_full.value
+    for node, by_P in of_full.by_P.items():
+        flow.by_P[node] += filling * by_P
+    for node, by_H in of_full.by_H.items():
+        flow.by_H[node] += filling * by_H
+    for node, from_here in ((W, ~behind), (E, behind)) if flow.by_P else ():
+        flow.by_P[node] += of_full.value * (torn & from_here)
+
+
+def carried(fluid, status, axis, scheme, mobility=None):
+    """What leaves W through the faces along an axis with the surfaces, were all cavities full.
+
+    `fluid` and `status` are ghosted; the mobility does not matter.
+    """
+    whole = replace(fluid, torn=None, filling=None, P=np.zeros(fluid.P.shape))
+    still = FaceMobility(np.zeros(axis.of_whole(status)), (0.0, 0.0))
+    return flows(whole, status, axis, scheme, mobility=still)[0].value
+
+
 def nodes_of_flows(axis, scheme):
     """Positions of the nodes that the `flows` (leaving W, entering E) along an axis depend on."""
-    table = couette_scheme(scheme.couette, scheme.coarsenings)
+    table = scheme.couette_flow
     return [_nodes_of_flow(axis, terms, table) for terms in (table.leaving, table.entering)]
 
 
@@ -74,10 +108,15 @@ def _add_poiseuille(flow, fluid, axis, mobility):
     if flow.by_P:
         flow.by_P[W] += conductance
         flow.by_P[E] -= conductance
-    if flow.by_H and mobility.by_gap:
+    if flow.by_P and mobility.by_gap + mobility.by_rho:
         gradient = (axis.at(fluid.P, SHIFT[E]) - axis.at(fluid.P, SHIFT[W])) * closeness
-        for node, slope in zip((W, E), mobility.by_gap, strict=True):
+        for node, slope in zip((W, E), mobility.by_gap if flow.by_H else (), strict=False):
             flow.by_H[node] -= gradient * slope
+        for node, slope in zip((W, E), mobility.by_rho, strict=False):
+            flow.by_P[node] -= gradient * slope * axis.at(fluid.drho_dP, SHIFT[node])
+    if fluid.torn is not None:
+        for node in (W, E) if flow.by_P else ():
+            flow.by_P[node] *= ~axis.at(fluid.torn, SHIFT[node])  # its pressure is given
 
 
 def mobility_of_faces(fluid, axis, scheme):
@@ -85,7 +124,8 @@ def mobility_of_faces(fluid, axis, scheme):
     sides = (W, E)
     eps = [axis.at(fluid.eps, SHIFT[side]) for side in sides]
     gaps = [scheme.contact_law.flow_gap(axis.at(fluid.H, SHIFT[side])) for side in sides]
-    mobility = face_mobility(scheme, eps, [gap for gap, _ in gaps])
+    rho = [axis.at(fluid.rho, SHIFT[side]) for side in sides]
+    mobility = face_mobility(scheme, eps, [gap for gap, _ in gaps], rho)
     by_H = tuple(slope * by_H for slope, (_, by_H) in zip(mobility.by_gap, gaps, strict=False))
     return replace(mobility, by_gap=by_H)
 

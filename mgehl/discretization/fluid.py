@@ -6,9 +6,6 @@ import numpy as np
 
 from mgehl.discretization.mean_kernels import linear_gap_means, logarithmic_means
 
-OF_PRESSURE = "rho", "drho_dP", "eps", "deps_dP", "deps_dH"
-"""What the pressure decides of a fluid."""
-
 
 @dataclass
 class Fluid:
@@ -18,33 +15,39 @@ class Fluid:
     """
 
     P: np.ndarray
+    """The fluid's own pressure, in contact the one beside the solids'."""
     H: np.ndarray
     carried: np.ndarray
-    """The part of H that the surfaces carry along as fluid."""
+    """The part of H that the surfaces carry along where it is full of fluid."""
     rho: np.ndarray
     drho_dP: np.ndarray
     eps: np.ndarray
     deps_dP: np.ndarray
     deps_dH: np.ndarray
+    follows: np.ndarray | None = None
+    """Where `carried` follows H; None: everywhere."""
+    torn: np.ndarray | None = None
+    """Cavities; None where all count as full."""
+    filling: np.ndarray | None = None
+    """The part of `carried` that there is fluid: less than 1 in cavities alone; None as of `torn`."""
 
     def of(self, lines):
         """That of some lines of nodes (a slice): views."""
-        return Fluid(*(getattr(self, each.name)[lines] for each in fields(self)))
-
-    def change(self, P, nodes, part):
-        """In place: under another pressure `P`, with the fluid `part` on the `nodes` of a mask."""
-        self.P = P
-        for name in OF_PRESSURE:
-            getattr(self, name)[nodes] = getattr(part, name)
+        arrays = (getattr(self, each.name) for each in fields(self))
+        return Fluid(*(None if array is None else array[lines] for array in arrays))
 
 
-def fluid_state(P, H, contact, contact_law):
-    """Evaluate the constitutive laws at nodes of pressure `P` and gap `H`.
+def fluid_state(P, H, contact, contact_law, touching=None, torn=None, filling=None):
+    """Evaluate the constitutive laws at nodes of fluid pressure `P` and gap `H`.
 
     `contact` gives the lubricant, the unit of P and lambda; the `contact_law` the gap that the
     Poiseuille flow sees. H must be positive wherever the node can exchange fluid; contact nodes may
-    carry any H, their faces are closed.
+    carry any H where their faces are closed. Elsewhere nodes that are `touching` have the gap that contact
+    keeps. Nodes that are `torn`, whose pressure is given, hold their `filling`.
     """
+    follows = None
+    if touching is not None and not contact_law.closes_faces:
+        H, follows = np.where(touching, contact_law.contact_gap, H), ~touching
     lubricant, p_h = contact.lubricant, contact.pressure_scale
     rho, drho_dP = lubricant.density_law.density(P, p_h)
     log_eta, dlog_eta_dP = lubricant.viscosity_law.log_viscosity(P, p_h)
@@ -52,10 +55,11 @@ def fluid_state(P, H, contact, contact_law):
     gap, dgap_dH = contact_law.flow_gap(H)
     by_H2 = by_H3 * gap * gap
     eps = by_H2 * gap
+    deps_dP, deps_dH = eps * (drho_dP / rho - dlog_eta_dP), 3.0 * by_H2 * dgap_dH
     carried = contact_law.carried(H)
-    return Fluid(
-        P, H, carried, rho, drho_dP, eps, eps * (drho_dP / rho - dlog_eta_dP), 3.0 * by_H2 * dgap_dH
-    )
+    if torn is not None:
+        filling, drho_dP = np.where(torn, filling, 1.0), np.where(torn, 0.0, drho_dP)
+    return Fluid(P, H, carried, rho, drho_dP, eps, deps_dP, deps_dH, follows, torn, filling)
 
 
 def arithmetic_mean(a, b):
@@ -119,6 +123,8 @@ class FaceMobility:
     by_eps: tuple
     by_gap: tuple = ()
     """Nothing where the mobilities say it all."""
+    by_rho: tuple = ()
+    """Slopes by the densities, the mobilities held; nothing where the mobilities say it all."""
 
     def of_lines(self, axis, lines):
         """That of the faces of some `lines` of nodes (a slice), which lie along an `axis`."""
@@ -126,20 +132,44 @@ class FaceMobility:
         def some(slopes):
             return tuple(axis.of_lines(each, lines) if np.ndim(each) else each for each in slopes)
 
-        return FaceMobility(axis.of_lines(self.value, lines), some(self.by_eps), some(self.by_gap))
+        slopes = some(self.by_eps), some(self.by_gap), some(self.by_rho)
+        return FaceMobility(axis.of_lines(self.value, lines), *slopes)
 
 
-def face_mobility(scheme, eps, gaps):
-    """The `FaceMobility` between nodes of mobilities `eps` and `gaps`, pairs (W, E), by the scheme's mean.
+def face_mobility(scheme, eps, gaps, rho):
+    """The `FaceMobility` between nodes of mobilities `eps`, `gaps` and densities `rho`, pairs (W, E), by
+    the scheme's mean.
 
     With a `mobility_share` below 1 the rest is the arithmetic mean.
     """
-    if scheme.face_mobility == LINEAR_GAP:
-        found = _linear_gap_mobility(eps, gaps)
+    if scheme.face_mobility in MONOTONE:
+        found = _by_mean_density(MONOTONE[scheme.face_mobility], eps, gaps, rho)
     else:
         value, *by_eps = FACE_MEANS[scheme.face_mobility](*eps)
         found = FaceMobility(value, tuple(by_eps))
     return found if scheme.mobility_share == 1.0 else _shared(found, scheme.mobility_share, eps)
+
+
+def _by_mean_density(mean, eps, gaps, rho):
+    """The mean density times a `mean` of the mobilities without theirs.
+
+    That mean of the whole mobility would fold: where the viscosity has fallen to nothing on one side, a
+    higher pressure on the other would drive less through the face, for its fluid is denser.
+    """
+    volume = mean([each / density for each, density in zip(eps, rho, strict=True)], gaps)
+    density = 0.5 * (rho[0] + rho[1])
+    by_eps = tuple(density * slope / each for slope, each in zip(volume.by_eps, rho, strict=True))
+    by_rho = tuple(
+        0.5 * volume.value - slope * mobility / each
+        for slope, mobility, each in zip(by_eps, eps, rho, strict=True)
+    )
+    by_gap = tuple(density * slope for slope in volume.by_gap)
+    return FaceMobility(density * volume.value, by_eps, by_gap, by_rho)
+
+
+def _logarithmic_mobility(eps, _gaps):
+    value, *by_eps = logarithmic_mean(*eps)
+    return FaceMobility(value, tuple(by_eps))
 
 
 def _linear_gap_mobility(eps, gaps):
@@ -154,11 +184,14 @@ def _linear_gap_mobility(eps, gaps):
     return FaceMobility(value, (by_w, by_e), (by_gap_w, by_gap_e))
 
 
+MONOTONE = {"logarithmic": _logarithmic_mobility, LINEAR_GAP: _linear_gap_mobility}
+"""Means by which the flow through a face rises with the pressure that drives it, however large."""
+
+
 def _shared(found, share, eps):
     """A share of a mobility and the rest of the arithmetic mean."""
     paper, *by_eps = arithmetic_mean(*eps)
     rest = 1.0 - share
     slopes = tuple(share * own + rest * other for own, other in zip(found.by_eps, by_eps, strict=True))
-    return FaceMobility(
-        share * found.value + rest * paper, slopes, tuple(share * each for each in found.by_gap)
-    )
+    by_gap, by_rho = (tuple(share * each for each in slopes) for slopes in (found.by_gap, found.by_rho))
+    return FaceMobility(share * found.value + rest * paper, slopes, by_gap, by_rho)

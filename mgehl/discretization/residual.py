@@ -1,6 +1,8 @@
 """The nonlinear residual, a row for each node of the kind it has at the moment, and its linearisation.
 
-The Jacobian is J = A + B K: A and B are stencils on P and on H, K is the deflection by P.
+The Jacobian is J = A + B K: A and B are stencils on P and on H, K is the deflection by P. What a cavity
+holds is an unknown in the place of its pressure, which is given. Under contact that closes no faces the
+fluid's pressure is one more unknown, and each such node's flow balance one more equation (`Leak`).
 """
 
 from dataclasses import dataclass
@@ -10,7 +12,27 @@ import numpy as np
 from mgehl.discretization.axes import few_lines, own
 from mgehl.discretization.couette import SHIFT
 from mgehl.discretization.faces import nodes_of_flows
+from mgehl.discretization.mesh import HALO
 from mgehl.discretization.rows import FLOW, GAP, PRESSURE
+from mgehl.discretization.status import CONTACT
+
+
+@dataclass
+class Leak:
+    """What couples the fluid's pressure under contact to the rest, (offsets, nodes) each.
+
+    Of the contact nodes in their order; the offsets are the linearisation's.
+    """
+
+    nodes: np.ndarray
+    """Where they are: a mask (lines, nx)."""
+    A: np.ndarray
+    """Derivatives of their inflow by what answers to the flow balance around them: p, or a content."""
+    B: np.ndarray
+    """The same by H."""
+    into: np.ndarray
+    """Derivatives of the rows around them by their p: of the row that sees a node at an offset, at the
+    place of that node."""
 
 
 @dataclass
@@ -24,6 +46,23 @@ class Linearisation:
     """None of a rigid gap."""
     eps: np.ndarray
     """The nodes' mobility, (lines, nx): it tells a smoother where the Poiseuille flow is weak."""
+    carried: dict | None = None
+    """Derivatives by the contents of cavities, (lines, nx) by their offset; None without any."""
+    leak: Leak | None = None
+
+    @property
+    def by_unknown(self):
+        """A with the columns of the contents."""
+        if self.carried is None:
+            return self.A
+        A = self.A.copy()
+        for offset, derivative in self.carried.items():
+            A[self.position(offset)] += derivative
+        return A
+
+    def position(self, offset):
+        """Place of an offset."""
+        return int(np.flatnonzero((self.offsets == offset).all(axis=1))[0])
 
 
 def residual(evaluation, rows, storage=None):
@@ -39,8 +78,10 @@ def residual(evaluation, rows, storage=None):
     return F
 
 
-def linearise(evaluation, rows, storage=None, rigid=False, room=None):
+def linearise(evaluation, rows, storage=None, rigid=False, room=None, leaks=False):
     """Derivatives of `residual` by P (A) and, unless the gap is `rigid`, by H (B).
+
+    Where it `leaks` contact nodes have a flow balance, too.
 
     Of a few lines at a time: their flows are still in the processor's cache when they are added up. The
     arrays of `room`, a `Linearisation` of the same kind that nobody needs any more, are used again.
@@ -50,14 +91,75 @@ def linearise(evaluation, rows, storage=None, rigid=False, room=None):
     for lines in few_lines(rows):
         part = evaluation.of_lines(lines)
         found = part.linearised_flows(rigid)
-        _set_rows(A[:, lines], rows[lines], PRESSURE, part, offsets, found, "by_P")
+        flowing = rows[lines] == FLOW
+        flowing |= (rows[lines] == GAP) & leaks
+        _set_rows(A[:, lines], flowing, part, offsets, found, "by_P")
         if not rigid:
-            _set_rows(B[:, lines], rows[lines], GAP, part, offsets, found, "by_H")
+            _set_rows(B[:, lines], flowing, part, offsets, found, "by_H")
     if storage is not None:
         A[0] -= storage.by_P(fluid) * (rows == FLOW)
         if not rigid:
             B[0] -= storage.by_H(fluid) * (rows == FLOW)
-    return Linearisation(np.array(offsets), A, B, own(fluid.eps))
+    linearisation = Linearisation(np.array(offsets), A, B, own(fluid.eps))
+    _sort_columns(linearisation, evaluation, rows, leaks)
+    dX = evaluation.mesh.dX
+    A[0] -= (rows == PRESSURE) / dX
+    if not rigid:
+        B[0] -= (rows == GAP) / dX
+    return linearisation
+
+
+def _sort_columns(linearisation, evaluation, rows, leaks):
+    """Take apart, in place, what the columns of A answer to: P of film, contents, p under contact."""
+    law, torn = evaluation.scheme.contact_law, evaluation.fluid.torn
+    offsets = [tuple(offset) for offset in linearisation.offsets]
+    if law.has_contact and not law.closes_faces:
+        contact = evaluation.status == CONTACT
+        closed = own(contact) & (rows == GAP)
+        if leaks:
+            linearisation.leak = _leak(linearisation, contact, closed)
+        for offset in offsets:
+            _taken(linearisation, contact, offset)
+        for stencil in (linearisation.A, linearisation.B):
+            if stencil is not None:
+                stencil[:, closed] = 0.0
+    if torn is not None:
+        taken = {offset: _taken(linearisation, torn, offset) for offset in offsets}
+        linearisation.carried = {offset: each for offset, each in taken.items() if each.any()} or None
+
+
+def _taken(linearisation, columns, offset):
+    """What A has at an `offset` in these `columns`, a ghosted mask: (lines, nx); it is zero there after."""
+    derivative = linearisation.A[linearisation.position(offset)]
+    there = shifted(columns, offset)
+    taken = derivative * there
+    derivative[there] = 0.0
+    return taken
+
+
+def _leak(linearisation, contact, nodes):
+    """The `Leak` of `nodes` (lines, nx) beside others in `contact`, a ghosted mask."""
+    seen = [
+        np.where(shifted(contact, offset) & ~nodes, A, 0.0)
+        for offset, A in zip(linearisation.offsets, linearisation.A, strict=True)
+    ]
+    return Leak(nodes, linearisation.A[:, nodes], linearisation.B[:, nodes], np.array(seen))
+
+
+def shifted(ghosted, offset):
+    """What a ghosted array has at an `offset` (lines, nodes) from each node, (lines, nx); lines end as they
+    are."""
+    line, node = offset
+    lines, nx = own(ghosted).shape
+    here = ghosted[HALO + line : HALO + line + lines]
+    if node == 0:
+        return here
+    moved = np.zeros_like(here)
+    if node > 0:
+        moved[:, :-node] = here[:, node:]
+    else:
+        moved[:, -node:] = here[:, :node]
+    return moved
 
 
 def _empty_stencils(shape, rigid):
@@ -74,10 +176,10 @@ def _offsets(evaluation):
     return [(0, 0), *(offset for offset in offsets if offset != (0, 0))]
 
 
-def _set_rows(stencil, rows, given, part, offsets, found, derivative):
+def _set_rows(stencil, flowing, part, offsets, found, derivative):
     """Set a stencil (offsets, lines, nx) from one kind of derivatives of the flows that were `found`.
 
-    Rows of the film have the net inflow, those of the `given` kind -1/dX of their own, others nothing.
+    Rows that are `flowing` have the net inflow, others nothing.
     """
     stencil[:] = 0.0
     position = {offset: k for k, offset in enumerate(offsets)}
@@ -87,5 +189,4 @@ def _set_rows(stencil, rows, given, part, offsets, found, derivative):
             axis.add_entering(array, stencil[position[axis.offset(SHIFT[node] - 1)]])
         for node, array in getattr(leaving, derivative).items():
             axis.subtract_leaving(array, stencil[position[axis.offset(SHIFT[node])]])
-    stencil *= (rows == FLOW).astype(float)  # not bool: it would be converted once for each offset
-    stencil[0] -= (rows == given) / part.mesh.dX
+    stencil *= flowing.astype(float)  # not bool: it would be converted once for each offset

@@ -1,7 +1,7 @@
 """Which equation each node has at the moment: the kinds of rows of the nonlinear residual.
 
-    FLOW      net inflow/(dX dY) = 0   film                           [Liu eq. 35]
-    PRESSURE  -P/dX = 0                boundary, cavity: P is given
+    FLOW      net inflow/(dX dY) = 0   film, cavity that feeds it     [Liu eq. 35]
+    PRESSURE  -P/dX = 0                boundary, other cavity: P is given
     GAP       (h_b - H)/dX = 0         contact; h_b is the gap that its law keeps, mostly zero
 
 Mostly the status says which. But fluid that is settled apart from the gap is *frozen* in the linear
@@ -15,10 +15,15 @@ from mgehl.discretization.status import CONTACT, LUBRICATED
 FLOW, PRESSURE, GAP = np.int8(0), np.int8(1), np.int8(2)
 
 
-def rows_of(status, rigid=False, frozen=None):
-    """The kind of row of every node, shape as `status`; those that are `frozen` keep their pressure."""
+def rows_of(status, rigid=False, frozen=None, feeding=None):
+    """The kind of row of every node, shape as `status`; those that are `frozen` keep their pressure.
+
+    The content of cavities that are `feeding` answers to the flow.
+    """
     rows = np.full(status.shape, PRESSURE)
     rows[status == LUBRICATED] = FLOW
+    if feeding is not None:
+        rows[feeding] = FLOW
     if not rigid:
         rows[status == CONTACT] = GAP
     if frozen is not None:

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from mgehl.discretization.contact_law import ContactLaw, InterfaceConditions
+from mgehl.discretization.couette import couette_scheme
 from mgehl.discretization.fluid import FOLDING
 
 
@@ -33,6 +34,12 @@ class Scheme:
         return self.motion[0] != 0.0 and self.motion[1] != 0.0
 
     @property
+    def couette_flow(self):
+        """The `CouetteScheme`. Where contact closes no faces no flow carries more away than there is."""
+        scheme = couette_scheme(self.couette, self.coarsenings)
+        return scheme if self.contact_law.closes_faces else scheme.limited()
+
+    @property
     def mean(self):
         """All that decides how the mobility of a face follows from that of its nodes."""
         return self.face_mobility, self.mobility_share, self.contact_law
@@ -40,7 +47,7 @@ class Scheme:
     @property
     def may_fold(self):
         """True where more pressure at a node may drive less flow out of it."""
-        return self.contact_law.is_continuous or self.face_mobility in FOLDING
+        return self.face_mobility in FOLDING
 
     def lets_peaks_touch(self, contact):
         """Whether peaks of a rough `contact` reach through its film and close it continuously.

@@ -22,16 +22,28 @@ class Storage:
     @classmethod
     def begun(cls, fluid, rate):
         """A time step that begins with this ghosted `fluid`; None where there is no rate at all."""
-        return cls(rate, own(fluid.rho) * own(fluid.carried)) if np.any(rate) else None
+        return cls(rate, content(fluid)) if np.any(rate) else None
 
     def outflow(self, fluid):
         """What is stored instead of flowing on."""
-        return self.rate * (own(fluid.rho) * own(fluid.carried) - self.before)
+        return self.rate * (content(fluid) - self.before)
 
     def by_P(self, fluid):
-        """Derivative of `outflow` by the node's own P, its H held."""
-        return self.rate * own(fluid.drho_dP) * own(fluid.carried)
+        """Derivative of `outflow` by what answers to the node's flow: its P, its H held, or its filling."""
+        by_P = own(fluid.drho_dP) * own(fluid.carried)
+        if fluid.torn is not None:
+            by_P = np.where(own(fluid.torn), own(fluid.rho) * own(fluid.carried), by_P)
+        return self.rate * by_P
 
     def by_H(self, fluid):
         """Derivative of `outflow` by the node's own H."""
-        return self.rate * own(fluid.rho)
+        by_H = own(fluid.rho)
+        for part in (fluid.follows, fluid.filling):
+            by_H = by_H if part is None else by_H * own(part)
+        return self.rate * by_H
+
+
+def content(fluid):
+    """rho H of the fluid that there is, (lines, nx), of what lies above the layers."""
+    full = own(fluid.rho) * own(fluid.carried)
+    return full if fluid.filling is None else full * own(fluid.filling)

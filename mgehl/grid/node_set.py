@@ -52,6 +52,23 @@ class NodeSet:
         entries = stencil[inside], (rows[inside], there[inside])
         return csr_matrix(entries, shape=(len(self), len(columns)))
 
+    def matrix_within(self, stencil, offsets):
+        """The sparse matrix of a `stencil` (nodes, offsets) between these nodes; others have no column."""
+        numbers, inside = self._places(offsets)
+        inside &= np.isin(numbers, self._numbers)
+        rows = np.broadcast_to(np.arange(len(self))[:, None], numbers.shape)
+        entries = stencil[inside], (rows[inside], self.places(numbers[inside]))
+        return csr_matrix(entries, shape=(len(self), len(self)))
+
+    def places(self, numbers):
+        """Places of nodes of the set by their numbers."""
+        return np.searchsorted(self._numbers, numbers)
+
+    @property
+    def mine(self):
+        """Places of this rank's nodes, a slice."""
+        return self._mine
+
     @property
     def _own(self):
         """Places of this rank's nodes in its own lines."""

@@ -52,7 +52,7 @@ class AssembledSolver:
         """The distributed matrix; the border's row is that of the identity."""
         grid, nodes = self._grid, self._grid.mesh.nodes
         first_row = grid.first * grid.mesh.nx
-        rows = stencil_rows(linearisation.offsets, linearisation.A, first_row, nodes + 1)
+        rows = stencil_rows(linearisation.offsets, linearisation.by_unknown, first_row, nodes + 1)
         size = (self.space.local_size, PETSc.DECIDE)
         indptr, indices, values = rows.indptr, rows.indices, rows.data
         if self.space.local_size > rows.shape[0]:

@@ -82,7 +82,7 @@ class CliffZone:
         between = nodes.around(offsets)
         reached = between.around(NEAR)
         masks = [reached.values(mask) for mask in (distributive, free)]
-        stencils = [nodes.values(stencil) for stencil in (linearisation.A, linearisation.B)]
+        stencils = [nodes.values(stencil) for stencil in (linearisation.by_unknown, linearisation.B)]
         self._nodes, self._reached = nodes, reached
         if nodes.here:
             self._parts = between, offsets, masks, stencils

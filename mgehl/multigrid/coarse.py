@@ -30,9 +30,11 @@ class CoarseSolve:
         jacobian = self._jacobian
         if jacobian.grid.has_lines:
             lin = jacobian.linearisation
-            stencils = [lin.A] if jacobian.rigid else [lin.A, lin.B]
+            stencils = [lin.by_unknown] if jacobian.rigid else [lin.by_unknown, lin.B]
             self._rows = [self._gathered(stencil) for stencil in stencils]
             self._given = jacobian.grid.to_last(jacobian.given)
+            contents = np.zeros(jacobian.grid.shape) if jacobian.contents is None else jacobian.contents
+            self._moves = jacobian.grid.to_last(1.0 - contents)
 
     @event(COARSE)
     def factor(self):
@@ -46,7 +48,8 @@ class CoarseSolve:
         with warnings.catch_warnings():
             # Of a singular matrix: the iteration that made it ends by itself.
             warnings.simplefilter("ignore", LinAlgWarning)
-            return DenseInverse(A, B, self._K, self._jacobian.load_weight, self._given.ravel(), self._room)
+            masks = self._given.ravel(), self._moves.ravel()
+            return DenseInverse(A, B, self._K, self._jacobian.load_weight, *masks, self._room)
 
     @event(COARSE)
     def solve(self, r, load):
@@ -91,14 +94,14 @@ class DenseInverse:
     the time.
     """
 
-    def __init__(self, A, B, K, load_weight, given, room):
+    def __init__(self, A, B, K, load_weight, given, moves, room):
         self._given, self._free = given, np.flatnonzero(~given)
         self._of_given = A.diagonal()[given]
         self._A, self._B, self._K, self._load_weight = A[self._free], B[self._free], K, load_weight
         size = len(self._free) + 1
         matrix = room[: size * size].reshape(size, size)
         stencils = [(each.indptr, each.indices, each.data) for each in (self._A, self._B)]
-        fill_bordered(matrix, self._free, *stencils, K, load_weight)
+        fill_bordered(matrix, self._free, moves, *stencils, K, load_weight)
         # LAPACK counts along columns: to it this is the transpose, which it factors in its place.
         self._lu = lu_factor(matrix.T, overwrite_a=True, check_finite=False)
 
@@ -116,8 +119,10 @@ class DenseInverse:
 
 
 @compiled(fastmath={"contract"})
-def fill_bordered(matrix, free, A, B, K, load_weight):
+def fill_bordered(matrix, free, moves, A, B, K, load_weight):
     """Fill the `matrix` of A + B K for the `free` nodes, with its border.
+
+    `moves` is 1, and 0 where an unknown is no pressure: that deflects nothing and carries nothing.
 
     A and B have the rows of these nodes: (where each begins, columns, values) of sparse matrices.
     """
@@ -131,11 +136,11 @@ def fill_bordered(matrix, free, A, B, K, load_weight):
             of_all += B[2][entry] * K[B[1][entry]]
             row[count] += B[2][entry]
         for j in range(count):
-            row[j] = of_all[free[j]]
+            row[j] = of_all[free[j]] * moves[free[j]]
         for entry in range(A[0][i], A[0][i + 1]):
             if place[A[1][entry]] >= 0:
                 row[place[A[1][entry]]] += A[2][entry]
-    matrix[count, :count] = load_weight
+    matrix[count, :count] = load_weight * moves[free]
     matrix[count, count] = 0.0
 
 

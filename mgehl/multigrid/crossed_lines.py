@@ -3,6 +3,7 @@
 from mgehl.discretization.axes import own
 from mgehl.discretization.band_kernels import REACH
 from mgehl.discretization.bands import STIFF, influence_of_columns
+from mgehl.discretization.rows import PRESSURE
 from mgehl.grid.events import LINES, event
 from mgehl.multigrid.cliffs import CliffZone, cliffs
 from mgehl.multigrid.smoother import LineSmoother, influence_nearby
@@ -40,8 +41,9 @@ class LinesBothWays(LineSmoother):
         """Factor the bands of the present linearisation."""
         if self._has_lines:
             self._diagonal = self._factor_x_lines()
-            nodes = own(self._distributive), self._jacobian.given
-            self._y_bands.factor(self._jacobian.linearisation, *nodes)
+            jacobian = self._jacobian
+            nodes = own(self._distributive), jacobian.given
+            self._y_bands.factor(jacobian.linearisation, *nodes, jacobian.contents)
 
 
 class CrossedLineSmoother(LinesBothWays):
@@ -97,7 +99,7 @@ class CliffSmoother(CrossedLineSmoother):
         super().partition(rows)
         if self._has_lines:
             grid, linearisation = self._jacobian.grid, self._jacobian.linearisation
-            free = ~self._jacobian.given
+            free = rows != PRESSURE
             found = cliffs(grid.halo(linearisation.eps), STIFF * self._K00 * grid.mesh.dX) & free
             self._zone.gather(found, linearisation, own(self._distributive), free)
 

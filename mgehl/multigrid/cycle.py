@@ -24,6 +24,8 @@ from petsc4py import PETSc
 from mgehl.config_sections import SolverSection
 from mgehl.discretization.axes import own
 from mgehl.discretization.evaluation import Evaluation
+from mgehl.discretization.rows import FLOW, PRESSURE
+from mgehl.discretization.status import CAVITATED
 from mgehl.grid.freed_memory import is_large
 from mgehl.grid.transfers import PartitionedTransfer
 from mgehl.multigrid.coarse import CoarseSolve
@@ -33,7 +35,6 @@ from mgehl.multigrid.jacobian import Jacobian
 from mgehl.multigrid.memory import Memory
 from mgehl.multigrid.options import by_default
 from mgehl.multigrid.smoother_choice import smoother_of
-from mgehl.multigrid.valleys import AT_ONCE
 
 IN_THE_CYCLE = {"2C": "3B", "S2C": "3B"}
 """Couette schemes of the cycle's operators where the solved one's leave waves of two cells: lines do not
@@ -89,7 +90,7 @@ class MultigridSolver:
     def __init__(
         self, hierarchy, level, contact, scheme, settings=CycleSettings(), rigid=False, apart=False
     ):
-        self.contact, self._settings = contact, settings
+        self.contact, self._settings, self._hierarchy = contact, settings, hierarchy
         self._oblique = scheme.is_oblique and not (rigid or apart)
         self._rough = contact.roughness > 0.0 and not rigid
         self._thin = self._rough and contact.expected_film < THICK * contact.roughness
@@ -141,9 +142,10 @@ class MultigridSolver:
             jacobian.mat.destroy()
 
     @property
-    def at_once(self):
-        """Whether the finest grid's nearby nodes are solved at once: a linear system was hard."""
-        return self.way == AT_ONCE
+    def work(self):
+        """Convolutions of all solves on these grids so far, in those of the finest (collective)."""
+        comm = self.jacobian.grid.comm
+        return comm.bcast(self._hierarchy.convolutions, root=comm.size - 1)
 
     @property
     def way(self):
@@ -168,11 +170,15 @@ class MultigridSolver:
         steady equations. What the evaluation knows of the faces is dropped, where memory is short what it
         knows of the fluid, too: the solve needs the room.
         """
+        leaks = not (self.jacobian.rigid or self.jacobian.scheme.contact_law.closes_faces)
         if self.jacobian is not self.jacobians[-1]:
-            self.jacobian.linearise(evaluation, rows, rate)
-        self.jacobians[-1].linearise(evaluation, rows, rate)
+            self.jacobian.linearise(evaluation, rows, rate, leaks)
+        self.jacobians[-1].linearise(evaluation, rows, rate, leaks)
         evaluation.forget()
+        # Contents are corrected on the finest grid alone.
+        rows = np.where((rows == FLOW) & (own(evaluation.status) == CAVITATED), PRESSURE, rows)
         fine = [own(ghosted) for ghosted in (evaluation.P, evaluation.H, evaluation.status)]
+        filling = None if evaluation.filling is None else own(evaluation.filling)
         eps = own(evaluation.fluid.eps)
         for level in range(len(self.jacobians) - 1, 0, -1):
             transfer, jacobian = self._transfers[level - 1], self.jacobians[level - 1]
@@ -180,7 +186,8 @@ class MultigridSolver:
             coarse = [inject(array) for array in fine]
             status, coarse_rows = coarse[-1], inject(rows)
             rate = inject(rate) if np.ndim(rate) else rate
-            found = _evaluate(jacobian, *coarse)
+            filling = None if filling is None else inject(filling)
+            found = _evaluate(jacobian, *coarse, filling)
             if self._thin:
                 eps = transfer.averaged(eps)
                 found = found.with_mobility(jacobian.grid.halo(eps))
@@ -234,8 +241,9 @@ def _scheme_of_cycle(asked, solved, better):
     return solved if couette == solved.couette else replace(solved, couette=couette)
 
 
-def _evaluate(jacobian, P, H, status):
+def _evaluate(jacobian, P, H, status, filling):
     """The state of a coarse grid, evaluated as its Jacobian's scheme asks."""
     grid = jacobian.grid
     ghosted = grid.halo(P), grid.halo(H), grid.halo_status(status)
-    return Evaluation(*ghosted, grid.mesh, jacobian.contact, jacobian.scheme)
+    filling = None if filling is None else grid.halo(filling)
+    return Evaluation(*ghosted, grid.mesh, jacobian.contact, jacobian.scheme, filling=filling)

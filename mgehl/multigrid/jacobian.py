@@ -12,12 +12,15 @@ from dataclasses import dataclass
 import numpy as np
 from petsc4py import PETSc
 
+from mgehl.discretization.axes import own
 from mgehl.discretization.kernels import apply_jacobian, apply_stencil
-from mgehl.discretization.residual import linearise
-from mgehl.discretization.rows import PRESSURE
+from mgehl.discretization.residual import linearise, shifted
+from mgehl.discretization.rows import FLOW, PRESSURE
+from mgehl.discretization.status import CONTACT
 from mgehl.discretization.storage import Storage
 from mgehl.grid.events import ASSEMBLY, event
 from mgehl.model.contact import RESOLVED_CELLS
+from mgehl.multigrid.under_contact import UnderContact
 
 
 @dataclass(frozen=True)
@@ -131,7 +134,11 @@ class Jacobian:
         self.load_weight = mesh.dX * mesh.dY * self.load_scale
         self.linearisation = None
         self.given = None
-        """Where the pressure is given in it, (lines, nx)."""
+        """Where the pressure is given in it and nothing else is unknown, (lines, nx)."""
+        self.contents = None
+        """Where a content is unknown in it, (lines, nx); None: nowhere."""
+        self.under_contact = None
+        """The fluid's pressure there, eliminated; None where there is no such unknown."""
         self.witness = None
         """Called with (dP, dH, dH0) of every product, dH the deflection by dP."""
         self._dP = np.zeros(grid.ghosted_shape)
@@ -147,15 +154,28 @@ class Jacobian:
         return self.contact.inlet_cells(self.grid.mesh) >= RESOLVED_CELLS
 
     @event(ASSEMBLY)
-    def linearise(self, evaluation, rows, rate=0.0):
+    def linearise(self, evaluation, rows, rate=0.0, leaks=False):
         """Linearise about an evaluated state with these kinds of rows, for time steps 1/`rate` long.
 
-        In the arrays of the linearisation before, which nobody may need any more.
+        In the arrays of the linearisation before, which nobody may need any more. Where it `leaks`, contact
+        that closes no faces has a flow balance, too.
         """
         storage, room = Storage.begun(evaluation.fluid, rate), self.linearisation
-        self.linearisation = linearise(evaluation.by(self.scheme), rows, storage, self.rigid, room)
-        self.given = rows == PRESSURE
+        self.linearisation = linearise(evaluation.by(self.scheme), rows, storage, self.rigid, room, leaks)
+        self.given, torn = rows == PRESSURE, evaluation.fluid.torn
+        contents = None if torn is None else own(torn) & (rows == FLOW)
+        self.contents = contents if contents is not None and self.grid.count(contents) else None
+        if self.contents is None:
+            self.linearisation.carried = None
+        self.under_contact = None
+        if self.linearisation.leak is not None:
+            self.under_contact = UnderContact(self.grid, self.linearisation)
+            self._in_contact = evaluation.status == CONTACT
         self.mat.stateIncrease()
+
+    def pressures(self, x):
+        """Of corrections (lines, nx) those of pressures: what the bodies feel."""
+        return x if self.contents is None else np.where(self.contents, 0.0, x)
 
     def forget(self):
         """Free the memory of the linearisation."""
@@ -168,14 +188,14 @@ class Jacobian:
             self.space.write(y, self.product(dP, None, dH0), dH0)
         else:
             load = self.load_of(dP)
-            dH = self.deflection(dP)
+            dH = self.deflection(self.pressures(dP))
             if self.witness:
                 self.witness(dP, dH, dH0)
             self.space.write(y, self.product(dP, dH, dH0), load)
 
     def load_of(self, dP):
         """s^T dP: what a correction of P, (lines, nx), adds to the load; known to ranks with lines only."""
-        return self.load_weight * self.grid.sum_of_team(dP.sum())
+        return self.load_weight * self.grid.sum_of_team(self.pressures(dP).sum())
 
     def product(self, dP, dH, dH0):
         """A dP + B (dH + dH0), (lines, nx), of a known deflection `dH`; the next call overwrites it.
@@ -189,4 +209,13 @@ class Jacobian:
         else:
             grid.halo(dH, out=self._dH)
             apply_jacobian(lin.offsets, lin.A, lin.B, self._dP, self._dH, dH0, self._out)
+        if lin.carried is not None:
+            for offset, derivative in lin.carried.items():
+                self._out += derivative * shifted(self._dP, offset)
+        if self.under_contact is not None:
+            self.under_contact.subtract(self._out, self._around_contact(), self._dH, dH0)
         return self._out
+
+    def _around_contact(self):
+        """The last corrections of what answers to the flow, ghosted: under contact it is not among them."""
+        return np.where(self._in_contact, 0.0, self._dP)

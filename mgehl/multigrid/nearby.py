@@ -86,7 +86,7 @@ class NearbySolve:
         if not self._parts:
             places = lin.offsets, lin.offsets, NEAR, NEAR
             self._parts = [StencilMatrix(grid, offsets) for offsets in places]
-        stencils = lin.A, lin.B, *self._columns.stencils(_beside(distributive), _beside(free))
+        stencils = lin.by_unknown, lin.B, *self._columns.stencils(_beside(distributive), _beside(free))
         for part, stencil in zip(self._parts, stencils, strict=True):
             part.set(stencil)
         A, B, Q, N = (part.mat for part in self._parts)

@@ -63,8 +63,11 @@ class LineSmoother:
 
     def _factor_x_lines(self):
         """Factor the bands of the x-lines; return their diagonal before that, (lines, nx)."""
-        nodes = own(self._distributive), self._jacobian.given
-        return self._bands.factor(self._jacobian.linearisation, *nodes, self._kappa, self._share)
+        jacobian = self._jacobian
+        nodes = own(self._distributive), jacobian.given
+        return self._bands.factor(
+            jacobian.linearisation, *nodes, self._kappa, self._share, jacobian.contents
+        )
 
     @event(LINES)
     def relax(self, r):
@@ -74,9 +77,13 @@ class LineSmoother:
 
     def _distributed(self, omega, along_x=True, along_y=True):
         """The correction omega Q w in the place of w; what is handed over as of `kernels.distribute`."""
-        self._jacobian.grid.halo(self._w, out=self._ghosted_w)
+        jacobian = self._jacobian
+        jacobian.grid.halo(self._w, out=self._ghosted_w)
         distribute(self._ghosted_w, self._distributive, self._share, omega, self._w, along_x, along_y)
-        self._w[self._jacobian.given] = 0.0
+        self._w[jacobian.given] = 0.0
+        if jacobian.contents is not None:
+            of_contents = own(self._ghosted_w)[jacobian.contents]
+            self._w[jacobian.contents] = omega * of_contents if along_x else 0.0
         return self._w
 
     def _solve_lines(self, r):

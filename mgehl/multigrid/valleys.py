@@ -62,7 +62,7 @@ class RoughLineSmoother(LinesBothWays):
         super().partition(rows)
         jacobian = self._jacobian
         least = DRIVEN * self._K00 * jacobian.grid.mesh.dX
-        self._driven = (jacobian.linearisation.eps > least) & ~jacobian.given
+        self._driven = (jacobian.linearisation.eps > least) & (rows != PRESSURE)
         self._some_are_driven = jacobian.grid.sum_of_team(np.count_nonzero(self._driven)) > 0
 
     @event(LINES)
@@ -91,7 +91,7 @@ class RoughLineSmoother(LinesBothWays):
 
     def _near_product(self, c):
         """J c, (lines, nx), but for the deflection by nodes that are not around a node."""
-        self._jacobian.grid.halo(c, out=self._ghosted_c)
+        self._jacobian.grid.halo(self._jacobian.pressures(c), out=self._ghosted_c)
         deflect_nearby(self._near[:2, :2], self._ghosted_c, self._deflection)
         return self._jacobian.product(c, self._deflection, 0.0)
 

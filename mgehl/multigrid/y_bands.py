@@ -38,8 +38,11 @@ class YBands:
             plane.destroy()
         self._planes = ()
 
-    def factor(self, linearisation, distributive, given):
-        """Factor what J Q couples along Y; `distributive` and `given` nodes (lines, nx)."""
+    def factor(self, linearisation, distributive, given, contents=None):
+        """Factor what J Q couples along Y; `distributive` and `given` nodes, `contents`: masks (lines, nx).
+
+        Contents are not carried along Y: they couple to nothing.
+        """
         lin, grid = linearisation, self._grid
         spans = self._spans_of_all(given)
         self._follow(spans)
@@ -48,6 +51,8 @@ class YBands:
         lines = bands.whole_lines.reshape(len(given), WIDTH, -1)
         mine = spans[grid.first : grid.last]
         build_y_bands(lin.offsets, lin.A, lin.B, around, self._kappa, self._share, mine, lines)
+        if lin.carried is not None:
+            self._set_contents(lines, contents, lin.carried)
         bands.to_columns()
         first, end = self._shares[grid.team.rank]
         self._spans = np.clip(spans, first, end) - first + bands.places[0]
@@ -62,6 +67,15 @@ class YBands:
         solve_y_bands(self._systems, self._spans, right.places, right.whole)
         right.to_lines()
         w[:] = right.lines
+
+    def _set_contents(self, lines, contents, carried):
+        """Leave of the columns and rows of `contents` what they have of themselves."""
+        around = self._grid.lines_around(contents, REACH)
+        for k in range(WIDTH):
+            lines[:, k, : contents.shape[1]][around[k : k + len(contents)] | contents] = 0.0
+        j, i = np.nonzero(contents)
+        if len(j):
+            lines[j, REACH, i] = carried[0, 0][contents]
 
     def _new_planes(self):
         """Room for the bands and for the right-hand sides."""

@@ -42,7 +42,7 @@ from mgehl.solver.record import Record
 from mgehl.version import VERSION
 
 UNDER_WAY = "under-way.npz"
-FORMAT = 7
+FORMAT = 8
 """Version of the files. It goes up with every change of the layout or of a name; files of another version
 are not read."""
 

@@ -133,6 +133,9 @@ def write_fields(path, solution):
         put("H", plane, fields.H, "1", f"gap over its unit, a^2/R_x, or m mm: {contact.film_scale:.6g} m")
         names = ", ".join(f"{k} {name}" for k, name in enumerate(status.names(solution.is_dry)))
         put("status", plane, fields.status, "1", names)
+        if fields.p is not None:
+            put("p", plane, fields.p, "1", f"the fluid's own pressure over its unit, {unit}")
+            put("filling", plane, fields.filling, "1", "part of the gap above the layers that holds fluid")
 
 
 def _put(file, name, dimensions, values, unit, description):

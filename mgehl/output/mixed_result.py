@@ -52,6 +52,13 @@ class MixedResult:
     """Part of the load on films at most `NEAR` times as thick as the boundary film that contact keeps."""
     error: GapError | None = None
     """Bands about the mean gaps; None in older results."""
+    solid_load_fraction: float | None = None
+    """Part of the load that solids carry: P - p of contact nodes; None in older results."""
+    sealed_load_fraction: float | None = None
+    """Part of the load on films and cavities that contact shuts in on all sides; None in older results."""
+    torn_filling: float | None = None
+    """Mean part of the gap above the layers that cavities within the Hertz ellipse hold fluid in; None
+    without any."""
 
     @property
     def hertz_region(self):
@@ -72,6 +79,8 @@ class Nodes:
     H: np.ndarray
     status: np.ndarray
     heights: np.ndarray
+    p: np.ndarray
+    filling: np.ndarray
 
 
 def mixed_result(problem, state):
@@ -82,7 +91,8 @@ def mixed_result(problem, state):
     grid, contact = problem.grid, problem.contact
     if contact.surface is None:
         return None
-    whole = [grid.gather(each) for each in (state.P, state.H, state.status, _heights(grid, contact))]
+    parts = state.P, state.H, state.status, _heights(grid, contact), state.p, state.filling
+    whole = [grid.gather(each) for each in parts]
     kept = problem.scheme.contact_law.contact_gap
     return grid.comm.bcast(None if whole[0] is None else measured(contact, grid.mesh, Nodes(*whole), kept))
 
@@ -102,6 +112,11 @@ def measured(contact, mesh, nodes, kept=0.0):
     unit_nm = 1e9 * contact.film_scale
     nm, sizes, gaps = unit_nm * nodes.H, patch_sizes(solid), gaps_of(mesh, nodes.P, nodes.H)
     near = (nodes.status == LUBRICATED) & (nodes.H <= NEAR * kept)
+    torn, sealed = inside & (nodes.status == CAVITATED), _sealed(solid)
+
+    def share(pressure):
+        return float(cell * pressure.sum() / contact.load_integral)
+
     return MixedResult(
         lambda_ratio=contact.expected_film / Sq if Sq else None,
         Sq_nm=1e9 * Sq,
@@ -118,8 +133,18 @@ def measured(contact, mesh, nodes, kept=0.0):
         per_metre=mesh.is_line,
         mean_gap_nm=unit_nm * gaps.mean,
         loaded_gap_nm=unit_nm * gaps.loaded,
-        near_contact_load_share=float(cell * nodes.P[near].sum() / contact.load_integral),
+        near_contact_load_share=share(nodes.P[near]),
+        solid_load_fraction=share((nodes.P - nodes.p)[solid]),
+        sealed_load_fraction=share(nodes.P[sealed]),
+        torn_filling=_of_some(np.mean, nodes.filling[torn]),
     )
+
+
+def _sealed(solid):
+    """Nodes that are not `solid` and that solid nodes shut in, by sides of the cells: (ny, nx)."""
+    labels, _ = ndimage.label(~solid)
+    outer = np.unique(np.concatenate([labels[[0, -1]].ravel(), labels[:, [0, -1]].ravel()]))
+    return ~solid & ~np.isin(labels, outer)
 
 
 def patch_sizes(solid):

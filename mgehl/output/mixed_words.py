@@ -16,11 +16,18 @@ def mixed_lines(mixed):
         f"contact carries {_shares(mixed)}",
         f"  real contact area {1e12 * mixed.contact_area_m2:.4g} {unit}, "
         f"{100 * mixed.contact_area_over_hertz:.2f} % of the Hertz area, in {patches}{largest}",
+        *_carried_by_solids(mixed),
         *_mean_gaps(mixed),
         f"  film within the {mixed.hertz_region}: mean {_known(mixed.mean_film_nm)} nm, minimum "
         f"{_known(mixed.minimum_film_nm)} nm, {_known(mixed.valley_film_nm)} nm in valleys deeper than Sq; "
-        f"torn on {100 * mixed.torn_share:.2f} % of it",
+        f"torn on {100 * mixed.torn_share:.2f} % of it{_filling(mixed)}",
     ]
+
+
+def _filling(mixed):
+    """How full cavities are; nothing where there is none, or of an older result."""
+    filling = mixed.torn_filling
+    return "" if filling is None else f", where {100 * filling:.0f} % of the gap is filled"
 
 
 def _shares(mixed):
@@ -35,6 +42,16 @@ def _shares(mixed):
         f"{contact:.2f} % of the load, films at most a tenth thicker {near:.2f} %, other films "
         f"{film - near:.2f} %"
     )
+
+
+def _carried_by_solids(mixed):
+    """What solids carry beside the fluid in their layers, and what pockets carry; none of older results."""
+    if mixed.patches and mixed.solid_load_fraction is not None:
+        yield (
+            f"  solids carry {100 * mixed.solid_load_fraction:.2f} % of the load, the fluid in contact's "
+            f"layers {100 * (mixed.contact_load_share - mixed.solid_load_fraction):.2f} %, pockets that "
+            f"contact shuts in {100 * mixed.sealed_load_fraction:.2f} %"
+        )
 
 
 def _mean_gaps(mixed):

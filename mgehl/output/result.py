@@ -11,7 +11,8 @@ from mgehl.output.film_error import NOT_ASKED, FilmError
 from mgehl.output.mixed_result import MixedResult, mixed_result
 from mgehl.output.resolution import Resolution, resolution
 from mgehl.output.words import loaded_words
-from mgehl.solver.inequality import check_interface, check_pressure_inequality
+from mgehl.solver.inequality import check_interface, check_pressure_inequality, check_under_contact
+from mgehl.solver.mass import CLOSED, Mass, mass_account
 from mgehl.solver.verification import complementarity_error, flux_imbalance
 
 COMPLEMENTARITY_TOLERANCE = 1e-6
@@ -54,7 +55,8 @@ class InequalityResult:
     """Largest fluid pressure over the contact pressure beside it; only of nodes compared."""
     nodes: list
     compared: str = "at the nodes"
-    """Where: "at the nodes" on both sides of the interface, or "at the interface" between them."""
+    """Where: "at the nodes" on both sides of the interface, "at the interface" between them, or at each
+    node "under contact"."""
 
 
 @dataclass(frozen=True)
@@ -112,12 +114,16 @@ class Result:
     edge: EdgeResult = NOT_SEEN
     mixed: MixedResult | None = None
     """Film and contact of rough bodies; None of smooth ones."""
+    mass: Mass | None = None
+    """The account of the oil; None in older results."""
 
     @property
     def doubt(self):
         """Of a state that settled and has not converged: what is wrong with it, in a few words."""
         if self.pressure_inequality.violations:
             return "Eq. 2 is broken"
+        if self.mass and self.mass.made_share > CLOSED:
+            return "oil is made"
         return self.edge.wrong[0] or "Eq. 2 is broken"
 
     def words(self, verbose=True):
@@ -135,22 +141,26 @@ def summarise(problem, outcome, tolerance, work, wall_s, versions):
     iteration said of them is trusted.
     """
     grid, contact = problem.grid, problem.contact
-    state = outcome.state = problem.state(outcome.state.P, outcome.state.H0, outcome.state.status)
+    found = outcome.state
+    state = outcome.state = problem.state(found.P, found.H0, found.status, found.p, found.filling)
     evaluation = problem.evaluate(state)
     residual = problem.rms(problem.residual(evaluation, state.status))
     load_error = problem.load_deficit(state.P)
     nm = 1e9 * contact.film_scale
     central, minimum = problem.films(state)
-    asked = _inequality_result(check_interface(problem, state), "at the interface")
+    asked = _eq_2(problem, state)
     other = _inequality_result(check_pressure_inequality(problem, state), "at the nodes")
     complementarity = complementarity_error(problem, state, evaluation)
     settled, reason = _verdict(outcome, tolerance, residual, load_error, complementarity)
     overlap, edge = overlap_of(grid, state, nm), edge_result(problem, state, nm)
+    mass = mass_account(problem, state, evaluation)
+    conserves = _conserves(problem, mass, tolerance)
     if settled:
-        reason = _whether_more_holds(asked, edge, overlap) or reason
+        made = None if conserves else mass
+        reason = _whether_more_holds(asked, made, edge, overlap) or reason
     moes = contact.film_scale * contact.moes_scale
     return Result(
-        converged=settled and asked.violations == 0 and not edge.wrong[0],
+        converged=settled and asked.violations == 0 and conserves and not edge.wrong[0],
         settled=settled,
         reason=reason,
         central_film_nm=central * nm,
@@ -176,7 +186,29 @@ def summarise(problem, outcome, tolerance, work, wall_s, versions):
         versions=versions,
         edge=edge,
         mixed=mixed_result(problem, state),
+        mass=mass,
     )
+
+
+def _conserves(problem, mass, tolerance):
+    """Whether no oil is made.
+
+    The unified equations know no contents and do not say. Where contact closes its faces hardly anything
+    may flow through; there what a residual of the `tolerance` makes is nothing.
+    """
+    law, mesh, contact = problem.scheme.contact_law, problem.grid.mesh, problem.contact
+    if mass.made_share <= CLOSED or not law.has_contact:
+        return True
+    area = (mesh.x[1] - mesh.x[0]) * (1.0 if mesh.is_line else mesh.y[1] - mesh.y[0])
+    unit = contact.speed * contact.film_scale * (1.0 if mesh.is_line else contact.y_scale)
+    return law.closes_faces and mass.made <= tolerance * unit * area
+
+
+def _eq_2(problem, state):
+    """What the verdict asks of Eq. 2: p <= P under contact where the fluid has a pressure there."""
+    if problem.scheme.contact_law.closes_faces:
+        return _inequality_result(check_interface(problem, state), "at the interface")
+    return _inequality_result(check_under_contact(problem, state), "under contact")
 
 
 def _verdict(outcome, tolerance, residual, load_error, complementarity):
@@ -192,7 +224,7 @@ def _verdict(outcome, tolerance, residual, load_error, complementarity):
     return True, "residual, load, sets, complementarity and the pressure inequality hold"
 
 
-def _whether_more_holds(inequality, edge, overlap):
+def _whether_more_holds(inequality, made, edge, overlap):
     """What a settled state breaks all the same, in words; empty where it breaks nothing."""
     if inequality.violations:
         return (
@@ -201,6 +233,8 @@ def _whether_more_holds(inequality, edge, overlap):
         )
     if edge.wrong[1]:
         return edge.wrong[1]
+    if made:
+        return f"nodes of one kind make {made.made_share:.1e} of the oil that flows through"
     if overlap.nodes:
         return (
             f"the unified equations hold, but the bodies overlap at {overlap.nodes} nodes "

@@ -1,6 +1,7 @@
 """What was solved and found: the object that runs, studies, pictures and users share."""
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from mpi4py import MPI
@@ -25,10 +26,19 @@ class Fields:
     P: Reals
     H: Reals
     status: NDArray[np.int8]
+    p: Reals | None = None
+    """The fluid's own pressure: P but under contact; None where it was not kept."""
+    filling: Reals | None = None
+    """The part of the gap above the layers that holds fluid: 1 but in cavities; None as of `p`."""
+
+    @property
+    def arrays(self) -> list[NDArray[Any]]:
+        """All that there are, in their order."""
+        return [each for each in vars(self).values() if each is not None]
 
     def gathered(self, grid: Grid) -> "Fields | None":
         """The whole grid's on rank 0, None elsewhere (collective)."""
-        whole = [grid.gather(local) for local in (self.P, self.H, self.status)]
+        whole = [grid.gather(local) for local in self.arrays]
         return None if whole[0] is None else Fields(*whole)
 
 
@@ -91,8 +101,9 @@ class Solution:
         if comm.rank not in (0, rank):
             return None
         shape = self.mesh.ny, self.mesh.nx
-        fields = self.fields or Fields(np.empty(shape), np.empty(shape), np.empty(shape, np.int8))
-        for array in (fields.P, fields.H, fields.status):
+        kinds = [each.dtype for each in self.local.arrays] if self.local else []
+        fields = self.fields or Fields(*(np.empty(shape, kind) for kind in kinds))
+        for array in fields.arrays:
             if comm.rank == 0:
                 comm.Send(np.ascontiguousarray(array), rank)
             else:

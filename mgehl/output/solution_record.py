@@ -32,12 +32,11 @@ def solution_from(plain, arrays):
 
 def arrays_of(fields):
     """{name: array} of `Fields`."""
-    return {"P": fields.P, "H": fields.H, "status": fields.status}
+    return {name: array for name, array in vars(fields).items() if array is not None}
 
 
 def fields_from(arrays):
     """The `Fields` of which `arrays_of` made these."""
-    P, H, status = (arrays[name] for name in ("P", "H", "status"))
-    if not P.shape == H.shape == status.shape:
+    if not arrays["P"].shape == arrays["H"].shape == arrays["status"].shape:
         raise ValueError("its fields are not of one grid")
-    return Fields(P, H, status)
+    return Fields(**arrays)

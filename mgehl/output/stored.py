@@ -21,6 +21,9 @@ from mgehl.output.result import Result
 from mgehl.output.solution import Fields, Solution
 from mgehl.output.wedge_result import WedgeResult
 
+OPTIONAL = "p", "filling"
+"""Fields that older results are without."""
+
 
 def _real(value):
     """A number of JSON: null stands for one that is not finite. Raises ValueError for a word."""
@@ -88,16 +91,19 @@ def read_fields(path, mesh):
     """`Fields` of the whole grid and H0 from a fields.h5 of this mesh."""
     try:
         with h5netcdf.File(path, "r") as file:
-            fields = Fields(*(np.asarray(file[name]) for name in ("P", "H", "status")))
+            names = [
+                name for name in ("P", "H", "status", *OPTIONAL) if name not in OPTIONAL or name in file
+            ]
+            fields = Fields(**{name: np.asarray(file[name]) for name in names})
             H0 = float(file.attrs["H0"])
     except FileNotFoundError:
         raise OutputError(f"{path}: is not there: the run has not finished") from None
     except Exception as error:  # what a damaged file raises is anybody's guess
         raise OutputError(f"{path}: is damaged, or no fields of mgehl: {one_line(error)}") from None
     shape = (mesh.ny, mesh.nx)
-    if any(array.shape != shape for array in (fields.P, fields.H, fields.status)):
+    if any(array.shape != shape for array in fields.arrays):
         raise OutputError(f"{path}: its fields are not of {mesh.nx} x {mesh.ny} nodes")
-    if not all(np.isfinite(each).all() for each in (fields.P, fields.H, H0)):
+    if not all(np.isfinite(each).all() for each in (*fields.arrays, H0)):
         raise OutputError(f"{path}: its fields are not finite everywhere")
     if not np.isin(fields.status, range(len(NAMES))).all():
         raise OutputError(f"{path}: has nodes of a status that there is not")

@@ -15,10 +15,11 @@ def in_users_axes(solution, frame, grid):
     scale = solution.contact.film_scale / contact.film_scale
     fields = None
     if solution.fields is not None:
-        P, H, status = map(frame.users_array, _arrays(solution.fields))
-        fields = Fields(P, scale * H, status)
+        P, H, *others = map(frame.users_array, solution.fields.arrays)
+        fields = Fields(P, scale * H, *others)
     # A point contact has as many lines as nodes in a line: they are dealt out as before.
-    local = Fields(*(grid.scatter(array) for array in (_arrays(fields) if fields else 3 * (None,))))
+    arrays = fields.arrays if fields else len(solution.local.arrays) * [None]
+    local = Fields(*(grid.scatter(array) for array in arrays))
     return replace(
         solution,
         contact=contact,
@@ -28,10 +29,6 @@ def in_users_axes(solution, frame, grid):
         H0=scale * solution.H0,
         local=local,
     )
-
-
-def _arrays(fields):
-    return fields.P, fields.H, fields.status
 
 
 def _result(result, frame, mesh):

@@ -104,6 +104,11 @@ def _errors(result):
         f"  residual {result.residual:.1e}, load error {result.load_error:.1e}, complementarity "
         f"{result.complementarity_error:.1e}, flux imbalance {result.flux_imbalance:.1e}"
     )
+    if result.mass:
+        yield (
+            f"  oil: {result.mass.enters:.3g} m3/s enter the Hertz ellipse, {result.mass.leaves:.3g} leave "
+            f"it; nodes of one kind make at most {result.mass.made_share:.1e} of it"
+        )
 
 
 def _overlap(overlap):

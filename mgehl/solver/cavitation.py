@@ -9,7 +9,7 @@ import numpy as np
 
 from mgehl.discretization.axes import own
 from mgehl.discretization.kernels import lifted_by_less, relax_cavitation
-from mgehl.discretization.status import CAVITATED, LUBRICATED, is_fluid
+from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED, is_fluid
 
 WEAKLY_COUPLED = 10.0
 """A node is relaxed where its mobility/dX exceeds this multiple of its own influence. With 3 to 100
@@ -52,14 +52,17 @@ PASSES = 2
 one film on 257 nodes a sixth less."""
 
 
-def relax_cavitation_set(problem, state, evaluation):
+def relax_cavitation_set(problem, state, evaluation=None):
     """Relax P and status of the weakly coupled fluid; return how many nodes changed.
 
-    Updates `state` and its `evaluation` in place, but only if the set moved: otherwise Newton's pressures
-    stand. Zebra order by global line number, so the number of ranks does not matter.
+    Updates `state` in place, but only if the set moved: otherwise Newton's pressures stand. Cavities that
+    feed a film are left alone; the others count as full, for they are where gaps widen. The `evaluation` of
+    the state, where it is known, stays as it is. Zebra order by global line number: the number of ranks
+    does not matter.
     """
     if not problem.scheme.cavitation:
         return 0
+    evaluation = (evaluation or problem.evaluate(state)).filled(None)
     grid, P = problem.grid, evaluation.P.copy()
     faces = evaluation.source, *evaluation.conductances
     movable = _relaxable(problem, evaluation, state)
@@ -75,9 +78,10 @@ def relax_cavitation_set(problem, state, evaluation):
     relaxed = np.where(movable, np.where(lubricated, LUBRICATED, CAVITATED), state.status)
     moved = grid.count(relaxed != state.status)
     if moved and _may_carry(problem, grid.sum(state.P.sum()), grid.sum(own(P).sum())):
-        state.P[:] = own(P)
+        state.P[movable] = own(P)[movable]
+        state.filling[(relaxed == CAVITATED) & (state.status != CAVITATED)] = 1.0
         state.status[:] = relaxed
-        problem.change_pressure(evaluation, P)
+        state.p = np.where(state.status == CONTACT, state.p, state.P)
         return moved
     return 0
 
@@ -91,15 +95,19 @@ def _may_carry(problem, before, after):
     return least <= after <= (1.0 + GAINED * film) * before
 
 
-def cavities_rest(problem, state, evaluation):
-    """Whether no film pulls and no fluid flows into a cavity: nothing asks for another set at this gap.
+def overflows(state):
+    """Cavities that hold more than their gap, (lines, nx)."""
+    return (state.status == CAVITATED) & (state.filling > 1.0)
+
+
+def cavities_rest(problem, state):
+    """Whether no film pulls and no cavity overflows: nothing asks for another set at this gap.
 
     Where the gap moves, too, the relaxation knows more: it finds what the pressure will ask for (M = 20,
     L = 10 by 2B on 513 nodes: 39 convolutions for 43).
     """
     pulls = (state.status == LUBRICATED) & (state.P <= 0.0)
-    fills = (state.status == CAVITATED) & (evaluation.inflow > 0.0)
-    return problem.grid.count(pulls | fills) == 0
+    return problem.grid.count(pulls | overflows(state)) == 0
 
 
 def weakly_coupled(problem, evaluation, status, multiple):
@@ -120,4 +128,5 @@ def _relaxable(problem, evaluation, state):
     movable = weakly_coupled(problem, evaluation, state.status, WEAKLY_COUPLED)
     if problem.grid.mesh.is_line:
         movable &= own(evaluation.fluid.eps) > LONG_WAVES
+    movable &= ~problem.feeding(state.status)
     return movable & driven(problem, evaluation)

@@ -160,4 +160,5 @@ def _injected(hierarchy, level, contact, state, scheme):
     transfer, grid = hierarchy.transfers[level], hierarchy.grids[level]
     status = transfer.inject(state.status.astype(float)).astype(np.int8)
     coarser = ContactProblem(grid, hierarchy.deflections[level], contact, scheme)
-    return coarser, coarser.state(transfer.inject(state.P), state.H0, status)
+    P, p, filling = (transfer.inject(each) for each in (state.P, state.p, state.filling))
+    return coarser, coarser.state(P, state.H0, status, p, filling)

@@ -65,7 +65,7 @@ class Continuation:
         level, contact = len(hierarchy.grids) - 1, self._contact.at_speed(speed)
         grid = hierarchy.grids[level]
         problem = ContactProblem(grid, hierarchy.deflections[level], contact, scheme)
-        state = problem.state(state.P, state.H0, state.status)
+        state = problem.state(state.P, state.H0, state.status, state.p, state.filling)
         multigrid = MultigridSolver(hierarchy, level, contact, scheme, settings.cycle)
         tell = partial(self._monitor, LevelSolve(grid.mesh.nx, speed, True))
         prefix = settings.cycle.options_prefix

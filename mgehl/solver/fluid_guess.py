@@ -23,8 +23,10 @@ def guess_fluid(hierarchy, level, problem, state, settings):
     transfer = hierarchy.transfers[level - 1]
     deflection = hierarchy.deflections[level - 1]
     coarse_problem = ContactProblem(coarse_grid, deflection, problem.contact, problem.scheme)
-    P, H, status = (transfer.inject(array) for array in (state.P, state.H, state.status))
-    coarse = State(P, state.H0, H, status)
+    P, H, status, filling = (
+        transfer.inject(array) for array in (state.P, state.H, state.status, state.filling)
+    )
+    coarse = State(P, state.H0, H, status, P.copy(), filling)
     guess_fluid(hierarchy, level - 1, coarse_problem, coarse, settings)
     _solve(hierarchy, level - 1, coarse_problem, coarse, settings)
     beside_contact, empty = (
@@ -32,6 +34,7 @@ def guess_fluid(hierarchy, level, problem, state, settings):
     )
     film = (state.status == LUBRICATED) & ~beside_contact
     state.P[film] = transfer.bilinear(coarse.P)[film]
+    state.p[film] = state.P[film]
     state.status[film & empty & (state.P == 0.0)] = CAVITATED
 
 

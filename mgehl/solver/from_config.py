@@ -4,7 +4,6 @@ from dataclasses import asdict, dataclass
 
 from mgehl.config import COARSEST_NODES
 from mgehl.discretization.contact_law import BoundaryFilm, InterfaceConditions, UnifiedEquations
-from mgehl.discretization.fluid import LINEAR_GAP
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.scheme import Scheme
 from mgehl.grid.hierarchy import Hierarchy
@@ -72,7 +71,7 @@ def _interface_conditions(config, contact):
     """
     section, boundary_film = config.discretization, config.contact.boundary_film
     may_touch = contact.roughness > 0.0 or _has_soft_film(config, contact)
-    if boundary_film > 0.0 or (may_touch and section.face_mobility == LINEAR_GAP):
+    if boundary_film > 0.0 or may_touch:
         return BoundaryFilm(max(boundary_film, section.film_threshold) / contact.film_scale)
     return InterfaceConditions(section.film_threshold / contact.film_scale)
 
@@ -92,17 +91,30 @@ CONTACT_LAWS = {"lcic": _interface_conditions, "unified": _unified_equations}
 """By discretization.contact_model."""
 
 
+LEAST_SHARE = 1e-2
+"""Least part of the tolerance that a thin film asks for: less comes near to rounding."""
+
+
+def _share_of_the_flow(contact, scheme):
+    """What flows through thin films over the flow in which residuals count: so much smaller must they be
+    where the balance of every node decides what is film and what is contact."""
+    if not contact.is_loaded or scheme.contact_law.closes_faces:
+        return 1.0
+    return min(max(contact.expected_film / contact.film_scale, LEAST_SHARE), 1.0)
+
+
 def settings_from(config, contact):
     """Everything the solver is told."""
-    solver, relaxation = config.solver, config.relaxation
+    solver, relaxation, scheme = config.solver, config.relaxation, scheme_from(config, contact)
     return SolverSettings(
         method=solver.method,
-        scheme=scheme_from(config, contact),
+        scheme=scheme,
         nested=NestedSettings(solver.start, solver.first_nodes, solver.inlet_cells),
         newton=NewtonSettings(
-            tolerance=solver.tolerance,
+            tolerance=_share_of_the_flow(contact, scheme) * solver.tolerance,
             max_steps=solver.max_steps,
             idle_steps=solver.idle_steps,
+            max_work=solver.max_work,
             linear_tolerance=solver.linear_tolerance,
             release_budget=solver.release_budget,
             squeeze=solver.squeeze,

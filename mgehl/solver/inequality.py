@@ -68,6 +68,13 @@ def _inequality(grid, checked, excess, largest_ratio=0.0):
     return PressureInequality(grid.count(checked), violations, largest_ratio)
 
 
+def check_under_contact(problem, state):
+    """Check p <= P at every contact node that has a fluid's pressure of its own  [Liu eq. 2]."""
+    grid, contact = problem.grid, state.status == CONTACT
+    excess = np.where(contact, state.p - state.P, 0.0)
+    return _inequality(grid, contact, np.where(excess > ROUNDING, excess, 0.0))
+
+
 def check_interface(problem, state):
     """Check P(contact) >= P(fluid) at the interface itself, nodes counted from 1  [Liu eqs. 1, 2].
 

@@ -60,15 +60,14 @@ class Verdict:
 GO_ON = Verdict(ends=False)
 
 
-def limits_of(settings, scheme, tolerance, max_steps, at_once=False):
-    """The `Limits` of a solve by `NewtonSettings`, a `Scheme`, and whether nearby nodes are solved
-    `at_once`."""
-    idle = settings.idle_steps or _idle_steps(settings, scheme, at_once)
+def limits_of(settings, scheme, tolerance, max_steps):
+    """The `Limits` of a solve by `NewtonSettings` and a `Scheme`."""
+    idle = settings.idle_steps or _idle_steps(settings, scheme)
     return Limits(tolerance, max_steps, idle, settings.spreading_steps)
 
 
-def _idle_steps(settings, scheme, at_once):
-    if at_once or scheme.contact_law.is_continuous:
+def _idle_steps(settings, scheme):
+    if scheme.contact_law.is_continuous:
         return IDLE_CONTINUOUS
     return IDLE_IN_TIME if scheme.may_fold or settings.squeeze > 0.0 else IDLE_STEPS
 
@@ -118,6 +117,13 @@ def steps_of_spreading(position):
     """Steps after which contact had more nodes than before."""
     nodes = [cycle.contact_nodes for cycle in position.cycles]
     return sum(after > before for before, after in pairwise(nodes))
+
+
+def judge_work(verdict, work, most):
+    """The same `Verdict`, unless it goes on and the run has made too many convolutions."""
+    if verdict.ends or work < most:
+        return verdict
+    return Verdict(True, reason=f"{work:.0f} convolutions led to no answer (solver.max_work = {most})")
 
 
 def judge_system(reason, position):

@@ -113,7 +113,7 @@ def interpolate(transfer, problem, coarse):
     in_contact = transfer.bilinear((coarse.status == CONTACT).astype(float)) > 0.5
     film = (P > 0.0) | (not problem.scheme.cavitation)
     status = np.where(in_contact, CONTACT, np.where(film, LUBRICATED, CAVITATED))
-    return problem.state(P, coarse.H0, status)
+    return problem.state(P, coarse.H0, status, transfer.bilinear(coarse.p))
 
 
 def planned_solves(meshes, contact, settings):

@@ -12,15 +12,14 @@ import numpy as np
 from petsc4py import PETSc
 
 from mgehl.discretization.axes import own
-from mgehl.discretization.status import LUBRICATED
+from mgehl.discretization.status import CONTACT, LUBRICATED
 from mgehl.errors import OptionError
 from mgehl.grid.events import linear_solve
 from mgehl.multigrid.jacobian import LinearSystem
 from mgehl.solver.arbiter import RELEASE_STEPS, Ruling, rule
 from mgehl.solver.cavitation import relax_cavitation_set
-from mgehl.solver.foothold import SHORTER, Foothold, led_astray, lengthened
 from mgehl.solver.journal import NOTHING_KEPT
-from mgehl.solver.judge import UNSOLVED, is_stuck, judge, judge_system, limits_of
+from mgehl.solver.judge import UNSOLVED, is_stuck, judge, judge_system, judge_work, limits_of
 from mgehl.solver.outcome import Cycle, Outcome
 from mgehl.solver.partition import Changes, Partition
 from mgehl.solver.position import Position, Step, Trial
@@ -28,6 +27,9 @@ from mgehl.solver.remembered import remembered
 from mgehl.solver.rigid_gap import ahead_of
 from mgehl.solver.squeeze import squeeze_rates
 from mgehl.solver.step_length import step_length
+
+NEARLY_ALL = 0.999
+"""Part of what an infinite pressure would drive under contact that a step may ask for."""
 
 
 class Newton:
@@ -43,8 +45,6 @@ class Newton:
         self._fluid, self._monitor = fluid, monitor or (lambda cycle: None)
         self._space, self._load_scale = multigrid.space, multigrid.jacobian.load_scale
         self._partition = Partition(problem, settings.release_budget, settings.tolerance)
-        # Where contact has a threshold, Eq. 2 lets nodes go from a settled state: that one must get worse.
-        self._in_time = problem.scheme.contact_law.is_continuous and settings.squeeze > 0.0
         self._snes = PETSc.SNES().create(problem.grid.comm)
         self._snes.setOptionsPrefix(options_prefix)
         self._snes.setType(PETSc.SNES.Type.PYTHON)
@@ -113,10 +113,9 @@ class Newton:
             self._journal.step(self._problem.grid, position)
             self._settle()
             self._measure(snes, x)
-            if led_astray(position, self._multigrid.at_once):
-                self._go_back(snes, x)
-            limits = limits_of(self._settings, scheme, tolerance, max_steps, self._multigrid.at_once)
+            limits = limits_of(self._settings, scheme, tolerance, max_steps)
             verdict = judge(position, partition, limits)
+            verdict = judge_work(verdict, self._multigrid.work, self._settings.max_work)
             ruling = rule(position, verdict, partition, self._fluid is not None)
             if ruling.ends:
                 break
@@ -141,13 +140,16 @@ class Newton:
             self._evaluation = self._fluid.solve(state, tolerance, to_rest=False).evaluation
             changes.cavitated += problem.grid.count(before != state.status)
         else:
-            self._evaluation = problem.evaluate(state)
-            if not is_stuck(self._position):
-                changes.cavitated += relax_cavitation_set(problem, state, self._evaluation)
-        self._partition.fill(state, self._evaluation.inflow, changes)
-        opened = changes.released
-        self._partition.open_contact(state, self._evaluation.inflow, changes)
-        if changes.released > opened:
+            evaluation, moved = problem.evaluate(state), 0
+            feeds = problem.grid.count(problem.feeding(state.status)) > 0
+            if not (feeds or is_stuck(self._position)):
+                moved = relax_cavitation_set(problem, state, evaluation)
+            changes.cavitated += moved
+            self._evaluate(None if moved else evaluation)
+        filled = changes.filled
+        self._partition.fill(state, changes)
+        if changes.filled > filled:
+            self._partition.fit(state)
             self._evaluation = problem.evaluate(state)
 
     def _measure(self, snes, x):
@@ -163,6 +165,11 @@ class Newton:
         if position.trial:
             position.trial.entered += position.changes.entered
         position.changes = Changes()
+
+    def _evaluate(self, evaluation=None):
+        """Evaluate the present state, unless it is known; march contents that nothing depends on."""
+        problem, state = self._problem, self._position.state
+        self._evaluation = problem.march_contents(state, evaluation or problem.evaluate(state))
 
     def _take_own_gap(self):
         """Give the state the gap of its own pressure."""
@@ -187,16 +194,17 @@ class Newton:
         position, problem, ksp = self._position, self._problem, snes.getKSP()
         status = position.state.status
         self._f.copy(self._rhs)
-        F = self._space.read_pressure(self._f)
+        F = self._space.read_pressure(self._f).copy()
         frozen = None
         if self._fluid:
             frozen = (status == LUBRICATED) & self._fluid.separable(self._evaluation, status)
             F = np.where(frozen, 0.0, F)
             self._space.write_pressure(self._rhs, F)
         rows = problem.rows(status, frozen)
-        rates = squeeze_rates(problem, self._evaluation, rows, F, self._settings, position.shorter)
+        rates = squeeze_rates(problem, self._evaluation, rows, F, self._settings)
         self._system = LinearSystem(rows, rates)
         snes.computeJacobian(x, *ksp.getOperators())
+        self._leave_out_what_is_under_contact(F)
         with linear_solve():
             ksp.solve(self._rhs, self._correction)
         self._multigrid.forget()
@@ -206,21 +214,45 @@ class Newton:
             position.stalls += ksp.getResidualNorm() > UNSOLVED * self._rhs.norm()
         return reason
 
+    def _leave_out_what_is_under_contact(self, F):
+        """Take the fluid's pressure under contact out of the system, whose right-hand side is `F`."""
+        under, self._p = self._multigrid.jacobian.under_contact, None
+        if under is not None and under.some:
+            self._p = under.solve(self._evaluation.inflow[under.here])
+            under.feed(F, -self._p)
+            self._space.write_pressure(self._rhs, F)
+
+    def _step_under_contact(self, c, dH, length):
+        """Move the fluid's pressure under contact along with a step; `dH` is its change of the gap."""
+        if self._p is None:
+            return
+        grid, state = self._problem.grid, self._position.state
+        under, contact = self._multigrid.jacobian.under_contact, state.status == CONTACT
+        moved = grid.halo(np.where(contact, 0.0, c)), grid.halo(dH)
+        dp = under.own(self._p - under.solve(under.inflow(*moved, 0.0)))
+        here = under.here
+        fluid = self._evaluation.fluid
+        stiffening = -own(fluid.deps_dP)[here] / own(fluid.eps)[here]
+        state.p[here] += by_reduced_pressure(-length * dp, stiffening)
+
     def _step(self):
         """Take the step, cut tension, let gaps close."""
         problem, position = self._problem, self._position
         state, changes = position.state, position.changes
-        if self._in_time:
-            position.shorter = lengthened(position, self._multigrid.at_once)
-            position.foothold = Foothold.of(position)
-        dP, dH0 = self._space.read(self._correction)
+        c, dH0 = self._space.read(self._correction)
+        dP = self._multigrid.jacobian.pressures(c)
         limit = self._settings.max_pressure_step
-        length, H = step_length(problem, self._partition, self._evaluation, state, dP, dH0, limit)
+        length, H, dH = step_length(problem, self._partition, self._evaluation, state, dP, dH0, limit)
+        self._step_under_contact(c, dH, length)
         state.P -= length * dP
         state.H0 -= length * dH0
-        self._partition.cut_tension(state.P, state.status, changes)
+        state.filling -= length * (c - dP)
+        self._partition.cut_tension(state, changes)
         state.H = problem.gap(state.P, state.H0) if H is None else H
         self._partition.enter_contact(state, changes)
+        self._partition.open_contact(state, changes)
+        self._partition.fill(state, changes)
+        self._partition.fit(state)
         position.step = replace(position.step, length=length)
 
     def _conclude(self, snes, x, verdict, ruling):
@@ -237,35 +269,34 @@ class Newton:
             reasons.CONVERGED_FNORM_ABS if outcome.converged else reasons.DIVERGED_MAX_IT
         )
 
-    def _go_back(self, snes, x):
-        """Take up the state before the last step; time steps are shorter from there on."""
-        position = self._position
-        position.past = self._partition.past = position.foothold.past
-        position.shorter, position.stalls = SHORTER * position.shorter, 0
-        self._take_up(position.foothold.state, snes, x)
-        position.foothold = None
-
     def _take_up(self, state, snes, x):
         """Make a state that was kept the present one, and the last of the history."""
         position = self._position
         position.state, position.changes, position.step = state, Changes(), Step()
-        self._evaluation = self._problem.evaluate(position.state)
+        self._evaluate()
         self._tell(*self._compute_function(snes, x))
         position.changes = Changes()
 
     def _tell(self, F, load):
         """Add the present state to the history, tell the monitors."""
-        snes, cycle = self._snes, self._position.row(self._problem, F, load)
+        snes, cycle = self._snes, self._position.row(self._problem, self._with_flow_under_contact(F), load)
         self._position.cycles.append(cycle)
         self._monitor(cycle)
         snes.setIterationNumber(cycle.step)
         snes.setFunctionNorm(cycle.residual)
         snes.monitor(cycle.step, cycle.residual)
 
+    def _with_flow_under_contact(self, F):
+        """The size of a residual, where contact has a flow balance besides: of both."""
+        if self._problem.scheme.contact_law.closes_faces:
+            return F
+        contact = self._position.state.status == CONTACT
+        return np.hypot(F, np.where(contact, self._evaluation.inflow, 0.0))
+
     def _compute_function(self, snes, x):
         """Residual (lines, nx) and load deficit of the present state, from SNES's function."""
         state = self._position.state
-        self._space.write(x, state.P, state.H0)
+        self._space.write(x, self._unknowns(state), state.H0)
         snes.computeFunction(x, self._f)
         F, load = self._space.read(self._f)
         return F, load / self._load_scale
@@ -274,7 +305,8 @@ class Newton:
         """f = bordered residual at x for the present partition."""
         status = self._position.state.status
         evaluation = self._evaluated(x)
-        F, load = self._problem.residual(evaluation, status), self._problem.load_deficit(own(evaluation.P))
+        P = np.where(self._problem.feeding(status), 0.0, self._space.read_pressure(x))
+        F, load = self._problem.residual(evaluation, status), self._problem.load_deficit(P)
         self._space.write(f, F, load * self._load_scale)
 
     def _form_jacobian(self, _snes, x, _J, _preconditioner):
@@ -283,11 +315,29 @@ class Newton:
 
     def _evaluated(self, x):
         """The `Evaluation` at x: of the present state it is known, anything else takes a convolution."""
-        P, H0 = self._space.read(x)
+        z, H0 = self._space.read(x)
         problem, state = self._problem, self._position.state
-        if H0 == state.H0 and problem.grid.count(P != state.P) == 0:
+        if H0 == state.H0 and problem.grid.count(z != self._unknowns(state)) == 0:
             return self._evaluation
-        return problem.evaluate(problem.state(P, H0, state.status))
+        feeds = problem.feeding(state.status)
+        P, filling = np.where(feeds, 0.0, z), np.where(feeds, z, state.filling)
+        return problem.evaluate(problem.state(P, H0, state.status, state.p, filling))
+
+    def _unknowns(self, state):
+        """What SNES has of a state: pressures, and the fillings of cavities that feed a film."""
+        return np.where(self._problem.feeding(state.status), state.filling, state.P)
+
+
+def by_reduced_pressure(change, stiffening):
+    """The change of a pressure whose fluid stiffens by e^(`stiffening` p), by that of its reduced pressure.
+
+    What flows under contact is linear in the reduced pressure, and far from it in p. Where no pressure
+    drives as much, the one that drives nearly all that any could.
+    """
+    steep = np.abs(stiffening * change) > 1e-8
+    with np.errstate(divide="ignore", invalid="ignore"):
+        reduced = -np.log1p(-np.minimum(stiffening * change, NEARLY_ALL)) / stiffening
+    return np.where(steep, reduced, change)
 
 
 def _first_cause(error):

@@ -20,6 +20,7 @@ from mgehl.discretization.status import (
     is_fluid,
     largest_fluid_neighbour,
 )
+from mgehl.solver.cavitation import overflows
 from mgehl.solver.record import Kept
 
 RESTLESS = 12
@@ -116,14 +117,16 @@ class Partition:
         torn = negative & (status == LUBRICATED) & self._problem.scheme.cavitation
         return torn, negative & (status == CONTACT)
 
-    def cut_tension(self, P, status, changes):
+    def cut_tension(self, state, changes):
         """Set negative pressures to zero in place: fluid cavitates, contact is released."""
+        P, status = state.P, state.status
         torn, tensile = self.tension(P, status)
         self.past.torn_pressure[tensile] = P[tensile]
         self.past.turns += tensile & self._contact_law.closes_faces
         P[torn | tensile] = 0.0
         # Bodies that are torn apart leave an empty gap: a cavity, until fluid flows in.
         status[torn | tensile] = CAVITATED
+        state.filling[torn], state.filling[tensile] = 1.0, 0.0
         self.past.just_released = tensile
         self.past.was_released |= tensile
         changes.cavitated += self._grid.count(torn)
@@ -147,24 +150,27 @@ class Partition:
             closed |= shut_in
         changes.entered += self._grid.count(closed)
 
-    def fill(self, state, inflow, changes):
-        """Cavitated nodes that fluid flows into become lubricated."""
-        filled = (state.status == CAVITATED) & (inflow > 0.0) & self._contact_law.takes_fluid(state.H)
+    def fit(self, state):
+        """Contents from nothing to what the gap holds, and p as P where there are no solids; in place."""
+        state.filling = np.clip(state.filling, 0.0, 1.0)
+        contact = (state.status == CONTACT) & (not self.asks_eq_2)
+        state.p = np.where(contact, np.maximum(state.p, 0.0), state.P)
+
+    def fill(self, state, changes):
+        """Cavities whose content is more than the gap holds become film."""
+        filled = overflows(state)
+        filled &= self._contact_law.takes_fluid(state.H)
         state.status[filled] = LUBRICATED
         changes.filled += self._grid.count(filled)
 
-    def open_contact(self, state, inflow, changes):
-        """Contact that leaves its faces open becomes film where fluid flows in, or is carried to.
-
-        What counts is the flow through the gap that contact keeps. A node that has just closed may have a
-        smaller gap, through which less flows away.
-        """
-        in_contact, law = state.status == CONTACT, self._contact_law
-        if law.closes_faces:
+    def open_contact(self, state, changes):
+        """Contact that leaves its faces open becomes film where the fluid would press harder than it."""
+        if self._contact_law.closes_faces:
             return
-        missing = np.maximum(law.contact_gap - state.H, 0.0) / self._grid.mesh.dX
-        opened = in_contact & (carried_through(inflow - missing, in_contact) > self._tolerance)
+        lifted = (state.H - self._contact_law.contact_gap) / self._problem.K00
+        opened = (state.status == CONTACT) & (state.p - state.P > np.maximum(-lifted, 0.0))
         state.status[opened] = LUBRICATED
+        self.past.just_released |= opened
         changes.released += self._grid.count(opened)
 
     @property
@@ -212,18 +218,3 @@ class Partition:
         self.past.was_released |= released
         self.past.turns[:] = 0
         changes.released += self._grid.count(released)
-
-
-def carried_through(inflow, nodes):
-    """What each of the `nodes` has to carry on, its inflow and what comes from before it: (lines, nx).
-
-    Along each line of the grid a run of `nodes` is filled from its first node on: what one cannot hold goes
-    on to the next, and a node that loses fluid takes it from there. (Opened one by one, a run would take a
-    step for each node. Opened whole, nodes that the fluid does not reach would close again and open
-    others.)
-    """
-    gap = 1.0 + np.abs(inflow).sum(axis=1, keepdims=True)  # more than all that can flow in: begins anew
-    total = np.cumsum(np.where(nodes, inflow, -gap), axis=1)
-    before = np.zeros_like(total)
-    before[:, 1:] = np.minimum.accumulate(np.minimum(total, 0.0), axis=1)[:, :-1]
-    return total - before

@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass, field
 
-from mgehl.solver.foothold import Foothold
 from mgehl.solver.outcome import Cycle
 from mgehl.solver.partition import Changes, Past
 from mgehl.solver.problem import State
@@ -56,10 +55,6 @@ class Position(Kept):
     """Releases on Eq. 2 before the residual was small."""
     stalls: int = 0
     """Linear systems that were given up."""
-    foothold: Foothold | None = None
-    """The state before the last step, where that was one in time."""
-    shorter: float = 1.0
-    """By how much time steps are shorter than their rule has them."""
     memory: Kept | Record | None = None
     """Of the linear systems before: what the linear solver has, or what was kept of it."""
 
@@ -79,14 +74,12 @@ class Position(Kept):
             trial=self.trial,
             early_rounds=self.early_rounds,
             stalls=self.stalls,
-            foothold=self.foothold,
-            shorter=self.shorter,
             memory=self.memory,
         )
 
     @classmethod
     def from_record(cls, record):
-        trial, foothold = record.part("trial"), record.part("foothold")
+        trial = record.part("trial")
         return cls(
             State.from_record(record.part("state")),
             Past.from_record(record.part("past")),
@@ -96,7 +89,5 @@ class Position(Kept):
             Trial.from_record(trial) if trial else None,
             record.values["early_rounds"],
             record.values["stalls"],
-            Foothold.from_record(foothold) if foothold else None,
-            record.values["shorter"],
             record.part("memory") or None,
         )

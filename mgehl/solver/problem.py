@@ -5,11 +5,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from mgehl.discretization.axes import axes_of
+from mgehl.discretization.contents import OVERFULL, feeding, missing_fillings
 from mgehl.discretization.evaluation import Evaluation
 from mgehl.discretization.influence import influence_coefficients
 from mgehl.discretization.residual import residual
 from mgehl.discretization.rows import rows_of
-from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT
+from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
 from mgehl.grid.events import ASSEMBLY, event
 from mgehl.solver.record import Kept
 
@@ -23,12 +24,23 @@ class State(Kept):
     """A solution on one grid: local lines of pressure, gap and status, and H0."""
 
     P: np.ndarray
+    """What the bodies feel: the pressure of the fluid and of the solids together."""
     H0: float
     H: np.ndarray
     status: np.ndarray
+    p: np.ndarray | None = None
+    """The fluid's own pressure: P but for contact, where solids carry the rest. None: P everywhere."""
+    filling: np.ndarray | None = None
+    """The part of the gap above the layers that cavities hold fluid in; elsewhere without meaning. None:
+    cavities are full."""
+
+    def __post_init__(self):
+        self.p = self.P.copy() if self.p is None else self.p
+        self.filling = np.ones(np.shape(self.P)) if self.filling is None else self.filling
 
     def copy(self):
-        return State(self.P.copy(), self.H0, self.H.copy(), self.status.copy())
+        arrays = (self.H, self.status, self.p, self.filling)
+        return State(self.P.copy(), self.H0, *(array.copy() for array in arrays))
 
 
 class Problem:
@@ -46,22 +58,67 @@ class Problem:
     @event(ASSEMBLY)
     def evaluate(self, state):
         """The `Evaluation` of a state as it is now, its net inflow known  [Liu eq. 35]."""
-        ghosted = self.ghosted(state)
-        evaluation = Evaluation(*ghosted, self.grid.mesh, self.contact, self.scheme)
+        grid = self.grid
+        p, H, status = grid.halo(state.p), grid.halo(state.H), grid.halo_status(state.status)
+        filling = grid.halo(state.filling) if self.scheme.contact_law.has_contact else None
+        evaluation = Evaluation(p, H, status, grid.mesh, self.contact, self.scheme, filling=filling)
         _ = evaluation.inflow
         return evaluation
 
-    @event(ASSEMBLY)
-    def change_pressure(self, evaluation, P):
-        """Tell an evaluation that the fluid's pressure has changed, and nothing else: `P` has it, ghosts
-        too. Its net inflow is known then."""
-        evaluation.change_pressure(P)
-        _ = evaluation.inflow
+    def evaluate_full(self, state):
+        """The same were all cavities full of fluid, whatever they hold."""
+        return self.evaluate(state).filled(None)
 
-    def change_fluid(self, evaluation, state):
-        """The same where the fluid's sets have changed, too: the evaluation is told of those of `state`."""
-        evaluation.status = self.grid.halo_status(state.status)
-        self.change_pressure(evaluation, self.grid.halo(state.P))
+    def march_contents(self, state, evaluation):
+        """Give the cavities that feed nothing what flows into them, in place; return the new evaluation.
+
+        Where bodies may overlap nothing can be said of contents: there cavities count as full.
+        """
+        if not self.scheme.contact_law.has_contact:
+            fills = (state.status == CAVITATED) & (evaluation.inflow > 0.0)
+            state.filling = np.where(fills, OVERFULL, 1.0)
+            return evaluation
+        marched = (state.status == CAVITATED) & ~self.feeding(state.status)
+        if not self.grid.count(marched):
+            return evaluation
+        leaving = np.zeros((2, *self.grid.shape))
+        for rate, axis, carried in zip(leaving, self.axes, evaluation.carried_full(), strict=False):
+            axis.inner(rate)[:] = axis.left(carried) / axis.cell
+        rise = self._in_order(missing_fillings, marched, evaluation.inflow, *leaving)
+        state.filling = np.clip(state.filling + rise, 0.0, OVERFULL)
+        return evaluation.filled(self.grid.halo(state.filling))
+
+    def _closed(self, status):
+        """Nodes that nothing is carried into, (lines, nx)."""
+        stops = self.scheme.contact_law.closes_faces and self.scheme.couette_at_interface == "closed"
+        return (status == CONTACT) & stops
+
+    def feeding(self, status):
+        """Cavities whose content reaches film or contact, (lines, nx).
+
+        All of them in a rigid gap, whose linear systems take no convolution, and whose plate may move
+        against the axis.
+        """
+        if not self.is_elastic:
+            return status == CAVITATED
+        if not self.scheme.contact_law.has_contact:
+            return np.zeros(status.shape, dtype=bool)
+        receives = (status == LUBRICATED) | (status == CONTACT) & ~self._closed(status)
+        return self._in_order(feeding, status == CAVITATED, receives, self._along_y)
+
+    @property
+    def _along_y(self):
+        return any(axis.couette != 0.0 for axis in self.axes[1:])
+
+    def _in_order(self, function, *arguments):
+        """What a function of whole arrays that goes along the motion gives; of its own lines alone where
+        the surfaces move along the lines."""
+        grid = self.grid
+        if not self._along_y or grid.comm.size == 1:
+            return function(*arguments)
+        whole = (grid.gather(each) if isinstance(each, np.ndarray) else each for each in arguments)
+        found = function(*whole) if grid.comm.rank == 0 else (list(whole), None)[1]
+        return grid.scatter(found)
 
     def ghosted(self, state):
         """P, H and status of a state with the neighbours' lines."""
@@ -70,7 +127,7 @@ class Problem:
 
     def rows(self, status, frozen=None):
         """The kind of row of every node, (lines, nx); where `frozen` the pressure is held."""
-        return rows_of(status, not self.is_elastic, frozen)
+        return rows_of(status, not self.is_elastic, frozen, self.feeding(status))
 
     def residual(self, evaluation, status):
         """Rows of the nonlinear residual, (lines, nx), by what the nodes are now."""
@@ -109,11 +166,17 @@ class ContactProblem(Problem):
         gap = self.gap(np.where(self.boundary, 0.0, P), 0.0)
         return -self.grid.min(gap[P > 0.0])
 
-    def state(self, P, H0, status):
-        """The state of a given pressure, with its gap; boundary nodes are set."""
+    def state(self, P, H0, status, p=None, filling=None):
+        """The state of a given pressure, with its gap; boundary nodes are set.
+
+        Unless they are given, the fluid presses as hard as contact does, and cavities are full.
+        """
         P = np.where(self.boundary, 0.0, P)
         status = np.where(self.boundary, BOUNDARY, status).astype(np.int8)
-        return State(P, H0, self.gap(P, H0), status)
+        H = self.gap(P, H0)
+        p = P.copy() if p is None else np.where(status == CONTACT, np.clip(p, 0.0, P), P)
+        filling = np.ones(P.shape) if filling is None else np.clip(filling, 0.0, 1.0)
+        return State(P, H0, H, status, p, filling)
 
     def load_deficit(self, P):
         """Integral of P minus the load that the domain carries  [Liu eq. 50]."""

@@ -8,6 +8,8 @@ Of every solve:
 
     state.P state.H state.status
         Arrays (lines, nx): pressure and gap in units of P and H, what the nodes are.
+    state.p state.filling
+        Arrays: the fluid's own pressure, and the part of their gap that cavities hold fluid in.
     state.H0
         Constant part of the gap in units of H.
     history.step history.residual history.load_error history.central history.minimum
@@ -49,14 +51,7 @@ Of Newton's method under way:
         Iterations of the last step, and the part of it that was taken.
     early_rounds stalls
         How often Eq. 2 was asked before the last digits; linear systems that were given up.
-    shorter
-        By how much time steps are shorter than their rule has them.
-    foothold.state.P foothold.state.H foothold.state.status foothold.state.H0
-        The state before the last step, where that was one in time.
-    foothold.past.budget foothold.past.just_released foothold.past.was_released foothold.past.turns
-    foothold.past.closing_gap foothold.past.torn_pressure foothold.residual
-        What its nodes had gone through, and its residual.
-    trial.answer.P trial.answer.H trial.answer.status trial.answer.H0
+    trial.answer.P trial.answer.H trial.answer.status trial.answer.H0 trial.answer.p trial.answer.filling
         While Eq. 2 is tried: the state that had settled.
     trial.reason trial.violations trial.released trial.limit trial.entered
         Why it had, how many nodes break Eq. 2 there, and what became of them since.

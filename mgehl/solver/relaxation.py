@@ -15,7 +15,8 @@ from scipy.linalg import solve_banded
 from mgehl.config_sections import RelaxationSection, SolverSection
 from mgehl.discretization.axes import own
 from mgehl.discretization.influence import influence_coefficients
-from mgehl.discretization.rows import PRESSURE
+from mgehl.discretization.residual import residual as residual_of
+from mgehl.discretization.rows import PRESSURE, rows_of
 from mgehl.discretization.status import (
     BOUNDARY,
     CAVITATED,
@@ -108,7 +109,8 @@ def _relax(problem, standing, settings, monitor, journal):
         standing.step = step
         journal.step(problem.grid, standing)
         relaxation.mark_contact(state)
-        evaluation = problem.evaluate(state)
+        state.p[:] = state.P
+        evaluation = problem.evaluate_full(state)
         relaxation.mark_cavities(state, evaluation)
         change = relaxation.change(state, evaluation)
         if step == settings.max_sweeps or step % settings.report_every == 0:
@@ -117,8 +119,15 @@ def _relax(problem, standing, settings, monitor, journal):
             monitor(sweep)
             end = _end(sweep, settings)
             if end:
+                _settle_contents(problem, state)
                 return end
         relaxation.move(state, change, step)
+
+
+def _settle_contents(problem, state):
+    """Give cavities what flows into them, in place: their pressure is nothing, whatever they hold."""
+    state.p, state.filling = state.P.copy(), np.ones(state.P.shape)
+    problem.march_contents(state, problem.evaluate(state))
 
 
 def _end(sweep, settings):
@@ -158,7 +167,7 @@ class _Relaxation:
 
     def change(self, state, evaluation):
         """P_new - P_old of every node."""
-        contact, given = state.status == CONTACT, self._problem.rows(state.status) == PRESSURE
+        contact, given = state.status == CONTACT, rows_of(state.status) == PRESSURE
         bands = self._line_bands(evaluation, contact, given)
         rhs = np.where(contact, -state.H, -evaluation.inflow)
         rhs[given] = 0.0
@@ -186,7 +195,7 @@ class _Relaxation:
     def sweep(self, step, state, evaluation, change):
         """The state before a sweep, as a row of the history."""
         problem, grid = self._problem, self._problem.grid
-        residual = problem.rms(problem.residual(evaluation, state.status))
+        residual = problem.rms(residual_of(evaluation, rows_of(state.status)))
         contact = state.status == CONTACT
         moved, new = np.abs(change), np.maximum(state.P + change, 0.0)
         errors = []

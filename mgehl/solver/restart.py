@@ -75,17 +75,26 @@ def interpolated(problem, start, frame):
     its surroundings were.
     """
     grid, mesh = problem.grid, problem.grid.mesh
-    P = status = None
+    P = p = filling = status = None
     if grid.comm.rank == 0:
         old = start.mesh.in_frame(frame)
         in_contact = frame.array((start.fields.status == CONTACT).astype(float))
         P = _onto(mesh, old, frame.array(start.fields.P))
+        fluid = start.fields.P if start.fields.p is None else start.fields.p
+        p = _onto(mesh, old, frame.array(fluid))
+        filling = _onto(mesh, old, frame.array(_filling(start.fields)))
         film = np.where((P > 0.0) | (not problem.scheme.cavitation), LUBRICATED, CAVITATED)
         touching = (_onto(mesh, old, in_contact) > 0.5) & problem.scheme.contact_law.has_contact
         status = np.where(touching, CONTACT, film).astype(np.int8)
     scale = start.contact.film_scale / start.contact.in_frame(frame).film_scale
     H0 = scale * grid.comm.bcast(start.H0)
-    return problem.state(grid.scatter(P), H0, grid.scatter(status))
+    P, p, filling, status = (grid.scatter(each) for each in (P, p, filling, status))
+    return problem.state(P, H0, status, p, filling)
+
+
+def _filling(fields):
+    """How full the gaps of `Fields` are; of an older result all are."""
+    return np.ones(fields.P.shape) if fields.filling is None else fields.filling
 
 
 def _onto(mesh, old, values):

@@ -10,7 +10,7 @@ from mgehl.discretization.evaluation import Evaluation
 from mgehl.discretization.rows import rows_of
 from mgehl.discretization.status import CAVITATED, LUBRICATED, is_fluid
 from mgehl.grid.events import linear_solve
-from mgehl.solver.cavitation import cavities_rest, driven, relax_cavitation_set
+from mgehl.solver.cavitation import cavities_rest, driven, overflows, relax_cavitation_set
 from mgehl.solver.problem import DIVERGED
 
 LARGEST_STEP = 0.3
@@ -82,15 +82,16 @@ class RigidGapFluid:
         many convolutions without, and a sixth less time.
         """
         problem, steps, before = self._problem, [], state.P.copy()
-        evaluation = problem.evaluate(state)
+        evaluation = self._evaluated(state)
         separable, given_back = self.separable(evaluation, state.status), 0
         while True:
-            at_rest = cavities_rest(problem, state, evaluation)
-            moved = 0 if at_rest else relax_cavitation_set(problem, state, evaluation)
-            filled = separable & (state.status == CAVITATED) & (evaluation.inflow > 0.0)
+            moved = 0 if cavities_rest(problem, state) else relax_cavitation_set(problem, state)
+            filled = separable & overflows(state)
             state.status[filled] = LUBRICATED
-            lubricated = state.status == LUBRICATED
-            residual = np.where(separable & lubricated, evaluation.inflow, 0.0)
+            if moved or problem.grid.count(filled):
+                evaluation = self._evaluated(state)
+            solved = separable & (state.status == LUBRICATED) | problem.feeding(state.status)
+            residual = np.where(solved, evaluation.inflow, 0.0)
             rms = problem.rms(residual)
             restless = given_back + problem.grid.count(filled) + (moved if to_rest else 0)
             settled = rms <= tolerance and restless == 0
@@ -100,13 +101,19 @@ class RigidGapFluid:
             self._correct(state, evaluation, residual, separable)
             steps.append(FluidStep(rms, self._ksp.getIterationNumber()))
             if problem.scheme.cavitation:
-                torn = (state.P < 0.0) & separable
+                torn = (state.P < 0.0) & separable & (state.status == LUBRICATED)
                 state.P[torn] = 0.0
                 state.status[torn] = CAVITATED
-            problem.change_fluid(evaluation, state)
+                state.filling[torn] = 1.0
+            evaluation = self._evaluated(state)
             given_back = self._give_back(state, separable, before, evaluation)
             if given_back:
-                problem.change_fluid(evaluation, state)
+                evaluation = self._evaluated(state)
+
+    def _evaluated(self, state):
+        """The evaluation of a state whose pressures are the fluid's, contents marched."""
+        state.p[:] = state.P
+        return self._problem.march_contents(state, self._problem.evaluate(state))
 
     def _give_back(self, state, separable, before, evaluation):
         """Take nodes that are no longer separable out of `separable`, in place; they get the P of `before`.
@@ -120,13 +127,15 @@ class RigidGapFluid:
     def _correct(self, state, evaluation, residual, separable):
         """One Newton step of the pressure of `separable` film; the other fluid's is held."""
         space, film = self._multigrid.space, state.status == LUBRICATED
-        self._multigrid.linearise(evaluation, rows_of(state.status, True, film & ~separable))
+        feeding = self._problem.feeding(state.status)
+        self._multigrid.linearise(evaluation, rows_of(state.status, True, film & ~separable, feeding))
         space.write(self._rhs, -residual, 0.0)
         with linear_solve():
             self._ksp.solve(self._rhs, self._correction)
         # Elsewhere the correction is zero but for the rounding of an algebraic multigrid.
-        solved = film & separable
-        step = space.read_pressure(self._correction)[solved]
+        solved, step = film & separable, space.read_pressure(self._correction)
+        state.filling[feeding] = np.maximum(state.filling[feeding] + step[feeding], 0.0)
+        step = step[solved]
         state.P[solved] += np.clip(step, -LARGEST_STEP, LARGEST_STEP) if self._problem.is_elastic else step
 
 

@@ -41,6 +41,8 @@ class NewtonSettings:
     max_steps: int = SolverSection.max_steps
     idle_steps: int | None = SolverSection.idle_steps
     """Steps that may leave the residual as it is; None: as many as `judge` has for its scheme."""
+    max_work: int = SolverSection.max_work
+    """Convolutions of all solves of a run, in those of the finest grid, after which none goes on."""
     spreading_steps: int | None = None
     """Steps in which contact may spread before a solve is given up; None: any."""
     linear_tolerance: float = SolverSection.linear_tolerance

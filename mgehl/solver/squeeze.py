@@ -8,8 +8,7 @@ atom's height that fluid flows into opens by a few of its heights in a step.
 Where the mean of the mobility vanishes with either side, the flow out of a node has a fold: more pressure
 makes the fluid stiffer, and may drive less of it out. Beyond the fold the pressure runs away, and near it a
 Newton step is as good as random. There the time step is so short that the node is stable by itself. It
-passes the fold slowly: for some steps the residual hardly falls, then it does. On rough surfaces, fluid in
-a valley opens the closed gap beside it in the same way: the wider the gap, the more flows in.
+passes the fold slowly: for some steps the residual hardly falls, then it does.
 """
 
 import numpy as np
@@ -38,29 +37,19 @@ LAST_STEPS = 1e-6
 """Rms residual below which it is kept so by less and less: Newton's own steps end the solve. From 1e-7 to
 1e-5 the same by the geometric mean, by the harmonic 823 to 690 convolutions."""
 
-FILLING = 0.3
-"""Upper limit of a node's own rate, per cell, where fluid flows in."""
-
 THINNEST = 1e-9
 """Film of which a node's own rate is reckoned where H_th (1e-6 of the paper's ball) does not say more: so
 that nothing is divided by zero. From 1e-12 to 1e-6 the same steps."""
 
 
-def squeeze_rates(problem, evaluation, rows, F, settings, shorter=1.0):
-    """1/time step of every node, (lines, nx), at a state of residual `F`; 0.0 where there is no squeeze.
-
-    Time steps are `shorter` by that factor.
-    """
+def squeeze_rates(problem, evaluation, rows, F, settings):
+    """1/time step of every node, (lines, nx), at a state of residual `F`; 0.0 where there is no squeeze."""
     if settings.squeeze == 0.0:
         return 0.0
     mean, law = problem.scheme.face_mobility, problem.scheme.contact_law
     rms = problem.rms(F * share_of_the_gap(problem, evaluation) if law.is_continuous else F)
     own_part = OF_NODES[mean] * np.abs(F) / np.maximum(own(evaluation.H), max(law.thinnest, THINNEST))
-    if law.is_continuous:
-        # What flows in may fill a node at once, and bodies that overlap part at once: only closing is slow.
-        filling = np.where(own(evaluation.H) > law.thinnest, FILLING / problem.grid.mesh.dX, 0.0)
-        own_part = np.where(F > 0.0, np.minimum(own_part, filling), own_part)
-    rates = shorter * settings.squeeze * (rms / problem.grid.mesh.dX + own_part)
+    rates = settings.squeeze * (rms / problem.grid.mesh.dX + own_part)
     if not problem.scheme.may_fold:
         return rates
     return np.maximum(rates, _stable_rates(problem, evaluation, rows, rms))

@@ -25,18 +25,20 @@ SMALLEST = 1e-300
 def step_length(problem, partition, evaluation, state, dP, dH0, max_pressure_step):
     """Part of the step -dP (lines, nx), -dH0 from an evaluated state, at most 1 (collective).
 
-    And the gap that it leads to, (lines, nx); None where that is not known.
+    And the gap that it leads to, (lines, nx), and what the gap falls by in a whole step; None where that is
+    not known.
     """
     largest = problem.grid.max(np.abs(dP), initial=0.0)
     limit = max_pressure_step * _more(problem.contact) * _scale(problem, state)
     length = min(1.0, limit / max(largest, SMALLEST))
     if not problem.scheme.contact_law.is_continuous:
-        return length, None
+        return length, None, None
     P = state.P - length * dP
     P[np.logical_or(*partition.tension(P, state.status))] = 0.0
     H = problem.gap(P, state.H0 - length * dH0)
     allowed = LARGEST_CHANGE / max(mean_change(problem, evaluation, state, H), SMALLEST)
-    return (length, H) if allowed >= 1.0 else (length * allowed, None)
+    dH = (state.H - H) / length
+    return (length, H, dH) if allowed >= 1.0 else (length * allowed, None, dH)
 
 
 def _scale(problem, state):

@@ -78,10 +78,11 @@ def _pressure_near_boundary(grid, P):
 def complementarity_error(problem, state, evaluation):
     """Largest breach of the conditions that define the partition, in units of P and H.
 
-    Lubricated: P >= 0 (if the film cavitates) and H >= 0 (where bodies may touch). Cavitated: P = 0, H >= 0
-    and no inflow. Contact: P >= 0 and H = 0, or the boundary film and no inflow. Fluid shut in along the
-    motion counts as 1. A film node whose gap falls below H_th becomes contact. A node that contact has
-    released stays film until the bodies would overlap, so its gap may lie between 0 and H_th.
+    Lubricated: P >= 0 (if the film cavitates) and H >= 0 (where bodies may touch). Cavitated: P = 0,
+    H >= 0, no more fluid than the gap holds, and as much flows in as out. Contact: P >= 0 and H = 0, or the
+    boundary film, 0 <= p <= P, and as much flows in as out. Fluid shut in along the motion counts as 1. A
+    film node whose gap falls below H_th becomes contact. A node that contact has released stays film until
+    the bodies would overlap, so its gap may lie between 0 and H_th.
     """
     grid, status, scheme = problem.grid, state.status, problem.scheme
     law = scheme.contact_law
@@ -90,16 +91,23 @@ def complementarity_error(problem, state, evaluation):
     breaches = [
         -state.P[tension],
         np.abs(state.P[cavity]),
-        evaluation.inflow[cavity] * grid.mesh.dX,
+        _out_of_balance(evaluation.inflow[cavity], law) * grid.mesh.dX,
+        (state.filling[cavity] - 1.0) * state.H[cavity],
         np.abs(state.H[contact] - law.contact_gap),
     ]
     if law.closes_faces:
         breaches.append(enclosed(grid.halo_status(status), problem.axes).astype(float))
     else:
-        breaches.append(evaluation.inflow[contact] * grid.mesh.dX)
+        breaches.append(np.abs(evaluation.inflow[contact]) * grid.mesh.dX)
+        breaches += [-state.p[contact], state.p[contact] - state.P[contact]]
     if law.has_contact:
-        breaches.append(-state.H[is_fluid(status)])
+        breaches.append(law.contact_gap - state.H[is_fluid(status)])
     return max(grid.max(breach, initial=0.0) for breach in breaches)
+
+
+def _out_of_balance(inflow, law):
+    """How far cavities are from rest; where bodies may overlap they are full, and lose what they may."""
+    return np.abs(inflow) if law.has_contact else inflow
 
 
 def flux_imbalance(problem, evaluation):

@@ -161,7 +161,8 @@ class Branches:
         obstacle = "" if first.converged else first.reason
         work = Work(self._grids.convolutions - before, len(outcome.cycles) - 1)
         result, errors = self._judged(problem, outcome, work, time.perf_counter() - started)
-        fields = Fields(outcome.state.P, outcome.state.H, outcome.state.status).gathered(problem.grid)
+        state = outcome.state
+        fields = Fields(state.P, state.H, state.status, state.p, state.filling).gathered(problem.grid)
         return Point(speed, branch, origin, result, fields, outcome.state.H0, errors, obstacle)
 
     def _ways(self, branch, speed, last, beside, jump, arithmetic):
@@ -195,9 +196,9 @@ class Branches:
     def _state(self, point):
         """The local part of a point's state."""
         grid, fields = self._grids.grids[-1], point.fields
-        whole = (fields.P, fields.H, fields.status) if fields else (None, None, None)
-        P, H, status = map(grid.scatter, whole)
-        return State(P, point.H0, H, status)
+        whole = fields.arrays if fields else 5 * [None]
+        P, H, *others = map(grid.scatter, whole)
+        return State(P, point.H0, H, *others)
 
     @property
     def _grids(self):

@@ -1,0 +1,54 @@
+"""What cavities hold: where it is carried to, and what it must be where nothing behind depends on it.
+
+A cavity's content is carried on by the surfaces alone, one node after the other. Where film or contact lies
+further on, the content decides what flows into them: there the part of the gap that is filled is an unknown
+like a pressure. Where only cavities and the domain's end lie further on, it follows from what flows in, and
+is marched.
+"""
+
+import numpy as np
+
+from mgehl.discretization.compiled import compiled
+
+OVERFULL = 2.0
+"""Most of a gap that a marched cavity is said to hold: what holds more than 1 becomes film."""
+
+
+@compiled()
+def feeding(cavity, receives, along_y):
+    """Cavities whose content is carried into nodes that receive it, at last; all masks (ny, nx).
+
+    The surfaces move along +X and, where `along_y`, along +Y, too. What ends before a node that neither
+    receives it nor is a cavity feeds nothing.
+    """
+    ny, nx = cavity.shape
+    feeds = np.zeros((ny, nx), dtype=np.bool_)
+    for j in range(ny - 1, -1, -1):
+        for i in range(nx - 2, 0, -1):
+            if cavity[j, i]:
+                feeds[j, i] = receives[j, i + 1] or feeds[j, i + 1]
+                if along_y and j + 1 < ny:
+                    feeds[j, i] |= receives[j + 1, i] or feeds[j + 1, i]
+    return feeds
+
+
+@compiled()
+def missing_fillings(marched, inflow, leaving_x, leaving_y):
+    """By how much the fillings of `marched` nodes, a mask, must rise so that their `inflow` is nothing.
+
+    All (ny, nx); a full node loses so much along +X and along +Y. None rises by more than `OVERFULL`.
+    """
+    ny, nx = marched.shape
+    rise = np.zeros((ny, nx))
+    for j in range(ny):
+        for i in range(1, nx - 1):
+            if marched[j, i]:
+                gained = inflow[j, i] + leaving_x[j, i - 1] * rise[j, i - 1]
+                if j > 0:
+                    gained += leaving_y[j - 1, i] * rise[j - 1, i]
+                leaving = leaving_x[j, i] + leaving_y[j, i]
+                if leaving > 0.0 and gained < OVERFULL * leaving:
+                    rise[j, i] = gained / leaving
+                elif gained > 0.0:
+                    rise[j, i] = OVERFULL
+    return rise

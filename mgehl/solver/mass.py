@@ -1,0 +1,85 @@
+"""The account of the oil: what flows through the contact, and what the nodes of each kind make of it.
+
+No node may make oil. The balance of every node is reckoned anew from P, p, H and the fillings of the final
+state; what the solver calls its residual is not asked.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mgehl.discretization.axes import own
+from mgehl.discretization.mesh import HALO
+from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
+
+CLOSED = 1e-6
+"""Part of what flows through that may be made, or lost, by nodes of one kind."""
+
+LEAST_THROUGH = 1e-2
+"""Part of what the surfaces carry into the domain that counts as flowing through at the least: nothing
+flows through full contact."""
+
+
+@dataclass(frozen=True)
+class Mass:
+    """Oil at ambient density in m^3/s, of a line contact in m^2/s."""
+
+    enters: float
+    """Into the Hertz ellipse (of a line contact its width), carried and pressed."""
+    leaves: float
+    made_by_film: float
+    """What the film nodes of the domain let out more than they let in."""
+    made_by_cavity: float
+    made_by_contact: float
+    largest_node: float
+    """The largest such difference of a single node, whatever its sign."""
+    carried_in: float
+    """What flows into the domain where the surfaces enter it."""
+
+    @property
+    def made(self):
+        """The largest of what nodes of one kind make or lose."""
+        return max(abs(self.made_by_film), abs(self.made_by_cavity), abs(self.made_by_contact))
+
+    @property
+    def made_share(self):
+        """The same over what flows through; 0 where nothing flows."""
+        through = max(self.enters, self.leaves, LEAST_THROUGH * self.carried_in)
+        return self.made / through if through > 0.0 else 0.0
+
+
+def mass_account(problem, state, evaluation):
+    """The `Mass` of an evaluated state (collective)."""
+    grid, contact, mesh = problem.grid, problem.contact, problem.grid.mesh
+    unit = contact.speed * contact.film_scale * (1.0 if mesh.is_line else contact.y_scale)
+    cell = mesh.dX * mesh.dY
+    inner = ~problem.boundary
+    made = [-grid.sum((evaluation.inflow[(state.status == kind) & inner]).sum()) for kind in KINDS]
+    largest = grid.max(np.abs(np.where(inner, evaluation.inflow, 0.0)), initial=0.0)
+    through, (along, _) = _through(problem, evaluation), evaluation.flows[0]
+    carried_in = grid.sum(
+        mesh.dX * mesh.dY / evaluation.axes[0].cell * np.maximum(along.value[:, 0], 0.0).sum()
+    )
+    balance = *(cell * each for each in made), cell * largest, carried_in
+    return Mass(*(float(unit * each) for each in (*through, *balance)))
+
+
+KINDS = LUBRICATED, CAVITATED, CONTACT
+
+
+def _through(problem, evaluation):
+    """What enters the Hertz ellipse, and what leaves it, in units of H and Y."""
+    grid, mesh = problem.grid, problem.grid.mesh
+    lines = np.arange(grid.first - HALO, grid.last + HALO)
+    Y = 0.0 if mesh.is_line else mesh.y[0] + mesh.dY * lines[:, None]
+    inside = np.broadcast_to(mesh.X[None, :] ** 2 + Y**2 <= 1.0, evaluation.status.shape)
+    if mesh.is_line:
+        inside = inside & ((lines >= 0) & (lines < mesh.ny))[:, None]
+    enters = leaves = 0.0
+    for axis, (leaving, entering) in zip(evaluation.axes, evaluation.flows, strict=True):
+        width, here = mesh.dX * mesh.dY / axis.cell, axis.inner(own(inside))
+        first, last = here & ~axis.neighbour(inside, -1), here & ~axis.neighbour(inside, 1)
+        flow = np.concatenate([axis.entered(entering.value)[first], -axis.left(leaving.value)[last]])
+        enters += width * flow[flow > 0.0].sum()
+        leaves -= width * flow[flow < 0.0].sum()
+    return grid.sum(enters), grid.sum(leaves)
