@@ -225,7 +225,8 @@ def make_multigrid():
         level = hierarchy.grids.index(problem.grid)
         settings = CycleSettings(**settings)
         made.append(MultigridSolver(hierarchy, level, problem.contact, problem.scheme, settings, rigid))
-        rows = rows_of(state.status, rigid) if rows is None else rows
+        feeding = problem.feeding(state.status)
+        rows = rows_of(state.status, rigid, feeding=feeding) if rows is None else rows
         made[-1].linearise(problem.evaluate(state), rows)
         return made[-1]
 
@@ -246,7 +247,8 @@ def make_jacobian():
         deflection = None if rigid else problem.deflection
         jacobian = Jacobian(problem.grid, deflection, problem.contact, problem.scheme)
         made.append(jacobian)
-        jacobian.linearise(problem.evaluate(state), rows_of(state.status, rigid))
+        rows = rows_of(state.status, rigid, feeding=problem.feeding(state.status))
+        jacobian.linearise(problem.evaluate(state), rows)
         return jacobian
 
     yield make

@@ -619,8 +619,9 @@ def test_objects_of_one_s_own():
         (["contact.reduced_modulus=2 GPa", "contact.load=10"], True),
         (
             ["contact.reduced_modulus=2 GPa", "contact.load=10", "discretization.face_mobility=arithmetic"],
-            False,
+            True,
         ),
+        (["discretization.face_mobility=arithmetic"], False),
     ],
 )
 def test_rough_and_soft_bodies_close_continuously(settings, continuous):

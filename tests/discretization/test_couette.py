@@ -21,7 +21,8 @@ def couette_flows(request):
     row = Row(request.param)
 
     def make(scheme, linearised=False, rho=RHO, gap=GAP, status=FILM, velocity=1.0):
-        fluid = SimpleNamespace(rho=row.lay(rho), carried=row.lay(gap), drho_dP=row.lay(SLOPE))
+        laid = {"rho": row.lay(rho), "carried": row.lay(gap), "drho_dP": row.lay(SLOPE)}
+        fluid = SimpleNamespace(**laid, follows=None, torn=None, filling=None)
         solid, axis, table = is_solid(row.status(status)), row.axis(couette=velocity), SCHEMES[scheme]
         shape, flows = axis.at(solid).shape, []
         for terms in (table.leaving, table.entering):

@@ -12,7 +12,7 @@ from mgehl.discretization.faces import conductances, flows
 from mgehl.discretization.fluid import FACE_MEANS, FACE_MOBILITIES, Fluid, fluid_state
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.scheme import Scheme
-from mgehl.discretization.status import BOUNDARY, CONTACT, LUBRICATED
+from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
 
 along_both = pytest.mark.parametrize("along", ALONG)
 every_scheme = pytest.mark.parametrize("couette", SCHEMES)
@@ -399,3 +399,58 @@ def test_edges_shorten_the_distance_of_the_pressures_only():
     row, mesh = Row("x"), Mesh(3, 1, (0.0, 2.0), (0.0, 0.0), edges=(0.5, 1.75))
     found, _ = flows_of(row, axis_of(row, mesh), [0.0, 1.0, 3.0], [2.0, 4.0, 8.0], 1.0, 3.0, Scheme())
     assert found.tolist() == [2.0 - 3.0 / 0.5, 4.0 - 6.0 / 0.75]
+
+
+@every_scheme
+@pytest.mark.parametrize("motion", MOTIONS.values(), ids=MOTIONS)
+def test_full_cavities_pass_what_films_pass(couette, motion, mixed):
+    """But for the order of the sums."""
+    scheme = Scheme(couette, motion=motion)
+    film = fluid_of(mixed, scheme)
+    full = replace(film, torn=mixed.status == CAVITATED, filling=np.ones(film.P.shape))
+    for axis in axes_of(mixed.mesh, motion):
+        found, expected = (
+            flows(fluid, mixed.status, axis, scheme, linearised=True) for fluid in (full, film)
+        )
+        for flow, other in zip(found, expected, strict=True):
+            np.testing.assert_allclose(flow.value, other.value, rtol=1e-13, atol=2e-15)
+            for node, by_H in other.by_H.items():
+                np.testing.assert_allclose(flow.by_H[node], by_H, rtol=1e-13, atol=1e-13)
+
+
+@along_both
+@every_scheme
+@pytest.mark.parametrize("velocity, behind", [(1.0, W), (-1.0, E)])
+def test_half_a_cavity_passes_half_the_couette_flow(velocity, behind, couette, along):
+    """Through the face ahead of it, and its derivative by the filling is the full flow; pressures drive as
+    ever."""
+    row, scheme = Row(along), Scheme(couette)
+    gap, P = [12.0, 11.0, 13.0, 12.0, 10.0, 11.0], [2.0, 1.0, 0.0, 0.0, 3.0, 1.0]
+    torn = np.array([False, False, True, True, False, False])
+    fluid = plain_fluid(*(row.lay(np.array(each)) for each in (P, gap, np.full(6, 2.0), np.full(6, 5.0))))
+    holds = row.lay(torn, False), row.lay(np.where(torn, 0.5, 1.0), 1.0)
+    half = replace(fluid, torn=holds[0], filling=holds[1])
+    status, axis = row.status(np.full(6, LUBRICATED)), row.axis(couette=velocity)
+    from_cavity = torn[:-1] if behind == W else torn[1:]
+
+    def found(fluid, **how):
+        return flows(fluid, status, axis, scheme, **how)
+
+    def immobile(fluid):
+        return replace(fluid, eps=np.zeros_like(fluid.eps))
+
+    carried = found(immobile(fluid)), found(immobile(half), linearised=True)
+    for full, part in zip(*carried, strict=True):
+        whole = row.faces(full.value)
+        assert (velocity * whole > 0.0).all()
+        np.testing.assert_allclose(
+            row.faces(part.value), np.where(from_cavity, 0.5, 1.0) * whole, rtol=1e-14
+        )
+        by_filling = row.faces(part.by_P[behind])
+        np.testing.assert_allclose(by_filling[from_cavity], whole[from_cavity], rtol=1e-14)
+    driven = [
+        row.faces(one.value - other.value)
+        for one, other in ((found(each)[0], found(immobile(each))[0]) for each in (fluid, half))
+    ]
+    np.testing.assert_allclose(driven[1], driven[0], rtol=1e-13, atol=1e-13)
+    np.testing.assert_allclose(driven[0], [5.0, 5.0, 0.0, -15.0, 10.0], rtol=1e-13, atol=1e-13)

@@ -40,19 +40,6 @@ def test_derivatives_match_central_differences(contact, name, by):
     np.testing.assert_allclose(derivative, (above - below) / (2.0 * d), rtol=1e-7)
 
 
-def test_a_fluid_evaluated_in_parts_is_the_fluid_evaluated_at_once(contact):
-    P, H = np.linspace(0.1, 0.6, 6).reshape(3, 2), np.linspace(0.1, 0.2, 6).reshape(3, 2)
-    moved = P.copy()
-    moved[1:, 1] += 0.2
-    changed = moved != P
-    pieced = fluid_state(P, H, contact, LCIC)
-    part = fluid_state(moved[changed], H[changed], contact, LCIC)
-    pieced.change(moved, changed, part)
-    whole = fluid_state(moved, H, contact, LCIC)
-    for name in ("P", "H", "rho", "drho_dP", "eps", "deps_dP", "deps_dH"):
-        assert (getattr(pieced, name) == getattr(whole, name)).all()
-
-
 @pytest.mark.parametrize(
     "mean, value, by_a, by_b",
     [
@@ -140,6 +127,9 @@ A, B = np.array([2.0, 1.0, 4.0, 0.0]), np.array([8.0, 30.0, 4.0, 3.0])
 
 
 GAPS = np.array([0.5, 1.0, 2.0, 0.0]), np.array([1.0, 2.0, 2.0, 1.0])
+LIGHT = np.ones(4), np.ones(4)
+"""Densities that make no difference."""
+RHO = np.array([1.0, 1.3, 1.2, 1.1]), np.array([2.0, 1.1, 1.2, 1.4])
 
 
 def parts_of(mobility):
@@ -151,13 +141,13 @@ def parts_of(mobility):
 def test_face_mobility_at_either_end_of_the_share(mean, share):
     """All of it is the scheme's mean itself, none of it the arithmetic one."""
     expected = FACE_MEANS[mean if share else "arithmetic"](A, B)
-    found = face_mobility(Scheme("1B", mean, share), (A, B), GAPS)
+    found = face_mobility(Scheme("1B", mean, share), (A, B), GAPS, LIGHT)
     for part, own in zip(parts_of(found), expected, strict=True):
         np.testing.assert_array_equal(np.broadcast_to(part, A.shape), np.broadcast_to(own, A.shape))
 
 
 def test_the_share_is_all_of_the_mean_unless_another_is_asked_for():
-    found = face_mobility(Scheme("1B", "harmonic"), (A, B), GAPS)
+    found = face_mobility(Scheme("1B", "harmonic"), (A, B), GAPS, LIGHT)
     for part, own in zip(parts_of(found), FACE_MEANS["harmonic"](A, B), strict=True):
         np.testing.assert_array_equal(part, own)
 
@@ -166,29 +156,43 @@ def test_the_share_is_all_of_the_mean_unless_another_is_asked_for():
 def test_a_share_of_the_mean_of_two_and_eight(mean, value):
     """0.4 of 5, 4 or 3.2, and 0.6 of 5."""
     scheme = Scheme("1B", mean, 0.4)
-    assert face_mobility(scheme, (A, B), GAPS).value[0] == pytest.approx(value, rel=1e-15)
+    assert face_mobility(scheme, (A, B), GAPS, LIGHT).value[0] == pytest.approx(value, rel=1e-15)
 
 
 @pytest.mark.parametrize("mean", ["logarithmic", "linear-gap", "geometric", "harmonic"])
 @pytest.mark.parametrize("share", [1.0, 0.4])
 def test_slopes_of_a_face_mobility_match_central_differences(mean, share):
+    """By the mobilities, the gaps and the densities, the others held."""
     scheme, d = Scheme("1B", mean, share), 1e-4
-    state = [each[:3] for each in (A, B, *GAPS)]
+    state = [each[:3] for each in (A, B, *GAPS, *RHO)]
 
-    def value(number, by):
+    def found(number=0, by=0.0):
         moved = [each + by * (number == k) for k, each in enumerate(state)]
-        return face_mobility(scheme, moved[:2], moved[2:]).value
+        return face_mobility(scheme, moved[:2], moved[2:4], moved[4:])
 
-    slopes = parts_of(face_mobility(scheme, state[:2], state[2:]))[1:]
-    assert len(slopes) == (4 if mean == "linear-gap" else 2)
+    by = found()
+    assert len(by.by_gap) == (2 if mean == "linear-gap" else 0)
+    assert len(by.by_rho) == (2 if mean in ("logarithmic", "linear-gap") else 0)
+    nothing = np.zeros(3), np.zeros(3)
+    slopes = *by.by_eps, *(by.by_gap or nothing), *(by.by_rho or nothing)
     for number, slope in enumerate(slopes):
-        measured = (value(number, d) - value(number, -d)) / (2.0 * d)
+        measured = (found(number, d).value - found(number, -d).value) / (2.0 * d)
         np.testing.assert_allclose(slope, measured, rtol=2e-6, atol=1e-8)
+
+
+@pytest.mark.parametrize("mean, value", [("logarithmic", 3.0 / log(2.0)), ("linear-gap", 6.0 / log(4.0))])
+def test_the_mean_density_multiplies_the_mean_of_the_mobilities_without_theirs(mean, value):
+    """Of 2 and 8 with densities 1 and 2: 3/2 times the mean of 2 and 4, not that of 2 and 8.
+
+    Through gaps 1/2 and 1 that of the linear gap is that of 16 and 4 per cube, 12/ln 4, times 1/3.
+    """
+    found = face_mobility(Scheme("1B", mean), (A, B), GAPS, RHO)
+    assert found.value[0] == pytest.approx(value, rel=1e-14)
 
 
 def test_the_linear_gap_s_mobility_of_two_and_eight():
     """Gaps 1/2 and 1: 16 and 8 per cube, of logarithmic mean 8/ln 2, times 2 (1/4) 1/(3/2) = 1/3."""
-    found = face_mobility(Scheme("1B", "linear-gap"), (A, B), GAPS)
+    found = face_mobility(Scheme("1B", "linear-gap"), (A, B), GAPS, LIGHT)
     assert found.value[0] == pytest.approx(8.0 / log(2.0) / 3.0, rel=1e-15)
     assert found.value[2] == pytest.approx(4.0, rel=1e-15)
     assert found.value[3] == 0.0
@@ -200,7 +204,9 @@ def test_the_linear_gap_s_flow_is_that_of_the_differential_equation():
     x = (np.arange(steps) + 0.5) / steps
     q = -(1.0 - exp(-2.0)) / np.mean((h[0] + (h[1] - h[0]) * x) ** -3.0)
     eps = [np.array([gap**3 * exp(-p)]) for p, gap in zip(P, h, strict=True)]
-    found = face_mobility(Scheme("1B", "linear-gap"), eps, [np.array([gap]) for gap in h])
+    found = face_mobility(
+        Scheme("1B", "linear-gap"), eps, [np.array([gap]) for gap in h], [np.ones(1), np.ones(1)]
+    )
     assert -found.value[0] * (P[1] - P[0]) == pytest.approx(q, rel=1e-6)
 
 

@@ -13,7 +13,7 @@ from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.residual import linearise, residual
 from mgehl.discretization.rows import FLOW, GAP, PRESSURE
 from mgehl.discretization.scheme import Scheme
-from mgehl.discretization.status import LUBRICATED
+from mgehl.discretization.status import CAVITATED, LUBRICATED
 from mgehl.discretization.storage import Storage
 
 every_scheme = pytest.mark.parametrize("couette", SCHEMES)
@@ -88,6 +88,32 @@ OPTIONS = {
 @every_scheme
 def test_linearisation_of_options_matches_central_differences(couette, options, mixed):
     assert_linearised(mixed, Scheme(couette, **options))
+
+
+@pytest.mark.parametrize("motion", [(1.0, 0.0), AT_AN_ANGLE])
+@every_mean
+@every_scheme
+def test_linearisation_by_contents_matches_central_differences(couette, mean, motion, mixed):
+    """Cavities answer to the flow by what they hold; their pressure is given."""
+    scheme, torn = Scheme(couette, mean, motion=motion), mixed.status == CAVITATED
+    filling = np.random.default_rng(3).uniform(0.3, 0.9, torn.shape)
+    storage = Storage.begun(mixed.evaluation(filling=np.full(torn.shape, 0.5)).fluid, 2.0)
+    rows = np.where(own(torn), FLOW, mixed.rows())
+    linear = linearise(mixed.evaluation(scheme, filling=filling), rows, storage)
+    fields = {"P": mixed.P, "H": mixed.H, "filling": filling}
+
+    def measured(name, d):
+        def function(changed):
+            return residual(mixed.evaluation(scheme, **fields | {name: changed}), rows, storage)
+
+        return central_differences(function, fields[name], d)
+
+    by_unknown = np.where(torn.ravel(), measured("filling", 1e-6), measured("P", 1e-6))
+    for stencil, expected in ((linear.by_unknown, by_unknown), (linear.B, measured("H", 1e-7))):
+        found, scale = dense_stencil(linear.offsets, stencil), np.abs(stencil).max()
+        np.testing.assert_allclose(found, expected, rtol=1e-6, atol=1e-8 * scale)
+    by_P = dense_stencil(linear.offsets, linear.A)
+    assert not by_P[:, torn.ravel()].any()
 
 
 def test_the_node_itself_is_the_first_of_the_stencil(film):

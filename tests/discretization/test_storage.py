@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 
 from mgehl.discretization.axes import own
+from mgehl.discretization.status import CAVITATED
 from mgehl.discretization.storage import Storage
 
 
@@ -40,3 +41,14 @@ def test_derivatives_match_central_differences(film, fluid, by, d):
     measured = (ahead - behind) / (2.0 * d)
     found = getattr(storage, f"by_{by}")(fluid)
     np.testing.assert_allclose(found, measured, rtol=1e-6, atol=1e-8 * np.abs(measured).max())
+
+
+def test_a_cavity_stores_its_filling(mixed):
+    """From 1/4 to 3/4 of the gap in a time step of 1/3; films store nothing."""
+    before, after = (mixed.evaluation(filling=np.full(mixed.P.shape, part)).fluid for part in (0.25, 0.75))
+    storage, torn = Storage.begun(before, 3.0), own(mixed.status == CAVITATED)
+    whole = 3.0 * own(before.rho) * own(before.carried)
+    np.testing.assert_allclose(storage.outflow(after), np.where(torn, 0.5 * whole, 0.0), rtol=1e-13)
+    np.testing.assert_allclose(storage.by_P(after)[torn], whole[torn], rtol=1e-13)
+    np.testing.assert_allclose(storage.by_H(after)[torn], 0.75 * 3.0 * own(after.rho)[torn], rtol=1e-13)
+    np.testing.assert_allclose(storage.by_H(after)[~torn], 3.0 * own(after.rho)[~torn], rtol=1e-13)

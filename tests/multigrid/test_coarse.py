@@ -84,7 +84,7 @@ def test_the_dense_matrix_is_the_jacobian_of_the_free_nodes():
     K, free = rng.random((nodes, nodes)), np.array([0, 3, 4, 7, 11])
     matrix = np.full((6, 6), np.nan)
     rows = [(each.indptr, each.indices, each.data) for each in (A[free], B[free])]
-    fill_bordered(matrix, free, *rows, K, 0.7)
+    fill_bordered(matrix, free, np.ones(len(K)), *rows, K, 0.7)
     expected = (A + B @ K)[np.ix_(free, free)]
     np.testing.assert_allclose(matrix[:-1, :-1], expected, rtol=1e-14)
     np.testing.assert_allclose(matrix[:-1, -1], np.ravel(B[free].sum(axis=1)), rtol=1e-14)

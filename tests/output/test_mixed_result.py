@@ -35,7 +35,8 @@ def nodes():
     """A film of one thickness without pressure on level heights, inside a boundary."""
     status = np.full((9, 17), LUBRICATED)
     status[[0, -1]], status[:, [0, -1]] = BOUNDARY, BOUNDARY
-    return Nodes(np.zeros((9, 17)), np.full((9, 17), FILM), status, np.zeros((9, 17)))
+    level = [np.zeros((9, 17)) for _ in range(3)]
+    return Nodes(level[0], np.full((9, 17), FILM), status, level[1], level[2], np.ones((9, 17)))
 
 
 def touch(nodes, *places, P=1.0):
@@ -101,18 +102,44 @@ def test_valleys_are_deeper_than_sq_below_the_mean(contact, nodes):
     assert found.lambda_ratio == pytest.approx(contact.formulas.hamrock_dowson_central / Sq)
 
 
+def test_solids_carry_what_the_fluid_under_them_does_not(contact, nodes):
+    touch(nodes, (4, 8), P=2.0)
+    nodes.p[4, 8] = 0.5
+    nodes.P[4, 7] = nodes.p[4, 7] = 0.25
+    found = measured(contact, MESH, nodes)
+    assert found.solid_load_fraction == pytest.approx(1.5 * 0.125 / contact.load_integral)
+
+
+def test_sealed_nodes_are_shut_in_by_sides(contact, nodes):
+    ring = (3, 8), (5, 8), (4, 7), (4, 9)
+    touch(nodes, *ring)
+    nodes.P[4, 8], nodes.P[4, 5] = 0.5, 4.0  # the second is open
+    assert measured(contact, MESH, nodes).sealed_load_fraction == pytest.approx(
+        0.5 * 0.125 / contact.load_integral
+    )
+    nodes.status[4, 9] = LUBRICATED
+    assert measured(contact, MESH, nodes).sealed_load_fraction == 0.0
+
+
+def test_the_filling_is_that_of_cavities_within_the_ellipse(contact, nodes):
+    for i, filling in ((7, 0.25), (9, 0.75), (1, 0.0)):  # the last is outside
+        nodes.status[4, i], nodes.filling[4, i] = CAVITATED, filling
+    assert measured(contact, MESH, nodes).torn_filling == pytest.approx(0.5)
+
+
 def test_what_there_is_not_is_none(contact, nodes):
     touch(nodes, *np.argwhere(within_hertz(MESH)))
     found = measured(replace(contact, surface=Waviness(0.0, 1e-4, None)), MESH, nodes)
     assert (found.mean_film_nm, found.minimum_film_nm, found.valley_film_nm) == (None, None, None)
-    assert found.lambda_ratio is None and found.torn_share == 0.0
+    assert found.lambda_ratio is None and found.torn_filling is None and found.torn_share == 0.0
 
 
 def test_a_line_contact_has_areas_of_a_metre_of_it():
     lubricant = Lubricant(Barus(0.096, 18.2e-9), ConstantDensity())
     contact = LineContact(1e5, 12.7e-3, 219.78e9, 1.0, lubricant, WAVES)
     status = np.full((1, 17), LUBRICATED)
-    nodes = Nodes(np.zeros((1, 17)), np.full((1, 17), FILM), status, np.zeros((1, 17)))
+    level = [np.zeros((1, 17)) for _ in range(3)]
+    nodes = Nodes(level[0], np.full((1, 17), FILM), status, level[1], level[2], np.ones((1, 17)))
     touch(nodes, (0, 6), (0, 7), (0, 9))
     found = measured(contact, Mesh(17, 1, (-2.0, 2.0), (-0.5, 0.5)), nodes)
     assert found.contact_area_m2 == pytest.approx(3 * 0.25 * contact.hertz.a)
@@ -120,8 +147,9 @@ def test_a_line_contact_has_areas_of_a_metre_of_it():
     assert found.contact_area_over_hertz == pytest.approx(3 * 0.25 / 2.0)
     assert found.contact_load_share == pytest.approx(0.75 / (np.pi / 2.0))
     assert found.patches == 2 and found.mean_film_nm == pytest.approx(FILM * 1e9 * contact.film_scale)
-    _, area, gap, films = mixed_lines(found)
+    _, area, solids, gap, films = mixed_lines(found)
     assert f"{1e12 * found.contact_area_m2:.4g} um^2 in each metre" in area
+    assert f"solids carry {100 * found.solid_load_fraction:.2f} % of the load" in solids
     assert "Hertz width" in gap and "Hertz width" in films
 
 

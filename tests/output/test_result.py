@@ -31,7 +31,7 @@ def summary(tiny_problem, outcome, monkeypatch):
     """The record of `outcome`, whose state is taken as it is and called a good one."""
 
     def make(residual=1e-9, load=-2e-10):
-        monkeypatch.setattr(tiny_problem, "state", lambda P, H0, status: outcome.state)
+        monkeypatch.setattr(tiny_problem, "state", lambda *_: outcome.state)
         monkeypatch.setattr(tiny_problem, "residual", lambda _, status: np.full(status.shape, residual))
         monkeypatch.setattr(tiny_problem, "load_deficit", lambda P: load)
         return summarise(tiny_problem, outcome, 1e-8, Work(12.5, 7), 3.0, {"mgehl": "0"})

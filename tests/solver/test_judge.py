@@ -18,9 +18,11 @@ from mgehl.solver.judge import (
     STALLS,
     STUCK,
     Limits,
+    Verdict,
     is_stuck,
     judge,
     judge_system,
+    judge_work,
     limits_of,
     steps_since_lowered,
 )
@@ -164,6 +166,20 @@ def test_two_steps_that_gain_nothing_are_stuck(make_position, residuals, stuck):
     assert is_stuck(position) == stuck
 
 
+class TestWork:
+    """A run may make so many convolutions."""
+
+    @pytest.mark.parametrize("work, ends", [(99.9, False), (100.0, True), (250.4, True)])
+    def test_too_much_of_it_ends_what_would_go_on(self, work, ends):
+        found = judge_work(GO_ON, work, 100)
+        assert found.ends is ends and not found.converged
+        assert found.reason == (f"{work:.0f} convolutions led to no answer (solver.max_work = 100)" * ends)
+
+    @pytest.mark.parametrize("ended", [Verdict(True, True, "settled"), Verdict(True, reason="diverged")])
+    def test_what_has_ended_stays_as_it_is(self, ended):
+        assert judge_work(ended, 1e9, 100) is ended
+
+
 class TestIdleSteps:
     """A residual that does not fall any more ends a solve before the last of the steps that it may take."""
 
@@ -202,14 +218,14 @@ class TestIdleSteps:
         """They pass folds slowly, and let contact spread node by node."""
         newton, in_time = NewtonSettings(squeeze=0.0), NewtonSettings(squeeze=3.0)
 
-        def idle_steps(settings, scheme, at_once=False):
-            return limits_of(settings, scheme, TOLERANCE, MAX_STEPS, at_once).idle_steps
+        def idle_steps(settings, scheme):
+            return limits_of(settings, scheme, TOLERANCE, MAX_STEPS).idle_steps
 
         assert idle_steps(newton, Scheme()) == IDLE_STEPS < IDLE_IN_TIME == idle_steps(in_time, Scheme())
         assert idle_steps(newton, Scheme(face_mobility="harmonic")) == IDLE_IN_TIME
         assert idle_steps(newton, Scheme(contact_law=BoundaryFilm(0.1))) == IDLE_CONTINUOUS
-        assert idle_steps(in_time, Scheme(), at_once=True) == IDLE_CONTINUOUS > IDLE_IN_TIME
-        assert idle_steps(NewtonSettings(idle_steps=7), Scheme(), at_once=True) == 7
+        assert idle_steps(in_time, Scheme(contact_law=BoundaryFilm(0.1))) == IDLE_CONTINUOUS > IDLE_IN_TIME
+        assert idle_steps(NewtonSettings(idle_steps=7), Scheme(contact_law=BoundaryFilm(0.1))) == 7
 
     def test_they_are_counted_from_the_last_lower_one(self, make_position):
         position = make_position()

@@ -6,14 +6,7 @@ import pytest
 from mgehl.discretization.contact_law import BoundaryFilm, InterfaceConditions, UnifiedEquations
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
-from mgehl.solver.partition import (
-    RESTLESS,
-    ROUND,
-    Changes,
-    Contradiction,
-    Partition,
-    carried_through,
-)
+from mgehl.solver.partition import RESTLESS, ROUND, Changes, Contradiction, Partition
 from mgehl.solver.problem import State
 
 THRESHOLD = 1e-3
@@ -59,14 +52,23 @@ class TestTension:
     def test_negative_film_pressure_cavitates(self, make_partition, state):
         changes = Changes()
         state.P[NODE] = -0.1
-        make_partition().cut_tension(state.P, state.status, changes)
+        make_partition().cut_tension(state, changes)
         assert state.status[NODE] == CAVITATED and state.P[NODE] == 0.0
         only(changes, cavitated=1)
+
+    @pytest.mark.parametrize("status, filling", [(LUBRICATED, 1.0), (CONTACT, 0.0)])
+    def test_torn_film_leaves_a_full_gap_and_contact_an_empty_one(
+        self, make_partition, state, status, filling
+    ):
+        state.P[NODE], state.status[NODE], state.filling[:] = -0.1, status, 0.3
+        make_partition().cut_tension(state, Changes())
+        assert state.filling[NODE] == filling
+        assert np.count_nonzero(state.filling == 0.3) == state.filling.size - 1
 
     def test_negative_contact_pressure_releases(self, make_partition, state):
         changes = Changes()
         state.P[NODE], state.status[NODE] = -0.1, CONTACT
-        make_partition().cut_tension(state.P, state.status, changes)
+        make_partition().cut_tension(state, changes)
         assert state.status[NODE] != CONTACT and state.P[NODE] == 0.0
         only(changes, released=1)
 
@@ -75,7 +77,7 @@ class TestTension:
         changes = Changes()
         state.P[NODE], state.status[NODE] = 0.0, status
         before = state.copy()
-        make_partition().cut_tension(state.P, state.status, changes)
+        make_partition().cut_tension(state, changes)
         np.testing.assert_array_equal(state.P, before.P)
         np.testing.assert_array_equal(state.status, before.status)
         only(changes)
@@ -85,7 +87,7 @@ class TestTension:
         for _ in range(3):
             state.P[NODE], state.status[NODE] = -0.1, CONTACT
             changes = Changes()
-            partition.cut_tension(state.P, state.status, changes)
+            partition.cut_tension(state, changes)
             only(changes, released=1)
 
 
@@ -140,7 +142,7 @@ class TestEnteringContact:
         """It has no gap yet, and opens one only in the next step."""
         partition, changes = make_partition(), Changes()
         state.P[NODE], state.status[NODE], state.H[NODE] = -0.1, CONTACT, -1e-12
-        partition.cut_tension(state.P, state.status, Changes())
+        partition.cut_tension(state, Changes())
         partition.enter_contact(state, changes)
         assert state.status[NODE] != CONTACT
         only(changes)
@@ -151,8 +153,8 @@ class TestEnteringContact:
     ):
         partition = make_partition()
         state.P[NODE], state.status[NODE] = -0.1, CONTACT
-        partition.cut_tension(state.P, state.status, Changes())
-        partition.cut_tension(state.P, state.status, Changes())  # the next step
+        partition.cut_tension(state, Changes())
+        partition.cut_tension(state, Changes())  # the next step
         state.H[NODE], changes = gap, Changes()
         partition.enter_contact(state, changes)
         assert (state.status[NODE] == CONTACT) == enters
@@ -160,38 +162,57 @@ class TestEnteringContact:
 
 
 class TestFilling:
-    @pytest.mark.parametrize("inflow, fills", [(1.0, True), (0.0, False), (-1.0, False)])
-    def test_cavity_that_fluid_flows_into(self, make_partition, state, inflow, fills):
+    @pytest.mark.parametrize("filling, fills", [(1.01, True), (1.0, False), (0.0, False)])
+    def test_cavity_that_holds_more_than_its_gap(self, make_partition, state, filling, fills):
         changes = Changes()
-        state.status[NODE], state.P[NODE] = CAVITATED, 0.0
-        inflows = np.zeros_like(state.P)
-        inflows[NODE] = inflow
-        make_partition().fill(state, inflows, changes)
+        state.status[NODE], state.P[NODE], state.filling[NODE] = CAVITATED, 0.0, filling
+        make_partition().fill(state, changes)
         assert state.status[NODE] == (LUBRICATED if fills else CAVITATED)
         only(changes, filled=int(fills))
 
-    def test_a_cavity_without_a_gap_stays(self, make_partition, state):
+    @pytest.mark.parametrize("law", [LAW, BoundaryFilm(THRESHOLD)])
+    def test_a_cavity_without_a_gap_stays(self, make_partition, state, law):
         changes = Changes()
-        state.status[NODE], state.P[NODE], state.H[NODE] = CAVITATED, 0.0, 0.0
-        make_partition().fill(state, np.ones_like(state.P), changes)
+        state.status[NODE], state.P[NODE], state.H[NODE], state.filling[NODE] = CAVITATED, 0.0, 0.0, 2.0
+        make_partition(law=law).fill(state, changes)
         assert state.status[NODE] == CAVITATED
         only(changes)
 
     def test_by_the_unified_equations_it_fills(self, make_partition, state):
         changes = Changes()
-        state.status[NODE], state.P[NODE], state.H[NODE] = CAVITATED, 0.0, -0.1
-        make_partition(law=UnifiedEquations()).fill(state, np.ones_like(state.P), changes)
+        state.status[NODE], state.P[NODE], state.H[NODE], state.filling[NODE] = CAVITATED, 0.0, -0.1, 2.0
+        make_partition(law=UnifiedEquations()).fill(state, changes)
         assert state.status[NODE] == LUBRICATED
         only(changes, filled=1)
 
     @pytest.mark.parametrize("status", [LUBRICATED, CONTACT])
-    def test_inflow_does_not_change_other_nodes(self, make_partition, state, status):
+    def test_filling_does_not_change_other_nodes(self, make_partition, state, status):
+        """What is no cavity has a filling without meaning."""
         changes = Changes()
-        state.status[NODE] = status
+        state.status[NODE], state.filling[:] = status, 2.0
         before = state.status.copy()
-        make_partition().fill(state, np.ones_like(state.P), changes)
+        make_partition().fill(state, changes)
         np.testing.assert_array_equal(state.status, before)
         only(changes)
+
+
+class TestFit:
+    def test_contents_are_between_nothing_and_what_the_gap_holds(self, make_partition, state):
+        state.filling[4, 3:6] = -0.1, 0.3, 1.2
+        make_partition().fit(state)
+        assert state.filling[4, 3:6].tolist() == [0.0, 0.3, 1.0]
+
+    def test_the_fluid_has_a_pressure_of_its_own_in_contact_alone(self, make_partition, state):
+        state.status[4, 3:6] = CONTACT, CONTACT, CAVITATED
+        state.P[4, 5], state.p[:] = 0.0, 0.2
+        state.p[4, 3] = -0.1
+        before = state.copy()
+        make_partition(law=BoundaryFilm(THRESHOLD)).fit(state)
+        expected = before.P.copy()
+        expected[4, 3:5] = 0.0, 0.2
+        np.testing.assert_array_equal(state.p, expected)
+        np.testing.assert_array_equal(state.P, before.P)
+        np.testing.assert_array_equal(state.status, before.status)
 
 
 class TestPressureInequality:
@@ -259,10 +280,10 @@ class TestRestlessNodes:
             for _ in range(times):
                 close(partition, node, gap)
                 state.P[node] = pressure
-                partition.cut_tension(state.P, state.status, Changes())
+                partition.cut_tension(state, Changes())
 
         def close(partition, node=NODE, gap=-0.02):
-            partition.cut_tension(state.P, state.status, Changes())  # a step in which nothing is torn
+            partition.cut_tension(state, Changes())  # a step in which nothing is torn
             state.status[node], state.H[node] = LUBRICATED, gap
             changes = Changes()
             partition.enter_contact(state, changes)
@@ -290,8 +311,10 @@ class TestRestlessNodes:
         partition = make_partition()
         for _ in range(2 * RESTLESS):
             state.P[NODE], state.status[NODE] = -0.1, LUBRICATED
-            partition.cut_tension(state.P, state.status, Changes())
-            partition.fill(state, np.ones_like(state.P), Changes())
+            partition.cut_tension(state, Changes())
+            state.filling[NODE], filled = 1.1, Changes()
+            partition.fill(state, filled)
+            only(filled, filled=1)
         assert not partition.restless and partition.contradictions(state.status) == []
 
     def test_a_contradiction_says_where_and_by_how_much(self, make_partition, state, turn):
@@ -370,36 +393,56 @@ class TestContinuousContact:
         partition.enter_contact(state, Changes())
         assert state.status[4, 4] == LUBRICATED
 
-    def test_it_opens_as_far_as_what_flows_in_is_carried(self, partition, pressed):
-        """0.1 flow in at node 4, node 5 needs 0.04 of it, node 6 more than what is left."""
-        inflow, changes = np.full(pressed.P.shape, -1.0), Changes()
-        inflow[4, 4], inflow[4, 5], inflow[4, 6] = 0.1, -0.04, -0.07
-        partition.open_contact(pressed, inflow, changes)
-        assert pressed.status[4, 3:7].tolist() == [CONTACT, LUBRICATED, LUBRICATED, CONTACT]
-        only(changes, released=2)
+    @pytest.mark.parametrize("more, opens", [(0.1, True), (0.0, False), (-0.1, False)])
+    def test_it_opens_where_the_fluid_presses_harder(self, partition, pressed, more, opens):
+        pressed.p[4, 3:7], changes = pressed.P[4, 3:7] - 0.1, Changes()
+        pressed.p[NODE] = pressed.P[NODE] + more
+        partition.open_contact(pressed, changes)
+        after = [CONTACT, LUBRICATED if opens else CONTACT, CONTACT, CONTACT]
+        assert pressed.status[4, 3:7].tolist() == after
+        only(changes, released=int(opens))
 
-    @pytest.mark.parametrize("missing, opens", [(0.9, True), (1.1, False)])
-    def test_asked_is_the_flow_it_has_with_the_gap_it_keeps(
-        self, partition, tiny_problem, pressed, missing, opens
+    @pytest.mark.parametrize("part, opens", [(0.9, True), (1.1, False)])
+    def test_what_overlaps_opens_where_the_fluid_lifts_it_far_enough(
+        self, partition, tiny_problem, pressed, part, opens
     ):
-        """A node that has just closed carries away less: it will not, as soon as it has its gap."""
-        inflow = np.full(pressed.P.shape, -1.0)
-        inflow[4, 4] = 0.1 * self.FILM / tiny_problem.grid.mesh.dX
-        pressed.H[4, 4] -= 0.1 * self.FILM * missing
-        partition.open_contact(pressed, inflow, Changes())
-        assert (pressed.status[4, 4] == LUBRICATED) == opens
+        """The missing gap in parts of what p - P gives the node."""
+        pressed.p[NODE] = pressed.P[NODE] + 0.1
+        pressed.H[NODE] -= part * 0.1 * tiny_problem.K00
+        changes = Changes()
+        partition.open_contact(pressed, changes)
+        assert (pressed.status[NODE] == LUBRICATED) == opens
+        only(changes, released=int(opens))
+
+    def test_a_wider_gap_alone_opens_nothing(self, partition, pressed):
+        """Nor does it where the fluid presses less hard than the bodies."""
+        pressed.H[4, 3:7], pressed.p[4, 3:7] = 1.0, pressed.P[4, 3:7] - 0.01
+        partition.open_contact(pressed, Changes())
+        assert (pressed.status[4, 3:7] == CONTACT).all()
+
+    def test_what_has_opened_does_not_close_before_the_next_step(self, partition, pressed):
+        pressed.p[NODE] += 0.1
+        partition.open_contact(pressed, Changes())
+        partition.enter_contact(pressed, Changes())
+        assert pressed.status[NODE] == LUBRICATED
+        partition.cut_tension(pressed, Changes())
+        partition.enter_contact(pressed, Changes())
+        assert pressed.status[NODE] == CONTACT
+
+    def test_only_contact_is_asked(self, partition, state):
+        state.status[4, 5], changes = CAVITATED, Changes()
+        state.p += 1.0
+        before = state.status.copy()
+        partition.open_contact(state, changes)
+        np.testing.assert_array_equal(state.status, before)
+        only(changes)
 
     def test_contact_that_closes_its_faces_is_not_asked(self, make_partition, pressed):
-        make_partition().open_contact(pressed, np.ones(pressed.P.shape), Changes())
+        changes = Changes()
+        pressed.p += 1.0
+        make_partition().open_contact(pressed, changes)
         assert (pressed.status[4, 3:7] == CONTACT).all()
+        only(changes)
 
     def test_it_is_not_let_go_by_its_pressure(self, partition, make_partition):
         assert not partition.asks_eq_2 and make_partition().asks_eq_2
-
-
-def test_what_is_carried_through_a_run():
-    """2 flow in: 1 is needed, 1 goes on and is used up; another run begins with nothing."""
-    inflow = np.array([[9.0, 2.0, -1.0, -0.5, -3.0, 1.0, 9.0, -1.0, 0.5]])
-    nodes = np.array([[0, 1, 1, 1, 1, 1, 0, 1, 1]], dtype=bool)
-    carried = carried_through(inflow, nodes)[nodes]
-    assert carried == pytest.approx([2.0, 1.0, 0.5, -2.5, 1.0, -1.0, 0.5])

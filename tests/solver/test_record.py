@@ -15,7 +15,6 @@ from mgehl.multigrid.memory import Corrections
 from mgehl.multigrid.valleys import AT_ONCE, BY_LINES
 from mgehl.solver import record as described
 from mgehl.solver.dry import DryStanding, DryStep
-from mgehl.solver.foothold import Foothold
 from mgehl.solver.nested import first_guess
 from mgehl.solver.outcome import Cycle, Outcome
 from mgehl.solver.partition import Changes, Contradiction, Past
@@ -66,10 +65,10 @@ def position(state):
     """One of Newton's method while Eq. 2 is tried."""
     past = Past.none(state.P.shape, 2)
     past.turns[4, 4], past.was_released[3, 3], past.closing_gap[4, 4] = 7, True, nan
-    answer = State(2.0 * state.P, -0.3, state.H, state.status)
+    state.p, state.filling = 0.7 * state.P, np.full(state.P.shape, 0.4)
+    answer = State(2.0 * state.P, -0.3, state.H, state.status, 0.9 * state.P, 0.6 * state.filling)
     trial = Trial(answer, "settled", 17, 12, 40, 3)
-    foothold = Foothold(answer, Past.none(state.P.shape, 1), 1e-4)
-    return Position(state, past, [CYCLE, CYCLE], Changes(5), Step(12, 0.7), trial, 3, 1, foothold, 5.6)
+    return Position(state, past, [CYCLE, CYCLE], Changes(5), Step(12, 0.7), trial, 3, 1)
 
 
 class Solver:

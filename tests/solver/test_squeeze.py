@@ -40,14 +40,6 @@ def test_without_squeeze_there_is_none(problem, state_and_residual):
     assert rates_of(problem, *state_and_residual, NewtonSettings()) == 0.0
 
 
-def test_shorter_time_steps(problem, state_and_residual):
-    state, F = state_and_residual
-    now = problem.evaluate(state), problem.rows(state.status), F, SETTINGS
-    np.testing.assert_allclose(
-        squeeze_rates(problem, *now, shorter=5.6), 5.6 * squeeze_rates(problem, *now), rtol=1e-14
-    )
-
-
 def test_every_node_has_a_rate_and_those_that_are_far_from_balance_a_larger_one(
     problem, state_and_residual
 ):
@@ -118,7 +110,7 @@ class TestFold:
             P, H = state.P.copy(), state.H.copy()
             P[at] += sign * d
             H[at] += sign * d * problem.K00
-            moved = replace(state, P=P, H=H)
+            moved = replace(state, P=P, p=P, H=H)
             rho = problem.contact.lubricant.density_law.density(P, problem.contact.pressure_scale)[0]
             values.append(problem.evaluate(moved).inflow[at] - rates[at] * rho[at] * H[at])
         return (values[0] - values[1]) / (2.0 * d)

@@ -27,16 +27,17 @@ def stiff(make_problem):
     "times, expected", [(0.25, 1.0), (1.0, LARGEST_CHANGE), (2.0, LARGEST_CHANGE / 2.0)]
 )
 def test_a_film_changes_by_half_of_itself_at_the_most(stiff, times, expected):
-    length, H = step_length(*stiff, np.zeros((9, 9)), times * 0.01, 0.5)
+    length, H, dH = step_length(*stiff, np.zeros((9, 9)), times * 0.01, 0.5)
     assert length == pytest.approx(expected)
     assert (H is None) == (expected < 1.0)
+    np.testing.assert_allclose(dH, times * 0.01, rtol=1e-12)  # of a whole step, whatever is taken
 
 
 def test_what_is_no_film_does_not_count(stiff):
     """Half of the film in contact, whose gap a step may change as it will."""
     state = stiff[-1]
     state.status[1:5, 1:-1], state.H[1:5, 1:-1] = CONTACT, 1e-3
-    length, _ = step_length(*stiff, np.zeros((9, 9)), 0.01, 0.5)
+    length, *_ = step_length(*stiff, np.zeros((9, 9)), 0.01, 0.5)
     assert length == pytest.approx(0.5)
 
 
@@ -50,11 +51,27 @@ def test_the_gap_of_a_whole_step_takes_one_convolution(make_problem):
     dP = np.zeros((9, 9))
     dP[4, 4] = 0.3
     before = problem.deflection.count
-    length, H = step_length(problem, partition, evaluation, state, dP, 1e-3, 0.5)
+    length, H, dH = step_length(problem, partition, evaluation, state, dP, 1e-3, 0.5)
     assert (length, problem.deflection.count) == (1.0, before + 1)
     torn = state.P.copy()
     torn[4, 4] = 0.0
     assert np.array_equal(H, problem.gap(torn, state.H0 - 1e-3))
+    assert np.array_equal(dH, state.H - H)
+
+
+def test_what_the_gap_falls_by_is_that_of_a_whole_step(make_problem):
+    """Where the largest pressure lets only a part of it be tried."""
+    problem = make_problem(
+        nodes=9, scheme=Scheme(face_mobility="linear-gap", contact_law=BoundaryFilm(1e-3))
+    )
+    state = problem.state(np.full((9, 9), 2.0), 1.0, np.full((9, 9), LUBRICATED))
+    dP = np.zeros((9, 9))
+    dP[4, 4] = -2.0
+    known = problem, Partition(problem, 0), problem.evaluate(state), state
+    length, H, dH = step_length(*known, dP, 1e-3, 0.5)
+    assert length == 0.25
+    assert np.array_equal(H, problem.gap(state.P - 0.25 * dP, state.H0 - 0.25e-3))
+    np.testing.assert_allclose(dH, state.H - problem.gap(state.P - dP, state.H0 - 1e-3), atol=1e-12)
 
 
 def test_the_largest_pressure_is_bounded_by_any_law(make_problem):
@@ -63,7 +80,7 @@ def test_the_largest_pressure_is_bounded_by_any_law(make_problem):
     dP = np.zeros((9, 9))
     dP[4, 4] = -2.0
     known = problem, Partition(problem, 0), problem.evaluate(state), state
-    assert step_length(*known, dP, 9.0, 0.5) == (0.25, None)
+    assert step_length(*known, dP, 9.0, 0.5) == (0.25, None, None)
 
 
 @pytest.mark.parametrize("highest, expected", [(0.5, 0.25), (2.0, 0.5), (8.0, 1.0)])
@@ -90,5 +107,5 @@ def test_pressures_change_by_more_where_the_viscosity_is_less_steep(
     problem = make_problem(contact, nodes=9)
     state = problem.state(np.full((9, 9), 0.2), 1.0, np.full((9, 9), LUBRICATED))
     known = problem, Partition(problem, 0), problem.evaluate(state), state
-    length, _ = step_length(*known, np.full((9, 9), 4.0), 0.0, 0.3)
+    length, *_ = step_length(*known, np.full((9, 9), 4.0), 0.0, 0.3)
     assert length == pytest.approx(min(1.0, more * 0.3 / 4.0), rel=1e-12)

@@ -95,8 +95,9 @@ class TestClosedFaceFlow:
 
     def test_poiseuille_flow_is_stopped_in_any_case(self, leaky_problem, state):
         state.status[NODE], state.H[:] = CONTACT, 0.5
-        state.P[4, 3] = state.P[3, 4] = 0.1
-        P = state.P[4, 3]
+        state.p[4, 3] = state.p[3, 4] = 0.1
+        state.P[:] = state.p
+        P = state.p[4, 3]
         rho = leaky_problem.contact.lubricant.density_law.density(P, leaky_problem.contact.hertz.p_h)[0]
         assert closed_face_flow(leaky_problem, leaky_problem.evaluate(state)) == pytest.approx(
             0.5 * rho, rel=1e-14
@@ -180,7 +181,7 @@ class TestFluxImbalance:
     def test_flow_across_the_motion(self, tiny_problem, state):
         mesh, contact = tiny_problem.grid.mesh, tiny_problem.contact
         p = 1e-3
-        state.P[1, 4] = p  # beside the first line, where the pressure is zero
+        state.P[1, 4] = state.p[1, 4] = p  # beside the first line, where the pressure is zero
         rho = contact.lubricant.density_law.density(p, contact.hertz.p_h)[0]
         log_eta = contact.lubricant.viscosity_law.log_viscosity(p, contact.hertz.p_h)[0]
         mobility = 0.5 * (1.0 + rho * np.exp(-log_eta)) / contact.lambda_

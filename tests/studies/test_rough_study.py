@@ -52,7 +52,7 @@ def test_two_speeds_from_both_starts(tmp_path, monkeypatch):
     ]  # fmt: skip
     for row in rows:
         assert row["verdict"] == "converged"
-        assert 0.0 < float(row["load on contact"]) < float(row["contact/Hertz area"]) < 0.15
+        assert 0.0 < float(row["load on contact"]) < float(row["contact/Hertz area"]) < 0.2
         assert float(row["load on contact apart from the other start"]) < 1e-5
         assert float(row["minimum film nm"]) >= 10.0
         assert float(row["Aihara"]) == pytest.approx(aihara(float(row["lambda"])), abs=1e-3)

@@ -1,0 +1,79 @@
+"""What cavities hold, carried on from node to node."""
+
+import numpy as np
+import pytest
+
+from mgehl.discretization.contents import OVERFULL, feeding, missing_fillings
+
+
+def masks(*lines):
+    """Of nodes by letters, a line each: cavities, and films that receive."""
+    letters = np.array([list(line) for line in lines])
+    return letters == "c", letters == "f"
+
+
+def test_cavities_before_a_film_feed_it():
+    """Those behind it only feed the domain's end."""
+    assert feeding(*masks("bccfccb"), False).tolist() == [[0, 1, 1, 0, 0, 0, 0]]
+
+
+def test_what_ends_before_other_nodes_feeds_nothing():
+    assert not feeding(*masks("bccbfcb"), False).any()
+
+
+def test_motion_at_an_angle_feeds_the_next_line_too():
+    """A film there is fed from the line before, and so by the cavity before that one."""
+    fields = masks("bcccb", "bbbfb", "bcccb")
+    assert not feeding(*fields, False).any()
+    assert feeding(*fields, True).tolist() == [[0, 1, 1, 1, 0], [0] * 5, [0] * 5]
+
+
+def test_cavities_feed_through_cavities_of_the_next_line():
+    fields = masks("bcbbb", "bccfb")
+    assert feeding(*fields, False).tolist() == [[0] * 5, [0, 1, 1, 0, 0]]
+    assert feeding(*fields, True).tolist() == [[0, 1, 0, 0, 0], [0, 1, 1, 0, 0]]
+
+
+def risen(inflow, leaving_x, leaving_y=0.0, marched=None):
+    inflow = np.atleast_2d(np.array(inflow, float))
+    if marched is None:
+        marched = np.ones(inflow.shape, bool)
+        marched[:, [0, -1]] = False
+    leaving = (np.array(np.broadcast_to(each, inflow.shape), float) for each in (leaving_x, leaving_y))
+    return missing_fillings(marched, inflow, *leaving)
+
+
+def test_a_rise_is_carried_on():
+    """1/4 carries 0.5 on, which with 0.1 more is 0.3; of its 0.6, 0.2 are missed further on, and so on."""
+    found = risen([0.0, 0.5, 0.1, -0.2, -0.4, 9.0], 2.0)
+    assert found[0] == pytest.approx([0.0, 0.25, 0.3, 0.2, 0.0, 0.0], abs=1e-16)
+
+
+def test_a_filling_falls_by_what_is_missing():
+    assert risen([0.0, -0.5, 0.1, 0.0], 2.0)[0] == pytest.approx([0.0, -0.25, -0.2, 0.0], rel=1e-15)
+
+
+def test_wherever_a_rise_is_marched_no_inflow_is_left():
+    """At an angle; with other nodes between, which carry nothing on."""
+    rng = np.random.default_rng(5)
+    inflow = rng.uniform(-0.2, 0.2, (4, 7))
+    leaving_x, leaving_y = rng.uniform(1.0, 2.0, (2, 4, 7))
+    marched = rng.uniform(size=(4, 7)) < 0.7
+    marched[:, [0, -1]] = False
+    rise = missing_fillings(marched, inflow, leaving_x, leaving_y)
+    left = inflow - (leaving_x + leaving_y) * rise
+    left[:, 1:] += (leaving_x * rise)[:, :-1]
+    left[1:] += (leaving_y * rise)[:-1]
+    assert not rise[~marched].any()
+    assert rise[marched].all()
+    np.testing.assert_allclose(left[marched], 0.0, atol=1e-15)
+
+
+def test_no_rise_is_more_than_overfull():
+    """And no more is carried on; nor does it matter that nothing leaves."""
+    assert risen([0.0, 9.0, 0.0, 0.0], 2.0)[0].tolist() == [0.0, OVERFULL, OVERFULL, 0.0]
+    assert risen([0.0, 9.0, 1.0, 0.0], [2.0, 0.0, 2.0, 2.0])[0].tolist() == [0.0, OVERFULL, 0.5, 0.0]
+
+
+def test_nothing_rises_where_nothing_comes_and_nothing_leaves():
+    assert not risen([0.0, 0.0, 0.0, 0.0], 0.0).any()
