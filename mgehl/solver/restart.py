@@ -82,7 +82,7 @@ def interpolated(problem, start, frame):
         P = _onto(mesh, old, frame.array(start.fields.P))
         fluid = start.fields.P if start.fields.p is None else start.fields.p
         p = _onto(mesh, old, frame.array(fluid))
-        filling = _onto(mesh, old, frame.array(_filling(start.fields)))
+        filling = 1.0 - _onto(mesh, old, 1.0 - frame.array(_filling(start.fields)))  # full outside
         film = np.where((P > 0.0) | (not problem.scheme.cavitation), LUBRICATED, CAVITATED)
         touching = (_onto(mesh, old, in_contact) > 0.5) & problem.scheme.contact_law.has_contact
         status = np.where(touching, CONTACT, film).astype(np.int8)
