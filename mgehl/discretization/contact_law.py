@@ -75,11 +75,10 @@ class InterfaceConditions(ContactLaw):
 class BoundaryFilm(ContactLaw):
     """Contact where the film would be thinner than the layers that bodies keep between them.
 
-    Closing is continuous: a node in contact is a film of that gap, and what flows through it is the flow of
-    that film. It is in contact as long as its pressure would drive fluid out of it, and opens when fluid
-    flows in: H - h_b >= 0 and inflow <= 0, one of them zero. Contact pressure then is not below that of the
-    fluid which presses at the interface [Liu eq. 2], and with the gap the flow goes to nothing, which gives
-    the interface conditions [Liu eq. 4], where the mobility vanishes with either side.
+    Closing is continuous: H - h_b >= 0 and P - p >= 0, one of them zero. P is what the bodies feel, p the
+    fluid's own pressure, which answers to the flow through the layers: that of a film of the thickness h_b.
+    So contact never presses less than the fluid in it [Liu eq. 2]. As h_b goes to nothing so does the flow,
+    which gives the interface conditions [Liu eq. 4], where the mobility vanishes with either side.
     """
 
     film: float

@@ -1,9 +1,9 @@
 """Which nodes are film, cavity and contact: re-partitioned between Newton steps.
 
-cavitated  enters when P < 0, leaves when fluid flows in
+cavitated  enters when P < 0, leaves when it would hold more than its gap does
 contact    enters when H <= H_th, leaves when P < 0 (always) or when its P is below the fluid
            pressure beside it [Liu eq. 2] (when the sets have settled, a finite number of times);
-           one that leaves its faces open leaves when fluid flows in, and at P < 0
+           one that leaves its faces open leaves when p > P, and at P < 0
 """
 
 from dataclasses import dataclass
@@ -96,13 +96,10 @@ class Past(Kept):
 
 
 class Partition:
-    """Moves nodes of a state between the sets; `past` is what the nodes went through, and may be replaced.
+    """Moves nodes of a state between the sets; `past` is what the nodes went through, and may be replaced."""
 
-    Contact opens where fluid flows in by more than the `tolerance` of residuals; less counts as no inflow.
-    """
-
-    def __init__(self, problem, release_budget, tolerance=0.0):
-        self._problem, self._grid, self._tolerance = problem, problem.grid, tolerance
+    def __init__(self, problem, release_budget):
+        self._problem, self._grid = problem, problem.grid
         self._contact_law = problem.scheme.contact_law
         self.past = Past.none(problem.grid.shape, release_budget)
 
