@@ -196,57 +196,63 @@ def lifted_by_less(K00, part, source, H, conductance, found):
 
 
 @compiled(fastmath={"contract"})
-def relax_cavitation(first, P, lubricated, movable, source, along, across, passes):
-    """Solve P >= 0, inflow <= 0, one of them zero, on every other line from `first`.
+def relax_cavitation(first, w, film, movable, source, conductances, carried, passes):
+    """Solve the flow balance by `w`, ghosted: pressure of film, minus what is empty of a cavity.
 
-    Only `movable` nodes take part; `lubricated` (of those) and the ghosted `P` are updated. On a
-    line the set is iterated `passes` times: solve the lubricated nodes, give up the negative
-    ones, take cavitated ones that the flow fills. Returns the number of changes of the last pass.
+    On every other line from `first`. `source` is what flows into full gaps without the Poiseuille flow. Pairs
+    of faces along X, (lines, nx - 1), and Y, (lines + 1, nx), are their `conductances` and what is `carried`
+    through them by full gaps; a cavity that nothing is carried out of counts as full.
+
+    `movable` nodes take part, which are `film` or cavities by the sign of w. On a line the set is iterated
+    `passes` times: solve all nodes, then turn those of the other sign, which begin at 0. Returns the number
+    of changes of the last pass.
     """
     lines, nx = source.shape
-    upper, value = np.zeros(nx), np.zeros(nx)
-    changes = 0
+    upper, changes = np.zeros(nx), 0
     for j in range(first, lines, 2):
-        g = j + HALO
+        changed = 1
         for _ in range(passes):
-            changed = 0
-            value[0] = P[g, 0]
-            for i in range(1, nx - 1):
-                upper[i] = 0.0
-                value[i] = P[g, i]
-                if movable[j, i]:
-                    value[i] = 0.0
-                    if lubricated[j, i]:
-                        west, east = along[j, i - 1], along[j, i]
-                        south, north = across[j, i], across[j + 1, i]
-                        known = source[j, i] + south * P[g - 1, i] + north * P[g + 1, i]
-                        diagonal = west + east + south + north - west * upper[i - 1]
-                        if diagonal > 0.0:  # else shut in on all four sides: its P stays 0
-                            value[i] = (known + west * value[i - 1]) / diagonal
-                            upper[i] = east / diagonal
-            for i in range(nx - 2, 0, -1):
-                if movable[j, i]:
-                    P[g, i] = value[i] + upper[i] * P[g, i + 1]
-            for i in range(1, nx - 1):
-                if not movable[j, i]:
-                    continue
-                if lubricated[j, i]:
-                    if P[g, i] < 0.0:
-                        P[g, i] = 0.0
-                        lubricated[j, i] = False
-                        changed += 1
-                else:
-                    filled = (
-                        source[j, i]
-                        + along[j, i - 1] * P[g, i - 1]
-                        + along[j, i] * P[g, i + 1]
-                        + across[j, i] * P[g - 1, i]
-                        + across[j + 1, i] * P[g + 1, i]
-                    )
-                    if filled > 0.0:
-                        lubricated[j, i] = True
-                        changed += 1
-            if changed == 0:
-                break
+            if changed:
+                _solve_line(j, w, film, movable, source, conductances, carried, upper)
+                changed = _turn_line(w[j + HALO], film[j], movable[j])
         changes += changed
     return changes
+
+
+@compiled(fastmath={"contract"})
+def _solve_line(j, w, film, movable, source, conductances, carried, upper):
+    """Balance the movable nodes of a line by their w: a tridiagonal system."""
+    along, across, along_x, along_y = conductances[0][j], conductances[1], carried[0][j], carried[1]
+    before, here, behind = w[j + HALO - 1], w[j + HALO], w[j + HALO + 1]
+    nx = here.size
+    for i in range(1, nx - 1):
+        upper[i] = 0.0
+        if not movable[j, i]:
+            continue
+        west, east, south, north = along[i - 1], along[i], across[j, i], across[j + 1, i]
+        by_w = west if film[j, i - 1] else along_x[i - 1]
+        by_before = south if before[i] > 0.0 else along_y[j, i]
+        net = source[j, i] + by_w * here[i - 1] + by_before * before[i] + north * max(behind[i], 0.0)
+        leaves = west + east + south + north if film[j, i] else along_x[i] + along_y[j + 1, i]
+        leaves -= by_w * upper[i - 1]
+        if leaves > 0.0:
+            here[i] = net / leaves
+            upper[i] = east / leaves if film[j, i + 1] else 0.0
+        else:  # shut in on all sides: its pressure stays 0; or a cavity that nothing leaves
+            here[i] = 0.0 if film[j, i] else net + east * max(here[i + 1], 0.0)
+    for i in range(nx - 2, 0, -1):
+        here[i] += upper[i] * here[i + 1]
+
+
+@compiled()
+def _turn_line(w, film, movable):
+    """Turn the movable nodes of a line whose w has the other's sign; return how many."""
+    turned = 0
+    for i in range(1, w.size - 1):
+        if movable[i] and (w[i] < 0.0 if film[i] else w[i] > 0.0):
+            film[i] = not film[i]
+            w[i] = 0.0
+            turned += 1
+        elif movable[i]:
+            w[i] = max(w[i], -1.0)
+    return turned

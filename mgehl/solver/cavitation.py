@@ -53,37 +53,44 @@ one film on 257 nodes a sixth less."""
 
 
 def relax_cavitation_set(problem, state, evaluation=None):
-    """Relax P and status of the weakly coupled fluid; return how many nodes changed.
+    """Relax pressures, fillings and status of the weakly coupled fluid; return how many nodes changed.
 
-    Updates `state` in place, but only if the set moved: otherwise Newton's pressures stand. Cavities that
-    feed a film are left alone; the others count as full, for they are where gaps widen. The `evaluation` of
-    the state, where it is known, stays as it is. Zebra order by global line number: the number of ranks
-    does not matter.
+    Updates `state` in place, but only if the set moved: otherwise Newton's values stand. The `evaluation` of
+    the state, where it is known, stays as it is. Zebra order by global line number: the number of ranks does
+    not matter. A rigid gap is left alone: its linear systems take no convolution.
     """
-    if not problem.scheme.cavitation:
+    if not (problem.scheme.cavitation and problem.is_elastic):
         return 0
-    evaluation = (evaluation or problem.evaluate(state)).filled(None)
-    grid, P = problem.grid, evaluation.P.copy()
-    faces = evaluation.source, *evaluation.conductances
+    grid, evaluation = problem.grid, (evaluation or problem.evaluate(state)).filled(None)
     movable = _relaxable(problem, evaluation, state)
-    lubricated = state.status == LUBRICATED
+    cavity = state.status == CAVITATED
+    film, w = ~cavity, grid.halo(np.where(cavity, state.filling - 1.0, own(evaluation.P)))
+    faces = evaluation.source, tuple(evaluation.conductances), _carried(problem, evaluation)
     for _ in range(SWEEPS):
         changes = 0
         for colour in (0, 1):
-            first = (colour + grid.first) % 2
-            changes += relax_cavitation(first, P, lubricated, movable, *faces, PASSES)
-            grid.refresh(P)
+            changes += relax_cavitation((colour + grid.first) % 2, w, film, movable, *faces, PASSES)
+            grid.refresh(w)
         if grid.sum(changes) == 0:
             break
-    relaxed = np.where(movable, np.where(lubricated, LUBRICATED, CAVITATED), state.status)
-    moved = grid.count(relaxed != state.status)
-    if moved and _may_carry(problem, grid.sum(state.P.sum()), grid.sum(own(P).sum())):
-        state.P[movable] = own(P)[movable]
-        state.filling[(relaxed == CAVITATED) & (state.status != CAVITATED)] = 1.0
-        state.status[:] = relaxed
-        state.p = np.where(state.status == CONTACT, state.p, state.P)
-        return moved
-    return 0
+    moved = grid.count(film == cavity)
+    P = np.where(movable, np.maximum(own(w), 0.0), state.P)
+    if not (moved and _may_carry(problem, grid.sum(state.P.sum()), grid.sum(P.sum()))):
+        return 0
+    state.status[movable] = np.where(film, LUBRICATED, CAVITATED)[movable]
+    state.filling[movable] = np.where(film, 1.0, 1.0 + own(w))[movable]
+    state.P[:], state.p[movable] = P, P[movable]
+    return moved
+
+
+def _carried(problem, evaluation):
+    """What full gaps pass on through the faces along X and Y, per cell; nothing where cavities are full."""
+    lines, nx = own(evaluation.P).shape
+    carried = np.zeros((lines, nx - 1)), np.zeros((lines + 1, nx))
+    if problem.scheme.contact_law.has_contact:
+        for rate, axis, flow in zip(carried, evaluation.axes, evaluation.carried_full(), strict=False):
+            rate[:] = flow / axis.cell
+    return carried
 
 
 def _may_carry(problem, before, after):
@@ -128,5 +135,4 @@ def _relaxable(problem, evaluation, state):
     movable = weakly_coupled(problem, evaluation, state.status, WEAKLY_COUPLED)
     if problem.grid.mesh.is_line:
         movable &= own(evaluation.fluid.eps) > LONG_WAVES
-    movable &= ~problem.feeding(state.status)
     return movable & driven(problem, evaluation)

@@ -141,8 +141,7 @@ class Newton:
             changes.cavitated += problem.grid.count(before != state.status)
         else:
             evaluation, moved = problem.evaluate(state), 0
-            feeds = problem.grid.count(problem.feeding(state.status)) > 0
-            if not (feeds or is_stuck(self._position)):
+            if not is_stuck(self._position):
                 moved = relax_cavitation_set(problem, state, evaluation)
             changes.cavitated += moved
             self._evaluate(None if moved else evaluation)
