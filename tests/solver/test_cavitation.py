@@ -28,12 +28,15 @@ def movable(problem, state):
 
 
 def relax(problem, state):
-    """How many nodes changed; what is torn is full, and the fluid's pressure is that of the state after."""
-    before = state.copy()
+    """How many nodes changed; what is no cavity is full, and the fluid's pressure that of the state after."""
+    before, nodes = state.copy(), movable(problem, state)
     moved = relax_cavitation_set(problem, state)
-    torn = (state.status == CAVITATED) & (before.status != CAVITATED)
-    np.testing.assert_array_equal(state.filling, np.where(torn, 1.0, before.filling))
-    in_contact = state.status == CONTACT
+    cavity, in_contact = state.status == CAVITATED, state.status == CONTACT
+    np.testing.assert_array_equal(state.filling[~nodes], before.filling[~nodes])
+    if moved:
+        assert (state.filling[nodes & ~cavity] == 1.0).all() and (
+            state.filling[nodes & cavity] <= 1.0
+        ).all()
     np.testing.assert_array_equal(state.p, np.where(in_contact, before.p, state.P) if moved else before.p)
     return moved
 
@@ -91,10 +94,10 @@ def test_a_spoiled_set_is_restored(film, spoil):
 def carrying(part, monkeypatch):
     """Have the relaxation leave the gap's fluid with this part of the load, one node of it torn."""
 
-    def relax(_first, P, lubricated, *_):
-        P *= part**0.5  # for each of the two colours of the last sweep
-        changed = lubricated[2, 2]
-        lubricated[2, 2] = False
+    def relax(_first, w, film, *_):
+        w[w > 0.0] *= part**0.5  # for each of the two colours of the last sweep
+        changed = film[2, 2]
+        film[2, 2], w[2 + HALO, 2] = False, 0.0
         return int(changed)
 
     monkeypatch.setattr(module, "relax_cavitation", relax)
@@ -154,20 +157,38 @@ def test_only_a_cavity_that_holds_more_than_its_gap_overflows(film, status, fill
     assert cavities_rest(problem, state) is not bool(found[32, 32])
 
 
-def test_cavities_that_feed_a_film_are_left_alone(film):
-    """However much would flow into them were they full."""
-    problem, state = film.problem, film.outcome.state.copy()
+def test_cavities_that_feed_a_film_hold_what_flows_in(film):
+    """Film is torn in the inlet, where the flow fills it again, and nothing is left of what was taken."""
+    problem, solved = film.problem, film.outcome.state
+    state = solved.copy()
     torn = np.zeros(state.P.shape, dtype=bool)
-    torn[30:35, 4:8] = True  # in the inlet, with film behind
+    torn[30:35, 4:8] = True
     assert (movable(problem, state) & torn).sum() == torn.sum()
     state.P[torn], state.status[torn], state.filling[torn] = 0.0, CAVITATED, 0.5
     state.p = state.P.copy()
     assert problem.feeding(state.status)[torn].all()
-    dry_cavity(film, state)
-    state.P[torn], state.status[torn] = 0.0, CAVITATED
-    assert relax(problem, state) > 0
-    assert (state.status[torn] == CAVITATED).all() and (state.filling[torn] == 0.5).all()
-    assert not state.P[torn].any()
+    assert relax(problem, state) >= torn.sum()
+    assert (state.status[torn] == LUBRICATED).all()
+    np.testing.assert_allclose(state.P[torn], solved.P[torn], rtol=0.0, atol=1e-4)
+
+
+def test_a_cavity_that_feeds_a_film_is_balanced_by_its_filling(film):
+    """Behind a line that is held empty: film begins further on, and each cavity passes on what it gets."""
+    problem, state = film.problem, film.outcome.state.copy()
+    empty = np.zeros(state.P.shape, dtype=bool)
+    empty[20:45, 2] = True
+    state.P[empty], state.status[empty], state.filling[empty] = 0.0, CAVITATED, 0.0
+    state.p = state.P.copy()
+    held = movable(problem, state) & ~empty
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(module, "_relaxable", lambda *_: held)
+        assert relax_cavitation_set(problem, state) > 0
+        while relax_cavitation_set(problem, state):
+            pass  # mobilities follow the pressures from one call to the next
+    cavities = held & (state.status == CAVITATED) & problem.feeding(state.status)
+    assert cavities.sum() > 20 and state.filling[cavities].min() < 0.5
+    inflow, couette = problem.evaluate(state).inflow, 1.0 / problem.grid.mesh.dX
+    assert np.abs(inflow[cavities]).max() < 1e-3 * couette
 
 
 @pytest.mark.parametrize("spoil", [dry_cavity, torn_rim])
@@ -175,7 +196,7 @@ def test_complementarity_holds_where_it_relaxes(film, spoil):
     problem = film.problem
     state = film.outcome.state.copy()
     spoil(film, state)
-    before, nodes = state.copy(), movable(problem, state) & ~problem.feeding(state.status)
+    before, nodes = state.copy(), movable(problem, state)
     moved = relax(problem, state)
     assert moved > 50
     assert moved == np.count_nonzero(state.status != before.status)
