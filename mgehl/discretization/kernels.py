@@ -199,9 +199,9 @@ def lifted_by_less(K00, part, source, H, conductance, found):
 def relax_cavitation(first, w, film, movable, source, conductances, carried, passes):
     """Solve the flow balance by `w`, ghosted: pressure of film, minus what is empty of a cavity.
 
-    On every other line from `first`. `source` is what flows into full gaps without the Poiseuille flow. Pairs
-    of faces along X, (lines, nx - 1), and Y, (lines + 1, nx), are their `conductances` and what is `carried`
-    through them by full gaps; a cavity that nothing is carried out of counts as full.
+    On every other line from `first`. `source` is what flows into full gaps without the Poiseuille flow.
+    Pairs of faces along X, (lines, nx - 1), and Y, (lines + 1, nx), are their `conductances` and what full
+    gaps have `carried` through them; a cavity that nothing is carried out of counts as full.
 
     `movable` nodes take part, which are `film` or cavities by the sign of w. On a line the set is iterated
     `passes` times: solve all nodes, then turn those of the other sign, which begin at 0. Returns the number

@@ -163,8 +163,8 @@ class Jacobian:
         storage, room = Storage.begun(evaluation.fluid, rate), self.linearisation
         self.linearisation = linearise(evaluation.by(self.scheme), rows, storage, self.rigid, room, leaks)
         self.given, torn = rows == PRESSURE, evaluation.fluid.torn
-        contents = None if torn is None else own(torn) & (rows == FLOW)
-        self.contents = contents if contents is not None and self.grid.count(contents) else None
+        contents = (rows == FLOW) & (torn is not None and own(torn))
+        self.contents = contents if self.grid.count(contents) else None  # on all ranks, or on none
         if self.contents is None:
             self.linearisation.carried = None
         self.under_contact = None

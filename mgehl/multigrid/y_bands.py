@@ -14,6 +14,9 @@ from mgehl.grid.plane import even_shares, planes_of, shares_of_work
 WIDTH = 2 * REACH + 1
 """Numbers that a node has in a band."""
 
+HERE = (0, 0)
+"""Offset of a node from itself."""
+
 UNEVEN = 1.05
 """Largest share of the work, over the least possible one, from which on y-lines are dealt out anew."""
 
@@ -51,7 +54,7 @@ class YBands:
         lines = bands.whole_lines.reshape(len(given), WIDTH, -1)
         mine = spans[grid.first : grid.last]
         build_y_bands(lin.offsets, lin.A, lin.B, around, self._kappa, self._share, mine, lines)
-        if lin.carried is not None:
+        if contents is not None:
             self._set_contents(lines, contents, lin.carried)
         bands.to_columns()
         first, end = self._shares[grid.team.rank]
@@ -75,7 +78,7 @@ class YBands:
             lines[:, k, : contents.shape[1]][around[k : k + len(contents)] | contents] = 0.0
         j, i = np.nonzero(contents)
         if len(j):
-            lines[j, REACH, i] = carried[0, 0][contents]
+            lines[j, REACH, i] = carried[HERE][contents]
 
     def _new_planes(self):
         """Room for the bands and for the right-hand sides."""

@@ -9,7 +9,7 @@ import numpy as np
 
 from mgehl.discretization.axes import own
 from mgehl.discretization.kernels import lifted_by_less, relax_cavitation
-from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED, is_fluid
+from mgehl.discretization.status import CAVITATED, LUBRICATED, is_fluid
 
 WEAKLY_COUPLED = 10.0
 """A node is relaxed where its mobility/dX exceeds this multiple of its own influence. With 3 to 100
@@ -56,9 +56,9 @@ one film on 257 nodes a sixth less."""
 def relax_cavitation_set(problem, state, evaluation=None):
     """Relax pressures, fillings and status of the weakly coupled fluid; return how many nodes changed.
 
-    Updates `state` in place, but only if the set moved: otherwise Newton's values stand. The `evaluation` of
-    the state, where it is known, stays as it is. Zebra order by global line number: the number of ranks does
-    not matter. A rigid gap is left alone: its linear systems take no convolution.
+    Updates `state` in place, but only if the set moved: otherwise Newton's values stand. The `evaluation`
+    of the state, where it is known, stays as it is. Zebra order by global line number: the number of ranks
+    does not matter. A rigid gap is left alone: its linear systems take no convolution.
     """
     if not (problem.scheme.cavitation and problem.is_elastic):
         return 0

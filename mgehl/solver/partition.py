@@ -96,7 +96,7 @@ class Past(Kept):
 
 
 class Partition:
-    """Moves nodes of a state between the sets; `past` is what the nodes went through, and may be replaced."""
+    """Moves nodes of a state between the sets; `past`, which may be replaced, is what they went through."""
 
     def __init__(self, problem, release_budget):
         self._problem, self._grid = problem, problem.grid

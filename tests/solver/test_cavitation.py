@@ -28,7 +28,7 @@ def movable(problem, state):
 
 
 def relax(problem, state):
-    """How many nodes changed; what is no cavity is full, and the fluid's pressure that of the state after."""
+    """How many nodes changed; what is no cavity is full, and the fluid's pressure is that of the state."""
     before, nodes = state.copy(), movable(problem, state)
     moved = relax_cavitation_set(problem, state)
     cavity, in_contact = state.status == CAVITATED, state.status == CONTACT
