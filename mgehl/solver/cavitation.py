@@ -65,7 +65,8 @@ def relax_cavitation_set(problem, state, evaluation=None):
     grid, evaluation = problem.grid, (evaluation or problem.evaluate(state)).filled(None)
     movable = _relaxable(problem, evaluation, state)
     cavity = state.status == CAVITATED
-    film, w = ~cavity, grid.halo(np.where(cavity, state.filling - 1.0, own(evaluation.P)))
+    film, empty = ~cavity, np.maximum(1.0 - state.filling, 0.0)
+    w = grid.halo(np.where(cavity, -empty, own(evaluation.P)))
     faces = evaluation.source, tuple(evaluation.conductances), _carried(problem, evaluation)
     sweeps = quiet = 0
     while sweeps < SWEEPS and quiet < QUIET:
