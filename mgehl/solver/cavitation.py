@@ -29,19 +29,11 @@ left to Newton's steps: the relaxation holds the gap fixed, and gap and pressure
 (2049 nodes: the gap changed by 0.35 of itself a step). From 0.03 to 0.1 the same steps but for one; at 0.01
 mixed lubrication takes a fifth more."""
 
-LOST = 0.1
-"""Part of the load, that on contact included, that a relaxation may take away. One that takes more holds a
-gap fixed that is far from an answer (a soft ball with ridges along the motion: two thirds of the load, and
-the bodies closed for good; with 0.5 that ball is not found). A line contact takes four steps more by it."""
-
-GAINED = 0.2
-"""Part of the load that a relaxation may add between rough bodies, over the film of smooth ones in units of
-H. Where peaks touch they begin with all of the load on the dry contact, else with that of the coarser grid,
-which may not show them. What is added lifts the bodies, by about as many units of H as it is parts of the
-load; around a film that is too thick the next relaxation adds more (a steel ellipse of 52 nm rms with a
-film of 27 nm: 690 nm after eight steps, and no end). With 0.03 to 0.3 five such contacts settle, with 1
-three. Of 29 others (`study machine`), with 0.3 and without, two take two fifths and two thirds more work
-by it, eight take less, and all together a tenth less."""
+SHIFTED = 1e-3
+"""Part of the load, that on contact included, that a relaxation may take away or add. One that shifts more
+holds a gap fixed that is far from an answer: a wide soft roller (M = 5000) takes 589 convolutions and is not
+found without this limit, 885 with 0.03, 151 with 0.003, 133 with 0.001, 120 where nothing is relaxed;
+`rough.toml` on 129 nodes takes 280 to 287 with all of these, and 446 where nothing is relaxed."""
 
 SWEEPS, QUIET = 1000, 30
 """Sweeps over all lines at the most; they end when so many, one after the other, changed no status. What
@@ -77,7 +69,7 @@ def relax_cavitation_set(problem, state, evaluation=None):
         sweeps, quiet = sweeps + 1, 0 if grid.sum(changes) else quiet + 1
     moved = grid.count(film == cavity)
     P = np.where(movable, np.maximum(own(w), 0.0), state.P)
-    if not (moved and _may_carry(problem, grid.sum(state.P.sum()), grid.sum(P.sum()))):
+    if not moved or abs(grid.sum((P - state.P).sum())) > SHIFTED * grid.sum(state.P.sum()):
         return 0
     state.status[movable] = np.where(film, LUBRICATED, CAVITATED)[movable]
     state.filling[movable] = np.where(film, 1.0, 1.0 + own(w))[movable]
@@ -93,15 +85,6 @@ def _carried(problem, evaluation):
         for rate, axis, flow in zip(carried, evaluation.axes, evaluation.carried_full(), strict=False):
             rate[:] = flow / axis.cell
     return carried
-
-
-def _may_carry(problem, before, after):
-    """Whether a relaxation may change the load, in any unit, from `before` to `after`."""
-    contact, least = problem.contact, (1.0 - LOST) * before
-    if not contact.roughness:
-        return least <= after
-    film = contact.expected_film / contact.film_scale
-    return least <= after <= (1.0 + GAINED * film) * before
 
 
 def overflows(state):

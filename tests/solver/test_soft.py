@@ -21,7 +21,7 @@ def test_lines_converge_to_moes_film(M, L):
     """One of six did, by steps that closed the film and a relaxation that took the load away."""
     solution = solved("line", M, L)
     result = solution.result
-    assert result.converged and result.work.convolutions < 90.0
+    assert result.converged and result.work.convolutions < 110.0
     assert 1e-9 * result.central_film_nm == pytest.approx(solution.contact.flooded_film, rel=0.15)
 
 
