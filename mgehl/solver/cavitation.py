@@ -31,9 +31,9 @@ mixed lubrication takes a fifth more."""
 
 SHIFTED = 1e-3
 """Part of the load, that on contact included, that a relaxation may take away or add. One that shifts more
-holds a gap fixed that is far from an answer: a wide soft roller (M = 5000) takes 589 convolutions and is not
-found without this limit, 885 with 0.03, 151 with 0.003, 133 with 0.001, 120 where nothing is relaxed;
-`rough.toml` on 129 nodes takes 280 to 287 with all of these, and 446 where nothing is relaxed."""
+holds a gap fixed that is far from an answer: a wide soft roller (M = 5000) is not found without this limit,
+takes 885 convolutions with 0.03, 151 with 0.003, 133 with 0.001, 120 where nothing is relaxed; `rough.toml`
+on 129 nodes takes 280 to 287 with all of these, and 446 where nothing is relaxed."""
 
 SWEEPS, QUIET = 1000, 30
 """Sweeps over all lines at the most; they end when so many, one after the other, changed no status. What
