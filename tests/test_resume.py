@@ -31,7 +31,9 @@ BEGUN = {"configuration.toml", "manifest.json"}
 """Of what is solved, in the checkpoint."""
 SMALL = ["--set", "grid.nodes=65", "--set", "motion.speed=0.5", "--set", "solver.start=film"]
 ROUGH = [str(Path(__file__).parents[1] / "configs" / "rough.toml"), "--set", "grid.nodes=65"]
-"""Film and contact on a rough ball: eight steps, by a linear solver that remembers those before."""
+ROUGH += ["--set", "solver.tolerance=1e-10"]
+"""Film and contact on a rough ball: some twenty steps, by a linear solver that remembers those before. To a
+tolerance by which runs whose sums round differently end with the same film."""
 SIGNALS = (
     (signal.SIGTERM, "SIGTERM", 143),
     (signal.SIGINT, "Ctrl-C", 130),
@@ -241,7 +243,9 @@ class TestStops:
         whole = uninterrupted(ROUGH)
         assert_same(tmp_path / "here", whole)
         work = read_run(tmp_path / "here").result.work
-        assert work.convolutions == pytest.approx(whole.result.work.convolutions, rel=1e-12)
+        # On two ranks sums round differently, and an iteration may be one more.
+        apart = 1e-12 if ranks == 1 else 0.03
+        assert work.convolutions == pytest.approx(whole.result.work.convolutions, rel=apart)
 
     def test_a_limit_of_time_on_two_ranks(self, tmp_path):
         status, said = end(start([*SMALL, "--out", "here", "--time-limit", "1e-9"], ranks=2))
@@ -421,8 +425,8 @@ class TestFullDisk:
         [
             ("40k", "0.001", BEGUN),
             ("300k", "0.001", {"under-way.npz", *BEGUN}),
-            ("160k", "60", {"history.csv", *BEGUN, *SOLVES}),
-            ("264k", "60", {"history.csv", "fields.h5", *BEGUN, *SOLVES}),
+            ("240k", "60", {"history.csv", *BEGUN, *SOLVES}),
+            ("376k", "60", {"history.csv", "fields.h5", *BEGUN, *SOLVES}),
         ],
     )
     def test_it_is_one_line_and_the_run_goes_on_later(self, disk, uninterrupted, size, save_every, there):
