@@ -234,7 +234,7 @@ def _whether_more_holds(inequality, made, edge, overlap):
     if edge.wrong[1]:
         return edge.wrong[1]
     if made:
-        return f"nodes of one kind make {made.made_share:.1e} of the oil that flows through"
+        return f"a node, or nodes of one kind, make {made.made_share:.1e} of the oil that flows through"
     if overlap.nodes:
         return (
             f"the unified equations hold, but the bodies overlap at {overlap.nodes} nodes "

@@ -107,7 +107,7 @@ def _errors(result):
     if result.mass:
         yield (
             f"  oil: {result.mass.enters:.3g} m3/s enter the Hertz ellipse, {result.mass.leaves:.3g} leave "
-            f"it; nodes of one kind make at most {result.mass.made_share:.1e} of it"
+            f"it; a node, or nodes of one kind, make at most {result.mass.made_share:.1e} of it"
         )
 
 

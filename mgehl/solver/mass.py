@@ -13,7 +13,7 @@ from mgehl.discretization.mesh import HALO
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
 
 CLOSED = 1e-6
-"""Part of what flows through that may be made, or lost, by nodes of one kind."""
+"""Part of what flows through that may be made, or lost, by a node or by all nodes of one kind."""
 
 LEAST_THROUGH = 1e-2
 """Part of what the surfaces carry into the domain that counts as flowing through at the least: nothing
@@ -38,8 +38,9 @@ class Mass:
 
     @property
     def made(self):
-        """The largest of what nodes of one kind make or lose."""
-        return max(abs(self.made_by_film), abs(self.made_by_cavity), abs(self.made_by_contact))
+        """The largest of what a node, or all nodes of one kind, make or lose."""
+        by_kind = self.made_by_film, self.made_by_cavity, self.made_by_contact
+        return max(self.largest_node, *map(abs, by_kind))
 
     @property
     def made_share(self):

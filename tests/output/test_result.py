@@ -34,6 +34,7 @@ def summary(tiny_problem, outcome, monkeypatch):
         monkeypatch.setattr(tiny_problem, "state", lambda *_: outcome.state)
         monkeypatch.setattr(tiny_problem, "residual", lambda _, status: np.full(status.shape, residual))
         monkeypatch.setattr(tiny_problem, "load_deficit", lambda P: load)
+        monkeypatch.setattr("mgehl.output.result._conserves", lambda *_: True)
         return summarise(tiny_problem, outcome, 1e-8, Work(12.5, 7), 3.0, {"mgehl": "0"})
 
     return make

@@ -41,9 +41,7 @@ def test_bands_hold_the_limits(tables):
     assert all("±" in row["central nm"] for row in cases)
     assert all(float(row["central band/error"].rstrip(" !")) > 0.9 for row in cases)
     best = error._name(error.BEST)
-    assert all(
-        row["in %"] == "100" for row in bands if row["film"] == "central" and row["scheme"] != best
-    )
+    assert all(row["in %"] == "100" for row in bands if row["film"] == "central" and row["scheme"] != best)
 
 
 def test_the_limit_is_one_contacts_whatever_the_scheme(tables):

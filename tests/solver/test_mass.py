@@ -1,0 +1,100 @@
+"""The account of the oil, by states that make none and by states that were spoiled."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from mpi4py import MPI
+
+from mgehl.config import load_config
+from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
+from mgehl.output.result import Work, summarise
+from mgehl.solver.beginning import begin
+from mgehl.solver.from_config import set_up
+from mgehl.solver.inequality import check_under_contact
+from mgehl.solver.mass import CLOSED, mass_account
+
+ROUGH = Path(__file__).parents[2] / "configs" / "rough.toml"
+TOLERANCE = 1e-8
+
+
+@pytest.fixture(scope="module")
+def solved():
+    """Problem and outcome of the rough ball on 65 nodes: film, cavities that feed it, and contact."""
+    parts = set_up(load_config(ROUGH, {"grid.nodes": 65, "solver.error": False}))
+    hierarchy = parts.hierarchy(MPI.COMM_SELF)
+    yield begin(hierarchy, parts.contact, parts.settings, lambda *_: None)
+    hierarchy.destroy()
+
+
+def copy_of(solved):
+    problem, outcome = solved
+    return problem, replace(outcome, state=outcome.state.copy())
+
+
+def account(problem, state):
+    return mass_account(problem, state, problem.evaluate(state))
+
+
+def verdict(problem, outcome):
+    return summarise(problem, outcome, TOLERANCE, Work(1.0, 1), 1.0, {})
+
+
+def test_a_solved_state_makes_no_oil(solved):
+    problem, outcome = solved
+    mass = account(problem, outcome.state)
+    assert mass.enters == pytest.approx(mass.leaves, rel=1e-7) and mass.enters > 0.0
+    assert mass.made_share < 1e-8 and mass.largest_node < 1e-8 * mass.enters
+    assert verdict(problem, outcome).converged
+
+
+def test_what_enters_and_leaves_is_what_nodes_within_make(solved):
+    """Whatever the state: the account of the ellipse is the sum of the nodes' own."""
+    problem, outcome = copy_of(solved)
+    rng, state = np.random.default_rng(3), outcome.state
+    state.p *= rng.uniform(0.9, 1.1, state.p.shape)
+    evaluation, mesh = problem.evaluate(state), problem.grid.mesh
+    mass = mass_account(problem, state, evaluation)
+    X, Y = np.meshgrid(mesh.X, mesh.Y)
+    unit = problem.contact.speed * problem.contact.film_scale * problem.contact.y_scale
+    within = evaluation.inflow[X**2 + Y**2 <= 1.0].sum() * unit * mesh.dX * mesh.dY
+    assert mass.enters - mass.leaves == pytest.approx(within, rel=1e-9)
+
+
+def spoiled_filling(state, problem):
+    """A cavity passes on more than it gets; the next one, which passes on less, makes up for it."""
+    node = problem.feeding(state.status) & (state.filling > 0.1) & (state.filling < 0.8)
+    node[:, :-1] &= (state.status == CAVITATED)[:, 1:]
+    state.filling[tuple(np.argwhere(node)[0])] += 0.1
+    return "largest_node"
+
+
+def spoiled_leak(state, _):
+    """The fluid under a patch is pressed less than it was."""
+    node = (state.status == CONTACT) & (state.p < state.P)
+    state.p[node] *= 0.5
+    return "made_by_contact"
+
+
+@pytest.mark.parametrize("spoil", [spoiled_filling, spoiled_leak])
+def test_oil_that_is_made_is_found_and_told(solved, spoil):
+    problem, outcome = copy_of(solved)
+    kind = spoil(outcome.state, problem)
+    mass = account(problem, outcome.state)
+    assert mass.made_share > CLOSED and abs(getattr(mass, kind)) > CLOSED * mass.enters
+    result = verdict(problem, outcome)
+    assert not result.converged
+    if result.settled:
+        assert "oil" in result.reason
+
+
+def test_fluid_under_contact_that_presses_harder_than_both_breaks_eq_2(solved):
+    problem, outcome = copy_of(solved)
+    assert check_under_contact(problem, outcome.state).violations == []
+    contact = np.argwhere(outcome.state.status == CONTACT)[3:5]
+    for j, i in contact:
+        outcome.state.p[j, i] = 1.01 * outcome.state.P[j, i]
+    found = check_under_contact(problem, outcome.state)
+    assert len(found.violations) == 2
+    assert {LUBRICATED, CAVITATED, CONTACT} <= set(np.unique(outcome.state.status))
