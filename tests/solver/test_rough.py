@@ -167,15 +167,15 @@ class Standing(Journal):
 
 
 class TestNearbyNodesAtOnce:
-    """Waves of 200 nm at a smooth film of .1 nm; a linear system may take but 5 iterations by lines.
+    """Waves of 200 nm at a smooth film of .5 nm; a linear system may take but 5 iterations by lines.
 
-    It takes 31 steps and 284 iterations. By lines alone it does not settle: 1559 in 101 steps.
+    It takes 18 steps. By lines alone it takes 69. (At a tenth of the film neither settles.)
     """
 
     @pytest.fixture
     def solve(self, solve_rough):
         """Function: the outcome."""
-        return lambda journal=NOTHING_KEPT: solve_rough(2e-7, 4e-6, journal=journal)[1]
+        return lambda journal=NOTHING_KEPT: solve_rough(2e-7, 4e-5, journal=journal)[1]
 
     def test_by_lines_alone_it_takes_more_than_twice_the_iterations(self, solve, monkeypatch):
         def iterations(patience):
@@ -188,9 +188,9 @@ class TestNearbyNodesAtOnce:
         monkeypatch.setattr(valleys, "PATIENCE", 5)
         kept = Kept()
         whole = solve(kept)
-        assert whole.converged and len(whole.cycles) < 45
-        assert len(kept.records) > 20
-        for record in kept.records[10::10]:
+        assert whole.converged and len(whole.cycles) < 25
+        assert len(kept.records) > 15
+        for record in kept.records[5::5]:
             rest = solve(Standing(record))
             assert rest.cycles == whole.cycles
             np.testing.assert_array_equal(rest.state.P, whole.state.P)
