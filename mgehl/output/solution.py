@@ -100,15 +100,19 @@ class Solution:
         """The whole-grid fields, which rank 0 has, on another rank, too; None elsewhere (collective)."""
         if comm.rank not in (0, rank):
             return None
-        shape = self.mesh.ny, self.mesh.nx
-        kinds = [each.dtype for each in self.local.arrays] if self.local else []
-        fields = self.fields or Fields(*(np.empty(shape, kind) for kind in kinds))
-        for array in fields.arrays:
-            if comm.rank == 0:
-                comm.Send(np.ascontiguousarray(array), rank)
-            else:
-                comm.Recv(array, 0)
-        return fields
+        if comm.rank == rank:
+            return self.fields or Fields(*(self._received(comm) for _ in range(comm.recv(source=0))))
+        comm.send(len(self.fields.arrays), rank)
+        for array in self.fields.arrays:
+            comm.send(array.dtype, rank)
+            comm.Send(np.ascontiguousarray(array), rank)
+        return self.fields
+
+    def _received(self, comm: MPI.Comm) -> Reals:
+        """A field that rank 0 sends."""
+        array = np.empty((self.mesh.ny, self.mesh.nx), comm.recv(source=0))
+        comm.Recv(array, 0)
+        return array
 
     def shared(self) -> "Solution":
         """What every rank knows."""
