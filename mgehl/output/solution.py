@@ -100,17 +100,19 @@ class Solution:
         """The whole-grid fields, which rank 0 has, on another rank, too; None elsewhere (collective)."""
         if comm.rank not in (0, rank):
             return None
-        if comm.rank == rank:
-            return self.fields or Fields(*(self._received(comm) for _ in range(comm.recv(source=0))))
+        if self.fields is None:
+            return Fields(*(self._received(comm) for _ in range(comm.recv(source=0))))
+        if rank == 0:
+            return self.fields
         comm.send(len(self.fields.arrays), rank)
         for array in self.fields.arrays:
             comm.send(array.dtype, rank)
             comm.Send(np.ascontiguousarray(array), rank)
         return self.fields
 
-    def _received(self, comm: MPI.Comm) -> Reals:
+    def _received(self, comm: MPI.Comm) -> NDArray[Any]:
         """A field that rank 0 sends."""
-        array = np.empty((self.mesh.ny, self.mesh.nx), comm.recv(source=0))
+        array: NDArray[Any] = np.empty((self.mesh.ny, self.mesh.nx), comm.recv(source=0))
         comm.Recv(array, 0)
         return array
 
