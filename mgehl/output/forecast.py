@@ -57,9 +57,9 @@ MEASURED_NODES = 129
 `rough.toml` takes 142, 280 and 644 on 65, 129 and 257."""
 
 HIGHEST = {False: 465.0, True: 376.0}
-"""Convolutions of balls whose roughness is as large as the dry contact is deep, without and with a boundary
-film of 2 nm. Of 27 balls (drawn as in `study mixed`, seeds 41 and 42) 25 converged, and 20 of these took half
-to twice as many."""
+"""Convolutions of balls whose roughness is as large as the dry contact is deep, without and with a layer of
+2 nm. Of 27 balls (drawn as in `study mixed`, seeds 41 and 42) 25 converged, and 20 of these took half to
+twice as many."""
 
 LOWER, THIN = 0.36, 0.15
 """The power with which they fall with less roughness; lambda below which they rise."""
