@@ -36,7 +36,7 @@ def span_of(given, lines):
     return (max(first - 1, 0), min(end + 1, nx)) if first < end else (0, 0)
 
 
-@compiled(fastmath={"contract"})
+@compiled()
 def build_bands(offsets, A, B, distributive, kappa, share, bands, lines, nodes):
     """Fill some `nodes` of some `lines` of `bands` (lines, nx, 2 reach + 1) with each line's part of J Q.
 
@@ -71,7 +71,7 @@ def add_coupling(a, b, places, spreads, kappa, share, diagonal):
         _add_product(a, spreads, 0.0, -share, diagonal)
 
 
-@compiled(fastmath={"contract"})
+@compiled()
 def _add_product(b, spreads, single, more, diagonal):
     """diagonal += b (single + more spreads): a function of its own, for a loop that runs on vectors."""
     for i in range(diagonal.size):
@@ -111,7 +111,7 @@ def _side_by_side(spans, line):
     return together
 
 
-@compiled(fastmath={"contract"})
+@compiled()
 def _eliminate(band, node, below, reach):
     """Take a node's unknown out of the row of one `below` it."""
     row = node + below
@@ -127,7 +127,7 @@ def banded(reach):
     process.
     """
 
-    @compiled(fastmath={"contract"}, error_model="numpy")
+    @compiled(error_model="numpy")
     def factor(bands, nodes):
         """LU factors of the `nodes` (first, end) of all lines in place, without pivoting.
 
@@ -149,7 +149,7 @@ def banded(reach):
                     for below in range(1, nx - i):
                         _eliminate(band, i, below, reach)
 
-    @compiled(fastmath={"contract"})
+    @compiled()
     def solve(bands, spans, r, w):
         """Solve every line with the factors for the nodes of its span (first, end); the others become zero.
 

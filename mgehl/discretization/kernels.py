@@ -9,7 +9,7 @@ from mgehl.discretization.compiled import compiled
 from mgehl.discretization.mesh import HALO
 
 
-@compiled(fastmath={"contract"})
+@compiled()
 def apply_jacobian(offsets, A, B, dP, dH, dH0, out):
     """out = A dP + B (dH + dH0); stencils (offsets, lines, nx), `dP` and `dH` ghosted."""
     lines, nx = out.shape
@@ -22,14 +22,14 @@ def apply_jacobian(offsets, A, B, dP, dH, dH0, out):
             _add(A[k, j, here], B[k, j, here], dP[line, there], dH[line, there], dH0, out[j, here])
 
 
-@compiled(fastmath={"contract"})
+@compiled()
 def _add(a, b, p, h, h0, out):
     """out += a p + b (h + h0): of whole arrays, for a loop that runs on vectors."""
     for i in range(out.size):
         out[i] += a[i] * p[i] + b[i] * (h[i] + h0)
 
 
-@compiled(fastmath={"contract"})
+@compiled()
 def apply_stencil(offsets, A, dP, out):
     """out = A dP, the Jacobian of a rigid gap; `dP` ghosted."""
     lines, nx = out.shape
@@ -41,14 +41,14 @@ def apply_stencil(offsets, A, dP, out):
             _add_part(A[k, j, first:end], dP[line, first + node : end + node], out[j, first:end])
 
 
-@compiled(fastmath={"contract"})
+@compiled()
 def _add_part(a, p, out):
     """out += a p."""
     for i in range(out.size):
         out[i] += a[i] * p[i]
 
 
-@compiled(fastmath={"contract"})
+@compiled()
 def distribute(w, distributive, share, omega, out, along_x=True, along_y=True):
     """out = omega Q w; `w` and `distributive` ghosted, `out` (lines, nx).
 
@@ -70,7 +70,7 @@ def distribute(w, distributive, share, omega, out, along_x=True, along_y=True):
             out[j, i] = omega * (w[g, i] - share * spread)
 
 
-@compiled(fastmath={"contract"})
+@compiled()
 def deflect_nearby(K, p, out):
     """out = deflection by the pressure `p`, ghosted, of a node and the eight around it; `out` (lines, nx).
 
@@ -80,7 +80,7 @@ def deflect_nearby(K, p, out):
         _deflect_line(K, p[j + HALO - 1], p[j + HALO], p[j + HALO + 1], out[j])
 
 
-@compiled(fastmath={"contract"})
+@compiled()
 def _deflect_line(K, before, here, behind, out):
     """One line of it: a function of its own, for a loop that runs on vectors."""
     last = out.size - 1
@@ -163,7 +163,7 @@ def _add_product(flow, factor, inflow):
         inflow[i] += flow[i] * factor
 
 
-@compiled(fastmath={"contract"})
+@compiled()
 def flow_sources(inflow, P, along, across, source):
     """source = inflow - L P: the net inflow of a node without its Poiseuille flow.
 
@@ -195,7 +195,7 @@ def lifted_by_less(K00, part, source, H, conductance, found):
             found[j, i] = K00 * abs(source[j, i]) <= part * H[j, i] * conductance[j, i]
 
 
-@compiled(fastmath={"contract"})
+@compiled()
 def relax_cavitation(first, w, film, movable, source, conductances, carried, passes):
     """Solve the flow balance by `w`, ghosted: pressure of film, minus what is empty of a cavity.
 
@@ -219,7 +219,7 @@ def relax_cavitation(first, w, film, movable, source, conductances, carried, pas
     return changes
 
 
-@compiled(fastmath={"contract"})
+@compiled()
 def _solve_line(j, w, film, movable, source, conductances, carried, upper):
     """Balance the movable nodes of a line by their w: a tridiagonal system."""
     along, across, along_x, along_y = conductances[0][j], conductances[1], carried[0][j], carried[1]

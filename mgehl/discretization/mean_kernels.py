@@ -15,7 +15,7 @@ VANISHING = 1e-290
 """Ratio of two mobilities of which there is no mean: its inverse must be a number."""
 
 
-@compiled(fastmath={"contract"})
+@compiled()
 def _slope(grown, x):
     """(e^x - 1 - x)/x^2 of `grown` = e^x - 1; near x = 0, where its digits cancel, by its series."""
     if abs(x) > NEAR:
@@ -23,7 +23,7 @@ def _slope(grown, x):
     return 0.5 + x / 6.0 * (1.0 + x / 4.0 * (1.0 + x / 5.0 * (1.0 + x / 6.0 * (1.0 + x / 7.0))))
 
 
-@compiled(fastmath={"contract"})
+@compiled()
 def _logarithmic(a, b):
     """Logarithmic mean of two numbers and its slopes; zero where either vanishes.
 
@@ -41,7 +41,7 @@ def _logarithmic(a, b):
     return mean, by_large, by_small
 
 
-@compiled(fastmath={"contract"})
+@compiled()
 def logarithmic_means(a, b, mean, by_a, by_b):
     """Logarithmic means of `a` and `b` and their slopes, all (lines, nodes)."""
     lines, nodes = a.shape
@@ -50,7 +50,7 @@ def logarithmic_means(a, b, mean, by_a, by_b):
             mean[j, i], by_a[j, i], by_b[j, i] = _logarithmic(a[j, i], b[j, i])
 
 
-@compiled(fastmath={"contract"})
+@compiled()
 def linear_gap_means(a, b, g, h, mean, by_a, by_b, by_g, by_h):
     """Mobilities between nodes of mobility `a`, `b` and gap `g`, `h`, and their slopes: all (lines, nodes).
 

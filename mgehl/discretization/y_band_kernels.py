@@ -30,7 +30,7 @@ def spans_of_nodes(given):
     return spans
 
 
-@compiled(fastmath={"contract"})
+@compiled()
 def build_y_bands(offsets, A, B, distributive, kappa, share, spans, bands):
     """Fill the `bands` of some x-lines with what J Q couples along Y, in their `spans`.
 
@@ -58,20 +58,20 @@ def build_y_bands(offsets, A, B, distributive, kappa, share, spans, bands):
                 add_coupling(a, b, places, spread, kappa, share, of_distance)
 
 
-@compiled(fastmath={"contract"}, error_model="numpy")
+@compiled(error_model="numpy")
 def _invert(pivots):
     for i in range(pivots.size):
         pivots[i] = 1.0 / pivots[i]
 
 
-@compiled(fastmath={"contract"})
+@compiled()
 def _multiply(a, b):
     """a *= b"""
     for i in range(a.size):
         a[i] *= b[i]
 
 
-@compiled(fastmath={"contract"})
+@compiled()
 def _subtract_product(a, b, c):
     """a -= b c"""
     for i in range(a.size):

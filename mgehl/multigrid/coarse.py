@@ -118,7 +118,7 @@ class DenseInverse:
         return solution
 
 
-@compiled(fastmath={"contract"})
+@compiled()
 def fill_bordered(matrix, free, moves, A, B, K, load_weight):
     """Fill the `matrix` of A + B K for the `free` nodes, with its border.
 
