@@ -100,9 +100,16 @@ class Evaluation:
         for axis, mobility in zip(self.axes, self.mobilities, strict=True):
             yield function(self.fluid, self.status, axis, self.scheme, mobility=mobility, **how)
 
-    def carried_full(self):
-        """What the surfaces carry through the faces along each axis where all cavities are full."""
-        return list(self._of_axes(carried))
+    def carried_by_full_gaps(self):
+        """What the surfaces carry through the faces along X and Y where all cavities are full, per cell.
+
+        As `conductances`: (lines, nx - 1), and (lines + 1, nx), which is zero on a single line.
+        """
+        lines, nx = own(self.P).shape
+        found = np.zeros((lines, nx - 1)), np.zeros((lines + 1, nx))
+        for rate, axis, flow in zip(found, self.axes, self._of_axes(carried), strict=False):
+            rate[:] = flow / axis.cell
+        return found
 
     @cached_property
     def inflow(self):

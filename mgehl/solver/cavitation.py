@@ -65,7 +65,12 @@ def relax_cavitation_set(problem, state, evaluation=None):
     cavity = state.status == CAVITATED
     film, empty = ~cavity, np.maximum(1.0 - state.filling, 0.0)
     w = grid.halo(np.where(cavity, -empty, own(evaluation.P)))
-    faces = evaluation.source, tuple(evaluation.conductances), _carried(problem, evaluation)
+    carried = evaluation.carried_by_full_gaps()
+    if not problem.scheme.contact_law.has_contact:
+        carried = tuple(
+            np.zeros(each.shape) for each in carried
+        )  # where bodies overlap cavities count as full
+    faces = evaluation.source, tuple(evaluation.conductances), carried
     sweeps = quiet = 0
     while sweeps < SWEEPS and quiet < QUIET:
         changes = 0
@@ -82,16 +87,6 @@ def relax_cavitation_set(problem, state, evaluation=None):
     state.filling[movable] = np.where(film, 1.0, 1.0 + own(w))[movable]
     state.P[:], state.p[movable] = P, P[movable]
     return moved
-
-
-def _carried(problem, evaluation):
-    """What full gaps pass on through the faces along X and Y, per cell; nothing where cavities are full."""
-    lines, nx = own(evaluation.P).shape
-    carried = np.zeros((lines, nx - 1)), np.zeros((lines + 1, nx))
-    if problem.scheme.contact_law.has_contact:
-        for rate, axis, flow in zip(carried, evaluation.axes, evaluation.carried_full(), strict=False):
-            rate[:] = flow / axis.cell
-    return carried
 
 
 def overflows(state):

@@ -11,7 +11,6 @@ from functools import partial
 import numpy as np
 from petsc4py import PETSc
 
-from mgehl.discretization.axes import own
 from mgehl.discretization.status import CONTACT, LUBRICATED
 from mgehl.errors import OptionError
 from mgehl.grid.events import linear_solve
@@ -20,6 +19,7 @@ from mgehl.solver.arbiter import RELEASE_STEPS, Ruling, rule
 from mgehl.solver.cavitation import relax_cavitation_set
 from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.judge import UNSOLVED, is_stuck, judge, judge_system, judge_work, limits_of
+from mgehl.solver.layers import FluidInLayers
 from mgehl.solver.outcome import Cycle, Outcome
 from mgehl.solver.partition import Changes, Partition
 from mgehl.solver.position import Position, Step, Trial
@@ -27,9 +27,6 @@ from mgehl.solver.remembered import remembered
 from mgehl.solver.rigid_gap import ahead_of
 from mgehl.solver.squeeze import squeeze_rates
 from mgehl.solver.step_length import step_length
-
-NEARLY_ALL = 0.999
-"""Part of what an infinite pressure would drive under contact that a step may ask for."""
 
 
 class Newton:
@@ -203,7 +200,7 @@ class Newton:
         rates = squeeze_rates(problem, self._evaluation, rows, F, self._settings)
         self._system = LinearSystem(rows, rates)
         snes.computeJacobian(x, *ksp.getOperators())
-        self._leave_out_what_is_under_contact(F)
+        self._leave_out_the_layers(F)
         with linear_solve():
             ksp.solve(self._rhs, self._correction)
         self._multigrid.forget()
@@ -213,26 +210,13 @@ class Newton:
             position.stalls += ksp.getResidualNorm() > UNSOLVED * self._rhs.norm()
         return reason
 
-    def _leave_out_what_is_under_contact(self, F):
+    def _leave_out_the_layers(self, F):
         """Take the fluid's pressure under contact out of the system, whose right-hand side is `F`."""
-        under, self._p = self._multigrid.jacobian.under_contact, None
-        if under is not None and under.some:
-            self._p = under.solve(self._evaluation.inflow[under.here])
-            under.feed(F, -self._p)
+        eliminated, self._layers = self._multigrid.jacobian.under_contact, None
+        if eliminated is not None and eliminated.some:
+            self._layers = FluidInLayers(self._problem, self._evaluation, eliminated)
+            self._layers.leave(F)
             self._space.write_pressure(self._rhs, F)
-
-    def _step_under_contact(self, c, dH, length):
-        """Move the fluid's pressure under contact along with a step; `dH` is its change of the gap."""
-        if self._p is None:
-            return
-        grid, state = self._problem.grid, self._position.state
-        under, contact = self._multigrid.jacobian.under_contact, state.status == CONTACT
-        moved = grid.halo(np.where(contact, 0.0, c)), grid.halo(dH)
-        dp = under.own(self._p - under.solve(under.inflow(*moved, 0.0)))
-        here = under.here
-        fluid = self._evaluation.fluid
-        stiffening = -own(fluid.deps_dP)[here] / own(fluid.eps)[here]
-        state.p[here] += by_reduced_pressure(-length * dp, stiffening)
 
     def _step(self):
         """Take the step, cut tension, let gaps close."""
@@ -242,7 +226,8 @@ class Newton:
         dP = self._multigrid.jacobian.pressures(c)
         limit = self._settings.max_pressure_step
         length, H, dH = step_length(problem, self._partition, self._evaluation, state, dP, dH0, limit)
-        self._step_under_contact(c, dH, length)
+        if self._layers:
+            self._layers.follow(state, c, dH, length)
         state.P -= length * dP
         state.H0 -= length * dH0
         state.filling -= length * (c - dP)
@@ -325,18 +310,6 @@ class Newton:
     def _unknowns(self, state):
         """What SNES has of a state: pressures, and the fillings of cavities that feed a film."""
         return np.where(self._problem.feeding(state.status), state.filling, state.P)
-
-
-def by_reduced_pressure(change, stiffening):
-    """The change of a pressure whose fluid stiffens by e^(`stiffening` p), by that of its reduced pressure.
-
-    What flows under contact is linear in the reduced pressure, and far from it in p. Where no pressure
-    drives as much, the one that drives nearly all that any could.
-    """
-    steep = np.abs(stiffening * change) > 1e-8
-    with np.errstate(divide="ignore", invalid="ignore"):
-        reduced = -np.log1p(-np.minimum(stiffening * change, NEARLY_ALL)) / stiffening
-    return np.where(steep, reduced, change)
 
 
 def _first_cause(error):

@@ -81,9 +81,8 @@ class Problem:
         marched = (state.status == CAVITATED) & ~self.feeding(state.status)
         if not self.grid.count(marched):
             return evaluation
-        leaving = np.zeros((2, *self.grid.shape))
-        for rate, axis, carried in zip(leaving, self.axes, evaluation.carried_full(), strict=False):
-            axis.inner(rate)[:] = axis.left(carried) / axis.cell
+        along, across = evaluation.carried_by_full_gaps()
+        leaving = np.pad(along, ((0, 0), (0, 1))), across[1:]
         rise = self._in_order(missing_fillings, marched, evaluation.inflow, *leaving)
         state.filling = np.clip(state.filling + rise, 0.0, OVERFULL)
         return evaluation.filled(self.grid.halo(state.filling))

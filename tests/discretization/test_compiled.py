@@ -73,7 +73,7 @@ print(hashlib.sha256(solution.fields.P.tobytes()).hexdigest())
 
 
 def test_what_was_just_compiled_gives_the_bits_of_what_was_kept(tmp_path):
-    """A function that is compiled with those it calls may be fused with them, and not when it is read again.
+    """Functions that are compiled together may be fused, and are not when they are read again.
 
     A multiplication and an addition that are one instruction round otherwise: a rough ball took 168
     convolutions where it was the first run of a copy, and 152 in all later runs.

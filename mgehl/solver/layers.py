@@ -1,0 +1,43 @@
+"""The fluid in the layers under contact: its pressure p leaves a Newton step's linear system, and follows the
+step."""
+
+import numpy as np
+
+from mgehl.discretization.axes import own
+from mgehl.discretization.status import CONTACT
+
+NEARLY_ALL = 0.999
+"""Part of what an infinite pressure would drive under contact that a step may ask for."""
+
+
+class FluidInLayers:
+    """p of an evaluated state, `eliminated` (`UnderContact`) from the linear system of its step (the team's)."""
+
+    def __init__(self, problem, evaluation, eliminated):
+        self._problem, self._fluid, self._eliminated = problem, evaluation.fluid, eliminated
+        self._p = eliminated.solve(evaluation.inflow[eliminated.here])
+
+    def leave(self, F):
+        """Take what the flow balance under contact asks of p out of the right-hand side, in place."""
+        self._eliminated.feed(F, -self._p)
+
+    def follow(self, state, c, dH, length):
+        """Move p along a part of the step: -c, (lines, nx), by which the gap falls by `dH`."""
+        grid, eliminated, here = self._problem.grid, self._eliminated, self._eliminated.here
+        outside = np.where(state.status == CONTACT, 0.0, c)
+        moved = eliminated.inflow(grid.halo(outside), grid.halo(dH), 0.0)
+        dp = eliminated.own(self._p - eliminated.solve(moved))
+        stiffening = -own(self._fluid.deps_dP)[here] / own(self._fluid.eps)[here]
+        state.p[here] += by_reduced_pressure(-length * dp, stiffening)
+
+
+def by_reduced_pressure(change, stiffening):
+    """The change of a pressure whose fluid stiffens by e^(`stiffening` p), by that of its reduced pressure.
+
+    What flows under contact is linear in the reduced pressure, and far from it in p. Where no pressure
+    drives as much, the one that drives nearly all that any could.
+    """
+    steep = np.abs(stiffening * change) > 1e-8
+    with np.errstate(divide="ignore", invalid="ignore"):
+        reduced = -np.log1p(-np.minimum(stiffening * change, NEARLY_ALL)) / stiffening
+    return np.where(steep, reduced, change)
