@@ -66,10 +66,8 @@ def relax_cavitation_set(problem, state, evaluation=None):
     film, empty = ~cavity, np.maximum(1.0 - state.filling, 0.0)
     w = grid.halo(np.where(cavity, -empty, own(evaluation.P)))
     carried = evaluation.carried_by_full_gaps()
-    if not problem.scheme.contact_law.has_contact:
-        carried = tuple(
-            np.zeros(each.shape) for each in carried
-        )  # where bodies overlap cavities count as full
+    if not problem.scheme.contact_law.has_contact:  # bodies may overlap: cavities count as full
+        carried = tuple(np.zeros(each.shape) for each in carried)
     faces = evaluation.source, tuple(evaluation.conductances), carried
     sweeps = quiet = 0
     while sweeps < SWEEPS and quiet < QUIET:

@@ -1,5 +1,4 @@
-"""The fluid in the layers under contact: its pressure p leaves a Newton step's linear system, and follows the
-step."""
+"""The fluid in the layers under contact: its pressure p leaves a Newton step's system, and follows it."""
 
 import numpy as np
 
@@ -11,7 +10,7 @@ NEARLY_ALL = 0.999
 
 
 class FluidInLayers:
-    """p of an evaluated state, `eliminated` (`UnderContact`) from the linear system of its step (the team's)."""
+    """p of an evaluated state, `eliminated` (an `UnderContact`) from its step's system (the team's)."""
 
     def __init__(self, problem, evaluation, eliminated):
         self._problem, self._fluid, self._eliminated = problem, evaluation.fluid, eliminated
