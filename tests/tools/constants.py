@@ -100,6 +100,7 @@ NUMBERS = {
     "LIFTED": tuned(LOADED, SOLVER + "cavitation:LIFTED"),
     "SWEEPS": tuned(LOADED, SOLVER + "cavitation:SWEEPS", values=(4, 10, 20, 80, 400)),
     "PASSES": tuned(LOADED, SOLVER + "cavitation:PASSES", values=(1, 3, 4)),
+    "LONG_WAVES": tuned(LINE, SOLVER + "cavitation:LONG_WAVES"),
     "first_nodes": tuned(FILM | {"line": LINE["line"]}, "solver.first_nodes", values=(33, 129)),
     "inlet_cells": tuned(
         FILM | MEAN | {"line": LINE["line"]},
