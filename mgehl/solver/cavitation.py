@@ -21,8 +21,8 @@ LONG_WAVES = 1.0
 own gap, but long waves of pressure do. Without this limit Newton's steps and the relaxation undo each other
 (thick films on 4097 nodes). From 0.003 to 0.1 the same steps; but of 42 soft lines (L from 0.2 to 3) one
 does not converge with 0.3, and several with 0.01. (Since `LOW` 30 such lines settle without it; a rough
-roller that is followed down in speed takes 189 steps for 90.) A point contact of 2049 by 2049 nodes needs no limit, and
-takes fewer steps without one."""
+roller that is followed down in speed takes 189 steps for 90.) A point contact of 2049 by 2049 nodes needs
+no limit, and takes fewer steps without one."""
 
 LIFTED = 0.1
 """Where the pressure that the inflow needs would lift the gap by more than this part of it, the node is
