@@ -139,6 +139,7 @@ class Partition:
         may_close = is_fluid(state.status) & ~self.past.just_released
         closed = may_close & self._contact_law.closed(state.H, self.past.was_released)
         state.status[closed] = CONTACT
+        state.p[closed] = state.P[closed]  # of a film both are one; p is still that before the step
         if self._contact_law.closes_faces:
             self.past.closing_gap[closed] = state.H[closed]
             self.past.turns += closed

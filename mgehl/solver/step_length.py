@@ -53,7 +53,13 @@ def _scale(problem, state):
 
 
 def _more(contact):
-    """How many times as much pressures may change as where the viscosity is steep; at least 1."""
+    """How many times as much pressures of smooth bodies may change as where the viscosity is steep; at least 1.
+
+    Rough bodies' largest pressure is scale enough: a ball of 294 nm rms at 0.64 m/s and 22 N does not
+    settle on 257 nodes with more.
+    """
+    if contact.roughness:
+        return 1.0
     alpha_bar = contact.lubricant.pressure_viscosity * contact.pressure_scale
     return min(max(1.0, STEEP / max(alpha_bar, SMALLEST)), MOST_MORE)
 
