@@ -10,8 +10,8 @@ from mgehl.output.edge_result import NOT_SEEN, EdgeResult, edge_result
 from mgehl.output.film_error import NOT_ASKED, FilmError
 from mgehl.output.mixed_result import MixedResult, mixed_result
 from mgehl.output.resolution import Resolution, resolution
-from mgehl.output.words import loaded_words
-from mgehl.solver.inequality import check_interface, check_pressure_inequality, check_under_contact
+from mgehl.output.words import loaded_words, undecided_words
+from mgehl.solver.inequality import Power, check_interface, check_pressure_inequality, check_under_contact
 from mgehl.solver.mass import CLOSED, Mass, mass_account
 from mgehl.solver.verification import complementarity_error, flux_imbalance
 
@@ -57,6 +57,8 @@ class InequalityResult:
     compared: str = "at the nodes"
     """Where: "at the nodes" on both sides of the interface, "at the interface" between them, or at each
     node "under contact"."""
+    power: Power = Power()
+    """How many faces the check at the interface could decide."""
 
 
 @dataclass(frozen=True)
@@ -225,7 +227,7 @@ def _verdict(outcome, tolerance, residual, load_error, complementarity):
 
 
 def _whether_more_holds(inequality, made, edge, overlap):
-    """What a settled state breaks all the same, in words; empty where it breaks nothing."""
+    """What a settled state breaks or leaves open all the same, in words; empty where all holds."""
     if inequality.violations:
         return (
             f"contact pressure is below the fluid pressure beside it at {inequality.violations} of "
@@ -239,6 +241,11 @@ def _whether_more_holds(inequality, made, edge, overlap):
         return (
             f"the unified equations hold, but the bodies overlap at {overlap.nodes} nodes "
             f"by up to {overlap.largest_nm:.3g} nm"
+        )
+    if not inequality.power.decides:
+        return (
+            "residual, load, sets and complementarity hold; the pressure inequality is "
+            f"{undecided_words(inequality.power)}"
         )
     return ""
 
@@ -275,7 +282,7 @@ def contact_result(problem, state, nm):
 def _inequality_result(inequality, compared):
     nodes = [asdict(violation) for violation in inequality.violations]
     found = inequality.checked, len(nodes), inequality.worst, inequality.largest_ratio
-    return InequalityResult(*found, nodes, compared)
+    return InequalityResult(*found, nodes, compared, inequality.power)
 
 
 def overlap_of(grid, state, nm):

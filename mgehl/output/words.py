@@ -124,10 +124,23 @@ def _contact(result, verbose):
     yield f"  contact: {size}{where if verbose else ''}"
     if verbose or inequality.violations:
         broken = f"{inequality.violations} of {inequality.checked}"
-        yield f"  pressure inequality broken at {broken} interface nodes"
+        blind = f", undecided at {_of_faces(inequality.power)}" if inequality.power.undecided else ""
+        yield f"  pressure inequality broken at {broken} interface nodes{blind}"
     if verbose and other.violations:
         broken = f"{other.violations} of {other.checked}"
         yield f"  compared between nodes, a cell apart: broken at {broken}, by up to {other.worst:.1e} p_h"
+
+
+def undecided_words(power):
+    """Why the check of Eq. 2 at the interface decides nothing, by its `Power`."""
+    return (
+        f"not decided on this grid: at {_of_faces(power)} its tolerance is larger than contact's own "
+        f"pressure, beside fluid of up to {power.fluid_pressure:.1e} p_h"
+    )
+
+
+def _of_faces(power):
+    return f"{power.undecided} of {power.faces} faces"
 
 
 def _gap(contact):

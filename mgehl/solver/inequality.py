@@ -19,6 +19,25 @@ An estimate is now and then too low, and a rough contact has thousands of faces.
 balls with boundary films on 257 nodes the difference is more than half of the error at 208, more than .9 of
 it at seven, and more than all of it at two; the next finer grid has nothing there."""
 
+MOST_UNDECIDED = 0.1
+"""Part of the faces from which on the check at the interface decides nothing on this grid."""
+
+
+@dataclass(frozen=True)
+class Power:
+    """What the check at the interface could have found, by faces between contact and fluid."""
+
+    faces: int = 0
+    undecided: int = 0
+    """Faces with a tolerance larger than the contact's own pressure, beside fluid that presses."""
+    fluid_pressure: float = 0.0
+    """The fluid's largest pressure at these, in p_h: as contact does not pull, no more can be hidden."""
+
+    @property
+    def decides(self):
+        """Whether nearly all faces are decided."""
+        return self.undecided <= MOST_UNDECIDED * self.faces
+
 
 @dataclass(frozen=True)
 class Violation:
@@ -38,6 +57,8 @@ class PressureInequality:
     violations: list = field(default_factory=list)
     largest_ratio: float = 0.0
     """Largest fluid pressure over the contact pressure beside it; infinite beside P = 0."""
+    power: Power = Power()
+    """Of the check at the interface; the others compare without a tolerance."""
 
     @property
     def worst(self):
@@ -58,14 +79,14 @@ def check_pressure_inequality(problem, state):
     return _inequality(grid, interface, excess, grid.max(ratios, initial=0.0))
 
 
-def _inequality(grid, checked, excess, largest_ratio=0.0):
+def _inequality(grid, checked, excess, largest_ratio=0.0, power=Power()):
     """The `PressureInequality` of `checked` nodes, broken where the `excess` is positive (collective)."""
     local = [
         Violation(int(i) + 1, int(j) + grid.first + 1, float(excess[j, i]))
         for j, i in np.argwhere(excess > 0.0)
     ]
     violations = [violation for part in grid.comm.allgather(local) for violation in part]
-    return PressureInequality(grid.count(checked), violations, largest_ratio)
+    return PressureInequality(grid.count(checked), violations, largest_ratio, power)
 
 
 def check_under_contact(problem, state):
@@ -92,6 +113,9 @@ def check_interface(problem, state):
     Contact one node wide through which the pressure falls has no second node that could tell the pressure
     at its upper face: it may be that of the fluid there, and breaks nothing on this axis. Such a node is
     broken only where the fluid presses harder from both sides.
+
+    Contact's pressure may vanish at its edge, as that of a dry contact does, on every grid: hardly anything
+    is found there. `Power` counts these faces.
     """
     grid = problem.grid
     P, H, status = problem.ghosted(state)
@@ -99,27 +123,38 @@ def check_interface(problem, state):
     checked, excess = np.zeros(grid.shape, dtype=bool), np.zeros(grid.shape)
     if not grid.count(contact):
         return _inequality(grid, checked, excess)
+    faces, hidden = 0, [np.zeros(0)]
     for axis in problem.axes:
         ends = [contact & ~_beside(axis, solid, side) for side in (-1, 1)]
-        jumps = [_jump(problem, axis, state, (P, H, solid), side) for side in (-1, 1)]
+        asked = [_jump(problem, axis, state, (P, H, solid), side) for side in (-1, 1)]
+        jumps = [jump for jump, _ in asked]
         is_wide = ~(ends[0] & ends[1])
         for end, jump, other in zip(ends, jumps, reversed(jumps), strict=True):
             jump = np.where(is_wide, jump, np.minimum(jump, other))
             np.maximum(excess, jump, out=excess, where=end & (jump > ROUNDING))
             checked |= end
-    return _inequality(grid, checked, excess)
+        faces += sum(map(grid.count, ends))
+        hidden += [unseen[end & (unseen > 0.0)] for end, (_, unseen) in zip(ends, asked, strict=True)]
+    hidden = np.concatenate(hidden)
+    power = Power(faces, grid.count(hidden > 0.0), grid.max(hidden, initial=0.0))
+    return _inequality(grid, checked, excess, power=power)
 
 
 def _jump(problem, axis, state, ghosted, side):
     """By how much the fluid's pressure at the face on a `side` of each node exceeds the node's, all errors
-    taken off: (lines, nx). `ghosted` are P, H and where it is solid."""
+    taken off; and the fluid's where they are larger than the node's own, 0 elsewhere: each (lines, nx).
+
+    `ghosted` are P, H and where it is solid.
+    """
     (P, H, solid), axes = ghosted, problem.axes
     of_contact, its_error = _at_face(axes, axis, P, solid, side, sides=(1,))
     of_fluid, error = (
         _beside(axis, problem.grid.halo(each), side) for each in _at_face(axes, axis, P, solid, -side)
     )
     of_gap = np.abs(_beside(axis, H, side) - state.H) / problem.K00
-    return of_fluid - of_contact - SAFETY * (error + its_error + of_gap)
+    tolerance = SAFETY * (error + its_error + of_gap)
+    presses = np.maximum(of_fluid, _beside(axis, P, side))
+    return of_fluid - of_contact - tolerance, np.where(tolerance > state.P, presses, 0.0)
 
 
 def _beside(axis, ghosted, shift):

@@ -104,6 +104,21 @@ def test_a_pressure_that_falls_through_the_contact_breaks_eq_2_between_nodes_alo
     assert (result.other_inequality.violations, result.other_inequality.checked) == (1, 1)
 
 
+@pytest.mark.parametrize(
+    "edge, decides, words",
+    [(0.5, True, "pressure inequality hold"), (0.11, False, "not decided on this grid: at 12 of 12 faces")],
+)
+def test_where_eq_2_is_hardly_asked_it_is_not_said_to_hold(summary, outcome, edge, decides, words):
+    """Nine nodes of contact amid fluid of 0.1, the one in the middle under 0.5."""
+    state = outcome.state
+    state.P[2:-2, 2:-2], state.H[:] = 0.1, 0.0
+    touch(state, [(j, i) for j in range(3, 6) for i in range(3, 6)])
+    state.P[3:6, [3, 5]], state.P[[3, 5], 3:6] = edge, edge
+    result = summary()
+    assert result.converged and result.pressure_inequality.power.decides == decides
+    assert words in result.reason
+
+
 def test_broken_complementarity_is_not_converged(summary, outcome):
     outcome.state.P[4, 4] = -1e-3
     result = summary()

@@ -12,6 +12,7 @@ from mgehl.output.mixed_result import MixedResult
 from mgehl.output.resolution import Resolution
 from mgehl.output.result import ContactResult, InequalityResult
 from mgehl.output.words import FAILED, UNRESOLVED
+from mgehl.solver.inequality import Power
 
 MIXED = MixedResult(0.25, 80.0, 0.125, 0.875, 3e-9, 0.0625, 7, 1e-9, 40.0, None, 90.0, 0.015)
 
@@ -87,6 +88,12 @@ class TestOfALoadedContact:
         result = make_result(other_inequality=InequalityResult(8, 3, 0.16, 1.5, []))
         line = "compared between nodes, a cell apart: broken at 3 of 8, by up to 1.6e-01 p_h"
         assert line in result.words() and line not in result.words(verbose=False)
+
+    def test_faces_at_which_eq_2_is_not_decided_are_counted(self):
+        blind = InequalityResult(8, 0, 0.0, 0.0, [], "at the interface", Power(20, 1, 0.02))
+        line = "broken at 0 of 8 interface nodes, undecided at 1 of 20 faces"
+        assert line in make_result(pressure_inequality=blind).words()
+        assert "undecided" not in make_result().words()
 
     def test_failure_comes_first(self):
         text = str(make_result(converged=False, settled=False, reason="sets still change 60 steps"))

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from mgehl.discretization.status import CONTACT, LUBRICATED
-from mgehl.solver.inequality import SAFETY, check_interface, check_pressure_inequality
+from mgehl.solver.inequality import SAFETY, Power, check_interface, check_pressure_inequality
 
 NODE = (4, 4)
 
@@ -69,6 +69,25 @@ class TestInterface:
 
     def test_without_contact_nothing_is_checked(self, tiny_problem, state):
         assert check_interface(tiny_problem, state).checked == 0
+
+    def test_contact_of_one_pressure_is_decided(self, tiny_problem, across):
+        """Nothing is extrapolated wrongly: the tolerance is nothing, at nine faces on either side."""
+        power = check_interface(tiny_problem, across(np.array([0.2] * 3 + [0.5] * 3))).power
+        assert (power, power.decides) == (Power(18, 0, 0.0), True)
+
+    @pytest.mark.parametrize("first, undecided", [(0.24, 9), (0.35, 0)])
+    def test_contact_that_rises_from_less_than_its_tolerance_is_not(
+        self, tiny_problem, across, first, undecided
+    ):
+        """By 0.4 from node to node: half of that is the step to the face, and 1.25 times as much, 0.25, the
+        tolerance; on the outer lines, beyond which there is no pressure, 0.32. No fluid is behind it."""
+        state = across(np.r_[np.full(3, 0.125), first + 0.4 * np.arange(3.0)])
+        found = check_interface(tiny_problem, state)
+        assert found.violations == [] and found.power == Power(18, undecided, 0.125 if undecided else 0.0)
+        assert found.power.decides == (not undecided)
+
+    def test_a_tenth_of_the_faces_may_be_undecided(self):
+        assert Power(20, 2, 0.1).decides and not Power(20, 3, 0.1).decides
 
 
 class TestPressureInequality:

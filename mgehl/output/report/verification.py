@@ -2,7 +2,17 @@
 
 from mgehl.output import surface
 from mgehl.output.domain import STARVED, STARVED_FROM, SUFFICIENT, UNKNOWN
-from mgehl.output.report.checks import BROKEN, CARE, CHECK_HEADS, CHECKS, HOLDS, absent, informing, limited
+from mgehl.output.report.checks import (
+    BROKEN,
+    CARE,
+    CHECK_HEADS,
+    CHECKS,
+    HOLDS,
+    UNDECIDED,
+    absent,
+    informing,
+    limited,
+)
 from mgehl.output.report.page import DOUBTFUL, GOOD, NO_NUMBER, Cell, number, table
 from mgehl.output.report.parts import span
 from mgehl.output.resolution import RESOLVED_CELLS
@@ -41,12 +51,13 @@ def checks_table(solution):
     result, tolerance = solution.result, solution.config.solver.tolerance
     inequality, overlap, resolution = result.pressure_inequality, result.overlap, result.resolution
     broken = f"{inequality.violations} of {inequality.checked}"
+    decided = HOLDS if inequality.power.decides else UNDECIDED
     rows = [
         limited("residual of the equations, rms", result.residual, tolerance),
         limited("load error", result.load_error, tolerance),
         limited("complementarity", result.complementarity_error, COMPLEMENTARITY_TOLERANCE),
         absent("nodes that can be neither film nor contact", len(result.contradictions)),
-        absent("interface nodes that break Eq. 2", inequality.violations, found=broken),
+        absent("interface nodes that break Eq. 2", inequality.violations, found=broken, holds=decided),
         absent("nodes where the bodies overlap", overlap.nodes, otherwise=CARE),
         informing("imbalance of the flux", result.flux_imbalance),
         limited(
@@ -117,6 +128,7 @@ def contact_tables(result):
         ("interface nodes checked on Eq. 2", str(inequality.checked)),
         (f"of them break it, compared {inequality.compared}", str(inequality.violations)),
         ("largest violation, p_h", number(inequality.worst, 3)),
+        *_power(inequality.power),
         (f"of them break it, compared {other.compared}", str(other.violations)),
         ("largest violation there, p_h", number(other.worst, 3)),
         ("largest fluid over contact pressure", number(_largest_ratio(result), 3)),
@@ -129,6 +141,13 @@ def contact_tables(result):
         yield table("Nodes that break Eq. 2, counted from 1", ("i", "j", "by, p_h"), nodes, folded=True)
     if result.contradictions:
         yield _contradictions(result.contradictions)
+
+
+def _power(power):
+    """The row of faces at which Eq. 2 is not decided, where faces were checked."""
+    if power.faces:
+        what = "faces where the tolerance is larger than contact's own pressure"
+        yield what, f"{power.undecided} of {power.faces}"
 
 
 def _largest_ratio(result):

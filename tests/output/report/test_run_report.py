@@ -16,6 +16,7 @@ from mgehl.output.report.loaded import film
 from mgehl.output.report.page import BAD, DOUBTFUL, GOOD, NO_NUMBER, render
 from mgehl.output.report.parts import LONG_HISTORY, history_section, setting
 from mgehl.output.report.run_report import report, verdict
+from mgehl.solver.inequality import Power
 
 VOID = {"meta", "img", "br", "hr", "link", "input"}
 SMALL = {"grid.nodes": 65}
@@ -264,6 +265,17 @@ class TestLoaded:
         html = render(page)
         assert html.count("<details>") == 4
         assert "<summary>Nodes that break Eq. 2, counted from 1 (40 rows)</summary>" in html
+
+    @pytest.mark.parametrize("undecided, verdict", [(5, "holds"), (6, "not decided on this grid")])
+    def test_eq_2_may_not_be_decided(self, film_run, quick, undecided, verdict):
+        inequality = replace(
+            film_run.result.pressure_inequality, checked=40, power=Power(50, undecided, 0.1)
+        )
+        page = quick(changed(film_run, pressure_inequality=inequality))
+        checks = {row[0]: row[1:] for row in table_of(page, CHECKS)}
+        assert checks["interface nodes that break Eq. 2"] == ["0 of 40", "0", verdict]
+        what = "faces where the tolerance is larger than contact's own pressure"
+        assert [what, f"{undecided} of 50"] in table_of(page, CONTACT_TABLE)
 
     def test_the_load_and_speed_of_moes_numbers_are_no_keys(self, film_run, quick):
         config = mgehl.load(settings=SMALL | {"moes.M": 20.0, "moes.L": 10.0})
