@@ -1,11 +1,14 @@
-"""The bands about a rough contact's mean gaps, and how they came about: `mixed.error` of result.json."""
+"""The bands about mean gaps, largest pressure and loads of a rough contact, and how they came about:
+`mixed.error` of result.json."""
 
 from dataclasses import dataclass, replace
 
 from mgehl.output.film_error import NOT_ASKED
+from mgehl.output.surface import GRIDS
 
 OF_SECOND_ORDER, OF_FIRST_ORDER = 1.0 / 3.0, 1.0
-"""How many times the difference to the next coarser grid a gap's error is, by Richardson."""
+"""How many times the difference to the next coarser grid an error is, by Richardson. Loads on contact are
+of first order: where contact begins is known to a cell. The largest pressure may lie between nodes, too."""
 
 ALIKE = 0.05
 """Difference over the gap from which on the order is taken to be the first: grids so far apart do not show
@@ -18,10 +21,13 @@ hold the limit; in the median they are 2.2 and 2.6 times as wide as the error. O
 34 and 34 do, at 3.0 and 3.7 times the error."""
 
 WIDEST = 0.5
-"""Half-width over the gap from which on a band would tell nothing: there is none."""
+"""Half-width over a gap or pressure from which on a band would tell nothing: there is none."""
+
+WIDEST_SHARE = 0.25
+"""The same of a part of the load."""
 
 SMALLEST = 1e-4
-"""Half-width over the gap at the least."""
+"""Half-width at the least, over the gap or pressure, or in parts of the load."""
 
 
 @dataclass(frozen=True)
@@ -37,24 +43,52 @@ class GridGap:
     """Mean size of the differences from the finer grid, node by node: of all nodes within the ellipse."""
     loaded_apart_nm: float = 0.0
     """The same of all nodes by their pressure."""
+    max_pressure_GPa: float | None = None
+    """None in older results."""
+    solid_load_fraction: float | None = None
+    pressure_apart_GPa: float = 0.0
+    """Mean size of the pressure's differences from the finer grid, by pressure."""
+    contact_load_apart: float = 0.0
+    """Sum of the sizes of the same differences of what contact carries, in parts of the load."""
+    solid_load_apart: float = 0.0
+    pressure_crest_GPa: float = 0.0
+    """By how much the pressure may be larger between the nodes."""
+
+
+SHOWN = {
+    "max_pressure_GPa": "the largest pressure",
+    "contact_load_share": "the load on contact",
+    "solid_load_fraction": "the load on solids",
+}
+"""What has a band where the mean gaps have one and this grid and the next coarser one are near enough."""
 
 
 @dataclass(frozen=True)
 class GapError:
-    """Half-widths of the bands about the mean gaps, in nm: the limit of ever finer grids lies within."""
+    """Half-widths of the bands about what a grid says: the limit of ever finer grids lies within."""
 
     mean_nm: float | None
-    """None where there is no band; `how` says why."""
+    """None where there is no band at all; `how` says why."""
     loaded_nm: float | None
     how: str
     grids: tuple[GridGap, ...] = ()
     """The finest grid first."""
     convolutions: float = 0.0
     """What the coarser grid took, in equivalents of one on the finest."""
+    max_pressure_GPa: float | None = None
+    """None, too, where the two grids are too far apart: the number is the grid's, not the contact's."""
+    contact_load_share: float | None = None
+    solid_load_fraction: float | None = None
+
+    @property
+    def is_the_grids(self):
+        """What has no band, in words, though the gaps have one."""
+        known = self.mean_nm is not None and self.grids and self.grids[0].max_pressure_GPa is not None
+        return [words for name, words in SHOWN.items() if known and getattr(self, name) is None]
 
 
 def no_band(why):
-    """The `GapError` of gaps without a band."""
+    """The `GapError` of a grid without any band."""
     return GapError(None, None, why)
 
 
@@ -64,6 +98,8 @@ def why_no_band(result, problem):
         return "the run has not settled"
     if problem.scheme.contact_law.closes_faces:
         return "contact that closes its faces begins and ends where the grid has it"
+    if result.resolution.surface == GRIDS:
+        return "the surface is the grid's, for its shortest wave has fewer than four nodes"
     return result.edge.wrong[0]
 
 
@@ -76,19 +112,30 @@ def gap_error(result, coarser, progress):
     why_not = why_no_band(result, problem)
     if why_not or not coarser.settings.error:
         return no_band(why_not or NOT_ASKED.how)
-    before, nm = progress.convolutions, 1e9 * problem.contact.film_scale
-    grids = tuple(_in_nm(each, nm) for each in coarser.gaps())
+    before, contact = progress.convolutions, problem.contact
+    units = 1e9 * contact.film_scale, 1e-9 * contact.hertz.p_h
+    grids = tuple(_in_units(each, *units) for each in coarser.gaps())
     return replace(from_grids(grids), grids=grids, convolutions=progress.convolutions - before)
 
 
-def _in_nm(grid, nm):
-    apart = (nm * grid.differences.mean, nm * grid.differences.loaded) if grid.differences else ()
-    means = nm * grid.gaps.mean, nm * grid.gaps.loaded
-    return GridGap(grid.nodes, *means, grid.contact_load_share, grid.settled, *apart)
+def _in_units(grid, nm, GPa):
+    gaps, loads, of_gaps, of_loads = grid.gaps, grid.loads, grid.differences, grid.load_differences
+    found = GridGap(
+        grid.nodes, nm * gaps.mean, nm * gaps.loaded, loads.contact, grid.settled,
+        max_pressure_GPa=GPa * loads.largest, pressure_crest_GPa=GPa * loads.crest,
+        solid_load_fraction=loads.solids,
+    )  # fmt: skip
+    if of_gaps is None:
+        return found
+    return replace(
+        found, mean_apart_nm=nm * of_gaps.mean, loaded_apart_nm=nm * of_gaps.loaded,
+        pressure_apart_GPa=GPa * of_loads.largest, contact_load_apart=of_loads.contact,
+        solid_load_apart=of_loads.solids,
+    )  # fmt: skip
 
 
 def from_grids(grids):
-    """The `GapError` that the gaps of the finest grid and the next coarser one tell."""
+    """The `GapError` that the finest grid and the next coarser one tell."""
     if len(grids) == 1:
         return no_band("there is no coarser grid")
     finest, coarser = grids
@@ -99,12 +146,37 @@ def from_grids(grids):
     if mean > WIDEST * finest.mean_nm or loaded > WIDEST * finest.loaded_nm:
         means = f"{coarser.mean_nm:.3g} and {coarser.loaded_nm:.3g} nm"
         return no_band(f"on {coarser.nodes} nodes the means are {means}, too far from these")
-    return GapError(mean, loaded, f"from the differences to {coarser.nodes} nodes")
+    pressure = finest.pressure_crest_GPa + half_width(
+        finest.max_pressure_GPa, coarser.max_pressure_GPa, coarser.pressure_apart_GPa
+    )
+    return GapError(
+        mean,
+        loaded,
+        f"from the differences to {coarser.nodes} nodes",
+        max_pressure_GPa=_unless_wider(pressure, WIDEST * finest.max_pressure_GPa),
+        contact_load_share=share_half_width(
+            finest.contact_load_share, coarser.contact_load_share, coarser.contact_load_apart
+        ),
+        solid_load_fraction=share_half_width(
+            finest.solid_load_fraction, coarser.solid_load_fraction, coarser.solid_load_apart
+        ),
+    )
 
 
-def half_width(gap, coarser, apart):
-    """Half-width of the band about a mean `gap`, from the `coarser` grid's and the mean size of the
-    differences between their nodes."""
-    difference = abs(gap - coarser)
-    times = OF_FIRST_ORDER if difference > ALIKE * gap else OF_SECOND_ORDER
-    return max(times * difference + SPREAD * apart, SMALLEST * gap)
+def half_width(value, coarser, apart):
+    """Half-width of the band about a mean gap, or the largest pressure, from the `coarser` grid's and the
+    mean size of the differences between their nodes."""
+    difference = abs(value - coarser)
+    times = OF_FIRST_ORDER if difference > ALIKE * value else OF_SECOND_ORDER
+    return max(times * difference + SPREAD * apart, SMALLEST * value)
+
+
+def share_half_width(share, coarser, apart):
+    """The same of a part of the load, with the sum of its differences; None where that tells nothing."""
+    return _unless_wider(
+        max(OF_FIRST_ORDER * abs(share - coarser) + SPREAD * apart, SMALLEST), WIDEST_SHARE
+    )
+
+
+def _unless_wider(half_width, widest):
+    return half_width if half_width <= widest else None

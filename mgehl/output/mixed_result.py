@@ -51,7 +51,7 @@ class MixedResult:
     near_contact_load_share: float | None = None
     """Part of the load on films at most `NEAR` times as thick as the boundary film that contact keeps."""
     error: GapError | None = None
-    """Bands about the mean gaps; None in older results."""
+    """Bands about the mean gaps, the largest pressure and the loads; None in older results."""
     solid_load_fraction: float | None = None
     """Part of the load that solids carry: P - p of contact nodes; None in older results."""
     sealed_load_fraction: float | None = None
@@ -141,10 +141,13 @@ def measured(contact, mesh, nodes, kept=0.0):
 
 
 def _sealed(solid):
-    """Nodes that are not `solid` and that solid nodes shut in, by sides of the cells: (ny, nx)."""
+    """Nodes that are not `solid` and that solid nodes shut in, by sides of the cells: (ny, nx).
+
+    A line contact is open at its two ends alone.
+    """
     labels, _ = ndimage.label(~solid)
-    outer = np.unique(np.concatenate([labels[[0, -1]].ravel(), labels[:, [0, -1]].ravel()]))
-    return ~solid & ~np.isin(labels, outer)
+    sides = labels[[0, -1]] if len(labels) > 1 else labels[:0]
+    return ~solid & ~np.isin(labels, np.concatenate([sides.ravel(), labels[:, [0, -1]].ravel()]))
 
 
 def patch_sizes(solid):

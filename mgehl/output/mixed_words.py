@@ -32,24 +32,23 @@ def _filling(mixed):
 
 def _shares(mixed):
     """What carries the load; films of which another grid may make contact are named apart."""
-    contact, near, film = (
-        100.0 * (share or 0.0)
-        for share in (mixed.contact_load_share, mixed.near_contact_load_share, mixed.film_load_share)
+    contact = load_words(mixed, "contact_load_share")
+    near, film = (
+        100.0 * (share or 0.0) for share in (mixed.near_contact_load_share, mixed.film_load_share)
     )
     if not (mixed.patches and near):
-        return f"{contact:.2f} % of the load, the film {film:.2f} %"
-    return (
-        f"{contact:.2f} % of the load, films at most a tenth thicker {near:.2f} %, other films "
-        f"{film - near:.2f} %"
-    )
+        return f"{contact} of the load, the film {film:.2f} %"
+    others = f"other films {film - near:.2f} %"
+    return f"{contact} of the load, films at most a tenth thicker {near:.2f} %, {others}"
 
 
 def _carried_by_solids(mixed):
     """What solids carry beside the fluid in their layers, and what pockets carry; none of older results."""
     if mixed.patches and mixed.solid_load_fraction is not None:
+        solids = load_words(mixed, "solid_load_fraction")
         yield (
-            f"  solids carry {100 * mixed.solid_load_fraction:.2f} % of the load, the fluid in contact's "
-            f"layers {100 * (mixed.contact_load_share - mixed.solid_load_fraction):.2f} %, pockets that "
+            f"  solids carry {solids} of the load, the fluid in contact's layers "
+            f"{100 * (mixed.contact_load_share - mixed.solid_load_fraction):.2f} %, pockets that "
             f"contact shuts in {100 * mixed.sealed_load_fraction:.2f} %"
         )
 
@@ -68,8 +67,17 @@ def _mean_gaps(mixed):
 
 
 def gap_band_words(error):
-    """How the bands of a `GapError` came about, or why there are none."""
-    return f"{'no band of the gap' if error.mean_nm is None else 'bands of both'}: {error.how}"
+    """How the bands of a `GapError` came about, or why there are none; what the grid does not hold."""
+    if error.mean_nm is None:
+        return f"no band of gap, pressure and load: {error.how}"
+    rest = f"; the grid's: {', '.join(error.is_the_grids)}" if error.is_the_grids else ""
+    return f"bands of gap, pressure and load: {error.how}{rest}"
+
+
+def load_words(mixed, name):
+    """A part of the load in %, by its name in `MixedResult`, with its band."""
+    percent, band = 100.0 * getattr(mixed, name), mixed.error and getattr(mixed.error, name)
+    return f"{percent:.2f} %" if band is None else f"{with_band(percent, 100.0 * band)} %"
 
 
 def mean_gaps(mixed):

@@ -66,7 +66,7 @@ def loaded_words(result, verbose=True):
     shown = surface_words(resolution.surface, resolution.surface_nodes)
     lines = [
         f"{verdict}: {result.reason}",
-        f"  {films_words(result)}, largest pressure {pressure_words(result.max_pressure_GPa)}",
+        f"  {films_words(result)}, largest pressure {largest_pressure_words(result)}",
         f"  {band_words(result.error)}",
         *(_errors(result) if verbose else ()),
         *_overlap(result.overlap),
@@ -199,11 +199,18 @@ def band_words(error):
     return f"{'no band' if error.central_nm is None else 'bands'}: {error.how}"
 
 
-def pressure_words(GPa):
-    """A pressure; that of a soft or light contact in MPa or kPa."""
-    if GPa < 1e-4:
-        return f"{1e6 * GPa:.4g} kPa"
-    return f"{1e3 * GPa:.4g} MPa" if GPa < 0.1 else f"{_number(GPa)} GPa"
+def largest_pressure_words(result):
+    """The largest pressure of a `Result` with its band, which that of rough bodies may have."""
+    error = result.mixed and result.mixed.error
+    return pressure_words(result.max_pressure_GPa, error and error.max_pressure_GPa)
+
+
+def pressure_words(GPa, half_width=None):
+    """A pressure, with its band if there is one; that of a soft or light contact in MPa or kPa."""
+    factor, unit = (1e6, "kPa") if GPa < 1e-4 else (1e3, "MPa") if GPa < 0.1 else (1.0, "GPa")
+    if half_width is not None:
+        return f"{with_band(factor * GPa, factor * half_width)} {unit}"
+    return f"{_number(GPa) if factor == 1.0 else format(factor * GPa, '.4g')} {unit}"
 
 
 def _number(value):

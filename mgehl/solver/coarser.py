@@ -12,10 +12,9 @@ from functools import partial
 
 import numpy as np
 
-from mgehl.discretization.status import CONTACT
 from mgehl.multigrid.cycle import MultigridSolver
 from mgehl.solver.films import Films, films_beside, films_between_nodes
-from mgehl.solver.gaps import Gaps, differences, gaps
+from mgehl.solver.gaps import Gaps, Loads, differences, gaps, load_differences, loads
 from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.nested import LevelSolve
 from mgehl.solver.newton import Newton
@@ -59,10 +58,12 @@ class GridGaps:
 
     nodes: int
     gaps: Gaps
-    contact_load_share: float
+    loads: Loads
     settled: bool
     differences: Gaps | None = None
     """Of a coarser grid: the mean sizes by which its gaps differ from the finer one's."""
+    load_differences: Loads | None = None
+    """The same of its pressures."""
 
 
 class CoarserGrids:
@@ -103,10 +104,13 @@ class CoarserGrids:
         """`GridGaps` of the finest grid and of the next coarser one, if there is one (collective)."""
         found, level = [_grid_gaps(self.problem, self._state, True)], len(self._hierarchy.grids) - 2
         if level >= 0:
-            H = self._hierarchy.transfers[level].inject(self._state.H)
+            H, P, p, _, status = _at_nodes(self._hierarchy.transfers[level], self._state)
             self._of_gaps = problem, outcome = self._whole(level)
-            apart = differences(problem, outcome.state, H)
-            found.append(_grid_gaps(problem, outcome.state, outcome.converged, apart))
+            apart = (
+                differences(problem, outcome.state, H),
+                load_differences(problem, outcome.state, P, p, status),
+            )
+            found.append(_grid_gaps(problem, outcome.state, outcome.converged, *apart))
         return found
 
     def _whole(self, level):
@@ -145,9 +149,8 @@ def _is_of(problem, grid, contact, scheme):
     return problem.grid is grid and problem.contact is contact and problem.scheme == scheme
 
 
-def _grid_gaps(problem, state, settled, apart=None):
-    share = problem.share_of_load(state.P, state.status == CONTACT)
-    return GridGaps(problem.grid.mesh.nx, gaps(problem, state), share, settled, apart)
+def _grid_gaps(problem, state, settled, *apart):
+    return GridGaps(problem.grid.mesh.nx, gaps(problem, state), loads(problem, state), settled, *apart)
 
 
 def _grid_films(problem, state, films, settled):
@@ -157,8 +160,15 @@ def _grid_films(problem, state, films, settled):
 
 def _injected(hierarchy, level, contact, state, scheme):
     """The problem of a contact on a coarser grid, and the finer state at its nodes."""
-    transfer, grid = hierarchy.transfers[level], hierarchy.grids[level]
-    status = transfer.inject(state.status.astype(float)).astype(np.int8)
-    coarser = ContactProblem(grid, hierarchy.deflections[level], contact, scheme)
-    P, p, filling = (transfer.inject(each) for each in (state.P, state.p, state.filling))
+    coarser = ContactProblem(hierarchy.grids[level], hierarchy.deflections[level], contact, scheme)
+    _, P, p, filling, status = _at_nodes(hierarchy.transfers[level], state)
     return coarser, coarser.state(P, state.H0, status, p, filling)
+
+
+def _at_nodes(transfer, state):
+    """H, P, p, filling and status of a finer state at the nodes of the coarser grid of a transfer."""
+    *fields, status = (
+        transfer.inject(each.astype(float))
+        for each in (state.H, state.P, state.p, state.filling, state.status)
+    )
+    return *fields, status.astype(np.int8)

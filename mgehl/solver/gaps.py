@@ -1,4 +1,4 @@
-"""Mean gaps of rough bodies, film and contact alike, so that different grids can be compared.
+"""Mean gaps of rough bodies, film and contact alike, and what carries the load: different grids compared.
 
 Which nodes are in contact changes from grid to grid where gaps hardly differ, and with it the load on
 contact and the mean of the film beside it. The mean of all gaps does not care what a gap is called. It
@@ -9,6 +9,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mgehl.discretization.status import CONTACT
+from mgehl.solver.inequality import bend_of_a_cell
 from mgehl.solver.record import Kept
 
 
@@ -20,6 +22,20 @@ class Gaps(Kept):
     """Of all nodes within the Hertz ellipse, or a line contact's width."""
     loaded: float
     """Of all nodes by their pressure: the gap on which the load rests."""
+
+
+@dataclass(frozen=True)
+class Loads:
+    """How hard the bodies press, and what carries the load."""
+
+    largest: float
+    """Largest pressure, in p_h."""
+    contact: float
+    """Part of the load on contact nodes."""
+    solids: float
+    """Part of the load that solids carry: P - p of contact nodes."""
+    crest: float = 0.0
+    """By how much the pressure between the nodes may exceed that of nodes: by parabolas through three."""
 
 
 def within_hertz(mesh):
@@ -46,6 +62,31 @@ def differences(problem, state, H):
     grid = problem.grid
     P, size = grid.gather(state.P), grid.gather(np.abs(state.H - H))
     return grid.comm.bcast(None if P is None else gaps_of(grid.mesh, P, size))
+
+
+def loads(problem, state):
+    """`Loads` of a state (collective)."""
+    grid, contact, share = problem.grid, state.status == CONTACT, problem.share_of_load
+    P, largest = grid.halo(state.P), grid.max(state.P, initial=0.0)
+    bend = sum(bend_of_a_cell(axis, P) for axis in problem.axes)
+    crest = grid.max(bend[state.P == largest], initial=0.0)
+    return Loads(largest, share(state.P, contact), share(state.P - state.p, contact), crest)
+
+
+def load_differences(problem, state, P, p, status):
+    """By how much a state differs from a finer grid's P, p and status at its nodes, each (lines, nx).
+
+    `Loads` of the sizes of the differences; that of the largest pressure is their mean by pressure
+    (collective).
+    """
+    grid, here, there = problem.grid, state.status == CONTACT, status == CONTACT
+    everywhere, weight = np.ones_like(here), grid.sum(state.P.sum())
+    of_contact = np.where(here, state.P, 0.0) - np.where(there, P, 0.0)
+    of_solids = np.where(here, state.P - state.p, 0.0) - np.where(there, P - p, 0.0)
+    mean = grid.sum((state.P * np.abs(state.P - P)).sum()) / weight if weight > 0.0 else float("nan")
+    return Loads(
+        mean, *(problem.share_of_load(np.abs(each), everywhere) for each in (of_contact, of_solids))
+    )
 
 
 def _loaded(P, H):

@@ -180,10 +180,10 @@ def _at_face(axes, axis, P, solid, side, sides=(1, -1)):
     bend = np.where(known_farther, 0.375 * np.abs(near - 2.0 * behind + farther), np.abs(step))
     changes = [np.abs(near - _beside(axis, P, each * side)) for each in sides]
     unknown = 0.5 * np.maximum.reduce(changes)
-    along = sum(_bend_of_a_cell(other, P) for other in axes if other is not axis)
+    along = sum(bend_of_a_cell(other, P) for other in axes if other is not axis)
     return near + step, np.where(known, np.abs(step) + bend, unknown) + along
 
 
-def _bend_of_a_cell(axis, P):
+def bend_of_a_cell(axis, P):
     """How far the pressure bends from the middle of a cell to its ends, (lines, nx)."""
     return 0.125 * np.abs(_beside(axis, P, -1) - 2.0 * own(P) + _beside(axis, P, 1))

@@ -7,7 +7,17 @@ import pytest
 from mpi4py import MPI
 
 from mgehl.config import config_from_tables
-from mgehl.output.gap_error import ALIKE, SMALLEST, SPREAD, GridGap, from_grids, half_width, why_no_band
+from mgehl.output.gap_error import (
+    ALIKE,
+    SMALLEST,
+    SPREAD,
+    WIDEST_SHARE,
+    GridGap,
+    from_grids,
+    half_width,
+    share_half_width,
+    why_no_band,
+)
 from mgehl.run import solve
 from mgehl.studies.study import merged
 
@@ -35,8 +45,36 @@ def test_no_band_is_narrower_than_a_gap_can_be_believed():
     assert half_width(10.0, 10.0, 0.0) == 10.0 * SMALLEST
 
 
+def test_a_load_on_contact_is_of_the_first_order():
+    assert share_half_width(0.30, 0.28, 0.05) == pytest.approx(0.02 + SPREAD * 0.05)
+    assert share_half_width(0.0, 0.0, 0.0) == SMALLEST
+    assert share_half_width(0.5, 0.5 - 1.01 * WIDEST_SHARE, 0.0) is None
+
+
 def grid(nodes, settled=True):
-    return GridGap(nodes, 10.0, 2.0, 0.25, settled, 0.5, 0.1)
+    loads = {
+        "max_pressure_GPa": 2.0, "solid_load_fraction": 0.2, "pressure_apart_GPa": 0.05,
+        "pressure_crest_GPa": 0.03,
+    }  # fmt: skip
+    return GridGap(nodes, 10.0, 2.0, 0.25, settled, 0.5, 0.1, **loads)
+
+
+def test_loads_and_the_largest_pressure_have_bands_of_their_own():
+    coarser = replace(grid(129), max_pressure_GPa=1.97, contact_load_share=0.26, solid_load_apart=0.1)
+    error = from_grids((grid(257), coarser))
+    assert error.max_pressure_GPa == pytest.approx(0.01 + SPREAD * 0.05 + 0.03)
+    assert error.contact_load_share == pytest.approx(0.01)
+    assert error.solid_load_fraction == pytest.approx(SPREAD * 0.1)
+    assert replace(error, grids=(grid(257), coarser)).is_the_grids == []
+
+
+def test_what_the_two_grids_do_not_share_is_the_grid_s():
+    coarser = replace(grid(129), max_pressure_GPa=0.9, contact_load_share=0.6, solid_load_fraction=0.5)
+    error = replace(from_grids((grid(257), coarser)), grids=(grid(257), coarser))
+    assert error.mean_nm is not None
+    assert error.is_the_grids == ["the largest pressure", "the load on contact", "the load on solids"]
+    none = from_grids((grid(257), grid(129, settled=False)))
+    assert none.is_the_grids == [] and none.max_pressure_GPa is None
 
 
 def test_where_the_coarser_grid_did_not_settle_there_is_none():
@@ -56,16 +94,18 @@ def test_without_a_coarser_grid_there_is_none():
 
 
 @pytest.mark.parametrize(
-    "settled, closes, edge, words",
+    "settled, closes, edge, surface, words",
     [
-        (False, False, "", "not settled"),
-        (True, True, "", "closes its faces"),
-        (True, False, "the domain cuts it", "cuts"),
-        (True, False, "", ""),
+        (False, False, "", "resolved", "not settled"),
+        (True, True, "", "resolved", "closes its faces"),
+        (True, False, "the domain cuts it", "resolved", "cuts"),
+        (True, False, "", "grid-determined", "fewer than four nodes"),
+        (True, False, "", "coarse", ""),
     ],
 )
-def test_why_there_may_be_none(settled, closes, edge, words):
-    result = SimpleNamespace(settled=settled, edge=SimpleNamespace(wrong=(edge, "")))
+def test_why_there_may_be_none(settled, closes, edge, surface, words):
+    shown = SimpleNamespace(surface=surface)
+    result = SimpleNamespace(settled=settled, edge=SimpleNamespace(wrong=(edge, "")), resolution=shown)
     law = SimpleNamespace(closes_faces=closes)
     problem = SimpleNamespace(scheme=SimpleNamespace(contact_law=law))
     why = why_no_band(result, problem)
@@ -95,6 +135,14 @@ class TestOfAWavyBall:
             width = getattr(coarse.mixed.error, f"{gap}_nm")
             assert 0.0 < abs(values[1] - values[0]) < width < 0.4 * values[0]
 
+    def test_so_do_those_of_the_loads_and_the_largest_pressure(self, solved):
+        coarse, fine = solved(65), solved(257)
+        off = abs(fine.max_pressure_GPa - coarse.max_pressure_GPa)
+        assert 0.0 < off < coarse.mixed.error.max_pressure_GPa < 0.2 * fine.max_pressure_GPa
+        for name in ("contact_load_share", "solid_load_fraction"):
+            off = abs(getattr(fine.mixed, name) - getattr(coarse.mixed, name))
+            assert 0.0 < off < getattr(coarse.mixed.error, name) < 0.25
+
     def test_the_coarser_grid_has_the_gaps_of_its_own_run(self, solved):
         (finest, coarser) = solved(129).mixed.error.grids
         own = solved(65).mixed
@@ -102,6 +150,10 @@ class TestOfAWavyBall:
         assert finest.mean_nm == pytest.approx(solved(129).mixed.mean_gap_nm, rel=1e-12)
         assert coarser.mean_nm == pytest.approx(own.mean_gap_nm, rel=1e-3)
         assert coarser.loaded_nm == pytest.approx(own.loaded_gap_nm, rel=1e-3)
+        assert finest.max_pressure_GPa == pytest.approx(solved(129).max_pressure_GPa, rel=1e-12)
+        assert coarser.max_pressure_GPa == pytest.approx(solved(65).max_pressure_GPa, rel=1e-3)
+        assert finest.solid_load_fraction == pytest.approx(solved(129).mixed.solid_load_fraction, rel=1e-9)
+        assert coarser.solid_load_fraction == pytest.approx(own.solid_load_fraction, abs=1e-3)
 
     def test_it_takes_a_part_of_the_work_that_is_not_counted_as_the_run_s(self, solved):
         result, without = solved(129), solved(129, error=False)
@@ -111,7 +163,7 @@ class TestOfAWavyBall:
 
     def test_it_is_said(self, solved):
         text = str(solved(129))
-        assert "bands of both: from the differences to 65 nodes" in text
+        assert "bands of gap, pressure and load: from the differences to 65 nodes" in text
         assert "±" in next(line for line in text.splitlines() if "gap, contact included" in line)
 
 

@@ -13,7 +13,7 @@ from mgehl.model.line import LineContact
 from mgehl.model.lubricant import Barus, ConstantDensity, Lubricant
 from mgehl.model.surface import Waviness
 from mgehl.output.files import write_result
-from mgehl.output.gap_error import GapError, no_band
+from mgehl.output.gap_error import GapError, GridGap, no_band
 from mgehl.output.mixed_result import Nodes, measured, mixed_result, patch_sizes
 from mgehl.output.mixed_words import mixed_lines, mixed_note
 from mgehl.output.table import _of_rough
@@ -121,6 +121,32 @@ def test_sealed_nodes_are_shut_in_by_sides(contact, nodes):
     assert measured(contact, MESH, nodes).sealed_load_fraction == 0.0
 
 
+@pytest.mark.parametrize("rows", [9, 1], ids=["point", "line"])
+def test_sealed_is_what_no_path_leads_out_of(contact, rows):
+    """A path goes from node to node by their sides and out over the edge; of a line over its ends."""
+    chance = np.random.default_rng(46)
+    mesh = MESH if rows > 1 else Mesh(17, 1, (-2.0, 2.0), (-0.5, 0.5))
+    for _ in range(20):
+        solid, P = chance.random((rows, 17)) < 0.45, chance.random((rows, 17))
+        status = np.where(solid, CONTACT, np.where(chance.random(solid.shape) < 0.3, CAVITATED, LUBRICATED))
+        level = np.zeros(solid.shape)
+        nodes = Nodes(P, level + FILM, status, level, P, level + 1.0)
+        reached = [
+            (j, i)
+            for j in range(rows)
+            for i in range(17)
+            if not solid[j, i] and (i in (0, 16) or (rows > 1 and j in (0, rows - 1)))
+        ]
+        for j, i in reached:  # grows as it is walked
+            for near in ((j, i - 1), (j, i + 1), (j - 1, i), (j + 1, i)):
+                inside = 0 <= near[0] < rows and 0 <= near[1] < 17
+                if inside and not solid[near] and near not in reached:
+                    reached.append(near)
+        load = P[~solid].sum() - sum(P[each] for each in reached)
+        found = measured(contact, mesh, nodes).sealed_load_fraction
+        assert found == pytest.approx(load * mesh.dX * mesh.dY / contact.load_integral, abs=1e-12)
+
+
 def test_the_filling_is_that_of_cavities_within_the_ellipse(contact, nodes):
     for i, filling in ((7, 0.25), (9, 0.75), (1, 0.0)):  # the last is outside
         nodes.status[4, i], nodes.filling[4, i] = CAVITATED, filling
@@ -185,11 +211,25 @@ def test_mean_gaps_are_said_with_their_bands(contact, nodes):
     banded = replace(found, error=GapError(0.0636, 0.0488, "from the differences to 129 nodes"))
     said = "\n".join(mixed_lines(banded))
     assert "mean 13.74 ± 0.07 nm within the Hertz ellipse, 2.91 ± 0.05 nm by pressure" in said
-    assert "bands of both: from the differences to 129 nodes" in said
+    assert "bands of gap, pressure and load: from the differences to 129 nodes" in said
     assert mixed_note(banded).endswith(", no contact, mean gap 13.74 ± 0.07 nm")
     none = replace(found, error=no_band("not asked for"))
-    assert "no band of the gap: not asked for" in "\n".join(mixed_lines(none))
+    assert "no band of gap, pressure and load: not asked for" in "\n".join(mixed_lines(none))
     assert "gap" not in mixed_note(none)
+
+
+def test_loads_are_said_with_their_bands_or_to_be_the_grid_s(contact, nodes):
+    touch(nodes, (4, 8), P=2.0)
+    grids = tuple(GridGap(n, 9.0, 3.0, 0.1, True, max_pressure_GPa=1.0) for n in (257, 129))
+    error = GapError(0.1, 0.1, "from them", grids, 1.0, 0.02, 0.0125, None)
+    found = replace(
+        measured(contact, MESH, nodes), error=error, contact_load_share=0.1, solid_load_fraction=0.08
+    )
+    said = "\n".join(mixed_lines(found))
+    assert "contact carries 10.0 ± 1.3 % of the load" in said and "solids carry 8.00 % of the load" in said
+    assert "bands of gap, pressure and load: from them; the grid's: the load on solids" in said
+    text = str(make_result(groups=contact.groups, mixed=found))
+    assert "largest pressure 2.30 ± 0.02 GPa" in text
 
 
 def test_an_older_result_has_no_mean_gap(contact, nodes):

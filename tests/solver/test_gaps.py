@@ -5,7 +5,8 @@ import pytest
 
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.scheme import Scheme
-from mgehl.solver.gaps import differences, gaps, gaps_of, within_hertz
+from mgehl.discretization.status import BOUNDARY, CONTACT, LUBRICATED
+from mgehl.solver.gaps import differences, gaps, gaps_of, load_differences, loads, within_hertz
 
 MESH = Mesh(5, 5, (-1.0, 1.0), (-1.0, 1.0), 1.0)
 """dX = dY = 1/2: 13 nodes lie within the circle."""
@@ -47,3 +48,28 @@ def test_of_a_state_and_its_differences_from_a_finer_grid_s(make_problem, paper_
     sign = np.where((np.arange(9) % 2)[None, :], 1.0, -1.0)
     apart = differences(problem, state, state.H + 0.25 * sign)
     assert apart.mean == pytest.approx(0.25) and apart.loaded == pytest.approx(0.25)
+
+
+def test_loads_and_their_differences_from_a_finer_grid_s(make_problem, paper_contact):
+    """Two nodes of contact on either grid, one of them common; solids carry half of it."""
+    problem = make_problem(paper_contact(1.0), nodes=9, scheme=Scheme())
+    mesh, contact = problem.grid.mesh, problem.contact
+    P = np.where(problem.boundary, 0.0, 1.0)
+    P[4, 4] = 4.0
+    status = np.where(problem.boundary, BOUNDARY, LUBRICATED).astype(np.int8)
+    finer = status.copy()
+    status[4, [4, 5]], finer[4, [4, 3]] = CONTACT, CONTACT
+    p = np.where(status == CONTACT, 0.5 * P, P)
+    state = problem.state(P, 0.5, status, p)
+    cell = mesh.dX * mesh.dY / contact.load_integral
+    found = loads(problem, state)
+    assert found.crest == 0.125 * 2 * (8.0 - 2 * 1.0)
+    assert (found.largest, found.contact, found.solids) == (
+        4.0,
+        pytest.approx(5 * cell),
+        pytest.approx(2.5 * cell),
+    )
+    apart = load_differences(problem, state, P + 0.25, np.where(finer == CONTACT, 0.5 * P, P), finer)
+    assert apart.largest == pytest.approx(0.25)
+    assert apart.contact == pytest.approx((0.25 + 1.0 + 1.25) * cell)
+    assert apart.solids == pytest.approx((0.25 + 0.5 + 0.75) * cell)

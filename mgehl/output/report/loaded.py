@@ -8,7 +8,7 @@ from mgehl.output.report.doubt import mark_of, marked
 from mgehl.output.report.mixed import mixed_highlights, mixed_sections
 from mgehl.output.report.page import NO_NUMBER, Section, Text, number, table
 from mgehl.output.report.verification import checks_table, contact_tables
-from mgehl.output.words import band_words
+from mgehl.output.words import band_words, largest_pressure_words
 
 FORMULAS = {
     "hamrock_dowson": "Hamrock and Dowson",
@@ -30,7 +30,7 @@ def highlights(solution):
     return (
         *mixed_highlights(result.mixed),
         *((f"{which} film", f"{shown} nm{bare}") for which, shown in _own_films(result).items()),
-        ("largest pressure", f"{number(result.max_pressure_GPa, 4)} GPa"),
+        ("largest pressure", _largest_pressure(result)),
         ("contact / Hertz area", number(result.contact.area_fraction, 4)),
         ("cells in the inlet", f"{number(result.resolution.inlet_cells, 3)}"),
     )
@@ -61,6 +61,13 @@ def alternatives(result):
         "surface": f"{': '.join(filter(None, (PEAKS, mixed_note(result.mixed))))}.",
         "history": f"The last residual is {number(result.residual, 2)}.",
     }
+
+
+def _largest_pressure(result):
+    """With its band as on the terminal, without it with four digits."""
+    if result.mixed and result.mixed.error and result.mixed.error.max_pressure_GPa is not None:
+        return largest_pressure_words(result)
+    return f"{number(result.max_pressure_GPa, 4)} GPa"
 
 
 def _films(result):

@@ -346,16 +346,35 @@ class TestRoughBodies:
         assert ("lambda", "0.25") in page.highlights and ("load on contact", "12.5 %") in page.highlights
 
     def test_mean_gaps_have_their_bands_and_the_grids_these_come_from(self, film_run, quick):
-        grids = (GridGap(257, 13.74, 2.911, 0.1319, True), GridGap(129, 13.84, 2.976, 0.1219, True))
-        error = GapError(0.06, 0.05, "from the differences to 129 nodes", grids)
+        grids = (
+            GridGap(257, 13.74, 2.911, 0.1319, True, max_pressure_GPa=1.5, solid_load_fraction=0.125),
+            GridGap(129, 13.84, 2.976, 0.1219, True),  # as in older results
+        )
+        error = GapError(0.06, 0.05, "from the differences to 129 nodes", grids, 1.0, 0.125, 0.01)
         gaps = {"mean_gap_nm": 13.74, "loaded_gap_nm": 2.911, "near_contact_load_share": 0.25}
         page = quick(changed(film_run, mixed=replace(self.MIXED, **gaps, error=error)))
         rows = table_of(page, "Film and contact of the rough bodies; films within the Hertz ellipse")
         values = [value for _, value, _ in rows[-3:]]
         assert values == ["13.74 ± 0.06", "2.91 ± 0.05", "25"]
-        grids = table_of(page, "Mean gaps of the grids that the bands come from")
-        assert grids == [["257", "13.74", "2.911", "13.19"], ["129", "13.84", "2.976", "12.19"]]
+        assert table_of(page, "The grids that the bands come from") == [
+            ["257", "13.74", "2.911", "1.5", "13.19", "12.5"],
+            ["129", "13.84", "2.976", NO_NUMBER, "12.19", NO_NUMBER],
+        ]
         assert ("mean gap", "13.74 ± 0.06 nm") in page.highlights
+        assert ("load on contact", "12.5 ± 1.0 %") in page.highlights
+        assert any(name == "largest pressure" and "± 0.13 GPa" in text for name, text in page.highlights)
+        (section,) = [each for each in page.sections if each.anchor == "mixed"]
+        (words,) = [each.text for each in section.blocks if each.block == "text"]
+        assert words.endswith("from the differences to 129 nodes; the grid's: the load on solids.")
+
+    def test_what_solids_and_pockets_carry(self, film_run, quick):
+        mixed = replace(self.MIXED, solid_load_fraction=0.0625, sealed_load_fraction=0.03125)
+        rows = table_of(
+            quick(changed(film_run, mixed=mixed)),
+            "Film and contact of the rough bodies; films within the Hertz ellipse",
+        )
+        assert ["part of the load that solids carry", "6.25", "%"] in rows
+        assert ["part of the load on pockets that contact shuts in", "3.125", "%"] in rows
 
     def test_the_boundary_film_stands_beside_the_gap_it_keeps(self, film_run, quick):
         contact = replace(film_run.result.contact, largest_gap_nm=2.0, kept_gap_nm=2.0)
