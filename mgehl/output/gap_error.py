@@ -7,18 +7,16 @@ from mgehl.output.film_error import NOT_ASKED
 from mgehl.output.surface import GRIDS
 
 OF_SECOND_ORDER, OF_FIRST_ORDER = 1.0 / 3.0, 1.0
-"""How many times the difference to the next coarser grid an error is, by Richardson. Loads on contact are
-of first order: where contact begins is known to a cell. The largest pressure may lie between nodes, too."""
+"""How many times the difference to the next coarser grid an error is, by Richardson. It is of first order
+where there is contact, whose edge is known to a cell."""
 
 ALIKE = 0.05
 """Difference over the gap from which on the order is taken to be the first: grids so far apart do not show
 the second yet."""
 
-SPREAD = 0.2
-"""Part of the mean size of the differences from node to node that is added to the error: their mean may be
-small by chance. Of 57 random balls on 257 nodes, by which this and `ALIKE` were chosen, 55 and 56 bands
-hold the limit; in the median they are 2.2 and 2.6 times as wide as the error. Of 37 others (`study gaps`)
-34 and 34 do, at 3.0 and 3.7 times the error."""
+SPREAD = 0.5
+"""Part of the mean size of the differences from node to node that is added to the error. Their mean may be
+small by chance: over the six waves of a lightly loaded ball it varies by about half of their size."""
 
 WIDEST = 0.5
 """Half-width over a gap or pressure from which on a band would tell nothing: there is none."""
@@ -141,8 +139,9 @@ def from_grids(grids):
     finest, coarser = grids
     if not coarser.settled:
         return no_band(f"on {coarser.nodes} nodes, the next coarser grid, no state settled to compare with")
-    mean = half_width(finest.mean_nm, coarser.mean_nm, coarser.mean_apart_nm)
-    loaded = half_width(finest.loaded_nm, coarser.loaded_nm, coarser.loaded_apart_nm)
+    touches = finest.contact_load_share > 0.0 or coarser.contact_load_share > 0.0
+    mean = half_width(finest.mean_nm, coarser.mean_nm, coarser.mean_apart_nm, touches)
+    loaded = half_width(finest.loaded_nm, coarser.loaded_nm, coarser.loaded_apart_nm, touches)
     if mean > WIDEST * finest.mean_nm or loaded > WIDEST * finest.loaded_nm:
         means = f"{coarser.mean_nm:.3g} and {coarser.loaded_nm:.3g} nm"
         return no_band(f"on {coarser.nodes} nodes the means are {means}, too far from these")
@@ -163,11 +162,11 @@ def from_grids(grids):
     )
 
 
-def half_width(value, coarser, apart):
+def half_width(value, coarser, apart, touches=False):
     """Half-width of the band about a mean gap, or the largest pressure, from the `coarser` grid's and the
-    mean size of the differences between their nodes."""
+    mean size of the differences between their nodes; `touches` where the edge of contact decides on it."""
     difference = abs(value - coarser)
-    times = OF_FIRST_ORDER if difference > ALIKE * value else OF_SECOND_ORDER
+    times = OF_FIRST_ORDER if touches or difference > ALIKE * value else OF_SECOND_ORDER
     return max(times * difference + SPREAD * apart, SMALLEST * value)
 
 

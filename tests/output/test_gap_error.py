@@ -36,6 +36,14 @@ def test_alike_grids_show_the_second_order():
     assert half_width(10.0, 10.3, 0.5) == pytest.approx(0.1 + SPREAD * 0.5)
 
 
+def test_contact_whose_edge_is_known_to_a_cell_the_first():
+    assert half_width(10.0, 10.3, 0.5, touches=True) == pytest.approx(0.3 + SPREAD * 0.5)
+    without = [replace(grid(n), contact_load_share=0.0, mean_nm=nm) for n, nm in ((257, 10.0), (129, 10.3))]
+    assert from_grids(without).mean_nm == pytest.approx(0.1 + SPREAD * 0.5)
+    touching = [without[0], replace(without[1], contact_load_share=0.01)]
+    assert from_grids(touching).mean_nm == pytest.approx(0.3 + SPREAD * 0.5)
+
+
 def test_grids_far_apart_the_first():
     difference = 2.0 * ALIKE * 10.0
     assert half_width(10.0, 10.0 - difference, 1.0) == pytest.approx(difference + SPREAD * 1.0)
