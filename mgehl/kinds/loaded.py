@@ -158,6 +158,7 @@ def _gaps(mixed):
     error = mixed.error
     if error and error.mean_nm is not None:
         yield "mean_gap_error", (1e-9 * error.mean_nm, "m", HALF_WIDTH)
+    if error and error.loaded_nm is not None:
         yield "loaded_gap_error", (1e-9 * error.loaded_nm, "m", HALF_WIDTH)
     if error and error.max_pressure_GPa is not None:
         yield "maximum_pressure_error", (1e9 * error.max_pressure_GPa, "Pa", HALF_WIDTH)

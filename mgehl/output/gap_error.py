@@ -54,11 +54,12 @@ class GridGap:
 
 
 SHOWN = {
+    "loaded_nm": "the gap by pressure",
     "max_pressure_GPa": "the largest pressure",
     "contact_load_share": "the load on contact",
     "solid_load_fraction": "the load on solids",
 }
-"""What has a band where the mean gaps have one and this grid and the next coarser one are near enough."""
+"""What has a band where the mean gap has one, and where this grid and the next coarser one are near."""
 
 
 @dataclass(frozen=True)
@@ -68,19 +69,19 @@ class GapError:
     mean_nm: float | None
     """None where there is no band at all; `how` says why."""
     loaded_nm: float | None
+    """None, as those below, also where the two grids are too far apart: then the number is the grid's."""
     how: str
     grids: tuple[GridGap, ...] = ()
     """The finest grid first."""
     convolutions: float = 0.0
     """What the coarser grid took, in equivalents of one on the finest."""
     max_pressure_GPa: float | None = None
-    """None, too, where the two grids are too far apart: the number is the grid's, not the contact's."""
     contact_load_share: float | None = None
     solid_load_fraction: float | None = None
 
     @property
     def is_the_grids(self):
-        """What has no band, in words, though the gaps have one."""
+        """What has no band, in words, though the mean gap has one."""
         known = self.mean_nm is not None and self.grids and self.grids[0].max_pressure_GPa is not None
         return [words for name, words in SHOWN.items() if known and getattr(self, name) is None]
 
@@ -142,15 +143,16 @@ def from_grids(grids):
     touches = finest.contact_load_share > 0.0 or coarser.contact_load_share > 0.0
     mean = half_width(finest.mean_nm, coarser.mean_nm, coarser.mean_apart_nm, touches)
     loaded = half_width(finest.loaded_nm, coarser.loaded_nm, coarser.loaded_apart_nm, touches)
-    if mean > WIDEST * finest.mean_nm or loaded > WIDEST * finest.loaded_nm:
-        means = f"{coarser.mean_nm:.3g} and {coarser.loaded_nm:.3g} nm"
-        return no_band(f"on {coarser.nodes} nodes the means are {means}, too far from these")
+    if mean > WIDEST * finest.mean_nm:
+        return no_band(
+            f"on {coarser.nodes} nodes the mean gap is {coarser.mean_nm:.3g} nm, too far from this"
+        )
     pressure = finest.pressure_crest_GPa + half_width(
         finest.max_pressure_GPa, coarser.max_pressure_GPa, coarser.pressure_apart_GPa
     )
     return GapError(
         mean,
-        loaded,
+        _unless_wider(loaded, WIDEST * finest.loaded_nm),
         f"from the differences to {coarser.nodes} nodes",
         max_pressure_GPa=_unless_wider(pressure, WIDEST * finest.max_pressure_GPa),
         contact_load_share=share_half_width(
