@@ -79,11 +79,15 @@ class GapError:
     contact_load_share: float | None = None
     solid_load_fraction: float | None = None
 
-    @property
-    def is_the_grids(self):
-        """What has no band, in words, though the mean gap has one."""
+    def is_the_grids(self, name):
+        """Whether a number of `SHOWN` has no band though the mean gap has one; not of older results."""
         known = self.mean_nm is not None and self.grids and self.grids[0].max_pressure_GPa is not None
-        return [words for name, words in SHOWN.items() if known and getattr(self, name) is None]
+        return bool(known) and getattr(self, name) is None
+
+    @property
+    def the_grids(self):
+        """All these in words."""
+        return [words for name, words in SHOWN.items() if self.is_the_grids(name)]
 
 
 def no_band(why):

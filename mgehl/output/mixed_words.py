@@ -70,7 +70,7 @@ def gap_band_words(error):
     """How the bands of a `GapError` came about, or why there are none; what the grid does not hold."""
     if error.mean_nm is None:
         return f"no band of gap, pressure and load: {error.how}"
-    rest = f"; the grid's: {', '.join(error.is_the_grids)}" if error.is_the_grids else ""
+    rest = f"; the grid's: {', '.join(error.the_grids)}" if error.the_grids else ""
     return f"bands of gap, pressure and load: {error.how}{rest}"
 
 

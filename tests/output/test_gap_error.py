@@ -73,7 +73,7 @@ def test_loads_and_the_largest_pressure_have_bands_of_their_own():
     assert error.max_pressure_GPa == pytest.approx(0.01 + SPREAD * 0.05 + 0.03)
     assert error.contact_load_share == pytest.approx(0.01)
     assert error.solid_load_fraction == pytest.approx(SPREAD * 0.1)
-    assert replace(error, grids=(grid(257), coarser)).is_the_grids == []
+    assert replace(error, grids=(grid(257), coarser)).the_grids == []
 
 
 def test_what_the_two_grids_do_not_share_is_the_grid_s():
@@ -82,11 +82,11 @@ def test_what_the_two_grids_do_not_share_is_the_grid_s():
     )
     error = replace(from_grids((grid(257), coarser)), grids=(grid(257), coarser))
     assert error.mean_nm is not None
-    assert error.is_the_grids == [
+    assert error.the_grids == [
         "the gap by pressure", "the largest pressure", "the load on contact", "the load on solids"
     ]  # fmt: skip
     none = from_grids((grid(257), grid(129, settled=False)))
-    assert none.is_the_grids == [] and none.max_pressure_GPa is None
+    assert none.the_grids == [] and none.max_pressure_GPa is None
 
 
 def test_where_the_coarser_grid_did_not_settle_there_is_none():

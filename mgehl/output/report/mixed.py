@@ -8,7 +8,8 @@ def mixed_highlights(mixed):
     """Numbers of a `MixedResult` that most readers come for; none of smooth bodies."""
     if mixed:
         yield "lambda", number(mixed.lambda_ratio, 3)
-        yield "load on contact", f"{_percent(mixed, 'contact_load_share')} %"
+        whose = ", the grid's" if mixed.error and mixed.error.is_the_grids("contact_load_share") else ""
+        yield "load on contact", f"{_percent(mixed, 'contact_load_share')} %{whose}"
         if mixed.mean_gap_nm is not None:
             yield "mean gap", f"{mean_gaps(mixed)[0]} nm"
 

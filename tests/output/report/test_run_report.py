@@ -367,6 +367,11 @@ class TestRoughBodies:
         (words,) = [each.text for each in section.blocks if each.block == "text"]
         assert words.endswith("from the differences to 129 nodes; the grid's: the load on solids.")
 
+    def test_a_load_that_the_grid_does_not_hold_is_the_grid_s(self, film_run, quick):
+        error = GapError(0.1, 0.1, "from them", (GridGap(65, 9.0, 3.0, 0.1, True, max_pressure_GPa=1.0),))
+        page = quick(changed(film_run, mixed=replace(self.MIXED, error=error)))
+        assert ("load on contact", "12.5 %, the grid's") in page.highlights
+
     def test_what_solids_and_pockets_carry(self, film_run, quick):
         mixed = replace(self.MIXED, solid_load_fraction=0.0625, sealed_load_fraction=0.03125)
         rows = table_of(
