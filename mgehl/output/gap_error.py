@@ -16,7 +16,11 @@ the second yet."""
 
 SPREAD = 0.5
 """Part of the mean size of the differences from node to node that is added to the error. Their mean may be
-small by chance: over the six waves of a lightly loaded ball it varies by about half of their size."""
+small by chance: over the six waves of a lightly loaded ball it varies by about half of their size.
+
+Of 16 solves of random balls on 65 and 129 nodes, most of which this was chosen by, the bands hold the value
+of the next finer grid: of the mean gap 14, of the gap by pressure 9 of 11, of the largest pressure 16, of
+either load all 14 that are not the grid's."""
 
 WIDEST = 0.5
 """Half-width over a gap or pressure from which on a band would tell nothing: there is none."""
