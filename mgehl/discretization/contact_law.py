@@ -5,7 +5,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-
 SLACK, SLACK_OF_LAYERS = 1e-7, 1e-3
 """By how much a film may be thinner than the layers before it counts as contact, in units of H and over the
 layers; the less of both. Under high pressure so thin a film and contact let equally little through. Nodes

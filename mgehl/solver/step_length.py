@@ -55,8 +55,8 @@ def _scale(problem, state):
 def _more(contact):
     """How many times as much pressures may change as where the viscosity is steep; at least 1.
 
-    Of rough bodies it is 1: their largest pressure is scale enough. A ball of 294 nm rms at 0.64 m/s and 22 N does not
-    settle on 257 nodes with more.
+    Of rough bodies it is 1: their largest pressure is scale enough. A ball of 294 nm rms at 0.64 m/s and
+    22 N does not settle on 257 nodes with more.
     """
     if contact.roughness:
         return 1.0
