@@ -45,11 +45,14 @@ def execute(options):
         raise UserError(f"--dpi {options.dpi}: must be between 30 and 1200")
     if "compare" in kinds and len(options.runs) == 1:
         raise UserError("--kind compare: needs more than one run")
-    from mgehl.output.pictures import style
+    from mgehl.output.pictures.figures import style, write
 
     with style.applied(options.style, options.dpi):
         for pictures, directory in _drawn(options, kinds):
-            _write(pictures, directory, formats)
+            try:
+                print(*write(pictures, directory, formats), sep="\n")
+            except OSError as error:
+                raise OutputError(f"{directory}: cannot be written: {error}") from None
     return CONVERGED
 
 
@@ -65,27 +68,16 @@ def _words(option, given, known, default):
 def _drawn(options, kinds):
     """Lists of pictures, each with its directory."""
     from mgehl.output.pictures.figures import compared, figures
-    from mgehl.output.pictures.labels import run_names
+    from mgehl.output.pictures.titles import run_names
     from mgehl.output.stored import read_run
 
-    names = run_names(options.runs)
-    solutions = [read_run(run) for run in options.runs]
+    names, solutions = run_names(options.runs), [read_run(run) for run in options.runs]
     several, drawn = len(solutions) > 1, []
     own = None if "all" in kinds else [kind for kind in kinds if kind != "compare"]
     if own is None or own:
         for run, name, solution in zip(options.runs, names, solutions, strict=True):
             out = Path(options.out or Path(run) / "plots")
             drawn.append((figures(solution, own), out / name if several and options.out else out))
-    if several and ("all" in kinds or "compare" in kinds):
+    if several and (own is None or "compare" in kinds):
         drawn.append((compared(solutions, names), Path(options.out or "plots")))
     return drawn
-
-
-def _write(pictures, directory, formats):
-    from mgehl.output.pictures.figures import write
-
-    try:
-        paths = write(pictures, directory, formats)
-    except OSError as error:
-        raise OutputError(f"{directory}: cannot be written: {error}") from None
-    print(*paths, sep="\n")

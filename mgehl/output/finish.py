@@ -118,9 +118,9 @@ def _copy_laws(folder, stage, config):
 def _drawn(solution):
     """A run's picture, as the bytes of a PNG file; where it cannot be drawn, a line that says why."""
     try:
-        from mgehl.output.pictures import picture, wedge_picture  # matplotlib is slow to import
+        from mgehl.output.pictures.picture import drawn  # matplotlib is slow to import
 
-        return (picture if solution.contact.is_loaded else wedge_picture).drawn(solution)
+        return drawn(solution)
     except Exception as error:  # what matplotlib raises is anybody's guess
         return one_line(error)
 

@@ -17,8 +17,7 @@ def pressure_map(path, solution):
     """Figures 7 and 8: the pressure over the pad."""
     with style.applied():
         figure, axes = style.subplots(size=(6.2, 3.9))
-        image = wedge_picture.pressure_map(axes, solution.mesh, solution.fields, LIMITS)
-        figure.colorbar(image, ax=axes, label="P = m$^2$p/($\\eta$u), 1/mm", extend="both")
+        wedge_picture.pressure_map(axes, solution, LIMITS, extend="both")
         axes.set_title(f"{solution.contact.pillar} pillar (grey); the film moves towards small X")
         style.save(figure, path)
 

@@ -8,16 +8,19 @@ from io import BytesIO
 import numpy as np
 
 from mgehl.discretization import status
+from mgehl.output.export.fluid import fluid_fields
 from mgehl.output.files import finite
 from mgehl.output.laws import portable
 
 COLUMNS = ("x_m", "y_m", "pressure_Pa", "film_m", "status")
+FLUID = {"fluid_pressure": "fluid_pressure_Pa", "filling": "filling"}
+"""Columns of `fluid_fields`, after the others."""
 
 
 def write_npz(path, solution):
-    """Write x, y, pressure and film in SI units, P, H, status and its names, and two texts of JSON.
+    """Write x, y, pressure and film in SI units, P, H, status and its names, `fluid_fields`, and two texts.
 
-    The texts `result` and `configuration` are strings; nothing in the file is pickled.
+    The texts `result` and `configuration` are strings of JSON; nothing in the file is pickled.
     """
     fields = solution.fields
     memory = BytesIO()  # zipfile complains at length where the disk is full
@@ -30,6 +33,7 @@ def write_npz(path, solution):
         P=fields.P,
         H=fields.H,
         status=fields.status,
+        **fluid_fields(solution),
         status_names=np.array(status.names(solution.is_dry)),
         result=json.dumps(finite(asdict(solution.result)), allow_nan=False),
         configuration=json.dumps(portable(solution.config)),
@@ -43,7 +47,10 @@ def write_csv(path, solution):
     numbers = [each.ravel().tolist() for each in (x, y, solution.pressure, solution.film)]
     known = status.names(solution.is_dry)
     names = [known[k] for k in solution.status.ravel().tolist()]
+    fluid = fluid_fields(solution)
     with path.open("w", newline="") as file:
         writer = csv.writer(file)
-        writer.writerow(COLUMNS)
-        writer.writerows(zip(*numbers, names, strict=True))
+        writer.writerow((*COLUMNS, *(FLUID[name] for name in fluid)))
+        writer.writerows(
+            zip(*numbers, names, *(each.ravel().tolist() for each in fluid.values()), strict=True)
+        )

@@ -7,6 +7,7 @@ import numpy as np
 from mgehl.discretization.status import NAMES
 from mgehl.errors import OutputError, UserError
 from mgehl.output.export.arrays import write_csv, write_npz
+from mgehl.output.export.fluid import fluid_fields
 from mgehl.output.export.netcdf import write_netcdf
 from mgehl.output.export.paraview import write_vts
 from mgehl.output.whole_file import whole_file
@@ -58,7 +59,11 @@ def export(solution, paths, force=False):
 
 def _check_fields(solution):
     """Neither an iteration that diverged nor a damaged file may pass for an answer."""
-    for name, field in (("pressure", solution.pressure), ("film", solution.film)):
+    for name, field in {
+        "pressure": solution.pressure,
+        "film": solution.film,
+        **fluid_fields(solution),
+    }.items():
         bad = np.count_nonzero(~np.isfinite(field))
         if bad:
             raise OutputError(f"the {name} of this run is not finite at {bad} nodes: nothing to export")

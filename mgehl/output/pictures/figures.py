@@ -14,13 +14,12 @@ from typing import NamedTuple
 from matplotlib.figure import Figure
 
 from mgehl.errors import UserError
-from mgehl.output.pictures import style, wedge_picture
+from mgehl.output.pictures import maps, style, wedge_picture
 from mgehl.output.pictures.comparison import compare_histories, compare_lines
-from mgehl.output.pictures.history_picture import history
-from mgehl.output.pictures.labels import labels
+from mgehl.output.pictures.history import history
 from mgehl.output.pictures.lines import centre_lines
-from mgehl.output.pictures.maps import film_map, gap_map, pressure_map, status_map
-from mgehl.output.pictures.surface_picture import surface_picture
+from mgehl.output.pictures.surface import surface_picture
+from mgehl.output.pictures.titles import labels
 from mgehl.output.solution import Solution
 
 
@@ -32,43 +31,29 @@ class Picture(NamedTuple):
     figure: Figure
 
 
-TITLES = {
-    "lines": "pressure and film on the centre lines, against the dry contact",
-    "film": "film thickness, with contact and cavitation outlined",
-    "pressure": "pressure",
-    "status": "status of the nodes",
-    "history": "how the run converged",
-}
-"""The kinds of pictures, in order, and what they show."""
-
-DRY_TITLES = {
-    "lines": "pressure and gap on the centre lines, against the contact of smooth bodies",
-    "gap": "gap, with contact outlined",
-}
-"""Pictures that are others without a fluid, or show something else."""
-
-ROUGH = {"surface": "heights of the surface with the contact on them, the gap, their distribution"}
-"""Pictures that bodies with a surface have besides."""
-
 _POINT = {
-    "lines": centre_lines,
-    "film": film_map,
-    "pressure": pressure_map,
-    "status": status_map,
-    "history": history,
+    "lines": ("pressure and film on the centre lines, against the dry contact", centre_lines),
+    "film": ("film thickness, with contact, and cavities by how full they are", maps.film_map),
+    "pressure": ("pressure, with contact outlined", maps.pressure_map),
+    "status": ("status of the nodes", maps.status_map),
+    "history": ("how the run converged", history),
 }
-_DRY = {("gap" if kind == "film" else kind): draw for kind, draw in _POINT.items()} | {"gap": gap_map}
-_LINE = {"lines": centre_lines, "history": history}
+"""Pictures of a point contact, in order: the kind, what it shows, the function that draws it."""
+_DRY = {
+    "lines": ("pressure and gap on the centre lines, against the contact of smooth bodies", centre_lines),
+    "gap": ("gap, with contact", maps.film_map),
+}
+_ROUGH = {"surface": ("heights of the surface with contact, the gap, their distribution", surface_picture)}
 _BEARING = {
-    "lines": wedge_picture.centre_line,
-    "pressure": wedge_picture.pressure_picture,
-    "status": status_map,
-    "history": history,
+    "lines": ("pressure on the centre line", wedge_picture.centre_line),
+    "pressure": ("pressure, the solid in grey", wedge_picture.pressure_picture),
+    "status": _POINT["status"],
+    "history": _POINT["history"],
 }
 
 
 def drawn_by(solution):
-    """The functions that draw a run, by kind of picture: a single line has no maps.
+    """Title and function of each picture of a run, by kind: a single line has no maps.
 
     A surface is left out where its file is not there any more: what is done can be looked at without.
     """
@@ -82,19 +67,14 @@ def drawn_by(solution):
 
 
 def _possible(solution):
-    """The functions that draw such a contact."""
+    """As `drawn_by`, whether or not the surface's file is there."""
     if not solution.contact.is_loaded:
         return dict(_BEARING)
-    if solution.mesh.is_line:
-        drawn = _LINE
-    else:
-        drawn = _DRY if solution.is_dry else _POINT
-    return drawn | ({"surface": surface_picture} if solution.contact.surface is not None else {})
-
-
-def title_of(kind, solution):
-    """What a kind of picture of a run shows."""
-    return (TITLES | ROUGH | (DRY_TITLES if solution.is_dry else {}))[kind]
+    drawn = _POINT | (_ROUGH if solution.contact.surface is not None else {})
+    if solution.is_dry:
+        drawn = _DRY | {kind: drawn[kind] for kind in drawn if kind not in ("lines", "film")}
+    flat = ("film", "gap", "pressure", "status") if solution.mesh.is_line else ()
+    return {kind: drawn[kind] for kind in drawn if kind not in flat}
 
 
 def figures(solution: Solution, kinds: Sequence[str] | None = None) -> list[Picture]:
@@ -102,12 +82,13 @@ def figures(solution: Solution, kinds: Sequence[str] | None = None) -> list[Pict
 
     Raises UserError for a kind that this contact does not have.
     """
-    draw = _possible(solution) if kinds else drawn_by(solution)
+    known = _possible(solution) if kinds else drawn_by(solution)
     for kind in kinds or ():
-        if kind not in draw:
-            raise UserError(f"no picture {kind!r} of this contact: it has {', '.join(draw)}")
+        if kind not in known:
+            raise UserError(f"no picture {kind!r} of this contact: it has {', '.join(known)}")
     with style.applied():
-        return [Picture(kind, title_of(kind, solution), draw[kind](solution)) for kind in kinds or draw]
+        drawn = ((kind, *known[kind]) for kind in kinds or known)
+        return [Picture(kind, title, draw(solution)) for kind, title, draw in drawn]
 
 
 def compared(solutions: Sequence[Solution], names: Sequence[str]) -> list[Picture]:
@@ -134,8 +115,7 @@ def draw_all(
 
     Raises UserError for a kind that this contact does not have, OSError where a file cannot be written.
     """
-    pictures = figures(solution, kinds)
-    return write(pictures, directory, formats)
+    return write(figures(solution, kinds), directory, formats)
 
 
 def write(

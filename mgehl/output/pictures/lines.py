@@ -1,102 +1,136 @@
 """Centre lines of pressure and film of one run, against the dry contact."""
 
+from typing import NamedTuple
+
 import numpy as np
 
+from mgehl.discretization.status import CAVITATED, CONTACT
 from mgehl.model.hertz import hertz_pressure
-from mgehl.output.pictures.style import FILM, HERTZ, PRESSURE, legend_below, subplots
-from mgehl.output.pictures.titles import position_labels, title_with_films
+from mgehl.output.pictures import style
+from mgehl.output.pictures.plane import DECADES, LINEAR, filling_of
+from mgehl.output.pictures.titles import gap_words, position_labels, title_with_films
 
+INSIDE = {0.8: 3.0, 1.25: 1.0}
+"""Parts of the dry contact whose films make the axis of films, the second where the first is all contact;
+and its upper end over the largest of them, of a logarithmic axis the square."""
+BARE = 1e-6
+"""Part of the largest pressure by which the fluid's own must differ to be drawn."""
 ALONG, ACROSS = "Y = 0, along the motion (left to right)", "X = 0, across the motion"
-ALONG_X, ALONG_Y = "Y = 0, along x", "X = 0, along y"
+ANYWHERE = "Y = 0, along x", "X = 0, along y"
 """Where the motion is not along x."""
-SMALLEST_FILM_RANGE = 10.0
-"""Upper end of the film axis, in nm, where solid contact leaves no film to scale it by."""
+
+
+class Line(NamedTuple):
+    """A centre line: place in semi-axes; total pressure, the fluid's own and Hertz's in GPa; gap, its oil
+    and the dry contact's gap in nm; status."""
+
+    X: np.ndarray
+    P: np.ndarray
+    p: np.ndarray
+    hertz: np.ndarray
+    film: np.ndarray
+    oil: np.ndarray
+    dry: np.ndarray
+    status: np.ndarray
+
+
+def line_of(solution, across):
+    """The `Line` of a loaded contact along x on Y = 0, or along y on X = 0."""
+    mesh, fields, contact = solution.mesh, solution.fields, solution.contact
+    i, j = mesh.nearest(0.0, 0.0)
+    part, X = ((slice(None), i), mesh.Y) if across else ((j, slice(None)), mesh.X)
+    GPa, nm = 1e-9 * contact.pressure_scale, 1e9 * contact.film_scale
+    layers = 1e9 * solution.config.contact.boundary_film
+    P, film = GPa * fields.P[part], nm * fields.H[part]
+    dry = contact.dry_gap(0.0 * X, X) if across else contact.dry_gap(X, 0.0 * X)
+    return Line(
+        X, P, P if fields.p is None else GPa * fields.p[part], GPa * hertz_pressure(X, 0.0), film,
+        layers + filling_of(fields)[part] * (film - layers), nm * dry, fields.status[part],
+    )  # fmt: skip
 
 
 def centre_lines(solution):
-    """Figure of pressure (GPa) and film (nm) along x and, of a point contact, along y."""
-    panels = 1 if solution.mesh.is_line else 2
-    figure, axes = subplots(1, panels, size=(1.2 + 4.9 * panels, 4.6), squeeze=False)
-    draw_along(axes[0, 0], solution)
-    if panels > 1:
-        draw_across(axes[0, 1], solution)
-    contact = solution.contact
+    """Figure of pressure above film, along x and, of a point contact, along y."""
+    contact, panels = solution.contact, 1 if solution.mesh.is_line else 2
+    figure, axes = style.subplots(2, panels, size=(1.2 + 4.9 * panels, 6.0), squeeze=False)
+    style.legend_under_all(figure, draw_lines(axes, solution))
     for panel, name, scale in zip(axes[0], "xy", (contact.x_scale, contact.y_scale), strict=False):
-        add_millimetres(panel, name, scale)
+        mm = 1e3 * scale
+        upper = panel.secondary_xaxis("top", functions=(lambda X, mm=mm: X * mm, lambda x, mm=mm: x / mm))
+        upper.set_xlabel(f"{name}, mm")
     figure.suptitle(f"centre lines, {title_with_films(solution)}")
     return figure
 
 
-def along(solution):
-    """X, P and H along x on Y = 0, (nx,) each."""
-    mesh, fields = solution.mesh, solution.fields
-    _, j = mesh.nearest(0.0, 0.0)
-    return mesh.X, fields.P[j], fields.H[j]
-
-
-def across(solution):
-    """Y, P and H along y on X = 0, (ny,) each."""
-    mesh, fields = solution.mesh, solution.fields
-    i, _ = mesh.nearest(0.0, 0.0)
-    return mesh.Y, fields.P[:, i], fields.H[:, i]
+def draw_lines(axes, solution):
+    """Pressures on the first row of axes, films on the second, along x and along y; their handles."""
+    lines = [line_of(solution, across) for across in range(len(axes[0]))]
+    set_axes(axes, lines)
+    called, labels = names(solution.contact), position_labels(solution)
+    axes[0, 0].set_ylabel("pressure, GPa")
+    axes[1, 0].set_ylabel(gap_words(solution.contact)[1])
+    handles = []
+    for (pressures, films), line, title, label in zip(axes.T, lines, called, labels, strict=False):
+        handles += _draw(pressures, films, line, solution.contact)
+        pressures.set_title(title)
+        films.set_xlabel(label)
+    return handles
 
 
 def names(contact):
     """What the two lines are called, by the direction of the motion, if there is one."""
     along_x = contact.motion == (1.0, 0.0) and not contact.is_at_rest
-    return (ALONG, ACROSS) if along_x else (ALONG_X, ALONG_Y)
+    return (ALONG, ACROSS) if along_x else ANYWHERE
 
 
-def film_words(contact):
-    """What is between the bodies: its name, and what an axis shows."""
-    return ("gap", "gap, nm") if contact.is_at_rest else ("film", "film thickness, nm")
+def set_axes(axes, lines):
+    """Limits for some `Line`s: films inside the dry contact can be read, on a logarithmic axis where they
+    differ much. It begins below 0 only where bodies overlap."""
+    for inside in INSIDE:
+        films = [line.film[(np.abs(line.X) < inside) & (line.status != CONTACT)] for line in lines]
+        films, room = np.concatenate(films), INSIDE[inside]
+        if (films > 0.0).any():
+            break
+    least, top = min(line.film.min() for line in lines), films.max(initial=1e-3)
+    low = max(films[films > 0.0].min(initial=top), top / DECADES)
+    for pressures, below in axes.T:
+        pressures.set_ylim(0.0, 1.1 * max(line.P.max() for line in lines))
+        pressures.sharex(below)
+        pressures.tick_params(labelbottom=False)
+        pressures.margins(x=0.0)
+        below.margins(x=0.0)
+        if top > LINEAR * low and least > -low:
+            below.set(yscale="log", ylim=(low / 2.0, room**2 * top))
+            below.yaxis.set_major_formatter("{x:g}")
+        else:
+            below.set_ylim(min(0.0, 1.1 * least), room * top)
 
 
-def dry_words(contact):
-    """What the gap of the dry contact is called: of a coated body it is not the coated one's."""
-    return f"dry contact (Hertz{'' if contact.deformation is None else ', uncoated'})"
-
-
-def draw_along(axes, solution):
-    """The lines along x."""
-    X, P, H = along(solution)
-    _draw(axes, solution.contact, X, P, H, solution.contact.dry_gap(X, 0.0 * X))
-    axes.set(xlabel=position_labels(solution)[0], title=names(solution.contact)[0])
-
-
-def draw_across(axes, solution):
-    """The lines along y."""
-    Y, P, H = across(solution)
-    _draw(axes, solution.contact, Y, P, H, solution.contact.dry_gap(0.0 * Y, Y))
-    axes.set(xlabel=position_labels(solution)[1], title=names(solution.contact)[1])
-
-
-def film_range(position, film):
-    """Lower and upper end of a film axis: readable inside the dry contact, in the film's unit.
-
-    It begins below 0 only where bodies overlap.
-    """
-    inside = np.abs(position) < 0.8
-    top = max(3.0 * float(np.max(film[inside], initial=0.0)), SMALLEST_FILM_RANGE)
-    return min(0.0, 1.1 * float(np.min(film))), top
-
-
-def add_millimetres(axes, name, scale):
-    """The position in mm along the upper side; `scale` is metres per unit of X or Y."""
-    mm = 1e3 * scale
-    upper = axes.secondary_xaxis("top", functions=(lambda X: X * mm, lambda x: x / mm))
-    upper.set_xlabel(f"{name}, mm")
-
-
-def _draw(axes, contact, position, P, H, dry_gap):
-    GPa, nm = 1e-9 * contact.pressure_scale, 1e9 * contact.film_scale
-    pressure = axes.plot(position, P * GPa, color=PRESSURE, label="pressure")
-    axes.plot(position, hertz_pressure(position, 0.0) * GPa, ":", color=HERTZ, linewidth=1)
-    axes.set(ylim=(0.0, 1.25 * max(GPa, GPa * float(np.max(P)))), xlim=position[[0, -1]])
-    axes.set_ylabel("pressure, GPa", color=PRESSURE)
-    films, (name, unit) = axes.twinx(), film_words(contact)
-    film = films.plot(position, H * nm, color=FILM, label=name)
-    dry = films.plot(position, dry_gap * nm, ":", color=HERTZ, linewidth=1, label=dry_words(contact))
-    films.set(ylim=film_range(position, H * nm))
-    films.set_ylabel(unit, color=FILM)
-    legend_below(axes, [*pressure, *film, *dry])
+def _draw(pressures, films, line, contact):
+    """One line and its dry contact; the handles."""
+    dry = f"dry contact (Hertz{'' if contact.deformation is None else ', uncoated'})"
+    dotted = {"color": style.HERTZ, "linewidth": 1, "linestyle": ":", "label": dry}
+    handles = pressures.plot(line.X, line.P, color=style.PRESSURE, label="pressure")
+    solid, cavity = line.status == CONTACT, line.status == CAVITATED
+    if (line.P - line.p)[solid].max(initial=0.0) > BARE * line.P.max():
+        own = {"color": style.FLUID, "zorder": 1.9, "label": "pressure of the fluid in contact"}
+        carried = {
+            "color": style.CONTACT_COLOUR,
+            "alpha": 0.4,
+            "linewidth": 0,
+            "label": "carried by solids",
+        }
+        handles += pressures.plot(line.X, line.p, **own)
+        handles.append(pressures.fill_between(line.X, line.p, line.P, **carried))
+    handles += films.plot(line.X, line.film, color=style.FILM, label=gap_words(contact)[0])
+    for where, values, colour, label in (
+        (solid, line.film, style.CONTACT_COLOUR, "contact"),
+        (cavity, line.oil, style.CAVITY_COLOUR, "oil in a cavity"),
+    ):
+        if where.any():
+            seen = np.maximum(values[where], films.get_ylim()[0])
+            handles += films.plot(
+                line.X[where], seen, ".", color=colour, label=label, clip_on=where is cavity
+            )
+    pressures.plot(line.X, line.hertz, **dotted)
+    return handles + films.plot(line.X, line.dry, **dotted)

@@ -1,23 +1,29 @@
-"""The picture that a run of a loaded contact leaves: centre lines, map of the film."""
+"""The picture that a run leaves: centre lines and map of the film; of a wedge those of the pressure."""
 
-from mgehl.output.pictures import lines, maps, style
-from mgehl.output.pictures.titles import title_with_films
+import numpy as np
+from matplotlib.figure import Figure
 
-BLOCKS = 350
-"""Blocks of nodes along a side of its small map, about as many as it has dots."""
+from mgehl.output.pictures import lines, maps, style, wedge_picture
+from mgehl.output.pictures.titles import gap_words, title_with_films
 
 
 def drawn(solution):
     """The picture of a `Solution`'s whole-grid fields, as the bytes of a PNG file."""
     with style.applied():
-        panels = 1 if solution.mesh.is_line else 3
-        figure, axes = style.subplots(1, panels, size=(1.5 + 4.1 * panels, 4.4), squeeze=False)
-        lines.draw_along(axes[0, 0], solution)
-        if panels > 1:
-            lines.draw_across(axes[0, 1], solution)
-            what = lines.film_words(solution.contact)[0]
-            handles = maps.draw_film(axes[0, 2], solution, what, BLOCKS)
-            axes[0, 2].set_title(what)
-            style.legend_below(axes[0, 2], handles, columns=2)
-        figure.suptitle(title_with_films(solution))
+        figure = _loaded(solution) if solution.contact.is_loaded else wedge_picture.picture(solution)
         return style.rendered(figure, "png")
+
+
+def _loaded(solution):
+    panels = 1 if solution.mesh.is_line else 3
+    figure = Figure(figsize=(1.5 + 4.1 * panels, 5.2), layout="constrained")
+    above, below = ["p along", "p across"], ["h along", "h across"]
+    axes = figure.subplot_mosaic([[*above, "map"][:panels], [*below, "map"][:panels]])
+    rows = np.array([[axes[name] for name in row if name in axes] for row in (above, below)])
+    handles = lines.draw_lines(rows, solution)
+    if "map" in axes:
+        handles += maps.draw_film(axes["map"], solution, style.SMALL)
+        axes["map"].set_title(gap_words(solution.contact)[0])
+    style.legend_under_all(figure, handles)
+    figure.suptitle(title_with_films(solution))
+    return figure

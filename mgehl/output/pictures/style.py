@@ -10,11 +10,12 @@ import os
 from contextlib import contextmanager
 from contextvars import ContextVar
 from importlib import resources
-from math import ceil
+from logging.handlers import BufferingHandler
 from pathlib import Path
 
 import matplotlib
 import matplotlib.style
+from matplotlib.colors import BoundaryNorm, LinearSegmentedColormap, ListedColormap
 from matplotlib.figure import Figure
 
 from mgehl.errors import UserError
@@ -23,19 +24,24 @@ from mgehl.output.whole_file import whole_file
 COLOURS = tuple(f"C{k}" for k in range(7))
 """The style's colours of lines, in order: what is compared takes them one after the other."""
 MARKS = ("o", "s", "^", "v", "D", "<", ">")
-PRESSURE, FILM = COLOURS[:2]
+PRESSURE, FILM, FLUID = "C0", "C2", "C5"
+"""Of lines: pressure, film or gap, and the fluid's own pressure under contact."""
 HERTZ, GUIDE, SOLID = "0.2", "0.8", "0.45"
 """Greys of the dry contact, of lines to guide the eye and of a wedge's pillar."""
-CONTACT_COLOUR = "#D55E00"
-"""Contact on the maps, and its outline."""
-STATUS_COLOURS = ("0.85", "#56B4E9", "#F0E442", CONTACT_COLOUR, "#222222")
-"""Boundary, lubricated, cavitated, contact and overlap (Okabe and Ito)."""
+CONTACT_COLOUR, CAVITY_COLOUR = "#D55E00", "#CC79A7"
+"""Contact and full cavities in every picture (Okabe and Ito)."""
+STATUS_COLOURS = ("0.85", "#56B4E9", CAVITY_COLOUR, CONTACT_COLOUR, "#222222")
+"""Boundary, lubricated, cavitated, contact and overlap."""
+STATUS_MAP = ListedColormap(STATUS_COLOURS)
+STATUS_NORM = BoundaryNorm([k - 0.5 for k in range(STATUS_MAP.N + 1)], STATUS_MAP.N)
+FILLING_MAP = LinearSegmentedColormap.from_list("filling", ["white", CAVITY_COLOUR])
+"""Cavities from empty to full."""
 HIDDEN = "0.88"
 """What is beyond the scale of a map."""
-HANDLE, ROW = 8, 3
-"""Width of a legend's line and height of its row, in letters."""
-UNDER = 3.9
-"""Height of an axis with its numbers and its name, in letters."""
+SMALL = 350
+"""Blocks of nodes along a side of a small map, about as many as it has dots."""
+HANDLE, UNDER = 8, 3.9
+"""Width of a legend's line, and height of an axis with its numbers and its name, in letters."""
 
 LARGEST_STYLE = 10**6
 """Bytes of a style file."""
@@ -70,9 +76,9 @@ def applied(overlay=None, dpi=None):
         _decided.reset(token)
 
 
-def subplots(rows=1, columns=1, *, size, **options):
+def subplots(rows=1, columns=1, *, size, layout="constrained", **options):
     """A new figure of `size` inches and its axes, as pyplot's but without pyplot's memory."""
-    figure = Figure(figsize=size, layout="constrained")
+    figure = Figure(figsize=size, layout=layout)
     return figure, figure.subplots(rows, columns, **options)
 
 
@@ -84,24 +90,17 @@ def legend_below(axes, handles, columns=4):
 
 
 def legend_under_all(figure, handles):
-    """The legend of a whole figure, in as few rows as it is wide for, below everything."""
-    width, height = figure.get_size_inches()
-    longest = max(len(each.get_label()) for each in handles)
-    columns = max(1, min(len(handles), int(width / inches(HANDLE + longest))))
-    room = inches(ROW) * (ceil(len(handles) / columns) + 0.5) / height
-    figure.get_layout_engine().set(rect=(0.0, room, 1.0, 1.0 - room))
-    figure.legend(handles=handles, loc="lower center", ncols=columns)
-
-
-def inches(letters):
-    """About as much as a text of so many letters takes."""
-    return 0.6 * letters * matplotlib.rcParams["font.size"] / 72.0
+    """The legend of a whole figure below it, each label once: what is saved is cut to what there is."""
+    handles = list({each.get_label(): each for each in handles}.values())
+    letters = max(len(each.get_label()) for each in handles) + HANDLE
+    columns = max(1, int(120.0 * figure.get_figwidth() / matplotlib.rcParams["font.size"] / letters))
+    figure.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, 0.0), ncols=columns)
 
 
 def rendered(figure, form):
-    """The bytes of a figure as "png", "svg" or "pdf"; call it under `applied`."""
+    """The bytes of a figure as "png", "svg" or "pdf", cut to what it shows; call it under `applied`."""
     buffer = io.BytesIO()
-    figure.savefig(buffer, format=form, metadata=_UNDATED[form])
+    figure.savefig(buffer, format=form, metadata=_UNDATED[form], bbox_inches="tight")
     return buffer.getvalue()
 
 
@@ -116,34 +115,20 @@ def _read(path):
     """Settings of a style file; matplotlib only warns of lines that it does not know."""
     if os.path.exists(path) and not (os.path.isfile(path) and os.path.getsize(path) <= LARGEST_STYLE):
         raise UserError(f"{path}: cannot be read: is no file of at most {LARGEST_STYLE} bytes")
-    complaints = _Complaints()
-    logger = logging.getLogger("matplotlib")
+    complaints, logger = BufferingHandler(LARGEST_STYLE), logging.getLogger("matplotlib")
+    complaints.setLevel(logging.WARNING)
     logger.addHandler(complaints)
     propagate, logger.propagate = logger.propagate, False
     try:
         settings = matplotlib.rc_params_from_file(path, fail_on_error=True, use_default_template=False)
+        wrong = [record.getMessage().strip().splitlines()[0] for record in complaints.buffer]
     except OSError as error:
         raise UserError(f"{path}: cannot be read: {error.strerror}") from None
     except ValueError as error:
-        raise UserError(f"{path}: no style of matplotlib: {_line(error)}") from None
+        wrong = [str(error)]
     finally:
         logger.propagate = propagate
         logger.removeHandler(complaints)
-    if complaints.lines:
-        raise UserError(f"{path}: no style of matplotlib: {complaints.lines[0]}")
+    if wrong:
+        raise UserError(f"{path}: no style of matplotlib: {' '.join(wrong[0].split())[:160]}")
     return settings
-
-
-class _Complaints(logging.Handler):
-    """Collects what a reader warns of."""
-
-    def __init__(self):
-        super().__init__(logging.WARNING)
-        self.lines = []
-
-    def emit(self, record):
-        self.lines.append(_line(record.getMessage().strip().splitlines()[0]))
-
-
-def _line(text):
-    return " ".join(str(text).split())[:160]

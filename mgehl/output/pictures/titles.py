@@ -1,12 +1,34 @@
-"""What a picture is of and what its axes show, in a line each."""
+"""What a picture is of, what its axes show, and what tells runs apart that are shown together."""
 
+from dataclasses import fields
+from pathlib import Path
+
+from mgehl.config import SECTIONS
+from mgehl.errors import UserError
+from mgehl.kinds import KINDS
+from mgehl.kinds.loaded import speed_words
+from mgehl.output.laws import portable
 from mgehl.output.mixed_words import mixed_note
 from mgehl.output.words import films_words
+
+MOST_KEYS = 3
+"""Keys that a label may name; runs that differ in more are called by their directories."""
+DOMAIN = "grid.x", "grid.y"
+"""Keys that follow from others."""
+_SHORT = {
+    "grid.nodes": lambda nodes: f"{nodes} nodes",
+    "motion.speed": speed_words,
+    "discretization.face_mobility": lambda mean: f"{mean} mean",
+    "discretization.couette": lambda scheme: f"scheme {scheme}",
+    "solver.start": lambda start: f"from {start}",
+    "solver.method": str,
+} | {key: words for kind in KINDS.values() for key, words in kind.short.items()}
+"""Keys whose values speak for themselves."""
 
 
 def title(solution):
     """Speed, load, nodes and verdict; of a wedge what stands in its film."""
-    return f"{', '.join(_parts(solution))}: {verdict(solution.result)}"
+    return f"{', '.join(solution.config.kind.parts(solution))}: {verdict(solution.result)}"
 
 
 def title_with_films(solution):
@@ -18,7 +40,7 @@ def title_with_films(solution):
 
 def common_title(solutions):
     """What the titles of several runs have in common, and how many they are."""
-    parts = [_parts(solution) for solution in solutions]
+    parts = [solution.config.kind.parts(solution) for solution in solutions]
     common = [part for part in parts[0] if all(part in other for other in parts)]
     return ", ".join([*common, f"{len(solutions)} runs"])
 
@@ -30,6 +52,11 @@ def verdict(result):
     else:
         said = f"settled, but {result.doubt}" if result.settled else "NOT converged"
     return said + (", THE BODIES OVERLAP" if result.overlap.nodes else "")
+
+
+def gap_words(contact):
+    """What is between the bodies: its name, and what an axis shows."""
+    return ("gap", "gap, nm") if contact.is_at_rest else ("film", "film thickness, nm")
 
 
 def position_labels(solution):
@@ -48,5 +75,51 @@ def common_labels(solutions):
     return found.pop() if len(found) == 1 else ("X = x/a", "Y = y/b")
 
 
-def _parts(solution):
-    return solution.config.kind.parts(solution)
+def run_names(directories):
+    """The last part of each run directory's path, or as many as tell them apart.
+
+    Raises UserError where a directory is given twice.
+    """
+    parts = [Path(directory).resolve().parts for directory in directories]
+    for each, directory in zip(parts, directories, strict=True):
+        if parts.count(each) > 1:
+            raise UserError(f"{directory}: is given twice")
+    depth = 1
+    while len({each[-depth:] for each in parts}) < len(parts):
+        depth += 1
+    return ["/".join(each[-depth:]) for each in parts]
+
+
+def labels(solutions, names):
+    """A label for each run: what differs of its configuration, or its name where that says too much.
+
+    A run that did not converge says so.
+    """
+    tables = [
+        {
+            (section, key): value
+            for section, table in portable(each.config).items()
+            for key, value in table.items()
+        }
+        for each in solutions
+    ]
+    keys = [key for key in dict.fromkeys(key for table in tables for key in table)
+            if any(table.get(key) != tables[0].get(key) for table in tables)]  # fmt: skip
+    keys = [key for key in keys if ".".join(key) not in DOMAIN] or keys
+    said = [", ".join(_say(*key, table[key]) for key in keys if key in table) for table in tables]
+    if not keys or len(keys) > MOST_KEYS or len(set(said)) < len(said):
+        said = names
+    return [
+        text if each.result.converged else f"{text} ({verdict(each.result)})"
+        for text, each in zip(said, solutions, strict=True)
+    ]
+
+
+def _say(section, key, value):
+    """A key and its value, in a few words with the unit."""
+    name = f"{section}.{key}"
+    if name in _SHORT:
+        return _SHORT[name](value)
+    unit = next(each.metadata["unit"] for each in fields(SECTIONS[section]) if each.name == key) or ""
+    text = f"{value:.6g}" if isinstance(value, float) else str(value).lower()
+    return f"{name} {text} {unit}".rstrip()

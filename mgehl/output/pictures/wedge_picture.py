@@ -6,7 +6,8 @@ from matplotlib.colors import Normalize
 from mgehl.discretization.status import CONTACT
 from mgehl.output.center_line import center_line
 from mgehl.output.pictures import style
-from mgehl.output.pictures.blocks import Blocks
+from mgehl.output.pictures.maps import colour_bar, draw_cavities, draw_image, finish
+from mgehl.output.pictures.plane import Plane
 from mgehl.output.pictures.titles import title
 
 SIGNED, ROUNDING = "RdBu_r", 1e-9
@@ -14,15 +15,13 @@ SIGNED, ROUNDING = "RdBu_r", 1e-9
 UNIT = "P = m$^2$p/($\\eta$u), 1/mm"
 
 
-def drawn(solution):
-    """The picture that a run leaves, of a `Solution`, as the bytes of a PNG file."""
-    with style.applied():
-        figure, axes = style.subplots(1, 2, size=(10.5, 3.9))
-        image = pressure_map(axes[0], solution.mesh, solution.fields)
-        figure.colorbar(image, ax=axes[0], label=UNIT)
-        _draw_line(axes[1], solution)
-        figure.suptitle(title(solution))
-        return style.rendered(figure, "png")
+def picture(solution):
+    """Figure that a run leaves: map and centre line."""
+    figure, axes = style.subplots(1, 2, size=(10.5, 3.9))
+    pressure_map(axes[0], solution)
+    _draw_line(axes[1], solution)
+    figure.suptitle(title(solution))
+    return figure
 
 
 def centre_line(solution):
@@ -32,31 +31,28 @@ def centre_line(solution):
     MPa = 1e-6 * solution.contact.pressure_scale
     right = axes.secondary_yaxis("right", functions=(lambda P: P * MPa, lambda p: p / MPa))
     right.set_ylabel("pressure, MPa")
-    figure.suptitle(title(solution))
+    axes.set_title(title(solution))
     return figure
 
 
 def pressure_picture(solution):
     """Figure of the map of the pressure over the pad."""
     figure, axes = style.subplots(size=(7.4, 4.6))
-    image = pressure_map(axes, solution.mesh, solution.fields)
-    figure.colorbar(image, ax=axes, label=UNIT)
+    pressure_map(axes, solution)
     figure.suptitle(title(solution))
     return figure
 
 
-def pressure_map(axes, mesh, fields, limits=None):
-    """Draw P over the pad, solid grey; return the image for a colour bar."""
-    blocks = Blocks(mesh.X, mesh.Y)
-    solid = blocks.largest(fields.status) == CONTACT
-    P = np.ma.masked_where(solid, blocks.largest(fields.P))
+def pressure_map(axes, solution, limits=None, **options):
+    """Draw P over the pad with its colour bar, solid grey; `limits` are the ends of the scale."""
+    plane = Plane(solution, whole=True)
+    P = np.ma.masked_where(plane.status == CONTACT, plane.blocks.largest(solution.fields.P))
     norm, colours = pressure_scale(*(limits or (float(P.min()), float(P.max()))))
-    image = axes.pcolormesh(
-        blocks.X, blocks.Y, P, norm=norm, cmap=colours, shading="nearest", rasterized=True
-    )
-    axes.set_facecolor(style.SOLID)
-    axes.set(xlabel="X, mm", ylabel="Y, mm", aspect="equal", title="pressure (solid grey)")
-    return image
+    image = draw_image(axes, plane, P, norm=norm, cmap=colours)
+    colour_bar(axes, plane, image, UNIT, **options)
+    draw_cavities(axes, plane)
+    finish(axes, solution, plane)
+    axes.set(facecolor=style.SOLID, title="pressure (solid grey)")
 
 
 def pressure_scale(low, high):

@@ -61,11 +61,6 @@ def test_films_that_differ_much_are_drawn_on_a_logarithmic_axis(make_solution, d
     assert axes.get_yscale() == "log" and 0.0 < low < thin and thick < high
 
 
-def test_runs_without_any_film_have_a_linear_axis(make_solution, drawn):
-    runs = [make_solution(contact=1.05), make_solution(contact=1.05)]
-    assert drawn(compare_lines, runs, "ab").axes[2].get_yscale() == "linear"
-
-
 def test_line_contacts_have_no_lines_across(make_line, drawn):
     assert len(drawn(compare_lines, [make_line(65), make_line(129)], "ab").axes) == 2
 
@@ -95,8 +90,7 @@ def test_histories_with_a_ring_where_a_grid_begins(make_solution, make_rows, dra
         )
         errors = [abs(row["load_error"]) for row in rows]
         np.testing.assert_array_equal(line_of(load, label).get_ydata(), errors)
-    rings = [line.get_xdata().tolist() for line in residual.get_lines() if line.get_marker() == "o"]
-    assert rings == [[0, 4], [0]]
+    assert [line_of(residual, label).get_markevery() for label in ("two", "one")] == [[0, 4], [0]]
     check_texts(figure, "residual (rms), dimensionless", "|load error|, dimensionless", "cycle, in order")
 
 
@@ -109,13 +103,8 @@ def test_nine_runs_are_told_apart_and_their_legend_has_room(make_solution, drawn
 
 
 @pytest.mark.parametrize(
-    "angles, title",
-    [
-        ((0, 0), "Y = 0, along the motion (left to right)"),
-        ((0, 30), "Y = 0, along x"),
-        ((30, 30), "Y = 0, along x"),
-    ],
+    "angle, title", [(0, "Y = 0, along the motion (left to right)"), (30, "Y = 0, along x")]
 )
-def test_lines_are_along_the_motion_if_they_all_are(make_solution, drawn, angles, title):
-    runs = [make_solution(settings=[f"motion.angle={angle}"]) for angle in angles]
+def test_lines_are_along_the_motion_if_they_all_are(make_solution, drawn, angle, title):
+    runs = [make_solution(), make_solution(settings=[f"motion.angle={angle}"])]
     assert drawn(compare_lines, runs, "ab").axes[0].get_title() == title

@@ -1,90 +1,60 @@
-"""The picture of a run."""
+"""The picture that a run leaves."""
 
+import io
 import warnings
-from types import SimpleNamespace
 
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from matplotlib.colors import to_rgb
 
-from mgehl.config import config_from_tables
-from mgehl.discretization.mesh import Mesh
-from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
-from mgehl.model.hertz import hertz_pressure
-from mgehl.output.film_error import NOT_ASKED
+from mgehl.discretization.status import CONTACT, LUBRICATED
 from mgehl.output.pictures import style
 from mgehl.output.pictures.picture import drawn
-from mgehl.output.result import Overlap
-from mgehl.output.solution import Fields, Solution
 
 
-@pytest.fixture
-def mesh():
-    return Mesh(33, 33, (-1.9, 1.3), (-1.5, 1.5))
-
-
-@pytest.fixture
-def fields(mesh):
-    """A dry contact with film around it and a cavity behind it."""
-    X, Y = mesh.X[None, :], mesh.Y[:, None]
-    P = hertz_pressure(X, Y)
-    status = np.where(P > 0.0, CONTACT, np.where(X > 0.5, CAVITATED, LUBRICATED))
-    status[[0, -1]], status[:, [0, -1]] = BOUNDARY, BOUNDARY
-    return Fields(P, np.maximum(X**2 + Y**2 - 1.0, 0.0), status.astype(np.int8))
-
-
-@pytest.fixture
-def solution(mesh, fields, paper_contact):
-    """What the picture needs of a `Solution`."""
-    return Solution(
-        config_from_tables({}),
-        paper_contact(),
-        mesh,
-        fields,
-        [],
-        SimpleNamespace(converged=True, settled=True, overlap=Overlap(0, 0.0), error=NOT_ASKED, mixed=None),
-    )
-
-
-@pytest.fixture
-def image(tmp_path, solution):
+def image_of(solution):
+    """Its dots, (height, width, 3); without any warning."""
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        (tmp_path / "picture.png").write_bytes(drawn(solution))
-    return plt.imread(tmp_path / "picture.png")[..., :3]
+        return plt.imread(io.BytesIO(drawn(solution)))[..., :3]
 
 
 def share(image, colour):
-    """Part of the pixels that have a colour."""
+    """Part of the dots that have a colour."""
     with style.applied():
         rgb = np.array(to_rgb(colour))
     return float(np.mean(np.all(np.abs(image - rgb) < 0.01, axis=-1)))
 
 
-def test_it_is_a_wide_image(image):
+def test_it_is_a_wide_image_of_curves_and_a_map(make_solution):
+    solution = make_solution(contact=0.7)
+    image = image_of(solution)
     height, width, _ = image.shape
     assert height > 400 and width > 2 * height
-
-
-def test_the_map_has_the_contact_and_what_is_beyond_its_scale(image):
-    for colour in (style.CONTACT_COLOUR, style.HIDDEN):
-        assert share(image, colour) > 0.005
-
-
-def test_the_curves_are_drawn(image):
     for colour in (style.PRESSURE, style.FILM):
         assert share(image, colour) > 5e-4
+    for colour in (style.CONTACT_COLOUR, style.HIDDEN):
+        assert share(image, colour) > 0.005
+    solution.fields.status[solution.status == CONTACT] = LUBRICATED
+    assert share(image_of(solution), style.CONTACT_COLOUR) == 0.0
 
 
-def test_the_map_shows_the_set_that_is_given(tmp_path, solution, image):
-    status = solution.fields.status
-    status[status == CONTACT] = LUBRICATED
-    (tmp_path / "film.png").write_bytes(drawn(solution))
-    film = plt.imread(tmp_path / "film.png")[..., :3]
-    assert share(film, style.CONTACT_COLOUR) < 0.2 * share(image, style.CONTACT_COLOUR)
+@pytest.mark.parametrize("kind", ["make_line", "make_wedge"])
+def test_of_a_line_contact_and_a_wedge(kind, request):
+    assert share(image_of(request.getfixturevalue(kind)()), style.PRESSURE) > 5e-4
 
 
-def test_no_figure_stays_open_and_no_style_is_left(image):
+def test_of_contact_with_layers_it_shows_what_solids_carry(make_solution):
+    """Half of the pressure: its colour is light."""
+    solution = make_solution(65, contact=0.7, settings=["contact.boundary_film=2 nm"])
+    solution.fields.p = 0.5 * solution.fields.P
+    with style.applied():
+        light = 0.4 * np.array(to_rgb(style.CONTACT_COLOUR)) + 0.6
+    assert share(image_of(solution), light) > 0.005
+
+
+def test_no_figure_stays_open_and_no_style_is_left(make_solution):
+    image_of(make_solution())
     assert plt.get_fignums() == []
     assert plt.rcParams["figure.dpi"] == plt.rcParamsDefault["figure.dpi"]

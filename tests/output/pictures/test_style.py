@@ -74,10 +74,28 @@ def test_every_format_and_the_same_file_each_time(tmp_path, figure, ending, begi
 
 
 def test_dpi_is_that_of_the_bitmap(tmp_path):
-    with style.applied(dpi=50):
-        figure, _ = style.subplots(size=(3.0, 2.0))
-        style.save(figure, tmp_path / "small.png")
-    assert matplotlib.image.imread(tmp_path / "small.png").shape[:2] == (100, 150)
+    sizes = []
+    for dpi in (50, 100):
+        with style.applied(dpi=dpi):
+            figure, _ = style.subplots(size=(3.0, 2.0))
+            style.save(figure, tmp_path / "small.png")
+        sizes.append(matplotlib.image.imread(tmp_path / "small.png").shape[0])
+    assert sizes[1] == pytest.approx(2 * sizes[0], abs=3)
+
+
+def test_a_legend_outside_of_the_figure_is_in_the_file(tmp_path):
+    """What is saved is cut to what there is."""
+    heights = []
+    for label in ("one", ""):
+        with style.applied():
+            figure, axes = style.subplots(size=(3.0, 2.0))
+            line = axes.plot([0, 1], [0, 1], label=label)
+            if label:
+                style.legend_under_all(figure, line * 2)
+                assert [text.get_text() for text in figure.legends[0].get_texts()] == ["one"]
+            style.save(figure, tmp_path / "small.png")
+        heights.append(matplotlib.image.imread(tmp_path / "small.png").shape[0])
+    assert heights[0] > heights[1] + 20
 
 
 def test_a_picture_that_cannot_be_written_leaves_the_old_one(tmp_path, figure, monkeypatch):

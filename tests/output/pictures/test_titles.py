@@ -1,35 +1,76 @@
-"""Titles of pictures that show a film have its band."""
+"""Titles of pictures, and labels that tell runs apart."""
+
+from types import SimpleNamespace
 
 import pytest
 
+from mgehl.config import load_config
+from mgehl.errors import UserError
 from mgehl.output.film_error import FilmError, no_band
-from mgehl.output.pictures import lines, maps, style
-from mgehl.output.pictures.titles import title, title_with_films
+from mgehl.output.pictures.titles import labels, run_names, title, title_with_films
+from mgehl.output.result import Overlap
 
 
-@pytest.fixture
-def banded(make_solution):
-    """A solution whose films have bands."""
+def test_films_that_have_bands_are_on_a_second_line(make_solution):
     solution = make_solution()
     solution.result.central_film_nm, solution.result.minimum_film_nm = 12.1436, 5.05
     solution.result.error = FilmError(0.37, 0.2, "of two grids")
-    return solution
-
-
-def test_films_are_on_a_second_line(banded):
-    first, second = title_with_films(banded).splitlines()
-    assert first == title(banded)
+    first, second = title_with_films(solution).splitlines()
+    assert first == title(solution)
     assert second == "central film 12.1 ± 0.4 nm, minimum 5.0 ± 0.2 nm"
+    solution.result.error = no_band("there is solid contact")
+    assert title_with_films(solution) == title(solution)
 
 
-def test_without_bands_there_is_none(banded):
-    banded.result.error = no_band("there is solid contact")
-    assert title_with_films(banded) == title(banded)
+def runs(*settings, converged=True):
+    result = SimpleNamespace(converged=converged, settled=converged, overlap=Overlap(0, 0.0))
+    return [SimpleNamespace(config=load_config(settings=each), result=result) for each in settings]
 
 
-@pytest.mark.parametrize("draw", [maps.film_map, lines.centre_lines])
-def test_there_is_room_for_it(banded, draw, check_texts):
-    with style.applied():
-        figure = draw(banded)
-        check_texts(figure)
-    assert any("± 0.4 nm" in text.get_text() for text in figure.texts)
+@pytest.mark.parametrize(
+    "one, other, said",
+    [
+        (["motion.speed=0.5 m/s"], ["motion.speed=20 mm/s"], ["500 mm/s", "20 mm/s"]),
+        (["grid.nodes=65"], ["grid.nodes=129"], ["65 nodes", "129 nodes"]),
+        (["discretization.face_mobility=harmonic"], [], ["harmonic mean", "arithmetic mean"]),
+        (["solver.tolerance=1e-6"], [], ["solver.tolerance 1e-06", "solver.tolerance 1e-08"]),
+        (["contact.radius_y=20 mm"], [], ["contact.radius_y 0.02 m", "contact.radius_y 0.0127 m"]),
+        (["grid.nodes=65", "solver.start=film"], ["grid.nodes=129", "solver.start=film"],
+         ["65 nodes", "129 nodes"]),
+        (["moes.M=20", "moes.L=10"], ["moes.M=200", "moes.L=10"], ["moes.M 20", "moes.M 200"]),
+    ],
+)  # fmt: skip
+def test_they_say_the_keys_that_differ(one, other, said):
+    assert labels(runs(one, other), ["a", "b"]) == said
+
+
+def test_several_keys_in_the_order_of_the_configuration():
+    three = runs(["grid.nodes=65"], ["motion.speed=0.1"], ["grid.nodes=65", "motion.speed=0.1"])
+    assert labels(three, "abc") == ["0.005 mm/s, 65 nodes", "100 mm/s, 257 nodes", "100 mm/s, 65 nodes"]
+
+
+def test_equal_runs_have_their_names():
+    assert labels(runs([], []), ["a", "b"]) == ["a", "b"]
+    assert labels(runs([], [], ["grid.nodes=65"]), "abc") == ["a", "b", "c"]
+
+
+def test_runs_that_differ_in_too_much_have_their_names():
+    other = ["grid.nodes=65", "motion.speed=0.1", "contact.load=100", "solver.tolerance=1e-6"]
+    assert labels(runs([], other), ["a", "b"]) == ["a", "b"]
+
+
+def test_a_run_that_did_not_converge_says_so():
+    good, bad = *runs(["grid.nodes=65"]), *runs(["grid.nodes=129"], converged=False)
+    assert labels([good, bad], "ab") == ["65 nodes", "129 nodes (NOT converged)"]
+
+
+def test_names_of_runs(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert run_names(["x/one", "y/two"]) == ["one", "two"]
+    assert run_names(["x/one", "y/one", "y/two"]) == ["x/one", "y/one", "y/two"]
+    assert run_names(["x/."]) == ["x"]
+
+
+def test_a_run_given_twice():
+    with pytest.raises(UserError, match="x/one/: is given twice"):
+        run_names(["x/one/", "x/one"])

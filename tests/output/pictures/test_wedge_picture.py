@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from matplotlib.collections import QuadMesh
 
 from mgehl.output.pictures import style
 from mgehl.output.pictures.wedge_picture import SIGNED, pressure_picture, pressure_scale
@@ -11,8 +10,7 @@ from mgehl.output.pictures.wedge_picture import SIGNED, pressure_picture, pressu
 def image_of(solution):
     with style.applied():
         figure = pressure_picture(solution)
-    (image,) = [each for each in figure.axes[0].collections if isinstance(each, QuadMesh)]
-    return image
+    return figure.axes[0].get_images()[0]
 
 
 def test_pressures_of_both_signs_have_two_colours_about_zero(make_wedge):

@@ -5,7 +5,7 @@ import pytest
 
 from mgehl.errors import OutputError
 from mgehl.output.pictures import style
-from mgehl.output.pictures.history_picture import column, cycles, grids, history
+from mgehl.output.pictures.history import column, cycles, grids, history
 
 OWN_SPEED = ["motion.speed=0.5 m/s"]
 """That of the last rows of `make_rows`."""
@@ -39,21 +39,21 @@ def test_residual_load_error_and_sets_against_the_cycles_in_order(make_solution,
     assert errors.get_yscale() == "log" and sets.get_yscale() == "symlog"
 
 
-def test_grids_have_bands_and_names(make_solution, make_rows, drawn):
+def test_grids_have_bands_and_names(make_solution, make_rows, drawn, check_texts):
     """Every other one is grey, from half a cycle before its first to half a cycle after its last."""
     rows = make_rows(grids=(65, 129, 257), cycles=4)
-    errors = drawn(make_solution(rows=rows, settings=OWN_SPEED)).axes[0]
-    spans = [(patch.get_xy()[0, 0], patch.get_xy()[2, 0]) for patch in errors.patches]
-    assert spans == [(-0.5, 3.5), (7.5, 11.5)]
-    named = {text.xy[0]: text.get_text() for text in errors.texts}
-    assert named == {1.5: "65 nodes, 1 m/s", 5.5: "129 nodes, 1 m/s", 9.5: "257 nodes"}
-
-
-def test_a_grid_without_room_has_a_short_name(make_solution, make_rows, drawn, check_texts):
-    rows = make_rows(grids=(65,), cycles=3) + make_rows(grids=(129,), cycles=40)
     figure = drawn(make_solution(rows=rows, settings=OWN_SPEED))
-    assert [text.get_text() for text in figure.axes[0].texts] == ["65", "129 nodes"]
-    check_texts(figure)
+    spans = [(patch.get_xy()[0, 0], patch.get_xy()[2, 0]) for patch in figure.axes[0].patches]
+    assert spans == [(-0.5, 3.5), (7.5, 11.5)]
+    check_texts(figure, "65 nodes, 1 m/s", "129 nodes, 1 m/s", "257 nodes")
+    (above,) = figure.axes[0].child_axes
+    assert above.get_xticks().tolist() == [1.5, 5.5, 9.5]
+
+
+def test_names_of_short_stays_are_turned(make_solution, make_rows, drawn):
+    rows = make_rows(grids=(65,), cycles=3) + make_rows(grids=(129,), cycles=40)
+    (above,) = drawn(make_solution(rows=rows, settings=OWN_SPEED)).axes[0].child_axes
+    assert {label.get_rotation() for label in above.get_xticklabels()} == {30.0}
 
 
 def test_sweeps_stand_at_their_number(make_solution, drawn):
@@ -96,7 +96,8 @@ def test_speeds_on_one_grid_are_told_apart(make_solution, make_rows, drawn):
     rows = [row | {"speed_mm_s": speed} for speed in (own, 500.0, 250.0)
             for row in make_rows(grids=(129,), cycles=20)]  # fmt: skip
     assert grids(rows) == [(0, 19), (20, 39), (40, 59)]
-    texts = [text.get_text() for text in drawn(make_solution(rows=rows)).axes[0].texts]
+    (above,) = drawn(make_solution(rows=rows)).axes[0].child_axes
+    texts = [text.get_text() for text in above.get_xticklabels()]
     assert texts == ["129 nodes", "129 nodes, 500 mm/s", "129 nodes, 250 mm/s"]
 
 

@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 
 from mgehl.errors import UserError
-from mgehl.output.pictures.figures import TITLES, figures
-from mgehl.output.pictures.surface_picture import heights_of
+from mgehl.output.pictures.figures import figures
+from mgehl.output.pictures.surface import heights_of
 
+KINDS = ["lines", "film", "pressure", "status", "history"]
 RIDGE = ["surface.kind=ridge", "surface.amplitude=1e-6", "surface.width=2e-4", "surface.x=1e-4"]
 
 
@@ -31,7 +32,7 @@ def test_heights_are_the_surface_s_at_the_nodes(make_solution):
 def test_a_rough_contact_has_one_picture_more(make_solution, check_texts, contact):
     solution = shown(make_solution(settings=RIDGE, contact=contact))
     pictures = figures(solution)
-    assert [picture.name for picture in pictures] == [*TITLES, "surface"]
+    assert [picture.name for picture in pictures] == [*KINDS, "surface"]
     heights, film, distribution = pictures[-1].figure.axes
     assert [axes.get_title() for axes in (heights, film)] == ["heights", "film"]
     assert distribution.get_title().startswith(f"Sq {1e9 * solution.contact.roughness:.4g} nm, Ssk ")
@@ -41,7 +42,7 @@ def test_a_rough_contact_has_one_picture_more(make_solution, check_texts, contac
     for axes in (heights, film):
         said = [text.get_text() for text in axes.get_legend().get_texts()]
         assert ("contact" in said) == (contact > 0.0) and any(text.startswith("Hertz: ") for text in said)
-    check_texts(pictures[-1].figure, "film, nm", "height, nm (a peak is positive)")
+    check_texts(pictures[-1].figure, "film thickness, nm", "height, nm (a peak is positive)")
     assert (
         "3.3 nodes in its shortest wave: THE SURFACE IS THE GRID"
         in pictures[-1].figure._suptitle.get_text()
@@ -58,6 +59,6 @@ def test_of_a_line_it_is_a_line(make_line, check_texts):
 def test_a_surface_whose_file_is_gone_is_left_out(make_solution, tmp_path):
     keys = [f"surface.file={tmp_path}/gone.npy", "surface.height_unit=nm", "surface.spacing=1e-6"]
     solution = shown(make_solution(settings=keys))
-    assert [picture.name for picture in figures(solution)] == list(TITLES)
+    assert [picture.name for picture in figures(solution)] == KINDS
     with pytest.raises(UserError, match="gone.npy: cannot be read"):
         figures(solution, ["surface"])

@@ -1,0 +1,56 @@
+"""The fluid's own pressure and the filling of cavities in every format; none of older results."""
+
+import numpy as np
+import pytest
+import xarray
+from made_solution import make_solution
+
+from mgehl.errors import OutputError
+from mgehl.output.export.export import export
+
+
+@pytest.fixture
+def solution():
+    """With fields that no two nodes share."""
+    solution = make_solution("point")
+    random = np.random.default_rng(3)
+    solution.fields.p, solution.fields.filling = random.random((2, *solution.fields.P.shape))
+    return solution
+
+
+def read(path):
+    """Fields of an exported file by name, (ny, nx) or in a row."""
+    if path.suffix == ".nc":
+        with xarray.open_dataset(path, engine="h5netcdf") as data:
+            return {name: data[name].values for name in data.variables}
+    if path.suffix == ".npz":
+        with np.load(path) as arrays:
+            return dict(arrays)
+    table = np.genfromtxt(path, delimiter=",", names=True, dtype=None, encoding="utf-8")
+    return {name: table[name] for name in table.dtype.names}
+
+
+@pytest.mark.parametrize("form, unit", [("nc", ""), ("npz", ""), ("csv", "_Pa")])
+def test_they_read_back_to_the_bit(solution, tmp_path, form, unit):
+    export(solution, {form: tmp_path / f"a.{form}"})
+    found = read(tmp_path / f"a.{form}")
+    pressure = solution.fields.p * solution.contact.pressure_scale
+    np.testing.assert_array_equal(found[f"fluid_pressure{unit}"].ravel(), pressure.ravel())
+    np.testing.assert_array_equal(found["filling"].ravel(), solution.fields.filling.ravel())
+
+
+def test_paraview_has_them(solution, tmp_path):
+    export(solution, {"vts": tmp_path / "a.vts"})
+    content = (tmp_path / "a.vts").read_bytes()
+    assert b'Name="fluid_pressure' in content and b'Name="filling' in content
+
+
+def test_an_older_result_is_without_them(tmp_path):
+    export(make_solution("point"), {"npz": tmp_path / "a.npz"})
+    assert not {"fluid_pressure", "filling"} & set(read(tmp_path / "a.npz"))
+
+
+def test_a_filling_that_is_not_finite_is_not_exported(solution, tmp_path):
+    solution.fields.filling[0, 0] = np.nan
+    with pytest.raises(OutputError, match="filling of this run is not finite at 1 nodes"):
+        export(solution, {"csv": tmp_path / "a.csv"})
