@@ -65,6 +65,7 @@ _BEARING = {
     "status": status_map,
     "history": history,
 }
+_BEARING_LINE = {name: _BEARING[name] for name in ("lines", "history")}
 
 
 def drawn_by(solution):
@@ -84,7 +85,7 @@ def drawn_by(solution):
 def _possible(solution):
     """The functions that draw such a contact."""
     if not solution.contact.is_loaded:
-        return dict(_BEARING)
+        return dict(_BEARING_LINE if solution.mesh.is_line else _BEARING)
     if solution.mesh.is_line:
         drawn = _LINE
     else:
