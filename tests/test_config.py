@@ -536,7 +536,7 @@ POCKET = ("wedge.pocket_depth=0.4 um", "wedge.pocket_from=4 mm", "wedge.pocket_t
          "both on the pad from 0.02 to 0.05"),
         ((*BY_FILMS, *POCKET, "wedge.pocket_to=21 mm"), "wedge.pocket_from = 0.004, wedge.pocket_to = "
          "0.021: the first must lie before the second, both on the pad from 0 to 0.02"),
-        ((*BY_FILMS, *POCKET, "wedge.pocket_to=4 mm"), "wedge.pocket_from = 0.004, wedge.pocket_to = 0.004"),
+        ((*BY_FILMS, *POCKET, "wedge.pocket_to=4 mm"), "wedge.pocket_from = 0.004, wedge.pocket_to = "),
         ((*BY_FILMS, *POCKET, "wedge.pocket_width=30 mm"), "wedge.pocket_width = 0.03: must be at most the "
          "pad's wedge.width = 0.02"),
         (("wedge.pocket_depth=-1 um",), "wedge.pocket_depth = '-1 um': must be a number in m"),
