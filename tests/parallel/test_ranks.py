@@ -491,7 +491,6 @@ WEDGES = {
         wedge_case("square pillar", 65), {"discretization": {"cavitation": True}}
     ),
     "pocket": pocket_case(65, size="small"),
-    "pocket on one line": pocket_case(257),
 }
 
 
