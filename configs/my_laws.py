@@ -1,4 +1,4 @@
-"""Functions of one's own: a configuration names them as "my_laws.py:NAME", see wavy.toml beside it.
+"""Functions of one's own: a configuration names them as "my_laws.py:NAME", see wavy.toml, pocket.toml.
 
 Each takes arrays and returns arrays of the same shape, all in SI units. A law returns its value and
 the derivative by p, which is compared to differences of the value before a run: a slip of the pen is
@@ -36,6 +36,12 @@ def tait(p):
     """lubricant.density_law: the density over that at p = 0, and its derivative by p."""
     ratio, slope = volume(p)
     return 1.0 / ratio, -slope / ratio**2
+
+
+def dowson_higginson(p):
+    """lubricant.density_law by two constants of another oil than the built-in law's."""
+    stiffness, ratio = 2.22e9, 1.66  # Pa; the density at the highest pressure over that at none
+    return (stiffness + ratio * p) / (stiffness + p), (ratio - 1.0) * stiffness / (stiffness + p) ** 2
 
 
 def waves(x, _y):

@@ -441,7 +441,7 @@ FOREIGN_KEYS = [
     ("point", "contact.load_per_length"), ("point", "wedge"),
     *(("line", key) for key in ("contact.load", "contact.radius_y", "grid.y", "moes", "wedge",
                                 "contact.deformation", "coating", "motion.angle")),
-    *(("wedge", key) for key in (*VALUES, "moes", "coating", "relaxation")),
+    *(("wedge", key) for key in (*VALUES, "moes", "coating", "relaxation") if "lubricant" not in key),
 ]  # fmt: skip
 
 
@@ -479,7 +479,16 @@ KINDS = {
         "wedge": {"exit": "4 mm", "inlet": "8 mm", "blocked_exit": True, "reversed": True},
         "discretization": {"couette": "2C", "cavitation": False, "couette_at_interface": "untreated"},
     },
-}
+    "wedge with a pocket": {
+        "contact": {"kind": "wedge"},
+        "wedge": {
+            "length": "20 mm", "inlet_film": "1.1 um", "exit_film": "1 um", "sides": "closed",
+            "ambient_pressure": "0.1 MPa", "pressure_laws": True,
+            "pocket_depth": "0.4 um", "pocket_from": "4 mm", "pocket_to": "10 mm", "pocket_width": "7 mm",
+        },
+        "lubricant": {"viscosity_law": "roelands", "density_law": "/there/mine.py:rho"},
+    },
+}  # fmt: skip
 
 
 @pytest.mark.parametrize("tables", KINDS.values(), ids=KINDS)
@@ -507,6 +516,72 @@ def test_every_kind_has_a_configuration_in_the_repository():
 def test_a_wedge_opens_towards_its_inlet(inlet):
     message = error_of("contact.kind=wedge", f"wedge.inlet={inlet}")
     assert message == f"wedge.inlet = {float(inlet[:2]) / 1e3:g}: must be above wedge.exit = 0.02"
+
+
+BY_FILMS = ("wedge.length=20 mm", "wedge.inlet_film=1.1 um", "wedge.exit_film=1 um")
+POCKET = ("wedge.pocket_depth=0.4 um", "wedge.pocket_from=4 mm", "wedge.pocket_to=10 mm")
+
+
+@pytest.mark.parametrize(
+    "settings, message",
+    [
+        (BY_FILMS[:1], "wedge.inlet_film: must be given too, beside wedge.length"),
+        (BY_FILMS[1:], "wedge.length: must be given too, beside wedge.inlet_film"),
+        (("wedge.length=0.1 mm", "wedge.inlet_film=1 mm", BY_FILMS[2]), "wedge.length = 0.0001: the slope"),
+        (("wedge.inlet_film=0",), "wedge.inlet_film = 0: must be a number in m"),
+        (POCKET[:1], "wedge.pocket_from: must be given beside wedge.pocket_depth"),
+        (POCKET[:2], "wedge.pocket_to: must be given beside wedge.pocket_depth"),
+        (POCKET[1:2], "wedge.pocket_from = '4 mm': means nothing without wedge.pocket_depth"),
+        (POCKET, "wedge.pocket_from = 0.004, wedge.pocket_to = 0.01: the first must lie before the second, "
+         "both on the pad from 0.02 to 0.05"),
+        ((*BY_FILMS, *POCKET, "wedge.pocket_to=21 mm"), "wedge.pocket_from = 0.004, wedge.pocket_to = "
+         "0.021: the first must lie before the second, both on the pad from 0 to 0.02"),
+        ((*BY_FILMS, *POCKET, "wedge.pocket_to=4 mm"), "wedge.pocket_from = 0.004, wedge.pocket_to = "),
+        ((*BY_FILMS, *POCKET, "wedge.pocket_width=30 mm"), "wedge.pocket_width = 0.03: must be at most the "
+         "pad's wedge.width = 0.02"),
+        (("wedge.pocket_depth=-1 um",), "wedge.pocket_depth = '-1 um': must be a number in m"),
+        (("wedge.sides=walls",), "wedge.sides = 'walls': must be one of open, closed"),
+        (("wedge.ambient_pressure=-1",), "wedge.ambient_pressure = -1: must be a number in Pa"),
+        (("lubricant.viscosity_law=barus",), "lubricant.viscosity_law = 'barus': means nothing without "
+         "wedge.pressure_laws = true"),
+        (("wedge.pressure_laws=true", "lubricant.viscosity=1e-6", "lubricant.viscosity_law=roelands"),
+         "lubricant.viscosity = 1e-06: Roelands' law needs"),
+    ],
+)  # fmt: skip
+def test_a_pad_that_makes_no_sense(settings, message):
+    assert error_of("contact.kind=wedge", *settings).startswith(message)
+
+
+@pytest.mark.parametrize("key", ["exit", "inlet", "slope", "reversed"])
+def test_a_pad_is_described_in_one_way(key):
+    """In a file; a setting takes the place of what the file says."""
+    value = True if key == "reversed" else 1e-3
+    wedge = {"length": 20e-3, "inlet_film": 1e-6, "exit_film": 1e-6}
+    message = error_of(tables={"contact": {"kind": "wedge"}, "wedge": wedge | {key: value}})
+    assert message == f"wedge.{key} = {value!r}: cannot be given with wedge.length"
+    config = load_config(CONFIGS / "wedge_open.toml", BY_FILMS)
+    assert config.wedge.by_films and "slope" not in config.as_toml_tables()["wedge"]
+
+
+@pytest.mark.parametrize(
+    "settings, message",
+    [
+        (("wedge.pocket_to=4.01 mm",), "wedge.pocket_to = 0.00401: the pocket must be at least 2 cells"),
+        (("wedge.sides=open", "wedge.pocket_width=0.2 mm", "grid.nodes=65"),
+         "wedge.pocket_width = 0.0002: the pocket must be at least 2 cells"),
+        (("wedge.sides=open", "wedge.width=9"), "wedge.width = 9: must be within a factor of 100"),
+        (("wedge.pillar=square", "wedge.pillar_x=1 mm"), "wedge.pillar_x = 0.001: the pillar of 0.008 m "
+         "must stand between the inlet at 0 and the exit at 0.02"),
+        (("lubricant.density_law=missing.py:rho",), "lubricant.density_law = "),
+    ],
+)  # fmt: skip
+def test_a_pad_that_does_not_fit_its_grid(settings, message):
+    from mgehl.kinds import check_contact, contact_from
+
+    config = load_config(CONFIGS / "pocket.toml", settings)
+    with pytest.raises(ConfigError) as caught:
+        check_contact(config, contact_from(config))
+    assert str(caught.value).startswith(message) and "\n" not in str(caught.value)
 
 
 @pytest.mark.parametrize("text, value", [("true", True), ("false", False)])

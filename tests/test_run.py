@@ -220,6 +220,29 @@ def test_wedge_of_the_repository(name, tmp_path):
     assert load_config(here / "configuration.toml") == load_config(CONFIGS / f"{name}.toml")
 
 
+def test_pocket_of_the_repository(tmp_path):
+    """One line of nodes from the inlet to half a cell beyond the exit, with its own density law."""
+    here = tmp_path / "here"
+    assert main(["run", str(CONFIGS / "pocket.toml"), "--quiet", "--out", str(here)]) == 0
+    assert {path.name for path in here.iterdir()} == FILES | {"centerline.csv", "laws"}
+    read = read_json(here)
+    assert read["converged"] is True and read["mass"]["largest_node"] < 1e-8 * read["mass"]["enters"]
+    assert read["max_pressure_MPa"] == pytest.approx(41.898, rel=1e-3)
+    assert read["cavitated_nodes"] > 100 and read["torn_filling"] == pytest.approx(0.74, abs=0.01)
+    with xarray.open_dataset(here / "fields.h5", engine="h5netcdf") as data:
+        assert data["P"].shape == (1, 2049)
+        pressure, x = data["pressure"][0].values, data["x"].values
+        assert pressure[0] == pytest.approx(1e5) and pressure[-1] == pytest.approx(1e5)
+        # Of a pad of 10 mm: what is above the ambient pressure.
+        load = 10e-3 * float(x[1] - x[0]) * (pressure - 1e5).sum()
+        assert load == pytest.approx(read["load_N"], rel=1e-12)
+        assert float(data["filling"].max()) == 1.0 and float(data["filling"].min()) > 0.7
+    with (here / "centerline.csv").open() as file:
+        X = [float(row["X_mm"]) for row in csv.DictReader(file)]
+    assert (X[0], X[-1]) == (0.0, 20.0)
+    assert load_config(here / "configuration.toml").wedge == load_config(CONFIGS / "pocket.toml").wedge
+
+
 @pytest.mark.parametrize("name", ["line_contact", "line_dry"])
 def test_line_of_the_repository(name, tmp_path):
     here = tmp_path / "here"

@@ -30,13 +30,7 @@ class LoadedKind(Kind):
     def check_keys(self, config, tables):
         """The viscosity law and the surfaces must be complete and free of contradictions."""
         surface.check_keys(config, tables)
-        if is_own(config.lubricant.viscosity_law):
-            return
-        try:
-            lubricant_from(config)
-        except ValueError as error:
-            viscosity = shown(config.lubricant.viscosity)
-            raise ConfigError(f"lubricant.viscosity = {viscosity}: {error}") from None
+        check_laws(config)
 
     def unused(self, config):
         """Keys that the surfaces do not use."""
@@ -173,6 +167,17 @@ def _with_bands(effort):
 def speed_words(u):
     """A speed in mm/s, from 1 m/s on in m/s."""
     return f"{u:.4g} m/s" if u >= 1.0 - 1e-12 else f"{1e3 * u:.4g} mm/s"
+
+
+def check_laws(config):
+    """Raise ConfigError where a law has no meaning for this viscosity."""
+    if is_own(config.lubricant.viscosity_law):
+        return
+    try:
+        lubricant_from(config)
+    except ValueError as error:
+        viscosity = shown(config.lubricant.viscosity)
+        raise ConfigError(f"lubricant.viscosity = {viscosity}: {error}") from None
 
 
 def lubricant_from(config):

@@ -35,8 +35,12 @@ def check_size(key, size, radii, part):
 
 def check_own_laws(contact):
     """The derivatives of a user's own laws must be those of their values."""
-    highest = CHECKED_PRESSURE * contact.hertz.p_h
-    viscosity, density = contact.lubricant.viscosity_law, contact.lubricant.density_law
+    check_own_laws_up_to(contact.lubricant, CHECKED_PRESSURE * contact.hertz.p_h)
+
+
+def check_own_laws_up_to(lubricant, highest):
+    """The same of a `Lubricant`, up to the pressure `highest` in Pa."""
+    viscosity, density = lubricant.viscosity_law, lubricant.density_law
     if isinstance(viscosity, OwnViscosity):
         viscosity.check(highest, "lubricant.viscosity in Pa s")
     if isinstance(density, OwnDensity):

@@ -1,18 +1,33 @@
-"""The rigid wedge bearing: a plane pad over a plate, with a pillar or a blocked exit in its film."""
+"""The rigid wedge bearing: a plane pad over a plate; a pillar, a pocket or a blocked exit in its film."""
 
 from dataclasses import dataclass
 
-from mgehl.config_value import key_field
+from mgehl.config_value import key_field, shown
 from mgehl.discretization.mesh import Mesh
 from mgehl.errors import ConfigError
 from mgehl.kinds.kind import Effort, Kind, kept_together
-from mgehl.model.wedge import PILLARS, WedgeBearing
+from mgehl.kinds.loaded import check_laws, lubricant_from
+from mgehl.kinds.loaded_checks import check_own_laws_up_to
+from mgehl.model.wedge import PILLARS, Pocket, WedgeBearing
 
 LARGEST_ASPECT = 100.0
 """Largest ratio of a pad's length and width."""
 
 FEWEST_CELLS = 2
-"""Cells that a pillar must have, and so must the distance from the exit to the line of no gap."""
+"""Cells that a pillar or a pocket must have, and the distance from the exit to the line of no gap."""
+
+FILMS = ("length", "inlet_film", "exit_film")
+REPLACED = ("exit", "inlet", "slope", "reversed")
+"""Keys of `wedge` that describe a pad by its films, and those that they stand for."""
+
+LAWS = ("viscosity_law", "pressure_viscosity", "density_law")
+"""Keys of `lubricant` that say what a pressure changes."""
+
+STEEPEST = 0.1
+"""Largest slope of a pad."""
+
+LARGEST_CHECKED = 1e9
+"""Pressure in Pa up to which a user's own laws are checked."""
 
 EFFORT = Effort(
     1.0, 17e-6, 0.1, 900.0, "a wedge makes no convolutions", False
@@ -28,7 +43,27 @@ class WedgeSection:
         50e-3, "where the pad begins: distance from the line of no gap", "m", low=1e-6, high=10.0
     )
     width: float = key_field(20e-3, "width of the pad", "m", low=1e-6, high=10.0)
-    slope: float = key_field(1e-3, "slope m of the pad", "", low=1e-8, high=0.1)
+    slope: float = key_field(1e-3, "slope m of the pad", "", low=1e-8, high=STEEPEST)
+    length: float | None = key_field(
+        None, "length of a pad that is described by its films; x then goes from the inlet with the motion",
+        "m", low=1e-6, high=10.0,
+    )  # fmt: skip
+    inlet_film: float | None = key_field(
+        None, "film where the pad begins, beside wedge.length", "m", low=1e-9, high=0.1
+    )
+    exit_film: float | None = key_field(
+        None, "film where it ends, smaller or larger", "m", low=1e-9, high=0.1
+    )
+    sides: str = key_field(
+        "open", "what is at the sides: the surroundings, or walls (one line of nodes where nothing varies "
+        "across)", choices=("open", "closed"), kind=str,
+    )  # fmt: skip
+    ambient_pressure: float = key_field(
+        0.0, "pressure around the pad, above that at which the film tears", "Pa", low=0.0, high=1e9
+    )
+    pressure_laws: bool = key_field(
+        False, "whether viscosity and density follow the pressure, by the laws of lubricant", kind=bool
+    )
     reversed: bool = key_field(
         False, "turned by 180 degrees: the plate moves with the differencing", kind=bool
     )
@@ -37,6 +72,25 @@ class WedgeSection:
     pillar_x: float = key_field(35e-3, "centre of the pillar along the motion", "m", low=0.0, high=10.0)
     pillar_y: float = key_field(0.0, "centre of the pillar across the motion", "m", low=-10.0, high=10.0)
     pillar_size: float = key_field(8e-3, "side or diameter of the pillar", "m", low=1e-6, high=10.0)
+    pocket_depth: float = key_field(
+        0.0, "depth of a rectangular pocket in the pad, its bottom along the pad (0: no pocket)", "m",
+        low=0.0, high=0.1,
+    )  # fmt: skip
+    pocket_from: float | None = key_field(None, "where the pocket begins along x", "m", low=0.0, high=10.0)
+    pocket_to: float | None = key_field(None, "where it ends along x", "m", low=0.0, high=10.0)
+    pocket_width: float | None = key_field(
+        None, "its width, about the middle of the pad (unset: the pad's)", "m", low=1e-6, high=10.0
+    )
+
+    @property
+    def by_films(self):
+        """Whether the pad is described by its films."""
+        return self.length is not None
+
+    @property
+    def ends(self):
+        """The pad's first and last x."""
+        return (0.0, self.length) if self.by_films else (self.exit, self.inlet)
 
 
 def pillar_words(pillar):
@@ -49,13 +103,18 @@ def exit_words(blocked):
     return "exit blocked" if blocked else "exit open"
 
 
+def pocket_words(depth):
+    """What is cut into the pad."""
+    return f"pocket {1e6 * depth:.4g} um deep" if depth else "no pocket"
+
+
 class WedgeKind(Kind):
-    """A pad whose gap is given: no load, no elasticity, constant viscosity and density."""
+    """A pad whose gap is given: no load, no elasticity; constant viscosity and density, or laws of them."""
 
     name, noun, model = "wedge", "wedge bearing", WedgeBearing
-    about = "A rigid wedge bearing, with a pillar or a blocked exit in its film."
+    about = "A rigid wedge bearing, with a pillar, a pocket or a blocked exit in its film."
     takes = (
-        "wedge", "lubricant.viscosity", "motion.speed", "grid.nodes", "discretization.couette",
+        "wedge", "lubricant", "motion.speed", "grid.nodes", "discretization.couette",
         "discretization.face_mobility", "discretization.couette_at_interface",
         "discretization.cavitation", "solver.tolerance", "solver.max_steps",
         "solver.squeeze",  # without effect, but every configuration.toml of a wedge has it
@@ -66,78 +125,131 @@ class WedgeKind(Kind):
         "wedge.pillar_x": "35 mm", "wedge.pillar_y": "0 mm", "wedge.pillar_size": "8 mm",
         "lubricant.viscosity": "0.096 Pa*s", "motion.speed": "1 m/s", "grid.nodes": 129,
     }  # fmt: skip
-    short = {"wedge.blocked_exit": exit_words, "wedge.pillar": pillar_words}
+    short = {
+        "wedge.blocked_exit": exit_words, "wedge.pillar": pillar_words, "wedge.pocket_depth": pocket_words,
+    }  # fmt: skip
     cavitates = False
 
+    def unused(self, config):
+        """Laws of a constant fluid, and what the films of a pad stand for."""
+        laws = () if config.wedge.pressure_laws else _names("lubricant", LAWS)
+        return *laws, *(_names("wedge", REPLACED) if config.wedge.by_films else ())
+
+    def pushed_out(self, given):
+        """As `unused`, by what the settings say."""
+        constant = given.get("contact.kind") == self.name and "wedge.pressure_laws" not in given
+        by_films = any(name in given for name in _names("wedge", FILMS))
+        laws = _names("lubricant", LAWS) if constant else ()
+        return *laws, *(_names("wedge", REPLACED) if by_films else ())
+
     def check_keys(self, config, tables):
-        """The pad must have a length."""
-        wedge = config.wedge
-        if not wedge.exit < wedge.inlet:
-            raise ConfigError(f"wedge.inlet = {wedge.inlet:g}: must be above wedge.exit = {wedge.exit:g}")
+        """The pad must have a length and a description, the pocket both ends; laws must be asked for."""
+        wedge, given = config.wedge, tables.get("wedge", {})
+        if config.wedge.pressure_laws:
+            check_laws(config)
+        for key in () if wedge.pressure_laws else LAWS:
+            if key in tables.get("lubricant", {}):
+                value = shown(tables["lubricant"][key])
+                raise ConfigError(
+                    f"lubricant.{key} = {value}: means nothing without wedge.pressure_laws = true"
+                )
+        _check_description(wedge, given)
+        _check_pocket_keys(wedge, given)
 
     def contact(self, config):
-        """A `WedgeBearing`."""
+        """A `WedgeBearing`: x of a pad that is described by its films goes with the motion."""
         section = config.wedge
+        side = -1.0 if section.by_films else 1.0
+        first, last = sorted(side * end for end in section.ends)
         return WedgeBearing(
-            exit=section.exit,
-            inlet=section.inlet,
+            exit=first,
+            inlet=last,
             width=section.width,
-            slope=section.slope,
+            **_slope(section),
             viscosity=config.lubricant.viscosity,
             speed=config.motion.speed,
-            turned=section.reversed,
+            turned=section.reversed or section.by_films,
             blocked_exit=section.blocked_exit,
             pillar=section.pillar,
-            pillar_x=section.pillar_x,
-            pillar_y=section.pillar_y,
+            pillar_x=side * section.pillar_x,
+            pillar_y=side * section.pillar_y,
             pillar_size=section.pillar_size,
+            pocket=_pocket(section, side),
+            ambient_pressure=section.ambient_pressure,
+            closed_sides=section.sides == "closed",
+            laws=lubricant_from(config) if section.pressure_laws else None,
         )
 
     def mesh(self, config, contact):
-        """A square of nodes over the pad and half a cell beyond its exit."""
+        """A square of nodes over the pad and half a cell beyond its exit; a line where all lines are alike.
+
+        The outermost nodes lie on open sides, and half a cell from walls.
+        """
         nodes = config.grid.nodes
         x, edges = contact.placement(nodes)
+        if contact.is_plane:
+            return Mesh(nodes, 1, x, (0.0, 0.0), edges=edges)
         half = 0.5 * contact.width / contact.y_scale
+        half *= (nodes - 1) / nodes if contact.closed_sides else 1.0
         return Mesh(nodes, nodes, x, (-half, half), edges=edges)
 
     def check(self, config, contact):
-        """The pad must be a plate, its gap and its pillar larger than cells of the grid."""
-        wedge, length = config.wedge, config.wedge.inlet - config.wedge.exit
-        if not 1.0 / LARGEST_ASPECT <= wedge.width / length <= LARGEST_ASPECT:
+        """The pad must be a plate, its gap, its pillar and its pocket larger than cells of the grid."""
+        wedge, length = config.wedge, config.wedge.ends[1] - config.wedge.ends[0]
+        if not (contact.is_plane or 1.0 / LARGEST_ASPECT <= wedge.width / length <= LARGEST_ASPECT):
             raise ConfigError(
                 f"wedge.width = {wedge.width:g}: must be within a factor of {LARGEST_ASPECT:g} of the "
                 f"pad's length of {length:g}"
             )
-        dx, dy = _cell(contact, self.mesh(config, contact))
-        if wedge.exit < FEWEST_CELLS * dx:
+        mesh = self.mesh(config, contact)
+        dx, dy = _cell(contact, mesh)
+        if not wedge.by_films and wedge.exit < FEWEST_CELLS * dx:
             raise ConfigError(
                 f"wedge.exit = {wedge.exit:g}: must be at least {FEWEST_CELLS} cells from the line of no "
                 f"gap, {FEWEST_CELLS * dx:.3g} with {config.grid.nodes} nodes"
             )
         if wedge.pillar != "none":
             _check_pillar(wedge, FEWEST_CELLS * max(dx, dy), config.grid.nodes)
+        if contact.pocket:
+            _check_pocket(wedge, (dx, 0.0 if mesh.is_line else dy), config.grid.nodes)
+        if wedge.pressure_laws:
+            check_own_laws_up_to(contact.lubricant, LARGEST_CHECKED)
 
     def effort(self, config):
         """One linear solve, or a few."""
         return EFFORT
 
     def lines(self, config, contact, mesh):
-        """Gap, scales, cells and pillar."""
+        """Gap, scales, cells, pillar and pocket."""
         section, (dx, dy) = config.wedge, _cell(contact, mesh)
+        exit, inlet = (f"{1e6 * film:.4g} um" for film in contact.films)
+        size = f"{1e3 * dx:.3g} mm" + ("" if mesh.is_line else f" by {1e3 * dy:.3g} mm")
+        left = (
+            ""
+            if section.by_films
+            else f", {section.exit / dx:.1f} from the exit to where the gap would end"
+        )
         lines = [
-            f"gap        {1e6 * section.slope * section.exit:.4g} um at the exit, "
-            f"{1e6 * section.slope * section.inlet:.4g} um at the inlet",
+            f"gap        {exit} at the exit, {inlet} at the inlet",
             f"scales     P 1/mm is {1e-6 * contact.pressure_scale:.4g} MPa",
-            f"cells      {1e3 * dx:.3g} mm by {1e3 * dy:.3g} mm, {section.exit / dx:.1f} from the exit to "
-            "where the gap would end",
+            f"cells      {size}{left}",
         ]
         if section.pillar != "none":
             across = f"{section.pillar_size / dx:.1f} by {section.pillar_size / dy:.1f} cells"
             lines.append(f"pillar     {section.pillar}, {across}")
+        if contact.pocket:
+            along, across = contact.pocket.along, contact.pocket.width
+            wide = "all across" if across >= contact.width else f"by {across / dy:.1f}"
+            lines.append(f"pocket     {1e6 * section.pocket_depth:.4g} um deep, "
+                         f"{(along[1] - along[0]) / dx:.1f} cells {wide}")  # fmt: skip
         return lines
 
+    def nodes(self, mesh, times="x"):
+        """Of the one line, where there is but one."""
+        return f"{mesh.nx} nodes" if mesh.is_line else super().nodes(mesh, times)
+
     def parts(self, solution):
-        """What stands in the film, the exit, cavitation, the nodes."""
+        """What is in the film, the exit, cavitation, the nodes."""
         torn = ["film cavitates"] if solution.result.cavitated_nodes else []
         stands, leaves = _pad(solution.contact)
         return [f"wedge with {stands}", leaves, *torn, self.nodes(solution.mesh)]
@@ -156,7 +268,7 @@ class WedgeKind(Kind):
         """Load and pressure: there are no groups and no central film."""
         result = solution.result
         return {
-            "speed": (solution.contact.speed, "m s-1", "entrainment speed"),
+            "speed": (solution.contact.speed, "m s-1", "speed of the plate"),
             "normal_load": (result.load_N, "N", "load that the pressure carries"),
             "maximum_pressure": (1e6 * result.max_pressure_MPa, "Pa", "largest pressure"),
         }
@@ -166,8 +278,10 @@ WEDGE = WedgeKind()
 
 
 def _pad(bearing):
-    """What stands in the film, and what the exit is."""
-    return pillar_words(bearing.pillar), exit_words(bearing.blocked_exit)
+    """What is in the film, and what the exit is."""
+    depth = bearing.pocket.depth if bearing.pocket else 0.0
+    within = pocket_words(depth) if depth else pillar_words(bearing.pillar)
+    return within, exit_words(bearing.blocked_exit)
 
 
 def _cell(bearing, mesh):
@@ -183,13 +297,91 @@ def _check_pillar(wedge, smallest, nodes):
             f"wedge.pillar_size = {wedge.pillar_size:g}: must be at least {FEWEST_CELLS} cells, "
             f"{smallest:.3g} with {nodes} nodes"
         )
-    if not (wedge.exit < wedge.pillar_x - half and wedge.pillar_x + half < wedge.inlet):
+    first, last = wedge.ends
+    if not (first < wedge.pillar_x - half and wedge.pillar_x + half < last):
+        names = ("inlet", "exit") if wedge.by_films else ("exit", "inlet")
         raise ConfigError(
             f"wedge.pillar_x = {wedge.pillar_x:g}: the pillar of {wedge.pillar_size:g} m must stand "
-            f"between the exit at {wedge.exit:g} and the inlet at {wedge.inlet:g}"
+            f"between the {names[0]} at {first:g} and the {names[1]} at {last:g}"
         )
     if not abs(wedge.pillar_y) + half < 0.5 * wedge.width:
         raise ConfigError(
             f"wedge.pillar_y = {wedge.pillar_y:g}: the pillar of {wedge.pillar_size:g} m must stand within "
             f"the width of {wedge.width:g}"
         )
+
+
+def _names(section, keys):
+    return tuple(f"{section}.{key}" for key in keys)
+
+
+def _slope(wedge):
+    """The slope of a `WedgeBearing` and its level, where it has one."""
+    if not wedge.by_films:
+        return {"slope": wedge.slope}
+    rise = wedge.inlet_film - wedge.exit_film
+    return {"slope": rise / wedge.length, "level": wedge.inlet_film}
+
+
+def _pocket(wedge, side):
+    """The `Pocket`, its x against the motion; None without one."""
+    if not wedge.pocket_depth:
+        return None
+    along = sorted(side * end for end in (wedge.pocket_from, wedge.pocket_to))
+    return Pocket(wedge.pocket_depth, tuple(along), wedge.pocket_width or wedge.width)
+
+
+def _check_description(wedge, given):
+    """A pad is described by its ends and slope, or by its length and films, all three."""
+    films = [key for key in FILMS if getattr(wedge, key) is not None]
+    if not films:
+        if not wedge.exit < wedge.inlet:
+            raise ConfigError(f"wedge.inlet = {wedge.inlet:g}: must be above wedge.exit = {wedge.exit:g}")
+        return
+    for key in FILMS:
+        if key not in films:
+            raise ConfigError(f"wedge.{key}: must be given too, beside wedge.{films[0]}")
+    for key in REPLACED:
+        if key in given:
+            raise ConfigError(f"wedge.{key} = {shown(given[key])}: cannot be given with wedge.{films[0]}")
+    steepness = abs(wedge.inlet_film - wedge.exit_film) / wedge.length
+    if steepness > STEEPEST:
+        raise ConfigError(
+            f"wedge.length = {wedge.length:g}: the slope between these films would be {steepness:.2g}; it "
+            f"must be at most {STEEPEST:g}"
+        )
+
+
+def _check_pocket_keys(wedge, given):
+    """A pocket has both ends, which lie within the pad; without one its keys mean nothing."""
+    if not wedge.pocket_depth:
+        for key in ("pocket_from", "pocket_to", "pocket_width"):
+            if key in given:
+                raise ConfigError(
+                    f"wedge.{key} = {shown(given[key])}: means nothing without wedge.pocket_depth"
+                )
+        return
+    for key in ("pocket_from", "pocket_to"):
+        if getattr(wedge, key) is None:
+            raise ConfigError(f"wedge.{key}: must be given beside wedge.pocket_depth")
+    (first, last), width = wedge.ends, wedge.pocket_width
+    if not first <= wedge.pocket_from < wedge.pocket_to <= last:
+        raise ConfigError(
+            f"wedge.pocket_from = {wedge.pocket_from:g}, wedge.pocket_to = {wedge.pocket_to:g}: the first "
+            f"must lie before the second, both on the pad from {first:g} to {last:g}"
+        )
+    if width is not None and width > wedge.width:
+        raise ConfigError(
+            f"wedge.pocket_width = {width:g}: must be at most the pad's wedge.width = {wedge.width:g}"
+        )
+
+
+def _check_pocket(wedge, cell, nodes):
+    """A pocket has a few cells; one that is as wide as the pad has them."""
+    along, across = wedge.pocket_to - wedge.pocket_from, wedge.pocket_width or float("inf")
+    for key, size, dx in zip(("pocket_to", "pocket_width"), (along, across), cell, strict=True):
+        if size < FEWEST_CELLS * dx:
+            raise ConfigError(
+                f"wedge.{key} = {getattr(wedge, key):g}: the pocket must be at least {FEWEST_CELLS} cells "
+                f"long and wide, {FEWEST_CELLS * dx:.3g} with {nodes} nodes"
+            )

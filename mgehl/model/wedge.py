@@ -1,7 +1,8 @@
-"""The rigid fixed wedge bearing, with a pillar or a blocked exit in its film  [Liu eqs. 43, 44].
+"""The rigid fixed wedge bearing, with a pillar, a pocket or a blocked exit in its film  [Liu eqs. 43, 44].
 
 Lengths are in millimetres inside the code: X = x/mm, the gap is H = h/(m mm) = |X|, and with
-P = m^2 p/(eta u) per mm the equation is d/dX(H^3 dP/dX) + d/dY(H^3 dP/dY) = +-6 dH/dX.
+P = m^2 p/(eta u) per mm the equation is d/dX(H^3 dP/dX) + d/dY(H^3 dP/dY) = +-6 dH/dX. Of a pad that is
+described by its films the smaller of these stands for m mm.
 """
 
 from dataclasses import dataclass
@@ -35,12 +36,37 @@ PILLARS = {"none": _none, "square": _square, "cylinder": _cylinder}
 
 
 @dataclass(frozen=True)
-class WedgeBearing:
-    """A plane pad of gap h = slope x over a plate that drags the film from `inlet` to `exit`.
+class Pocket:
+    """A recess of the pad with an even bottom; lengths in metres, along X and Y as the bearing's."""
 
-    Lengths in metres, x counted from the line where pad and plate would meet. The plate moves
-    towards -X; `turned` by 180 degrees about the vertical axis, the bearing lies at negative X and
-    its plate moves towards +X.
+    depth: float
+    along: tuple[float, float]
+    """Where it begins and ends along x."""
+    width: float
+    """Across the motion, its middle at y = 0."""
+
+    def share(self, X, Y, dX, dY):
+        """The part of the cells dX by dY around X (1, nx) and Y (lines, 1), in mm, that it lies over.
+
+        A node's gap is the mean of its cell: wherever the edges lie between nodes, the volume is the same.
+        """
+        half = 0.5 * self.width / MM
+        return _covered(X, dX, self.along[0] / MM, self.along[1] / MM) * _covered(Y, dY, -half, half)
+
+
+def _covered(X, cell, first, last):
+    """The part of cells around X that lies between `first` and `last`."""
+    below, above = X - 0.5 * cell, X + 0.5 * cell
+    return np.clip(np.minimum(above, last) - np.maximum(below, first), 0.0, cell) / cell
+
+
+@dataclass(frozen=True)
+class WedgeBearing:
+    """A plane pad of gap h = level + slope x over a plate that drags the film from `inlet` to `exit`.
+
+    Lengths in metres, x counted from the line where the gap is `level`: without one, from where pad and
+    plate would meet. The plate moves towards -X; `turned` by 180 degrees about the vertical axis, the
+    bearing lies at negative X and its plate moves towards +X. `speed` is the plate's.
     """
 
     exit: float
@@ -55,6 +81,14 @@ class WedgeBearing:
     pillar_x: float = 0.0
     pillar_y: float = 0.0
     pillar_size: float = 0.0
+    level: float = 0.0
+    pocket: Pocket | None = None
+    ambient_pressure: float = 0.0
+    """In Pa, at the pad's edges; where the film tears the pressure is 0."""
+    closed_sides: bool = False
+    """Whether there are walls at the sides."""
+    laws: Lubricant | None = None
+    """None: constant viscosity and density."""
 
     is_loaded = False
     is_at_rest = False
@@ -78,18 +112,39 @@ class WedgeBearing:
 
     @property
     def lubricant(self):
-        """Constant in density and viscosity."""
-        return Lubricant(ConstantViscosity(self.viscosity), ConstantDensity())
+        """Constant in density and viscosity, unless there are `laws`."""
+        return self.laws or Lubricant(ConstantViscosity(self.viscosity), ConstantDensity())
+
+    @property
+    def films(self):
+        """The gap at the exit and at the inlet, in m, without a pocket."""
+        return self.level + self.slope * self.exit, self.level + self.slope * self.inlet
+
+    @property
+    def _unit_slope(self):
+        """Metres of film per unit of H and mm of X: m of [Liu eq. 44]."""
+        return min(self.films) / MM if self.level else self.slope
 
     @property
     def pressure_scale(self):
         """Pascals per unit of P  [Liu eq. 44]."""
-        return self.viscosity * self.speed / (self.slope**2 * MM)
+        return self.viscosity * self.speed / (self._unit_slope**2 * MM)
 
     @property
     def film_scale(self):
         """Metres of film per unit of H."""
-        return self.slope * MM
+        return self._unit_slope * MM
+
+    @property
+    def ambient(self):
+        """P at the pad's edges."""
+        return self.ambient_pressure / self.pressure_scale
+
+    @property
+    def is_plane(self):
+        """Whether nothing varies across the motion."""
+        whole = self.pocket is None or self.pocket.width >= self.width
+        return self.closed_sides and whole and self.pillar == "none"
 
     def placement(self, nodes):
         """First and last X of `nodes` nodes, and the two edges of the pad between them.
@@ -104,15 +159,25 @@ class WedgeBearing:
         return (first, inlet), (exit, inlet)
 
     def gap(self, X):
-        """H at the coordinates X; that of the pad also where a pillar stands."""
-        return np.abs(X)
+        """H of the pad at the coordinates X, also where a pillar stands, and without a pocket."""
+        if not self.level:
+            return np.abs(X)
+        return (self.level + self.slope * MM * self._against(X)) / self.film_scale
+
+    def recess(self, X, Y, dX, dY):
+        """What a pocket adds to H: the mean over the cells dX by dY around X (1, nx) and Y (lines, 1)."""
+        if self.pocket is None:
+            return 0.0
+        return self.pocket.depth / self.film_scale * self.pocket.share(self._against(X), Y, dX, dY)
 
     def solid(self, X, Y):
         """True where pad and plate are in contact; X (1, nx) and Y (lines, 1) or such."""
-        side = 1.0 if not self.turned else -1.0
-        inside = PILLARS[self.pillar](
-            side * X - self.pillar_x / MM, side * Y - self.pillar_y / MM, self.pillar_size / MM
-        )
+        X, Y = self._against(X), self._against(Y)
+        inside = PILLARS[self.pillar](X - self.pillar_x / MM, Y - self.pillar_y / MM, self.pillar_size / MM)
         if self.blocked_exit:
-            inside = inside | (side * X < self.exit / MM)
+            inside = inside | (X < self.exit / MM)
         return inside
+
+    def _against(self, X):
+        """Coordinates of the bearing that is not turned: its X goes against the motion."""
+        return X if not self.turned else -X

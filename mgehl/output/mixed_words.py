@@ -20,13 +20,13 @@ def mixed_lines(mixed):
         *_mean_gaps(mixed),
         f"  film within the {mixed.hertz_region}: mean {_known(mixed.mean_film_nm)} nm, minimum "
         f"{_known(mixed.minimum_film_nm)} nm, {_known(mixed.valley_film_nm)} nm in valleys deeper than Sq; "
-        f"torn on {100 * mixed.torn_share:.2f} % of it{_filling(mixed)}",
+        f"torn on {100 * mixed.torn_share:.2f} % of it{filling_words(mixed)}",
     ]
 
 
-def _filling(mixed):
+def filling_words(result):
     """How full cavities are; nothing where there is none, or of an older result."""
-    filling = mixed.torn_filling
+    filling = result.torn_filling
     return "" if filling is None else f", where {100 * filling:.0f} % of the gap is filled"
 
 

@@ -2,10 +2,13 @@
 
 from dataclasses import dataclass
 
-from mgehl.discretization.status import CAVITATED, CONTACT
+import numpy as np
+
+from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, WALL
 from mgehl.output.film_error import FilmError, no_band
 from mgehl.output.result import Overlap
 from mgehl.output.words import bearing_words
+from mgehl.solver.mass import Mass, account
 from mgehl.solver.verification import closed_face_flow, flux_imbalance
 
 GIVEN = no_band("the gap of a rigid bearing is given")
@@ -13,7 +16,10 @@ GIVEN = no_band("the gap of a rigid bearing is given")
 
 @dataclass(frozen=True)
 class WedgeResult:
-    """Everything result.json holds; P and the load as in [Liu eq. 44], lengths in mm."""
+    """Everything result.json holds; P and the load as in [Liu eq. 44], lengths in mm.
+
+    Loads are above the ambient pressure.
+    """
 
     converged: bool
     reason: str
@@ -34,6 +40,10 @@ class WedgeResult:
     ranks: int
     versions: dict
     error: FilmError = GIVEN
+    torn_filling: float | None = None
+    """Mean part of the gap that cavities hold oil in; None without any."""
+    mass: Mass | None = None
+    """The account of the oil; None in older results."""
 
     @property
     def settled(self):
@@ -58,8 +68,14 @@ def summarise_wedge(problem, outcome, wall_s, versions):
     grid, bearing, state = problem.grid, problem.contact, outcome.state
     evaluation = problem.evaluate(state)
     residual = problem.rms(problem.residual(evaluation, state.status))
-    load = problem.load(state.P)
+    across = bearing.width / bearing.y_scale if grid.mesh.is_line else 1.0
+    solid, torn = state.status == CONTACT, state.status == CAVITATED
+    load = across * problem.load(np.where(solid, state.P, state.P - bearing.ambient))
     largest = grid.max(state.P)
+    pad = (evaluation.status != BOUNDARY) & (evaluation.status != WALL)
+    # Half of what the plate would carry along is dragged through a gap.
+    unit = 0.5 * bearing.speed * bearing.film_scale * bearing.y_scale * across
+    cavities = grid.count(torn)
     return WedgeResult(
         converged=outcome.converged,
         reason=outcome.reason,
@@ -71,10 +87,12 @@ def summarise_wedge(problem, outcome, wall_s, versions):
         residual=residual,
         flux_imbalance=flux_imbalance(problem, evaluation),
         closed_face_flow=closed_face_flow(problem, evaluation),
-        solid_nodes=grid.count(state.status == CONTACT),
-        cavitated_nodes=grid.count(state.status == CAVITATED),
+        solid_nodes=grid.count(solid),
+        cavitated_nodes=cavities,
         linear_iterations=sum(step.linear_iterations for step in outcome.cycles),
         wall_s=wall_s,
         ranks=grid.comm.size,
         versions=versions,
+        torn_filling=grid.sum(state.filling[torn].sum()) / cavities if cavities else None,
+        mass=account(problem, state, evaluation, pad, unit),
     )

@@ -2,7 +2,7 @@
 
 from mgehl.output.digits import with_band
 from mgehl.output.domain import beyond_words, domain_words
-from mgehl.output.mixed_words import mixed_lines
+from mgehl.output.mixed_words import filling_words, mixed_lines
 from mgehl.output.resolution import RESOLVED_CELLS, SEEN_CELLS
 from mgehl.output.surface import surface_words
 
@@ -30,7 +30,9 @@ def bearing_words(result):
             f"{result.max_P:.6f} /mm (at most {result.max_pressure_MPa:.4g} MPa)",
             f"  residual {result.residual:.1e}, flux imbalance {result.flux_imbalance:.1e}, "
             f"flow through closed faces {result.closed_face_flow:.1e}",
-            f"  solid nodes: {result.solid_nodes}, cavitated: {result.cavitated_nodes}",
+            f"  solid nodes: {result.solid_nodes}, cavitated: {result.cavitated_nodes}"
+            f"{filling_words(result)}",
+            *_oil(result.mass, "film under the pad"),
             f"  work: {result.linear_iterations} iterations, {_took(result)}",
             *where_to_read(result),
         ]
@@ -104,10 +106,15 @@ def _errors(result):
         f"  residual {result.residual:.1e}, load error {result.load_error:.1e}, complementarity "
         f"{result.complementarity_error:.1e}, flux imbalance {result.flux_imbalance:.1e}"
     )
-    if result.mass:
+    yield from _oil(result.mass, "Hertz ellipse")
+
+
+def _oil(mass, where):
+    """What flows through, and what is made of it; nothing of an older result."""
+    if mass:
         yield (
-            f"  oil: {result.mass.enters:.3g} m3/s enter the Hertz ellipse, {result.mass.leaves:.3g} leave "
-            f"it; a node, or nodes of one kind, make at most {result.mass.made_share:.1e} of it"
+            f"  oil: {mass.enters:.3g} m3/s enter the {where}, {mass.leaves:.3g} leave "
+            f"it; a node, or nodes of one kind, make at most {mass.made_share:.1e} of it"
         )
 
 

@@ -25,7 +25,7 @@ class Mass:
     """Oil at ambient density in m^3/s, of a line contact in m^2/s."""
 
     enters: float
-    """Into the Hertz ellipse (of a line contact its width), carried and pressed."""
+    """Into the Hertz ellipse (of a line contact its width, of a wedge the pad), carried and pressed."""
     leaves: float
     made_by_film: float
     """What the film nodes of the domain let out more than they let in."""
@@ -50,14 +50,23 @@ class Mass:
 
 
 def mass_account(problem, state, evaluation):
-    """The `Mass` of an evaluated state (collective)."""
-    grid, contact, mesh = problem.grid, problem.contact, problem.grid.mesh
-    unit = contact.speed * contact.film_scale * (1.0 if mesh.is_line else contact.y_scale)
+    """The `Mass` of an evaluated state of a loaded contact (collective)."""
+    contact = problem.contact
+    unit = contact.speed * contact.film_scale * (1.0 if problem.grid.mesh.is_line else contact.y_scale)
+    return account(problem, state, evaluation, _hertz_ellipse(problem, evaluation), unit)
+
+
+def account(problem, state, evaluation, inside, unit):
+    """The `Mass` of an evaluated state, with what flows into and out of the nodes `inside` (collective).
+
+    That is a ghosted mask; `unit` is the flow that carries one unit of H across one of Y, in m^3/s.
+    """
+    grid, mesh = problem.grid, problem.grid.mesh
     cell = mesh.dX * mesh.dY
     inner = ~problem.boundary
     made = [-grid.sum((evaluation.inflow[(state.status == kind) & inner]).sum()) for kind in KINDS]
     largest = grid.max(np.abs(np.where(inner, evaluation.inflow, 0.0)), initial=0.0)
-    through, (along, _) = _through(problem, evaluation), evaluation.flows[0]
+    through, (along, _) = _through(problem, evaluation, inside), evaluation.flows[0]
     carried_in = grid.sum(
         mesh.dX * mesh.dY / evaluation.axes[0].cell * np.maximum(along.value[:, 0], 0.0).sum()
     )
@@ -68,14 +77,20 @@ def mass_account(problem, state, evaluation):
 KINDS = LUBRICATED, CAVITATED, CONTACT
 
 
-def _through(problem, evaluation):
-    """What enters the Hertz ellipse, and what leaves it, in units of H and Y."""
+def _hertz_ellipse(problem, evaluation):
+    """The nodes in it, a ghosted mask; of a line contact those of its width."""
     grid, mesh = problem.grid, problem.grid.mesh
     lines = np.arange(grid.first - HALO, grid.last + HALO)
     Y = 0.0 if mesh.is_line else mesh.y[0] + mesh.dY * lines[:, None]
     inside = np.broadcast_to(mesh.X[None, :] ** 2 + Y**2 <= 1.0, evaluation.status.shape)
     if mesh.is_line:
         inside = inside & ((lines >= 0) & (lines < mesh.ny))[:, None]
+    return inside
+
+
+def _through(problem, evaluation, inside):
+    """What enters the nodes `inside`, a ghosted mask, and what leaves them, in units of H and Y."""
+    grid, mesh = problem.grid, problem.grid.mesh
     enters = leaves = 0.0
     for axis, (leaving, entering) in zip(evaluation.axes, evaluation.flows, strict=True):
         width, here = mesh.dX * mesh.dY / axis.cell, axis.inner(own(inside))

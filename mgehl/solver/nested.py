@@ -22,10 +22,10 @@ nodes)."""
 
 
 BESIDE_LAYERS = 4.0
-"""The formula's film over the layers below which a start takes the dry contact as it is. A ball of 100 nm rms
-with layers of 2 nm (129 nodes): at 0.1 mm/s 209 convolutions for 425 from a thin film, at 0.6 mm/s 202 for
-271, at 2 mm/s (a film of 3.7 layers) 207 for 229, at 5 mm/s (6.8) 161 for 161, at 20 mm/s 215 for 141. Below
-0.1 um/s it is found from the dry contact alone."""
+"""The formula's film over the layers below which a start takes the dry contact as it is. A ball of 100 nm
+rms with layers of 2 nm (129 nodes): at 0.1 mm/s 209 convolutions for 425 from a thin film, at 0.6 mm/s 202
+for 271, at 2 mm/s (a film of 3.7 layers) 207 for 229, at 5 mm/s (6.8) 161 for 161, at 20 mm/s 215 for 141.
+Below 0.1 um/s it is found from the dry contact alone."""
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mgehl.discretization.status import BOUNDARY, CONTACT, LUBRICATED
+from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
 from mgehl.multigrid.assembled import AssembledSolver
 from mgehl.multigrid.cycle import CycleSettings
 from mgehl.solver.outcome import Outcome
@@ -17,13 +17,24 @@ LINEAR_TOLERANCE = 1e-11
 class WedgeProblem(Problem):
     """Gap and contact of a `WedgeBearing` on one grid: both are given."""
 
+    def __init__(self, grid, bearing, scheme):
+        super().__init__(grid, bearing, scheme)
+        if bearing.closed_sides:
+            self.boundary[:, 1:-1] = False
+
     def first_guess(self):
-        """The state without pressure; solid nodes have no gap."""
+        """The state at ambient pressure; solid nodes have no gap, and no pressure."""
         grid, bearing = self.grid, self.contact
         solid = np.broadcast_to(bearing.solid(grid.X, grid.Y), grid.shape)
         status = np.where(solid, CONTACT, np.where(self.boundary, BOUNDARY, LUBRICATED))
-        H = np.where(solid, 0.0, np.broadcast_to(bearing.gap(grid.X), grid.shape))
-        return State(np.zeros(grid.shape), 0.0, H, status.astype(np.int8))
+        gap = bearing.gap(grid.X) + bearing.recess(grid.X, grid.Y, grid.mesh.dX, grid.mesh.dY)
+        H = np.where(solid, 0.0, np.broadcast_to(gap, grid.shape))
+        return State(np.where(solid, 0.0, bearing.ambient), 0.0, H, status.astype(np.int8))
+
+    def residual(self, evaluation, status):
+        """As of any fluid; at the pad's edges the pressure is the ambient one."""
+        F = super().residual(evaluation, status)
+        return F + np.where(status == BOUNDARY, self.contact.ambient / self.grid.mesh.dX, 0.0)
 
 
 def solve_wedge(grid, bearing, scheme, options_prefix, tolerance, max_steps, before_step=lambda: None):
@@ -43,6 +54,7 @@ def solve_wedge(grid, bearing, scheme, options_prefix, tolerance, max_steps, bef
             steps = steps[:-1] + fluid.solve(state, 0.0, 1).steps
     finally:
         fluid.free()
+    state.filling[state.status != CAVITATED] = 1.0  # what has become film may say more
     left = problem.rms(problem.residual(problem.evaluate(state), state.status))
     converged = bool(left <= tolerance)
     reason = "the residual holds" if converged else f"residual {left:.1e} after {len(steps) - 1} solves"

@@ -1,4 +1,4 @@
-"""The rigid wedge bearing: Figures 7 to 10 of the paper, and convergence to the exact series."""
+"""The rigid wedge bearing: Figures 7 to 10 of the paper, convergence to the exact series, and a pocket."""
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -6,6 +6,7 @@ from scipy.interpolate import CubicSpline
 from mgehl.discretization.couette import SCHEMES
 from mgehl.model.wedge_series import WedgeSeries
 from mgehl.output.center_line import center_line
+from mgehl.studies import wedge_pocket
 from mgehl.studies.study import merged, observed_order
 
 BASE = {
@@ -30,9 +31,10 @@ NODES = (129, 257, 513, 1025)
 
 
 def run(study):
-    """Solve all cases; write tables `cases` and `convergence`, figures 7, 8, 9 and 10."""
+    """Solve all cases; write tables `cases`, `convergence` and two of a pocket, figures 7, 8, 9, 10."""
     nodes = study.nodes or NODES
     study.cases = 4 + 3 * len(PILLARS) + 2 * len(SCHEMES) * len(nodes)
+    study.cases += len(wedge_pocket.COUETTE) * len(wedge_pocket.LINE_NODES) + len(wedge_pocket.SIZES)
     solutions = _figure_cases(study)
     study.write_table("cases", [_case_row(name, solution) for name, solution in solutions.items()])
     rows = []
@@ -42,6 +44,7 @@ def run(study):
         for couette in SCHEMES:
             rows += _convergence(study, shape, couette, nodes, exact)
     study.write_table("convergence", rows)
+    wedge_pocket.run(study, min(max(nodes), FIGURE_NODES))
     from mgehl.studies import wedge_figures  # matplotlib is slow to import
 
     study.draw("figure_7", wedge_figures.pressure_map, solutions["square pillar"])

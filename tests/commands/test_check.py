@@ -92,6 +92,12 @@ def test_a_wedge_is_described(told):
     assert "no convolutions" in text and "inlet zone" not in text
 
 
+def test_a_pocket_is_described(told):
+    text = told("pocket.toml")
+    assert "1 um at the exit, 1.1 um at the inlet" in text
+    assert "pocket     0.4 um deep, 614.2 cells all across" in text and "gap would end" not in text
+
+
 @pytest.mark.parametrize(
     "words, parts",
     [

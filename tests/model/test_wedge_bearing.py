@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mgehl.model.wedge import WedgeBearing
+from mgehl.model.wedge import Pocket, WedgeBearing
 
 BEARING = WedgeBearing(exit=4e-3, inlet=8e-3, width=4e-3, slope=1e-3, viscosity=0.05, speed=0.3)
 TURNED = replace(BEARING, turned=True)
@@ -125,3 +125,49 @@ def test_blocked_exit_and_pillar_add_up():
     both = replace(pillar("square"), blocked_exit=True).solid(X, Y)
     one, other = pillar("square").solid(X, Y), replace(BEARING, blocked_exit=True).solid(X, Y)
     np.testing.assert_array_equal(both, one | other)
+
+
+POCKETED = replace(BEARING, pocket=Pocket(2e-6, (5e-3, 7e-3), 2e-3))
+
+
+@pytest.mark.parametrize("shift", [0.0, 0.01, 0.049, 0.07])
+def test_a_pocket_has_its_volume_wherever_its_edges_lie_between_nodes(shift):
+    """2 mm by 2 mm by 2 um, of cells 0.1 mm by 0.04 mm."""
+    X, Y = np.arange(4.0 + shift, 8.0, 0.1)[None, :], np.arange(-2.0 + shift, 2.0, 0.04)[:, None]
+    recess = POCKETED.recess(X, Y, 0.1, 0.04)
+    assert recess.sum() * 0.1 * 0.04 == pytest.approx(4.0 * 2.0, rel=1e-12)
+    assert recess.max() == pytest.approx(2.0, rel=1e-14) and recess.min() == 0.0
+    assert BEARING.recess(X, Y, 0.1, 0.04) == 0.0
+
+
+def test_a_pocket_is_turned_with_its_bearing():
+    turned = replace(POCKETED, turned=True)
+    np.testing.assert_array_equal(turned.recess(-X, Y, 0.1, 0.1), POCKETED.recess(X, Y, 0.1, 0.1))
+
+
+def test_a_pad_by_its_films():
+    """From 3 um at x = 0 to 2 um at 4 mm, along the motion; lengths in units of the smaller film."""
+    pad = WedgeBearing(
+        exit=-4e-3, inlet=0.0, width=4e-3, slope=0.25e-3, viscosity=0.05, speed=0.3, turned=True, level=3e-6
+    )
+    assert pad.films == pytest.approx((2e-6, 3e-6)) and pad.film_scale == pytest.approx(2e-6)
+    x, edges = pad.placement(65)
+    assert edges == (0.0, 4.0) and x[0] == 0.0 and x[1] == pytest.approx(4.0 + 0.5 * 4.0 / 63.5)
+    np.testing.assert_allclose(pad.gap(np.array([0.0, 2.0, 4.0])), [1.5, 1.25, 1.0], rtol=1e-14)
+    assert pad.motion == (1.0, 0.0)
+    flow = pad.film_scale**3 * pad.pressure_scale / pad.x_scale
+    assert flow == pytest.approx(0.05 * 0.3 * pad.film_scale, rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    "change, plane",
+    [
+        ({}, True),
+        ({"closed_sides": False}, False),
+        ({"pillar": "square"}, False),
+        ({"pocket": Pocket(1e-6, (5e-3, 6e-3), 4e-3)}, True),
+        ({"pocket": Pocket(1e-6, (5e-3, 6e-3), 3e-3)}, False),
+    ],
+)
+def test_what_is_alike_across_the_motion(change, plane):
+    assert replace(BEARING, **{"closed_sides": True} | change).is_plane is plane

@@ -39,6 +39,7 @@ from mgehl.solver.verification import complementarity_error, flux_imbalance
 from mgehl.studies.branch import Branches
 from mgehl.studies.study import Study, merged, papers_grid
 from mgehl.studies.wedge import case as wedge_case
+from mgehl.studies.wedge_pocket import case as pocket_case
 
 pytestmark = pytest.mark.parallel
 
@@ -489,6 +490,7 @@ WEDGES = {
     "square pillar, cavitating": merged(
         wedge_case("square pillar", 65), {"discretization": {"cavitation": True}}
     ),
+    "pocket": pocket_case(65, size="small"),
 }
 
 

@@ -34,13 +34,16 @@ def study(tmp_path_factory):
     return run
 
 
+POCKET = ("pocket_orders", "pocket")
+
+
 class TestWedge:
     @pytest.fixture(scope="class")
     def directory(self, study):
         return study("wedge", "65,129")
 
     def test_files(self, directory):
-        tables = {f"{name}.{kind}" for name in ("cases", "convergence") for kind in ("csv", "md")}
+        tables = {f"{name}.{kind}" for name in ("cases", "convergence", *POCKET) for kind in ("csv", "md")}
         figures = {f"figure_{k}.png" for k in (7, 8, 9, 10)}
         assert {path.name for path in directory.iterdir()} == tables | figures | {
             "points",
@@ -64,6 +67,19 @@ class TestWedge:
         assert load["square pillar, untreated"] > load["square pillar"]
         assert load["square pillar, turned, untreated"] < load["square pillar, turned"]
         assert load["blocked exit"] > load["no blockage"]
+
+    def test_pocket(self, directory):
+        """Beside the reference grid by grid; beside the figures the small pad and the large one."""
+        orders, figures = (read(directory / f"{name}.csv") for name in POCKET)
+        best = [row for row in orders if row["couette"] == "3B"]
+        assert float(best[2]["largest difference %"]) < 0.1 and best[2]["nodes"] == "2049"
+        assert all(float(row["oil made"]) < 1e-11 for row in orders) and len(orders) == 15
+        largest = max(figures, key=lambda row: float(row["large MPa"]))
+        assert largest["x/L"] == "0.504"
+        assert abs(float(largest["small, difference"])) < 0.7 > abs(float(largest["large, difference"]))
+        for row in figures:
+            there, published = float(row["small MPa"]), float(row["small, figure"])
+            assert float(row["small, difference"]) == pytest.approx(there - published, abs=1e-3)
 
     def test_convergence(self, directory):
         rows = read(directory / "convergence.csv")

@@ -50,6 +50,7 @@ _BEARING = {
     "status": _POINT["status"],
     "history": _POINT["history"],
 }
+_BEARING_LINE = {name: _BEARING[name] for name in ("lines", "history")}
 
 
 def drawn_by(solution):
@@ -69,7 +70,7 @@ def drawn_by(solution):
 def _possible(solution):
     """As `drawn_by`, whether or not the surface's file is there."""
     if not solution.contact.is_loaded:
-        return dict(_BEARING)
+        return dict(_BEARING_LINE if solution.mesh.is_line else _BEARING)
     drawn = _POINT | (_ROUGH if solution.contact.surface is not None else {})
     if solution.is_dry:
         drawn = _DRY | {kind: drawn[kind] for kind in drawn if kind not in ("lines", "film")}

@@ -16,7 +16,9 @@ UNIT = "P = m$^2$p/($\\eta$u), 1/mm"
 
 
 def picture(solution):
-    """Figure that a run leaves: map and centre line."""
+    """Figure that a run leaves: map and centre line; of a single line no map."""
+    if solution.mesh.is_line:
+        return centre_line(solution)
     figure, axes = style.subplots(1, 2, size=(10.5, 3.9))
     pressure_map(axes[0], solution)
     _draw_line(axes[1], solution)
@@ -28,9 +30,11 @@ def centre_line(solution):
     """Figure of the pressure on Y = 0, as P and in MPa."""
     figure, axes = style.subplots(size=(6.8, 4.2))
     _draw_line(axes, solution)
-    MPa = 1e-6 * solution.contact.pressure_scale
-    right = axes.secondary_yaxis("right", functions=(lambda P: P * MPa, lambda p: p / MPa))
-    right.set_ylabel("pressure, MPa")
+    unit, _ = _unit(solution.contact)
+    MPa = 1e-6 * solution.contact.pressure_scale / unit
+    if MPa != 1.0:
+        right = axes.secondary_yaxis("right", functions=(lambda P: P * MPa, lambda p: p / MPa))
+        right.set_ylabel("pressure, MPa")
     axes.set_title(title(solution))
     return figure
 
@@ -45,11 +49,11 @@ def pressure_picture(solution):
 
 def pressure_map(axes, solution, limits=None, **options):
     """Draw P over the pad with its colour bar, solid grey; `limits` are the ends of the scale."""
-    plane = Plane(solution, whole=True)
-    P = np.ma.masked_where(plane.status == CONTACT, plane.blocks.largest(solution.fields.P))
+    plane, (unit, name) = Plane(solution, whole=True), _unit(solution.contact)
+    P = np.ma.masked_where(plane.status == CONTACT, unit * plane.blocks.largest(solution.fields.P))
     norm, colours = pressure_scale(*(limits or (float(P.min()), float(P.max()))))
     image = draw_image(axes, plane, P, norm=norm, cmap=colours)
-    colour_bar(axes, plane, image, UNIT, **options)
+    colour_bar(axes, plane, image, name, **options)
     draw_cavities(axes, plane)
     finish(axes, solution, plane)
     axes.set(facecolor=style.SOLID, title="pressure (solid grey)")
@@ -63,8 +67,14 @@ def pressure_scale(low, high):
     return Normalize(-largest, largest), SIGNED
 
 
+def _unit(bearing):
+    """What P is multiplied by, and what the product is called: MPa of a pad that its films describe."""
+    return (1e-6 * bearing.pressure_scale, "pressure, MPa") if bearing.level else (1.0, UNIT)
+
+
 def _draw_line(axes, solution):
-    mesh = solution.mesh
-    axes.plot(*center_line(mesh, solution.fields), color=style.PRESSURE)
+    mesh, (unit, name) = solution.mesh, _unit(solution.contact)
+    X, P = center_line(mesh, solution.fields)
+    axes.plot(X, unit * P, color=style.PRESSURE)
     axes.axhline(0.0, color=style.GUIDE, linewidth=0.8, zorder=0)
-    axes.set(xlabel="X, mm", ylabel=UNIT, title="centre line", xlim=mesh.edges)
+    axes.set(xlabel="X, mm", ylabel=name, title="centre line", xlim=mesh.edges)

@@ -61,6 +61,7 @@ def _checks(solution):
             "largest flow through a face that contact closes", leak, found=number(leak, 2), otherwise=CARE
         ),
         informing("imbalance of the flux", result.flux_imbalance),
+        *([informing("part of the oil that nodes make", result.mass.made_share)] if result.mass else []),
     ]
     return table(CHECKS, CHECK_HEADS, rows)
 
