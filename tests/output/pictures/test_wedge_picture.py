@@ -7,7 +7,8 @@ import pytest
 
 from mgehl.output.pictures import style
 from mgehl.output.pictures.figures import figures
-from mgehl.output.pictures.wedge_picture import SIGNED, drawn, pressure_picture, pressure_scale
+from mgehl.output.pictures.picture import drawn
+from mgehl.output.pictures.wedge_picture import SIGNED, pressure_picture, pressure_scale
 from mgehl.output.solution import Fields
 
 
