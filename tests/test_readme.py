@@ -8,6 +8,7 @@ import sys
 import tomllib
 from pathlib import Path
 
+import page_tables
 import pytest
 from mpi4py import MPI
 from processes import own_environment
@@ -66,17 +67,14 @@ def test_keys_are_those_of_the_code():
     assert f"```text\n{describe_keys()}\n```" in PAGES["mgehl/README.md"]
 
 
-@pytest.mark.parametrize(
-    "table, page",
-    [
-        ("short", "runs/README.md"),
-        ("error-bands", "runs/README.md"),
-        ("error-random-bands", "runs/README.md"),
-        ("speeds", "configs/README.md"),
-    ],
-)
-def test_a_table_of_findings_is_the_one_the_runs_wrote(table, page):
-    assert (ROOT / "runs" / "tables" / f"{table}.md").read_text().strip() in PAGES[page]
+@pytest.mark.parametrize("page", page_tables.PAGES, ids=lambda path: path.parent.name)
+def test_tables_of_findings_are_those_that_commands_wrote(page):
+    assert page_tables.filled(page.read_text()) == page.read_text()
+
+
+def test_pages_show_such_tables():
+    text = "".join(page.read_text() for page in page_tables.PAGES)
+    assert {"acceptance", "error-bands", "speeds"} <= {mark[1] for mark in page_tables.MARK.findall(text)}
 
 
 def test_first_case_is_a_valid_configuration():

@@ -53,7 +53,7 @@ def run_drawn(study, name, draw, row, nodes, cases):
     for title, why in study.lost.items():
         rows[title] = {"case": str(drawn[title].number), "verdict": f"NOT SOLVED: {why}"}
     study.write_table(name, sorted(rows.values(), key=lambda each: int(each["case"])))
-    study.write_table(f"{name}-summary", summary(results, len(study.lost)))
+    study.write_table(f"{name}-summary", [summary(results, len(study.lost))])
 
 
 def drawn_of(study, draw, cases):
@@ -91,28 +91,20 @@ def answer(result):
 
 
 def summary(results, lost=0):
-    """Rows of the summary of these `Result`s, and of how many have none: verdicts, work, oil, bands."""
+    """The row of the summary of these `Result`s, and of how many have none: verdicts, work, oil, bands."""
     converged = [each for each in results if each.converged]
     settled = sum(each.settled for each in results)
     all_work, work = ([each.work.convolutions for each in some] for some in (results, converged))
-    asked = [each for each in converged if each.mixed.error]
-    banded = sum(each.mixed.error.mean_nm is not None for each in asked)
-    cases = len(results) + lost
-    numbers = {
-        "cases": str(cases),
-        "converged": f"{len(converged)} ({100 * len(converged) / cases:.1f} %)",
-        "settled, and in doubt": str(settled - len(converged)),
-        "not settled": str(cases - settled),
+    banded = [each for each in converged if each.mixed.error and each.mixed.error.mean_nm is not None]
+    return {
+        "cases": str(len(results) + lost),
+        "converged": str(len(converged)),
+        "in doubt": str(settled - len(converged)),
+        "not settled": str(len(results) + lost - settled),
         "convolutions, mean": statistic(np.mean, all_work),
-        "convolutions, median": statistic(np.median, all_work),
-        "convolutions, most": statistic(np.max, all_work),
-        "convolutions of the converged, mean": statistic(np.mean, work),
-        "largest made of what flows through": statistic(np.max, _made(converged), "{:.1e}"),
-        "of the converged, with a band about the mean gap": str(banded) if asked else "not asked",
+        "median": statistic(np.median, all_work),
+        "most": statistic(np.max, all_work),
+        "mean of the converged": statistic(np.mean, work),
+        "largest made": statistic(np.max, (each.mass.made_share for each in converged), "{:.1e}"),
+        "with a band about the mean gap": str(len(banded)),
     }
-    return [{"what": what, "value": value} for what, value in numbers.items()]
-
-
-def _made(results):
-    """Oil that nodes make over what flows through."""
-    return (each.mass.made_share for each in results)

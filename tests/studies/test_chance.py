@@ -28,7 +28,8 @@ def read(path):
 
 
 def said(directory, name):
-    return {each["what"]: each["value"] for each in read(directory / f"{name}-summary.csv")}
+    (row,) = read(directory / f"{name}-summary.csv")
+    return row
 
 
 @pytest.fixture
@@ -50,11 +51,11 @@ class TestBalls:
             assert found["verdict"] == "converged" and float(found["lambda"]) > 0.0
             assert 0.0 <= float(found["load on solids"]) <= float(found["load on contact"])
             assert 0.0 <= float(found["made"]) < 1e-6 and float(found["convolutions"]) > 5
-        assert whole["converged"] == "2 (100.0 %)" and whole["not settled"] == "0"
+        assert whole["converged"] == "2" and whole["not settled"] == "0"
         mean = np.mean([float(each["convolutions"]) for each in rows])
         assert float(whole["convolutions, mean"]) == pytest.approx(mean, abs=0.1)
         most = max(float(each["made"]) for each in rows)
-        assert float(whole["largest made of what flows through"]) == most
+        assert float(whole["largest made"]) == most
         assert len(list((here / "points").iterdir())) == 2
         monkeypatch.setattr(study, "solve", None)  # nothing is solved again
         assert run("mixed", here, "--cases", "2", "--seed", "3", "--resume") == 0
@@ -65,7 +66,7 @@ class TestBalls:
         assert run("mixed", here, "--cases", "1", "--set", "solver.max_steps=1") == 1
         (found,) = read(here / "mixed.csv")
         assert found["verdict"].startswith("NOT CONVERGED: ")
-        assert said(here, "mixed")["converged"] == "0 (0.0 %)" and said(here, "mixed")["not settled"] == "1"
+        assert said(here, "mixed")["converged"] == "0" and said(here, "mixed")["not settled"] == "1"
 
     def test_a_case_that_breaks_off_is_said_and_passed(self, tmp_path, long_waves, monkeypatch):
         """The others have their rows; it is counted among those that did not settle."""
@@ -120,7 +121,7 @@ class TestMachines:
         assert found.get("surface", found.get("profile")).startswith("waves")
         assert "±" in found["mean gap nm"]
         assert float(found["Sq nm"]) == pytest.approx(100.0 / 2.0**0.5, abs=1.0)
-        assert said(tmp_path / name, name)["of the converged, with a band about the mean gap"] == "1"
+        assert said(tmp_path / name, name)["with a band about the mean gap"] == "1"
 
     def test_pressures_and_films_are_what_was_drawn(self, name, module):
         contacts = [contact_from(config_from_tables(case.tables)) for case in module.draw(60, 3)]
@@ -157,7 +158,7 @@ def result(convolutions, band, made=1e-12, **verdict):
 
 
 def test_the_summary_tells_converged_doubted_and_not_settled_apart():
-    rows = summary(
+    numbers = summary(
         [
             result(100.0, 0.2),
             result(200.0, None),
@@ -167,13 +168,12 @@ def test_the_summary_tells_converged_doubted_and_not_settled_apart():
         ],
         lost=1,
     )
-    numbers = {each["what"]: each["value"] for each in rows}
-    assert numbers["of the converged, with a band about the mean gap"] == "2"
-    verdicts = [numbers[what] for what in ("cases", "converged", "settled, and in doubt", "not settled")]
-    assert verdicts == ["6", "3 (50.0 %)", "1", "2"]
-    assert numbers["convolutions of the converged, mean"] == "300.0"
-    assert (numbers["convolutions, median"], numbers["convolutions, most"]) == ("200.0", "2000.0")
-    assert numbers["largest made of what flows through"] == "3.0e-10"
+    assert numbers["with a band about the mean gap"] == "2"
+    verdicts = [numbers[what] for what in ("cases", "converged", "in doubt", "not settled")]
+    assert verdicts == ["6", "3", "1", "2"]
+    assert numbers["mean of the converged"] == "300.0"
+    assert (numbers["median"], numbers["most"]) == ("200.0", "2000.0")
+    assert numbers["largest made"] == "3.0e-10"
 
 
 @pytest.mark.parametrize(
