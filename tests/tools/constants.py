@@ -7,7 +7,7 @@ Numbers are found in the source: whatever has capitals for a name and a number f
 module of `LAYERS`. So the tool knows those that were added since, and none that is gone.
 
 A row of the table is a value, a column a case. In it stand the convolutions, or "=" where the value changes
-nothing. "!" is a case that did not converge, "~" one whose answer is another by more than a millionth of its
+nothing. "!" is a case that did not converge, "~" one whose answer differs by more than a millionth of its
 largest pressure. Each value is solved by a copy of the package in a process of its own.
 """
 
@@ -118,11 +118,11 @@ def solve_all(place):
 
 def cell(found, usual):
     """What a table says of an answer beside the usual one."""
-    if found is None:
-        return "broke"
+    if found is None or usual is None:
+        return "broke" if found is None else "solved"
     work, converged, P = found
-    other = usual is None or bool(np.abs(P - usual[2]).max() > 1e-6 * np.abs(usual[2]).max())
-    if usual and (work, converged) == usual[:2] and not other:
+    other = bool(np.abs(P - usual[2]).max() > 1e-6 * np.abs(usual[2]).max())
+    if found is not usual and (work, converged) == usual[:2] and not other:
         return "="
     return f"{work:.0f}{'' if converged else '!'}{'~' if other else ''}"
 
@@ -136,12 +136,12 @@ def main(names):
         )
     usual = answers()
     print(f"| number | value | {' | '.join(CASES)} |\n{(2 + len(CASES)) * '| --- '}|")
-    print(f"| as it is | | {' | '.join(cell(found, None) for found in usual.values())} |", flush=True)
+    print(f"| as it is | | {' | '.join(cell(found, found) for found in usual.values())} |", flush=True)
     for number in chosen:
         for value in number.others():
             found = answers(number, value)
             cells = " | ".join(cell(found[case], usual[case]) for case in CASES)
-            print(f"| {number.title} = {number.value:g} | {value:g} | {cells} |", flush=True)
+            print(f"| {number.title} | {value:g} for {number.value:g} | {cells} |", flush=True)
 
 
 if __name__ == "__main__":
