@@ -85,7 +85,9 @@ class Study:
             except UserError as error:
                 self.lost[name] = str(error)
                 self.failures += 1
-                self._tell(name, f"  NOT SOLVED: {error}")
+                self._done += 1
+                if self.first:
+                    complain(f"{name}: not solved: {error}")
             else:
                 yield name, solution
 
@@ -122,7 +124,8 @@ class Study:
 
     def tell(self, title, result, must_converge=True):
         """Say what came of a finished case."""
-        self._tell(title, _verdict(result, must_converge))
+        none = "NOT CONVERGED" if must_converge else "no solution, which is an answer here"
+        self._tell(title, "" if result.converged else f"  {verdict(result, none)}")
 
     def _tell(self, title, what):
         """Say a case, and how long the others will take."""
@@ -167,21 +170,11 @@ class Study:
                 say(f"picture {path.name}")
 
 
-def _verdict(result, must_converge):
-    """Words after a case that did not converge; empty where it did. Where the study asks whether there is a
-    solution, none is no failure.
-    """
-    if result.converged:
-        return ""
-    other = "NOT CONVERGED" if must_converge else "no solution, which is an answer here"
-    return f"  {result.doubt.upper() if result.settled else other}: {result.reason}"
-
-
-def verdict(result):
-    """Converged, or not a result and why."""
+def verdict(result, otherwise="NOT CONVERGED"):
+    """Converged, or in doubt or `otherwise` and why."""
     if result.converged:
         return "converged"
-    return f"{result.doubt if result.settled else 'NOT CONVERGED'}: {result.reason}"
+    return f"{result.doubt if result.settled else otherwise}: {result.reason}"
 
 
 def yes(holds):
