@@ -68,7 +68,7 @@ def test_one_that_was_stopped_keeps_the_result_before(study, capsys, monkeypatch
     assert check_result(study, "study").identity != before.identity and not (study / "half.csv").exists()
 
 
-@pytest.mark.parametrize("name, said", [("onset", "is not part of mgehl any more"), ("x", "x: ")])
+@pytest.mark.parametrize("name, said", [("onset", "study onset is no longer part of mgehl"), ("x", "x: ")])
 def test_a_study_that_is_none_is_one_line(capsys, name, said):
     with pytest.raises(SystemExit, match="2"):
         main(["study", name])
