@@ -32,8 +32,9 @@ def test_films_of_a_random_contact(tmp_path):
 
 
 def test_gaps_of_a_ball_on_two_grids(tmp_path):
-    here = tmp_path / "gaps"
-    assert main(["study", "gaps", "--nodes", "65,129", "--cases", "1", "--quiet", "--out", str(here)]) == 0
+    """Of a seed whose first surface 65 nodes show."""
+    here, grids = tmp_path / "gaps", ["--nodes", "65,129", "--cases", "1", "--seed", "36"]
+    assert main(["study", "gaps", *grids, "--quiet", "--out", str(here)]) == 0
     (row,) = read(here / "gaps.csv")
     assert row["converged"] == "yes yes" and 0.0 < float(row["more work %"]) < 100.0
     for gap in ("mean gap", "by pressure"):
