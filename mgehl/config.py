@@ -153,7 +153,7 @@ def _pairs(settings):
     counts."""
     if isinstance(settings, Mapping):
         return {str(name): value for name, value in settings.items()}
-    return dict(map(_read_setting, settings))
+    return dict(map(read_setting, settings))
 
 
 def _push_out(tables, given):
@@ -227,7 +227,7 @@ def _read_toml(path):
         raise ConfigError(f"{path}: not valid TOML: {error}") from None
 
 
-def _read_setting(setting):
+def read_setting(setting):
     """Name and value of one "section.key=value"; the value is TOML, or else a plain string."""
     key, equals, text = setting.partition("=")
     section, dot, name = (part.strip() for part in key.partition("."))

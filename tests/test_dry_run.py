@@ -10,7 +10,7 @@ import pytest
 from mgehl.cli import main
 from mgehl.output.stored import read_run
 from mgehl.studies import dry_surfaces
-from mgehl.studies.dry_reference import REFERENCE
+from mgehl.studies.dry import REFERENCE
 
 SURFACE = f"{dry_surfaces.__file__}:rough_500"
 PAPER = {"grid.nodes": "65", "grid.x": "[-1.9, 1.3]", "grid.y": "[-1.5, 1.5]"}

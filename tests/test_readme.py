@@ -1,6 +1,5 @@
 """What the pages show is what the code and the runs' files say."""
 
-import csv
 import re
 import shlex
 import shutil
@@ -9,6 +8,7 @@ import sys
 import tomllib
 from pathlib import Path
 
+import page_tables
 import pytest
 from mpi4py import MPI
 from processes import own_environment
@@ -67,17 +67,14 @@ def test_keys_are_those_of_the_code():
     assert f"```text\n{describe_keys()}\n```" in PAGES["mgehl/README.md"]
 
 
-@pytest.mark.parametrize(
-    "table, page",
-    [
-        ("short", "runs/README.md"),
-        ("error-bands", "runs/README.md"),
-        ("error-random-bands", "runs/README.md"),
-        ("speeds", "configs/README.md"),
-    ],
-)
-def test_a_table_of_findings_is_the_one_the_runs_wrote(table, page):
-    assert (ROOT / "runs" / "tables" / f"{table}.md").read_text().strip() in PAGES[page]
+@pytest.mark.parametrize("page", page_tables.PAGES, ids=lambda path: path.parent.name)
+def test_tables_of_findings_are_those_that_commands_wrote(page):
+    assert page_tables.filled(page.read_text()) == page.read_text()
+
+
+def test_pages_show_such_tables():
+    text = "".join(page.read_text() for page in page_tables.PAGES)
+    assert {"acceptance", "error-bands", "speeds"} <= {mark[1] for mark in page_tables.MARK.findall(text)}
 
 
 def test_first_case_is_a_valid_configuration():
@@ -189,18 +186,3 @@ def test_python_runs(place, monkeypatch, capsys):
     (block,) = re.findall(r"```python\n(import mgehl.*?)```", CASES, flags=re.DOTALL)
     exec(compile(block, "configs/README.md", "exec"), {})
     assert "CONVERGED" in capsys.readouterr().out
-
-
-def test_errors_of_the_schemes_are_those_of_the_study():
-    """Its largest ones at 2, 4 and 8 cells, and the convolutions at 4."""
-    rows = {
-        (row["couette"], row["mean"], row["cells"]): row
-        for row in csv.DictReader((ROOT / "runs/tables/accuracy-summary.csv").open())
-    }
-    schemes = tuple(f"| {couette} | " for couette in ("1B", "2B", "3B"))
-    shown = [line.strip("| ").split(" | ") for line in CASES.splitlines() if line.startswith(schemes)]
-    assert len(shown) == len(rows) // 3
-    for couette, mean, *numbers in shown:
-        own = [rows[couette, mean.split()[0], cells] for cells in ("2", "4", "8")]
-        expected = [row[f"largest {film} error %"] for film in ("central", "minimum") for row in own]
-        assert numbers == [*expected, own[1]["convolutions"]]

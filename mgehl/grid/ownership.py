@@ -8,7 +8,7 @@ import numpy as np
 
 MIN_LINES = 4
 """Lines that a rank which works on a grid has at the least. A halo needs 2, the bands of y-lines as many as
-they reach, 4. By the model of `study ranks`, for 129 to 16385 nodes on 20 to 512 ranks, 4 and 8 are equally
+they reach, 4. By a model of messages, for 129 to 16385 nodes on 20 to 512 ranks, 4 and 8 are equally
 fast; with 2 an iteration takes up to a fifth longer, for the messages, and with 16 up to a third, for ranks
 that are idle."""
 

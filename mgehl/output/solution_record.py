@@ -9,7 +9,7 @@ from mgehl.output.stored import result_from
 
 
 def record_of(solution):
-    """(plain data, {name: array}) of a `Solution` with whole fields."""
+    """(plain data, {name: array}) of a `Solution` with whole fields, or without any."""
     plain = {
         "configuration": solution.config.as_toml_tables(),
         "rows": solution.rows,
@@ -20,19 +20,19 @@ def record_of(solution):
 
 
 def solution_from(plain, arrays):
-    """The `Solution` of which `record_of` made these; its fields are whole, and here."""
+    """The `Solution` of which `record_of` made these; its fields, if it had any, are whole, and here."""
     config = config_from_tables(plain["configuration"])
     contact = contact_from(config)
-    fields, result = fields_from(arrays), result_from(plain["result"], config)
-    mesh = mesh_from(config, contact)
-    if fields.P.shape != (mesh.ny, mesh.nx):
+    fields = fields_from(arrays) if arrays else None
+    result, mesh = result_from(plain["result"], config), mesh_from(config, contact)
+    if fields and fields.P.shape != (mesh.ny, mesh.nx):
         raise ValueError("its fields are not of its grid")
     return Solution(config, contact, mesh, fields, plain["rows"], result, plain["H0"], local=fields)
 
 
 def arrays_of(fields):
-    """{name: array} of `Fields`."""
-    return {name: array for name, array in vars(fields).items() if array is not None}
+    """{name: array} of `Fields`; empty of none."""
+    return {name: array for name, array in vars(fields).items() if array is not None} if fields else {}
 
 
 def fields_from(arrays):

@@ -42,7 +42,7 @@ def set_up(config):
 OF_SMOOTH, OF_ROUGH = "3B", "3L"
 """The Couette flow's schemes of smooth and of rough bodies where the configuration names none. Behind a
 peak the film falls to nothing from one node to the next; without limits it might be less than none. By 1B
-it stays a film, too, but on a usual grid one that is 6 to 15 % too thick (`mgehl study peaks`), and of a
+it stays a film, too, but on a usual grid one that is 6 to 15 % too thick, and of a
 short wave twice as thick (`tests/solver/test_rough.py`)."""
 
 

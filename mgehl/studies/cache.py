@@ -14,15 +14,11 @@ from mgehl.version import VERSION
 
 FOLDER = "points"
 
-COMPUTING = ("model", "discretization", "kinds", "grid", "multigrid", "solver", "run.py",
-             "output/domain.py", "output/resolution.py", "output/edge_result.py", "output/dry_result.py",
-             "output/film_error.py", "output/gap_error.py", "output/mixed_result.py", "output/result.py",
-             "output/surface.py", "output/wedge_result.py",
-             "output/solution.py", "output/users_axes.py", "studies/branch.py")  # fmt: skip
-"""Layers and modules that make a point: after a change in one of them points are computed anew."""
-
-FORMAT = 1
-"""Version of a point's file; files of another version are not read."""
+COMPUTING = (
+    *(f"{layer}/**/*.py" for layer in ("model", "discretization", "kinds", "grid", "multigrid", "solver")),
+    *("output/*.py", "run.py", "studies/branch.py"),
+)
+"""Modules that make a point: after a change in one of them points are computed anew."""
 
 _POINT = re.compile(r"[0-9a-f]{24}\.npz")
 
@@ -37,9 +33,8 @@ def key_of(description):
 def code():
     """A hash of what is `COMPUTING`."""
     root, digest = Path(__file__).parents[1], hashlib.sha256()
-    for name in COMPUTING:
-        path = root / name
-        for module in sorted(path.rglob("*.py")) if path.is_dir() else [path]:
+    for pattern in COMPUTING:
+        for module in sorted(root.glob(pattern)):
             digest.update(module.read_bytes())
     return digest.hexdigest()
 
@@ -84,12 +79,10 @@ class PointCache:
     def _read(self, key, made):
         try:
             record, arrays, is_whole = unpacked(self._folder / f"{key}.npz")
-            if not is_whole or record["format"] != FORMAT or record["key"] != key:
-                return None
-            return made(record["point"], arrays)
+            return made(record["point"], arrays) if is_whole and record["key"] == key else None
         except Exception:  # there is none, or it is damaged: what that raises is anybody's guess
             return None
 
     def _write(self, key, record):
         plain, arrays = record()
-        save(self._folder / f"{key}.npz", {"format": FORMAT, "key": key, "point": plain}, arrays)
+        save(self._folder / f"{key}.npz", {"key": key, "point": plain}, arrays)

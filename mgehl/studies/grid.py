@@ -8,7 +8,7 @@ import numpy as np
 from mgehl.discretization.status import CONTACT
 from mgehl.model.hertz import hertz_pressure
 from mgehl.output.words import span
-from mgehl.studies.study import merged, observed_order, papers_grid, plausible, richardson
+from mgehl.studies.study import PAPER, merged, observed_order, papers_grid, plausible, richardson, yes
 
 NODES = (257, 513, 1025)
 CONTACT_SPEED, FILM_SPEED = 5e-6, 7.5e-3
@@ -17,15 +17,12 @@ CONTACT_SPEED, FILM_SPEED = 5e-6, 7.5e-3
 INSIDE = 0.9
 """Radius in a within which the contact pressure is compared: at the edge it is a square root."""
 
-SOLVER = {"solver": {"squeeze": 3.0}}
-
 
 def run(study):
     """Solve both cases on every grid; write the tables `contact` and `film` and Figures 11 to 13."""
     nodes = study.nodes or NODES
-    study.cases = 2 * len(nodes)
-    dry = [_solve(study, n, CONTACT_SPEED, "contact") for n in nodes]
-    wet = [_solve(study, n, FILM_SPEED, "film") for n in nodes]
+    dry = [each for _, each in study.solved(_cases(nodes, CONTACT_SPEED, "contact"), must_converge=False)]
+    wet = [each for _, each in study.solved(_cases(nodes, FILM_SPEED, "film"), must_converge=False)]
     profiles = study.comm.bcast([Profile(each) for each in dry] if study.first else None)
     study.write_table("contact", _contact_rows(dry, profiles))
     study.write_table("film", _film_rows(wet))
@@ -33,6 +30,15 @@ def run(study):
 
     study.draw("figures-11-12", figures.against_hertz, profiles)
     study.draw("figure-13", figures.before_interface, profiles)
+
+
+def _cases(nodes, speed, start):
+    solver = {"start": start} | ({"squeeze": 3.0} if start == "film" else {})
+    case = merged(PAPER, {"motion": {"speed": speed}, "solver": solver})
+    return {
+        f"{n} nodes, {1e3 * speed:g} mm/s, from {start}": merged(case, {"grid": papers_grid(n)})
+        for n in nodes
+    }
 
 
 class Profile:
@@ -52,54 +58,49 @@ class Profile:
         self.largest_inside = float(np.abs(difference[inside]).max())
         self.largest = float(np.abs(difference).max())
 
-
-def _solve(study, nodes, speed, start):
-    case = {"grid": papers_grid(nodes), "motion": {"speed": speed}, "solver": {"start": start}}
-    tables = merged(SOLVER, case) if start == "film" else case
-    return study.solve(f"{nodes} nodes, {1e3 * speed:g} mm/s, from {start}", tables, must_converge=False)
+    @property
+    def before_contact(self):
+        """Fluid pressure at the last node before the contact on Y = 0."""
+        contact = np.flatnonzero(self.status[0] == CONTACT)
+        return self.P[0][contact[0] - 1] if len(contact) else float("nan")
 
 
 def _contact_rows(solutions, profiles):
-    rows = []
-    for k, (solution, profile) in enumerate(zip(solutions, profiles, strict=True)):
-        result = solution.result
-        order = (
-            observed_order(profiles[k - 1].largest_inside, profile.largest_inside) if k else float("nan")
-        )
-        beside = _before_contact(profile)
+    rows, before = [], None
+    for solution, profile in zip(solutions, profiles, strict=True):
+        contact = solution.result.contact
+        order = observed_order(before.largest_inside, profile.largest_inside) if before else None
         rows.append(
             _common(solution)
             | {
-                "contact on X": span(result.contact.x_nodes),
-                "on Y": span(result.contact.y_nodes),
-                "contact/Hertz area": f"{result.contact.area_fraction:.5f}",
-                "load on contact": f"{result.contact.load_fraction:.6f}",
+                "contact on X": span(contact.x_nodes),
+                "on Y": span(contact.y_nodes),
+                "contact/Hertz area": f"{contact.area_fraction:.5f}",
+                "load on contact": f"{contact.load_fraction:.6f}",
                 "P - Hertz inside 0.9 a": f"{profile.largest_inside:.2e}",
-                "order": f"{order:.2f}" if k else "",
+                "order": "" if order is None else f"{order:.2f}",
                 "anywhere": f"{profile.largest:.2e}",
-                "P before contact": f"{beside:.2e}",
-                "largest gap nm": f"{result.contact.largest_gap_nm:.1e}",
+                "P before contact": f"{profile.before_contact:.2e}",
+                "largest gap nm": f"{contact.largest_gap_nm:.1e}",
             }
         )
+        before = profile
     return rows
 
 
 def _film_rows(solutions):
-    rows = []
-    for k, solution in enumerate(solutions):
-        result = solution.result
-        found = [each.result for each in solutions[max(0, k - 2) : k + 1]]
-        rows.append(
-            _common(solution)
-            | {
-                "central nm": f"{result.central_film_nm:.4f}",
-                "minimum nm": f"{result.minimum_film_nm:.4f}",
-                "contact nodes": str(result.contact.nodes),
-                "central: limit, order": _limit(found, "central_film_nm"),
-                "minimum: limit, order": _limit(found, "minimum_film_nm"),
-            }
-        )
-    return rows
+    results = [each.result for each in solutions]
+    return [
+        _common(solution)
+        | {
+            "central nm": f"{solution.result.central_film_nm:.4f}",
+            "minimum nm": f"{solution.result.minimum_film_nm:.4f}",
+            "contact nodes": str(solution.result.contact.nodes),
+            "central: limit, order": _limit(results[: k + 1], "central_film_nm"),
+            "minimum: limit, order": _limit(results[: k + 1], "minimum_film_nm"),
+        }
+        for k, solution in enumerate(solutions)
+    ]
 
 
 def _common(solution):
@@ -108,7 +109,7 @@ def _common(solution):
     inequality, resolution = result.other_inequality, result.resolution
     return {
         "grid": str(solution.mesh.nx),
-        "settled": "yes" if result.settled else "no",
+        "settled": yes(result.settled),
         "Eq. 2 broken": f"{inequality.violations} of {inequality.checked}",
         "inlet cells": f"{resolution.inlet_cells:.2f}",
         "verdict": resolution.verdict,
@@ -118,15 +119,11 @@ def _common(solution):
     }
 
 
-def _before_contact(profile):
-    """Fluid pressure at the last node before the contact on Y = 0."""
-    contact = np.flatnonzero(profile.status[0] == CONTACT)
-    return profile.P[0][contact[0] - 1] if len(contact) else float("nan")
-
-
 def _limit(found, film):
-    """Richardson's limit and order from three grids, if all have a full film and the order is one."""
-    if len(found) < 3 or any(each.contact.nodes for each in found):
+    """Richardson's limit and order from the last three grids, if all have a full film and the order is
+    one."""
+    last = found[-3:]
+    if len(last) < 3 or any(each.contact.nodes for each in last):
         return ""
-    value, order = richardson([getattr(each, film) for each in found])
+    value, order = richardson([getattr(each, film) for each in last])
     return f"{value:.3f}, {order:.2f}" if plausible(order) else "not to be told yet"

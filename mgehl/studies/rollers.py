@@ -1,23 +1,19 @@
 """Rough line contacts drawn at random: rollers, gears and cams, with finishes that run across the motion.
 
-No oil can flow around such a peak. As in study `machine`, domain, scheme and start are left to mgehl.
+No oil can flow around such a peak. Otherwise they are drawn as those of study `machine`.
 """
 
-from mgehl.studies.drawn import (
+from mgehl.studies.chance import by_logarithm, run_drawn
+from mgehl.studies.machine import (
     RADIUS,
-    SPEED,
-    bodies,
-    finished,
-    found,
-    layers,
     modulus_and_pressure,
-    oil,
     p_h_of_one,
-    run_drawn,
+    row_of,
     self_affine,
     several,
+    smooth_case,
+    with_surface,
 )
-from mgehl.studies.rough_ball import by_logarithm
 
 NODES, CASES = 1025, 80
 
@@ -37,12 +33,7 @@ def draw(cases, seed):
 
 def _drawn(chance, number):
     """One case: a cylinder and its oil first, then a roughness for their film and their contact."""
-    smooth = {
-        "contact": _cylinder(chance) | layers(chance),
-        "lubricant": oil(chance),
-        "motion": {"speed": by_logarithm(chance, *SPEED)},
-    }
-    return finished(chance, number, smooth, surface_of, NODES, SHORTEST)
+    return with_surface(chance, number, smooth_case(chance, _cylinder(chance)), surface_of, NODES, SHORTEST)
 
 
 def _cylinder(chance):
@@ -59,7 +50,7 @@ def surface_of(chance, number, rms, shortest):
     return self_affine(chance, number, rms, shortest)
 
 
-def row(case, contact, result):
-    """Text of one case, from its contact and its `Result`."""
+def row(case, solution):
+    """Text of one case."""
     profile = "waves" if case.tables["surface"]["kind"] == "waviness" else "random"
-    return bodies(case, contact) | {"profile": profile} | found(case, result)
+    return row_of(case, solution, {"profile": profile})

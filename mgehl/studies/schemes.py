@@ -6,10 +6,10 @@ listed, and limits are taken of the film with the saw-tooth averaged out.
 """
 
 from mgehl.discretization.couette import SCHEMES
-from mgehl.studies.study import merged, papers_grid, plausible, richardson
+from mgehl.studies.study import PAPER, merged, papers_grid, plausible, richardson, yes
 
 NODES = (65, 129, 257, 513)
-BASE = {"motion": {"speed": 1.0}}
+BASE = merged(PAPER, {"motion": {"speed": 1.0}})
 
 
 def run(study):
@@ -18,21 +18,25 @@ def run(study):
     study.cases = len(SCHEMES) * len(nodes)
     rows, films = [], {}
     for couette in SCHEMES:
-        solutions = [_solve(study, couette, n) for n in nodes]
+        solutions = [each for _, each in study.solved(_cases(couette, nodes))]
         if study.first:
             films[couette] = [_films(solution) for solution in solutions]
             rows += [_row(couette, *each) for each in zip(solutions, films[couette], strict=True)]
-            if len(nodes) >= 3:
-                rows.append(_limit_row(couette, rows[-1], films[couette]))
+            if len(solutions) == len(nodes) >= 3:
+                rows.append(_limit_row(couette, films[couette]))
     study.write_table("films", rows)
     from mgehl.studies import film_figures
 
     study.draw("films", film_figures.schemes, nodes, films)
 
 
-def _solve(study, couette, nodes):
-    tables = merged(BASE, {"grid": papers_grid(nodes), "discretization": {"couette": couette}})
-    return study.solve(f"{couette}, {nodes} nodes", tables)
+def _cases(couette, nodes):
+    return {
+        f"{couette}, {n} nodes": merged(
+            BASE, {"grid": papers_grid(n), "discretization": {"couette": couette}}
+        )
+        for n in nodes
+    }
 
 
 def _films(solution):
@@ -49,26 +53,26 @@ def saw_tooth(solution):
 
 def _row(couette, solution, films):
     result, nodes = solution.result, solution.mesh.nx
-    finest = [row for row in solution.rows if row["grid"] == nodes]
+    finest = [row["linear_iterations"] for row in solution.rows if row["grid"] == nodes]
     return {
         "couette": couette,
         "nodes": str(nodes),
-        "converged": "yes" if result.converged else "no",
+        "converged": yes(result.converged),
         "central nm": f"{result.central_film_nm:.4f}",
         "saw-tooth nm": f"{saw_tooth(solution):.4f}",
         "central averaged nm": f"{films[0]:.4f}",
         "minimum nm": f"{films[1]:.4f}",
         "residual": f"{result.residual:.1e}",
-        "most GMRES iterations": str(max(row["linear_iterations"] for row in finest)),
+        "most GMRES iterations": str(max(finest)),
         "convolutions": f"{result.work.convolutions:.0f}",
     }
 
 
-def _limit_row(couette, like, films):
+def _limit_row(couette, films):
     """Richardson's limits from the three finest grids, where their differences show an order."""
     texts = []
     for values in zip(*films, strict=True):
         limit, order = richardson(values)
         texts.append(f"{limit:.2f} (order {order:.1f})" if plausible(order) else "not to be told yet")
-    empty = dict.fromkeys(like, "") | {"couette": couette, "nodes": "limit"}
-    return empty | {"central averaged nm": texts[0], "minimum nm": texts[1]}
+    names = "couette", "nodes", "central averaged nm", "minimum nm"
+    return dict(zip(names, (couette, "limit", *texts), strict=True))

@@ -1,4 +1,8 @@
-"""What every study does: solve cases one after the other, say so, write tables and pictures."""
+"""What every study does: solve named configurations, keep their points, write tables and pictures.
+
+A study is a module with `run(study)`: named configurations go to `Study.solved`, what comes back becomes
+rows of tables, and pictures where there are any.
+"""
 
 import time
 from dataclasses import dataclass, field, replace
@@ -9,7 +13,7 @@ from pathlib import Path
 from mpi4py import MPI
 
 from mgehl.config import config_from_tables
-from mgehl.errors import OutputError, one_line
+from mgehl.errors import OutputError, UserError, one_line
 from mgehl.output.drawn_table import drawn
 from mgehl.output.files import on_first_rank
 from mgehl.output.solution_record import record_of, solution_from
@@ -20,10 +24,10 @@ from mgehl.saying import columns, complain, say
 from mgehl.studies.cache import PointCache, key_of
 
 PAPER = {"discretization": {"couette": "1B", "face_mobility": "arithmetic"}}
-"""What the paper differences by, and a study that does not say otherwise."""
+"""What the paper differences by."""
 
 BEST = {"couette": "3B", "face_mobility": "linear-gap"}
-"""What a case of one's own is differenced by."""
+"""What a smooth case of one's own is differenced by."""
 
 PLAUSIBLE_ORDERS = (0.5, 3.0)
 """Orders outside of this range come from values that are too far from their limit to tell it."""
@@ -33,7 +37,7 @@ PAPERS_DOMAIN = {"x": [-1.9, 1.3], "y": [-1.5, 1.5]}
 
 @dataclass
 class Study:
-    """A study's directory and grids; cases are solved on `comm`, rank 0 speaks and writes."""
+    """A study's directory and what was asked of it; `comm` solves its cases, rank 0 speaks and writes."""
 
     directory: Path
     comm: MPI.Comm
@@ -41,21 +45,21 @@ class Study:
     """Nodes along each side, coarsest first; empty for the study's own choice."""
     speak: bool = True
     cases: int = 0
-    """How many cases there will be. A study that sets it before the first tells the time left."""
-    failures: int = field(default=0, init=False)
-    """Cases that had to converge and did not."""
+    """How many there will be at the least, for the time left."""
     branch: str = "both"
     """Branches that are wanted of a study of both: "down", "up" or "both"."""
-    mean: str = "arithmetic"
-    """Mean of the mobility, for a study that follows one."""
-    home: Path | None = None
-    """Directory of its points where it is not that of tables and pictures."""
-    boundary_film: float | None = None
-    """In m, for study rough; None for its own choice."""
+    settings: dict = field(default_factory=dict)
+    """Nested tables that every case has besides its own, with authority over them."""
     wanted: int | None = None
     """Random cases of studies that draw some; None for its own choice."""
     seed: int | None = None
     """By which it draws them."""
+    home: Path | None = None
+    """Directory of its points where it is not that of tables and pictures."""
+    lost: dict = field(default_factory=dict, init=False)
+    """Why cases have no answer at all, by their names."""
+    failures: int = field(default=0, init=False)
+    """Cases that had to converge and did not."""
     _done: int = field(default=0, init=False)
     _started: float = field(default_factory=time.perf_counter, init=False)
 
@@ -64,21 +68,54 @@ class Study:
         """True on the rank that writes; fields of solutions are whole there."""
         return self.comm.rank == 0
 
-    def solve(self, title, tables, must_converge=True):
+    def solved(self, cases, **how):
+        """Solve configurations, {name: nested tables}, one after the other; yield (name, `Solution`).
+
+        A case that cannot be solved is said, remembered in `lost` and passed. Raises ConfigError before the
+        first is solved if one cannot be used. `how` as of `solve`.
+        """
+        for tables in cases.values():
+            self.config(tables)
+        self.cases = max(self.cases, self._done + len(cases))
+        for name, tables in cases.items():
+            try:
+                solution = self.solve(name, tables, **how)
+            except OutputError:
+                raise
+            except UserError as error:
+                self.lost[name] = str(error)
+                self.failures += 1
+                self._done += 1
+                if self.first:
+                    complain(f"{name}: not solved: {error}")
+            else:
+                yield name, solution
+
+    def solve(self, title, tables, must_converge=True, with_fields=True):
         """Solve the configuration of nested `tables`; return the `Solution`.
 
         Films get no bands unless the tables ask for them: studies compare grids themselves. Where a case
-        without a solution is an answer, too, it does not make the study a failure.
+        without a solution is an answer, too, it does not make the study a failure. Without fields, points
+        are small.
         """
-        config = _config(tables)
+        config = self.config(tables)
         key = key_of(config.as_toml_tables())
         solution = self.cache.load(key, solution_from)
         if solution is None:
             solution = solve(config, self.comm)
+            solution = solution if with_fields else solution.shared()
             self.cache.store(key, partial(record_of, solution))
         self.failures += must_converge and not solution.result.converged
         self.tell(title, solution.result, must_converge)
         return solution
+
+    def config(self, tables):
+        """The configuration of a case; its films get no bands where the tables say nothing of them."""
+        tables = merged(tables, self.settings)
+        config = config_from_tables(tables)
+        if "error" in tables.get("solver", {}) or not config.kind.is_loaded:
+            return config
+        return replace(config, solver=replace(config.solver, error=False))
 
     @cached_property
     def cache(self):
@@ -86,17 +123,23 @@ class Study:
         return PointCache(self.home or self.directory, self.comm)
 
     def tell(self, title, result, must_converge=True):
-        """Count a finished case and say how long the others will take."""
+        """Say what came of a finished case."""
+        none = "NOT CONVERGED" if must_converge else "no solution, which is an answer here"
+        self._tell(title, "" if result.converged else f"  {verdict(result, none)}")
+
+    def _tell(self, title, what):
+        """Say a case, and how long the others will take."""
         self._done += 1
         if self.first and self.speak:
             spent = time.perf_counter() - self._started
             left = spent / self._done * max(self.cases - self._done, 0)
-            # How many points a bracket takes is not known before.
-            when = f"/{self.cases}  {left:5.0f} s left" if self.cases else f"  after {spent:5.0f} s"
-            say(f"{self._done:3d}{when}  {title}{_verdict(result, must_converge)}")
+            say(f"{self._done:3d}/{max(self.cases, self._done)}  {left:5.0f} s left  {title}{what}")
 
     def write_table(self, name, rows):
-        """Write rows (dictionaries of text) as NAME.csv and NAME.md, and print them (collective)."""
+        """Write rows (dictionaries of text) as NAME.csv and NAME.md, and print them (collective).
+
+        Columns are those of all rows; nothing is written of no row.
+        """
         on_first_rank(self.comm, self._write_table, name, rows)
 
     def draw(self, name, function, *arguments):
@@ -104,14 +147,17 @@ class Study:
         on_first_rank(self.comm, self._draw, name, function, arguments)
 
     def _write_table(self, name, rows):
-        text = markdown(rows, list(rows[0]))
+        if not rows:
+            return
+        heads = list(dict.fromkeys(head for row in rows for head in row))
+        rows = [dict.fromkeys(heads, "") | row for row in rows]
         try:
             write_csv(self.directory / f"{name}.csv", rows)
         except OSError as error:
             raise OutputError(f"{self.directory}: cannot be written: {error}") from None
-        write_whole(self.directory / f"{name}.md", text + "\n")
+        write_whole(self.directory / f"{name}.md", markdown(rows, heads) + "\n")
         if self.speak:
-            say(f"\n{name}\n\n{drawn(rows, list(rows[0]), columns())}\n")
+            say(f"\n{name}\n\n{drawn(rows, heads, columns())}\n")
 
     def _draw(self, name, function, arguments):
         path = self.directory / f"{name}.png"
@@ -124,29 +170,16 @@ class Study:
                 say(f"picture {path.name}")
 
 
-def _config(tables):
-    """The configuration of a case; its films get no bands where the tables say nothing of them."""
-    config = config_from_tables(merged(PAPER, tables))
-    if "error" in tables.get("solver", {}) or not config.kind.is_loaded:
-        return config
-    return replace(config, solver=replace(config.solver, error=False))
-
-
-def _verdict(result, must_converge):
-    """Words after a case that did not converge; empty where it did. A state that settled and breaks Eq. 2
-    is called that. Where the study asks whether there is a solution, none is no failure.
-    """
+def verdict(result, otherwise="NOT CONVERGED"):
+    """Converged, or in doubt or `otherwise` and why."""
     if result.converged:
-        return ""
-    other = "NOT CONVERGED" if must_converge else "no solution, which is an answer here"
-    return f"  {result.doubt.upper() if result.settled else other}: {result.reason}"
-
-
-def verdict(found):
-    """Converged, or not a result and why."""
-    if found.converged:
         return "converged"
-    return f"{found.doubt if found.settled else 'NOT CONVERGED'}: {found.reason}"
+    return f"{result.doubt if result.settled else otherwise}: {result.reason}"
+
+
+def yes(holds):
+    """As tables have it."""
+    return "yes" if holds else "no"
 
 
 def papers_grid(nodes):

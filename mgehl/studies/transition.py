@@ -7,7 +7,7 @@ discrete equations.
 import numpy as np
 
 from mgehl.studies.branch import Branches
-from mgehl.studies.study import papers_grid
+from mgehl.studies.study import PAPER, merged, papers_grid, yes
 
 FASTEST, SLOWEST, COUNT = 7.5e-3, 5e-6, 25
 """m/s: the range of [Liu sec. 4.3]."""
@@ -26,22 +26,21 @@ PAPER_RADIUS = 19.05e-3
 
 
 def run(study):
-    """Walk the branches; write the table `transition` and the pictures of Figure 14."""
+    """Walk the branches; write the table `transition-NODES` and the pictures of Figure 14."""
     nodes = study.nodes or (COARSE,)
     directions = ("down", "up") if study.branch == "both" else (study.branch,)
     study.cases = len(nodes) * len(directions) * COUNT
     for n in nodes:
-        with Branches(study, case(n, study.mean)) as branches:
+        with Branches(study, case(n)) as branches:
             points = []
             for direction in directions:
                 way = speeds(n) if direction == "down" else speeds(n)[::-1]
                 points += branches.walk(direction, way, tuple(points))
-            name = f"transition-{n}" + ("" if study.mean == "arithmetic" else f"-{study.mean}")
-            study.write_table(name, [row(branches, point) for point in points])
+            study.write_table(f"transition-{n}", [row(branches, point) for point in points])
             from mgehl.studies import transition_figures as figures
 
-            study.draw(f"{name}-films", figures.branches, branches, points)
-            study.draw(f"{name}-figure-14", figures.figure_14, branches, points)
+            study.draw(f"transition-{n}-films", figures.branches, branches, points)
+            study.draw(f"transition-{n}-figure-14", figures.figure_14, branches, points)
 
 
 def speeds(nodes):
@@ -50,9 +49,9 @@ def speeds(nodes):
     return [float(f"{speed:.4g}") for speed in np.geomspace(fastest, SLOWEST, COUNT)]
 
 
-def case(nodes, mean="arithmetic"):
+def case(nodes):
     """The tables of the headline contact on a grid."""
-    return {"grid": papers_grid(nodes), "discretization": {"face_mobility": mean}, "solver": STEPS}
+    return merged(PAPER, {"grid": papers_grid(nodes), "solver": STEPS})
 
 
 def row(branches, point):
@@ -74,7 +73,7 @@ def row(branches, point):
         "e^p lubr.": e_p_fluid,
         "e^p solid": e_p_solid,
         "load error": f"{result.load_error:.1e}",
-        "settled": "yes" if result.settled else "no",
+        "settled": yes(result.settled),
         "residual": f"{result.residual:.1e}",
         "central nm": f"{result.central_film_nm + 0.0:.4f}",
         "minimum nm": f"{result.minimum_film_nm + 0.0:.4f}",

@@ -1,11 +1,11 @@
-"""Pictures of the transition: Figure 14, both branches, the bracket of the means, the onset."""
+"""Pictures of the transition: Figure 14, both branches."""
 
 import matplotlib
 import numpy as np
 
 from mgehl.discretization.status import CONTACT
 from mgehl.output.pictures.blocks import Blocks
-from mgehl.output.pictures.style import COLOURS, MARKS, applied, save, subplots
+from mgehl.output.pictures.style import COLOURS, applied, save, subplots
 
 PROFILES = 6
 """Speeds in Figure 14a and b, from the last full film to the first full contact."""
@@ -94,73 +94,6 @@ def _film_map(figure, axes, mesh, point, nm):
     figure.colorbar(image, ax=axes, label="film, nm (black: contact)", extend="max")
     axes.set(aspect="equal", xlim=(-1.2, 1.2), ylim=(-1.2, 1.2), xlabel="X = x/a", ylabel="Y = y/b")
     axes.set_title(f"c  film at {1e3 * point.speed:.3g} mm/s")
-
-
-def bracket(path, nodes, rows):
-    """The films of three means on each grid as a band, with the formulas in it."""
-    with applied():
-        figure, panels = subplots(2, len(nodes), size=(3.4 * len(nodes), 6.6), squeeze=False, sharex=True)
-        for column, n in enumerate(nodes):
-            for panel, film in zip(panels[:, column], ("central", "minimum"), strict=True):
-                for mean, colour, mark in zip(
-                    ("arithmetic", "geometric", "harmonic"), COLOURS, MARKS, strict=False
-                ):
-                    own = [
-                        row
-                        for row in rows
-                        if row["grid"] == str(n) and row["mean"] == mean and row["settled"] == "yes"
-                    ]
-                    x = [float(row["speed mm/s"]) for row in own]
-                    y = [max(float(row[f"{film} nm"]), 1e-3) for row in own]
-                    panel.plot(x, y, mark + "-", color=colour, ms=4, label=mean)
-                speeds, low, high = _band([row for row in rows if row["grid"] == str(n)], film)
-                panel.fill_between(speeds, low, high, color="0.85", zorder=0)
-                formula = {float(row["speed mm/s"]): float(row[f"{film} formula nm"]) for row in rows}
-                panel.plot(sorted(formula), [formula[each] for each in sorted(formula)], "--", color="0.4",
-                           lw=0.9, label="Hamrock-Dowson")  # fmt: skip
-                panel.set(xscale="log", yscale="log", ylim=(1e-2, 200.0), title=f"{n} nodes, {film} film")
-            panels[1, column].set_xlabel("speed, mm/s")
-        for panel in panels[:, 0]:
-            panel.set_ylabel("film, nm (at the bottom: contact)")
-        panels[0, 0].legend(frameon=False)
-        save(figure, path)
-
-
-def _band(rows, film):
-    """Speeds and the smallest and largest film of the means there."""
-    found = {}
-    for row in rows:
-        if row["settled"] == "yes":
-            found.setdefault(float(row["speed mm/s"]), []).append(max(float(row[f"{film} nm"]), 1e-3))
-    speeds = sorted(found)
-    return speeds, [min(found[each]) for each in speeds], [max(found[each]) for each in speeds]
-
-
-def onset(path, rows, sides, powers):
-    """Critical speeds against the spacing, with the fitted powers; the first one's band over `sides`."""
-    with applied():
-        figure, axes = subplots(size=(5.6, 4.2))
-        grids = list(dict.fromkeys(row["dX"] for row in sides))
-        down, _ = powers
-        ends = [_ends([float(row[down]) for row in sides if row["dX"] == dX and row[down]]) for dX in grids]
-        axes.fill_between([float(dX) for dX in grids], *zip(*ends, strict=True), color="0.85", zorder=0,
-                          label="wherever the side cuts a cell")  # fmt: skip
-        for (column, power), colour, mark in zip(powers.items(), COLOURS, MARKS, strict=False):
-            found = [row for row in rows if row[column]]
-            dX = [float(row["dX"]) for row in found]
-            speed = [float(row[column]) for row in found]
-            axes.plot(dX, speed, mark, color=colour, label=f"{column}: power {power:.2f}")
-            if len(found) > 1:
-                axes.plot(dX, speed[-1] * (np.array(dX) / dX[-1]) ** power, "--", color=colour, lw=0.9)
-        axes.set(xscale="log", yscale="log", xlabel="spacing dX", ylabel="speed, mm/s")
-        axes.legend(frameon=False)
-        axes.set_title("The grid decides: critical speeds against the spacing")
-        save(figure, path)
-
-
-def _ends(values):
-    """(smallest, largest), NaN of none."""
-    return (min(values), max(values)) if values else (np.nan, np.nan)
 
 
 def _between_film_and_contact(points):

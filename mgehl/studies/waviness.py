@@ -1,4 +1,4 @@
-"""Waves that stand still in a full film: how they change it, compared with a published line contact.
+"""Waves that stand still in the full film of a line contact: how they change it, beside published numbers.
 
 The contact flattens the waves. What is left is mostly a uniform change of film, made in the inlet: there a
 wave holds back more or less of the flow, depending on where its peaks are. The study tells the response to
@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from mgehl.studies import venner_laws
-from mgehl.studies.study import merged
+from mgehl.studies.study import merged, yes
 
 SMALL = 0.01
 """Amplitude of the waves over the smooth central film: with 0.002 the same four digits."""
@@ -21,9 +21,8 @@ SMALL = 0.01
 WITHIN = 0.5
 """Distance from the centre within which the change of film is looked at: units of the half-width."""
 
-POINT_NODES = (257, 513)
 LENGTHS = (1.0, 0.5)
-"""Of waves on a line, over its half-width."""
+"""Of waves, over the half-width."""
 
 MODULUS, RADIUS, VISCOSITY, ALPHA = 220e9, 12.7e-3, 0.04, 2.2e-8
 
@@ -45,20 +44,6 @@ nodes."""
 GRIDS = (("2B", "arithmetic", 2049), ("3B", "linear-gap", 4097))
 """As the reference has it; and the usual scheme on 4097 nodes."""
 
-POINT = {
-    "contact": {"load": 800.0, "radius_x": RADIUS, "radius_y": RADIUS, "reduced_modulus": 219.78e9},
-    "motion": {"speed": 1.0},
-    "grid": {"x": [-2.5, 1.5], "y": [-2.0, 2.0]},
-    "discretization": {"couette": "3B", "face_mobility": "linear-gap"},
-    "solver": {"start": "film"},
-}
-"""The paper's ball in full film."""
-
-POINT_LENGTHS = (0.5, 0.25)
-"""Over the Hertz radius."""
-
-WAVES = {"across the motion": ("wavelength_x",), "both ways": ("wavelength_x", "wavelength_y")}
-
 
 @dataclass(frozen=True)
 class Response:
@@ -75,13 +60,10 @@ class Response:
 
 
 def run(study):
-    """Solve all; write the tables `line` and `point`."""
-    nodes = study.nodes or POINT_NODES
-    of_lines = len(GRIDS) * len(LINES) * (1 + 4 * len(LENGTHS))
-    study.cases = of_lines + len(nodes) * (1 + 4 * len(WAVES) * len(POINT_LENGTHS))
-    rows = [row for grid in GRIDS for line in LINES for row in _line_rows(study, grid, line)]
+    """Solve all; write the table `line`."""
+    study.cases = len(GRIDS) * len(LINES) * (1 + 4 * len(LENGTHS))
+    rows = [row for grid in GRIDS for line in LINES for row in _rows(study, grid, line)]
     study.write_table("line", rows)
-    study.write_table("point", _against_the_finest(_point_responses(study, nodes)))
 
 
 def line_case(M, L, fluid):
@@ -99,7 +81,7 @@ def line_case(M, L, fluid):
     }  # fmt: skip
 
 
-def _line_rows(study, grid, line):
+def _rows(study, grid, line):
     """Rows of one scheme and contact."""
     (couette, mean, nodes), (M, L, fluid) = grid, line
     scheme = {"couette": couette, "face_mobility": mean}
@@ -107,7 +89,7 @@ def _line_rows(study, grid, line):
     title = f"line M {M:g}, L {L:g}, {couette}, {nodes} nodes"
     smooth = study.solve(title, case)
     for length in LENGTHS:
-        found = respond(study, title, case, smooth, length, ("wavelength_x",))
+        found = respond(study, title, case, smooth, length)
         known = REFERENCE[M, length]
         yield {
             "M": f"{M:g}", "L": f"{L:g}", "fluid": fluid,
@@ -118,28 +100,22 @@ def _line_rows(study, grid, line):
             "reference": f"{known:.4f}",
             "apart %": f"{100.0 * (found.uniform / known - 1.0):+.1f}",
             "wave left/A": f"{found.wave:.4f}",
-            **_cost(found),
+            "convolutions": f"{found.convolutions:.0f}",
+            "converged": yes(found.converged),
         }  # fmt: skip
 
 
-def _cost(found):
-    return {
-        "convolutions": f"{found.convolutions:.0f}",
-        "converged": "yes" if found.converged else "no",
-    }
-
-
-def respond(study, title, case, smooth, length, keys):
-    """The `Response` to waves of a `length` over the semi-axis along the axes of `keys` (collective)."""
+def respond(study, title, case, smooth, length):
+    """The `Response` to waves of a `length` over the half-width (collective)."""
     a = smooth.contact.x_scale
     amplitude = SMALL * 1e-9 * smooth.result.central_film_nm
     changes, results = [], []
     for quarter in (0.0, 0.25):
         films = []
         for half in (0.0, 0.5):
-            surface = {"kind": "waviness", "amplitude": amplitude, "x": (quarter + half) * length * a}
-            surface |= dict.fromkeys(keys, length * a)
-            what = f"{title}, length {length:g}, {' '.join(keys)}, moved {quarter + half:g}"
+            wave = {"wavelength_x": length * a, "x": (quarter + half) * length * a}
+            surface = {"kind": "waviness", "amplitude": amplitude, **wave}
+            what = f"{title}, length {length:g}, moved {quarter + half:g}"
             solution = study.solve(what, merged(case, {"surface": surface}))
             films.append(central_line(solution))
             results.append(solution.result)
@@ -167,43 +143,3 @@ def fitted(X, changes, length):
     parts = np.stack([np.ones_like(wave), wave, wave.conj()], axis=1)
     uniform, along, against = np.abs(np.linalg.lstsq(parts, response, rcond=None)[0])
     return float(uniform), hypot(along, against)
-
-
-def _point_responses(study, nodes):
-    """{(waves, length): [(nodes, smooth film, Response), ...]}, coarse grids first."""
-    found = {}
-    for n in nodes:
-        case, title = merged(POINT, {"grid": {"nodes": n}}), f"point, {n} nodes"
-        smooth = study.solve(title, case)
-        for name, keys in WAVES.items():
-            for length in POINT_LENGTHS:
-                response = respond(study, title, case, smooth, length, keys)
-                found.setdefault((name, length), []).append((smooth, response))
-    return found
-
-
-def _against_the_finest(found):
-    """Rows, each beside the finest grid's."""
-    rows = []
-    for (name, length), grids in found.items():
-        finest = grids[-1][1]
-        for smooth, response in grids:
-            rows.append(
-                {
-                    "waves": name,
-                    "wavelength/a": f"{length:g}",
-                    "nodes": str(smooth.mesh.nx),
-                    "nodes in a wave": f"{length / smooth.mesh.dX:.0f}",
-                    "smooth film nm": f"{smooth.result.central_film_nm:.3f}",
-                    "change of film/A": f"{response.uniform:.4f}",
-                    "from the finest %": _apart(response.uniform, finest.uniform),
-                    "wave left/A": f"{response.wave:.4f}",
-                    "wave from the finest %": _apart(response.wave, finest.wave),
-                    **_cost(response),
-                }
-            )
-    return rows
-
-
-def _apart(value, finest):
-    return f"{100.0 * (value / finest - 1.0):+.1f}"

@@ -117,7 +117,7 @@ def test_a_page_that_cannot_be_written(here, capsys):
 def test_a_study(here, capsys):
     (here / "mine").mkdir()
     (here / "mine" / "films.csv").write_text("couette,central nm\nS2B-vi,393.0\n")
-    write_record(here / "mine", StudyRecord("schemes", (65,), "both", "arithmetic", 1, {"petsc": "3.18.5"}))
+    write_record(here / "mine", StudyRecord("schemes", (65,), 1, {"petsc": "3.18.5"}))
     assert "it has not finished, or an older mgehl wrote it" in refused(["mine"], capsys)
     seal(here / "mine", "study", new_identity(), ["films.csv", "study.json"])
     assert main(["report", "mine"]) == 0

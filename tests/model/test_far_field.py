@@ -6,12 +6,12 @@ from math import pi
 import numpy as np
 import pytest
 from scipy.integrate import dblquad
+from tools.contacts import moes
 
 from mgehl.config import config_from_tables
 from mgehl.kinds import contact_from, mesh_from
 from mgehl.model.far_field import MOST, kapitza_factor, kapitza_load_beyond, missing_share
 from mgehl.model.frame import Frame
-from mgehl.studies.domain import moes
 from mgehl.studies.study import merged
 
 X, Y = (-20.0, 2.0), (-12.0, 12.0)

@@ -1,13 +1,13 @@
 """The domain that "auto" stands for: large enough, and not larger."""
 
 import pytest
+from tools.contacts import line, moes
 
 from mgehl.config import config_from_tables
 from mgehl.kinds import contact_from
 from mgehl.model.contact import RESOLVED_CELLS
 from mgehl.model.room import ALLOWED, NEAREST, PARTS, domain_for
 from mgehl.model.starvation import Starvation
-from mgehl.studies.domain import line, moes
 from mgehl.studies.study import merged
 
 NODES, FARTHEST = 257, 1000.0

@@ -4,12 +4,12 @@ from math import inf
 
 import numpy as np
 import pytest
+from tools.contacts import line, moes
 
 from mgehl.config import config_from_tables
 from mgehl.kinds import contact_from
 from mgehl.model.frame import Frame
 from mgehl.model.starvation import Starvation
-from mgehl.studies.domain import line, moes
 from mgehl.studies.study import merged
 
 WIDE = (-100.0, 100.0)

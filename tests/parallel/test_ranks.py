@@ -37,7 +37,7 @@ from mgehl.solver.settings import NestedSettings, NewtonSettings, SolverSettings
 from mgehl.solver.squeeze import squeeze_rates
 from mgehl.solver.verification import complementarity_error, flux_imbalance
 from mgehl.studies.branch import Branches
-from mgehl.studies.study import Study, merged, papers_grid
+from mgehl.studies.study import PAPER, Study, merged, papers_grid
 from mgehl.studies.wedge import case as wedge_case
 from mgehl.studies.wedge_pocket import case as pocket_case
 
@@ -614,7 +614,7 @@ class TestBranches:
             directory.mkdir(exist_ok=True)
         comm.barrier()
         study = Study(directory, comm, (65,), speak=False)
-        with Branches(study, {"grid": papers_grid(65)}) as branches:
+        with Branches(study, merged(PAPER, {"grid": papers_grid(65)})) as branches:
             return branches.walk("down", [1.0, 0.7]) + branches.walk("up", [0.005, 0.007])
 
 

@@ -1,11 +1,11 @@
 """A light load on oil: its film is the same on domains of any size, for what is carried beyond counts."""
 
 import pytest
+from tools.contacts import moes
 
 import mgehl
 from mgehl.config import config_from_tables
 from mgehl.model.room import interval_on_nodes
-from mgehl.studies.domain import moes
 from mgehl.studies.study import merged
 
 

@@ -2,11 +2,11 @@
 
 import pytest
 from mpi4py import MPI
+from tools.contacts import soft
 
 from mgehl.config import config_from_tables
 from mgehl.kinds import contact_from, mesh_from, settled
 from mgehl.run import solve
-from mgehl.studies.soft import soft
 
 
 def solved(kind, M, L, ratio=1.0):

@@ -7,11 +7,12 @@ import pytest
 from mpi4py import MPI
 
 from mgehl.config import config_from_tables
-from mgehl.errors import OutputError
-from mgehl.run import set_up
-from mgehl.studies.study import BEST, Study, merged, observed_order, richardson
+from mgehl.errors import ConfigError, OutputError, UserError
+from mgehl.run import set_up, solve
+from mgehl.studies.study import BEST, PAPER, Study, merged, observed_order, richardson
 
 FILM = {"motion": {"speed": 1.0}, "grid": {"nodes": 65}}
+SLOWER = {"motion": {"speed": 0.7}}
 
 
 def test_a_case_of_ones_own_is_differenced_by_the_best():
@@ -87,10 +88,45 @@ def test_a_quiet_study_prints_nothing(study, capsys):
 def test_it_says_what_it_solved_and_what_did_not_converge(study, capsys):
     study.cases = 2
     assert study.solve("a film", FILM).result.converged
-    study.solve("too short", merged(FILM, {"solver": {"max_steps": 1}}))
+    study.solve("too short", merged(PAPER, FILM, {"solver": {"max_steps": 1}}))
     first, second = capsys.readouterr().out.splitlines()
     assert first.startswith("  1/2") and first.endswith("a film")
     assert second.startswith("  2/2") and "too short  NOT CONVERGED: residual" in second
+
+
+def test_named_cases_are_solved_in_their_order_and_one_that_cannot_be_is_passed(study, capsys, monkeypatch):
+    def broken(config, comm):
+        if config.grid.nodes == 129:
+            raise UserError("there is no room")
+        return solve(config, comm)
+
+    monkeypatch.setattr("mgehl.studies.study.solve", broken)
+    large = merged(FILM, {"grid": {"nodes": 129}})
+    found = dict(study.solved({"a film": FILM, "large": large, "slower": merged(FILM, SLOWER)}))
+    assert list(found) == ["a film", "slower"] and study.failures == 1
+    assert study.lost == {"large": "there is no room"}
+    assert found["slower"].result.central_film_nm < found["a film"].result.central_film_nm
+    out, err = capsys.readouterr()
+    assert err == "mgehl: large: not solved: there is no room\n"
+    assert [line[:5] for line in out.splitlines()] == ["  1/3", "  3/3"]
+
+
+def test_a_configuration_that_is_none_ends_a_study_before_it_begins(study, capsys):
+    with pytest.raises(ConfigError, match="speeed"):
+        next(study.solved({"a film": FILM, "wrong": {"motion": {"speeed": 1.0}}}))
+    assert capsys.readouterr().out == ""
+
+
+def test_settings_have_authority_over_every_case(study):
+    study.settings = SLOWER
+    assert study.solve("a film", FILM).config.motion.speed == SLOWER["motion"]["speed"]
+
+
+def test_a_point_without_fields_is_small(study):
+    one, again = (study.solve("a film", FILM, with_fields=False) for _ in range(2))
+    assert one.fields is again.fields is None and again.result == one.result and again.rows == one.rows
+    (point,) = (study.directory / "points").iterdir()
+    assert point.stat().st_size < 50_000
 
 
 def test_a_table_that_cannot_be_written_is_one_line(tmp_path):

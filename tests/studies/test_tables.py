@@ -10,7 +10,6 @@ from mgehl.cli import main
 from mgehl.config import config_from_tables
 from mgehl.discretization.couette import SCHEMES
 from mgehl.run import solve
-from mgehl.studies import angle
 from mgehl.studies.study import PAPER, merged, papers_grid
 
 OTHERS = {"points", "study.json", "manifest.json"}
@@ -103,15 +102,6 @@ class TestWedge:
         assert [cell.strip() for cell in lines[-1].strip("|").split("|")] == list(rows[-1].values())
 
 
-def test_inlet(study):
-    """A line contact stays closed where its inlet has less than half a cell, and has a film from one on."""
-    closed, film = read(study("inlet", "129,1025") / "inlet.csv")[:2]
-    assert float(closed["inlet cells"]) < 0.5 and closed["from contact"] == "contact"
-    assert 0.0 < float(closed["p_f/p_d from contact"]) < 1.0 < float(film["inlet cells"])
-    assert film["from film"] == "film" and film["p_f/p_d from film"] == ""
-    assert float(film["minimum nm from film"]) > 10.0
-
-
 def test_schemes(study):
     """One grid: every scheme's film on 65 nodes as a run finds it, no limit."""
     directory = study("schemes", "65")
@@ -128,33 +118,3 @@ def test_schemes(study):
     expected = solve(config_from_tables(merged(PAPER, film)), MPI.COMM_SELF).result.central_film_nm
     assert central["1B"] == pytest.approx(expected, abs=1e-4)
     assert central["2B"] < central["1B"]
-
-
-def test_angle(study, monkeypatch):
-    """On small grids: what is turned beside 0 degrees, films beside formulas, contact node by node."""
-    for name, nodes in (("ELLIPSE", 129), ("CONTACT_CASE", 65)):
-        monkeypatch.setattr(angle, name, merged(getattr(angle, name), {"grid": papers_grid(nodes)}))
-    monkeypatch.setattr(angle, "SCHEMES", ("1B",))
-    monkeypatch.setattr(angle, "ELLIPSE_ANGLES", (0, 45))
-    directory = study("angle", "65")
-    tables = {
-        f"{name}.{kind}" for name in ("circle", "ellipse", "contact", "wide") for kind in ("csv", "md")
-    }
-    assert {path.name for path in directory.iterdir()} == tables | {
-        "films.png",
-    } | OTHERS
-    circle = read(directory / "circle.csv")
-    assert [row["angle"] for row in circle] == ["0", "15", "30", "45"]
-    along = circle[0]
-    for row in circle:
-        off = float(row["central nm"]) - float(along["central nm"])
-        assert row["angle"] == "0" or float(row["central off 0 degrees nm"]) == pytest.approx(off, abs=2e-4)
-        ratio = float(row["convolutions"]) / float(along["convolutions"])
-        assert float(row["over 0 degrees"]) == pytest.approx(ratio, abs=0.03)
-    along, oblique = read(directory / "ellipse.csv")
-    assert (along["angle"], oblique["angle"]) == ("0", "45")
-    assert (along["radius along mm"], along["radius across mm"]) == ("10.000", "83.000")
-    assert oblique["radius along mm"] == oblique["radius across mm"]
-    assert along["converged"] == oblique["converged"] == "yes"
-    assert [row["other than at 0 degrees"] for row in read(directory / "contact.csv")] == ["0", "0"]
-    assert [row["nodes"] for row in read(directory / "wide.csv")] == ["129", "129"]

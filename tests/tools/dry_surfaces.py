@@ -4,8 +4,7 @@ from dataclasses import dataclass
 
 from mgehl.model.surface import Surface
 from mgehl.studies import dry_surfaces
-from mgehl.studies.dry import SURFACES
-from mgehl.studies.dry_reference import REFERENCE
+from mgehl.studies.dry import REFERENCE, SURFACES
 
 CONVOLUTIONS = {
     ("smooth", 129): 18, ("smooth", 257): 19, ("wavy 50 nm", 129): 20, ("wavy 50 nm", 257): 24,

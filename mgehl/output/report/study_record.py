@@ -1,4 +1,4 @@
-"""study.json: which study wrote a directory, on which grids, with which software."""
+"""study.json: which study wrote a directory, what it was asked for, with which software."""
 
 import json
 from dataclasses import asdict, dataclass
@@ -14,19 +14,18 @@ NAME = "study.json"
 
 @dataclass(frozen=True)
 class StudyRecord:
-    """What was asked for, and what computes it."""
+    """What was asked for, and what computes it; what is empty or None is the study's own."""
 
     name: str
     nodes: tuple
-    """Grids that were asked for; empty for the study's own."""
-    branch: str
-    mean: str
     ranks: int
     versions: dict
-    boundary_film: float | None = None
-    """In m, that study rough was asked for; None for its own, and of other studies."""
+    branch: str = "both"
+    """Of study transition."""
+    settings: tuple = ()
+    """Of --set, "section.key=value", for every case."""
     cases: int | None = None
-    """That study mixed was asked for, as `seed`; None as above."""
+    """How many are drawn by chance, as `seed`."""
     seed: int | None = None
 
 

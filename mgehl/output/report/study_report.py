@@ -93,11 +93,10 @@ def _inches(png):
 
 def _origin(record):
     grids = ", ".join(map(str, record.nodes)) or "the study's own"
-    rows = [("grids", grids), ("branches", record.branch), ("mean of the mobility", record.mean)]
-    if record.boundary_film is not None:
-        rows += [("boundary film", f"{1e9 * record.boundary_film:.4g} nm")]
-    drawn = ("cases", record.cases), ("seed", record.seed)
-    rows += [(name, str(number)) for name, number in drawn if number is not None]
-    rows += [("ranks", str(record.ranks))]
+    asked = {
+        "grids": grids, "branches": record.branch, "settings": ", ".join(record.settings) or None,
+        "cases": record.cases, "seed": record.seed, "ranks": record.ranks,
+    }  # fmt: skip
+    rows = [(name, str(value)) for name, value in asked.items() if value is not None]
     rows += [(name, Cell(text, "code")) for name, text in record.versions.items()]
     return Section("origin", "How it was made", (table("Options and software", ("what", "value"), rows),))

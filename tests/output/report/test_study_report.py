@@ -11,7 +11,7 @@ from mgehl.output.report.study_record import StudyRecord, read_record, write_rec
 from mgehl.output.report.study_report import is_study, study_report
 
 STUDIES = {"wedge": "what wedge is", "grid": "what grid is"}
-RECORD = StudyRecord("wedge", (65, 129), "both", "arithmetic", 2, {"mgehl": "0.1.0", "petsc": "3.18.5"})
+RECORD = StudyRecord("wedge", (65, 129), 2, {"mgehl": "0.1.0", "petsc": "3.18.5"})
 
 
 @pytest.fixture

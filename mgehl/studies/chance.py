@@ -1,0 +1,110 @@
+"""Rough contacts drawn by chance, for several studies: how all are solved, and what is said of them.
+
+Scheme, domain and start are left to mgehl, as a user who knows little of them leaves them.
+"""
+
+from dataclasses import dataclass
+from math import log
+
+import numpy as np
+
+from mgehl.studies.study import merged, statistic, verdict
+
+SEED = 2027
+"""No constant of the solver was chosen on the contacts that it draws."""
+
+BALL = {
+    "contact": {"radius_x": 12.7e-3, "radius_y": 12.7e-3, "reduced_modulus": 219.78e9},
+    "surface": {"kind": "self-affine", "longest_wavelength": 200e-6},
+    "grid": {"x": [-2.0, 1.5], "y": [-1.75, 1.75]},
+}
+"""Steel on a ground disc (nested tables of a configuration)."""
+
+RMS, HURST = (20e-9, 400e-9), (0.5, 0.9)
+"""Of such a ball, from, to: roughness in m, Hurst's exponent."""
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """What chance chose for a case; `number` counts from 1 and is the seed of its surface."""
+
+    number: int
+    what: str
+    tables: dict
+    """Its configuration but for the grid's nodes, nested."""
+
+    @property
+    def title(self):
+        return f"{self.number}: {self.what}"
+
+
+def run_drawn(study, name, draw, row, nodes, cases):
+    """Solve what `draw(cases, seed)` finds; write a table of the `row` of each case and a summary.
+
+    On so many `nodes`, and so many `cases`, where the study is not told others.
+    """
+    (nodes,) = study.nodes or (nodes,)
+    drawn = {case.title: case for case in drawn_of(study, draw, cases)}
+    tables = {title: merged(case.tables, {"grid": {"nodes": nodes}}) for title, case in drawn.items()}
+    rows, results = {}, []
+    for title, solution in study.solved(tables, with_fields=False):
+        rows[title] = row(drawn[title], solution)
+        results.append(solution.result)
+    for title, why in study.lost.items():
+        rows[title] = {"case": str(drawn[title].number), "verdict": f"NOT SOLVED: {why}"}
+    study.write_table(name, sorted(rows.values(), key=lambda each: int(each["case"])))
+    study.write_table(f"{name}-summary", [summary(results, len(study.lost))])
+
+
+def drawn_of(study, draw, cases):
+    """What `draw(cases, seed)` finds by the number and the seed that the study was asked for."""
+    return draw(study.wanted or cases, SEED if study.seed is None else study.seed)
+
+
+def by_logarithm(chance, low, high):
+    """A number between two, drawn evenly by its logarithm."""
+    return float(np.exp(chance.uniform(log(low), log(high))))
+
+
+def ball(number, rms, load, speed, hurst, **surface):
+    """The tables of a rough ball, in SI units."""
+    surface |= {"rms": rms, "hurst": hurst, "seed": number}
+    return merged(BALL, {"contact": {"load": load}, "motion": {"speed": speed}, "surface": surface})
+
+
+def said_of_ball(rms, load, speed):
+    """A ball in a few words."""
+    return f"{1e9 * rms:.0f} nm, {load:.0f} N, {1e3 * speed:.3g} mm/s"
+
+
+def answer(result):
+    """Text of who carries the load, of the oil that was made, of work and verdict."""
+    mixed = result.mixed
+    return {
+        "load on contact": f"{mixed.contact_load_share:.4f}",
+        "load on solids": f"{mixed.solid_load_fraction:.4f}",
+        "made": f"{result.mass.made_share:.1e}",
+        "convolutions": f"{result.work.convolutions:.1f}",
+        "steps": str(result.work.steps),
+        "verdict": verdict(result),
+    }
+
+
+def summary(results, lost=0):
+    """The row of the summary of these `Result`s, and of how many have none: verdicts, work, oil, bands."""
+    converged = [each for each in results if each.converged]
+    settled = sum(each.settled for each in results)
+    all_work, work = ([each.work.convolutions for each in some] for some in (results, converged))
+    banded = [each for each in converged if each.mixed.error and each.mixed.error.mean_nm is not None]
+    return {
+        "cases": str(len(results) + lost),
+        "converged": str(len(converged)),
+        "in doubt": str(settled - len(converged)),
+        "not settled": str(len(results) + lost - settled),
+        "convolutions, mean": statistic(np.mean, all_work),
+        "median": statistic(np.median, all_work),
+        "most": statistic(np.max, all_work),
+        "mean of the converged": statistic(np.mean, work),
+        "largest made": statistic(np.max, (each.mass.made_share for each in converged), "{:.1e}"),
+        "with a band about the mean gap": str(len(banded)),
+    }
