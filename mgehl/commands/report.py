@@ -30,13 +30,13 @@ def add(commands):
 def execute(options):
     """Write the page and say where it is."""
     from mgehl.output.files import REPORT
-    from mgehl.output.report.page import write_page
+    from mgehl.output.whole_file import write_whole
 
     directory = Path(options.directory)
     path = Path(options.out) if options.out else directory / REPORT
     if options.out and path.exists() and not options.force:
         raise OutputError(f"{path} exists: add --force to replace it, or choose another with --out")
-    write_page(path, _page(directory))
+    write_whole(path, _page(directory))
     print(f"report {path}")
     return CONVERGED
 
@@ -44,6 +44,7 @@ def execute(options):
 def _page(directory):
     from mgehl.output.directory import check_result
     from mgehl.output.manifest import read_manifest
+    from mgehl.output.report.page import render
     from mgehl.output.report.run_report import report
     from mgehl.output.report.study_record import read_record
     from mgehl.output.report.study_report import is_study, study_report
@@ -53,5 +54,5 @@ def _page(directory):
     if (found and found.kind == "study") or (not found and is_study(directory)):
         if found or read_record(directory):  # else tables that somebody put together
             check_result(directory, "study")
-        return study_report(directory, STUDIES)
+        return render(study_report(directory, STUDIES))
     return report(read_run(directory), directory.resolve().name)

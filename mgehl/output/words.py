@@ -73,7 +73,7 @@ def loaded_words(result, verbose=True):
         *(_errors(result) if verbose else ()),
         *_overlap(result.overlap),
         *_contact(result, verbose),
-        f"  inlet: {resolution.inlet_cells:.2f} cells, {_advice(result)[resolution.verdict]}",
+        f"  inlet: {resolution.inlet_cells:.2f} cells, {advice(result)[resolution.verdict]}",
         f"  domain: {_domain(result)}",
         *(f"  load: {words}" for words in beyond_words(resolution.load_beyond_percent)),
         *((f"  surface: {shown}",) if shown else ()),
@@ -189,7 +189,7 @@ ADVICE_ROUGH = ADVICE | {
 """Of rough bodies, whose peaks stand where they stand on every grid that shows them."""
 
 
-def _advice(result):
+def advice(result):
     """What to think of an inlet, by its verdict."""
     return ADVICE_ROUGH if result.mixed else ADVICE
 

@@ -14,7 +14,6 @@ from mgehl.errors import OutputError, UserError
 from mgehl.output.files import RunFiles, write_result
 from mgehl.output.finish import begin_run, finish_run
 from mgehl.output.manifest import checksums, read_manifest
-from mgehl.output.report.page import render
 from mgehl.output.report.run_report import report
 from mgehl.output.stored import read_result, read_run
 from mgehl.run import run, solve
@@ -221,7 +220,7 @@ class TestOwnLaws:
             _ = solution.contact.roughness
 
     def use_report(self, solution, _):
-        assert "a.py:waves" in render(report(solution, "run"))
+        assert "a.py:waves" in report(solution, "run")
 
     def use_export(self, solution, laid):
         from mgehl.output.export.export import export

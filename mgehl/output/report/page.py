@@ -1,6 +1,6 @@
-"""A page of sections, tables and pictures, and how it becomes one HTML file that needs no other.
+"""Tables and pictures of a page, and how they become one HTML file that needs no other.
 
-The page's looks are report.html.j2 and report.css beside this module, both written into the file.
+What the page says and how it looks are report.html.j2, run.html.j2 and report.css beside this module.
 """
 
 import re
@@ -11,7 +11,6 @@ from typing import ClassVar
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
-from mgehl.output.whole_file import write_whole
 from mgehl.version import VERSION
 
 GOOD, DOUBTFUL, BAD = "good", "doubtful", "bad"
@@ -51,7 +50,7 @@ class Table:
 
 @dataclass(frozen=True)
 class Picture:
-    """A picture as a data: URI; `alt` says in words what it shows.
+    """A picture as a data: URI; `alt` says in words what it shows, `name` its kind.
 
     A wide one gets a line of its own; where the page is narrow, it scrolls.
     """
@@ -62,6 +61,7 @@ class Picture:
     uri: str
     inches: float = 0.0
     """Width of a wide one; 0 of others."""
+    name: str = ""
 
 
 @dataclass(frozen=True)
@@ -82,28 +82,20 @@ class Section:
 
 
 @dataclass(frozen=True)
-class Verdict:
-    """The judgement on top of a page: `kind`, the judgement in words, and its reason."""
-
-    kind: str
-    words: str
-    reason: str
-
-
-@dataclass(frozen=True)
 class Page:
-    """Everything a page shows; `highlights` are pairs of a name and a number with its unit."""
+    """A title, a line above it, sections; a `verdict` is its kind, its words and its reason."""
 
     title: str
     subtitle: str
-    sections: tuple
-    verdict: Verdict | None = None
-    highlights: tuple = ()
+    sections: tuple = ()
+    verdict: tuple | None = None
 
 
 def table(caption, columns, rows, folded=False):
-    """A `Table` of rows of text or cells; columns of nothing but numbers become numbers."""
-    cells = [[each if isinstance(each, Cell) else Cell(each) for each in row] for row in rows]
+    """A `Table` of rows of text or cells; columns of nothing but numbers become numbers. What is no row,
+    such as False, is left out.
+    """
+    cells = [[each if isinstance(each, Cell) else Cell(each) for each in row] for row in rows if row]
     whole = [row for row in cells if len(row) == len(columns)]
     numeric = [_is_numeric([row[k] for row in whole]) for k in range(len(columns))]
     heads = _aligned([Cell(name) for name in columns], numeric)
@@ -114,35 +106,24 @@ def number(value, digits=6):
     """A number as text; one that is not finite, or that a file could not hold, as words."""
     if value is None or not isfinite(value):
         return NO_NUMBER
-    if isinstance(value, int):
-        return str(value)
-    return f"{value + 0.0:.{digits}g}"
+    return str(value) if isinstance(value, int) else f"{value + 0.0:.{digits}g}"
 
 
-def picture(caption, alt, content, media, size):
+def picture(caption, alt, content, media, size, name=""):
     """A `Picture` of a file's bytes, `size` inches (width, height); `media` is "image/png" or so."""
     width, height = size
-    wide = width if width > WIDE * height else 0.0
-    return Picture(
-        caption, alt, f"data:{media};base64,{b64encode(content).decode()}", round(float(wide), 2)
-    )
+    wide = round(float(width), 2) if width > WIDE * height else 0.0
+    return Picture(caption, alt, f"data:{media};base64,{b64encode(content).decode()}", wide, name)
 
 
-def render(page):
-    """The page as HTML text."""
-    loader = PackageLoader("mgehl", "output/report")
+def render(page, **run):
+    """The page as HTML text; `run` has what run.html.j2 shows of a run."""
     environment = Environment(
-        loader=loader, autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
-    )
-    return environment.get_template("report.html.j2").render(page=page, version=VERSION)
-
-
-def write_page(path, page):
-    """Write the page; what was at `path` stays until all of the new file is on the disk.
-
-    Raises OutputError if it cannot be written.
-    """
-    write_whole(path, render(page))
+        loader=PackageLoader("mgehl", "output/report"), extensions=["jinja2.ext.do"], autoescape=True,
+        undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True,
+    )  # fmt: skip
+    told = {"solution": None, "contents": [], "highlights": [], "made_table": table, "version": VERSION}
+    return environment.get_template("report.html.j2").render(told | run, page=page)
 
 
 def _aligned(row, numeric):
@@ -164,9 +145,9 @@ def _is_numeric(cells):
 
 
 def _is_number(text):
-    """True of a number, of two as in "3 of 7" or "3 to 7", and of the words for no number."""
+    """True of a number, of two as in "3 of 7" or "3..7", and of the words for no number."""
     try:
-        for part in re.split(" of | to ", text):
+        for part in re.split(r" of |\.\.", text):
             float(part)
     except ValueError:
         return text in ("none", NO_NUMBER)

@@ -1,46 +1,237 @@
-"""The page of one run: verdict, configuration, answer, checks, pictures, history, versions."""
+"""The page of one run: what run.html.j2 shows is put together here where a template could not."""
 
+import re
+from dataclasses import asdict, fields
+from functools import partial
+from itertools import chain, groupby
+from pathlib import Path
+
+from mgehl.config import SECTIONS
 from mgehl.kinds.own import naming_keys
-from mgehl.output.report.doubt import mark_of, marked_numbers, marked_sections
-from mgehl.output.report.family import family
-from mgehl.output.report.page import BAD, DOUBTFUL, GOOD, Page, Section, Verdict
-from mgehl.output.report.parts import (
-    configuration_section,
-    history_section,
-    record_section,
-    versions_section,
-)
-from mgehl.output.report.pictures import pictures
+from mgehl.model.own_function import file_and_function
+from mgehl.output.digits import with_band
+from mgehl.output.domain import STARVED_FROM
+from mgehl.output.mixed_words import gap_band_words, mean_gaps, mixed_note
+from mgehl.output.pictures import style
+from mgehl.output.pictures.figures import drawn_by, figures
+from mgehl.output.report.page import BAD, DOUBTFUL, GOOD, NO_NUMBER, Cell, Page, number, picture, render
+from mgehl.output.resolution import RESOLVED_CELLS
+from mgehl.output.result import COMPLEMENTARITY_TOLERANCE
+from mgehl.output.surface import ADVICE as SURFACE
+from mgehl.output.surface import RESOLVED_NODES
+from mgehl.output.words import advice, band_words, largest_pressure_words, span
+from mgehl.solver.verification import FEWEST_NODES, LARGEST_EDGE_PRESSURE
+
+FORMULAS = {
+    "hamrock_dowson": "Hamrock and Dowson",
+    "nijenbanning_venner_moes": "Nijenbanning, Venner and Moes",
+    "dowson_higginson": "of the Dowson-Higginson type",
+    "chittenden": "Chittenden and others",
+    "grubin": "Ertel and Grubin",
+}
+
+WEDGE_TITLES = {"lines": "pressure on the centre line", "pressure": "pressure, the solid in grey"}
+"""Titles of pictures that are not those of `pictures.figures`."""
+
+HISTORY_NAMES = {
+    "grid": "nodes", "speed_mm_s": "speed, mm/s", "central_film_nm": "central film, nm",
+    "minimum_film_nm": "minimum film, nm", "seconds": "time, s", "e_p": "e^p", "e_p_lubr": "e^p of fluid",
+    "e_p_solid": "e^p of contact",
+}  # fmt: skip
+"""Headings of columns of history.csv that are not plain words."""
+
+LONG_HISTORY = 400
+"""Cycles on one grid beyond which the page leaves out those in between: relaxation takes thousands."""
+
+LISTED = ("nodes", "contradictions", "grids")
+"""Lists of nodes and of grids in a result, which have tables of their own."""
+
+HOLDS, CARE, BROKEN = Cell("holds", GOOD), Cell("to be read with care", DOUBTFUL), Cell("broken", BAD)
+UNDECIDED = Cell("not decided on this grid", DOUBTFUL)
 
 
 def report(solution, name):
-    """The `Page` of a `Solution` on rank 0; `name` is the run's, such as its directory's."""
-    parts, mark = family(solution), mark_of(solution.result)
+    """The page of a `Solution` on rank 0 as HTML text; `name` is the run's, such as its directory's."""
+    result, config, rows = solution.result, solution.config, solution.rows
+    kind = "dry" if solution.is_dry else "loaded" if solution.contact.is_loaded else "wedge"
+    page = Page(config.kind.heading(solution), f"Run {name}", verdict=(*verdict(result), result.reason))
+    heads, last, shown = history_of(rows)
+    mark = "" if result.converged else " (in doubt)" if result.settled else " (not converged)"
     with naming_keys(solution.contact):  # some numbers ask the user's own laws again
-        answer = marked_sections(parts.answer_sections(solution), mark)
-    drawn = pictures(solution)
-    maps_and_lines = [each for kind, each in drawn.items() if kind != "history"]
-    of_history = [each for kind, each in drawn.items() if kind == "history"]
-    sections = (
-        *answer,
-        Section("pictures", "Pictures", tuple(maps_and_lines)),
-        history_section(solution.rows, of_history),
-        parts.work_section(solution),
-        configuration_section(solution.config),
-        versions_section(solution.result.versions),
-        record_section(solution.result),
-    )
-    heading, judged = solution.config.kind.heading(solution), verdict(solution.result)
-    numbers = marked_numbers(parts.highlights(solution), mark)
-    return Page(heading, f"Run {name}", sections, judged, numbers)
+        return render(
+            page, **FUNCTIONS, kind=kind, mark=mark, solution=solution, result=result, config=config,
+            contact=solution.contact, mesh=solution.mesh, line=solution.mesh.is_line,
+            tolerance=config.solver.tolerance, films=films_of(result) if kind == "loaded" else None,
+            pictures=list(pictures(solution)), keys=list(keys_of(config)),
+            heads=heads, last=last, shown=shown,
+            every="Every cycle" if len(shown) == len(rows) else f"{len(shown)} of {len(rows)} cycles",
+            versions=[(package, Cell(text, "code")) for package, text in result.versions.items()],
+            record=[(Cell(field, "code"), text) for field, text in _leaves(asdict(result))],
+        )  # fmt: skip
 
 
 def verdict(result):
-    """The judgement of a `Result`, `WedgeResult` or `DryResult`."""
+    """The judgement of a result of any kind of contact: its kind and words."""
     if not result.converged:
-        if result.settled:
-            return Verdict(DOUBTFUL, f"Settled, but {result.doubt}", result.reason)
-        return Verdict(BAD, "Not converged", result.reason)
-    if result.overlap.nodes:
-        return Verdict(DOUBTFUL, "Converged, but the bodies overlap", result.reason)
-    return Verdict(GOOD, "Converged", result.reason)
+        return (DOUBTFUL, f"Settled, but {result.doubt}") if result.settled else (BAD, "Not converged")
+    return (DOUBTFUL, "Converged, but the bodies overlap") if result.overlap.nodes else (GOOD, "Converged")
+
+
+def limited(name, value, limit):
+    """The row of a check that |value| <= limit; what is not finite breaks it."""
+    holds = value is not None and abs(value) <= limit
+    return name, number(value, 2), f"{limit:g}", HOLDS if holds else BROKEN
+
+
+def enough(name, value, limit):
+    """The row of a check that value >= limit."""
+    return name, number(value), f"at least {limit:g}", HOLDS if value >= limit else BROKEN
+
+
+def absent(name, amount, of=None, care=False, decided=True):
+    """The row of a check that there is none of something, or none of so many."""
+    found = number(amount, 2) if of is None else f"{amount} of {of}"
+    return name, found, "0", (CARE if care else BROKEN) if amount else HOLDS if decided else UNDECIDED
+
+
+def informing(name, value):
+    """A row beside checks that judges nothing."""
+    return name, number(value, 2), "", Cell("for information", "muted")
+
+
+def judged(verdict, words):
+    """The judgement of a grid or a domain by its verdict."""
+    return Cell(words, GOOD if verdict in ("resolved", "sufficient") else DOUBTFUL)
+
+
+def from_each(records, names, digits=6):
+    """Rows of some fields of records, which are dictionaries or have them as attributes."""
+    for each in records:
+        fields = each if isinstance(each, dict) else vars(each)
+        yield [", ".join(fields[name]) if isinstance(fields[name], list) else number(fields[name], digits)
+               for name in names]  # fmt: skip
+
+
+def carried(mixed, name):
+    """A part of the load in %: with its band as on the terminal, without it with four digits."""
+    percent, band = 100 * getattr(mixed, name), mixed.error and getattr(mixed.error, name)
+    return number(percent, 4) if band is None else with_band(percent, 100 * band)
+
+
+def film(nm, half_width=None):
+    """A film in nm as on the terminal: with its band; without, four digits after the point."""
+    return NO_NUMBER if number(nm) == NO_NUMBER else with_band(nm, half_width)
+
+
+FUNCTIONS = {
+    "percent": lambda part: number(None if part is None else 100 * part, 4),
+    "sentence": lambda words: f"{words[0].upper()}{words[1:]}.",
+    "SURFACE": SURFACE, "COMPLEMENTARITY_TOLERANCE": COMPLEMENTARITY_TOLERANCE,
+    "FEWEST_NODES": FEWEST_NODES, "LARGEST_EDGE_PRESSURE": LARGEST_EDGE_PRESSURE,
+    "RESOLVED_CELLS": RESOLVED_CELLS, "RESOLVED_NODES": RESOLVED_NODES, "STARVED_FROM": STARVED_FROM,
+} | {
+    each.__name__: each for each in (
+        number, limited, enough, absent, informing, judged, from_each, advice, band_words, gap_band_words,
+        mean_gaps, mixed_note, span, carried, largest_pressure_words,
+    )
+}  # fmt: skip
+"""What run.html.j2 calls."""
+
+
+def films_of(result):
+    """Rows of films: the computed ones with their bands, then those of formulas.
+
+    What did not converge is not compared with formulas.
+    """
+    own, error = (result.central_film_nm, result.minimum_film_nm), result.error
+    shown = [film(nm, band) for nm, band in zip(own, (error.central_nm, error.minimum_nm), strict=True)]
+    rows = [("computed", shown[0], "", shown[1], "")]
+    formulas = {name.removesuffix("_nm"): nm for name, nm in result.formulas.items()}
+    for name in dict.fromkeys(re.sub("_(central|minimum)$", "", name) for name in formulas):
+        central, minimum = (
+            formulas.get(f"{name}_central", formulas.get(name)),
+            formulas.get(f"{name}_minimum"),
+        )
+        cells = (_beside(*each, result.converged) for each in zip(own, (central, minimum), strict=True))
+        rows.append((FORMULAS.get(name, name.replace("_", " ")), *chain(*cells)))
+    return rows
+
+
+def _beside(own, formula, converged):
+    """The film of a formula and how much thicker the computed one is."""
+    if formula is None:
+        return "", ""
+    return film(formula), number(own / formula, 4) if converged and own is not None else ""
+
+
+def pictures(solution):
+    """Every picture of the run as SVG."""
+    kinds = [kind for kind in drawn_by(solution) if solution.rows or kind != "history"]
+    titles = {} if solution.contact.is_loaded else WEDGE_TITLES
+    with style.applied():
+        for each in figures(solution, kinds):
+            title = titles.get(each.name, each.title)
+            content, size = style.rendered(each.figure, "svg"), each.figure.get_size_inches()
+            yield picture(f"{title[0].upper()}{title[1:]}.", "", content, "image/svg+xml", size, each.name)
+
+
+def keys_of(config):
+    """Rows of every key that the contact heeds, by sections; what differs from the default is marked."""
+    for section in SECTIONS:
+        keys = [key for key in fields(getattr(config, section))
+                if not {section, f"{section}.{key.name}"} & set(config.unused)]  # fmt: skip
+        if keys:
+            yield (Cell(f"[{section}]"),)
+        for key in keys:
+            used, default = (
+                setting(value, key.metadata["unit"])
+                for value in (getattr(getattr(config, section), key.name), key.default)
+            )
+            name, changed = Cell(f"{section}.{key.name}", "code"), used != default
+            yield (
+                name,
+                Cell(used, "changed" if changed else ""),
+                default if changed else "",
+                key.metadata["help"],
+            )
+
+
+def setting(value, unit=None):
+    """A value of the configuration as text; ten digits tell apart all that anyone would write."""
+    if isinstance(value, int | float) and not isinstance(value, bool):
+        return f"{value:.10g} {unit or ''}".strip()
+    if value is None or isinstance(value, bool):
+        return {None: "unset", True: "true", False: "false"}[value]
+    if isinstance(value, tuple):
+        return " to ".join(map(setting, value))
+    if own := file_and_function(value):
+        return f"{Path(own[0]).name}:{own[1]}"
+    return str(value)
+
+
+def history_of(rows):
+    """Headings; the last cycle on every grid; all cycles, or some of each grid where they are many."""
+    cycles = [list(group) for _, group in groupby(rows, key=lambda row: row["grid"])]
+    strides = [-(-len(each) // LONG_HISTORY) for each in cycles]
+    thinned = [each[::-stride][::-1] for each, stride in zip(cycles, strides, strict=True)]
+    text = partial(number, digits=4)
+    last = [list(map(text, each[-1].values())) for each in cycles]
+    shown = [list(map(text, row.values())) for each in thinned for row in each]
+    return [HISTORY_NAMES.get(name, name.replace("_", " ")) for name in (rows or [{}])[0]], last, shown
+
+
+def _leaves(tree, path=""):
+    """Pairs of a dotted name and a text for everything that nested dictionaries hold."""
+    for name, value in tree.items():
+        if isinstance(value, dict):
+            yield from _leaves(value, f"{path}{name}.")
+        elif name in LISTED and not isinstance(value, int):
+            yield path + name, f"a list of {len(value)}"
+        elif name in ("x_nodes", "y_nodes"):
+            yield path + name, span(value)
+        else:
+            yield path + name, value if isinstance(value, str) else _leaf(value)
+
+
+def _leaf(value):
+    return str(value).lower() if isinstance(value, bool) else number(value, 10)
