@@ -101,7 +101,7 @@ def _solve_loaded(config, parts, comm, watch, start):
     tolerance = config.solver.tolerance
     hierarchy = parts.hierarchy(comm)
     try:
-        kind = progress.NEWTON if by_newton else progress.RELAXATION
+        kind = progress.newton_row if by_newton else progress.sweep_row
         monitor = progress.Progress(kind, contact.film_scale, hierarchy, tolerance, watch.speaker)
         method = begin if by_newton else single_loop
         if start:
@@ -125,7 +125,7 @@ def _solve_dry(config, parts, comm, watch, start):
     hierarchy = parts.hierarchy(comm)
     try:
         monitor = progress.Progress(
-            progress.DRY, contact.film_scale, hierarchy, limits.tolerance, watch.speaker
+            progress.dry_row, contact.film_scale, hierarchy, limits.tolerance, watch.speaker
         )
         grid, scheme = hierarchy.grids[-1], parts.settings.scheme
         problem = ContactProblem(grid, hierarchy.deflections[-1], contact, scheme)
@@ -168,7 +168,7 @@ def _solve_bearing(config, parts, comm, watch):
         result = summarise_wedge(problem, outcome, time.perf_counter() - started, versions())
         rows = progress.wedge_rows(parts.mesh.nx, outcome.cycles)
         for row in rows:
-            watch.speaker.row(row, progress.wedge_line(row))
+            watch.speaker.row(row)
         return _solution(config, parts, problem, outcome.state, rows, result)
     finally:
         grid.destroy()

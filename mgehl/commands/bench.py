@@ -38,9 +38,10 @@ def execute(options, comm):
     speaks = comm.rank == 0
     found = measure(names, options.repeat, comm, _tell if speaks else lambda timing: None)
     if speaks:
-        print(f"\n{_table(_columns(found))}")
+        _print(_columns(found))
         if old:
-            print(f"\ntimes those of {options.compare}:\n{_table(ratios(old, found))}")
+            print(f"times those of {options.compare}:")
+            _print(ratios(old, found))
         if options.json:
             write_benchmark(options.json, found)
     return CONVERGED if all(timing.converged for timing in found.timings) else NOT_CONVERGED
@@ -82,17 +83,19 @@ def _columns(benchmark):
     }
 
 
-def _table(columns):
-    """Numbers by {column: {row: number}}, aligned; rows in the order of their first mention."""
+def _print(columns):
+    """Numbers by {column: {row: number}}; rows in the order of their first mention."""
+    from mgehl.output.table import drawn
+    from mgehl.saying import columns as terminal_columns
+
     names = dict.fromkeys(name for column in columns.values() for name in column)
-    lines = [" " * 14 + "".join(f"{name:>13}" for name in columns)]
-    for name in names:
-        cells = (_cell(column.get(name)) for column in columns.values())
-        lines.append(f"{name:14}" + "".join(f"{cell:>13}" for cell in cells))
-    return "\n".join(lines)
+    rows = [
+        {"": name} | {case: _cell(column.get(name)) for case, column in columns.items()} for name in names
+    ]
+    print(f"\n{drawn(rows, list(rows[0]), terminal_columns())}\n")
 
 
 def _cell(number):
     if number is None:
-        return "-"
+        return ""
     return f"{number:.0f}" if number >= 1000.0 else f"{number:.3g}" if number >= 100.0 else f"{number:.2f}"

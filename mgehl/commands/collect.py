@@ -24,8 +24,7 @@ def add(commands):
 
 def execute(options):
     """Print the table, drawn on a terminal and else in Markdown; write it as CSV, too, where asked to."""
-    from mgehl.output.drawn_table import drawn
-    from mgehl.output.table import collect, markdown, with_bands, write_csv
+    from mgehl.output.table import collect, drawn, markdown, with_bands, write_csv
     from mgehl.saying import columns as terminal_columns
 
     try:

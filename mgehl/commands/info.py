@@ -1,7 +1,6 @@
 """mgehl info: what runs here, for a report of a bug or a paper."""
 
 import json
-from dataclasses import asdict
 
 from mgehl.commands import CONVERGED, add_configuration
 from mgehl.config import chosen_config, load_config
@@ -13,7 +12,7 @@ PARALLEL = True
 LONG = ("configured",)
 """Keys that only --json prints: PETSc's configure options fill a screen."""
 
-VALUE = 37
+VALUE = 25
 """Where the values begin."""
 
 
@@ -35,7 +34,7 @@ def execute(options, comm):
     """Print it on rank 0."""
     from mgehl.output.surroundings import surroundings
 
-    found = {"configuration": _configuration(options.config)} | asdict(surroundings(comm))
+    found = {"configuration": _configuration(options.config)} | surroundings(comm)
     if comm.rank == 0:
         print(json.dumps(found, indent=2) if options.json else "\n".join(_lines(found)))
     return CONVERGED
@@ -54,24 +53,13 @@ def _configuration(path):
 
 
 def _lines(sections):
-    """A line for each value, aligned; a section's name stands before its first."""
+    """The name of each section, under it a line for each value; a path is not broken."""
     for name, section in sections.items():
-        for position, (key, value) in enumerate(section.items()):
-            words = key if key.isupper() else key.replace("_", " ")
+        yield name
+        for key, value in section.items():
             if key not in LONG:
-                yield from _broken(
-                    f"{name if position == 0 else '':14} {words:21}", _text(value), columns()
-                )
-
-
-def _broken(key, text, width):
-    """A value beside its key, broken at spaces; a path too long for that, which has none, below its key."""
-    line = f"{key} {text}"
-    if width and len(line) > width and " " not in text:
-        yield key.rstrip()
-        yield text.rjust(width)
-    else:
-        yield folded(line, VALUE * " ", width)
+                words = key if key.isupper() else key.replace("_", " ")
+                yield folded(f"  {words:{VALUE - 2}}{_text(value)}", VALUE * " ", columns())
 
 
 def _text(value):

@@ -1,5 +1,6 @@
 """Films with no more digits than they have: 12.1 ± 0.4."""
 
+import re
 from math import ceil, floor, isfinite, log10
 
 MOST_DECIMALS = 9
@@ -7,9 +8,9 @@ MOST_DECIMALS = 9
 
 
 def is_number(text):
-    """True of a number, and of one with its band."""
+    """True of a number, of one with its band, and of two as in "3 of 7" or "3..7"."""
     try:
-        for part in text.split(" ± "):
+        for part in re.split(r" ± | of |\.\.", text):
             float(part)
     except ValueError:
         return False

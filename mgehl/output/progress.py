@@ -1,16 +1,16 @@
-"""What a run says while it runs: a line of text for each cycle."""
+"""The history of a run while it runs: a row for each cycle, and the time that is left."""
 
 import time
-from dataclasses import dataclass
+from math import inf, isfinite, log
 
-from mgehl.kinds.loaded import speed_words
-from mgehl.output.terminal import seconds_left
+STEPS_A_GRID = 8
+"""Newton steps that a grid not yet begun is expected to take."""
 
 
 class Progress:
     """Collects the history of a run and tells the speaker of it, with the time that is left.
 
-    The monitor of `nested_iteration` and its like. `kind` says what is kept and told of a cycle.
+    The monitor of `nested_iteration` and its like. `kind` makes a cycle a row: `newton_row` and its like.
     A run that goes on begins with what its checkpoint had of all this (`record`, `go_on`).
     """
 
@@ -28,20 +28,15 @@ class Progress:
             self._news = level.news
         row = self._row(self._kind, level, cycle)
         self.rows.append(row)
-        left = seconds_left(self.rows, self._finest, self._tolerance)
-        self._speaker.row(row, self._line(self._kind, row), left)
+        self._speaker.row(row, seconds_left(self.rows, self._finest, self._tolerance))
 
     def beside(self, level, cycle):
         """Tell of a Newton cycle that does not lead to the answer; the history does not keep it."""
-        row = self._row(NEWTON, level, cycle)
-        self._speaker.row(row, self._line(NEWTON, row))
-
-    def _line(self, kind, row):
-        return (kind.line if self._speaker.verbose else kind.short)(row)
+        self._speaker.row(self._row(newton_row, level, cycle))
 
     def _row(self, kind, level, cycle):
         speed = {} if level.speed is None else {"speed_mm_s": 1e3 * level.speed}
-        row = {"grid": level.nodes} | speed | kind.row(cycle, self._nm)
+        row = {"grid": level.nodes} | speed | kind(cycle, self._nm)
         return row | {"convolutions": self.convolutions, "seconds": self.seconds}
 
     @property
@@ -71,7 +66,7 @@ class Progress:
 
 
 def newton_row(cycle, nm):
-    """What history.csv keeps of a Newton cycle."""
+    """What history.csv keeps of a Newton cycle; `nm` is nanometres in a unit of H."""
     return _state_row(cycle, nm) | {
         "changed_nodes": cycle.changes.total,
         "linear_iterations": cycle.linear_iterations,
@@ -79,66 +74,15 @@ def newton_row(cycle, nm):
     }
 
 
-def short_line(row):
-    """A Newton cycle or a sweep on the terminal, in 80 columns."""
-    return (
-        f"{row['grid']:4d} nodes  {speed_words(1e-3 * row['speed_mm_s']):>9}  step {row['step']:2d}  "
-        f"residual {row['residual']:7.1e}  film {row['central_film_nm']:6.4g} nm  "
-        f"contact {row['contact_nodes']}"
-    )
-
-
-def newton_line(row):
-    """All of a Newton cycle."""
-    return f"{_state(row)}  changed {row['changed_nodes']:5d}"
-
-
 def sweep_row(sweep, nm):
-    """What history.csv keeps of a relaxation sweep."""
+    """Of a relaxation sweep."""
     errors = {"e_p": sweep.e_p, "e_p_lubr": sweep.e_p_fluid, "e_p_solid": sweep.e_p_solid}
     return _state_row(sweep, nm) | errors
 
 
-def sweep_line(row):
-    """All of a relaxation sweep."""
-    apart = f"lubr. {row['e_p_lubr']:8.2e}, solid {row['e_p_solid']:8.2e}"
-    return f"{_state(row)}  e^p {row['e_p']:8.2e} ({apart})"
-
-
 def dry_row(step, nm):
-    """What history.csv keeps of a set of pressed nodes."""
+    """Of a set of pressed nodes."""
     return vars(step) | {"gap_nm": step.residual * nm}
-
-
-def short_dry_line(row):
-    """A set of pressed nodes on the terminal, in 80 columns."""
-    return (
-        f"{row['grid']:4d} nodes  step {row['step']:2d}  gap in contact {row['gap_nm']:7.1e} nm  "
-        f"contact {row['contact_nodes']}  changed {row['changed_nodes']}"
-    )
-
-
-def dry_line(row):
-    """All of a set of pressed nodes."""
-    return (
-        f"grid {row['grid']:5d}  dry  step {row['step']:2d}  gap in contact {row['gap_nm']:8.2e} nm  "
-        f"contact {row['contact_nodes']:6d}  changed {row['changed_nodes']:5d}  "
-        f"iterations {row['linear_iterations']:3d}"
-    )
-
-
-@dataclass(frozen=True)
-class Kind:
-    """What history.csv keeps of a cycle and what the terminal shows of that: all, or a short line."""
-
-    row: object
-    line: object
-    short: object
-
-
-NEWTON = Kind(newton_row, newton_line, short_line)
-RELAXATION = Kind(sweep_row, sweep_line, short_line)
-DRY = Kind(dry_row, dry_line, short_dry_line)
 
 
 def _state_row(cycle, nm):
@@ -154,15 +98,6 @@ def _state_row(cycle, nm):
     }
 
 
-def _state(row):
-    return (
-        f"grid {row['grid']:5d}  {row['speed_mm_s']:9.4g} mm/s  step {row['step']:2d}  "
-        f"residual {row['residual']:8.2e}  load {row['load_error']:+8.1e}  "
-        f"film {row['central_film_nm']:10.4f} min {row['minimum_film_nm']:10.4f} nm  "
-        f"contact {row['contact_nodes']:6d}  cavitated {row['cavitated_nodes']:6d}"
-    )
-
-
 def wedge_rows(nodes, steps):
     """The history of a wedge: what each linear solve found and took."""
     return [
@@ -171,9 +106,31 @@ def wedge_rows(nodes, steps):
     ]
 
 
-def wedge_line(row):
-    """A linear solve on the terminal."""
+def seconds_left(rows, finest, tolerance):
+    """Guess the time to the end from the history; None where that is too short to tell.
+
+    On the present grid residuals go on falling as in the last steps; a finer one takes a few steps, each
+    four times as long. A walk in speed has more solves to come, of which nothing is known here.
+    """
+    begun = max((k for k, row in enumerate(rows) if row["step"] == 0), default=0)
+    here, nodes = rows[begun:], rows[-1]["grid"]  # a run may solve on the finest grid several times
+    if len(here) < 2 or not isfinite(here[-1]["residual"]):
+        return None
+    each = (here[-1]["seconds"] - here[0]["seconds"]) / (len(here) - 1)
+    left = _steps_left([row["residual"] for row in here[-4:]], tolerance) * each
+    while nodes < finest:
+        nodes, each = 2 * nodes - 1, 4.0 * each
+        left += STEPS_A_GRID * each
+    return left
+
+
+def _steps_left(residuals, tolerance):
+    """Steps until the residual is within `tolerance`, falling as it did."""
+    first, last = residuals[0], residuals[-1]
+    if last <= tolerance:
+        return 0.0
     return (
-        f"grid {row['grid']:5d}  solve {row['step']:2d}  residual {row['residual']:8.2e}  "
-        f"iterations {row['linear_iterations']:3d}"
+        log(last / tolerance) / log(first / last) * (len(residuals) - 1)
+        if last < first < inf
+        else STEPS_A_GRID
     )

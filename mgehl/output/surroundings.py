@@ -3,7 +3,6 @@
 import os
 import platform
 import tempfile
-from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
@@ -22,101 +21,32 @@ PACKAGES = *COMPUTING, "h5netcdf", "matplotlib", "pint", "dacite"
 THREAD_VARIABLES = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
 
 
-@dataclass(frozen=True)
-class Petsc:
-    """How PETSc was built."""
-
-    version: str
-    directory: str
-    arch: str
-    precision: str
-    integers: str
-    debug: bool
-    """Whether it checks itself, which makes it slow."""
-    configured: str
-    """The options that it was configured with."""
-    hypre: bool
-    """Whether a wedge's algebraic multigrid is BoomerAMG; else it is GAMG."""
-
-
-@dataclass(frozen=True)
-class Mpi:
-    """The MPI library and this job's ranks."""
-
-    library: str
-    standard: str
-    ranks: int
-
-
-@dataclass(frozen=True)
-class Fft:
-    """How the convolutions' FFTs are planned."""
-
-    planner: str
-    planner_of_lines: str
-    threads: int
-
-
-@dataclass(frozen=True)
-class Machine:
-    """Cores that this process may use, and the memory of all."""
-
-    system: str
-    cores: int
-    cores_allowed: int
-    memory_GiB: float
-
-
-@dataclass(frozen=True)
-class Compiled:
-    """Where numba keeps the kernels that it has compiled."""
-
-    numba_cache: str
-
-
-@dataclass(frozen=True)
-class Surroundings:
-    """Everything together."""
-
-    versions: dict
-    """Name and version of mgehl, python and the packages; None where one is not installed."""
-    petsc: Petsc
-    mpi: Mpi
-    threads: dict
-    """Environment variables that say how many; None where one is not set."""
-    fft: Fft
-    compiled: Compiled
-    machine: Machine
-
-
 def surroundings(comm):
-    """The `Surroundings` of the ranks of `comm` (collective)."""
-    return Surroundings(
-        versions={"mgehl": VERSION, "python": platform.python_version()}
+    """Everything, by sections, of the ranks of `comm` (collective); None is what is not installed or set."""
+    return {
+        "versions": {"mgehl": VERSION, "python": platform.python_version()}
         | {package: _version(package) for package in PACKAGES},
-        petsc=_petsc(comm),
-        mpi=Mpi(
-            MPI.Get_library_version().splitlines()[0].strip("\0 "),
-            ".".join(map(str, MPI.Get_version())),
-            comm.size,
-        ),
-        threads={name: os.environ.get(name) for name in THREAD_VARIABLES},
-        fft=Fft(" ".join(TIMED), " ".join(FIXED), THREADS),
-        compiled=Compiled(distribute.stats.cache_path),
-        machine=Machine(
-            f"{platform.system()} {platform.release()} {platform.machine()}",
-            os.cpu_count() or 1,
-            cores_allowed(),
-            memory_GiB(),
-        ),
-    )
+        "petsc": _petsc(comm),
+        "mpi": {
+            "library": MPI.Get_library_version().splitlines()[0].strip("\0 "),
+            "standard": ".".join(map(str, MPI.Get_version())),
+            "ranks": comm.size,
+        },
+        "threads": {name: os.environ.get(name) for name in THREAD_VARIABLES},
+        "fft": {"planner": " ".join(TIMED), "planner_of_lines": " ".join(FIXED), "threads": THREADS},
+        "compiled": {"numba_cache": distribute.stats.cache_path},
+        "machine": {
+            "system": f"{platform.system()} {platform.release()} {platform.machine()}",
+            "cores": os.cpu_count() or 1,
+            "cores_allowed": cores_allowed(),
+            "memory_GiB": memory_GiB(),
+        },
+    }
 
 
 def cores_allowed():
     """Cores that this process may use."""
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def memory_GiB():
@@ -142,18 +72,18 @@ def _petsc_version():
 
 
 def _petsc(comm):
-    where, log = petsc4py.get_config(), _log(comm)
-    scalar = PETSc.ScalarType()
-    return Petsc(
-        version=_petsc_version(),
-        directory=where["PETSC_DIR"],
-        arch=where.get("PETSC_ARCH", ""),
-        precision=f"{scalar.dtype.name}, {scalar.itemsize} bytes",
-        integers=f"{8 * PETSc.IntType().itemsize} bits",
-        debug="compiled with a debugging option" in log,
-        configured=log.partition("Configure options:")[2].partition("\n")[0].strip(),
-        hypre=bool(PETSc.Sys.hasExternalPackage("hypre")),
-    )
+    """How PETSc was built: `debug` makes it slow; a wedge's multigrid is BoomerAMG with hypre, else GAMG."""
+    where, log, scalar = petsc4py.get_config(), _log(comm), PETSc.ScalarType()
+    return {
+        "version": _petsc_version(),
+        "directory": where["PETSC_DIR"],
+        "arch": where.get("PETSC_ARCH", ""),
+        "precision": f"{scalar.dtype.name}, {scalar.itemsize} bytes",
+        "integers": f"{8 * PETSc.IntType().itemsize} bits",
+        "debug": "compiled with a debugging option" in log,
+        "configured": log.partition("Configure options:")[2].partition("\n")[0].strip(),
+        "hypre": bool(PETSc.Sys.hasExternalPackage("hypre")),
+    }
 
 
 def _log(comm):

@@ -1,44 +1,165 @@
-"""One table of several run directories, from the files that the runs wrote."""
+"""Tables of text: how a terminal, Markdown and CSV have them, and the one of several runs."""
 
 import csv
+import io
 import json
 import tomllib
 from itertools import pairwise
 from pathlib import Path
 
-from mgehl.errors import UserError, printable
-from mgehl.output.digits import with_band
+from rich.box import SIMPLE_HEAD
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+from mgehl.errors import printable
+from mgehl.output.digits import is_number, with_band
 from mgehl.output.directory import check_result
-from mgehl.output.domain import UNKNOWN
 from mgehl.output.whole_file import whole_file
 from mgehl.output.words import span
 
 DEFAULT = "default"
 """Stands for a scheme that the configuration does not name: the run chose it."""
 
-FILMS, GAPS = ("central", "minimum"), ("mean", "loaded")
+COLUMNS = {
+    "ranks": ("ranks", "d"),
+    "converged": ("converged", lambda converged: "yes" if converged else "no"),
+    "load N": ("load_N", ".6g"),
+    "central nm": ("central_film_nm", ".4f"),
+    "minimum nm": ("minimum_film_nm", ".4f"),
+    "central ± nm": ("error.central_nm", ".4g"),
+    "minimum ± nm": ("error.minimum_nm", ".4g"),
+    "H_Moes central": ("moes_film.central", ".5f"),
+    "H_Moes minimum": ("moes_film.minimum", ".5f"),
+    "residual": ("residual", ".1e"),
+    "load error": ("load_error", ".1e"),
+    "load on contact": ("contact.load_fraction", ".4f"),
+    "contact/Hertz area": ("contact.area_fraction", ".4f"),
+    "mean gap nm": ("mixed.mean_gap_nm", ".6g"),
+    "loaded gap nm": ("mixed.loaded_gap_nm", ".6g"),
+    "mean gap ± nm": ("mixed.error.mean_nm", ".4g"),
+    "loaded gap ± nm": ("mixed.error.loaded_nm", ".4g"),
+    "lambda": ("mixed.lambda_ratio", ".4g"),
+    "mean film nm": ("mixed.mean_film_nm", ".4g"),
+    "contact nodes on X": ("contact.x_nodes", span),
+    "on Y": ("contact.y_nodes", span),
+    "largest gap in contact nm": ("contact.largest_gap_nm", ".1e"),
+    "Eq. 2 violations": ("pressure_inequality", lambda found: "{violations} of {checked}".format(**found)),
+    "inlet cells": ("resolution.inlet_cells", ".2f"),
+    "domain": ("resolution.domain", "s"),
+    "convolutions": ("work.convolutions", ".1f"),
+}
+"""What each column shows: where it is in result.json, and its format or a function."""
+
+WIDTH = 120
+"""Columns of a table where the width of the terminal is not known."""
 
 
 def collect(directories):
     """A row (dict of text) for each run directory, all of the same columns; empty where a run has none.
 
-    Raises OutputError for a directory that is not as its run wrote it, OSError if one cannot be read,
-    UserError if it has no film.
+    Raises OutputError for a directory that is not as its run wrote it, OSError if one cannot be read.
     """
     rows = [_row(Path(directory)) for directory in directories]
     columns = dict.fromkeys(name for row in rows for name in row)
     return [{name: row.get(name, "") for name in columns} for row in rows]
 
 
+def _row(directory):
+    check_result(directory)
+    result = json.loads((directory / "result.json").read_text(encoding="utf-8"))
+    config = tomllib.loads((directory / "configuration.toml").read_text(encoding="utf-8"))
+    with (directory / "history.csv").open(encoding="utf-8") as file:
+        history = list(csv.DictReader(file))
+    nodes = config["grid"]["nodes"]
+    row = {
+        "run": directory.resolve().name,
+        "nodes": str(nodes),
+        "couette": config["discretization"].get("couette", DEFAULT),
+    }
+    row |= {
+        name: _text(result, path.split("."), shape)
+        for name, (path, shape) in COLUMNS.items() if path.split(".")[0] in result
+    }  # fmt: skip
+    of_all = nodes if config["contact"]["kind"] == "line" else nodes**2
+    row |= _work([each for each in history if int(each["grid"]) == nodes], of_all)
+    return row | {"wall s": f"{result['wall_s']:.1f}"}
+
+
+def _text(found, names, shape):
+    """What result.json has under nested names; empty where that is nothing, or no finite number."""
+    for name in names:
+        found = (found or {}).get(name)
+    if callable(shape):
+        return shape(found)
+    return "" if found is None else format(found, shape)
+
+
+def _work(finest, nodes):
+    """Columns of the work on a grid of so many nodes, from its rows of the history.
+
+    A run may solve on it several times, from step 0 each; between them are other grids, too.
+    """
+    iterations = (each.get("linear_iterations", "0") for each in finest)
+    found = {"most GMRES iterations": max(iterations, key=int, default="")}
+    steps = [
+        float(each["seconds"]) - float(before["seconds"])
+        for before, each in pairwise(finest) if "seconds" in each and int(each["step"]) > 0
+    ]  # fmt: skip
+    if steps:
+        found["Newton steps on finest"] = str(len(steps))
+        found["us a step and node"] = f"{1e6 * sum(steps) / len(steps) / nodes:.3f}"
+    return found
+
+
+def with_bands(rows):
+    """The rows of `collect` as they are shown: films and gaps with their bands and no more digits than they
+    have."""
+    return [{name: _with_band(row, name) for name in row if "±" not in name} for row in rows]
+
+
+def _with_band(row, name):
+    band = row.get(name.replace(" nm", " ± nm")) if name.endswith(" nm") else ""
+    return with_band(float(row[name]), float(band)) if band else row[name]
+
+
+def drawn(rows, columns, width=None):
+    """Some columns of the rows as text, no line longer than `width`; numbers stand on the right.
+
+    Columns that have no room are drawn below, with the first column repeated before them.
+    """
+    first, *others = columns
+    blocks, width = [[first]], width or WIDTH
+    for column in others:
+        if len(blocks[-1]) > 1 and _wide(_shown(rows, [*blocks[-1], column])) > width:
+            blocks.append([first])
+        blocks[-1].append(column)
+    return "\n\n".join(_shown(rows, block, width) for block in blocks)
+
+
+def _wide(text):
+    return max(map(len, text.splitlines()))
+
+
+def _shown(rows, columns, width=10**6):
+    table = Table(box=SIMPLE_HEAD, show_edge=False, pad_edge=False)
+    for column in columns:
+        said = [row[column] for row in rows if row[column]]
+        right = bool(said) and all(map(is_number, said))
+        table.add_column(Text(column), justify="right" if right else "left", overflow="fold")
+    for row in rows:
+        table.add_row(*(Text(printable(row[column])) for column in columns))
+    console = Console(file=io.StringIO(), width=width, color_system=None)
+    console.print(table)
+    return "\n".join(line.rstrip() for line in console.file.getvalue().splitlines())
+
+
 def markdown(rows, columns):
-    """Some columns of the rows as a Markdown table."""
+    """Some columns of the rows as a Markdown table; no text ends its cell or moves the cursor."""
     lines = [columns, ["---"] * len(columns), *([row[column] for column in columns] for row in rows)]
-    return "\n".join("| " + " | ".join(map(_cell, line)) + " |" for line in lines)
-
-
-def _cell(text):
-    """Text of a file without characters that would end the cell or move the cursor."""
-    return printable(text).replace("|", "\\|")
+    return "\n".join(
+        "| " + " | ".join(printable(text).replace("|", "\\|") for text in line) + " |" for line in lines
+    )
 
 
 def write_csv(path, rows):
@@ -48,114 +169,3 @@ def write_csv(path, rows):
         writer = csv.DictWriter(file, fieldnames=list(rows[0]))
         writer.writeheader()
         writer.writerows(rows)
-
-
-def _row(directory):
-    check_result(directory)
-    result = json.loads((directory / "result.json").read_text(encoding="utf-8"))
-    config = tomllib.loads((directory / "configuration.toml").read_text(encoding="utf-8"))
-    if config["discretization"].get("contact_model") == "dry":
-        raise UserError(f"{directory}: is a dry contact, without the films that this table is of")
-    with (directory / "history.csv").open(encoding="utf-8") as file:
-        history = list(csv.DictReader(file))
-    nodes = config["grid"]["nodes"]
-    finest = [row for row in history if int(row["grid"]) == nodes]
-    row = {
-        "run": directory.resolve().name,
-        "nodes": str(nodes),
-        "couette": config["discretization"].get("couette", DEFAULT),
-        "ranks": str(result["ranks"]),
-        "converged": "yes" if result["converged"] else "no",
-    }
-    row |= _loaded(result) if "contact" in result else _bearing(result)
-    row["most GMRES iterations"] = max(
-        (each.get("linear_iterations", "0") for each in finest), key=int, default=""
-    )
-    steps = [float(each["seconds"]) - float(before["seconds"]) for before, each in _steps(finest)]
-    if steps:
-        row["Newton steps on finest"] = str(len(steps))
-        of_all = nodes if config["contact"]["kind"] == "line" else nodes**2
-        row["us a step and node"] = f"{1e6 * sum(steps) / len(steps) / of_all:.3f}"
-    return row | {"wall s": f"{result['wall_s']:.1f}"}
-
-
-def _bearing(result):
-    """Columns of a wedge: a load, and neither films nor contact."""
-    return {"load N": f"{result['load_N']:.6g}", "residual": f"{result['residual']:.1e}"}
-
-
-def _loaded(result):
-    """Columns of a loaded contact."""
-    contact, inequality = result["contact"], result["pressure_inequality"]
-    return {
-        **_films(result),
-        "H_Moes central": _digits(result["moes_film"]["central"], ".5f"),
-        "H_Moes minimum": _digits(result["moes_film"]["minimum"], ".5f"),
-        "residual": _digits(result["residual"], ".1e"),
-        "load error": _digits(result["load_error"], ".1e"),
-        "load on contact": _digits(contact["load_fraction"], ".4f"),
-        "contact/Hertz area": _digits(contact["area_fraction"], ".4f"),
-        **_gaps(result),
-        "lambda": _of_rough(result, "lambda_ratio"),
-        "mean film nm": _of_rough(result, "mean_film_nm"),
-        "contact nodes on X": span(contact["x_nodes"]),
-        "on Y": span(contact["y_nodes"]),
-        "largest gap in contact nm": _digits(contact["largest_gap_nm"], ".1e"),
-        "Eq. 2 violations": f"{inequality['violations']} of {inequality['checked']}",
-        "inlet cells": f"{result['resolution']['inlet_cells']:.2f}",
-        "domain": result["resolution"].get("domain", UNKNOWN),
-        "convolutions": f"{result['work']['convolutions']:.1f}",
-        "Newton steps on finest": "",
-    }
-
-
-def _digits(number, digits):
-    """A number of result.json, which is null where it was not finite."""
-    return "nan" if number is None else format(number, digits)
-
-
-def _of_rough(result, name):
-    """A number of `MixedResult`; empty of smooth bodies, of older runs and where there is none."""
-    value = (result.get("mixed") or {}).get(name)
-    return "" if value is None else f"{value:.4g}"
-
-
-def _films(result):
-    """Central and minimum film with all digits, and their bands; empty where there is none."""
-    error = result.get("error") or {}
-    columns = {f"{film} nm": _digits(result[f"{film}_film_nm"], ".4f") for film in FILMS}
-    bands = {film: error.get(f"{film}_nm") for film in FILMS}
-    return columns | {f"{film} ± nm": "" if band is None else f"{band:.4g}" for film, band in bands.items()}
-
-
-def _gaps(result):
-    """The same of the mean gaps of rough bodies."""
-    mixed = result.get("mixed") or {}
-    error = mixed.get("error") or {}
-    found = {gap: mixed.get(f"{gap}_gap_nm") for gap in GAPS}
-    bands = {gap: error.get(f"{gap}_nm") for gap in GAPS}
-    return {f"{gap} gap nm": "" if nm is None else f"{nm:.6g}" for gap, nm in found.items()} | {
-        f"{gap} gap ± nm": "" if band is None else f"{band:.4g}" for gap, band in bands.items()
-    }
-
-
-def with_bands(rows):
-    """The rows of `collect` as they are shown: films and gaps with their bands and no more digits than they
-    have."""
-    return [_with_bands(row) for row in rows]
-
-
-def _with_bands(row):
-    numbers = [*FILMS, *(f"{gap} gap" for gap in GAPS)]
-    shown = {
-        f"{name} nm": with_band(float(row[f"{name} nm"]), float(row[f"{name} ± nm"]))
-        for name in numbers
-        if row.get(f"{name} ± nm")
-    }
-    return {name: text for name, text in (row | shown).items() if "±" not in name}
-
-
-def _steps(finest):
-    """Rows of the history before and after each step on the finest grid; a run may solve on it several
-    times, from step 0 each."""
-    return [pair for pair in pairwise(finest) if "seconds" in pair[1] and int(pair[1]["step"]) > 0]

@@ -5,25 +5,45 @@ import os
 import sys
 from contextlib import suppress
 from dataclasses import asdict
-from math import ceil, inf, isfinite, log
+from math import ceil
 
+from mgehl.kinds.loaded import speed_words
 from mgehl.output.advice import what_next
 from mgehl.output.files import finite
 from mgehl.saying import columns, complain, folded, say
 
 HANGING = "    "
 """Indent of the rest of a line that is broken."""
-BAR = 24
-"""Columns of the bar."""
+
 ALMOST = 0.99
 """Part of the bar that is drawn at the most: a full one would stop its clock, while results are written."""
+
+SHORT = {
+    "grid": "{:4d} nodes", "speed": "{:>9}", "step": "step {:2d}", "residual": "residual {:7.1e}",
+    "gap_nm": "gap {:7.1e} nm", "central_film_nm": "film {:6.4g} nm", "contact_nodes": "contact {}",
+}  # fmt: skip
+"""What a line says of a cycle, of what its row in the history has: in 80 columns."""
+
+ALL = {
+    "grid": "grid {:5d}", "speed_mm_s": "{:9.4g} mm/s", "step": "step {:2d}", "residual": "residual {:8.2e}",
+    "load_error": "load {:+8.1e}", "gap_nm": "gap in contact {:8.2e} nm", "central_film_nm": "film {:10.4f}",
+    "minimum_film_nm": "min {:10.4f} nm", "contact_nodes": "contact {:6d}",
+    "cavitated_nodes": "cavitated {:6d}", "changed_nodes": "changed {:5d}",
+    "linear_iterations": "iterations {:3d}", "e_p": "e^p {:8.2e}", "e_p_lubr": "of fluid {:8.2e}",
+    "e_p_solid": "of solid {:8.2e}",
+}  # fmt: skip
+"""The same of a verbose run."""
+
+
+def line_of(row, verbose=False):
+    """A line about a row of the history."""
+    known = row | ({"speed": speed_words(1e-3 * row["speed_mm_s"])} if "speed_mm_s" in row else {})
+    shapes = ALL if verbose else SHORT
+    return "  ".join(shape.format(known[name]) for name, shape in shapes.items() if name in known)
 
 
 class Silent:
     """Says nothing. The interface of the others, which are context managers, too."""
-
-    verbose = False
-    """Whether lines have all numbers."""
 
     def __enter__(self):
         return self
@@ -31,8 +51,8 @@ class Silent:
     def __exit__(self, *_):
         pass
 
-    def row(self, row, line, left=None):
-        """A cycle: its row of the history, its line, and the seconds that are left, if known."""
+    def row(self, row, left=None):
+        """A cycle: its row of the history, and the seconds that are left, if known."""
 
     def news(self, words):
         """The run takes another way, in words."""
@@ -55,40 +75,41 @@ class Quiet(Silent):
             complain(f"not converged: {solution.result.reason}")
 
 
-class Lines(Silent):
-    """A line for each cycle; at the end the answer and whether to trust it.
-
-    On a terminal lines are broken at spaces. `verbose` ones have all, however long.
-    """
-
-    def __init__(self, verbose=False):
-        self.verbose = verbose
-
-    def row(self, row, line, left=None):
-        say(line)
-
-    def news(self, words):
-        say(folded(words, HANGING, columns()))
-
-    def end(self, solution, directory):
-        lines = solution.result.words(self.verbose).splitlines()
-        lines += [f"  {line}" for line in (*what_next(solution), f"results in {directory}")]
-        width = columns()
-        say(*(folded(line, HANGING, width) for line in lines), sep="\n")
-
-
 class JsonLines(Silent):
     """A JSON object per cycle, one of the result and one of any news, for programs that watch."""
 
-    def row(self, row, line, left=None):
+    def row(self, row, left=None):
         say(json.dumps(finite({"cycle": row, "seconds_left": left})))
 
     def news(self, words):
         say(json.dumps({"news": words}))
 
     def end(self, solution, directory):
-        result = finite(asdict(solution.result))
-        say(json.dumps({"result": result, "directory": str(directory)}))
+        say(json.dumps({"result": finite(asdict(solution.result)), "directory": str(directory)}))
+
+
+class Lines(Silent):
+    """A line for each cycle; at the end the answer and whether to trust it.
+
+    On a terminal lines are broken at spaces. `verbose` ones have all numbers, however long they are.
+    """
+
+    def __init__(self, verbose=False):
+        self._verbose = verbose
+
+    def row(self, row, left=None):
+        self._print(line_of(row, self._verbose))
+
+    def news(self, words):
+        self._print(folded(words, HANGING, columns()))
+
+    def end(self, solution, directory):
+        lines = solution.result.words(self._verbose).splitlines()
+        for line in *lines, *(f"  {line}" for line in (*what_next(solution), f"results in {directory}")):
+            self._print(folded(line, HANGING, columns()))
+
+    def _print(self, words):
+        say(words)
 
 
 class Live(Lines):
@@ -99,10 +120,11 @@ class Live(Lines):
     def __enter__(self):
         from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
-        words, left = TextColumn("{task.description}"), TextColumn("{task.fields[left]}")
-        bar = BarColumn(bar_width=BAR)
-        self._display = Progress(words, bar, TimeElapsedColumn(), left, transient=True)
-        self._task = self._begin("first guess")
+        left = TextColumn("{task.fields[left]}")
+        self._display = Progress(
+            TextColumn("{task.description}"), BarColumn(24), TimeElapsedColumn(), left, transient=True
+        )
+        self._task = self._display.add_task("first guess", total=None, left="")
         with _AS_LONG_AS_IT_SHOWS:
             self._display.start()
         return self
@@ -111,40 +133,33 @@ class Live(Lines):
         with _AS_LONG_AS_IT_SHOWS:
             self._display.stop()
 
-    def row(self, row, line, left=None):
+    def row(self, row, left=None):
+        super().row(row)
         spent = row.get("seconds", 0.0)
-        done = None if left is None else min(spent / max(spent + left, 1e-9), ALMOST)
-        what = f"{row['grid']} nodes, step {row['step']}"
-        known = {} if done is None else {"total": 1.0, "completed": done}
+        known = (
+            {}
+            if left is None
+            else {"total": 1.0, "completed": min(spent / max(spent + left, 1e-9), ALMOST)}
+        )
         told = "" if left is None else f"about {ceil(left)} s left"
-        with _AS_LONG_AS_IT_SHOWS:
-            self._print(line)
-            self._display.update(self._task, description=what, left=told, **known)
+        self._update(description=f"{row['grid']} nodes, step {row['step']}", left=told, **known)
 
-    def news(self, words):
-        with _AS_LONG_AS_IT_SHOWS:
-            self._print(folded(words, HANGING, columns()))
+    def writing(self):
+        self._display.tasks[0].total = None
+        self._update(description="writing results", left="")
+
+    def end(self, solution, directory):
+        self.__exit__()
+        super().end(solution, directory)
 
     def _print(self, words):
         """Put words above the bar."""
-        self._display.console.print(words, highlight=False, markup=False, soft_wrap=True)
-
-    def writing(self):
         with _AS_LONG_AS_IT_SHOWS:
-            before, self._task = self._task, self._begin("writing results", visible=False)
-            tasks = {task.id: task for task in self._display.tasks}
-            tasks[self._task].start_time = tasks[before].start_time
-            self._display.remove_task(before)
-            self._display.update(self._task, visible=True)
+            self._display.console.print(words, highlight=False, markup=False, soft_wrap=True)
 
-    def _begin(self, what, visible=True):
-        """A bar that moves to and fro: how long it takes is not known."""
-        return self._display.add_task(what, total=None, left="", visible=visible)
-
-    def end(self, solution, directory):
+    def _update(self, **fields):
         with _AS_LONG_AS_IT_SHOWS:
-            self._display.stop()
-        super().end(solution, directory)
+            self._display.update(self._task, **fields)
 
 
 _AS_LONG_AS_IT_SHOWS = suppress(OSError, ValueError)
@@ -155,9 +170,7 @@ def speaker(quiet=False, json_lines=False, stream=None, verbose=False):
     """The speaker that options and the terminal ask for."""
     if quiet:
         return Quiet()
-    if json_lines:
-        return JsonLines()
-    return (Live if _shows(stream or sys.stdout) else Lines)(verbose)
+    return JsonLines() if json_lines else (Live if _shows(stream or sys.stdout) else Lines)(verbose)
 
 
 def _shows(stream):
@@ -170,42 +183,3 @@ def _shows(stream):
         return stream.isatty() and os.get_terminal_size(stream.fileno()).columns > 0
     except (OSError, ValueError, AttributeError):  # closed
         return False
-
-
-STEPS_A_GRID = 8
-"""Newton steps that a grid not yet begun is expected to take."""
-
-
-def seconds_left(rows, finest, tolerance):
-    """Guess the time to the end from the history; None where that is too short to tell.
-
-    On the present grid residuals go on falling as in the last steps; a finer one takes a few
-    steps, each four times as long. A walk in speed has more solves to come, of which nothing is known here.
-    """
-    here = _present_solve(rows)
-    if len(here) < 2 or not isfinite(here[-1]["residual"]):
-        return None
-    each = (here[-1]["seconds"] - here[0]["seconds"]) / (len(here) - 1)
-    left, nodes = _steps_left(here[-4:], tolerance) * each, rows[-1]["grid"]
-    while nodes < finest:
-        nodes, each = 2 * nodes - 1, 4.0 * each
-        left += STEPS_A_GRID * each
-    return left
-
-
-def _present_solve(rows):
-    """The last rows, of one solve on one grid: a run may solve on the finest grid several times."""
-    first = len(rows) - 1
-    while first > 0 and rows[first]["step"] > 0:
-        first -= 1
-    return rows[first:]
-
-
-def _steps_left(rows, tolerance):
-    """Steps until the residual is within `tolerance`, falling as it did in these rows."""
-    first, last = rows[0]["residual"], rows[-1]["residual"]
-    if last <= tolerance:
-        return 0.0
-    if not last < first < inf:
-        return STEPS_A_GRID
-    return log(last / tolerance) / log(first / last) * (len(rows) - 1)

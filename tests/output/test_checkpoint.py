@@ -355,7 +355,7 @@ class Counting(Silent):
 
     told = 0
 
-    def row(self, row, line, left=None):
+    def row(self, row, left=None):
         self.told += 1
 
 

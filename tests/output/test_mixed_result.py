@@ -16,7 +16,6 @@ from mgehl.output.files import write_result
 from mgehl.output.gap_error import GapError, GridGap, no_band
 from mgehl.output.mixed_result import Nodes, measured, mixed_result, patch_sizes
 from mgehl.output.mixed_words import mixed_lines, mixed_note
-from mgehl.output.table import _of_rough
 from mgehl.solver.gaps import within_hertz
 
 FILM, LOW = 0.5, 0.25
@@ -263,7 +262,6 @@ class Raised:
 
 def test_smooth_bodies_have_nothing_of_it(tiny_problem):
     assert mixed_result(tiny_problem, None) is None
-    assert _of_rough({"mixed": None}, "lambda_ratio") == _of_rough({}, "lambda_ratio") == ""
 
 
 def test_it_is_in_result_json_and_in_words(contact, nodes, tmp_path):
@@ -273,8 +271,6 @@ def test_it_is_in_result_json_and_in_words(contact, nodes, tmp_path):
     write_result(tmp_path / "result.json", replace(result, groups={}))
     stored = json.loads((tmp_path / "result.json").read_text())
     assert stored["mixed"] == asdict(found)
-    assert _of_rough(stored, "lambda_ratio") == f"{found.lambda_ratio:.4g}"
-    assert _of_rough(stored, "mean_film_nm") == f"{found.mean_film_nm:.4g}"
     text = str(result)
     assert f"contact carries {100 * found.contact_load_share:.2f} % of the load" in text
     area = f"{1e12 * found.contact_area_m2:.4g} um^2"

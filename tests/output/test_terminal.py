@@ -16,96 +16,80 @@ import pytest
 from test_files import make_result
 
 from mgehl.output.solution import Solution
-from mgehl.output.terminal import STEPS_A_GRID, JsonLines, Lines, Live, Quiet, seconds_left, speaker
+from mgehl.output.terminal import JsonLines, Lines, Live, Quiet, line_of, speaker
 
-ROW = {"grid": 65, "step": 3, "residual": 1e-3, "seconds": 2.0}
-
-
-def solution(**changes):
-    return Solution(None, None, None, None, [], make_result(**changes))
+ROW = {"grid": 4097, "speed_mm_s": 0.005, "step": 60, "residual": 1.2e-5, "load_error": -2e-7,
+       "central_film_nm": -1234.5, "contact_nodes": 12345, "seconds": 2.0}  # fmt: skip
 
 
-class TestWords:
-    def say(self, speaker, **changes):
-        with speaker:
-            speaker.row(ROW, "a line", 7.0)
-            speaker.end(solution(**changes), "runs/here")
+def said(speaker, capsys, **changes):
+    """What a speaker puts out and complains of in a run of one cycle."""
+    with speaker:
+        speaker.row(ROW, 7.0)
+        speaker.end(Solution(None, None, None, None, [], make_result(**changes)), "runs/here")
+    return capsys.readouterr()
 
-    def test_lines(self, capsys):
-        self.say(Lines())
-        out, err = capsys.readouterr()
-        lines = out.splitlines()
-        assert lines[0] == "a line" and lines[1] == "CONVERGED: all holds"
-        assert lines[-1] == "  results in runs/here" and err == ""
 
-    NEWS = " ".join(40 * ["news"])
+def test_a_line_for_each_cycle_then_the_answer(capsys):
+    out, err = said(Lines(), capsys)
+    lines = out.splitlines()
+    assert lines[0].startswith("4097 nodes  0.005 mm/s  step 60") and lines[1] == "CONVERGED: all holds"
+    assert lines[-1] == "  results in runs/here" and err == "" and "\x1b" not in out
 
-    @pytest.mark.parametrize("kind", [Lines, Live])
-    def test_news_are_broken_at_spaces(self, capsys, monkeypatch, kind):
-        monkeypatch.setenv("COLUMNS", "80")
-        with kind() as words:
-            words.news(self.NEWS)
-        out = capsys.readouterr().out
-        assert out.split() == self.NEWS.split() and max(map(len, out.splitlines())) <= 80
 
-    def test_news_as_json_and_not_at_all(self, capsys):
-        JsonLines().news(self.NEWS)
-        assert json.loads(capsys.readouterr().out) == {"news": self.NEWS}
-        Quiet().news(self.NEWS)
-        assert capsys.readouterr() == ("", "")
+@pytest.mark.parametrize("row", [ROW, {"grid": 4097, "step": 60, "residual": 1e-5, "gap_nm": 1.2e-5,
+                                       "contact_nodes": 12345, "changed_nodes": 12345}])  # fmt: skip
+def test_a_line_has_eighty_columns_at_the_most_and_a_verbose_one_all(row):
+    assert len(line_of(row)) <= 80 < len(line_of(ROW, verbose=True))
+    assert "-2.0e-07" in line_of(ROW, verbose=True) and "changed 12345" in line_of(
+        row | {"changed_nodes": 12345}, True
+    )
 
-    def test_on_a_terminal_they_are_broken_at_spaces(self, capsys, monkeypatch):
-        reason = " ".join(40 * ["sets"])
-        self.say(Lines(), reason=reason)
-        whole = capsys.readouterr().out
-        monkeypatch.setenv("COLUMNS", "80")
-        self.say(Lines(), reason=reason)
-        broken = capsys.readouterr().out
-        assert max(map(len, broken.splitlines())) <= 80 < max(map(len, whole.splitlines()))
-        assert broken.split() == whole.split()
-        assert "\n    sets " in broken
 
-    def test_verbose_ones_have_all(self, capsys):
-        self.say(Lines(verbose=True))
-        verbose = capsys.readouterr().out
-        self.say(Lines())
-        assert "flux imbalance" in verbose and "flux imbalance" not in capsys.readouterr().out
+def test_a_verbose_run_has_all_of_its_result(capsys):
+    assert "flux imbalance" in said(Lines(verbose=True), capsys)[0]
+    assert "flux imbalance" not in said(Lines(), capsys)[0]
 
-    def test_a_quiet_one_says_nothing(self, capsys):
-        self.say(Quiet())
-        assert capsys.readouterr() == ("", "")
 
-    def test_a_quiet_one_says_that_it_failed(self, capsys):
-        self.say(Quiet(), converged=False, reason="sets cycle")
-        assert capsys.readouterr() == ("", "mgehl: not converged: sets cycle\n")
+@pytest.mark.parametrize("kind", [Lines, Live])
+def test_on_a_terminal_they_are_broken_at_spaces(capsys, monkeypatch, kind):
+    reason = " ".join(40 * ["sets"])
+    whole = said(kind(), capsys, reason=reason)[0]
+    monkeypatch.setenv("COLUMNS", "80")
+    broken = said(kind(), capsys, reason=reason)[0]
+    assert max(map(len, broken.splitlines())) <= 80 < max(map(len, whole.splitlines()))
+    assert broken.split() == whole.split() and "\n    sets " in broken
+    with kind() as words:
+        words.news(reason)
+    assert max(map(len, capsys.readouterr().out.splitlines())) <= 80
 
-    def test_json_lines(self, capsys):
-        self.say(JsonLines(), residual=nan, flux_imbalance=inf)
 
-        def refuse(constant):
-            raise AssertionError(f"{constant} is not JSON")
+def test_a_quiet_one_says_only_that_it_failed(capsys):
+    assert said(Quiet(), capsys) == ("", "")
+    assert said(Quiet(), capsys, converged=False, reason="sets cycle") == (
+        "",
+        "mgehl: not converged: sets cycle\n",
+    )
 
-        out, err = capsys.readouterr()
-        cycle, result = (json.loads(line, parse_constant=refuse) for line in out.splitlines())
-        assert cycle == {"cycle": ROW, "seconds_left": 7.0}
-        assert result["directory"] == "runs/here" and result["result"]["converged"] is True
-        assert result["result"]["residual"] is None and result["result"]["flux_imbalance"] is None
-        assert err == ""
 
-    def test_json_of_a_cycle_without_numbers(self, capsys):
-        JsonLines().row(ROW | {"residual": nan}, "a line")
-        assert json.loads(capsys.readouterr().out) == {
-            "cycle": ROW | {"residual": None},
-            "seconds_left": None,
-        }
+def test_json_lines(capsys):
+    def refuse(constant):
+        raise AssertionError(f"{constant} is not JSON")
+
+    out, err = said(JsonLines(), capsys, residual=nan, flux_imbalance=inf)
+    cycle, result = (json.loads(line, parse_constant=refuse) for line in out.splitlines())
+    assert cycle == {"cycle": ROW, "seconds_left": 7.0} and err == ""
+    assert result["directory"] == "runs/here" and result["result"]["converged"] is True
+    assert result["result"]["residual"] is None and result["result"]["flux_imbalance"] is None
+    JsonLines().row({"residual": nan})
+    assert json.loads(capsys.readouterr().out) == {"cycle": {"residual": None}, "seconds_left": None}
+    JsonLines().news("another way")
+    assert json.loads(capsys.readouterr().out) == {"news": "another way"}
 
 
 class TestWhoSpeaks:
-    def test_options_come_first(self):
-        assert type(speaker(quiet=True)) is Quiet
-        assert type(speaker(json_lines=True)) is JsonLines
-
-    def test_no_terminal(self, tmp_path):
+    def test_options_come_first_and_what_is_no_terminal_gets_lines(self, tmp_path):
+        assert type(speaker(quiet=True)) is Quiet and type(speaker(json_lines=True)) is JsonLines
         assert type(speaker(stream=io.StringIO())) is Lines
         with (tmp_path / "log").open("w") as file:
             assert type(speaker(stream=file)) is Lines
@@ -124,113 +108,71 @@ def pseudo_terminal(columns):
     return ours, theirs
 
 
+TEXT = f"""
+import time
+from mgehl.output.terminal import speaker
+with speaker() as words:
+    time.sleep(0.6)
+    for step in range(4):
+        words.row({ROW} | {{'step': step, 'seconds': 1.0 + step}}, None if step == 0 else 6.2)
+        time.sleep(0.15)
+    words.news('[line] ' + 30 * 'xxx ')
+    words.writing()
+    time.sleep(1.1)
+print('the end')
+"""
+
+
+def shown(**environment):
+    """All that came to a terminal of 100 columns."""
+    ours, theirs = pseudo_terminal(100)
+    environment = os.environ | {"TERM": "xterm-256color", "COLUMNS": "100"} | environment
+    process = subprocess.Popen([sys.executable, "-c", TEXT], stdout=theirs, env=environment)
+    os.close(theirs)
+    shown = b""
+    while True:
+        try:
+            part = os.read(ours, 65536)
+        except OSError:  # all have gone
+            break
+        if not part:
+            break
+        shown += part
+    os.close(ours)
+    assert process.wait(timeout=60) == 0
+    return shown.decode()
+
+
+COLOURS = re.compile(r"\x1b\[[0-9;]*3[0-9][0-9;]*m")
+
+
 class TestLive:
-    TEXT = (
-        "import sys, time\n"
-        "from mgehl.errors import Stopped\n"
-        "from mgehl.output.terminal import speaker\n"
-        "with speaker() as words:\n"
-        "    time.sleep(0.6)\n"
-        "    for step in range(4):\n"
-        "        words.row({'grid': 65, 'step': step, 'seconds': 1.0 + step}, f'[line] {step} ' + 99 * 'x',"
-        " None if step == 0 else 6.2)\n"
-        "        time.sleep(0.15)\n"
-        "    words.row({'grid': 65, 'step': 4, 'seconds': 5.0}, '[line] 4', 0.0)\n"
-        "    words.writing()\n"
-        "    time.sleep(1.1)\n"
-        "print('the end')\n"
-    )
-
     @pytest.fixture(scope="class")
-    def shown(self):
-        """All that came to a terminal of 100 columns."""
-        ours, theirs = pseudo_terminal(100)
-        environment = os.environ | {"TERM": "xterm-256color", "COLUMNS": "100"}
-        process = subprocess.Popen([sys.executable, "-c", self.TEXT], stdout=theirs, env=environment)
-        os.close(theirs)
-        shown = b""
-        while True:
-            try:
-                part = os.read(ours, 65536)
-            except OSError:  # all have gone
-                break
-            if not part:
-                break
-            shown += part
-        os.close(ours)
-        assert process.wait(timeout=60) == 0
-        return shown.decode()
+    def text(self):
+        environment = {} if "NO_COLOR" not in os.environ else {"NO_COLOR": ""}
+        return shown(**environment)
 
-    def test_it_tells_grid_step_and_time_left(self, shown):
-        assert "65 nodes, step 3" in shown and "about 7 s left" in shown and "0:00:00" in shown
+    def test_it_tells_grid_step_and_time_left(self, text):
+        assert "4097 nodes, step 3" in text and "about 7 s left" in text and "0:00:00" in text
 
-    def test_its_bar_moves_before_anything_is_known(self, shown):
-        """Frames before the first line of a cycle differ: the bar goes to and fro."""
-        before = shown[: shown.index("[line]")]
-        frames = [each for each in before.split("\r") if "first guess" in each]
-        assert len(set(frames)) > 2
-        assert "━" in shown or "╸" in shown or "-" in shown
+    def test_its_bar_moves_before_anything_is_known(self, text):
+        frames = [each for each in text[: text.index("residual")].split("\r") if "first guess" in each]
+        assert len(set(frames)) > 2 and ("━" in text or "╸" in text or "-" in text)
 
-    def test_it_goes_on_moving_while_results_are_written(self, shown):
+    def test_it_goes_on_moving_while_results_are_written(self, text):
         """With the time since the beginning, and no word of time that is left."""
-        frames = [each for each in shown.split("\r") if "writing results" in each]
+        frames = [each for each in text.split("\r") if "writing results" in each]
         assert len(set(frames)) > 2 and "left" not in "".join(frames)
         assert "0:00:01" in frames[0] and "0:00:02" in frames[-1]
 
-    def test_lines_stay_whole_above_it(self, shown):
-        plain = re.sub(r"\x1b\[[0-9;?]*[A-Za-z]", "", shown)
-        for step in range(4):
-            assert f"[line] {step} {99 * 'x'}" in plain
+    def test_lines_stay_above_it(self, text):
+        plain = re.sub(r"\x1b\[[0-9;?]*[A-Za-z]", "", text)
+        assert all(line_of(ROW | {"step": step}) in plain for step in range(4)) and "[line] xxx" in plain
 
-    def test_it_leaves_the_terminal_as_it_was(self, shown):
-        assert shown.rstrip().endswith("the end")
-        assert "\x1b[?25l" in shown and shown.rindex("\x1b[?25h") > shown.rindex("\x1b[?25l")
-        # The bar is wiped out before the end.
-        assert "\x1b[2K" in shown[shown.rindex("writing results") :]
+    def test_it_leaves_the_terminal_as_it_was(self, text):
+        assert text.rstrip().endswith("the end")
+        assert "\x1b[?25l" in text and text.rindex("\x1b[?25h") > text.rindex("\x1b[?25l")
+        assert "\x1b[2K" in text[text.rindex("writing results") :], "the bar is wiped out"
 
-
-def rows(residuals, grid=65, seconds=1.0, first=0.0):
-    return [
-        {"grid": grid, "step": k, "residual": residual, "seconds": first + k * seconds}
-        for k, residual in enumerate(residuals)
-    ]
-
-
-class TestSecondsLeft:
-    def test_residuals_that_fall_geometrically(self):
-        """From 1e-3 to 1e-8 there are five steps at a decade each, of two seconds."""
-        history = rows([1.0, 1e-1, 1e-2, 1e-3], seconds=2.0)
-        assert seconds_left(history, 65, 1e-8) == pytest.approx(10.0)
-
-    def test_an_earlier_solve_on_the_same_grid_does_not_count(self):
-        """Of a walk in speed: neither its residuals nor the time in between."""
-        before = rows([1.0, 1e-2, 1e-8], seconds=50.0)
-        history = before + rows([1.0, 1e-1, 1e-2, 1e-3], seconds=2.0, first=300.0)
-        assert seconds_left(history, 65, 1e-8) == pytest.approx(10.0)
-        assert seconds_left(history[: len(before) + 1], 65, 1e-8) is None
-
-    def test_only_the_last_steps_count(self):
-        slow_at_first = rows([1.0, 0.99, 0.98, 1e-1, 1e-2, 1e-3, 1e-4])
-        assert seconds_left(slow_at_first, 65, 1e-8) == pytest.approx(4.0)
-
-    def test_nothing_is_left_once_it_is_reached(self):
-        assert seconds_left(rows([1.0, 1e-9]), 65, 1e-8) == 0.0
-        assert seconds_left(rows([1.0, 0.0]), 65, 1e-8) == 0.0
-
-    def test_one_step_tells_nothing(self):
-        assert seconds_left(rows([1.0]), 65, 1e-8) is None
-        assert seconds_left(rows([1.0, 0.1], grid=65) + rows([1.0], grid=129), 129, 1e-8) is None
-
-    def test_residuals_that_grow(self):
-        assert seconds_left(rows([1.0, 2.0, 4.0]), 65, 1e-8) == STEPS_A_GRID
-
-    def test_finer_grids_take_four_times_as_long_each(self):
-        left = seconds_left(rows([1e-2, 1e-4, 1e-6]), 257, 1e-8)
-        assert left == pytest.approx(1.0 + STEPS_A_GRID * (4.0 + 16.0))
-
-    @pytest.mark.parametrize("residual", [nan, inf])
-    def test_a_residual_that_is_no_number_tells_nothing(self, residual):
-        assert seconds_left(rows([1.0, residual]), 129, 1e-8) is None
-
-    def test_from_no_number_to_one(self):
-        assert seconds_left(rows([nan, 1.0]), 65, 1e-8) == STEPS_A_GRID
+    def test_who_wants_no_colours_gets_none(self, text):
+        assert COLOURS.search(text) and not COLOURS.search(shown(NO_COLOR="1"))

@@ -3,7 +3,6 @@
 What the page says and how it looks are report.html.j2, run.html.j2 and report.css beside this module.
 """
 
-import re
 from base64 import b64encode
 from dataclasses import dataclass
 from math import isfinite
@@ -11,6 +10,7 @@ from typing import ClassVar
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
+from mgehl.output.digits import is_number
 from mgehl.version import VERSION
 
 GOOD, DOUBTFUL, BAD = "good", "doubtful", "bad"
@@ -141,14 +141,4 @@ def _text_kind(text):
 def _is_numeric(cells):
     """True where every cell that says something holds a number, and one does."""
     said = [cell.text for cell in cells if cell.text]
-    return bool(said) and all(map(_is_number, said))
-
-
-def _is_number(text):
-    """True of a number, of two as in "3 of 7" or "3..7", and of the words for no number."""
-    try:
-        for part in re.split(r" of |\.\.", text):
-            float(part)
-    except ValueError:
-        return text in ("none", NO_NUMBER)
-    return True
+    return bool(said) and all(text in ("none", NO_NUMBER) or is_number(text) for text in said)
