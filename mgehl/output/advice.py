@@ -35,49 +35,13 @@ def what_next(solution):
 def _tries(solution):
     """Sentences, the likeliest to help first."""
     result, config = solution.result, solution.config
-    if solution.is_dry:
+    if solution.contact.is_loaded:
         yield from _of_domain(solution)
     if not solution.contact.is_loaded or solution.is_dry:
         yield "solver.max_steps: a higher one, where the residual still falls"
         yield "grid.nodes: another number of nodes"
         return
-    yield from _of_domain(solution)
-    yield from _of_grid(result.resolution, config.grid.nodes)
-    yield OTHER[config.solver.start]
-    if NOR_FROM_A_FILM not in result.reason:
-        yield "--start-from RUN: from a run at a higher speed that converged; so step by step down"
-    yield f"solver.max_steps: more than {config.solver.max_steps}, where the residual still falls"
-
-
-def _of_domain(solution):
-    """A domain that cuts the contact, or a contact of too few nodes."""
-    edge = solution.result.edge
-    if edge.cuts:
-        yield _other_domain(solution.config, solution.contact)
-    elif edge.too_few:
-        yield "more nodes, or a smaller domain: the contact has too few nodes"
-
-
-def _other_domain(config, contact):
-    """That of "auto", or a larger one in numbers where this one has as much room already."""
-    names = "x" if contact.is_plane else "xy"
-    open_grid = replace(config.grid, **dict.fromkeys(names, AUTO))
-    auto = settled(replace(config, grid=open_grid), contact).grid
-    if not all(_holds(getattr(config.grid, name), getattr(auto, name)) for name in names):
-        keys = " and ".join(f'grid.{name} = "auto"' for name in names)
-        return f"{keys}: a domain that holds the contact and its inlet"
-    larger = {name: [round(LARGER * end, 2) for end in getattr(config.grid, name)] for name in names}
-    keys = " and ".join(f"grid.{name} = {ends}" for name, ends in larger.items())
-    return f"{keys}: the contact is wider than that of smooth bodies"
-
-
-def _holds(ends, others):
-    """Whether an interval holds another one."""
-    return ends[0] <= others[0] + JUST and ends[1] >= others[1] - JUST
-
-
-def _of_grid(resolution, nodes):
-    """A grid too coarse for the surface or the inlet."""
+    nodes, resolution = config.grid.nodes, result.resolution
     if resolution.surface in (surface.COARSE, surface.GRIDS):
         yield f"grid.nodes = {2 * nodes - 1}, or a surface without its short waves"
     if resolution.verdict in ("coarse", "grid-determined"):
@@ -85,3 +49,28 @@ def _of_grid(resolution, nodes):
             f"more nodes or a higher speed: the inlet has {resolution.inlet_cells:.2g} cells and needs "
             f"{RESOLVED_CELLS:g}; mgehl check says how many nodes that takes"
         )
+    yield OTHER[config.solver.start]
+    if NOR_FROM_A_FILM not in result.reason:
+        yield "--start-from RUN: from a run at a higher speed that converged; so step by step down"
+    yield f"solver.max_steps: more than {config.solver.max_steps}, where the residual still falls"
+
+
+def _of_domain(solution):
+    """A domain that cuts the contact: that of "auto", or a larger one where that has no more room."""
+    edge, config = solution.result.edge, solution.config
+    if not edge.cuts:
+        if edge.too_few:
+            yield "more nodes, or a smaller domain: the contact has too few nodes"
+        return
+    names = "x" if solution.contact.is_plane else "xy"
+    open_grid = replace(config.grid, **dict.fromkeys(names, AUTO))
+    auto = settled(replace(config, grid=open_grid), solution.contact).grid
+    ends = {name: getattr(config.grid, name) for name in names}
+    if any(low > getattr(auto, name)[0] + JUST or high < getattr(auto, name)[1] - JUST
+           for name, (low, high) in ends.items()):  # fmt: skip
+        keys = " and ".join(f'grid.{name} = "auto"' for name in names)
+        yield f"{keys}: a domain that holds the contact and its inlet"
+    else:
+        larger = {name: [round(LARGER * end, 2) for end in pair] for name, pair in ends.items()}
+        keys = " and ".join(f"grid.{name} = {pair}" for name, pair in larger.items())
+        yield f"{keys}: the contact is wider than that of smooth bodies"

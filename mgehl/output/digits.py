@@ -18,29 +18,16 @@ def is_number(text):
 
 
 def with_band(value, half_width):
-    """A film and the half-width of its band, both of one unit; four decimals where there is no band."""
+    """A film and the half-width of its band, both of one unit, with one digit, or two that begin with a 1.
+
+    Without a band four digits stand after the point; of a diverged run four in all.
+    """
     if half_width is None or not (isfinite(value) and isfinite(half_width)):
-        return plain(value)
-    decimals = decimals_of(half_width)
-    return f"{rounded(value, decimals)} ± {rounded(half_width, decimals, up=True)}"
-
-
-def plain(value):
-    """A film without a band: four digits after the point; of a diverged run four in all."""
-    return f"{round(value, 4) + 0.0:.4f}" if abs(value) < 1e7 else f"{value:.3e}"
-
-
-def decimals_of(half_width):
-    """Decimals with which a half-width has one digit, or two that begin with a 1; below 0 whole tens."""
-    if half_width <= 0.0:
-        return MOST_DECIMALS
-    first = floor(log10(half_width))
-    leading = half_width / 10.0**first
-    return min(MOST_DECIMALS, -first + (1 if leading <= 1.9 else 0))
-
-
-def rounded(value, decimals, up=False):
-    """A number with so many decimals, rounded `up` where it must not be smaller."""
-    unit = 10.0**-decimals
-    steps = ceil(value / unit * (1.0 - 1e-12)) if up else round(value / unit)
-    return f"{steps * unit + 0.0:.{max(0, decimals)}f}"
+        return f"{round(value, 4) + 0.0:.4f}" if abs(value) < 1e7 else f"{value:.3e}"
+    decimals = MOST_DECIMALS
+    if half_width > 0.0:
+        first = floor(log10(half_width))
+        decimals = min(MOST_DECIMALS, -first + (half_width / 10.0**first <= 1.9))
+    unit, shown = 10.0**-decimals, max(0, decimals)  # below 0 whole tens
+    wide = ceil(half_width / unit * (1.0 - 1e-12)) * unit  # never narrower than it is
+    return f"{round(value / unit) * unit + 0.0:.{shown}f} ± {wide:.{shown}f}"

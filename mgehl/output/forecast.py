@@ -8,6 +8,7 @@ converge take half to twice the estimate.
 import time
 from dataclasses import dataclass, replace
 from math import log
+from typing import NamedTuple
 
 import numpy as np
 from mpi4py import MPI
@@ -52,21 +53,6 @@ SIDE_BY_SIDE = Effort(
 )  # fmt: skip
 """Starts from contact on grids that see the inlet."""
 
-MEASURED_NODES = 129
-"""Nodes along X of the grids on which these were measured. The convolutions grow as the nodes along X:
-`rough.toml` takes 142, 280 and 644 on 65, 129 and 257."""
-
-HIGHEST = {False: 465.0, True: 376.0}
-"""Convolutions of balls whose roughness is as large as the dry contact is deep, without and with a layer of
-2 nm. Of 27 balls (drawn as in `study mixed`, seeds 41 and 42) 25 converged, and 20 of these took half to
-twice as many."""
-
-LOWER, THIN = 0.36, 0.15
-"""The power with which they fall with less roughness; lambda below which they rise."""
-
-THINNER = {False: 0.36, True: 0.75}
-"""The power with which they rise with 1/lambda, without and with a boundary film."""
-
 ROUGH = Effort(
     150.0, 2e-7, 0.01, 5000.0, "rough balls on 129 nodes took 42 to 1165", most_bytes_per_node=12500.0
 )
@@ -83,34 +69,28 @@ DIRECT_SECONDS = 0.24
 """Of the direct solves, for each convolution, on `DIRECT` nodes."""
 
 
-@dataclass(frozen=True)
-class InletGrid:
-    """A grid of the hierarchy: cells in its inlet at the wanted speed, and the speed it is solved at."""
+class InletGrid(NamedTuple):
+    """A grid of the hierarchy: cells in its inlet at the wanted speed, and the speed (m/s) it is solved at;
+    None where nothing is solved on this grid alone."""
 
     nodes: int
     cells: float
     speed: float | None
-    """m/s; None where nothing is solved on this grid alone."""
 
 
 @dataclass(frozen=True)
 class Forecast:
-    """Memory and time of a run."""
+    """Memory (bytes, of all ranks) and time of a run; half or twice as many seconds are usual."""
 
-    nodes: int
-    """Of the finest grid, all together."""
     memory: float
-    """Bytes, of all ranks."""
     most_memory: float
-    """Those of runs that need the most."""
+    """Of runs that need the most."""
     seconds: float
-    """Half or twice as many are usual."""
     convolutions: float | None
     """None where a run makes none."""
     convolution_seconds: float
-    """Of one on the finest grid, on one core."""
+    """Of one on the finest grid, on one core, by one on `timed_nodes` along each side."""
     timed_nodes: int
-    """Along each side of the grid on which that was timed."""
     workers: int
     """Ranks that have a core of their own."""
     measured: str
@@ -129,38 +109,35 @@ def inlet_grids(config, contact):
 def forecast(config, contact, mesh, ranks):
     """The `Forecast` of a run on so many ranks; times a convolution."""
     effort = effort_of(config, contact, mesh)
-    timed = _timed_mesh(mesh)
-    second = time_convolution(timed) * _fft_work(mesh) / _fft_work(timed)
-    shared = second + effort.node_seconds * mesh.nodes
+    nodes = mesh.nx if mesh.is_line else min(mesh.nx, LARGEST_TIMED)
+    timed = Mesh(
+        nodes, 1 if mesh.is_line else nodes, (-2.0, 2.0), (0.0, 0.0) if mesh.is_line else (-2.0, 2.0)
+    )
+    second = time_convolution(timed) * mesh.nodes * log(mesh.nodes) / (timed.nodes * log(timed.nodes))
     workers = 1 if mesh.is_line else min(ranks, cores_allowed())
+    each = (second + effort.node_seconds * mesh.nodes) / workers + effort.beside
     return Forecast(
-        nodes=mesh.nodes,
         memory=ranks * RANK_BYTES + bytes_of_nodes(effort, mesh),
-        most_memory=ranks * RANK_BYTES + most_bytes_of_nodes(effort, mesh),
-        seconds=START_SECONDS + effort.convolutions * (shared / workers + effort.beside),
+        most_memory=ranks * RANK_BYTES + bytes_of_nodes(effort, mesh, most=True),
+        seconds=START_SECONDS + effort.convolutions * each,
         convolutions=effort.convolutions if effort.counted else None,
         convolution_seconds=second,
-        timed_nodes=timed.nx,
+        timed_nodes=nodes,
         workers=workers,
         measured=effort.measured,
     )
 
 
-def bytes_of_nodes(effort, mesh):
-    """Bytes for the nodes, on all ranks together, less what is saved where memory is short."""
-    saved = SAVED_ON_LARGE_GRIDS if is_large(mesh) else 0.0
-    return (effort.bytes_per_node - saved) * mesh.nodes
-
-
-def most_bytes_of_nodes(effort, mesh):
-    """The same of runs that need the most."""
-    more = max(effort.most_bytes_per_node - effort.bytes_per_node, 0.0)
-    return bytes_of_nodes(effort, mesh) + more * mesh.nodes
+def bytes_of_nodes(effort, mesh, most=False):
+    """Bytes for the nodes, on all ranks together, less what is saved where memory is short; those of most
+    runs, or of the runs that need the `most`."""
+    each = max(effort.most_bytes_per_node, effort.bytes_per_node) if most else effort.bytes_per_node
+    return (each - (SAVED_ON_LARGE_GRIDS if is_large(mesh) else 0.0)) * mesh.nodes
 
 
 def bytes_of_rank(effort, mesh, ranks):
     """The most on the rank that has most of the nodes: one solves a line contact."""
-    return most_bytes_of_nodes(effort, mesh) / (1 if mesh.is_line else ranks)
+    return bytes_of_nodes(effort, mesh, most=True) / (1 if mesh.is_line else ranks)
 
 
 def effort_of(config, contact, mesh):
@@ -172,13 +149,10 @@ def effort_of(config, contact, mesh):
         return _of_rough_line(mesh) if contact.roughness else by_kind
     cells = contact.inlet_cells(mesh)
     if contact.is_mixed:
-        layers = config.contact.boundary_film > 0.0
-        return replace(ROUGH, convolutions=_of_peaks(contact, layers, mesh))
+        return replace(ROUGH, convolutions=_of_peaks(contact, config.contact.boundary_film > 0.0, mesh))
     if config.solver.start == "contact":
         return SIDE_BY_SIDE if cells > CONTACT_OPENS else by_kind
-    if cells < FILM_TOUCHES:
-        return UNSEEN
-    return by_kind
+    return UNSEEN if cells < FILM_TOUCHES else by_kind
 
 
 def _of_rough_line(mesh):
@@ -190,11 +164,16 @@ def _of_rough_line(mesh):
 
 
 def _of_peaks(contact, has_layers, mesh):
-    """Convolutions of a ball whose peaks reach through the film."""
-    film_ratio = contact.expected_film / contact.roughness
-    thinner = max(THIN / film_ratio, 1.0) ** THINNER[has_layers]
-    highest = HIGHEST[has_layers] * mesh.nx / MEASURED_NODES
-    return highest * (contact.roughness / contact.film_scale) ** LOWER * thinner
+    """Convolutions of a ball whose peaks reach through the film.
+
+    Measured on 129 nodes along x, by which they grow (`rough.toml` takes 142, 280 and 644 on 65, 129 and
+    257): of 27 balls (drawn as in `study mixed`, seeds 41 and 42) 25 converged, and 20 of these took half
+    to twice as many. They fall with less roughness over the depth of the dry contact, and rise with
+    1/lambda below lambda = 0.15, with layers of 2 nm faster than without.
+    """
+    highest, power = (376.0, 0.75) if has_layers else (465.0, 0.36)
+    thinner = max(0.15 * contact.roughness / contact.expected_film, 1.0) ** power
+    return highest * mesh.nx / 129 * (contact.roughness / contact.film_scale) ** 0.36 * thinner
 
 
 def time_convolution(mesh, repeats=5):
@@ -211,16 +190,3 @@ def time_convolution(mesh, repeats=5):
         for thing in (deflection, grid):
             thing.destroy()
     return min(seconds)
-
-
-def _timed_mesh(mesh):
-    """The mesh itself, or one of its kind that is planned and timed in half a second."""
-    nodes = min(mesh.nx, LARGEST_TIMED)
-    if mesh.is_line:
-        return Mesh(mesh.nx, 1, (-2.0, 2.0), (0.0, 0.0))
-    return Mesh(nodes, nodes, (-2.0, 2.0), (-2.0, 2.0))
-
-
-def _fft_work(mesh):
-    """n log n."""
-    return mesh.nodes * log(mesh.nodes)

@@ -22,7 +22,7 @@ THREAD_VARIABLES = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"
 
 
 def surroundings(comm):
-    """Everything, by sections, of the ranks of `comm` (collective); None is what is not installed or set."""
+    """Everything, by sections, of the ranks of `comm` (collective); None is what is not there."""
     return {
         "versions": {"mgehl": VERSION, "python": platform.python_version()}
         | {package: _version(package) for package in PACKAGES},
@@ -72,7 +72,7 @@ def _petsc_version():
 
 
 def _petsc(comm):
-    """How PETSc was built: `debug` makes it slow; a wedge's multigrid is BoomerAMG with hypre, else GAMG."""
+    """How PETSc was built. `debug` makes it slow; with hypre a wedge's multigrid is BoomerAMG."""
     where, log, scalar = petsc4py.get_config(), _log(comm), PETSc.ScalarType()
     return {
         "version": _petsc_version(),

@@ -25,12 +25,12 @@ SHORT = {
 """What a line says of a cycle, of what its row in the history has: in 80 columns."""
 
 ALL = {
-    "grid": "grid {:5d}", "speed_mm_s": "{:9.4g} mm/s", "step": "step {:2d}", "residual": "residual {:8.2e}",
-    "load_error": "load {:+8.1e}", "gap_nm": "gap in contact {:8.2e} nm", "central_film_nm": "film {:10.4f}",
-    "minimum_film_nm": "min {:10.4f} nm", "contact_nodes": "contact {:6d}",
-    "cavitated_nodes": "cavitated {:6d}", "changed_nodes": "changed {:5d}",
-    "linear_iterations": "iterations {:3d}", "e_p": "e^p {:8.2e}", "e_p_lubr": "of fluid {:8.2e}",
-    "e_p_solid": "of solid {:8.2e}",
+    "grid": "grid {:5d}", "speed_mm_s": "{:9.4g} mm/s", "step": "step {:2d}",
+    "residual": "residual {:8.2e}", "load_error": "load {:+8.1e}", "gap_nm": "gap in contact {:8.2e} nm",
+    "central_film_nm": "film {:10.4f}", "minimum_film_nm": "min {:10.4f} nm",
+    "contact_nodes": "contact {:6d}", "cavitated_nodes": "cavitated {:6d}",
+    "changed_nodes": "changed {:5d}", "linear_iterations": "iterations {:3d}",
+    "e_p": "e^p {:8.2e}", "e_p_lubr": "of fluid {:8.2e}", "e_p_solid": "of solid {:8.2e}",
 }  # fmt: skip
 """The same of a verbose run."""
 
