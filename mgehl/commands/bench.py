@@ -92,7 +92,7 @@ def _print(columns):
     rows = [
         {"": name} | {case: _cell(column.get(name)) for case, column in columns.items()} for name in names
     ]
-    print(f"\n{drawn(rows, list(rows[0]), terminal_columns())}\n")
+    print(f"\n{drawn(rows, ['', *columns], terminal_columns())}\n")
 
 
 def _cell(number):

@@ -51,17 +51,12 @@ def names(directory):
 
 def test_beside_the_results(here, capsys):
     before = names(here / "dry")
+    (here / "dry" / "report.html").write_text("old")
     assert main(["report", "dry"]) == 0
     assert names(here / "dry") == before | {"report.html"}
     assert capsys.readouterr().out == "report dry/report.html\n"
     html = (here / "dry" / "report.html").read_text(encoding="utf-8")
     assert html.startswith("<!DOCTYPE html>") and "Run dry" in html and "Converged" in html
-
-
-def test_the_page_beside_the_results_is_replaced(here):
-    (here / "dry" / "report.html").write_text("old")
-    assert main(["report", "dry/"]) == 0
-    assert (here / "dry" / "report.html").read_text(encoding="utf-8") != "old"
 
 
 def test_another_file_is_replaced_only_with_force(here, capsys):
@@ -72,12 +67,6 @@ def test_another_file_is_replaced_only_with_force(here, capsys):
     assert main(["report", "dry", "--out", "page.html", "--force"]) == 0
     assert page.read_text(encoding="utf-8").startswith("<!DOCTYPE html>")
     assert "report.html" not in names(here / "dry")
-
-
-def test_the_run_may_be_the_working_directory(here, monkeypatch):
-    monkeypatch.chdir(here / "dry")
-    assert main(["report", "."]) == 0
-    assert "Run dry" in (here / "dry" / "report.html").read_text(encoding="utf-8")
 
 
 def test_a_new_run_clears_the_page_of_the_old_one(here):

@@ -167,10 +167,3 @@ def test_faults_are_found(pages, tmp_path):
     assert [natural for natural, _ in found["pictures"]] == [1500, 0]
     assert found["fetched"] == ["http://nowhere.invalid/none.png"]
     assert any("a fault" in line for line in said)
-
-
-def test_it_can_be_printed(pages, tmp_path):
-    path, pdf = tmp_path / "page.html", tmp_path / "page.pdf"
-    path.write_text(pages["point"], encoding="utf-8")
-    browse(path, f"--print-to-pdf={pdf}")
-    assert pdf.read_bytes().startswith(b"%PDF") and pdf.stat().st_size > 20_000
