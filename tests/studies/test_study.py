@@ -73,7 +73,7 @@ def test_a_table_is_written_twice_and_printed(study, capsys):
         assert list(csv.DictReader(file)) == ROWS
     text = (study.directory / "films.md").read_text()
     assert text == "| name | film nm |\n| --- | --- |\n| a | 1.5 |\n| b |  |\n"
-    assert "name  film nm\n────  ───────\na         1.5\nb\n" in capsys.readouterr().out
+    assert "name   film nm\n──────────────\na          1.5\nb\n" in capsys.readouterr().out
 
 
 def test_a_quiet_study_prints_nothing(study, capsys):
