@@ -288,7 +288,8 @@ class TestRoughBodies:
 
     def test_a_load_that_the_grid_does_not_hold_is_the_grid_s(self, film_run, quick):
         error = GapError(0.1, 0.1, "from them", (GridGap(65, 9.0, 3.0, 0.1, True, max_pressure_GPa=1.0),))
-        page = quick(film_run, mixed=replace(self.MIXED, error=error))
+        gaps = {"mean_gap_nm": 9.0, "loaded_gap_nm": 3.0, "near_contact_load_share": 0.1}
+        page = quick(film_run, mixed=replace(self.MIXED, **gaps, error=error))
         assert page.highlights["load on contact"] == "12.5 %, the grid's"
 
     def test_what_solids_and_pockets_carry(self, film_run, quick):
