@@ -30,9 +30,6 @@ FORMULAS = {
     "grubin": "Ertel and Grubin",
 }
 
-WEDGE_TITLES = {"lines": "pressure on the centre line", "pressure": "pressure, the solid in grey"}
-"""Titles of pictures that are not those of `pictures.figures`."""
-
 HISTORY_NAMES = {
     "grid": "nodes", "speed_mm_s": "speed, mm/s", "central_film_nm": "central film, nm",
     "minimum_film_nm": "minimum film, nm", "seconds": "time, s", "e_p": "e^p", "e_p_lubr": "e^p of fluid",
@@ -167,10 +164,9 @@ def _beside(own, formula, converged):
 def pictures(solution):
     """Every picture of the run as SVG."""
     kinds = [kind for kind in drawn_by(solution) if solution.rows or kind != "history"]
-    titles = {} if solution.contact.is_loaded else WEDGE_TITLES
     with style.applied():
         for each in figures(solution, kinds):
-            title = titles.get(each.name, each.title)
+            title = each.title
             content, size = style.rendered(each.figure, "svg"), each.figure.get_size_inches()
             yield picture(f"{title[0].upper()}{title[1:]}.", "", content, "image/svg+xml", size, each.name)
 
