@@ -381,12 +381,20 @@ class TestContinuousContact:
         return state
 
     def test_a_film_closes_at_the_gap_that_contact_keeps(self, partition, state):
-        state.H[4, 3], state.H[4, 5] = self.FILM, 1.01 * self.FILM
+        state.H[4, 3], state.H[4, 5] = 0.99 * self.FILM, 1.01 * self.FILM
         changes = Changes()
         partition.enter_contact(state, changes)
         assert state.status[4, 3] == CONTACT and state.status[4, 5] == LUBRICATED
         only(changes, entered=1)
         assert not partition.past.turns.any()
+
+    def test_it_has_the_pressure_of_its_own_step(self, partition, state):
+        """Not that before: where pressures fell, what has just closed would be let go at once."""
+        state.p[4, 3], state.H[4, 3] = state.P[4, 3] + 0.1, 0.99 * self.FILM
+        partition.enter_contact(state, Changes())
+        assert state.p[4, 3] == state.P[4, 3]
+        partition.open_contact(state, Changes())
+        assert state.status[4, 3] == CONTACT
 
     def test_it_shuts_in_no_fluid(self, partition, state):
         state.status[4, [3, 5]] = CONTACT
@@ -422,6 +430,7 @@ class TestContinuousContact:
 
     def test_what_has_opened_does_not_close_before_the_next_step(self, partition, pressed):
         pressed.p[NODE] += 0.1
+        pressed.H[NODE] *= 0.99
         partition.open_contact(pressed, Changes())
         partition.enter_contact(pressed, Changes())
         assert pressed.status[NODE] == LUBRICATED
