@@ -34,6 +34,7 @@ COLUMNS = {
     "residual": ("residual", ".1e"),
     "load error": ("load_error", ".1e"),
     "load on contact": ("contact.load_fraction", ".4f"),
+    "load on solids": ("mixed.solid_load_fraction", ".4f"),
     "contact/Hertz area": ("contact.area_fraction", ".4f"),
     "mean gap nm": ("mixed.mean_gap_nm", ".6g"),
     "loaded gap nm": ("mixed.loaded_gap_nm", ".6g"),
