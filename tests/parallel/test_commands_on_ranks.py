@@ -98,7 +98,7 @@ class TestPicture:
         def broken(solution):
             raise RuntimeError("no latex")
 
-        monkeypatch.setattr("mgehl.output.pictures.wedge_picture.drawn", broken)
+        monkeypatch.setattr("mgehl.output.pictures.wedge_picture.picture", broken)
         assert main([*WEDGE, "--out", "here"]) == 0
         said = COMM.allgather(capsys.readouterr().err)
         assert "picture.png: cannot be drawn: no latex" in said[0] and not any(said[1:])

@@ -791,15 +791,6 @@ class TestCommandLine:
         assert [len(each) for each in COMM.allgather(lines)] == [1] + [0] * (COMM.size - 1)
         assert not (directory / "here").exists()
 
-    @pytest.mark.skipif(COMM.size == 1, reason="one rank has nobody to send to")
-    def test_study_of_ranks(self, directory):
-        from mgehl.cli import main
-
-        here = directory / "here"
-        assert main(["study", "ranks", "--nodes", "65", "--quiet", "--out", str(here)]) == 0
-        names = {path.stem for path in here.glob("*.md")}
-        assert names == {"constants", "iterations", "forecast", "levels"}
-
     def test_one_directory_for_all(self, directory, capsys):
         from mgehl.cli import main
 
