@@ -4,6 +4,7 @@ from dataclasses import replace
 
 from mgehl.errors import ConfigError
 from mgehl.kinds import domain, loaded_checks
+from mgehl.kinds.choice import Choice, value_of, word_of
 from mgehl.kinds.kind import Effort
 from mgehl.kinds.line import LineKind
 from mgehl.kinds.loaded import LoadedKind
@@ -30,24 +31,28 @@ OF_MOES = ("lubricant", "motion")
 """Sections of a fluid that a dry contact uses all the same, to turn Moes numbers into a load."""
 
 
+def fluid_choice(tables):
+    """The `Choice` of a contact without a fluid, which may get one again; None with a fluid."""
+    if word_of(tables, "discretization.contact_model") != "dry":
+        return None
+    needed = OF_MOES if value_of(tables, "moes.M") is not None else ()
+    idle = tuple(name for name in OF_A_FLUID if name not in needed)
+    return Choice('where discretization.contact_model = "dry"', (), idle=idle)
+
+
 class DryKind(LoadedKind):
     """What is different without a fluid; to be mixed into a kind of loaded contact."""
 
     about = "A dry contact."
     content = "Pressure and gap of a"
 
-    def unheeded(self, config):
-        """What only a fluid heeds: the contact may get one again."""
-        needed = OF_MOES if config.moes.M is not None else ()
-        return tuple(name for name in OF_A_FLUID if name not in needed)
-
-    def check_keys(self, config, tables):
+    def check_keys(self, config):
         """The relaxation is a method for a fluid."""
         if config.solver.method == "relaxation":
             raise ConfigError(
                 'solver.method = "relaxation": means nothing where discretization.contact_model = "dry"'
             )
-        super().check_keys(config, tables)
+        super().check_keys(config)
 
     def contact(self, config):
         """The contact of the lubricated kind, at rest."""

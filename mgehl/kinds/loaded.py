@@ -27,9 +27,9 @@ class LoadedKind(Kind):
     load_unit: str
     """SI unit of the load."""
 
-    def check_keys(self, config, tables):
-        """The viscosity law and the surfaces must be complete and free of contradictions."""
-        surface.check_keys(config, tables)
+    def check_keys(self, config):
+        """Neither the viscosity law nor the surfaces may contradict themselves."""
+        surface.check_keys(config)
         if is_own(config.lubricant.viscosity_law):
             return
         try:
@@ -37,14 +37,6 @@ class LoadedKind(Kind):
         except ValueError as error:
             viscosity = shown(config.lubricant.viscosity)
             raise ConfigError(f"lubricant.viscosity = {viscosity}: {error}") from None
-
-    def unused(self, config):
-        """Keys that the surfaces do not use."""
-        return tuple(surface.unused(config))
-
-    def pushed_out(self, given):
-        """As `unused`, by what the settings say."""
-        return tuple(surface.pushed_out(given))
 
     def settled(self, config, contact):
         """With a domain in numbers, large enough not to starve the film, where it is "auto"."""

@@ -69,7 +69,7 @@ class WedgeKind(Kind):
     short = {"wedge.blocked_exit": exit_words, "wedge.pillar": pillar_words}
     cavitates = False
 
-    def check_keys(self, config, tables):
+    def check_keys(self, config):
         """The pad must have a length."""
         wedge = config.wedge
         if not wedge.exit < wedge.inlet:
