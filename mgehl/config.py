@@ -36,7 +36,7 @@ _CONFIG_DIRECTORIES = (
 """Where configurations live in a checkout, and where an installation puts them."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Config:
     """A validated configuration."""
 
@@ -68,6 +68,11 @@ class Config:
         """Keys, "section.key", that do nothing for this contact."""
         found = choices(asdict(self))
         return {key for key in KEYS if _mean_nothing(key, found) or any(named(key, c.idle) for c in found)}
+
+    def __repr__(self) -> str:
+        """The keys that differ from their defaults."""
+        changed = {key: self.value(key) for key, field in KEYS.items() if self.value(key) != field.default}
+        return f"Config({', '.join(f'{key} = {value!r}' for key, value in changed.items())})"
 
     def value(self, key):
         """The value of "section.key"."""

@@ -54,7 +54,7 @@ def execute(options, comm):
     return CONVERGED if result.converged else NOT_CONVERGED
 
 
-def _run(config, directory, start, comm, options, save_every, limit):
+def _run(case, directory, start, comm, options, save_every, limit):
     """Solve; a signal or a limit of time may stop it."""
     from mgehl.output.terminal import SILENT, speaker
     from mgehl.run import Watch, run
@@ -64,23 +64,21 @@ def _run(config, directory, start, comm, options, save_every, limit):
     words = spoken if comm.rank == 0 else SILENT
     hint = f"go on with: mgehl run --resume {quote(str(directory))}"
     with StopWhenTold(hint, limit) as stop, words:
-        return run(config, directory, comm, Watch(words, save_every=save_every, stop=stop), start)
+        return run(case, directory, comm, Watch(words, save_every=save_every, stop=stop), start)
 
 
 def _begin(options, comm, solve):
     """Solve a new run in its directory, which is made and locked."""
-    from mgehl.kinds import check_contact, contact_from
     from mgehl.output.checkpoint import keep_start
     from mgehl.output.directory import make_directory, prepare_directory
     from mgehl.output.files import on_first_rank
     from mgehl.output.lock import locked
-    from mgehl.output.memory_limit import check_memory
+    from mgehl.run import enter
 
     settings = [*options.settings, *([NO_ERROR] if options.no_error else [])]
     file = chosen_config(options.config, options.settings)
-    config = load_config(file, settings)
-    check_contact(config, contact_from(config))
-    check_memory(config, comm.size)
+    case = enter(load_config(file, settings), comm)
+    config = case.config
     on_first_rank(comm, _say_what_changed, config)
     start = _start(options.start_from, config, comm) if options.start_from else None
     if start and comm.rank == 0:
@@ -95,7 +93,7 @@ def _begin(options, comm, solve):
             _say_which(file, options.settings)
         if start:
             on_first_rank(comm, keep_start, directory, options.start_from)
-        return solve(config, directory, start)
+        return solve(case, directory, start)
 
 
 def _names_nothing(options):

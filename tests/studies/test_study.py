@@ -8,7 +8,7 @@ from mpi4py import MPI
 
 from mgehl.config import config_from_tables
 from mgehl.errors import OutputError
-from mgehl.run import set_up
+from mgehl.solver.from_config import set_up
 from mgehl.studies.study import BEST, Study, merged, observed_order, richardson
 
 FILM = {"motion": {"speed": 1.0}, "grid": {"nodes": 65}}
