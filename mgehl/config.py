@@ -16,7 +16,7 @@ from mgehl.config_file import text_of
 from mgehl.config_value import read_value, shown
 from mgehl.errors import ConfigError
 from mgehl.kinds import choices, kind_of
-from mgehl.kinds.choice import named
+from mgehl.kinds.choice import named, value_of
 from mgehl.kinds.point import CoatingSection, MoesSection
 from mgehl.kinds.surface_kinds import SurfaceSection
 from mgehl.kinds.wedge import WedgeSection
@@ -73,6 +73,12 @@ class Config:
         """The keys that differ from their defaults."""
         changed = {key: self.value(key) for key, field in KEYS.items() if self.value(key) != field.default}
         return f"Config({', '.join(f'{key} = {value!r}' for key, value in changed.items())})"
+
+    @property
+    def physics(self):
+        """{"section.key": (value, unit)} of the numbers that make this contact."""
+        units = {key: KEYS[key].metadata["unit"] for key in self.kind.essential if key not in self.unused}
+        return {key: (self.value(key), unit) for key, unit in units.items() if unit is not None}
 
     def value(self, key):
         """The value of "section.key"."""
@@ -137,6 +143,11 @@ def load_config(path=None, settings=()):
     Raises ConfigError for anything that cannot be used.
     """
     return config_from_tables(read_tables(path, settings))
+
+
+def left_out(config, tables):
+    """The `physics` of a `Config` that its tables do not give, where the paper's values are taken."""
+    return [key for key in config.physics if value_of(tables, key) is None]
 
 
 def read_tables(path=None, settings=()):

@@ -159,66 +159,28 @@ MISTAKES = [
     ("motion.speed=true", "motion.speed = True: ", "a number in m/s"),
     ("motion.speed=nan", "motion.speed = nan: ", "a number in m/s"),
     ("motion.speed=-inf", "motion.speed = -inf: ", "a number in m/s"),
-    ("motion.speed=nan m/s", "motion.speed = ", "a number in m/s"),
     ("motion.speed=[1, 2]", "motion.speed = [1, 2]: ", "a number in m/s"),
-    ("motion.speed={a = 1}", "motion.speed = {'a': 1}: ", "a number in m/s"),
-    ("motion.speed=1979-05-27", "motion.speed = ", "a number in m/s"),
     ("motion.speed=7.5 mm", "motion.speed = '7.5 mm': ", "wrong unit", '"1 m/s"'),
     ("motion.speed=fast", "motion.speed = 'fast': ", "not understood", '"1 m/s"'),
     ("motion.speed=", "motion.speed = '': ", '"1 m/s"'),
-    ("motion.speed=3 bananas", "motion.speed = '3 bananas': ", "not understood", '"1 m/s"'),
-    ("motion.angle=steep", "motion.angle = 'steep': ", "not understood", '"1 deg"'),
-    ("motion.angle=nan", "motion.angle = nan: ", "a number in deg", "at least -360", "at most 360"),
-    ("motion.angle=inf", "motion.angle = inf: ", "a number in deg"),
-    ("motion.angle=-inf deg", "motion.angle = '-inf deg': ", '"1 deg"'),
-    ("motion.angle=true", "motion.angle = True: ", "a number in deg"),
-    ("motion.angle=[30]", "motion.angle = [30]: ", "a number in deg"),
-    ("motion.angle=400", "motion.angle = 400: ", "at least -360", "at most 360"),
-    ("motion.angle=30 mm", "motion.angle = '30 mm': ", "wrong unit", '"1 deg"'),
     ("grid.nodes=64.5", "grid.nodes = 64.5: ", "a whole number", "at least 65", "at most 16385"),
     ('grid.nodes="257"', "grid.nodes = '257': ", "a whole number"),
     ("grid.nodes=33", "grid.nodes = 33: ", "at least 65"),
     ("grid.nodes=32769", "grid.nodes = 32769: ", "at most 16385"),
     ("grid.nodes=100", "grid.nodes = 100: ", "2^k + 1", "65 or 129"),
-    ("grid.nodes=256", "grid.nodes = 256: ", "2^k + 1", "129 or 257"),
     ("grid.nodes=1e400", "grid.nodes = inf: ", "a whole number"),
     ("grid.x=[-1.9]", "grid.x = [-1.9]: ", "two numbers", "first < -1", "last > 1"),
-    ("grid.x=[-0.5, 1.3]", "grid.x = [-0.5, 1.3]: ", "first < -1"),
     ("grid.y=[-1.5, 1]", "grid.y = [-1.5, 1]: ", "last > 1"),
     ('grid.y=["a", 2]', "grid.y = ['a', 2]: ", "two numbers"),
     ("grid.y=[-inf, 2]", "grid.y = [-inf, 2]: ", "two numbers"),
     ("grid.y=wide", "grid.y = 'wide': ", '"auto"', "two numbers"),
-    ("grid.x=[2, 5]", "grid.x = [2, 5]: ", "first < -1"),
     ("contact.kind=roller", "contact.kind = 'roller': ", "must be one of point, line, wedge"),
-    ("contact.load_per_length=0", "contact.load_per_length = 0: ", "a number in N/m", "at least 1e-06"),
     ("wedge.reversed=1", "wedge.reversed = 1: ", "true or false"),
-    ("wedge.blocked_exit=yes", "wedge.blocked_exit = 'yes': ", "true or false"),
     ('wedge.blocked_exit="true"', "wedge.blocked_exit = 'true': ", "true or false"),
-    ("wedge.pillar=round", "wedge.pillar = 'round': ", "none, square, cylinder"),
-    ("wedge.slope=1 mm", "wedge.slope = '1 mm': ", "wrong unit"),
-    ("wedge.slope=0.2", "wedge.slope = 0.2: ", "at least 1e-08", "at most 0.1"),
-    ("discretization.cavitation=0", "discretization.cavitation = 0: ", "true or false"),
-    ("discretization.cavitation=off", "discretization.cavitation = 'off': ", "true or false"),
-    ("discretization.contact_model=mixed", "discretization.contact_model = 'mixed': ", "lcic, unified"),
-    ("discretization.unified_gap=-1 nm", "discretization.unified_gap = '-1 nm': ", "in m", "at least 0"),
-    ("discretization.couette_at_interface=no", "discretization.couette_at_interface", "closed, untreated"),
-    ("solver.method=newton", "solver.method = 'newton': ", "newton-mg, relaxation"),
-    ("solver.cycle_couette=4B", "solver.cycle_couette = '4B': ", "same, 1B, 2B"),
     ("relaxation.omega=0", "relaxation.omega = 0: ", "above 0", "at most 1"),
-    ("relaxation.contact_share=2", "relaxation.contact_share = 2: ", "above 0", "at most 1"),
-    ("relaxation.stability=0.5", "relaxation.stability = 0.5: ", "at least 1", "at most 1000"),
-    ("relaxation.load_factor=0", "relaxation.load_factor = 0: ", "above 0", "at most 10"),
-    ("relaxation.load_every=1.5", "relaxation.load_every = 1.5: ", "a whole number", "at least 1"),
-    ("relaxation.max_sweeps=0", "relaxation.max_sweeps = 0: ", "a whole number", "at least 1"),
-    ("relaxation.fluid_update=plane", "relaxation.fluid_update = 'plane': ", "line, point"),
-    ("relaxation.contact_update=1", "relaxation.contact_update = 1: ", "line, point"),
     ("relaxation.load=1", "relaxation.load = 1: ", "unknown key", "did you mean contact.load?"),
     ("discretization.couette=4B", "discretization.couette = '4B': ", "1B, 2B, 2C, 3B, 3L, S1B, S2C"),
-    ("discretization.couette=1", "discretization.couette = 1: ", "1B, 2B, 2C, 3B, 3L, S1B, S2C"),
     ("discretization.couette=[]", "discretization.couette = []: ", "1B, 2B, 2C, 3B, 3L, S1B, S2C"),
-    ("solver.start=cold", "solver.start = 'cold': ", "film, contact"),
-    ("solver.omega=1.5", "solver.omega = 1.5: ", "at least 0.1", "at most 1"),
-    ("solver.max_steps=-1", "solver.max_steps = -1: ", "a whole number", "at least 0"),
     ("grid.nodez=129", "grid.nodez = 129: ", "unknown key", "did you mean grid.nodes?"),
     ("solver.speed=1", "solver.speed = 1: ", "unknown key", "did you mean motion.speed?"),
     ("gird.nodes=129", "gird = {'nodes': 129}: ", "unknown section", "did you mean grid?"),
@@ -424,33 +386,22 @@ def test_a_setting_holds_one_value():
         load_config(None, ["grid.nodes=65\nx=3"])
 
 
-VALUES = {
-    "contact.load": "800", "contact.load_per_length": "500e3", "contact.radius_x": "0.01",
-    "contact.radius_y": "0.01", "contact.reduced_modulus": "2e11", "contact.surface": "laws.py:waves",
-    "contact.deformation": "half-space", "lubricant.viscosity_law": "barus",
-    "lubricant.pressure_viscosity": "1e-8", "lubricant.density_law": "constant", "grid.x": "[-2, 2]",
-    "grid.y": "[-2, 2]", "discretization.contact_model": "unified", "discretization.unified_gap": "1e-9",
-    "discretization.film_threshold": "0", "solver.method": "newton-mg", "solver.start": "film",
-    "solver.first_nodes": "65", "solver.inlet_cells": "2", "solver.release_budget": "1",
-    "motion.angle": "30",
-}  # fmt: skip
-SECTION_KEYS = {"moes": ["moes.M=20", "moes.L=10"], "coating": ["coating.poisson=0.3"],
-                 "wedge": ["wedge.slope=1e-3"],
-                "relaxation": ["relaxation.omega=0.1"]}  # fmt: skip
 FOREIGN_KEYS = [
-    ("point", "contact.load_per_length"), ("point", "wedge"),
-    *(("line", key) for key in ("contact.load", "contact.radius_y", "grid.y", "moes", "wedge",
-                                "contact.deformation", "coating", "motion.angle")),
-    *(("wedge", key) for key in (*VALUES, "moes", "coating", "relaxation")),
+    ("point", "contact.load_per_length=5e5"), ("point", "wedge.slope=1e-3"),
+    ("line", "contact.load=800"), ("line", "grid.y=auto"), ("line", "moes.M=20"),
+    ("line", "motion.angle=0"),
+    ("line", "contact.deformation=half-space"), ("line", "coating.poisson=0.3"),
+    ("wedge", "contact.reduced_modulus=2e11"), ("wedge", "lubricant.density_law=constant"),
+    ("wedge", "grid.x=auto"), ("wedge", "discretization.film_threshold=0"), ("wedge", "solver.start=film"),
+    ("wedge", "relaxation.omega=0.1"), ("wedge", "surface.kind=dent"),
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize("kind, name", FOREIGN_KEYS)
-def test_key_that_the_kind_of_contact_does_not_heed(kind, name):
+@pytest.mark.parametrize("kind, setting", FOREIGN_KEYS)
+def test_key_that_means_nothing_to_the_kind_of_contact(kind, setting):
     """Even with the value it has by default: whoever gives it expects it to matter."""
-    settings = SECTION_KEYS.get(name) or [f"{name}={VALUES[name]}"]
-    message = error_of(f"contact.kind={kind}", *settings)
-    assert message.startswith(f"{name} = " if "." in name else f"{name}.")
+    message = error_of(f"contact.kind={kind}", setting)
+    assert message.startswith(f"{setting.partition('=')[0]} = ")
     assert message.endswith(f': means nothing where contact.kind = "{kind}"')
 
 

@@ -14,7 +14,7 @@ from mgehl.kinds.line import LINE
 from mgehl.kinds.own import naming_keys
 from mgehl.kinds.point import POINT, deformation_choice, moes_choice
 from mgehl.kinds.surface_kinds import surface_choices
-from mgehl.kinds.wedge import WEDGE
+from mgehl.kinds.wedge import WEDGE, pillar_choice
 
 KINDS = {kind.name: kind for kind in (POINT, LINE, WEDGE)}
 
@@ -26,8 +26,9 @@ def choices(tables):
     is chosen by it.
     """
     kind = KINDS.get(word_of(tables, "contact.kind"))
-    found = kind and kind_choice(kind), deformation_choice(tables), moes_choice(tables)
-    return [each for each in (*found, *surface_choices(tables), fluid_choice(tables)) if each]
+    bodies = kind and kind_choice(kind), deformation_choice(tables), moes_choice(tables)
+    found = *bodies, *surface_choices(tables), fluid_choice(tables), pillar_choice(tables)
+    return [each for each in found if each]
 
 
 def kind_choice(kind):

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from mgehl.config_value import key_field
 from mgehl.discretization.mesh import Mesh
 from mgehl.errors import ConfigError
+from mgehl.kinds.choice import Choice, word_of
 from mgehl.kinds.kind import Effort, Kind, kept_together
 from mgehl.model.wedge import PILLARS, WedgeBearing
 
@@ -47,6 +48,14 @@ def pillar_words(pillar):
 def exit_words(blocked):
     """What the exit is."""
     return "exit blocked" if blocked else "exit open"
+
+
+def pillar_choice(tables):
+    """The `Choice` of no pillar, whose place and size do nothing; None with one."""
+    if word_of(tables, "wedge.pillar") != "none":
+        return None
+    idle = ("wedge.pillar_x", "wedge.pillar_y", "wedge.pillar_size")
+    return Choice('where wedge.pillar = "none"', (), idle=idle)
 
 
 class WedgeKind(Kind):
