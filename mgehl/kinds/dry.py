@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from mgehl.errors import ConfigError
-from mgehl.kinds import domain, loaded_checks
+from mgehl.kinds import loaded_checks
 from mgehl.kinds.choice import Choice, value_of, word_of
 from mgehl.kinds.kind import Effort
 from mgehl.kinds.line import LineKind
@@ -58,18 +58,14 @@ class DryKind(LoadedKind):
         """The contact of the lubricated kind, at rest."""
         return replace(super().contact(config), speed=0.0)
 
-    def settled(self, config, contact):
-        """A domain that is "auto" ends so far from the smooth contact and its peaks."""
-        open_ends = domain.open_ends(config.grid, contact)
-        if not open_ends:
-            return config
-        peaks = dict(zip("xy", reach_of_peaks(contact, 0.0), strict=True))
-        found = {name: _ends(contact, peaks[name]) for name in open_ends}
-        return replace(config, grid=replace(config.grid, **found))
+    def domain(self, contact, _nodes):
+        """The ends of a domain that holds the smooth contact and its peaks, and some room."""
+        ends = (max(ROOM * contact.reach, end_beyond(peak)) for peak in reach_of_peaks(contact, 0.0))
+        return [(-end, end) for end in ends]
 
-    def check_fluid(self, config, contact):
+    def check_fluid(self, grid, contact):
         """The smooth contact must lie in the domain."""
-        loaded_checks.check_reach(self.settled(config, contact).grid, contact)
+        loaded_checks.check_reach(grid, contact)
 
     def effort(self, config):
         """The `Effort` of a dry contact: the same on every grid."""
@@ -101,12 +97,6 @@ class DryKind(LoadedKind):
             "contact_nodes": (float(result.contact.nodes), "1", "nodes in contact"),
             "contact_area": (result.contact.area_fraction, "1", "contact area over that of Hertz"),
         }
-
-
-def _ends(contact, peak):
-    """The ends of an axis along which a peak touches so far from the centre."""
-    end = max(ROOM * contact.reach, end_beyond(peak))
-    return -end, end
 
 
 class DryPoint(DryKind, PointKind):
