@@ -2,6 +2,9 @@
 
     solution = mgehl.solve(mgehl.load("my.toml"))
 
+`load`, `solve` and `read` are the interface, `Config.with_`, `Solution.plot`, `to_xarray` and `save` what
+can be done with what they return.
+
 The layers, lowest first; none imports a higher one (``tests/test_layers.py`` asserts it):
 
 ``model``           what is computed: SI parameters in, dimensionless groups out
@@ -22,19 +25,22 @@ from typing import TYPE_CHECKING
 from mgehl.version import VERSION
 
 if TYPE_CHECKING:
-    from mgehl.api import load, solve
+    from mgehl.answer import Solution
+    from mgehl.api import load, read, solve
     from mgehl.config import Config
     from mgehl.errors import ConfigError, UserError
 
 __version__ = VERSION
 
-__all__ = ["Config", "ConfigError", "UserError", "__version__", "load", "solve"]
+__all__ = ["Config", "ConfigError", "Solution", "UserError", "__version__", "load", "read", "solve"]
 
 _MODULES = {
     "Config": "mgehl.config",
     "ConfigError": "mgehl.errors",
+    "Solution": "mgehl.answer",
     "UserError": "mgehl.errors",
     "load": "mgehl.api",
+    "read": "mgehl.api",
     "solve": "mgehl.api",
 }
 """Where each name comes from. It is imported when it is first asked for: where numpy and numba are missing

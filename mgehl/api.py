@@ -6,6 +6,9 @@
     solution = mgehl.solve(config)
     print(solution)
     solution.film.min(), solution.summary.converged
+    solution.plot("film"), solution.to_xarray(), solution.save("runs/my")
+    slower = mgehl.solve(config.with_({"motion.speed": "0.4 m/s"}), start=solution)
+    mgehl.read("runs/my")
 
 The same under mpiexec, where every rank calls `solve`.
 """
@@ -15,11 +18,13 @@ from os import PathLike
 from typing import TYPE_CHECKING
 
 from mgehl.config import Config, load_config
+from mgehl.errors import Stopped
+from mgehl.petsc_options import leave_signals_alone
 
 if TYPE_CHECKING:
     from mpi4py import MPI
 
-    from mgehl.output.solution import Solution
+    from mgehl.answer import Solution
 
 
 def load(
@@ -33,30 +38,54 @@ def load(
     return load_config(path, settings)
 
 
+def read(directory: str | PathLike[str]) -> "Solution":
+    """The `Solution` that a finished run left in its directory, on this rank.
+
+    Functions of the user's own are not run: the directory may be anybody's. Raises `mgehl.UserError` where
+    a file is missing, damaged, or not a run's.
+    """
+    leave_signals_alone()
+    from mgehl.answer import Solution
+    from mgehl.output.stored import read_run
+
+    return Solution.of(read_run(directory))
+
+
 def solve(
-    config: Config,
+    config: Config | str | PathLike[str],
     comm: "MPI.Comm | None" = None,
     *,
     start: "Solution | None" = None,
     speak: bool = False,
 ) -> "Solution":
-    """Solve a configuration on the ranks of `comm` (default: all); collective.
+    """Solve a configuration, or that of a file, on the ranks of `comm` (default: all); collective.
 
     Returns the `Solution`, whether or not it converged: ask `.summary.converged`. `start` is another
     `Solution` to start from, of any grid and speed, with its fields on rank 0. With `speak`, rank 0 prints
-    a line for each cycle. Raises `mgehl.ConfigError` where the values make no contact that can be solved,
-    and `mgehl.UserError` where `start` is another kind of contact.
+    a line for each cycle. Ctrl-C ends it before the next step, with KeyboardInterrupt; a second one ends it
+    at once. Raises `mgehl.ConfigError` where the values make no contact that can be solved, and
+    `mgehl.UserError` where `start` is another kind of contact.
     """
+    config = config if isinstance(config, Config) else load_config(config)
+    leave_signals_alone()
     from mpi4py import MPI
 
-    from mgehl.kinds import check_contact, contact_from
+    from mgehl.answer import Solution
     from mgehl.output.terminal import SILENT, Lines
-    from mgehl.run import Watch
-    from mgehl.run import solve as solve_run
+    from mgehl.run import Watch, enter
+    from mgehl.run import solve as solve_case
     from mgehl.solver.restart import check_start
+    from mgehl.stopping import StopOnCtrlC
 
     comm = MPI.COMM_WORLD if comm is None else comm
-    check_contact(config, contact_from(config))
+    case = enter(config, comm)
     if start:
         check_start(start, config.contact.kind)
-    return solve_run(config, comm, Watch(Lines() if speak else SILENT), start)
+    try:
+        with StopOnCtrlC() as stop:
+            watch = Watch(Lines() if speak else SILENT, stop=stop)
+            return Solution.of(solve_case(case, comm, watch, start))
+    except Stopped as stopped:
+        told = str(stopped)
+    # Not from within: its traceback would keep PETSc's objects until PETSc has ended, and crash then.
+    raise KeyboardInterrupt(told)

@@ -29,7 +29,7 @@ from mgehl.address_space import check_address_space
 from mgehl.commands import COMMANDS, USAGE, execute_on
 from mgehl.errors import one_line
 from mgehl.failures import told
-from mgehl.petsc_options import check_options
+from mgehl.petsc_options import check_options, leave_signals_alone
 from mgehl.version import VERSION
 
 PATIENCE = 5.0
@@ -40,9 +40,6 @@ LONGEST = 300
 
 QUOTED = re.compile(r"(?:[^\s']|'[^']*')+")
 """A word of a shell, with what is quoted in it."""
-
-QUIET_PETSC = "-no_signal_handler"
-"""PETSc takes over the signals otherwise, and ends a program whose reader has read enough."""
 
 
 def main(arguments=None):
@@ -78,7 +75,7 @@ def _prepare():
     warnings.filterwarnings("ignore", category=DeprecationWarning)
     if any(action == "error" for action, *_ in warnings.filters):
         warnings.simplefilter("ignore")
-    os.environ["PETSC_OPTIONS"] = f"{QUIET_PETSC} {os.environ.get('PETSC_OPTIONS', '')}".strip()
+    leave_signals_alone()
 
 
 def _say(error):

@@ -7,7 +7,7 @@ import difflib
 import os
 import sysconfig
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 
@@ -15,10 +15,10 @@ from mgehl import config_sections as sections
 from mgehl.config_file import text_of
 from mgehl.config_value import read_value, shown
 from mgehl.errors import ConfigError
-from mgehl.kinds import KINDS
-from mgehl.kinds.dry import DRY
+from mgehl.kinds import choices, kind_of
+from mgehl.kinds.choice import named, value_of
 from mgehl.kinds.point import CoatingSection, MoesSection
-from mgehl.kinds.surface_keys import SurfaceSection
+from mgehl.kinds.surface_kinds import SurfaceSection
 from mgehl.kinds.wedge import WedgeSection
 
 COARSEST_NODES = 33
@@ -36,7 +36,7 @@ _CONFIG_DIRECTORIES = (
 """Where configurations live in a checkout, and where an installation puts them."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Config:
     """A validated configuration."""
 
@@ -56,44 +56,63 @@ class Config:
     @property
     def kind(self):
         """The `Kind` of contact."""
-        kinds = KINDS | DRY if self.discretization.contact_model == "dry" else KINDS
-        return kinds[self.contact.kind]
+        return kind_of(self)
 
     @property
     def is_dry(self):
         """Whether there is no fluid."""
-        return self.kind in DRY.values()
+        return self.discretization.contact_model == "dry"
 
     @property
     def unused(self):
-        """Sections and keys that this contact has no use for."""
-        return *self._meaningless, *self.kind.unheeded(self)
+        """Keys, "section.key", that do nothing for this contact."""
+        found = choices(asdict(self))
+        return {key for key in KEYS if _mean_nothing(key, found) or any(named(key, c.idle) for c in found)}
+
+    def __repr__(self) -> str:
+        """The keys that differ from their defaults."""
+        changed = {key: self.value(key) for key, field in KEYS.items() if self.value(key) != field.default}
+        return f"Config({', '.join(f'{key} = {value!r}' for key, value in changed.items())})"
 
     @property
-    def _meaningless(self):
-        """Those that may not even stand there."""
-        return *FOREIGN[self.contact.kind], *self.kind.unused(self)
+    def physics(self):
+        """{"section.key": (value, unit)} of the numbers that make this contact."""
+        units = {key: KEYS[key].metadata["unit"] for key in self.kind.essential if key not in self.unused}
+        return {key: (self.value(key), unit) for key, unit in units.items() if unit is not None}
+
+    def value(self, key):
+        """The value of "section.key"."""
+        section, _, name = key.partition(".")
+        return getattr(getattr(self, section), name)
+
+    def with_(self, settings: Mapping[str, object] | Iterable[str]) -> "Config":
+        """Another configuration with some keys set anew: {"motion.speed": "0.5 m/s", ...}, as --set does.
+
+        Raises ConfigError, as `load_config`.
+        """
+        return config_from_tables(_set_anew(self.as_toml_tables(), settings))
 
     def as_toml_tables(self):
-        """Nested plain values, without the keys that are not set: what a TOML file can hold."""
-        tables = {name: _without_none(section) for name, section in asdict(self).items()}
-        _remove(tables, self._meaningless)
-        return {name: table for name, table in tables.items() if table}
+        """Nested plain values of the keys that are set and mean something: what a TOML file can hold."""
+        tables = asdict(self)
+        found = choices(tables)
+        for section, table in tables.items():
+            tables[section] = {
+                key: list(value) if isinstance(value, tuple) else value
+                for key, value in table.items()
+                if value is not None and not _mean_nothing(f"{section}.{key}", found)
+            }
+        return {section: table for section, table in tables.items() if table}
 
 
-def _remove(tables, names):
-    """Take sections and keys out of nested tables, where they are there."""
-    for name in names:
-        section, _, key = name.partition(".")
-        if not key:
-            tables.pop(section, None)
-        elif isinstance(tables.get(section), dict):
-            tables[section].pop(key, None)
+SECTIONS = {section.name: type(section.default) for section in fields(Config)}
+KEYS = {f"{name}.{key.name}": key for name, section in SECTIONS.items() for key in fields(section)}
+"""Every key, "section.key", with its field, whose metadata are its rules."""
 
 
-def _without_none(section):
-    plain = {key: list(value) if isinstance(value, tuple) else value for key, value in section.items()}
-    return {key: value for key, value in plain.items() if value is not None}
+def _mean_nothing(key, choices):
+    """Whether it is a mistake to give a key beside some choices."""
+    return any(choice.means_nothing(key) for choice in choices)
 
 
 def default_config():
@@ -118,49 +137,46 @@ def _shipped(name):
     return next((path for path in paths if path.exists()), paths[0])
 
 
-SECTIONS = {section.name: type(section.default) for section in fields(Config)}
-
-
-def _foreign(kind):
-    """Sections that a kind does not use at all, and single keys of the other sections."""
-    for name, section in SECTIONS.items():
-        keys = [f"{name}.{key.name}" for key in fields(section)]
-        not_taken = [key for key in keys if not {name, key} & {"contact.kind", *kind.takes}]
-        yield from [name] if not_taken == keys else not_taken
-
-
-FOREIGN = {name: tuple(_foreign(kind)) for name, kind in KINDS.items()}
-"""Sections and keys that a kind of contact does not use."""
-
-
 def load_config(path=None, settings=()):
     """Read a TOML file (default: the paper's ball) and apply settings, "key=value" or a mapping.
 
     Raises ConfigError for anything that cannot be used.
     """
+    return config_from_tables(read_tables(path, settings))
+
+
+def left_out(config, tables):
+    """The `physics` of a `Config` that its tables do not give, where the paper's values are taken."""
+    return [key for key in config.physics if value_of(tables, key) is None]
+
+
+def read_tables(path=None, settings=()):
+    """The nested values, right or wrong, of which `load_config` makes a `Config`. Raises ConfigError."""
     path = Path(path) if path else default_config()
     tables = _read_toml(path)
     _anchor(tables, path.parent)
-    given = _pairs(settings)
-    _push_out(tables, given)
-    for name, value in given.items():
-        _apply(tables, name, value)
-    return config_from_tables(tables)
+    return _set_anew(tables, settings)
 
 
-def _pairs(settings):
-    """{"section.key": value} of a mapping or of "section.key=value" words; of two for one key the last one
-    counts."""
-    if isinstance(settings, Mapping):
-        return {str(name): value for name, value in settings.items()}
-    return dict(map(read_setting, settings))
-
-
-def _push_out(tables, given):
-    """Drop keys of the file that a setting leaves without a use, as another kind does, or Moes numbers."""
-    _remove(tables, FOREIGN.get(str(given.get("contact.kind")), ()))
-    for kind in KINDS.values():
-        _remove(tables, kind.pushed_out(given))
+def _set_anew(tables, settings):
+    """Nested values with settings laid over them; keys that a setting leaves without a meaning go."""
+    pairs = settings.items() if isinstance(settings, Mapping) else map(read_setting, settings)
+    given = {}
+    for name, value in pairs:
+        section, dot, key = str(name).partition(".")
+        if not (dot and section and key):
+            raise ConfigError(f"{name} = {shown(value)}: must be section.key, such as grid.nodes")
+        given.setdefault(section, {})[key] = value
+    found = choices(given)
+    for section, table in tables.items():
+        if isinstance(table, dict):
+            keys = (f"{section}.{key}" for key in table)
+            gone = {key for key in keys if key in KEYS and _mean_nothing(key, found)}
+            tables[section] = {key: value for key, value in table.items() if f"{section}.{key}" not in gone}
+    for section, table in given.items():
+        _check_section(section, tables.setdefault(section, {}))
+        tables[section] |= table
+    return tables
 
 
 def _anchor(tables, directory):
@@ -179,8 +195,7 @@ def config_from_tables(tables):
     for name, table in tables.items():
         if name not in SECTIONS:
             raise ConfigError(f"{name} = {shown(table)}: unknown section{_closest(name, SECTIONS)}")
-        if not isinstance(table, dict):
-            raise ConfigError(f"{name} = {shown(table)}: is a section, its keys go under [{name}]")
+        _check_section(name, table)
         sections[name] = _section(name, table)
     config = Config(**sections)
     _check_together(config, tables)
@@ -203,19 +218,25 @@ def _check_together(config, tables):
     if (nodes - 1) & (nodes - 2):
         lower = 2 ** ((nodes - 1).bit_length() - 1) + 1
         raise ConfigError(f"grid.nodes = {nodes}: must be 2^k + 1, such as {lower} or {2 * lower - 1}")
-    _check_foreign(config.contact.kind, tables)
-    config.kind.check_keys(config, tables)
+    for choice in choices(asdict(config)):
+        _check_choice(choice, config, tables)
+    config.kind.check_keys(config)
 
 
-def _check_foreign(kind, tables):
-    """A key that this kind of contact does not use is a mistake."""
-    for name in FOREIGN[kind]:
-        section, _, key = name.partition(".")
-        given = tables.get(section, {})
-        if key and key in given:
-            raise ConfigError(f'{name} = {shown(given[key])}: means nothing where contact.kind = "{kind}"')
-        if not key and given:
-            raise ConfigError(f'[{section}]: means nothing where contact.kind = "{kind}"')
+def _check_choice(choice, config, tables):
+    """Keys that are given must mean something beside a choice; those that it needs must be given."""
+    for section, table in tables.items():
+        for key, value in table.items():
+            if choice.means_nothing(f"{section}.{key}"):
+                raise ConfigError(f"{section}.{key} = {shown(value)}: means nothing {choice.said}")
+    for key in choice.needs:
+        if config.value(key) is None:
+            raise ConfigError(f"{key}: must be given {choice.said}")
+
+
+def _check_section(name, table):
+    if not isinstance(table, dict):
+        raise ConfigError(f"{name} = {shown(table)}: is a section, its keys go under [{name}]")
 
 
 def _read_toml(path):
@@ -243,17 +264,6 @@ def read_setting(setting):
     return f"{section}.{name}", value
 
 
-def _apply(tables, name, value):
-    """Put the value of "section.key" into the tables."""
-    section, dot, key = name.partition(".")
-    if not (dot and section and key):
-        raise ConfigError(f"{name} = {shown(value)}: must be section.key, such as grid.nodes")
-    table = tables.setdefault(section, {})
-    if not isinstance(table, dict):
-        raise ConfigError(f"{section} = {shown(table)}: is a section, its keys go under [{section}]")
-    table[key] = value
-
-
 def _closest(name, known):
     close = difflib.get_close_matches(name, known, n=1, cutoff=0.4)
     return f"; did you mean {close[0]}?" if close else f"; known are {', '.join(known)}"
@@ -261,7 +271,6 @@ def _closest(name, known):
 
 def _closest_key(section, key):
     """The nearest known key, of this section if one is near, else of any."""
-    everywhere = [f"{name}.{each.name}" for name, kind in SECTIONS.items() for each in fields(kind)]
-    close = difflib.get_close_matches(f"{section}.{key}", everywhere, n=1, cutoff=0.6)
-    same_name = [each for each in everywhere if each.endswith(f".{key}")]
+    close = difflib.get_close_matches(f"{section}.{key}", KEYS, n=1, cutoff=0.6)
+    same_name = [each for each in KEYS if each.endswith(f".{key}")]
     return f"; did you mean {(same_name or close)[0]}?" if same_name or close else ""

@@ -1,15 +1,27 @@
 """Options of PETSc that would end the program without a word of ours: refused before PETSc reads them."""
 
+import os
 import re
+import sys
 from pathlib import Path
 
 from mgehl.errors import OptionError
+
+QUIET = "-no_signal_handler"
+"""PETSc takes over the signals otherwise, and ends a program whose reader has read enough."""
 
 LARGEST_FILE = 10**6
 """Bytes of a file of options."""
 
 _GRIDS = re.compile(r"-mgehl_(fluid_)?pc_(mg_levels|type)")
 _FIRST_WORDS = ("-", "#", "!", "alias")
+
+
+def leave_signals_alone():
+    """Have PETSc, which wakes later, leave the signals to Python."""
+    options = os.environ.get("PETSC_OPTIONS", "")
+    if "petsc4py.PETSc" not in sys.modules and QUIET not in options.split():
+        os.environ["PETSC_OPTIONS"] = f"{QUIET} {options}".strip()
 
 
 def check_options(words):

@@ -9,14 +9,16 @@ import numpy as np
 from mpi4py import MPI
 
 from mgehl.grid.grid import single_grid
-from mgehl.kinds import contact_from, settled
+from mgehl.kinds import Case, case_of, checked_case
 from mgehl.kinds.own import naming_keys
 from mgehl.output import files, progress, terminal
 from mgehl.output.checkpoint import Checkpoint
+from mgehl.output.directory import make_directory, prepare_directory
 from mgehl.output.dry_result import summarise_dry
 from mgehl.output.film_error import film_error
 from mgehl.output.finish import begin_run, finish_run
 from mgehl.output.gap_error import gap_error
+from mgehl.output.lock import locked
 from mgehl.output.memory_limit import check_memory
 from mgehl.output.result import Work, summarise
 from mgehl.output.solution import Fields, Solution
@@ -27,7 +29,7 @@ from mgehl.solver.beginning import begin
 from mgehl.solver.coarser import CoarserGrids
 from mgehl.solver.dry import guess_on_finest, solve_dry
 from mgehl.solver.from_config import set_up
-from mgehl.solver.journal import NOTHING_KEPT, told_to_stop
+from mgehl.solver.journal import Journal, told_to_stop
 from mgehl.solver.nested import LevelSolve, single_loop
 from mgehl.solver.problem import ContactProblem
 from mgehl.solver.restart import interpolated, solve_from
@@ -50,17 +52,26 @@ class Watch:
     """Asked before every step; returns None or the `Stopped` to raise when all is saved."""
 
 
-def run(config, directory, comm, watch=Watch(), start=None):
-    """Solve `config` on `comm`, write `directory` (from rank 0), return the result.
+def enter(config, comm):
+    """The `Case` of a `Config`, made once for all that is done with it, and good to be solved on `comm`.
+
+    Raises ConfigError where values do not fit each other, UserError where a rank may not take the memory.
+    """
+    case = checked_case(config)
+    check_memory(case, comm.size)
+    return case
+
+
+def run(case, directory, comm, watch=Watch(), start=None):
+    """Solve a `Case`, or a `Config`, on `comm`, write `directory` (from rank 0), return the result.
 
     The caller holds the directory (`output.lock`), which exists. What was reached is kept in its checkpoint
     until the results are there; a run that finds one goes on from it. `start` is a `Solution` to start
     from, with fields on rank 0.
     """
-    config = settled(config, contact_from(config))
-    directory = Path(directory)
-    identity = comm.bcast(files.on_first_rank(comm, begin_run, directory, config))
-    solution = solve(config, comm, replace(watch, directory=directory, identity=identity), start)
+    case, directory = _entered(case, comm), Path(directory)
+    identity = comm.bcast(files.on_first_rank(comm, begin_run, directory, case.config))
+    solution = solve(case, comm, replace(watch, directory=directory, identity=identity), start)
     if comm.rank == 0:
         watch.speaker.writing()
     finish_run(comm, directory, solution)
@@ -69,34 +80,50 @@ def run(config, directory, comm, watch=Watch(), start=None):
     return solution.result
 
 
-def solve(config, comm, watch=Watch(), start=None):
-    """Solve `config` on `comm`; return the `Solution`.
+def save(solution, directory):
+    """Write the directory of a `Solution` whose fields are here, as `run` leaves it."""
+    make_directory(directory, force=True)
+    with locked(MPI.COMM_SELF, directory):
+        prepare_directory(directory)
+        begin_run(directory, solution.config)
+        finish_run(MPI.COMM_SELF, directory, solution)
+
+
+def solve(case, comm, watch=Watch(), start=None):
+    """Solve a `Case`, or a `Config`, on `comm`; return the `Solution`.
 
     A single line of nodes, as of a line contact, rank 0 solves and tells the others.
     """
-    config = settled(config, contact_from(config))
-    check_memory(config, comm.size)
-    parts = set_up(config)
+    case = _entered(case, comm)
     watch = watch if comm.rank == 0 else replace(watch, speaker=terminal.SILENT)
-    if not parts.mesh.is_line:
-        return _find(config, parts, comm, watch, start)
-    alone = files.from_first_rank(comm, _find, config, parts, MPI.COMM_SELF, watch, start)
+    if not case.mesh.is_line:
+        return _find(case, comm, watch, start)
+    alone = files.from_first_rank(comm, _find, case, MPI.COMM_SELF, watch, start)
     told = comm.bcast(alone and alone.shared())
     return alone or told
 
 
-def _find(config, parts, comm, watch, start):
-    """The `Solution` of a `SetUp` (collective)."""
+def _entered(case, comm):
+    """A `Case`; that of a `Config` is made now, without a look at whether its values fit each other."""
+    if isinstance(case, Case):
+        return case
+    case = case_of(case)
+    check_memory(case, comm.size)
+    return case
+
+
+def _find(case, comm, watch, start):
+    """The `Solution` of a `Case` (collective)."""
     find = _solve_bearing
-    if parts.contact.is_loaded:
-        find = partial(_solve_dry if config.is_dry else _solve_loaded, start=start)
-    with naming_keys(parts.contact), np.errstate(all="ignore"):  # what diverges says so itself
-        return find(config, parts, comm, watch)
+    if case.contact.is_loaded:
+        find = partial(_solve_dry if case.config.is_dry else _solve_loaded, start=start)
+    with naming_keys(case.contact), np.errstate(all="ignore"):  # what diverges says so itself
+        return find(case, set_up(case), comm, watch)
 
 
-def _solve_loaded(config, parts, comm, watch, start):
+def _solve_loaded(case, parts, comm, watch, start):
     """A loaded contact, by either method."""
-    contact, settings = parts.contact, parts.settings
+    config, contact, settings = case.config, parts.contact, parts.settings
     by_newton = settings.method == "newton-mg"
     tolerance = config.solver.tolerance
     hierarchy = parts.hierarchy(comm)
@@ -114,12 +141,12 @@ def _solve_loaded(config, parts, comm, watch, start):
         mixed = result.mixed and replace(result.mixed, error=gap_error(result, coarser, monitor))
         bands = {"mixed": mixed, "error": film_error(result, coarser, monitor)}
         result = replace(result, **bands, wall_s=monitor.seconds)
-        return _solution(config, parts, problem, outcome.state, monitor.rows, result)
+        return _solution(case, parts, problem, outcome.state, monitor.rows, result)
     finally:
         hierarchy.destroy()
 
 
-def _solve_dry(config, parts, comm, watch, start):
+def _solve_dry(case, parts, comm, watch, start):
     """A loaded contact without a fluid."""
     contact, limits = parts.contact, parts.settings.newton
     hierarchy = parts.hierarchy(comm)
@@ -133,24 +160,36 @@ def _solve_dry(config, parts, comm, watch, start):
             guess = interpolated(problem, start, parts.frame).P
         else:
             guess = guess_on_finest(hierarchy, contact, scheme)
-        journal = _journal(config, monitor, watch)
+        journal = _journal(case.config, monitor, watch)
         tell = partial(monitor, LevelSolve(parts.mesh.nx, None, True))
         outcome = solve_dry(problem, guess, limits.tolerance, limits.max_steps, tell, journal)
         work = Work(monitor.convolutions, monitor.steps)
         result = summarise_dry(problem, outcome, limits.tolerance, work, monitor.seconds, versions())
-        return _solution(config, parts, problem, outcome.state, monitor.rows, result)
+        return _solution(case, parts, problem, outcome.state, monitor.rows, result)
     finally:
         hierarchy.destroy()
+
+
+class _Asked(Journal):
+    """Keeps nothing, but may be told to stop."""
+
+    def __init__(self, stop):
+        self._stop = stop
+
+    def step(self, grid, position):
+        """Raise the `Stopped` of whoever was told."""
+        if stopped := told_to_stop(grid.comm, self._stop):
+            raise stopped
 
 
 def _journal(config, monitor, watch):
     """What is told of the way of a solve: the checkpoint of its directory, if there is one."""
     if not watch.directory:
-        return NOTHING_KEPT
+        return _Asked(watch.stop)
     return Checkpoint(watch.directory, config, monitor, watch.save_every, watch.stop, watch.identity)
 
 
-def _solve_bearing(config, parts, comm, watch):
+def _solve_bearing(case, parts, comm, watch):
     """A rigid bearing."""
     started = time.perf_counter()
     bearing, settings = parts.contact, parts.settings
@@ -169,15 +208,15 @@ def _solve_bearing(config, parts, comm, watch):
         rows = progress.wedge_rows(parts.mesh.nx, outcome.cycles)
         for row in rows:
             watch.speaker.row(row)
-        return _solution(config, parts, problem, outcome.state, rows, result)
+        return _solution(case, parts, problem, outcome.state, rows, result)
     finally:
         grid.destroy()
 
 
-def _solution(config, parts, problem, state, rows, result):
+def _solution(case, parts, problem, state, rows, result):
     """The `Solution` of a final state (collective)."""
     local = Fields(state.P, state.H, state.status, state.p, state.filling)
     grid = problem.grid
     whole = local.gathered(grid)
-    solution = Solution(config, parts.contact, grid.mesh, whole, rows, result, state.H0, local, grid.first)
-    return in_users_axes(solution, parts.frame, grid)
+    found = (whole, rows, result, state.H0, local, grid.first)
+    return in_users_axes(Solution(case.config, parts.contact, grid.mesh, *found), parts.frame, grid, case)

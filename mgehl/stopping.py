@@ -1,6 +1,7 @@
 """What may end a run before its time: a signal, Ctrl-C or a limit of time."""
 
 import signal
+import threading
 import time
 
 from mgehl.errors import Stopped
@@ -16,14 +17,15 @@ class StopWhenTold:
     ends nothing before the second call: whoever goes on again and again within the shortest gets on.
     """
 
+    _second = signal.SIG_DFL
+
     def __init__(self, hint, time_limit=None):
         self._hint, self._limit = hint, time_limit
         self._started, self._signal, self._before = time.monotonic(), None, {}
         self._asked = 0
 
     def __enter__(self):
-        heeded = [number for number in SIGNALS if signal.getsignal(number) != signal.SIG_IGN]
-        self._before = {number: signal.signal(number, self._take) for number in heeded}
+        self._before = {number: signal.signal(number, self._take) for number in self._heeded()}
         return self
 
     def __exit__(self, *_):
@@ -40,6 +42,24 @@ class StopWhenTold:
             return Stopped(f"stopped by --time-limit after {self._limit:g} s; {self._hint}", status)
         return None
 
+    def _heeded(self):
+        return [number for number in SIGNALS if signal.getsignal(number) != signal.SIG_IGN]
+
     def _take(self, number, _frame):
         self._signal = number
-        signal.signal(number, signal.SIG_DFL)
+        signal.signal(number, self._second)
+
+
+class StopOnCtrlC(StopWhenTold):
+    """The same for scripts and notebooks: of Ctrl-C alone, where nobody else has taken it; a second one
+    raises KeyboardInterrupt wherever it is.
+    """
+
+    _second = signal.default_int_handler
+
+    def __init__(self):
+        super().__init__("nothing is kept")
+
+    def _heeded(self):
+        is_free = signal.getsignal(signal.SIGINT) is signal.default_int_handler
+        return [signal.SIGINT] if is_free and threading.current_thread() is threading.main_thread() else []

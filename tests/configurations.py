@@ -4,21 +4,19 @@
 that may be a contact, on the smallest grid and with few steps.
 """
 
-from dataclasses import fields
 from math import log10
 
 from hypothesis import strategies as st
 
-from mgehl.config import FOREIGN, SECTIONS
+from mgehl.config import KEYS as FIELDS
+from mgehl.config import SECTIONS
+from mgehl.kinds import KINDS as EVERY_KIND
+from mgehl.kinds import kind_choice
 
-KEYS = {
-    (section, key.name): (key.metadata, key.default)
-    for section, kind in SECTIONS.items()
-    for key in fields(kind)
-}
+KEYS = {tuple(name.split(".")): (key.metadata, key.default) for name, key in FIELDS.items()}
 """Rules and default of every key."""
 
-KINDS = tuple(FOREIGN)
+KINDS = tuple(EVERY_KIND)
 
 STEPS = (0, 1, 2, 3, 3, 3, 3, 20)
 """Of Newton's method: mostly too few to get anywhere, sometimes enough to converge."""
@@ -49,7 +47,7 @@ NAMES = st.text(min_size=1, max_size=12) | st.sampled_from(["Contact", "loads", 
 
 def belongs(kind, section, key):
     """Whether a kind of contact has a use for a key."""
-    return not {section, f"{section}.{key}"} & set(FOREIGN[kind])
+    return not kind_choice(EVERY_KIND[kind]).means_nothing(f"{section}.{key}")
 
 
 @st.composite

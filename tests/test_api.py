@@ -1,11 +1,15 @@
 """The Python interface."""
 
+import os
+import signal
 import subprocess
 import sys
+import time
 
 import numpy as np
 import pytest
 from mpi4py import MPI
+from processes import own_environment
 
 import mgehl
 from mgehl.discretization.status import CONTACT, LUBRICATED
@@ -37,6 +41,110 @@ class TestLoad:
     def test_values_may_be_of_numpy(self):
         with pytest.raises(mgehl.ConfigError, match=r"grid\.nodes"):
             mgehl.load(settings={"grid.nodes": np.array([65])})
+
+
+class TestWith:
+    """A configuration with some keys set anew, as --set does."""
+
+    def test_units_are_read_and_the_first_one_stays(self):
+        config = mgehl.load(None, FILM)
+        slower = config.with_({"motion.speed": "400 mm/s", "grid.nodes": 129})
+        assert (slower.motion.speed, slower.grid.nodes, config.motion.speed) == (0.4, 129, 1.0)
+        assert slower == mgehl.load(None, FILM | {"motion.speed": "400 mm/s", "grid.nodes": 129})
+        assert config.with_({}) == config
+
+    def test_another_kind_drops_what_it_does_not_know(self):
+        line = mgehl.load(None, FILM).with_({"contact.kind": "line"})
+        assert line.contact.kind == "line" and line.motion.speed == 1.0
+        assert mgehl.load().with_({"moes.M": 20, "moes.L": 10}).moes.M == 20.0
+
+    @pytest.mark.parametrize(
+        "settings, words",
+        [
+            ({"motion.speed": "1 kg"}, "wrong unit"),
+            ({"wedge.slope": 0.1}, "means nothing"),
+            ({"nodes": 65}, "section.key"),
+        ],
+    )
+    def test_a_mistake_is_one_line(self, settings, words):
+        with pytest.raises(mgehl.ConfigError, match=words) as caught:
+            mgehl.load().with_(settings)
+        assert str(caught.value).startswith(next(iter(settings)))
+
+    def test_shown_it_names_what_differs_from_the_defaults(self):
+        assert repr(mgehl.load(os.devnull, {"motion.speed": 1.0})) == "Config(motion.speed = 1.0)"
+
+
+class TestShown:
+    def test_on_one_screen(self, film):
+        heading, *words = repr(film).splitlines()
+        assert heading == "<mgehl.Solution: Point contact, 1 m/s, 800 N, 65 × 65 nodes>"
+        assert words[0].startswith("CONVERGED") and len(words) < 24
+
+    def test_in_a_notebook_with_its_picture(self, film):
+        html = film._repr_html_()
+        assert "1 m/s" in html and "CONVERGED" in html and "data:image/png;base64," in html
+        assert "image/png" not in film.shared()._repr_html_()
+
+    def test_in_a_figure(self, film):
+        assert [axes.get_title() for axes in film.plot("film").axes]
+        assert film.plot().axes
+        with pytest.raises(mgehl.UserError, match="no picture 'heat' of this contact: it has lines, film"):
+            film.plot("heat")
+
+
+class TestKept:
+    def test_what_is_saved_is_read_and_a_start(self, film, tmp_path):
+        path = film.save(tmp_path / "runs" / "film")
+        again = mgehl.read(path)
+        np.testing.assert_array_equal(again.film, film.film)
+        assert again.summary == film.summary and again.config == film.config
+        assert (path / "picture.png").exists() and isinstance(again, mgehl.Solution)
+        with pytest.raises(mgehl.UserError, match="exists: force=True replaces"):
+            film.save(path)
+        assert film.save(path, force=True) == path
+
+    def test_what_is_no_run_is_one_line(self, tmp_path):
+        with pytest.raises(mgehl.UserError) as caught:
+            mgehl.read(tmp_path)
+        assert "\n" not in str(caught.value)
+
+    def test_as_xarray(self, film):
+        data = film.to_xarray()
+        np.testing.assert_array_equal(data.film, film.film)
+        assert data.film.dims == ("y", "x") and data.film.units == "m" and data.attrs["converged"] == "yes"
+        assert float(data.central_film) == pytest.approx(1e-9 * film.summary.central_film_nm)
+        center = data.pressure.sel(x=0, y=0, method="nearest")
+        assert float(center) == pytest.approx(film.pressure[32, int(np.abs(film.x).argmin())])
+
+
+SCRIPT = """
+import mgehl
+class Spoken:
+    def __getattr__(self, name):
+        return lambda *_: print("under way", flush=True)
+import mgehl.output.terminal as terminal
+terminal.SILENT = Spoken()
+%s
+mgehl.solve(mgehl.load(None, {"grid.nodes": 257, "motion.speed": "0.05 m/s", "solver.start": "film"}))
+"""
+
+
+@pytest.mark.parametrize("ask", ["", "import mpi4py.MPI, petsc4py.PETSc"], ids=["", "petsc awake"])
+def test_ctrl_c_is_a_keyboard_interrupt_and_no_word_of_petsc(ask):
+    """A script is told by Python; PETSc's handler would print its banner and end with 59."""
+    process = subprocess.Popen(
+        [sys.executable, "-c", SCRIPT % ask], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+        env=own_environment(), start_new_session=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
+    )  # fmt: skip
+    assert "under way" in process.stdout.readline()
+    time.sleep(0.3)
+    process.send_signal(signal.SIGINT)
+    _, err = process.communicate(timeout=120)
+    assert process.returncode == -signal.SIGINT  # a shell says 130
+    assert err.splitlines()[-1] == "KeyboardInterrupt: stopped by Ctrl-C; nothing is kept"
+    assert "PETSC" not in err and len(err.splitlines()) < 10
 
 
 class TestSolution:

@@ -9,7 +9,6 @@ import pytest
 from processes import own_environment
 
 from mgehl.cli import main, split_options
-from mgehl.version import VERSION
 
 FILES = {"configuration.toml", "fields.h5", "history.csv", "manifest.json", "picture.png", "result.json"}
 DRY = ["run", "--set", "grid.nodes=65", "--set", "solver.start=contact", "--set", "motion.speed=0.005 mm/s"]
@@ -73,17 +72,6 @@ class TestWordsThatNobodyHears:
     def test_a_full_device_is_one_line(self, tmp_path):
         status, _, err = piped("mgehl keys > /dev/full", tmp_path)
         assert (status, err) == (2, "mgehl: No space left on device")
-
-
-def test_mgehl_alone_lists_its_commands(capsys):
-    assert exit_status([]) == 0
-    out, err = capsys.readouterr()
-    assert "solve one contact" in out and err == ""
-
-
-def test_the_version(capsys):
-    assert exit_status(["--version"]) == 0
-    assert capsys.readouterr().out == f"mgehl {VERSION}\n"
 
 
 @pytest.mark.parametrize("words", [["--version"], ["--help"], ["run", "--help"], ["run", "--nonsense"], []])
@@ -266,17 +254,9 @@ BAD = [
     (["run", "missing.toml"], ["missing.toml", "cannot be read"]),
     (["run", "broken.toml"], ["broken.toml", "TOML"]),
     (["run", "--set", "grid.nodes=66"], ["grid.nodes = 66", "65 or 129"]),
-    (["run", "--set", "grid.nodes=17"], ["grid.nodes = 17", "at least 65"]),
-    (["run", "--set", "grid.x=[-0.5, 1.0]"], ["grid.x"]),
     (["run", "--set", "contact.load=-1"], ["contact.load = -1", "at least"]),
-    (["run", "--set", "contact.load=nan"], ["contact.load"]),
     (["run", "--set", "motion.speed=3 kg"], ["motion.speed", "wrong unit", "m/s"]),
-    (["run", "--set", "motion.speed=fast"], ["motion.speed", "fast"]),
     (["run", "--set", "motion.sped=1"], ["motion.sped", "did you mean motion.speed"]),
-    (["run", "--set", "moton.speed=1"], ["moton", "did you mean motion"]),
-    (["run", "--set", "grid.nodes"], ["--set grid.nodes", "section.key=value"]),
-    (["run", "--set", "discretization.couette=4B"], ["discretization.couette", "2B", "S2C"]),
-    (["run", "--set", "solver.max_steps=1.5"], ["solver.max_steps = 1.5", "whole number"]),
     (["run", "--set", "moes.M=20"], ["moes.L"]),
     (["run", "--nonsense"], ["--nonsense"]),
     (["run", "one.toml", "two.toml"], ["two.toml"]),
@@ -292,9 +272,6 @@ BAD = [
     (["study"], ["NAME"]),
     (["study", "frobnicate"], ["frobnicate", "wedge", "schemes"]),
     (["study", "schemes", "--nodes", "100"], ["grid.nodes = 100", "65 or 129"]),
-    (["study", "schemes", "--nodes", "65,abc"], ["grid.nodes = 'abc'", "whole number"]),
-    (["study", "schemes", "--nodes", "65,"], ["grid.nodes = ''"]),
-    (["study", "schemes", "--nodes", "65.5"], ["grid.nodes = 65.5", "whole number"]),
     (["study", "schemes", "--set", "grid.nodes=65"], ["--set", "--nodes"]),
     (["study", "rough", "--nodes", "65,129"], ["--nodes 65,129", "one grid"]),
     (["study", "schemes", "--out", "broken.toml"], ["broken.toml", "exists"]),
@@ -318,12 +295,6 @@ def test_bad_input_in_a_process_of_its_own(tmp_path):
     assert not list(tmp_path.iterdir())
 
 
-def test_nodes_of_a_study_are_read_as_grid_nodes_are():
-    from mgehl.commands.study import _nodes
-
-    assert _nodes("65.0,0x81") == (65, 129)
-
-
 def test_every_study_can_be_imported():
     from importlib import import_module
 
@@ -333,26 +304,13 @@ def test_every_study_can_be_imported():
 
 
 def test_keys_lists_every_key(capsys):
-    from dataclasses import fields
-
-    from mgehl.config import SECTIONS
+    from mgehl.config import KEYS
 
     assert exit_status(["keys"]) == 0
     lines = capsys.readouterr().out.splitlines()
-    named = [line.split()[0] for line in lines]
-    once = {kind: name for name, kind in reversed(SECTIONS.items())}
-    assert named == [
-        key
-        for name, kind in SECTIONS.items()
-        for key in ([f"{name}.{key.name}" for key in fields(kind)] if once[kind] == name else [f"{name}.*"])
-    ]
+    once = [key for key in KEYS if not key.startswith("second_surface.")]
+    assert sorted(line.split()[0] for line in lines) == sorted([*once, "second_surface.*"])
     assert "m/s" in next(line for line in lines if line.startswith("motion.speed"))
-
-
-def test_help(capsys):
-    for arguments in (["--help"], ["run", "--help"], ["run", "-h"], ["study", "--help"]):
-        assert exit_status(arguments) == 0
-        assert "usage: mgehl" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(

@@ -159,66 +159,28 @@ MISTAKES = [
     ("motion.speed=true", "motion.speed = True: ", "a number in m/s"),
     ("motion.speed=nan", "motion.speed = nan: ", "a number in m/s"),
     ("motion.speed=-inf", "motion.speed = -inf: ", "a number in m/s"),
-    ("motion.speed=nan m/s", "motion.speed = ", "a number in m/s"),
     ("motion.speed=[1, 2]", "motion.speed = [1, 2]: ", "a number in m/s"),
-    ("motion.speed={a = 1}", "motion.speed = {'a': 1}: ", "a number in m/s"),
-    ("motion.speed=1979-05-27", "motion.speed = ", "a number in m/s"),
     ("motion.speed=7.5 mm", "motion.speed = '7.5 mm': ", "wrong unit", '"1 m/s"'),
     ("motion.speed=fast", "motion.speed = 'fast': ", "not understood", '"1 m/s"'),
     ("motion.speed=", "motion.speed = '': ", '"1 m/s"'),
-    ("motion.speed=3 bananas", "motion.speed = '3 bananas': ", "not understood", '"1 m/s"'),
-    ("motion.angle=steep", "motion.angle = 'steep': ", "not understood", '"1 deg"'),
-    ("motion.angle=nan", "motion.angle = nan: ", "a number in deg", "at least -360", "at most 360"),
-    ("motion.angle=inf", "motion.angle = inf: ", "a number in deg"),
-    ("motion.angle=-inf deg", "motion.angle = '-inf deg': ", '"1 deg"'),
-    ("motion.angle=true", "motion.angle = True: ", "a number in deg"),
-    ("motion.angle=[30]", "motion.angle = [30]: ", "a number in deg"),
-    ("motion.angle=400", "motion.angle = 400: ", "at least -360", "at most 360"),
-    ("motion.angle=30 mm", "motion.angle = '30 mm': ", "wrong unit", '"1 deg"'),
     ("grid.nodes=64.5", "grid.nodes = 64.5: ", "a whole number", "at least 65", "at most 16385"),
     ('grid.nodes="257"', "grid.nodes = '257': ", "a whole number"),
     ("grid.nodes=33", "grid.nodes = 33: ", "at least 65"),
     ("grid.nodes=32769", "grid.nodes = 32769: ", "at most 16385"),
     ("grid.nodes=100", "grid.nodes = 100: ", "2^k + 1", "65 or 129"),
-    ("grid.nodes=256", "grid.nodes = 256: ", "2^k + 1", "129 or 257"),
     ("grid.nodes=1e400", "grid.nodes = inf: ", "a whole number"),
     ("grid.x=[-1.9]", "grid.x = [-1.9]: ", "two numbers", "first < -1", "last > 1"),
-    ("grid.x=[-0.5, 1.3]", "grid.x = [-0.5, 1.3]: ", "first < -1"),
     ("grid.y=[-1.5, 1]", "grid.y = [-1.5, 1]: ", "last > 1"),
     ('grid.y=["a", 2]', "grid.y = ['a', 2]: ", "two numbers"),
     ("grid.y=[-inf, 2]", "grid.y = [-inf, 2]: ", "two numbers"),
     ("grid.y=wide", "grid.y = 'wide': ", '"auto"', "two numbers"),
-    ("grid.x=[2, 5]", "grid.x = [2, 5]: ", "first < -1"),
     ("contact.kind=roller", "contact.kind = 'roller': ", "must be one of point, line, wedge"),
-    ("contact.load_per_length=0", "contact.load_per_length = 0: ", "a number in N/m", "at least 1e-06"),
     ("wedge.reversed=1", "wedge.reversed = 1: ", "true or false"),
-    ("wedge.blocked_exit=yes", "wedge.blocked_exit = 'yes': ", "true or false"),
     ('wedge.blocked_exit="true"', "wedge.blocked_exit = 'true': ", "true or false"),
-    ("wedge.pillar=round", "wedge.pillar = 'round': ", "none, square, cylinder"),
-    ("wedge.slope=1 mm", "wedge.slope = '1 mm': ", "wrong unit"),
-    ("wedge.slope=0.2", "wedge.slope = 0.2: ", "at least 1e-08", "at most 0.1"),
-    ("discretization.cavitation=0", "discretization.cavitation = 0: ", "true or false"),
-    ("discretization.cavitation=off", "discretization.cavitation = 'off': ", "true or false"),
-    ("discretization.contact_model=mixed", "discretization.contact_model = 'mixed': ", "lcic, unified"),
-    ("discretization.unified_gap=-1 nm", "discretization.unified_gap = '-1 nm': ", "in m", "at least 0"),
-    ("discretization.couette_at_interface=no", "discretization.couette_at_interface", "closed, untreated"),
-    ("solver.method=newton", "solver.method = 'newton': ", "newton-mg, relaxation"),
-    ("solver.cycle_couette=4B", "solver.cycle_couette = '4B': ", "same, 1B, 2B"),
     ("relaxation.omega=0", "relaxation.omega = 0: ", "above 0", "at most 1"),
-    ("relaxation.contact_share=2", "relaxation.contact_share = 2: ", "above 0", "at most 1"),
-    ("relaxation.stability=0.5", "relaxation.stability = 0.5: ", "at least 1", "at most 1000"),
-    ("relaxation.load_factor=0", "relaxation.load_factor = 0: ", "above 0", "at most 10"),
-    ("relaxation.load_every=1.5", "relaxation.load_every = 1.5: ", "a whole number", "at least 1"),
-    ("relaxation.max_sweeps=0", "relaxation.max_sweeps = 0: ", "a whole number", "at least 1"),
-    ("relaxation.fluid_update=plane", "relaxation.fluid_update = 'plane': ", "line, point"),
-    ("relaxation.contact_update=1", "relaxation.contact_update = 1: ", "line, point"),
     ("relaxation.load=1", "relaxation.load = 1: ", "unknown key", "did you mean contact.load?"),
     ("discretization.couette=4B", "discretization.couette = '4B': ", "1B, 2B, 2C, 3B, 3L, S1B, S2C"),
-    ("discretization.couette=1", "discretization.couette = 1: ", "1B, 2B, 2C, 3B, 3L, S1B, S2C"),
     ("discretization.couette=[]", "discretization.couette = []: ", "1B, 2B, 2C, 3B, 3L, S1B, S2C"),
-    ("solver.start=cold", "solver.start = 'cold': ", "film, contact"),
-    ("solver.omega=1.5", "solver.omega = 1.5: ", "at least 0.1", "at most 1"),
-    ("solver.max_steps=-1", "solver.max_steps = -1: ", "a whole number", "at least 0"),
     ("grid.nodez=129", "grid.nodez = 129: ", "unknown key", "did you mean grid.nodes?"),
     ("solver.speed=1", "solver.speed = 1: ", "unknown key", "did you mean motion.speed?"),
     ("gird.nodes=129", "gird = {'nodes': 129}: ", "unknown section", "did you mean grid?"),
@@ -344,13 +306,13 @@ def test_moes_numbers_replace_load_and_speed():
 
 @pytest.mark.parametrize("key, missing", [("M", "moes.L"), ("L", "moes.M")])
 def test_moes_numbers_go_together(key, missing):
-    assert error_of(tables={"moes": {key: 20.0}}).startswith(f"{missing}: must be given too")
+    assert error_of(tables={"moes": {key: 20.0}}) == f"{missing}: must be given with moes.{key}"
 
 
 @pytest.mark.parametrize("section, key, value", [("contact", "load", 800.0), ("motion", "speed", "1 m/s")])
 def test_moes_numbers_exclude_load_and_speed(section, key, value):
     message = error_of(tables={**MOES, section: {key: value}})
-    assert message == f"{section}.{key} = {value!r}: cannot be given with moes.M and moes.L"
+    assert message == f"{section}.{key} = {value!r}: means nothing with moes.M"
 
 
 @pytest.mark.parametrize(
@@ -359,23 +321,6 @@ def test_moes_numbers_exclude_load_and_speed(section, key, value):
 def test_moes_numbers_are_positive_and_have_no_unit(value, allowed):
     message = error_of(tables={"moes": {"M": value, "L": 10.0}})
     assert message.startswith(f"moes.M = {value!r}: ") and allowed in message
-
-
-@pytest.mark.parametrize(
-    "tables",
-    [
-        {},
-        MOES,
-        {"contact": {"radius_y": "2.54 cm"}, "grid": {"nodes": 129, "x": [-4.5, 1.5]}},
-        {"lubricant": {"viscosity_law": "roelands"}, "solver": {"tolerance": 1e-7, "sweeps": 2}},
-    ],
-    ids=["defaults", "moes", "ellipse", "laws"],
-)
-def test_round_trip_through_toml(tables):
-    """What a run writes is the same configuration, to the last bit, when read again."""
-    config = config_from_tables(tables)
-    again = config_from_tables(tomllib.loads(tomli_w.dumps(config.as_toml_tables())))
-    assert again == config
 
 
 def test_written_tables_name_every_key_that_is_set():
@@ -424,37 +369,28 @@ def test_a_setting_holds_one_value():
         load_config(None, ["grid.nodes=65\nx=3"])
 
 
-VALUES = {
-    "contact.load": "800", "contact.load_per_length": "500e3", "contact.radius_x": "0.01",
-    "contact.radius_y": "0.01", "contact.reduced_modulus": "2e11", "contact.surface": "laws.py:waves",
-    "contact.deformation": "half-space", "lubricant.viscosity_law": "barus",
-    "lubricant.pressure_viscosity": "1e-8", "lubricant.density_law": "constant", "grid.x": "[-2, 2]",
-    "grid.y": "[-2, 2]", "discretization.contact_model": "unified", "discretization.unified_gap": "1e-9",
-    "discretization.film_threshold": "0", "solver.method": "newton-mg", "solver.start": "film",
-    "solver.first_nodes": "65", "solver.inlet_cells": "2", "solver.release_budget": "1",
-    "motion.angle": "30",
-}  # fmt: skip
-SECTION_KEYS = {"moes": ["moes.M=20", "moes.L=10"], "coating": ["coating.poisson=0.3"],
-                 "wedge": ["wedge.slope=1e-3"],
-                "relaxation": ["relaxation.omega=0.1"]}  # fmt: skip
 FOREIGN_KEYS = [
-    ("point", "contact.load_per_length"), ("point", "wedge"),
-    *(("line", key) for key in ("contact.load", "contact.radius_y", "grid.y", "moes", "wedge",
-                                "contact.deformation", "coating", "motion.angle")),
-    *(("wedge", key) for key in (*VALUES, "moes", "coating", "relaxation") if "lubricant" not in key),
+    ("point", "contact.load_per_length=5e5"), ("point", "wedge.slope=1e-3"),
+    ("line", "contact.load=800"), ("line", "grid.y=auto"), ("line", "moes.M=20"),
+    ("line", "motion.angle=0"),
+    ("line", "contact.deformation=half-space"), ("line", "coating.poisson=0.3"),
+    ("wedge", "contact.reduced_modulus=2e11"),
+    ("wedge", "grid.x=auto"), ("wedge", "discretization.film_threshold=0"), ("wedge", "solver.start=film"),
+    ("wedge", "relaxation.omega=0.1"), ("wedge", "surface.kind=dent"),
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize("kind, name", FOREIGN_KEYS)
-def test_key_that_the_kind_of_contact_does_not_heed(kind, name):
+@pytest.mark.parametrize("kind, setting", FOREIGN_KEYS)
+def test_key_that_means_nothing_to_the_kind_of_contact(kind, setting):
     """Even with the value it has by default: whoever gives it expects it to matter."""
-    settings = SECTION_KEYS.get(name) or [f"{name}={VALUES[name]}"]
-    message = error_of(f"contact.kind={kind}", *settings)
-    assert message.startswith(f"{name} = " if "." in name else f"[{name}]: ")
+    message = error_of(f"contact.kind={kind}", setting)
+    assert message.startswith(f"{setting.partition('=')[0]} = ")
     assert message.endswith(f': means nothing where contact.kind = "{kind}"')
 
 
 KINDS = {
+    "defaults": {},
+    "moes": MOES,
     "point": {"discretization": {"contact_model": "unified", "unified_gap": "1 nm", "cavitation": False}},
     "relaxed point": {
         "solver": {"method": "relaxation"},
@@ -525,8 +461,8 @@ POCKET = ("wedge.pocket_depth=0.4 um", "wedge.pocket_from=4 mm", "wedge.pocket_t
 @pytest.mark.parametrize(
     "settings, message",
     [
-        (BY_FILMS[:1], "wedge.inlet_film: must be given too, beside wedge.length"),
-        (BY_FILMS[1:], "wedge.length: must be given too, beside wedge.inlet_film"),
+        (BY_FILMS[:1], "wedge.inlet_film: must be given with wedge.length"),
+        (BY_FILMS[1:], "wedge.length: must be given with wedge.inlet_film"),
         (("wedge.length=0.1 mm", "wedge.inlet_film=1 mm", BY_FILMS[2]), "wedge.length = 0.0001: the slope"),
         (("wedge.inlet_film=0",), "wedge.inlet_film = 0: must be a number in m"),
         (POCKET[:1], "wedge.pocket_from: must be given beside wedge.pocket_depth"),
@@ -558,7 +494,7 @@ def test_a_pad_is_described_in_one_way(key):
     value = True if key == "reversed" else 1e-3
     wedge = {"length": 20e-3, "inlet_film": 1e-6, "exit_film": 1e-6}
     message = error_of(tables={"contact": {"kind": "wedge"}, "wedge": wedge | {key: value}})
-    assert message == f"wedge.{key} = {value!r}: cannot be given with wedge.length"
+    assert message == f"wedge.{key} = {value!r}: means nothing with wedge.length"
     config = load_config(CONFIGS / "wedge_open.toml", BY_FILMS)
     assert config.wedge.by_films and "slope" not in config.as_toml_tables()["wedge"]
 
@@ -584,15 +520,11 @@ def test_a_pad_that_does_not_fit_its_grid(settings, message):
     assert str(caught.value).startswith(message) and "\n" not in str(caught.value)
 
 
-@pytest.mark.parametrize("text, value", [("true", True), ("false", False)])
-def test_truth_values(text, value):
-    assert with_settings(f"discretization.cavitation={text}").discretization.cavitation is value
-
-
 def test_keys_of_the_discretization_and_the_relaxation():
     """From the configuration to the records that the solver is given."""
     from mgehl.discretization.contact_law import InterfaceConditions, UnifiedEquations
-    from mgehl.solver.from_config import contact_from, settings_from
+    from mgehl.kinds import contact_from
+    from mgehl.solver.from_config import settings_from
 
     config = with_settings(
         "discretization.cavitation=false", "discretization.couette_at_interface=untreated",
@@ -637,14 +569,15 @@ def test_a_coating_has_a_thickness_and_a_modulus(left):
 @pytest.mark.parametrize("deformation", ["half-space", "/there/mine.py:layers"])
 def test_a_coating_without_a_coated_contact_is_a_mistake(deformation):
     message = error_of(f"contact.deformation={deformation}", "coating.poisson=0.2")
-    assert message == f'[coating]: means nothing where contact.deformation = "{deformation}"'
+    assert message == f'coating.poisson = 0.2: means nothing where contact.deformation = "{deformation}"'
 
 
 def test_a_deformation_that_is_set_pushes_out_the_coating_of_the_file():
     assert load_config(CONFIGS / "coated.toml").coating.thickness == pytest.approx(40e-6)
     config = load_config(CONFIGS / "coated.toml", ["contact.deformation=half-space"])
     assert config.coating == Config().coating
-    assert "coating" in config.unused and "coating" not in load_config(CONFIGS / "coated.toml").unused
+    assert "coating.poisson" in config.unused
+    assert "coating.poisson" not in load_config(CONFIGS / "coated.toml").unused
     assert "coating" not in config.as_toml_tables()
 
 
@@ -701,7 +634,8 @@ def test_objects_of_one_s_own():
 )
 def test_rough_and_soft_bodies_close_continuously(settings, continuous):
     """Whatever their film: parts of it may close on the way."""
-    from mgehl.solver.from_config import contact_from, settings_from
+    from mgehl.kinds import contact_from
+    from mgehl.solver.from_config import settings_from
 
     config = with_settings("motion.speed=1", *settings)
     law = settings_from(config, contact_from(config)).scheme.contact_law

@@ -25,7 +25,7 @@ LAYERS = (
 """Lowest first. The modules beside them in mgehl (config, run, cli) stand above the layers."""
 BENEATH = {"mgehl.errors", "mgehl.saying", "mgehl.version"}
 """What every layer may use; they use nothing but each other."""
-USERS_OF_OUTPUT = {"mgehl.run", "mgehl.api"}
+USERS_OF_OUTPUT = {"mgehl.run", "mgehl.api", "mgehl.answer"}
 ABOVE_OUTPUT = ("output", "studies", "commands")
 USED_BESIDE = {
     "kinds": {"mgehl.config_value"},

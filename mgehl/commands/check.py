@@ -1,7 +1,9 @@
 """mgehl check: what a configuration means and what its run will take, without solving anything."""
 
+from itertools import groupby
+
 from mgehl.commands import CONVERGED, add_configuration, add_settings, shown
-from mgehl.config import chosen_config, load_config
+from mgehl.config import chosen_config, config_from_tables, left_out, read_tables
 from mgehl.errors import UserError
 from mgehl.saying import columns, folded
 
@@ -32,19 +34,30 @@ def add(commands):
 def execute(options):
     """Print everything; raises UserError where the run would not begin."""
     file = chosen_config(options.config, options.settings)
-    config = load_config(file, options.settings)
+    tables = read_tables(file, options.settings)
+    config = config_from_tables(tables)
     if options.ranks < 1:
         raise UserError(f"--ranks {options.ranks}: must be at least 1")
-    from mgehl.kinds import check_contact, contact_from, mesh_from
+    from mgehl.kinds import checked_case
 
-    contact = contact_from(config)
-    check_contact(config, contact)
-    mesh = mesh_from(config, contact)
+    case = checked_case(config)
+    config, contact, mesh = case.config, case.contact, case.mesh
     print(f"{options.config or shown(file)}: valid, a {config.kind.noun}\n")
-    lines = *_described(config, contact, mesh), *_estimate(config, contact, mesh, options.ranks)
+    lines = [*_given(config, left_out(config, tables)), ""]
+    lines += *_described(config, contact, mesh), *_estimate(config, contact, mesh, options.ranks)
     width = columns()
     print(*(folded(line, " " * NAME, width) for line in lines), sep="\n")
     return CONVERGED
+
+
+def _given(config, missing):
+    """Lines with the numbers that make the contact, by sections, and with those that are `missing`."""
+    for section, keys in groupby(config.physics, lambda key: key.partition(".")[0]):
+        values = ((key, *config.physics[key]) for key in keys)
+        words = (f"{key.partition('.')[2]} {value:.6g} {unit}".rstrip() for key, value, unit in values)
+        yield f"{section:{NAME}}{'   '.join(words)}"
+    if missing:
+        yield f"not given  {', '.join(missing)}: the paper's values"
 
 
 def _described(config, contact, mesh):

@@ -1,16 +1,15 @@
 """mgehl completion: what a shell needs to complete mgehl's words."""
 
 import argparse
-from dataclasses import fields
 
 from mgehl.commands import CONVERGED
-from mgehl.config import SECTIONS
+from mgehl.config import KEYS
 
 PARALLEL = False
 
 SHELLS = ("bash", "zsh", "tcsh")
 
-SETTINGS = " ".join(f"{name}.{key.name}" for name, section in SECTIONS.items() for key in fields(section))
+SETTINGS = " ".join(KEYS)
 
 BASH = f"""\
 _mgehl_settings() {{

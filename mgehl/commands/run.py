@@ -4,7 +4,7 @@ from pathlib import Path
 from shlex import quote
 
 from mgehl.commands import CONVERGED, NOT_CONVERGED, add_configuration, add_settings, shown
-from mgehl.config import chosen_config, load_config
+from mgehl.config import chosen_config, config_from_tables, left_out, read_tables
 from mgehl.config_value import read_quantity
 from mgehl.errors import OutputError, UserError
 
@@ -54,7 +54,7 @@ def execute(options, comm):
     return CONVERGED if result.converged else NOT_CONVERGED
 
 
-def _run(config, directory, start, comm, options, save_every, limit):
+def _run(case, directory, start, comm, options, save_every, limit):
     """Solve; a signal or a limit of time may stop it."""
     from mgehl.output.terminal import SILENT, speaker
     from mgehl.run import Watch, run
@@ -64,23 +64,22 @@ def _run(config, directory, start, comm, options, save_every, limit):
     words = spoken if comm.rank == 0 else SILENT
     hint = f"go on with: mgehl run --resume {quote(str(directory))}"
     with StopWhenTold(hint, limit) as stop, words:
-        return run(config, directory, comm, Watch(words, save_every=save_every, stop=stop), start)
+        return run(case, directory, comm, Watch(words, save_every=save_every, stop=stop), start)
 
 
 def _begin(options, comm, solve):
     """Solve a new run in its directory, which is made and locked."""
-    from mgehl.kinds import check_contact, contact_from
     from mgehl.output.checkpoint import keep_start
     from mgehl.output.directory import make_directory, prepare_directory
     from mgehl.output.files import on_first_rank
     from mgehl.output.lock import locked
-    from mgehl.output.memory_limit import check_memory
+    from mgehl.run import enter
 
     settings = [*options.settings, *([NO_ERROR] if options.no_error else [])]
     file = chosen_config(options.config, options.settings)
-    config = load_config(file, settings)
-    check_contact(config, contact_from(config))
-    check_memory(config, comm.size)
+    tables = read_tables(file, settings)
+    case = enter(config_from_tables(tables), comm)
+    config = case.config
     on_first_rank(comm, _say_what_changed, config)
     start = _start(options.start_from, config, comm) if options.start_from else None
     if start and comm.rank == 0:
@@ -91,24 +90,23 @@ def _begin(options, comm, solve):
     on_first_rank(comm, make_directory, directory, options.force)
     with locked(comm, directory):
         on_first_rank(comm, prepare_directory, directory)
-        if comm.rank == 0 and _names_nothing(options):
-            _say_which(file, options.settings)
+        if comm.rank == 0 and not (options.quiet or options.json_lines):
+            _say_what(options, file, config, tables)
         if start:
             on_first_rank(comm, keep_start, directory, options.start_from)
-        return solve(config, directory, start)
+        return solve(case, directory, start)
 
 
-def _names_nothing(options):
-    """Whether a listener should be told which configuration is solved."""
-    return not (options.config or options.quiet or options.json_lines)
-
-
-def _say_which(file, settings):
-    """Say which configuration is solved, and that it is another one where keys are set."""
+def _say_what(options, file, config, tables):
+    """Say which configuration is solved where none was named, and what it does not give."""
     from mgehl.saying import columns, folded, say
 
-    changed = ", changed by --set" if settings else ""
-    say(folded(f"mgehl: no configuration named: solving {shown(file)}{changed}", "    ", columns()))
+    changed = ", changed by --set" if options.settings else ""
+    which = [] if options.config else [f"no configuration named: solving {shown(file)}{changed}"]
+    missing = left_out(config, tables)
+    which += [f"not given, so the paper's values: {', '.join(missing)}"] if missing else []
+    for words in which:
+        say(folded(f"mgehl: {words}", "    ", columns()))
 
 
 def _say_what_changed(config):

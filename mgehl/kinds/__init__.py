@@ -1,16 +1,73 @@
 """The kinds of contact. Each module says which keys it takes, what it builds of them, what it is called.
 
 A new kind is its physics in `mgehl.model`, a module here with its own section of keys, its name in
-`KINDS` and its section in `mgehl.config.Config`. A key that only some kinds take is foreign to the
+`KINDS` and its section in `mgehl.config.Config`. A key that only some kinds take means nothing to the
 others without a word of theirs.
 """
 
+from dataclasses import dataclass
+from typing import Any
+
+from mgehl.kinds.choice import Choice, word_of
+from mgehl.kinds.dry import DRY, fluid_choice
 from mgehl.kinds.line import LINE
 from mgehl.kinds.own import naming_keys
-from mgehl.kinds.point import POINT
-from mgehl.kinds.wedge import WEDGE
+from mgehl.kinds.point import POINT, deformation_choice, moes_choice
+from mgehl.kinds.surface_kinds import surface_choices
+from mgehl.kinds.wedge import WEDGE, wedge_choices
 
 KINDS = {kind.name: kind for kind in (POINT, LINE, WEDGE)}
+
+
+def choices(tables):
+    """Every `Choice` that nested values make, in the order in which mistakes are told.
+
+    Values may be those of a whole configuration, or of settings alone: where a key is not there, nothing
+    is chosen by it.
+    """
+    kind = KINDS.get(word_of(tables, "contact.kind"))
+    bodies = kind and kind_choice(kind), deformation_choice(tables), moes_choice(tables)
+    found = *bodies, *surface_choices(tables), fluid_choice(tables), *wedge_choices(tables)
+    return [each for each in found if each]
+
+
+def kind_choice(kind):
+    """The `Choice` of a `Kind`."""
+    return Choice(f'where contact.kind = "{kind.name}"', None, ("contact.kind", *kind.takes))
+
+
+def kind_of(config):
+    """The `Kind` of a `Config`, with a fluid or without."""
+    kinds = DRY if config.discretization.contact_model == "dry" else KINDS
+    return kinds[config.contact.kind]
+
+
+@dataclass(frozen=True)
+class Case:
+    """What is solved, as the user has it: made once, at the door, and handed on."""
+
+    config: Any
+    """The `Config`, its domain in numbers."""
+    contact: Any
+    mesh: Any
+    """The finest."""
+
+
+def case_of(config):
+    """The `Case` of a `Config`, as it is."""
+    return _case(config, contact_from(config))
+
+
+def checked_case(config):
+    """The `Case` of a `Config`. Raises ConfigError where values do not fit each other."""
+    contact = contact_from(config)
+    check_contact(config, contact)
+    return _case(config, contact)
+
+
+def _case(config, contact):
+    config = settled(config, contact)
+    return Case(config, contact, mesh_from(config, contact))
 
 
 def contact_from(config):

@@ -3,7 +3,8 @@
 from dataclasses import replace
 
 from mgehl.errors import ConfigError
-from mgehl.kinds import domain, loaded_checks
+from mgehl.kinds import loaded_checks
+from mgehl.kinds.choice import Choice, value_of, word_of
 from mgehl.kinds.kind import Effort
 from mgehl.kinds.line import LineKind
 from mgehl.kinds.loaded import LoadedKind
@@ -30,41 +31,41 @@ OF_MOES = ("lubricant", "motion")
 """Sections of a fluid that a dry contact uses all the same, to turn Moes numbers into a load."""
 
 
+def fluid_choice(tables):
+    """The `Choice` of a contact without a fluid, which may get one again; None with a fluid."""
+    if word_of(tables, "discretization.contact_model") != "dry":
+        return None
+    needed = OF_MOES if value_of(tables, "moes.M") is not None else ()
+    idle = tuple(name for name in OF_A_FLUID if name not in needed)
+    return Choice('where discretization.contact_model = "dry"', (), idle=idle)
+
+
 class DryKind(LoadedKind):
     """What is different without a fluid; to be mixed into a kind of loaded contact."""
 
     about = "A dry contact."
     content = "Pressure and gap of a"
 
-    def unheeded(self, config):
-        """What only a fluid heeds: the contact may get one again."""
-        needed = OF_MOES if config.moes.M is not None else ()
-        return tuple(name for name in OF_A_FLUID if name not in needed)
-
-    def check_keys(self, config, tables):
+    def check_keys(self, config):
         """The relaxation is a method for a fluid."""
         if config.solver.method == "relaxation":
             raise ConfigError(
                 'solver.method = "relaxation": means nothing where discretization.contact_model = "dry"'
             )
-        super().check_keys(config, tables)
+        super().check_keys(config)
 
     def contact(self, config):
         """The contact of the lubricated kind, at rest."""
         return replace(super().contact(config), speed=0.0)
 
-    def settled(self, config, contact):
-        """A domain that is "auto" ends so far from the smooth contact and its peaks."""
-        open_ends = domain.open_ends(config.grid, contact)
-        if not open_ends:
-            return config
-        peaks = dict(zip("xy", reach_of_peaks(contact, 0.0), strict=True))
-        found = {name: _ends(contact, peaks[name]) for name in open_ends}
-        return replace(config, grid=replace(config.grid, **found))
+    def domain(self, contact, _nodes):
+        """The ends of a domain that holds the smooth contact and its peaks, and some room."""
+        ends = (max(ROOM * contact.reach, end_beyond(peak)) for peak in reach_of_peaks(contact, 0.0))
+        return [(-end, end) for end in ends]
 
-    def check_fluid(self, config, contact):
+    def check_fluid(self, grid, contact):
         """The smooth contact must lie in the domain."""
-        loaded_checks.check_reach(self.settled(config, contact).grid, contact)
+        loaded_checks.check_reach(grid, contact)
 
     def effort(self, config):
         """The `Effort` of a dry contact: the same on every grid."""
@@ -96,12 +97,6 @@ class DryKind(LoadedKind):
             "contact_nodes": (float(result.contact.nodes), "1", "nodes in contact"),
             "contact_area": (result.contact.area_fraction, "1", "contact area over that of Hertz"),
         }
-
-
-def _ends(contact, peak):
-    """The ends of an axis along which a peak touches so far from the centre."""
-    end = max(ROOM * contact.reach, end_beyond(peak))
-    return -end, end
 
 
 class DryPoint(DryKind, PointKind):

@@ -52,20 +52,8 @@ class Kind:
         """True where bodies are pressed together by a load, False where the gap is given."""
         return self.model.is_loaded
 
-    def unused(self, config):
-        """Sections and keys that this kind takes, but that the values of other keys leave without a use."""
-        return ()
-
-    def unheeded(self, config):
-        """Others that may stand there all the same: they are kept, and not shown."""
-        return ()
-
-    def pushed_out(self, given):
-        """Sections and keys of a file that settings, {"section.key": value}, leave without a use."""
-        return ()
-
-    def check_keys(self, config, tables):
-        """Raise ConfigError where values contradict each other; `tables` has the keys that were given."""
+    def check_keys(self, config):
+        """Raise ConfigError where values contradict each other."""
 
     def contact(self, config):
         """The contact, as the model has it."""

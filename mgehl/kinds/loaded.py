@@ -2,13 +2,15 @@
 
 from dataclasses import asdict, replace
 
-from mgehl.config_value import shown
+from mgehl.config_value import AUTO, FARTHEST, shown
 from mgehl.errors import ConfigError
-from mgehl.kinds import domain, loaded_checks, surface
+from mgehl.kinds import loaded_checks, surface
 from mgehl.kinds.kind import Effort, Kind, kept_together
 from mgehl.model.lubricant import DENSITY_LAWS, VISCOSITY_LAWS, Lubricant
 from mgehl.model.own_function import OwnFunction, is_own
 from mgehl.model.own_laws import OwnDensity, OwnViscosity
+from mgehl.model.room import domain_for
+from mgehl.model.starvation import Starvation
 
 RELAXATION = Effort(
     2e4, 1e-7, 1e-3, 500.0, "the relaxation has one a sweep, up to relaxation.max_sweeps"
@@ -27,22 +29,24 @@ class LoadedKind(Kind):
     load_unit: str
     """SI unit of the load."""
 
-    def check_keys(self, config, tables):
-        """The viscosity law and the surfaces must be complete and free of contradictions."""
-        surface.check_keys(config, tables)
+    def check_keys(self, config):
+        """Neither the viscosity law nor the surfaces may contradict themselves."""
+        surface.check_keys(config)
         check_laws(config)
 
-    def unused(self, config):
-        """Keys that the surfaces do not use."""
-        return tuple(surface.unused(config))
-
-    def pushed_out(self, given):
-        """As `unused`, by what the settings say."""
-        return tuple(surface.pushed_out(given))
-
     def settled(self, config, contact):
-        """With a domain in numbers, large enough not to starve the film, where it is "auto"."""
-        return domain.settled(config, contact)
+        """With numbers where the domain is "auto"."""
+        names = [name for name in ("x" if contact.is_plane else "xy") if getattr(config.grid, name) == AUTO]
+        if not names:
+            return config
+        ends = dict(zip("xy", self.domain(contact, config.grid.nodes), strict=True))
+        return replace(config, grid=replace(config.grid, **{name: ends[name] for name in names}))
+
+    def domain(self, contact, nodes):
+        """The ends along x and y of a domain as small as the film of a formula and the peaks that may touch
+        allow, with most room upstream. Layered bodies count as half-spaces whose contact is as wide.
+        """
+        return domain_for(Starvation(contact, contact.flooded_film), nodes, FARTHEST)
 
     def check(self, config, contact):
         """The contact must be small beside the bodies; otherwise as `check_fluid`."""
@@ -50,14 +54,16 @@ class LoadedKind(Kind):
         loaded_checks.check_size(*self.size(config, contact))
         if contact.surface is not None:
             surface.check_known(config, contact)
+        config = self.settled(config, contact)
+        if contact.surface is not None:
             surface.check_surfaces(config, contact, self.mesh(config, contact))
-        self.check_fluid(config, contact)
+        self.check_fluid(config.grid, contact)
 
-    def check_fluid(self, config, contact):
+    def check_fluid(self, grid, contact):
         """Laws must give numbers; the domain must be large enough for contact and inlet."""
         loaded_checks.check_own_laws(contact)
         loaded_checks.check_exponent(contact)
-        loaded_checks.check_domain(self.settled(config, contact).grid, contact)
+        loaded_checks.check_domain(grid, contact)
 
     def size(self, config, contact):
         """The key that the dry contact's size follows from, size and radii in words, and their ratio."""

@@ -2,10 +2,11 @@
 
 from dataclasses import asdict, dataclass
 
-from mgehl.config_value import key_field, shown
+from mgehl.config_value import key_field
 from mgehl.discretization.fluid import FOLDING
 from mgehl.discretization.mesh import Mesh
 from mgehl.errors import ConfigError
+from mgehl.kinds.choice import Choice, value_of, word_of
 from mgehl.kinds.kind import Effort
 from mgehl.kinds.loaded import LoadedKind, lubricant_from
 from mgehl.kinds.own import compliance_from
@@ -16,8 +17,8 @@ from mgehl.model.point import PointContact
 LARGEST_RADIUS_RATIO = 1e3
 """Largest ratio of the two radii: a longer ellipse is a line contact."""
 
-MOES_REPLACES = ("contact.load", "motion.speed")
-"""Keys that moes.M and moes.L stand for."""
+MOES, MOES_REPLACES = ("moes.M", "moes.L"), ("contact.load", "motion.speed")
+"""Moes numbers, and the keys that they stand for."""
 
 FILM = Effort(45.0, 2.6e-7, 0.013, 1300.0, "full films on 65 to 2049 nodes took 22 to 106")
 CONTACT = Effort(25.0, 4e-7, 0.01, 1800.0, "full contact on 257 to 1025 nodes took 18 to 31")
@@ -47,6 +48,23 @@ class MoesSection:
     )
 
 
+def deformation_choice(tables):
+    """The `Choice` of contact.deformation: a coating belongs to coated bodies."""
+    deformation = word_of(tables, "contact.deformation")
+    if deformation is None:
+        return None
+    said = f'where contact.deformation = "{deformation}"'
+    if deformation != "coated":
+        return Choice(said, ("coating",))
+    return Choice(said, (), needs=("coating.thickness", "coating.modulus"))
+
+
+def moes_choice(tables):
+    """The `Choice` of Moes numbers, which come as a pair and stand for load and speed; None without any."""
+    given = [key for key in MOES if value_of(tables, key) is not None]
+    return Choice(f"with {given[0]}", MOES_REPLACES, needs=MOES) if given else None
+
+
 class PointKind(LoadedKind):
     """A paraboloid on a flat, pressed by a force."""
 
@@ -71,24 +89,14 @@ class PointKind(LoadedKind):
         "motion.angle": lambda angle: f"at {angle:g}°",
     }
 
-    def unused(self, config):
-        """The keys of a coating where there is none, and the keys that Moes numbers replace."""
-        moes = MOES_REPLACES if config.moes.M is not None else ()
-        coating = _without_coating(config.contact.deformation)
-        return *coating, *moes, *super().unused(config)
-
-    def pushed_out(self, given):
-        """As `unused`, by what the settings say."""
-        said = "contact.deformation" in given
-        coating = _without_coating(given["contact.deformation"]) if said else ()
-        moes = MOES_REPLACES if any(key.startswith("moes.") for key in given) else ()
-        return *coating, *moes, *super().pushed_out(given)
-
-    def check_keys(self, config, tables):
-        """Moes numbers come as a pair, without load and speed; a coating belongs to coated bodies."""
-        _check_moes(config.moes, tables)
-        _check_coating(config, tables)
-        super().check_keys(config, tables)
+    def check_keys(self, config):
+        """A coating must leave a substrate that is possible; otherwise as any loaded contact."""
+        try:
+            _deformation_from(config)
+        except ValueError as error:
+            modulus = config.coating.substrate_modulus
+            raise ConfigError(f"coating.substrate_modulus = {modulus!r}: {error}") from None
+        super().check_keys(config)
 
     def contact(self, config):
         """A `PointContact`, by load and speed or by Moes numbers."""
@@ -156,42 +164,11 @@ def angle_words(angle):
     return f" at {angle:g}°" if angle else ""
 
 
-def _without_coating(deformation):
-    """Sections that a deformation does not use."""
-    return () if deformation == "coated" else ("coating",)
-
-
 def _deformation_from(config):
     """What the bodies are in depth; None for half-spaces."""
     if config.contact.deformation == "coated":
         return Coating(**asdict(config.coating), reduced_modulus=config.contact.reduced_modulus)
     return compliance_from(config)
-
-
-def _check_moes(moes, tables):
-    if (moes.M is None) != (moes.L is None):
-        missing = "moes.L" if moes.L is None else "moes.M"
-        raise ConfigError(f"{missing}: must be given too, moes.M and moes.L go together")
-    for name in MOES_REPLACES if moes.M is not None else ():
-        section, _, key = name.partition(".")
-        if key in tables.get(section, {}):
-            value = shown(tables[section][key])
-            raise ConfigError(f"{name} = {value}: cannot be given with moes.M and moes.L")
-
-
-def _check_coating(config, tables):
-    deformation, coating = config.contact.deformation, config.coating
-    if deformation != "coated":
-        if tables.get("coating"):
-            raise ConfigError(f'[coating]: means nothing where contact.deformation = "{deformation}"')
-        return
-    for key in ("thickness", "modulus"):
-        if getattr(coating, key) is None:
-            raise ConfigError(f'coating.{key}: must be given where contact.deformation = "coated"')
-    try:
-        _deformation_from(config)
-    except ValueError as error:
-        raise ConfigError(f"coating.substrate_modulus = {coating.substrate_modulus!r}: {error}") from None
 
 
 def _check_radii(section):

@@ -4,19 +4,16 @@
 """
 
 from contextlib import contextmanager
-from dataclasses import fields
 
 import numpy as np
 
-from mgehl.config_value import shown
 from mgehl.errors import ConfigError
 from mgehl.kinds.own import own_surface_from
-from mgehl.kinds.surface_keys import MOVING, NAMES, NEEDS, TAKES, SurfaceSection
+from mgehl.kinds.surface_kinds import MOVING, NAMES, surface_of
 from mgehl.model.frame import direction
 from mgehl.model.own_function import OwnFunctionError
 from mgehl.model.own_laws import OwnSurface
-from mgehl.model.surface import Dent, Measured, Preparation, Ridge, SelfAffine, Waviness, summed
-from mgehl.model.surface.files import UNITS
+from mgehl.model.surface import Measured, summed
 from mgehl.model.surface.map import SurfaceFileError
 from mgehl.model.surface.self_affine import LARGEST_SPAN
 
@@ -27,67 +24,36 @@ HIGHEST = 0.1
 """Largest height over the smaller radius of the bodies."""
 
 
-def unused(config):
-    """Sections and keys that the surfaces of a configuration do not use."""
+def check_keys(config):
+    """Raise ConfigError where the values of a surface contradict each other."""
     for name in NAMES:
-        source = getattr(config, name).source
-        yield from [name] if source is None else _not_taken(name, source)
+        section = getattr(config, name)
+        if section.kind == "waviness" and section.wavelength_x is None and section.wavelength_y is None:
+            either = f"{name}.wavelength_x: it or {name}.wavelength_y"
+            raise ConfigError(f'{either} must be given with {name}.kind = "waviness"')
+        _check_cut_offs(name, section)
+        _check_motion(name, section, config.motion.angle)
 
 
-def pushed_out(given):
-    """Keys of a file that settings, {"section.key": value}, leave without a use."""
-    for name in NAMES:
-        kind = given.get(f"{name}.kind")
-        if f"{name}.file" in given:
-            yield from _not_taken(name, "file")
-        elif kind in TAKES:
-            yield from _not_taken(name, kind)
-
-
-def _not_taken(name, source):
-    return [f"{name}.{key.name}" for key in fields(SurfaceSection) if key.name not in TAKES[source]]
-
-
-def check_keys(config, tables):
-    """Raise ConfigError where the keys of a surface contradict each other."""
-    for name in NAMES:
-        section, given = getattr(config, name), tables.get(name, {})
-        if section.kind is not None and section.file is not None:
-            raise ConfigError(f"{name}.kind = {section.kind!r}: cannot be given with {name}.file")
-        if given and not section.is_given:
-            raise ConfigError(f"[{name}]: needs {name}.kind or {name}.file")
-        if section.is_given:
-            _check_section(name, section, given)
-            _check_motion(name, section, config.motion.angle)
-
-
-def _check_section(name, section, given):
-    source = section.source
-    called = f"{name}.file" if source == "file" else f'{name}.kind = "{source}"'
-    for key in given:
-        if key not in TAKES[source]:
-            raise ConfigError(f"{name}.{key} = {shown(given[key])}: means nothing with {called}")
-    for key in NEEDS[source]:
-        if getattr(section, key) is None:
-            raise ConfigError(f"{name}.{key}: must be given with {called}")
-    if source == "waviness" and section.wavelength_x is None and section.wavelength_y is None:
-        raise ConfigError(f"{name}.wavelength_x: it or {name}.wavelength_y must be given with {called}")
+def _check_cut_offs(name, section):
     shortest, longest = section.shortest_wavelength, section.longest_wavelength
-    if shortest is not None and longest is not None and not shortest < longest:
+    if shortest is None or longest is None:
+        return
+    what = f"{name}.shortest_wavelength = {shortest:g}: must be"
+    if not shortest < longest:
+        raise ConfigError(f"{what} below {longest:g}, {name}.longest_wavelength")
+    if section.kind == "self-affine" and section.aspect * longest > LARGEST_SPAN * shortest:
         raise ConfigError(
-            f"{name}.shortest_wavelength = {shortest:g}: must be below {longest:g}, "
-            f"{name}.longest_wavelength"
-        )
-    if source == "self-affine" and section.aspect * longest > LARGEST_SPAN * shortest:
-        raise ConfigError(
-            f"{name}.shortest_wavelength = {shortest:g}: must be at least the longest wavelength times "
-            f"{name}.aspect over {LARGEST_SPAN:g}, {section.aspect * longest / LARGEST_SPAN:.3g}"
+            f"{what} at least the longest wavelength times {name}.aspect over {LARGEST_SPAN:g}, "
+            f"{section.aspect * longest / LARGEST_SPAN:.3g}"
         )
 
 
 def _check_motion(name, section, angle):
     """The heights of a body that moves must be the same all along the motion."""
-    if section.body == MOVING and surface_of(section).varies_along(direction(angle)):
+    if section.body != MOVING or (surface := surface_of(section)) is None:
+        return
+    if surface.varies_along(direction(angle)):
         raise ConfigError(
             f'{name}.body = "moving": its heights change along the motion, and so the film with time; '
             "mgehl solves steady states: the rough body stands still, the other moves at twice motion.speed"
@@ -103,51 +69,11 @@ def parts_of(config):
     """(Key, `Surface`) of every surface."""
     for name in NAMES:
         section = getattr(config, name)
-        if section.is_given:
-            key = "file" if section.file is not None else "kind"
-            yield f"{name}.{key} = {getattr(section, key)!r}", surface_of(section)
-    own = own_surface_from(config)
-    if own:
+        if (surface := surface_of(section)) is not None:
+            key = "kind" if section.file is None else "file"
+            yield f"{name}.{key} = {getattr(section, key)!r}", surface
+    if own := own_surface_from(config):
         yield f"contact.surface = {config.contact.surface!r}", own
-
-
-def surface_of(section):
-    """The `Surface` of a section that gives one."""
-    return _BUILT[section.source](section, {"x": section.x, "y": section.y})
-
-
-def _waviness(section, at):
-    lengths = section.wavelength_x, section.wavelength_y
-    return Waviness(section.amplitude, *lengths, angle=section.angle, **at)
-
-
-def _self_affine(section, at):
-    cut_offs = section.shortest_wavelength, section.longest_wavelength
-    shape = section.hurst, section.seed, section.aspect, section.angle
-    return SelfAffine(section.rms, *cut_offs, *shape, **at)
-
-
-def _measured(section, at):
-    preparation = Preparation(
-        height_unit=section.height_unit and UNITS[section.height_unit],
-        position_unit=section.position_unit and UNITS[section.position_unit],
-        dx=section.spacing,
-        dy=section.spacing_y,
-        remove=section.remove,
-        shortest_wavelength=section.shortest_wavelength,
-        longest_wavelength=section.longest_wavelength,
-        continuation=section.continuation,
-    )
-    return Measured(section.file, preparation, angle=section.angle, **at)
-
-
-_BUILT = {
-    "waviness": _waviness,
-    "self-affine": _self_affine,
-    "dent": lambda section, at: Dent(section.amplitude, section.width, **at),
-    "ridge": lambda section, at: Ridge(section.amplitude, section.width, angle=section.angle, **at),
-    "file": _measured,
-}
 
 
 def check_surfaces(config, contact, mesh):

@@ -2,9 +2,10 @@
 
 from dataclasses import dataclass
 
-from mgehl.config_value import key_field, shown
+from mgehl.config_value import key_field
 from mgehl.discretization.mesh import Mesh
 from mgehl.errors import ConfigError
+from mgehl.kinds.choice import Choice, value_of, word_of
 from mgehl.kinds.kind import Effort, Kind, kept_together
 from mgehl.kinds.loaded import check_laws, lubricant_from
 from mgehl.kinds.loaded_checks import check_own_laws_up_to
@@ -16,12 +17,16 @@ LARGEST_ASPECT = 100.0
 FEWEST_CELLS = 2
 """Cells that a pillar or a pocket must have, and the distance from the exit to the line of no gap."""
 
-FILMS = ("length", "inlet_film", "exit_film")
-REPLACED = ("exit", "inlet", "slope", "reversed")
-"""Keys of `wedge` that describe a pad by its films, and those that they stand for."""
+FILMS = ("wedge.length", "wedge.inlet_film", "wedge.exit_film")
+REPLACED = ("wedge.exit", "wedge.inlet", "wedge.slope", "wedge.reversed")
+"""Keys that describe a pad by its films, and those that they stand for."""
 
-LAWS = ("viscosity_law", "pressure_viscosity", "density_law")
-"""Keys of `lubricant` that say what a pressure changes."""
+PILLAR = ("wedge.pillar_x", "wedge.pillar_y", "wedge.pillar_size")
+POCKET = ("wedge.pocket_from", "wedge.pocket_to", "wedge.pocket_width")
+"""Where a pillar and a pocket are."""
+
+LAWS = ("lubricant.viscosity_law", "lubricant.pressure_viscosity", "lubricant.density_law")
+"""Keys that say what a pressure changes."""
 
 STEEPEST = 0.1
 """Largest slope of a pad."""
@@ -108,6 +113,21 @@ def pocket_words(depth):
     return f"pocket {1e6 * depth:.4g} um deep" if depth else "no pocket"
 
 
+def wedge_choices(tables):
+    """Every `Choice` that keys of [wedge] make."""
+    if word_of(tables, "wedge.pillar") == "none":
+        yield Choice('where wedge.pillar = "none"', (), idle=PILLAR)
+    if films := [key for key in FILMS if value_of(tables, key) is not None]:
+        yield Choice(f"with {films[0]}", REPLACED, needs=FILMS)
+    if word_of(tables, "contact.kind") == "wedge" and not value_of(tables, "wedge.pressure_laws"):
+        yield Choice("without wedge.pressure_laws = true", LAWS)
+    depth = value_of(tables, "wedge.pocket_depth")
+    if depth:
+        yield Choice("beside wedge.pocket_depth", (), needs=POCKET[:2])
+    elif depth is not None:
+        yield Choice("without wedge.pocket_depth", POCKET)
+
+
 class WedgeKind(Kind):
     """A pad whose gap is given: no load, no elasticity; constant viscosity and density, or laws of them."""
 
@@ -130,31 +150,13 @@ class WedgeKind(Kind):
     }  # fmt: skip
     cavitates = False
 
-    def unused(self, config):
-        """Laws of a constant fluid, and what the films of a pad stand for."""
-        laws = () if config.wedge.pressure_laws else _names("lubricant", LAWS)
-        return *laws, *(_names("wedge", REPLACED) if config.wedge.by_films else ())
-
-    def pushed_out(self, given):
-        """As `unused`, by what the settings say."""
-        constant = given.get("contact.kind") == self.name and "wedge.pressure_laws" not in given
-        by_films = any(name in given for name in _names("wedge", FILMS))
-        laws = _names("lubricant", LAWS) if constant else ()
-        return *laws, *(_names("wedge", REPLACED) if by_films else ())
-
-    def check_keys(self, config, tables):
-        """The pad must have a length and a description, the pocket both ends; laws must be asked for."""
-        wedge, given = config.wedge, tables.get("wedge", {})
+    def check_keys(self, config):
+        """The pad must have a length, its pocket must lie within it, laws must fit the viscosity."""
         if config.wedge.pressure_laws:
             check_laws(config)
-        for key in () if wedge.pressure_laws else LAWS:
-            if key in tables.get("lubricant", {}):
-                value = shown(tables["lubricant"][key])
-                raise ConfigError(
-                    f"lubricant.{key} = {value}: means nothing without wedge.pressure_laws = true"
-                )
-        _check_description(wedge, given)
-        _check_pocket_keys(wedge, given)
+        _check_pad(config.wedge)
+        if config.wedge.pocket_depth:
+            _check_place(config.wedge)
 
     def contact(self, config):
         """A `WedgeBearing`: x of a pad that is described by its films goes with the motion."""
@@ -311,10 +313,6 @@ def _check_pillar(wedge, smallest, nodes):
         )
 
 
-def _names(section, keys):
-    return tuple(f"{section}.{key}" for key in keys)
-
-
 def _slope(wedge):
     """The slope of a `WedgeBearing` and its level, where it has one."""
     if not wedge.by_films:
@@ -331,19 +329,12 @@ def _pocket(wedge, side):
     return Pocket(wedge.pocket_depth, tuple(along), wedge.pocket_width or wedge.width)
 
 
-def _check_description(wedge, given):
-    """A pad is described by its ends and slope, or by its length and films, all three."""
-    films = [key for key in FILMS if getattr(wedge, key) is not None]
-    if not films:
+def _check_pad(wedge):
+    """A pad has a length, and a slope that is not too steep."""
+    if not wedge.by_films:
         if not wedge.exit < wedge.inlet:
             raise ConfigError(f"wedge.inlet = {wedge.inlet:g}: must be above wedge.exit = {wedge.exit:g}")
         return
-    for key in FILMS:
-        if key not in films:
-            raise ConfigError(f"wedge.{key}: must be given too, beside wedge.{films[0]}")
-    for key in REPLACED:
-        if key in given:
-            raise ConfigError(f"wedge.{key} = {shown(given[key])}: cannot be given with wedge.{films[0]}")
     steepness = abs(wedge.inlet_film - wedge.exit_film) / wedge.length
     if steepness > STEEPEST:
         raise ConfigError(
@@ -352,18 +343,8 @@ def _check_description(wedge, given):
         )
 
 
-def _check_pocket_keys(wedge, given):
-    """A pocket has both ends, which lie within the pad; without one its keys mean nothing."""
-    if not wedge.pocket_depth:
-        for key in ("pocket_from", "pocket_to", "pocket_width"):
-            if key in given:
-                raise ConfigError(
-                    f"wedge.{key} = {shown(given[key])}: means nothing without wedge.pocket_depth"
-                )
-        return
-    for key in ("pocket_from", "pocket_to"):
-        if getattr(wedge, key) is None:
-            raise ConfigError(f"wedge.{key}: must be given beside wedge.pocket_depth")
+def _check_place(wedge):
+    """A pocket lies within the pad."""
     (first, last), width = wedge.ends, wedge.pocket_width
     if not first <= wedge.pocket_from < wedge.pocket_to <= last:
         raise ConfigError(

@@ -4,25 +4,23 @@ import resource
 from pathlib import Path
 
 from mgehl.errors import UserError
-from mgehl.kinds import contact_from, mesh_from
 from mgehl.output.forecast import MiB, bytes_of_rank, effort_of
 
 SPARE = 128 * MiB
 """Bytes of buffers that BLAS and MPI take during a run."""
 
 
-def check_memory(config, ranks):
-    """Raise UserError where this process, one of so many ranks, may not take what it will (ulimit -v)."""
+def check_memory(case, ranks):
+    """Raise UserError where one of so many ranks may not take what a `Case` needs (ulimit -v)."""
     limit, _ = resource.getrlimit(resource.RLIMIT_AS)
     if limit == resource.RLIM_INFINITY:
         return
-    contact = contact_from(config)
-    mesh = mesh_from(config, contact)
-    need = _taken() + SPARE + bytes_of_rank(effort_of(config, contact, mesh), mesh, ranks)
+    effort = effort_of(case.config, case.contact, case.mesh)
+    need = _taken() + SPARE + bytes_of_rank(effort, case.mesh, ranks)
     if need > limit:
+        what, nodes = f"about {need / MiB:.0f} MiB of address space", case.config.grid.nodes
         raise UserError(
-            f"grid.nodes = {config.grid.nodes}: takes about {need / MiB:.0f} MiB of address space, and "
-            f"this shell allows {limit / MiB:.0f} (ulimit -v)"
+            f"grid.nodes = {nodes}: takes {what}, and this shell allows {limit / MiB:.0f} (ulimit -v)"
         )
 
 

@@ -1,14 +1,14 @@
 """A commented configuration of a kind of contact: every key with its meaning, unit, range and default."""
 
 import textwrap
-from dataclasses import fields
+from itertools import groupby
 
 import tomli_w
 
-from mgehl.config import FOREIGN, SECTIONS
+from mgehl.config import KEYS
 from mgehl.config_value import describe_rules
 from mgehl.errors import printable
-from mgehl.kinds import KINDS
+from mgehl.kinds import KINDS, kind_choice
 
 WIDTH = 100
 
@@ -23,18 +23,18 @@ HEAD = """\
 
 def template(kind, file):
     """The text of a new configuration of this kind, to be saved as `file`."""
-    parts = [HEAD.format(title=KINDS[kind].about, file=printable(str(file)))]
-    for name, section in SECTIONS.items():
-        keys = [key for key in fields(section) if not {name, f"{name}.{key.name}"} & set(FOREIGN[kind])]
-        if keys:
-            parts.append("\n\n".join([f"[{name}]", *(_entry(kind, name, key) for key in keys)]) + "\n")
+    kind = KINDS[kind]
+    parts, choice = [HEAD.format(title=kind.about, file=printable(str(file)))], kind_choice(kind)
+    taken = [key for key in KEYS if not choice.means_nothing(key)]
+    for section, keys in groupby(taken, lambda key: key.partition(".")[0]):
+        entries = (_entry(KEYS[key], kind.essential.get(key)) for key in keys)
+        parts.append("\n\n".join([f"[{section}]", *entries]) + "\n")
     return "\n".join(parts)
 
 
-def _entry(kind, section, key):
-    """A key with what it means and takes, live if it is essential."""
+def _entry(key, essential):
+    """A key with what it means and takes, live with the value of one that is essential."""
     about = textwrap.wrap(f"{key.metadata['help']} ({describe_rules(key.metadata)})", WIDTH - 2)
-    essential = KINDS[kind].essential.get(f"{section}.{key.name}")
     line = _line(key.name, key.default if essential is None else essential)
     return "\n".join([f"# {text}" for text in about] + [line if essential is not None else f"# {line}"])
 

@@ -2,17 +2,15 @@
 
 from dataclasses import replace
 
-from mgehl.kinds import contact_from, mesh_from
 from mgehl.model.frame import Frame
 from mgehl.output.solution import Fields
 
 
-def in_users_axes(solution, frame, grid):
-    """A `Solution` found in a frame, on `grid`, in the user's axes (collective)."""
+def in_users_axes(solution, frame, grid, case):
+    """A `Solution` found in a frame, on `grid`, in the user's axes, those of its `Case` (collective)."""
     if frame == Frame():
         return solution
-    contact = contact_from(solution.config)
-    scale = solution.contact.film_scale / contact.film_scale
+    scale = solution.contact.film_scale / case.contact.film_scale
     fields = None
     if solution.fields is not None:
         P, H, *others = map(frame.users_array, solution.fields.arrays)
@@ -22,8 +20,8 @@ def in_users_axes(solution, frame, grid):
     local = Fields(*(grid.scatter(array) for array in arrays))
     return replace(
         solution,
-        contact=contact,
-        mesh=mesh_from(solution.config, contact),
+        contact=case.contact,
+        mesh=case.mesh,
         fields=fields,
         result=_result(solution.result, frame, solution.mesh),
         H0=scale * solution.H0,

@@ -7,7 +7,6 @@ from mgehl.discretization.contact_law import BoundaryFilm, InterfaceConditions, 
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.scheme import Scheme
 from mgehl.grid.hierarchy import Hierarchy
-from mgehl.kinds import contact_from, mesh_from
 from mgehl.model.contact import LoadedContact
 from mgehl.model.frame import Frame
 from mgehl.model.wedge import WedgeBearing
@@ -31,12 +30,11 @@ class SetUp:
         return Hierarchy(self.mesh, COARSEST_NODES, self.contact.kernel, comm)
 
 
-def set_up(config):
-    """The `SetUp` of a `Config`."""
-    contact = contact_from(config)
-    frame, mesh = contact.frame, mesh_from(config, contact)
-    contact = contact.in_frame(frame)
-    return SetUp(contact, mesh.in_frame(frame), settings_from(config, contact), frame)
+def set_up(case):
+    """The `SetUp` of a `mgehl.kinds.Case`."""
+    frame = case.contact.frame
+    contact = case.contact.in_frame(frame)
+    return SetUp(contact, case.mesh.in_frame(frame), settings_from(case.config, contact), frame)
 
 
 OF_SMOOTH, OF_ROUGH = "3B", "3L"

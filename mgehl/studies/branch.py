@@ -12,6 +12,7 @@ from dataclasses import asdict, dataclass, fields, replace
 
 import numpy as np
 
+from mgehl.kinds import case_of
 from mgehl.output.result import Work, summarise
 from mgehl.output.solution import Fields
 from mgehl.output.solution_record import arrays_of, fields_from
@@ -64,7 +65,7 @@ class Branches:
     def __init__(self, study, tables):
         self._config = config = study.config(tables)
         self._study, self._tables = study, config.as_toml_tables()
-        self._parts = set_up(config)
+        self._parts = set_up(case_of(config))
         self.contact, self.mesh = self._parts.contact, self._parts.mesh
         self._settings = self._parts.settings
         self._hierarchy = None

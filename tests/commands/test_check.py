@@ -37,6 +37,16 @@ def test_a_point_contact_is_described(told):
     assert "on 2 ranks" in text and "timed just now" in text
 
 
+def test_all_physical_input_is_told_and_what_nobody_gave(told, tmp_path, capsys):
+    text = told("full_film.toml")
+    assert "viscosity 0.096 Pa*s" in text and "reduced_modulus 2.1978e+11 Pa" in text
+    assert "not given" not in text
+    (tmp_path / "forgot.toml").write_text('[contact]\nload = "30 N"\n[lubricant]\nviscosity = 0.01\n')
+    assert main(["check", str(tmp_path / "forgot.toml")]) == 0
+    (line,) = (line for line in capsys.readouterr().out.splitlines() if line.startswith("not given"))
+    assert "motion.speed" in line and "contact.radius_x" in line and "load" not in line.split()
+
+
 def test_each_grid_has_its_cells_and_the_grid_that_resolves_is_recommended(told):
     text = told("full_film.toml")
     cells = [float(each) for each in re.findall(r"grid +\d+ +([\d.]+) cells", text)]

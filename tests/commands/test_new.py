@@ -1,13 +1,12 @@
 """mgehl new: configurations that are valid, complete and not written over others."""
 
 import tomllib
-from dataclasses import fields
 
 import pytest
 
 from mgehl.cli import main
-from mgehl.config import FOREIGN, SECTIONS, load_config
-from mgehl.kinds import KINDS
+from mgehl.config import KEYS, load_config
+from mgehl.kinds import KINDS, kind_choice
 
 
 @pytest.fixture(autouse=True)
@@ -45,10 +44,9 @@ def test_essential_keys_are_live_and_no_others(kind, written):
 def test_every_key_that_means_something_is_there_with_its_meaning(kind, written):
     text = written(kind)
     flat = " ".join(line.removeprefix("# ") for line in text.splitlines())
-    for name, section in SECTIONS.items():
-        for key in fields(section):
-            foreign = bool({name, f"{name}.{key.name}"} & set(FOREIGN[kind]))
-            assert (f"{key.metadata['help']} (" in flat) is not foreign, f"{name}.{key.name}"
+    for name, key in KEYS.items():
+        foreign = kind_choice(KINDS[kind]).means_nothing(name)
+        assert (f"{key.metadata['help']} (" in flat) is not foreign, name
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -64,7 +62,7 @@ def test_comments_hold_the_defaults(kind, written):
     tables = tomllib.loads("\n".join(lines)) | {"contact": {"kind": kind}}
     for name, table in tables.items():
         for key, value in table.items():
-            default = getattr(SECTIONS[name](), key)
+            default = KEYS[f"{name}.{key}"].default
             assert f"{name}.{key}" == "contact.kind" or value == (
                 list(default) if isinstance(default, tuple) else default
             )

@@ -79,3 +79,11 @@ class TestWithoutAConfiguration:
     def test_nor_is_who_names_one(self, capsys):
         assert main([*FILM, str(CONFIGS / "thick_film.toml")]) == 0
         assert "solving" not in capsys.readouterr().out
+
+
+def test_numbers_that_nobody_gave_are_told(run, tmp_path):
+    (tmp_path / "mine.toml").write_text('[contact]\nload = "800 N"\n')
+    *_, words = run(str(tmp_path / "mine.toml"))
+    (line,) = [line for line in words.splitlines() if line.startswith("mgehl: not given")]
+    assert "lubricant.viscosity" in line and "contact.load" not in line and "motion.speed" not in line
+    assert "not given" not in run()[2]

@@ -3,26 +3,7 @@
 import pytest
 
 from mgehl.config import load_config
-from mgehl.kinds import line, loaded, point, wedge
-
-FILM = {"solver.start": "film", "solver.error": False}
-
-
-@pytest.mark.parametrize(
-    "settings, effort",
-    [
-        (FILM, point.FILM),
-        ({"solver.start": "contact"}, point.CONTACT),
-        (FILM | {"discretization.face_mobility": "harmonic"}, point.MEAN),
-        (FILM | {"discretization.face_mobility": "linear-gap"}, point.FILM),
-        ({"contact.kind": "line", "solver.error": False}, line.EFFORT),
-        ({"contact.kind": "wedge"}, wedge.EFFORT),
-    ],
-    ids=["film", "contact", "mean", "linear gap", "line", "wedge"],
-)
-def test_effort_is_that_of_such_runs(settings, effort):
-    config = load_config(settings=settings)
-    assert config.kind.effort(config) == effort
+from mgehl.kinds import line, loaded, point
 
 
 @pytest.mark.parametrize("kind, own", [("point", point.FILM), ("line", line.EFFORT)])

@@ -1,14 +1,11 @@
 """Kinds of contact: what they take, and that a new one is known everywhere from its own words."""
 
-from dataclasses import fields
 from types import SimpleNamespace
 
 import pytest
 
-from mgehl.config import FOREIGN, SECTIONS, config_from_tables
-from mgehl.kinds import KINDS, contact_from, loaded, mesh_from
-
-EVERY_KEY = {f"{name}.{key.name}" for name, section in SECTIONS.items() for key in fields(section)}
+from mgehl.config import KEYS, SECTIONS, config_from_tables
+from mgehl.kinds import KINDS, contact_from, kind_choice, loaded, mesh_from
 
 every_kind = pytest.mark.parametrize("kind", KINDS.values(), ids=KINDS)
 
@@ -19,25 +16,13 @@ def config_of(kind):
 
 @every_kind
 def test_what_a_kind_takes_exists(kind):
-    assert set(kind.takes) <= EVERY_KEY | set(SECTIONS)
-    assert set(kind.essential) <= EVERY_KEY and set(kind.short) <= EVERY_KEY
-
-
-@every_kind
-def test_every_key_is_taken_or_foreign(kind):
-    for key in EVERY_KEY - {"contact.kind"}:
-        either = {key, key.partition(".")[0]}
-        assert bool(either & set(kind.takes)) != bool(either & set(FOREIGN[kind.name])), key
+    assert set(kind.takes) <= {*KEYS, *SECTIONS}
+    assert {*kind.essential, *kind.short} <= set(KEYS)
 
 
 def test_every_key_is_of_use_to_some_kind():
-    taken = {name for kind in KINDS.values() for name in kind.takes} | {"contact.kind"}
-    assert [key for key in EVERY_KEY if not {key, key.partition(".")[0]} & taken] == []
-
-
-def test_a_section_of_which_nothing_is_taken_is_foreign_as_a_whole():
-    assert {"coating", "moes", "relaxation"} <= set(FOREIGN["wedge"])
-    assert {"motion", "solver", "contact"}.isdisjoint(FOREIGN["wedge"])
+    choices = [kind_choice(kind) for kind in KINDS.values()]
+    assert [key for key in KEYS if all(choice.means_nothing(key) for choice in choices)] == []
 
 
 @every_kind

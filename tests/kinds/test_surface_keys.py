@@ -63,8 +63,8 @@ def test_surfaces_add_up(tmp_path):
 
 
 REFUSED = {
-    "no source": ({"hurst": 0.5}, "[surface]: needs surface.kind or surface.file"),
-    "two sources": (DENT | {"file": "z.npy"}, "surface.kind = 'dent': cannot be given with surface.file"),
+    "no source": ({"hurst": 0.5}, "surface.hurst = 0.5: means nothing without surface.kind or"),
+    "two sources": (DENT | {"file": "z.npy"}, "surface.kind = 'dent': means nothing with surface.file"),
     "another's key": (
         WAVES | {"hurst": 0.5}, 'surface.hurst = 0.5: means nothing with surface.kind = "waviness"',
     ),
@@ -93,7 +93,7 @@ def test_what_cannot_be_used_is_one_line(table, start):
 
 def test_a_wedge_has_none():
     assert refusal(contact={"kind": "wedge"}, surface=DENT, motion={}).startswith(
-        "[surface]: means nothing"
+        "surface.kind = 'dent': means nothing where contact.kind"
     )
 
 

@@ -7,6 +7,7 @@ from mpi4py import MPI
 
 from mgehl.cli import main
 from mgehl.config import config_from_tables
+from mgehl.kinds import case_of
 from mgehl.output.directory import check_result
 from mgehl.output.stored import read_run
 
@@ -124,11 +125,11 @@ def test_an_address_space_that_is_too_small_is_said_before_blas_loops(monkeypatc
     from mgehl.errors import UserError
     from mgehl.output.memory_limit import check_memory
 
-    config = config_from_tables({"grid": {"nodes": 513, "x": [-1.9, 1.3], "y": [-1.5, 1.5]}})
-    check_memory(config, 1)
+    case = case_of(config_from_tables({"grid": {"nodes": 513, "x": [-1.9, 1.3], "y": [-1.5, 1.5]}}))
+    check_memory(case, 1)
     monkeypatch.setattr(resource, "getrlimit", lambda which: (7e8, 7e8))
     with pytest.raises(UserError, match=r"takes about \d+ MiB of address space.*allows 668"):
-        check_memory(config, 1)
+        check_memory(case, 1)
 
 
 WAVES = {"kind": "self-affine", "rms": 2e-7, "shortest_wavelength": 4e-5, "longest_wavelength": 2e-4}
@@ -142,10 +143,10 @@ def test_rough_bodies_need_more_memory_and_ranks_share_it(monkeypatch):
     rough = smooth | {"surface": WAVES}
     monkeypatch.setattr(memory_limit, "_taken", lambda: 0)
     monkeypatch.setattr(memory_limit.resource, "getrlimit", lambda which: (2**30, 2**30))
-    memory_limit.check_memory(config_from_tables(smooth), 1)
+    memory_limit.check_memory(case_of(config_from_tables(smooth)), 1)
     with pytest.raises(UserError, match="takes about 3"):
-        memory_limit.check_memory(config_from_tables(rough), 1)
-    memory_limit.check_memory(config_from_tables(rough), 4)
+        memory_limit.check_memory(case_of(config_from_tables(rough)), 1)
+    memory_limit.check_memory(case_of(config_from_tables(rough)), 4)
 
 
 def test_points_of_a_study_are_read_back_as_they_were(tmp_path):

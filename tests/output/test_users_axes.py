@@ -9,7 +9,7 @@ from test_files import make_result
 
 from mgehl.config import config_from_tables
 from mgehl.grid.grid import single_grid
-from mgehl.kinds import contact_from, mesh_from
+from mgehl.kinds import Case, case_of, contact_from, mesh_from
 from mgehl.model.frame import Frame
 from mgehl.output.result import ContactResult, InequalityResult
 from mgehl.output.solution import Fields, Solution
@@ -33,7 +33,7 @@ def config_at(angle):
 def case(request):
     """(the user's `Solution`, the one that was solved, its frame, its grid) at an angle."""
     config = config_at(request.param)
-    parts = set_up(config)
+    parts = set_up(case_of(config))
     contact = contact_from(config)
     mesh = replace(mesh_from(config, contact), nx=NODES, ny=NODES)
     random = np.random.default_rng(11)
@@ -75,12 +75,16 @@ def _largest(array):
 
 
 def test_the_cases_are_of_all_frames():
-    assert len({set_up(config_at(angle)).frame for angle in ANGLES}) == 8
+    assert len({set_up(case_of(config_at(angle))).frame for angle in ANGLES}) == 8
+
+
+def back(expected, solved, frame, grid):
+    return in_users_axes(solved, frame, grid, Case(expected.config, expected.contact, expected.mesh))
 
 
 def test_fields_scales_and_axes_are_the_users(case):
-    expected, solved, frame, grid = case
-    found = in_users_axes(solved, frame, grid)
+    expected, *_ = case
+    found = back(*case)
     assert found.contact == expected.contact
     assert (found.mesh.x, found.mesh.y) == (expected.mesh.x, expected.mesh.y)
     np.testing.assert_array_equal(found.fields.P, expected.fields.P)
@@ -90,20 +94,19 @@ def test_fields_scales_and_axes_are_the_users(case):
 
 
 def test_a_rank_has_its_lines_of_the_users_fields(case):
-    _, solved, frame, grid = case
-    found = in_users_axes(solved, frame, grid)
+    found = back(*case)
     for name in ("P", "H", "status"):
         np.testing.assert_array_equal(getattr(found.local, name), getattr(found.fields, name))
 
 
 def test_nodes_sides_and_ranges_are_the_users(case):
-    expected, solved, frame, grid = case
-    found = in_users_axes(solved, frame, grid).result
+    expected, *_ = case
+    found = back(*case).result
     assert found.contact == expected.result.contact
     assert found.pressure_inequality == expected.result.pressure_inequality
     assert found.contradictions == expected.result.contradictions
 
 
 def test_what_was_solved_in_the_users_axes_stays_as_it_is(case):
-    _, solved, _, grid = case
-    assert in_users_axes(solved, Frame(), grid) is solved
+    expected, solved, _, grid = case
+    assert back(expected, solved, Frame(), grid) is solved

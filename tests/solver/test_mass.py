@@ -9,6 +9,7 @@ from mpi4py import MPI
 
 from mgehl.config import load_config
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
+from mgehl.kinds import case_of
 from mgehl.output.result import Work, summarise
 from mgehl.solver.beginning import begin
 from mgehl.solver.from_config import set_up
@@ -22,7 +23,7 @@ TOLERANCE = 1e-8
 @pytest.fixture(scope="module")
 def solved():
     """Problem and outcome of the rough ball on 65 nodes: film, cavities that feed it, and contact."""
-    parts = set_up(load_config(ROUGH, {"grid.nodes": 65, "solver.error": False}))
+    parts = set_up(case_of(load_config(ROUGH, {"grid.nodes": 65, "solver.error": False})))
     hierarchy = parts.hierarchy(MPI.COMM_SELF)
     yield begin(hierarchy, parts.contact, parts.settings, lambda *_: None)
     hierarchy.destroy()

@@ -8,7 +8,7 @@ from mpi4py import MPI
 
 import mgehl.solver.beginning as module
 from mgehl.config import config_from_tables
-from mgehl.kinds import contact_from
+from mgehl.kinds import case_of, contact_from
 from mgehl.multigrid import cycle
 from mgehl.run import solve
 from mgehl.solver.beginning import COVERED, NOR_FROM_A_FILM, begin, begin_thick
@@ -71,7 +71,7 @@ class TestFromAThickFilm:
     def parts(self):
         """Contact, hierarchy, settings."""
         config = config_from_tables(ROLLER)
-        parts = set_up(config)
+        parts = set_up(case_of(config))
         hierarchy = parts.hierarchy(MPI.COMM_SELF)
         yield contact_from(config), hierarchy, parts.settings
         hierarchy.destroy()

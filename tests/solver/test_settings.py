@@ -2,6 +2,7 @@
 
 from mgehl.config import config_from_tables
 from mgehl.discretization.scheme import Scheme
+from mgehl.kinds import case_of
 from mgehl.solver.from_config import set_up
 from mgehl.solver.settings import SolverSettings
 
@@ -9,12 +10,12 @@ from mgehl.solver.settings import SolverSettings
 def test_what_is_not_configured_is_the_default():
     """All but the schemes, and the film threshold: a length there and a part of the gap's unit here."""
     config = config_from_tables({"discretization": {"film_threshold": 0.0}})
-    assert set_up(config).settings == SolverSettings(scheme=Scheme("3B", "linear-gap"))
+    assert set_up(case_of(config)).settings == SolverSettings(scheme=Scheme("3B", "linear-gap"))
 
 
 def test_what_is_configured_is_told():
     solver = {"tolerance": 1e-6, "start": "contact", "sweeps": 2, "inlet_cells": 3.0, "squeeze": 5.0}
-    settings = set_up(config_from_tables({"solver": solver})).settings
+    settings = set_up(case_of(config_from_tables({"solver": solver}))).settings
     assert settings.newton.tolerance == settings.relaxation.tolerance == 1e-6
     assert (settings.nested.start, settings.nested.inlet_cells) == ("contact", 3.0)
     assert settings.cycle.sweeps == 2 and settings.newton.squeeze == 5.0
@@ -25,7 +26,8 @@ def test_rough_bodies_are_differenced_by_the_limited_scheme_unless_told_otherwis
     rough = {"kind": "self-affine", "rms": 1e-7, "shortest_wavelength": 4e-5, "longest_wavelength": 2e-4}
     for speed in (1e-3, 10.0):
         tables = {"surface": rough, "motion": {"speed": speed}}
-        assert set_up(config_from_tables(tables)).settings.scheme.couette == "3L"
+        assert set_up(case_of(config_from_tables(tables))).settings.scheme.couette == "3L"
         named = tables | {"discretization": {"couette": "1B"}}
-        assert set_up(config_from_tables(named)).settings.scheme.couette == "1B"
-        assert set_up(config_from_tables({"motion": {"speed": speed}})).settings.scheme.couette == "3B"
+        assert set_up(case_of(config_from_tables(named))).settings.scheme.couette == "1B"
+        smooth = {"motion": {"speed": speed}}
+        assert set_up(case_of(config_from_tables(smooth))).settings.scheme.couette == "3B"

@@ -8,7 +8,9 @@ from mpi4py import MPI
 
 from mgehl.config import config_from_tables
 from mgehl.errors import ConfigError, OutputError, UserError
-from mgehl.run import set_up, solve
+from mgehl.kinds import case_of
+from mgehl.run import solve
+from mgehl.solver.from_config import set_up
 from mgehl.studies.study import BEST, PAPER, Study, merged, observed_order, richardson
 
 FILM = {"motion": {"speed": 1.0}, "grid": {"nodes": 65}}
@@ -16,7 +18,7 @@ SLOWER = {"motion": {"speed": 0.7}}
 
 
 def test_a_case_of_ones_own_is_differenced_by_the_best():
-    scheme = set_up(config_from_tables(FILM)).settings.scheme
+    scheme = set_up(case_of(config_from_tables(FILM))).settings.scheme
     assert {"couette": scheme.couette, "face_mobility": scheme.face_mobility} == BEST
 
 

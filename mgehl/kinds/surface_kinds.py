@@ -1,12 +1,27 @@
-"""Keys of [surface] and [second_surface], and which of them each kind of surface uses."""
+"""The kinds of surface: keys of [surface] and [second_surface], and what is built of them.
 
-from dataclasses import dataclass
+A formula's keys are the fields of its class: those without a default must be given. A new kind is a class
+of `mgehl.model.surface`, its name in `FORMULAS`, and a key of the section for every field that is new.
+"""
+
+from dataclasses import MISSING, dataclass, fields
 from pathlib import Path
 
 from mgehl.config_value import key_field
+from mgehl.kinds.choice import Choice, word_of
+from mgehl.model.surface import Dent, Measured, Preparation, Ridge, SelfAffine, Waviness
+from mgehl.model.surface.files import UNITS
 from mgehl.model.surface.measured import CONTINUATIONS, REMOVED
 
 NAMES = ("surface", "second_surface")
+
+FORMULAS = {"waviness": Waviness, "self-affine": SelfAffine, "dent": Dent, "ridge": Ridge}
+
+OF_A_FILE = (
+    "file", "height_unit", "position_unit", "spacing", "spacing_y", "continuation", "remove",
+    "shortest_wavelength", "longest_wavelength", "body", "x", "y", "angle",
+)  # fmt: skip
+"""Keys of a surface from a file."""
 
 STILL, MOVING = "still", "moving"
 
@@ -21,9 +36,7 @@ def absolute_path(value, directory="."):
 
 @dataclass(frozen=True)
 class SurfaceSection:
-    kind: str | None = key_field(
-        None, "heights by a formula", choices=("waviness", "self-affine", "dent", "ridge"), kind=str
-    )
+    kind: str | None = key_field(None, "heights by a formula", choices=tuple(FORMULAS), kind=str)
     file: str | None = key_field(
         None, "heights from a file: .npy, .npz, text (matrix or x y z), an instrument's format",
         kind=str, own=absolute_path, own_name="FILE",
@@ -86,33 +99,59 @@ class SurfaceSection:
         choices=tuple(REMOVED), kind=str,
     )  # fmt: skip
 
-    @property
-    def is_given(self):
-        """Whether there is a surface."""
-        return self.kind is not None or self.file is not None
 
-    @property
-    def source(self):
-        """Its kind; "file" of a file, None of none."""
-        return "file" if self.file is not None else self.kind
+def surface_choices(tables):
+    """The `Choice` of each surface that nested values speak of."""
+    for name in NAMES:
+        table = tables.get(name)
+        if isinstance(table, dict) and not {"kind", "file"}.isdisjoint(table):
+            yield _choice(name, table.get("file"), word_of(tables, f"{name}.kind"))
 
 
-PLACE = ("body", "x", "y", "angle")
-CUT_OFFS = ("shortest_wavelength", "longest_wavelength")
-TAKES = {
-    "waviness": ("kind", "amplitude", "wavelength_x", "wavelength_y", *PLACE),
-    "self-affine": ("kind", "rms", "hurst", "seed", "aspect", *CUT_OFFS, *PLACE),
-    "dent": ("kind", "amplitude", "width", "body", "x", "y"),
-    "ridge": ("kind", "amplitude", "width", *PLACE),
-    "file": ("file", "height_unit", "position_unit", "spacing", "spacing_y", "continuation", "remove",
-             *CUT_OFFS, *PLACE),
-}  # fmt: skip
-"""Keys that each kind of surface uses."""
+def _choice(name, file, kind):
+    """What a file, a formula or neither makes of the keys of a surface."""
+    if file is not None:
+        return Choice(f"with {name}.file", (name,), _keys(name, OF_A_FILE))
+    if kind is None:
+        return Choice(f"without {name}.kind or {name}.file", (name,))
+    if kind not in FORMULAS:
+        return None
+    parameters = _parameters(FORMULAS[kind])
+    takes = _keys(name, ("kind", "body", *parameters))
+    needs = _keys(name, (key for key, needed in parameters.items() if needed))
+    return Choice(f'with {name}.kind = "{kind}"', (name,), takes, needs)
 
-NEEDS = {
-    "waviness": ("amplitude",),
-    "self-affine": ("rms", *CUT_OFFS),
-    "dent": ("amplitude", "width"),
-    "ridge": ("amplitude", "width"),
-    "file": (),
-}
+
+def _keys(section, names):
+    return tuple(f"{section}.{name}" for name in names)
+
+
+def _parameters(formula):
+    """{key: whether it must be given} of a formula's class."""
+    known = {key.name for key in fields(SurfaceSection)}
+    own = (field for field in fields(formula) if field.name in known)
+    return {field.name: field.default is MISSING and field.type is float for field in own}
+
+
+def surface_of(section):
+    """The `Surface` of a section; None where it gives none."""
+    if section.file is not None:
+        place = {"x": section.x, "y": section.y, "angle": section.angle}
+        return Measured(section.file, _preparation(section), **place)
+    if section.kind is None:
+        return None
+    formula = FORMULAS[section.kind]
+    return formula(**{key: getattr(section, key) for key in _parameters(formula)})
+
+
+def _preparation(section):
+    return Preparation(
+        height_unit=section.height_unit and UNITS[section.height_unit],
+        position_unit=section.position_unit and UNITS[section.position_unit],
+        dx=section.spacing,
+        dy=section.spacing_y,
+        remove=section.remove,
+        shortest_wavelength=section.shortest_wavelength,
+        longest_wavelength=section.longest_wavelength,
+        continuation=section.continuation,
+    )
