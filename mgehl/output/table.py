@@ -8,8 +8,8 @@ from pathlib import Path
 
 from mgehl.errors import UserError, printable
 from mgehl.output.digits import with_band
-from mgehl.output.directory import check_result
 from mgehl.output.domain import UNKNOWN
+from mgehl.output.stored import read_texts
 from mgehl.output.whole_file import whole_file
 from mgehl.output.words import span
 
@@ -51,13 +51,11 @@ def write_csv(path, rows):
 
 
 def _row(directory):
-    check_result(directory)
-    result = json.loads((directory / "result.json").read_text(encoding="utf-8"))
-    config = tomllib.loads((directory / "configuration.toml").read_text(encoding="utf-8"))
+    texts = read_texts(directory)
+    result, config = json.loads(texts["result.json"]), tomllib.loads(texts["configuration.toml"])
     if config["discretization"].get("contact_model") == "dry":
         raise UserError(f"{directory}: is a dry contact, without the films that this table is of")
-    with (directory / "history.csv").open(encoding="utf-8") as file:
-        history = list(csv.DictReader(file))
+    history = list(csv.DictReader(texts["history.csv"].splitlines()))
     nodes = config["grid"]["nodes"]
     finest = [row for row in history if int(row["grid"]) == nodes]
     row = {

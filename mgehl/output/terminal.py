@@ -4,11 +4,10 @@ import json
 import os
 import sys
 from contextlib import suppress
-from dataclasses import asdict
 from math import ceil, inf, isfinite, log
 
 from mgehl.output.advice import what_next
-from mgehl.output.files import finite
+from mgehl.output.files import finite, plain_result
 from mgehl.saying import columns, complain, folded, say
 
 HANGING = "    "
@@ -87,7 +86,7 @@ class JsonLines(Silent):
         say(json.dumps({"news": words}))
 
     def end(self, solution, directory):
-        result = finite(asdict(solution.result))
+        result = finite(plain_result(solution.result))
         say(json.dumps({"result": result, "directory": str(directory)}))
 
 

@@ -1,11 +1,12 @@
 """Sections of a run's page that every kind of contact has."""
 
-from dataclasses import asdict, fields
+from dataclasses import fields
 from itertools import groupby
 from pathlib import Path
 
 from mgehl.config import SECTIONS
 from mgehl.model.own_function import file_and_function
+from mgehl.output.files import plain_result
 from mgehl.output.report.page import Cell, Section, Text, number, table
 
 
@@ -111,7 +112,7 @@ LISTED = {"nodes", "contradictions", "grids"}
 
 def record_section(result):
     """All of result.json, folded, a row for each number."""
-    rows = [(Cell(name, "code"), text) for name, text in _leaves(asdict(result))]
+    rows = [(Cell(name, "code"), text) for name, text in _leaves(plain_result(result))]
     whole = table("All fields of result.json", ("field", "value"), rows, folded=True)
     return Section("record", "The whole record", (whole,))
 

@@ -36,7 +36,7 @@ def report(solution, name):
 
 
 def verdict(result):
-    """The judgement of a `Result`, `WedgeResult` or `DryResult`."""
+    """The judgement of a `Result` or `WedgeResult`."""
     if not result.converged:
         if result.settled:
             return Verdict(DOUBTFUL, f"Settled, but {result.doubt}", result.reason)
