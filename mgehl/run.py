@@ -12,10 +12,10 @@ from mgehl.grid.grid import single_grid
 from mgehl.kinds import contact_from, settled
 from mgehl.kinds.own import naming_keys
 from mgehl.output import files, progress, terminal
-from mgehl.output.checkpoint import Checkpoint
+from mgehl.output.checkpoint import Checkpoint, begin_run
 from mgehl.output.dry_result import summarise_dry
 from mgehl.output.film_error import film_error
-from mgehl.output.finish import begin_run, finish_run
+from mgehl.output.finish import finish_run
 from mgehl.output.gap_error import gap_error
 from mgehl.output.memory_limit import check_memory
 from mgehl.output.result import Work, summarise
@@ -42,25 +42,23 @@ class Watch:
     """Told of every cycle, on rank 0."""
     directory: Path | None = None
     """Whose checkpoint is kept; None for none."""
-    identity: str = ""
-    """Of the run whose checkpoint it is."""
     save_every: float = 60.0
     """Seconds from one save to the next."""
     stop: object = lambda: None
     """Asked before every step; returns None or the `Stopped` to raise when all is saved."""
 
 
-def run(config, directory, comm, watch=Watch(), start=None):
+def run(config, directory, comm, watch=Watch(), start=None, start_directory=None):
     """Solve `config` on `comm`, write `directory` (from rank 0), return the result.
 
     The caller holds the directory (`output.lock`), which exists. What was reached is kept in its checkpoint
     until the results are there; a run that finds one goes on from it. `start` is a `Solution` to start
-    from, with fields on rank 0.
+    from, with fields on rank 0, and `start_directory` where it was read.
     """
     config = settled(config, contact_from(config))
     directory = Path(directory)
-    identity = comm.bcast(files.on_first_rank(comm, begin_run, directory, config))
-    solution = solve(config, comm, replace(watch, directory=directory, identity=identity), start)
+    files.on_first_rank(comm, begin_run, directory, config, start_directory)
+    solution = solve(config, comm, replace(watch, directory=directory), start)
     if comm.rank == 0:
         watch.speaker.writing()
     finish_run(comm, directory, solution)
@@ -147,7 +145,7 @@ def _journal(config, monitor, watch):
     """What is told of the way of a solve: the checkpoint of its directory, if there is one."""
     if not watch.directory:
         return NOTHING_KEPT
-    return Checkpoint(watch.directory, config, monitor, watch.save_every, watch.stop, watch.identity)
+    return Checkpoint(watch.directory, config, monitor, watch.save_every, watch.stop)
 
 
 def _solve_bearing(config, parts, comm, watch):
