@@ -12,12 +12,13 @@ from mgehl.grid.grid import single_grid
 from mgehl.kinds import Case, case_of, checked_case
 from mgehl.kinds.own import naming_keys
 from mgehl.output import files, progress, terminal
-from mgehl.output.checkpoint import Checkpoint
+from mgehl.output.checkpoint import Checkpoint, begin_run
 from mgehl.output.directory import make_directory, prepare_directory
 from mgehl.output.dry_result import summarise_dry
 from mgehl.output.film_error import film_error
-from mgehl.output.finish import begin_run, finish_run
+from mgehl.output.finish import finish_run
 from mgehl.output.gap_error import gap_error
+from mgehl.output.laws import law_files
 from mgehl.output.lock import locked
 from mgehl.output.memory_limit import check_memory
 from mgehl.output.result import Work, summarise
@@ -44,8 +45,6 @@ class Watch:
     """Told of every cycle, on rank 0."""
     directory: Path | None = None
     """Whose checkpoint is kept; None for none."""
-    identity: str = ""
-    """Of the run whose checkpoint it is."""
     save_every: float = 60.0
     """Seconds from one save to the next."""
     stop: object = lambda: None
@@ -62,16 +61,16 @@ def enter(config, comm):
     return case
 
 
-def run(case, directory, comm, watch=Watch(), start=None):
+def run(case, directory, comm, watch=Watch(), start=None, start_directory=None):
     """Solve a `Case`, or a `Config`, on `comm`, write `directory` (from rank 0), return the result.
 
     The caller holds the directory (`output.lock`), which exists. What was reached is kept in its checkpoint
     until the results are there; a run that finds one goes on from it. `start` is a `Solution` to start
-    from, with fields on rank 0.
+    from, with fields on rank 0, and `start_directory` where it was read.
     """
     case, directory = _entered(case, comm), Path(directory)
-    identity = comm.bcast(files.on_first_rank(comm, begin_run, directory, case.config))
-    solution = solve(case, comm, replace(watch, directory=directory, identity=identity), start)
+    files.on_first_rank(comm, begin_run, directory, case.config, start_directory)
+    solution = solve(case, comm, replace(watch, directory=directory), start)
     if comm.rank == 0:
         watch.speaker.writing()
     finish_run(comm, directory, solution)
@@ -84,7 +83,7 @@ def save(solution, directory):
     """Write the directory of a `Solution` whose fields are here, as `run` leaves it."""
     make_directory(directory, force=True)
     with locked(MPI.COMM_SELF, directory):
-        prepare_directory(directory)
+        prepare_directory(directory, law_files(solution.config).values())
         begin_run(directory, solution.config)
         finish_run(MPI.COMM_SELF, directory, solution)
 
@@ -186,7 +185,7 @@ def _journal(config, monitor, watch):
     """What is told of the way of a solve: the checkpoint of its directory, if there is one."""
     if not watch.directory:
         return _Asked(watch.stop)
-    return Checkpoint(watch.directory, config, monitor, watch.save_every, watch.stop, watch.identity)
+    return Checkpoint(watch.directory, config, monitor, watch.save_every, watch.stop)
 
 
 def _solve_bearing(case, parts, comm, watch):

@@ -10,7 +10,7 @@ from processes import own_environment
 
 from mgehl.cli import main, split_options
 
-FILES = {"configuration.toml", "fields.h5", "history.csv", "manifest.json", "picture.png", "result.json"}
+FILES = {"configuration.toml", "fields.h5", "history.csv", "picture.png", "result.json"}
 DRY = ["run", "--set", "grid.nodes=65", "--set", "solver.start=contact", "--set", "motion.speed=0.005 mm/s"]
 
 

@@ -81,11 +81,11 @@ def one_line(capsys, status, words, *parts):
     assert all(part in err for part in parts), err
 
 
-def test_a_history_that_was_cut_is_not_collected(finished, capsys):
+def test_fields_that_were_cut_are_not_collected(finished, capsys):
     shutil.copytree(finished, "cut")
-    history = Path("cut/history.csv")
-    history.write_bytes(history.read_bytes()[:-7])
-    one_line(capsys, 2, ["collect", "cut"], "cut/history.csv: is damaged")
+    path = Path("cut/fields.h5")
+    path.write_bytes(path.read_bytes()[:-7])
+    one_line(capsys, 2, ["collect", "cut"], "cut/fields.h5: is damaged")
 
 
 @pytest.mark.parametrize("kind", ["line", "point"])

@@ -21,7 +21,7 @@ from mgehl.run import Watch, run, solve
 from mgehl.studies.study import PAPERS_DOMAIN, papers_grid
 
 CONFIGS = Path(__file__).resolve().parent.parent / "configs"
-FILES = {"configuration.toml", "fields.h5", "history.csv", "manifest.json", "picture.png", "result.json"}
+FILES = {"configuration.toml", "fields.h5", "history.csv", "picture.png", "result.json"}
 FILM = {"motion": {"speed": "1 m/s"}, "grid": papers_grid(65)}
 DRY = {"motion": {"speed": "0.005 mm/s"}, "grid": papers_grid(65), "solver": {"start": "contact"}}
 RESULT_KEYS = {

@@ -42,17 +42,13 @@ def execute(options):
 
 
 def _page(directory):
-    from mgehl.output.directory import check_result
-    from mgehl.output.manifest import read_manifest
     from mgehl.output.report.page import render
     from mgehl.output.report.run_report import report
-    from mgehl.output.report.study_record import read_record
     from mgehl.output.report.study_report import is_study, study_report
     from mgehl.output.stored import read_run
+    from mgehl.output.study_directory import check_study
 
-    found = read_manifest(directory)
-    if (found and found.kind == "study") or (not found and is_study(directory)):
-        if found or read_record(directory):  # else tables that somebody put together
-            check_result(directory, "study")
+    if is_study(directory):
+        check_study(directory)
         return render(study_report(directory, STUDIES))
     return report(read_run(directory), directory.resolve().name)

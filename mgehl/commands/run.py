@@ -54,7 +54,7 @@ def execute(options, comm):
     return CONVERGED if result.converged else NOT_CONVERGED
 
 
-def _run(case, directory, start, comm, options, save_every, limit):
+def _run(case, directory, start, start_directory, comm, options, save_every, limit):
     """Solve; a signal or a limit of time may stop it."""
     from mgehl.output.terminal import SILENT, speaker
     from mgehl.run import Watch, run
@@ -64,14 +64,15 @@ def _run(case, directory, start, comm, options, save_every, limit):
     words = spoken if comm.rank == 0 else SILENT
     hint = f"go on with: mgehl run --resume {quote(str(directory))}"
     with StopWhenTold(hint, limit) as stop, words:
-        return run(case, directory, comm, Watch(words, save_every=save_every, stop=stop), start)
+        watch = Watch(words, save_every=save_every, stop=stop)
+        return run(case, directory, comm, watch, start, start_directory)
 
 
 def _begin(options, comm, solve):
     """Solve a new run in its directory, which is made and locked."""
-    from mgehl.output.checkpoint import keep_start
     from mgehl.output.directory import make_directory, prepare_directory
     from mgehl.output.files import on_first_rank
+    from mgehl.output.laws import law_files
     from mgehl.output.lock import locked
     from mgehl.run import enter
 
@@ -89,12 +90,10 @@ def _begin(options, comm, solve):
         raise UserError(f"--start-from {directory}: is the run's own directory; choose another with --out")
     on_first_rank(comm, make_directory, directory, options.force)
     with locked(comm, directory):
-        on_first_rank(comm, prepare_directory, directory)
+        on_first_rank(comm, prepare_directory, directory, law_files(config).values())
         if comm.rank == 0 and not (options.quiet or options.json_lines):
             _say_what(options, file, config, tables)
-        if start:
-            on_first_rank(comm, keep_start, directory, options.start_from)
-        return solve(case, directory, start)
+        return solve(case, directory, start, options.start_from)
 
 
 def _say_what(options, file, config, tables):
@@ -111,7 +110,7 @@ def _say_what(options, file, config, tables):
 
 def _say_what_changed(config):
     """Warn of a law that was changed since the run beside which it lies."""
-    from mgehl.output.laws import changed_copies
+    from mgehl.output.stored import changed_copies
     from mgehl.saying import complain
 
     for file in changed_copies(config):
@@ -120,8 +119,7 @@ def _say_what_changed(config):
 
 def _say_what_differs(directory, start, config):
     """Warn of a start from another contact: it is a first guess, and may be a bad one."""
-    from mgehl.output.laws import law_files
-    from mgehl.output.manifest import checksum
+    from mgehl.output.laws import checksum, law_files
     from mgehl.saying import complain
     from mgehl.solver.restart import differences
 
@@ -145,12 +143,13 @@ def _resume(options, comm, solve):
     directory = Path(options.resume)
     on_first_rank(comm, _check_run, directory)
     with locked(comm, directory):
-        config, start, said = comm.bcast(on_first_rank(comm, taken_up, directory))
-        if comm.rank == 0 and not (options.quiet or options.json_lines):
+        config, start, said = on_first_rank(comm, taken_up, directory) or (None, None, ())
+        if not (options.quiet or options.json_lines):
             _say(said)
-        if config is None:
+        told, start = comm.bcast(config), _shared(start, comm)
+        if told is None:
             return comm.bcast(on_first_rank(comm, _finished, directory, options))
-        return solve(config, directory, _start(start, config, comm) if start else None)
+        return solve(told, directory, start, None)
 
 
 def _check_alone(options):
@@ -162,10 +161,12 @@ def _check_alone(options):
 
 def _check_run(directory):
     from mgehl.output.checkpoint import is_begun
-    from mgehl.output.manifest import NAME
+    from mgehl.output.files import FIELDS
 
-    if not ((directory / NAME).exists() or is_begun(directory)):
-        raise OutputError(f"--resume {directory}: is no run directory: it has no {NAME} and no checkpoint")
+    if not ((directory / FIELDS).exists() or is_begun(directory)):
+        raise OutputError(
+            f"--resume {directory}: is no run directory: it has no {FIELDS} and no checkpoint"
+        )
 
 
 def _say(lines):
@@ -202,10 +203,15 @@ def _start(directory, config, comm):
     from mgehl.output.stored import read_run
     from mgehl.solver.restart import check_start
 
-    read = on_first_rank(comm, read_run, directory)
-    start = comm.bcast(read and read.shared())
+    start = _shared(on_first_rank(comm, read_run, directory), comm)
     try:
         check_start(start, config.contact.kind)
     except UserError as error:
         raise UserError(f"--start-from {directory}: {error}") from None
-    return read or start
+    return start
+
+
+def _shared(solution, comm):
+    """The `Solution` that rank 0 has or has not, and what the others know of it (collective)."""
+    told = comm.bcast(solution and solution.shared())
+    return solution or told

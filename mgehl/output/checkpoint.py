@@ -1,50 +1,106 @@
 """How far a run has come, on disk: whatever ends the run, it can go on from there.
 
 RUN/checkpoint/
-    configuration.toml    what is solved, and laws/ with the functions of the user's own
-    manifest.json         the run's identity, by which its other files are known
-    start/                the run that this one was started from, if any
+    begun.npz             what is solved: configuration, own laws, the run that this one was started from
     solve-0000.npz, ...   finished solves, in order: a grid of the nested iteration each, or a step in speed
     under-way.npz         where the next one stands, saved every so many seconds
-    finished/             the result, until it is installed in the place of the one before
+    finished/             the files of the finished run, until they are published
+    over.npz              begun.npz, once only this folder is left to be removed
 
-Every file is whole and has a checksum (`archive`). Its record has
+Every file is whole, and knows again each bit of it (`archive`). Its record has
 
     format, mgehl       the version of this layout, and of the program
-    run                 the identity of the run that wrote it
     configuration       for which it was written
     solve               the number of the solve
     progress            the history of the run until then, its convolutions and seconds
     values              what the solver kept beside its arrays, by name
 
-The names of values and arrays are described in `solver.record`; here nothing is known of them. An array in
-a file is of the whole grid, (ny, nx), or of several such. A run that goes on repeats its solves in order;
-those that are finished are read instead of solved.
+or, in begun.npz, what its arrays are and where the laws were. The names of values and arrays are described
+in `solver.record`; here nothing is known of them. An array in a file is of the whole grid, (ny, nx), or of
+several such. A run that goes on repeats its solves in order; those that are finished are read instead of
+solved.
 
 On a rough surface nearly all of under-way.npz is what the linear solver remembers: 75 to 150 MB on 257
 nodes, saved in half a second, 450 MB on 513 in two seconds. A solve of ten seconds on 257 nodes ends before
 it is saved once.
 """
 
-import json
-import shutil
+import os
 import time
-from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
 
 from mgehl.errors import OutputError, one_line
 from mgehl.output.archive import save, unpacked
-from mgehl.output.directory import check_result, clear_checkpoint
-from mgehl.output.files import START, RunFiles, on_first_rank
-from mgehl.output.laws import portable
-from mgehl.output.manifest import NAME as MANIFEST
+from mgehl.output.files import CHECKPOINT, FIELDS, on_first_rank
+from mgehl.output.laws import is_law, law_files, laws_of, portable
+from mgehl.output.whole_file import writing
 from mgehl.solver.journal import Journal, told_to_stop
 from mgehl.solver.record import Record
 from mgehl.version import VERSION
 
-UNDER_WAY = "under-way.npz"
-FORMAT = 8
+BEGUN, UNDER_WAY, OVER = "begun.npz", "under-way.npz", "over.npz"
+
+START = "start"
+"""In begun.npz the bytes of the fields.h5 of the run that this one was started from."""
+
+FORMAT = 9
 """Version of the files. It goes up with every change of the layout or of a name; files of another version
 are not read."""
+
+
+@dataclass(frozen=True)
+class Begun:
+    """What a run solves, by the first file of its checkpoint."""
+
+    tables: dict
+    """Of the configuration, its laws in laws/."""
+    laws: dict
+    """{laws/NAME: bytes}."""
+    origins: dict
+    """{laws/NAME: where that file was, counted from the run's directory}."""
+    start: bytes | None
+    """The fields.h5 of the run that it was started from."""
+
+
+def begin_run(directory, config, start=None):
+    """Keep what is solved in a directory, where this is not known yet; `start` is the directory of the run
+    that it is started from. Raises OutputError.
+    """
+    if is_begun(directory):
+        return
+    with writing(directory):
+        kept = laws_of(config) | ({START: (Path(start) / FIELDS).read_bytes()} if start else {})
+    origins = {name: os.path.relpath(file, directory) for file, name in law_files(config).items()}
+    arrays = {str(number): np.frombuffer(each, np.uint8) for number, each in enumerate(kept.values())}
+    save(_begun(directory), _head(portable(config)) | {"names": list(kept), "origins": origins}, arrays)
+
+
+def read_begun(directory, name=BEGUN):
+    """The `Begun` run of a directory, None where there is none. Raises OutputError where it is damaged."""
+    path = _begun(directory, name)
+    if not (found := load(path)):
+        return None
+    record, arrays = found
+    try:
+        laws = {name: arrays[str(number)].tobytes() for number, name in enumerate(record["names"])}
+        start = laws.pop(START, None)
+        if not all(map(is_law, laws)):
+            raise ValueError("it names files elsewhere")
+        return Begun(record["configuration"], laws, {name: record["origins"][name] for name in laws}, start)
+    except (KeyError, TypeError, ValueError) as error:
+        raise OutputError(damaged(path, error)) from None
+
+
+def is_begun(directory):
+    """Whether a directory has the checkpoint of a run that has not finished, or was just about to."""
+    return _begun(directory).exists()
+
+
+def _begun(directory, name=BEGUN):
+    return Path(directory) / CHECKPOINT / name
 
 
 class Checkpoint(Journal):
@@ -55,10 +111,9 @@ class Checkpoint(Journal):
     returns None or the `Stopped` to raise, once the present position is saved.
     """
 
-    def __init__(self, directory, config, progress, seconds, stop=lambda: None, identity=""):
-        self._folder, self._progress = RunFiles(directory).checkpoint, progress
-        self._configuration, self._identity = json.dumps(portable(config)), identity
-        self._seconds, self._stop = seconds, stop
+    def __init__(self, directory, config, progress, seconds, stop=lambda: None):
+        self._folder, self._progress = Path(directory) / CHECKPOINT, progress
+        self._tables, self._seconds, self._stop = portable(config), seconds, stop
         self._solved = 0
         self._saved = time.monotonic()
 
@@ -94,23 +149,15 @@ class Checkpoint(Journal):
     def _write(self, grid, path, kept):
         """Write what `kept.record()` has, the arrays gathered."""
         kept = kept.record()
-        record = {
-            "format": FORMAT,
-            "mgehl": VERSION,
-            "run": self._identity,
-            "configuration": json.loads(self._configuration),
-            "solve": self._solved,
-            "progress": self._progress.record(),
-            "values": kept.values,
-        }
+        of_solve = {"solve": self._solved, "progress": self._progress.record(), "values": kept.values}
         arrays = {name: grid.gather(array) for name, array in kept.arrays.items()}
-        on_first_rank(grid.comm, save, path, record, arrays)
+        on_first_rank(grid.comm, save, path, _head(self._tables) | of_solve, arrays)
         self._saved = time.monotonic()
 
     def _read(self, grid, path, made):
         """What is `made` of a file, where it is there and about the next solve; the history goes on from
         it."""
-        found = on_first_rank(grid.comm, load, path, self._configuration, self._identity)
+        found = on_first_rank(grid.comm, load, path, self._tables)
         record, arrays = found or (None, {})
         record = grid.comm.bcast(record)
         if record is None or record["solve"] != self._solved:
@@ -121,6 +168,10 @@ class Checkpoint(Journal):
             raise OutputError(damaged(path, error)) from None
         self._progress.go_on(record["progress"])
         return kept
+
+
+def _head(tables):
+    return {"format": FORMAT, "mgehl": VERSION, "configuration": tables}
 
 
 def scattered(grid, arrays):
@@ -136,58 +187,25 @@ def scattered(grid, arrays):
     return {name: grid.scatter(arrays.get(name)) for name in shapes}
 
 
-def clear(directory):
-    """Remove the checkpoint of a run that has finished."""
-    with suppress(OSError):  # what stays is not read: the result is there
-        clear_checkpoint(directory)
-
-
-def is_begun(directory):
-    """Whether a directory has the checkpoint of a run that has not finished, or was just about to."""
-    return (RunFiles(directory).checkpoint / MANIFEST).exists()
-
-
-def keep_start(directory, start):
-    """Copy the files of the run that this one starts from into the checkpoint. Raises OutputError."""
-    source, target = RunFiles(start).directory, start_of(directory)
-    names = [*check_result(start).files, MANIFEST]
-    try:
-        for name in names:
-            if (source / name).exists():  # a picture may be missing
-                (target / name).parent.mkdir(parents=True, exist_ok=True)
-                shutil.copyfile(source / name, target / name)
-    except OSError as error:
-        raise OutputError(f"{target}: cannot be written: {error.strerror or error}") from None
-
-
-def start_of(directory):
-    """Where `keep_start` put the run that was started from."""
-    return RunFiles(directory).checkpoint / START
-
-
 def damaged(path, error):
     """The message about a file that raised an `error`."""
     return f"{path}: is damaged, or no checkpoint: {one_line(error)}; without it, the run begins earlier"
 
 
-def load(path, configuration, identity=None):
-    """(record, arrays) of a file, None where there is none; `configuration` is the run's as JSON.
+def load(path, tables=None):
+    """(record, arrays) of a file, None where there is none; `tables` are those of the run's configuration.
 
-    Raises OutputError where it is damaged, of another version, configuration, or run than `identity`.
+    Raises OutputError where it is damaged, or of another version or configuration.
     """
     try:
-        record, arrays, is_whole = unpacked(path)
+        record, arrays = unpacked(path)
+        version, by = record["format"], record["mgehl"]
     except FileNotFoundError:
         return None
     except Exception as error:  # what a damaged file raises is anybody's guess
         raise OutputError(damaged(path, error)) from None
-    by = record.get("mgehl")
-    if record.get("format") != FORMAT or by != VERSION:
+    if (version, by) != (FORMAT, VERSION):
         raise OutputError(f"{path}: was written by mgehl {by}, and {VERSION} cannot go on with it")
-    if not is_whole:
-        raise OutputError(damaged(path, ValueError("it was edited")))
-    if json.dumps(record.get("configuration")) != configuration:
+    if tables not in (None, record.get("configuration")):
         raise OutputError(f"{path}: was written for another configuration than the run has now")
-    if identity is not None and record.get("run") != identity:
-        raise OutputError(f"{path}: is of another run than this directory's")
     return record, arrays

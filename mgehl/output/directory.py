@@ -1,8 +1,12 @@
-"""The directory of a run or study: what is in it, how a result gets there, and what is never touched.
+"""The directory of a run: what is in it, how a run is published there, and what is never touched.
 
-A new result is put together in a folder beside the old one, and replaces it when it is whole (`install`). A
-process that ends in between leaves the old result, or enough to go on with. Only plain files that a
-manifest names are removed or replaced, and only if they are still as it says.
+    fields.h5        the whole run: fields, result, history, configuration, with HDF5's checksums
+    result.json, history.csv, configuration.toml, laws/, ...   the same for people and other programs
+    checkpoint/      what a run that has not finished has reached (`checkpoint`)
+
+A run is put together in a folder of the checkpoint. Where all of it is on the disk, one rename puts its
+fields.h5 in the place of the one before: whoever reads has the old run or the new one, whole. Only plain
+files of a run's names are removed or replaced, and only where there is a run.
 """
 
 import os
@@ -11,78 +15,67 @@ from contextlib import suppress
 from pathlib import Path
 
 from mgehl.errors import OutputError
-from mgehl.output import manifest as manifests
-from mgehl.output.files import CHECKPOINT, NAMES, REPORT, START
+from mgehl.output.checkpoint import BEGUN, OVER, read_begun
+from mgehl.output.files import CHECKPOINT, FIELDS, NAMES, REPORT
 from mgehl.output.laws import FOLDER as LAWS
-from mgehl.output.manifest import Manifest, checksum, checksums, read_manifest
-from mgehl.output.whole_file import clear_parts, is_folder, is_plain
+from mgehl.output.report.study_record import NAME as STUDY
+from mgehl.output.stored import files_of
+from mgehl.output.whole_file import clear_parts, is_folder, is_plain, writing
 
 FINISHED = "finished"
-"""Folder of a result until it is installed."""
+"""Folder of the checkpoint in which a run is put together."""
 
-DRAWN = ("picture.png",)
-"""Files of a run that may be missing: they can be drawn again."""
-
-_OWN_IN_CHECKPOINT = re.compile(r"solve-\d{4}\.npz|under-way\.npz|configuration\.toml|manifest\.json")
+_OWN_IN_CHECKPOINT = re.compile(r"solve-\d{4}\.npz|under-way\.npz")
 _SIGN = b'<meta name="generator" content="mgehl'
 
 
 def make_directory(path, force=False):
     """Create a directory; with `force` one that exists will do. Raises OutputError."""
     path = Path(path)
-    try:
+    if path.is_dir() and not force:
+        raise OutputError(f"{path} exists: add --force to replace it, or choose another with --out")
+    with writing(path):
         path.mkdir(parents=True, exist_ok=force)
-    except FileExistsError:
-        if force:
-            raise OutputError(f"{path}: is no directory") from None
-        raise OutputError(
-            f"{path} exists: add --force to replace it, or choose another with --out"
-        ) from None
-    except OSError as error:
-        raise OutputError(f"{path}: cannot be written: {error.strerror}") from None
 
 
-def prepare_directory(directory):
+def prepare_directory(directory, laws=()):
     """Make a locked directory ready for a new run: its result stays, the checkpoint of an earlier run goes.
 
-    Raises OutputError where the new result would replace what mgehl did not write.
+    Raises OutputError where the new run, with the names of its `laws`, would replace what is no run's.
     """
-    stage = Path(directory) / CHECKPOINT / FINISHED
-    if read_manifest(stage):  # a kill at the very end
-        install(directory, stage)
-    check_replaceable(directory)
+    check_replaceable(directory, laws)
     clear_checkpoint(directory)
 
 
-def check_replaceable(directory):
-    """Raise OutputError where a run in this directory would replace what mgehl did not write."""
+def check_replaceable(directory, laws=()):
+    """Raise OutputError where a run in this directory would replace what is no run's."""
     directory = Path(directory)
-    found = read_manifest(directory)
-    if found and found.kind != "run":
-        raise OutputError(f"{directory}: is the directory of a {found.kind}; choose another with --out")
-    known = _known_by(found)
-    for name in NAMES:
-        _check_own(directory, name, known)
-    if os.path.lexists(directory / LAWS) and not is_folder(directory / LAWS):
-        raise OutputError(_foreign(directory / LAWS))
     folder = directory / CHECKPOINT
-    if os.path.lexists(folder) and not is_folder(folder):
+    if (directory / STUDY).exists():
+        raise OutputError(f"{directory}: is the directory of a study; choose another with --out")
+    known = files_of(directory)
+    for name in (*NAMES, *laws):
+        if os.path.lexists(directory / name) and not (name in known and is_plain(directory / name)):
+            raise OutputError(_foreign(directory / name))
+    for each in (directory / LAWS, folder):
+        if os.path.lexists(each) and not is_folder(each):
+            raise OutputError(_foreign(each))
+    if _own_files(folder) and not any(is_plain(folder / name) for name in (BEGUN, OVER)):
         raise OutputError(_foreign(folder))
-    if is_folder(folder) and read_manifest(folder) is None and _own_files(folder):
-        raise OutputError(_foreign(folder))
-
-
-def _check_own(directory, name, known):
-    path = directory / name
-    if os.path.lexists(path) and checksum(path) not in known.get(name, ()):
-        raise OutputError(_foreign(path))
 
 
 def _foreign(path):
     return (
-        f"{path}: is not as mgehl wrote it, or not mgehl's: it is left alone; "
+        f"{path}: is not mgehl's, or damaged: it is left alone; "
         "move it away, or choose another directory with --out"
     )
+
+
+def _own_files(folder):
+    """Plain files in the folder of a checkpoint that have names of mgehl's."""
+    names = os.listdir(folder) if is_folder(folder) else []
+    own = [folder / name for name in names if _OWN_IN_CHECKPOINT.fullmatch(name)]
+    return list(filter(is_plain, own))
 
 
 def clear_checkpoint(directory):
@@ -90,136 +83,46 @@ def clear_checkpoint(directory):
     folder = Path(directory) / CHECKPOINT
     if not is_folder(folder):
         return
-    clear_parts(folder)
-    for inner in (folder / FINISHED, folder / START, folder):
-        for path in _own_files(inner):
-            path.unlink(missing_ok=True)
-        for each in (inner / LAWS, inner):
-            if is_folder(each):
-                with suppress(OSError):  # somebody else's
-                    each.rmdir()
+    stage = folder / FINISHED
+    with suppress(OSError):  # what stays is not read
+        if is_plain(folder / BEGUN):
+            (folder / BEGUN).replace(folder / OVER)  # the run is over, whatever comes
+        laws = ()
+        with suppress(OutputError, AttributeError):  # damaged, or not there
+            laws = read_begun(directory, OVER).laws
+        clear_parts(folder)
+        clear_parts(stage)
+        own = [stage / name for name in (*NAMES, *laws)] + [folder / name for name in laws]
+        for path in (*own, *_own_files(folder), folder / OVER):  # which says that they are mgehl's
+            if is_plain(path):
+                path.unlink()
+    for each in (stage / LAWS, stage, folder / LAWS, folder):
+        with suppress(OSError):  # not there, or somebody else's, too
+            each.rmdir()
 
 
-def _own_files(folder):
-    """Plain files in the folder of a checkpoint that have names of mgehl's."""
-    if not is_folder(folder):
-        return []
-    names = [each.name for each in folder.iterdir()]
-    own = [folder / name for name in names if name in NAMES or _OWN_IN_CHECKPOINT.fullmatch(name)]
-    laws = folder / LAWS
-    known = read_manifest(folder)
-    if known and is_folder(laws):
-        own += [folder / name for name in known.files if name.startswith(f"{LAWS}/")]
-    # The manifest goes last: without it what is left would be nobody's.
-    return sorted(filter(is_plain, own), key=lambda path: path.name == manifests.NAME)
-
-
-def clear_stage(stage):
-    """Make an empty folder for a result, removing what an earlier process left there; return it.
-
-    Raises OSError.
+def publish(directory, stage, names):
+    """Put the run whose files are in the folder `stage` in the place of the one before. Raises OSError, and
+    OutputError where something else is in the way; what is there then stays as it is.
     """
-    stage.mkdir(parents=True, exist_ok=True)
-    clear_parts(stage)
-    for path in _own_files(stage):
-        path.unlink()
-    return stage
-
-
-def install(directory, stage):
-    """Replace the result that is there by the one in the folder `stage`, which has its manifest. Raises
-    OutputError where something else is in the way; `stage` then stays as it is. If a process ends in the
-    middle, a second call finishes the work.
-    """
-    directory, stage = Path(directory), Path(stage)
-    new, old = read_manifest(stage), read_manifest(directory)
-    try:
-        if old and old.identity != new.identity:
-            new = Manifest(new.kind, new.identity, new.files, new.origins, old.files)
-            new.write(stage)
-        known = _known_by(new, old)
-        for name in new.files:
-            if is_plain(stage / name):  # else it is there already
-                _check_own(directory, name, known)
-        (directory / manifests.NAME).unlink(missing_ok=True)
-        _move(new, stage, directory)
-        Manifest(new.kind, new.identity, new.files, new.origins).write(directory)
-        _forget_stage(stage)
-    except OSError as error:
-        raise OutputError(f"{directory}: cannot be written: {error.strerror or error}") from None
-
-
-def _known_by(*found):
-    known = {}
-    for each in found:
-        for name, value in [*each.files.items(), *each.replaces.items()] if each else ():
-            known.setdefault(name, set()).add(value)
-    return known
-
-
-def _move(new, stage, directory):
-    """Move the new files, and remove the old ones that have no successor."""
-    for name in new.files:
-        if is_plain(stage / name):
-            (directory / name).parent.mkdir(exist_ok=True)
-            (stage / name).replace(directory / name)
-    for name, value in new.replaces.items():
-        if name not in new.files and checksum(directory / name) == value:
+    laws = [name for name in names if name.startswith(f"{LAWS}/")]
+    check_replaceable(directory, laws)
+    old = files_of(directory)
+    if laws:
+        (directory / LAWS).mkdir(exist_ok=True)
+    (stage / FIELDS).replace(directory / FIELDS)
+    for name in sorted({*names} - {FIELDS}):
+        (stage / name).replace(directory / name)
+    for name in old - {*names}:
+        if is_plain(directory / name):
             (directory / name).unlink()
     with suppress(OSError):  # in use, or not there
         (directory / LAWS).rmdir()
     _remove_report(directory / REPORT)
 
 
-def _forget_stage(stage):
-    (stage / manifests.NAME).unlink(missing_ok=True)
-    for each in (stage / LAWS, stage):
-        with suppress(OSError):
-            each.rmdir()
-
-
 def _remove_report(path):
-    """A page of the result before, if mgehl made it."""
+    """A page of the run before, if mgehl made it."""
     with suppress(OSError):
         if is_plain(path) and _SIGN in path.read_bytes()[:4096]:
             path.unlink()
-
-
-def check_result(directory, kind="run"):
-    """The `Manifest` of a finished run or study, whose files are all as it wrote them.
-
-    Raises OutputError where they are not.
-    """
-    directory = Path(directory)
-    if not directory.is_dir():
-        raise OutputError(f"{directory}: is no {kind} directory")
-    found = read_manifest(directory)
-    if found is None:
-        raise OutputError(_unfinished(directory, kind))
-    if found.kind != kind:
-        raise OutputError(f"{directory}: is no {kind} directory, but that of a {found.kind}")
-    for name in found.wrong(directory, DRAWN):
-        raise OutputError(_changed(directory / name))
-    return found
-
-
-def _unfinished(directory, kind):
-    if read_manifest(directory / CHECKPOINT):
-        return f"{directory}: has not finished: go on with: mgehl run --resume {directory}"
-    if not any(os.path.lexists(directory / name) for name in (*NAMES, "study.json")):
-        return f"{directory}: is no {kind} directory"
-    return (
-        f"{directory}: has no {manifests.NAME}, which a finished {kind} has: it has not finished, or an "
-        "older mgehl wrote it; make it again"
-    )
-
-
-def _changed(path):
-    if not os.path.lexists(path):
-        return f"{path}: is missing, and its run wrote it: the run must be made again"
-    return f"{path}: is damaged, was edited, or is of another run: the run must be made again"
-
-
-def seal(stage, kind, identity, names, origins=None):
-    """Write the manifest of the files in a folder. Raises OSError, OutputError."""
-    Manifest(kind, identity, checksums(stage, names), origins or {}).write(stage)

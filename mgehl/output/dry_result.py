@@ -1,13 +1,10 @@
-"""The result of a dry contact as one record. Its fields are result.json's."""
-
-from dataclasses import dataclass
+"""The `Result` of a dry contact, which has no film."""
 
 import numpy as np
 
-from mgehl.output.edge_result import NOT_SEEN, EdgeResult, edge_result
+from mgehl.output.edge_result import edge_result
 from mgehl.output.film_error import no_band
-from mgehl.output.result import ContactResult, Overlap, Work, contact_result, overlap_of
-from mgehl.output.words import dry_words
+from mgehl.output.result import HertzResult, Overlap, Result, contact_result, overlap_of
 
 PRESSED = 1e-12
 """Pressure of contact over the largest, which a peak may have: more than rounding."""
@@ -15,65 +12,8 @@ PRESSED = 1e-12
 NO_FILM = no_band("there is no film")
 
 
-@dataclass(frozen=True)
-class HertzResult:
-    """What Hertz' formulas say of smooth half-spaces under the same load."""
-
-    max_pressure_GPa: float
-    approach_um: float
-    """Of a line contact with the constant of a deflection that counts -ln|x/a|, as the computed one."""
-
-
-@dataclass(frozen=True)
-class DryResult:
-    """Everything result.json holds."""
-
-    converged: bool
-    """Load and complementarity hold, and the contact ends within the domain, on enough nodes."""
-    reason: str
-    max_pressure_GPa: float
-    approach_um: float
-    """Of the bodies, from where their smooth shapes would touch."""
-    load_error: float
-    complementarity_error: float
-    """Largest |gap| in contact, overlap elsewhere (units of H), or pull (p_h)."""
-    contact: ContactResult
-    overlap: Overlap
-    """Nodes outside of contact whose gap is negative, by more than rounding."""
-    boundary_nodes: int
-    """Nodes in contact beside the domain's boundary: there must be none."""
-    hertz: HertzResult
-    Sq_nm: float
-    """Rms of the heights within the Hertz semi-axes, about their mean; 0 of smooth bodies."""
-    work: Work
-    """Convolutions and sets of pressed nodes."""
-    wall_s: float
-    ranks: int
-    versions: dict
-    edge: EdgeResult = NOT_SEEN
-    mixed = None
-    """There is no film to share the load with."""
-
-    @property
-    def settled(self):
-        """As `converged`: there is no inequality besides."""
-        return self.converged
-
-    @property
-    def error(self):
-        """There is no film to have a band."""
-        return NO_FILM
-
-    def words(self, verbose=True):
-        """The answer and whether it can be trusted: everything, or only what most want to know."""
-        return dry_words(self)
-
-    def __str__(self):
-        return self.words()
-
-
 def summarise_dry(problem, outcome, tolerance, work, wall_s, versions):
-    """Verify the final state and put the `DryResult` together (collective).
+    """Verify the final state and put the `Result` together (collective).
 
     Gap and load are evaluated anew from P and H0; nothing that the iteration said is trusted.
     """
@@ -89,8 +29,9 @@ def summarise_dry(problem, outcome, tolerance, work, wall_s, versions):
     found = load_error, complementarity, at_boundary, edge.too_few
     converged, reason = _verdict(outcome, tolerance, *found)
     hertz = contact.hertz
-    return DryResult(
+    return Result(
         converged=converged,
+        settled=converged,
         reason=reason,
         max_pressure_GPa=1e-9 * hertz.p_h * grid.max(state.P),
         approach_um=-1e-3 * nm * state.H0,
@@ -105,6 +46,7 @@ def summarise_dry(problem, outcome, tolerance, work, wall_s, versions):
         wall_s=wall_s,
         ranks=grid.comm.size,
         versions=versions,
+        error=NO_FILM,
         edge=edge,
     )
 

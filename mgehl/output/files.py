@@ -5,18 +5,33 @@ import json
 import pickle
 from dataclasses import asdict
 from functools import partial
+from io import StringIO
 from math import isfinite
-from pathlib import Path
 
+import numpy as np
 import tomli_w
 
 from mgehl.discretization import status
 from mgehl.errors import one_line
 from mgehl.grid.events import FILES, event
 from mgehl.output.center_line import center_line
+from mgehl.output.laws import portable
 from mgehl.output.memory_file import netcdf_file
-from mgehl.output.whole_file import whole_file, write_whole
 from mgehl.version import VERSION
+
+NAMES = CONFIGURATION, RESULT, HISTORY, FIELDS, PICTURE, CENTER_LINE = (
+    "configuration.toml", "result.json", "history.csv", "fields.h5", "picture.png", "centerline.csv",
+)  # fmt: skip
+"""The files of a run directory; the last is a wedge's."""
+
+CHECKPOINT = "checkpoint"
+"""Folder of what a run that has not finished has reached."""
+
+REPORT = "report.html"
+"""The page that `mgehl report` makes of a directory where no other file is named."""
+
+WHOLE = "run/texts"
+"""Data set of fields.h5: its run's texts by their names, as JSON in bytes."""
 
 
 @event(FILES)
@@ -51,40 +66,30 @@ def _sendable(error):
     return error
 
 
-CONFIGURATION = "configuration.toml"
-NAMES = (
-    CONFIGURATION, "result.json", "history.csv", "fields.h5", "picture.png", "centerline.csv",
-)  # fmt: skip
-"""The files of a run directory, in the order of `RunFiles`; the last is a wedge's."""
+def texts_of(solution):
+    """{name: text} of the files of a run that are text: configuration, result, history, a center line."""
+    texts = {
+        CONFIGURATION: tomli_w.dumps(portable(solution.config)),
+        RESULT: json.dumps(finite(plain_result(solution.result)), indent=2, allow_nan=False) + "\n",
+        HISTORY: _table(
+            [list(solution.rows[0]) if solution.rows else [], *map(dict.values, solution.rows)]
+        ),
+    }
+    if not solution.contact.is_loaded:
+        X, P = center_line(solution.mesh, solution.fields)  # [Liu eq. 44] along Y = 0, nan in a pillar
+        texts[CENTER_LINE] = _table([["X_mm", "P"], *zip(X.tolist(), P.tolist(), strict=True)])
+    return texts
 
 
-CHECKPOINT, START = "checkpoint", "start"
-"""Folder of what a run that has not finished has reached; in it that of the run it started from."""
-
-REPORT = "report.html"
-"""The page that `mgehl report` makes of a directory where no other file is named."""
-
-
-class RunFiles:
-    """Paths of a run directory's files."""
-
-    def __init__(self, directory):
-        self.directory = Path(directory)
-        (
-            self.configuration, self.result, self.history, self.fields, self.picture, self.center_line,
-        ) = (self.directory / name for name in NAMES)  # fmt: skip
-        self.checkpoint = self.directory / CHECKPOINT
+def _table(rows):
+    text = StringIO(newline="")
+    csv.writer(text).writerows(rows)
+    return text.getvalue()
 
 
-def write_config(path, tables):
-    """A resolved configuration's tables, as TOML that `mgehl run` reads."""
-    write_whole(path, tomli_w.dumps(tables))
-
-
-def write_result(path, result):
-    """result.json; numbers that are not finite become null, which JSON can hold."""
-    with whole_file(path) as part:
-        part.write_text(json.dumps(finite(asdict(result)), indent=2, allow_nan=False) + "\n", "utf-8")
+def plain_result(result):
+    """A result as plain data: what result.json holds. What this kind of contact has not is left out."""
+    return {name: each for name, each in asdict(result).items() if each is not None or name == "mixed"}
 
 
 def finite(value):
@@ -96,27 +101,13 @@ def finite(value):
     return None if isinstance(value, float) and not isfinite(value) else value
 
 
-def write_history(path, rows):
-    """history.csv: a row per cycle from dictionaries of one shape."""
-    with whole_file(path) as part, part.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, fieldnames=list(rows[0]) if rows else [])
-        writer.writeheader()
-        writer.writerows(rows)
+def write_fields(path, solution, texts):
+    """fields.h5, netCDF-4: pressure, film and status with coordinates, SI and dimensionless; all `texts`.
 
-
-def write_center_line(path, mesh, fields):
-    """centerline.csv of a wedge: X in mm and P  [Liu eq. 44] along Y = 0, nan in a pillar."""
-    X, P = center_line(mesh, fields)
-    with whole_file(path) as part, part.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file)
-        writer.writerow(["X_mm", "P"])
-        writer.writerows(zip(X.tolist(), P.tolist(), strict=True))
-
-
-def write_fields(path, solution):
-    """fields.h5, netCDF-4: pressure, film and status with coordinates, SI and dimensionless."""
+    Each part of it has a checksum, the data Fletcher's and HDF5's own lists those of its version 1.10.
+    """
     mesh, contact, fields = solution.mesh, solution.contact, solution.fields
-    with whole_file(path) as part, netcdf_file(part) as file:
+    with netcdf_file(path, libver=("v110", "v110")) as file:
         file.dimensions = {"y": mesh.ny, "x": mesh.nx}
         file.attrs["mgehl"] = VERSION
         file.attrs["H0"] = solution.H0
@@ -136,11 +127,16 @@ def write_fields(path, solution):
         if fields.p is not None:
             put("p", plane, fields.p, "1", f"the fluid's own pressure over its unit, {unit}")
             put("filling", plane, fields.filling, "1", "part of the gap above the layers that holds fluid")
+        group, name = WHOLE.split("/")
+        content = np.frombuffer(json.dumps(texts).encode(), np.uint8)
+        inner = file.create_group(group)
+        inner.dimensions = {"bytes": content.size}
+        _put(inner, name, ("bytes",), content, "1", "the run's texts by their names, as JSON")
 
 
 def _put(file, name, dimensions, values, unit, description):
     # Shuffled, a double's like bytes lie side by side: a sixth less on the disk, in half the time.
-    packed = {"compression": "gzip", "compression_opts": 1, "shuffle": True} if values.ndim == 2 else {}
+    packed = {"compression": "gzip", "compression_opts": 1, "shuffle": True, "fletcher32": True}
     variable = file.create_variable(name, dimensions, values.dtype, data=values, **packed)
     variable.attrs["units"] = unit
     variable.attrs["long_name"] = description

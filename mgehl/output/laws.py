@@ -1,11 +1,13 @@
-"""A run's own laws and heights: their files are kept in its directory, with their hash."""
+"""A run's own laws and heights: their files are kept in its directory, and known again."""
 
+import hashlib
 import os
+import re
 from pathlib import Path
 
 from mgehl.config import config_from_tables
 from mgehl.model.own_function import file_and_function
-from mgehl.output.manifest import checksum
+from mgehl.output.whole_file import is_plain, whole_file
 
 FOLDER = "laws"
 
@@ -22,54 +24,65 @@ def law_files(config):
     return named
 
 
-def portable(config):
-    """The tables of a `Config` as they stand in a run directory: own functions in laws/."""
-    tables, names = config.as_toml_tables(), law_files(config)
-    for section, key, (file, function) in _own(tables):
-        tables[section][key] = _value(names[file], function)
-    return tables
-
-
-def laws(config):
+def laws_of(config):
     """{laws/NAME: bytes} of the files of own functions. Raises OSError."""
     return {name: Path(file).read_bytes() for file, name in law_files(config).items()}
 
 
-def origins(config, directory):
-    """{laws/NAME: where that file is, counted from a directory}."""
-    return {name: os.path.relpath(file, directory) for file, name in law_files(config).items()}
+def portable(config):
+    """The tables of a `Config` as they stand in a run directory: own functions in laws/."""
+    return _moved(config.as_toml_tables(), law_files(config))
 
 
-def as_they_were(config, manifest, directory):
-    """A `Config` with the laws where they were when the run began, if they are still the same there; and
-    messages. There a law finds the files that it reads. Otherwise, as on another machine, the copies are
-    run.
+def placed(tables, places):
+    """The `Config` of such tables; `places` are the files that its laws are now, by their names."""
+    return config_from_tables(_moved(tables, places))
+
+
+def laws_in(tables):
+    """Names of the laws of such tables."""
+    return {file for _, _, (file, _) in _own(tables)}
+
+
+def checksum(file):
+    """SHA-256 of a plain file; None where there is none that can be read."""
+    try:
+        return hashlib.sha256(Path(file).read_bytes()).hexdigest() if is_plain(file) else None
+    except OSError:
+        return None
+
+
+def is_law(name):
+    """True of laws/NAME: nothing outside of a run's directory is named."""
+    return re.fullmatch(r"laws/[^/\0]+", name) is not None and not name.endswith("/..")
+
+
+def put_laws(folder, laws):
+    """Write {laws/NAME: bytes} into a folder. Raises OSError."""
+    for name, content in laws.items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        with whole_file(folder / name) as part:
+            part.write_bytes(content)
+
+
+def as_they_were(begun, folder, directory):
+    """A run's `Config` with the laws where they were when it began, if they are still the same there; and
+    messages. Raises OSError.
+
+    There a law finds the files that it reads. Otherwise, as on another machine, the copies in `folder` are
+    run. `begun` is what the `checkpoint.Begun` run of the `directory` began with.
     """
-    there, said = {}, []
-    for file, name in law_files(config).items():
-        if name not in manifest.origins:
-            continue
-        origin = Path(os.path.normpath(Path(directory) / manifest.origins[name]))
-        found = checksum(origin)
-        if found == manifest.files.get(name):
-            there[file] = str(origin.resolve())
-        elif found:
+    places, copies, said = {}, {}, []
+    for name, content in begun.laws.items():
+        origin = Path(os.path.normpath(Path(directory) / begun.origins[name]))
+        found, known = checksum(origin), hashlib.sha256(content).hexdigest()
+        if found != known:
+            copies[name] = content
+        if found not in (None, known):
             said.append(f"{origin} has changed since the run began, which goes on with its copy of it")
-    tables = config.as_toml_tables()
-    for section, key, (file, function) in _own(tables):
-        tables[section][key] = _value(there.get(file, file), function)
-    return config_from_tables(tables), said
-
-
-def changed_copies(config):
-    """Files in the laws/ of run directories that are not as those runs left them."""
-    from mgehl.output.manifest import read_manifest
-
-    for file in map(Path, law_files(config)):
-        manifest = read_manifest(file.parent.parent) if file.parent.name == FOLDER else None
-        known = manifest.files.get(f"{FOLDER}/{file.name}") if manifest else None
-        if known and known != checksum(file):
-            yield file
+        places[name] = str((folder / name if name in copies else origin).resolve())
+    put_laws(folder, copies)
+    return placed(begun.tables, places), said
 
 
 def _own(tables):
@@ -85,6 +98,9 @@ def _own(tables):
                 yield section, key, found
 
 
-def _value(file, function):
-    """What stands for a function of a file, or for a file of heights, in a configuration."""
-    return file if function is None else f"{file}:{function}"
+def _moved(tables, places):
+    """The tables with other files, {file: where it is}, for own functions and heights."""
+    for section, key, (file, function) in _own(tables):
+        file = places.get(file, file)
+        tables[section][key] = file if function is None else f"{file}:{function}"
+    return tables

@@ -7,13 +7,13 @@ import h5netcdf
 
 
 @contextmanager
-def netcdf_file(path):
+def netcdf_file(path, **options):
     """An `h5netcdf.File` to write to, whose bytes go to `path` at the end, if nothing failed.
 
     HDF5 writes when it closes a file or a data set; where it cannot, the process ends with a
     segmentation fault. A write of plain bytes raises OSError.
     """
     memory = BytesIO()
-    with h5netcdf.File(memory, "w") as file:
+    with h5netcdf.File(memory, "w", **options) as file:
         yield file
     path.write_bytes(memory.getbuffer())

@@ -10,7 +10,7 @@ from mgehl.output.edge_result import NOT_SEEN, EdgeResult, edge_result
 from mgehl.output.film_error import NOT_ASKED, FilmError
 from mgehl.output.mixed_result import MixedResult, mixed_result
 from mgehl.output.resolution import Resolution, resolution
-from mgehl.output.words import loaded_words, undecided_words
+from mgehl.output.words import dry_words, loaded_words, undecided_words
 from mgehl.solver.inequality import Power, check_interface, check_pressure_inequality, check_under_contact
 from mgehl.solver.mass import CLOSED, Mass, mass_account
 from mgehl.solver.verification import complementarity_error, flux_imbalance
@@ -78,46 +78,71 @@ class Work:
 
 
 @dataclass(frozen=True)
+class HertzResult:
+    """What Hertz' formulas say of smooth half-spaces under the same load."""
+
+    max_pressure_GPa: float
+    approach_um: float
+    """Of a line contact with the constant of a deflection that counts -ln|x/a|, as the computed one."""
+
+
+@dataclass(frozen=True)
 class Result:
-    """Everything result.json holds."""
+    """Everything result.json holds. What a contact has not, as a dry one has no film, is None here and left
+    out there.
+    """
 
     converged: bool
     """`settled`, the pressure inequality [Liu eq. 2] holds all along the interface within the error of the
     pressures there, and the contact lies within its domain, on enough nodes."""
     settled: bool
-    """Sets, residual, load and complementarity hold: a solution of the discrete equations."""
+    """Sets, residual, load and complementarity hold: a solution of the discrete equations. Of a dry contact
+    as `converged`: there is no inequality besides."""
     reason: str
-    central_film_nm: float
-    minimum_film_nm: float
     max_pressure_GPa: float
-    residual: float
     load_error: float
     complementarity_error: float
-    flux_imbalance: float
+    """Of a dry contact the largest |gap| in contact, overlap elsewhere (units of H), or pull (p_h)."""
     contact: ContactResult
     overlap: Overlap
-    pressure_inequality: InequalityResult
-    """Compared at the interface, as the paper states it: `converged` asks for this."""
-    other_inequality: InequalityResult
-    """Compared between nodes on both sides of it, a cell apart: `converged` does not ask for this."""
-    contradictions: list
-    """Nodes that can be neither film nor contact, of an iteration whose sets cycle."""
-    cavitated_nodes: int
-    resolution: Resolution
-    groups: Groups
-    moes_film: MoesFilm
-    formulas: dict
-    """Films that formulas predict: name and nm."""
     work: Work
+    """Of a dry contact the steps are sets of pressed nodes."""
     wall_s: float
     ranks: int
     versions: dict
     error: FilmError = NOT_ASKED
     edge: EdgeResult = NOT_SEEN
+
+    # With a fluid. (None, and no Optional: in result.json null is a number that is not finite.)
+    central_film_nm: float = None
+    minimum_film_nm: float = None
+    residual: float = None
+    flux_imbalance: float = None
+    pressure_inequality: InequalityResult | None = None
+    """Compared at the interface, as the paper states it: `converged` asks for this."""
+    other_inequality: InequalityResult | None = None
+    """Compared between nodes on both sides of it, a cell apart: `converged` does not ask for this."""
+    contradictions: list | None = None
+    """Nodes that can be neither film nor contact, of an iteration whose sets cycle."""
+    cavitated_nodes: int = None
+    resolution: Resolution | None = None
+    groups: Groups | None = None
+    moes_film: MoesFilm | None = None
+    formulas: dict | None = None
+    """Films that formulas predict: name and nm."""
     mixed: MixedResult | None = None
     """Film and contact of rough bodies; None of smooth ones."""
     mass: Mass | None = None
     """The account of the oil; None in older results."""
+
+    # Without a fluid.
+    approach_um: float = None
+    """Of the bodies, from where their smooth shapes would touch."""
+    boundary_nodes: int = None
+    """Nodes in contact beside the domain's boundary: there must be none."""
+    hertz: HertzResult | None = None
+    Sq_nm: float = None
+    """Rms of the heights within the Hertz semi-axes, about their mean; 0 of smooth bodies."""
 
     @property
     def doubt(self):
@@ -130,7 +155,7 @@ class Result:
 
     def words(self, verbose=True):
         """The answer and whether it can be trusted: everything, or only what most want to know."""
-        return loaded_words(self, verbose)
+        return dry_words(self) if self.hertz else loaded_words(self, verbose)
 
     def __str__(self):
         return self.words()

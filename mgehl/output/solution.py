@@ -4,7 +4,6 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from mpi4py import MPI
 from numpy.typing import NDArray
 
 from mgehl.config import Config
@@ -12,7 +11,6 @@ from mgehl.discretization.mesh import Mesh
 from mgehl.grid.grid import Grid
 from mgehl.model.contact import LoadedContact
 from mgehl.model.wedge import WedgeBearing
-from mgehl.output.dry_result import DryResult
 from mgehl.output.result import Result
 from mgehl.output.wedge_result import WedgeResult
 
@@ -55,7 +53,7 @@ class Solution:
     mesh: Mesh
     fields: Fields | None
     rows: list[dict[str, float]]
-    result: Result | WedgeResult | DryResult
+    result: Result | WedgeResult
     H0: float = 0.0
     """Constant part of the gap in units of H  [Liu eq. 48], less the closer the bodies; 0 for a wedge."""
     local: Fields | None = None
@@ -92,29 +90,9 @@ class Solution:
         return self.mesh.Y * self.contact.y_scale
 
     @property
-    def summary(self) -> Result | WedgeResult | DryResult:
+    def summary(self) -> Result | WedgeResult:
         """Films, verdicts, contact, formulas and work: what result.json holds."""
         return self.result
-
-    def fields_on(self, comm: MPI.Comm, rank: int) -> Fields | None:
-        """The whole-grid fields, which rank 0 has, on another rank, too; None elsewhere (collective)."""
-        if comm.rank not in (0, rank):
-            return None
-        if self.fields is None:
-            return Fields(*(self._received(comm) for _ in range(comm.recv(source=0))))
-        if rank == 0:
-            return self.fields
-        comm.send(len(self.fields.arrays), rank)
-        for array in self.fields.arrays:
-            comm.send(array.dtype, rank)
-            comm.Send(np.ascontiguousarray(array), rank)
-        return self.fields
-
-    def _received(self, comm: MPI.Comm) -> NDArray[Any]:
-        """A field that rank 0 sends."""
-        array: NDArray[Any] = np.empty((self.mesh.ny, self.mesh.nx), comm.recv(source=0))
-        comm.Recv(array, 0)
-        return array
 
     def shared(self) -> "Solution":
         """What every rank knows."""

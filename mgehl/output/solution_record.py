@@ -1,9 +1,8 @@
 """A `Solution` as plain data and arrays, and back again: what a study keeps of its points."""
 
-from dataclasses import asdict
-
 from mgehl.config import config_from_tables
 from mgehl.kinds import contact_from, mesh_from
+from mgehl.output.files import plain_result
 from mgehl.output.solution import Fields, Solution
 from mgehl.output.stored import result_from
 
@@ -13,7 +12,7 @@ def record_of(solution):
     plain = {
         "configuration": solution.config.as_toml_tables(),
         "rows": solution.rows,
-        "result": asdict(solution.result),
+        "result": plain_result(solution.result),
         "H0": float(solution.H0),
     }
     return plain, arrays_of(solution.fields)

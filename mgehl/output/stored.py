@@ -1,152 +1,170 @@
-"""A run read back from its directory, for pictures, reports, exports and new starts."""
+"""A run read back from its fields.h5, for pictures, reports, exports and new starts.
+
+fields.h5 holds all of a run. The other files of its directory are copies, and are not read. Each part of
+fields.h5 has a checksum of HDF5's: what is damaged is refused. Nothing that a file holds is ever run.
+"""
 
 import csv
 import json
+import tomllib
+from io import BytesIO
 from math import nan
+from pathlib import Path
 
 import dacite
-import h5netcdf
+import h5py
 import numpy as np
 
-from mgehl.config import load_config
 from mgehl.config_value import AUTO
 from mgehl.discretization.status import NAMES
-from mgehl.errors import ConfigError, OutputError, one_line
+from mgehl.errors import OutputError, one_line
 from mgehl.kinds import contact_from, mesh_from
 from mgehl.model.own_function import without_running
-from mgehl.output.directory import check_result
-from mgehl.output.dry_result import DryResult
-from mgehl.output.files import RunFiles
+from mgehl.output.checkpoint import is_begun
+from mgehl.output.files import CONFIGURATION, FIELDS, HISTORY, PICTURE, RESULT, WHOLE
+from mgehl.output.files import NAMES as RUN_FILES
+from mgehl.output.laws import FOLDER, checksum, is_law, law_files, laws_in, placed
 from mgehl.output.result import Result
 from mgehl.output.solution import Fields, Solution
 from mgehl.output.wedge_result import WedgeResult
+from mgehl.output.whole_file import is_plain
 
 OPTIONAL = "p", "filling"
 """Fields that older results are without."""
 
 
 def _real(value):
-    """A number of JSON: null stands for one that is not finite. Raises ValueError for a word."""
-    if value is not None and (isinstance(value, bool) or not isinstance(value, int | float)):
+    if type(value) not in (int, float, type(None)):
         raise ValueError(f"{value!r} is no number")
     return nan if value is None else float(value)
 
 
-def _yes_or_no(value):
-    """True or false, and nothing that Python would take for it."""
-    if not isinstance(value, bool):
-        raise ValueError(f"{value!r} is neither true nor false")
-    return value
-
-
-def _whole(value):
-    if isinstance(value, bool) or not isinstance(value, int):
-        raise ValueError(f"{value!r} is no whole number")
-    return value
-
-
-def _word(value):
-    if not isinstance(value, str):
-        raise ValueError(f"{value!r} is no text")
-    return value
-
-
-AS_JSON = dacite.Config(
-    check_types=False,
-    cast=[tuple],
-    type_hooks={float: _real, bool: _yes_or_no, int: _whole, str: _word},
-)
+AS_JSON = dacite.Config(cast=[tuple], type_hooks={float: _real})
 """JSON knows neither tuples nor numbers that are not finite (they are null)."""
 
 
 def read_run(directory) -> Solution:
     """The `Solution` that a finished run left in its directory, fields and all, on this rank.
 
-    Its own laws are not run: the directory may be anybody's. Raises OutputError where a file is missing, is
-    not as the run wrote it, or not a run's.
+    Its own laws are not run: the directory may be anybody's. Raises OutputError where there is none,
+    or it is damaged.
     """
-    check_result(directory)
-    files = RunFiles(directory)
-    config = read_config(files)
-    contact = without_running(contact_from(config))
-    mesh = mesh_from(config, contact)
-    fields, H0 = read_fields(files.fields, mesh)
-    rows, result = _read_history(files.history), read_result(files, config)
-    return Solution(config, contact, mesh, fields, rows, result, H0, local=fields)
+    directory = Path(directory)
+    solution = _read(_fields_of(directory), directory, _solution)
+    for name in changed_laws(directory):
+        raise OutputError(f"{directory / name}: is missing, damaged, or of another run")
+    return solution
 
 
-def read_config(files):
-    """The `Config` of a finished run. Raises OutputError where it is none, or leaves a domain open."""
+def start_from(content, directory) -> Solution:
+    """The same from the bytes of a fields.h5 that a checkpoint in the directory kept."""
+    return _read(BytesIO(content), Path(directory), _solution)
+
+
+def read_texts(directory):
+    """{name: text} of the files of a finished run; "laws" has checksums of those. Raises OutputError."""
+    return _read(_fields_of(Path(directory)), Path(directory), _texts)
+
+
+def files_of(directory):
+    """Names of the files that the run in a directory wrote; none where there is no run."""
     try:
-        config = load_config(files.configuration)
-    except ConfigError as error:
-        raise OutputError(f"{files.directory}: {error}") from None
-    named = config.as_toml_tables()["grid"]
-    if config.kind.is_loaded and AUTO in (named.get("x"), named.get("y")):
-        raise OutputError(f"{files.configuration}: has no domain in numbers, as that of a finished run has")
-    return config
+        texts = read_texts(directory)
+        laws = laws_in(tomllib.loads(texts[CONFIGURATION]))
+    except (OutputError, ValueError, KeyError):
+        return set()
+    return {FIELDS, PICTURE, *({*RUN_FILES} & texts.keys()), *filter(is_law, laws)}
 
 
-def read_fields(path, mesh):
-    """`Fields` of the whole grid and H0 from a fields.h5 of this mesh."""
+def changed_laws(directory):
+    """Names of files in the laws/ of a run that are not as it left them; none where there is no run."""
     try:
-        with h5netcdf.File(path, "r") as file:
-            names = [
-                name for name in ("P", "H", "status", *OPTIONAL) if name not in OPTIONAL or name in file
-            ]
-            fields = Fields(**{name: np.asarray(file[name]) for name in names})
-            H0 = float(file.attrs["H0"])
-    except FileNotFoundError:
-        raise OutputError(f"{path}: is not there: the run has not finished") from None
-    except Exception as error:  # what a damaged file raises is anybody's guess
-        raise OutputError(f"{path}: is damaged, or no fields of mgehl: {one_line(error)}") from None
-    shape = (mesh.ny, mesh.nx)
-    if any(array.shape != shape for array in fields.arrays):
-        raise OutputError(f"{path}: its fields are not of {mesh.nx} x {mesh.ny} nodes")
-    if not all(np.isfinite(each).all() for each in (*fields.arrays, H0)):
-        raise OutputError(f"{path}: its fields are not finite everywhere")
-    if not np.isin(fields.status, range(len(NAMES))).all():
-        raise OutputError(f"{path}: has nodes of a status that there is not")
-    return fields, H0
+        known = read_texts(directory).get(FOLDER, {})
+    except OutputError:
+        return []
+    return [name for name, each in known.items() if checksum(Path(directory) / name) != each]
 
 
-def _read_history(path):
-    """Rows of history.csv, numbers as numbers."""
-    try:
-        text = path.read_text(encoding="utf-8")
-        lines = csv.reader(text.splitlines())
-        names = next(lines, [])
-        rows = [dict(zip(names, map(_number, line), strict=True)) for line in lines]
-        if not rows or "residual" not in names:
-            raise ValueError("it is no history of a run")
-        if not text.endswith("\n"):
-            # A last number that is cut short is a number, too.
-            raise ValueError("its last line is cut off")
-        return rows
-    except (OSError, ValueError, csv.Error) as error:
-        raise OutputError(f"{path}: cannot be read: {one_line(error)}") from None
+def changed_copies(config):
+    """Files in the laws/ of run directories that are not as those runs left them."""
+    for file in map(Path, law_files(config)):
+        if file.parent.name == FOLDER and f"{FOLDER}/{file.name}" in changed_laws(file.parent.parent):
+            yield file
 
 
-def read_result(files, config):
-    """The `Result`, `WedgeResult` or `DryResult` of result.json; its numbers that are null are nan.
-
-    Raises OutputError where it is missing, or cut off.
-    """
-    path = files.result
-    try:
-        return result_from(json.loads(path.read_text(encoding="utf-8")), config)
-    except (OSError, ValueError, TypeError, AttributeError, dacite.DaciteError) as error:
-        raise OutputError(f"{path}: cannot be read: {one_line(error)}") from None
-
-
-def result_from(plain, config):
-    """The `Result`, `DryResult` or `WedgeResult` that nested plain values stand for.
+def result_from(tables, config):
+    """The `Result` or `WedgeResult` that nested plain values stand for; its numbers that are null are nan.
 
     Raises ValueError, TypeError or DaciteError where they stand for none.
     """
-    kind = Result if config.kind.is_loaded else WedgeResult
-    return dacite.from_dict(DryResult if config.is_dry else kind, plain, AS_JSON)
+    # A dry contact of an older mgehl says once that it has converged.
+    settled = {"settled": tables["converged"]}
+    return dacite.from_dict(Result if config.kind.is_loaded else WedgeResult, settled | tables, AS_JSON)
 
 
-def _number(text):
+def _fields_of(directory):
+    """Path of the fields.h5 in a directory. Raises OutputError where there is none."""
+    path = directory / FIELDS
+    if is_plain(path):
+        return path
+    if is_begun(directory):
+        raise OutputError(f"{directory}: has not finished: go on with: mgehl run --resume {directory}")
+    raise OutputError(f"{directory}: is no run directory: it has no {FIELDS}")
+
+
+def _read(source, directory, found):
+    """What is `found(file, directory)` in a fields.h5. Raises OutputError."""
+    try:
+        with h5py.File(source, "r") as file:
+            return found(file, directory)
+    except Exception as error:  # what a damaged file raises is anybody's guess
+        path = directory / FIELDS
+        raise OutputError(f"{path}: is damaged, or no run of mgehl: {one_line(error)}") from None
+
+
+def _texts(file, directory):
+    if WHOLE in file:
+        return json.loads(file[WHOLE][()].tobytes())
+    # An older mgehl wrote it.
+    return {name: (directory / name).read_text("utf-8") for name in (CONFIGURATION, RESULT, HISTORY)}
+
+
+def _solution(file, directory):
+    texts = _texts(file, directory)
+    tables = tomllib.loads(texts[CONFIGURATION])
+    config = placed(tables, {name: str((directory / name).resolve()) for name in laws_in(tables)})
+    named = config.as_toml_tables()["grid"]
+    if config.kind.is_loaded and AUTO in (named.get("x"), named.get("y")):
+        raise ValueError("it has no domain in numbers, as a finished run has")
+    contact = without_running(contact_from(config))
+    mesh = mesh_from(config, contact)
+    fields, result = _fields(file, mesh), result_from(json.loads(texts[RESULT]), config)
+    H0 = float(file.attrs["H0"])
+    if not np.isfinite(H0):
+        raise ValueError("H0 is not finite")
+    return Solution(config, contact, mesh, fields, _rows(texts[HISTORY]), result, H0, local=fields)
+
+
+def _fields(file, mesh):
+    """`Fields` of the whole grid of this mesh."""
+    names = "P", "H", "status", *(name for name in OPTIONAL if name in file)
+    if any(file[name].shape != (mesh.ny, mesh.nx) for name in names):
+        raise ValueError(f"its fields are not of {mesh.nx} x {mesh.ny} nodes")
+    fields = Fields(**{name: file[name][()] for name in names})
+    if not all(np.isfinite(array).all() for array in fields.arrays):
+        raise ValueError("its fields are not finite everywhere")
+    if not np.isin(fields.status, range(len(NAMES))).all():
+        raise ValueError("it has nodes of a status that there is not")
+    return fields
+
+
+def _rows(text):
+    """Rows of a history.csv, numbers as numbers."""
+    names, *rows = csv.reader(text.splitlines())
+    if not rows or "residual" not in names:
+        raise ValueError("its history is none of a run")
+    return [dict(zip(names, map(_as_number, row), strict=True)) for row in rows]
+
+
+def _as_number(text):
     return int(text) if text.lstrip("+-").isdigit() else float(text)

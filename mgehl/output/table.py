@@ -14,7 +14,7 @@ from rich.text import Text
 
 from mgehl.errors import printable
 from mgehl.output.digits import is_number, with_band
-from mgehl.output.directory import check_result
+from mgehl.output.stored import read_texts
 from mgehl.output.whole_file import whole_file
 from mgehl.output.words import span
 
@@ -67,11 +67,9 @@ def collect(directories):
 
 
 def _row(directory):
-    check_result(directory)
-    result = json.loads((directory / "result.json").read_text(encoding="utf-8"))
-    config = tomllib.loads((directory / "configuration.toml").read_text(encoding="utf-8"))
-    with (directory / "history.csv").open(encoding="utf-8") as file:
-        history = list(csv.DictReader(file))
+    texts = read_texts(directory)
+    result, config = json.loads(texts["result.json"]), tomllib.loads(texts["configuration.toml"])
+    history = list(csv.DictReader(texts["history.csv"].splitlines()))
     nodes = config["grid"]["nodes"]
     row = {
         "run": directory.resolve().name,

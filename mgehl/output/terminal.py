@@ -4,12 +4,11 @@ import json
 import os
 import sys
 from contextlib import suppress
-from dataclasses import asdict
 from math import ceil
 
 from mgehl.kinds.loaded import speed_words
 from mgehl.output.advice import what_next
-from mgehl.output.files import finite
+from mgehl.output.files import finite, plain_result
 from mgehl.saying import columns, complain, folded, say
 
 HANGING = "    "
@@ -85,7 +84,7 @@ class JsonLines(Silent):
         say(json.dumps({"news": words}))
 
     def end(self, solution, directory):
-        say(json.dumps({"result": finite(asdict(solution.result)), "directory": str(directory)}))
+        say(json.dumps({"result": finite(plain_result(solution.result)), "directory": str(directory)}))
 
 
 class Lines(Silent):

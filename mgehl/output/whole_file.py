@@ -14,24 +14,25 @@ _PART = re.compile(r"\.part-(?P<process>\d+)-(?P<name>.+)", re.DOTALL)
 
 def is_plain(path):
     """True of a file that is no link, no device and no directory."""
-    try:
+    with suppress(OSError):
         return stat.S_ISREG(os.lstat(path).st_mode)
-    except OSError:
-        return False
+    return False
 
 
 def is_folder(path):
     """True of a directory that is no link."""
-    try:
+    with suppress(OSError):
         return stat.S_ISDIR(os.lstat(path).st_mode)
-    except OSError:
-        return False
+    return False
 
 
-def check_place(path):
-    """Raise OSError where something else than a plain file is in the place of a file to write."""
-    if os.path.lexists(path) and not is_plain(path):
-        raise OSError(errno.EEXIST, "a link, a device or a directory is in its place, and is left alone")
+@contextmanager
+def writing(path):
+    """What cannot be written is an OutputError in one line, which begins with `path`."""
+    try:
+        yield
+    except OSError as error:
+        raise OutputError(f"{path}: cannot be written: {error.strerror or error}") from None
 
 
 @contextmanager
@@ -42,7 +43,8 @@ def whole_file(path):
     OSError where what is there is no plain file.
     """
     path = Path(path)
-    check_place(path)
+    if os.path.lexists(path) and not is_plain(path):
+        raise OSError(errno.EEXIST, "a link, a device or a directory is in its place, and is left alone")
     clear_parts(path.parent, path.name)
     # The suffix stays the last word: writers go by it.
     part = path.with_name(f".part-{os.getpid()}-{path.name}")
@@ -58,35 +60,25 @@ def whole_file(path):
 
 def write_whole(path, text):
     """Write `text` as a whole file. Names of files in it may be no text: escaped. Raises OutputError."""
-    try:
-        with whole_file(path) as part:
-            part.write_text(text, encoding="utf-8", errors="backslashreplace")
-    except OSError as error:
-        raise OutputError(f"{path}: cannot be written: {error.strerror or error}") from None
+    with writing(path), whole_file(path) as part:
+        part.write_bytes(text.encode("utf-8", "backslashreplace"))
 
 
 def clear_parts(folder, name=None):
-    """Remove unfinished parts of a file, or of all files of a folder, that this process or dead ones
-    left."""
+    """Remove unfinished parts of a file, or of all files of a folder, whose processes have ended."""
     with suppress(OSError):
-        for each in os.scandir(folder):
+        for each in Path(folder).iterdir():
             match = _PART.fullmatch(each.name)
-            if (
-                match
-                and name in (None, match["name"])
-                and is_plain(each.path)
-                and _is_over(match["process"])
-            ):
-                os.unlink(each.path)
+            if match and name in (None, match["name"]) and is_plain(each) and _is_over(match["process"]):
+                each.unlink()
 
 
 def _is_over(process):
-    if int(process) == os.getpid():
-        return True
+    """Whether no other process has that number."""
     try:
         os.kill(int(process), 0)
     except (ProcessLookupError, OverflowError):
         return True
     except OSError:
         return False
-    return False
+    return int(process) == os.getpid()

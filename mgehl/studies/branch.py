@@ -8,11 +8,12 @@ taken from the other branch, or from the other start, and says so.
 """
 
 import time
-from dataclasses import asdict, dataclass, fields, replace
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
 from mgehl.kinds import case_of
+from mgehl.output.files import plain_result
 from mgehl.output.result import Work, summarise
 from mgehl.output.solution import Fields
 from mgehl.output.solution_record import arrays_of, fields_from
@@ -55,8 +56,8 @@ class Point:
 
     def record(self):
         """(Plain data, arrays) of it; on the rank that has the fields."""
-        plain = {each.name: getattr(self, each.name) for each in fields(self) if each.name != "fields"}
-        return plain | {"result": asdict(self.result)}, arrays_of(self.fields)
+        values = {each.name: getattr(self, each.name) for each in fields(self) if each.name != "fields"}
+        return values | {"result": plain_result(self.result)}, arrays_of(self.fields)
 
 
 class Branches:

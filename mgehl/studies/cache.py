@@ -51,7 +51,7 @@ class PointCache:
     def load(self, key, made):
         """What is `made(plain, arrays)` of the point under `key` on rank 0, its `shared()` on the others.
 
-        None where there is none, where it is damaged, edited, or not of this key: it is computed anew.
+        None where there is none, where it is damaged, or not of this key: it is computed anew.
         """
         point = self._read(key, made) if self._comm.rank == 0 else None
         shared = self._comm.bcast(point.shared() if point else None)
@@ -78,8 +78,8 @@ class PointCache:
 
     def _read(self, key, made):
         try:
-            record, arrays, is_whole = unpacked(self._folder / f"{key}.npz")
-            return made(record["point"], arrays) if is_whole and record["key"] == key else None
+            record, arrays = unpacked(self._folder / f"{key}.npz")
+            return made(record["point"], arrays) if record["key"] == key else None
         except Exception:  # there is none, or it is damaged: what that raises is anybody's guess
             return None
 

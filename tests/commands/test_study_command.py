@@ -1,11 +1,14 @@
 """Directories of studies: one study each, whole or unfinished, and never read when they are not whole."""
 
 import json
+from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
 from mgehl.cli import main
-from mgehl.output.directory import check_result
+from mgehl.output.report.study_record import StudyRecord, read_record, write_record
+from mgehl.output.study_directory import begin_study, finish_study
 from mgehl.studies import dry
 
 DRY = ["study", "dry", "--nodes", "65", "--quiet", "--out"]
@@ -34,14 +37,54 @@ def refused(capsys, *words):
 
 
 def test_its_files_are_known(study):
-    assert set(check_result(study, "study").files) == {"dry.csv", "dry.md", "study.json"}
-    assert {path.name for path in study.iterdir()} - {"points"} == {*check_result(study, "study").files,
-                                                                      "manifest.json"}  # fmt: skip
+    assert read_record(study).files == ("dry.csv", "dry.md")
+    assert {path.name for path in study.iterdir()} == {*read_record(study).files, "points", "study.json"}
 
 
-def test_a_table_that_was_edited_is_not_reported(study, capsys):
-    (study / "dry.csv").write_text((study / "dry.csv").read_text().replace("1", "2"))
-    assert "dry.csv: is damaged, was edited" in refused(capsys, "report", "here")
+def test_one_that_is_not_whole_is_not_reported(study, capsys):
+    (study / "unfinished").mkdir()
+    (study / "unfinished" / "study.json").write_bytes((study / "study.json").read_bytes())
+    assert "here: has not finished" in refused(capsys, "report", "here")
+    (study / "dry.md").unlink()
+    assert "dry.md: is missing" in refused(capsys, "report", "here")
+
+
+def test_a_table_of_somebody_else_is_left_alone(tmp_path, capsys):
+    (tmp_path / "here").mkdir()
+    (tmp_path / "here" / "dry.csv").write_text("mine")
+    assert "here/dry.csv: is not this study's" in refused(capsys, *DRY, "here", "--force")
+    assert (tmp_path / "here" / "dry.csv").read_text() == "mine"
+
+
+@pytest.mark.parametrize("moved", range(6))
+def test_an_end_in_between_is_made_good(tmp_path, moved, monkeypatch):
+    """After so many files are removed or moved: the next one finishes the work."""
+    old, new = (StudyRecord("dry", (65,), 1, {"mgehl": text}) for text in ("0", "1"))
+    for record, names in ((old, ("a.csv", "b.csv")), (new, ("b.csv", "c.csv"))):
+        stage = begin_study(tmp_path, record, False)
+        for name in names:
+            (stage / name).write_text(record.versions["mgehl"])
+        if record is old:
+            finish_study(tmp_path, stage, False)
+    write_record(stage, replace(new, files=("b.csv", "c.csv")))
+    steps = iter(range(moved))
+
+    def counting(function):
+        def call(*arguments, **named):
+            if next(steps, None) is None:
+                raise KeyboardInterrupt
+            return function(*arguments, **named)
+
+        return call
+
+    with monkeypatch.context() as change:
+        for name in ("replace", "unlink"):
+            change.setattr(f"pathlib.Path.{name}", counting(getattr(Path, name)))
+        with pytest.raises(KeyboardInterrupt):
+            begin_study(tmp_path, new, True)
+    begin_study(tmp_path, new, True)
+    found = {path.name: path.read_text() for path in tmp_path.glob("*.csv")}
+    assert found == {"b.csv": "1", "c.csv": "1"} and read_record(tmp_path).versions == {"mgehl": "1"}
 
 
 def test_it_goes_on_in_its_own_directory_alone(study, capsys):
@@ -54,7 +97,10 @@ def test_it_goes_on_in_its_own_directory_alone(study, capsys):
 
 def test_one_that_was_stopped_keeps_the_result_before(study, capsys, monkeypatch):
     """Tables are put together beside those that are there."""
-    before = check_result(study, "study")
+    before = read_record(study)
+    (study / "study.json").write_text(
+        (study / "study.json").read_text().replace(before.versions["mgehl"], "old")
+    )
 
     def broken(self, name, rows):
         self.directory.joinpath("half.csv").write_text("a,b\n")
@@ -63,9 +109,9 @@ def test_one_that_was_stopped_keeps_the_result_before(study, capsys, monkeypatch
     with monkeypatch.context() as change:
         change.setattr("mgehl.studies.study.Study.write_table", broken)
         assert main([*DRY, "here", "--force"]) == 130
-    assert check_result(study, "study") == before
+    assert read_record(study).versions["mgehl"] == "old"
     assert main([*DRY, "here", "--resume"]) == 0
-    assert check_result(study, "study").identity != before.identity and not (study / "half.csv").exists()
+    assert read_record(study) == before and not (study / "half.csv").exists()
 
 
 @pytest.mark.parametrize("name, said", [("onset", "study onset is no longer part of mgehl"), ("x", "x: ")])

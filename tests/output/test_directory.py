@@ -1,57 +1,93 @@
-"""A run directory: what is replaced, and what never is."""
+"""A run directory: a reader finds the old run or the new one; what is replaced, and what never is."""
 
+import json
 import os
+import subprocess
+import sys
 from pathlib import Path
 
+import h5py
+import numpy as np
 import pytest
+from mpi4py import MPI
+from test_files import make_result
 
+from mgehl.config import config_from_tables
 from mgehl.errors import OutputError
-from mgehl.output.directory import (
-    check_result,
-    clear_checkpoint,
-    install,
-    make_directory,
-    prepare_directory,
-    seal,
-)
-from mgehl.output.manifest import Manifest, new_identity, read_manifest
-
-NAMES = ("configuration.toml", "result.json", "laws/a.py")
-
-
-def put(folder, text, names=NAMES, kind="run"):
-    """A result of files that hold `text`, sealed; return the folder."""
-    for name in names:
-        (folder / name).parent.mkdir(parents=True, exist_ok=True)
-        (folder / name).write_text(text)
-    seal(folder, kind, new_identity(), names)
-    return folder
+from mgehl.kinds import contact_from, mesh_from
+from mgehl.model.contact import Groups
+from mgehl.output.archive import save
+from mgehl.output.checkpoint import FORMAT, begin_run
+from mgehl.output.directory import check_replaceable, clear_checkpoint, make_directory, prepare_directory
+from mgehl.output.files import NAMES, WHOLE
+from mgehl.output.finish import finish_run, taken_up
+from mgehl.output.result import MoesFilm
+from mgehl.output.solution import Fields, Solution
+from mgehl.output.stored import read_run
+from mgehl.version import VERSION
 
 
-def stage_of(directory):
-    return directory / "checkpoint" / "finished"
+def make_solution(H0):
+    """A `Solution` of a line contact, all of whose parts go by its H0."""
+    tables = {
+        "contact": {"kind": "line"},
+        "grid": {"nodes": 65, "x": [-2.0, 1.5]},
+        "motion": {"speed": -H0},
+    }
+    config = config_from_tables(tables)
+    contact = contact_from(config)
+    random = np.random.default_rng(int(-100 * H0))
+    fields = Fields(random.random((1, 65)), random.random((1, 65)), random.integers(0, 4, (1, 65), np.int8))
+    result = make_result(wall_s=-H0, groups=Groups(1.0, 2.0, 3.0, 4.0, 5.0), moes_film=MoesFilm(1.0, 1.0))
+    rows = [{"grid": 65, "step": 0, "residual": -H0}]
+    return Solution(config, contact, mesh_from(config, contact), fields, rows, result, H0)
+
+
+SOLUTIONS = {H0: make_solution(H0) for H0 in (-0.25, -0.5)}
+FILES = {"configuration.toml", "fields.h5", "history.csv", "picture.png", "result.json"}
+
+
+@pytest.fixture(autouse=True)
+def quick(monkeypatch):
+    """Runs whose picture takes no time."""
+
+    def drawn(solution):
+        return b"picture of %f" % solution.H0
+
+    monkeypatch.setattr("mgehl.output.pictures.picture.drawn", drawn)
+
+
+def put(directory, H0, force=False):
+    """A run in a directory, as `mgehl run` puts it there."""
+    make_directory(directory, force)
+    prepare_directory(directory)
+    begin_run(directory, SOLUTIONS[H0].config)
+    finish_run(MPI.COMM_SELF, directory, SOLUTIONS[H0])
+    return directory
 
 
 def content(directory):
-    """{path: text, or where a link leads} of all that is in a directory."""
+    """{path: bytes, or where a link leads} of all that is in a directory."""
     found = {}
-    for path in sorted(Path(directory).rglob("*")):
-        if path.is_symlink():
-            found[str(path.relative_to(directory))] = f"-> {os.readlink(path)}"
-        elif not path.is_dir():
-            found[str(path.relative_to(directory))] = path.read_text() if path.is_file() else "device"
+    for path in Path(directory).rglob("*"):
+        if path.is_symlink() or not path.is_dir():
+            what = os.readlink(path) if path.is_symlink() else path.is_file() and path.read_bytes()
+            found[str(path.relative_to(directory))] = what
     return found
 
 
-class TestMaking:
-    def test_it_is_created_with_its_parents(self, tmp_path):
-        make_directory(tmp_path / "one" / "two")
-        assert (tmp_path / "one" / "two").is_dir()
+def timeless(directory):
+    """Its content without fields.h5, in which HDF5 puts the time."""
+    return {name: each for name, each in content(directory).items() if name != "fields.h5"}
 
-    def test_one_that_exists_is_refused(self, tmp_path):
+
+class TestMaking:
+    def test_it_is_created_with_its_parents_and_one_that_exists_is_refused(self, tmp_path):
+        path = tmp_path / "one" / "two"
+        make_directory(path)
         with pytest.raises(OutputError, match="--force"):
-            make_directory(tmp_path)
-        make_directory(tmp_path, force=True)
+            make_directory(path)
+        make_directory(path, force=True)
 
     @pytest.mark.parametrize("force", [False, True])
     def test_a_file_in_its_place_is_refused(self, tmp_path, force):
@@ -65,117 +101,156 @@ class TestMaking:
 class TestForeign:
     """What mgehl did not write, --force leaves alone, and says so."""
 
-    @pytest.mark.parametrize(
-        "name",
-        ["configuration.toml", "result.json", "history.csv", "fields.h5", "picture.png", "centerline.csv",
-         "checkpoint/under-way.npz", "checkpoint/solve-0000.npz"],
-    )  # fmt: skip
+    def refused(self, directory, laws=()):
+        before = content(directory)
+        with pytest.raises(OutputError, match="is left alone"):
+            prepare_directory(directory, laws)
+        assert content(directory) == before
+
+    @pytest.mark.parametrize("name", [*NAMES, "checkpoint/under-way.npz", "checkpoint/solve-0000.npz"])
     def test_a_file_of_a_name_of_ours(self, tmp_path, name):
         (tmp_path / name).parent.mkdir(exist_ok=True)
         (tmp_path / name).write_text("mine")
         self.refused(tmp_path)
 
-    def refused(self, directory):
-        before = content(directory)
-        with pytest.raises(OutputError, match="is left alone"):
-            prepare_directory(directory)
-        assert content(directory) == before
+    def test_a_law(self, tmp_path):
+        (put(tmp_path / "run", -0.5) / "laws").mkdir()
+        (tmp_path / "run" / "laws" / "a.py").write_text("mine")
+        prepare_directory(tmp_path / "run", ["laws/b.py"])
+        self.refused(tmp_path / "run", ["laws/a.py"])
 
     def test_what_has_other_names_does_not_matter(self, tmp_path):
         (tmp_path / "checkpoint").mkdir()
         for name in ("notes.txt", "report.html", "checkpoint/epoch-7.pt"):
             (tmp_path / name).write_text("mine")
         before = content(tmp_path)
-        prepare_directory(tmp_path)
-        install(tmp_path, put(stage_of(tmp_path), "new"))
-        clear_checkpoint(tmp_path)
-        assert before.items() <= content(tmp_path).items()
+        put(tmp_path, -0.5, force=True)
+        assert (
+            content(tmp_path).keys() == before.keys() | FILES
+            and before.items() <= content(tmp_path).items()
+        )
 
-    @pytest.mark.parametrize("name", ["result.json", "checkpoint", "laws"])
+    @pytest.mark.parametrize("name", ["result.json", "fields.h5", "checkpoint", "laws"])
     def test_a_link_is_not_followed(self, tmp_path, name):
-        there, here = tmp_path / "there", tmp_path / "here"
-        for folder in (there, here):
-            folder.mkdir()
-        (there / "under-way.npz").write_text("precious")
-        (here / name).symlink_to(there / "under-way.npz" if name == "result.json" else there)
+        (tmp_path / "there").mkdir()
+        (tmp_path / "there" / "under-way.npz").write_text("precious")
+        here = put(tmp_path / "here", -0.5)
+        (here / name).unlink(missing_ok=True)
+        (here / name).symlink_to(tmp_path / "there" / ("under-way.npz" if "." in name else ""))
         self.refused(here)
-        assert (there / "under-way.npz").read_text() == "precious"
+        assert (tmp_path / "there" / "under-way.npz").read_text() == "precious"
 
     def test_a_pipe_is_not_replaced(self, tmp_path):
-        os.mkfifo(tmp_path / "picture.png")
-        self.refused(tmp_path)
+        (put(tmp_path / "run", -0.5) / "picture.png").unlink()
+        os.mkfifo(tmp_path / "run" / "picture.png")
+        self.refused(tmp_path / "run")
 
-    def test_a_result_that_was_edited(self, tmp_path):
-        put(tmp_path, "old")
-        (tmp_path / "result.json").write_text("my own numbers")
-        self.refused(tmp_path)
+    @pytest.mark.parametrize(
+        "name", ["../../precious.txt", "laws/../../precious.txt", "laws/..", "laws/a\0b"]
+    )
+    def test_a_run_names_nothing_outside(self, tmp_path, name):
+        """Whoever made it: neither a configuration nor a checkpoint leads elsewhere."""
+        (tmp_path / "precious.txt").write_text("mine")
+        here = put(tmp_path / "here", -0.5)
+        with h5py.File(here / "fields.h5", "r+") as file:
+            texts = json.loads(file[WHOLE][()].tobytes())
+            texts |= {name: "", "configuration.toml": f"[surface]\nfile = {json.dumps(name)}\n"}
+            del file[WHOLE]
+            file[WHOLE] = np.frombuffer(json.dumps(texts).encode(), np.uint8)
+        put(here, -0.25, force=True)
+        checkpoint = here / "checkpoint"
+        record = {
+            "format": FORMAT,
+            "mgehl": VERSION,
+            "configuration": {},
+            "names": [name],
+            "origins": {name: ""},
+        }
+        save(checkpoint / "begun.npz", record, {"0": np.zeros(3, np.uint8)})
+        with pytest.raises(OutputError, match="it names files elsewhere"):
+            taken_up(here)
+        clear_checkpoint(here)
+        assert (tmp_path / "precious.txt").read_text() == "mine" and not checkpoint.exists()
 
     def test_a_study(self, tmp_path):
-        put(tmp_path, "tables", ("inlet.csv",), "study")
+        (tmp_path / "study.json").write_text("{}")
         with pytest.raises(OutputError, match="directory of a study"):
-            prepare_directory(tmp_path)
+            check_replaceable(tmp_path)
 
-    @pytest.mark.parametrize("name", ["../precious", "/etc/passwd", "laws/../../precious", "a/b", "..", ""])
-    def test_a_manifest_names_nothing_outside(self, tmp_path, name):
-        known = {name: "0" * 64}
-        for manifest in (
-            Manifest("run", new_identity(), known),
-            Manifest("run", new_identity(), {}, {}, known),
-        ):
-            manifest.write(tmp_path)
-            with pytest.raises(OutputError, match="manifest.json: is damaged: it names"):
-                read_manifest(tmp_path)
-
-
-class TestInstalling:
-    def test_the_old_result_stays_until_the_new_one_is_whole(self, tmp_path):
-        put(tmp_path, "old")
-        prepare_directory(tmp_path)
-        stage = put(stage_of(tmp_path), "new", NAMES[:2])
-        assert content(tmp_path)["result.json"] == "old" and check_result(tmp_path)
-        install(tmp_path, stage)
-        clear_checkpoint(tmp_path)
-        found = content(tmp_path)
-        del found["manifest.json"]
-        assert found == dict.fromkeys(NAMES[:2], "new") and check_result(tmp_path)
-        assert not (tmp_path / "laws").exists()
-
-    @pytest.mark.parametrize("moved", range(6))
-    def test_an_end_in_between_leaves_enough_to_go_on_with(self, tmp_path, monkeypatch, moved):
-        """After so many steps; whoever reads it then is refused."""
-        put(tmp_path, "old", (*NAMES, "fields.h5"))
-        identity = put(stage_of(tmp_path), "new") and read_manifest(stage_of(tmp_path)).identity
-        steps = iter(range(moved))
-        for name in ("replace", "unlink"):
-            monkeypatch.setattr(f"pathlib.Path.{name}", counting(getattr(Path, name), steps))
-        with pytest.raises(KeyboardInterrupt):
-            install(tmp_path, stage_of(tmp_path))
-        monkeypatch.undo()
-        for name in content(tmp_path):
-            if name in NAMES:
-                assert content(tmp_path)[name] in ("old", "new")
-        try:
-            check_result(tmp_path)
-        except OutputError:
-            pass
-        else:
-            assert {content(tmp_path)[name] for name in NAMES} in ({"old"}, {"new"})
-        prepare_directory(tmp_path)
-        assert check_result(tmp_path).identity == identity
-        assert content(tmp_path).keys() == {*NAMES, "manifest.json"}
-
-    def test_what_came_in_the_way_stays_and_so_does_the_result(self, tmp_path):
-        stage = put(stage_of(tmp_path), "new")
+    def test_what_came_in_the_way_stays_and_so_does_what_is_finished(self, tmp_path):
+        begin_run(tmp_path, SOLUTIONS[-0.5].config)
         (tmp_path / "result.json").write_text("mine")
         with pytest.raises(OutputError, match="is left alone"):
-            install(tmp_path, stage)
-        assert (tmp_path / "result.json").read_text() == "mine"
-        assert (stage / "result.json").read_text() == "new"
+            finish_run(MPI.COMM_SELF, tmp_path, SOLUTIONS[-0.5])
+        assert (tmp_path / "result.json").read_text() == "mine" and not (tmp_path / "fields.h5").exists()
 
-    def test_a_report_of_the_result_before_goes(self, tmp_path):
-        (tmp_path / "report.html").write_text('<head><meta name="generator" content="mgehl 0.1.0">')
-        install(tmp_path, put(stage_of(tmp_path), "new"))
-        assert not (tmp_path / "report.html").exists()
+
+WRITER = """
+import sys
+from mpi4py import MPI
+from mgehl.output import finish
+from mgehl.output.archive import save
+from mgehl.output.checkpoint import FORMAT, begin_run
+from test_directory import SOLUTIONS
+finish._is_drawn = lambda *_: False
+print("begun", flush=True)
+for number in range(int(sys.argv[2])):
+    solution = SOLUTIONS[-0.25 if number % 2 else -0.5]
+    begin_run(sys.argv[1], solution.config)
+    finish.finish_run(MPI.COMM_SELF, sys.argv[1], solution)
+"""
+
+
+class TestPublishing:
+    def test_a_reader_finds_the_old_run_or_the_new_one(self, tmp_path):
+        """Whenever it reads while another process writes a run over and over."""
+        put(tmp_path / "run", -0.5)
+        path = os.pathsep.join([str(Path(__file__).parent), *sys.path])
+        words = [sys.executable, "-c", WRITER, str(tmp_path / "run"), "100"]
+        with subprocess.Popen(
+            words, stdout=subprocess.PIPE, env=os.environ | {"PYTHONPATH": path}
+        ) as writer:
+            writer.stdout.readline()
+            found = []
+            while writer.poll() is None:
+                read = read_run(tmp_path / "run")
+                known = SOLUTIONS[read.H0]
+                assert (read.fields.P == known.fields.P).all() and read.rows == known.rows
+                assert read.result.wall_s == known.result.wall_s
+                found.append(read.H0)
+        assert writer.returncode == 0 and {*found} == {-0.25, -0.5}
+
+    @pytest.mark.parametrize("moved", range(0, 20))
+    def test_an_end_in_between_leaves_the_old_or_the_new_and_a_new_run_clears_up(
+        self, tmp_path, monkeypatch, moved
+    ):
+        """After so many steps."""
+        expected = timeless(put(tmp_path / "new", -0.5))
+        here = put(tmp_path / "here", -0.25)
+        (here / "report.html").write_text('<head><meta name="generator" content="mgehl 0.1.0">')
+        steps = iter(range(moved))
+        with monkeypatch.context() as change:
+            for name in ("replace", "unlink"):
+                change.setattr(f"pathlib.Path.{name}", counting(getattr(Path, name), steps))
+            with pytest.raises(KeyboardInterrupt):
+                put(here, -0.5, force=True)
+        assert read_run(here).H0 in (-0.25, -0.5)
+        config, _, _ = taken_up(here)
+        if config is None:  # the run is over, or has not begun
+            clear_checkpoint(here)
+        else:
+            finish_run(MPI.COMM_SELF, here, SOLUTIONS[-0.5])
+        if config is None and read_run(here).H0 == -0.25:
+            put(here, -0.5, force=True)
+        assert timeless(here) == expected and read_run(here).H0 == -0.5
+
+    def test_an_older_result_is_read_and_replaced(self, tmp_path):
+        """Its fields.h5 has no texts: the files beside it are what they are."""
+        here = put(tmp_path / "here", -0.5)
+        with h5py.File(here / "fields.h5", "r+") as file:
+            del file["run"]
+        assert read_run(here).H0 == -0.5
+        assert read_run(put(here, -0.25, force=True)).H0 == -0.25
 
 
 def counting(function, steps):
@@ -189,43 +264,7 @@ def counting(function, steps):
     return call
 
 
-class TestReading:
-    @pytest.mark.parametrize("name", NAMES)
-    def test_a_file_of_another_run_is_refused(self, tmp_path, name):
-        one, other = (put(tmp_path / text, text) for text in ("one", "other"))
-        (one / name).write_bytes((other / name).read_bytes())
-        with pytest.raises(OutputError, match="is of another run"):
-            check_result(one)
-
-    def test_every_bit_of_a_manifest_counts(self, tmp_path):
-        path = put(tmp_path, "one") / "manifest.json"
-        whole = bytearray(path.read_bytes())
-        for position in range(len(whole)):
-            whole[position] ^= 1 << position % 8
-            path.write_bytes(whole)
-            whole[position] ^= 1 << position % 8
-            try:
-                found = read_manifest(tmp_path)
-            except OutputError as error:
-                assert "\n" not in str(error)
-            else:  # a blank for another
-                path.write_bytes(whole)
-                assert found == read_manifest(tmp_path)
-
-    def test_a_picture_may_be_missing_and_not_be_another(self, tmp_path):
-        put(tmp_path, "one", (*NAMES, "picture.png"))
-        (tmp_path / "picture.png").unlink()
-        check_result(tmp_path)
-        (tmp_path / "picture.png").write_text("other")
-        with pytest.raises(OutputError, match="picture.png"):
-            check_result(tmp_path)
-
-    def test_one_that_has_not_finished_says_how_to_go_on(self, tmp_path):
-        put(tmp_path / "checkpoint", "begun", NAMES, "begun run")
-        with pytest.raises(OutputError, match="has not finished: go on with: mgehl run --resume"):
-            check_result(tmp_path)
-
-    def test_one_of_an_older_version_says_what_to_do(self, tmp_path):
-        (tmp_path / "result.json").write_text("{}")
-        with pytest.raises(OutputError, match="an older mgehl wrote it; make it again"):
-            check_result(tmp_path)
+def test_one_that_has_not_finished_says_how_to_go_on(tmp_path):
+    begin_run(tmp_path, SOLUTIONS[-0.5].config)
+    with pytest.raises(OutputError, match="has not finished: go on with: mgehl run --resume"):
+        read_run(tmp_path)

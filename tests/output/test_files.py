@@ -2,13 +2,13 @@
 
 import csv
 import json
-from dataclasses import asdict
+import tomllib
 
 import numpy as np
 import pytest
 import xarray
 
-from mgehl.config import config_from_tables, load_config
+from mgehl.config import config_from_tables
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.status import NAMES
 from mgehl.output import files
@@ -47,37 +47,22 @@ def make_result(**changes):
         {"moes": {"M": 20, "L": 10}, "lubricant": {"density_law": "constant"}},
     ],
 )
-def test_the_configuration_reads_back_as_itself(tmp_path, tables):
-    config = config_from_tables(tables)
-    path = tmp_path / "configuration.toml"
-    files.write_config(path, config.as_toml_tables())
-    assert load_config(path) == config
-
-
-def test_the_result_reads_back(tmp_path):
-    result = make_result()
-    files.write_result(tmp_path / "result.json", result)
-    read = json.loads((tmp_path / "result.json").read_text())
-    assert read == json.loads(json.dumps(asdict(result)))
-    assert read["contact"]["x_nodes"] == [4, 6] and read["contact"]["y_nodes"] is None
-
-
-def test_numbers_that_are_not_finite_stay_valid_json(tmp_path):
-    files.write_result(tmp_path / "result.json", make_result(residual=np.nan, flux_imbalance=np.inf))
+def test_texts_read_back(tables, paper_contact):
+    config, result = config_from_tables(tables), make_result(residual=np.nan, flux_imbalance=np.inf)
+    rows = [{"grid": 65, "step": 0, "residual": 0.1}, {"grid": 65, "step": 1, "residual": 1.25e-9}]
+    texts = files.texts_of(Solution(config, paper_contact(), None, None, rows, result))
+    assert config_from_tables(tomllib.loads(texts["configuration.toml"])) == config
+    read = list(csv.DictReader(texts["history.csv"].splitlines()))
+    assert [{k: float(v) for k, v in row.items()} for row in read] == rows
 
     def refuse(constant):
         raise AssertionError(f"{constant} is not JSON")
 
-    read = json.loads((tmp_path / "result.json").read_text(), parse_constant=refuse)
+    read = json.loads(texts["result.json"], parse_constant=refuse)
     assert read["residual"] is None and read["flux_imbalance"] is None
-
-
-def test_the_history_has_a_row_for_each_cycle(tmp_path):
-    rows = [{"grid": 65, "step": 0, "residual": 0.1}, {"grid": 65, "step": 1, "residual": 1.25e-9}]
-    files.write_history(tmp_path / "history.csv", rows)
-    with (tmp_path / "history.csv").open() as file:
-        read = list(csv.DictReader(file))
-    assert [{k: float(v) for k, v in row.items()} for row in read] == rows
+    assert read["contact"]["x_nodes"] == [4, 6] and read["contact"]["y_nodes"] is None
+    assert "hertz" not in read and read["mixed"] is None
+    assert read.keys() == files.plain_result(result).keys()
 
 
 class TestFields:
@@ -98,7 +83,7 @@ class TestFields:
     @pytest.fixture
     def data(self, tmp_path, mesh, contact, fields):
         solution = Solution(None, contact, mesh, fields, [], None, H0=-0.5)
-        files.write_fields(tmp_path / "fields.h5", solution)
+        files.write_fields(tmp_path / "fields.h5", solution, {"history.csv": "a"})
         with xarray.open_dataset(tmp_path / "fields.h5", engine="h5netcdf") as data:
             yield data
 

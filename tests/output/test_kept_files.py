@@ -8,7 +8,6 @@ import pytest
 
 from mgehl.cli import main
 from mgehl.errors import OutputError
-from mgehl.output.manifest import checksum, read_manifest
 from mgehl.output.stored import read_run
 
 DRY = ["--set", "discretization.contact_model=dry", "--set", "grid.nodes=65", "--quiet"]
@@ -42,10 +41,9 @@ def finished(here):
     return here / "run"
 
 
-def test_the_copy_is_the_file_and_its_hash_is_kept(here, finished):
+def test_the_copy_is_the_file(here, finished):
     copy, file = finished / "laws" / "heights.npy", here / "measured" / "heights.npy"
     assert copy.read_bytes() == file.read_bytes()
-    assert read_manifest(finished).files["laws/heights.npy"] == checksum(file)
     text = (finished / "configuration.toml").read_text()
     assert 'file = "laws/heights.npy"' in text and str(here) not in text
 
@@ -67,7 +65,7 @@ def test_it_runs_again_where_the_original_is_not(here, finished, tmp_path_factor
 
 def test_a_copy_that_was_changed_is_said_and_its_run_is_not_read(finished, capsys):
     np.save(finished / "laws" / "heights.npy", heights(2))
-    with pytest.raises(OutputError, match="laws/heights.npy: is damaged, was edited"):
+    with pytest.raises(OutputError, match="laws/heights.npy: is missing, damaged, or of another run"):
         read_run(finished)
     capsys.readouterr()
     assert main(["run", "run/configuration.toml", "--out", "again", "--quiet"]) == 0
@@ -85,15 +83,6 @@ def test_a_run_goes_on_with_its_copy_and_says_that_the_file_changed(here, capsys
     assert err.count("\n") == 1
     assert "mgehl: measured/heights.npy has changed since the run began, which goes on with its copy" in err
     np.testing.assert_array_equal(read_run("stopped").film, read_run("whole").film)
-
-
-def test_a_run_whose_copy_was_changed_does_not_go_on(here, capsys):
-    assert run(*ROUGH, "--out", "stopped", "--time-limit", "1e-9") == 143
-    np.save("stopped/checkpoint/laws/heights.npy", heights(2))
-    capsys.readouterr()
-    assert main(["run", "--resume", "stopped", "--quiet"]) == 2
-    err = capsys.readouterr().err
-    assert err.count("\n") == 1 and "laws/heights.npy: was edited or is damaged" in err
 
 
 def test_files_of_one_name_are_kept_apart(here):

@@ -802,6 +802,6 @@ class TestCommandLine:
         spoke = COMM.allgather(bool(out))
         assert spoke == [True] + [False] * (COMM.size - 1)
         names = {path.name for path in here.iterdir()}
-        assert names == {"configuration.toml", "fields.h5", "history.csv", "manifest.json", "picture.png",
+        assert names == {"configuration.toml", "fields.h5", "history.csv", "picture.png",
                          "result.json"}  # fmt: skip
         assert f"{COMM.size} ranks" in (out if COMM.rank == 0 else f"{COMM.size} ranks")

@@ -38,7 +38,7 @@ def study(tmp_path, monkeypatch):
 
 def test_two_speeds_from_both_starts(study):
     status, here, rows = study("--set", "contact.boundary_film=10 nm")
-    files = {"rough.csv", "rough.md", "load-share.png", "points", "study.json", "manifest.json"}
+    files = {"rough.csv", "rough.md", "load-share.png", "points", "study.json"}
     assert status == 0 and {path.name for path in here.iterdir()} == files
     assert [(row["speed mm/s"], row["start"]) for row in rows] == [
         ("10", "film"), ("10", "contact"), ("5", "film"), ("5", "contact"),

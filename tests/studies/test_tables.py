@@ -12,7 +12,7 @@ from mgehl.discretization.couette import SCHEMES
 from mgehl.run import solve
 from mgehl.studies.study import PAPER, merged, papers_grid
 
-OTHERS = {"points", "study.json", "manifest.json"}
+OTHERS = {"points", "study.json"}
 """What every study's directory has beside tables and figures."""
 
 
@@ -47,7 +47,6 @@ class TestWedge:
         assert {path.name for path in directory.iterdir()} == tables | figures | {
             "points",
             "study.json",
-            "manifest.json",
         }
         assert all((directory / name).read_bytes().startswith(b"\x89PNG") for name in figures)
 

@@ -37,14 +37,14 @@ def attack_kills(count, chance, folder, findings, ranks=1):
     run = [*RUN, "--save-every", "0.001", "--set", "motion.speed=0.5"]
     anew = [*run, "--out", "here", "--force"]
     resumed = ["run", "--resume", "here", "--quiet"]
-    here, saved = folder / "here", folder / "here" / "checkpoint" / "manifest.json"
+    here, saved = folder / "here", folder / "here" / "checkpoint" / "begun.npz"
     started = time.monotonic()
     if status := command([*run, "--out", "whole"], ranks).wait():
         findings.say(f"the run without a kill: {status}")
     usual = time.monotonic() - started
     killed, killed_when_saved = 0, 0
     while killed < count:
-        is_begun = saved.exists() or (here / "manifest.json").exists()
+        is_begun = saved.exists() or (here / "fields.h5").exists()
         process = command(resumed if is_begun else anew, ranks)
         _wait_for_a_moment(chance, process, here / "checkpoint", usual)
         is_saved = is_begun or saved.exists()

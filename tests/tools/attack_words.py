@@ -87,6 +87,6 @@ def attack_words(count, chance, folder, findings, fresh=False):
         for path in folder.iterdir():  # what a command made of nasty words
             if path.name not in KEPT and path.name not in {name.split("/")[0] for name in FOREIGN}:
                 shutil.rmtree(path) if path.is_dir() and not path.is_symlink() else path.unlink()
-        if not (folder / "healthy" / "manifest.json").exists():
+        if not (folder / "healthy" / "fields.h5").exists():
             findings.say(f"healthy run lost by {words!r}")
             return

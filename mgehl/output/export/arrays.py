@@ -2,14 +2,13 @@
 
 import csv
 import json
-from dataclasses import asdict
 from io import BytesIO
 
 import numpy as np
 
 from mgehl.discretization import status
 from mgehl.output.export.fluid import fluid_fields
-from mgehl.output.files import finite
+from mgehl.output.files import finite, plain_result
 from mgehl.output.laws import portable
 
 COLUMNS = ("x_m", "y_m", "pressure_Pa", "film_m", "status")
@@ -35,7 +34,7 @@ def write_npz(path, solution):
         status=fields.status,
         **fluid_fields(solution),
         status_names=np.array(status.names(solution.is_dry)),
-        result=json.dumps(finite(asdict(solution.result)), allow_nan=False),
+        result=json.dumps(finite(plain_result(solution.result)), allow_nan=False),
         configuration=json.dumps(portable(solution.config)),
     )
     path.write_bytes(memory.getbuffer())

@@ -1,7 +1,7 @@
 """The page of one run: what run.html.j2 shows is put together here where a template could not."""
 
 import re
-from dataclasses import asdict, fields
+from dataclasses import fields
 from functools import partial
 from itertools import chain, groupby
 from pathlib import Path
@@ -11,6 +11,7 @@ from mgehl.kinds.own import naming_keys
 from mgehl.model.own_function import file_and_function
 from mgehl.output.digits import with_band
 from mgehl.output.domain import STARVED_FROM
+from mgehl.output.files import plain_result
 from mgehl.output.mixed_words import gap_band_words, mean_gaps, mixed_note
 from mgehl.output.pictures import style
 from mgehl.output.pictures.figures import drawn_by, figures
@@ -63,7 +64,7 @@ def report(solution, name):
             heads=heads, last=last, shown=shown,
             every="Every cycle" if len(shown) == len(rows) else f"{len(shown)} of {len(rows)} cycles",
             versions=[(package, Cell(text, "code")) for package, text in result.versions.items()],
-            record=[(Cell(field, "code"), text) for field, text in _leaves(asdict(result))],
+            record=[(Cell(field, "code"), text) for field, text in _leaves(plain_result(result))],
         )  # fmt: skip
 
 

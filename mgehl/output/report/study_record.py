@@ -27,6 +27,8 @@ class StudyRecord:
     cases: int | None = None
     """How many are drawn by chance, as `seed`."""
     seed: int | None = None
+    files: tuple = ()
+    """Tables and pictures that it wrote; none until it has finished."""
 
 
 def write_record(directory, record):
