@@ -598,10 +598,10 @@ def test_own_functions_of_a_file_are_found_from_the_file(tmp_path, monkeypatch):
 
 def test_objects_of_one_s_own():
     """From the configuration to the contact, without a look at the files."""
+    from mgehl.kinds import contact_from
     from mgehl.model.coating import Coating
     from mgehl.model.own_function import OwnFunction
     from mgehl.model.own_laws import OwnCompliance, OwnDensity, OwnSurface, OwnViscosity
-    from mgehl.solver.from_config import contact_from
 
     own = {"viscosity_law": "/there/mine.py:eta", "density_law": "/there/mine.py:rho"}
     tables = {"contact": {"surface": "/m.py:s", "deformation": "/m.py:c"}, "lubricant": own, **MOES}

@@ -9,11 +9,11 @@ import pytest
 from mgehl.config import load_config
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
+from mgehl.kinds import contact_from
 from mgehl.output.film_error import NOT_ASKED
 from mgehl.output.pictures import style
 from mgehl.output.result import Overlap
 from mgehl.output.solution import Fields, Solution
-from mgehl.solver.from_config import contact_from
 
 WEDGE = ("contact.kind=wedge", "grid.nodes=65", "wedge.pillar=square")
 FILM = 2e-4

@@ -5,9 +5,9 @@ from test_files import make_result
 
 from mgehl.config import config_from_tables
 from mgehl.discretization.mesh import Mesh
+from mgehl.kinds import contact_from
 from mgehl.output.solution import Fields, Solution
 from mgehl.output.wedge_result import WedgeResult
-from mgehl.solver.from_config import contact_from
 
 TABLES = {
     "point": {"contact": {"radius_y": 25.4e-3}, "motion": {"speed": 0.5}},

@@ -9,9 +9,10 @@ from mgehl.config import config_from_tables
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
 from mgehl.errors import UserError
 from mgehl.grid.hierarchy import Hierarchy
+from mgehl.kinds import contact_from, mesh_from
 from mgehl.model.frame import Frame
 from mgehl.run import solve
-from mgehl.solver.from_config import contact_from, mesh_from, settings_from
+from mgehl.solver.from_config import settings_from
 from mgehl.solver.problem import ContactProblem
 from mgehl.solver.restart import check_start, interpolated
 from mgehl.studies.study import PAPERS_DOMAIN, papers_grid

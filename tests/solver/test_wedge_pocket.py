@@ -13,8 +13,9 @@ from mgehl.config import config_from_tables
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.status import CAVITATED
 from mgehl.grid.grid import single_grid
+from mgehl.kinds import contact_from
 from mgehl.run import solve
-from mgehl.solver.from_config import contact_from, scheme_from
+from mgehl.solver.from_config import scheme_from
 from mgehl.solver.mass import CLOSED
 from mgehl.solver.verification import complementarity_error
 from mgehl.solver.wedge import WedgeProblem, solve_wedge

@@ -9,10 +9,11 @@ from mpi4py import MPI
 from mgehl.config import config_from_tables
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
 from mgehl.grid.grid import single_grid
+from mgehl.kinds import contact_from, mesh_from
 from mgehl.model.wedge_series import WedgeSeries
 from mgehl.output.center_line import center_line
 from mgehl.run import solve as solve_config
-from mgehl.solver.from_config import contact_from, mesh_from, scheme_from
+from mgehl.solver.from_config import scheme_from
 from mgehl.solver.verification import closed_face_flow, complementarity_error, flux_imbalance
 from mgehl.solver.wedge import solve_wedge
 from mgehl.studies.study import merged, observed_order
