@@ -92,14 +92,6 @@ class TestKills:
         (folder / "a.npz").rename(folder / "b.npz")
         assert cache.load("b", made) is None
 
-    def test_an_edited_point_is_missing(self, cache, folder):
-        """Zipped anew, with what belongs to zip right."""
-        cache.store("a", POINT.record)
-        with np.load(folder / "a.npz") as file:
-            members = {name: file[name] for name in file.files}
-        np.savez(folder / "a.npz", **members | {"P": members["P"] + 1.0})
-        assert cache.load("a", made) is None
-
     def test_a_pickle_is_not_opened(self, cache, folder):
         folder.mkdir()
         stored = pickle.dumps(Trap(), protocol=pickle.HIGHEST_PROTOCOL)
