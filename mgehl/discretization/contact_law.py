@@ -5,11 +5,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-SLACK, SLACK_OF_LAYERS = 1e-7, 1e-3
-"""By how much a film may be thinner than the layers before it counts as contact, in units of H and over the
-layers; the less of both. Under high pressure so thin a film and contact let equally little through. Nodes
-that turned at once would close and open for ever, a few at a time (a ball of 107 nm rms at 0.011 mm/s)."""
-
 
 class ContactLaw(ABC):
     """How small gaps let fluid through, and when they are closed; gaps in units of H."""
@@ -93,7 +88,7 @@ class BoundaryFilm(ContactLaw):
     closes_faces = False
 
     def flow_gap(self, H):
-        return np.maximum(H, self._closes_at), H > self._closes_at
+        return np.maximum(H, self.film), H > self.film
 
     def carried(self, H):
         """What lies above the layers: they stick to the surfaces, and are not compressed.
@@ -104,15 +99,10 @@ class BoundaryFilm(ContactLaw):
         return H - self.film
 
     def closed(self, H, was_released):
-        return self._closes_at >= H
+        return self.film >= H
 
     def takes_fluid(self, H):
         return H >= self.film
-
-    @property
-    def _closes_at(self):
-        """The gap below which a film is contact; down to it no equation has a kink."""
-        return self.film - min(SLACK, SLACK_OF_LAYERS * self.film)
 
     @property
     def contact_gap(self):
