@@ -128,15 +128,15 @@ def configuration_of(directory):
     return read_begun(directory).tables
 
 
-def assert_same(directory, solution):
-    """Films to 1e-9 of the largest, the same status map."""
+def assert_same(directory, solution, steps=0):
+    """Films to 1e-9 of the largest, the same status map; history of so many `steps` more or less."""
     read = read_run(directory)
     np.testing.assert_array_equal(read.status, solution.status)
     np.testing.assert_allclose(read.film, solution.film, rtol=0.0, atol=1e-9 * solution.film.max())
     np.testing.assert_allclose(
         read.pressure, solution.pressure, rtol=0.0, atol=1e-9 * solution.pressure.max()
     )
-    assert len(read.rows) == len(solution.rows)
+    assert abs(len(read.rows) - len(solution.rows)) <= steps
     assert read.result.converged == solution.result.converged
     assert {path.name for path in directory.iterdir()} == FILES
 
@@ -232,7 +232,7 @@ class TestStops:
             words = ["--resume", "here"]
         assert end(start([*words, "--quiet"], ranks)) == (0, [])
         whole = uninterrupted(ROUGH)
-        assert_same(tmp_path / "here", whole)
+        assert_same(tmp_path / "here", whole, steps=0 if ranks == 1 else 2)
         work = read_run(tmp_path / "here").result.work
         # On two ranks sums round differently: 157 convolutions for 152.
         apart = 1e-12 if ranks == 1 else 0.1
