@@ -11,10 +11,10 @@ from mgehl.errors import ConfigError
 PARALLEL = True
 
 STUDIES = {
-    "wedge": "the rigid wedge bearing: Figures 7 to 10, convergence to the exact series",
+    "wedge": "the rigid wedge bearing: Figures 7 to 10, exact series, a pocket",
     "grid": "full contact and full film on ever finer grids: Figures 11 to 13",
     "transition": "from full film to full contact and back: Figure 14, Table 1",
-    "methods": "Newton beside the paper's relaxation, interface conditions beside none",
+    "methods": "Newton beside relaxation, interface conditions beside none",
     "schemes": "a film by every differential scheme",
     "error": "do the bands about films hold? Point contacts by chance",
     "gaps": "do the bands about mean gaps hold? Rough balls by chance",
