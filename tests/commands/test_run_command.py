@@ -59,8 +59,10 @@ class TestWithoutAConfiguration:
         assert main(["run"]) == 0
         words = capsys.readouterr().out
         assert f"no configuration named: solving {chosen_config()}\n" in words
-        assert "contact carries 30.6" in words
-        mixed = json.loads((tmp_path / "runs" / "rough" / "result.json").read_text())["mixed"]
+        assert "contact carries" in words
+        result = json.loads((tmp_path / "runs" / "rough" / "result.json").read_text())
+        mixed = result["mixed"]
+        assert 0.304 < result["contact"]["load_fraction"] < 0.309
         assert mixed["patches"] in (12, 13) and 0.032 < mixed["lambda_ratio"] < 0.034
 
     def test_settings_alone_change_the_papers_ball_and_that_is_said(self, tmp_path, capsys):
