@@ -57,7 +57,7 @@ def add(commands):
         formatter_class=RawDescriptionHelpFormatter,
         description="Solve the cases of a study; write its tables and pictures.\n\n"
         + "\n".join(f"  {name:12}{text}" for name, text in STUDIES.items()),
-        epilog="example: mpiexec -n 2 python -m mgehl study mixed --cases 20",
+        epilog="example: mpiexec -n 2 python -m mgehl study schemes --nodes 65,129",
     )
     parser.add_argument("study", type=_name, choices=tuple(STUDIES), metavar="NAME", help="of those above")
     parser.add_argument("--nodes", "--grid", metavar="N,N,...", help="grids instead of the study's own")
