@@ -2,7 +2,6 @@
 
 import csv
 import json
-from dataclasses import asdict
 
 import numpy as np
 import pytest
@@ -11,6 +10,7 @@ from made_solution import SHAPES, make_solution
 from mgehl.config import config_from_tables
 from mgehl.discretization.status import NAMES
 from mgehl.output.export.arrays import write_csv, write_npz
+from mgehl.output.files import plain_result
 
 every_kind = pytest.mark.parametrize("kind", SHAPES)
 
@@ -29,7 +29,7 @@ def test_the_archive_holds_every_bit_and_no_pickle(kind, tmp_path):
             np.testing.assert_array_equal(read[name], values)
             assert read[name].dtype == values.dtype
         assert read["status_names"].tolist() == list(NAMES)
-        assert json.loads(str(read["result"])) == json.loads(json.dumps(asdict(solution.result)))
+        assert json.loads(str(read["result"])) == json.loads(json.dumps(plain_result(solution.result)))
         assert config_from_tables(json.loads(str(read["configuration"]))) == solution.config
 
 

@@ -134,7 +134,7 @@ def test_lines_of_equal_film_are_numbered_in_nm(make_solution, drawn):
     solution.fields.H *= 1.0 - 0.5 * np.minimum(np.abs(solution.mesh.Y[:, None]), 1.0)
     axes = drawn(maps.film_map, solution)
     numbers = {float(text.get_text()) for text in axes.texts}
-    assert len(numbers) >= 3
+    assert len(numbers) >= 2
     assert numbers <= {float(label.get_text()) for label in axes.child_axes[0].get_yticklabels()}
 
 
