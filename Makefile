@@ -40,7 +40,7 @@ PICTURES := configs/pictures
 CASES := runs/cases
 RUN_CASE := mpiexec -n 2 python -m mgehl run --force --quiet
 SPEEDS := 500 100 20 5 2 1 0.6 0.3 0.1
-OF_SPEEDS := run,converged,lambda,mean gap nm,load on contact,load on solids,contact/Hertz area,inlet cells,convolutions
+OF_SPEEDS := run,converged,lambda,mean film nm,load on contact,load on solids,contact/Hertz area,inlet cells,convolutions
 DRAW := mgehl plot --format png --dpi 88 --out runs/cases/plots
 pictures: $(ENVIRONMENT)
 	mkdir -p $(PICTURES)
