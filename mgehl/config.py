@@ -19,6 +19,7 @@ from mgehl.kinds import choices, kind_of
 from mgehl.kinds.choice import named, value_of
 from mgehl.kinds.point import CoatingSection, MoesSection
 from mgehl.kinds.surface_kinds import SurfaceSection
+from mgehl.kinds.time import TimeSection
 from mgehl.kinds.wedge import WedgeSection
 
 COARSEST_NODES = 33
@@ -45,6 +46,7 @@ class Config:
     wedge: WedgeSection = WedgeSection()
     lubricant: sections.LubricantSection = sections.LubricantSection()
     motion: sections.MotionSection = sections.MotionSection()
+    time: TimeSection = TimeSection()
     surface: SurfaceSection = SurfaceSection()
     second_surface: SurfaceSection = SurfaceSection()
     moes: MoesSection = MoesSection()
@@ -62,6 +64,11 @@ class Config:
     def is_dry(self):
         """Whether there is no fluid."""
         return self.discretization.contact_model == "dry"
+
+    @property
+    def is_in_time(self):
+        """Whether it is a run in time, and no steady state."""
+        return self.time.end is not None
 
     @property
     def unused(self):

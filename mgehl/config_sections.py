@@ -10,6 +10,7 @@ from mgehl.discretization.couette import SCHEMES
 from mgehl.discretization.fluid import FACE_MOBILITIES
 from mgehl.discretization.scheme import INTERFACES, Scheme
 from mgehl.kinds import KINDS
+from mgehl.model.course import absolute_course
 from mgehl.model.lubricant import DENSITY_LAWS, VISCOSITY_LAWS
 from mgehl.model.own_function import absolute
 
@@ -20,8 +21,14 @@ class ContactSection:
         "point", "loaded point or line contact, or a rigid wedge bearing",
         choices=tuple(KINDS), kind=str,
     )  # fmt: skip
-    load: float = key_field(800.0, "normal load of a point contact", "N", low=1e-6, high=1e9)
-    load_per_length: float = key_field(500e3, "load of a line contact", "N/m", low=1e-6, high=1e12)
+    load: float | str = key_field(
+        800.0, "normal load of a point contact; in time a table FILE.csv of s, N or FILE.py:FUNCTION", "N",
+        low=1e-6, high=1e9, own=absolute_course,
+    )  # fmt: skip
+    load_per_length: float | str = key_field(
+        500e3, "load of a line contact; in time as contact.load", "N/m", low=1e-6, high=1e12,
+        own=absolute_course,
+    )  # fmt: skip
     radius_x: float = key_field(12.7e-3, "reduced radius along x", "m", low=1e-6, high=100.0)
     radius_y: float = key_field(12.7e-3, "reduced radius along y", "m", low=1e-6, high=100.0)
     reduced_modulus: float = key_field(
@@ -56,10 +63,17 @@ class LubricantSection:
 
 @dataclass(frozen=True)
 class MotionSection:
-    speed: float = key_field(5e-6, "entrainment speed u of the flow rho u h", "m/s", low=1e-12, high=1e3)
+    speed: float | str = key_field(
+        5e-6, "entrainment speed u of the flow rho u h; in time a table FILE.csv of s, m/s or "
+        "FILE.py:FUNCTION", "m/s", low=1e-12, high=1e3, own=absolute_course,
+    )  # fmt: skip
     angle: float = key_field(
         0.0, "direction in which both surfaces move, from +x towards +y", "deg", low=-360.0, high=360.0
     )
+    slide_to_roll: float = key_field(
+        0.0, "2 (u_1 - u_2)/(u_1 + u_2) of both surfaces' speeds; 2: body 2 stands still",
+        low=-100.0, high=100.0,
+    )  # fmt: skip
 
 
 @dataclass(frozen=True)

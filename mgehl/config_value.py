@@ -34,13 +34,14 @@ def key_field(
 ):  # fmt: skip
     """A dataclass field that carries its rules as metadata.
 
-    `own`, of a word, reads what is none of the choices, such as a function of the user's own, whose path
-    counts from a directory; it returns None for what it cannot read. `own_name` is how messages call that.
+    `own` reads a word that is none of the choices, or no number, such as a function of the user's own, whose
+    path counts from a directory; it returns None for what it cannot read. `own_name` is how messages call that.
     """
     rules = {
         "help": help, "unit": unit, "above": above, "low": low, "high": high,
         "choices": choices, "kind": kind, "own": own,
-        "words": (*(choices or ()), *([own_name] if own else []), *([AUTO] if kind is tuple else [])),
+        "words": (*(choices or ()), *([own_name] if own and kind is str else []),
+                  *([AUTO] if kind is tuple else [])),
     }  # fmt: skip
     return field(default=default, metadata=rules)
 
@@ -58,6 +59,8 @@ def read_value(key, rules, value):
     """The value that `value`, as read from TOML, stands for. Raises ConfigError."""
     if rules["kind"] is str:
         return _word(key, rules, value)
+    if rules["own"] and (own := rules["own"](value)):
+        return own
     if rules["kind"] is tuple:
         return _interval(key, value)
     if rules["kind"] is bool:
@@ -85,7 +88,7 @@ def read_quantity(name, text, unit, above=0.0):
     except ValueError:
         value = text
     limits = {"above": above, "low": None, "high": None}
-    return read_value(name, limits | {"choices": None, "kind": float, "unit": unit}, value)
+    return read_value(name, limits | {"choices": None, "kind": float, "unit": unit, "own": None}, value)
 
 
 def _number(key, rules, value):

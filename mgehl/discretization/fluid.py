@@ -126,6 +126,11 @@ class FaceMobility:
     by_rho: tuple = ()
     """Slopes by the densities, the mobilities held; nothing where the mobilities say it all."""
 
+    def times(self, weight):
+        """That of faces which count `weight` times."""
+        slopes = (tuple(weight * each for each in some) for some in (self.by_eps, self.by_gap, self.by_rho))
+        return FaceMobility(weight * self.value, *slopes)
+
     def of_lines(self, axis, lines):
         """That of the faces of some `lines` of nodes (a slice), which lie along an `axis`."""
 

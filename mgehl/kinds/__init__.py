@@ -14,6 +14,7 @@ from mgehl.kinds.line import LINE
 from mgehl.kinds.own import naming_keys
 from mgehl.kinds.point import POINT, deformation_choice, moes_choice
 from mgehl.kinds.surface_kinds import surface_choices
+from mgehl.kinds.time import scene_of, time_choice
 from mgehl.kinds.wedge import WEDGE, wedge_choices
 
 KINDS = {kind.name: kind for kind in (POINT, LINE, WEDGE)}
@@ -27,7 +28,13 @@ def choices(tables):
     """
     kind = KINDS.get(word_of(tables, "contact.kind"))
     bodies = kind and kind_choice(kind), deformation_choice(tables), moes_choice(tables)
-    found = *bodies, *surface_choices(tables), fluid_choice(tables), *wedge_choices(tables)
+    found = (
+        *bodies,
+        *surface_choices(tables),
+        time_choice(tables),
+        fluid_choice(tables),
+        *wedge_choices(tables),
+    )
     return [each for each in found if each]
 
 
@@ -51,6 +58,11 @@ class Case:
     contact: Any
     mesh: Any
     """The finest."""
+
+    @property
+    def scene(self):
+        """The `Scene` of a run in time."""
+        return scene_of(self.config, self.contact)
 
 
 def case_of(config):

@@ -4,6 +4,7 @@ from mgehl.discretization.mesh import Mesh
 from mgehl.kinds.kind import Effort
 from mgehl.kinds.loaded import LoadedKind, lubricant_from
 from mgehl.kinds.surface import surface_from
+from mgehl.kinds.time import reference
 from mgehl.model.line import LineContact
 
 EFFORT = Effort(70.0, 3e-7, 5e-3, 2500.0, "line contacts on 1025 to 16385 nodes took 20 to 180")
@@ -18,7 +19,7 @@ class LineKind(LoadedKind):
     takes = (
         "contact.load_per_length", "contact.radius_x", "contact.reduced_modulus", "contact.boundary_film",
         "contact.surface", "surface", "second_surface",
-        "lubricant", "motion.speed", "grid.nodes", "grid.x", "discretization", "solver", "relaxation",
+        "lubricant", "motion.speed", "motion.slide_to_roll", "time", "grid.nodes", "grid.x", "discretization", "solver", "relaxation",
     )  # fmt: skip
     essential = {
         "contact.kind": "line", "contact.load_per_length": "1859 N/mm",
@@ -30,10 +31,10 @@ class LineKind(LoadedKind):
 
     def contact(self, config):
         """A `LineContact`."""
-        section, speed = config.contact, config.motion.speed
+        section, speed = config.contact, reference(config, "motion.speed")
         body = (section.radius_x, section.reduced_modulus)
         lubricant, surface = lubricant_from(config), surface_from(config)
-        return LineContact(section.load_per_length, *body, speed, lubricant, surface)
+        return LineContact(reference(config, "contact.load_per_length"), *body, speed, lubricant, surface)
 
     def mesh(self, config, contact):
         """A single line of nodes."""

@@ -4,7 +4,7 @@ from dataclasses import asdict, replace
 
 from mgehl.config_value import AUTO, FARTHEST, shown
 from mgehl.errors import ConfigError
-from mgehl.kinds import loaded_checks, surface
+from mgehl.kinds import loaded_checks, surface, time
 from mgehl.kinds.kind import Effort, Kind, kept_together
 from mgehl.model.lubricant import DENSITY_LAWS, VISCOSITY_LAWS, Lubricant
 from mgehl.model.own_function import OwnFunction, is_own
@@ -32,6 +32,7 @@ class LoadedKind(Kind):
     def check_keys(self, config):
         """Neither the viscosity law nor the surfaces may contradict themselves."""
         surface.check_keys(config)
+        time.check_courses(config)
         check_laws(config)
 
     def settled(self, config, contact):
@@ -40,6 +41,8 @@ class LoadedKind(Kind):
         if not names:
             return config
         ends = dict(zip("xy", self.domain(contact, config.grid.nodes), strict=True))
+        if time.reverses(config):
+            ends = {name: (-max(-end[0], end[1]), max(-end[0], end[1])) for name, end in ends.items()}
         return replace(config, grid=replace(config.grid, **{name: ends[name] for name in names}))
 
     def domain(self, contact, nodes):

@@ -11,6 +11,7 @@ from mgehl.kinds.kind import Effort
 from mgehl.kinds.loaded import LoadedKind, lubricant_from
 from mgehl.kinds.own import compliance_from
 from mgehl.kinds.surface import surface_from
+from mgehl.kinds.time import reference
 from mgehl.model.coating import Coating
 from mgehl.model.point import PointContact
 
@@ -75,7 +76,7 @@ class PointKind(LoadedKind):
         "contact.load", "contact.radius_x", "contact.radius_y", "contact.reduced_modulus",
         "contact.deformation", "contact.boundary_film", "contact.surface",
         "surface", "second_surface",
-        "coating", "lubricant", "motion", "moes", "grid", "discretization", "solver", "relaxation",
+        "coating", "lubricant", "motion", "time", "moes", "grid", "discretization", "solver", "relaxation",
     )  # fmt: skip
     essential = {
         "contact.kind": "point", "contact.load": "800 N",
@@ -106,7 +107,8 @@ class PointKind(LoadedKind):
         more |= {"angle": config.motion.angle, "load_beyond": config.grid.load_beyond}
         if moes.M is not None:
             return PointContact.from_moes(moes.M, moes.L, *body, lubricant, **more)
-        return PointContact(section.load, *body, config.motion.speed, lubricant, **more)
+        load, speed = reference(config, "contact.load"), reference(config, "motion.speed")
+        return PointContact(load, *body, speed, lubricant, **more)
 
     def mesh(self, config, contact):
         """A square of nodes over the ellipse."""

@@ -9,7 +9,7 @@ import numpy as np
 
 from mgehl.errors import ConfigError
 from mgehl.kinds.own import own_surface_from
-from mgehl.kinds.surface_kinds import MOVING, NAMES, surface_of
+from mgehl.kinds.surface_kinds import NAMES, share_of, surface_of
 from mgehl.model.frame import direction
 from mgehl.model.own_function import OwnFunctionError
 from mgehl.model.own_laws import OwnSurface
@@ -32,7 +32,8 @@ def check_keys(config):
             either = f"{name}.wavelength_x: it or {name}.wavelength_y"
             raise ConfigError(f'{either} must be given with {name}.kind = "waviness"')
         _check_cut_offs(name, section)
-        _check_motion(name, section, config.motion.angle)
+        if not config.is_in_time:
+            _check_motion(name, section, config.motion)
 
 
 def _check_cut_offs(name, section):
@@ -49,14 +50,15 @@ def _check_cut_offs(name, section):
         )
 
 
-def _check_motion(name, section, angle):
+def _check_motion(name, section, motion):
     """The heights of a body that moves must be the same all along the motion."""
-    if section.body != MOVING or (surface := surface_of(section)) is None:
+    moves = share_of(section.body, motion.slide_to_roll) != 0.0
+    if not moves or (surface := surface_of(section)) is None:
         return
-    if surface.varies_along(direction(angle)):
+    if surface.varies_along(direction(motion.angle)):
         raise ConfigError(
-            f'{name}.body = "moving": its heights change along the motion, and so the film with time; '
-            "mgehl solves steady states: the rough body stands still, the other moves at twice motion.speed"
+            f'{name}.body = "{section.body}": its heights change along the motion, and so the film with time; '
+            "a steady state has a rough body that stands still; give time.end for a run in time"
         )
 
 

@@ -23,7 +23,14 @@ OF_A_FILE = (
 )  # fmt: skip
 """Keys of a surface from a file."""
 
-STILL, MOVING = "still", "moving"
+STILL, MOVING, BODY_1, BODY_2 = "still", "moving", "body_1", "body_2"
+
+
+def share_of(body, slide_to_roll):
+    """The speed of a surface's body over the mean speed of both."""
+    slip = 0.5 * slide_to_roll
+    return {STILL: 0.0, MOVING: 2.0, BODY_1: 1.0 + slip, BODY_2: 1.0 - slip}[body]
+
 
 LENGTHS = ("m", "mm", "um", "µm", "nm", "pm")
 """Units that keys name."""
@@ -42,8 +49,9 @@ class SurfaceSection:
         kind=str, own=absolute_path, own_name="FILE",
     )  # fmt: skip
     body: str = key_field(
-        STILL, "the body that carries it: it stands still, or moves at twice motion.speed",
-        choices=(STILL, MOVING), kind=str,
+        STILL, "the body that carries it: one that stands still, one that moves at twice motion.speed, or "
+        "body_1, body_2 at speeds by motion.slide_to_roll",
+        choices=(STILL, MOVING, BODY_1, BODY_2), kind=str,
     )  # fmt: skip
     amplitude: float | None = key_field(
         None, "of waviness half from valley to peak, of a dent its depth, of a ridge its height",

@@ -19,10 +19,11 @@ from mgehl.output.laws import portable
 from mgehl.output.memory_file import netcdf_file
 from mgehl.version import VERSION
 
-NAMES = CONFIGURATION, RESULT, HISTORY, FIELDS, PICTURE, CENTER_LINE = (
+NAMES = CONFIGURATION, RESULT, HISTORY, FIELDS, PICTURE, CENTER_LINE, SERIES, FRAMES = (
     "configuration.toml", "result.json", "history.csv", "fields.h5", "picture.png", "centerline.csv",
+    "series.nc", "frames.nc",
 )  # fmt: skip
-"""The files of a run directory; the last is a wedge's."""
+"""The files of a run directory; a center line is a wedge's, series and frames are of a run in time."""
 
 CHECKPOINT = "checkpoint"
 """Folder of what a run that has not finished has reached."""

@@ -9,6 +9,7 @@ from mgehl.model.contact import Groups
 from mgehl.output.edge_result import NOT_SEEN, EdgeResult, edge_result
 from mgehl.output.film_error import NOT_ASKED, FilmError
 from mgehl.output.mixed_result import MixedResult, mixed_result
+from mgehl.output.passages import TimeResult
 from mgehl.output.resolution import Resolution, resolution
 from mgehl.output.words import dry_words, loaded_words, undecided_words
 from mgehl.solver.inequality import Power, check_interface, check_pressure_inequality, check_under_contact
@@ -134,6 +135,9 @@ class Result:
     """Film and contact of rough bodies; None of smooth ones."""
     mass: Mass | None = None
     """The account of the oil; None in older results."""
+
+    time: TimeResult | None = None
+    """Of a run in time; all else is of the state at its end."""
 
     # Without a fluid.
     approach_um: float = None

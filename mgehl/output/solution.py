@@ -58,6 +58,8 @@ class Solution:
     """Constant part of the gap in units of H  [Liu eq. 48], less the closer the bodies; 0 for a wedge."""
     local: Fields | None = None
     first_line: int = 0
+    frames: Any = None
+    """`Frames` of a run in time that has just ended, on rank 0."""
 
     @property
     def is_dry(self) -> bool:

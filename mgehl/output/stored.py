@@ -21,7 +21,7 @@ from mgehl.errors import OutputError, one_line
 from mgehl.kinds import contact_from, mesh_from
 from mgehl.model.own_function import without_running
 from mgehl.output.checkpoint import is_begun
-from mgehl.output.files import CONFIGURATION, FIELDS, HISTORY, PICTURE, RESULT, WHOLE
+from mgehl.output.files import CONFIGURATION, FIELDS, FRAMES, HISTORY, PICTURE, RESULT, SERIES, WHOLE
 from mgehl.output.files import NAMES as RUN_FILES
 from mgehl.output.laws import FOLDER, checksum, is_law, law_files, laws_in, placed
 from mgehl.output.result import Result
@@ -73,7 +73,18 @@ def files_of(directory):
         laws = laws_in(tomllib.loads(texts[CONFIGURATION]))
     except (OutputError, ValueError, KeyError):
         return set()
-    return {FIELDS, PICTURE, *({*RUN_FILES} & texts.keys()), *filter(is_law, laws)}
+    return {
+        FIELDS,
+        PICTURE,
+        *_of_time(tomllib.loads(texts[CONFIGURATION])),
+        *({*RUN_FILES} & texts.keys()),
+        *filter(is_law, laws),
+    }
+
+
+def _of_time(tables):
+    """Names of the files that a run in time has besides."""
+    return {SERIES, FRAMES} if "end" in tables.get("time", {}) else set()
 
 
 def changed_laws(directory):

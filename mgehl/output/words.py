@@ -68,6 +68,7 @@ def loaded_words(result, verbose=True):
     shown = surface_words(resolution.surface, resolution.surface_nodes)
     lines = [
         f"{verdict}: {result.reason}",
+        *(time_lines(result.time) if result.time else ()),
         f"  {films_words(result)}, largest pressure {largest_pressure_words(result)}",
         f"  {band_words(result.error)}",
         *(_errors(result) if verbose else ()),
@@ -104,7 +105,8 @@ def _took(result):
 def _errors(result):
     yield (
         f"  residual {result.residual:.1e}, load error {result.load_error:.1e}, complementarity "
-        f"{result.complementarity_error:.1e}, flux imbalance {result.flux_imbalance:.1e}"
+        f"{result.complementarity_error:.1e}"
+        + ("" if result.flux_imbalance is None else f", flux imbalance {result.flux_imbalance:.1e}")
     )
     yield from _oil(result.mass, "Hertz ellipse")
 
@@ -228,3 +230,26 @@ def _number(value):
 def span(ends):
     """First and last node of a stretch."""
     return f"{ends[0]}..{ends[1]}" if ends else "none"
+
+
+def time_lines(time):
+    """What happened in a run in time, and the means over its last passage."""
+    yield (
+        f"  in time: {1e3 * time.end_s:.6g} ms in {time.steps} steps, {time.halved} of them halved, half of "
+        f"them in {time.convolutions_a_step:.3g} convolutions or fewer; {time.passages:.3g} passages"
+    )
+    yield f"  oil: storage and flow close to {time.largest_closure:.1e} of what is stored in every step"
+    if time.means:
+        shown = {
+            "mean_gap_nm": ("mean gap", 1.0, "nm"),
+            "max_pressure_GPa": ("largest pressure", 1.0, "GPa"),
+            "load_on_solids": ("load on solids", 100.0, "%"),
+        }
+        parts = [_mean_words(time.means[name], *how) for name, how in shown.items()]
+        yield f"  over the last passage: {', '.join(parts)}"
+    yield "  at the end:"
+
+
+def _mean_words(mean, name, scale, unit):
+    band = "" if mean.band is None else f" ± {scale * mean.band:.2g}"
+    return f"{name} {scale * mean.value:.4g}{band} {unit}"
