@@ -34,8 +34,9 @@ def key_field(
 ):  # fmt: skip
     """A dataclass field that carries its rules as metadata.
 
-    `own` reads a word that is none of the choices, or no number, such as a function of the user's own, whose
-    path counts from a directory; it returns None for what it cannot read. `own_name` is how messages call that.
+    `own` reads a word that is none of the choices, or no number, such as a function of the user's own,
+    whose path counts from a directory; it returns None for what it cannot read. `own_name` is how messages
+    call that.
     """
     rules = {
         "help": help, "unit": unit, "above": above, "low": low, "high": high,

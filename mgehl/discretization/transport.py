@@ -85,7 +85,7 @@ def moved(values, cells):
     wide = np.pad(values, [(0, 0)] * (values.ndim - 1) + [(whole + 2, 1)], mode="edge")
     if part == 0.0:
         return wide[..., 2 : 2 + n]
-    # Lagrange's cubic through the nodes two behind, one behind, here (all after the whole cells) and before.
+    # Lagrange's cubic through the nodes two behind, one behind, here and one before, after the whole cells.
     s = -part
     weights = (
         -s * (s * s - 1.0) / 6.0,  # at -2

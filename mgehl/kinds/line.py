@@ -19,7 +19,8 @@ class LineKind(LoadedKind):
     takes = (
         "contact.load_per_length", "contact.radius_x", "contact.reduced_modulus", "contact.boundary_film",
         "contact.surface", "surface", "second_surface",
-        "lubricant", "motion.speed", "motion.slide_to_roll", "time", "grid.nodes", "grid.x", "discretization", "solver", "relaxation",
+        "lubricant", "motion.speed", "motion.slide_to_roll", "time",
+        "grid.nodes", "grid.x", "discretization", "solver", "relaxation",
     )  # fmt: skip
     essential = {
         "contact.kind": "line", "contact.load_per_length": "1859 N/mm",

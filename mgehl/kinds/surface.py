@@ -57,8 +57,8 @@ def _check_motion(name, section, motion):
         return
     if surface.varies_along(direction(motion.angle)):
         raise ConfigError(
-            f'{name}.body = "{section.body}": its heights change along the motion, and so the film with time; '
-            "a steady state has a rough body that stands still; give time.end for a run in time"
+            f'{name}.body = "{section.body}": its heights change along the motion, and so the film with '
+            "time: give time.end for a run in time; in a steady state the rough body stands still"
         )
 
 

@@ -106,7 +106,7 @@ class Frames:
         self._kept = {}
 
     def take(self, t, step, fields):
-        """Keep `fields`, {name: a function that gathers (ny, nx)}, where it is time for them (collective)."""
+        """Keep `fields`, {name: a function that gathers (ny, nx)}, where it is time for it (collective)."""
         number = int(t / self.every * (1.0 + 1e-9))
         if number == int(max(t - step, 0.0) / self.every * (1.0 + 1e-9)) and t > step:
             return

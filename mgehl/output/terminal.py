@@ -18,7 +18,8 @@ ALMOST = 0.99
 """Part of the bar that is drawn at the most: a full one would stop its clock, while results are written."""
 
 SHORT = {
-    "time_ms": "{:9.4f} ms", "grid": "{:4d} nodes", "speed": "{:>9}", "step": "step {:2d}", "residual": "residual {:7.1e}",
+    "time_ms": "{:9.4f} ms", "grid": "{:4d} nodes", "speed": "{:>9}", "step": "step {:2d}",
+    "residual": "residual {:7.1e}",
     "gap_nm": "gap {:7.1e} nm", "central_film_nm": "film {:6.4g} nm", "contact_nodes": "contact {}",
 }  # fmt: skip
 """What a line says of a cycle, of what its row in the history has: in 80 columns."""

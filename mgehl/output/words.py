@@ -235,8 +235,8 @@ def span(ends):
 def time_lines(time):
     """What happened in a run in time, and the means over its last passage."""
     yield (
-        f"  in time: {1e3 * time.end_s:.6g} ms in {time.steps} steps, {time.halved} of them halved, half of "
-        f"them in {time.convolutions_a_step:.3g} convolutions or fewer; {time.passages:.3g} passages"
+        f"  in time: {1e3 * time.end_s:.6g} ms in {time.steps} steps, {time.halved} of them halved, half "
+        f"of them in {time.convolutions_a_step:.3g} convolutions or fewer; {time.passages:.3g} passages"
     )
     yield f"  oil: storage and flow close to {time.largest_closure:.1e} of what is stored in every step"
     if time.means:

@@ -17,9 +17,9 @@ from mgehl.solver.restart import interpolated
 def march(scene, hierarchy, settings, time, told, monitor, journal=NOTHING_KEPT, start=None):
     """Run a `Scene` in time on the finest grid; return its `ContactProblem` and its `Outcome`.
 
-    From `start`, a `Solution` and the `Frame` here, or from the steady state of its beginning; `time` are the
-    `TimeSettings`. `told` is called
-    after each step, as `March` says, `monitor` for each cycle on the way to the beginning.
+    From `start`, a `Solution` and the `Frame` here, or from the steady state of its beginning; `time` are
+    the `TimeSettings`. `told` is called after each step, as `March` says, `monitor` for each cycle on the
+    way to the beginning.
     """
     reference = None
     contact, grid, deflection = scene.framed, hierarchy.grids[-1], hierarchy.deflections[-1]
@@ -51,8 +51,8 @@ def _steady(scene, hierarchy, settings, monitor, journal):
 
 
 def _at_rest(scene, hierarchy, settings, monitor, journal):
-    """The problem and the `Outcome` of the dry contact in a bath of oil: between solids it is without pressure, and around
-    them it fills the gap."""
+    """The problem and the `Outcome` of the dry contact in a bath of oil: between solids it is without
+    pressure, and around them it fills the gap."""
     contact, grid, scheme = scene.framed, hierarchy.grids[-1], settings.scheme
     problem = ContactProblem(grid, hierarchy.deflections[-1], contact, scheme)
     guess = guess_on_finest(hierarchy, contact, scheme)

@@ -1,10 +1,11 @@
-"""A contact in time: step after step, each a solve of its own (`carry` says what goes from one to the next).
+"""A contact in time: step after step, each a solve of its own (`carry` says what one hands to the next).
 
-bodies, load     as they are at the end of the step
-contents         carried along                         mgehl.solver.carry.Transport.leg
-first guess      the states before, continued           mgehl.solver.march.March._guess
-pressures, sets  Newton's method                        mgehl.solver.newton.Newton.run
-settled?         else the step is halved
+    bodies, load     as they are at the end of the step     mgehl.solver.problem.ContactProblem.turn_to
+    contents         carried along                          mgehl.solver.carry.Transport.leg
+    first guess      the states before, continued           mgehl.solver.march.March._guess
+    pressures, sets  Newton's method                        mgehl.solver.newton.Newton.run
+
+A step that does not settle is halved.
 """
 
 from dataclasses import dataclass, field, replace

@@ -7,7 +7,8 @@ MOST_CELLS, MOST_CELLS_ROUGH = 4.0, 1.0
 """Cells that the surfaces go in a step at the most: smooth ones, and those whose heights move."""
 
 LEAST_CELLS = 0.5
-"""Cells below which no step is taken for its error alone: a wave that is carried along has no smaller one."""
+"""Cells below which no step is taken for its error alone: waves that are carried along have no smaller
+one."""
 
 FIRST_STEPS = 200
 """Steps that a run is expected to take where nothing moves."""
