@@ -160,7 +160,7 @@ def _solve_in_time(case, parts, comm, watch, start):
             progress.newton_row, parts.contact.film_scale, hierarchy, tolerance, watch.speaker
         )
         diary = Diary(case, parts.frame, hierarchy.grids[-1], monitor, watch)
-        time_settings = TimeSettings(time_keys.step, time_keys.tolerance, tolerance)
+        time_settings = TimeSettings(time_keys.step, time_keys.tolerance, config.solver.tolerance)
         how = settings, time_settings, diary, monitor.beside, _journal(config, monitor, watch)
         problem, outcome = march(scene, hierarchy, *how, start and (start, parts.frame))
         work = Work(monitor.convolutions, len(monitor.rows))
