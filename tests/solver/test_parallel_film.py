@@ -81,7 +81,7 @@ CASES = [
 
 @pytest.mark.parametrize("Q, C, v", CASES)
 def test_amplitude_and_phase_to_a_percent(Q, C, v):
-    """In steps as a run chooses them: of a cell, and of half a cell of film and roughness past each other."""
+    """In steps as a run chooses them: of a cell, or half a cell of film and roughness past each other."""
     Q = Q if v > 1.0 else -Q
     assert response(32, Q, C, v, 1.0 / cells_a_step((v,))) == pytest.approx(exact(Q, C), rel=0.01)
 
