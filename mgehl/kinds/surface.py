@@ -119,9 +119,21 @@ def _about(error, key):
 
 
 def _check_heights(key, surface, x, y, radius):
+    """Heights may not be too large, of a file at its own points, wherever the nodes are.
+
+    A height that all have in common is no matter there.
+    """
+    common = 0.0
+    if isinstance(surface, Measured):
+        common, point = np.median(surface.heights.points), surface.heights.farthest
+        if abs(point.height) > HIGHEST * radius:
+            raise ConfigError(
+                f"{key}: row {point.row}, column {point.column} is {point.height:.3g} m off the median; "
+                f"must be at most {HIGHEST * radius:.3g}, a tenth of the radius; is it a missing value?"
+            )
     for first in range(0, len(y), LINES):
         lines = y[first : first + LINES]
-        heights = np.abs(surface.height(x[None, :], lines[:, None]))
+        heights = np.abs(surface.height(x[None, :], lines[:, None]) - common)
         if heights.max() > HIGHEST * radius:
             j, i = np.unravel_index(heights.argmax(), heights.shape)
             raise ConfigError(
