@@ -22,7 +22,6 @@ from mgehl.output.gap_error import gap_error
 from mgehl.output.laws import law_files
 from mgehl.output.lock import locked
 from mgehl.output.memory_limit import check_memory
-from mgehl.output.mixed_result import local_heights
 from mgehl.output.result import Work, summarise
 from mgehl.output.solution import Fields, Solution
 from mgehl.output.surroundings import versions
@@ -243,9 +242,8 @@ def _solve_bearing(case, parts, comm, watch):
 
 def _solution(case, parts, problem, state, rows, result):
     """The `Solution` of a final state (collective)."""
-    grid, contact = problem.grid, parts.contact
-    heights = local_heights(grid, contact) if contact.is_loaded and contact.surface else None
-    local = Fields(state.P, state.H, state.status, state.p, state.filling, heights)
+    grid = problem.grid
+    local = Fields(state.P, state.H, state.status, state.p, state.filling, problem.heights)
     whole = local.gathered(grid)
     found = (whole, rows, result, state.H0, local, grid.first)
-    return in_users_axes(Solution(case.config, contact, grid.mesh, *found), parts.frame, grid, case)
+    return in_users_axes(Solution(case.config, parts.contact, grid.mesh, *found), parts.frame, grid, case)

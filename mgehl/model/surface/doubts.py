@@ -49,7 +49,7 @@ def harmonic(z, dx, dy):
     indices = np.concatenate(rows), np.concatenate(columns)
     matrix = sparse.csc_matrix((np.concatenate(values), indices), shape=(count, count))
     filled = np.array(z, dtype=float)
-    filled[hole] = spsolve(matrix, right)
+    filled[hole] = spsolve(matrix, right, permc_spec="MMD_AT_PLUS_A")
     return filled
 
 

@@ -70,7 +70,7 @@ def _unit(told, name):
 
 def _table(path, told):
     """Numbers (rows, columns), and the line of the file that each row stands in; headings go to `told`."""
-    rows, lines, separator, first = [], [], None, None
+    rows, lines, separator, first, empty = [], [], None, None, []
     for number, line in enumerate(_text(path).splitlines(), 1):
         if not line.strip(" ") or line.strip().startswith(COMMENTS):
             _listen(line, told)
@@ -81,13 +81,28 @@ def _table(path, told):
             separator = _separator(line)
             if separator is False:
                 first = first or _no_row(number, line)
+                empty.append((number, line))
                 _listen(line, told)
                 continue
+            for at, holes in _leading_holes(empty, line, separator):
+                rows.append(_row(path, at, holes, separator))
+                lines.append(at)
         rows.append(_row(path, number, line, separator))
         lines.append(number)
     if not rows:
-        raise NoTableError(path, first or "is empty: it must hold heights")
+        raise (
+            NoTableError(path, first) if first else SurfaceFileError(path, "is empty: it must hold heights")
+        )
     return _rectangle(path, rows, lines), lines
+
+
+def _leading_holes(empty, first, separator):
+    """Those of the lines before the first row of numbers that are rows of as many holes."""
+    columns = len(_words(first, separator))
+    for number, line in empty:
+        words = _words(line, separator)
+        if columns > 1 and len(words) == columns and all(map(_is_hole, words)):
+            yield number, line
 
 
 def _listen(line, told):
@@ -109,7 +124,7 @@ def _text(path):
     encodings = ("utf-16",) if content.startswith((b"\xff\xfe", b"\xfe\xff")) else ("utf-8-sig", "latin-1")
     for encoding in encodings:
         try:
-            text = content.decode(encoding)
+            text = content.decode(encoding).rstrip("\x1a")  # which ended a text in DOS
         except UnicodeDecodeError:
             continue
         if not re.search(r"[\x00-\x08\x0e-\x1b]", text):

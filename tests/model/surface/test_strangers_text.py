@@ -41,6 +41,12 @@ def test_holes_are_nan(tmp_path, hole):
     np.testing.assert_array_equal(read_map(tmp_path / "z.csv").heights, expected)
 
 
+def test_rows_of_holes_before_the_first_heights_are_rows(tmp_path):
+    (tmp_path / "z.txt").write_text("z\nBad Bad Bad Bad\n---\nnan nan nan nan\n" + matrix(" "))
+    found = read_map(tmp_path / "z.txt").heights
+    np.testing.assert_array_equal(found, np.vstack([np.full((2, 4), np.nan), Z]))
+
+
 HEADINGS = {
     "Gwyddion": ("# Width: 12.0 µm\n# Height: 20000 nm\n# Value units: nm\n", 3.0, 5.0, 1e-6, 1e-9),
     "Gwyddion in German": ("# Breite: 12,0 µm\n# Höhe: 20,0 µm\n# Value units: m\n", 3.0, 5.0, 1e-6, 1.0),
