@@ -120,9 +120,7 @@ class TestFile:
     def test_a_file_smaller_than_the_contact_needs_a_continuation(self, file):
         small = file | {"spacing": "10 um"}
         message = refusal(surface=small)
-        assert message.startswith(
-            f"surface.file = {file['file']!r}: is 0.00064 m by 0.00064 m and ends inside"
-        )
+        assert message.startswith(f"surface.file = {file['file']!r}: is 640 um by 640 um and ends inside")
         config = config_of(surface=small | {"continuation": "mirror"})
         check_contact(config, contact_from(config))
 
@@ -133,9 +131,9 @@ class TestFile:
         np.save(file["file"], heights)
         message = refusal(surface=file | {"height_unit": "mm"})
         assert message.startswith(
-            f"surface.file = {file['file']!r}: row 2, column 3 is -0.002 m off the median"
+            f"surface.file = {file['file']!r}: row 2, column 3 is -2000 um off the median"
         )
-        assert "must be at most 0.00127, a tenth of the radius; is it a missing value?" in message
+        assert "must be at most 1270, a tenth of the radius; is it a missing value?" in message
         config = config_of(surface=file | {"height_unit": "um"})
         check_contact(config, contact_from(config))
 
