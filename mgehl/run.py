@@ -242,8 +242,8 @@ def _solve_bearing(case, parts, comm, watch):
 
 def _solution(case, parts, problem, state, rows, result):
     """The `Solution` of a final state (collective)."""
-    local = Fields(state.P, state.H, state.status, state.p, state.filling)
     grid = problem.grid
+    local = Fields(state.P, state.H, state.status, state.p, state.filling, problem.heights)
     whole = local.gathered(grid)
     found = (whole, rows, result, state.H0, local, grid.first)
     return in_users_axes(Solution(case.config, parts.contact, grid.mesh, *found), parts.frame, grid, case)

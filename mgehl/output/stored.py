@@ -29,8 +29,8 @@ from mgehl.output.solution import Fields, Solution
 from mgehl.output.wedge_result import WedgeResult
 from mgehl.output.whole_file import is_plain
 
-OPTIONAL = "p", "filling"
-"""Fields that older results are without."""
+OPTIONAL = "p", "filling", "heights"
+"""Fields that smooth bodies or older results are without."""
 
 
 def _real(value):
@@ -162,7 +162,7 @@ def _fields(file, mesh):
     if any(file[name].shape != (mesh.ny, mesh.nx) for name in names):
         raise ValueError(f"its fields are not of {mesh.nx} x {mesh.ny} nodes")
     fields = Fields(**{name: file[name][()] for name in names})
-    if not all(np.isfinite(array).all() for array in fields.arrays):
+    if not all(np.isfinite(array).all() for array in fields.named.values()):
         raise ValueError("its fields are not finite everywhere")
     if not np.isin(fields.status, range(len(NAMES))).all():
         raise ValueError("it has nodes of a status that there is not")

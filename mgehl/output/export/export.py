@@ -7,7 +7,7 @@ import numpy as np
 from mgehl.discretization.status import NAMES
 from mgehl.errors import OutputError, UserError
 from mgehl.output.export.arrays import write_csv, write_npz
-from mgehl.output.export.fluid import fluid_fields
+from mgehl.output.export.further import further_fields
 from mgehl.output.export.netcdf import write_netcdf
 from mgehl.output.export.paraview import write_vts
 from mgehl.output.whole_file import whole_file
@@ -62,7 +62,7 @@ def _check_fields(solution):
     for name, field in {
         "pressure": solution.pressure,
         "film": solution.film,
-        **fluid_fields(solution),
+        **further_fields(solution),
     }.items():
         bad = np.count_nonzero(~np.isfinite(field))
         if bad:
