@@ -62,7 +62,7 @@ class Solution:
     local: Fields | None = None
     first_line: int = 0
     frames: Any = None
-    """`Frames` of a run in time that has just ended, on rank 0."""
+    """Of a run in time: what has its fields at some instants, on rank 0 (`series.Frames`)."""
 
     @property
     def is_dry(self) -> bool:

@@ -25,6 +25,7 @@ from mgehl.output.files import CONFIGURATION, FIELDS, FRAMES, HISTORY, PICTURE, 
 from mgehl.output.files import NAMES as RUN_FILES
 from mgehl.output.laws import FOLDER, checksum, is_law, law_files, laws_in, placed
 from mgehl.output.result import Result
+from mgehl.output.series import StoredFrames
 from mgehl.output.solution import Fields, Solution
 from mgehl.output.wedge_result import WedgeResult
 from mgehl.output.whole_file import is_plain
@@ -153,7 +154,10 @@ def _solution(file, directory):
     H0 = float(file.attrs["H0"])
     if not np.isfinite(H0):
         raise ValueError("H0 is not finite")
-    return Solution(config, contact, mesh, fields, _rows(texts[HISTORY]), result, H0, local=fields)
+    found = config, contact, mesh, fields, _rows(texts[HISTORY]), result, H0
+    frames = directory / FRAMES
+    kept = StoredFrames(frames) if config.is_in_time and is_plain(frames) else None
+    return Solution(*found, local=fields, frames=kept)
 
 
 def _fields(file, mesh):

@@ -18,6 +18,7 @@ from mgehl.output.pictures import maps, style, wedge_picture
 from mgehl.output.pictures.comparison import compare_histories, compare_lines
 from mgehl.output.pictures.history import history
 from mgehl.output.pictures.lines import centre_lines
+from mgehl.output.pictures.over_time import over_time
 from mgehl.output.pictures.surface import heights_of, surface_picture
 from mgehl.output.pictures.titles import labels
 from mgehl.output.solution import Solution
@@ -44,6 +45,7 @@ _DRY = {
     "gap": ("gap, with contact", maps.film_map),
 }
 _ROUGH = {"surface": ("heights of the surface with contact, the gap, their distribution", surface_picture)}
+_IN_TIME = {"time": ("films, pressure and shares of the load over time", over_time)}
 _BEARING = {
     "lines": ("pressure on the centre line", wedge_picture.centre_line),
     "pressure": ("pressure, the solid in grey", wedge_picture.pressure_picture),
@@ -79,6 +81,8 @@ def _possible(solution):
     drawn = _POINT | (_ROUGH if solution.contact.surface is not None else {})
     if solution.is_dry:
         drawn = _DRY | {kind: drawn[kind] for kind in drawn if kind not in ("lines", "film")}
+    if solution.config.is_in_time:
+        drawn = _IN_TIME | {kind: each for kind, each in drawn.items() if kind != "history"}
     flat = ("film", "gap", "pressure", "status") if solution.mesh.is_line else ()
     return {kind: drawn[kind] for kind in drawn if kind not in flat}
 
