@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib import animation
 from matplotlib.colors import LogNorm
+from matplotlib.ticker import LogLocator
 
 from mgehl.errors import UserError
 from mgehl.output.pictures import style
@@ -17,7 +18,7 @@ DOTS = 100
 """To the inch."""
 
 THINNEST, WIDEST = 1.0, 3.0
-"""Film in nm at which the colours begin at the least, and the largest on the axis over the largest inside."""
+"""Film in nm at which the colours begin at the least; the largest on the axis over the largest inside."""
 
 SHOWN = 1.7
 """Semi-axes from the centre that are shown."""
@@ -51,6 +52,7 @@ class _Stage:
         self._films = self._least_and_most()
         plane = not solution.mesh.is_line
         self.figure, axes = style.subplots(1, 1 + plane, size=(6.0 + 5.0 * plane, 4.6), squeeze=False)
+        self.figure.get_layout_engine().set(w_pad=0.2, h_pad=0.1)
         self._x, self._y = 1e3 * solution.x, 1e3 * solution.y
         self._image = self._map(axes[0, 0]) if plane else None
         self._lines = self._centre_lines(axes[0, -1])
@@ -69,8 +71,9 @@ class _Stage:
         ends = self._x[0], self._x[-1], self._y[0], self._y[-1]
         norm = LogNorm(*self._films)
         image = axes.imshow(1e9 * self.frames[0][1]["film"], extent=ends, origin="lower", norm=norm)
-        bar = self.figure.colorbar(image, ax=axes, label="film, nm", format="%g", extend="max")
-        bar.ax.yaxis.set_minor_formatter("")
+        steps = LogLocator(subs=(1.0, 2.0, 5.0))
+        bar = self.figure.colorbar(image, ax=axes, label="film, nm", format="%g", ticks=steps, extend="max")
+        bar.minorticks_off()
         half = [SHOWN * 1e3 * scale for scale in (self._contact.x_scale, self._contact.y_scale)]
         axes.set(xlabel="x, mm", ylabel="y, mm")
         axes.set(xlim=(-half[0], half[0]), ylim=(-half[1], half[1]))
@@ -86,6 +89,9 @@ class _Stage:
         axes.set(xlabel="x, mm", ylabel="pressure, GPa")
         axes.set(xlim=(-half, half), ylim=(0.0, 1.05e-9 * largest))
         beside.set(ylabel="film, nm", yscale="log", ylim=(0.7 * least, WIDEST * most))
+        beside.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+        beside.yaxis.set_major_formatter("{x:g}")
+        beside.yaxis.set_minor_formatter("")
         axes.yaxis.label.set_color(PRESSURE)
         beside.yaxis.label.set_color(FILM)
         return p, h
