@@ -10,6 +10,7 @@ from mgehl.discretization.couette import SCHEMES
 from mgehl.discretization.fluid import FACE_MOBILITIES
 from mgehl.discretization.scheme import INTERFACES, Scheme
 from mgehl.kinds import KINDS
+from mgehl.kinds.surface_kinds import BODIES, STILL
 from mgehl.model.course import absolute_course
 from mgehl.model.lubricant import DENSITY_LAWS, VISCOSITY_LAWS
 from mgehl.model.own_function import absolute
@@ -44,6 +45,9 @@ class ContactSection:
     )  # fmt: skip
     surface: str | None = key_field(
         None, "heights, a peak positive, by a function of one's own", kind=str, own=absolute
+    )
+    surface_body: str = key_field(
+        STILL, "the body that carries contact.surface: as surface.body", choices=BODIES, kind=str
     )
 
 

@@ -18,7 +18,7 @@ class LineKind(LoadedKind):
     load_unit = "N/m"
     takes = (
         "contact.load_per_length", "contact.radius_x", "contact.reduced_modulus", "contact.boundary_film",
-        "contact.surface", "surface", "second_surface",
+        "contact.surface", "contact.surface_body", "surface", "second_surface",
         "lubricant", "motion.speed", "motion.slide_to_roll", "time",
         "grid.nodes", "grid.x", "discretization", "solver", "relaxation",
     )  # fmt: skip

@@ -74,7 +74,7 @@ class PointKind(LoadedKind):
     load_unit = "N"
     takes = (
         "contact.load", "contact.radius_x", "contact.radius_y", "contact.reduced_modulus",
-        "contact.deformation", "contact.boundary_film", "contact.surface",
+        "contact.deformation", "contact.boundary_film", "contact.surface", "contact.surface_body",
         "surface", "second_surface",
         "coating", "lubricant", "motion", "time", "moes", "grid", "discretization", "solver", "relaxation",
     )  # fmt: skip

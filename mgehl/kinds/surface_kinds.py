@@ -23,7 +23,8 @@ OF_A_FILE = (
 )  # fmt: skip
 """Keys of a surface from a file."""
 
-STILL, MOVING, BODY_1, BODY_2 = "still", "moving", "body_1", "body_2"
+BODIES = STILL, MOVING, BODY_1, BODY_2 = "still", "moving", "body_1", "body_2"
+"""The body that a surface belongs to."""
 
 
 def share_of(body, slide_to_roll):
@@ -51,7 +52,7 @@ class SurfaceSection:
     body: str = key_field(
         STILL, "the body that carries it: one that stands still, one that moves at twice motion.speed, or "
         "body_1, body_2 at speeds by motion.slide_to_roll",
-        choices=(STILL, MOVING, BODY_1, BODY_2), kind=str,
+        choices=BODIES, kind=str,
     )  # fmt: skip
     amplitude: float | None = key_field(
         None, "of waviness half from valley to peak, of a dent its depth, of a ridge its height",

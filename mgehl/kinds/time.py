@@ -126,7 +126,7 @@ def _surfaces(config):
         if (surface := surface_of(section)) is not None:
             yield surface, share_of(section.body, config.motion.slide_to_roll)
     if own := own_surface_from(config):
-        yield own, 0.0
+        yield own, share_of(config.contact.surface_body, config.motion.slide_to_roll)
 
 
 def _naming(key, value, found):
