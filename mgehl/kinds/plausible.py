@@ -2,6 +2,7 @@
 
 from dataclasses import asdict
 
+from mgehl.model.films import formula_of
 from mgehl.model.lubricant import Roelands
 from mgehl.model.oils import CELSIUS, OILS
 
@@ -70,13 +71,17 @@ def _pressure(contact):
 
 
 def _films(contact):
-    film = contact.flooded_film
+    known = asdict(contact.formulas)
+    film = next(film for name, film in known.items() if formula_of(name).bodies == "any")
     if film > THICKEST["piezoviscous" in contact.regime]:
         yield f"film of {1e6 * film:.3g} um by a formula: look at viscosity, speed and radii"
-    known = asdict(contact.formulas)
-    centers = {name: film for name, film in known.items() if not name.endswith("_minimum")}
+    centers = {
+        name: film
+        for name, film in known.items()
+        if not name.endswith("_minimum") and formula_of(name).bodies != "soft"
+    }
     low, high = (pick(centers, key=centers.__getitem__) for pick in (min, max))
-    if not contact.is_soft and centers[high] > APART * centers[low]:
+    if contact.regime != "elastic isoviscous" and centers[high] > APART * centers[low]:
         yield (
             f"films of formulas are {centers[high] / centers[low]:.2g} fold apart ({low.replace('_', ' ')} "
             f"{1e9 * centers[low]:.3g} nm, {high.replace('_', ' ')} {1e9 * centers[high]:.3g} nm): the "
