@@ -6,6 +6,7 @@ from mgehl.commands import CONVERGED, add_configuration, add_settings, shown
 from mgehl.config import chosen_config, config_from_tables, left_out, naming_file, read_tables
 from mgehl.errors import UserError
 from mgehl.kinds.cited import cited
+from mgehl.kinds.oil import oil_words
 from mgehl.kinds.plausible import implausible
 from mgehl.model.sources import SOURCES
 from mgehl.saying import columns, folded
@@ -61,6 +62,7 @@ def _given(config, missing):
         yield f"{section:{NAME}}{'   '.join(words)}"
     for head, each in zip(chain(["follows"], repeat("")), config.derived, strict=False):
         yield f"{head:{NAME}}{each.key} = {config.said(each.key)}: {each.how}"
+    yield from (f"{'oil':{NAME}}{words}" for words in oil_words(config))
     for head, key in zip(chain(["not given"], repeat("")), missing, strict=False):
         yield f"{head:{NAME}}{key}: {config.said(key)} is the paper's"
 

@@ -3,6 +3,7 @@
 from mgehl.errors import ConfigError
 from mgehl.kinds.derived import Derived
 from mgehl.model.oils import CELSIUS, OILS, thinning, walther
+from mgehl.model.sources import SOURCES
 
 
 def derived(config):
@@ -33,6 +34,17 @@ def _dynamic(section, kinematic, words):
 def _by_walther(section):
     """The kinematic viscosity as a function of the temperature."""
     return lambda T: walther(section.kinematic_viscosity_40, section.kinematic_viscosity_100, T)
+
+
+def oil_words(config):
+    """Where a named oil was measured and what is not known of it; nothing of others."""
+    if config.lubricant.oil is not None:
+        oil = OILS[config.lubricant.oil]
+        yield f"{oil.description}, {SOURCES[oil.source].short}"
+        yield (
+            f"measured from {oil.coldest - CELSIUS:g} to {oil.warmest - CELSIUS:g} C and up to "
+            f"{1e-9 * oil.highest:g} GPa; not known: {oil.unknown}"
+        )
 
 
 def thinning_of(config):

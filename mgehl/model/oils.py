@@ -54,8 +54,8 @@ class Oil:
     highest: float = 1e9
     """Largest pressure in Pa at which friction by these constants was compared with measurements."""
     unknown: str = (
-        "at which pressures and temperatures the constants were fitted; C has two digits, the viscosity is "
-        "up to 7 % off; how pressure changes the density"
+        "where the constants were fitted, and how pressure changes the density; the viscosity is up to 7 % "
+        "off, since C has two digits"
     )
 
     def viscosity(self, T):

@@ -64,6 +64,23 @@ def test_a_bearing_of_a_catalogue_is_told_with_what_follows_from_it(told):
     assert "Hamrock, Dowson 1977" in text and "unusual" not in text
 
 
+def test_an_oil_is_told_with_its_source_its_range_and_what_is_not_known(told):
+    oil = "--set", "lubricant.oil=M100", "--set", "lubricant.temperature=60 degC"
+    text = told("ball_bearing.toml", *oil)
+    assert "mineral oil of ISO VG 100, FVA 3, Arana, Larranaga, Ulacia 2019" in text
+    assert "measured from 40 to 100 C and up to 1 GPa; not known: where the constants were fitted" in text
+    assert "p_h = 1.51 GPa: M100 was measured up to 1 GPa: its law is extended beyond" in text
+
+
+def test_two_ways_in_a_file_are_one_line_with_its_name(tmp_path, capsys):
+    path = tmp_path / "both.toml"
+    path.write_text('[contact]\nreduced_modulus = "226 GPa"\n[body_1]\nmaterial = "steel"\n')
+    assert main(["check", str(path)]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    follows = "contact.reduced_modulus = '226 GPa': follows already with body_1.material: give one of them"
+    assert line == f"mgehl: {path}: {follows}"
+
+
 def test_wrong_units_are_named_as_unusual(told):
     assert "unusual    lubricant.viscosity = 100 Pa s: machines have" in told(
         "ball_bearing.toml", "--set", "lubricant.viscosity=100 Pa s"
