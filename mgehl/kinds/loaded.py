@@ -223,13 +223,14 @@ def heat_words(config, contact):
     known = thinning_of(config)
     beta = THINNING if known is None else known
     Q = contact.lubricant.viscosity * beta * contact.speed**2 / CONDUCTIVITY
-    factor = inlet_heating(contact.hertz.p_h / contact.reduced_modulus, Q)
+    slip = config.motion.slide_to_roll
+    factor = inlet_heating(contact.hertz.p_h / contact.reduced_modulus, Q, slip)
     if factor < WARM and "piezoviscous" in contact.regime:
         left = f"some {100.0 * factor:.2g} %" if factor > LEAST_LEFT else "less than half"
         usual = f"beta {beta:.2g} 1/K{'' if known else ' and'}"
         yield (
-            f"isothermal films: heat by shear in the inlet would leave {left} of them in pure rolling "
-            f"(Gupta 1992; {usual}{',' if known else ''} k {CONDUCTIVITY:g} W/(m K) as is usual)"
+            f"isothermal films: heat by shear in the inlet would leave {left} of them (Gupta 1992; "
+            f"slide-to-roll {slip:g}, {usual}{',' if known else ''} k {CONDUCTIVITY:g} W/(m K) as is usual)"
         )
 
 
