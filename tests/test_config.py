@@ -331,12 +331,13 @@ def test_written_tables_name_every_key_that_is_set():
     words = "oil", "temperature", "density", *(f"kinematic_viscosity{at}" for at in ("", "_40", "_100"))
     for name in written:
         unset = {"lubricant": set(words), "motion": {"ring_rotation"}}
+        unset |= {"time": {"end", "step", "save_every"}}
         unset |= {"contact": {"load_per_length", "surface"}, "discretization": {"cavitation", "couette"}}
         unset |= {"grid": {"load_beyond"}, "solver": {"idle_steps"}}
         foreign = unset.get(name, set())
         assert set(written[name]) == {key.name for key in fields(SECTIONS[name])} - foreign
     written = config_from_tables(MOES).as_toml_tables()
-    assert written["motion"] == {"angle": 0.0} and "load" not in written["contact"]
+    assert written["motion"] == {"angle": 0.0, "slide_to_roll": 0.0} and "load" not in written["contact"]
 
 
 def test_configuration_cannot_be_changed():

@@ -96,14 +96,14 @@ def test_numbers_that_nobody_gave_are_told(run, tmp_path):
 def test_the_numbers_that_follow_are_stored_and_read_again(run, tmp_path, capsys):
     steel = [word for body in (1, 2) for word in ("--set", f"body_{body}.material=steel")]
     rough = "--set", "body_1.Ra=40 nm", "--no-error"
-    result, config, words = run(*steel, *rough, "--set", "lubricant.viscosity=20 Pa s")
+    result, config, words = run(*steel, *rough, "--set", "lubricant.pressure_viscosity=0.2 1/GPa")
     assert "reduced_modulus" not in config["contact"] and config["body_1"]["material"] == "steel"
     assert result["inputs"]["contact.reduced_modulus"] == pytest.approx(206e9 / 0.91)
-    assert "mgehl: unusual: lubricant.viscosity = 20 Pa s: machines have" in words
+    assert "mgehl: unusual: lubricant.pressure_viscosity = 2e-10 1/Pa: machines have" in words
     assert "  lambda: " in words and "over 50.13 nm rms" in words
     path = tmp_path / "run" / "fields.h5"
     assert read_run(path.parent).contact.reduced_modulus == result["inputs"]["contact.reduced_modulus"]
     assert main(["cite", str(path.parent)]) == 0
     entries = capsys.readouterr().out
     assert entries.count("@") == entries.count("\n}") and "@misc{iso6336," in entries
-    assert "@article{hamrock1977," not in entries  # its oil is so thick that the bodies hardly yield
+    assert "@article{hamrock1977," not in entries  # nor does its oil stiffen
