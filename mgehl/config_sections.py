@@ -13,6 +13,7 @@ from mgehl.kinds import KINDS
 from mgehl.kinds.surface_kinds import BODIES, STILL
 from mgehl.model.course import absolute_course
 from mgehl.model.lubricant import DENSITY_LAWS, VISCOSITY_LAWS
+from mgehl.model.oils import OILS
 from mgehl.model.own_function import absolute
 
 
@@ -33,7 +34,7 @@ class ContactSection:
     radius_x: float = key_field(12.7e-3, "reduced radius along x", "m", low=1e-6, high=100.0)
     radius_y: float = key_field(12.7e-3, "reduced radius along y", "m", low=1e-6, high=100.0)
     reduced_modulus: float = key_field(
-        219.78e9, "E' of 2/E' = sum of (1 - nu^2)/E, without coating", "Pa", low=1e6, high=1e13
+        219.78e9, "E' of 2/E' = sum of (1 - nu^2)/E, without coating", "Pa", low=1e3, high=1e13
     )
     deformation: str = key_field(
         "half-space", "what a point contact's bodies are in depth",
@@ -53,7 +54,10 @@ class ContactSection:
 
 @dataclass(frozen=True)
 class LubricantSection:
-    viscosity: float = key_field(0.096, "viscosity at ambient pressure", "Pa*s", low=1e-6, high=1e4)
+    viscosity: float = key_field(
+        0.096, "viscosity at ambient pressure", "Pa*s", low=1e-6, high=1e4,
+        instead="lubricant.kinematic_viscosity takes cSt, beside lubricant.density",
+    )  # fmt: skip
     viscosity_law: str = key_field(
         "barus", "viscosity-pressure law", choices=tuple(VISCOSITY_LAWS), kind=str, own=absolute
     )
@@ -63,6 +67,27 @@ class LubricantSection:
     density_law: str = key_field(
         "dowson-higginson", "density-pressure law", choices=tuple(DENSITY_LAWS), kind=str, own=absolute
     )
+    oil: str | None = key_field(
+        None, "a measured oil, for viscosity and its law at lubricant.temperature",
+        choices=tuple(OILS), kind=str,
+    )  # fmt: skip
+    temperature: float | None = key_field(
+        None, "temperature of the oil in the inlet", "K", low=200.0, high=600.0
+    )
+    kinematic_viscosity: float | None = key_field(
+        None, "viscosity over density, beside lubricant.density", "m^2/s", low=1e-9, high=10.0
+    )
+    kinematic_viscosity_40: float | None = key_field(
+        None, "the same at 40 degrees C, from which with that at 100 it is found at lubricant.temperature",
+        "m^2/s", low=2e-6, high=0.1,
+    )  # fmt: skip
+    kinematic_viscosity_100: float | None = key_field(
+        None, "the same at 100 degrees C", "m^2/s", low=1e-6, high=0.1
+    )
+    density: float | None = key_field(
+        None, "density at that temperature, some 5 % less at 80 than a data sheet's at 15 degrees C",
+        "kg/m^3", low=100.0, high=1e4,
+    )  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -70,6 +95,7 @@ class MotionSection:
     speed: float | str = key_field(
         5e-6, "entrainment speed u of the flow rho u h; in time a table FILE.csv of s, m/s or "
         "FILE.py:FUNCTION", "m/s", low=1e-12, high=1e3, own=absolute_course,
+        instead="body_1.rotation and motion.ring_rotation take rpm",
     )  # fmt: skip
     angle: float = key_field(
         0.0, "direction in which both surfaces move, from +x towards +y", "deg", low=-360.0, high=360.0
@@ -77,6 +103,10 @@ class MotionSection:
     slide_to_roll: float = key_field(
         0.0, "2 (u_1 - u_2)/(u_1 + u_2) of both surfaces' speeds; 2: body 2 stands still",
         low=-100.0, high=100.0,
+    )  # fmt: skip
+    ring_rotation: float | None = key_field(
+        None, "of one ring of a rolling bearing against the other; body_1 is the ball, body_2 the raceway",
+        "rad/s", low=1e-9, high=1e6,
     )  # fmt: skip
 
 

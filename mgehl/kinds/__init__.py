@@ -8,7 +8,9 @@ others without a word of theirs.
 from dataclasses import dataclass
 from typing import Any
 
+from mgehl.kinds import bodies, oil
 from mgehl.kinds.choice import Choice, word_of
+from mgehl.kinds.derived import word_choices
 from mgehl.kinds.dry import DRY, fluid_choice
 from mgehl.kinds.line import LINE
 from mgehl.kinds.own import naming_keys
@@ -27,15 +29,24 @@ def choices(tables):
     is chosen by it.
     """
     kind = KINDS.get(word_of(tables, "contact.kind"))
-    bodies = kind and kind_choice(kind), deformation_choice(tables), moes_choice(tables)
+    smooth = kind and kind_choice(kind), deformation_choice(tables), moes_choice(tables)
     found = (
-        *bodies,
+        *smooth,
         *surface_choices(tables),
         time_choice(tables),
         fluid_choice(tables),
         *wedge_choices(tables),
+        *word_choices(tables),
     )
     return [each for each in found if each]
+
+
+def derived(config):
+    """What follows from the words of a `Config`, a `Derived` each; there may not yet be such a key.
+
+    Raises ConfigError where the words do not fit.
+    """
+    return (*bodies.derived(config), *oil.derived(config))
 
 
 def kind_choice(kind):

@@ -1,6 +1,7 @@
 """The loaded line contact: a cylinder on a flat, per length."""
 
 from mgehl.discretization.mesh import Mesh
+from mgehl.kinds.bodies import OF_A_LINE
 from mgehl.kinds.kind import Effort
 from mgehl.kinds.loaded import LoadedKind, lubricant_from
 from mgehl.kinds.surface import surface_from
@@ -18,8 +19,8 @@ class LineKind(LoadedKind):
     load_unit = "N/m"
     takes = (
         "contact.load_per_length", "contact.radius_x", "contact.reduced_modulus", "contact.boundary_film",
-        "contact.surface", "contact.surface_body", "surface", "second_surface",
-        "lubricant", "motion.speed", "motion.slide_to_roll", "time",
+        "contact.surface", "contact.surface_body", "surface", "second_surface", *OF_A_LINE,
+        "lubricant", "motion.speed", "motion.slide_to_roll", "motion.ring_rotation", "time",
         "grid.nodes", "grid.x", "discretization", "solver", "relaxation",
     )  # fmt: skip
     essential = {

@@ -6,6 +6,7 @@ from mgehl.config_value import key_field
 from mgehl.discretization.fluid import FOLDING
 from mgehl.discretization.mesh import Mesh
 from mgehl.errors import ConfigError
+from mgehl.kinds.bodies import SPEEDS, keys
 from mgehl.kinds.choice import Choice, value_of, word_of
 from mgehl.kinds.kind import Effort
 from mgehl.kinds.loaded import LoadedKind, lubricant_from
@@ -18,7 +19,8 @@ from mgehl.model.point import PointContact
 LARGEST_RADIUS_RATIO = 1e3
 """Largest ratio of the two radii: a longer ellipse is a line contact."""
 
-MOES, MOES_REPLACES = ("moes.M", "moes.L"), ("contact.load", "motion.speed")
+MOES = "moes.M", "moes.L"
+MOES_REPLACES = "contact.load", "motion.speed", "motion.ring_rotation", *keys((*SPEEDS, "rotation_radius"))
 """Moes numbers, and the keys that they stand for."""
 
 FILM = Effort(45.0, 2.6e-7, 0.013, 1300.0, "full films on 65 to 2049 nodes took 22 to 106")
@@ -75,6 +77,7 @@ class PointKind(LoadedKind):
     takes = (
         "contact.load", "contact.radius_x", "contact.radius_y", "contact.reduced_modulus",
         "contact.deformation", "contact.boundary_film", "contact.surface", "contact.surface_body",
+        "body_1", "body_2",
         "surface", "second_surface",
         "coating", "lubricant", "motion", "time", "moes", "grid", "discretization", "solver", "relaxation",
     )  # fmt: skip

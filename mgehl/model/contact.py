@@ -3,7 +3,7 @@
 Inside the code X = x/a, P = p/p_h and H = h R_x/a^2 (the paper divides the gap by a).
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from functools import cached_property
 from math import sqrt
 
@@ -12,6 +12,7 @@ import numpy as np
 from mgehl.model import films
 from mgehl.model.frame import Frame
 from mgehl.model.hertz import edge_gap_coefficient, hertz_pressure
+from mgehl.model.lubricant import DowsonHigginson
 from mgehl.model.surface.surface import JUST, step_of
 
 SAMPLES = 65
@@ -137,6 +138,34 @@ class LoadedContact:
         """Moes' films, H_Moes, of the contact that formulas know: rigid and elastic isoviscous, the same
         piezoviscous."""
         raise NotImplementedError
+
+    @property
+    def shown_formulas(self):
+        """Names of the films of `formulas` that are made for such bodies."""
+        return [name for name in asdict(self.formulas) if films.applies(name, self.regime)]
+
+    @property
+    def density_ratio(self):
+        """Density of the oil at p_h over that at rest."""
+        return self._density_ratio(self.lubricant.density_law)
+
+    def _density_ratio(self, law):
+        return float(law.density(np.ones((1, 1)), self.hertz.p_h)[0][0, 0])
+
+    @property
+    def compared(self):
+        """{name: film in m} of `shown_formulas` on the terms of what is computed: the central film of
+        bodies that are pressed flat is the formula's, by the density at p_h that it assumes over the oil's.
+        """
+        if "elastic" not in self.regime:
+            return {name: getattr(self.formulas, name) for name in self.shown_formulas}
+        own, theirs = self.density_ratio, self._density_ratio(DowsonHigginson())
+        found = {}
+        for name in self.shown_formulas:
+            assumed = 1.0 if films.formula_of(name).incompressible else theirs
+            ratio = 1.0 if name.endswith("_minimum") else assumed / own
+            found[name] = getattr(self.formulas, name) * ratio
+        return found
 
     @property
     def is_soft(self):

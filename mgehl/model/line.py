@@ -18,6 +18,7 @@ class LineFormulas:
 
     dowson_higginson_central: float
     dowson_higginson_minimum: float
+    moes: float
     grubin: float
 
 
@@ -75,7 +76,7 @@ class LineContact(LoadedContact):
     def formulas(self):
         """What the film formulas say of this contact."""
         central, minimum = films.dowson_higginson(self.groups, self.radius_x)
-        return LineFormulas(central, minimum, self.grubin_film)
+        return LineFormulas(central, minimum, self.flooded_film, self.grubin_film)
 
     @property
     def regime(self):

@@ -43,6 +43,8 @@ class PointFormulas:
     hamrock_dowson_minimum: float
     nijenbanning_venner_moes: float
     grubin: float
+    hamrock_dowson_soft_central: float
+    hamrock_dowson_soft_minimum: float
 
 
 @dataclass(frozen=True)
@@ -219,7 +221,8 @@ class PointContact(LoadedContact):
         like = self.aligned
         central, minimum = films.hamrock_dowson(self.groups, like.radius_x, 1.0 / like.k_e)
         moes = films.nijenbanning_venner_moes(self.groups, like.radius_x, like.radius_y)
-        found = central, minimum, moes, like.grubin_film
+        soft = films.hamrock_dowson_soft(self.groups, like.radius_x, 1.0 / like.k_e)
+        found = central, minimum, moes, like.grubin_film, *soft
         if 0.0 in self.motion:
             return PointFormulas(*found)
         return ObliqueFormulas(*found, *films.chittenden(self.groups, like.radius_x, like.radius_y))

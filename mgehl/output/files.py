@@ -31,6 +31,9 @@ CHECKPOINT = "checkpoint"
 REPORT = "report.html"
 """The page that `mgehl report` makes of a directory where no other file is named."""
 
+INPUTS = "inputs"
+"""In result.json {"section.key": number in SI units} of what was given, or follows from it."""
+
 WHOLE = "run/texts"
 """Data set of fields.h5: its run's texts by their names, as JSON in bytes."""
 
@@ -71,7 +74,7 @@ def texts_of(solution):
     """{name: text} of the files of a run that are text: configuration, result, history, a center line."""
     texts = {
         CONFIGURATION: tomli_w.dumps(portable(solution.config)),
-        RESULT: json.dumps(finite(plain_result(solution.result)), indent=2, allow_nan=False) + "\n",
+        RESULT: json.dumps(finite(record_of(solution)), indent=2, allow_nan=False) + "\n",
         HISTORY: _table(
             [list(solution.rows[0]) if solution.rows else [], *map(dict.values, solution.rows)]
         ),
@@ -89,8 +92,13 @@ def _table(rows):
 
 
 def plain_result(result):
-    """A result as plain data: what result.json holds. What this kind of contact has not is left out."""
+    """A result as plain data. What this kind of contact has not is left out."""
     return {name: each for name, each in asdict(result).items() if each is not None or name == "mixed"}
+
+
+def record_of(solution):
+    """What result.json holds: the result, and the numbers that the contact was made of."""
+    return plain_result(solution.result) | {INPUTS: solution.config.inputs}
 
 
 def finite(value):

@@ -130,7 +130,7 @@ class Result:
     groups: Groups | None = None
     moes_film: MoesFilm | None = None
     formulas: dict | None = None
-    """Films that formulas predict: name and nm."""
+    """Films that formulas predict, by name in nm: those made for such bodies, of oil with this density."""
     mixed: MixedResult | None = None
     """Film and contact of rough bodies; None of smooth ones."""
     mass: Mass | None = None
@@ -210,7 +210,7 @@ def summarise(problem, outcome, tolerance, work, wall_s, versions):
         resolution=resolution(contact, grid.mesh),
         groups=contact.groups,
         moes_film=MoesFilm(central * moes, minimum * moes),
-        formulas={f"{name}_nm": 1e9 * film for name, film in asdict(contact.formulas).items()},
+        formulas={f"{name}_nm": 1e9 * film for name, film in contact.compared.items()},
         work=work,
         wall_s=wall_s,
         ranks=grid.comm.size,

@@ -21,7 +21,17 @@ from mgehl.errors import OutputError, one_line
 from mgehl.kinds import contact_from, mesh_from
 from mgehl.model.own_function import without_running
 from mgehl.output.checkpoint import is_begun
-from mgehl.output.files import CONFIGURATION, FIELDS, FRAMES, HISTORY, PICTURE, RESULT, SERIES, WHOLE
+from mgehl.output.files import (
+    CONFIGURATION,
+    FIELDS,
+    FRAMES,
+    HISTORY,
+    INPUTS,
+    PICTURE,
+    RESULT,
+    SERIES,
+    WHOLE,
+)
 from mgehl.output.files import NAMES as RUN_FILES
 from mgehl.output.laws import FOLDER, checksum, is_law, law_files, laws_in, placed
 from mgehl.output.result import Result
@@ -145,12 +155,14 @@ def _solution(file, directory):
     texts = _texts(file, directory)
     tables = tomllib.loads(texts[CONFIGURATION])
     config = placed(tables, {name: str((directory / name).resolve()) for name in laws_in(tables)})
+    record = json.loads(texts[RESULT])
+    config = config.with_numbers(record.get(INPUTS, {}))
     named = config.as_toml_tables()["grid"]
     if config.kind.is_loaded and AUTO in (named.get("x"), named.get("y")):
         raise ValueError("it has no domain in numbers, as a finished run has")
     contact = without_running(contact_from(config))
     mesh = mesh_from(config, contact)
-    fields, result = _fields(file, mesh), result_from(json.loads(texts[RESULT]), config)
+    fields, result = _fields(file, mesh), result_from(record, config)
     H0 = float(file.attrs["H0"])
     if not np.isfinite(H0):
         raise ValueError("H0 is not finite")

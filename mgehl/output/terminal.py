@@ -7,7 +7,7 @@ from contextlib import suppress
 from math import ceil
 
 from mgehl.kinds.loaded import speed_words
-from mgehl.output.advice import what_next
+from mgehl.output.advice import beside_bands, what_next
 from mgehl.output.files import finite, plain_result
 from mgehl.saying import columns, complain, folded, say
 
@@ -107,7 +107,8 @@ class Lines(Silent):
 
     def end(self, solution, directory):
         lines = solution.result.words(self._verbose).splitlines()
-        for line in *lines, *(f"  {line}" for line in (*what_next(solution), f"results in {directory}")):
+        more = *beside_bands(solution), *what_next(solution), f"results in {directory}"
+        for line in *lines, *(f"  {line}" for line in more):
             self._print(folded(line, HANGING, columns()))
 
     def _print(self, words):
