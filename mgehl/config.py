@@ -47,6 +47,7 @@ class Config:
     lubricant: sections.LubricantSection = sections.LubricantSection()
     motion: sections.MotionSection = sections.MotionSection()
     time: TimeSection = TimeSection()
+    friction: sections.FrictionSection = sections.FrictionSection()
     surface: SurfaceSection = SurfaceSection()
     second_surface: SurfaceSection = SurfaceSection()
     moes: MoesSection = MoesSection()

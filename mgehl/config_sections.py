@@ -13,6 +13,7 @@ from mgehl.kinds import KINDS
 from mgehl.model.course import absolute_course
 from mgehl.model.lubricant import DENSITY_LAWS, VISCOSITY_LAWS
 from mgehl.model.own_function import absolute
+from mgehl.model.rheology import Friction
 
 
 @dataclass(frozen=True)
@@ -73,6 +74,29 @@ class MotionSection:
     slide_to_roll: float = key_field(
         0.0, "2 (u_1 - u_2)/(u_1 + u_2) of both surfaces' speeds; 2: body 2 stands still",
         low=-100.0, high=100.0,
+    )  # fmt: skip
+
+
+@dataclass(frozen=True)
+class FrictionSection:
+    model: str | None = key_field(
+        None, "how the sheared oil resists (unset: newtonian)",
+        choices=("newtonian", "eyring", "limiting"), kind=str, own=absolute,
+    )  # fmt: skip
+    eyring_stress: float | None = key_field(
+        None, "tau_0 of tau = tau_0 asinh(eta gamma'/tau_0), below a limit, too", "Pa", low=1e3, high=1e9
+    )
+    limiting_coefficient: float | None = key_field(
+        None, "largest shear stress of the oil over its pressure (.03 to .06 measured)", above=0.0, high=1.0
+    )
+    boundary_coefficient: float = key_field(
+        Friction.boundary_coefficient,
+        "shear stress between solids over the pressure they carry (.08 to .135 measured)",
+        low=0.0, high=2.0,
+    )  # fmt: skip
+    thinning: bool | None = key_field(
+        None, "whether shear thins the film (unset: where there is an Eyring stress and surfaces slide)",
+        kind=bool,
     )  # fmt: skip
 
 

@@ -10,6 +10,7 @@ from typing import Any
 
 from mgehl.kinds.choice import Choice, word_of
 from mgehl.kinds.dry import DRY, fluid_choice
+from mgehl.kinds.friction import friction_choice
 from mgehl.kinds.line import LINE
 from mgehl.kinds.own import naming_keys
 from mgehl.kinds.point import POINT, deformation_choice, moes_choice
@@ -32,6 +33,7 @@ def choices(tables):
         *bodies,
         *surface_choices(tables),
         time_choice(tables),
+        friction_choice(tables),
         fluid_choice(tables),
         *wedge_choices(tables),
     )

@@ -5,6 +5,7 @@ from dataclasses import asdict, replace
 from mgehl.config_value import AUTO, FARTHEST, shown
 from mgehl.errors import ConfigError
 from mgehl.kinds import loaded_checks, surface, time
+from mgehl.kinds.friction import check_friction
 from mgehl.kinds.kind import Effort, Kind, kept_together
 from mgehl.model.lubricant import DENSITY_LAWS, VISCOSITY_LAWS, Lubricant
 from mgehl.model.own_function import OwnFunction, is_own
@@ -30,10 +31,11 @@ class LoadedKind(Kind):
     """SI unit of the load."""
 
     def check_keys(self, config):
-        """Neither the viscosity law nor the surfaces may contradict themselves."""
+        """Neither the laws of the lubricant nor the surfaces may contradict themselves."""
         surface.check_keys(config)
         time.check_courses(config)
         check_laws(config)
+        check_friction(config)
 
     def settled(self, config, contact):
         """With numbers where the domain is "auto"."""

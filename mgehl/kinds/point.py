@@ -7,6 +7,7 @@ from mgehl.discretization.fluid import FOLDING
 from mgehl.discretization.mesh import Mesh
 from mgehl.errors import ConfigError
 from mgehl.kinds.choice import Choice, value_of, word_of
+from mgehl.kinds.friction import friction_from
 from mgehl.kinds.kind import Effort
 from mgehl.kinds.loaded import LoadedKind, lubricant_from
 from mgehl.kinds.own import compliance_from
@@ -76,7 +77,8 @@ class PointKind(LoadedKind):
         "contact.load", "contact.radius_x", "contact.radius_y", "contact.reduced_modulus",
         "contact.deformation", "contact.boundary_film", "contact.surface",
         "surface", "second_surface",
-        "coating", "lubricant", "motion", "time", "moes", "grid", "discretization", "solver", "relaxation",
+        "coating", "lubricant", "motion", "time", "friction", "moes",
+        "grid", "discretization", "solver", "relaxation",
     )  # fmt: skip
     essential = {
         "contact.kind": "point", "contact.load": "800 N",
@@ -105,6 +107,7 @@ class PointKind(LoadedKind):
         body = (section.radius_x, section.radius_y, section.reduced_modulus)
         more = {"surface": surface_from(config), "deformation": _deformation_from(config)}
         more |= {"angle": config.motion.angle, "load_beyond": config.grid.load_beyond}
+        more |= {"friction": friction_from(config)}
         if moes.M is not None:
             return PointContact.from_moes(moes.M, moes.L, *body, lubricant, **more)
         load, speed = reference(config, "contact.load"), reference(config, "motion.speed")

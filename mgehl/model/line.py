@@ -9,6 +9,7 @@ from mgehl.model.contact import Groups, LoadedContact
 from mgehl.model.deformation import HalfPlane
 from mgehl.model.hertz import hertz_line_contact, hertz_line_gap
 from mgehl.model.lubricant import Lubricant
+from mgehl.model.rheology import Friction
 from mgehl.model.surface import Surface
 
 
@@ -31,6 +32,7 @@ class LineContact(LoadedContact):
     speed: float
     lubricant: Lubricant
     surface: Surface | None = None
+    friction: Friction = Friction()
 
     is_plane = True
 

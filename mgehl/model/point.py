@@ -14,6 +14,7 @@ from mgehl.model.hertz import hertz_contact, hertz_gap
 from mgehl.model.images import fit_images
 from mgehl.model.lubricant import Lubricant
 from mgehl.model.own_laws import OwnCompliance
+from mgehl.model.rheology import Friction
 from mgehl.model.surface import Surface
 
 LOAD = 2.0 * pi / 3.0
@@ -70,6 +71,7 @@ class PointContact(LoadedContact):
     """Direction of the motion in degrees, from +x towards +y."""
     load_beyond: bool | None = None
     """Whether the load that is carried beyond the domain is counted; None: where the film answers to it."""
+    friction: Friction = Friction()
 
     load_integral = LOAD
     contact_area = pi

@@ -128,6 +128,8 @@ def write_fields(path, solution, texts):
         if fields.p is not None:
             put("p", plane, fields.p, "1", f"the fluid's own pressure over its unit, {unit}")
             put("filling", plane, fields.filling, "1", "part of the gap above the layers that holds fluid")
+        if fields.shear is not None:
+            put("shear", plane, fields.shear, "Pa", "shear stress of film and solids by sliding")
         group, name = WHOLE.split("/")
         content = np.frombuffer(json.dumps(texts).encode(), np.uint8)
         inner = file.create_group(group)

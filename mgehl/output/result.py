@@ -8,6 +8,7 @@ from mgehl.discretization.status import CONTACT
 from mgehl.model.contact import Groups
 from mgehl.output.edge_result import NOT_SEEN, EdgeResult, edge_result
 from mgehl.output.film_error import NOT_ASKED, FilmError
+from mgehl.output.friction_result import FrictionResult
 from mgehl.output.mixed_result import MixedResult, mixed_result
 from mgehl.output.passages import TimeResult
 from mgehl.output.resolution import Resolution, resolution
@@ -135,6 +136,8 @@ class Result:
     """Film and contact of rough bodies; None of smooth ones."""
     mass: Mass | None = None
     """The account of the oil; None in older results."""
+    friction: FrictionResult | None = None
+    """None in older results."""
 
     time: TimeResult | None = None
     """Of a run in time; all else is of the state at its end."""

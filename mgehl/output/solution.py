@@ -28,6 +28,8 @@ class Fields:
     """The fluid's own pressure: P but under contact; None where it was not kept."""
     filling: Reals | None = None
     """The part of the gap above the layers that holds fluid: 1 but in cavities; None as of `p`."""
+    shear: Reals | None = None
+    """Shear stress by sliding in Pa, of film and solids; None where the surfaces do not slide."""
 
     @property
     def arrays(self) -> list[NDArray[Any]]:

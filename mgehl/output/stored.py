@@ -29,8 +29,8 @@ from mgehl.output.solution import Fields, Solution
 from mgehl.output.wedge_result import WedgeResult
 from mgehl.output.whole_file import is_plain
 
-OPTIONAL = "p", "filling"
-"""Fields that older results are without."""
+OPTIONAL = "p", "filling", "shear"
+"""Fields that older results are without, and those of surfaces that do not slide."""
 
 
 def _real(value):

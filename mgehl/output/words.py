@@ -2,6 +2,7 @@
 
 from mgehl.output.digits import with_band
 from mgehl.output.domain import beyond_words, domain_words
+from mgehl.output.friction_result import friction_lines
 from mgehl.output.mixed_words import filling_words, mixed_lines
 from mgehl.output.resolution import RESOLVED_CELLS, SEEN_CELLS
 from mgehl.output.surface import surface_words
@@ -79,6 +80,7 @@ def loaded_words(result, verbose=True):
         *(f"  load: {words}" for words in beyond_words(resolution.load_beyond_percent)),
         *((f"  surface: {shown}",) if shown else ()),
         *(mixed_lines(result.mixed) if result.mixed else ()),
+        *friction_lines(result.friction, verbose),
         _work(result),
         *(_nodes(result) if verbose else ()),
     ]

@@ -22,6 +22,7 @@ FLUID = {
         "long_name": "pressure of the fluid, under contact of that in the layers",
     },
     "filling": {"units": "1", "long_name": "part of the gap above the layers that holds fluid"},
+    "shear": {"units": "Pa", "long_name": "shear stress of film and solids by sliding"},
 }
 """What `fluid_fields` are called."""
 

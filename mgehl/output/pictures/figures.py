@@ -43,6 +43,7 @@ _DRY = {
     "lines": ("pressure and gap on the centre lines, against the contact of smooth bodies", centre_lines),
     "gap": ("gap, with contact", maps.film_map),
 }
+_SLIDES = {"shear": ("shear stress by sliding, with contact outlined", maps.shear_map)}
 _ROUGH = {"surface": ("heights of the surface with contact, the gap, their distribution", surface_picture)}
 _BEARING = {
     "lines": ("pressure on the centre line", wedge_picture.centre_line),
@@ -74,7 +75,8 @@ def _possible(solution):
     drawn = _POINT | (_ROUGH if solution.contact.surface is not None else {})
     if solution.is_dry:
         drawn = _DRY | {kind: drawn[kind] for kind in drawn if kind not in ("lines", "film")}
-    flat = ("film", "gap", "pressure", "status") if solution.mesh.is_line else ()
+    drawn |= _SLIDES if solution.fields.shear is not None else {}
+    flat = ("film", "gap", "pressure", "status", "shear") if solution.mesh.is_line else ()
     return {kind: drawn[kind] for kind in drawn if kind not in flat}
 
 

@@ -1,0 +1,44 @@
+"""Laws of the sheared oil: their limits, and what own ones may return."""
+
+import numpy as np
+import pytest
+
+from mgehl.model.own_function import OwnFunction, OwnFunctionError
+from mgehl.model.rheology import Conditions, Eyring, Limiting, Newtonian, OwnRheology
+
+P = np.array([0.0, 0.5e9, 1e9])
+
+
+def at(rate, eta=2.0):
+    return Conditions(P, np.full(3, eta), np.full(3, rate))
+
+
+def test_eyring_is_newtonian_where_it_is_hardly_sheared_and_logarithmic_where_it_is_sheared_much():
+    law = Eyring(5e6)
+    np.testing.assert_allclose(law.shear_stress(at(1.0)), Newtonian().shear_stress(at(1.0)), rtol=1e-12)
+    np.testing.assert_allclose(law.shear_stress(at(1e12)), 5e6 * np.log(2.0 * 2e12 / 5e6), rtol=1e-10)
+
+
+def test_a_limit_is_a_part_of_the_pressure():
+    law = Limiting(0.05, Eyring(5e6))
+    assert law.shear_stress(at(1e12)).tolist() == [0.0, 0.05 * 0.5e9, 0.05 * 1e9]
+    assert law.shear_stress(at(1.0))[1:].tolist() == Eyring(5e6).shear_stress(at(1.0))[1:].tolist()
+
+
+def own(path, body):
+    (path / "mine.py").write_text(
+        f"import numpy as np\ndef law(conditions):\n    at = conditions\n    {body}"
+    )
+    return OwnRheology(OwnFunction(f"{path}/mine.py:law"))
+
+
+def test_one_s_own_law_knows_the_conditions(tmp_path):
+    law = own(tmp_path, "return 5e6 * np.arcsinh(at.viscosity * at.shear_rate / 5e6)")
+    law.check(2e9, 0.1, 1e6)
+    np.testing.assert_allclose(law.shear_stress(at(1e7)), Eyring(5e6).shear_stress(at(1e7)), rtol=1e-14)
+
+
+@pytest.mark.parametrize("body", ["return -at.pressure", "return at.pressure * np.nan"])
+def test_what_is_no_stress_is_refused_with_its_place(tmp_path, body):
+    with pytest.raises(OwnFunctionError, match="1e[+]06 1/s; must be a shear stress in Pa, not below 0"):
+        own(tmp_path, body).check(2e9, 0.1, 1e6)
