@@ -48,6 +48,7 @@ class Config:
     motion: sections.MotionSection = sections.MotionSection()
     time: TimeSection = TimeSection()
     friction: sections.FrictionSection = sections.FrictionSection()
+    heat: sections.HeatSection = sections.HeatSection()
     surface: SurfaceSection = SurfaceSection()
     second_surface: SurfaceSection = SurfaceSection()
     moes: MoesSection = MoesSection()

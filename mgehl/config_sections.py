@@ -60,6 +60,16 @@ class LubricantSection:
     density_law: str = key_field(
         "dowson-higginson", "density-pressure law", choices=tuple(DENSITY_LAWS), kind=str, own=absolute
     )
+    conductivity: float | None = key_field(
+        None, "thermal conductivity (mineral oils: .12 to .15)", "W/m/K", low=1e-3, high=1e3
+    )
+    thermoviscosity: float | None = key_field(
+        None, "beta of viscosity ~ exp(-beta T) (mineral oils: .02 to .06)", "1/K", low=1e-5, high=1.0
+    )
+    heating: str = key_field(
+        "none", "whether shear in the inlet thins the oil by a factor of the film (Gupta and others)",
+        choices=("none", "factor"), kind=str,
+    )  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -98,6 +108,19 @@ class FrictionSection:
         None, "whether shear thins the film (unset: where there is an Eyring stress and surfaces slide)",
         kind=bool,
     )  # fmt: skip
+
+
+@dataclass(frozen=True)
+class HeatSection:
+    conductivity_1: float | None = key_field(
+        None, "thermal conductivity of body 1 (steel: 46); all four give flash temperatures",
+        "W/m/K", low=1e-3, high=1e4,
+    )  # fmt: skip
+    conductivity_2: float | None = key_field(None, "the same of body 2", "W/m/K", low=1e-3, high=1e4)
+    capacity_1: float | None = key_field(
+        None, "heat capacity of body 1 per volume (steel: 3.6e6)", "J/m^3/K", low=1e3, high=1e8
+    )
+    capacity_2: float | None = key_field(None, "the same of body 2", "J/m^3/K", low=1e3, high=1e8)
 
 
 @dataclass(frozen=True)

@@ -145,10 +145,10 @@ def _solve_loaded(case, parts, comm, watch, start):
         coarser = CoarserGrids(hierarchy, problem, outcome.state, settings, monitor.beside, journal)
         mixed = result.mixed and replace(result.mixed, error=gap_error(result, coarser, monitor))
         bands = {"mixed": mixed, "error": film_error(result, coarser, monitor)}
-        friction, shear = friction_result(problem, outcome.state)
+        friction, maps = friction_result(problem, outcome.state)
         friction = with_band(friction, mixed, contact.friction.boundary_coefficient)
         result = replace(result, **bands, friction=friction, wall_s=monitor.seconds)
-        return _solution(case, parts, problem, outcome.state, monitor.rows, result, shear)
+        return _solution(case, parts, problem, outcome.state, monitor.rows, result, maps)
     finally:
         hierarchy.destroy()
 
@@ -243,9 +243,9 @@ def _solve_bearing(case, parts, comm, watch):
         grid.destroy()
 
 
-def _solution(case, parts, problem, state, rows, result, shear=None):
+def _solution(case, parts, problem, state, rows, result, maps=None):
     """The `Solution` of a final state (collective)."""
-    local = Fields(state.P, state.H, state.status, state.p, state.filling, shear)
+    local = Fields(state.P, state.H, state.status, state.p, state.filling, **(maps or {}))
     grid = problem.grid
     whole = local.gathered(grid)
     found = (whole, rows, result, state.H0, local, grid.first)

@@ -18,7 +18,7 @@ ROOM = 1.5
 """End of a domain that is "auto", over the reach of the smooth contact."""
 
 OF_A_FLUID = (
-    "lubricant", "motion", "friction", "relaxation", "contact.boundary_film", "grid.load_beyond",
+    "lubricant", "motion", "friction", "heat", "relaxation", "contact.boundary_film", "grid.load_beyond",
     "discretization.couette", "discretization.face_mobility", "discretization.unified_gap",
     "discretization.couette_at_interface", "discretization.cavitation", "discretization.film_threshold",
     "solver.method", "solver.start", "solver.linear_tolerance", "solver.sweeps", "solver.omega",

@@ -2,6 +2,7 @@
 
 from mgehl.discretization.mesh import Mesh
 from mgehl.kinds.friction import friction_from
+from mgehl.kinds.heat import heated, solids_from
 from mgehl.kinds.kind import Effort
 from mgehl.kinds.loaded import LoadedKind, lubricant_from
 from mgehl.kinds.surface import surface_from
@@ -20,7 +21,7 @@ class LineKind(LoadedKind):
     takes = (
         "contact.load_per_length", "contact.radius_x", "contact.reduced_modulus", "contact.boundary_film",
         "contact.surface", "surface", "second_surface",
-        "lubricant", "motion.speed", "motion.slide_to_roll", "time", "friction",
+        "lubricant", "motion.speed", "motion.slide_to_roll", "time", "friction", "heat",
         "grid.nodes", "grid.x", "discretization", "solver", "relaxation",
     )  # fmt: skip
     essential = {
@@ -36,8 +37,8 @@ class LineKind(LoadedKind):
         section, speed = config.contact, reference(config, "motion.speed")
         body = (section.radius_x, section.reduced_modulus)
         lubricant, surface = lubricant_from(config), surface_from(config)
-        load, friction = reference(config, "contact.load_per_length"), friction_from(config)
-        return LineContact(load, *body, speed, lubricant, surface, friction)
+        load, more = reference(config, "contact.load_per_length"), (friction_from(config), solids_from(config))
+        return heated(config, LineContact(load, *body, speed, lubricant, surface, *more))
 
     def mesh(self, config, contact):
         """A single line of nodes."""

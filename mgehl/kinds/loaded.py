@@ -6,6 +6,7 @@ from mgehl.config_value import AUTO, FARTHEST, shown
 from mgehl.errors import ConfigError
 from mgehl.kinds import loaded_checks, surface, time
 from mgehl.kinds.friction import check_friction
+from mgehl.kinds.heat import check_factor, check_heat
 from mgehl.kinds.kind import Effort, Kind, kept_together
 from mgehl.model.lubricant import DENSITY_LAWS, VISCOSITY_LAWS, Lubricant
 from mgehl.model.own_function import OwnFunction, is_own
@@ -36,6 +37,7 @@ class LoadedKind(Kind):
         time.check_courses(config)
         check_laws(config)
         check_friction(config)
+        check_heat(config)
 
     def settled(self, config, contact):
         """With numbers where the domain is "auto"."""
@@ -59,6 +61,7 @@ class LoadedKind(Kind):
         loaded_checks.check_size(*self.size(config, contact))
         if contact.surface is not None:
             surface.check_known(config, contact)
+        check_factor(config, contact)
         config = self.settled(config, contact)
         if contact.surface is not None:
             surface.check_surfaces(config, contact, self.mesh(config, contact))
@@ -203,4 +206,4 @@ def lubricant_from(config):
         density = OwnDensity(OwnFunction(section.density_law))
     else:
         density = DENSITY_LAWS[section.density_law]()
-    return Lubricant(viscosity, density)
+    return Lubricant(viscosity, density, section.conductivity, section.thermoviscosity)

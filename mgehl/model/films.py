@@ -92,3 +92,12 @@ def regime(RI, EI, RP, EP):
 def grubin(pressure_viscosity, viscosity, speed, a, gap_coefficient):
     """Ertel-Grubin film of a heavily loaded contact with dry edge gap C s^(3/2)."""
     return (12.0 * 0.2687 * pressure_viscosity * viscosity * speed * a) ** 0.75 / sqrt(gap_coefficient)
+
+
+def thermal_reduction(pressure, loading, slide_to_roll):
+    """Phi_T, the film with inlet shear heating over the isothermal one  [Gupta and others 1992].
+
+    `pressure` is p_h/E', `loading` Q = eta_0 beta u^2/k. Below 0 it is far beyond its range.
+    """
+    heat = 0.213 * (1.0 + 2.23 * abs(slide_to_roll) ** 0.83) * loading**0.64
+    return (1.0 - 13.2 * pressure * loading**0.42) / (1.0 + heat)

@@ -7,6 +7,7 @@ from math import pi
 from mgehl.model import films
 from mgehl.model.contact import Groups, LoadedContact
 from mgehl.model.deformation import HalfPlane
+from mgehl.model.flash import Solid
 from mgehl.model.hertz import hertz_line_contact, hertz_line_gap
 from mgehl.model.lubricant import Lubricant
 from mgehl.model.rheology import Friction
@@ -33,6 +34,8 @@ class LineContact(LoadedContact):
     lubricant: Lubricant
     surface: Surface | None = None
     friction: Friction = Friction()
+    solids: tuple[Solid, Solid] | None = None
+    """What both bodies make of heat; None where it is not known."""
 
     is_plane = True
 

@@ -100,6 +100,30 @@ class OwnRheology:
         self.shear_stress(Conditions(p, np.full(p.shape, viscosity), np.full(p.shape, shear_rate)))
 
 
+SERIES = 1e-3
+"""Below this sigma/asinh(sigma) is a series: there its slope has 16 digits, the formula 10."""
+
+
+def effective_mobilities(sigma):
+    """What shear multiplies the mobility by, along the sliding and across, with slopes by `sigma`.
+
+    Two pairs (value, slope), shapes as sigma = eta V/(h tau_0), where the oil follows Eyring's law, V is
+    the sliding speed and pressure gradients are small beside it  [Ehret, Dowson, Taylor, Proc R Soc A 454
+    (1998) 763]. The shear stress tau of the sliding is the same at all heights z of the film. A pressure
+    gradient adds (z - c) dp/dx and (z - c) dp/dy, c the middle. To first order the shear rates
+    (tau_0/eta) sinh(|tau|/tau_0) tau/|tau| change by these times (1/eta) cosh(tau/tau_0) along the sliding,
+    where the size of the stress changes, and (1/eta) sinh(tau/tau_0)/(tau/tau_0) across it, where only its
+    direction does: so much less viscous is the oil. The sliding itself says that sinh(tau/tau_0) = sigma.
+    """
+    along = np.sqrt(1.0 + sigma * sigma)
+    stress = np.arcsinh(sigma)
+    small = sigma < SERIES
+    one = np.where(small, 1.0, stress)
+    across = np.where(small, 1.0 + sigma * sigma / 6.0, sigma / one)
+    slope = np.where(small, sigma / 3.0, (1.0 - across / along) / one)
+    return (along, sigma / along), (across, slope)
+
+
 @dataclass(frozen=True)
 class Friction:
     """How the surfaces slide over each other, and what resists."""

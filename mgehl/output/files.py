@@ -130,6 +130,9 @@ def write_fields(path, solution, texts):
             put("filling", plane, fields.filling, "1", "part of the gap above the layers that holds fluid")
         if fields.shear is not None:
             put("shear", plane, fields.shear, "Pa", "shear stress of film and solids by sliding")
+        if fields.flash_1 is not None:
+            put("flash_1", plane, fields.flash_1, "K", "rise of the surface of body 1 by friction")
+            put("flash_2", plane, fields.flash_2, "K", "rise of the surface of body 2 by friction")
         group, name = WHOLE.split("/")
         content = np.frombuffer(json.dumps(texts).encode(), np.uint8)
         inner = file.create_group(group)

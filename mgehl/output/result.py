@@ -138,6 +138,11 @@ class Result:
     """The account of the oil; None in older results."""
     friction: FrictionResult | None = None
     """None in older results."""
+    thermal_reduction: float = None
+    """Part of the film that the heat of shear in the inlet leaves, by Gupta's formula; None where the
+    lubricant has no conductivity or no thermoviscosity."""
+    is_thermally_reduced: bool = False
+    """Whether the film has been solved with so much less viscosity."""
 
     time: TimeResult | None = None
     """Of a run in time; all else is of the state at its end."""
@@ -221,6 +226,8 @@ def summarise(problem, outcome, tolerance, work, wall_s, versions):
         edge=edge,
         mixed=mixed_result(problem, state),
         mass=mass,
+        thermal_reduction=contact.thermal_reduction,
+        is_thermally_reduced=contact.lubricant.thinned < 1.0,
     )
 
 

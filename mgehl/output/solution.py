@@ -30,6 +30,9 @@ class Fields:
     """The part of the gap above the layers that holds fluid: 1 but in cavities; None as of `p`."""
     shear: Reals | None = None
     """Shear stress by sliding in Pa, of film and solids; None where the surfaces do not slide."""
+    flash_1: Reals | None = None
+    """Rise of the surface of body 1 in K by friction; None where nothing is known of the bodies."""
+    flash_2: Reals | None = None
 
     @property
     def arrays(self) -> list[NDArray[Any]]:

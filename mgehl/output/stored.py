@@ -29,7 +29,7 @@ from mgehl.output.solution import Fields, Solution
 from mgehl.output.wedge_result import WedgeResult
 from mgehl.output.whole_file import is_plain
 
-OPTIONAL = "p", "filling", "shear"
+OPTIONAL = "p", "filling", "shear", "flash_1", "flash_2"
 """Fields that older results are without, and those of surfaces that do not slide."""
 
 

@@ -5,11 +5,14 @@ from types import SimpleNamespace
 
 import pytest
 
+from mgehl.discretization.mesh import Mesh
 from mgehl.model.rheology import Friction
 from mgehl.output import friction_result as module
 from mgehl.output.friction_result import friction_lines, friction_result, with_band
 from mgehl.output.gap_error import GapError, GridGap
 from mgehl.solver.shear import Shear
+
+MESH = Mesh(65, 65, (-40.0, 40.0), (-40.0, 40.0))
 
 
 @pytest.fixture
@@ -18,7 +21,7 @@ def found(paper_contact, monkeypatch):
 
     def make(slide_to_roll):
         contact = paper_contact(friction=Friction(slide_to_roll=slide_to_roll))
-        problem = SimpleNamespace(contact=contact, grid=SimpleNamespace(max=float))
+        problem = SimpleNamespace(contact=contact, grid=SimpleNamespace(max=float, mesh=MESH))
         forces = (40.0, 8.0) if slide_to_roll else (0.0, 0.0)
         shear = Shear(1e6, 2e6, *forces, 0.4)
         monkeypatch.setattr(module, "shear_of", lambda *_: shear)

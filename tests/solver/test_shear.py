@@ -13,6 +13,8 @@ import pytest
 from mpi4py import MPI
 from scipy.integrate import quad
 
+import mgehl
+from mgehl.config import config_from_tables
 from mgehl.discretization.contact_law import BoundaryFilm
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.scheme import Scheme
@@ -132,3 +134,33 @@ def test_rolling_of_a_full_film_is_the_load_upstream_of_the_centre(paper_contact
     moment = grid.mesh.dX * grid.mesh.dY * float((state.P * grid.X).sum()) * contact.hertz.p_h
     exact = -0.5 * moment * contact.hertz.a**3 / contact.radius_x
     assert rolling_force(problem, state) == pytest.approx(exact, rel=1e-11)
+
+
+def film_of(speed, **changes):
+    tables = {
+        "contact": {"load": 100.0},
+        "motion": {"speed": speed} | changes.pop("motion", {}),
+        "grid": {"nodes": 65},
+        "solver": {"start": "film", "error": False},
+    }
+    return mgehl.solve(config_from_tables(tables | changes)).summary
+
+
+def test_shear_thins_a_film_by_newton_s_own_steps():
+    """The same film where the Eyring stress is large, a thinner one in about as many steps where not."""
+    slides, eyring = {"slide_to_roll": 2.0}, {"model": "eyring", "eyring_stress": 1e9}
+    thick, stiff = film_of(0.5), film_of(0.5, motion=slides, friction=eyring)
+    assert stiff.central_film_nm == pytest.approx(thick.central_film_nm, rel=1e-3)
+    thin = film_of(0.5, motion=slides, friction=eyring | {"eyring_stress": 2e6})
+    assert thin.converged and thin.work.steps <= thick.work.steps + 5
+    assert 0.6 < thin.central_film_nm / thick.central_film_nm < 0.9
+
+
+def test_a_film_along_y_is_thinned_as_one_along_x():
+    slides = {"slide_to_roll": 1.0}
+    eyring = {"model": "eyring", "eyring_stress": 2e6}
+    along_x, along_y = (
+        film_of(0.5, motion=slides | {"angle": angle}, friction=eyring) for angle in (0.0, 90.0)
+    )
+    assert along_y.central_film_nm == pytest.approx(along_x.central_film_nm, rel=1e-12)
+    assert along_y.friction.coefficient == pytest.approx(along_x.friction.coefficient, rel=1e-12)

@@ -23,6 +23,8 @@ FLUID = {
     },
     "filling": {"units": "1", "long_name": "part of the gap above the layers that holds fluid"},
     "shear": {"units": "Pa", "long_name": "shear stress of film and solids by sliding"},
+    "flash_1": {"units": "K", "long_name": "rise of the surface of body 1 by friction"},
+    "flash_2": {"units": "K", "long_name": "rise of the surface of body 2 by friction"},
 }
 """What `fluid_fields` are called."""
 
