@@ -3,7 +3,8 @@
 from mgehl.errors import ConfigError
 from mgehl.kinds.choice import Choice, value_of
 from mgehl.model.own_function import OwnFunction, is_own
-from mgehl.model.rheology import Eyring, Friction, Limiting, Newtonian, OwnRheology
+from mgehl.model.own_laws import OwnRheology
+from mgehl.model.rheology import Eyring, Friction, Limiting, Newtonian
 
 PARAMETERS = STRESS, LIMIT, THINNING = (
     "friction.eyring_stress", "friction.limiting_coefficient", "friction.thinning",

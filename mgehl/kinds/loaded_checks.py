@@ -2,8 +2,7 @@
 
 from mgehl.errors import ConfigError
 from mgehl.model.images import wave_numbers
-from mgehl.model.own_laws import OwnCompliance, OwnDensity, OwnViscosity
-from mgehl.model.rheology import OwnRheology
+from mgehl.model.own_laws import OwnCompliance, OwnDensity, OwnRheology, OwnViscosity
 
 LARGEST_CONTACT = 0.5
 """Largest semi-axis over radius. Beyond it a body is neither a half-space nor a paraboloid."""

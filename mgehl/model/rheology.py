@@ -8,21 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mgehl.model.own_function import OwnFunction
-
-
-@dataclass(frozen=True)
-class Conditions:
-    """Where a law of the lubricant is asked: arrays of one shape, or numbers that hold everywhere."""
-
-    pressure: np.ndarray
-    """In Pa, never negative."""
-    viscosity: np.ndarray | None = None
-    """In Pa s, of oil that is hardly sheared, at this pressure and temperature."""
-    shear_rate: np.ndarray | None = None
-    """In 1/s, never negative."""
-    temperature: float | None = None
-    """In K; None where the configuration names none."""
+from mgehl.model.own_laws import OwnRheology
 
 
 @dataclass(frozen=True)
@@ -69,35 +55,6 @@ class Limiting:
     def shear_stress(self, at):
         """In Pa, at `Conditions`."""
         return np.minimum(self.below.shear_stress(at), self.coefficient * at.pressure)
-
-
-@dataclass(frozen=True)
-class OwnRheology:
-    """law(conditions) -> shear stress in Pa, of the user's own; `conditions` are `Conditions`."""
-
-    function: OwnFunction
-
-    name = "own"
-    eyring_stress = None
-
-    def shear_stress(self, at):
-        """In Pa, at `Conditions`."""
-        found = self.function.array(np.shape(at.pressure), at)
-        wrong = ~((found >= 0.0) & np.isfinite(found))
-        if wrong.any():
-            i = np.unravel_index(int(wrong.argmax()), wrong.shape)
-            p, rate = (np.broadcast_to(each, found.shape)[i] for each in (at.pressure, at.shear_rate))
-            raise self.function.error(
-                f"returns {found[i]:.3g} at {p:.3g} Pa and {rate:.3g} 1/s; must be a shear stress in Pa, "
-                "not below 0"
-            )
-        return found
-
-    def check(self, p_max, viscosity, shear_rate):
-        """Raise OwnFunctionError unless it gives stresses from 0 to `p_max` in Pa."""
-        self.function.check_arguments("conditions")
-        p = np.linspace(0.0, p_max, 11)
-        self.shear_stress(Conditions(p, np.full(p.shape, viscosity), np.full(p.shape, shear_rate)))
 
 
 SERIES = 1e-3

@@ -7,7 +7,7 @@ import numpy as np
 from mgehl.discretization.axes import own
 from mgehl.discretization.couette import SHIFT, E, W
 from mgehl.discretization.status import CAVITATED, CONTACT, is_fluid, is_solid, open_faces
-from mgehl.model.rheology import Conditions
+from mgehl.model.conditions import Conditions
 
 
 @dataclass(frozen=True)
@@ -49,7 +49,7 @@ def film_shear(problem, state):
     p_h, law = contact.pressure_scale, contact.lubricant.viscosity_law
     P = np.maximum(state.p[here], 0.0)
     eta = law.viscosity * np.exp(np.broadcast_to(law.log_viscosity(P[None], p_h)[0], (1, P.size))[0])
-    at = Conditions(p_h * P, eta, speed / (contact.film_scale * gap[here]))
+    at = Conditions(p_h * P, eta, shear_rate=speed / (contact.film_scale * gap[here]))
     tau[here] = contact.friction.rheology.shear_stress(at)
     return np.where(state.status == CAVITATED, state.filling, 1.0) * tau
 

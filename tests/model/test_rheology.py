@@ -3,14 +3,16 @@
 import numpy as np
 import pytest
 
+from mgehl.model.conditions import Conditions
 from mgehl.model.own_function import OwnFunction, OwnFunctionError
-from mgehl.model.rheology import Conditions, Eyring, Limiting, Newtonian, OwnRheology, effective_mobilities
+from mgehl.model.own_laws import OwnRheology
+from mgehl.model.rheology import Eyring, Limiting, Newtonian, effective_mobilities
 
 P = np.array([0.0, 0.5e9, 1e9])
 
 
 def at(rate, eta=2.0):
-    return Conditions(P, np.full(3, eta), np.full(3, rate))
+    return Conditions(P, np.full(3, eta), shear_rate=np.full(3, rate))
 
 
 def test_eyring_is_newtonian_where_it_is_hardly_sheared_and_logarithmic_where_it_is_sheared_much():
