@@ -37,7 +37,8 @@ class LineKind(LoadedKind):
         section, speed = config.contact, reference(config, "motion.speed")
         body = (section.radius_x, section.reduced_modulus)
         lubricant, surface = lubricant_from(config), surface_from(config)
-        load, more = reference(config, "contact.load_per_length"), (friction_from(config), solids_from(config))
+        load = reference(config, "contact.load_per_length")
+        more = friction_from(config), solids_from(config)
         return heated(config, LineContact(load, *body, speed, lubricant, surface, *more))
 
     def mesh(self, config, contact):
