@@ -56,4 +56,5 @@ def _rheology(section):
 
 def _thins(config):
     section, slides = config.friction, config.motion.slide_to_roll != 0.0
-    return slides and not config.is_in_time and section.eyring_stress is not None and section.thinning is not False
+    is_asked = section.eyring_stress is not None and section.thinning is not False
+    return is_asked and slides and not config.is_in_time
