@@ -164,3 +164,21 @@ def test_a_film_along_y_is_thinned_as_one_along_x():
     )
     assert along_y.central_film_nm == pytest.approx(along_x.central_film_nm, rel=1e-12)
     assert along_y.friction.coefficient == pytest.approx(along_x.friction.coefficient, rel=1e-12)
+
+
+def test_rolling_within_and_beyond_the_domain_does_not_depend_on_the_domain():
+    """Within it half as much again on twice the domain; both together change by less than 2 %."""
+    found = []
+    for end, nodes in ((5.0, 65), (10.0, 129)):
+        grid = {"nodes": nodes, "x": [-end, 2.0], "y": [-end, end]}
+        tables = {
+            "moes": {"M": 8.0, "L": 8.0},
+            "lubricant": {"density_law": "constant"},
+            "grid": grid,
+            "solver": {"error": False},
+        }
+        found.append(mgehl.solve(config_from_tables(tables)).summary.friction)
+    near, far = found
+    assert far.rolling_coefficient > 1.4 * near.rolling_coefficient
+    both = [each.rolling_coefficient + each.rolling_beyond for each in found]
+    assert both[1] == pytest.approx(both[0], rel=0.02)
