@@ -163,7 +163,7 @@ def _solve_in_time(case, parts, comm, watch, start):
             progress.newton_row, parts.contact.film_scale, hierarchy, tolerance, watch.speaker
         )
         diary = Diary(case, parts.frame, hierarchy.grids[-1], monitor, watch)
-        time_settings = TimeSettings(time_keys.step, time_keys.tolerance, tolerance)
+        time_settings = TimeSettings(time_keys.step, time_keys.tolerance, config.solver.tolerance)
         how = settings, time_settings, diary, monitor.beside, _journal(config, monitor, watch)
         problem, outcome = march(scene, hierarchy, *how, start and (start, parts.frame))
         work = Work(monitor.convolutions, len(monitor.rows))
@@ -245,8 +245,8 @@ def _solve_bearing(case, parts, comm, watch):
 
 def _solution(case, parts, problem, state, rows, result, maps=None):
     """The `Solution` of a final state (collective)."""
-    local = Fields(state.P, state.H, state.status, state.p, state.filling, **(maps or {}))
     grid = problem.grid
+    local = Fields(state.P, state.H, state.status, state.p, state.filling, problem.heights, **(maps or {}))
     whole = local.gathered(grid)
     found = (whole, rows, result, state.H0, local, grid.first)
     return in_users_axes(Solution(case.config, parts.contact, grid.mesh, *found), parts.frame, grid, case)

@@ -175,7 +175,7 @@ def test_solving_writes_nothing_and_returns_the_solution(kind, capsys, tmp_path,
     assert solution.result.converged == (kind != "relaxed point")
     assert solution.config is config
     assert (solution.mesh.ny, solution.mesh.nx) == shape
-    assert all(array.shape == shape for array in solution.fields.arrays)
+    assert all(array.shape == shape for array in solution.fields.named.values())
     assert solution.rows and all(row.keys() == solution.rows[0].keys() for row in solution.rows)
     assert capsys.readouterr().out == "" and not list(tmp_path.iterdir())
 

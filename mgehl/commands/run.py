@@ -82,6 +82,7 @@ def _begin(options, comm, solve):
     case = enter(config_from_tables(tables), comm)
     config = case.config
     on_first_rank(comm, _say_what_changed, config)
+    on_first_rank(comm, _say_doubts, case)
     start = _start(options.start_from, config, comm) if options.start_from else None
     if start and comm.rank == 0:
         _say_what_differs(options.start_from, start, config)
@@ -115,6 +116,16 @@ def _say_what_changed(config):
 
     for file in changed_copies(config):
         complain(f"{file}: has changed since the run that it lies beside")
+
+
+def _say_doubts(case):
+    """Warn of heights that may be errors."""
+    from mgehl.output.surface import surface_doubts
+    from mgehl.saying import complain
+
+    if case.config.kind.is_loaded:
+        for words in surface_doubts(case.config, case.contact):
+            complain(words)
 
 
 def _say_what_differs(directory, start, config):

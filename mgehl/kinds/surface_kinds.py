@@ -10,15 +10,15 @@ from pathlib import Path
 from mgehl.config_value import key_field
 from mgehl.kinds.choice import Choice, word_of
 from mgehl.model.surface import Dent, Measured, Preparation, Ridge, SelfAffine, Waviness
-from mgehl.model.surface.files import UNITS
-from mgehl.model.surface.measured import CONTINUATIONS, REMOVED
+from mgehl.model.surface.map import UNITS
+from mgehl.model.surface.measured import CONTINUATIONS, INTERPOLATE, REFUSE, REMOVED
 
 NAMES = ("surface", "second_surface")
 
 FORMULAS = {"waviness": Waviness, "self-affine": SelfAffine, "dent": Dent, "ridge": Ridge}
 
 OF_A_FILE = (
-    "file", "height_unit", "position_unit", "spacing", "spacing_y", "continuation", "remove",
+    "file", "height_unit", "position_unit", "spacing", "spacing_y", "continuation", "remove", "holes",
     "shortest_wavelength", "longest_wavelength", "body", "x", "y", "angle",
 )  # fmt: skip
 """Keys of a surface from a file."""
@@ -106,6 +106,10 @@ class SurfaceSection:
         "nothing", "file: what is taken off it (curvature: with tilt and mean)",
         choices=tuple(REMOVED), kind=str,
     )  # fmt: skip
+    holes: str = key_field(
+        REFUSE, "file: holes, points without a height (interpolate: filled smoothly, up to a quarter)",
+        choices=(REFUSE, INTERPOLATE), kind=str,
+    )  # fmt: skip
 
 
 def surface_choices(tables):
@@ -162,4 +166,5 @@ def _preparation(section):
         shortest_wavelength=section.shortest_wavelength,
         longest_wavelength=section.longest_wavelength,
         continuation=section.continuation,
+        holes=section.holes,
     )

@@ -36,6 +36,12 @@ class Moved(Surface):
         return self.surface.varies_along(direction)
 
 
+def cells_a_step(shares):
+    """What counts as cells while the mean surface goes one: those of the fastest, or twice those by which
+    film and roughness pass each other (half a cell of 32 in a wave is .3 % of its amplitude, one 1.3 %)."""
+    return max([1.0, *(max(abs(share), 2.0 * abs(share - 1.0)) for share in shares)])
+
+
 @dataclass(frozen=True)
 class Scene:
     """What changes with time; `contact` is the one at a time of 0, in the user's axes."""
@@ -81,9 +87,9 @@ class Scene:
         return along_x, 0.0 if mesh.is_line else path * contact.motion[1] / (contact.y_scale * mesh.dY)
 
     def fastest(self, path, mesh):
-        """Cells along X that the fastest of the mean surface and the rough ones goes by a `path`."""
-        shares = [abs(share) for surface, share in self.surfaces] if self.moves else []
-        return abs(self.cells(path, mesh)[0]) * max([1.0, *shares])
+        """Cells along X that count for the length of a step by a `path`."""
+        shares = [share for _, share in self.surfaces] if self.moves else []
+        return abs(self.cells(path, mesh)[0]) * cells_a_step(shares)
 
     def load_share(self, t):
         """The load over that of the contact."""

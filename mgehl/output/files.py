@@ -133,6 +133,8 @@ def write_fields(path, solution, texts):
         if fields.flash_1 is not None:
             put("flash_1", plane, fields.flash_1, "K", "rise of the surface of body 1 by friction")
             put("flash_2", plane, fields.flash_2, "K", "rise of the surface of body 2 by friction")
+        if fields.heights is not None:
+            put("heights", plane, fields.heights, "m", "heights of the bodies, a peak positive")
         group, name = WHOLE.split("/")
         content = np.frombuffer(json.dumps(texts).encode(), np.uint8)
         inner = file.create_group(group)

@@ -7,6 +7,7 @@ frames.nc    pressure, film and status of some instants, CF
 from dataclasses import dataclass
 from functools import partial
 
+import h5netcdf
 import numpy as np
 
 from mgehl.discretization.status import CONTACT, names
@@ -127,6 +128,19 @@ class Frames:
         for path in sorted(self.folder.glob("frame-*.npz")):
             with np.load(path) as file:
                 yield float(file["t"]), {name: file[name] for name in file.files if name != "t"}
+
+
+class StoredFrames:
+    """The frames of a finished run, in its frames.nc."""
+
+    def __init__(self, path):
+        self._path = path
+
+    def all(self):
+        """(Time, {name: array}) of the instants, in order."""
+        with h5netcdf.File(self._path, "r") as file:
+            for number, t in enumerate(file["time"][:]):
+                yield float(t), {name: file[name][number] for name in FIELDS}
 
 
 FIELDS = {

@@ -25,12 +25,13 @@ from mgehl.output.files import CONFIGURATION, FIELDS, FRAMES, HISTORY, PICTURE, 
 from mgehl.output.files import NAMES as RUN_FILES
 from mgehl.output.laws import FOLDER, checksum, is_law, law_files, laws_in, placed
 from mgehl.output.result import Result
+from mgehl.output.series import StoredFrames
 from mgehl.output.solution import Fields, Solution
 from mgehl.output.wedge_result import WedgeResult
 from mgehl.output.whole_file import is_plain
 
-OPTIONAL = "p", "filling", "shear", "flash_1", "flash_2"
-"""Fields that older results are without, and those of surfaces that do not slide."""
+OPTIONAL = "p", "filling", "heights", "shear", "flash_1", "flash_2"
+"""Fields that smooth bodies, surfaces that do not slide, or older results are without."""
 
 
 def _real(value):
@@ -153,7 +154,10 @@ def _solution(file, directory):
     H0 = float(file.attrs["H0"])
     if not np.isfinite(H0):
         raise ValueError("H0 is not finite")
-    return Solution(config, contact, mesh, fields, _rows(texts[HISTORY]), result, H0, local=fields)
+    found = config, contact, mesh, fields, _rows(texts[HISTORY]), result, H0
+    frames = directory / FRAMES
+    kept = StoredFrames(frames) if config.is_in_time and is_plain(frames) else None
+    return Solution(*found, local=fields, frames=kept)
 
 
 def _fields(file, mesh):
@@ -162,7 +166,7 @@ def _fields(file, mesh):
     if any(file[name].shape != (mesh.ny, mesh.nx) for name in names):
         raise ValueError(f"its fields are not of {mesh.nx} x {mesh.ny} nodes")
     fields = Fields(**{name: file[name][()] for name in names})
-    if not all(np.isfinite(array).all() for array in fields.arrays):
+    if not all(np.isfinite(array).all() for array in fields.named.values()):
         raise ValueError("its fields are not finite everywhere")
     if not np.isin(fields.status, range(len(NAMES))).all():
         raise ValueError("it has nodes of a status that there is not")

@@ -54,6 +54,8 @@ class Problem:
     """The `Storage` of the time step that is taken; None of what is steady."""
     K00 = 0.0
     """Deflection of a node by its own pressure: none in a rigid gap."""
+    heights = None
+    """Heights of the bodies at the local nodes in m; None of smooth ones."""
 
     def __init__(self, grid, contact, scheme):
         self.grid, self.contact, self.scheme = grid, contact, scheme
@@ -160,6 +162,15 @@ class ContactProblem(Problem):
         self.K00 = influence_coefficients(grid.mesh, contact.kernel, 0, 1)[0, 0]
         self._undeformed, self._surface = contact.undeformed_gap(grid.X, grid.Y), contact.surface
         self._load_within = contact.load_within(grid.mesh)
+
+    @property
+    def heights(self):
+        """Heights at the local nodes in m, as the surfaces are now: (lines, nx); None of smooth bodies."""
+        grid, contact = self.grid, self.contact
+        if self._surface is None:
+            return None
+        found = self._surface.height(grid.X * contact.x_scale, grid.Y * contact.y_scale)
+        return np.array(np.broadcast_to(found, grid.shape))
 
     def turn_to(self, contact, load):
         """Take the surfaces of a `contact` as they are at another time, and `load` times its load."""

@@ -1,11 +1,12 @@
 """How well a grid shows a surface: the verdict, its words, and what `mgehl check` prints."""
 
+import numpy as np
 import pytest
 
 from mgehl.config import load_config
 from mgehl.kinds import contact_from, mesh_from
 from mgehl.output.resolution import resolution
-from mgehl.output.surface import surface_lines, surface_words
+from mgehl.output.surface import surface_doubts, surface_lines, surface_words
 
 CELL = 3.2 / 64 * 0.4108333e-3
 """Of 65 nodes on the paper's domain, in m."""
@@ -60,6 +61,35 @@ def test_a_function_s_sign_has_changed_and_that_is_said(tmp_path):
     assert surface_words(
         *[getattr(resolution(contact, mesh), n) for n in ("surface", "surface_nodes")]
     ) == ("it has no waves")
+
+
+def doubts(tmp_path, heights, **keys):
+    np.save(tmp_path / "z.npy", heights)
+    told = {"file": f"{tmp_path}/z.npy", "height_unit": "nm", "spacing": "14 um"} | keys
+    config, contact, _ = case({"grid.nodes": 65} | {f"surface.{key}": value for key, value in told.items()})
+    return [
+        words.removeprefix(f"surface.file = '{tmp_path}/z.npy': ")
+        for words in surface_doubts(config, contact)
+    ]
+
+
+def test_points_that_are_hardly_heights_are_named(tmp_path):
+    good = np.random.default_rng(5).normal(0.0, 30.0, (65, 65))
+    assert doubts(tmp_path, good) == []
+    wrong = good.copy()
+    wrong[30, 40] = 2e4
+    (said,) = doubts(tmp_path, wrong)
+    assert said.startswith("1 point stands out of all neighbours, row 31, column 41 most, by 19.9")
+    missing = good.copy()
+    missing[3:6, 7:9] = -32768.0
+    (said,) = doubts(tmp_path, missing)
+    assert said.startswith("6 points, the first in row 4, column 8, have the same height of -32.77 um")
+    holed = good.copy()
+    holed[3:6, 7:9] = np.nan
+    said = doubts(tmp_path, holed, holes="interpolate")
+    assert said == ["6 of 4225 points were holes and are filled smoothly"]
+    (said,) = doubts(tmp_path, good, height_unit="pm")
+    assert said.startswith("Sq is 0.026 nm within the Hertz contact, less than any surface has")
 
 
 def test_where_a_file_ends_is_said(tmp_path):

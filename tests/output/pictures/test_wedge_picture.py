@@ -50,7 +50,7 @@ def test_one_line_of_a_pad_by_its_films_is_drawn_in_mpa(make_wedge):
     solution = make_wedge(settings=films)
     assert image_of(solution).colorbar.ax.get_ylabel() == "pressure, MPa"
     line = replace(solution.mesh, ny=1, y=(0.0, 0.0))
-    fields = Fields(*(array[:1] for array in solution.fields.arrays))
+    fields = Fields(*(array[:1] for array in solution.fields.named.values()))
     solution = replace(solution, mesh=line, fields=fields)
     names = [picture.name for picture in figures(solution)]
     assert names == ["lines", "history"]
