@@ -3,13 +3,17 @@
 from dataclasses import replace
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
+import mgehl
+from mgehl.config import config_from_tables
 from mgehl.discretization.mesh import Mesh
 from mgehl.model.rheology import Friction
 from mgehl.output import friction_result as module
 from mgehl.output.friction_result import friction_lines, friction_result, with_band
 from mgehl.output.gap_error import GapError, GridGap
+from mgehl.output.report.run_report import report
 from mgehl.solver.shear import Shear
 
 MESH = Mesh(65, 65, (-40.0, 40.0), (-40.0, 40.0))
@@ -73,3 +77,21 @@ def test_zero_is_the_answer_of_surfaces_that_do_not_slide(found):
     (line,) = friction_lines(replace(result, model="eyring"), verbose=False)
     assert line == "  friction 0: the surfaces do not slide; rolling takes 0.0005 of the load on each body"
     assert not list(friction_lines(result, verbose=False)) and not list(friction_lines(None, verbose=True))
+
+
+def test_a_run_that_slides_has_its_shear_in_report_and_files(tmp_path):
+    """Maps by their names, read back as they were."""
+    tables = {
+        "contact": {"load": 100.0},
+        "motion": {"speed": 0.5, "slide_to_roll": 0.2},
+        "friction": {"model": "limiting", "limiting_coefficient": 0.05},
+        "grid": {"nodes": 65},
+        "solver": {"start": "film", "error": False},
+    }
+    solution = mgehl.solve(config_from_tables(tables))
+    solution.save(tmp_path / "here")
+    read = mgehl.read(tmp_path / "here")
+    np.testing.assert_array_equal(read.fields.shear, solution.fields.shear)
+    assert read.summary.friction == solution.summary.friction and read.fields.heights is None
+    page = report(read, "here")
+    assert "Sliding takes" in page and "hear stress by sliding" in page
