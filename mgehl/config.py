@@ -53,6 +53,8 @@ class Config:
     time: TimeSection = TimeSection()
     body_1: BodySection = BodySection()
     body_2: BodySection = BodySection()
+    friction: sections.FrictionSection = sections.FrictionSection()
+    heat: sections.HeatSection = sections.HeatSection()
     surface: SurfaceSection = SurfaceSection()
     second_surface: SurfaceSection = SurfaceSection()
     moes: MoesSection = MoesSection()

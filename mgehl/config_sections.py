@@ -15,6 +15,7 @@ from mgehl.model.course import absolute_course
 from mgehl.model.lubricant import DENSITY_LAWS, VISCOSITY_LAWS
 from mgehl.model.oils import OILS
 from mgehl.model.own_function import absolute
+from mgehl.model.rheology import Friction
 
 
 @dataclass(frozen=True)
@@ -88,6 +89,16 @@ class LubricantSection:
         None, "density at that temperature, some 5 % less at 80 than a data sheet's at 15 degrees C",
         "kg/m^3", low=100.0, high=1e4,
     )  # fmt: skip
+    conductivity: float | None = key_field(
+        None, "thermal conductivity (mineral oils: .12 to .15)", "W/m/K", low=1e-3, high=1e3
+    )
+    thermoviscosity: float | None = key_field(
+        None, "beta of viscosity ~ exp(-beta T) (mineral oils: .02 to .06)", "1/K", low=1e-5, high=1.0
+    )
+    heating: str = key_field(
+        "none", "whether shear in the inlet thins the oil by a factor of the film (Gupta and others)",
+        choices=("none", "factor"), kind=str,
+    )  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -108,6 +119,42 @@ class MotionSection:
         None, "of one ring of a rolling bearing against the other; body_1 is the ball, body_2 the raceway",
         "rad/s", low=1e-9, high=1e6,
     )  # fmt: skip
+
+
+@dataclass(frozen=True)
+class FrictionSection:
+    model: str | None = key_field(
+        None, "how the sheared oil resists (unset: newtonian)",
+        choices=("newtonian", "eyring", "limiting"), kind=str, own=absolute,
+    )  # fmt: skip
+    eyring_stress: float | None = key_field(
+        None, "tau_0 of tau = tau_0 asinh(eta gamma'/tau_0), below a limit, too", "Pa", low=1e3, high=1e9
+    )
+    limiting_coefficient: float | None = key_field(
+        None, "largest shear stress of the oil over its pressure (.03 to .06 measured)", above=0.0, high=1.0
+    )
+    boundary_coefficient: float = key_field(
+        Friction.boundary_coefficient,
+        "shear stress between solids over the pressure they carry (.08 to .135 measured)",
+        low=0.0, high=2.0,
+    )  # fmt: skip
+    thinning: bool | None = key_field(
+        None, "whether shear thins the film (unset: where there is an Eyring stress and surfaces slide)",
+        kind=bool,
+    )  # fmt: skip
+
+
+@dataclass(frozen=True)
+class HeatSection:
+    conductivity_1: float | None = key_field(
+        None, "thermal conductivity of body 1 (steel: 46); all four give flash temperatures",
+        "W/m/K", low=1e-3, high=1e4,
+    )  # fmt: skip
+    conductivity_2: float | None = key_field(None, "the same of body 2", "W/m/K", low=1e-3, high=1e4)
+    capacity_1: float | None = key_field(
+        None, "heat capacity of body 1 per volume (steel: 3.6e6)", "J/m^3/K", low=1e3, high=1e8
+    )
+    capacity_2: float | None = key_field(None, "the same of body 2", "J/m^3/K", low=1e3, high=1e8)
 
 
 @dataclass(frozen=True)

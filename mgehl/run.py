@@ -18,6 +18,7 @@ from mgehl.output.directory import make_directory, prepare_directory
 from mgehl.output.dry_result import summarise_dry
 from mgehl.output.film_error import film_error
 from mgehl.output.finish import finish_run
+from mgehl.output.friction_result import friction_result, with_band
 from mgehl.output.gap_error import gap_error
 from mgehl.output.laws import law_files
 from mgehl.output.lock import locked
@@ -144,8 +145,10 @@ def _solve_loaded(case, parts, comm, watch, start):
         coarser = CoarserGrids(hierarchy, problem, outcome.state, settings, monitor.beside, journal)
         mixed = result.mixed and replace(result.mixed, error=gap_error(result, coarser, monitor))
         bands = {"mixed": mixed, "error": film_error(result, coarser, monitor)}
-        result = replace(result, **bands, wall_s=monitor.seconds)
-        return _solution(case, parts, problem, outcome.state, monitor.rows, result)
+        friction, maps = friction_result(problem, outcome.state)
+        friction = with_band(friction, mixed, contact.friction.boundary_coefficient)
+        result = replace(result, **bands, friction=friction, wall_s=monitor.seconds)
+        return _solution(case, parts, problem, outcome.state, monitor.rows, result, maps)
     finally:
         hierarchy.destroy()
 
@@ -240,10 +243,10 @@ def _solve_bearing(case, parts, comm, watch):
         grid.destroy()
 
 
-def _solution(case, parts, problem, state, rows, result):
+def _solution(case, parts, problem, state, rows, result, maps=None):
     """The `Solution` of a final state (collective)."""
     grid = problem.grid
-    local = Fields(state.P, state.H, state.status, state.p, state.filling, problem.heights)
+    local = Fields(state.P, state.H, state.status, state.p, state.filling, problem.heights, **(maps or {}))
     whole = local.gathered(grid)
     found = (whole, rows, result, state.H0, local, grid.first)
     return in_users_axes(Solution(case.config, parts.contact, grid.mesh, *found), parts.frame, grid, case)

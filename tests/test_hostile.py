@@ -67,7 +67,7 @@ class TestNamesThatAreNoText:
 
     def test_so_is_the_directory_of_a_law(self, capsys):
         Path(NAME).mkdir()
-        (Path(NAME) / "law.py").write_text("def law(p):\n    return 1.0 + 1e-10 * p, 1e-10 + 0.0 * p\n")
+        (Path(NAME) / "law.py").write_text("def law(at):\n    return 1.0 + 1e-10 * at.pressure, 1e-10\n")
         words = ["run", "--set", "grid.nodes=65", "--set", "motion.speed=0.5", "--quiet", "--no-error"]
         words += ["--set", "solver.start=film"]
         assert main([*words, "--set", f"lubricant.density_law={NAME}/law.py:law", "--out", "here"]) == 0

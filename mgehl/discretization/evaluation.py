@@ -63,8 +63,7 @@ class Evaluation:
 
     def with_mobility(self, eps):
         """The same state with another ghosted mobility, which neither pressure nor gap moves."""
-        rigid = np.zeros(np.shape(eps))
-        fluid = replace(self.fluid, eps=eps, deps_dP=rigid, deps_dH=rigid)
+        fluid = self.fluid.with_mobility(eps)
         parts = self.P, self.H, self.status, self.mesh, self.contact, self.scheme
         return Evaluation(*parts, fluid, self.filling, self.storage)
 

@@ -12,6 +12,7 @@ from mgehl.kinds import bodies, oil
 from mgehl.kinds.choice import Choice, word_of
 from mgehl.kinds.derived import word_choices
 from mgehl.kinds.dry import DRY, fluid_choice
+from mgehl.kinds.friction import friction_choice
 from mgehl.kinds.line import LINE
 from mgehl.kinds.own import naming_keys
 from mgehl.kinds.point import POINT, deformation_choice, moes_choice
@@ -34,6 +35,7 @@ def choices(tables):
         *smooth,
         *surface_choices(tables),
         time_choice(tables),
+        friction_choice(tables),
         fluid_choice(tables),
         *wedge_choices(tables),
         *word_choices(tables),

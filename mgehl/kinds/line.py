@@ -2,6 +2,8 @@
 
 from mgehl.discretization.mesh import Mesh
 from mgehl.kinds.bodies import OF_A_LINE
+from mgehl.kinds.friction import friction_from
+from mgehl.kinds.heat import heated, solids_from
 from mgehl.kinds.kind import Effort
 from mgehl.kinds.loaded import LoadedKind, lubricant_from
 from mgehl.kinds.surface import surface_from
@@ -21,6 +23,7 @@ class LineKind(LoadedKind):
         "contact.load_per_length", "contact.radius_x", "contact.reduced_modulus", "contact.boundary_film",
         "contact.surface", "contact.surface_body", "surface", "second_surface", *OF_A_LINE,
         "lubricant", "motion.speed", "motion.slide_to_roll", "motion.ring_rotation", "time",
+        "friction", "heat",
         "grid.nodes", "grid.x", "discretization", "solver", "relaxation",
     )  # fmt: skip
     essential = {
@@ -36,7 +39,9 @@ class LineKind(LoadedKind):
         section, speed = config.contact, reference(config, "motion.speed")
         body = (section.radius_x, section.reduced_modulus)
         lubricant, surface = lubricant_from(config), surface_from(config)
-        return LineContact(reference(config, "contact.load_per_length"), *body, speed, lubricant, surface)
+        load = reference(config, "contact.load_per_length")
+        more = friction_from(config), solids_from(config)
+        return heated(config, LineContact(load, *body, speed, lubricant, surface, *more))
 
     def mesh(self, config, contact):
         """A single line of nodes."""

@@ -6,6 +6,8 @@ from mgehl.config_value import AUTO, FARTHEST, shown
 from mgehl.errors import ConfigError
 from mgehl.kinds import loaded_checks, surface, time
 from mgehl.kinds.bodies import roughness
+from mgehl.kinds.friction import check_friction
+from mgehl.kinds.heat import check_factor, check_heat
 from mgehl.kinds.kind import Effort, Kind, kept_together
 from mgehl.kinds.oil import thinning_of
 from mgehl.model.films import formula_of, inlet_heating
@@ -43,10 +45,12 @@ class LoadedKind(Kind):
     """SI unit of the load."""
 
     def check_keys(self, config):
-        """Neither the viscosity law nor the surfaces may contradict themselves."""
+        """Neither the laws of the lubricant nor the surfaces may contradict themselves."""
         surface.check_keys(config)
         time.check_courses(config)
         check_laws(config)
+        check_friction(config)
+        check_heat(config)
 
     def settled(self, config, contact):
         """With numbers where the domain is "auto"."""
@@ -70,6 +74,7 @@ class LoadedKind(Kind):
         loaded_checks.check_size(*self.size(config, contact))
         if contact.surface is not None:
             surface.check_known(config, contact)
+        check_factor(config, contact)
         config = self.settled(config, contact)
         if contact.surface is not None:
             surface.check_surfaces(config, contact, self.mesh(config, contact))
@@ -220,6 +225,8 @@ def lambda_words(config, film, whose):
 
 def heat_words(config, contact):
     """What shear in the inlet leaves of the film, for an oil known over the temperature or a usual one."""
+    if contact.thermal_reduction is not None:
+        return  # the run itself tells it, by the oil's own data
     known = thinning_of(config)
     beta = THINNING if known is None else known
     Q = contact.lubricant.viscosity * beta * contact.speed**2 / CONDUCTIVITY
@@ -267,4 +274,5 @@ def lubricant_from(config):
         density = OwnDensity(OwnFunction(section.density_law))
     else:
         density = DENSITY_LAWS[section.density_law]()
-    return Lubricant(viscosity, density)
+    beta = thinning_of(config) if section.thermoviscosity is None else section.thermoviscosity
+    return Lubricant(viscosity, density, section.conductivity, beta)

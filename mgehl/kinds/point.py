@@ -8,6 +8,8 @@ from mgehl.discretization.mesh import Mesh
 from mgehl.errors import ConfigError
 from mgehl.kinds.bodies import SPEEDS, keys
 from mgehl.kinds.choice import Choice, value_of, word_of
+from mgehl.kinds.friction import friction_from
+from mgehl.kinds.heat import heated, solids_from
 from mgehl.kinds.kind import Effort
 from mgehl.kinds.loaded import LoadedKind, lubricant_from
 from mgehl.kinds.own import compliance_from
@@ -79,7 +81,8 @@ class PointKind(LoadedKind):
         "contact.deformation", "contact.boundary_film", "contact.surface", "contact.surface_body",
         "body_1", "body_2",
         "surface", "second_surface",
-        "coating", "lubricant", "motion", "time", "moes", "grid", "discretization", "solver", "relaxation",
+        "coating", "lubricant", "motion", "time", "friction", "heat", "moes",
+        "grid", "discretization", "solver", "relaxation",
     )  # fmt: skip
     essential = {
         "contact.kind": "point", "contact.load": "800 N",
@@ -108,10 +111,11 @@ class PointKind(LoadedKind):
         body = (section.radius_x, section.radius_y, section.reduced_modulus)
         more = {"surface": surface_from(config), "deformation": _deformation_from(config)}
         more |= {"angle": config.motion.angle, "load_beyond": config.grid.load_beyond}
+        more |= {"friction": friction_from(config), "solids": solids_from(config)}
         if moes.M is not None:
-            return PointContact.from_moes(moes.M, moes.L, *body, lubricant, **more)
+            return heated(config, PointContact.from_moes(moes.M, moes.L, *body, lubricant, **more))
         load, speed = reference(config, "contact.load"), reference(config, "motion.speed")
-        return PointContact(load, *body, speed, lubricant, **more)
+        return heated(config, PointContact(load, *body, speed, lubricant, **more))
 
     def mesh(self, config, contact):
         """A square of nodes over the ellipse."""

@@ -7,8 +7,10 @@ from math import pi
 from mgehl.model import films
 from mgehl.model.contact import Groups, LoadedContact
 from mgehl.model.deformation import HalfPlane
+from mgehl.model.flash import Solid
 from mgehl.model.hertz import hertz_line_contact, hertz_line_gap
 from mgehl.model.lubricant import Lubricant
+from mgehl.model.rheology import Friction
 from mgehl.model.surface import Surface
 
 
@@ -32,6 +34,9 @@ class LineContact(LoadedContact):
     speed: float
     lubricant: Lubricant
     surface: Surface | None = None
+    friction: Friction = Friction()
+    solids: tuple[Solid, Solid] | None = None
+    """What both bodies make of heat; None where it is not known."""
 
     is_plane = True
 

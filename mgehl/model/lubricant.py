@@ -105,11 +105,17 @@ class Lubricant:
 
     viscosity_law: Barus | Roelands | OilViscosity | ConstantViscosity | OwnViscosity
     density_law: DowsonHigginson | ConstantDensity | OwnDensity
+    conductivity: float | None = None
+    """In W/(m K); None where it is not known."""
+    thermoviscosity: float | None = None
+    """beta of eta ~ exp(-beta T), in 1/K; None where it is not known."""
+    thinned: float = 1.0
+    """Part of the viscosity that the heat of shear leaves in the inlet."""
 
     @property
     def viscosity(self):
-        """eta0 in Pa s."""
-        return self.viscosity_law.viscosity
+        """eta0 in Pa s, as the inlet has it."""
+        return self.thinned * self.viscosity_law.viscosity
 
     @property
     def pressure_viscosity(self):

@@ -8,12 +8,14 @@ from mgehl.model import films
 from mgehl.model.coating import Coating
 from mgehl.model.contact import Groups, LoadedContact
 from mgehl.model.deformation import HalfSpace, LayeredHalfSpace
-from mgehl.model.far_field import missing_share
+from mgehl.model.far_field import kapitza_drag_beyond, missing_share
+from mgehl.model.flash import Solid
 from mgehl.model.frame import Frame, SurfaceInFrame, direction
 from mgehl.model.hertz import hertz_contact, hertz_gap
 from mgehl.model.images import fit_images
 from mgehl.model.lubricant import Lubricant
 from mgehl.model.own_laws import OwnCompliance
+from mgehl.model.rheology import Friction
 from mgehl.model.surface import Surface
 
 LOAD = 2.0 * pi / 3.0
@@ -72,6 +74,9 @@ class PointContact(LoadedContact):
     """Direction of the motion in degrees, from +x towards +y."""
     load_beyond: bool | None = None
     """Whether the load that is carried beyond the domain is counted; None: where the film answers to it."""
+    friction: Friction = Friction()
+    solids: tuple[Solid, Solid] | None = None
+    """What both bodies make of heat; None where it is not known."""
 
     load_integral = LOAD
     contact_area = pi
@@ -185,6 +190,10 @@ class PointContact(LoadedContact):
         """Part of the load that the film in the domain of a mesh need not carry."""
         counted = self.counted_beyond
         return counted * missing_share(self, mesh.x, mesh.y) if counted else 0.0
+
+    def drag_beyond(self, mesh):
+        """By the film of rigid bodies, as far as they are paraboloids."""
+        return kapitza_drag_beyond(self, mesh.x, mesh.y)
 
     def _inlet_of(self, film):
         """As of any contact, in units of this one's a."""

@@ -136,6 +136,11 @@ def write_fields(path, solution, texts):
         if fields.p is not None:
             put("p", plane, fields.p, "1", f"the fluid's own pressure over its unit, {unit}")
             put("filling", plane, fields.filling, "1", "part of the gap above the layers that holds fluid")
+        if fields.shear is not None:
+            put("shear", plane, fields.shear, "Pa", "shear stress of film and solids by sliding")
+        if fields.flash_1 is not None:
+            put("flash_1", plane, fields.flash_1, "K", "rise of the surface of body 1 by friction")
+            put("flash_2", plane, fields.flash_2, "K", "rise of the surface of body 2 by friction")
         if fields.heights is not None:
             put("heights", plane, fields.heights, "m", "heights of the bodies, a peak positive")
         group, name = WHOLE.split("/")

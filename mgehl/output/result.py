@@ -8,6 +8,7 @@ from mgehl.discretization.status import CONTACT
 from mgehl.model.contact import Groups
 from mgehl.output.edge_result import NOT_SEEN, EdgeResult, edge_result
 from mgehl.output.film_error import NOT_ASKED, FilmError
+from mgehl.output.friction_result import FrictionResult
 from mgehl.output.mixed_result import MixedResult, mixed_result
 from mgehl.output.passages import TimeResult
 from mgehl.output.resolution import Resolution, resolution
@@ -135,6 +136,13 @@ class Result:
     """Film and contact of rough bodies; None of smooth ones."""
     mass: Mass | None = None
     """The account of the oil; None in older results."""
+    friction: FrictionResult | None = None
+    """None in older results."""
+    thermal_reduction: float = None
+    """Part of the film that the heat of shear in the inlet leaves, by Gupta's formula; None where the
+    lubricant has no conductivity or no thermoviscosity."""
+    is_thermally_reduced: bool = False
+    """Whether the film has been solved with so much less viscosity."""
 
     time: TimeResult | None = None
     """Of a run in time; all else is of the state at its end."""
@@ -218,6 +226,8 @@ def summarise(problem, outcome, tolerance, work, wall_s, versions):
         edge=edge,
         mixed=mixed_result(problem, state),
         mass=mass,
+        thermal_reduction=contact.thermal_reduction,
+        is_thermally_reduced=contact.lubricant.thinned < 1.0,
     )
 
 

@@ -28,9 +28,13 @@ class Fields:
     """The fluid's own pressure: P but under contact; None where it was not kept."""
     filling: Reals | None = None
     """The part of the gap above the layers that holds fluid: 1 but in cavities; None as of `p`."""
-
     heights: Reals | None = None
     """Heights of the bodies in m, a peak positive; None of smooth ones, and in older results."""
+    shear: Reals | None = None
+    """Shear stress by sliding in Pa, of film and solids; None where the surfaces do not slide."""
+    flash_1: Reals | None = None
+    """Rise of the surface of body 1 in K by friction; None where nothing is known of the bodies."""
+    flash_2: Reals | None = None
 
     @property
     def named(self) -> dict[str, NDArray[Any]]:

@@ -40,8 +40,8 @@ from mgehl.output.solution import Fields, Solution
 from mgehl.output.wedge_result import WedgeResult
 from mgehl.output.whole_file import is_plain
 
-OPTIONAL = "p", "filling", "heights"
-"""Fields that smooth bodies or older results are without."""
+OPTIONAL = "p", "filling", "heights", "shear", "flash_1", "flash_2"
+"""Fields that smooth bodies, surfaces that do not slide, or older results are without."""
 
 
 def _real(value):

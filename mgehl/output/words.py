@@ -2,6 +2,7 @@
 
 from mgehl.output.digits import with_band
 from mgehl.output.domain import beyond_words, domain_words
+from mgehl.output.friction_result import friction_lines, heating_words
 from mgehl.output.mixed_words import filling_words, mixed_lines
 from mgehl.output.resolution import RESOLVED_CELLS, SEEN_CELLS
 from mgehl.output.surface import surface_words
@@ -65,12 +66,14 @@ def loaded_words(result, verbose=True):
     verdict = "CONVERGED" if result.converged else "NOT CONVERGED"
     if result.settled and not result.converged:
         verdict = f"SETTLED, BUT {result.doubt.upper()}"
+    heating = heating_words(result.thermal_reduction, result.is_thermally_reduced)
     shown = surface_words(resolution.surface, resolution.surface_nodes)
     lines = [
         f"{verdict}: {result.reason}",
         *(time_lines(result.time) if result.time else ()),
         f"  {films_words(result)}, largest pressure {largest_pressure_words(result)}",
         f"  {band_words(result.error)}",
+        *((f"  {heating}",) if heating else ()),
         *(_errors(result) if verbose else ()),
         *_overlap(result.overlap),
         *_contact(result, verbose),
@@ -79,6 +82,7 @@ def loaded_words(result, verbose=True):
         *(f"  load: {words}" for words in beyond_words(resolution.load_beyond_percent)),
         *((f"  surface: {shown}",) if shown else ()),
         *(mixed_lines(result.mixed) if result.mixed else ()),
+        *friction_lines(result.friction, verbose),
         _work(result),
         *(_nodes(result) if verbose else ()),
     ]

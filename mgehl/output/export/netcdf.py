@@ -22,6 +22,9 @@ FURTHER = {
         "long_name": "pressure of the fluid, under contact of that in the layers",
     },
     "filling": {"units": "1", "long_name": "part of the gap above the layers that holds fluid"},
+    "shear": {"units": "Pa", "long_name": "shear stress of film and solids by sliding"},
+    "flash_1": {"units": "K", "long_name": "rise of the surface of body 1 by friction"},
+    "flash_2": {"units": "K", "long_name": "rise of the surface of body 2 by friction"},
     "heights": {"units": "m", "long_name": "heights of the bodies over smooth ones, a peak positive"},
 }
 """What `further_fields` are called."""

@@ -44,6 +44,7 @@ _DRY = {
     "lines": ("pressure and gap on the centre lines, against the contact of smooth bodies", centre_lines),
     "gap": ("gap, with contact", maps.film_map),
 }
+_SLIDES = {"shear": ("shear stress by sliding, with contact outlined", maps.shear_map)}
 _ROUGH = {"surface": ("heights of the surface with contact, the gap, their distribution", surface_picture)}
 _IN_TIME = {"time": ("films, pressure and shares of the load over time", over_time)}
 _BEARING = {
@@ -83,7 +84,8 @@ def _possible(solution):
         drawn = _DRY | {kind: drawn[kind] for kind in drawn if kind not in ("lines", "film")}
     if solution.config.is_in_time:
         drawn = _IN_TIME | {kind: each for kind, each in drawn.items() if kind != "history"}
-    flat = ("film", "gap", "pressure", "status") if solution.mesh.is_line else ()
+    drawn |= _SLIDES if solution.fields.shear is not None else {}
+    flat = ("film", "gap", "pressure", "status", "shear") if solution.mesh.is_line else ()
     return {kind: drawn[kind] for kind in drawn if kind not in flat}
 
 
