@@ -84,7 +84,7 @@ class Table(Course):
         times, _ = self._columns
         if times[0] > 0.0 or times[-1] < end * (1.0 - 1e-9):
             raise CourseError(
-                f"{self.path}: goes from {times[0]:g} to {times[-1]:g} s; must cover 0 to {end:g}, time.end"
+                f"{self.path}: goes from {times[0]:g} to {times[-1]:g} s; must cover 0 to {end:g}"
             )
 
     def value(self, t):

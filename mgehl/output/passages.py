@@ -15,7 +15,7 @@ FEWEST = 3
 """Passages before means are asked whether they have settled: the first one begins."""
 
 OF_A_LENGTH = ("mean_gap_nm", "central_film_nm", "minimum_film_nm", "max_pressure_GPa")
-OF_THE_LOAD = ("load_on_contact", "load_on_solids")
+OF_THE_LOAD = ("load_on_contact", "load_on_solids", "friction")
 
 
 @dataclass(frozen=True)

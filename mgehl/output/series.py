@@ -4,7 +4,8 @@ series.nc    a number of each step over time, CF; written anew with every checkp
 frames.nc    pressure, film and status of some instants, CF
 """
 
-from dataclasses import dataclass
+from copy import copy
+from dataclasses import dataclass, replace
 from functools import partial
 
 import h5netcdf
@@ -13,6 +14,7 @@ import numpy as np
 from mgehl.discretization.status import CONTACT, names
 from mgehl.output.memory_file import netcdf_file
 from mgehl.output.whole_file import whole_file
+from mgehl.solver.shear import shear_of
 from mgehl.version import VERSION
 
 COLUMNS = {
@@ -27,6 +29,8 @@ COLUMNS = {
     "max_pressure_GPa": ("GPa", "largest pressure"),
     "load_on_contact": ("1", "part of the load on contact nodes"),
     "load_on_solids": ("1", "part of the load that solids carry"),
+    "friction": ("1", "shear of film and solids over the load"),
+    "rolling": ("1", "what drags each body against the motion, over the load"),
     "contact_nodes": ("1", "nodes in contact"),
     "cavitated_nodes": ("1", "nodes of cavities"),
     "residual": ("1", "residual that the step leaves"),
@@ -62,6 +66,7 @@ def row_of(instant, standing, problem, convolutions, seconds):
         "max_pressure_GPa": 1e-9 * contact.pressure_scale * grid.max(state.P),
         "load_on_contact": problem.load(np.where(touching, state.P, 0.0)) / carried,
         "load_on_solids": problem.load(np.where(touching, state.P - state.p, 0.0)) / carried,
+        **_resistance(instant, state, problem),
         "contact_nodes": last.contact_nodes,
         "cavitated_nodes": last.cavitated_nodes,
         "residual": last.residual,
@@ -73,6 +78,15 @@ def row_of(instant, standing, problem, convolutions, seconds):
         "convolutions": convolutions,
         "seconds": seconds,
     }
+
+
+def _resistance(instant, state, problem):
+    """What resists the motion at an instant, over its load (collective)."""
+    contact, there = problem.contact, copy(problem)
+    there.contact = replace(contact, speed=abs(instant.speed))
+    shear, load = shear_of(there, state), instant.load * contact.load
+    sliding = shear.film_force + shear.solid_force
+    return {"friction": sliding / load, "rolling": shear.rolling_force / load}
 
 
 def write_series(path, rows, title):

@@ -21,10 +21,10 @@ def summarise_in_time(problem, outcome, rows, settings, work, wall_s, versions):
     reason = outcome.reason
     if outcome.converged and not closes:
         reason = f"the account of the oil is off by {found.largest_closure:.1e} of it in a step"
-    sound = outcome.converged and closes
-    return replace(
-        result, converged=sound, settled=sound, reason=reason, mass=None, flux_imbalance=None, time=found
-    )
+    settled = outcome.converged and closes
+    cut, why = result.edge.wrong
+    verdict = {"converged": settled and not cut, "settled": settled, "reason": (settled and why) or reason}
+    return replace(result, **verdict, mass=None, flux_imbalance=None, time=found)
 
 
 def _of_rows(rows, length, work):

@@ -249,6 +249,8 @@ def time_lines(time):
             "max_pressure_GPa": ("largest pressure", 1.0, "GPa"),
             "load_on_solids": ("load on solids", 100.0, "%"),
         }
+        if time.means["friction"].value:
+            shown["friction"] = ("friction", 1.0, "of the load")
         parts = [_mean_words(time.means[name], *how) for name, how in shown.items()]
         yield f"  over the last passage: {', '.join(parts)}"
     yield "  at the end:"

@@ -12,6 +12,7 @@ PANELS = (
     ("largest pressure, GPa", {"max_pressure_GPa": ("largest pressure", PRESSURE)}),
     ("part of the load", {"load_on_contact": ("on contact", CONTACT_COLOUR),
                           "load_on_solids": ("on solids", COLOURS[6])}),
+    ("friction", {"friction": ("over the load", COLOURS[1])}),
 )  # fmt: skip
 """Axis of each panel, and its columns of history.csv with name and colour."""
 
