@@ -24,7 +24,6 @@ from typing import NamedTuple
 import numpy as np
 
 from mgehl.model.contact import LoadedContact
-from mgehl.model.far_field import kapitza_factor
 from mgehl.model.way_in import STEPS, WayIn
 
 UPSTREAM, BESIDE = (0.66, 0.53), (0.08, 0.15)
@@ -48,10 +47,15 @@ b/a with which it grows: so far is it known."""
 
 COUNTED = 0.5
 """Part of the reduced pressure's loss that is left where the load beyond is counted: that counts, too, what
-the sides take away within (`far_field.MISSING`)."""
+the sides take away within (`far_field`)."""
 
 NO_FILM = 1e-12
 """Least film, in units of H: a contact at rest has an inlet without length."""
+
+
+def kapitza_factor(lubricant, speed, along, across):
+    """K in N/m of Kapitza's p = -K x/h^2, a body with these radii along and across the motion in m."""
+    return 12.0 * lubricant.viscosity * speed / (3.0 + 2.0 * along / across)
 
 
 class Side(NamedTuple):
