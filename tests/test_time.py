@@ -23,7 +23,8 @@ UNIT = 1.52e-3
 """Seconds in which its surfaces go the contact's radius."""
 
 ROUGH = {
-    "surface.kind": "self-affine", "surface.rms": 300e-9, "grid.x": [-2.5, 2.5], "grid.y": [-2.5, 2.5], "surface.shortest_wavelength": 60e-6,
+    "surface.kind": "self-affine", "surface.rms": 300e-9, "grid.x": [-2.5, 2.5], "grid.y": [-2.5, 2.5],
+    "surface.shortest_wavelength": 60e-6,
     "surface.longest_wavelength": 200e-6, "surface.seed": 3, "surface.body": "body_1",
     "contact.boundary_film": 2e-9,
 }  # fmt: skip

@@ -15,6 +15,7 @@ from mgehl.solver.judge import (
     IDLE_CONTINUOUS,
     IDLE_IN_TIME,
     IDLE_STEPS,
+    IDLE_STUCK,
     STALLS,
     STUCK,
     Limits,
@@ -163,7 +164,17 @@ class TestSystem:
 def test_two_steps_that_gain_nothing_are_stuck(make_position, residuals, stuck):
     position = make_position()
     position.cycles[:] = [make_position(residual).cycles[0] for residual in residuals]
-    assert is_stuck(position) == stuck
+    assert is_stuck(position, Scheme()) == stuck
+
+
+def test_many_steps_that_gain_nothing_are_stuck_though_one_wins_back_what_another_lost(make_position):
+    """Of a film; where contact closes continuously they are usual."""
+    position, rough = make_position(), Scheme(contact_law=BoundaryFilm(0.0))
+    residuals = [1.0, 12.0, 10.0, 8.0, 6.0, 5.0]
+    for steps in (IDLE_STUCK, IDLE_STUCK + 1):
+        position.cycles[:] = [make_position(each).cycles[0] for each in residuals[:steps]]
+        assert not is_stuck(position, rough)
+        assert is_stuck(position, Scheme()) == (steps > IDLE_STUCK)
 
 
 class TestWork:
