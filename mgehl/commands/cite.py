@@ -12,7 +12,7 @@ def add(commands):
         help="print the publications that a run rests on",
         description="Print the papers, books and standards whose equations, laws, data and film "
         "formulas a run used, as BibTeX. CITATION.cff is that of this program.",
-        epilog="example: mgehl cite runs/try > try.bib",
+        epilog="example: mgehl cite runs/try",
     )
     parser.add_argument("run", metavar="RUN", help="run directory")
     return parser

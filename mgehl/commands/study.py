@@ -23,7 +23,7 @@ STUDIES = {
     "rollers": "rough line contacts by chance: verdicts and gaps",
     "rough": "a rough ball from full film to nearly dry",
     "waviness": "waves in the film of a line contact, beside published numbers",
-    "moving": "waves and a dimple that pass through full films, beside published numbers",
+    "moving": "waves and a dimple that pass through full films",
     "dry": "dry contacts beside a public code's numbers",
 }
 

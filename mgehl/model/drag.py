@@ -1,6 +1,6 @@
 """What drags bodies that roll beyond the domain, where they are rigid and all is full of oil.
 
-Far upstream of the contact the pressure is that of Kapitza (1955), p = -K x/h^2 with h = x^2/2R_x + y^2/2R_y.
+Far upstream of the contact the pressure is that of Kapitza (1955), p = -K x/h^2, h = x^2/2R_x + y^2/2R_y.
 """
 
 import numpy as np
@@ -16,8 +16,8 @@ def kapitza_factor(lubricant, speed, along, across):
 
 def kapitza_drag_beyond(contact, x, y):
     """Half of the integral of h dp/dx along the motion, in N, upstream from the end of a domain to where
-    bodies are no paraboloids any more: a radius of curvature away. x and y are the domain's ends in units of
-    X and Y.
+    bodies are no paraboloids any more: a radius of curvature away. The domain ends at `x` and `y`, in units
+    of X and Y.
 
     It grows with the logarithm of that distance, so it has no limit but the bodies' own size.
     """

@@ -70,7 +70,7 @@ def test_a_style_file_is_laid_over(plot, tmp_path):
 @pytest.mark.parametrize(
     "names, options, said",
     [
-        ("dry", ["--kind", "films"], "--kind films: known are all, lines, film, pressure, status"),
+        ("dry", ["--kind", "films"], "--kind films: known are all, time, lines, film, pressure, status"),
         ("dry", ["--format", "png,gif"], "--format gif: known are png, svg, pdf"),
         ("dry", ["--kind", "compare"], "--kind compare: needs more than one run"),
         ("dry", ["--dpi", "9"], "--dpi 9: must be between 30 and 1200"),
