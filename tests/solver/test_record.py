@@ -2,7 +2,7 @@
 
 import json
 import re
-from dataclasses import dataclass, fields, is_dataclass
+from dataclasses import fields, is_dataclass
 from functools import partial
 from math import inf, nan
 from types import SimpleNamespace
@@ -20,7 +20,7 @@ from mgehl.solver.outcome import Cycle, Outcome
 from mgehl.solver.partition import Changes, Contradiction, Past
 from mgehl.solver.position import Position, Step, Trial
 from mgehl.solver.problem import State
-from mgehl.solver.record import Kept, Record
+from mgehl.solver.record import Record
 from mgehl.solver.relaxation import Standing, Sweep
 from mgehl.solver.remembered import Remembered
 
@@ -115,30 +115,13 @@ class TestThereAndBack:
         assert_equal(solver.memory.known, corrections)
         assert solver.way == AT_ONCE
 
-    def test_before_the_first_linear_system_nothing_is_remembered(self, position, tiny_problem):
-        position.memory = Remembered(Solver(tiny_problem.grid))
-        assert back(position).memory is None
-
     def test_a_standing_of_the_relaxation(self, standing):
         assert_equal(back(standing), standing)
-
-    def test_a_standing_before_the_first_sweep(self, state):
-        assert_equal(back(Standing(state)), Standing(state))
 
     @pytest.mark.parametrize("line", [CYCLE, SWEEP, DRY], ids=["Cycle", "Sweep", "DryStep"])
     def test_an_outcome(self, ended, line):
         outcome = ended(line)
         assert_equal(back(outcome, partial(Outcome.from_record, line=type(line))), outcome)
-
-    def test_an_outcome_without_contradictions(self, state):
-        outcome = Outcome(state, True, "settled", [CYCLE])
-        assert_equal(back(outcome, partial(Outcome.from_record, line=Cycle)), outcome)
-
-    def test_one_is_not_made_of_the_other(self, position, standing):
-        with pytest.raises((KeyError, TypeError)):
-            Position.from_record(standing.record())
-        with pytest.raises((KeyError, TypeError)):
-            Standing.from_record(position.record())
 
 
 def test_the_names_are_those_described(position, standing, ended, corrections, tiny_problem):
@@ -150,40 +133,3 @@ def test_the_names_are_those_described(position, standing, ended, corrections, t
     lines = re.findall(r"^    (\S.*)$", described.__doc__, re.MULTILINE)
     listed = [name for line in lines for name in line.split()]
     assert sorted(listed) == sorted(names)
-
-
-@dataclass
-class Flat(Kept):
-    number: object
-    array: object = None
-
-
-class TestRecord:
-    def test_values_arrays_and_parts(self):
-        array = np.eye(2)
-        record = Record.of(number=1, flat=Flat(2.0, array), part=Record({"word": "a"}), missing=None)
-        assert record.values == {"number": 1, "flat.number": 2.0, "part.word": "a"}
-        assert record.arrays.keys() == {"flat.array"} and record.arrays["flat.array"] is array
-
-    def test_a_part_and_the_rest(self):
-        record = Record.of(a=Record.of(b=Flat(1), c=2), ab=3)
-        assert record.part("a").values == {"b.number": 1, "c": 2}
-        assert record.part("a").part("b").values == {"number": 1}
-        assert record.without("a").values == {"ab": 3}
-        assert record.part("a") and not record.part("b")
-
-    def test_numbers_of_numpy_become_plain(self):
-        values = Record.of(a=np.float64(0.1), b=np.int8(3), c=np.bool_(True)).values
-        assert_equal(list(values.values()), [0.1, 3, True])
-
-    def test_a_table_has_a_list_for_each_name(self):
-        table = Record.table([Flat(1), Flat(2), Flat(3)])
-        assert table.values == {"number": [1, 2, 3]}
-        assert [row.values for row in table.rows()] == [{"number": each} for each in (1, 2, 3)]
-
-    def test_a_table_of_nothing_is_empty(self):
-        assert not Record.table([]) and Record.table([]).rows() == []
-
-    def test_columns_of_different_lengths_are_no_table(self):
-        with pytest.raises(ValueError):
-            Record({"a": [1, 2], "b": [1]}).rows()

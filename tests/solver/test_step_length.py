@@ -41,39 +41,6 @@ def test_what_is_no_film_does_not_count(stiff):
     assert length == pytest.approx(0.5)
 
 
-def test_the_gap_of_a_whole_step_takes_one_convolution(make_problem):
-    """With what is torn on the way."""
-    problem = make_problem(
-        nodes=9, scheme=Scheme(face_mobility="linear-gap", contact_law=BoundaryFilm(1e-3))
-    )
-    state = problem.state(np.full((9, 9), 0.2), 1.0, np.full((9, 9), LUBRICATED))
-    partition, evaluation = Partition(problem, 0), problem.evaluate(state)
-    dP = np.zeros((9, 9))
-    dP[4, 4] = 0.3
-    before = problem.deflection.count
-    length, H, dH = step_length(problem, partition, evaluation, state, dP, 1e-3, 0.5)
-    assert (length, problem.deflection.count) == (1.0, before + 1)
-    torn = state.P.copy()
-    torn[4, 4] = 0.0
-    assert np.array_equal(H, problem.gap(torn, state.H0 - 1e-3))
-    assert np.array_equal(dH, state.H - H)
-
-
-def test_what_the_gap_falls_by_is_that_of_a_whole_step(make_problem):
-    """Where the largest pressure lets only a part of it be tried."""
-    problem = make_problem(
-        nodes=9, scheme=Scheme(face_mobility="linear-gap", contact_law=BoundaryFilm(1e-3))
-    )
-    state = problem.state(np.full((9, 9), 2.0), 1.0, np.full((9, 9), LUBRICATED))
-    dP = np.zeros((9, 9))
-    dP[4, 4] = -2.0
-    known = problem, Partition(problem, 0), problem.evaluate(state), state
-    length, H, dH = step_length(*known, dP, 1e-3, 0.5)
-    assert length == 0.25
-    assert np.array_equal(H, problem.gap(state.P - 0.25 * dP, state.H0 - 0.25e-3))
-    np.testing.assert_allclose(dH, state.H - problem.gap(state.P - dP, state.H0 - 1e-3), atol=1e-12)
-
-
 def test_the_largest_pressure_is_bounded_by_any_law(make_problem):
     problem = make_problem(nodes=9)
     state = problem.state(np.full((9, 9), 2.0), 1.0, np.full((9, 9), LUBRICATED))
@@ -81,19 +48,6 @@ def test_the_largest_pressure_is_bounded_by_any_law(make_problem):
     dP[4, 4] = -2.0
     known = problem, Partition(problem, 0), problem.evaluate(state), state
     assert step_length(*known, dP, 9.0, 0.5) == (0.25, None, None)
-
-
-@pytest.mark.parametrize("highest, expected", [(0.5, 0.25), (2.0, 0.5), (8.0, 1.0)])
-def test_on_rough_bodies_it_is_bounded_beside_the_largest_of_the_peaks(
-    make_problem, monkeypatch, highest, expected
-):
-    problem = make_problem(nodes=9)
-    monkeypatch.setattr(type(problem.contact), "roughness", 1e-8)
-    state = problem.state(np.full((9, 9), highest), 1.0, np.full((9, 9), LUBRICATED))
-    dP = np.zeros((9, 9))
-    dP[4, 4] = -2.0
-    known = problem, Partition(problem, 0), problem.evaluate(state), state
-    assert step_length(*known, dP, 9.0, 0.5)[0] == expected
 
 
 @pytest.mark.parametrize(
