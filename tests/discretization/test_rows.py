@@ -10,10 +10,3 @@ EVERY = np.array([[BOUNDARY, LUBRICATED, CAVITATED, CONTACT]])
 @pytest.mark.parametrize("rigid, contact", [(False, GAP), (True, PRESSURE)], ids=["elastic", "rigid"])
 def test_the_status_says_which(rigid, contact):
     assert rows_of(EVERY, rigid).tolist() == [[PRESSURE, FLOW, PRESSURE, contact]]
-
-
-def test_what_is_frozen_keeps_its_pressure_and_its_status():
-    before, status = EVERY.copy(), EVERY.copy()
-    assert rows_of(status, frozen=np.ones(EVERY.shape, bool)).tolist() == [[PRESSURE] * 4]
-    assert rows_of(status, frozen=status == LUBRICATED).tolist() == [[PRESSURE, PRESSURE, PRESSURE, GAP]]
-    np.testing.assert_array_equal(status, before)
