@@ -1,7 +1,6 @@
 """Kapitza's pressure far outside, and the load that it carries beyond a domain."""
 
 from dataclasses import replace
-from math import pi
 
 import numpy as np
 import pytest
@@ -9,8 +8,8 @@ from scipy.integrate import dblquad
 from tools.contacts import moes
 
 from mgehl.config import config_from_tables
-from mgehl.kinds import contact_from, mesh_from
-from mgehl.model.far_field import MOST, kapitza_factor, kapitza_load_beyond, missing_share
+from mgehl.kinds import contact_from
+from mgehl.model.far_field import kapitza_factor, kapitza_load_beyond
 from mgehl.model.frame import Frame
 from mgehl.studies.study import merged
 
@@ -69,16 +68,6 @@ def test_load_beyond_a_rectangle_by_another_quadrature(angle):
     )
 
 
-def test_far_away_it_falls_as_one_over_the_distance():
-    """Beyond a circle it is 8 K R^2/distance, beyond a square (1 + pi/4)/2 of that."""
-    ball = contact()
-    at = {d: kapitza_load_beyond(ball, (-d, d), (-d, d)) for d in (1e3, 2e3)}
-    assert at[1e3] == pytest.approx(2.0 * at[2e3], rel=1e-3)
-    K = kapitza_factor(ball.lubricant, ball.speed, ball.radius_x, ball.radius_y)
-    beyond_circle = 8.0 * K * ball.radius_x**2 / (1e3 * ball.x_scale)
-    assert at[1e3] == pytest.approx(0.5 * (1.0 + pi / 4.0) * beyond_circle, rel=1e-3)
-
-
 @pytest.mark.parametrize("angle", [90, 135, 200, 315])
 def test_it_is_the_same_in_the_axes_of_the_solver(angle):
     ball = contact(angle=angle, **ELLIPSE)
@@ -92,30 +81,3 @@ def test_the_load_beyond_is_counted_where_the_film_answers_to_it(M, counted):
     assert contact(M, 5.0).counted_beyond == counted
     for said in (True, False):
         assert replace(contact(M, 5.0), load_beyond=said).counted_beyond == said
-
-
-def test_films_do_not_jump_where_it_begins_to_be_counted():
-    """Where M grows by one per cent the part that is counted falls by 0.03 at the most."""
-    loads = np.geomspace(7.0, 18.0, 100)
-    counted = [contact(M, 5.0).counted_beyond for M in loads]
-    assert counted[0] == 1.0 and counted[-1] == 0.0
-    assert 0.0 <= min(-np.diff(counted)) and max(-np.diff(counted)) < 0.03
-
-
-def test_the_key_reaches_the_contact_and_the_domain_s_load():
-    tables = merged(moes(3.0, 2.0), {"grid": {"x": X, "y": Y}})
-    found = {}
-    for said in (True, False):
-        config = config_from_tables(merged(tables, {"grid": {"load_beyond": said}}))
-        ball = contact_from(config)
-        found[said] = ball.load_within(mesh_from(config, ball)) / ball.load_integral
-    assert found[False] == 1.0
-    assert found[True] == 1.0 - missing_share(ball, X, Y) < 0.9
-
-
-def test_a_contact_at_rest_has_no_film_that_could_carry():
-    assert replace(contact(), speed=0.0, load_beyond=True).counted_beyond == 0.0
-
-
-def test_a_domain_that_ends_in_the_film_carries_half_all_the_same():
-    assert missing_share(contact(1.0, 3.0), (-1.2, 1.2), (-1.2, 1.2)) == MOST

@@ -21,9 +21,3 @@ def test_what_is_missing_is_the_integral_beyond(way_in, way):
 def test_the_way_of_what_is_missing(way_in):
     for way in (0.01, 1.0, 300.0):
         assert way_in.way(way_in.missing(way)) == pytest.approx(way, rel=1e-9)
-
-
-def test_no_way_leaves_nothing_and_a_longer_one_leaves_more(way_in):
-    assert way_in.missing(0.0) > 10.0
-    missing = [way_in.missing(way) for way in np.geomspace(1e-3, 1e3, 30)]
-    assert all(np.diff(missing) < 0.0)
