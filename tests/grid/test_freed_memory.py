@@ -42,12 +42,3 @@ def test_a_film_is_the_same_where_memory_is_short(solve, paper_contact, monkeypa
     short = solve(paper_contact(), 65).outcome
     assert len(short.cycles) == len(usual.cycles)
     np.testing.assert_allclose(short.state.P, usual.state.P, rtol=0.0, atol=1e-12)
-
-
-def test_large_grids_are_those_of_many_nodes():
-    class Mesh:
-        nodes = 4097**2
-
-    assert freed_memory.is_large(Mesh)
-    Mesh.nodes = 2049**2
-    assert not freed_memory.is_large(Mesh)

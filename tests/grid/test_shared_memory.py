@@ -19,21 +19,9 @@ def files(tmp_path, monkeypatch):
     return lambda: list(tmp_path.iterdir())
 
 
-def test_it_is_zero_and_may_be_written(files):
-    array = shared_array(MPI.COMM_SELF, (3, 5), complex)
-    assert array.shape == (3, 5) and array.dtype == complex and not array.any()
-    array[1, 2] = 1j
-    assert array.sum() == 1j
-
-
 def test_no_file_is_left(files):
     array = shared_array(MPI.COMM_SELF, (3, 5), float)
     assert array is not None and files() == []
-
-
-def test_without_files_in_memory_there_is_none(tmp_path, monkeypatch):
-    monkeypatch.setattr(shared_memory, "DIRECTORY", tmp_path / "missing")
-    assert shared_array(MPI.COMM_SELF, (3, 5), float) is None
 
 
 def test_without_room_there_is_none(files, monkeypatch):
