@@ -50,27 +50,3 @@ def test_what_check_prints():
     assert f"shortest wavelength {6e6 * CELL:.4g} um, 6.0 nodes" in second
     assert second.endswith("resolved from 129 nodes on, or leave its short waves out")
     assert "a peak is positive and lowers the gap" in third
-
-
-def test_a_function_s_sign_has_changed_and_that_is_said(tmp_path):
-    (tmp_path / "mine.py").write_text("def up(x, y): return 0.0 * x * y")
-    config, contact, mesh = case({"grid.nodes": 65, "contact.surface": f"{tmp_path}/mine.py:up"})
-    *_, last = surface_lines(config, contact, mesh)
-    assert last.endswith("up': in earlier versions such heights added to the gap")
-    assert surface_words(
-        *[getattr(resolution(contact, mesh), n) for n in ("surface", "surface_nodes")]
-    ) == ("it has no waves")
-
-
-def test_where_a_file_ends_is_said(tmp_path):
-    lines = "\n".join(" ".join(str((i * j) % 7 + i) for i in range(65)) for j in range(65))
-    (tmp_path / "z.txt").write_text(lines)
-    settings = {
-        "grid.nodes": 65, "surface.file": f"{tmp_path}/z.txt", "surface.height_unit": "nm",
-        "surface.spacing": "14 um",
-    }  # fmt: skip
-    *_, told, ends = surface_lines(*case(settings | {"surface.remove": "tilt"}))
-    assert told.endswith("z.txt': 65 x 65 points, 896 um by 896 um")
-    *_, tilted, _ = surface_lines(*case(settings))
-    assert tilted.endswith(' nm from edge to edge: remove = "tilt" levels it')
-    assert ends.endswith("it ends within the domain: beyond its edge the edge's heights go on")

@@ -93,12 +93,6 @@ def test_fields_scales_and_axes_are_the_users(case):
     assert found.H0 == pytest.approx(expected.H0, rel=1e-14)
 
 
-def test_a_rank_has_its_lines_of_the_users_fields(case):
-    found = back(*case)
-    for name in ("P", "H", "status"):
-        np.testing.assert_array_equal(getattr(found.local, name), getattr(found.fields, name))
-
-
 def test_nodes_sides_and_ranges_are_the_users(case):
     expected, *_ = case
     found = back(*case).result

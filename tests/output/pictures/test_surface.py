@@ -49,13 +49,6 @@ def test_a_rough_contact_has_one_picture_more(make_solution, check_texts, contac
     )
 
 
-def test_of_a_line_it_is_a_line(make_line, check_texts):
-    (picture,) = figures(shown(make_line(settings=RIDGE)), ["surface"])
-    (line,) = picture.figure.axes[0].lines
-    assert line.get_ydata().max() == pytest.approx(1000.0, rel=0.05)
-    check_texts(picture.figure, "X = x/a, a = 0.2712 mm")
-
-
 def test_a_surface_whose_file_is_gone_is_left_out(make_solution, tmp_path):
     keys = [f"surface.file={tmp_path}/gone.npy", "surface.height_unit=nm", "surface.spacing=1e-6"]
     solution = shown(make_solution(settings=keys))
