@@ -3,59 +3,9 @@
 import numpy as np
 import pytest
 
-from mgehl.discretization.status import BOUNDARY, CONTACT, LUBRICATED
-from mgehl.solver.arbiter import EARLY, EARLY_ROUNDS, Ruling, rule
+from mgehl.solver.arbiter import EARLY
 from mgehl.solver.inequality import check_pressure_inequality
-from mgehl.solver.judge import GO_ON, Verdict
-from mgehl.solver.outcome import Cycle
-from mgehl.solver.partition import Changes, Partition
-from mgehl.solver.position import Position, Trial
-from mgehl.solver.problem import State
 from mgehl.solver.verification import complementarity_error
-
-SETTLED, GIVEN_UP = Verdict(True, True, "settled"), Verdict(True, False, "given up")
-SMALL = {"residual": 0.5 * EARLY, "apart": True}
-"""Where the fluid is solved apart, Eq. 2 is asked before the last digit."""
-
-RULINGS = [
-    (SETTLED, {}, "TRY_RELEASE"),
-    (SETTLED, {"budget": 0}, "ACCEPT"),
-    (SETTLED, {"before": 1}, "KEEP"),
-    (SETTLED, {"before": 2}, "KEEP"),
-    (SETTLED, {"before": 3}, "TRY_RELEASE"),
-    (SETTLED, {"before": 3, "budget": 0}, "ACCEPT"),
-    (GIVEN_UP, {}, "GIVE_UP"),
-    (GIVEN_UP, {"before": 3}, "KEEP"),
-    (GO_ON, {}, "GO_ON"),
-    (GO_ON, SMALL, "RELEASE_EARLY"),
-    (GO_ON, SMALL | {"apart": False}, "GO_ON"),
-    (GO_ON, SMALL | {"residual": 2.0 * EARLY}, "GO_ON"),
-    (GO_ON, SMALL | {"early_rounds": EARLY_ROUNDS}, "GO_ON"),
-    (GO_ON, SMALL | {"budget": 0}, "GO_ON"),
-    (GO_ON, {"before": 2, "released": 3, "entered": 2}, "GO_ON"),
-    (GO_ON, {"before": 2, "released": 3, "entered": 3}, "KEEP"),
-]
-"""`before` are the violations of an answer kept from before the trial."""
-
-
-@pytest.mark.parametrize("verdict, fields, expected", RULINGS)
-def test_of_settled_states_the_one_with_fewer_violations_is_the_answer(
-    tiny_problem, verdict, fields, expected
-):
-    """Two of three contact nodes have less pressure than the film beside them."""
-    given = {"before": None, "budget": 1, "residual": 1e-9, "released": 2, "entered": 0, "apart": False}
-    given |= fields
-    before, budget, residual, released, entered, apart = (given.pop(name) for name in list(given)[:6])
-    partition = Partition(tiny_problem, budget)
-    status = np.where(tiny_problem.boundary, BOUNDARY, LUBRICATED).astype(np.int8)
-    P = np.where(tiny_problem.boundary, 0.0, 0.5)
-    for node, pressure in (((3, 3), 0.4), ((3, 4), 0.4), ((5, 5), 0.6)):
-        status[node], P[node] = CONTACT, pressure
-    state = State(P, 0.0, np.ones(P.shape), status)
-    trial = before and Trial(state.copy(), "before", before, released, 15, entered)
-    cycle = Cycle(7, residual, 0.0, 1.0, 1.0, 3, 0, Changes())
-    position = Position(state, partition.past, [cycle], trial=trial, **given)
-    assert rule(position, verdict, partition, apart) is Ruling[expected]
 
 
 class TestInASolve:

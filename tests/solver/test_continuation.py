@@ -1,56 +1,12 @@
 """A solution followed in speed and from mean to mean, beside solutions made from nothing."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
 import mgehl
 from mgehl.discretization.scheme import Scheme
-from mgehl.discretization.status import CONTACT
-from mgehl.solver.continuation import BEYOND, Continuation, carry
-from mgehl.solver.outcome import Outcome
+from mgehl.solver.continuation import BEYOND, Continuation
 from mgehl.solver.settings import SolverSettings
-
-WAYS = [
-    (lambda t, at: False, 1.0, [(1.0, 0.0)]),
-    (lambda t, at: False, 0.25, [(0.25, 0.0), (0.75, 0.25), (1.0, 0.75)]),
-    (
-        lambda t, at: t - at > 0.3,
-        1.0,
-        [
-            (1.0, 0.0),
-            (0.5, 0.0),
-            (0.25, 0.0),
-            (0.75, 0.25),
-            (0.5, 0.25),
-            (1.0, 0.5),
-            (0.75, 0.5),
-            (1.0, 0.75),
-        ],
-    ),
-    (lambda t, at: t > 0.3, 0.5, [(0.5, 0), (0.25, 0), (0.75, 0.25), (0.5, 0.25), (0.375, 0.25)]),
-    (
-        lambda t, at: at == 0.75 and t == 1,
-        0.25,
-        [(0.25, 0), (0.75, 0.25), (1, 0.75), (0.875, 0.75), (1, 0.875)],
-    ),
-]
-"""Which steps to t from the last state fail, how long the first one is, and what is tried."""
-
-
-@pytest.mark.parametrize("fails, step, tried", WAYS)
-def test_steps_are_halved_where_they_fail_and_doubled_where_not(fails, step, tried):
-    """States are the t at which they were found; no step is below a quarter of the first."""
-    asked = []
-
-    def solve(t, state):
-        asked.append((t, state))
-        return t, Outcome(t, not fails(t, state), "")
-
-    problem, outcome = carry(solve, 0.0, step=step)
-    assert asked == tried and problem == tried[-1][0]
-    assert outcome.converged == (problem == 1.0)
 
 
 class Followed:
@@ -102,19 +58,6 @@ def test_a_film_followed_to_another_speed_is_the_film_of_that_speed(make, solve,
     assert np.abs(first.state.P - expected.P).max() > 1e-2
 
 
-def test_contact_followed_to_another_speed_keeps_its_set(make):
-    """Twice 0.005 mm/s is too slow for the fluid to open a node of the Hertz circle."""
-    followed = make()
-    _, first = followed.continuation.begin(5e-6, "contact")
-    problem, outcome = followed.continuation.follow(first.state, 5e-6, 1e-5)
-    assert first.converged and outcome.converged
-    assert followed.speeds == [5e-6, 1e-5]
-    np.testing.assert_array_equal(outcome.state.status == CONTACT, first.state.status == CONTACT)
-    mesh, nodes = problem.grid.mesh, problem.grid.count(outcome.state.status == CONTACT)
-    assert nodes * mesh.dX * mesh.dY == pytest.approx(np.pi, rel=0.05)
-    assert true_residual(problem, outcome.state) <= 1e-8 < true_residual(problem, first.state)
-
-
 def test_a_start_from_beyond_is_followed_back(make):
     """Contact is begun at 0.005 mm/s for 0.04 mm/s."""
     followed = make()
@@ -146,25 +89,6 @@ def test_another_mean_is_found_from_the_logarithmic(make, solve, paper_contact):
     arithmetic = solve(paper_contact(), 65)
     central, _ = problem.films(outcome.state)
     assert central > 1.3 * arithmetic.problem.films(arithmetic.outcome.state)[0]
-
-
-def test_by_the_harmonic_mean_single_nodes_do_not_hold_up_the_rest(make):
-    """Short time steps of their own take them past their folds: 12 steps, without 85."""
-    followed = make(face_mobility="harmonic")
-    problem, outcome = followed.continuation.begin(0.3, "film")
-    assert outcome.converged and true_residual(problem, outcome.state) <= 1e-8
-    assert len(outcome.cycles) <= 20
-
-
-def test_without_a_share_any_mean_is_the_arithmetic(make, solve, paper_contact):
-    """The arithmetic solution needs no step; with a share of the mean it is not one."""
-    followed = make(face_mobility="harmonic")
-    state = solve(paper_contact(), 65).outcome.state
-    problem, outcome = followed.continuation.at(1.0, state, share=0.0)
-    assert outcome.converged and len(outcome.cycles) == 1
-    assert problem.scheme == replace(followed.scheme, mobility_share=0.0)
-    problem, outcome = followed.continuation.at(1.0, state, share=0.1)
-    assert len(outcome.cycles) > 1 and problem.scheme.mobility_share == 0.1
 
 
 def test_a_stage_on_the_way_is_no_answer_of_its_own():

@@ -3,18 +3,17 @@
 import numpy as np
 import pytest
 from scipy.optimize import nnls
-from tools.dry_surfaces import CASES, surface
+from tools.dry_surfaces import surface
 
 from mgehl.discretization.influence import influence_coefficients
 from mgehl.discretization.status import CONTACT
 from mgehl.model.coating import Coating
 from mgehl.model.line import LineContact
 from mgehl.model.surface import Waviness
-from mgehl.solver.dry import (
-    solve_dry,
-)
+from mgehl.solver.dry import solve_dry
 from mgehl.solver.journal import NOTHING_KEPT, Journal
 from mgehl.solver.record import Record
+from mgehl.studies.dry import REFERENCE
 from mgehl.studies.dry_surfaces import A
 
 TOLERANCE = 1e-8
@@ -94,18 +93,18 @@ class TestAnswers:
         assert np.count_nonzero(outcome.state.P) == 1
 
 
-@pytest.mark.parametrize("case", CASES, ids=str)
-def test_a_public_code_s_numbers(make_problem, paper_contact, case):
-    """Nodes in contact, p_max and approach; and the work: at 257 nodes at most 60 convolutions."""
-    problem = make_problem(paper_contact(surface=surface(case.surface)), nodes=case.nodes)
+@pytest.mark.parametrize("name, nodes", REFERENCE)
+def test_a_public_code_s_numbers(make_problem, paper_contact, name, nodes):
+    """Nodes in contact, p_max in GPa and approach in um; and the work: at most 60 convolutions."""
+    problem, known = make_problem(paper_contact(surface=surface(name)), nodes=nodes), REFERENCE[name, nodes]
     outcome, convolutions = settle(problem)
     state, contact = outcome.state, problem.contact
     assert outcome.converged
     assert_complementary(problem, state)
-    assert np.count_nonzero(state.P) == case.contact_nodes
-    assert 1e-9 * contact.pressure_scale * state.P.max() == pytest.approx(case.max_pressure, rel=1e-6)
-    assert -1e6 * contact.film_scale * state.H0 == pytest.approx(case.approach, abs=1e-6)
-    assert convolutions <= case.convolutions <= 60
+    assert np.count_nonzero(state.P) == known.contact_nodes
+    assert 1e-9 * contact.pressure_scale * state.P.max() == pytest.approx(known.max_pressure, rel=1e-6)
+    assert -1e6 * contact.film_scale * state.H0 == pytest.approx(known.approach, abs=1e-6)
+    assert convolutions <= 60
 
 
 class TestWay:

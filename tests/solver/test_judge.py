@@ -7,16 +7,7 @@ import pytest
 from petsc4py import PETSc
 
 from mgehl.discretization.status import BOUNDARY, LUBRICATED
-from mgehl.solver.judge import (
-    GO_ON,
-    IDLE_STEPS,
-    STALLS,
-    Limits,
-    Verdict,
-    judge,
-    judge_system,
-    judge_work,
-)
+from mgehl.solver.judge import GO_ON, IDLE_STEPS, STALLS, Limits, Verdict, judge, judge_system, judge_work
 from mgehl.solver.outcome import Cycle
 from mgehl.solver.partition import RESTLESS, Changes, Partition
 from mgehl.solver.position import Position, Trial
@@ -67,10 +58,7 @@ VERDICTS = {
     "linear systems": ({"stalls": STALLS - 1}, None),
     "unsolved systems": ({"stalls": STALLS}, f"{STALLS} linear systems"),
     "a trial": ({"trial_until": 8}, None),
-    "idle": (
-        {"residuals": IDLE},
-        NOT_LOWER,
-    ),
+    "idle": ({"residuals": IDLE}, NOT_LOWER),
     "almost idle": ({"residuals": IDLE[:-1]}, None),
     "slow": ({"residuals": [0.98**k for k in range(40)]}, None),
     "rises, comes back": ({"residuals": [1.0, 0.1, *IDLE_STEPS * [0.2, 0.3]]}, "residual"),

@@ -3,13 +3,10 @@
 import numpy as np
 import pytest
 
-from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.status import CONTACT
 from mgehl.model.hertz import hertz_pressure
 from mgehl.model.point import LOAD
 from mgehl.solver.inequality import check_pressure_inequality
-from mgehl.solver.nested import planned_solves
-from mgehl.solver.settings import NestedSettings, SolverSettings
 
 MOES_DOMAIN = {"x": (-4.5, 1.5), "y": (-3.0, 3.0)}
 
@@ -84,26 +81,6 @@ def test_dry_limit_of_an_elliptical_contact(solve, paper_contact):
     hertz, mesh = contact.hertz, grid.mesh
     newton = P.sum() * hertz.p_h * (mesh.dX * hertz.a) * (mesh.dY * hertz.b)
     assert newton == pytest.approx(800.0, rel=1e-7)
-
-
-@pytest.mark.parametrize(
-    "method, start, nodes",
-    [
-        ("newton-mg", "film", [65, 129]),
-        ("newton-mg", "contact", [129]),
-        ("relaxation", "film", [129]),
-        ("relaxation", "contact", [129]),
-    ],
-)
-def test_what_is_planned_ends_on_the_finest_grid_at_the_wanted_speed(paper_contact, method, start, nodes):
-    meshes = [Mesh(n, n, (-1.9, 1.3), (-1.5, 1.5)) for n in (33, 65, 129)]
-    contact = paper_contact(1e-3)
-    settings = SolverSettings(method=method, nested=NestedSettings(start=start, first_nodes=65))
-    solves = list(planned_solves(meshes, contact, settings))
-    assert [solve.nodes for _, solve in solves] == nodes == [meshes[level].nx for level, _ in solves]
-    assert [solve.finest for _, solve in solves] == [n == 129 for n in nodes]
-    assert solves[-1][1].speed == contact.speed
-    assert all(solve.speed > contact.speed for _, solve in solves[:-1])
 
 
 @pytest.mark.parametrize("speed, start", [(1.0, "film"), (5e-6, "contact")])

@@ -6,11 +6,8 @@ import sys
 import numpy as np
 import pytest
 
-from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import CAVITATED, LUBRICATED
-from mgehl.errors import Stopped
 from mgehl.model.lubricant import Barus
-from mgehl.solver.journal import Journal
 from mgehl.solver.nested import first_guess
 from mgehl.solver.newton import Newton
 
@@ -29,14 +26,6 @@ def test_it_solves_from_the_hertz_pressure(make_newton):
     np.testing.assert_allclose(state.H, problem.gap(state.P, state.H0), rtol=0.0, atol=1e-12)
     assert state.P.min() >= 0.0
     np.testing.assert_array_equal(state.P[state.status == CAVITATED], 0.0)
-
-
-def test_convergence_is_fast_at_the_end(make_newton):
-    problem, newton = make_newton(linear_tolerance=1e-3)
-    cycles = newton.run(first_guess(problem, "film")).cycles
-    settled = [cycle.residual for cycle in cycles if cycle.changes.total == 0]
-    assert len(settled) >= 2
-    assert settled[-1] < 0.02 * settled[-2]
 
 
 def test_a_solution_needs_no_step(make_newton):
@@ -79,16 +68,6 @@ def test_a_residual_without_a_way_back_ends_it(make_newton, P, H):
     assert outcome.reason.startswith("diverged: residual")
 
 
-def test_petsc_options_reach_snes_and_ksp(make_newton, petsc_options):
-    petsc_options["opt_snes_max_it"] = 2
-    petsc_options["opt_ksp_max_it"] = 1
-    problem, newton = make_newton(options_prefix="opt_")
-    outcome = newton.run(first_guess(problem, "film"))
-    assert not outcome.converged
-    assert outcome.cycles[-1].step == 2
-    assert [cycle.linear_iterations for cycle in outcome.cycles[1:]] == [1, 1]
-
-
 @pytest.mark.parametrize("speed", [1.0, 0.12])
 def test_implicit_time_steps_end_in_the_steady_solution(solve, paper_contact, speed):
     """Another way to the same film, at 0.12 m/s with contact."""
@@ -102,43 +81,6 @@ def test_implicit_time_steps_end_in_the_steady_solution(solve, paper_contact, sp
     np.testing.assert_array_equal(implicit.state.status, steady.state.status)
     ways = ([cycle.residual for cycle in outcome.cycles] for outcome in (steady, implicit))
     assert next(ways)[1:3] != pytest.approx(next(ways)[1:3], rel=1e-3)
-
-
-class Rewired(Newton):
-    """A `Newton` whose SNES has callbacks of the test's own, made of the true ones."""
-
-    wrap_function = wrap_jacobian = None
-    """Of (newton, callback), giving the callback that SNES is to have."""
-
-    def solve(self, snes, b, x):
-        if self.wrap_function:
-            f, (form, *_) = snes.getFunction()
-            snes.setFunction(self.wrap_function(form), f)
-        if self.wrap_jacobian:
-            J, preconditioner, (form, *_) = snes.getJacobian()
-            snes.setJacobian(self.wrap_jacobian(form), J, preconditioner)
-        super().solve(snes, b, x)
-
-
-def rewired(function=None, jacobian=None):
-    """A kind of `Newton` with these wrappers."""
-    wrappers = {"wrap_function": function, "wrap_jacobian": jacobian}
-    return type(
-        "Rewired", (Rewired,), {name: each and staticmethod(each) for name, each in wrappers.items()}
-    )
-
-
-def then(change):
-    """Wrapper of a callback: the true one, then a change of what it made."""
-
-    def wrap(form):
-        def formed(snes, x, *made):
-            form(snes, x, *made)
-            change(*made)
-
-        return formed
-
-    return wrap
 
 
 class TestItAsksSnes:
@@ -158,67 +100,6 @@ class TestItAsksSnes:
         cycles = newton.run(first_guess(problem, "film")).cycles
         told = [(cycle.step, cycle.residual) for cycle in cycles]
         assert seen == [*told, told[-1]]
-
-
-class TestJacobianThroughSnes:
-    """What SNES's Jacobian does to a direction, against differences of SNES's function."""
-
-    STEP = 1e-3
-
-    @pytest.mark.parametrize(
-        "couette, motion, speed",
-        [("1B", (1.0, 0.0), 0.3), ("S1B", (0.0, 1.0), 0.3), ("1B", (0.8, 0.6), 0.2)],
-        ids=["along x", "along y", "at an angle"],
-    )
-    def test_rest_is_of_second_order(self, make_newton, paper_contact, usual_law, couette, motion, speed):
-        """Half the step, a quarter of what the linearisation leaves; and hardly anything of the whole.
-
-        (In a settled state: where cavities have just moved, the function at the present state is
-        still that of the gap before.)
-        """
-        contact = paper_contact(speed)
-        scheme = Scheme(couette, motion=motion, contact_law=usual_law(contact))
-        problem, newton = make_newton(contact=contact, scheme=scheme, release_budget=0)
-        settled = newton.run(first_guess(problem, "film"))
-        assert settled.converged and set(np.unique(settled.state.status)) >= set(range(3))
-        found = []
-
-        def measure(form):
-            def formed(snes, x, J, preconditioner):
-                form(snes, x, J, preconditioner)
-                found.append(self.rests(snes, x, J, problem.boundary))
-
-            return formed
-
-        kind = rewired(jacobian=measure)
-        _, newton = make_newton(kind=kind, contact=contact, scheme=scheme, tolerance=0.0, max_steps=1)
-        newton.run(settled.state)
-        ((jump, whole, half, change),) = found
-        assert jump < 1e-6 * whole
-        assert half == pytest.approx(0.25 * whole, rel=0.05)
-        assert 0.0 < whole < 1e-3 * change
-
-    def rests(self, snes, x, J, boundary):
-        """Norms of f(x + h d) - f(x) - h J d for h = 0+, h and h/2, and of h J d."""
-        d, here, there, product = x.duplicate(), *(snes.getFunction()[0].duplicate() for _ in range(3))
-        noise = np.random.default_rng(3).standard_normal(boundary.shape)
-        P = x.getArray(readonly=True)[:-1].reshape(boundary.shape)
-        d.setArray(np.append(np.where(boundary, 0.0, noise * P), 0.01))
-        J.mult(d, product)
-        snes.computeFunction(x, here)
-        norms = []
-        for h in (1e-12, self.STEP, 0.5 * self.STEP):
-            moved = x.copy()
-            moved.axpy(h, d)
-            snes.computeFunction(moved, there)
-            there.axpy(-1.0, here)
-            there.axpy(-h, product)
-            norms.append(there.norm())
-            moved.destroy()
-        norms.append(self.STEP * product.norm())
-        for vec in (d, here, there, product):
-            vec.destroy()
-        return norms
 
 
 RAISES_INSIDE = """
@@ -279,16 +160,6 @@ class TestExceptions:
         """In a process of its own, which would die of it."""
         done = subprocess.run([sys.executable, "-c", RAISES_INSIDE], capture_output=True, text=True)
         assert (done.returncode, done.stdout) == (0, "as it was\nfreed\n"), done.stderr
-
-    def test_of_the_journal(self, make_newton):
-        class Ends(Journal):
-            def step(self, grid, position):
-                if len(position.cycles) == 2:
-                    raise Stopped("enough", 130)
-
-        problem, newton = make_newton()
-        with pytest.raises(Stopped, match="enough"):
-            newton.run(first_guess(problem, "film"), Ends())
 
     def test_after_one_it_solves_again(self, make_newton):
         told = []
