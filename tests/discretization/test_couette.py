@@ -6,6 +6,7 @@ from handmade import ALONG, Row
 
 from mgehl.discretization.couette import EE, SCHEMES, WW, E, W, add_couette, couette_scheme
 from mgehl.discretization.flow import Flow
+from mgehl.discretization.order import couette_order
 from mgehl.discretization.status import CONTACT, LUBRICATED, is_solid
 
 # One row of five nodes with small whole numbers, so that every flow is exact.
@@ -166,3 +167,11 @@ def test_a_coarse_grid_has_the_truncation_error_of_the_finest(coarsenings):
         slope(couette_scheme("1B"), 1.0)
     )
     assert couette_scheme("2B", 0) == SCHEMES["2B"]
+
+
+ORDERS = {"1B": 1, "2B": 2, "2C": 2, "S1B": 1, "S2C": 2, "S2B-v": 2, "S2B-vi": 2, "3B": 3, "3L": 3}
+
+
+@pytest.mark.parametrize("name", SCHEMES)
+def test_order_is_that_of_the_literature(name):
+    assert couette_order(name) == ORDERS[name]

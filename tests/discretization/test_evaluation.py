@@ -5,17 +5,14 @@ import pytest
 from handmade import ghosted, walled
 from test_status import neighbourhood, neighbourhoods
 
-from mgehl.discretization.axes import HALO, own
+from mgehl.discretization.axes import own
 from mgehl.discretization.couette import SCHEMES
 from mgehl.discretization.evaluation import Evaluation
 from mgehl.discretization.fluid import FACE_MOBILITIES
 from mgehl.discretization.mesh import Mesh
-from mgehl.discretization.residual import residual
-from mgehl.discretization.rows import FLOW, rows_of
 from mgehl.discretization.scheme import Scheme
-from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
+from mgehl.discretization.status import LUBRICATED
 
-every_scheme = pytest.mark.parametrize("couette", SCHEMES)
 every_mean = pytest.mark.parametrize("mean", FACE_MOBILITIES)
 
 # Liu eqs. 31 and 32 as printed: Couette flow leaving node i and entering it.
@@ -126,70 +123,3 @@ def test_nothing_crosses_the_walls_of_a_single_line(contact):
     np.testing.assert_allclose(evaluation.inflow[:, 1:-1], along, rtol=1e-14)
     _, across = evaluation.conductances
     assert across.shape == (2, 8) and not across.any()
-
-
-def test_ghost_lines_are_as_many_as_a_scheme_looks_upstream(film):
-    """The inflow of a line is the same on whatever rank it lies."""
-    scheme = Scheme("2B", motion=(0.6, 0.8))
-    whole = film.evaluation(scheme).inflow
-    for line in range(len(whole)):
-        cut = slice(line, line + 1 + 2 * HALO)
-        part = Evaluation(film.P[cut], film.H[cut], film.status[cut], film.mesh, film.contact, scheme)
-        np.testing.assert_array_equal(part.inflow[0], whole[line])
-
-
-INNER = np.s_[1:-1, 1:-1]
-
-
-class TestXAndYAreTheSame:
-    """A state and its transpose, the motion turned with it."""
-
-    @pytest.fixture
-    def plane(self, contact):
-        """Function: evaluation of all of a plane with contact and cavities, or of its transpose."""
-        rng, ny, nx = np.random.default_rng(12), 9, 11
-        P, H = rng.uniform(0.2, 0.8, (ny, nx)), rng.uniform(0.05, 0.15, (ny, nx))
-        status = rng.choice([LUBRICATED] * 6 + [CAVITATED, CONTACT], (ny, nx)).astype(np.int8)
-        status[[0, -1]], status[:, [0, -1]] = BOUNDARY, BOUNDARY
-        P[(status == BOUNDARY) | (status == CAVITATED)] = 0.0
-        x, y = (-1.9, 1.3), (-1.5, 1.6)
-
-        def make(scheme, transposed=False, k_e=1.0):
-            fields, mesh = (P, H, status), Mesh(nx, ny, x, (k_e * y[0], k_e * y[1]), k_e)
-            if transposed:
-                fields, mesh = (P.T, H.T, status.T), Mesh(ny, nx, y, x)
-            return Evaluation(
-                ghosted(fields[0]), ghosted(fields[1]), walled(fields[2]), mesh, contact, scheme
-            )
-
-        return make
-
-    @pytest.fixture
-    def pair(self, plane):
-        """Function: evaluations of the state and of its transpose by a scheme."""
-
-        def make(couette, **choices):
-            one, other = (Scheme(couette, motion=motion, **choices) for motion in ((0.6, 0.8), (0.8, 0.6)))
-            return plane(one), plane(other, transposed=True)
-
-        return make
-
-    @every_scheme
-    @every_mean
-    def test_residual(self, pair, couette, mean):
-        one, other = pair(couette, face_mobility=mean)
-        rows = rows_of(own(one.status))
-        here, there = residual(one, rows), residual(other, rows.T).T
-        film = rows == FLOW
-        np.testing.assert_allclose(here[film], there[film], rtol=0.0, atol=1e-13)
-        # Rows of a given pressure or gap are in units of the spacing along X.
-        given = here[~film] * one.mesh.dX, there[~film] * other.mesh.dX
-        np.testing.assert_allclose(*given, rtol=1e-14)
-        assert (rows_of(own(one.status)) != FLOW)[INNER].any()
-
-    @every_scheme
-    def test_units_of_the_ellipse_are_a_matter_of_words(self, plane, couette):
-        """Y in units of b = a/k_e: the same gap, pressure and velocity, the same inflow."""
-        scheme = Scheme(couette, motion=(0.6, 0.8))
-        squeezed, plain = plane(scheme, k_e=0.5).inflow, plane(scheme).inflow
-        np.testing.assert_allclose(squeezed, plain, rtol=1e-12, atol=1e-13)

@@ -105,24 +105,6 @@ def test_contact_closes_a_face_for_both_flows_and_all_derivatives(couette, mixed
             assert free.value[closed].all()
 
 
-@every_mean
-@pytest.mark.parametrize("gap", [0.0, 1e-3, -1e-3, -0.1, 0.1])
-@along_both
-def test_closed_faces_stay_closed_for_any_gap_of_the_contact_node(along, gap, mean, contact):
-    """-0.1 mirrors the neighbours: the mobilities then cancel, which no mean may let through."""
-    row, scheme = Row(along), Scheme("1B", mean)
-    fluid = fluid_state(
-        row.lay([0.3, 0.3, 0.3, 0.4, 0.4]),
-        row.lay([0.1, 0.1, gap, 0.1, 0.1], 0.1),
-        contact,
-        scheme.contact_law,
-    )
-    status = row.status([LUBRICATED, LUBRICATED, CONTACT, LUBRICATED, LUBRICATED])
-    leaving, _ = flows(fluid, status, row.axis(), scheme, linearised=True)
-    assert (row.faces(leaving.value)[1:3] == 0.0).all()
-    assert all(np.isfinite(array).all() for array in arrays_of(leaving))
-
-
 # Liu eqs. 20-24: the pressure rise P_i - P_i-1 times eps/dX where the face carries no net flow.
 BLOCKED_RISE = {
     "1B": lambda rho, H, i: rho[i - 1] * H[i - 1],
@@ -156,23 +138,6 @@ def test_blocked_flow_recursion(couette, along):
         assert np.abs(leaving).max() < 1e-14
     # ... and the recursion is not empty: pressure climbs towards the block.
     assert (np.diff(P) > 0.1).all()
-
-
-@pytest.mark.parametrize("mean", ["logarithmic", "linear-gap", "geometric", "harmonic"])
-def test_flows_and_conductances_take_their_share_of_the_mean(mean, mixed):
-    """They are linear in the face's mobility: 0.4 of those by the mean and 0.6 of the arithmetic ones."""
-
-    def parts(name, share=1.0):
-        scheme = Scheme("2B", name, share)
-        state = fluid_of(mixed, scheme), mixed.status
-        axes = axes_of(mixed.mesh, scheme.motion)
-        return [flows(*state, axis, scheme)[0].value for axis in axes] + [
-            conductances(*state, axis, scheme) for axis in axes
-        ]
-
-    for shared, mine, paper in zip(parts(mean, 0.4), parts(mean), parts("arithmetic"), strict=True):
-        np.testing.assert_allclose(shared, 0.4 * mine + 0.6 * paper, rtol=1e-13, atol=1e-15)
-        assert np.abs(mine - paper).max() > 1e-4 * np.abs(paper).max()
 
 
 @every_mean

@@ -61,3 +61,16 @@ def test_pressure_at_an_edge_between_nodes_is_of_second_order(half_cells):
     errors = [dirichlet_error(cells, half_cells, edges=True) for cells in (32, 64, 128)]
     assert errors[0] / errors[1] == pytest.approx(4.0, rel=0.1)
     assert errors[1] / errors[2] == pytest.approx(4.0, rel=0.05)
+
+
+def test_axes_of_a_plane_mesh():
+    """Couette flow k_e rho H and Poiseuille flow k_e^2 eps dP/dY cross a line [Liu eq. 26]."""
+    mesh = Mesh(5, 9, (0.0, 2.0), (0.0, 2.0), k_e=0.5)
+    x, y = axes_of(mesh, (0.6, 0.8))
+    assert (x.number, x.cell, x.distance, x.couette) == (1, 0.5, 0.5, 0.6)
+    assert (y.number, y.cell, y.distance, y.couette) == (0, 0.25, 0.25 / 0.25, 0.4)
+
+
+def test_a_single_line_has_one_axis_and_edges_are_its_distances():
+    (x,) = axes_of(Mesh(3, 1, (0.0, 2.0), (0.0, 0.0), edges=(0.5, 1.75)), (1.0, 0.0))
+    assert x.cell == 1.0 and x.distance.tolist() == [0.5, 0.75]

@@ -4,6 +4,7 @@ from handmade import walled
 
 from mgehl.discretization.axes import HALO, axes_of, own
 from mgehl.discretization.mesh import Mesh
+from mgehl.discretization.rows import FLOW, GAP, PRESSURE, rows_of
 from mgehl.discretization.status import (
     BOUNDARY,
     CAVITATED,
@@ -112,3 +113,11 @@ def test_largest_fluid_neighbour_of_hand_made_lines():
     P = np.pad([[0.0, 5.0, 9.0, 1.0], [2.0, 7.0, 8.0, 3.0], [0.0, 0.0, 9.0, 4.0]], ((HALO, HALO), (0, 0)))
     result = largest_fluid_neighbour(P, status, X_AND_Y)
     assert result[1].tolist() == [0.0, 5.0, -np.inf, 4.0]
+
+
+EVERY = np.array([[BOUNDARY, LUBRICATED, CAVITATED, CONTACT]])
+
+
+@pytest.mark.parametrize("rigid, contact", [(False, GAP), (True, PRESSURE)], ids=["elastic", "rigid"])
+def test_the_status_says_which(rigid, contact):
+    assert rows_of(EVERY, rigid).tolist() == [[PRESSURE, FLOW, PRESSURE, contact]]

@@ -4,7 +4,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scipy.integrate import dblquad
 from tools.contacts import moes
 
 from mgehl.config import config_from_tables
@@ -48,24 +47,6 @@ def test_kapitza_s_pressure_solves_reynolds_equation(angle):
         u, v = (ball.speed * part for part in ball.motion)
         wedge = 12.0 * ball.lubricant.viscosity * (u * x / ball.radius_x + v * y / ball.radius_y)
         assert div == pytest.approx(wedge, rel=1e-5)
-
-
-@pytest.mark.parametrize("angle", [0.0, 30.0])
-def test_load_beyond_a_rectangle_by_another_quadrature(angle):
-    """Within a larger rectangle by cells, less that within the rectangle, and more beyond the larger."""
-    ball = contact(angle=angle)
-
-    def pressing(y, x):
-        return max(kapitza_pressure(ball, x, y)[0], 0.0)
-
-    ends = [end * ball.x_scale for end in (*X, *Y)]
-    far = 40.0 * ball.x_scale
-    inside = dblquad(pressing, *ends, epsabs=1e-9, epsrel=1e-7)[0]
-    within_larger = dblquad(pressing, -far, far, -far, far, epsabs=1e-9, epsrel=1e-7)[0]
-    beyond_larger = kapitza_load_beyond(ball, (-40.0, 40.0), (-40.0, 40.0))
-    assert kapitza_load_beyond(ball, X, Y) == pytest.approx(
-        within_larger - inside + beyond_larger, rel=1e-4
-    )
 
 
 @pytest.mark.parametrize("angle", [90, 135, 200, 315])

@@ -4,36 +4,13 @@ import numpy as np
 import pytest
 
 from mgehl.discretization.bands import distributive_nodes
-from mgehl.discretization.mesh import HALO
 from mgehl.discretization.rows import PRESSURE, rows_of
 from mgehl.discretization.scheme import Scheme
-from mgehl.multigrid.cliffs import BESIDE, CLIFF, CliffZone, cliffs
+from mgehl.multigrid.cliffs import BESIDE, CliffZone
 from mgehl.multigrid.nearby import NearbySolve
 from mgehl.multigrid.smoother import influence_nearby
 
 SHARE, NODES = 0.25, 17
-
-
-def ghosted(lines):
-    """Lines of nodes with those of no one around them."""
-    return np.pad(np.array(lines), ((HALO, HALO), (0, 0)), mode="edge")
-
-
-class TestCliffs:
-    HIGH = 2.0 * CLIFF
-
-    def test_both_sides_along_a_line(self):
-        eps = ghosted([[self.HIGH, self.HIGH, 1.0, 3.0]])
-        assert cliffs(eps, driven=10.0).tolist() == [[False, True, True, False]]
-
-    def test_both_sides_across_lines(self):
-        eps = ghosted([[self.HIGH, 0.5 * CLIFF], [self.HIGH, 1.0], [1.0, 1.0]])
-        assert cliffs(eps, driven=10.0).tolist() == [[False, False], [True, True], [True, False]]
-
-    def test_a_line_of_the_rank_beside_counts(self):
-        eps = ghosted([[1.0, 1.0]])
-        eps[HALO + 1 :, 0] = self.HIGH
-        assert cliffs(eps, driven=10.0).tolist() == [[True, False]]
 
 
 class TestZone:

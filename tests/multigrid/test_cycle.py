@@ -5,9 +5,8 @@ import pytest
 from mpi4py import MPI
 from petsc4py import PETSc
 
-from mgehl.discretization.rows import rows_of
 from mgehl.discretization.scheme import Scheme
-from mgehl.discretization.status import CONTACT, LUBRICATED
+from mgehl.discretization.status import LUBRICATED
 from mgehl.multigrid.coarse import dense_influence
 from mgehl.multigrid.stencil_matrix import stencil_rows
 from mgehl.solver.problem import ContactProblem
@@ -99,24 +98,6 @@ def test_gmres_iterations(film, make_ksp, make_vec, nodes, kind):
     assert r.norm() <= 1.01e-2 * b.norm()
 
 
-@pytest.mark.parametrize("kind", ["noise", "bulge"])
-@pytest.mark.parametrize("nodes", SIZES)
-def test_gmres_iterations_in_contact(solve, paper_contact, make_multigrid, make_ksp, make_vec, nodes, kind):
-    """Full contact at 0.005 mm/s; the fluid around it is solved apart and given here."""
-    solution = solve(paper_contact(5e-6), nodes, start="contact")
-    state = solution.outcome.state
-    contact = state.status == CONTACT
-    assert contact.sum() > 1000
-    frozen = rows_of(state.status, frozen=state.status == LUBRICATED)
-    multigrid = make_multigrid(solution.hierarchy, solution.problem, state, rows=frozen)
-    ksp = make_ksp(multigrid)
-    r, load = right_hand_side(kind, multigrid, state, contact)
-    b, x = make_vec(multigrid.space, r, load), make_vec(multigrid.space)
-    ksp.solve(b, x)
-    assert ksp.getConvergedReason() > 0
-    assert ksp.getIterationNumber() <= 6
-
-
 def solve_linear(multigrid, ksp, make_vec, kind, state):
     """Iterations to the KSP's tolerance, which the true residual must meet, too."""
     b, x, r = (make_vec(multigrid.space) for _ in range(3))
@@ -172,18 +153,3 @@ class TestCycleOfAnotherScheme:
         state = solution.outcome.state
         multigrid = make_multigrid(solution.hierarchy, solution.problem, state, couette="1B")
         assert solve_linear(multigrid, make_ksp(multigrid), make_vec, kind, state) <= 12
-
-
-@pytest.mark.parametrize("couette", ["1B", "2B"])
-@pytest.mark.parametrize("kind", ["noise", "bulge"])
-def test_gmres_iterations_on_one_line(line_film, make_multigrid, make_ksp, make_vec, kind, couette):
-    """A line contact: few iterations to 1e-6, and hardly more on sixteen times the nodes."""
-    iterations = []
-    for nodes in (257, 1025, 4097):
-        solution = line_film(nodes, couette)
-        state = solution.outcome.state
-        assert (state.status == LUBRICATED).sum() > nodes / 2
-        multigrid = make_multigrid(solution.hierarchy, solution.problem, state)
-        iterations.append(solve_linear(multigrid, make_ksp(multigrid, 1e-6), make_vec, kind, state))
-    assert max(iterations) <= 9
-    assert max(iterations) <= min(iterations) + 2

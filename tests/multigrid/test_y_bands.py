@@ -69,18 +69,3 @@ def test_y_lines_are_solved_as_the_x_lines_of_the_turned_plane(y_bands, kappa, r
     lines.solve(r.T.copy(), expected)
     np.testing.assert_allclose(w, expected.T, rtol=1e-11, atol=1e-13)
     assert w.any()
-
-
-def test_nothing_is_left_of_the_system_before(y_bands, rng):
-    """Nor of one that was forgotten."""
-    first, second = system(rng), system(rng)
-    r, found = rng.standard_normal((NY, NX)), []
-    for forgets in (False, True):
-        y_bands.factor(*first)
-        if forgets:
-            y_bands.forget()
-        y_bands.factor(*second)
-        w = np.empty((NY, NX))
-        y_bands.solve(r, w)
-        found.append(w)
-    np.testing.assert_array_equal(*found)
