@@ -32,14 +32,17 @@ def test_each_kind_of_row(film):
 
 
 def central_differences(function, x, d):
-    """Matrix of a function's derivatives by every node of a ghosted array."""
-    columns = []
-    for node in np.ndindex(*x.shape):
-        above, below = x.copy(), x.copy()
-        above[node] += d
-        below[node] -= d
-        columns.append((function(above) - function(below)).ravel() / (2.0 * d))
-    return np.array(columns).T
+    """Matrix of a function's derivatives by every node of a ghosted array, of which none reaches farther
+    than two lines or nodes: so every fifth is moved at once."""
+    line, node = np.indices(x.shape)
+    matrix = np.zeros((own(x).size, x.size))
+    for first in np.ndindex(5, 5):
+        moved = (line % 5 == first[0]) & (node % 5 == first[1])
+        slope = (function(x + d * moved) - function(x - d * moved)) / (2.0 * d)
+        for j, i in np.argwhere(moved):
+            near = own((np.abs(line - j) <= 2) & (np.abs(node - i) <= 2))
+            matrix[near.ravel(), j * x.shape[1] + i] = slope[near]
+    return matrix
 
 
 def assert_linearised(state, scheme, rigid=False, storage=None):
