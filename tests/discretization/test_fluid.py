@@ -54,9 +54,14 @@ def test_vanishing_mean_of_a_closed_node_is_finite(mean, a, b):
 
 @pytest.mark.parametrize("alpha_dP", [0.0, 1e-9, 1e-3, 0.019, 0.021, 0.5, 20.0])
 def test_logarithmic_mean_carries_the_flow_of_the_reduced_pressure(alpha_dP):
-    """By Barus's law and one gap mean (P_E - P_W) = (e^(-alpha P_W) - e^(-alpha P_E))/alpha."""
-    mean = FACE_MEANS["logarithmic"](np.array([1.0]), np.exp([-alpha_dP]))[0][0]
+    """By Barus's law and one gap mean (P_E - P_W) = (e^(-alpha P_W) - e^(-alpha P_E))/alpha.
+
+    It rises in proportion to both mobilities: each slope times its mobility adds up to it.
+    """
+    W, E = 1.0, np.exp(-alpha_dP)
+    mean, by_W, by_E = (part[0] for part in FACE_MEANS["logarithmic"](np.array([W]), np.array([E])))
     assert mean * alpha_dP == pytest.approx(-np.expm1(-alpha_dP), rel=1e-9)
+    assert W * by_W + E * by_E == pytest.approx(mean, rel=1e-12)
 
 
 A, B = np.array([2.0, 1.0, 4.0, 0.0]), np.array([8.0, 30.0, 4.0, 3.0])

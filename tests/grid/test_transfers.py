@@ -20,6 +20,15 @@ def transfer(paper_contact, make_hierarchy):
     return make_hierarchy(paper_contact(), 65).transfers[0]
 
 
+@pytest.mark.parametrize("line, node", [(-1, 0), (1, 0), (0, -1), (0, 1)])
+def test_halfway_to_a_neighbour(transfer, line, node):
+    fine = np.random.default_rng(0).random(transfer.fine.shape)
+    found = transfer.halfway(transfer.fine.halo(fine), (line, node))
+    assert found.shape == transfer.coarse.shape
+    inner = fine[2 + line : -2 + line or None : 2, 2 + node : -2 + node or None : 2]
+    np.testing.assert_array_equal(found[1:-1, 1:-1], inner)
+
+
 def test_bilinear_reproduces_bilinear_functions(transfer):
     def function(grid):
         return 2.0 + 3.0 * grid.X - 1.5 * grid.Y + 0.7 * grid.X * grid.Y

@@ -7,7 +7,7 @@ import pytest
 from mpi4py import MPI
 
 from mgehl.config import config_from_tables
-from mgehl.output.gap_error import GridGap, from_grids, why_no_band
+from mgehl.output.gap_error import SPREAD, GridGap, from_grids, half_width, why_no_band
 from mgehl.run import solve
 from mgehl.studies.study import merged
 
@@ -27,6 +27,28 @@ def grid(nodes, settled=True):
         "pressure_crest_GPa": 0.03,
     }  # fmt: skip
     return GridGap(nodes, 10.0, 2.0, 0.25, settled, 0.5, 0.1, **loads)
+
+
+def test_alike_grids_show_the_second_order():
+    """A third of the difference, as Richardson has it, and a part of what differs from node to node."""
+    assert half_width(10.0, 10.3, 0.5) == pytest.approx(0.1 + SPREAD * 0.5)
+
+
+def test_contact_whose_edge_is_known_to_a_cell_the_first():
+    assert half_width(10.0, 10.3, 0.5, touches=True) == pytest.approx(0.3 + SPREAD * 0.5)
+    without = [replace(grid(n), contact_load_share=0.0, mean_nm=nm) for n, nm in ((257, 10.0), (129, 10.3))]
+    assert from_grids(without).mean_nm == pytest.approx(0.1 + SPREAD * 0.5)
+    touching = [without[0], replace(without[1], contact_load_share=0.01)]
+    assert from_grids(touching).mean_nm == pytest.approx(0.3 + SPREAD * 0.5)
+
+
+def test_loads_and_the_largest_pressure_have_bands_of_their_own():
+    coarser = replace(grid(129), max_pressure_GPa=1.97, contact_load_share=0.26, solid_load_apart=0.1)
+    error = from_grids((grid(257), coarser))
+    assert error.max_pressure_GPa == pytest.approx(0.01 + SPREAD * 0.05 + 0.03)
+    assert error.contact_load_share == pytest.approx(0.01)
+    assert error.solid_load_fraction == pytest.approx(SPREAD * 0.1)
+    assert replace(error, grids=(grid(257), coarser)).the_grids == []
 
 
 def test_what_the_two_grids_do_not_share_is_the_grid_s():

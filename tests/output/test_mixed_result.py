@@ -13,7 +13,7 @@ from mgehl.model.line import LineContact
 from mgehl.model.lubricant import Barus, ConstantDensity, Lubricant
 from mgehl.model.surface import Waviness
 from mgehl.output.files import plain_result
-from mgehl.output.mixed_result import Nodes, measured, patch_sizes
+from mgehl.output.mixed_result import Nodes, measured, mixed_result, patch_sizes
 from mgehl.output.mixed_words import mixed_lines
 from mgehl.solver.gaps import within_hertz
 
@@ -40,6 +40,16 @@ def nodes():
 def touch(nodes, *places, P=1.0):
     for j, i in places:
         nodes.status[j, i], nodes.P[j, i], nodes.H[j, i] = CONTACT, P, 0.0
+
+
+class Raised:
+    """A surface at another level."""
+
+    def __init__(self, surface, by):
+        self.surface, self.by = surface, by
+
+    def height(self, x, y):
+        return self.surface.height(x, y) + self.by
 
 
 @pytest.mark.parametrize(
@@ -98,6 +108,34 @@ def test_valleys_are_deeper_than_sq_below_the_mean(contact, nodes):
     assert found.valley_film_nm == pytest.approx(1.0 * 1e9 * contact.film_scale)
     assert found.Sq_nm == pytest.approx(1e9 * Sq)
     assert found.lambda_ratio == pytest.approx(contact.formulas.hamrock_dowson_central / Sq)
+
+
+def test_solids_carry_what_the_fluid_under_them_does_not(contact, nodes):
+    touch(nodes, (4, 8), P=2.0)
+    nodes.p[4, 8] = 0.5
+    nodes.P[4, 7] = nodes.p[4, 7] = 0.25
+    found = measured(contact, MESH, nodes)
+    assert found.solid_load_fraction == pytest.approx(1.5 * 0.125 / contact.load_integral)
+
+
+def test_the_filling_is_that_of_cavities_within_the_ellipse(contact, nodes):
+    for i, filling in ((7, 0.25), (9, 0.75), (1, 0.0)):  # the last is outside
+        nodes.status[4, i], nodes.filling[4, i] = CAVITATED, filling
+    assert measured(contact, MESH, nodes).torn_filling == pytest.approx(0.5)
+
+
+def test_heights_are_about_the_mean_that_sq_is_of(contact, make_problem):
+    """A surface that lies higher has the same valleys."""
+    higher = replace(contact, surface=Raised(WAVES, 1e-6))
+    found = []
+    for body in (contact, higher):
+        problem = make_problem(contact=body, nodes=33)
+        shape = problem.grid.shape
+        H = 1.0 + np.arange(shape[0] * shape[1]).reshape(shape)
+        state = problem.state(np.zeros(shape), 0.0, np.full(shape, LUBRICATED))
+        found.append(mixed_result(problem, replace(state, H=H)))
+    assert found[0].valley_film_nm == pytest.approx(found[1].valley_film_nm)
+    assert found[0].valley_film_nm != pytest.approx(found[0].mean_film_nm)
 
 
 @pytest.mark.parametrize("rows", [9, 1], ids=["point", "line"])

@@ -128,10 +128,9 @@ class TestRuns:
         problem, outcome = single_loop(hierarchy, contact, everything, lambda *each: told.append(each))
         return hierarchy, problem, outcome, told
 
-    @pytest.mark.parametrize("omega", [0.2])
-    def test_it_finds_the_film_that_newton_finds(self, make_hierarchy, solve, paper_contact, omega):
+    def test_it_finds_the_film_that_newton_finds(self, make_hierarchy, solve, paper_contact):
         contact = paper_contact()
-        hierarchy, problem, outcome, told = self.run(make_hierarchy, contact, omega=omega, tolerance=1e-6)
+        hierarchy, problem, outcome, told = self.run(make_hierarchy, contact, omega=0.2, tolerance=1e-6)
         assert outcome.converged
         state, last = outcome.state, outcome.cycles[-1]
         true = problem.rms(problem.residual(problem.evaluate(state), state.status))

@@ -35,16 +35,14 @@ def test_points_converge_to_moes_film(M, L, ratio):
 WIDE = {
     "contact": {"radius_x": 22e-3, "radius_y": 114e-3, "reduced_modulus": 4e9, "load": 735.0},
     "lubricant": {"viscosity": 0.13, "pressure_viscosity": 12e-9, "viscosity_law": "roelands"},
-    "motion": {"speed": 0.1},
+    "motion": {"speed": 0.1, "angle": 6.0},
 }
 """Polymer on a wide roller, M = 5000: 0.065 GPa."""
 
 
-@pytest.mark.parametrize("angle", [0.0, 6.0])
-def test_a_wide_contact_has_a_film(angle):
+def test_a_wide_contact_has_a_film():
     """By contact that closes its faces there was none: what had closed on the way stayed closed."""
-    own = {"motion": WIDE["motion"] | {"angle": angle}, "solver": {"error": False}}
-    result = solve(config_from_tables(WIDE | own), MPI.COMM_SELF).result
+    result = solve(config_from_tables(WIDE | {"solver": {"error": False}}), MPI.COMM_SELF).result
     assert result.converged and result.contact.nodes == 0 and result.work.convolutions < 140.0
     assert result.central_film_nm == pytest.approx(387.0, rel=0.01)
 
