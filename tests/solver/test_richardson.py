@@ -4,12 +4,15 @@ import pytest
 
 from mgehl.solver.richardson import (
     FASTER,
+    IRREGULAR,
     SAFETY,
+    SLOWEST,
     SMALLEST,
     SPREADS,
     WIDER,
     band,
     band_of_smallest,
+    believed,
     by_chance,
     observed_order,
 )
@@ -24,6 +27,20 @@ def values(limit, order, error, grids):
 def test_where_errors_fall_by_the_order_the_error_is_told_and_a_part_added(order):
     films = values(30.0, order, 0.4, 3)
     assert band(films[0], films, 0.0, order).half_width == pytest.approx((1.0 + SAFETY) * 0.4)
+
+
+def test_slower_convergence_than_the_schemes_is_believed_down_to_a_part():
+    assert believed(2, 1.6) == 1.6
+    assert believed(2, 2.7) == 2
+    assert believed(2, None) == 2
+    assert believed(2, 2 * SLOWEST - 0.01) == 2
+
+
+@pytest.mark.parametrize("order, part", [(1.9, SAFETY), (2.4, SAFETY), (1.4, IRREGULAR)])
+def test_more_is_added_where_three_grids_show_another_order(order, part):
+    films = [10.0, 9.0, 9.0 - 2.0**order]
+    error = 1.0 / (2.0 ** believed(2, order) - 1.0)
+    assert band(10.0, films, 0.0, 2).half_width == pytest.approx((1.0 + part) * error)
 
 
 def test_the_known_answer_of_three_grids():
