@@ -5,8 +5,6 @@ import time
 import numpy as np
 import pytest
 
-PAUSE = 0.02
-
 
 @pytest.fixture
 def spent():
@@ -27,26 +25,6 @@ def spent():
 @pytest.fixture
 def grids(make_hierarchy, paper_contact):
     return make_hierarchy(paper_contact(), nodes=65)
-
-
-def pause():
-    time.sleep(PAUSE)
-
-
-def test_what_a_linear_solve_takes_besides_its_parts_is_krylov(spent, grids):
-    from mgehl.grid.events import linear_solve
-
-    deflection = grids.deflections[-1]
-
-    def solve():
-        with linear_solve():
-            pause()
-            for _ in range(20):
-                deflection(np.ones(deflection.grid.shape))
-
-    wall, parts = spent(solve)
-    assert parts["Krylov"] >= PAUSE and parts["deflection"] > 0.0
-    assert sum(parts.values()) <= wall
 
 
 def test_log_view_names_the_parts(spent, grids, tmp_path):

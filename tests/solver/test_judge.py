@@ -4,10 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from petsc4py import PETSc
 
 from mgehl.discretization.status import BOUNDARY, LUBRICATED
-from mgehl.solver.judge import GO_ON, IDLE_STEPS, STALLS, Limits, Verdict, judge, judge_system, judge_work
+from mgehl.solver.judge import GO_ON, IDLE_STEPS, STALLS, Limits, Verdict, judge, judge_work
 from mgehl.solver.outcome import Cycle
 from mgehl.solver.partition import RESTLESS, Changes, Partition
 from mgehl.solver.position import Position, Trial
@@ -16,7 +15,6 @@ from mgehl.solver.settings import NewtonSettings
 
 TOLERANCE, MAX_STEPS = 1e-8, 20
 LIMITS = Limits(TOLERANCE, MAX_STEPS, IDLE_STEPS)
-REASONS = PETSc.KSP.ConvergedReason
 SOLVED = {"residual": TOLERANCE, "load_error": -TOLERANCE}
 
 
@@ -86,21 +84,6 @@ def test_sets_that_cycle_name_their_nodes(make_position, partition):
     assert [(each.i, each.j, each.pressure) for each in found.contradictions] == [(5, 5, -0.2)]
 
 
-@pytest.mark.parametrize(
-    "reason, until, ends",
-    [
-        (REASONS.CONVERGED_RTOL, None, False),
-        (REASONS.DIVERGED_MAX_IT, None, False),
-        (REASONS.DIVERGED_NANORINF, None, True),
-        (REASONS.CONVERGED_RTOL, 15, False),
-        (REASONS.DIVERGED_MAX_IT, 15, True),
-    ],
-)
-def test_a_singular_system_ends_it_and_in_a_trial_an_unsolved_one(make_position, reason, until, ends):
-    found = judge_system(reason, make_position(trial_until=until))
-    assert found.ends == ends and not found.converged
-
-
 @pytest.mark.parametrize("work, ends", [(99.9, False), (100.0, True), (250.4, True)])
 def test_too_much_work_ends_what_would_go_on(work, ends):
     found = judge_work(GO_ON, work, 100)
@@ -108,19 +91,6 @@ def test_too_much_work_ends_what_would_go_on(work, ends):
     assert found.reason == (f"{work:.0f} convolutions led to no answer (solver.max_work = 100)" * ends)
     settled = Verdict(True, True, "settled")
     assert judge_work(settled, work, 100) is settled
-
-
-@pytest.mark.parametrize(
-    "nodes, ends", [([4, 8, 12], False), ([4, 8, 8, 12, 10], False), ([4, 8, 8, 12, 10, 11], True)]
-)
-def test_contact_that_spreads_and_spreads_ends_what_is_of_use_as_a_film_only(
-    make_position, partition, nodes, ends
-):
-    position = make_position()
-    position.cycles = [replace(position.cycles[0], contact_nodes=each) for each in nodes]
-    found = judge(position, partition, replace(LIMITS, spreading_steps=3))
-    assert found.ends is ends and not found.converged
-    assert not judge(position, partition, replace(LIMITS, spreading_steps=None)).ends
 
 
 def test_a_film_that_the_grid_does_not_hold_is_given_up(paper_contact, solve):
