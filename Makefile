@@ -96,7 +96,7 @@ bench: $(ENVIRONMENT)
 
 # make studies     run all studies and write their tables, and the pictures that pages show, to runs/tables (hours)
 # make study-NAME  one of them. One that was stopped goes on; what did not converge says so in the table.
-STUDIES := wedge grid transition methods schemes error gaps mixed machine rollers rough waviness dry
+STUDIES := wedge grid transition methods schemes error gaps mixed machine rollers rough waviness moving dry
 GRIDS_grid := --nodes 257,513,1025,2049
 GRIDS_transition := --nodes 257,513,1025
 SHOWN_grid := *.png

@@ -1,8 +1,10 @@
 """Functions of one's own: a configuration names them as "my_laws.py:NAME", see wavy.toml, pocket.toml.
 
-Each takes arrays and returns arrays of the same shape, all in SI units. A law returns its value and
-the derivative by p, which is compared to differences of the value before a run: a slip of the pen is
-one line, not an iteration that will not converge.
+Each takes arrays and returns arrays of the same shape, all in SI units. A law of the lubricant takes one
+argument, the conditions: at.pressure, at.viscosity, at.pressure_viscosity, at.shear_rate, at.temperature,
+as far as there are any. Viscosity and density come with their derivatives by p, which are compared to
+differences of the values before a run: a slip of the pen is one line, not an iteration that will not
+converge.
 """
 
 import numpy as np
@@ -12,6 +14,8 @@ BULK_MODULUS = 1.19e9  # Pa
 BULK_SLOPE = 11.74
 DOOLITTLE = 4.71
 OCCUPIED = 0.6568
+
+CARREAU = 6e6  # Pa: the stress about which the oil ceases to be Newtonian
 
 AMPLITUDE = 15e-9  # m
 WAVELENGTH = 60e-6  # m
@@ -24,24 +28,30 @@ def volume(p):
     return value, -1.0 / ((1.0 + BULK_SLOPE) * (stiffness + p))
 
 
-def doolittle(p, viscosity, _pressure_viscosity):
-    """lubricant.viscosity_law: eta in Pa s and d eta/dp; `viscosity` is lubricant.viscosity."""
-    ratio, slope = volume(p)
+def doolittle(at):
+    """lubricant.viscosity_law: eta in Pa s and d eta/dp; `at.viscosity` is lubricant.viscosity."""
+    ratio, slope = volume(at.pressure)
     free = ratio - OCCUPIED
-    eta = viscosity * np.exp(DOOLITTLE * OCCUPIED * (1.0 / free - 1.0 / (1.0 - OCCUPIED)))
+    eta = at.viscosity * np.exp(DOOLITTLE * OCCUPIED * (1.0 / free - 1.0 / (1.0 - OCCUPIED)))
     return eta, -eta * DOOLITTLE * OCCUPIED / free**2 * slope
 
 
-def tait(p):
+def tait(at):
     """lubricant.density_law: the density over that at p = 0, and its derivative by p."""
-    ratio, slope = volume(p)
+    ratio, slope = volume(at.pressure)
     return 1.0 / ratio, -slope / ratio**2
 
 
-def dowson_higginson(p):
+def dowson_higginson(at):
     """lubricant.density_law by two constants of another oil than the built-in law's."""
+    p = at.pressure
     stiffness, ratio = 2.22e9, 1.66  # Pa; the density at the highest pressure over that at none
     return (stiffness + ratio * p) / (stiffness + p), (ratio - 1.0) * stiffness / (stiffness + p) ** 2
+
+
+def carreau(at):
+    """friction.model: the shear stress in Pa, of oil that a rising shear rate makes ever less viscous."""
+    return at.viscosity * at.shear_rate / (1.0 + (at.viscosity * at.shear_rate / CARREAU) ** 2) ** 0.35
 
 
 def waves(x, _y):

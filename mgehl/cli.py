@@ -5,6 +5,7 @@
     python -m mgehl collect RUN [RUN ...] [--out FILE.csv]
     python -m mgehl plot RUN [RUN ...] [--kind lines,film] [--format png,svg,pdf]
     python -m mgehl report RUN
+    python -m mgehl cite RUN
     python -m mgehl check CONFIG [--set key=value ...] [--ranks N]
     python -m mgehl new NAME [--kind point|line|wedge]
     python -m mgehl keys | info | bench | completion | --version

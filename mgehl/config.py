@@ -5,20 +5,25 @@ Every mistake is one line that names the key, the value and what is allowed (`Co
 
 import difflib
 import os
+import re
 import sysconfig
 import tomllib
 from collections.abc import Iterable, Mapping
-from dataclasses import asdict, dataclass, fields
+from contextlib import contextmanager
+from dataclasses import asdict, dataclass, fields, replace
 from pathlib import Path
 
 from mgehl import config_sections as sections
 from mgehl.config_file import text_of
 from mgehl.config_value import read_value, shown
 from mgehl.errors import ConfigError
-from mgehl.kinds import choices, kind_of
+from mgehl.kinds import choices, derived, kind_of
+from mgehl.kinds.bodies import BodySection
 from mgehl.kinds.choice import named, value_of
+from mgehl.kinds.derived import overridden
 from mgehl.kinds.point import CoatingSection, MoesSection
 from mgehl.kinds.surface_kinds import SurfaceSection
+from mgehl.kinds.time import TimeSection
 from mgehl.kinds.wedge import WedgeSection
 
 COARSEST_NODES = 33
@@ -45,6 +50,11 @@ class Config:
     wedge: WedgeSection = WedgeSection()
     lubricant: sections.LubricantSection = sections.LubricantSection()
     motion: sections.MotionSection = sections.MotionSection()
+    time: TimeSection = TimeSection()
+    body_1: BodySection = BodySection()
+    body_2: BodySection = BodySection()
+    friction: sections.FrictionSection = sections.FrictionSection()
+    heat: sections.HeatSection = sections.HeatSection()
     surface: SurfaceSection = SurfaceSection()
     second_surface: SurfaceSection = SurfaceSection()
     moes: MoesSection = MoesSection()
@@ -64,10 +74,15 @@ class Config:
         return self.discretization.contact_model == "dry"
 
     @property
+    def is_in_time(self):
+        """Whether it is a run in time, and no steady state."""
+        return self.time.end is not None
+
+    @property
     def unused(self):
         """Keys, "section.key", that do nothing for this contact."""
         found = choices(asdict(self))
-        return {key for key in KEYS if _mean_nothing(key, found) or any(named(key, c.idle) for c in found)}
+        return {key for key in KEYS if any(c.leaves_out(key) or named(key, c.idle) for c in found)}
 
     def __repr__(self) -> str:
         """The keys that differ from their defaults."""
@@ -79,6 +94,41 @@ class Config:
         """{"section.key": (value, unit)} of the numbers that make this contact."""
         units = {key: KEYS[key].metadata["unit"] for key in self.kind.essential if key not in self.unused}
         return {key: (self.value(key), unit) for key, unit in units.items() if unit is not None}
+
+    @property
+    def derived(self):
+        """The `Derived` keys, which follow from others. Raises ConfigError where those do not fit."""
+        return [each for each in derived(self) if each.key in KEYS]
+
+    @property
+    def physical(self):
+        """Every key that makes this contact: numbers of `physics`, laws of the oil, what else was set."""
+        of = [key for key in KEYS if key.partition(".")[0] in PHYSICAL and key not in self.unused]
+        always = {*self.physics, *(each.key for each in self.derived), *LAWS}
+        return [key for key in of if key in always or self.value(key) != KEYS[key].default]
+
+    def said(self, key):
+        """A value with its unit."""
+        value, unit = self.value(key), KEYS[key].metadata["unit"]
+        if isinstance(value, bool) or not isinstance(value, int | float):
+            return str(value)
+        return f"{value:.6g} {unit or ''}".rstrip()
+
+    @property
+    def inputs(self):
+        """{"section.key": value} of the numbers that make this contact, given or derived."""
+        found = {each.key: self.value(each.key) for each in self.derived}
+        return {key: value for key, (value, _) in self.physics.items()} | found
+
+    def with_numbers(self, numbers):
+        """The same with other numbers, {"section.key": value}, for what is derived: as a run had them,
+        whose version may have known materials and oils by other numbers."""
+        config = self
+        for key in (each.key for each in self.derived if each.key in numbers):
+            section, _, name = key.partition(".")
+            number = read_value(key, KEYS[key].metadata, numbers[key])
+            config = replace(config, **{section: replace(getattr(config, section), **{name: number})})
+        return config
 
     def value(self, key):
         """The value of "section.key"."""
@@ -104,6 +154,14 @@ class Config:
             }
         return {section: table for section, table in tables.items() if table}
 
+
+PHYSICAL = (
+    "contact", "body_1", "body_2", "coating", "wedge", "lubricant", "motion", "surface", "second_surface",
+    "moes",
+)  # fmt: skip
+"""Sections that tell what is solved; the others tell how."""
+
+LAWS = "lubricant.viscosity_law", "lubricant.density_law"
 
 SECTIONS = {section.name: type(section.default) for section in fields(Config)}
 KEYS = {f"{name}.{key.name}": key for name, section in SECTIONS.items() for key in fields(section)}
@@ -145,9 +203,23 @@ def load_config(path=None, settings=()):
     return config_from_tables(read_tables(path, settings))
 
 
+@contextmanager
+def naming_file(path, settings=()):
+    """Let what is wrong with a file begin with its name; what is wrong with a setting has its key alone."""
+    set_anew = {setting.partition("=")[0].strip() for setting in settings}
+    try:
+        yield
+    except ConfigError as error:
+        key = re.match(r"[\w.]+", str(error))
+        if str(error).startswith((str(path), "--set")) or (key and key[0] in set_anew):
+            raise
+        raise ConfigError(f"{path}: {error}") from None
+
+
 def left_out(config, tables):
     """The `physics` of a `Config` that its tables do not give, where the paper's values are taken."""
-    return [key for key in config.physics if value_of(tables, key) is None]
+    known = {each.key for each in config.derived}
+    return [key for key in config.physics if key not in known and value_of(tables, key) is None]
 
 
 def read_tables(path=None, settings=()):
@@ -167,7 +239,7 @@ def _set_anew(tables, settings):
         if not (dot and section and key):
             raise ConfigError(f"{name} = {shown(value)}: must be section.key, such as grid.nodes")
         given.setdefault(section, {})[key] = value
-    found = choices(given)
+    found = [*choices(given), *overridden(given)]
     for section, table in tables.items():
         if isinstance(table, dict):
             keys = (f"{section}.{key}" for key in table)
@@ -199,6 +271,8 @@ def config_from_tables(tables):
         sections[name] = _section(name, table)
     config = Config(**sections)
     _check_together(config, tables)
+    config = config.with_numbers({each.key: each.value for each in config.derived})
+    config.kind.check_keys(config)
     return config
 
 
@@ -220,13 +294,16 @@ def _check_together(config, tables):
         raise ConfigError(f"grid.nodes = {nodes}: must be 2^k + 1, such as {lower} or {2 * lower - 1}")
     for choice in choices(asdict(config)):
         _check_choice(choice, config, tables)
-    config.kind.check_keys(config)
 
 
 def _check_choice(choice, config, tables):
     """Keys that are given must mean something beside a choice; those that it needs must be given."""
     for section, table in tables.items():
         for key, value in table.items():
+            if f"{section}.{key}" in choice.gives:
+                raise ConfigError(
+                    f"{section}.{key} = {shown(value)}: follows already {choice.said}: give one of them"
+                )
             if choice.means_nothing(f"{section}.{key}"):
                 raise ConfigError(f"{section}.{key} = {shown(value)}: means nothing {choice.said}")
     for key in choice.needs:

@@ -10,8 +10,12 @@ from mgehl.discretization.couette import SCHEMES
 from mgehl.discretization.fluid import FACE_MOBILITIES
 from mgehl.discretization.scheme import INTERFACES, Scheme
 from mgehl.kinds import KINDS
+from mgehl.kinds.surface_kinds import BODIES, STILL
+from mgehl.model.course import absolute_course
 from mgehl.model.lubricant import DENSITY_LAWS, VISCOSITY_LAWS
+from mgehl.model.oils import OILS
 from mgehl.model.own_function import absolute
+from mgehl.model.rheology import Friction
 
 
 @dataclass(frozen=True)
@@ -20,12 +24,18 @@ class ContactSection:
         "point", "loaded point or line contact, or a rigid wedge bearing",
         choices=tuple(KINDS), kind=str,
     )  # fmt: skip
-    load: float = key_field(800.0, "normal load of a point contact", "N", low=1e-6, high=1e9)
-    load_per_length: float = key_field(500e3, "load of a line contact", "N/m", low=1e-6, high=1e12)
+    load: float | str = key_field(
+        800.0, "normal load of a point contact; in time a table FILE.csv of s, N or FILE.py:FUNCTION", "N",
+        low=1e-6, high=1e9, own=absolute_course,
+    )  # fmt: skip
+    load_per_length: float | str = key_field(
+        500e3, "load of a line contact; in time as contact.load", "N/m", low=1e-6, high=1e12,
+        own=absolute_course,
+    )  # fmt: skip
     radius_x: float = key_field(12.7e-3, "reduced radius along x", "m", low=1e-6, high=100.0)
     radius_y: float = key_field(12.7e-3, "reduced radius along y", "m", low=1e-6, high=100.0)
     reduced_modulus: float = key_field(
-        219.78e9, "E' of 2/E' = sum of (1 - nu^2)/E, without coating", "Pa", low=1e6, high=1e13
+        219.78e9, "E' of 2/E' = sum of (1 - nu^2)/E, without coating", "Pa", low=1e3, high=1e13
     )
     deformation: str = key_field(
         "half-space", "what a point contact's bodies are in depth",
@@ -38,11 +48,17 @@ class ContactSection:
     surface: str | None = key_field(
         None, "heights, a peak positive, by a function of one's own", kind=str, own=absolute
     )
+    surface_body: str = key_field(
+        STILL, "the body that carries contact.surface: as surface.body", choices=BODIES, kind=str
+    )
 
 
 @dataclass(frozen=True)
 class LubricantSection:
-    viscosity: float = key_field(0.096, "viscosity at ambient pressure", "Pa*s", low=1e-6, high=1e4)
+    viscosity: float = key_field(
+        0.096, "viscosity at ambient pressure", "Pa*s", low=1e-6, high=1e4,
+        instead="lubricant.kinematic_viscosity takes cSt, beside lubricant.density",
+    )  # fmt: skip
     viscosity_law: str = key_field(
         "barus", "viscosity-pressure law", choices=tuple(VISCOSITY_LAWS), kind=str, own=absolute
     )
@@ -52,14 +68,93 @@ class LubricantSection:
     density_law: str = key_field(
         "dowson-higginson", "density-pressure law", choices=tuple(DENSITY_LAWS), kind=str, own=absolute
     )
+    oil: str | None = key_field(
+        None, "a measured oil, for viscosity and its law at lubricant.temperature",
+        choices=tuple(OILS), kind=str,
+    )  # fmt: skip
+    temperature: float | None = key_field(
+        None, "temperature of the oil in the inlet", "K", low=200.0, high=600.0
+    )
+    kinematic_viscosity: float | None = key_field(
+        None, "viscosity over density, beside lubricant.density", "m^2/s", low=1e-9, high=10.0
+    )
+    kinematic_viscosity_40: float | None = key_field(
+        None, "the same at 40 degrees C, from which with that at 100 it is found at lubricant.temperature",
+        "m^2/s", low=2e-6, high=0.1,
+    )  # fmt: skip
+    kinematic_viscosity_100: float | None = key_field(
+        None, "the same at 100 degrees C", "m^2/s", low=1e-6, high=0.1
+    )
+    density: float | None = key_field(
+        None, "density at that temperature, some 5 % less at 80 than a data sheet's at 15 degrees C",
+        "kg/m^3", low=100.0, high=1e4,
+    )  # fmt: skip
+    conductivity: float | None = key_field(
+        None, "thermal conductivity (mineral oils: .12 to .15)", "W/m/K", low=1e-3, high=1e3
+    )
+    thermoviscosity: float | None = key_field(
+        None, "beta of viscosity ~ exp(-beta T) (mineral oils: .02 to .06)", "1/K", low=1e-5, high=1.0
+    )
+    heating: str = key_field(
+        "none", "whether shear in the inlet thins the oil by a factor of the film (Gupta and others)",
+        choices=("none", "factor"), kind=str,
+    )  # fmt: skip
 
 
 @dataclass(frozen=True)
 class MotionSection:
-    speed: float = key_field(5e-6, "entrainment speed u of the flow rho u h", "m/s", low=1e-12, high=1e3)
+    speed: float | str = key_field(
+        5e-6, "entrainment speed u of the flow rho u h; in time a table FILE.csv of s, m/s or "
+        "FILE.py:FUNCTION", "m/s", low=1e-12, high=1e3, own=absolute_course,
+        instead="body_1.rotation and motion.ring_rotation take rpm",
+    )  # fmt: skip
     angle: float = key_field(
         0.0, "direction in which both surfaces move, from +x towards +y", "deg", low=-360.0, high=360.0
     )
+    slide_to_roll: float = key_field(
+        0.0, "2 (u_1 - u_2)/(u_1 + u_2) of both surfaces' speeds; 2: body 2 stands still",
+        low=-100.0, high=100.0,
+    )  # fmt: skip
+    ring_rotation: float | None = key_field(
+        None, "of one ring of a rolling bearing against the other; body_1 is the ball, body_2 the raceway",
+        "rad/s", low=1e-9, high=1e6,
+    )  # fmt: skip
+
+
+@dataclass(frozen=True)
+class FrictionSection:
+    model: str | None = key_field(
+        None, "how the sheared oil resists (unset: newtonian)",
+        choices=("newtonian", "eyring", "limiting"), kind=str, own=absolute,
+    )  # fmt: skip
+    eyring_stress: float | None = key_field(
+        None, "tau_0 of tau = tau_0 asinh(eta gamma'/tau_0), below a limit, too", "Pa", low=1e3, high=1e9
+    )
+    limiting_coefficient: float | None = key_field(
+        None, "largest shear stress of the oil over its pressure (.03 to .06 measured)", above=0.0, high=1.0
+    )
+    boundary_coefficient: float = key_field(
+        Friction.boundary_coefficient,
+        "shear stress between solids over the pressure they carry (.08 to .135 measured)",
+        low=0.0, high=2.0,
+    )  # fmt: skip
+    thinning: bool | None = key_field(
+        None, "whether shear thins the film (unset: where there is an Eyring stress and surfaces slide)",
+        kind=bool,
+    )  # fmt: skip
+
+
+@dataclass(frozen=True)
+class HeatSection:
+    conductivity_1: float | None = key_field(
+        None, "thermal conductivity of body 1 (steel: 46); all four give flash temperatures",
+        "W/m/K", low=1e-3, high=1e4,
+    )  # fmt: skip
+    conductivity_2: float | None = key_field(None, "the same of body 2", "W/m/K", low=1e-3, high=1e4)
+    capacity_1: float | None = key_field(
+        None, "heat capacity of body 1 per volume (steel: 3.6e6)", "J/m^3/K", low=1e3, high=1e8
+    )
+    capacity_2: float | None = key_field(None, "the same of body 2", "J/m^3/K", low=1e3, high=1e8)
 
 
 @dataclass(frozen=True)

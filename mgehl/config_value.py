@@ -24,23 +24,31 @@ _QUANTITY = re.compile(rf"([-+]?[\d.]+(?:[eE][-+]?\d+)?)\s*((?:1\s*)?/)?\s*({_UN
 _NO_MATCH = re.match("(?P<number>)(?P<per>)(?P<units>)", "")
 """A quantity such as "7.5 mm/s" or "18.2 1/GPa", and one without a number, which no float reads."""
 
+EXAMPLES = {"K": "60 degC", "rad/s": "6000 rpm"}
+"""Values of units that people seldom say in SI."""
+
+ANGLES = ("revolution", "turn", "radian", "degree")
+"""Units of which a rotation must have one: pint takes 100 Hz for 100 rad/s."""
+
 LEFT_OUT = ("pandas", "xarray", "dask", "pint_pandas")
 """What pint would import for the sake of its arrays, in two thirds of the time that pint takes."""
 
 
 def key_field(
     default, help, unit=None, above=None, low=None, high=None, choices=None, kind=float, own=None,
-    own_name=OWN,
+    own_name=OWN, instead="",
 ):  # fmt: skip
     """A dataclass field that carries its rules as metadata.
 
-    `own`, of a word, reads what is none of the choices, such as a function of the user's own, whose path
-    counts from a directory; it returns None for what it cannot read. `own_name` is how messages call that.
+    `own` reads a word that is none of the choices, or no number, such as a function of the user's own,
+    whose path counts from a directory; it returns None for what it cannot read. `own_name` is how messages
+    call that. `instead` names the key that takes what people often give here in a unit of another kind.
     """
     rules = {
         "help": help, "unit": unit, "above": above, "low": low, "high": high,
-        "choices": choices, "kind": kind, "own": own,
-        "words": (*(choices or ()), *([own_name] if own else []), *([AUTO] if kind is tuple else [])),
+        "choices": choices, "kind": kind, "own": own, "instead": instead,
+        "words": (*(choices or ()), *([own_name] if own and kind is str else []),
+                  *([AUTO] if kind is tuple else [])),
     }  # fmt: skip
     return field(default=default, metadata=rules)
 
@@ -58,6 +66,8 @@ def read_value(key, rules, value):
     """The value that `value`, as read from TOML, stands for. Raises ConfigError."""
     if rules["kind"] is str:
         return _word(key, rules, value)
+    if rules["own"] and (own := rules["own"](value)):
+        return own
     if rules["kind"] is tuple:
         return _interval(key, value)
     if rules["kind"] is bool:
@@ -85,12 +95,12 @@ def read_quantity(name, text, unit, above=0.0):
     except ValueError:
         value = text
     limits = {"above": above, "low": None, "high": None}
-    return read_value(name, limits | {"choices": None, "kind": float, "unit": unit}, value)
+    return read_value(name, limits | {"choices": None, "kind": float, "unit": unit, "own": None}, value)
 
 
 def _number(key, rules, value):
     if isinstance(value, str) and rules["unit"] is not None:
-        value = _with_unit(key, rules["unit"], value)
+        value = _with_unit(key, rules["unit"], value, rules.get("instead"))
     if not _is_number(value):
         raise ConfigError(f"{key} = {shown(value)}: must be {_describe_range(rules)}")
     if rules["kind"] is int:
@@ -107,16 +117,26 @@ def _is_number(value):
     return abs(value) <= sys.float_info.max
 
 
-def _with_unit(key, unit, text):
+def _with_unit(key, unit, text, instead=""):
     """The SI magnitude of a string such as "7.5 mm/s"."""
-    example = f'a number in {unit or "no unit"} or a string such as "1 {unit}"'
+    example = f'a number in {unit or "no unit"} or a string such as "{EXAMPLES.get(unit, f"1 {unit}")}"'
     # Only a number and a unit: pint would also evaluate an expression, 9**9**9 for one.
     number, per, units = (_QUANTITY.fullmatch(text.strip()) or _NO_MATCH).groups()
     try:
+        if (
+            unit == "K"
+        ):  # C alone is coulomb to pint; degrees have their zero elsewhere, and do not multiply
+            units = {"C": "degC", "F": "degF"}.get(units, units)
+            return float(_units().Quantity(float(number), units).to(unit).magnitude)
         quantity = float(number) * _units()(f"{'1/' if per else ''}{units or 'dimensionless'}")
+        if unit == "rad/s" and not any(word in str(quantity.units) for word in ANGLES):
+            raise ConfigError(f"{key} = {shown(text)}: of what, turns or radians? must be {example}")
         return float(quantity.to(unit or "dimensionless").magnitude)
+    except ConfigError:
+        raise
     except _pint().DimensionalityError:
-        raise ConfigError(f"{key} = {shown(text)}: wrong unit; must be {example}") from None
+        other = f"; {instead}" if instead else ""
+        raise ConfigError(f"{key} = {shown(text)}: wrong unit; must be {example}{other}") from None
     except Exception:
         raise ConfigError(f"{key} = {shown(text)}: not understood; must be {example}") from None
 

@@ -13,10 +13,12 @@ from mgehl.kinds import Case, case_of, checked_case
 from mgehl.kinds.own import naming_keys
 from mgehl.output import files, progress, terminal
 from mgehl.output.checkpoint import Checkpoint, begin_run
+from mgehl.output.diary import Diary
 from mgehl.output.directory import make_directory, prepare_directory
 from mgehl.output.dry_result import summarise_dry
 from mgehl.output.film_error import film_error
 from mgehl.output.finish import finish_run
+from mgehl.output.friction_result import friction_result, with_band
 from mgehl.output.gap_error import gap_error
 from mgehl.output.laws import law_files
 from mgehl.output.lock import locked
@@ -24,13 +26,16 @@ from mgehl.output.memory_limit import check_memory
 from mgehl.output.result import Work, summarise
 from mgehl.output.solution import Fields, Solution
 from mgehl.output.surroundings import versions
+from mgehl.output.time_result import summarise_in_time
 from mgehl.output.users_axes import in_users_axes
 from mgehl.output.wedge_result import summarise_wedge
 from mgehl.solver.beginning import begin
 from mgehl.solver.coarser import CoarserGrids
 from mgehl.solver.dry import guess_on_finest, solve_dry
 from mgehl.solver.from_config import set_up
+from mgehl.solver.in_time import march
 from mgehl.solver.journal import Journal, told_to_stop
+from mgehl.solver.march import TimeSettings
 from mgehl.solver.nested import LevelSolve, single_loop
 from mgehl.solver.problem import ContactProblem
 from mgehl.solver.restart import interpolated, solve_from
@@ -115,7 +120,8 @@ def _find(case, comm, watch, start):
     """The `Solution` of a `Case` (collective)."""
     find = _solve_bearing
     if case.contact.is_loaded:
-        find = partial(_solve_dry if case.config.is_dry else _solve_loaded, start=start)
+        solvers = {case.config.is_dry: _solve_dry, case.config.is_in_time: _solve_in_time}
+        find = partial(solvers.get(True, _solve_loaded), start=start)
     with naming_keys(case.contact), np.errstate(all="ignore"):  # what diverges says so itself
         return find(case, set_up(case), comm, watch)
 
@@ -139,8 +145,33 @@ def _solve_loaded(case, parts, comm, watch, start):
         coarser = CoarserGrids(hierarchy, problem, outcome.state, settings, monitor.beside, journal)
         mixed = result.mixed and replace(result.mixed, error=gap_error(result, coarser, monitor))
         bands = {"mixed": mixed, "error": film_error(result, coarser, monitor)}
-        result = replace(result, **bands, wall_s=monitor.seconds)
-        return _solution(case, parts, problem, outcome.state, monitor.rows, result)
+        friction, maps = friction_result(problem, outcome.state)
+        friction = with_band(friction, mixed, contact.friction.boundary_coefficient)
+        result = replace(result, **bands, friction=friction, wall_s=monitor.seconds)
+        return _solution(case, parts, problem, outcome.state, monitor.rows, result, maps)
+    finally:
+        hierarchy.destroy()
+
+
+def _solve_in_time(case, parts, comm, watch, start):
+    """A loaded contact in time."""
+    config, settings, time_keys = case.config, parts.settings, case.config.time
+    hierarchy, scene = parts.hierarchy(comm), case.scene
+    try:
+        tolerance = settings.newton.tolerance
+        monitor = progress.Progress(
+            progress.newton_row, parts.contact.film_scale, hierarchy, tolerance, watch.speaker
+        )
+        diary = Diary(case, parts.frame, hierarchy.grids[-1], monitor, watch)
+        time_settings = TimeSettings(time_keys.step, time_keys.tolerance, config.solver.tolerance)
+        how = settings, time_settings, diary, monitor.beside, _journal(config, monitor, watch)
+        problem, outcome = march(scene, hierarchy, *how, start and (start, parts.frame))
+        work = Work(monitor.convolutions, len(monitor.rows))
+        result = summarise_in_time(
+            problem, outcome, monitor.rows, settings.newton, work, monitor.seconds, versions()
+        )
+        solution = _solution(case, parts, problem, outcome.state, monitor.rows, result)
+        return replace(solution, frames=diary.frames)
     finally:
         hierarchy.destroy()
 
@@ -212,10 +243,10 @@ def _solve_bearing(case, parts, comm, watch):
         grid.destroy()
 
 
-def _solution(case, parts, problem, state, rows, result):
+def _solution(case, parts, problem, state, rows, result, maps=None):
     """The `Solution` of a final state (collective)."""
-    local = Fields(state.P, state.H, state.status, state.p, state.filling)
     grid = problem.grid
+    local = Fields(state.P, state.H, state.status, state.p, state.filling, problem.heights, **(maps or {}))
     whole = local.gathered(grid)
     found = (whole, rows, result, state.H0, local, grid.first)
     return in_users_axes(Solution(case.config, parts.contact, grid.mesh, *found), parts.frame, grid, case)

@@ -20,15 +20,18 @@ A = 0.4108e-3
 LAWS = """
 import numpy as np
 
-def barus(p, viscosity, pressure_viscosity):
+def barus(at):
+    p, viscosity, pressure_viscosity = at.pressure, at.viscosity, at.pressure_viscosity
     eta = viscosity * np.exp(pressure_viscosity * p)
     return eta, pressure_viscosity * eta
 
-def slipped(p, viscosity, pressure_viscosity):
+def slipped(at):
+    p, viscosity, pressure_viscosity = at.pressure, at.viscosity, at.pressure_viscosity
     eta = viscosity * np.exp(pressure_viscosity * p)
     return eta, pressure_viscosity * viscosity
 
-def dowson_higginson(p):
+def dowson_higginson(at):
+    p = at.pressure
     return 1.0 + 0.6e-9 * p / (1.0 + 1.7e-9 * p), 0.6e-9 / (1.0 + 1.7e-9 * p) ** 2
 
 def flat(x, y):
@@ -92,7 +95,7 @@ def test_what_cannot_be_used_is_one_line_before_anything_is_written(
 FAILS_LATE = """
 calls = 0
 
-def law(p):
+def law(at):
     global calls
     calls += 1
     return (1.0, 0.0) if calls < 20 else 1.0
@@ -115,9 +118,10 @@ TURNS = """
 import numpy as np
 calls = 0
 
-def law(p):
+def law(at):
     global calls
     calls += 1
+    p = at.pressure
     value, slope = 1.0 + 1e-10 * p, 1e-10 + 0.0 * p
     return (value, slope) if calls < FIRST else (BAD)
 """

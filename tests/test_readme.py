@@ -25,7 +25,7 @@ PAGES = {
 }
 README, CASES = PAGES["README.md"], PAGES["configs/README.md"]
 (FIRST_CASE,) = re.findall(r"```toml\n(.*?)```", README, flags=re.DOTALL)
-SURFACE, OWN_LAWS = re.findall(r"```toml\n(.*?)```", CASES, flags=re.DOTALL)
+SURFACE, OWN_LAWS, FRICTION = re.findall(r"```toml\n(.*?)```", CASES, flags=re.DOTALL)
 
 
 def links():
@@ -81,6 +81,11 @@ def test_the_surface_is_a_valid_configuration(tmp_path, capsys):
     (tmp_path / "rough.toml").write_text(SURFACE)
     assert main(["check", str(tmp_path / "rough.toml"), "--set", "grid.nodes=65"]) == 0
     assert "ground.txt': 8 x 40 points" in capsys.readouterr().out
+
+
+def test_the_page_of_cases_shows_friction_that_mgehl_check_takes(tmp_path):
+    (tmp_path / "sliding.toml").write_text(FRICTION)
+    assert main(["check", str(tmp_path / "sliding.toml"), "--set", "grid.nodes=65"]) == 0
 
 
 def shell_lines(text):

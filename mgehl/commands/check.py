@@ -1,10 +1,14 @@
 """mgehl check: what a configuration means and what its run will take, without solving anything."""
 
-from itertools import groupby
+from itertools import chain, groupby, repeat
 
 from mgehl.commands import CONVERGED, add_configuration, add_settings, shown
-from mgehl.config import chosen_config, config_from_tables, left_out, read_tables
+from mgehl.config import chosen_config, config_from_tables, left_out, naming_file, read_tables
 from mgehl.errors import UserError
+from mgehl.kinds.cited import cited
+from mgehl.kinds.oil import oil_words
+from mgehl.kinds.plausible import implausible
+from mgehl.model.sources import SOURCES
 from mgehl.saying import columns, folded
 
 PARALLEL = False
@@ -34,30 +38,45 @@ def add(commands):
 def execute(options):
     """Print everything; raises UserError where the run would not begin."""
     file = chosen_config(options.config, options.settings)
-    tables = read_tables(file, options.settings)
-    config = config_from_tables(tables)
     if options.ranks < 1:
         raise UserError(f"--ranks {options.ranks}: must be at least 1")
     from mgehl.kinds import checked_case
 
-    case = checked_case(config)
+    with naming_file(file, options.settings):
+        tables = read_tables(file, options.settings)
+        case = checked_case(config_from_tables(tables))
     config, contact, mesh = case.config, case.contact, case.mesh
     print(f"{options.config or shown(file)}: valid, a {config.kind.noun}\n")
-    lines = [*_given(config, left_out(config, tables)), ""]
+    lines = [*_given(config, left_out(config, tables)), *_odd(config, contact), ""]
     lines += *_described(config, contact, mesh), *_estimate(config, contact, mesh, options.ranks)
+    lines += "", *_sources(config, contact)
     width = columns()
     print(*(folded(line, " " * NAME, width) for line in lines), sep="\n")
     return CONVERGED
 
 
 def _given(config, missing):
-    """Lines with the numbers that make the contact, by sections, and with those that are `missing`."""
-    for section, keys in groupby(config.physics, lambda key: key.partition(".")[0]):
-        values = ((key, *config.physics[key]) for key in keys)
-        words = (f"{key.partition('.')[2]} {value:.6g} {unit}".rstrip() for key, value, unit in values)
+    """Lines with all that makes the contact, by sections; what follows from what; and what is `missing`."""
+    for section, keys in groupby(config.physical, lambda key: key.partition(".")[0]):
+        words = (f"{key.partition('.')[2]} {config.said(key)}" for key in keys)
         yield f"{section:{NAME}}{'   '.join(words)}"
-    if missing:
-        yield f"not given  {', '.join(missing)}: the paper's values"
+    for head, each in zip(chain(["follows"], repeat("")), config.derived, strict=False):
+        yield f"{head:{NAME}}{each.key} = {config.said(each.key)}: {each.how}"
+    yield from (f"{'oil':{NAME}}{words}" for words in oil_words(config))
+    for head, key in zip(chain(["not given"], repeat("")), missing, strict=False):
+        yield f"{head:{NAME}}{key}: {config.said(key)} is the paper's"
+
+
+def _odd(config, contact):
+    """Lines that name what is unusual."""
+    for head, words in zip(chain(["unusual"], repeat("")), implausible(config, contact), strict=False):
+        yield f"{head:{NAME}}{words}"
+
+
+def _sources(config, contact):
+    """Lines that name the publications that are used."""
+    names = ", ".join(SOURCES[key].short for key in cited(config, contact))
+    yield f"sources    {names}; mgehl cite RUN has them in full"
 
 
 def _described(config, contact, mesh):

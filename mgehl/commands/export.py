@@ -12,11 +12,14 @@ def add(commands):
         help="write a run's fields for other programs",
         allow_abbrev=False,
         description="Write pressure, film and status of a finished run in SI units: vts for ParaView, nc "
-        "(NetCDF-4, CF conventions) for xarray, npz for NumPy, csv for anything.",
+        "(NetCDF-4, CF conventions) for xarray, npz for NumPy, csv for anything; pvd is a run in time for "
+        "ParaView, instant by instant.",
         epilog="example: mgehl export runs/try --to vts,nc",
     )
     parser.add_argument("run", metavar="RUN", help="run directory")
-    parser.add_argument("--to", required=True, metavar="FORMAT,...", help="vts, nc, npz, csv, or several")
+    parser.add_argument(
+        "--to", required=True, metavar="FORMAT,...", help="vts, nc, npz, csv, pvd or several"
+    )
     parser.add_argument("--out", metavar="FILE", help="file, its ending optional (default: RUN/fields)")
     parser.add_argument("--force", action="store_true", help="replace files that exist")
     return parser

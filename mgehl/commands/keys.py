@@ -34,9 +34,7 @@ def describe_keys():
     lines, told = [], {}
     for name, section in SECTIONS.items():
         if section in told:
-            lines.append(
-                f"{name + '.*':{NAME - 1}} the keys of {told[section]} once more, for what is added to it"
-            )
+            lines.append(f"{name + '.*':{NAME - 1}} the keys of {told[section]} once more")
             continue
         told[section] = name
         for key in fields(section):

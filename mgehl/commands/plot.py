@@ -7,7 +7,7 @@ from mgehl.errors import OutputError, UserError
 
 PARALLEL = False
 
-KINDS = ("all", "lines", "film", "pressure", "status", "gap", "surface", "history", "compare")
+KINDS = ("all", "time", "lines", "film", "pressure", "status", "gap", "surface", "history", "compare")
 FORMATS = ("png", "svg", "pdf")
 DEFAULT_FORMATS = ("png", "pdf")
 
@@ -33,6 +33,8 @@ def add(commands):
                      help="png, svg, pdf (default: png,pdf); may be repeated")  # fmt: skip
     parser.add_argument("--style", metavar="FILE", help="matplotlib style file laid over mgehl's own, "
                      "mgehl/output/pictures/mgehl.mplstyle, which says how")  # fmt: skip
+    parser.add_argument("--movie", action="store_true", help="of a run in time: movie.mp4, or movie.gif "
+                     "where ffmpeg is not there, and no other picture")  # fmt: skip
     parser.add_argument("--dpi", type=int, metavar="N", help="dots to the inch of bitmaps (default: 150)")
     return parser
 
@@ -45,6 +47,8 @@ def execute(options):
         raise UserError(f"--dpi {options.dpi}: must be between 30 and 1200")
     if "compare" in kinds and len(options.runs) == 1:
         raise UserError("--kind compare: needs more than one run")
+    if options.movie:
+        return _movies(options)
     from mgehl.output.pictures.figures import style, write
 
     with style.applied(options.style, options.dpi):
@@ -53,6 +57,19 @@ def execute(options):
                 print(*write(pictures, directory, formats), sep="\n")
             except OSError as error:
                 raise OutputError(f"{directory}: cannot be written: {error}") from None
+    return CONVERGED
+
+
+def _movies(options):
+    """Draw the movie of each run."""
+    from mgehl.output.pictures.movie import write_movie
+    from mgehl.output.stored import read_run
+    from mgehl.output.whole_file import writing
+
+    for run in options.runs:
+        folder = Path(options.out or Path(run) / "plots")
+        with writing(folder):
+            print(write_movie(read_run(run), folder))
     return CONVERGED
 
 
@@ -67,17 +84,23 @@ def _words(option, given, known, default):
 
 def _drawn(options, kinds):
     """Lists of pictures, each with its directory."""
-    from mgehl.output.pictures.figures import compared, figures
+    from mgehl.output.pictures.figures import compared, figures, left_out
     from mgehl.output.pictures.titles import run_names
     from mgehl.output.stored import read_run
+    from mgehl.saying import complain
 
     names, solutions = run_names(options.runs), [read_run(run) for run in options.runs]
     several, drawn = len(solutions) > 1, []
     own = None if "all" in kinds else [kind for kind in kinds if kind != "compare"]
     if own is None or own:
         for run, name, solution in zip(options.runs, names, solutions, strict=True):
+            missing = left_out(solution)
+            for kind in missing if own is None else missing.keys() & own:
+                complain(f"{run}: no picture of the {kind}: {missing[kind]}")
+            # Where nothing else was asked for, that is an error.
+            wanted = own and ([kind for kind in own if kind not in missing] or own)
             out = Path(options.out or Path(run) / "plots")
-            drawn.append((figures(solution, own), out / name if several and options.out else out))
+            drawn.append((figures(solution, wanted), out / name if several and options.out else out))
     if several and (own is None or "compare" in kinds):
         drawn.append((compared(solutions, names), Path(options.out or "plots")))
     return drawn

@@ -4,7 +4,7 @@ from pathlib import Path
 from shlex import quote
 
 from mgehl.commands import CONVERGED, NOT_CONVERGED, add_configuration, add_settings, shown
-from mgehl.config import chosen_config, config_from_tables, left_out, read_tables
+from mgehl.config import chosen_config, config_from_tables, left_out, naming_file, read_tables
 from mgehl.config_value import read_quantity
 from mgehl.errors import OutputError, UserError
 
@@ -78,10 +78,12 @@ def _begin(options, comm, solve):
 
     settings = [*options.settings, *([NO_ERROR] if options.no_error else [])]
     file = chosen_config(options.config, options.settings)
-    tables = read_tables(file, settings)
-    case = enter(config_from_tables(tables), comm)
+    with naming_file(file, settings):
+        tables = read_tables(file, settings)
+        case = enter(config_from_tables(tables), comm)
     config = case.config
     on_first_rank(comm, _say_what_changed, config)
+    on_first_rank(comm, _say_doubts, case)
     start = _start(options.start_from, config, comm) if options.start_from else None
     if start and comm.rank == 0:
         _say_what_differs(options.start_from, start, config)
@@ -92,18 +94,20 @@ def _begin(options, comm, solve):
     with locked(comm, directory):
         on_first_rank(comm, prepare_directory, directory, law_files(config).values())
         if comm.rank == 0 and not (options.quiet or options.json_lines):
-            _say_what(options, file, config, tables)
+            _say_what(options, file, case, tables)
         return solve(case, directory, start, options.start_from)
 
 
-def _say_what(options, file, config, tables):
-    """Say which configuration is solved where none was named, and what it does not give."""
+def _say_what(options, file, case, tables):
+    """Say which configuration is solved where none was named, what it does not give, what is unusual."""
+    from mgehl.kinds.plausible import implausible
     from mgehl.saying import columns, folded, say
 
     changed = ", changed by --set" if options.settings else ""
     which = [] if options.config else [f"no configuration named: solving {shown(file)}{changed}"]
-    missing = left_out(config, tables)
-    which += [f"not given, so the paper's values: {', '.join(missing)}"] if missing else []
+    config = case.config
+    which += [f"not given: {key}: {config.said(key)} is the paper's" for key in left_out(config, tables)]
+    which += [f"unusual: {words}" for words in implausible(config, case.contact)]
     for words in which:
         say(folded(f"mgehl: {words}", "    ", columns()))
 
@@ -115,6 +119,16 @@ def _say_what_changed(config):
 
     for file in changed_copies(config):
         complain(f"{file}: has changed since the run that it lies beside")
+
+
+def _say_doubts(case):
+    """Warn of heights that may be errors."""
+    from mgehl.output.surface import surface_doubts
+    from mgehl.saying import complain
+
+    if case.config.kind.is_loaded:
+        for words in surface_doubts(case.config, case.contact):
+            complain(words)
 
 
 def _say_what_differs(directory, start, config):

@@ -23,6 +23,7 @@ STUDIES = {
     "rollers": "rough line contacts by chance: verdicts and gaps",
     "rough": "a rough ball from full film to nearly dry",
     "waviness": "waves in the film of a line contact, beside published numbers",
+    "moving": "waves and a dimple that pass through full films, beside published numbers",
     "dry": "dry contacts beside a public code's numbers",
 }
 
@@ -32,7 +33,7 @@ REMOVED = ("line", "inlet", "onset", "bracket", "accuracy", "angle", "domain", "
 DOUBLING = ("wedge", "schemes", "error", "gaps")
 """Studies that need grids each of half the spacing of the one before: they tell orders and limits."""
 
-GRIDS = dict.fromkeys(("rough", "mixed", "machine", "rollers"), 1) | {
+GRIDS = dict.fromkeys(("rough", "mixed", "machine", "rollers", "moving"), 1) | {
     "gaps": 2,
     "methods": 0,
     "waviness": 0,

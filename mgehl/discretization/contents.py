@@ -33,10 +33,11 @@ def feeding(cavity, receives, along_y):
 
 
 @compiled()
-def missing_fillings(marched, inflow, leaving_x, leaving_y):
+def missing_fillings(marched, inflow, leaving_x, leaving_y, stored):
     """By how much the fillings of `marched` nodes, a mask, must rise so that their `inflow` is nothing.
 
-    All (ny, nx); a full node loses so much along +X and along +Y. None rises by more than `OVERFULL`.
+    All (ny, nx); a full node loses so much along +X and along +Y, and has `stored` so much. None rises by
+    more than `OVERFULL`.
     """
     ny, nx = marched.shape
     rise = np.zeros((ny, nx))
@@ -46,7 +47,7 @@ def missing_fillings(marched, inflow, leaving_x, leaving_y):
                 gained = inflow[j, i] + leaving_x[j, i - 1] * rise[j, i - 1]
                 if j > 0:
                     gained += leaving_y[j - 1, i] * rise[j - 1, i]
-                leaving = leaving_x[j, i] + leaving_y[j, i]
+                leaving = leaving_x[j, i] + leaving_y[j, i] + stored[j, i]
                 if leaving > 0.0 and gained < OVERFULL * leaving:
                     rise[j, i] = gained / leaving
                 elif gained > 0.0:

@@ -19,8 +19,10 @@ class Evaluation:
     a state that has changed is evaluated anew, or its evaluation is told of the new pressure.
     """
 
-    def __init__(self, P, H, status, mesh, contact, scheme, fluid=None, filling=None):
+    def __init__(self, P, H, status, mesh, contact, scheme, fluid=None, filling=None, storage=None):
         self.P, self.H, self.status, self.filling = P, H, status, filling
+        self.storage = storage
+        """The `Storage` of a time step, which the balance of every node has; None of what is steady."""
         self.mesh, self.contact, self.scheme = mesh, contact, scheme
         self.axes = axes_of(mesh, scheme.motion)
         self.fluid = self._evaluated_fluid() if fluid is None else fluid
@@ -35,7 +37,7 @@ class Evaluation:
         if scheme == self.scheme:
             return self
         parts = self.P, self.H, self.status, self.mesh, self.contact
-        other = Evaluation(*parts, scheme, self.fluid, self.filling)
+        other = Evaluation(*parts, scheme, self.fluid, self.filling, self.storage)
         if scheme.mean == self.scheme.mean:
             other.mobilities = self.mobilities
         return other
@@ -46,7 +48,7 @@ class Evaluation:
         contents = (torn, np.where(torn, filling, 1.0)) if torn is not None and torn.any() else (None, None)
         fluid = replace(self.fluid, torn=contents[0], filling=contents[1])
         parts = self.P, self.H, self.status, self.mesh, self.contact, self.scheme
-        other = Evaluation(*parts, fluid, filling)
+        other = Evaluation(*parts, fluid, filling, self.storage)
         other.mobilities = self.mobilities
         return other
 
@@ -61,11 +63,9 @@ class Evaluation:
 
     def with_mobility(self, eps):
         """The same state with another ghosted mobility, which neither pressure nor gap moves."""
-        rigid = np.zeros(np.shape(eps))
-        fluid = replace(self.fluid, eps=eps, deps_dP=rigid, deps_dH=rigid)
-        return Evaluation(
-            self.P, self.H, self.status, self.mesh, self.contact, self.scheme, fluid, self.filling
-        )
+        fluid = self.fluid.with_mobility(eps)
+        parts = self.P, self.H, self.status, self.mesh, self.contact, self.scheme
+        return Evaluation(*parts, fluid, self.filling, self.storage)
 
     def forget(self):
         """Drop what was found of the faces; it is found again when it is asked for."""
@@ -84,8 +84,11 @@ class Evaluation:
 
     @cached_property
     def mobilities(self):
-        """`FaceMobility` of the faces along each axis."""
-        return [mobility_of_faces(self.fluid, axis, self.scheme) for axis in self.axes]
+        """`FaceMobility` of the faces along each axis, as much as counts in a time step."""
+        found = [mobility_of_faces(self.fluid, axis, self.scheme) for axis in self.axes]
+        if self.storage is None or self.storage.weights is None:
+            return found
+        return [each.times(weight) for each, weight in zip(found, self.storage.weights, strict=False)]
 
     @cached_property
     def flows(self):
@@ -113,11 +116,16 @@ class Evaluation:
 
     @cached_property
     def inflow(self):
-        """Net inflow/(dX dY) of every node, whatever its status: (lines, nx); zero on the ends of lines."""
+        """Net inflow/(dX dY) of every node, whatever its status, less what is stored in a time step.
+
+        (lines, nx); zero on the ends of lines.
+        """
         inflow = np.zeros(own(self.P).shape)
         for axis, (leaving, entering) in zip(self.axes, self.flows, strict=True):
             axis.add_entering(entering.value, inflow)
             axis.subtract_leaving(leaving.value, inflow)
+        if self.storage is not None:
+            inflow -= self.storage.outflow(self.fluid)
         inflow[:, [0, -1]] = 0.0
         return inflow
 

@@ -102,7 +102,7 @@ def _add_poiseuille(flow, fluid, axis, mobility):
     conductance = mobility.value * closeness
     add_poiseuille(axis.sides, fluid.P, conductance, flow.value)
     by_eps = [slope if np.ndim(slope) else np.full((1, faces), slope) for slope in mobility.by_eps]
-    for slopes, eps_by in ((flow.by_P, fluid.deps_dP), (flow.by_H, fluid.deps_dH)):
+    for slopes, eps_by in zip((flow.by_P, flow.by_H), fluid.mobility(axis)[1:], strict=True):
         if slopes:
             add_poiseuille_slopes(axis.sides, fluid.P, closeness, *by_eps, eps_by, slopes[W], slopes[E])
     if flow.by_P:
@@ -122,7 +122,7 @@ def _add_poiseuille(flow, fluid, axis, mobility):
 def mobility_of_faces(fluid, axis, scheme):
     """The `FaceMobility` of the faces along an axis; its slopes by the gap are by H."""
     sides = (W, E)
-    eps = [axis.at(fluid.eps, SHIFT[side]) for side in sides]
+    eps = [axis.at(fluid.mobility(axis)[0], SHIFT[side]) for side in sides]
     gaps = [scheme.contact_law.flow_gap(axis.at(fluid.H, SHIFT[side])) for side in sides]
     rho = [axis.at(fluid.rho, SHIFT[side]) for side in sides]
     mobility = face_mobility(scheme, eps, [gap for gap, _ in gaps], rho)

@@ -1,10 +1,11 @@
 """Nodal state of the lubricant and the mobility of a face between two nodes."""
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
 from mgehl.discretization.mean_kernels import linear_gap_means, logarithmic_means
+from mgehl.model.rheology import effective_mobilities
 
 
 @dataclass
@@ -30,6 +31,24 @@ class Fluid:
     """Cavities; None where all count as full."""
     filling: np.ndarray | None = None
     """The part of `carried` that there is fluid: less than 1 in cavities alone; None as of `torn`."""
+    across: np.ndarray | None = None
+    """Mobility along Y where shear thins the oil, `eps` being that along X; None where both are one."""
+    dacross_dP: np.ndarray | None = None
+    dacross_dH: np.ndarray | None = None
+
+    def mobility(self, axis):
+        """Mobility along an axis with its derivatives by P and by H."""
+        if axis.number or self.across is None:
+            return self.eps, self.deps_dP, self.deps_dH
+        return self.across, self.dacross_dP, self.dacross_dH
+
+    def with_mobility(self, eps):
+        """The same with another mobility along X, which neither pressure nor gap moves."""
+        rigid = np.zeros(np.shape(eps))
+        fluid = replace(self, eps=eps, deps_dP=rigid, deps_dH=rigid)
+        if self.across is None:
+            return fluid
+        return replace(fluid, across=eps * (self.across / self.eps), dacross_dP=rigid, dacross_dH=rigid)
 
     def of(self, lines):
         """That of some lines of nodes (a slice): views."""
@@ -59,7 +78,31 @@ def fluid_state(P, H, contact, contact_law, touching=None, torn=None, filling=No
     carried = contact_law.carried(H)
     if torn is not None:
         filling, drho_dP = np.where(torn, filling, 1.0), np.where(torn, 0.0, drho_dP)
-    return Fluid(P, H, carried, rho, drho_dP, eps, deps_dP, deps_dH, follows, torn, filling)
+    fluid = Fluid(P, H, carried, rho, drho_dP, eps, deps_dP, deps_dH, follows, torn, filling)
+    if contact.thinning is not None:
+        _thin(fluid, contact.thinning * np.exp(log_eta), gap, dgap_dH, dlog_eta_dP)
+    return fluid
+
+
+def _thin(fluid, sheared, gap, dgap_dH, dlog_eta_dP):
+    """Make a `Fluid` as mobile along X and Y as the shear leaves it, in place; the surfaces slide along X.
+
+    `sheared` over the gap is sigma of `effective_mobilities`. A closed gap is not sheared.
+    """
+    is_open = gap > 0.0
+    gap = np.where(is_open, gap, 1.0)
+    sigma = np.where(is_open, sheared / gap, 0.0)
+    by_P, by_H = sigma * dlog_eta_dP, -sigma * dgap_dH / gap
+    along, across = (
+        (
+            factor * fluid.eps,
+            factor * fluid.deps_dP + slope * by_P * fluid.eps,
+            factor * fluid.deps_dH + slope * by_H * fluid.eps,
+        )
+        for factor, slope in effective_mobilities(sigma)
+    )
+    fluid.eps, fluid.deps_dP, fluid.deps_dH = along
+    fluid.across, fluid.dacross_dP, fluid.dacross_dH = across
 
 
 def arithmetic_mean(a, b):
@@ -125,6 +168,11 @@ class FaceMobility:
     """Nothing where the mobilities say it all."""
     by_rho: tuple = ()
     """Slopes by the densities, the mobilities held; nothing where the mobilities say it all."""
+
+    def times(self, weight):
+        """That of faces which count `weight` times."""
+        slopes = (tuple(weight * each for each in some) for some in (self.by_eps, self.by_gap, self.by_rho))
+        return FaceMobility(weight * self.value, *slopes)
 
     def of_lines(self, axis, lines):
         """That of the faces of some `lines` of nodes (a slice), which lie along an `axis`."""

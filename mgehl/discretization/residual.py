@@ -65,14 +65,10 @@ class Linearisation:
         return int(np.flatnonzero((self.offsets == offset).all(axis=1))[0])
 
 
-def residual(evaluation, rows, storage=None):
-    """The row of the nonlinear residual that each node has, (lines, nx) as `rows`.
-
-    With a `storage` the film's rows are those of an implicit time step.
-    """
+def residual(evaluation, rows):
+    """The row of the nonlinear residual that each node has, (lines, nx) as `rows`."""
     dX = evaluation.mesh.dX
-    inflow = evaluation.inflow if storage is None else evaluation.inflow - storage.outflow(evaluation.fluid)
-    F = np.where(rows == FLOW, inflow, -own(evaluation.P) / dX)
+    F = np.where(rows == FLOW, evaluation.inflow, -own(evaluation.P) / dX)
     closed = rows == GAP
     F[closed] = (evaluation.scheme.contact_law.contact_gap - own(evaluation.H)[closed]) / dX
     return F
@@ -81,7 +77,8 @@ def residual(evaluation, rows, storage=None):
 def linearise(evaluation, rows, storage=None, rigid=False, room=None, leaks=False):
     """Derivatives of `residual` by P (A) and, unless the gap is `rigid`, by H (B).
 
-    Where it `leaks` contact nodes have a flow balance, too.
+    The `storage` is all that a node stores: of the time step that is taken, and of one that only helps on
+    the way to an answer. Where it `leaks` contact nodes have a flow balance, too.
 
     Of a few lines at a time: their flows are still in the processor's cache when they are added up. The
     arrays of `room`, a `Linearisation` of the same kind that nobody needs any more, are used again.

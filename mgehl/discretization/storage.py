@@ -18,6 +18,9 @@ class Storage:
     """1/time step, in units in which the Couette flow of a full film is 1."""
     before: np.ndarray
     """rho H at the beginning of the step."""
+    weights: tuple | None = None
+    """What the Poiseuille flow counts of faces along X, (lines, nx - 1), and along Y, (lines + 1, nx); None
+    where all count as they are."""
 
     @classmethod
     def begun(cls, fluid, rate):
@@ -27,6 +30,10 @@ class Storage:
     def outflow(self, fluid):
         """What is stored instead of flowing on."""
         return self.rate * (content(fluid) - self.before)
+
+    def of_full(self, fluid):
+        """What a cavity stores by a filling of 1, per time: (lines, nx)."""
+        return self.rate * own(fluid.rho) * own(fluid.carried)
 
     def by_P(self, fluid):
         """Derivative of `outflow` by what answers to the node's flow: its P, its H held, or its filling."""

@@ -8,12 +8,16 @@ others without a word of theirs.
 from dataclasses import dataclass
 from typing import Any
 
+from mgehl.kinds import bodies, oil
 from mgehl.kinds.choice import Choice, word_of
+from mgehl.kinds.derived import word_choices
 from mgehl.kinds.dry import DRY, fluid_choice
+from mgehl.kinds.friction import friction_choice
 from mgehl.kinds.line import LINE
 from mgehl.kinds.own import naming_keys
 from mgehl.kinds.point import POINT, deformation_choice, moes_choice
 from mgehl.kinds.surface_kinds import surface_choices
+from mgehl.kinds.time import scene_of, time_choice
 from mgehl.kinds.wedge import WEDGE, wedge_choices
 
 KINDS = {kind.name: kind for kind in (POINT, LINE, WEDGE)}
@@ -26,9 +30,25 @@ def choices(tables):
     is chosen by it.
     """
     kind = KINDS.get(word_of(tables, "contact.kind"))
-    bodies = kind and kind_choice(kind), deformation_choice(tables), moes_choice(tables)
-    found = *bodies, *surface_choices(tables), fluid_choice(tables), *wedge_choices(tables)
+    smooth = kind and kind_choice(kind), deformation_choice(tables), moes_choice(tables)
+    found = (
+        *smooth,
+        *surface_choices(tables),
+        time_choice(tables),
+        friction_choice(tables),
+        fluid_choice(tables),
+        *wedge_choices(tables),
+        *word_choices(tables),
+    )
     return [each for each in found if each]
+
+
+def derived(config):
+    """What follows from the words of a `Config`, a `Derived` each; there may not yet be such a key.
+
+    Raises ConfigError where the words do not fit.
+    """
+    return (*bodies.derived(config), *oil.derived(config))
 
 
 def kind_choice(kind):
@@ -51,6 +71,11 @@ class Case:
     contact: Any
     mesh: Any
     """The finest."""
+
+    @property
+    def scene(self):
+        """The `Scene` of a run in time."""
+        return scene_of(self.config, self.contact)
 
 
 def case_of(config):

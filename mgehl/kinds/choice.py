@@ -21,9 +21,15 @@ class Choice:
     """Keys that must be given."""
     idle: tuple = ()
     """Keys that may be given, though they do nothing: they are kept for another choice."""
+    gives: tuple = ()
+    """Keys whose values follow from it. Giving one is a mistake; all the same it counts."""
 
     def means_nothing(self, key):
         """Whether it is a mistake to give a key beside this choice."""
+        return key in self.gives or self.leaves_out(key)
+
+    def leaves_out(self, key):
+        """Whether a key does not count beside this choice."""
         return (self.about is None or named(key, self.about)) and not named(key, self.takes)
 
 

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 from mgehl.errors import ConfigError
 from mgehl.kinds import loaded_checks
+from mgehl.kinds.bodies import SPEEDS, keys
 from mgehl.kinds.choice import Choice, value_of, word_of
 from mgehl.kinds.kind import Effort
 from mgehl.kinds.line import LineKind
@@ -18,7 +19,8 @@ ROOM = 1.5
 """End of a domain that is "auto", over the reach of the smooth contact."""
 
 OF_A_FLUID = (
-    "lubricant", "motion", "relaxation", "contact.boundary_film", "grid.load_beyond",
+    "lubricant", "motion", "friction", "heat", *keys((*SPEEDS, "rotation_radius")), "relaxation",
+    "contact.boundary_film", "grid.load_beyond",
     "discretization.couette", "discretization.face_mobility", "discretization.unified_gap",
     "discretization.couette_at_interface", "discretization.cavitation", "discretization.film_threshold",
     "solver.method", "solver.start", "solver.linear_tolerance", "solver.sweeps", "solver.omega",

@@ -1,9 +1,13 @@
 """The loaded line contact: a cylinder on a flat, per length."""
 
 from mgehl.discretization.mesh import Mesh
+from mgehl.kinds.bodies import OF_A_LINE
+from mgehl.kinds.friction import friction_from
+from mgehl.kinds.heat import heated, solids_from
 from mgehl.kinds.kind import Effort
 from mgehl.kinds.loaded import LoadedKind, lubricant_from
 from mgehl.kinds.surface import surface_from
+from mgehl.kinds.time import reference
 from mgehl.model.line import LineContact
 
 EFFORT = Effort(70.0, 3e-7, 5e-3, 2500.0, "line contacts on 1025 to 16385 nodes took 20 to 180")
@@ -17,8 +21,10 @@ class LineKind(LoadedKind):
     load_unit = "N/m"
     takes = (
         "contact.load_per_length", "contact.radius_x", "contact.reduced_modulus", "contact.boundary_film",
-        "contact.surface", "surface", "second_surface",
-        "lubricant", "motion.speed", "grid.nodes", "grid.x", "discretization", "solver", "relaxation",
+        "contact.surface", "contact.surface_body", "surface", "second_surface", *OF_A_LINE,
+        "lubricant", "motion.speed", "motion.slide_to_roll", "motion.ring_rotation", "time",
+        "friction", "heat",
+        "grid.nodes", "grid.x", "discretization", "solver", "relaxation",
     )  # fmt: skip
     essential = {
         "contact.kind": "line", "contact.load_per_length": "1859 N/mm",
@@ -30,10 +36,12 @@ class LineKind(LoadedKind):
 
     def contact(self, config):
         """A `LineContact`."""
-        section, speed = config.contact, config.motion.speed
+        section, speed = config.contact, reference(config, "motion.speed")
         body = (section.radius_x, section.reduced_modulus)
         lubricant, surface = lubricant_from(config), surface_from(config)
-        return LineContact(section.load_per_length, *body, speed, lubricant, surface)
+        load = reference(config, "contact.load_per_length")
+        more = friction_from(config), solids_from(config)
+        return heated(config, LineContact(load, *body, speed, lubricant, surface, *more))
 
     def mesh(self, config, contact):
         """A single line of nodes."""

@@ -4,9 +4,15 @@ from dataclasses import asdict, replace
 
 from mgehl.config_value import AUTO, FARTHEST, shown
 from mgehl.errors import ConfigError
-from mgehl.kinds import loaded_checks, surface
+from mgehl.kinds import loaded_checks, surface, time
+from mgehl.kinds.bodies import roughness
+from mgehl.kinds.friction import check_friction
+from mgehl.kinds.heat import check_factor, check_heat
 from mgehl.kinds.kind import Effort, Kind, kept_together
+from mgehl.kinds.oil import thinning_of
+from mgehl.model.films import formula_of, inlet_heating
 from mgehl.model.lubricant import DENSITY_LAWS, VISCOSITY_LAWS, Lubricant
+from mgehl.model.oils import OILS
 from mgehl.model.own_function import OwnFunction, is_own
 from mgehl.model.own_laws import OwnDensity, OwnViscosity
 from mgehl.model.room import domain_for
@@ -16,6 +22,15 @@ RELAXATION = Effort(
     2e4, 1e-7, 1e-3, 500.0, "the relaxation has one a sweep, up to relaxation.max_sweeps"
 )  # fmt: skip
 
+
+LONG_FILM = 1e-5
+"""Film in m from which on films are told in um."""
+
+THINNING, CONDUCTIVITY = 0.04, 0.14
+"""Usual beta = -d ln(eta)/dT in 1/K and conductivity in W/(m K) of oils."""
+
+WARM, LEAST_LEFT = 0.98, 0.5
+"""Part of the film that heat leaves, below which it is told, and down to which the formula is trusted."""
 
 HALF_WIDTH = "half-width of the band about it that holds its limit on ever finer grids"
 
@@ -30,9 +45,12 @@ class LoadedKind(Kind):
     """SI unit of the load."""
 
     def check_keys(self, config):
-        """Neither the viscosity law nor the surfaces may contradict themselves."""
+        """Neither the laws of the lubricant nor the surfaces may contradict themselves."""
         surface.check_keys(config)
+        time.check_courses(config)
         check_laws(config)
+        check_friction(config)
+        check_heat(config)
 
     def settled(self, config, contact):
         """With numbers where the domain is "auto"."""
@@ -40,6 +58,8 @@ class LoadedKind(Kind):
         if not names:
             return config
         ends = dict(zip("xy", self.domain(contact, config.grid.nodes), strict=True))
+        if time.reverses(config):
+            ends = {name: (-max(-end[0], end[1]), max(-end[0], end[1])) for name, end in ends.items()}
         return replace(config, grid=replace(config.grid, **{name: ends[name] for name in names}))
 
     def domain(self, contact, nodes):
@@ -54,6 +74,7 @@ class LoadedKind(Kind):
         loaded_checks.check_size(*self.size(config, contact))
         if contact.surface is not None:
             surface.check_known(config, contact)
+        check_factor(config, contact)
         config = self.settled(config, contact)
         if contact.surface is not None:
             surface.check_surfaces(config, contact, self.mesh(config, contact))
@@ -90,17 +111,25 @@ class LoadedKind(Kind):
         return f"a {1e3 * hertz.a:.4g} mm"
 
     def lines(self, config, contact, mesh):
-        """Groups, dry contact, films of formulas, load and speed."""
+        """Groups, dry contact, films of formulas with what they assume, load and speed."""
         hertz = contact.hertz
         groups = "   ".join(f"{name} {value:.4g}" for name, value in asdict(contact.groups).items())
-        films = "   ".join(
-            f"{name.replace('_', ' ')} {1e9 * film:.4g}" for name, film in asdict(contact.formulas).items()
+        compared = contact.compared
+        unit, scale = ("um", 1e6) if max(compared.values()) >= LONG_FILM else ("nm", 1e9)
+        shown = "   ".join(
+            f"{name.replace('_', ' ')} {scale * film:.4g}" for name, film in compared.items()
         )
         return [
             f"groups     {groups}",
             f"regime     {contact.regime} (Moes)",
             f"Hertz      {self.hertz_words(hertz)}   p_h {1e-9 * hertz.p_h:.4g} GPa",
-            f"films, nm  {films}",
+            f"films, {unit}  {shown}",
+            *(f"           {words}" for words in assumptions(contact)),
+            *(
+                f"lambda     {words}"
+                for words in lambda_words(config, contact.expected_film, "a formula's")
+            ),
+            *(f"heat       {words}" for words in heat_words(config, contact)),
             f"load       {contact.load:.6g} {self.load_unit}   speed {contact.speed:.6g} m/s, "
             "the mean of both surfaces' speeds",
         ]
@@ -170,6 +199,48 @@ def _with_bands(effort):
     return replace(effort, convolutions=effort.convolutions + BANDS, measured=measured)
 
 
+def assumptions(contact):
+    """What the formulas of a contact assume, a few words each."""
+    yield "all: smooth bodies, flooded, isothermal, Newtonian oil"
+    told = {formula.label: formula for formula in map(formula_of, contact.shown_formulas)}
+    yield from (f"{label}: {formula.assumes}" for label, formula in told.items())
+    if "elastic" in contact.regime and any(formula.incompressible for formula in told.values()):
+        # A law of the user's own may not be run again where results are read.
+        own = isinstance(contact.lubricant.density_law, OwnDensity)
+        ratio = "" if own else f"{contact.density_ratio:.4g}, "
+        yield (
+            f"central films of incompressible oil are divided by {ratio}the oil's density at p_h over that "
+            "at rest"
+        )
+
+
+def lambda_words(config, film, whose):
+    """lambda by a central `film` in m where the bodies' roughness is a number; nothing elsewhere."""
+    if rms := roughness(config):
+        yield (
+            f"{film / rms:.3g}: {whose} central film over {1e9 * rms:.4g} nm rms, whose heights are not "
+            "solved"
+        )
+
+
+def heat_words(config, contact):
+    """What shear in the inlet leaves of the film, for an oil known over the temperature or a usual one."""
+    if contact.thermal_reduction is not None:
+        return  # the run itself tells it, by the oil's own data
+    known = thinning_of(config)
+    beta = THINNING if known is None else known
+    Q = contact.lubricant.viscosity * beta * contact.speed**2 / CONDUCTIVITY
+    slip = config.motion.slide_to_roll
+    factor = inlet_heating(contact.hertz.p_h / contact.reduced_modulus, Q, slip)
+    if factor < WARM and "piezoviscous" in contact.regime:
+        left = f"some {100.0 * factor:.2g} %" if factor > LEAST_LEFT else "less than half"
+        usual = f"beta {beta:.2g} 1/K{'' if known else ' and'}"
+        yield (
+            f"isothermal films: heat by shear in the inlet would leave {left} of them (Gupta 1992; "
+            f"slide-to-roll {slip:g}, {usual}{',' if known else ''} k {CONDUCTIVITY:g} W/(m K) as is usual)"
+        )
+
+
 def speed_words(u):
     """A speed in mm/s, from 1 m/s on in m/s."""
     return f"{u:.4g} m/s" if u >= 1.0 - 1e-12 else f"{1e3 * u:.4g} mm/s"
@@ -190,7 +261,12 @@ def lubricant_from(config):
     """The lubricant, by built-in laws or the user's own. Raises ValueError where the numbers fit no law."""
     section = config.lubricant
     ambient = section.viscosity, section.pressure_viscosity
-    if is_own(section.viscosity_law):
+    if section.oil is not None:
+        # By the numbers of the run that is read, where that was made by other ones.
+        viscosity = replace(
+            OILS[section.oil].law(section.temperature), viscosity=ambient[0], pressure_viscosity=ambient[1]
+        )
+    elif is_own(section.viscosity_law):
         viscosity = OwnViscosity(*ambient, OwnFunction(section.viscosity_law))
     else:
         viscosity = VISCOSITY_LAWS[section.viscosity_law](*ambient)
@@ -198,4 +274,5 @@ def lubricant_from(config):
         density = OwnDensity(OwnFunction(section.density_law))
     else:
         density = DENSITY_LAWS[section.density_law]()
-    return Lubricant(viscosity, density)
+    beta = thinning_of(config) if section.thermoviscosity is None else section.thermoviscosity
+    return Lubricant(viscosity, density, section.conductivity, beta)

@@ -2,13 +2,16 @@
 
 from mgehl.errors import ConfigError
 from mgehl.model.images import wave_numbers
-from mgehl.model.own_laws import OwnCompliance, OwnDensity, OwnViscosity
+from mgehl.model.own_laws import OwnCompliance, OwnDensity, OwnRheology, OwnViscosity
 
 LARGEST_CONTACT = 0.5
 """Largest semi-axis over radius. Beyond it a body is neither a half-space nor a paraboloid."""
 
 LARGEST_EXPONENT = 200.0
 """Largest alpha p_h: above it the viscosity is no number a computer holds."""
+
+CHECKED_SHEAR_RATE = 1e6
+"""In 1/s: one of many at which a shear stress must be a number."""
 
 CHECKED_PRESSURE = 2.0
 """Pressure up to which a user's own laws are checked, over that of Hertz."""
@@ -34,8 +37,11 @@ def check_size(key, size, radii, part):
 
 
 def check_own_laws(contact):
-    """The derivatives of a user's own laws must be those of their values."""
-    check_own_laws_up_to(contact.lubricant, CHECKED_PRESSURE * contact.hertz.p_h)
+    """The derivatives of a user's own laws must be those of their values, shear stresses must be some."""
+    highest, rheology = CHECKED_PRESSURE * contact.hertz.p_h, contact.friction.rheology
+    check_own_laws_up_to(contact.lubricant, highest)
+    if isinstance(rheology, OwnRheology):
+        rheology.check(highest, contact.lubricant.viscosity, CHECKED_SHEAR_RATE)
 
 
 def check_own_laws_up_to(lubricant, highest):

@@ -34,6 +34,7 @@ def naming_keys(contact):
 _PLACES = {
     "lubricant.viscosity_law": lambda contact: contact.lubricant.viscosity_law,
     "lubricant.density_law": lambda contact: contact.lubricant.density_law,
+    "friction.model": lambda contact: contact.friction.rheology,
     "contact.surface": lambda contact: contact.surface,
     "contact.deformation": lambda contact: contact.deformation,
 }

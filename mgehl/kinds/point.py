@@ -6,18 +6,23 @@ from mgehl.config_value import key_field
 from mgehl.discretization.fluid import FOLDING
 from mgehl.discretization.mesh import Mesh
 from mgehl.errors import ConfigError
+from mgehl.kinds.bodies import SPEEDS, keys
 from mgehl.kinds.choice import Choice, value_of, word_of
+from mgehl.kinds.friction import friction_from
+from mgehl.kinds.heat import heated, solids_from
 from mgehl.kinds.kind import Effort
 from mgehl.kinds.loaded import LoadedKind, lubricant_from
 from mgehl.kinds.own import compliance_from
 from mgehl.kinds.surface import surface_from
+from mgehl.kinds.time import reference
 from mgehl.model.coating import Coating
 from mgehl.model.point import PointContact
 
 LARGEST_RADIUS_RATIO = 1e3
 """Largest ratio of the two radii: a longer ellipse is a line contact."""
 
-MOES, MOES_REPLACES = ("moes.M", "moes.L"), ("contact.load", "motion.speed")
+MOES = "moes.M", "moes.L"
+MOES_REPLACES = "contact.load", "motion.speed", "motion.ring_rotation", *keys((*SPEEDS, "rotation_radius"))
 """Moes numbers, and the keys that they stand for."""
 
 FILM = Effort(45.0, 2.6e-7, 0.013, 1300.0, "full films on 65 to 2049 nodes took 22 to 106")
@@ -73,9 +78,11 @@ class PointKind(LoadedKind):
     load_unit = "N"
     takes = (
         "contact.load", "contact.radius_x", "contact.radius_y", "contact.reduced_modulus",
-        "contact.deformation", "contact.boundary_film", "contact.surface",
+        "contact.deformation", "contact.boundary_film", "contact.surface", "contact.surface_body",
+        "body_1", "body_2",
         "surface", "second_surface",
-        "coating", "lubricant", "motion", "moes", "grid", "discretization", "solver", "relaxation",
+        "coating", "lubricant", "motion", "time", "friction", "heat", "moes",
+        "grid", "discretization", "solver", "relaxation",
     )  # fmt: skip
     essential = {
         "contact.kind": "point", "contact.load": "800 N",
@@ -104,9 +111,11 @@ class PointKind(LoadedKind):
         body = (section.radius_x, section.radius_y, section.reduced_modulus)
         more = {"surface": surface_from(config), "deformation": _deformation_from(config)}
         more |= {"angle": config.motion.angle, "load_beyond": config.grid.load_beyond}
+        more |= {"friction": friction_from(config), "solids": solids_from(config)}
         if moes.M is not None:
-            return PointContact.from_moes(moes.M, moes.L, *body, lubricant, **more)
-        return PointContact(section.load, *body, config.motion.speed, lubricant, **more)
+            return heated(config, PointContact.from_moes(moes.M, moes.L, *body, lubricant, **more))
+        load, speed = reference(config, "contact.load"), reference(config, "motion.speed")
+        return heated(config, PointContact(load, *body, speed, lubricant, **more))
 
     def mesh(self, config, contact):
         """A square of nodes over the ellipse."""

@@ -9,7 +9,7 @@ import numpy as np
 
 from mgehl.errors import ConfigError
 from mgehl.kinds.own import own_surface_from
-from mgehl.kinds.surface_kinds import MOVING, NAMES, surface_of
+from mgehl.kinds.surface_kinds import NAMES, share_of, surface_of
 from mgehl.model.frame import direction
 from mgehl.model.own_function import OwnFunctionError
 from mgehl.model.own_laws import OwnSurface
@@ -32,7 +32,8 @@ def check_keys(config):
             either = f"{name}.wavelength_x: it or {name}.wavelength_y"
             raise ConfigError(f'{either} must be given with {name}.kind = "waviness"')
         _check_cut_offs(name, section)
-        _check_motion(name, section, config.motion.angle)
+        if not config.is_in_time:
+            _check_motion(name, section, config.motion)
 
 
 def _check_cut_offs(name, section):
@@ -49,14 +50,15 @@ def _check_cut_offs(name, section):
         )
 
 
-def _check_motion(name, section, angle):
+def _check_motion(name, section, motion):
     """The heights of a body that moves must be the same all along the motion."""
-    if section.body != MOVING or (surface := surface_of(section)) is None:
+    moves = share_of(section.body, motion.slide_to_roll) != 0.0
+    if not moves or (surface := surface_of(section)) is None:
         return
-    if surface.varies_along(direction(angle)):
+    if surface.varies_along(direction(motion.angle)):
         raise ConfigError(
-            f'{name}.body = "moving": its heights change along the motion, and so the film with time; '
-            "mgehl solves steady states: the rough body stands still, the other moves at twice motion.speed"
+            f'{name}.body = "{section.body}": its heights change along the motion, and so the film with '
+            "time: give time.end for a run in time; in a steady state the rough body stands still"
         )
 
 
@@ -117,9 +119,22 @@ def _about(error, key):
 
 
 def _check_heights(key, surface, x, y, radius):
+    """Heights may not be too large, of a file at its own points, wherever the nodes are.
+
+    A height that all have in common is no matter there.
+    """
+    common = 0.0
+    if isinstance(surface, Measured):
+        common, point = np.median(surface.heights.points), surface.heights.farthest
+        off, most = 1e6 * point.height, 1e6 * HIGHEST * radius
+        if abs(off) > most:
+            raise ConfigError(
+                f"{key}: row {point.row}, column {point.column} is {off:.4g} um off the median; must be at "
+                f"most {most:.4g}, a tenth of the radius; is it a missing value?"
+            )
     for first in range(0, len(y), LINES):
         lines = y[first : first + LINES]
-        heights = np.abs(surface.height(x[None, :], lines[:, None]))
+        heights = np.abs(surface.height(x[None, :], lines[:, None]) - common)
         if heights.max() > HIGHEST * radius:
             j, i = np.unravel_index(heights.argmax(), heights.shape)
             raise ConfigError(
@@ -137,8 +152,9 @@ def _check_size(key, surface, contact):
     x, y = contact.reach * contact.x_scale * np.cos(turn), contact.reach * across * np.sin(turn)
     missing = ~surface.reaches(x, y)
     if missing.any():
-        i, (width, length) = int(missing.argmax()), surface.heights.size
+        i = int(missing.argmax())
+        width, length, x, y = (1e6 * each for each in (*surface.heights.size, x[i], y[i]))
         raise ConfigError(
-            f"{key}: is {width:.3g} m by {length:.3g} m and ends inside the contact, such as at "
-            f"x = {x[i]:.3g} m, y = {y[i]:.3g} m; give a larger one, or a continuation"
+            f"{key}: is {width:.4g} um by {length:.4g} um and ends inside the contact, such as at "
+            f"x = {x:.4g} um, y = {y:.4g} um; give a larger one, or a continuation"
         )

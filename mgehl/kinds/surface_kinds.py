@@ -10,20 +10,28 @@ from pathlib import Path
 from mgehl.config_value import key_field
 from mgehl.kinds.choice import Choice, word_of
 from mgehl.model.surface import Dent, Measured, Preparation, Ridge, SelfAffine, Waviness
-from mgehl.model.surface.files import UNITS
-from mgehl.model.surface.measured import CONTINUATIONS, REMOVED
+from mgehl.model.surface.map import UNITS
+from mgehl.model.surface.measured import CONTINUATIONS, INTERPOLATE, REFUSE, REMOVED
 
 NAMES = ("surface", "second_surface")
 
 FORMULAS = {"waviness": Waviness, "self-affine": SelfAffine, "dent": Dent, "ridge": Ridge}
 
 OF_A_FILE = (
-    "file", "height_unit", "position_unit", "spacing", "spacing_y", "continuation", "remove",
+    "file", "height_unit", "position_unit", "spacing", "spacing_y", "continuation", "remove", "holes",
     "shortest_wavelength", "longest_wavelength", "body", "x", "y", "angle",
 )  # fmt: skip
 """Keys of a surface from a file."""
 
-STILL, MOVING = "still", "moving"
+BODIES = STILL, MOVING, BODY_1, BODY_2 = "still", "moving", "body_1", "body_2"
+"""The body that a surface belongs to."""
+
+
+def share_of(body, slide_to_roll):
+    """The speed of a surface's body over the mean speed of both."""
+    slip = 0.5 * slide_to_roll
+    return {STILL: 0.0, MOVING: 2.0, BODY_1: 1.0 + slip, BODY_2: 1.0 - slip}[body]
+
 
 LENGTHS = ("m", "mm", "um", "µm", "nm", "pm")
 """Units that keys name."""
@@ -42,8 +50,9 @@ class SurfaceSection:
         kind=str, own=absolute_path, own_name="FILE",
     )  # fmt: skip
     body: str = key_field(
-        STILL, "the body that carries it: it stands still, or moves at twice motion.speed",
-        choices=(STILL, MOVING), kind=str,
+        STILL, "the body that carries it: one that stands still, one that moves at twice motion.speed, or "
+        "body_1, body_2 at speeds by motion.slide_to_roll",
+        choices=BODIES, kind=str,
     )  # fmt: skip
     amplitude: float | None = key_field(
         None, "of waviness half from valley to peak, of a dent its depth, of a ridge its height",
@@ -97,6 +106,10 @@ class SurfaceSection:
     remove: str = key_field(
         "nothing", "file: what is taken off it (curvature: with tilt and mean)",
         choices=tuple(REMOVED), kind=str,
+    )  # fmt: skip
+    holes: str = key_field(
+        REFUSE, "file: holes, points without a height (interpolate: filled smoothly, up to a quarter)",
+        choices=(REFUSE, INTERPOLATE), kind=str,
     )  # fmt: skip
 
 
@@ -154,4 +167,5 @@ def _preparation(section):
         shortest_wavelength=section.shortest_wavelength,
         longest_wavelength=section.longest_wavelength,
         continuation=section.continuation,
+        holes=section.holes,
     )

@@ -3,15 +3,17 @@
 Inside the code X = x/a, P = p/p_h and H = h R_x/a^2 (the paper divides the gap by a).
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from functools import cached_property
-from math import sqrt
+from math import log, sqrt
 
 import numpy as np
 
 from mgehl.model import films
 from mgehl.model.frame import Frame
 from mgehl.model.hertz import edge_gap_coefficient, hertz_pressure
+from mgehl.model.lubricant import DowsonHigginson
+from mgehl.model.rheology import Friction
 from mgehl.model.surface.surface import JUST, step_of
 
 SAMPLES = 65
@@ -60,6 +62,10 @@ class LoadedContact:
 
     frame = Frame()
     """The axes in which it is solved."""
+    friction = Friction()
+    """How the surfaces slide over each other."""
+    solids = None
+    """`flash.Solid` of both bodies; None where it is not known."""
     surface = None
     """The `Surface` of the body that stands still: a peak is positive and lowers the gap."""
     deformation = None
@@ -139,6 +145,34 @@ class LoadedContact:
         raise NotImplementedError
 
     @property
+    def shown_formulas(self):
+        """Names of the films of `formulas` that are made for such bodies."""
+        return [name for name in asdict(self.formulas) if films.applies(name, self.regime)]
+
+    @property
+    def density_ratio(self):
+        """Density of the oil at p_h over that at rest."""
+        return self._density_ratio(self.lubricant.density_law)
+
+    def _density_ratio(self, law):
+        return float(law.density(np.ones((1, 1)), self.hertz.p_h)[0][0, 0])
+
+    @property
+    def compared(self):
+        """{name: film in m} of `shown_formulas` on the terms of what is computed: the central film of
+        bodies that are pressed flat is the formula's, by the density at p_h that it assumes over the oil's.
+        """
+        if "elastic" not in self.regime:
+            return {name: getattr(self.formulas, name) for name in self.shown_formulas}
+        own, theirs = self.density_ratio, self._density_ratio(DowsonHigginson())
+        found = {}
+        for name in self.shown_formulas:
+            assumed = 1.0 if films.formula_of(name).incompressible else theirs
+            ratio = 1.0 if name.endswith("_minimum") else assumed / own
+            found[name] = getattr(self.formulas, name) * ratio
+        return found
+
+    @property
     def is_soft(self):
         """Whether the bodies yield to pressures that hardly stiffen the oil: rubber, or steel in water.
 
@@ -174,6 +208,10 @@ class LoadedContact:
         [Liu eq. 50]
         """
         return self.load_integral * (1.0 - self.share_beyond(mesh))
+
+    def drag_beyond(self, mesh):
+        """What rolling takes from each body beyond the domain of a mesh, in N: of a line hardly any."""
+        return 0.0
 
     @property
     def is_at_rest(self):
@@ -228,6 +266,33 @@ class LoadedContact:
         """Reynolds coefficient lambda = 12 u eta0 R_x^2/(a^3 p_h)."""
         hertz = self.hertz
         return 12.0 * self.speed * self.lubricant.viscosity * self.radius_x**2 / (hertz.a**3 * hertz.p_h)
+
+    @property
+    def thermal_reduction(self):
+        """Phi_T: the part of the film that the heat of shear in the inlet leaves; None without oil's data.
+
+        [Gupta, Cheng, Zhu, Forster, Schrand 1992], of the oil that is not thinned yet.
+        """
+        oil = self.lubricant
+        if oil.conductivity is None or oil.thermoviscosity is None or self.is_at_rest:
+            return None
+        viscosity = oil.viscosity_law.viscosity
+        slip = self.friction.slide_to_roll
+        loading = viscosity * oil.thermoviscosity * self.speed**2 / oil.conductivity
+        return films.inlet_heating(self.hertz.p_h / self.reduced_modulus, loading, slip)
+
+    @property
+    def film_exponent(self):
+        """n of film ~ viscosity^n, by the formula of its regime."""
+        return log(self.at_speed(1.01 * self.speed).flooded_film / self.flooded_film) / log(1.01)
+
+    @property
+    def thinning(self):
+        """eta V/(h tau_0) where eta* and H are 1, for `effective_mobilities`; None where nothing thins."""
+        if not self.friction.thins:
+            return None
+        stress = self.film_scale * self.friction.rheology.eyring_stress
+        return self.lubricant.viscosity * self.friction.sliding_speed(self.speed) / stress
 
     @property
     def approach(self):

@@ -37,6 +37,28 @@ def kapitza_factor(lubricant, speed, along, across):
 
 def kapitza_load_beyond(contact, x, y):
     """Newtons that Kapitza's pressure carries upstream beyond a domain, its ends in units of X and Y."""
+    c, s, way, curvature, K = _rays(contact, x, y)
+    pressing = np.maximum(-(K[0] * c + K[1] * s), 0.0)
+    return float(np.mean(pressing * _along_rays(way, curvature, contact.flooded_film)) * 2.0 * np.pi)
+
+
+def kapitza_drag_beyond(contact, x, y):
+    """Half of the integral of h dp/dx along the motion, in N, upstream from the end of a domain to where
+    bodies are no paraboloids any more: a radius of curvature away.
+
+    It grows with the logarithm of that distance, so it has no limit but the bodies' own size.
+    """
+    c, s, way, curvature, K = _rays(contact, x, y)
+    motion_x, motion_y = contact.motion
+    steepness = c * motion_x / contact.radius_x + s * motion_y / contact.radius_y
+    pressing = K[0] * c + K[1] * s
+    dragged = 2.0 * pressing * steepness / curvature - K[0] * motion_x - K[1] * motion_y
+    ratio = np.maximum(1.0 / (2.0 * curvature * way), 1.0)
+    return float(np.mean(np.where(pressing < 0.0, dragged * np.log(ratio) / curvature, 0.0)) * np.pi)
+
+
+def _rays(contact, x, y):
+    """Directions (c, s) around a contact, metres to the end of the domain, h/r^2, K along x and y."""
     angles = (np.arange(DIRECTIONS) + 0.5) * 2.0 * np.pi / DIRECTIONS
     c, s = np.cos(angles), np.sin(angles)
     motion_x, motion_y = contact.motion
@@ -45,8 +67,7 @@ def kapitza_load_beyond(contact, x, y):
     K_y = kapitza_factor(lubricant, speed * motion_y, *radii[::-1])
     curvature = 0.5 * (c**2 / radii[0] + s**2 / radii[1])
     way = np.minimum(_way(c, x, contact.x_scale), _way(s, y, contact.y_scale))
-    pressing = np.maximum(-(K_x * c + K_y * s), 0.0)
-    return float(np.mean(pressing * _along_rays(way, curvature, contact.flooded_film)) * 2.0 * np.pi)
+    return c, s, way, curvature, (K_x, K_y)
 
 
 def missing_share(contact, x, y):

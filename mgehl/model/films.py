@@ -1,5 +1,6 @@
 """Film-thickness formulas to compare with; every function returns metres."""
 
+from dataclasses import dataclass
 from math import exp, log, sqrt
 
 SOFT = 2.0
@@ -7,11 +8,74 @@ SOFT = 2.0
 of Ertel and Grubin say half of their film there, and less."""
 
 
+@dataclass(frozen=True)
+class Formula:
+    """What a formula is called and what it assumes. All assume smooth bodies, Newtonian oil of one
+    temperature, and as much of it as the inlet takes."""
+
+    label: str
+    assumes: str
+    source: str
+    """A key of `mgehl.model.sources.SOURCES`."""
+    bodies: str = "hard"
+    """"hard": the oil stiffens before the bodies yield; "soft": they yield before it does; "any"."""
+    incompressible: bool = False
+    """Otherwise made for the density law of Dowson and Higginson."""
+
+
+FORMULAS = {
+    "hamrock_dowson": Formula(
+        "Hamrock and Dowson", "hard bodies, oil that Dowson and Higginson's law compresses", "hamrock1977"
+    ),
+    "hamrock_dowson_soft": Formula(
+        "Hamrock and Dowson, soft", "soft bodies, oil of constant viscosity and density", "hamrock1978",
+        "soft", True,
+    ),
+    "nijenbanning_venner_moes": Formula(
+        "Nijenbanning, Venner and Moes", "rigid, soft or hard bodies, incompressible oil",
+        "nijenbanning1994", "any", True,
+    ),
+    "chittenden": Formula(
+        "Chittenden and others", "as Hamrock and Dowson, moving in any direction", "chittenden1985"
+    ),
+    "dowson_higginson": Formula(
+        "of the Dowson-Higginson type", "hard bodies, oil that their law compresses", "dowson1966"
+    ),
+    "moes": Formula("Moes", "rigid, soft or hard bodies, incompressible oil", "moes1992", "any", True),
+    "grubin": Formula(
+        "Ertel and Grubin", "hard bodies of Hertz's shape, incompressible oil of Barus' law", "grubin1949",
+        incompressible=True,
+    ),
+}  # fmt: skip
+"""By their names, less the film that they tell: _central, _minimum."""
+
+
+def formula_of(name):
+    """The `Formula` of a film's name."""
+    return FORMULAS[name.removesuffix("_central").removesuffix("_minimum")]
+
+
+def applies(name, regime):
+    """Whether a film's formula is made for bodies of a `regime`."""
+    made_for = formula_of(name).bodies
+    if made_for == "soft":
+        return regime == "elastic isoviscous"
+    return made_for == "any" or "isoviscous" not in regime
+
+
 def hamrock_dowson(groups, radius_x, ellipticity):
     """Central and minimum film of Hamrock and Dowson; `ellipticity` k = b/a."""
     U, W, G = groups.U, groups.W, groups.G
     central = 2.69 * U**0.67 * G**0.53 * W**-0.067 * (1.0 - 0.61 * exp(-0.73 * ellipticity))
     minimum = 3.63 * U**0.68 * G**0.49 * W**-0.073 * (1.0 - exp(-0.68 * ellipticity))
+    return central * radius_x, minimum * radius_x
+
+
+def hamrock_dowson_soft(groups, radius_x, ellipticity):
+    """Central and minimum film of Hamrock and Dowson (1978) for bodies of low modulus."""
+    U, W = groups.U, groups.W
+    central = 7.32 * (1.0 - 0.72 * exp(-0.28 * ellipticity)) * U**0.64 * W**-0.22
+    minimum = 7.43 * (1.0 - 0.85 * exp(-0.31 * ellipticity)) * U**0.65 * W**-0.21
     return central * radius_x, minimum * radius_x
 
 
@@ -92,3 +156,12 @@ def regime(RI, EI, RP, EP):
 def grubin(pressure_viscosity, viscosity, speed, a, gap_coefficient):
     """Ertel-Grubin film of a heavily loaded contact with dry edge gap C s^(3/2)."""
     return (12.0 * 0.2687 * pressure_viscosity * viscosity * speed * a) ** 0.75 / sqrt(gap_coefficient)
+
+
+def inlet_heating(pressure, Q, slide_to_roll=0.0):
+    """Film with heat by shear in the inlet over the isothermal one, of Gupta and others (1992).
+
+    `pressure` is p_h/E', Q = eta0 beta u^2/k with the oil's thinning beta in 1/K and conductivity k.
+    """
+    slid = 1.0 + 2.23 * abs(slide_to_roll) ** 0.83
+    return (1.0 - 13.2 * pressure * Q**0.42) / (1.0 + 0.213 * slid * Q**0.64)

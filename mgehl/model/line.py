@@ -7,8 +7,10 @@ from math import pi
 from mgehl.model import films
 from mgehl.model.contact import Groups, LoadedContact
 from mgehl.model.deformation import HalfPlane
+from mgehl.model.flash import Solid
 from mgehl.model.hertz import hertz_line_contact, hertz_line_gap
 from mgehl.model.lubricant import Lubricant
+from mgehl.model.rheology import Friction
 from mgehl.model.surface import Surface
 
 
@@ -18,6 +20,7 @@ class LineFormulas:
 
     dowson_higginson_central: float
     dowson_higginson_minimum: float
+    moes: float
     grubin: float
 
 
@@ -31,6 +34,9 @@ class LineContact(LoadedContact):
     speed: float
     lubricant: Lubricant
     surface: Surface | None = None
+    friction: Friction = Friction()
+    solids: tuple[Solid, Solid] | None = None
+    """What both bodies make of heat; None where it is not known."""
 
     is_plane = True
 
@@ -75,7 +81,7 @@ class LineContact(LoadedContact):
     def formulas(self):
         """What the film formulas say of this contact."""
         central, minimum = films.dowson_higginson(self.groups, self.radius_x)
-        return LineFormulas(central, minimum, self.grubin_film)
+        return LineFormulas(central, minimum, self.flooded_film, self.grubin_film)
 
     @property
     def regime(self):

@@ -9,6 +9,7 @@ from math import log
 
 import numpy as np
 
+from mgehl.model.oils import OilViscosity
 from mgehl.model.own_laws import OwnDensity, OwnViscosity
 
 ROELANDS_PRESSURE = 1.0 / 5.1e-9
@@ -48,9 +49,14 @@ class Roelands:
     def _scale(self):
         return log(self.viscosity) + 9.67
 
+    @property
+    def z(self):
+        """The exponent; measured oils have 0.4 to 0.8."""
+        return self.pressure_viscosity * ROELANDS_PRESSURE / self._scale
+
     def log_viscosity(self, P, p_h):
         """Return ln(eta*) and d ln(eta*)/dP, shapes as P."""
-        z = self.pressure_viscosity * ROELANDS_PRESSURE / self._scale
+        z = self.z
         pressure = p_h / ROELANDS_PRESSURE
         power = (1.0 + pressure * np.maximum(P, 0.0)) ** z
         slope = self._scale * z * pressure * power / (1.0 + pressure * np.maximum(P, 0.0))
@@ -97,13 +103,19 @@ DENSITY_LAWS = {"dowson-higginson": DowsonHigginson, "constant": ConstantDensity
 class Lubricant:
     """A viscosity law and a density law."""
 
-    viscosity_law: Barus | Roelands | ConstantViscosity | OwnViscosity
+    viscosity_law: Barus | Roelands | OilViscosity | ConstantViscosity | OwnViscosity
     density_law: DowsonHigginson | ConstantDensity | OwnDensity
+    conductivity: float | None = None
+    """In W/(m K); None where it is not known."""
+    thermoviscosity: float | None = None
+    """beta of eta ~ exp(-beta T), in 1/K; None where it is not known."""
+    thinned: float = 1.0
+    """Part of the viscosity that the heat of shear leaves in the inlet."""
 
     @property
     def viscosity(self):
-        """eta0 in Pa s."""
-        return self.viscosity_law.viscosity
+        """eta0 in Pa s, as the inlet has it."""
+        return self.thinned * self.viscosity_law.viscosity
 
     @property
     def pressure_viscosity(self):

@@ -1,11 +1,12 @@
 """What a user may put in place of a built-in law, surface or deformation by a function of their own.
 
-    viscosity     law(p, viscosity, pressure_viscosity) -> eta in Pa s, d eta/dp
-    density       law(p) -> rho/rho_0, its derivative by p
+    viscosity     law(conditions) -> eta in Pa s, d eta/dp
+    density       law(conditions) -> rho/rho_0, its derivative by p
+    shear stress  law(conditions) -> tau in Pa
     surface       surface(x, y) -> height in m, a peak positive: it lowers the gap
     deformation   compliance(k) -> deflection at wave number k over that of half-spaces
 
-Arguments and results are arrays of one shape: p in Pa and never negative, x and y in m from the
+`conditions` are `Conditions`. Other arguments and results are arrays of one shape: x and y in m from the
 centre, k in 1/m. `check` asks for values before a run does.
 """
 
@@ -13,6 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mgehl.model.conditions import Conditions
 from mgehl.model.own_function import OwnFunction
 from mgehl.model.surface import Surface
 
@@ -55,7 +57,7 @@ class OwnViscosity:
 
         `ambient` says in the message what the viscosity at p = 0 must be.
         """
-        self.function.check_arguments("p", "viscosity", "pressure_viscosity")
+        self.function.check_arguments("conditions")
         p = np.linspace(0.0, p_max, CHECKED_PRESSURES)
         eta = _as_nodes(self._law)(p)[0]
         _check_positive(self.function, eta, p, "Pa")
@@ -72,7 +74,7 @@ class OwnViscosity:
             return np.log(eta / self.viscosity), slope / eta
 
     def _law(self, p):
-        return self.function.pair(np.shape(p), p, self.viscosity, self.pressure_viscosity)
+        return self.function.pair(np.shape(p), Conditions(p, self.viscosity, self.pressure_viscosity))
 
 
 @dataclass(frozen=True)
@@ -89,7 +91,7 @@ class OwnDensity:
 
     def check(self, p_max):
         """Raise OwnFunctionError unless it is a law with its derivative from 0 to `p_max` in Pa."""
-        self.function.check_arguments("p")
+        self.function.check_arguments("conditions")
         p = np.linspace(0.0, p_max, CHECKED_PRESSURES)
         rho = _as_nodes(self._law)(p)[0]
         _check_positive(self.function, rho, p, "Pa")
@@ -97,7 +99,38 @@ class OwnDensity:
         _check_slope(self.function, _as_nodes(self._law), p, "d rho/dp")
 
     def _law(self, p):
-        return self.function.pair(np.shape(p), p)
+        return self.function.pair(np.shape(p), Conditions(p))
+
+
+@dataclass(frozen=True)
+class OwnRheology:
+    """A law of the shear stress, which may be no law of the film: that is thinned by Eyring's alone."""
+
+    function: OwnFunction
+
+    name = "own"
+    eyring_stress = None
+
+    def shear_stress(self, at):
+        """In Pa, at `Conditions`."""
+        found = self.function.array(np.shape(at.pressure), at)
+        wrong = ~((found >= 0.0) & np.isfinite(found))
+        if wrong.any():
+            i = np.unravel_index(int(wrong.argmax()), wrong.shape)
+            p, rate = (np.broadcast_to(each, found.shape)[i] for each in (at.pressure, at.shear_rate))
+            raise self.function.error(
+                f"returns {found[i]:.3g} at {p:.3g} Pa and {rate:.3g} 1/s; must be a shear stress in Pa, "
+                "not below 0"
+            )
+        return found
+
+    def check(self, p_max, viscosity, shear_rate):
+        """Raise OwnFunctionError unless it gives stresses from 0 to `p_max` in Pa."""
+        self.function.check_arguments("conditions")
+        p = np.linspace(0.0, p_max, 11)
+        self.shear_stress(
+            Conditions(p, np.full(p.shape, viscosity), shear_rate=np.full(p.shape, shear_rate))
+        )
 
 
 @dataclass(frozen=True)

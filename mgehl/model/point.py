@@ -8,12 +8,14 @@ from mgehl.model import films
 from mgehl.model.coating import Coating
 from mgehl.model.contact import Groups, LoadedContact
 from mgehl.model.deformation import HalfSpace, LayeredHalfSpace
-from mgehl.model.far_field import missing_share
+from mgehl.model.far_field import kapitza_drag_beyond, missing_share
+from mgehl.model.flash import Solid
 from mgehl.model.frame import Frame, SurfaceInFrame, direction
 from mgehl.model.hertz import hertz_contact, hertz_gap
 from mgehl.model.images import fit_images
 from mgehl.model.lubricant import Lubricant
 from mgehl.model.own_laws import OwnCompliance
+from mgehl.model.rheology import Friction
 from mgehl.model.surface import Surface
 
 LOAD = 2.0 * pi / 3.0
@@ -43,6 +45,8 @@ class PointFormulas:
     hamrock_dowson_minimum: float
     nijenbanning_venner_moes: float
     grubin: float
+    hamrock_dowson_soft_central: float
+    hamrock_dowson_soft_minimum: float
 
 
 @dataclass(frozen=True)
@@ -70,6 +74,9 @@ class PointContact(LoadedContact):
     """Direction of the motion in degrees, from +x towards +y."""
     load_beyond: bool | None = None
     """Whether the load that is carried beyond the domain is counted; None: where the film answers to it."""
+    friction: Friction = Friction()
+    solids: tuple[Solid, Solid] | None = None
+    """What both bodies make of heat; None where it is not known."""
 
     load_integral = LOAD
     contact_area = pi
@@ -184,6 +191,10 @@ class PointContact(LoadedContact):
         counted = self.counted_beyond
         return counted * missing_share(self, mesh.x, mesh.y) if counted else 0.0
 
+    def drag_beyond(self, mesh):
+        """By the film of rigid bodies, as far as they are paraboloids."""
+        return kapitza_drag_beyond(self, mesh.x, mesh.y)
+
     def _inlet_of(self, film):
         """As of any contact, in units of this one's a."""
         like = self.likeness
@@ -219,7 +230,8 @@ class PointContact(LoadedContact):
         like = self.aligned
         central, minimum = films.hamrock_dowson(self.groups, like.radius_x, 1.0 / like.k_e)
         moes = films.nijenbanning_venner_moes(self.groups, like.radius_x, like.radius_y)
-        found = central, minimum, moes, like.grubin_film
+        soft = films.hamrock_dowson_soft(self.groups, like.radius_x, 1.0 / like.k_e)
+        found = central, minimum, moes, like.grubin_film, *soft
         if 0.0 in self.motion:
             return PointFormulas(*found)
         return ObliqueFormulas(*found, *films.chittenden(self.groups, like.radius_x, like.radius_y))

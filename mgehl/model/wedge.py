@@ -95,6 +95,7 @@ class WedgeBearing:
     is_mixed = is_soft = False
     roughness = 0.0
     """The gap is given."""
+    thinning = None
     lambda_ = 6.0
     """Reynolds coefficient of d(H^3 dP/dX)/dX = 6 dH/dX."""
     x_scale = y_scale = MM

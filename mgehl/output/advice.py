@@ -1,9 +1,10 @@
-"""What to try after a run that did not converge."""
+"""What to know beside the numbers of a run, and what to try after one that did not converge."""
 
 from dataclasses import replace
 
 from mgehl.config_value import AUTO
 from mgehl.kinds import settled
+from mgehl.kinds.loaded import heat_words, lambda_words
 from mgehl.output import surface
 from mgehl.output.resolution import RESOLVED_CELLS
 from mgehl.solver.beginning import NOR_FROM_A_FILM
@@ -74,3 +75,13 @@ def _of_domain(solution):
         larger = {name: [round(LARGER * end, 2) for end in pair] for name, pair in ends.items()}
         keys = " and ".join(f"grid.{name} = {pair}" for name, pair in larger.items())
         yield f"{keys}: the contact is wider than that of smooth bodies"
+
+
+def beside_bands(solution):
+    """Lines about what the bands of a film do not hold: lambda by a number, heat in the inlet."""
+    config, contact = solution.config, solution.contact
+    if not contact.is_loaded or solution.is_dry or not solution.result.converged:
+        return
+    film = 1e-9 * solution.result.central_film_nm
+    yield from (f"lambda: {words}" for words in lambda_words(config, film, "the computed"))
+    yield from heat_words(config, contact)

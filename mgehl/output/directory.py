@@ -25,7 +25,7 @@ from mgehl.output.whole_file import clear_parts, is_folder, is_plain, writing
 FINISHED = "finished"
 """Folder of the checkpoint in which a run is put together."""
 
-_OWN_IN_CHECKPOINT = re.compile(r"solve-\d{4}\.npz|under-way\.npz")
+_OWN_IN_CHECKPOINT = re.compile(r"solve-\d{4}\.npz|under-way\.npz|frame-\d{6}\.npz")
 _SIGN = b'<meta name="generator" content="mgehl'
 
 

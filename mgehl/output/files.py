@@ -19,16 +19,20 @@ from mgehl.output.laws import portable
 from mgehl.output.memory_file import netcdf_file
 from mgehl.version import VERSION
 
-NAMES = CONFIGURATION, RESULT, HISTORY, FIELDS, PICTURE, CENTER_LINE = (
+NAMES = CONFIGURATION, RESULT, HISTORY, FIELDS, PICTURE, CENTER_LINE, SERIES, FRAMES = (
     "configuration.toml", "result.json", "history.csv", "fields.h5", "picture.png", "centerline.csv",
+    "series.nc", "frames.nc",
 )  # fmt: skip
-"""The files of a run directory; the last is a wedge's."""
+"""The files of a run directory; a center line is a wedge's, series and frames are of a run in time."""
 
 CHECKPOINT = "checkpoint"
 """Folder of what a run that has not finished has reached."""
 
 REPORT = "report.html"
 """The page that `mgehl report` makes of a directory where no other file is named."""
+
+INPUTS = "inputs"
+"""In result.json {"section.key": number in SI units} of what was given, or follows from it."""
 
 WHOLE = "run/texts"
 """Data set of fields.h5: its run's texts by their names, as JSON in bytes."""
@@ -70,7 +74,7 @@ def texts_of(solution):
     """{name: text} of the files of a run that are text: configuration, result, history, a center line."""
     texts = {
         CONFIGURATION: tomli_w.dumps(portable(solution.config)),
-        RESULT: json.dumps(finite(plain_result(solution.result)), indent=2, allow_nan=False) + "\n",
+        RESULT: json.dumps(finite(record_of(solution)), indent=2, allow_nan=False) + "\n",
         HISTORY: _table(
             [list(solution.rows[0]) if solution.rows else [], *map(dict.values, solution.rows)]
         ),
@@ -88,8 +92,13 @@ def _table(rows):
 
 
 def plain_result(result):
-    """A result as plain data: what result.json holds. What this kind of contact has not is left out."""
+    """A result as plain data. What this kind of contact has not is left out."""
     return {name: each for name, each in asdict(result).items() if each is not None or name == "mixed"}
+
+
+def record_of(solution):
+    """What result.json holds: the result, and the numbers that the contact was made of."""
+    return plain_result(solution.result) | {INPUTS: solution.config.inputs}
 
 
 def finite(value):
@@ -127,6 +136,13 @@ def write_fields(path, solution, texts):
         if fields.p is not None:
             put("p", plane, fields.p, "1", f"the fluid's own pressure over its unit, {unit}")
             put("filling", plane, fields.filling, "1", "part of the gap above the layers that holds fluid")
+        if fields.shear is not None:
+            put("shear", plane, fields.shear, "Pa", "shear stress of film and solids by sliding")
+        if fields.flash_1 is not None:
+            put("flash_1", plane, fields.flash_1, "K", "rise of the surface of body 1 by friction")
+            put("flash_2", plane, fields.flash_2, "K", "rise of the surface of body 2 by friction")
+        if fields.heights is not None:
+            put("heights", plane, fields.heights, "m", "heights of the bodies, a peak positive")
         group, name = WHOLE.split("/")
         content = np.frombuffer(json.dumps(texts).encode(), np.uint8)
         inner = file.create_group(group)

@@ -6,6 +6,7 @@ import re
 from pathlib import Path
 
 from mgehl.config import config_from_tables
+from mgehl.kinds.time import is_table
 from mgehl.model.own_function import file_and_function
 from mgehl.output.whole_file import is_plain, whole_file
 
@@ -88,11 +89,11 @@ def as_they_were(begun, folder, directory):
 def _own(tables):
     """(Section, key, (file, function)) of every own function in nested tables, and of files of heights.
 
-    A file of heights has no function: None.
+    A file of heights, or a table of time, has no function: None.
     """
     for section, table in tables.items():
         for key, value in table.items():
-            if key == "file" and value is not None:
+            if (key == "file" and value is not None) or is_table(f"{section}.{key}", value):
                 yield section, key, (value, None)
             elif found := file_and_function(value):
                 yield section, key, found

@@ -91,16 +91,11 @@ def mixed_result(problem, state):
     grid, contact = problem.grid, problem.contact
     if contact.surface is None:
         return None
-    parts = state.P, state.H, state.status, _heights(grid, contact), state.p, state.filling
+    heights = problem.heights - contact.mean_height
+    parts = state.P, state.H, state.status, heights, state.p, state.filling
     whole = [grid.gather(each) for each in parts]
     kept = problem.scheme.contact_law.contact_gap
     return grid.comm.bcast(None if whole[0] is None else measured(contact, grid.mesh, Nodes(*whole), kept))
-
-
-def _heights(grid, contact):
-    """Heights of the local nodes about the mean that Sq is of, in m: (lines, nx)."""
-    heights = contact.surface.height(grid.X * contact.x_scale, grid.Y * contact.y_scale)
-    return np.array(np.broadcast_to(heights - contact.mean_height, grid.shape))
 
 
 def measured(contact, mesh, nodes, kept=0.0):

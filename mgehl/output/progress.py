@@ -30,6 +30,11 @@ class Progress:
         self.rows.append(row)
         self._speaker.row(row, seconds_left(self.rows, self._finest, self._tolerance))
 
+    def take(self, row, left):
+        """Take a row of the history that is no cycle's, with the seconds that are left."""
+        self.rows.append(row)
+        self._speaker.row(row, left)
+
     def beside(self, level, cycle):
         """Tell of a Newton cycle that does not lead to the answer; the history does not keep it."""
         self._speaker.row(self._row(newton_row, level, cycle))

@@ -8,7 +8,9 @@ from mgehl.discretization.status import CONTACT
 from mgehl.model.contact import Groups
 from mgehl.output.edge_result import NOT_SEEN, EdgeResult, edge_result
 from mgehl.output.film_error import NOT_ASKED, FilmError
+from mgehl.output.friction_result import FrictionResult
 from mgehl.output.mixed_result import MixedResult, mixed_result
+from mgehl.output.passages import TimeResult
 from mgehl.output.resolution import Resolution, resolution
 from mgehl.output.words import dry_words, loaded_words, undecided_words
 from mgehl.solver.inequality import Power, check_interface, check_pressure_inequality, check_under_contact
@@ -129,11 +131,21 @@ class Result:
     groups: Groups | None = None
     moes_film: MoesFilm | None = None
     formulas: dict | None = None
-    """Films that formulas predict: name and nm."""
+    """Films that formulas predict, by name in nm: those made for such bodies, of oil with this density."""
     mixed: MixedResult | None = None
     """Film and contact of rough bodies; None of smooth ones."""
     mass: Mass | None = None
     """The account of the oil; None in older results."""
+    friction: FrictionResult | None = None
+    """None in older results."""
+    thermal_reduction: float = None
+    """Part of the film that the heat of shear in the inlet leaves, by Gupta's formula; None where the
+    lubricant has no conductivity or no thermoviscosity."""
+    is_thermally_reduced: bool = False
+    """Whether the film has been solved with so much less viscosity."""
+
+    time: TimeResult | None = None
+    """Of a run in time; all else is of the state at its end."""
 
     # Without a fluid.
     approach_um: float = None
@@ -206,7 +218,7 @@ def summarise(problem, outcome, tolerance, work, wall_s, versions):
         resolution=resolution(contact, grid.mesh),
         groups=contact.groups,
         moes_film=MoesFilm(central * moes, minimum * moes),
-        formulas={f"{name}_nm": 1e9 * film for name, film in asdict(contact.formulas).items()},
+        formulas={f"{name}_nm": 1e9 * film for name, film in contact.compared.items()},
         work=work,
         wall_s=wall_s,
         ranks=grid.comm.size,
@@ -214,6 +226,8 @@ def summarise(problem, outcome, tolerance, work, wall_s, versions):
         edge=edge,
         mixed=mixed_result(problem, state),
         mass=mass,
+        thermal_reduction=contact.thermal_reduction,
+        is_thermally_reduced=contact.lubricant.thinned < 1.0,
     )
 
 

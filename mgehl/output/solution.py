@@ -19,7 +19,7 @@ Reals = NDArray[np.float64]
 
 @dataclass
 class Fields:
-    """Dimensionless fields: (ny, nx) of the whole grid, or (lines, nx) of one rank."""
+    """Fields, dimensionless but for heights: (ny, nx) of the whole grid, or (lines, nx) of one rank."""
 
     P: Reals
     H: Reals
@@ -28,16 +28,23 @@ class Fields:
     """The fluid's own pressure: P but under contact; None where it was not kept."""
     filling: Reals | None = None
     """The part of the gap above the layers that holds fluid: 1 but in cavities; None as of `p`."""
+    heights: Reals | None = None
+    """Heights of the bodies in m, a peak positive; None of smooth ones, and in older results."""
+    shear: Reals | None = None
+    """Shear stress by sliding in Pa, of film and solids; None where the surfaces do not slide."""
+    flash_1: Reals | None = None
+    """Rise of the surface of body 1 in K by friction; None where nothing is known of the bodies."""
+    flash_2: Reals | None = None
 
     @property
-    def arrays(self) -> list[NDArray[Any]]:
-        """All that there are, in their order."""
-        return [each for each in vars(self).values() if each is not None]
+    def named(self) -> dict[str, NDArray[Any]]:
+        """All that there are, by name, in their order."""
+        return {name: each for name, each in vars(self).items() if each is not None}
 
     def gathered(self, grid: Grid) -> "Fields | None":
         """The whole grid's on rank 0, None elsewhere (collective)."""
-        whole = [grid.gather(local) for local in self.arrays]
-        return None if whole[0] is None else Fields(*whole)
+        whole = {name: grid.gather(local) for name, local in self.named.items()}
+        return None if whole["P"] is None else Fields(**whole)
 
 
 @dataclass
@@ -58,6 +65,8 @@ class Solution:
     """Constant part of the gap in units of H  [Liu eq. 48], less the closer the bodies; 0 for a wedge."""
     local: Fields | None = None
     first_line: int = 0
+    frames: Any = None
+    """Of a run in time: what has its fields at some instants, on rank 0 (`series.Frames`)."""
 
     @property
     def is_dry(self) -> bool:
@@ -78,6 +87,11 @@ class Solution:
     def status(self) -> NDArray[np.int8] | None:
         """What each node is, (ny, nx): an index of `mgehl.discretization.status.NAMES`; on rank 0."""
         return None if self.fields is None else self.fields.status
+
+    @property
+    def heights(self) -> Reals | None:
+        """Heights of rough bodies over smooth ones in m, a peak positive, (ny, nx); on rank 0."""
+        return None if self.fields is None else self.fields.heights
 
     @property
     def x(self) -> Reals:

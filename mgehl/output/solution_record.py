@@ -31,7 +31,7 @@ def solution_from(plain, arrays):
 
 def arrays_of(fields):
     """{name: array} of `Fields`; empty of none."""
-    return {name: array for name, array in vars(fields).items() if array is not None} if fields else {}
+    return fields.named if fields else {}
 
 
 def fields_from(arrays):

@@ -21,16 +21,27 @@ from mgehl.errors import OutputError, one_line
 from mgehl.kinds import contact_from, mesh_from
 from mgehl.model.own_function import without_running
 from mgehl.output.checkpoint import is_begun
-from mgehl.output.files import CONFIGURATION, FIELDS, HISTORY, PICTURE, RESULT, WHOLE
+from mgehl.output.files import (
+    CONFIGURATION,
+    FIELDS,
+    FRAMES,
+    HISTORY,
+    INPUTS,
+    PICTURE,
+    RESULT,
+    SERIES,
+    WHOLE,
+)
 from mgehl.output.files import NAMES as RUN_FILES
 from mgehl.output.laws import FOLDER, checksum, is_law, law_files, laws_in, placed
 from mgehl.output.result import Result
+from mgehl.output.series import StoredFrames
 from mgehl.output.solution import Fields, Solution
 from mgehl.output.wedge_result import WedgeResult
 from mgehl.output.whole_file import is_plain
 
-OPTIONAL = "p", "filling"
-"""Fields that older results are without."""
+OPTIONAL = "p", "filling", "heights", "shear", "flash_1", "flash_2"
+"""Fields that smooth bodies, surfaces that do not slide, or older results are without."""
 
 
 def _real(value):
@@ -73,7 +84,18 @@ def files_of(directory):
         laws = laws_in(tomllib.loads(texts[CONFIGURATION]))
     except (OutputError, ValueError, KeyError):
         return set()
-    return {FIELDS, PICTURE, *({*RUN_FILES} & texts.keys()), *filter(is_law, laws)}
+    return {
+        FIELDS,
+        PICTURE,
+        *_of_time(tomllib.loads(texts[CONFIGURATION])),
+        *({*RUN_FILES} & texts.keys()),
+        *filter(is_law, laws),
+    }
+
+
+def _of_time(tables):
+    """Names of the files that a run in time has besides."""
+    return {SERIES, FRAMES} if "end" in tables.get("time", {}) else set()
 
 
 def changed_laws(directory):
@@ -133,16 +155,21 @@ def _solution(file, directory):
     texts = _texts(file, directory)
     tables = tomllib.loads(texts[CONFIGURATION])
     config = placed(tables, {name: str((directory / name).resolve()) for name in laws_in(tables)})
+    record = json.loads(texts[RESULT])
+    config = config.with_numbers(record.get(INPUTS, {}))
     named = config.as_toml_tables()["grid"]
     if config.kind.is_loaded and AUTO in (named.get("x"), named.get("y")):
         raise ValueError("it has no domain in numbers, as a finished run has")
     contact = without_running(contact_from(config))
     mesh = mesh_from(config, contact)
-    fields, result = _fields(file, mesh), result_from(json.loads(texts[RESULT]), config)
+    fields, result = _fields(file, mesh), result_from(record, config)
     H0 = float(file.attrs["H0"])
     if not np.isfinite(H0):
         raise ValueError("H0 is not finite")
-    return Solution(config, contact, mesh, fields, _rows(texts[HISTORY]), result, H0, local=fields)
+    found = config, contact, mesh, fields, _rows(texts[HISTORY]), result, H0
+    frames = directory / FRAMES
+    kept = StoredFrames(frames) if config.is_in_time and is_plain(frames) else None
+    return Solution(*found, local=fields, frames=kept)
 
 
 def _fields(file, mesh):
@@ -151,7 +178,7 @@ def _fields(file, mesh):
     if any(file[name].shape != (mesh.ny, mesh.nx) for name in names):
         raise ValueError(f"its fields are not of {mesh.nx} x {mesh.ny} nodes")
     fields = Fields(**{name: file[name][()] for name in names})
-    if not all(np.isfinite(array).all() for array in fields.arrays):
+    if not all(np.isfinite(array).all() for array in fields.named.values()):
         raise ValueError("its fields are not finite everywhere")
     if not np.isin(fields.status, range(len(NAMES))).all():
         raise ValueError("it has nodes of a status that there is not")

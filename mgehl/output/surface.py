@@ -8,6 +8,9 @@ from mgehl.model.surface import Measured
 RESOLVED_NODES, SEEN_NODES = 8.0, 4.0
 """Nodes in the shortest wave from which on it is resolved, and below which the grid shows another one."""
 
+SMOOTHEST = 1e-10
+"""Rms in m below which heights are hardly those of a surface: an atom is as large."""
+
 SMOOTH, RESOLVED, COARSE, GRIDS, UNKNOWN = "smooth", "resolved", "coarse", "grid-determined", "unknown"
 """Verdicts; the last of runs that older versions made."""
 
@@ -54,11 +57,49 @@ def surface_lines(config, contact, mesh):
         f"lambda {ratio} (the formula's film over Sq)"
     )
     verdict = surface_verdict(contact, nodes)
-    wave = "" if isinf(shortest) else f"shortest wavelength {1e6 * shortest:.4g} um, "
+    wave = "" if isinf(shortest) else f"{_shortest_words(config)} {1e6 * shortest:.4g} um, "
     yield f"           {wave}{surface_words(verdict, nodes)}{_recommended(verdict, nodes, mesh)}"
     yield "           a peak is positive and lowers the gap; the rough body stands still, the other has 2 u"
     for key, part in parts_of(config):
         yield from _part_lines(key, part, contact, mesh)
+    yield from (f"warning    {words}" for words in surface_doubts(config, contact))
+
+
+def _shortest_words(config):
+    """What the shortest wave is called: a filter's cut-off leaves a part of shorter ones."""
+    by_heights = any(part.function or isinstance(part, Measured) for _, part in parts_of(config))
+    return "shortest wave seen in the spectrum" if by_heights else "shortest wavelength"
+
+
+def surface_doubts(config, contact):
+    """Lines about heights that may be errors: they are what a file says, and hardly what was measured."""
+    for key, part in parts_of(config):
+        if isinstance(part, Measured):
+            yield from (f"{key}: {words}" for words in _doubts(part.heights))
+    if 0.0 < contact.roughness < SMOOTHEST:
+        yield (
+            f"Sq is {1e9 * contact.roughness:.2g} nm within the Hertz contact, less than any surface has: "
+            "are the units of the heights right?"
+        )
+
+
+def _doubts(heights):
+    """Doubts about the points of one file."""
+    if heights.filled:
+        yield f"{heights.filled} of {heights.points.size} points were holes and are filled smoothly"
+    count, point = heights.repeated
+    if count:
+        yield (
+            f"{count} points, the first in row {point.row}, column {point.column}, have the same height of "
+            f"{1e6 * point.height:.4g} um, apart from all others: a missing value?"
+        )
+    count, point = heights.outstanding
+    if count:
+        stand = "1 point stands" if count == 1 else f"{count} points stand"
+        yield (
+            f"{stand} out of all neighbours, row {point.row}, column {point.column} most, by "
+            f"{1e6 * point.height:.4g} um: such a point may bear all of the load"
+        )
 
 
 def _recommended(verdict, nodes, mesh):

@@ -7,7 +7,7 @@ from contextlib import suppress
 from math import ceil
 
 from mgehl.kinds.loaded import speed_words
-from mgehl.output.advice import what_next
+from mgehl.output.advice import beside_bands, what_next
 from mgehl.output.files import finite, plain_result
 from mgehl.saying import columns, complain, folded, say
 
@@ -18,17 +18,19 @@ ALMOST = 0.99
 """Part of the bar that is drawn at the most: a full one would stop its clock, while results are written."""
 
 SHORT = {
-    "grid": "{:4d} nodes", "speed": "{:>9}", "step": "step {:2d}", "residual": "residual {:7.1e}",
+    "time_ms": "{:9.4f} ms", "grid": "{:4d} nodes", "speed": "{:>9}", "step": "step {:2d}",
+    "residual": "residual {:7.1e}",
     "gap_nm": "gap {:7.1e} nm", "central_film_nm": "film {:6.4g} nm", "contact_nodes": "contact {}",
 }  # fmt: skip
 """What a line says of a cycle, of what its row in the history has: in 80 columns."""
 
 ALL = {
-    "grid": "grid {:5d}", "speed_mm_s": "{:9.4g} mm/s", "step": "step {:2d}",
+    "time_ms": "{:11.6f} ms", "grid": "grid {:5d}", "speed_mm_s": "{:9.4g} mm/s", "step": "step {:2d}",
     "residual": "residual {:8.2e}", "load_error": "load {:+8.1e}", "gap_nm": "gap in contact {:8.2e} nm",
     "central_film_nm": "film {:10.4f}", "minimum_film_nm": "min {:10.4f} nm",
     "contact_nodes": "contact {:6d}", "cavitated_nodes": "cavitated {:6d}",
     "changed_nodes": "changed {:5d}", "linear_iterations": "iterations {:3d}",
+    "newton_steps": "Newton {:2d}", "load_on_solids": "solids {:6.4f}",
     "e_p": "e^p {:8.2e}", "e_p_lubr": "of fluid {:8.2e}", "e_p_solid": "of solid {:8.2e}",
 }  # fmt: skip
 """The same of a verbose run."""
@@ -36,7 +38,8 @@ ALL = {
 
 def line_of(row, verbose=False):
     """A line about a row of the history."""
-    known = row | ({"speed": speed_words(1e-3 * row["speed_mm_s"])} if "speed_mm_s" in row else {})
+    known = row | ({"time_ms": 1e3 * row["time_s"]} if "time_s" in row else {})
+    known |= {"speed": speed_words(1e-3 * row["speed_mm_s"])} if "speed_mm_s" in row else {}
     shapes = ALL if verbose else SHORT
     return "  ".join(shape.format(known[name]) for name, shape in shapes.items() if name in known)
 
@@ -104,7 +107,8 @@ class Lines(Silent):
 
     def end(self, solution, directory):
         lines = solution.result.words(self._verbose).splitlines()
-        for line in *lines, *(f"  {line}" for line in (*what_next(solution), f"results in {directory}")):
+        more = *beside_bands(solution), *what_next(solution), f"results in {directory}"
+        for line in *lines, *(f"  {line}" for line in more):
             self._print(folded(line, HANGING, columns()))
 
     def _print(self, words):

@@ -13,11 +13,11 @@ def in_users_axes(solution, frame, grid, case):
     scale = solution.contact.film_scale / case.contact.film_scale
     fields = None
     if solution.fields is not None:
-        P, H, *others = map(frame.users_array, solution.fields.arrays)
-        fields = Fields(P, scale * H, *others)
+        fields = Fields(**{name: frame.users_array(each) for name, each in solution.fields.named.items()})
+        fields.H = scale * fields.H
     # A point contact has as many lines as nodes in a line: they are dealt out as before.
-    arrays = fields.arrays if fields else len(solution.local.arrays) * [None]
-    local = Fields(*(grid.scatter(array) for array in arrays))
+    whole = fields.named if fields else {}
+    local = Fields(**{name: grid.scatter(whole.get(name)) for name in solution.local.named})
     return replace(
         solution,
         contact=case.contact,

@@ -2,6 +2,7 @@
 
 from mgehl.output.digits import with_band
 from mgehl.output.domain import beyond_words, domain_words
+from mgehl.output.friction_result import friction_lines, heating_words
 from mgehl.output.mixed_words import filling_words, mixed_lines
 from mgehl.output.resolution import RESOLVED_CELLS, SEEN_CELLS
 from mgehl.output.surface import surface_words
@@ -65,11 +66,14 @@ def loaded_words(result, verbose=True):
     verdict = "CONVERGED" if result.converged else "NOT CONVERGED"
     if result.settled and not result.converged:
         verdict = f"SETTLED, BUT {result.doubt.upper()}"
+    heating = heating_words(result.thermal_reduction, result.is_thermally_reduced)
     shown = surface_words(resolution.surface, resolution.surface_nodes)
     lines = [
         f"{verdict}: {result.reason}",
+        *(time_lines(result.time) if result.time else ()),
         f"  {films_words(result)}, largest pressure {largest_pressure_words(result)}",
         f"  {band_words(result.error)}",
+        *((f"  {heating}",) if heating else ()),
         *(_errors(result) if verbose else ()),
         *_overlap(result.overlap),
         *_contact(result, verbose),
@@ -78,6 +82,7 @@ def loaded_words(result, verbose=True):
         *(f"  load: {words}" for words in beyond_words(resolution.load_beyond_percent)),
         *((f"  surface: {shown}",) if shown else ()),
         *(mixed_lines(result.mixed) if result.mixed else ()),
+        *friction_lines(result.friction, verbose),
         _work(result),
         *(_nodes(result) if verbose else ()),
     ]
@@ -104,7 +109,8 @@ def _took(result):
 def _errors(result):
     yield (
         f"  residual {result.residual:.1e}, load error {result.load_error:.1e}, complementarity "
-        f"{result.complementarity_error:.1e}, flux imbalance {result.flux_imbalance:.1e}"
+        f"{result.complementarity_error:.1e}"
+        + ("" if result.flux_imbalance is None else f", flux imbalance {result.flux_imbalance:.1e}")
     )
     yield from _oil(result.mass, "Hertz ellipse")
 
@@ -228,3 +234,28 @@ def _number(value):
 def span(ends):
     """First and last node of a stretch."""
     return f"{ends[0]}..{ends[1]}" if ends else "none"
+
+
+def time_lines(time):
+    """What happened in a run in time, and the means over its last passage."""
+    yield (
+        f"  in time: {1e3 * time.end_s:.6g} ms in {time.steps} steps, {time.halved} of them halved, half "
+        f"of them in {time.convolutions_a_step:.3g} convolutions or fewer; {time.passages:.3g} passages"
+    )
+    yield f"  oil: storage and flow close to {time.largest_closure:.1e} of what is stored in every step"
+    if time.means:
+        shown = {
+            "mean_gap_nm": ("mean gap", 1.0, "nm"),
+            "max_pressure_GPa": ("largest pressure", 1.0, "GPa"),
+            "load_on_solids": ("load on solids", 100.0, "%"),
+        }
+        if time.means["friction"].value:
+            shown["friction"] = ("friction", 1.0, "of the load")
+        parts = [_mean_words(time.means[name], *how) for name, how in shown.items()]
+        yield f"  over the last passage: {', '.join(parts)}"
+    yield "  at the end:"
+
+
+def _mean_words(mean, name, scale, unit):
+    band = "" if mean.band is None else f" ± {scale * mean.band:.2g}"
+    return f"{name} {scale * mean.value:.4g}{band} {unit}"

@@ -57,9 +57,10 @@ def relax_cavitation_set(problem, state, evaluation=None):
 
     Updates `state` in place, but only if the set moved: otherwise Newton's values stand. The `evaluation`
     of the state, where it is known, stays as it is. Zebra order by global line number: the number of ranks
-    does not matter. A rigid gap is left alone: its linear systems take no convolution.
+    does not matter. A rigid gap is left alone: its linear systems take no convolution. So is a step in
+    time: few nodes change in it.
     """
-    if not (problem.scheme.cavitation and problem.is_elastic):
+    if not (problem.scheme.cavitation and problem.is_elastic) or problem.storage is not None:
         return 0
     grid, evaluation = problem.grid, (evaluation or problem.evaluate(state)).filled(None)
     movable = _relaxable(problem, evaluation, state)

@@ -69,7 +69,7 @@ def _interface_conditions(config, contact):
     """
     section, boundary_film = config.discretization, config.contact.boundary_film
     may_touch = contact.roughness > 0.0 or _has_soft_film(config, contact)
-    if boundary_film > 0.0 or may_touch:
+    if boundary_film > 0.0 or may_touch or config.is_in_time:
         return BoundaryFilm(max(boundary_film, section.film_threshold) / contact.film_scale)
     return InterfaceConditions(section.film_threshold / contact.film_scale)
 

@@ -65,11 +65,14 @@ class Newton:
             each.destroy()
         self._multigrid.free()
 
-    def run(self, state, journal=NOTHING_KEPT):
+    def run(self, state, journal=NOTHING_KEPT, tolerance=None):
         """Solve from `state`, which is the solve's own from now on; return the `Outcome`.
 
-        The `journal` is told of every step, and may know this solve or its first part already.
+        The `journal` is told of every step, and may know this solve or its first part already. The
+        `tolerance` is that of the settings unless it is given.
         """
+        if tolerance is not None:
+            self._snes.setTolerances(atol=tolerance)
         grid, self._journal = self._problem.grid, journal
         outcome = journal.recall(grid, partial(Outcome.from_record, line=Cycle))
         if outcome is None:
@@ -90,6 +93,7 @@ class Newton:
 
     def _beginning(self, state):
         """The `Position` before anything was done."""
+        self._partition.past = self._partition.nothing_past()
         position = Position(state, self._partition.past)
         self._partition.enter_contact(state, position.changes)
         return position
@@ -198,6 +202,8 @@ class Newton:
             self._space.write_pressure(self._rhs, F)
         rows = problem.rows(status, frozen)
         rates = squeeze_rates(problem, self._evaluation, rows, F, self._settings)
+        if problem.storage is not None:
+            rates = rates + problem.storage.rate
         self._system = LinearSystem(rows, rates)
         snes.computeJacobian(x, *ksp.getOperators())
         self._leave_out_the_layers(F)

@@ -101,7 +101,12 @@ class Partition:
     def __init__(self, problem, release_budget):
         self._problem, self._grid = problem, problem.grid
         self._contact_law = problem.scheme.contact_law
-        self.past = Past.none(problem.grid.shape, release_budget)
+        self._budget = release_budget
+        self.past = self.nothing_past()
+
+    def nothing_past(self):
+        """The `Past` of nodes before the first step."""
+        return Past.none(self._grid.shape, self._budget)
 
     @property
     def asks_eq_2(self):

@@ -14,6 +14,9 @@ from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
 from mgehl.grid.events import ASSEMBLY, event
 from mgehl.solver.record import Kept
 
+AT_REST = (0.0, 0.0)
+"""The `motion` of a scheme without a Couette flow."""
+
 DIVERGED = 1e10
 """Residual above which a solve counts as diverged; that of a first guess is below 1e4. Values from 1e3 to
 1e14 change nothing that converges."""
@@ -47,8 +50,12 @@ class Problem:
     """The fluid of a contact on one grid, in a gap that is given: `ContactProblem` has an elastic one."""
 
     is_elastic = False
+    storage = None
+    """The `Storage` of the time step that is taken; None of what is steady."""
     K00 = 0.0
     """Deflection of a node by its own pressure: none in a rigid gap."""
+    heights = None
+    """Heights of the bodies at the local nodes in m; None of smooth ones."""
 
     def __init__(self, grid, contact, scheme):
         self.grid, self.contact, self.scheme = grid, contact, scheme
@@ -61,7 +68,8 @@ class Problem:
         grid = self.grid
         p, H, status = grid.halo(state.p), grid.halo(state.H), grid.halo_status(state.status)
         filling = grid.halo(state.filling) if self.scheme.contact_law.has_contact else None
-        evaluation = Evaluation(p, H, status, grid.mesh, self.contact, self.scheme, filling=filling)
+        how = {"filling": filling, "storage": self.storage}
+        evaluation = Evaluation(p, H, status, grid.mesh, self.contact, self.scheme, **how)
         _ = evaluation.inflow
         return evaluation
 
@@ -83,7 +91,8 @@ class Problem:
             return evaluation
         along, across = evaluation.carried_by_full_gaps()
         leaving = np.pad(along, ((0, 0), (0, 1))), across[1:]
-        rise = self._in_order(missing_fillings, marched, evaluation.inflow, *leaving)
+        kept = np.zeros(along.shape) if self.storage is None else self.storage.of_full(evaluation.fluid)
+        rise = self._in_order(missing_fillings, marched, evaluation.inflow, *leaving, kept)
         state.filling = np.clip(state.filling + rise, 0.0, OVERFULL)
         return evaluation.filled(self.grid.halo(state.filling))
 
@@ -100,7 +109,7 @@ class Problem:
         """
         if not self.is_elastic:
             return status == CAVITATED
-        if not self.scheme.contact_law.has_contact:
+        if not self.scheme.contact_law.has_contact or self.scheme.motion == AT_REST:
             return np.zeros(status.shape, dtype=bool)
         receives = (status == LUBRICATED) | (status == CONTACT) & ~self._closed(status)
         return self._in_order(feeding, status == CAVITATED, receives, self._along_y)
@@ -151,8 +160,26 @@ class ContactProblem(Problem):
         super().__init__(grid, contact, scheme)
         self.deflection = deflection
         self.K00 = influence_coefficients(grid.mesh, contact.kernel, 0, 1)[0, 0]
-        self._undeformed = contact.undeformed_gap(grid.X, grid.Y)
+        self._undeformed, self._surface = contact.undeformed_gap(grid.X, grid.Y), contact.surface
         self._load_within = contact.load_within(grid.mesh)
+
+    @property
+    def heights(self):
+        """Heights at the local nodes in m, as the surfaces are now: (lines, nx); None of smooth bodies."""
+        grid, contact = self.grid, self.contact
+        if self._surface is None:
+            return None
+        found = self._surface.height(grid.X * contact.x_scale, grid.Y * contact.y_scale)
+        return np.array(np.broadcast_to(found, grid.shape))
+
+    def turn_to(self, contact, load):
+        """Take the surfaces of a `contact` as they are at another time, and `load` times its load."""
+        if contact.surface is not self._surface:
+            self._undeformed, self._surface = (
+                contact.undeformed_gap(self.grid.X, self.grid.Y),
+                contact.surface,
+            )
+        self._load_within = load * contact.load_within(self.grid.mesh)
 
     def gap(self, P, H0):
         """H of [Liu eq. 48] under the pressure P; one convolution."""

@@ -164,7 +164,7 @@ class Branches:
     def _state(self, point):
         """The local part of a point's state."""
         grid, fields = self._grids.grids[-1], point.fields
-        whole = fields.arrays if fields else 5 * [None]
+        whole = list(fields.named.values()) if fields else 5 * [None]
         P, H, *others = map(grid.scatter, whole)
         return State(P, point.H0, H, *others)
 

@@ -13,13 +13,14 @@ STIFF = 0.59e9
 """Pa."""
 
 
-def roelands(p, viscosity, pressure_viscosity):
-    """eta and d eta/dp; its slope at p = 0 is `pressure_viscosity` times `viscosity`."""
-    q = 1.0 + p / PRESSURE
-    eta = viscosity * np.exp(pressure_viscosity * PRESSURE / EXPONENT * (q**EXPONENT - 1.0))
-    return eta, eta * pressure_viscosity * q ** (EXPONENT - 1.0)
+def roelands(at):
+    """eta and d eta/dp; its slope at p = 0 is `at.pressure_viscosity` times `at.viscosity`."""
+    q, alpha = 1.0 + at.pressure / PRESSURE, at.pressure_viscosity
+    eta = at.viscosity * np.exp(alpha * PRESSURE / EXPONENT * (q**EXPONENT - 1.0))
+    return eta, eta * alpha * q ** (EXPONENT - 1.0)
 
 
-def dowson_higginson(p):
+def dowson_higginson(at):
     """rho/rho_0 and its derivative."""
+    p = at.pressure
     return (STIFF + 1.34 * p) / (STIFF + p), 0.34 * STIFF / (STIFF + p) ** 2

@@ -43,8 +43,50 @@ def test_all_physical_input_is_told_and_what_nobody_gave(told, tmp_path, capsys)
     assert "not given" not in text
     (tmp_path / "forgot.toml").write_text('[contact]\nload = "30 N"\n[lubricant]\nviscosity = 0.01\n')
     assert main(["check", str(tmp_path / "forgot.toml")]) == 0
-    (line,) = (line for line in capsys.readouterr().out.splitlines() if line.startswith("not given"))
-    assert "motion.speed" in line and "contact.radius_x" in line and "load" not in line.split()
+    lines = capsys.readouterr().out.splitlines()
+    first = next(k for k, line in enumerate(lines) if line.startswith("not given"))
+    keys = [line[11:].partition(":")[0] for line in lines[first : first + 5]]
+    assert keys == [
+        "contact.radius_x", "contact.radius_y", "contact.reduced_modulus", "lubricant.pressure_viscosity",
+        "motion.speed",
+    ]  # fmt: skip
+    assert lines[first + 4].endswith("motion.speed: 5e-06 m/s is the paper's")
+
+
+def test_a_bearing_of_a_catalogue_is_told_with_what_follows_from_it(told):
+    text = told("bearing_6206.toml")
+    assert "material steel   diameter 0.009525 m" in text and "not given" not in text
+    assert "contact.radius_x = 0.00377635 m: 1/R = 1/4.7625 + 1/18.2375 1/mm" in text
+    assert "lubricant.viscosity = 0.0170926 Pa*s: 20.3 cSt, times 842 kg/m^3" in text
+    assert number(text, r"nijenbanning venner moes ([\d.]+)") == pytest.approx(370.8, abs=0.1)
+    assert "divided by 1.281, the oil's density at p_h" in text and "Gupta 1992" in text
+    assert number(text, r"lambda +([\d.]+)") == pytest.approx(5.91, abs=0.01)
+    assert "Hamrock, Dowson 1977" in text and "unusual" not in text
+
+
+def test_an_oil_is_told_with_its_source_its_range_and_what_is_not_known(told):
+    oil = "--set", "lubricant.oil=M100", "--set", "lubricant.temperature=60 degC"
+    text = told("ball_bearing.toml", *oil)
+    assert "mineral oil of ISO VG 100, FVA 3, Arana, Larranaga, Ulacia 2019" in text
+    assert "measured from 40 to 100 C and up to 1 GPa; not known: where the constants were fitted" in text
+    assert "p_h = 1.51 GPa: M100 was measured up to 1 GPa: its law is extended beyond" in text
+
+
+def test_two_ways_in_a_file_are_one_line_with_its_name(tmp_path, capsys):
+    path = tmp_path / "both.toml"
+    path.write_text('[contact]\nreduced_modulus = "226 GPa"\n[body_1]\nmaterial = "steel"\n')
+    assert main(["check", str(path)]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    follows = "contact.reduced_modulus = '226 GPa': follows already with body_1.material: give one of them"
+    assert line == f"mgehl: {path}: {follows}"
+
+
+def test_wrong_units_are_named_as_unusual(told):
+    assert "unusual    lubricant.viscosity = 100 Pa s: machines have" in told(
+        "ball_bearing.toml", "--set", "lubricant.viscosity=100 Pa s"
+    )
+    large = told("full_film.toml", "--set", "contact.radius_x=10 m", "--set", "contact.radius_y=10 m")
+    assert "contact.radius_x = 10 m: machines have" in large and "hard bodies mostly have 0.1 to 5" in large
 
 
 def test_each_grid_has_its_cells_and_the_grid_that_resolves_is_recommended(told):

@@ -54,7 +54,7 @@ def test_commands(completions):
 
 
 def test_keys_of_settings_with_their_equals_sign(completions):
-    keys = {"motion.speed=", "motion.angle="}
+    keys = {f"motion.{key}=" for key in ("speed", "angle", "slide_to_roll", "ring_rotation")}
     assert completions("mgehl", "run", "--set", "motion.") == {*keys, "-o", "nospace"}
     assert "grid.nodes=" in completions("mgehl", "run", "mine.toml", "--set", "grid.")
 

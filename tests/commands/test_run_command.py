@@ -7,6 +7,7 @@ import pytest
 
 from mgehl.cli import main
 from mgehl.config import chosen_config, default_config
+from mgehl.output.stored import read_run
 
 FILM = ["run", "--set", "grid.nodes=65", "--set", "motion.speed=3", "--set", "solver.start=film"]
 
@@ -69,6 +70,23 @@ class TestWithoutAConfiguration:
 def test_numbers_that_nobody_gave_are_told(run, tmp_path):
     (tmp_path / "mine.toml").write_text('[contact]\nload = "800 N"\n')
     *_, words = run(str(tmp_path / "mine.toml"))
-    (line,) = [line for line in words.splitlines() if line.startswith("mgehl: not given")]
-    assert "lubricant.viscosity" in line and "contact.load" not in line and "motion.speed" not in line
+    lines = [line for line in words.splitlines() if line.startswith("mgehl: not given: ")]
+    assert "mgehl: not given: lubricant.viscosity: 0.096 Pa*s is the paper's" in lines
+    assert len(lines) == 5 and not any("contact.load" in line or "motion.speed" in line for line in lines)
     assert "not given" not in run()[2]
+
+
+def test_the_numbers_that_follow_are_stored_and_read_again(run, tmp_path, capsys):
+    steel = [word for body in (1, 2) for word in ("--set", f"body_{body}.material=steel")]
+    rough = "--set", "body_1.Ra=40 nm", "--no-error"
+    result, config, words = run(*steel, *rough, "--set", "lubricant.pressure_viscosity=0.2 1/GPa")
+    assert "reduced_modulus" not in config["contact"] and config["body_1"]["material"] == "steel"
+    assert result["inputs"]["contact.reduced_modulus"] == pytest.approx(206e9 / 0.91)
+    assert "mgehl: unusual: lubricant.pressure_viscosity = 2e-10 1/Pa: machines have" in words
+    assert "  lambda: " in words and "over 50.13 nm rms" in words
+    path = tmp_path / "run" / "fields.h5"
+    assert read_run(path.parent).contact.reduced_modulus == result["inputs"]["contact.reduced_modulus"]
+    assert main(["cite", str(path.parent)]) == 0
+    entries = capsys.readouterr().out
+    assert entries.count("@") == entries.count("\n}") and "@misc{iso6336," in entries
+    assert "@article{hamrock1977," not in entries  # nor does its oil stiffen

@@ -1,5 +1,7 @@
 """The rows of the residual, and their linearisation against differences."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from dense import dense_stencil
@@ -13,6 +15,7 @@ from mgehl.discretization.rows import FLOW, GAP, PRESSURE
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import CAVITATED
 from mgehl.discretization.storage import Storage
+from mgehl.model.rheology import Eyring, Friction
 
 every_scheme = pytest.mark.parametrize("couette", SCHEMES)
 every_mean = pytest.mark.parametrize("mean", FACE_MOBILITIES)
@@ -70,6 +73,17 @@ def test_linearisation_in_a_film_matches_central_differences(couette, film):
 @every_scheme
 def test_linearisation_matches_central_differences(couette, mean, motion, mixed):
     assert_linearised(mixed, Scheme(couette, mean, motion=motion))
+
+
+@every_mean
+def test_linearisation_of_oil_that_shear_thins_matches_central_differences(mean, state):
+    """The mobility along X and the one across differ, and so do their slopes."""
+    friction = Friction(Eyring(1e4), slide_to_roll=2.0, thins=True)
+    state.contact = replace(state.contact, friction=friction)
+    assert_linearised(state, Scheme("3B", mean))
+    fluid = state.evaluation().fluid
+    ratio = fluid.across[state.H > 0.0] / fluid.eps[state.H > 0.0]
+    assert 0.05 < ratio.min() < ratio.max() < 0.9
 
 
 @every_scheme

@@ -29,7 +29,7 @@ def test_its_own_key_and_no_other(key):
 
 
 def test_the_ambient_viscosity_is_called_by_its_key(tmp_path):
-    (tmp_path / "mine.py").write_text("def law(p, eta, alpha): return 50.0 + 0 * p, 0 * p")
+    (tmp_path / "mine.py").write_text("def law(at): return 50.0, 0.0")
     config = config_from_tables({"lubricant": {"viscosity_law": f"{tmp_path}/mine.py:law"}})
     with pytest.raises(ConfigError, match="must be 0.096, lubricant.viscosity in Pa s$"):
         check_contact(config, contact_from(config))

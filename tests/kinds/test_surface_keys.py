@@ -120,23 +120,28 @@ class TestFile:
     def test_a_file_smaller_than_the_contact_needs_a_continuation(self, file):
         small = file | {"spacing": "10 um"}
         message = refusal(surface=small)
-        assert message.startswith(
-            f"surface.file = {file['file']!r}: is 0.00064 m by 0.00064 m and ends inside"
-        )
+        assert message.startswith(f"surface.file = {file['file']!r}: is 640 um by 640 um and ends inside")
         config = config_of(surface=small | {"continuation": "mirror"})
         check_contact(config, contact_from(config))
 
     def test_heights_a_ball_cannot_have(self, file):
-        np.save(file["file"], np.full((65, 65), 2.0))
+        """Seen at the file's points, wherever nodes are; what all have in common is no matter."""
+        heights = np.full((65, 65), 70.0)
+        heights[1, 2] = 68.0
+        np.save(file["file"], heights)
         message = refusal(surface=file | {"height_unit": "mm"})
-        assert message.startswith(f"surface.file = {file['file']!r}: its height is 0.002 m at x = -")
-        assert message.endswith("must be at most 0.00127, a tenth of the radius")
+        assert message.startswith(
+            f"surface.file = {file['file']!r}: row 2, column 3 is -2000 um off the median"
+        )
+        assert "must be at most 1270, a tenth of the radius; is it a missing value?" in message
+        config = config_of(surface=file | {"height_unit": "um"})
+        check_contact(config, contact_from(config))
 
     def test_what_is_wrong_with_the_file_is_told_with_its_key(self, file):
         np.save(file["file"], np.full((65, 65), np.nan))
         message = refusal(surface=file)
         assert message.startswith(
-            f"surface.file = {file['file']!r}: 4225 of 4225 points are holes, the first"
+            f"surface.file = {file['file']!r}: 4225 of 4225 points are holes; at most"
         )
         assert message.count(file["file"]) == 1
 

@@ -1,6 +1,7 @@
 """Kapitza's pressure far outside, and the load that it carries beyond a domain."""
 
 from dataclasses import replace
+from math import pi
 
 import numpy as np
 import pytest
@@ -8,7 +9,11 @@ from tools.contacts import moes
 
 from mgehl.config import config_from_tables
 from mgehl.kinds import contact_from
-from mgehl.model.far_field import kapitza_factor, kapitza_load_beyond
+from mgehl.model.far_field import (
+    kapitza_drag_beyond,
+    kapitza_factor,
+    kapitza_load_beyond,
+)
 from mgehl.model.frame import Frame
 from mgehl.studies.study import merged
 
@@ -62,3 +67,20 @@ def test_the_load_beyond_is_counted_where_the_film_answers_to_it(M, counted):
     assert contact(M, 5.0).counted_beyond == counted
     for said in (True, False):
         assert replace(contact(M, 5.0), load_beyond=said).counted_beyond == said
+
+
+def test_drag_beyond_grows_with_the_logarithm_of_the_domain():
+    """Of a ball half of the integral of h dp/dx between two squares, one twice as wide: pi K R ln 2."""
+    ball = contact()
+    square = (-8.0, 8.0)
+    twice = (-16.0, 16.0)
+    between = kapitza_drag_beyond(ball, square, square) - kapitza_drag_beyond(ball, twice, twice)
+    K = kapitza_factor(ball.lubricant, ball.speed, ball.radius_x, ball.radius_x)
+    assert between == pytest.approx(pi * K * ball.radius_x * np.log(2.0), rel=1e-5)
+
+
+def test_drag_beyond_follows_the_motion():
+    """Turned by 90 degrees with its ellipse the body is dragged by as much."""
+    along, across = contact(**ELLIPSE), contact(angle=90.0, radius_x=40e-3, radius_y=10e-3)
+    turned = kapitza_drag_beyond(across, (-9.0, 9.0), (-14.0, 3.0))
+    assert turned == pytest.approx(kapitza_drag_beyond(along, (-14.0, 3.0), (-9.0, 9.0)), rel=1e-9)

@@ -54,7 +54,8 @@ def test_texts_read_back(tables, paper_contact):
     assert read["residual"] is None and read["flux_imbalance"] is None
     assert read["contact"]["x_nodes"] == [4, 6] and read["contact"]["y_nodes"] is None
     assert "hertz" not in read and read["mixed"] is None
-    assert read.keys() == files.plain_result(result).keys()
+    assert read.keys() == {*files.plain_result(result), "inputs"}
+    assert read["inputs"] == config.inputs
 
 
 class TestFields:

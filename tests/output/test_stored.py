@@ -145,7 +145,7 @@ def test_a_bit_that_changed_is_found_or_does_no_harm(copy, written):
             found += 1
             continue
         assert plain(read.result) == plain(known.result) and read.rows == known.rows
-        for ours, theirs in zip(read.fields.arrays, known.fields.arrays, strict=True):
+        for ours, theirs in zip(read.fields.named.values(), known.fields.named.values(), strict=True):
             np.testing.assert_array_equal(ours, theirs)
     assert found > 60
 

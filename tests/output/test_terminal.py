@@ -10,6 +10,7 @@ import subprocess
 import sys
 import termios
 from math import inf, nan
+from types import SimpleNamespace
 
 import pytest
 from test_files import make_result
@@ -25,7 +26,8 @@ def said(speaker, capsys, **changes):
     """What a speaker puts out and complains of in a run of one cycle."""
     with speaker:
         speaker.row(ROW, 7.0)
-        speaker.end(Solution(None, None, None, None, [], make_result(**changes)), "runs/here")
+        bearing = SimpleNamespace(is_loaded=False)
+        speaker.end(Solution(None, bearing, None, None, [], make_result(**changes)), "runs/here")
     return capsys.readouterr()
 
 

@@ -41,11 +41,12 @@ def case(request):
     P, H = random.random((2, NODES, NODES))
     status = np.zeros((NODES, NODES), np.int8)
     status[4, 2:5], status[3:7, 4] = 3, 3
-    fields = Fields(P, H, status)
+    fields = Fields(P, H, status, heights=random.random((NODES, NODES)))
     expected = Solution(config, contact, mesh, fields, [], _result(fields), H0=-0.5)
     # In m a film is the same in every frame, in units of H it is not.
     scale = contact.film_scale / parts.contact.film_scale
-    there = Fields(parts.frame.array(P), scale * parts.frame.array(H), parts.frame.array(status))
+    there = Fields(**{name: parts.frame.array(array) for name, array in fields.named.items()})
+    there.H = scale * there.H
     solved = replace(
         expected, contact=parts.contact, mesh=mesh.in_frame(parts.frame), fields=there, local=there,
         result=_result(there), H0=-0.5 * scale,
@@ -93,6 +94,7 @@ def test_fields_scales_and_axes_are_the_users(case):
     assert (found.mesh.x, found.mesh.y) == (expected.mesh.x, expected.mesh.y)
     np.testing.assert_array_equal(found.fields.P, expected.fields.P)
     np.testing.assert_array_equal(found.status, expected.status)
+    np.testing.assert_array_equal(found.heights, expected.heights)
     np.testing.assert_allclose(found.film, expected.film, rtol=1e-14)
     assert found.H0 == pytest.approx(expected.H0, rel=1e-14)
 

@@ -26,6 +26,9 @@ def test_it_is_that_of_one_rank(name, nodes):
     fields = COMM.bcast(together.fields)
     np.testing.assert_allclose(fields.P, alone.fields.P, rtol=0.0, atol=1e-9)
     np.testing.assert_array_equal(fields.status, alone.fields.status)
+    if name != "smooth":
+        np.testing.assert_allclose(fields.heights, alone.heights, rtol=0.0, atol=1e-20)
+        assert (together.heights is None) == (COMM.rank > 0)
     assert together.H0 == pytest.approx(alone.H0, rel=1e-12)
 
 

@@ -417,8 +417,8 @@ class TestCommandLine:
 
         if COMM.rank == 0:
             (directory / "late.py").write_text(
-                "import numpy as np\ncalls = 0\ndef law(p):\n    global calls\n    calls += 1\n"
-                "    return (1.0 + 0.0 * p if calls < 18 else p * np.nan), 0.0 * p\n"
+                "import numpy as np\ncalls = 0\ndef law(at):\n    global calls\n    calls += 1\n"
+                "    return (1.0 if calls < 18 else at.pressure * np.nan), 0.0\n"
             )
         COMM.barrier()
         words = ["--set", "grid.nodes=65", "--set", f"lubricant.density_law={directory}/late.py:law"]

@@ -1,33 +1,27 @@
 """Files of heights: numpy's, text, and what instruments write, by the library SurfaceTopography.
 
 It reads x3p, sur, sdf, al3d, gwy, opd, vk and some thirty more, with units. `pip install mgehl[surfaces]`.
+A file is what its content says, whatever its name ends with.
 """
 
+import sys
 import zipfile
-from dataclasses import replace
+from contextlib import redirect_stdout
+from math import prod
 from pathlib import Path
 
 import numpy as np
+from numpy.lib import format as npy
 
 from mgehl.errors import one_line
-from mgehl.model.surface.map import Map, SurfaceFileError, step_along
-from mgehl.model.surface.text import read_text
+from mgehl.model.surface.map import UNITS, Map, SurfaceFileError, step_along
+from mgehl.model.surface.text import NoTableError, read_text
 
-TEXT = ("", ".txt", ".csv", ".dat", ".asc", ".xyz", ".tsv")
-"""Endings of text."""
+MOST_BYTES = 2**31
+"""Of an array, unpacked."""
 
-UNITS = {
-    "m": 1.0,
-    "mm": 1e-3,
-    "um": 1e-6,
-    "µm": 1e-6,
-    "μm": 1e-6,
-    "nm": 1e-9,
-    "A": 1e-10,
-    "Å": 1e-10,
-    "pm": 1e-12,
-}
-"""Lengths in m, as files and configurations name them."""
+TEXTS = "xyz", "asc"
+"""SurfaceTopography's own readers of text, which leave out lines that they do not understand."""
 
 HEIGHTS = ("heights", "height", "z", "h")
 """Names of the matrix of an .npz file."""
@@ -35,48 +29,87 @@ HEIGHTS = ("heights", "height", "z", "h")
 
 def read_map(path):
     """The `Map` of a file; raises SurfaceFileError in one line for what cannot be used."""
-    ending = Path(path).suffix.lower()
     try:
         if Path(path).stat().st_size == 0:
             raise SurfaceFileError(path, "is empty: it must hold heights")
-        reader = {".npy": _read_npy, ".npz": _read_npz}.get(ending)
-        reader = reader or (read_text if ending in TEXT else _read_instrument)
-        return reader(path).checked()
+        if _is_numpy(path):
+            return _read_numpy(path).checked()
+        try:
+            return read_text(path).checked()
+        except SurfaceFileError as error:
+            return _read_instrument(path, error).checked()
     except OSError as error:
         raise SurfaceFileError(path, f"cannot be read: {error.strerror or one_line(error)}") from None
 
 
-def _read_npy(path):
-    return Map(path, _numbers(path, _loaded(path)))
+def _is_numpy(path):
+    """Whether a file is an array or an archive of arrays."""
+    with open(path, "rb") as file:
+        if file.read(len(npy.MAGIC_PREFIX)) == npy.MAGIC_PREFIX:
+            return True
+    if not zipfile.is_zipfile(path):
+        return False
+    with zipfile.ZipFile(path) as archive:
+        return all(name.endswith(".npy") for name in archive.namelist())
 
 
-def _read_npz(path):
-    """A matrix and, where they are there, x, y, dx, dy, height_unit, position_unit and unit."""
-    archive = _loaded(path)
-    if not isinstance(archive, np.lib.npyio.NpzFile):
-        return Map(path, _numbers(path, archive))
-    with archive:
-        try:
-            found = {name: archive[name] for name in archive.files}
-        except (ValueError, zipfile.BadZipFile, EOFError) as error:
-            raise SurfaceFileError(path, f"cannot be read: {one_line(error)}") from None
-    heights = _numbers(path, _heights(path, found))
-    units = {name: _unit(path, found, name) for name in ("height_unit", "position_unit")}
-    return Map(path, heights, **_steps(path, found, heights.shape), **units)
+def _read_numpy(path):
+    """A matrix and, of an archive where they are there, x, y, dx, dy, height_unit, position_unit and unit.
 
-
-def _loaded(path):
+    Of an archive nothing else is unpacked.
+    """
     try:
-        return np.load(path, allow_pickle=False)
+        if not zipfile.is_zipfile(path):
+            with open(path, "rb") as file:
+                _check_bytes(path, "its array", file)
+            return Map(path, _numbers(path, np.load(path, allow_pickle=False)))
+        with np.load(path, allow_pickle=False) as archive:
+            found = _Arrays(path, archive)
+            heights = _numbers(path, _heights(path, found))
+            units = {name: _unit(path, found, name) for name in ("height_unit", "position_unit")}
+            return Map(path, heights, **_steps(path, found, heights.shape), **units)
     except (ValueError, EOFError, zipfile.BadZipFile) as error:
         raise SurfaceFileError(path, f"is no file of numpy's numbers: {one_line(error)}") from None
 
 
+class _Arrays:
+    """The arrays of an archive, each of which is read when it is asked for, unless it is too large."""
+
+    def __init__(self, path, archive):
+        self._path, self._archive = path, archive
+
+    def __iter__(self):
+        return iter(self._archive.files)
+
+    def __contains__(self, name):
+        return name in self._archive.files
+
+    def __getitem__(self, name):
+        self.shape(name)
+        return self._archive[name]
+
+    def shape(self, name):
+        """Of an array, by its head alone."""
+        with self._archive.zip.open(f"{name}.npy") as member:
+            return _check_bytes(self._path, f"its array {name!r}", member)
+
+
+def _check_bytes(path, what, file):
+    """The shape in the head of an array. Raises SurfaceFileError where the array is too large."""
+    version = npy.read_magic(file)
+    head = npy.read_array_header_1_0 if version == (1, 0) else npy.read_array_header_2_0
+    shape, _, kind = head(file)
+    if (size := prod(shape) * kind.itemsize) > MOST_BYTES:
+        raise SurfaceFileError(path, f"{what} has {size:.3g} bytes; must be at most {MOST_BYTES:.3g}")
+    return shape
+
+
 def _heights(path, found):
+    """The array that is called heights, or the only matrix."""
     for name in HEIGHTS:
         if name in found:
             return found[name]
-    matrices = [name for name, array in found.items() if array.ndim == 2]
+    matrices = [name for name in found if len(found.shape(name)) == 2]
     if len(matrices) != 1:
         raise SurfaceFileError(
             path, f"has no array named {HEIGHTS[0]!r}; its arrays are {', '.join(found) or 'none'}"
@@ -94,10 +127,10 @@ def _numbers(path, array):
 
 def _unit(path, found, name):
     """The unit of this name, or the one for all, in m."""
-    given = found.get(name, found.get("unit"))
+    given = next((each for each in (name, "unit") if each in found), None)
     if given is None:
         return None
-    word = str(given)
+    word = str(found[given])
     if word not in UNITS:
         raise SurfaceFileError(path, f"{name} = {word!r}: must be one of {', '.join(UNITS)}")
     return UNITS[word]
@@ -125,31 +158,37 @@ def _steps(path, found, shape):
     return steps
 
 
-def _read_instrument(path):
-    """What SurfaceTopography reads: heights (nx, ny), sizes and one unit of both."""
+def _read_instrument(path, fault):
+    """What SurfaceTopography reads: heights (nx, ny), sizes and one unit of both.
+
+    `fault` says why the file is no text of heights: so are those that the library itself reads as text.
+    """
+    no_text = isinstance(fault, NoTableError)
     try:
-        from SurfaceTopography import read_topography
+        from SurfaceTopography import open_topography
+        from SurfaceTopography.Exceptions import CannotDetectFileFormat
     except ImportError:
-        raise SurfaceFileError(
-            path, "its format needs SurfaceTopography, which is not installed (pip install mgehl[surfaces])"
-        ) from None
+        install = "instruments' formats need SurfaceTopography, which is not installed"
+        more = f"; {install} (pip install mgehl[surfaces])" if no_text else ""
+        raise SurfaceFileError(path, f"{fault.what}{more}") from None
     try:
-        topography = read_topography(path)
-        if topography.dim != 2:
-            raise SurfaceFileError(path, "is a profile along a line; must be heights over a rectangle")
-        heights = np.ma.filled(np.ma.asarray(topography.heights(), dtype=float), np.nan).T
-        sizes, unit = topography.physical_sizes, topography.unit
-    except SurfaceFileError:
+        with redirect_stdout(sys.stderr), open_topography(path) as reader:  # some of its readers print
+            if reader.format() in TEXTS:
+                raise fault
+            channel = reader.default_channel
+            sizes, unit = channel.physical_sizes, channel.unit
+            told = {} if sizes else {"physical_sizes": channel.nb_grid_pts}
+            if channel.dim != 2:
+                raise SurfaceFileError(path, "is a profile along a line; must be heights over a rectangle")
+            found = np.ma.asarray(reader.topography(**told).heights(), dtype=float)
+    except (SurfaceFileError, OSError):
         raise
-    except OSError:
-        raise
+    except CannotDetectFileFormat:
+        more = ", and no format that SurfaceTopography reads" if no_text else ""
+        raise SurfaceFileError(path, f"{fault.what}{more}") from None
     except Exception as error:  # what a damaged file raises is anybody's guess
         raise SurfaceFileError(path, f"SurfaceTopography cannot read it: {one_line(error)}") from None
-    found = Map(path, heights)
-    if sizes is not None:
-        points = np.array(heights.shape[::-1])
-        dx, dy = np.asarray(sizes, dtype=float) / points
-        found = replace(found, dx=float(dx), dy=float(dy))
-    if unit in UNITS:
-        found = replace(found, height_unit=UNITS[unit], position_unit=UNITS[unit])
-    return found
+    heights = found.filled(np.nan).T
+    dx, dy = (None, None) if sizes is None else map(float, np.divide(sizes, heights.shape[::-1]))
+    unit = UNITS.get(unit) if isinstance(unit, str) else None
+    return Map(path, heights, dx, dy, unit, unit)

@@ -10,7 +10,20 @@ FEWEST = 4
 """Points along a side: a cubic has four coefficients."""
 
 UNEVEN = 1e-3
-"""Of a step, by which it may differ from the others: text has few digits."""
+"""Of a step, by which it may differ from the others."""
+
+UNITS = {
+    "m": 1.0,
+    "mm": 1e-3,
+    "um": 1e-6,
+    "µm": 1e-6,
+    "μm": 1e-6,
+    "nm": 1e-9,
+    "A": 1e-10,
+    "Å": 1e-10,
+    "pm": 1e-12,
+}
+"""Lengths in m, as files and configurations name them."""
 
 
 class SurfaceFileError(UserError):
@@ -26,7 +39,10 @@ class SurfaceFileError(UserError):
 
 @dataclass(frozen=True, eq=False)
 class Map:
-    """Heights (ny, nx), rows along x, in the file's units; what the file does not tell is None."""
+    """Heights (ny, nx), rows along x, in the file's units; what the file does not tell is None.
+
+    A height that is not finite is a hole.
+    """
 
     path: str
     heights: np.ndarray
@@ -51,32 +67,26 @@ class Map:
         if min(z.shape) < FEWEST:
             rows, columns = z.shape
             raise self.error(f"has {rows} rows and {columns} columns; must be at least {FEWEST} of each")
-        holes = ~np.isfinite(z)
-        if holes.any():
-            row, column = np.argwhere(holes)[0]
-            raise self.error(
-                f"{holes.sum()} of {z.size} points are holes, the first in row {row + 1}, column "
-                f"{column + 1}; fill them first"
-            )
         return self
+
+    def told(self, **values):
+        """Itself with those values that are not None."""
+        return replace(self, **{name: value for name, value in values.items() if value is not None})
 
     def with_units(self, height_unit, position_unit, dx, dy):
         """Itself with units in m and spacing in m, where they are given."""
-        found = self
-        if dx is not None:
-            found = replace(found, dx=dx, dy=dy or dx, position_unit=1.0)
-        elif position_unit is not None:
-            found = replace(found, position_unit=position_unit)
-        return found if height_unit is None else replace(found, height_unit=height_unit)
+        place = {"dx": dx, "dy": dy or dx, "position_unit": 1.0} if dx else {"position_unit": position_unit}
+        return self.told(height_unit=height_unit, **place)
 
 
-def step_along(path, axis, values):
-    """The common step of coordinates in rising order."""
+def step_along(path, axis, values, rounding=0.0):
+    """The common step of coordinates in rising order, each of which may be off by `rounding`."""
     steps = np.diff(values)
     usual = float(np.median(steps)) if len(steps) else 0.0
     if not usual > 0.0:
         raise SurfaceFileError(path, f"its size along {axis} is zero, or its {axis} do not rise")
-    uneven = ~(np.abs(steps - usual) <= UNEVEN * usual)
+    # Both this step and the usual one may be off at both ends. A missing line is off by a step.
+    uneven = ~(np.abs(steps - usual) <= UNEVEN * usual + min(4.0 * rounding, 0.5 * usual))
     if uneven.any():
         i = int(uneven.argmax())
         raise SurfaceFileError(

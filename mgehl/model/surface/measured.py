@@ -9,6 +9,7 @@ from scipy.interpolate import RectBivariateSpline
 from scipy.ndimage import gaussian_filter, map_coordinates, spline_filter
 
 from mgehl.model.frame import direction
+from mgehl.model.surface import doubts
 from mgehl.model.surface.files import read_map
 from mgehl.model.surface.shortest import shortest_of
 from mgehl.model.surface.smoothing import deviation, lines_of
@@ -19,6 +20,9 @@ CONTINUATIONS = {"none": "nearest", "mirror": "mirror", "periodic": "grid-wrap"}
 
 REMOVED = {"nothing": (), "mean": (0,), "tilt": (0, 1), "curvature": (0, 1, 2)}
 """What may be taken off, and the degrees of the polynomials that it is."""
+
+REFUSE, INTERPOLATE = "refuse", "interpolate"
+"""What is done about holes."""
 
 
 @dataclass(frozen=True)
@@ -36,6 +40,7 @@ class Preparation:
     """Cut-offs in m of Gaussian filters [ISO 16610-61]: half of such a wave is left."""
     longest_wavelength: float | None = None
     continuation: str = "none"
+    holes: str = REFUSE
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,6 +50,25 @@ class Heights:
     values: np.ndarray
     dx: float
     dy: float
+    points: np.ndarray
+    """The same before any filter."""
+    filled: int = 0
+    """Holes that were filled."""
+
+    @cached_property
+    def farthest(self):
+        """As `doubts.farthest`."""
+        return doubts.farthest(self.points)
+
+    @cached_property
+    def outstanding(self):
+        """As `doubts.outstanding`."""
+        return doubts.outstanding(self.points, min(self.dx, self.dy))
+
+    @cached_property
+    def repeated(self):
+        """As `doubts.repeated`."""
+        return doubts.repeated(self.points)
 
     @property
     def size(self):
@@ -141,17 +165,36 @@ def _prepared(path, preparation, _changed):
         raise found.error('does not tell how far apart its points are: give spacing, such as "0.5 um"')
     if found.position_unit is None:
         raise found.error('does not tell the unit of its positions: give position_unit, such as "um"')
-    z = found.height_unit * found.heights
     dx, dy = found.position_unit * found.dx, found.position_unit * found.dy
     if not min(dx, dy) > 0.0:
         raise found.error("its size is zero")
-    z = _without_form(z, REMOVED[told.remove])
+    holes = _checked_holes(found, told.holes)
+    z = found.height_unit * (doubts.harmonic(found.heights, dx, dy) if holes else found.heights)
+    points = z = _without_form(z, REMOVED[told.remove])
     mode = "wrap" if told.continuation == "periodic" else "mirror"
     if told.longest_wavelength is not None:
         z = z - _low_pass(z, told.longest_wavelength, dx, dy, mode)
     if told.shortest_wavelength is not None:
         z = _low_pass(z, told.shortest_wavelength, dx, dy, mode)
-    return Heights(z, dx, dy)
+    return Heights(z, dx, dy, points, holes)
+
+
+def _checked_holes(found, holes):
+    """Number of a `Map`'s holes. Raises SurfaceFileError where they are too many, or not to be filled."""
+    hole = ~np.isfinite(found.heights)
+    count, size = int(hole.sum()), hole.size
+    if not count:
+        return 0
+    if count > doubts.MOST_HOLES * size:
+        most = f"{100.0 * doubts.MOST_HOLES:g} %"
+        raise found.error(f"{count} of {size} points are holes; at most {most} of all points can be filled")
+    if holes == REFUSE:
+        row, column = np.argwhere(hole)[0]
+        raise found.error(
+            f"{count} of {size} points are holes, the first in row {row + 1}, column {column + 1}; "
+            f'holes = "{INTERPOLATE}" fills them'
+        )
+    return count
 
 
 def _without_form(z, degrees):

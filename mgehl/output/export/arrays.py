@@ -7,17 +7,17 @@ from io import BytesIO
 import numpy as np
 
 from mgehl.discretization import status
-from mgehl.output.export.fluid import fluid_fields
+from mgehl.output.export.further import further_fields
 from mgehl.output.files import finite, plain_result
 from mgehl.output.laws import portable
 
 COLUMNS = ("x_m", "y_m", "pressure_Pa", "film_m", "status")
-FLUID = {"fluid_pressure": "fluid_pressure_Pa", "filling": "filling"}
-"""Columns of `fluid_fields`, after the others."""
+FURTHER = {"fluid_pressure": "fluid_pressure_Pa", "filling": "filling", "heights": "heights_m"}
+"""Columns of `further_fields`, after the others."""
 
 
 def write_npz(path, solution):
-    """Write x, y, pressure and film in SI units, P, H, status and its names, `fluid_fields`, and two texts.
+    """Write x, y, pressure and film in SI, P, H, status and its names, `further_fields`, and two texts.
 
     The texts `result` and `configuration` are strings of JSON; nothing in the file is pickled.
     """
@@ -32,7 +32,7 @@ def write_npz(path, solution):
         P=fields.P,
         H=fields.H,
         status=fields.status,
-        **fluid_fields(solution),
+        **further_fields(solution),
         status_names=np.array(status.names(solution.is_dry)),
         result=json.dumps(finite(plain_result(solution.result)), allow_nan=False),
         configuration=json.dumps(portable(solution.config)),
@@ -46,10 +46,10 @@ def write_csv(path, solution):
     numbers = [each.ravel().tolist() for each in (x, y, solution.pressure, solution.film)]
     known = status.names(solution.is_dry)
     names = [known[k] for k in solution.status.ravel().tolist()]
-    fluid = fluid_fields(solution)
+    fluid = further_fields(solution)
     with path.open("w", newline="") as file:
         writer = csv.writer(file)
-        writer.writerow((*COLUMNS, *(FLUID[name] for name in fluid)))
+        writer.writerow((*COLUMNS, *(FURTHER[name] for name in fluid)))
         writer.writerows(
             zip(*numbers, names, *(each.ravel().tolist() for each in fluid.values()), strict=True)
         )

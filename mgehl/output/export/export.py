@@ -7,13 +7,17 @@ import numpy as np
 from mgehl.discretization.status import NAMES
 from mgehl.errors import OutputError, UserError
 from mgehl.output.export.arrays import write_csv, write_npz
-from mgehl.output.export.fluid import fluid_fields
+from mgehl.output.export.further import further_fields
 from mgehl.output.export.netcdf import write_netcdf
 from mgehl.output.export.paraview import write_vts
-from mgehl.output.whole_file import whole_file
+from mgehl.output.export.pvd import write_pvd
+from mgehl.output.whole_file import whole_file, writing
 
 WRITERS = {"vts": write_vts, "nc": write_netcdf, "npz": write_npz, "csv": write_csv}
 """Format, which is also the file's ending: a function of path and `Solution`."""
+
+OF_FRAMES = {"pvd": write_pvd}
+"""The same of all instants of a run in time: a function of the file's own path."""
 
 DEFAULT_NAME = "fields"
 
@@ -22,8 +26,8 @@ def read_formats(text):
     """The formats of a list such as "vts,nc", each once. Raises UserError."""
     formats = [each.strip() for each in text.split(",")]
     for each in formats:
-        if each not in WRITERS:
-            raise UserError(f"--to {text}: {each!r} is none of {', '.join(WRITERS)}")
+        if each not in WRITERS | OF_FRAMES:
+            raise UserError(f"--to {text}: {each!r} is none of {', '.join(WRITERS | OF_FRAMES)}")
     return list(dict.fromkeys(formats))
 
 
@@ -37,7 +41,7 @@ def targets(formats, directory, out=None):
     if not out or base.is_dir():
         base = base / DEFAULT_NAME
     ending = base.suffix.removeprefix(".")
-    if ending not in WRITERS:
+    if ending not in WRITERS | OF_FRAMES:
         return {each: base.with_name(f"{base.name}.{each}") for each in formats}
     if formats != [ending]:
         raise UserError(f"--out {out}: its ending does not go with --to {','.join(formats)}; leave it out")
@@ -54,7 +58,11 @@ def export(solution, paths, force=False):
             raise OutputError(f"{path} exists: add --force to replace it, or choose another with --out")
     _check_fields(solution)
     for each, path in paths.items():
-        _write_whole(WRITERS[each], path, solution)
+        if each in OF_FRAMES:
+            with writing(path):
+                OF_FRAMES[each](path, solution)
+        else:
+            _write_whole(WRITERS[each], path, solution)
 
 
 def _check_fields(solution):
@@ -62,7 +70,7 @@ def _check_fields(solution):
     for name, field in {
         "pressure": solution.pressure,
         "film": solution.film,
-        **fluid_fields(solution),
+        **further_fields(solution),
     }.items():
         bad = np.count_nonzero(~np.isfinite(field))
         if bad:
@@ -73,9 +81,7 @@ def _check_fields(solution):
 
 def _write_whole(write, path, solution):
     """Write a file; what was there before stays until the new one is whole."""
-    try:
+    with writing(path):
         path.parent.mkdir(parents=True, exist_ok=True)
         with whole_file(path) as part:
             write(part, solution)
-    except OSError as error:
-        raise OutputError(f"{path}: cannot be written: {error.strerror or error}") from None

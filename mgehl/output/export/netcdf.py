@@ -7,7 +7,7 @@ import numpy as np
 import tomli_w
 
 from mgehl.discretization import status
-from mgehl.output.export.fluid import fluid_fields
+from mgehl.output.export.further import further_fields
 from mgehl.output.laws import portable
 from mgehl.output.memory_file import netcdf_file
 from mgehl.version import VERSION
@@ -16,14 +16,18 @@ CONVENTIONS = "CF-1.8"
 
 PLANE = ("y", "x")
 
-FLUID = {
+FURTHER = {
     "fluid_pressure": {
         "units": "Pa",
         "long_name": "pressure of the fluid, under contact of that in the layers",
     },
     "filling": {"units": "1", "long_name": "part of the gap above the layers that holds fluid"},
+    "shear": {"units": "Pa", "long_name": "shear stress of film and solids by sliding"},
+    "flash_1": {"units": "K", "long_name": "rise of the surface of body 1 by friction"},
+    "flash_2": {"units": "K", "long_name": "rise of the surface of body 2 by friction"},
+    "heights": {"units": "m", "long_name": "heights of the bodies over smooth ones, a peak positive"},
 }
-"""What `fluid_fields` are called."""
+"""What `further_fields` are called."""
 
 
 def write_netcdf(path, solution):
@@ -65,8 +69,8 @@ def _put_fields(put, solution):
     put = partial(put, dimensions=PLANE, coordinates="x_scaled y_scaled")
     put("pressure", values=solution.pressure, units="Pa", long_name="fluid or contact pressure")
     put("film", values=solution.film, units="m", long_name="film thickness or gap")
-    for name, values in fluid_fields(solution).items():
-        put(name, values=values, **FLUID[name])
+    for name, values in further_fields(solution).items():
+        put(name, values=values, **FURTHER[name])
     put("P", values=fields.P, units="1", long_name=f"pressure over {contact.pressure_scale:.9g} Pa")
     put("H", values=fields.H, units="1", long_name=f"film over {contact.film_scale:.9g} m")
     put(

@@ -5,7 +5,7 @@ import os
 import numpy as np
 from petsc4py import PETSc
 
-from mgehl.output.export.fluid import fluid_fields
+from mgehl.output.export.further import further_fields
 
 _COORDINATES = 3
 """Numbers per node that VTK takes for its position."""
@@ -19,7 +19,7 @@ _END = b"</VTKFile>\n"
 
 
 def write_vts(path, solution):
-    """Write pressure_Pa, film_m, P, H, status and `fluid_fields` on x and y in metres.
+    """Write pressure_Pa, film_m, P, H, status and `further_fields` on x and y in metres.
 
     Serial; `path` must end in .vts. Raises OSError where the file cannot be written, or is too large for
     this PETSc.
@@ -31,7 +31,7 @@ def write_vts(path, solution):
         "P": fields.P,
         "H": fields.H,
         "status": fields.status,
-    } | fluid_fields(solution)
+    } | further_fields(solution)
     _check_size(solution.mesh.nodes * (_COORDINATES + len(values)))
     path.touch()  # a place that cannot be written shows here
     plane = _plane(solution)

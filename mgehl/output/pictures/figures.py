@@ -18,7 +18,8 @@ from mgehl.output.pictures import maps, style, wedge_picture
 from mgehl.output.pictures.comparison import compare_histories, compare_lines
 from mgehl.output.pictures.history import history
 from mgehl.output.pictures.lines import centre_lines
-from mgehl.output.pictures.surface import surface_picture
+from mgehl.output.pictures.over_time import over_time
+from mgehl.output.pictures.surface import heights_of, surface_picture
 from mgehl.output.pictures.titles import labels
 from mgehl.output.solution import Solution
 
@@ -43,7 +44,9 @@ _DRY = {
     "lines": ("pressure and gap on the centre lines, against the contact of smooth bodies", centre_lines),
     "gap": ("gap, with contact", maps.film_map),
 }
+_SLIDES = {"shear": ("shear stress by sliding, with contact outlined", maps.shear_map)}
 _ROUGH = {"surface": ("heights of the surface with contact, the gap, their distribution", surface_picture)}
+_IN_TIME = {"time": ("films, pressure and shares of the load over time", over_time)}
 _BEARING = {
     "lines": ("pressure on the centre line", wedge_picture.centre_line),
     "pressure": ("pressure, the solid in grey", wedge_picture.pressure_picture),
@@ -54,27 +57,35 @@ _BEARING_LINE = {name: _BEARING[name] for name in ("lines", "history")}
 
 
 def drawn_by(solution):
-    """Title and function of each picture of a run, by kind: a single line has no maps.
+    """Title and function of each picture of a run, by kind: a single line has no maps."""
+    missing = left_out(solution)
+    return {kind: each for kind, each in _possible(solution).items() if kind not in missing}
 
-    A surface is left out where its file is not there any more: what is done can be looked at without.
+
+def left_out(solution):
+    """{kind: why} of pictures that cannot be drawn.
+
+    Of an older result, without heights, that is the surface where its file is not there any more.
     """
-    found = _possible(solution)
-    if "surface" in found:
-        try:
-            solution.contact.surface.height(0.0, 0.0)
-        except UserError:
-            del found["surface"]
-    return found
+    try:
+        if "surface" in _possible(solution):
+            heights_of(solution)
+    except UserError as error:
+        return {"surface": str(error)}
+    return {}
 
 
 def _possible(solution):
-    """As `drawn_by`, whether or not the surface's file is there."""
+    """As `drawn_by`, with those that are left out."""
     if not solution.contact.is_loaded:
         return dict(_BEARING_LINE if solution.mesh.is_line else _BEARING)
     drawn = _POINT | (_ROUGH if solution.contact.surface is not None else {})
     if solution.is_dry:
         drawn = _DRY | {kind: drawn[kind] for kind in drawn if kind not in ("lines", "film")}
-    flat = ("film", "gap", "pressure", "status") if solution.mesh.is_line else ()
+    if solution.config.is_in_time:
+        drawn = _IN_TIME | {kind: each for kind, each in drawn.items() if kind != "history"}
+    drawn |= _SLIDES if solution.fields.shear is not None else {}
+    flat = ("film", "gap", "pressure", "status", "shear") if solution.mesh.is_line else ()
     return {kind: drawn[kind] for kind in drawn if kind not in flat}
 
 

@@ -34,6 +34,11 @@ def pressure_map(solution):
     return _map(draw_pressure, f"pressure, {title(solution)}", solution)
 
 
+def shear_map(solution):
+    """Figure of the shear stress by sliding in MPa; of contact the outline."""
+    return _map(draw_shear, f"shear stress, {title(solution)}", solution)
+
+
 def status_map(solution):
     """Figure of what each node is, on the whole grid."""
     return _map(draw_status, f"status of the nodes, {title(solution)}", solution)
@@ -70,7 +75,17 @@ def draw_film(axes, solution, most=MOST):
 def draw_pressure(axes, solution):
     """As `draw_film`, of the pressure."""
     plane = Plane(solution)
-    colour_bar(axes, plane, draw_image(axes, plane, plane.pressure, "bilinear"), "pressure, GPa")
+    return _draw_smooth(axes, solution, plane, plane.pressure, "pressure, GPa")
+
+
+def draw_shear(axes, solution):
+    """As `draw_film`, of the shear stress."""
+    plane = Plane(solution)
+    return _draw_smooth(axes, solution, plane, plane.shear, "shear stress, MPa")
+
+
+def _draw_smooth(axes, solution, plane, values, label):
+    colour_bar(axes, plane, draw_image(axes, plane, values, "bilinear"), label)
     handles = draw_cavities(axes, plane)
     if (plane.status == CONTACT).any():
         _contour(axes, plane, plane.status == CONTACT, (0.5,), colors=style.CONTACT_COLOUR, linewidths=1.2)

@@ -26,8 +26,8 @@ class Plane:
     """A part of a run's plane in `blocks`, in mm; fields are (len(blocks.Y), len(blocks.X)).
 
     It is what carries load and Hertz's ellipse, with room, or the `whole` domain. `film` is in nm,
-    `pressure` in GPa, `filling` from 0 to 1; `distance` is that from the middle of what carries load, 1 on
-    its edge. `part` are the slices of the nodes (y, x).
+    `pressure` in GPa, `shear` in MPa or None, `filling` from 0 to 1; `distance` is that from the middle of
+    what carries load, 1 on its edge. `part` are the slices of the nodes (y, x).
     """
 
     def __init__(self, solution, most=MOST, whole=False):
@@ -46,6 +46,7 @@ class Plane:
         self.film = self.blocks.least(1e9 * contact.film_scale * fields.H[part])
         self.pressure = self.blocks.largest(1e-9 * contact.pressure_scale * fields.P[part])
         self.filling = self.blocks.least(filling_of(fields)[part])
+        self.shear = None if fields.shear is None else self.blocks.largest(1e-6 * fields.shear[part])
         self.distance = np.hypot((self.blocks.X - x) / wide, (self.blocks.Y[:, None] - y) / high)
 
 

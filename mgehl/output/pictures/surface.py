@@ -4,12 +4,14 @@ import numpy as np
 from matplotlib.patches import Patch
 
 from mgehl.discretization.status import CONTACT
+from mgehl.model.surface.shortest import shortest_of
+from mgehl.model.surface.surface import step_of
 from mgehl.output.mixed_words import mixed_note
 from mgehl.output.pictures import maps
 from mgehl.output.pictures.plane import Plane
 from mgehl.output.pictures.style import CONTACT_COLOUR, FILM, HERTZ, SMALL, legend_below, subplots
 from mgehl.output.pictures.titles import gap_words, position_labels, title
-from mgehl.output.surface import surface_verdict, surface_words, wave_nodes
+from mgehl.output.surface import surface_verdict, surface_words
 
 BARS = "0.7"
 BINS = 61
@@ -31,18 +33,36 @@ def surface_picture(solution):
         legend_below(axes[1], maps.draw_film(axes[1], solution, SMALL), columns=2)
         axes[1].set_title(gap_words(solution.contact)[0])
     _distribution(axes[-1], solution, heights)
-    nodes = wave_nodes(solution.contact, solution.mesh)
-    shown = surface_words(surface_verdict(solution.contact, nodes), nodes)
-    notes = shown, mixed_note(solution.result.mixed)
+    notes = surface_words(*_seen(solution, heights)), mixed_note(solution.result.mixed)
     figure.suptitle("\n".join(filter(None, (f"surface, {title(solution)}", *notes))))
     return figure
 
 
 def heights_of(solution):
-    """Heights of the nodes in m, a peak positive, (ny, nx)."""
+    """Heights of the nodes in m, a peak positive, (ny, nx).
+
+    Raises UserError where an older result needs a file that is not there.
+    """
+    if solution.heights is not None:
+        return solution.heights
     shape = solution.mesh.ny, solution.mesh.nx
     heights = solution.contact.surface.height(solution.x[None, :], solution.y[:, None])
     return np.broadcast_to(heights, shape)
+
+
+def _inside(solution, heights):
+    """Those of the nodes within the Hertz semi-axes."""
+    return heights[np.ix_(np.abs(solution.mesh.Y) <= 1.0, np.abs(solution.mesh.X) <= 1.0)]
+
+
+def _seen(solution, heights):
+    """Verdict on the grid and nodes in the shortest wave; of a dry contact by the heights at its nodes."""
+    contact, mesh, found = solution.contact, solution.mesh, solution.result.resolution
+    if found:
+        return found.surface, found.surface_nodes
+    wave = shortest_of(_inside(solution, heights), step_of(solution.x), step_of(solution.y))
+    nodes = wave / contact.longest_cell(mesh)
+    return surface_verdict(contact, nodes), nodes
 
 
 def _height_map(axes, solution, heights):
@@ -67,15 +87,17 @@ def _profile(axes, solution, nm):
 
 def _distribution(axes, solution, heights):
     """The nodes within the Hertz semi-axes, beside the normal distribution of the surface's rms."""
-    mesh, contact = solution.mesh, solution.contact
-    nm, rms = 1e9 * heights[np.ix_(np.abs(mesh.Y) <= 1.0, np.abs(mesh.X) <= 1.0)], 1e9 * contact.roughness
-    nm = (nm - nm.mean()).ravel()
+    nm = 1e9 * _inside(solution, heights).ravel()
+    nm -= nm.mean()
+    mixed = solution.result.mixed
+    rms = mixed.Sq_nm if mixed else solution.result.Sq_nm
+    skewness = np.mean(nm**3) / np.mean(nm**2) ** 1.5 if nm.any() else 0.0
     axes.hist(nm, BINS, density=True, color=BARS)
     handles = [Patch(color=BARS, label="within the Hertz contact")]
     if rms > 0.0:
         z = np.linspace(nm.min(), nm.max(), 200)
         normal = np.exp(-0.5 * (z / rms) ** 2) / (rms * np.sqrt(2.0 * np.pi))
         handles += axes.plot(z, normal, "--", color=HERTZ, label="normal, of the same rms")
-    said = f"Sq {rms:.4g} nm, Ssk {contact.skewness:.2g}"
+    said = f"Sq {rms:.4g} nm, Ssk {skewness:.2g}"
     axes.set(xlabel="height about the mean, nm", ylabel="per nm", title=said)
     legend_below(axes, handles)

@@ -7,8 +7,14 @@ from itertools import chain, groupby
 from pathlib import Path
 
 from mgehl.config import SECTIONS
+from mgehl.kinds.cited import cited
+from mgehl.kinds.loaded import assumptions
 from mgehl.kinds.own import naming_keys
+from mgehl.kinds.plausible import implausible
+from mgehl.model.films import FORMULAS
 from mgehl.model.own_function import file_and_function
+from mgehl.model.sources import SOURCES
+from mgehl.output.advice import beside_bands
 from mgehl.output.digits import with_band
 from mgehl.output.domain import STARVED_FROM
 from mgehl.output.files import plain_result
@@ -22,14 +28,6 @@ from mgehl.output.surface import ADVICE as SURFACE
 from mgehl.output.surface import RESOLVED_NODES
 from mgehl.output.words import advice, band_words, largest_pressure_words, span
 from mgehl.solver.verification import FEWEST_NODES, LARGEST_EDGE_PRESSURE
-
-FORMULAS = {
-    "hamrock_dowson": "Hamrock and Dowson",
-    "nijenbanning_venner_moes": "Nijenbanning, Venner and Moes",
-    "dowson_higginson": "of the Dowson-Higginson type",
-    "chittenden": "Chittenden and others",
-    "grubin": "Ertel and Grubin",
-}
 
 HISTORY_NAMES = {
     "grid": "nodes", "speed_mm_s": "speed, mm/s", "central_film_nm": "central film, nm",
@@ -61,6 +59,8 @@ def report(solution, name):
             contact=solution.contact, mesh=solution.mesh, line=solution.mesh.is_line,
             tolerance=config.solver.tolerance, films=films_of(result) if kind == "loaded" else None,
             pictures=list(pictures(solution)), keys=list(keys_of(config)),
+            inputs=list(inputs_of(config)), notes=list(notes_on(solution)),
+            odd=list(implausible(config, solution.contact)), sources=list(sources_of(solution)),
             heads=heads, last=last, shown=shown,
             every="Every cycle" if len(shown) == len(rows) else f"{len(shown)} of {len(rows)} cycles",
             versions=[(package, Cell(text, "code")) for package, text in result.versions.items()],
@@ -151,7 +151,8 @@ def films_of(result):
             formulas.get(f"{name}_minimum"),
         )
         cells = (_beside(*each, result.converged) for each in zip(own, (central, minimum), strict=True))
-        rows.append((FORMULAS.get(name, name.replace("_", " ")), *chain(*cells)))
+        known = FORMULAS.get(name)
+        rows.append((known.label if known else name.replace("_", " "), *chain(*cells)))
     return rows
 
 
@@ -170,6 +171,27 @@ def pictures(solution):
             title = each.title
             content, size = style.rendered(each.figure, "svg"), each.figure.get_size_inches()
             yield picture(f"{title[0].upper()}{title[1:]}.", "", content, "image/svg+xml", size, each.name)
+
+
+def inputs_of(config):
+    """Rows of every key that makes the contact, with what those follow from that nobody gave."""
+    how = {each.key: each.how for each in config.derived}
+    for key in config.physical:
+        yield Cell(key, "code"), config.said(key), how.get(key, "")
+
+
+def notes_on(solution):
+    """Sentences on the films of a lubricated contact: what formulas assume, and beside the bands."""
+    contact = solution.contact
+    if contact.is_loaded and not solution.is_dry:
+        yield "What the formulas assume: " + "; ".join(assumptions(contact))
+        yield from beside_bands(solution)
+
+
+def sources_of(solution):
+    """Rows of the publications that a run used."""
+    for source in (SOURCES[key] for key in cited(solution.config, solution.contact)):
+        yield source.authors, source.title, f"{source.where}, {source.year}", source.doi
 
 
 def keys_of(config):

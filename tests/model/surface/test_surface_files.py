@@ -176,7 +176,7 @@ ARRAYS = {
 @pytest.mark.parametrize("heights, words", ARRAYS.values(), ids=ARRAYS)
 def test_what_is_no_matrix_of_heights(tmp_path, heights, words):
     np.save(tmp_path / "z.npy", heights)
-    assert words in refusal(tmp_path / "z.npy")
+    assert words in refusal(tmp_path / "z.npy", height_unit=1.0, dx=1e-6)
 
 
 def text_of(points):
@@ -187,26 +187,30 @@ SQUARE = [(x, y, 1) for x in range(5) for y in range(5)]
 TEXTS = {
     "nothing": ("", "is empty: it must hold heights"),
     "comments alone": ("# heights\n", "is empty: it must hold heights"),
-    "words": ("1 2 3 4\n1 2 bad 4\n", "line 2, column 3: 'bad' is no number"),
-    "a matrix of text": ("a b c d\ne f g h\n", "line 2, column 1: 'e' is no number"),
-    "an empty cell": ("1,2,3,4\n1,,3,4\n", "line 2, column 2: is empty"),
+    "words": ("1 2 3 4\n1 2 oops 4\n", "line 2, column 3: 'oops' is no number"),
+    "a matrix of text": ("a b c d\ne f g h\n", "has no row of numbers: line 1 is 'a b c d'"),
+    "an empty cell": ("1,2,3,4\n1,,3,4\n" * 2, "2 of 16 points are holes, the first in row 2, column 2"),
+    "too many holes": ("1,2,,4\n1,,,4\n" * 2, "6 of 16 points are holes; at most 25 % of all points"),
+    "a profile along a line": ("0 1\n1 2\n" * 4, "is a profile along a line, two columns"),
     "a short line": ("1 2 3 4\n1 2 3\n", "line 2 has 3 numbers, line 1 has 4"),
     "nan": ("\n".join(4 * ["1 2 nan 4"]), "4 of 16 points are holes, the first in row 1, column 3"),
     "too few": ("1 2 3 4\n1 2 3 4\n", "has 2 rows and 4 columns; must be at least 4 of each"),
     "a matrix of three columns": ("1 2 3\n" * 8, "has three columns, x y z of points, but"),
     "a profile": ("\n".join(f"{x} 0 1" for x in range(9)), "9 points with 9 different x and 1 different y"),
     "scattered": ("\n".join(f"{x**1.5} {x**1.7} 1" for x in range(9)), "fill no rectangle"),
-    "a hole in x y z": (text_of([*SQUARE[:12], (2, 2, "nan"), *SQUARE[13:]]), "line 13: z is nan: a hole"),
+    "a hole in x y z": (text_of([*SQUARE[:12], (2, 2, "nan"), *SQUARE[13:]]), "1 of 25 points are holes"),
     "x y z twice": (text_of([*SQUARE, (2, 2, 1)]), "x = 2, y = 2 is there more than once"),
-    "x y z not full": (text_of([*SQUARE[:13], *SQUARE[14:]]), "x = 2, y = 3 is missing"),
+    "x y z not full": (text_of([*SQUARE[:13], *SQUARE[14:]]), "1 of 25 points are holes"),
     "unequal": (text_of((x + (x > 2), y, z) for x, y, z in SQUARE), "is not equal: 2 from x = 2 to 4"),
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("text, words", TEXTS.values(), ids=TEXTS)
-def test_what_is_no_text_of_heights(tmp_path, text, words):
+@pytest.mark.parametrize("name", TEXTS)
+def test_what_is_no_text_of_heights(tmp_path, name):
+    text, words = TEXTS[name]
     write(tmp_path / "z.txt", text)
-    assert words in refusal(tmp_path / "z.txt", height_unit=1e-6, position_unit=1e-6)
+    spacing = {} if "x y z" in name or name == "unequal" else {"dx": 1e-6}
+    assert words in refusal(tmp_path / "z.txt", height_unit=1e-6, position_unit=1e-6, **spacing)
 
 
 UNTOLD = {
@@ -242,9 +246,9 @@ def test_what_is_no_archive_of_heights(tmp_path, more, words):
 
 
 @pytest.mark.parametrize("name", ["z.npy", "z.npz"])
-def test_what_numpy_cannot_read(tmp_path, name):
+def test_text_is_no_array_whatever_its_name(tmp_path, name):
     write(tmp_path / name, "no numbers at all")
-    assert "is no file of numpy's numbers" in refusal(tmp_path / name)
+    assert "has no row of numbers: line 1 is 'no numbers at all'" in refusal(tmp_path / name)
 
 
 def test_an_archive_without_a_matrix(tmp_path):
@@ -257,8 +261,8 @@ def test_a_file_that_is_not_there(tmp_path):
 
 
 def test_binary_is_no_text(tmp_path):
-    (tmp_path / "z.dat").write_bytes(b"\xff\xfe\x00\x81" * 9)
-    assert "is neither text nor a format that is read here" in refusal(tmp_path / "z.dat")
+    (tmp_path / "z.dat").write_bytes(b"\x00\x81\xff\xfe" * 9)
+    assert "z.dat: is no text" in refusal(tmp_path / "z.dat")
 
 
 X3P = f"""<?xml version="1.0" encoding="UTF-8"?>
@@ -274,7 +278,7 @@ X3P = f"""<?xml version="1.0" encoding="UTF-8"?>
 class TestInstruments:
     def test_without_the_library_it_says_what_to_install(self, tmp_path, monkeypatch):
         monkeypatch.setitem(sys.modules, "SurfaceTopography", None)
-        write(tmp_path / "z.x3p", "something")
+        (tmp_path / "z.x3p").write_bytes(bytes(9))
         assert "pip install mgehl[surfaces]" in refusal(tmp_path / "z.x3p")
 
     @pytest.fixture
@@ -310,7 +314,23 @@ class TestInstruments:
 
     def test_what_it_cannot_read_is_one_line(self, library, tmp_path):
         write(tmp_path / "z.x3p", "no archive")
-        assert "SurfaceTopography cannot read it" in refusal(tmp_path / "z.x3p")
+        assert "'no archive', and no format that SurfaceTopography reads" in refusal(tmp_path / "z.x3p")
+
+    def test_a_file_is_what_its_content_says(self, library, tmp_path):
+        library.Topography(HEIGHTS.T, (1.0, 1.0), unit="m").to_netcdf(str(tmp_path / "z.dat"))
+        np.testing.assert_allclose(Measured(str(tmp_path / "z.dat")).heights.values, HEIGHTS)
+
+    def test_what_a_reader_prints_is_not_on_standard_output(self, library, tmp_path, monkeypatch, capsys):
+        library.Topography(HEIGHTS.T, (1.0, 1.0), unit="m").to_netcdf(str(tmp_path / "z.nc"))
+        reader, opened = library.IO.NCReader, library.IO.NCReader.topography
+
+        def loud(self, **told):
+            print("loud")
+            return opened(self, **told)
+
+        monkeypatch.setattr(reader, "topography", loud)
+        _ = Measured(str(tmp_path / "z.nc")).heights
+        assert capsys.readouterr() == ("", "loud\n")
 
 
 def test_a_map_knows_its_file(tmp_path):

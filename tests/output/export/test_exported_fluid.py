@@ -1,4 +1,4 @@
-"""The fluid's own pressure and the filling of cavities in every format; none of older results."""
+"""The fluid's own pressure, the filling of cavities and heights in every format; none of older results."""
 
 import numpy as np
 import pytest
@@ -14,7 +14,8 @@ def solution():
     """With fields that no two nodes share."""
     solution = make_solution("point")
     random = np.random.default_rng(3)
-    solution.fields.p, solution.fields.filling = random.random((2, *solution.fields.P.shape))
+    fields = solution.fields
+    fields.p, fields.filling, fields.heights = random.random((3, *fields.P.shape))
     return solution
 
 
@@ -30,19 +31,21 @@ def read(path):
     return {name: table[name] for name in table.dtype.names}
 
 
-@pytest.mark.parametrize("form, unit", [("nc", ""), ("npz", ""), ("csv", "_Pa")])
-def test_they_read_back_to_the_bit(solution, tmp_path, form, unit):
+@pytest.mark.parametrize("form, units", [("nc", ("", "")), ("npz", ("", "")), ("csv", ("_Pa", "_m"))])
+def test_they_read_back_to_the_bit(solution, tmp_path, form, units):
     export(solution, {form: tmp_path / f"a.{form}"})
     found = read(tmp_path / f"a.{form}")
     pressure = solution.fields.p * solution.contact.pressure_scale
-    np.testing.assert_array_equal(found[f"fluid_pressure{unit}"].ravel(), pressure.ravel())
+    np.testing.assert_array_equal(found[f"fluid_pressure{units[0]}"].ravel(), pressure.ravel())
     np.testing.assert_array_equal(found["filling"].ravel(), solution.fields.filling.ravel())
+    np.testing.assert_array_equal(found[f"heights{units[1]}"].ravel(), solution.heights.ravel())
 
 
 def test_paraview_has_them(solution, tmp_path):
     export(solution, {"vts": tmp_path / "a.vts"})
     content = (tmp_path / "a.vts").read_bytes()
     assert b'Name="fluid_pressure' in content and b'Name="filling' in content
+    assert b'Name="heights' in content
 
 
 def test_a_filling_that_is_not_finite_is_not_exported(solution, tmp_path):

@@ -6,8 +6,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from mgehl.cli import main
 from mgehl.errors import UserError
-from mgehl.output.pictures.figures import figures
+from mgehl.output.pictures.figures import figures, left_out
 from mgehl.output.pictures.surface import heights_of
 
 KINDS = ["lines", "film", "pressure", "status", "history"]
@@ -18,6 +19,7 @@ def shown(solution):
     """With a verdict on its surface."""
     result = SimpleNamespace(**vars(solution.result))
     result.resolution = SimpleNamespace(surface="coarse", surface_nodes=6.3)
+    result.Sq_nm = 56.78
     return replace(solution, result=result)
 
 
@@ -35,7 +37,7 @@ def test_a_rough_contact_has_one_picture_more(make_solution, check_texts, contac
     assert [picture.name for picture in pictures] == [*KINDS, "surface"]
     heights, film, distribution = pictures[-1].figure.axes
     assert [axes.get_title() for axes in (heights, film)] == ["heights", "film"]
-    assert distribution.get_title().startswith(f"Sq {1e9 * solution.contact.roughness:.4g} nm, Ssk ")
+    assert distribution.get_title().startswith("Sq 56.78 nm, Ssk ")
     assert sum(patch.get_height() * patch.get_width() for patch in distribution.patches) == pytest.approx(
         1.0
     )
@@ -43,15 +45,43 @@ def test_a_rough_contact_has_one_picture_more(make_solution, check_texts, contac
         said = [text.get_text() for text in axes.get_legend().get_texts()]
         assert ("contact" in said) == (contact > 0.0) and any(text.startswith("Hertz: ") for text in said)
     check_texts(pictures[-1].figure, "film thickness, nm", "height, nm (a peak is positive)")
-    assert (
-        "3.3 nodes in its shortest wave: THE SURFACE IS THE GRID"
-        in pictures[-1].figure._suptitle.get_text()
-    )
+    assert "6.3 nodes in its shortest wave: coarse" in pictures[-1].figure._suptitle.get_text()
 
 
-def test_a_surface_whose_file_is_gone_is_left_out(make_solution, tmp_path):
+def test_of_a_line_it_is_a_line(make_line, check_texts):
+    (picture,) = figures(shown(make_line(settings=RIDGE)), ["surface"])
+    (line,) = picture.figure.axes[0].lines
+    assert line.get_ydata().max() == pytest.approx(1000.0, rel=0.05)
+    check_texts(picture.figure, "X = x/a, a = 0.2712 mm")
+
+
+@pytest.fixture
+def without_file(make_solution, tmp_path):
+    """A solution whose surface's file is gone."""
     keys = [f"surface.file={tmp_path}/gone.npy", "surface.height_unit=nm", "surface.spacing=1e-6"]
-    solution = shown(make_solution(settings=keys))
-    assert [picture.name for picture in figures(solution)] == KINDS
+    return shown(make_solution(settings=keys))
+
+
+def test_an_older_result_whose_file_is_gone_has_no_picture_of_it(without_file):
+    assert [picture.name for picture in figures(without_file)] == KINDS
+    assert left_out(without_file)["surface"].endswith("gone.npy: cannot be read: No such file or directory")
     with pytest.raises(UserError, match="gone.npy: cannot be read"):
-        figures(solution, ["surface"])
+        figures(without_file, ["surface"])
+
+
+def test_plot_says_what_it_leaves_out(without_file, tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr("mgehl.output.stored.read_run", lambda run: without_file)
+    monkeypatch.chdir(tmp_path)
+    assert main(["plot", "run", "--kind", "surface,history", "--format", "svg"]) == 0
+    said = capsys.readouterr()
+    assert said.out == "run/plots/history.svg\n"
+    assert said.err.startswith("mgehl: run: no picture of the surface: ") and "gone.npy" in said.err
+    assert main(["plot", "run", "--kind", "surface"]) == 2
+
+
+def test_heights_of_the_result_need_no_file(without_file):
+    without_file.fields.heights = np.cos(np.arange(33.0) * np.arange(33.0)[:, None])
+    assert [picture.name for picture in figures(without_file)] == [*KINDS, "surface"]
+    without_file.result.resolution = None  # as of a dry contact
+    (picture,) = figures(without_file, ["surface"])
+    assert "nodes in its shortest wave" in picture.figure._suptitle.get_text()

@@ -65,7 +65,7 @@ class Reader(HTMLParser):
     @property
     def highlights(self):
         """Names and numbers on top of the page."""
-        found = self.text.split("\nFilms\nCan it")[0].split("\nLoad and pressure\nCan")[0].splitlines()[5:]
+        found = self.text.split("\nWhat was solved\n")[0].splitlines()[5:]
         return dict(zip(found[::2], found[1::2], strict=True))
 
     def rows(self, caption):

@@ -1,0 +1,30 @@
+"""Which publications a contact rests on, by what was chosen."""
+
+from mgehl.model import films
+from mgehl.model.materials import MATERIALS
+from mgehl.model.oils import OILS
+
+LAWS = {"barus": "barus1893", "roelands": "roelands1966", "dowson-higginson": "dowson1966"}
+"""{a built-in law of the oil: its source}."""
+
+
+def cited(config, contact):
+    """Keys of `mgehl.model.sources.SOURCES` in order: equations, bodies, oil, films of formulas."""
+    found = ["liu2021"]
+    if contact.is_loaded:
+        found.append("johnson1985")
+        found += [
+            MATERIALS[body.material].source for body in (config.body_1, config.body_2) if body.material
+        ]
+    section = config.lubricant
+    if not config.is_dry:
+        if section.oil is not None:
+            found.append(OILS[section.oil].source)
+        if section.kinematic_viscosity_40 is not None:
+            found.append("astmd341")
+        laws = "viscosity_law", "density_law"
+        laws = [name for name in laws if f"lubricant.{name}" not in config.unused]
+        found += [LAWS[law] for law in (getattr(section, name) for name in laws) if law in LAWS]
+    if contact.is_loaded and not config.is_dry:
+        found += [films.formula_of(name).source for name in contact.shown_formulas]
+    return list(dict.fromkeys(found))

@@ -1,0 +1,53 @@
+"""[heat] and the lubricant's heating: bodies that conduct, oil that is thinned by the heat of its shear."""
+
+from dataclasses import replace
+
+from mgehl.config_value import shown
+from mgehl.errors import ConfigError
+from mgehl.kinds.oil import thinning_of
+from mgehl.model.flash import Solid
+
+LEAST = 0.2
+"""Part of the film below which the factor means nothing: its formula falls through 0."""
+
+NEEDED = "lubricant.conductivity", "lubricant.thermoviscosity"
+
+
+def check_heat(config):
+    """Raise ConfigError where keys are missing that others need."""
+    if config.lubricant.heating == "factor":
+        known = thinning_of(config) is not None
+        for key in NEEDED:
+            if config.value(key) is None and not (known and key == NEEDED[1]):
+                raise ConfigError(f'{key}: must be given where lubricant.heating = "factor"')
+    values = vars(config.heat)
+    if missing := [name for name, value in values.items() if value is None]:
+        if given := [name for name, value in values.items() if value is not None]:
+            raise ConfigError(f"heat.{missing[0]}: must be given beside heat.{given[0]}")
+
+
+def check_factor(config, contact):
+    """Raise ConfigError where the factor means nothing."""
+    if contact.is_at_rest or config.lubricant.heating != "factor":
+        return
+    if contact.thermal_reduction < LEAST:
+        raise ConfigError(
+            f"motion.speed = {shown(config.motion.speed)}: by the formula of lubricant.heating shear would "
+            f"leave {contact.thermal_reduction:.2g} of the film; it must be at least {LEAST:g}"
+        )
+
+
+def solids_from(config):
+    """`Solid` of both bodies; None where nothing is said of them."""
+    heat = config.heat
+    if heat.conductivity_1 is None:
+        return None
+    return Solid(heat.conductivity_1, heat.capacity_1), Solid(heat.conductivity_2, heat.capacity_2)
+
+
+def heated(config, contact):
+    """The contact with so much less viscous oil that its film is thinner by Phi_T, where it is asked."""
+    if config.lubricant.heating != "factor" or contact.is_at_rest:
+        return contact
+    part = max(contact.thermal_reduction, LEAST) ** (1.0 / contact.film_exponent)
+    return replace(contact, lubricant=replace(contact.lubricant, thinned=part))

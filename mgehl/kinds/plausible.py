@@ -1,0 +1,104 @@
+"""Input that is allowed, and yet unusual: most often a wrong unit. Each is named; none is refused."""
+
+from dataclasses import asdict
+
+from mgehl.model.films import formula_of
+from mgehl.model.lubricant import Roelands
+from mgehl.model.oils import CELSIUS, OILS
+
+USUAL = {
+    "contact.radius_x": (1e-5, 5.0, "m"),
+    "contact.radius_y": (1e-5, 50.0, "m"),
+    "contact.reduced_modulus": (5e3, 1.3e12, "Pa"),
+    "lubricant.viscosity": (2e-4, 5.0, "Pa s"),
+    "lubricant.pressure_viscosity": (3e-10, 6e-8, "1/Pa"),
+    "motion.speed": (0.0, 200.0, "m/s"),
+    "body_1.roughness": (0.0, 2e-5, "m"),
+    "body_2.roughness": (0.0, 2e-5, "m"),
+}
+"""{key: smallest and largest value of machines, from gels to diamond and from petrol to gear oil, unit}."""
+
+HARD = 1e10
+"""E' in Pa from which on bodies are hard: gels, rubber and plastics are pressed lightly, and by right."""
+
+LIGHTEST, HEAVIEST = 0.1e9, 5e9
+"""p_h in Pa of hard bodies: below it the film hardly needs elasticity, above it all steels yield."""
+
+STEEPEST = 0.1
+"""p_h over E' from which on the strain of soft bodies is no longer small: a/R of 0.3."""
+
+THICKEST = {True: 3e-6, False: 50e-6}
+"""Film in m, of piezoviscous contacts and of others."""
+
+APART = 1000.0
+"""Ratio of two formulas of which one cannot be meant."""
+
+
+def implausible(config, contact):
+    """Lines that name what is unusual in the input."""
+    physics = config.inputs
+    for key, (low, high, unit) in USUAL.items():
+        value = physics[key] if key in physics else config.value(key)
+        known = isinstance(value, float) and key not in config.unused  # not a course in time
+        if known and not low <= value <= high:
+            yield f"{key} = {value:.4g} {unit}: machines have {low:g} to {high:g}"
+    if not contact.is_loaded:
+        return
+    yield from _pressure(contact)
+    if config.is_dry:
+        return
+    law = contact.lubricant.viscosity_law
+    if isinstance(law, Roelands) and law.z > 1.0:
+        yield (
+            f"lubricant.viscosity_law = 'roelands': its z is {law.z:.3g}, measured oils have 0.4 to 0.8: "
+            "look at viscosity and pressure_viscosity"
+        )
+    yield from _films(contact)
+    if config.lubricant.oil is not None:
+        yield from _range(config.lubricant, contact.hertz.p_h)
+
+
+def _pressure(contact):
+    p_h, modulus = contact.hertz.p_h, contact.reduced_modulus
+    if p_h > HEAVIEST:
+        yield f"p_h = {1e-9 * p_h:.3g} GPa: above {1e-9 * HEAVIEST:g} GPa all steels yield"
+    elif p_h > STEEPEST * modulus:
+        yield f"p_h = {p_h:.3g} Pa is {p_h / modulus:.2g} E': strains are not small, as is assumed"
+    elif modulus > HARD and p_h < LIGHTEST:
+        yield (
+            f"p_h = {1e-9 * p_h:.3g} GPa: hard bodies mostly have {1e-9 * LIGHTEST:g} to "
+            f"{1e-9 * HEAVIEST:g}: look at load and radii"
+        )
+
+
+def _films(contact):
+    known = asdict(contact.formulas)
+    film = next(film for name, film in known.items() if formula_of(name).bodies == "any")
+    if film > THICKEST["piezoviscous" in contact.regime]:
+        yield f"film of {1e6 * film:.3g} um by a formula: look at viscosity, speed and radii"
+    centers = {
+        name: film
+        for name, film in known.items()
+        if not name.endswith("_minimum") and formula_of(name).bodies != "soft"
+    }
+    low, high = (pick(centers, key=centers.__getitem__) for pick in (min, max))
+    if contact.regime != "elastic isoviscous" and centers[high] > APART * centers[low]:
+        yield (
+            f"films of formulas are {centers[high] / centers[low]:.2g} fold apart ({low.replace('_', ' ')} "
+            f"{1e9 * centers[low]:.3g} nm, {high.replace('_', ' ')} {1e9 * centers[high]:.3g} nm): the "
+            "load hardly presses the bodies: look at load, radii and viscosity"
+        )
+
+
+def _range(section, p_h):
+    oil = OILS[section.oil]
+    if not oil.coldest <= section.temperature <= oil.warmest:
+        yield (
+            f"lubricant.temperature = {section.temperature - CELSIUS:.4g} C: {section.oil} was measured "
+            f"from {oil.coldest - CELSIUS:g} to {oil.warmest - CELSIUS:g} C: its law is extended beyond"
+        )
+    if p_h > oil.highest:
+        yield (
+            f"p_h = {1e-9 * p_h:.3g} GPa: {section.oil} was measured up to {1e-9 * oil.highest:g} GPa: "
+            "its law is extended beyond"
+        )

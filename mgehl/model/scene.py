@@ -1,0 +1,96 @@
+"""A loaded contact over time: where the surfaces of its bodies are, how fast they move, what the load is.
+
+Times are in s. The mean velocity of both surfaces is `speed` along the contact's own direction; body 1
+moves at speed (1 + S/2), body 2 at speed (1 - S/2), S the slide-to-roll ratio.
+"""
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+from mgehl.model.course import Course
+from mgehl.model.surface.surface import Surface, summed
+
+
+@dataclass(frozen=True)
+class Moved(Surface):
+    """A surface that has gone a way (x, y) in m from where it was."""
+
+    surface: Surface
+    way: tuple
+
+    @property
+    def function(self):
+        """That of the surface itself."""
+        return self.surface.function
+
+    def height(self, x, y):
+        """Height at x and y."""
+        return self.surface.height(x - self.way[0], y - self.way[1])
+
+    def shortest(self, x, y):
+        """As where it was."""
+        return self.surface.shortest(x - self.way[0], y - self.way[1])
+
+    def varies_along(self, direction):
+        """As where it was."""
+        return self.surface.varies_along(direction)
+
+
+def cells_a_step(shares):
+    """What counts as cells while the mean surface goes one: those of the fastest, or twice those by which
+    film and roughness pass each other (half a cell of 32 in a wave is .3 % of its amplitude, one 1.3 %)."""
+    return max([1.0, *(max(abs(share), 2.0 * abs(share - 1.0)) for share in shares)])
+
+
+@dataclass(frozen=True)
+class Scene:
+    """What changes with time; `contact` is the one at a time of 0, in the user's axes."""
+
+    contact: object
+    speed: Course
+    load: Course
+    surfaces: tuple
+    """(`Surface`, its body's speed over the mean one)."""
+    end: float
+
+    @cached_property
+    def framed(self):
+        """The contact at a time of 0 in the axes in which it is solved."""
+        return self.contact.in_frame(self.contact.frame)
+
+    @property
+    def unit(self):
+        """Seconds in a unit of T: a over the largest speed there is, which the contact has."""
+        return self.framed.x_scale / self.contact.speed
+
+    @property
+    def moves(self):
+        """Whether heights change with time."""
+        along = self.contact.motion
+        return any(share and surface.varies_along(along) for surface, share in self.surfaces)
+
+    def at(self, path):
+        """The contact, in the axes in which it is solved, when the mean surface has gone a `path` in m."""
+        if not self.moves or path == 0.0:
+            return self.framed
+        parts = summed(self._moved(surface, share * path) for surface, share in self.surfaces)
+        return replace(self.contact, surface=parts).in_frame(self.contact.frame)
+
+    def _moved(self, surface, path):
+        x, y = self.contact.motion
+        return Moved(surface, (x * path, y * path)) if path else surface
+
+    def cells(self, path, mesh):
+        """Cells of a mesh that contents go along X and Y by a `path` in m."""
+        contact = self.framed
+        along_x = path * contact.motion[0] / (contact.x_scale * mesh.dX)
+        return along_x, 0.0 if mesh.is_line else path * contact.motion[1] / (contact.y_scale * mesh.dY)
+
+    def fastest(self, path, mesh):
+        """Cells along X that count for the length of a step by a `path`."""
+        shares = [share for _, share in self.surfaces] if self.moves else []
+        return abs(self.cells(path, mesh)[0]) * cells_a_step(shares)
+
+    def load_share(self, t):
+        """The load over that of the contact."""
+        return self.load.value(t) / self.contact.load

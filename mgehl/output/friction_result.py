@@ -1,0 +1,161 @@
+"""What resists the motion, as one record: `friction` of result.json."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mgehl.discretization.status import is_fluid
+from mgehl.solver.heat import has_temperatures, rise_of
+from mgehl.solver.shear import shear_of
+
+
+@dataclass(frozen=True)
+class Temperatures:
+    """Rises above the temperature of the bodies in K."""
+
+    largest_1: float
+    """Of the surface of body 1."""
+    largest_2: float
+    film: float | None
+    """Of the film, a mean over its thickness and by pressure; None where the oil's conductivity is not
+    known."""
+    largest_film: float | None
+
+
+@dataclass(frozen=True)
+class FrictionResult:
+    """Forces on the bodies along the motion and their parts; of a line contact those of a metre."""
+
+    model: str
+    """The law of the sheared oil."""
+    slide_to_roll: float
+    sliding_speed: float
+    """u_1 - u_2 in m/s."""
+    coefficient: float
+    """Shear of film and solids over the load; 0 where the surfaces do not slide."""
+    film_coefficient: float
+    solid_coefficient: float
+    rolling_coefficient: float
+    """What drags each body against the motion, over the load, whether or not they slide: by the film in the
+    domain."""
+    rolling_beyond: float
+    """What drags beyond the domain, up to a radius of curvature away, where all of it is full of oil, by
+    the film of rigid bodies. No force has it."""
+    force_1_N: float
+    """On body 1, of speed u (1 + S/2): positive along the motion."""
+    force_2_N: float
+    """On body 2, of speed u (1 - S/2)."""
+    rolling_N: float
+    """The part of both that is rolling's, against the motion."""
+    power_loss_W: float
+    largest_shear_MPa: float
+    temperatures: Temperatures | None = None
+    """None where [heat] says nothing of the bodies, and of a band of heat on a body at rest."""
+    per_metre: bool = False
+    """Whether forces and power are those of a metre: of a line contact."""
+    coefficient_band: float | None = None
+    """Half-width by the band of the load on solids; None without one."""
+    is_the_grids: bool = False
+    """Whether the load on solids is the grid's, and so is the coefficient."""
+
+
+TINY = 1e-300
+"""No pressure at all: the film has no mean by it."""
+
+
+def friction_result(problem, state):
+    """The `FrictionResult` of a state, and maps (lines, nx) by their names in `Fields`: shear stress,
+    flash temperatures, as far as there are any (collective)."""
+    contact, friction = problem.contact, problem.contact.friction
+    shear, slides = shear_of(problem, state), friction.slide_to_roll
+    speed, total = contact.speed, shear.film_force + shear.solid_force
+    stress, dragged = shear.film + shear.solids, total if slides > 0.0 else -total
+    sliding = friction.sliding_speed(speed)
+    rise = rise_of(problem, state, stress) if has_temperatures(contact) else None
+    result = FrictionResult(
+        model=friction.rheology.name,
+        slide_to_roll=slides,
+        sliding_speed=slides * speed,
+        coefficient=total / contact.load,
+        film_coefficient=shear.film_force / contact.load,
+        solid_coefficient=shear.solid_force / contact.load,
+        rolling_coefficient=shear.rolling_force / contact.load,
+        rolling_beyond=contact.drag_beyond(problem.grid.mesh) / contact.load,
+        force_1_N=-dragged - shear.rolling_force,
+        force_2_N=dragged - shear.rolling_force,
+        rolling_N=-shear.rolling_force,
+        power_loss_W=total * sliding + 2.0 * speed * shear.rolling_force,
+        largest_shear_MPa=1e-6 * problem.grid.max(stress),
+        temperatures=rise and _temperatures(problem, state, rise),
+        per_metre=contact.is_plane,
+    )
+    maps = {"shear": stress} if slides else {}
+    return result, maps | ({"flash_1": rise.first, "flash_2": rise.second} if rise else {})
+
+
+def _temperatures(problem, state, rise):
+    grid = problem.grid
+    largest = [grid.max(each) for each in (rise.first, rise.second)]
+    if rise.film is None:
+        return Temperatures(*largest, None, None)
+    film = np.where(is_fluid(state.status), rise.film, 0.0)
+    carried = np.where(is_fluid(state.status), state.p, 0.0)
+    by_pressure = grid.sum((carried * film).sum()) / max(grid.sum(carried.sum()), TINY)
+    return Temperatures(*largest, by_pressure, grid.max(film))
+
+
+def with_band(friction, mixed, boundary_coefficient):
+    """A `FrictionResult` with the band that the load on solids of a `MixedResult` gives it."""
+    error = mixed and mixed.error
+    if not (friction and friction.slide_to_roll and error):
+        return friction
+    share = error.solid_load_fraction
+    band = None if share is None else boundary_coefficient * share
+    return replace(friction, coefficient_band=band, is_the_grids=error.is_the_grids("solid_load_fraction"))
+
+
+def friction_lines(friction, verbose):
+    """What resists, in words: of sliding surfaces, and `verbose` of rolling ones, too."""
+    if not friction or not (verbose or friction.slide_to_roll or friction.model != "newtonian"):
+        return
+    unit = "/m" if friction.per_metre else ""
+    beyond = friction.rolling_beyond
+    more = f" (and {beyond:.2g} beyond the domain, were it flooded)" if beyond else ""
+    rolling = f"rolling takes {friction.rolling_coefficient:.3g} of the load on each body{more}"
+    if not friction.slide_to_roll:
+        yield f"  friction 0: the surfaces do not slide; {rolling}"
+        return
+    band = "" if friction.coefficient_band is None else f" ± {friction.coefficient_band:.2g}"
+    yield (
+        f"  friction {friction.coefficient:.5f}{band} ({friction.model}): film "
+        f"{friction.film_coefficient:.5f}, solids {friction.solid_coefficient:.5f}; {rolling}; "
+        f"{friction.power_loss_W:.3g} W{unit}, largest shear {friction.largest_shear_MPa:.4g} MPa"
+    )
+    if friction.temperatures:
+        yield f"  {temperature_words(friction.temperatures)}"
+    if friction.is_the_grids:
+        yield "  friction is the grid's, as the load on solids is"
+
+
+def temperature_words(found):
+    """How much warmer surfaces and film are than the bodies."""
+    film = (
+        ""
+        if found.film is None
+        else f", film on average {found.film:.3g} K, at most {found.largest_film:.3g} K"
+    )
+    return f"flash temperature: body 1 up to {found.largest_1:.3g} K, body 2 {found.largest_2:.3g} K{film}"
+
+
+def heating_words(reduction, is_thinned):
+    """What the heat of shear in the inlet takes of the film, beside the film; nothing below a per cent."""
+    if reduction is None or reduction > 0.99:
+        return ""
+    percent = (
+        f"some {100.0 * (1.0 - reduction):.0f} %"
+        if reduction > 0.0
+        else "all of it, by a formula out of range"
+    )
+    if is_thinned:
+        return f"shear in the inlet has taken {percent} (lubricant.heating)"
+    return f"this is the isothermal film; shear in the inlet would take {percent}"

@@ -1,0 +1,60 @@
+"""A run in time in curves: what drives it, films, pressure, shares of the load."""
+
+import numpy as np
+
+from mgehl.output.pictures.history import column
+from mgehl.output.pictures.style import COLOURS, CONTACT_COLOUR, FILM, PRESSURE, subplots
+from mgehl.output.pictures.titles import title
+
+PANELS = (
+    ("film, nm", {"central_film_nm": ("central", FILM), "mean_gap_nm": ("mean within Hertz", COLOURS[4]),
+                  "minimum_film_nm": ("minimum", COLOURS[3])}),
+    ("largest pressure, GPa", {"max_pressure_GPa": ("largest pressure", PRESSURE)}),
+    ("part of the load", {"load_on_contact": ("on contact", CONTACT_COLOUR),
+                          "load_on_solids": ("on solids", COLOURS[6])}),
+    ("friction", {"friction": ("over the load", COLOURS[1])}),
+)  # fmt: skip
+"""Axis of each panel, and its columns of history.csv with name and colour."""
+
+DRIVEN = {"speed_mm_s": ("speed", COLOURS[1]), "load_share": ("load", COLOURS[5])}
+"""What may be a course of time: drawn over its largest value, where it changes."""
+
+
+def over_time(solution):
+    """Figure of films, largest pressure and shares of the load against time, with speed and load above them
+    where they change."""
+    rows = solution.rows
+    t, unit = _in_units(column(rows, "time_s"))
+    panels = [(label, _there(rows, columns)) for label, columns in PANELS]
+    panels = [(label, columns) for label, columns in panels if columns]
+    driven = {name: how for name, how in DRIVEN.items() if np.ptp(column(rows, name)) > 0.0}
+    count = len(panels) + bool(driven)
+    figure, axes = subplots(count, size=(8.4, 1.6 + 1.9 * count), sharex=True, squeeze=False)
+    axes = axes[:, 0]
+    for panel, (label, columns) in zip(axes[bool(driven) :], panels, strict=True):
+        for name, (said, colour) in columns.items():
+            panel.plot(t, column(rows, name), color=colour, label=said)
+        panel.set_ylabel(label)
+        if len(columns) > 1:
+            panel.legend()
+    if driven:
+        for name, (said, colour) in driven.items():
+            values = column(rows, name)
+            axes[0].plot(t, values / np.abs(values).max(), color=colour, label=said)
+        axes[0].set_ylabel("over the largest")
+        axes[0].legend()
+    axes[-1].set_xlabel(f"time, {unit}")
+    figure.suptitle(title(solution))
+    return figure
+
+
+def _there(rows, columns):
+    """The columns that are not nothing throughout."""
+    return {name: how for name, how in columns.items() if np.any(column(rows, name))}
+
+
+def _in_units(t):
+    """Times in a unit in which the last one has a number that can be read."""
+    units = {"s": 1.0, "ms": 1e3, "us": 1e6}
+    unit = next((unit for unit, factor in units.items() if t[-1] * factor >= 1.0), "us")
+    return t * units[unit], unit

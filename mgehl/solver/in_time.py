@@ -1,0 +1,64 @@
+"""From a scene to its march: the state that it begins with, and the parts of its solver."""
+
+import numpy as np
+
+from mgehl.discretization.status import CONTACT, LUBRICATED
+from mgehl.multigrid.cycle import MultigridSolver
+from mgehl.solver.beginning import begin
+from mgehl.solver.carry import Reference
+from mgehl.solver.dry import guess_on_finest, solve_dry
+from mgehl.solver.journal import NOTHING_KEPT
+from mgehl.solver.march import March, in_time
+from mgehl.solver.newton import Newton
+from mgehl.solver.problem import ContactProblem
+from mgehl.solver.restart import interpolated
+
+
+def march(scene, hierarchy, settings, time, told, monitor, journal=NOTHING_KEPT, start=None):
+    """Run a `Scene` in time on the finest grid; return its `ContactProblem` and its `Outcome`.
+
+    From `start`, a `Solution` and the `Frame` here, or from the steady state of its beginning; `time` are
+    the `TimeSettings`. `told` is called after each step, as `March` says, `monitor` for each cycle on the
+    way to the beginning.
+    """
+    reference = None
+    contact, grid, deflection = scene.framed, hierarchy.grids[-1], hierarchy.deflections[-1]
+    scheme, limits = in_time(settings.scheme, settings.newton)
+    problem = ContactProblem(grid, deflection, contact, scheme)
+    if start:
+        state = interpolated(problem, *start)
+    else:
+        beginning = _at_rest if scene.speed.value(0.0) == 0.0 else _steady
+        steady, first = beginning(scene, hierarchy, settings, monitor, journal)
+        if not first.converged:
+            first.reason = f"the steady state that time begins with: {first.reason}"
+            return problem, first
+        state = first.state
+        if beginning is _steady and not scene.moves:
+            reference = Reference.of(steady, state)
+    multigrid = MultigridSolver(hierarchy, len(hierarchy.grids) - 1, contact, scheme, settings.cycle)
+    newton = Newton(problem, multigrid, limits, options_prefix=settings.cycle.options_prefix)
+    try:
+        return problem, March(scene, problem, multigrid, newton, time, told).run(state, reference, journal)
+    finally:
+        newton.free()
+
+
+def _steady(scene, hierarchy, settings, monitor, journal):
+    """The steady problem at the beginning and its `Outcome`."""
+    contact = scene.framed.at_speed(abs(scene.speed.value(0.0)))
+    return begin(hierarchy, contact, settings, monitor, journal)
+
+
+def _at_rest(scene, hierarchy, settings, monitor, journal):
+    """The problem and the `Outcome` of the dry contact in a bath of oil: between solids it is without
+    pressure, and around them it fills the gap."""
+    contact, grid, scheme = scene.framed, hierarchy.grids[-1], settings.scheme
+    problem = ContactProblem(grid, hierarchy.deflections[-1], contact, scheme)
+    guess = guess_on_finest(hierarchy, contact, scheme)
+    limits = settings.newton.tolerance, settings.newton.max_steps
+    outcome = solve_dry(problem, guess, *limits, lambda cycle: None, journal)
+    P, layers = outcome.state.P, scheme.contact_law.contact_gap
+    status = np.where(P > 0.0, CONTACT, LUBRICATED)
+    outcome.state = problem.state(P, outcome.state.H0 + layers, status, np.zeros(P.shape))
+    return problem, outcome

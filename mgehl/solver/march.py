@@ -1,0 +1,265 @@
+"""A contact in time: step after step, each a solve of its own (`carry` says what one hands to the next).
+
+    bodies, load     as they are at the end of the step     mgehl.solver.problem.ContactProblem.turn_to
+    contents         carried along                          mgehl.solver.carry.Transport.leg
+    first guess      the states before, continued           mgehl.solver.march.March._guess
+    pressures, sets  Newton's method                        mgehl.solver.newton.Newton.run
+
+A step that does not settle is halved.
+"""
+
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from mgehl.discretization.status import BOUNDARY, CONTACT
+from mgehl.discretization.storage import content
+from mgehl.discretization.transport import Shift
+from mgehl.solver.carry import Carried, Reference, Transport
+from mgehl.solver.journal import NOTHING_KEPT
+from mgehl.solver.outcome import Outcome
+from mgehl.solver.pace import HALVINGS, Pace
+from mgehl.solver.problem import State
+from mgehl.solver.record import Kept, Record
+from mgehl.solver.remembered import remembered
+
+MOST_STEPS = 30
+"""Newton steps after which a step in time is halved."""
+
+LOOSEST = 1e-4
+"""Largest residual that a step may leave, however much it begins with."""
+
+CLOSES = 5e-9
+"""Part of the oil in the domain by which a step's account may be off: half of what is promised."""
+
+FINER = 0.03
+"""Of a residual that leaves more: what is solved for then."""
+
+SUDDEN = 0.3
+"""Change of the speed in a step, over the largest one, after which nothing is known of steps before."""
+
+LOOKS_BACK = 3
+"""States that the first guess of a step is made of: a parabola in time."""
+
+
+@dataclass
+class Standing(Kept):
+    """Where a run in time stands: all that the way from here depends on."""
+
+    state: State
+    carried: Carried
+    t: float
+    path: float
+    """Way in m that the mean surface has gone."""
+    step: float
+    """In s, the next one that is tried."""
+    number: int = 0
+    halved: int = 0
+    """Steps that had to be halved."""
+    times: list = field(default_factory=list)
+    """Of the last states, the present one the last."""
+    P: np.ndarray | None = None
+    """Their pressures, (states, lines, nx)."""
+    H0: list = field(default_factory=list)
+    reference: Reference | None = None
+    """The steady state at the beginning, where no heights move."""
+    memory: Kept | Record | None = None
+    """Of the linear systems before: what the linear solver has, or what was kept of it."""
+
+    @classmethod
+    def from_record(cls, record):
+        parts = {"state": State, "carried": Carried, "reference": Reference}
+        made = {name: kind.from_record(part) for name, kind in parts.items() if (part := record.part(name))}
+        made["memory"] = record.part("memory") or None
+        rest = record
+        for name in made:
+            rest = rest.without(name)
+        return cls(**made, **rest.values, **rest.arrays)
+
+
+@dataclass
+class Instant:
+    """A step that has ended: what a history has of it."""
+
+    number: int
+    t: float
+    step: float
+    speed: float
+    load: float
+    """Over that of the contact."""
+    newton: Outcome
+    stored: float
+    """Oil in the domain, the layers' apart, in units of H, X and Y."""
+    closure: float
+    """By how much the account of the oil is off in this step, over what is stored."""
+    error: float
+    halvings: int
+
+
+class March:
+    """Runs a `Scene` in time, on a problem and a `Newton` that stand at its beginning."""
+
+    def __init__(
+        self, scene, problem, multigrid, newton, settings, told=lambda instant, standing, problem: ""
+    ):
+        """`newton` solves with the `multigrid`; `settings` are a `TimeSettings`. `told` is called with each
+        `Instant`, the `Standing` after it and the problem; what it returns ends the run, in words."""
+        self._scene, self._problem, self._newton, self._told = scene, problem, newton, told
+        self._multigrid = multigrid
+        self._settings, self._pace = settings, Pace(scene, problem.grid.mesh, settings.step)
+        self._transport = Transport(problem)
+
+    def run(self, state, reference=None, journal=NOTHING_KEPT):
+        """March from a `state`, which is the march's own from now on; return the `Outcome`.
+
+        With the `Reference` that it is, if it is steady and no heights move.
+        """
+        grid = self._problem.grid
+        standing = journal.standing(grid, Standing.from_record)
+        if standing is None:
+            first = self._transport.begin(state)
+            standing = Standing(state, first, 0.0, 0.0, self._pace.first())
+            standing.reference = reference
+            self._remember(standing)
+        standing.memory = remembered(self._multigrid, standing.memory)
+        reason = ""
+        while not reason and standing.t < self._scene.end * (1.0 - 1e-9):
+            journal.step(grid, standing)
+            instant = self._advance(standing)
+            if instant is None:
+                t = 1e3 * standing.t
+                return self._ended(standing, False, f"at {t:.6g} ms no step in time settles: {self._why}")
+            reason = self._told(instant, standing, self._problem)
+        return self._ended(standing, True, reason or "all steps in time settled")
+
+    def _ended(self, standing, converged, reason):
+        """The `Outcome` of the last step, or of where the run was given up."""
+        self._turn(standing.t, standing.path)
+        return Outcome(standing.state, converged, reason)
+
+    def _turn(self, t, path):
+        """Let bodies and load be as they are at a time."""
+        self._problem.turn_to(self._scene.at(path), self._scene.load_share(t))
+
+    def _advance(self, standing):
+        """Take one step, halved as often as need be; return its `Instant`, None where it never settles."""
+        step = self._pace.fitted(standing.t, standing.step)
+        for halvings in range(HALVINGS):
+            if (found := self._tried(standing, step, halvings)) is not None:
+                return found
+            step *= 0.5
+        return None
+
+    def _tried(self, standing, step, halvings):
+        """The `Instant` of a step in s, None where it does not settle; else `standing` has moved on."""
+        scene, problem = self._scene, self._problem
+        t, speeds = standing.t + step, [scene.speed.value(standing.t), scene.speed.value(standing.t + step)]
+        way = scene.speed.integral(standing.t, t)
+        self._turn(t, standing.path + way)
+        carried = standing.carried
+        if abs(speeds[1] - speeds[0]) > SUDDEN * scene.contact.speed:
+            carried = carried.afresh()
+        shift = Shift(*scene.cells(way, problem.grid.mesh))
+        basis = standing.reference, way / scene.framed.x_scale
+        leg, reference = self._transport.leg(
+            carried, standing.state.status, step / scene.unit, shift, *basis
+        )
+        problem.storage = leg.storage
+        newton = self._solved(self._guess(standing, t, halvings), leg)
+        if not newton.converged:
+            self._why = newton.reason
+            return None
+        evaluation = problem.evaluate(newton.state)
+        stored, closure = self._account(leg, carried, evaluation)
+        error = self._error(standing, t, newton.state)
+        standing.state, standing.carried = newton.state, leg.ended(evaluation)
+        standing.t, standing.path, standing.number = t, standing.path + way, standing.number + 1
+        standing.halved, standing.reference = standing.halved + (halvings > 0), reference
+        standing.step = self._pace.next(t, step, error, halvings > 0)
+        self._remember(standing)
+        load = scene.load_share(t)
+        return Instant(standing.number, t, step, speeds[1], load, newton, stored, closure, error, halvings)
+
+    def _solved(self, state, leg):
+        """Newton's `Outcome` from a guess, to a part of the residual that it begins with, and until the
+        account of the oil closes."""
+        problem, settings = self._problem, self._settings
+        begun = problem.rms(problem.residual(problem.evaluate(state), state.status))
+        tolerance = max(settings.least, min(settings.part * begun, LOOSEST))
+        while True:
+            outcome = self._newton.run(state, tolerance=tolerance)
+            reached = outcome.cycles[-1].residual
+            if not outcome.converged or reached <= settings.least or self._closes(outcome.state, leg):
+                return outcome
+            state, tolerance = outcome.state, max(settings.least, FINER * reached)
+
+    def _closes(self, state, leg):
+        """Whether what a state's residual makes is little beside what there is."""
+        evaluation = self._problem.evaluate(state)
+        inner = ~self._problem.boundary
+        made = self._sum(evaluation.inflow * leg.b * leg.dT, inner)
+        return abs(made) <= CLOSES * self._sum(content(evaluation.fluid), inner)
+
+    def _account(self, leg, carried, evaluation):
+        """The oil that is stored, and the part of it that storage and flow through the domain's ends leave
+        open."""
+        inner, mesh = ~self._problem.boundary, self._problem.grid.mesh
+        now, before = self._sum(content(evaluation.fluid), inner), self._sum(carried.m, inner)
+        pressed = self._sum(self._transport.into(leg.pressed(evaluation)), inner)
+        # What is pressed between inner nodes leaves one and enters another: the sum is that of the ends.
+        return now * mesh.dX * mesh.dY, (now - before - leg.through_ends - pressed) / now
+
+    def _sum(self, array, nodes):
+        return self._problem.grid.sum(array[nodes].sum())
+
+    def _guess(self, standing, t, halvings):
+        """The state that a step begins with: without contact the last ones go on as a parabola in time."""
+        problem, last = self._problem, standing.state
+        P, H0 = last.P, last.H0
+        if not halvings and not problem.grid.count(last.status == CONTACT):
+            weights = _continued(standing.times, t)
+            P = np.maximum(np.tensordot(weights, standing.P, 1), 0.0)
+            P, H0 = np.where(last.P > 0.0, P, 0.0), float(np.dot(weights, standing.H0))
+        status = np.where(last.status == BOUNDARY, BOUNDARY, last.status)
+        return problem.state(P, H0, status, last.p.copy(), last.filling.copy())
+
+    def _error(self, standing, t, state):
+        """What the pressures of a step are off a straight line in time, over themselves; rms."""
+        if len(standing.times) < 2:
+            return 0.0
+        line = np.tensordot(_continued(standing.times[-2:], t), standing.P[-2:], 1)
+        rms = self._problem.rms
+        return rms(state.P - line) / max(rms(state.P), 1e-300)
+
+    def _remember(self, standing):
+        """Take the present state among those that a guess is made of."""
+        state, last = standing.state, 1 - LOOKS_BACK
+        standing.times = [*standing.times[last:], standing.t]
+        standing.H0 = [*standing.H0[last:], state.H0]
+        before = [] if standing.P is None else list(standing.P[last:])
+        standing.P = np.stack([*before, state.P])
+
+
+def _continued(times, t):
+    """Weights of values at `times` by which a polynomial through them has its value at `t`."""
+    return np.array(
+        [np.prod([(t - other) / (each - other) for other in times if other != each]) for each in times]
+    )
+
+
+@dataclass(frozen=True)
+class TimeSettings:
+    """How a run in time is solved."""
+
+    step: float | None
+    """Steps in s; None: as `Pace` chooses."""
+    part: float
+    """Residual that a step may leave, over that with which it begins."""
+    least: float
+    """Residual below which nothing is asked."""
+
+
+def in_time(scheme, newton):
+    """A `Scheme` and `NewtonSettings` for steps in time: what the surfaces carry is known beforehand."""
+    still = replace(scheme, motion=(0.0, 0.0))
+    return still, replace(newton, squeeze=0.0, max_work=10**9, max_steps=MOST_STEPS)

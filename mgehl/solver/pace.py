@@ -1,0 +1,80 @@
+"""How long the next step in time is: by the cells that surfaces go in it, and by its error."""
+
+from dataclasses import dataclass
+from math import inf, sqrt
+
+MOST_CELLS, MOST_CELLS_ROUGH = 4.0, 1.0
+"""Cells that the surfaces go in a step at the most: smooth ones, and those whose heights move."""
+
+LEAST_CELLS = 0.5
+"""Cells below which no step is taken for its error alone: waves that are carried along have no smaller
+one."""
+
+FIRST_STEPS = 200
+"""Steps that a run is expected to take where nothing moves."""
+
+AIM = 2e-3
+"""Rms of what a step's pressures differ from a straight line in time, over their own rms."""
+
+GROWTH, LEAST_GROWTH = 1.5, 0.3
+"""Of a step over the one before: more is unstable by the second backward formula (2.4), or seldom right."""
+
+HALVINGS = 10
+"""Times that a step is halved before a run is given up."""
+
+JUST = 1e-9
+"""Part of a step by which times may be off."""
+
+
+@dataclass
+class Pace:
+    """Chooses steps in s; `fixed` is the one that was asked for, None where none was."""
+
+    scene: object
+    mesh: object
+    fixed: float | None
+
+    @property
+    def _most_cells(self):
+        return MOST_CELLS_ROUGH if self.scene.moves else MOST_CELLS
+
+    def first(self):
+        """The first step in s."""
+        return self.fixed or min(self.scene.end / FIRST_STEPS, self.scene.unit * self.mesh.dX)
+
+    def next(self, t, before, error, halved):
+        """The step at a time `t` after one of `before` s that had an `error`, and was `halved` or not."""
+        if self.fixed:
+            return min(2.0 * before, self.fixed)
+        if self.scene.moves:
+            return GROWTH * before
+        wanted = sqrt(AIM / error) if error > 0.0 else inf
+        found = before * min(1.0 if halved else GROWTH, max(LEAST_GROWTH, wanted))
+        cells = abs(self.scene.cells(self.scene.speed.value(t) * found, self.mesh)[0])
+        if halved or not 0.0 < cells < LEAST_CELLS:
+            return found
+        return min(found * LEAST_CELLS / cells, GROWTH * before)
+
+    def fitted(self, t, step):
+        """As much of a step as time is left, up to the next kink, and as surfaces may go cells."""
+        left = self.scene.end - t
+        kinks = [kink - t for kink in (*self.scene.speed.kinks(), *self.scene.load.kinks())]
+        ends = [each for each in (left, *kinks) if each > JUST * self.scene.end]
+        if not self.fixed:
+            step = self._in_cells(t, step)
+        nearest = min(ends)
+        if step >= nearest * (1.0 - JUST):
+            return nearest
+        # No crumb is left over.
+        return 0.5 * nearest if step > 0.6 * nearest else step
+
+    def _in_cells(self, t, step):
+        """A step in which the surfaces go no more cells than they may, a whole number where they go more
+        than one."""
+        for _ in range(3):
+            cells = self.scene.fastest(self.scene.speed.integral(t, t + step), self.mesh)
+            if cells <= self._most_cells * (1.0 + JUST):
+                break
+            step *= self._most_cells / cells
+        cells = abs(self.scene.cells(self.scene.speed.integral(t, t + step), self.mesh)[0])
+        return step * int(cells + JUST) / cells if cells > 1.0 else step

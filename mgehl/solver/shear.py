@@ -1,0 +1,91 @@
+"""Shear on the bodies of a solved contact: of the film, of solids, and what rolling takes."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mgehl.discretization.axes import own
+from mgehl.discretization.couette import SHIFT, E, W
+from mgehl.discretization.status import CAVITATED, CONTACT, is_fluid, is_solid, open_faces
+from mgehl.model.conditions import Conditions
+
+
+@dataclass(frozen=True)
+class Shear:
+    """Shear stresses by sliding, (lines, nx) in Pa, and forces in N, of a line contact in N/m."""
+
+    film: np.ndarray
+    """Of film, and of cavities as far as they are filled."""
+    solids: np.ndarray
+    """Of contact."""
+    film_force: float
+    solid_force: float
+    rolling_force: float
+    """On each body, against the motion."""
+
+
+def shear_of(problem, state):
+    """The `Shear` of a state (collective)."""
+    film, solids = film_shear(problem, state), solid_shear(problem, state)
+    cell = square_metres(problem)
+    forces = (cell * problem.grid.sum(each.sum()) for each in (film, solids))
+    return Shear(film, solids, *forces, rolling_force(problem, state))
+
+
+def square_metres(problem):
+    """Area of a cell; of a line contact that of a metre of its length."""
+    mesh, contact = problem.grid.mesh, problem.contact
+    return mesh.dX * contact.x_scale * (1.0 if mesh.is_line else mesh.dY * contact.y_scale)
+
+
+def film_shear(problem, state):
+    """Shear stress of the oil in Pa, (lines, nx): nothing where there is no gap."""
+    contact = problem.contact
+    speed = contact.friction.sliding_speed(contact.speed)
+    tau, gap = np.zeros(state.P.shape), problem.scheme.contact_law.flow_gap(state.H)[0]
+    here = is_fluid(state.status) & (gap > 0.0)
+    if speed == 0.0 or not here.any():
+        return tau
+    p_h, law = contact.pressure_scale, contact.lubricant.viscosity_law
+    P = np.maximum(state.p[here], 0.0)
+    eta = law.viscosity * np.exp(np.broadcast_to(law.log_viscosity(P[None], p_h)[0], (1, P.size))[0])
+    at = Conditions(p_h * P, eta, shear_rate=speed / (contact.film_scale * gap[here]))
+    tau[here] = contact.friction.rheology.shear_stress(at)
+    return np.where(state.status == CAVITATED, state.filling, 1.0) * tau
+
+
+def solid_shear(problem, state):
+    """Shear stress of solids in Pa, (lines, nx).
+
+    They carry P - p where contact lets fluid through, and P where it closes its faces, or bodies overlap.
+    """
+    contact, law = problem.contact, problem.scheme.contact_law
+    if contact.friction.slide_to_roll == 0.0:
+        return np.zeros(state.P.shape)
+    carried = state.P if law.closes_faces else state.P - state.p
+    touching = (state.status == CONTACT) | is_fluid(state.status) & (law.flow_gap(state.H)[0] <= 0.0)
+    coefficient = contact.friction.boundary_coefficient
+    return np.where(touching, coefficient * contact.pressure_scale * carried, 0.0)
+
+
+def rolling_force(problem, state):
+    """Half of the integral of h dp/dx along the motion, in N, of a line contact in N/m (collective).
+
+    Each body is dragged so much against the motion. Of a face it is the mean of its gaps times the
+    difference of its pressures: summed by parts, and as the deflection is symmetric, that of a full film
+    is exactly the load times how far its centre lies upstream, over 2 R.
+    """
+    grid, contact, law = problem.grid, problem.contact, problem.scheme.contact_law
+    P, H, status = grid.halo(state.p), grid.halo(state.H), grid.halo_status(state.status)
+    gap, solid = law.flow_gap(H)[0], is_solid(status, law.closes_faces)
+    total = 0.0
+    for axis, part, scale in zip(
+        problem.axes, contact.motion, (1.0 / contact.x_scale, 1.0 / contact.y_scale), strict=False
+    ):
+        mean = 0.5 * (axis.at(gap, SHIFT[W]) + axis.at(gap, SHIFT[E]))
+        rise = axis.at(P, SHIFT[E]) - axis.at(P, SHIFT[W])
+        drag = np.where(open_faces(solid, axis), mean * rise, 0.0)
+        # Along Y a face belongs to the line behind it: no two ranks count it.
+        total += part * scale / axis.cell * float((drag if axis.number else drag[: len(own(P))]).sum())
+    unit = square_metres(problem) * contact.film_scale * contact.pressure_scale
+    return 0.5 * unit * grid.sum(total)

@@ -1,0 +1,195 @@
+"""Bodies, motion and oil as engineers give them end as the numbers that are solved."""
+
+import os
+import tomllib
+from math import pi
+from pathlib import Path
+
+import pytest
+
+from mgehl.config import KEYS, ConfigError, config_from_tables, load_config
+from mgehl.kinds import contact_from
+from mgehl.kinds.derived import EITHER, FOLLOWS, NEEDS
+from mgehl.model.oils import OILS
+
+CONFIGS = Path(__file__).resolve().parents[2] / "configs"
+STEEL = {"body_1.material": "steel", "body_2.material": "steel"}
+OIL = {"lubricant.oil": "M100", "lubricant.temperature": "60 degC"}
+TWO = {"lubricant.kinematic_viscosity_40": "68 cSt", "lubricant.kinematic_viscosity_100": "8.5 cSt"}
+
+
+def of(settings):
+    return load_config(os.devnull, settings)
+
+
+def error_of(settings):
+    with pytest.raises(ConfigError) as caught:
+        of(settings)
+    assert "\n" not in str(caught.value)
+    return str(caught.value)
+
+
+def test_a_6206_of_a_catalogue_has_the_numbers_that_were_worked_out_by_hand():
+    config = load_config(CONFIGS / "bearing_6206.toml")
+    assert 1e3 * config.contact.radius_x == pytest.approx(3.776, abs=5e-4)
+    assert 1e3 * config.contact.radius_y == pytest.approx(163.5, abs=0.05)
+    assert config.motion.speed == pytest.approx(6.916, abs=5e-4)
+    assert config.lubricant.viscosity == pytest.approx(0.0171, abs=5e-5)
+    assert config.contact.reduced_modulus == pytest.approx(206e9 / 0.91, rel=1e-14)
+    formulas = contact_from(config).formulas
+    assert 1e9 * formulas.hamrock_dowson_central == pytest.approx(370.3, rel=5e-4)
+    assert 1e9 * formulas.hamrock_dowson_minimum == pytest.approx(298.1, rel=5e-4)
+
+
+def test_what_is_derived_is_not_written_and_comes_out_the_same_when_read_again():
+    config = load_config(CONFIGS / "bearing_6206.toml")
+    tables = config.as_toml_tables()
+    assert "radius_x" not in tables["contact"] and "speed" not in tables["motion"]
+    assert config_from_tables(tables) == config
+    assert config.inputs["motion.speed"] == config.motion.speed
+
+
+def test_numbers_of_a_run_stand_for_those_of_this_version():
+    config = of(STEEL).with_numbers({"contact.reduced_modulus": 2e11, "contact.load": 1.0})
+    assert config.contact.reduced_modulus == 2e11 and config.contact.load == 800.0
+
+
+def test_two_materials_and_their_moduli():
+    mixed = of({"body_1.material": "silicon nitride", "body_2.modulus": "206 GPa", "body_2.poisson": 0.3})
+    expected = 2.0 / ((1.0 - 0.26**2) / 310e9 + (1.0 - 0.3**2) / 206e9)
+    assert mixed.contact.reduced_modulus == pytest.approx(expected, rel=1e-14)
+
+
+def test_a_ball_on_a_flat_and_a_roller_in_a_ring():
+    ball = of({"body_1.diameter": "20 mm"}).contact
+    assert (ball.radius_x, ball.radius_y) == (pytest.approx(0.01), pytest.approx(0.01))
+    ring = {"contact.kind": "line", "body_1.diameter": "10 mm", "body_2.diameter": "-60 mm"}
+    assert of(ring).contact.radius_x == pytest.approx(1.0 / (1.0 / 5e-3 - 1.0 / 30e-3))
+
+
+def test_speeds_of_both_surfaces_and_rotations_with_their_radius():
+    config = of({"body_1.speed": "3 m/s", "body_2.rotation": "600 rpm", "body_2.rotation_radius": "50 mm"})
+    assert config.motion.speed == pytest.approx(0.5 * (3.0 + 20.0 * pi * 0.05))
+    roller = of({"body_1.diameter": "0.2 m", "body_1.rotation": "60 rpm", "body_2.speed": 0})
+    assert roller.motion.speed == pytest.approx(0.5 * 2.0 * pi * 0.1)
+    if "motion.slide_to_roll" in KEYS:
+        assert roller.value("motion.slide_to_roll") == pytest.approx(2.0)
+
+
+def test_inner_and_outer_ring_of_one_bearing_have_the_same_speed():
+    ball = {"body_1.diameter": "10 mm", "motion.ring_rotation": "6000 rpm"}
+    inner, outer = (of(ball | {"body_2.diameter": f"{d} mm"}).motion.speed for d in (40, -60))
+    assert inner == pytest.approx(outer, rel=1e-14)
+    # No slip: the ring turns against the cage, which turns by half as much as the ball's centre is away.
+    omega = 200.0 * pi
+    assert inner == pytest.approx((omega - 0.5 * omega * (1.0 - 0.2)) * 20e-3, rel=1e-14)
+
+
+def test_viscosity_by_density_and_by_two_temperatures():
+    data = {"lubricant.kinematic_viscosity": "20 cSt", "lubricant.density": "0.85 g/cm^3"}
+    assert of(data).lubricant.viscosity == pytest.approx(0.017)
+    for temperature, nu in (("40 degC", 68.0), ("373.15 K", 8.5), ("100 C", 8.5), ("104 degF", 68.0)):
+        config = of(TWO | {"lubricant.temperature": temperature, "lubricant.density": 850})
+        assert config.lubricant.viscosity == pytest.approx(1e-6 * nu * 850.0, rel=1e-6)
+
+
+@pytest.mark.parametrize("name, eta, alpha", [("N100", 27, 22.9), ("M100", 31, 19.1), ("PAO100", 37, 13.8)])
+def test_an_oil_by_its_name(name, eta, alpha):
+    config = of(OIL | {"lubricant.oil": name})
+    assert 1e3 * config.lubricant.viscosity == pytest.approx(eta, abs=0.5)
+    assert 1e9 * config.lubricant.pressure_viscosity == pytest.approx(alpha, abs=0.06)
+    law = contact_from(config).lubricant.viscosity_law
+    assert law == OILS[name].law(config.lubricant.temperature)
+    assert "lubricant.viscosity_law" in config.unused
+
+
+def value_for(key):
+    """A value of a key that is right alone."""
+    rules = KEYS[key].metadata
+    low = 0.6 if rules["above"] else (rules["low"] or 0.0)
+    low = low if low > 0.0 else 1e-4
+    return rules["choices"][0] if rules["choices"] else low
+
+
+@pytest.mark.parametrize("one, other", EITHER)
+def test_two_ways_to_say_one_thing_are_a_mistake(one, other):
+    tables = {}
+    for key in (one, other):
+        section, _, name = key.partition(".")
+        tables.setdefault(section, {})[name] = value_for(key)
+    with pytest.raises(ConfigError, match="means nothing with") as caught:
+        config_from_tables(tables)
+    assert one in str(caught.value) and other in str(caught.value)
+
+
+@pytest.mark.parametrize("targets, words", FOLLOWS)
+def test_a_number_and_the_words_that_it_follows_from_are_a_mistake(targets, words):
+    for target in (target for target in targets if target in KEYS):
+        for word in words:
+            tables = {}
+            for key in (target, word):
+                section, _, name = key.partition(".")
+                tables.setdefault(section, {})[name] = value_for(key)
+            with pytest.raises(ConfigError, match="follows already with") as caught:
+                config_from_tables(tables)
+            assert target in str(caught.value) and word.partition(".")[0] in str(caught.value)
+
+
+@pytest.mark.parametrize("word", NEEDS)
+def test_what_a_word_needs_is_named(word):
+    message = error_of({word: value_for(word)})
+    assert message.startswith(NEEDS[word][0]) and f"must be given with {word}" in message
+
+
+@pytest.mark.parametrize(
+    "settings, parts",
+    [
+        ({"body_1.material": "steel"}, ["body_2.material or body_2.modulus: must be given"]),
+        ({"body_1.speed": 1}, ["body_2.speed or body_2.rotation: must be given beside a speed of body_1"]),
+        ({"body_1.speed": 1, "body_2.speed": -1}, ["1 and -1 m/s", "mean must be positive"]),
+        ({"body_1.radius_x": "5 mm"}, ["body_1.radius_y or body_2.radius_y: must be given"]),
+        ({"body_1.diameter": "10 mm", "body_2.radius_y": "-4 mm"}, ["along y", "1/5 + 1/-4"]),
+        ({"body_1.diameter": 0}, ["body_1: a radius of 0 m along x: must be at least"]),
+        ({"body_2.conformity": 0.52}, ["body_2.conformity: needs"]),
+        ({"body_1.rotation": "60 rpm", "body_2.speed": 0}, ["body_1.rotation_radius: must be given"]),
+        ({"body_1.rotation": "100 Hz"}, ["turns or radians", "6000 rpm"]),
+        ({"body_1.rotation": "600 1/min"}, ["turns or radians"]),
+        ({"motion.ring_rotation": "60 rpm"}, ["ring_rotation: needs diameter or radius_x of body_1"]),
+        ({"motion.speed": "6000 rpm"}, ["wrong unit", "motion.ring_rotation take rpm"]),
+        ({"lubricant.viscosity": "20.3 cSt"}, ["wrong unit", "lubricant.kinematic_viscosity takes cSt"]),
+        ({"lubricant.oil": "olive"}, ["must be one of N100, M100, PAO100"]),
+        ({"lubricant.oil": "M100", "lubricant.temperature": 60}, ["temperature = 60", "at least 200"]),
+        ({"body_1.material": "stel"}, ["must be one of steel"]),
+        ({"surface.kind": "waviness", "surface.amplitude": 1e-8, "surface.wavelength_x": 1e-5,
+          "body_1.roughness": "50 nm"}, ["body_1.roughness", "means nothing with surface.kind"]),
+        (TWO | {"lubricant.kinematic_viscosity_100": "70 cSt", "lubricant.temperature": "60 degC",
+                "lubricant.density": 850}, ["kinematic_viscosity_40", "must be above"]),
+    ],
+)  # fmt: skip
+def test_what_does_not_fit_is_one_line(settings, parts):
+    message = error_of(settings)
+    assert all(part in message for part in parts), message
+
+
+def test_a_setting_takes_the_place_of_what_a_file_says_otherwise():
+    config = load_config(CONFIGS / "bearing_6206.toml")
+    slower = config.with_({"motion.speed": "3 m/s"})
+    assert slower.motion.speed == 3.0 and slower.motion.ring_rotation is None
+    assert slower.contact == config.contact
+    oil = config.with_(OIL)
+    assert (
+        oil.lubricant.kinematic_viscosity is None and oil.lubricant.viscosity != config.lubricant.viscosity
+    )
+    glass = config.with_({"body_2.modulus": "82 GPa", "body_2.poisson": 0.206})
+    assert glass.body_2.material is None
+
+
+def test_a_dry_contact_has_bodies_and_no_motion():
+    dry = {"discretization.contact_model": "dry", "body_1.rotation_radius": 0.1, "body_1.rotation": "1 rpm"}
+    config = of(STEEL | dry | {"body_2.speed": 0})
+    assert {"body_1.rotation", "motion.speed"} <= config.unused
+
+
+def test_the_bearing_says_nothing_that_is_worked_out():
+    given = tomllib.loads((CONFIGS / "bearing_6206.toml").read_text())
+    assert set(given["contact"]) == {"load"} and set(given["motion"]) == {"ring_rotation"}

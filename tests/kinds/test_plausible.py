@@ -1,0 +1,84 @@
+"""Unusual input is named; what some machine has is not."""
+
+import os
+from pathlib import Path
+
+import pytest
+
+from mgehl.config import load_config
+from mgehl.kinds import contact_from
+from mgehl.kinds.cited import cited
+from mgehl.kinds.plausible import implausible
+from mgehl.model.sources import SOURCES
+
+CONFIGS = Path(__file__).resolve().parents[2] / "configs"
+BALL = {"motion.speed": "1 m/s"}
+OIL = BALL | {"lubricant.oil": "PAO100", "lubricant.temperature": "60 degC"}
+
+
+def odd(settings, path=os.devnull):
+    config = load_config(path, settings)
+    return list(implausible(config, contact_from(config)))
+
+
+@pytest.mark.parametrize("path", sorted(CONFIGS.glob("*.toml")), ids=lambda path: path.stem)
+def test_nothing_is_odd_in_what_comes_with_mgehl(path):
+    assert odd({}, path) == []
+
+
+def test_gels_and_rubber_are_machines_too():
+    gel = {"contact.reduced_modulus": "80 kPa", "contact.load": "1 mN", "lubricant.viscosity": "1 mPa s"}
+    rubber = {"contact.reduced_modulus": "20 MPa", "contact.load": "1 N", "lubricant.viscosity": "0.1 Pa s"}
+    assert odd(BALL | gel | {"motion.speed": "1 mm/s"}) == [] and odd(BALL | rubber) == []
+
+
+@pytest.mark.parametrize(
+    "settings, words",
+    [
+        ({"lubricant.viscosity": "100 Pa s"}, "lubricant.viscosity = 100 Pa s: machines have 0.0002 to 5"),
+        ({"lubricant.viscosity": "17.1 Pa s"}, "lubricant.viscosity = 17.1 Pa s"),
+        ({"contact.radius_x": "10 m", "contact.radius_y": "10 m"}, "contact.radius_x = 10 m"),
+        ({"contact.radius_x": "10 m", "contact.radius_y": "10 m"}, "GPa: hard bodies mostly have 0.1 to 5"),
+        ({"contact.reduced_modulus": "2 kPa", "contact.load": "1 uN"}, "contact.reduced_modulus = 2000 Pa"),
+        ({"contact.reduced_modulus": "20 MPa", "contact.load": "80 N"}, "strains are not small"),
+        ({"contact.load": "10 kN"}, "p_h = 5.25 GPa: above 5 GPa all steels yield"),
+        ({"motion.speed": "300 m/s"}, "motion.speed = 300 m/s"),
+        ({"body_1.roughness": "50 um"}, "body_1.roughness"),
+        ({"motion.speed": "100 m/s"}, "um by a formula"),
+        (
+            {"lubricant.viscosity_law": "roelands", "lubricant.pressure_viscosity": "45 1/GPa"},
+            "its z is 1.2",
+        ),
+        (OIL | {"lubricant.temperature": "0 degC"}, "PAO100 was measured from 40 to 100 C"),
+        (OIL, "p_h = 2.26 GPa: PAO100 was measured up to 1 GPa: its law is extended beyond"),
+        ({"contact.load": "1 mN", "lubricant.viscosity": "1 Pa s"}, "fold apart"),
+    ],
+)
+def test_what_is_unusual_is_named(settings, words):
+    found = odd(BALL | settings)
+    assert any(words in line for line in found), found
+
+
+def test_a_run_cites_what_it_used():
+    config = load_config(None, OIL | {"body_1.material": "glass", "body_2.material": "steel"})
+    found = cited(config, contact_from(config))
+    assert found[:2] == ["liu2021", "johnson1985"]
+    assert {"schott", "iso6336", "arana2019", "dowson1966", "hamrock1977", "grubin1949"} <= set(found)
+    assert "barus1893" not in found and set(found) <= set(SOURCES)
+    dry = load_config(None, {"discretization.contact_model": "dry"})
+    assert cited(dry, contact_from(dry)) == ["liu2021", "johnson1985"]
+    wedge = load_config(CONFIGS / "wedge_open.toml")
+    assert cited(wedge, contact_from(wedge)) == ["liu2021"]
+
+
+def test_every_source_is_used_somewhere_and_is_a_record():
+    from mgehl.kinds.cited import LAWS
+    from mgehl.model.films import FORMULAS
+    from mgehl.model.materials import MATERIALS
+    from mgehl.model.oils import OILS
+
+    known = {each.source for table in (FORMULAS, MATERIALS, OILS) for each in table.values()}
+    known |= {*LAWS.values(), "liu2021", "johnson1985", "astmd341", "gupta1992"}
+    assert known == set(SOURCES)
+    assert SOURCES["nijenbanning1994"].short == "Nijenbanning, Venner, Moes 1994"
+    assert SOURCES["chittenden1985"].short == "Chittenden et al. 1985"

@@ -1,0 +1,93 @@
+"""Text as other programs write it: separators, decimal commas, encodings, headings, digits."""
+
+import numpy as np
+import pytest
+
+from mgehl.model.surface.files import read_map
+
+Z = np.array([[1.5, -2.25, 3.0, 4.0], [0.5, 1e-3, 7.0, 8.0], [9.0, 1.0, 2.0, 3.5], [4.0, 5.0, 6.0, 7.0]])
+
+
+def matrix(separator, comma="."):
+    return "".join(separator.join(f"{z:g}".replace(".", comma) for z in row) + "\n" for row in Z)
+
+
+TEXTS = {
+    "tabs": matrix("\t"),
+    "semicolons": matrix(";"),
+    "decimal commas between semicolons": matrix(";", ","),
+    "decimal commas between tabs": matrix("\t", ","),
+    "decimal commas between blanks": matrix("  ", ","),
+    "separators at the ends": matrix(",").replace("\n", ",\n"),
+    "indented by tabs": "\t" + matrix("\t").strip().replace("\n", "\n\t"),
+    "a heading of words and numbers": "Operator: N. N.\nDate=2024-02-01 10:11\nz\n" + matrix(";", ","),
+    "a heading of an instrument": "aISO-1.0\nNumPoints = 4\n*\n" + matrix(" ") + "*\n< PartName > x\n",
+}
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16"])
+@pytest.mark.parametrize("name", TEXTS)
+def test_separators_and_encodings(tmp_path, name, encoding):
+    (tmp_path / "z.any").write_text(TEXTS[name], encoding=encoding)
+    np.testing.assert_array_equal(read_map(tmp_path / "z.any").heights, Z)
+
+
+@pytest.mark.parametrize("hole", ["Bad", "nan", "NaN", "No Data", "---", ""])
+def test_holes_are_nan(tmp_path, hole):
+    text = matrix(";", ",").replace("0,001", hole).replace("1,5", hole)
+    (tmp_path / "z.csv").write_text(text)
+    expected = Z.copy()
+    expected[0, 0] = expected[1, 1] = np.nan
+    np.testing.assert_array_equal(read_map(tmp_path / "z.csv").heights, expected)
+
+
+def test_rows_of_holes_before_the_first_heights_are_rows(tmp_path):
+    (tmp_path / "z.txt").write_text("z\nBad Bad Bad Bad\n---\nnan nan nan nan\n" + matrix(" "))
+    found = read_map(tmp_path / "z.txt").heights
+    np.testing.assert_array_equal(found, np.vstack([np.full((2, 4), np.nan), Z]))
+
+
+HEADINGS = {
+    "Gwyddion": ("# Width: 12.0 µm\n# Height: 20000 nm\n# Value units: nm\n", 3.0, 5.0, 1e-6, 1e-9),
+    "Gwyddion in German": ("# Breite: 12,0 µm\n# Höhe: 20,0 µm\n# Value units: m\n", 3.0, 5.0, 1e-6, 1.0),
+    "pixels": (
+        "h=4 w=4\npixel size=3.5e-007 m\ndata unit=rad\nheight conversion factor (-> m)=6e-8\n",
+        3.5e-7, 3.5e-7, 1.0, 6e-8,
+    ),
+    "SPIP": ("# x-length=8 ; y-length=4 ; x-unit=nm ; z-unit=pm\n", 2.0, 1.0, 1e-9, 1e-12),
+    "no unit": ("# Width: 12\n# Height: 8\n", 3.0, 2.0, None, None),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "latin-1", "utf-16"])
+@pytest.mark.parametrize("heading, dx, dy, position, height", HEADINGS.values(), ids=HEADINGS)
+def test_headings_tell_sizes_and_units(tmp_path, heading, dx, dy, position, height, encoding):
+    (tmp_path / "z.txt").write_text(heading + matrix("\t"), encoding=encoding)
+    found = read_map(tmp_path / "z.txt")
+    assert (found.dx, found.dy) == pytest.approx((dx, dy))
+    assert (found.position_unit, found.height_unit) == (position, height)
+    np.testing.assert_array_equal(found.heights, Z)
+
+
+def test_with_a_size_three_columns_are_heights(tmp_path):
+    with pytest.raises(Exception, match="has 4 rows and 3 columns; must be at least 4 of each"):
+        (tmp_path / "z.txt").write_text("# Width: 1 um\n# Height: 1 um\n1 2 3\n4 5 6\n1 2 3\n4 5 6\n")
+        read_map(tmp_path / "z.txt")
+
+
+@pytest.mark.parametrize("form", ["{:.5g}", "{:.4e}"])
+def test_coordinates_of_five_digits_are_a_grid(tmp_path, form):
+    """320 by 240 points .49261 um apart: of the largest coordinates steps are .49 or .5."""
+    x, y = 0.49261 * np.arange(320), 0.49261 * np.arange(240)
+    points = ((form.format(a), form.format(b), f"{a + 3 * b:.6f}") for b in y for a in x)
+    (tmp_path / "z.xyz").write_text("\n".join(" ".join(point) for point in points))
+    found = read_map(tmp_path / "z.xyz")
+    np.testing.assert_allclose(found.heights, x + 3 * y[:, None], rtol=0, atol=5e-7)
+    assert (found.dx, found.dy) == pytest.approx((0.49261, 0.49261), rel=1e-4)
+
+
+def test_a_line_that_is_missing_is_no_matter_of_digits(tmp_path):
+    points = (f"{a} {b} 1" for b in (0, 1, 2, 3, 5) for a in range(5))
+    (tmp_path / "z.xyz").write_text("\n".join(points))
+    with pytest.raises(Exception, match="its spacing along y is not equal: 2 from y = 3 to 5"):
+        read_map(tmp_path / "z.xyz")

@@ -1,0 +1,57 @@
+"""Values over time: tables, functions of the user's own, and what is wrong with them."""
+
+import pytest
+
+from mgehl.model.course import Constant, CourseError, Own, Table, course_of
+from mgehl.model.own_function import OwnFunction
+
+
+@pytest.fixture
+def table(tmp_path):
+    def written(text):
+        path = tmp_path / "speed.csv"
+        path.write_text(text)
+        return Table(str(path))
+
+    return written
+
+
+def test_a_table_is_straight_between_its_rows(table):
+    course = table("t s, u m/s\n0, 1\n2, 3\n4, 3\n")
+    assert course.value(1.0) == 2.0
+    assert course.integral(1.0, 3.0) == pytest.approx(2.5 + 3.0)
+    assert course.range(3.0) == (1.0, 3.0)
+    assert course.kinks() == (0.0, 2.0, 4.0)
+
+
+@pytest.mark.parametrize("text", ["0;1\n1;2\n", "0\t1\n1\t2\n", "\ufeff# a comment\n0,1\n\n1,2\n"])
+def test_tables_as_they_come(table, text):
+    assert table(text).value(0.5) == 1.5
+
+
+@pytest.mark.parametrize(
+    "text, what",
+    [
+        ("0,1\n", "two or more"),
+        ("0,1\n1,2\n0.5,3\n", "does not rise from 1 s on"),
+        ("0,1\n1,\n2,3\n", "no two numbers"),
+        ("0,1\n1,x\n", "'x' is no number"),
+        ("0,1\n0.5,2\n", "must cover 0 to 1"),
+        ("0.1,1\n2,2\n", "must cover 0 to 1"),
+    ],
+)
+def test_what_is_wrong_with_a_table(table, text, what):
+    with pytest.raises(CourseError, match=what):
+        table(text).check(1.0)
+
+
+def test_a_function_of_ones_own(tmp_path):
+    (tmp_path / "mine.py").write_text("def speed(t):\n    return 3.0 * t**2\n")
+    course = Own(OwnFunction(f"{tmp_path}/mine.py:speed"))
+    assert course.value(2.0) == 12.0
+    assert course.integral(1.0, 2.0) == pytest.approx(7.0)
+
+
+def test_a_number_stays():
+    assert course_of(4) == Constant(4.0)
+    assert course_of(4).integral(1.0, 3.0) == pytest.approx(8.0)

@@ -1,0 +1,97 @@
+"""Friction in a result: forces, power, the band of the load on solids, words."""
+
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+import mgehl
+from mgehl.config import config_from_tables
+from mgehl.discretization.mesh import Mesh
+from mgehl.model.rheology import Friction
+from mgehl.output import friction_result as module
+from mgehl.output.friction_result import friction_lines, friction_result, with_band
+from mgehl.output.gap_error import GapError, GridGap
+from mgehl.output.report.run_report import report
+from mgehl.solver.shear import Shear
+
+MESH = Mesh(65, 65, (-40.0, 40.0), (-40.0, 40.0))
+
+
+@pytest.fixture
+def found(paper_contact, monkeypatch):
+    """Of the paper's ball at 1 m/s: 40 N of film, 8 N of solids, .4 N of rolling."""
+
+    def make(slide_to_roll):
+        contact = paper_contact(friction=Friction(slide_to_roll=slide_to_roll))
+        problem = SimpleNamespace(contact=contact, grid=SimpleNamespace(max=float, mesh=MESH))
+        forces = (40.0, 8.0) if slide_to_roll else (0.0, 0.0)
+        shear = Shear(1e6, 2e6, *forces, 0.4)
+        monkeypatch.setattr(module, "shear_of", lambda *_: shear)
+        return friction_result(problem, None)[0]
+
+    return make
+
+
+def test_the_faster_body_is_held_back_and_rolling_drags_both(found):
+    result = found(0.2)
+    assert (result.force_1_N, result.force_2_N) == (-48.4, 47.6)
+    assert result.coefficient == pytest.approx(0.06) and result.rolling_coefficient == 0.0005
+    assert result.largest_shear_MPa == 3.0
+    mirrored = found(-0.2)
+    assert (mirrored.force_1_N, mirrored.force_2_N) == (47.6, -48.4)
+
+
+@pytest.mark.parametrize("slide_to_roll", [0.2, -0.2, 2.0, 0.0])
+def test_the_loss_is_what_the_forces_take_from_the_bodies(found, slide_to_roll):
+    result = found(slide_to_roll)
+    u_1, u_2 = 1.0 + 0.5 * slide_to_roll, 1.0 - 0.5 * slide_to_roll
+    assert result.power_loss_W == pytest.approx(-result.force_1_N * u_1 - result.force_2_N * u_2)
+
+
+def mixed(band):
+    grids = (GridGap(129, 10.0, 9.0, 0.3, True, max_pressure_GPa=2.0),)
+    return SimpleNamespace(error=GapError(0.1, 0.1, "", grids, solid_load_fraction=band))
+
+
+def test_the_band_of_the_load_on_solids_is_friction_s(found):
+    result = with_band(found(0.2), mixed(0.02), 0.1)
+    assert result.coefficient_band == pytest.approx(0.002) and not result.is_the_grids
+    (line,) = friction_lines(result, verbose=False)
+    assert line.startswith("  friction 0.06000 ± 0.002 (newtonian): film 0.05000, solids 0.01000; rolling")
+
+
+def test_where_the_load_on_solids_is_the_grid_s_so_is_friction(found):
+    result = with_band(found(0.2), mixed(None), 0.1)
+    assert result.coefficient_band is None and result.is_the_grids
+    assert (
+        list(friction_lines(result, verbose=False))[1]
+        == "  friction is the grid's, as the load on solids is"
+    )
+
+
+def test_zero_is_the_answer_of_surfaces_that_do_not_slide(found):
+    result = with_band(found(0.0), mixed(None), 0.1)
+    assert result.coefficient == 0.0 and not result.is_the_grids
+    (line,) = friction_lines(replace(result, model="eyring"), verbose=False)
+    assert line == "  friction 0: the surfaces do not slide; rolling takes 0.0005 of the load on each body"
+    assert not list(friction_lines(result, verbose=False)) and not list(friction_lines(None, verbose=True))
+
+
+def test_a_run_that_slides_has_its_shear_in_report_and_files(tmp_path):
+    """Maps by their names, read back as they were."""
+    tables = {
+        "contact": {"load": 100.0},
+        "motion": {"speed": 0.5, "slide_to_roll": 0.2},
+        "friction": {"model": "limiting", "limiting_coefficient": 0.05},
+        "grid": {"nodes": 65},
+        "solver": {"start": "film", "error": False},
+    }
+    solution = mgehl.solve(config_from_tables(tables))
+    solution.save(tmp_path / "here")
+    read = mgehl.read(tmp_path / "here")
+    np.testing.assert_array_equal(read.fields.shear, solution.fields.shear)
+    assert read.summary.friction == solution.summary.friction and read.fields.heights is None
+    page = report(read, "here")
+    assert "Sliding takes" in page and "hear stress by sliding" in page

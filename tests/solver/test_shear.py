@@ -1,0 +1,184 @@
+"""Shear and rolling of states whose integrals are known.
+
+Hertz's circle with a film of one thickness and Barus' law [derived, A = alpha p_h, B = eta_0 V/(h tau_0)]:
+Newtonian F = (eta_0 V/h) pi a^2 2 [(A - 1) e^A + 1]/A^2, by Eyring's law
+F = 2 pi a^2 tau_0 int_0^1 s asinh(B e^(A s)) ds.
+"""
+
+from dataclasses import replace
+from math import exp, pi
+
+import numpy as np
+import pytest
+from mpi4py import MPI
+from scipy.integrate import quad
+
+import mgehl
+from mgehl.config import config_from_tables
+from mgehl.discretization.contact_law import BoundaryFilm
+from mgehl.discretization.mesh import Mesh
+from mgehl.discretization.scheme import Scheme
+from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
+from mgehl.grid.grid import single_grid
+from mgehl.model.hertz import hertz_pressure
+from mgehl.model.rheology import Eyring, Friction, Limiting
+from mgehl.solver.problem import ContactProblem, Problem, State
+from mgehl.solver.shear import film_shear, rolling_force, shear_of, solid_shear
+
+SPEED, FILM, STRESS = 0.5, 100e-9, 5e6
+SLIDING = 0.1
+"""m/s: with `SPEED` a slide-to-roll of .2."""
+
+MU_EYRING, MU_LIMITED = 0.080229, 0.049921
+"""Of the paper's contact, by the integrals above."""
+
+
+CLOSING = Scheme()
+"""Contact closes its faces."""
+
+
+@pytest.fixture
+def make_problem():
+    grids = []
+
+    def make(contact, nodes=65, scheme=CLOSING):
+        mesh = Mesh(nodes, nodes, (-1.5, 1.5), (-1.5, 1.5), contact.k_e)
+        grids.append(single_grid(mesh, MPI.COMM_SELF))
+        return Problem(grids[-1], contact, scheme)
+
+    yield make
+    for grid in grids:
+        grid.destroy()
+
+
+def sliding(paper_contact, friction, **changes):
+    return paper_contact(SPEED, friction=replace(friction, slide_to_roll=SLIDING / SPEED), **changes)
+
+
+def uniform_film(problem, H=None):
+    """Hertz's pressure and a film of one thickness within its circle, none beyond."""
+    grid, contact = problem.grid, problem.contact
+    P = np.array(np.broadcast_to(hertz_pressure(grid.X, grid.Y), grid.shape))
+    status = np.where(P > 0.0, LUBRICATED, BOUNDARY).astype(np.int8)
+    H = FILM / contact.film_scale if H is None else H
+    return State(P, 0.0, np.full(grid.shape, H), status)
+
+
+def test_newtonian_friction_of_a_uniform_film(paper_contact, make_problem):
+    problem = make_problem(sliding(paper_contact, Friction()), 257)
+    contact, A = problem.contact, 18.2e-9 * problem.contact.hertz.p_h
+    exact = 0.096 * SLIDING / FILM * pi * contact.hertz.a**2 * 2.0 * ((A - 1.0) * exp(A) + 1.0) / A**2
+    assert shear_of(problem, uniform_film(problem)).film_force == pytest.approx(exact, rel=1e-4)
+
+
+def test_eyring_friction_of_a_uniform_film(paper_contact, make_problem):
+    problem = make_problem(sliding(paper_contact, Friction(Eyring(STRESS))), 257)
+    contact, A, B = problem.contact, 18.2e-9 * problem.contact.hertz.p_h, 0.096 * SLIDING / FILM / STRESS
+    integral = quad(lambda s: s * np.arcsinh(B * np.exp(A * s)), 0.0, 1.0, epsabs=1e-12)[0]
+    exact = 2.0 * pi * contact.hertz.a**2 * STRESS * integral / contact.load
+    assert exact == pytest.approx(MU_EYRING, abs=5e-7)
+    assert shear_of(problem, uniform_film(problem)).film_force / 800.0 == pytest.approx(exact, rel=1e-4)
+
+
+def test_limited_friction_of_a_uniform_film(paper_contact, make_problem):
+    problem = make_problem(sliding(paper_contact, Friction(Limiting(0.05, Eyring(STRESS)))), 257)
+    found = shear_of(problem, uniform_film(problem)).film_force / 800.0
+    assert found == pytest.approx(MU_LIMITED, rel=1e-4)
+
+
+def test_a_rigid_slider_without_pressure_is_exact(paper_contact, make_problem):
+    """The integral of eta V/h over nodes: of one gap it is eta V/h times their area, to rounding."""
+    problem = make_problem(sliding(paper_contact, Friction()))
+    state = uniform_film(problem)
+    state.P[:], state.p[:], state.status[:] = 0.0, 0.0, LUBRICATED
+    area = state.P.size * problem.grid.mesh.dX**2 * problem.contact.hertz.a**2
+    found = shear_of(problem, state)
+    assert found.film_force == pytest.approx(0.096 * SLIDING / FILM * area, rel=1e-13)
+    assert found.rolling_force == 0.0
+
+
+def test_a_cavity_resists_as_far_as_it_is_filled(paper_contact, make_problem):
+    problem = make_problem(sliding(paper_contact, Friction()))
+    state = uniform_film(problem)
+    state.status[30, 30], state.p[30, 30], state.filling[30, 30] = CAVITATED, 0.0, 0.25
+    assert film_shear(problem, state)[30, 30] == pytest.approx(0.25 * 0.096 * SLIDING / FILM)
+
+
+@pytest.mark.parametrize("law, carried", [(CLOSING.contact_law, 0.8), (BoundaryFilm(1e-6), 0.3)])
+def test_solids_resist_by_what_they_carry(paper_contact, make_problem, law, carried):
+    """P where contact closes its faces, P - p where the fluid in it has a pressure of its own."""
+    problem = make_problem(
+        sliding(paper_contact, Friction(boundary_coefficient=0.1)), 65, Scheme(contact_law=law)
+    )
+    state = uniform_film(problem)
+    state.status[30, 30], state.P[30, 30], state.p[30, 30], state.H[30, 30] = CONTACT, 0.8, 0.5, 0.0
+    stress = solid_shear(problem, state)
+    assert stress[30, 30] == pytest.approx(0.1 * carried * problem.contact.hertz.p_h)
+    assert np.count_nonzero(stress) == 1 and film_shear(problem, state)[30, 30] == 0.0
+
+
+def test_surfaces_that_do_not_slide_have_no_shear(paper_contact, make_problem):
+    problem = make_problem(paper_contact(SPEED))
+    found = shear_of(problem, uniform_film(problem))
+    assert (found.film_force, found.solid_force) == (0.0, 0.0)
+
+
+def test_rolling_of_a_full_film_is_the_load_upstream_of_the_centre(paper_contact, make_hierarchy):
+    """int h dp/dx = -int p dh/dx, and int p d(K p)/dx = 0: what is left is int p x/R, node by node."""
+    contact = paper_contact(SPEED)
+    hierarchy = make_hierarchy(contact, 65)
+    grid = hierarchy.grids[-1]
+    problem = ContactProblem(grid, hierarchy.deflections[-1], contact, Scheme())
+    P = np.array(hertz_pressure(1.05 * grid.X + 0.04, grid.Y + 0.1 * grid.X))
+    state = problem.state(P, 0.5, np.full(grid.shape, LUBRICATED))
+    moment = grid.mesh.dX * grid.mesh.dY * float((state.P * grid.X).sum()) * contact.hertz.p_h
+    exact = -0.5 * moment * contact.hertz.a**3 / contact.radius_x
+    assert rolling_force(problem, state) == pytest.approx(exact, rel=1e-11)
+
+
+def film_of(speed, **changes):
+    tables = {
+        "contact": {"load": 100.0},
+        "motion": {"speed": speed} | changes.pop("motion", {}),
+        "grid": {"nodes": 65},
+        "solver": {"start": "film", "error": False},
+    }
+    return mgehl.solve(config_from_tables(tables | changes)).summary
+
+
+def test_shear_thins_a_film_by_newton_s_own_steps():
+    """The same film where the Eyring stress is large, a thinner one in about as many steps where not."""
+    slides, eyring = {"slide_to_roll": 2.0}, {"model": "eyring", "eyring_stress": 1e9}
+    thick, stiff = film_of(0.5), film_of(0.5, motion=slides, friction=eyring)
+    assert stiff.central_film_nm == pytest.approx(thick.central_film_nm, rel=1e-3)
+    thin = film_of(0.5, motion=slides, friction=eyring | {"eyring_stress": 2e6})
+    assert thin.converged and thin.work.steps <= thick.work.steps + 5
+    assert 0.6 < thin.central_film_nm / thick.central_film_nm < 0.9
+
+
+def test_a_film_along_y_is_thinned_as_one_along_x():
+    slides = {"slide_to_roll": 1.0}
+    eyring = {"model": "eyring", "eyring_stress": 2e6}
+    along_x, along_y = (
+        film_of(0.5, motion=slides | {"angle": angle}, friction=eyring) for angle in (0.0, 90.0)
+    )
+    assert along_y.central_film_nm == pytest.approx(along_x.central_film_nm, rel=1e-12)
+    assert along_y.friction.coefficient == pytest.approx(along_x.friction.coefficient, rel=1e-12)
+
+
+def test_rolling_within_and_beyond_the_domain_does_not_depend_on_the_domain():
+    """Within it half as much again on twice the domain; both together change by less than 2 %."""
+    found = []
+    for end, nodes in ((5.0, 65), (10.0, 129)):
+        grid = {"nodes": nodes, "x": [-end, 2.0], "y": [-end, end]}
+        tables = {
+            "moes": {"M": 8.0, "L": 8.0},
+            "lubricant": {"density_law": "constant"},
+            "grid": grid,
+            "solver": {"error": False},
+        }
+        found.append(mgehl.solve(config_from_tables(tables)).summary.friction)
+    near, far = found
+    assert far.rolling_coefficient > 1.4 * near.rolling_coefficient
+    both = [each.rolling_coefficient + each.rolling_beyond for each in found]
+    assert both[1] == pytest.approx(both[0], rel=0.02)

@@ -1,0 +1,174 @@
+"""Runs in time: what stays, what closes, what is exact, what is kept, and what is refused."""
+
+import json
+
+import h5netcdf
+import numpy as np
+import pytest
+from mpi4py import MPI
+
+import mgehl
+from mgehl.errors import ConfigError, Stopped
+from mgehl.run import Watch, enter, run
+
+BALL = {
+    "contact.load": 15.0, "contact.radius_x": 0.0125, "contact.radius_y": 0.0125,
+    "contact.reduced_modulus": 110e9, "lubricant.viscosity": 0.25, "lubricant.viscosity_law": "roelands",
+    "lubricant.pressure_viscosity": 22e-9, "motion.speed": 0.09, "grid.nodes": 65,
+    "contact.boundary_film": 2e-11, "solver.start": "film", "solver.error": False,
+}  # fmt: skip
+"""The ball of Mourier et al., whose film is found in a second."""
+
+UNIT = 1.52e-3
+"""Seconds in which its surfaces go the contact's radius."""
+
+ROUGH = {
+    "surface.kind": "self-affine", "surface.rms": 300e-9, "grid.x": [-2.5, 2.5], "grid.y": [-2.5, 2.5],
+    "surface.shortest_wavelength": 60e-6,
+    "surface.longest_wavelength": 200e-6, "surface.seed": 3, "surface.body": "body_1",
+    "contact.boundary_film": 2e-9,
+}  # fmt: skip
+
+
+def solved(**more):
+    settings = BALL | {key.replace("__", "."): value for key, value in more.items()}
+    return mgehl.solve(mgehl.load(None, settings))
+
+
+@pytest.fixture
+def course(tmp_path):
+    def written(*rows):
+        path = tmp_path / "course.csv"
+        path.write_text("\n".join(f"{t},{value}" for t, value in rows))
+        return str(path)
+
+    return written
+
+
+def column(solution, name):
+    return np.array([row[name] for row in solution.rows])
+
+
+def test_a_steady_state_stays():
+    """To the last digits, at one convolution a step, in steps of any length."""
+    steady, after = solved(), solved(time__end=6.0 * UNIT)
+    assert after.summary.converged
+    assert after.fields.H == pytest.approx(steady.fields.H, abs=1e-8)
+    assert np.diff(column(after, "convolutions")).max() < 1.1
+    assert np.ptp(column(after, "step_s")) > 0.0
+
+
+def test_an_oblique_steady_state_stays():
+    more = {"motion__angle": 30.0, "contact__radius_y": 0.02}
+    steady, after = solved(**more), solved(**more, time__end=1.0 * UNIT)
+    assert after.fields.H == pytest.approx(steady.fields.H, abs=1e-8)
+
+
+def test_a_stop_leaves_the_film_shut_in(course):
+    speed = course((0.0, 0.09), (0.3 * UNIT, 0.0), (3.0 * UNIT, 0.0))
+    stopped = solved(motion__speed=speed, time__end=3.0 * UNIT)
+    central, least = column(stopped, "central_film_nm"), column(stopped, "minimum_film_nm")
+    assert stopped.summary.converged
+    assert central[-1] > 0.98 * central[0]
+    assert least[-1] < 0.6 * least[0]
+    assert np.all(np.diff(least) < 1e-3)
+
+
+def test_a_course_that_does_not_change_is_no_course(course):
+    speed = course((0.0, 0.09), (1.0, 0.09))
+    one, other = solved(time__end=UNIT), solved(motion__speed=speed, time__end=UNIT)
+    assert one.fields.H == pytest.approx(other.fields.H, abs=1e-9)
+
+
+def test_twice_the_load_in_an_instant(course):
+    load = course((0.0, 15.0), (0.1 * UNIT, 30.0), (0.3 * UNIT, 30.0))
+    after = solved(contact__load=load, time__end=0.3 * UNIT)
+    assert after.summary.converged
+    assert column(after, "load_share")[-1] == 2.0
+    assert column(after, "max_pressure_GPa")[-1] > 1.2 * column(after, "max_pressure_GPa")[0]
+
+
+@pytest.fixture(scope="module")
+def rough():
+    return solved(**{key.replace(".", "__"): value for key, value in ROUGH.items()}, time__end=0.4 * UNIT)
+
+
+def test_rough_bodies_make_no_oil(rough):
+    assert rough.summary.converged
+    assert np.abs(column(rough, "closure")).max() < 1e-8
+    assert column(rough, "load_on_contact").max() > 0.0
+
+
+def test_contact_carries_what_solids_and_fluid_do(rough):
+    assert np.all(column(rough, "load_on_solids") <= column(rough, "load_on_contact") + 1e-12)
+    assert np.abs(column(rough, "load_error")).max() < 1e-4
+
+
+class StopAfter:
+    """Stops a run before its step of a number."""
+
+    def __init__(self, steps):
+        self.left = steps
+
+    def __call__(self):
+        self.left -= 1
+        return Stopped("told to", 143) if self.left < 0 else None
+
+
+def test_a_run_that_is_stopped_goes_on_with_the_same_bits(tmp_path):
+    config = mgehl.load(None, BALL | ROUGH | {"time.end": 0.15 * UNIT})
+    directories = [tmp_path / name for name in ("whole", "stopped")]
+    for directory in directories:
+        directory.mkdir()
+    case, comm = enter(config, MPI.COMM_SELF), MPI.COMM_SELF
+    run(case, directories[0], comm)
+    stops = 0
+    for steps in (3, 12, 1000):
+        try:
+            run(case, directories[1], comm, Watch(stop=StopAfter(steps)))
+        except Stopped:
+            stops += 1
+    assert stops >= 2
+    one, other = (mgehl.read(directory) for directory in directories)
+    assert np.array_equal(one.fields.H, other.fields.H)
+    assert [row["residual"] for row in one.rows] == [row["residual"] for row in other.rows]
+
+
+def test_files_of_a_run_in_time(tmp_path):
+    config = mgehl.load(None, BALL | {"time.end": UNIT, "time.save_every": 0.25 * UNIT})
+    (tmp_path / "run").mkdir()
+    run(enter(config, MPI.COMM_SELF), tmp_path / "run", MPI.COMM_SELF)
+    solution = mgehl.read(tmp_path / "run")
+    with h5netcdf.File(tmp_path / "run" / "series.nc") as series:
+        assert series.attrs["Conventions"].startswith("CF")
+        assert np.array_equal(series["time"][:], column(solution, "time_s"))
+        assert np.array_equal(series["central_film_nm"][:], column(solution, "central_film_nm"))
+    with h5netcdf.File(tmp_path / "run" / "frames.nc") as frames:
+        assert frames["film"].shape[1:] == (65, 65)
+        assert frames["film"][-1] == pytest.approx(solution.film, rel=1e-6)
+    assert json.loads((tmp_path / "run" / "result.json").read_text())["time"]["steps"] == len(solution.rows)
+
+
+DENT = {"surface.kind": "dent", "surface.amplitude": 1e-7, "surface.width": 1e-5}
+
+
+@pytest.mark.parametrize(
+    "settings, what",
+    [
+        ({"motion.speed": [(0, 1), (1, 1)]}, "time.end is not given"),
+        ({"motion.speed": [(0, 1), (1, 1)], "time.end": 2.0}, "must cover 0 to 2"),
+        ({"motion.speed": [(0, 0), (1, 0)], "time.end": 1.0}, "is 0 throughout"),
+        ({"contact.load": [(0, 1), (1, 0)], "time.end": 1.0}, "must stay above 0"),
+        ({"time.step": 2.0, "time.end": 1.0}, "must be at most 1"),
+        ({"time.step": 2.0}, "without time.end"),
+        ({"time.end": 1.0, "solver.method": "relaxation"}, "solver.method"),
+        ({"time.end": 1.0, "discretization.contact_model": "unified"}, "discretization.contact_model"),
+        (DENT | {"surface.body": "body_1"}, "give time.end"),
+    ],
+)  # fmt: skip
+def test_what_is_refused(settings, what, course):
+    settings = {
+        key: course(*value) if isinstance(value, list) else value for key, value in settings.items()
+    }
+    with pytest.raises(ConfigError, match=what):
+        enter(mgehl.load(None, BALL | settings), MPI.COMM_SELF)
