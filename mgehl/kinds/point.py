@@ -47,7 +47,7 @@ class CoatingSection:
 
 @dataclass(frozen=True)
 class MoesSection:
-    M: float | None = key_field(None, "Moes load number, instead of load and speed", "", low=1.0, high=1e7)
+    M: float | None = key_field(None, "Moes load number, instead of load and speed", "", low=0.01, high=1e7)
     L: float | None = key_field(
         None, "Moes material number, instead of load and speed", "", low=0.1, high=100.0
     )

@@ -318,8 +318,13 @@ class LoadedContact:
 
     @property
     def inlet_length(self):
-        """Length of the zone that builds the film, in units of a; of layered bodies an estimate."""
+        """Length of the zone that builds the film, in units of a; of layered bodies an estimate.
+
+        Of bodies that hardly yield it is sqrt(2 R h), on which the gap is twice the film.
+        """
         like = self.likeness
+        if self.hardly_yields:
+            return sqrt(2.0 * like.radius_x * like.flooded_film) / self.x_scale
         return self._inlet_of(like.flooded_film if self.is_soft else like.grubin_film)
 
     def _inlet_of(self, film):
@@ -339,7 +344,10 @@ class LoadedContact:
 
         s* grows with the square root of u, so the speed follows in one step. The inlet is that of Ertel and
         Grubin. Of soft bodies it is too short, and the speed higher than it need be: from there all of 92
-        soft contacts are found, from the speed of their own inlet 86.
+        soft contacts are found, from the speed of their own inlet 86. The inlet of bodies that hardly yield
+        grows with u itself.
         """
+        if self.hardly_yields:
+            return self.speed * max(1.0, cells * mesh.dX / self.inlet_length)
         inlet = max(self._inlet_of(self.likeness.grubin_film), self.inlet_length / SOFTEST)
         return self.speed * max(1.0, (cells * mesh.dX / inlet) ** 2)

@@ -8,7 +8,8 @@ from mgehl.model import films
 from mgehl.model.coating import Coating
 from mgehl.model.contact import Groups, LoadedContact
 from mgehl.model.deformation import HalfSpace, LayeredHalfSpace
-from mgehl.model.far_field import kapitza_drag_beyond, missing_share
+from mgehl.model.drag import kapitza_drag_beyond
+from mgehl.model.far_field import missing_share
 from mgehl.model.flash import Solid
 from mgehl.model.frame import Frame, SurfaceInFrame, direction
 from mgehl.model.hertz import hertz_contact, hertz_gap

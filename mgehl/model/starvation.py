@@ -24,7 +24,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mgehl.model.contact import LoadedContact
-from mgehl.model.far_field import kapitza_factor
+from mgehl.model.drag import kapitza_factor
 from mgehl.model.way_in import STEPS, WayIn
 
 UPSTREAM, BESIDE = (0.66, 0.53), (0.08, 0.15)
@@ -48,7 +48,7 @@ b/a with which it grows: so far is it known."""
 
 COUNTED = 0.5
 """Part of the reduced pressure's loss that is left where the load beyond is counted: that counts, too, what
-the sides take away within (`far_field.MISSING`)."""
+the sides take away within (`far_field`)."""
 
 NO_FILM = 1e-12
 """Least film, in units of H: a contact at rest has an inlet without length."""

@@ -142,7 +142,7 @@ class Newton:
             changes.cavitated += problem.grid.count(before != state.status)
         else:
             evaluation, moved = problem.evaluate(state), 0
-            if not is_stuck(self._position):
+            if not is_stuck(self._position, problem.scheme):
                 moved = relax_cavitation_set(problem, state, evaluation)
             changes.cavitated += moved
             self._evaluate(None if moved else evaluation)

@@ -27,8 +27,8 @@ def test_three_domains_have_one_film(central_film):
     """A quarter, an eighth and a sixteenth of the load is carried beyond, and the film answers to its
     square."""
     small, larger, largest = (central_film(end) for end in (16.0, 32.0, 64.0))
-    assert small == pytest.approx(largest, rel=0.01)
-    assert larger == pytest.approx(largest, rel=0.003)
+    assert small == pytest.approx(largest, rel=0.004)
+    assert larger == pytest.approx(largest, rel=0.002)
 
 
 def test_a_domain_that_carries_all_of_the_load_has_less_film_the_smaller_it_is(central_film):
@@ -47,7 +47,27 @@ def test_the_answer_says_how_much_is_carried_beyond():
 
 @pytest.mark.parametrize("nodes", [65, 129])
 def test_a_contact_thirty_times_as_wide_as_long_ends_within_its_domain(nodes):
-    """Its pressure near the sides is a hundredth of the largest, on every grid."""
+    """Its pressure near the sides is below a hundredth of the largest."""
     wide = moes(10.0, 5.0, radius_x=5e-3, radius_y=0.15)
     result = mgehl.solve(config_from_tables(merged(wide, {"grid": {"nodes": nodes}}))).result
-    assert result.converged and result.edge.pressure_ratio == pytest.approx(0.009, rel=0.05)
+    assert result.converged and result.edge.pressure_ratio < 0.01
+
+
+RIGID = 35.54
+"""H_Moes M^2 of a rigid ball in thin oil, on a plane without end: the film of 8.88 um of 10 mm, 0.1 N, 0.05
+Pa s and 0.5 m/s."""
+
+
+@pytest.mark.parametrize(
+    "M, L, film, nodes",
+    [(0.2, 1.0, RIGID / 0.04, 65), (0.8, 0.3, RIGID / 0.64, 65), (3.0, 2.0, 4.313, 65),
+     (6.0, 0.5, 1.951, 65), (7.5, 10.0, 4.737, 129)],
+)  # fmt: skip
+def test_light_films_are_those_of_another_code_on_a_domain_that_loses_nothing(M, L, film, nodes):
+    """Central differences on nodes that are stretched to 3000 sqrt(2 R h), to the limit of fine grids.
+
+    From rigid to elastic bodies, from thin oil to stiff.
+    """
+    result = mgehl.solve(config_from_tables(merged(moes(M, L), {"grid": {"nodes": nodes}}))).result
+    assert result.converged and result.resolution.verdict == "resolved" and result.error.central_nm
+    assert result.moes_film.central == pytest.approx(film, rel=0.01)
