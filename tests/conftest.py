@@ -159,14 +159,6 @@ def solve(make_hierarchy, usual_law):
     return run
 
 
-@pytest.fixture
-def petsc_options():
-    """PETSc's option database; `clean_petsc_options` takes back what a test sets."""
-    from petsc4py import PETSc
-
-    return PETSc.Options()
-
-
 @pytest.fixture(autouse=True)
 def clean_petsc_options():
     """No PETSc option outlives the test that set it."""

@@ -5,7 +5,6 @@ import pytest
 from mpi4py import MPI
 
 from mgehl.config import config_from_tables
-from mgehl.discretization.status import CONTACT
 from mgehl.run import solve
 from mgehl.studies.study import merged, papers_grid
 
@@ -89,13 +88,6 @@ class TestMirrored:
         """60 degrees on a ball: what belonged to x belongs to y."""
         assert_same(solved(FILM, at(60)), solved(FILM, at(30)), np.transpose)
 
-    def test_films_of_a_ball_hardly_know_of_the_angle(self):
-        """On 129 nodes the scheme's error, not more, is between them."""
-        finer = {"grid": {"nodes": 129}}
-        along, oblique = solved(FILM, finer), solved(FILM, finer, at(45))
-        assert oblique.result.central_film_nm == pytest.approx(along.result.central_film_nm, rel=0.015)
-        assert oblique.result.central_film_nm != along.result.central_film_nm
-
 
 SURFACE = """
 import numpy as np
@@ -146,14 +138,3 @@ class TestStart:
         found, expected = solved(FILM, ellipse, at(angle), start=turned), solved(FILM, ellipse, at(angle))
         assert found.result.converged
         np.testing.assert_allclose(found.film, expected.film, rtol=0.0, atol=1e-6 * expected.film.max())
-
-    def test_from_the_answer_itself_there_is_nothing_to_do(self, turned):
-        again = solve(turned.config, MPI.COMM_SELF, start=turned)
-        assert again.result.converged and again.result.work.steps <= 1
-
-
-def test_full_contact_at_45_degrees_is_that_of_0():
-    along, oblique = solved(CONTACT_CASE), solved(CONTACT_CASE, at(45))
-    assert along.result.converged and oblique.result.converged
-    assert oblique.result.pressure_inequality.violations == 0
-    np.testing.assert_array_equal(oblique.status == CONTACT, along.status == CONTACT)

@@ -1,6 +1,5 @@
 """The Python interface."""
 
-import os
 import signal
 import subprocess
 import sys
@@ -12,7 +11,6 @@ from mpi4py import MPI
 from processes import own_environment
 
 import mgehl
-from mgehl.discretization.status import CONTACT, LUBRICATED
 
 FILM = {"grid.nodes": 65, "motion.speed": "1 m/s", "solver.start": "film"}
 
@@ -33,15 +31,6 @@ class TestLoad:
         config = mgehl.load(path, {"grid.nodes": 257})
         assert (config.contact.load, config.grid.nodes) == (250.0, 257)
 
-    @pytest.mark.parametrize("name", ["nodes", "grid.", ".nodes", ""])
-    def test_a_name_without_section_or_key_is_a_mistake(self, name):
-        with pytest.raises(mgehl.ConfigError, match="section.key"):
-            mgehl.load(settings={name: 65})
-
-    def test_values_may_be_of_numpy(self):
-        with pytest.raises(mgehl.ConfigError, match=r"grid\.nodes"):
-            mgehl.load(settings={"grid.nodes": np.array([65])})
-
 
 class TestWith:
     """A configuration with some keys set anew, as --set does."""
@@ -52,11 +41,6 @@ class TestWith:
         assert (slower.motion.speed, slower.grid.nodes, config.motion.speed) == (0.4, 129, 1.0)
         assert slower == mgehl.load(None, FILM | {"motion.speed": "400 mm/s", "grid.nodes": 129})
         assert config.with_({}) == config
-
-    def test_another_kind_drops_what_it_does_not_know(self):
-        line = mgehl.load(None, FILM).with_({"contact.kind": "line"})
-        assert line.contact.kind == "line" and line.motion.speed == 1.0
-        assert mgehl.load().with_({"moes.M": 20, "moes.L": 10}).moes.M == 20.0
 
     @pytest.mark.parametrize(
         "settings, words",
@@ -70,9 +54,6 @@ class TestWith:
         with pytest.raises(mgehl.ConfigError, match=words) as caught:
             mgehl.load().with_(settings)
         assert str(caught.value).startswith(next(iter(settings)))
-
-    def test_shown_it_names_what_differs_from_the_defaults(self):
-        assert repr(mgehl.load(os.devnull, {"motion.speed": 1.0})) == "Config(motion.speed = 1.0)"
 
 
 class TestShown:
@@ -161,13 +142,6 @@ class TestSolution:
         cell = (film.x[1] - film.x[0]) * (film.y[1] - film.y[0])
         assert film.pressure.sum() * cell == pytest.approx(800.0, rel=1e-7)
 
-    def test_local_fields_of_one_rank_are_the_whole(self, film):
-        np.testing.assert_array_equal(film.local.H, film.fields.H)
-        assert film.first_line == 0
-
-    def test_printed_it_says_whether_to_trust_it(self, film):
-        assert str(film).startswith("CONVERGED")
-
     def test_a_solution_is_a_start_for_another_speed(self, film):
         slower = mgehl.load(None, FILM | {"motion.speed": "0.8 m/s"})
         again = mgehl.solve(slower, MPI.COMM_SELF, start=film)
@@ -175,11 +149,6 @@ class TestSolution:
         assert again.summary.converged
         assert again.summary.central_film_nm == pytest.approx(cold.summary.central_film_nm, rel=1e-6)
         assert again.summary.central_film_nm < film.summary.central_film_nm
-
-    def test_contact_is_a_status(self):
-        dry = mgehl.solve(mgehl.load(None, {"grid.nodes": 65}), MPI.COMM_SELF)
-        assert (dry.status == CONTACT).sum() == dry.summary.contact.nodes > 1000
-        assert dry.film[dry.status == LUBRICATED].min() > 0.0
 
 
 def test_impossible_contacts_are_one_line():

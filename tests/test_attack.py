@@ -16,9 +16,7 @@ from mgehl.discretization.status import CAVITATED, LUBRICATED
 TOOL = Path(__file__).parent / "tools" / "attack.py"
 
 
-@pytest.mark.parametrize(
-    "attack, count", [("words", 10), ("cases", 6), ("damage", 5), ("flips", 5), ("writers", 1)]
-)
+@pytest.mark.parametrize("attack, count", [("words", 10), ("damage", 5)])
 def test_a_few_find_nothing(attack, count):
     words = [sys.executable, str(TOOL), attack, "--count", str(count), "--seed", "11"]
     done = subprocess.run(words, capture_output=True, text=True, timeout=300, env=own_environment())
@@ -31,7 +29,7 @@ class TestTheIndependentTest:
 
     @pytest.fixture(scope="class")
     def wrong(self):
-        return import_module("attack_cases").wrong
+        return import_module("independent").wrong
 
     @pytest.fixture(scope="class", params=[{}, {"contact.kind": "line"}], ids=["point", "line"])
     def film(self, request):
@@ -43,14 +41,6 @@ class TestTheIndependentTest:
 
     def test_a_gap_of_its_own(self, wrong, film):
         assert wrong(changed(film, H=film.fields.H * (1.0 + 1e-4))).startswith("gap off")
-
-    def test_a_pressure_that_carries_less(self, wrong, film):
-        config = deepcopy(film.config)
-        object.__setattr__(config.contact, "load", 1.001 * config.contact.load)
-        object.__setattr__(config.contact, "load_per_length", 1.001 * config.contact.load_per_length)
-        found = changed(film)
-        found.config = config
-        assert wrong(found).startswith("load off")
 
     def test_fluid_that_pulls(self, wrong, film, monkeypatch):
         monkeypatch.setitem(wrong.__globals__, "_wrong_gap", lambda _: "")

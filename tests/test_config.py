@@ -3,22 +3,14 @@ import re
 import subprocess
 import sys
 import tomllib
-from dataclasses import asdict, fields, replace
+from dataclasses import asdict, replace
 from pathlib import Path
 
 import pytest
 import tomli_w
 from processes import own_environment
 
-from mgehl.config import (
-    SECTIONS,
-    Config,
-    ConfigError,
-    chosen_config,
-    config_from_tables,
-    default_config,
-    load_config,
-)
+from mgehl.config import Config, ConfigError, config_from_tables, default_config, load_config
 
 CONFIGS = Path(__file__).resolve().parent.parent / "configs"
 
@@ -59,18 +51,6 @@ def test_default_configuration_is_the_point_contact():
     assert (config.grid.nodes, config.grid.x, config.grid.y) == (257, (-1.9, 1.3), (-1.5, 1.5))
 
 
-def test_without_a_file_a_command_means_the_rough_ball_and_with_settings_alone_the_papers():
-    assert chosen_config() == CONFIGS / "rough.toml"
-    assert chosen_config(settings=["grid.nodes=65"]) == default_config()
-    assert chosen_config("mine.toml", ["grid.nodes=65"]) == Path("mine.toml")
-
-
-def test_they_are_installed_with_the_package():
-    project = tomllib.loads((CONFIGS.parent / "pyproject.toml").read_text())
-    installed = project["tool"]["setuptools"]["data-files"]["share/mgehl/configs"]
-    assert installed == [f"configs/{path.name}" for path in (default_config(), chosen_config())]
-
-
 def test_defaults_of_the_keys_are_the_default_file_but_for_start_schemes_and_domain():
     """The file is the paper's contact; the defaults are those of a case of one's own."""
     paper = load_config()
@@ -81,17 +61,6 @@ def test_defaults_of_the_keys_are_the_default_file_but_for_start_schemes_and_dom
     config = load_config(settings=settings)
     config = replace(config, discretization=replace(config.discretization, couette=None))
     assert_same(config, Config())
-
-
-@pytest.mark.parametrize("path", sorted(CONFIGS.glob("*.toml")), ids=lambda path: path.stem)
-def test_every_configuration_of_the_repository_is_valid(path):
-    load_config(path)
-
-
-def test_empty_file_is_all_defaults(tmp_path):
-    path = tmp_path / "empty.toml"
-    path.write_text("")
-    assert load_config(path) == Config()
 
 
 @pytest.mark.parametrize(
@@ -138,18 +107,6 @@ def test_settings_are_toml_or_else_plain_strings(setting, value):
     section, key = setting.split("=")[0].strip().split(".")
     found = getattr(getattr(with_settings(setting), section), key)
     assert found == value and type(found) is type(value)
-
-
-def test_later_settings_win():
-    config = with_settings("grid.nodes=129", "motion.speed=1", "grid.nodes=65")
-    assert (config.grid.nodes, config.motion.speed) == (65, 1.0)
-
-
-def test_settings_may_open_a_section_that_the_file_lacks(tmp_path):
-    path = tmp_path / "short.toml"
-    path.write_text("[motion]\nspeed = 1.0\n")
-    config = load_config(path, ["grid.nodes=129"])
-    assert (config.motion.speed, config.grid.nodes) == (1.0, 129)
 
 
 # setting; words that must appear: the key, the value, what is allowed
@@ -206,15 +163,6 @@ def test_mistake_is_one_line_with_key_value_and_what_is_allowed(setting, start, 
 
 
 @pytest.mark.parametrize(
-    "setting",
-    ["grid.nodes=1" + 400 * "0", "grid.y=[-2, 1" + 400 * "0" + "]"],
-    ids=["number", "interval"],
-)
-def test_whole_number_beyond_every_float_is_refused_too(setting):
-    error_of(setting)
-
-
-@pytest.mark.parametrize(
     "setting, start",
     [
         ("grid.nodes=" + 5000 * "1", "grid.nodes = '11"),  # more digits than Python reads
@@ -253,23 +201,11 @@ def test_names_with_line_breaks_stay_on_the_line(tables):
     assert len(message.splitlines()) == 1 and "unknown" in message
 
 
-def test_names_of_settings_are_taken_for_text():
-    with pytest.raises(ConfigError, match="1 = 2: must be section.key"):
-        load_config(os.devnull, {1: 2})
-
-
 @pytest.mark.parametrize("tables", [{"grid": 5}, {"motion": "fast"}, {"contact": [1]}])
 def test_section_that_is_a_value(tables):
     (name,) = tables
     message = error_of(tables=tables)
     assert message.startswith(f"{name} = {tables[name]!r}: ") and f"[{name}]" in message
-
-
-def test_setting_into_a_section_that_is_a_value(tmp_path):
-    path = tmp_path / "flat.toml"
-    path.write_text("grid = 5\n")
-    with pytest.raises(ConfigError, match=r"^grid = 5: .*\[grid\]$"):
-        load_config(path, ["grid.nodes=129"])
 
 
 @pytest.mark.parametrize("law, viscosity", [("roelands", 1e-5), ("roelands", 6e-5)])
@@ -299,11 +235,6 @@ def test_file_that_is_not_toml(tmp_path, content):
 MOES = {"moes": {"M": 200, "L": 10}}
 
 
-def test_moes_numbers_replace_load_and_speed():
-    config = config_from_tables(MOES)
-    assert (config.moes.M, config.moes.L) == (200.0, 10.0)
-
-
 @pytest.mark.parametrize("key, missing", [("M", "moes.L"), ("L", "moes.M")])
 def test_moes_numbers_go_together(key, missing):
     assert error_of(tables={"moes": {key: 20.0}}) == f"{missing}: must be given with moes.{key}"
@@ -323,55 +254,10 @@ def test_moes_numbers_are_positive_and_have_no_unit(value, allowed):
     assert message.startswith(f"moes.M = {value!r}: ") and allowed in message
 
 
-def test_written_tables_name_every_key_that_is_set():
-    """Nothing is left to the defaults of a later version; unset keys are absent."""
-    written = Config().as_toml_tables()
-    left_out = {"moes", "coating", "wedge", "surface", "second_surface", "body_1", "body_2", "heat"}
-    assert written.keys() == SECTIONS.keys() - left_out
-    words = "oil", "temperature", "density", *(f"kinematic_viscosity{at}" for at in ("", "_40", "_100"))
-    for name in written:
-        of_oil = {*words, "conductivity", "thermoviscosity"}
-        unset = {"lubricant": of_oil, "motion": {"ring_rotation"}, "time": {"end", "step", "save_every"}}
-        unset |= {"contact": {"load_per_length", "surface"}, "discretization": {"cavitation", "couette"}}
-        unset |= {"grid": {"load_beyond"}, "solver": {"idle_steps"}}
-        unset |= {"friction": {"model", "eyring_stress", "limiting_coefficient", "thinning"}}
-        foreign = unset.get(name, set())
-        assert set(written[name]) == {key.name for key in fields(SECTIONS[name])} - foreign
-    written = config_from_tables(MOES).as_toml_tables()
-    assert written["motion"] == {"angle": 0.0, "slide_to_roll": 0.0} and "load" not in written["contact"]
-
-
-def test_configuration_cannot_be_changed():
-    with pytest.raises(AttributeError):
-        load_config().grid.nodes = 129
-
-
-def test_a_unit_does_not_import_what_takes_half_a_second():
-    """And leaves it to be imported later."""
-    code = (
-        "import os, sys; from mgehl.config import load_config; "
-        "load_config(os.devnull, ['contact.load=8 N']); "
-        "assert 'pint' in sys.modules and not {'pandas', 'xarray'} & set(sys.modules); import xarray"
-    )
-    subprocess.run([sys.executable, "-c", code], check=True)
-
-
 @pytest.mark.parametrize("text", ["9**9**9 N", "800 N # x", "8e2 N; 3", "N", "2 * 400 N", "1 N/0"])
 def test_a_quantity_is_a_number_and_a_unit_and_nothing_else(text):
     with pytest.raises(ConfigError, match="contact.load"):
         config_from_tables({"contact": {"load": text}})
-
-
-def test_moes_numbers_set_by_hand_replace_the_load_and_speed_of_the_file():
-    config = load_config(None, ["moes.M=20", "moes.L=10"])
-    assert (config.moes.M, config.moes.L) == (20.0, 10.0)
-    with pytest.raises(ConfigError, match="contact.load"):
-        load_config(None, ["moes.M=20", "moes.L=10", "contact.load=3"])
-
-
-def test_a_setting_holds_one_value():
-    with pytest.raises(ConfigError, match="grid.nodes"):
-        load_config(None, ["grid.nodes=65\nx=3"])
 
 
 FOREIGN_KEYS = [
@@ -442,17 +328,6 @@ def test_every_kind_round_trips(tables):
     assert again.as_toml_tables() == written
 
 
-@pytest.mark.parametrize("path", sorted(CONFIGS.glob("*.toml")), ids=lambda path: path.stem)
-def test_every_configuration_of_the_repository_round_trips(path):
-    config = load_config(path)
-    assert config_from_tables(tomllib.loads(tomli_w.dumps(config.as_toml_tables()))) == config
-
-
-def test_every_kind_has_a_configuration_in_the_repository():
-    kinds = {load_config(path).contact.kind for path in CONFIGS.glob("*.toml")}
-    assert kinds == {"point", "line", "wedge"}
-
-
 @pytest.mark.parametrize("inlet", ["20 mm", "19 mm"])
 def test_a_wedge_opens_towards_its_inlet(inlet):
     message = error_of("contact.kind=wedge", f"wedge.inlet={inlet}")
@@ -502,27 +377,6 @@ def test_a_pad_is_described_in_one_way(key):
     assert message == f"wedge.{key} = {value!r}: means nothing with wedge.length"
     config = load_config(CONFIGS / "wedge_open.toml", BY_FILMS)
     assert config.wedge.by_films and "slope" not in config.as_toml_tables()["wedge"]
-
-
-@pytest.mark.parametrize(
-    "settings, message",
-    [
-        (("wedge.pocket_to=4.01 mm",), "wedge.pocket_to = 0.00401: the pocket must be at least 2 cells"),
-        (("wedge.sides=open", "wedge.pocket_width=0.2 mm", "grid.nodes=65"),
-         "wedge.pocket_width = 0.0002: the pocket must be at least 2 cells"),
-        (("wedge.sides=open", "wedge.width=9"), "wedge.width = 9: must be within a factor of 100"),
-        (("wedge.pillar=square", "wedge.pillar_x=1 mm"), "wedge.pillar_x = 0.001: the pillar of 0.008 m "
-         "must stand between the inlet at 0 and the exit at 0.02"),
-        (("lubricant.density_law=missing.py:rho",), "lubricant.density_law = "),
-    ],
-)  # fmt: skip
-def test_a_pad_that_does_not_fit_its_grid(settings, message):
-    from mgehl.kinds import check_contact, contact_from
-
-    config = load_config(CONFIGS / "pocket.toml", settings)
-    with pytest.raises(ConfigError) as caught:
-        check_contact(config, contact_from(config))
-    assert str(caught.value).startswith(message) and "\n" not in str(caught.value)
 
 
 def test_keys_of_the_discretization_and_the_relaxation():
@@ -590,61 +444,6 @@ def test_a_substrate_softer_than_both_bodies():
     message = error_of(*COATED, "coating.substrate_modulus=50 GPa")
     assert message.startswith("coating.substrate_modulus = 50000000000.0: both bodies without the coating")
     assert message.endswith("so that the substrate's modulus is at least 1e+11 Pa")
-
-
-def test_own_functions_of_a_file_are_found_from_the_file(tmp_path, monkeypatch):
-    (tmp_path / "mine.toml").write_text('[contact]\nsurface = "laws/mine.py:waves"\n')
-    (tmp_path / "elsewhere").mkdir()
-    monkeypatch.chdir(tmp_path / "elsewhere")
-    config = load_config("../mine.toml", ["lubricant.density_law=mine.py:rho"])
-    assert config.contact.surface == f"{tmp_path}/laws/mine.py:waves"
-    assert config.lubricant.density_law == f"{tmp_path}/elsewhere/mine.py:rho"
-
-
-def test_objects_of_one_s_own():
-    """From the configuration to the contact, without a look at the files."""
-    from mgehl.kinds import contact_from
-    from mgehl.model.coating import Coating
-    from mgehl.model.own_function import OwnFunction
-    from mgehl.model.own_laws import OwnCompliance, OwnDensity, OwnSurface, OwnViscosity
-
-    own = {"viscosity_law": "/there/mine.py:eta", "density_law": "/there/mine.py:rho"}
-    tables = {"contact": {"surface": "/m.py:s", "deformation": "/m.py:c"}, "lubricant": own, **MOES}
-    contact = contact_from(config_from_tables(tables))
-    lubricant = contact.lubricant
-    function = OwnFunction(own["viscosity_law"])
-    assert lubricant.viscosity_law == OwnViscosity(0.096, 18.2e-9, function)
-    assert lubricant.density_law == OwnDensity(OwnFunction(own["density_law"]))
-    assert contact.surface == OwnSurface(OwnFunction("/m.py:s"))
-    assert contact.deformation == OwnCompliance(OwnFunction("/m.py:c"))
-    line = contact_from(config_from_tables({"contact": {"kind": "line", "surface": "/m.py:s"}}))
-    assert line.surface == contact.surface and line.deformation is None
-    coated = contact_from(with_settings(*COATED, "coating.poisson=0.2"))
-    assert coated.deformation == Coating(pytest.approx(10e-6), 400e9, 0.2, None, 0.3, 219.78e9)
-
-
-@pytest.mark.parametrize(
-    "settings, continuous",
-    [
-        ([], False),
-        (["contact.boundary_film=2 nm"], True),
-        (["surface.kind=waviness", "surface.amplitude=20 nm", "surface.wavelength_x=0.1 mm"], True),
-        (["contact.reduced_modulus=2 GPa", "contact.load=10"], True),
-        (
-            ["contact.reduced_modulus=2 GPa", "contact.load=10", "discretization.face_mobility=arithmetic"],
-            True,
-        ),
-        (["discretization.face_mobility=arithmetic"], False),
-    ],
-)
-def test_rough_and_soft_bodies_close_continuously(settings, continuous):
-    """Whatever their film: parts of it may close on the way."""
-    from mgehl.kinds import contact_from
-    from mgehl.solver.from_config import settings_from
-
-    config = with_settings("motion.speed=1", *settings)
-    law = settings_from(config, contact_from(config)).scheme.contact_law
-    assert law.is_continuous is continuous
 
 
 class TestPipes:

@@ -2,7 +2,6 @@
 
 import csv
 import json
-import re
 
 import numpy as np
 import pytest
@@ -41,21 +40,6 @@ def test_its_files_read_back(rough):
         solution.heights, dry_surfaces.rough_500(solution.x[None], solution.y[:, None])
     )
     assert solution.film.min() > -1e-14 and [row["changed_nodes"] for row in solution.rows][-1] == 0
-
-
-def test_its_pictures(rough):
-    names = {path.name for path in (rough / "plots").iterdir()}
-    kinds = "lines", "gap", "pressure", "status", "history", "surface"
-    assert names == {f"{kind}.png" for kind in kinds}
-
-
-def test_its_page_knows_no_fluid(rough):
-    page = (rough / "report.html").read_text()
-    text = re.sub(r"<svg.*?</svg>|<style.*?</style>|data:[^\"]*|<[^>]*>", " ", page, flags=re.DOTALL)
-    own = text[: text.index("Configuration")]
-    assert "Dry point contact" in own and "approach" in own
-    for word in ("film", "speed", "lubric", "cavit", "inlet"):
-        assert word not in own
 
 
 def test_pictures_and_page_of_a_surface_by_a_formula(tmp_path):
@@ -101,21 +85,6 @@ def test_it_starts_from_another_run(tmp_path, rough):
 def test_one_that_did_not_converge_says_so(tmp_path, capsys):
     assert run(tmp_path / "few", **{"contact.surface": SURFACE, "solver.max_steps": "2"}) == 1
     assert "nodes still change between contact and gap" in capsys.readouterr().err
-
-
-def test_a_table_of_runs_has_no_film_of_it(rough, capsys):
-    assert main(["collect", str(rough), "--columns", "run,converged,load on contact"]) == 0
-    cells = [
-        cell for line in capsys.readouterr().out.splitlines() for cell in line.replace("|", " ").split()
-    ]
-    assert {"rough", "yes", "1.0000"} <= set(cells), "all of the load is on contact"
-
-
-def test_check_says_what_is_solved(capsys):
-    assert main(["check", "--set", "discretization.contact_model=dry"]) == 0
-    said = capsys.readouterr().out
-    assert "a dry point contact" in said and "no lubricant" in said
-    assert "inlet" not in said and "film" not in said
 
 
 def test_study(tmp_path):

@@ -65,14 +65,6 @@ class TestNamesThatAreNoText:
         assert main(["run", f"{NAME}/configuration.toml", "--quiet", "--out", f"{NAME}/again"]) == 0
         assert all(line.isprintable() for line in capsys.readouterr().err.splitlines())
 
-    def test_so_is_the_directory_of_a_law(self, capsys):
-        Path(NAME).mkdir()
-        (Path(NAME) / "law.py").write_text("def law(at):\n    return 1.0 + 1e-10 * at.pressure, 1e-10\n")
-        words = ["run", "--set", "grid.nodes=65", "--set", "motion.speed=0.5", "--quiet", "--no-error"]
-        words += ["--set", "solver.start=film"]
-        assert main([*words, "--set", f"lubricant.density_law={NAME}/law.py:law", "--out", "here"]) == 0
-        assert main(["run", "here/configuration.toml", "--quiet", "--no-error", "--out", "again"]) == 0
-
 
 def one_line(capsys, status, words, *parts):
     assert main(words) == status
@@ -92,26 +84,6 @@ def test_fields_that_were_cut_are_not_collected(finished, capsys):
 def test_an_inlet_of_endless_cells_is_refused(capsys, kind):
     words = ["run", "--set", f"contact.kind={kind}", "--set", "solver.inlet_cells=1e300"]
     one_line(capsys, 2, words, "solver.inlet_cells = 1e+300: must be ")
-
-
-@pytest.mark.parametrize("kind, nodes", [("line", 129), ("point", 65)])
-def test_the_longest_inlet_ends(kind, nodes):
-    words = [
-        "run",
-        "--set",
-        f"contact.kind={kind}",
-        "--set",
-        f"grid.nodes={nodes}",
-        "--set",
-        "solver.error=false",
-    ]
-    assert main([*words, "--set", "solver.inlet_cells=1000", "--quiet", "--out", "here"]) in (0, 1)
-    assert Path("here/result.json").exists()
-
-
-def test_a_file_of_options_that_holds_none(capsys):
-    Path("options").write_text("-mgehl_ksp_rtol 0.1\nfrobnicate\n")
-    one_line(capsys, 2, ["run", "-options_file", "options"], "line 2 is no option: frobnicate")
 
 
 @pytest.mark.parametrize("style", ["/dev/zero", "pipe", "folder"])

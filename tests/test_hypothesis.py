@@ -23,6 +23,7 @@ import tomli_w
 from configurations import KEYS, raw_tables, solvable_tables
 from hypothesis import HealthCheck, event, given, settings
 from hypothesis import strategies as st
+from independent import wrong
 from mpi4py import MPI
 
 from mgehl import solve
@@ -127,6 +128,8 @@ def test_every_contact_is_solved_or_refused(tables):
     if not is_finite(solution):
         event(f"not finite: {result.reason[:8]}")
         assert not result.converged
+    elif result.converged and config.contact.kind != "wedge" and "moes" not in tables:
+        assert wrong(solution) == ""
 
 
 @settings(max_examples=RUN, **REPEATABLE)

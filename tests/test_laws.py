@@ -10,12 +10,10 @@ import pytest
 import mgehl
 from mgehl.cli import main
 from mgehl.config import load_config
-from mgehl.errors import ConfigError
 from mgehl.model.hertz import hertz_contact
 from mgehl.output.stored import read_run
 
 CONFIGS = Path(__file__).resolve().parent.parent / "configs"
-FILM = {"grid.nodes": 65, "motion.speed": 1.0, "solver.start": "film"}
 A = 0.4108e-3
 """Hertz radius of the paper's ball in m."""
 
@@ -58,12 +56,6 @@ def laws(tmp_path):
     return path
 
 
-@pytest.fixture(scope="module")
-def built_in():
-    """The film of the built-in laws."""
-    return mgehl.solve(mgehl.load(os.devnull, FILM))
-
-
 def coated(modulus, thickness, more, nodes=65):
     """A contact with a coating; `thickness` in units of a."""
     settings = {
@@ -71,26 +63,6 @@ def coated(modulus, thickness, more, nodes=65):
         "contact.deformation": "coated", "coating.modulus": modulus, "coating.thickness": thickness * A,
     }  # fmt: skip
     return mgehl.solve(mgehl.load(os.devnull, settings | more))
-
-
-def test_own_functions_that_repeat_what_is_built_in_give_the_same_film(laws, built_in):
-    own = {
-        "lubricant.viscosity_law": f"{laws}:barus",
-        "lubricant.density_law": f"{laws}:dowson_higginson",
-        "contact.surface": f"{laws}:flat",
-        "contact.deformation": f"{laws}:same",
-    }
-    solution = mgehl.solve(mgehl.load(os.devnull, FILM | own))
-    assert solution.summary.converged and built_in.summary.converged
-    np.testing.assert_array_equal(solution.status, built_in.status)
-    # Both have converged to 1e-8; a law alone changes only rounding.
-    np.testing.assert_allclose(solution.fields.H, built_in.fields.H, rtol=0.0, atol=1e-7)
-
-
-def test_a_law_alone_repeats_the_film_to_rounding(laws, built_in):
-    solution = mgehl.solve(mgehl.load(os.devnull, FILM | {"lubricant.viscosity_law": f"{laws}:barus"}))
-    np.testing.assert_allclose(solution.film, built_in.film, rtol=1e-10)
-    assert solution.summary.work == built_in.summary.work
 
 
 REFUSED = {
@@ -255,23 +227,3 @@ def test_a_dry_coated_contact_tends_to_hertz(modulus, thickness):
     assert summary.max_pressure_GPa == pytest.approx(1e-9 * hertz.p_h, rel=0.01)
     radius = np.sqrt(summary.contact.area_fraction) * solution.contact.hertz.a
     assert radius == pytest.approx(hertz.a, rel=0.01)
-
-
-@pytest.mark.parametrize("modulus, thickness", [(800e9, 0.1), (800e9, 1.0), (50e9, 0.1), (50e9, 1.0)])
-def test_a_coated_film_takes_no_more_iterations_than_a_bare_one(modulus, thickness):
-    fast = {"motion.speed": 5.0, "solver.start": "film"}
-    solution, bare = coated(modulus, thickness, fast), coated(200e9, thickness, fast)
-    assert solution.summary.converged and bare.summary.converged
-    # A layer of the substrate's material is none; the dry contact it starts from is counted, too.
-    iterations, of_bare = (sum(row["linear_iterations"] for row in each.rows) for each in (solution, bare))
-    assert iterations <= 1.5 * of_bare
-    pressure, of_bare = solution.summary.max_pressure_GPa, bare.summary.max_pressure_GPa
-    assert (pressure > of_bare) == (modulus > 200e9)
-
-
-def test_coatings_that_the_domain_cannot_hold_are_refused():
-    settings = {"contact.deformation": "coated", "coating.modulus": "1 GPa", "coating.thickness": "0.2 mm"}
-    settings |= {"grid.x": [-1.9, 1.3], "grid.y": [-1.5, 1.5]}
-    config = mgehl.load(os.devnull, settings)
-    with pytest.raises(ConfigError, match=r"^grid.x = \[-1.9, 1.3\]: must "):
-        mgehl.solve(config)

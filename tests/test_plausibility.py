@@ -28,11 +28,6 @@ def test_one_line_names_the_key(settings, key):
     assert str(caught.value).startswith(key) and "\n" not in str(caught.value)
 
 
-def test_the_paper_s_contact_passes():
-    config = load_config()
-    check_contact(config, contact_from(config))
-
-
 class TestTheInletLiesUpstream:
     """The domain of each case ends beside the contact on one side: if that is upstream, it is refused."""
 
@@ -64,22 +59,6 @@ class TestTheInletLiesUpstream:
             check_contact(config, contact_from(config))
         message = str(caught.value)
         assert message.startswith(key) and words in message and "inlet" in message and "\n" not in message
-
-    @pytest.mark.parametrize("domain", ["[-1.3, 1.9]", "[-1.1, 1.9]"])
-    def test_a_contact_turned_with_its_motion_needs_as_much_room(self, domain):
-        """What was enough along x is enough along y, and what was not is not."""
-
-        def refused(angle, radii, key):
-            config = load_config(os.devnull, [f"motion.angle={angle}", "motion.speed=1 m/s", *radii, key])
-            try:
-                check_contact(config, contact_from(config))
-            except ConfigError as error:
-                return str(error).partition(": ")[2]
-
-        along_x = refused(0, ["contact.radius_y=20 mm"], f"grid.x={domain}")
-        radii = ["contact.radius_x=20 mm", "contact.radius_y=12.7 mm"]
-        assert refused(90, radii, f"grid.y={domain}") == along_x
-        assert (along_x is None) == (domain == "[-1.3, 1.9]")
 
 
 LINE, WEDGE = "contact.kind=line", "contact.kind=wedge"

@@ -36,11 +36,7 @@ ROUGH = [str(Path(__file__).parents[1] / "configs" / "rough.toml"), "--set", "gr
 ROUGH += ["--set", "solver.tolerance=1e-10"]
 """Film and contact on a rough ball: some twenty steps, by a linear solver that remembers those before. To a
 tolerance by which runs whose sums round differently end with the same film."""
-SIGNALS = (
-    (signal.SIGTERM, "SIGTERM", 143),
-    (signal.SIGINT, "Ctrl-C", 130),
-    (signal.SIGHUP, "SIGHUP", 129),
-)
+SIGNALS = ((signal.SIGTERM, "SIGTERM", 143), (signal.SIGINT, "Ctrl-C", 130), (signal.SIGHUP, "SIGHUP", 129))
 ALWAYS = ["--save-every", "0.001"]
 
 
@@ -238,36 +234,6 @@ class TestStops:
         apart = 1e-12 if ranks == 1 else 0.1
         assert work.convolutions == pytest.approx(whole.result.work.convolutions, rel=apart)
 
-    def test_a_limit_of_time_on_two_ranks(self, tmp_path):
-        status, said = end(start([*SMALL, "--out", "here", "--time-limit", "1e-9"], ranks=2))
-        assert status == 143 and len(said) == 1 and "stopped by --time-limit" in said[0]
-        assert (tmp_path / "here" / "checkpoint" / "under-way.npz").exists()
-
-    def test_a_wedge_has_ended_before_its_limit(self):
-        """It is one solve, or a few."""
-        settings = ["--set", "contact.kind=wedge", "--set", "grid.nodes=65"]
-        assert exit_status(*settings, "--out", "here", "--time-limit", "1e-9") == 0
-        read_run("here")
-
-    @pytest.mark.parametrize("name", ["line", "relaxation"])
-    def test_of_another_kind(self, name, tmp_path):
-        settings = {
-            "line": [*SMALL, "--set", "contact.kind=line"],
-            "relaxation": [*SMALL, "--set", "solver.method=relaxation", "--set", "relaxation.max_sweeps=5"],
-        }[name]
-        assert exit_status(*settings, "--out", "here", "--time-limit", "1e-9") == 143
-        assert exit_status("--resume", "here") == (name == "relaxation")
-        assert FILES <= {path.name for path in (tmp_path / "here").iterdir()}
-        read_run("here")
-
-    @pytest.mark.parametrize("limit", ["0", "-1", "nan", "inf", "soon", "1 m"])
-    def test_a_limit_that_is_none(self, limit, capsys):
-        for option in ("--time-limit", "--save-every"):
-            assert exit_status(*SMALL, "--out", "here", f"{option}={limit}") == 2
-            err = capsys.readouterr().err.splitlines()
-            assert len(err) == 1 and option in err[0]
-        assert not Path("here").exists()
-
 
 class TestResume:
     def refused(self, capsys, *arguments):
@@ -286,10 +252,6 @@ class TestResume:
         assert "here has finished" in capsys.readouterr().out
         assert (tmp_path / "here" / "fields.h5").stat().st_mtime_ns == before
         assert {path.name for path in (tmp_path / "here").iterdir()} == FILES
-
-    def test_a_run_that_has_finished_and_did_not_converge(self, capsys):
-        assert exit_status(*SMALL, "--set", "solver.max_steps=1", "--out", "here") == 1
-        assert exit_status("--resume", "here") == 1
 
     def test_no_run(self, tmp_path, capsys):
         assert "is no run directory" in self.refused(capsys, "--resume", "nowhere")
@@ -379,14 +341,6 @@ class TestStartFrom:
         assert part in err and len(err.splitlines()) == 1
         assert {path.name for path in before.iterdir()} == FILES and not (tmp_path / "new").exists()
 
-    def test_a_damaged_one(self, before, tmp_path, capsys):
-        whole = (before / "fields.h5").read_bytes()
-        (before / "fields.h5").write_bytes(whole[: len(whole) // 2 - 7])
-        assert exit_status(*SMALL, "--start-from", "before", "--out", "new") == 2
-        err = capsys.readouterr().err
-        assert "before" in err and len(err.splitlines()) == 1
-        assert not (tmp_path / "new").exists()
-
 
 def mounted(*words):
     """Whether root may mount here."""
@@ -452,40 +406,6 @@ class TestFullDisk:
         assert exit_status("--resume", str(path / "here")) == 0
         assert read_run(path / "here").config.motion.speed == 0.6
 
-    def test_a_run_to_be_replaced_stays_where_nothing_can_be_written(self, disk, tmp_path, capsys):
-        path = disk("4m")
-        assert exit_status(*SMALL, "--out", str(path / "here")) == 0
-        if not mounted("-o", "remount,ro", "tmpfs", str(path)):
-            pytest.skip("a read-only disk needs the right to mount one")
-        for arguments in (["--out", str(path / "here"), "--force"], ["--out", str(path / "new")]):
-            assert exit_status(*SMALL, *arguments) == 2
-            err = capsys.readouterr().err
-            assert "cannot be written: Read-only file system" in err and len(err.splitlines()) == 1
-        assert {each.name for each in (path / "here").iterdir()} == FILES
-        read_run(path / "here")
-
-    def test_a_run_stopped_cannot_go_on_where_nothing_can_be_written(self, disk, capsys):
-        path = disk("4m")
-        assert exit_status(*SMALL, "--out", str(path / "here"), "--time-limit", "1e-9") == 143
-        capsys.readouterr()
-        if not mounted("-o", "remount,ro", "tmpfs", str(path)):
-            pytest.skip("a read-only disk needs the right to mount one")
-        assert exit_status("--resume", str(path / "here")) == 2
-        err = capsys.readouterr().err
-        assert "cannot be written: Read-only file system" in err and len(err.splitlines()) == 1
-        assert_nothing_is_half_written(path / "here")
-
-
-def test_a_file_in_place_of_the_checkpoint(tmp_path, capsys):
-    assert exit_status(*SMALL, "--out", "here", "--time-limit", "1e-9") == 143
-    capsys.readouterr()
-    shutil.rmtree("here/checkpoint")
-    Path("here/checkpoint").write_text("mine")
-    assert exit_status("--resume", "here") == 2
-    err = capsys.readouterr().err
-    assert "here: is no run directory" in err and len(err.splitlines()) == 1
-    assert Path("here/checkpoint").read_text() == "mine"
-
 
 class TestFailingRank:
     """One rank of two meets an error of its own at the third step; the other waits for it."""
@@ -527,11 +447,6 @@ class TestFailingRank:
         assert status == 1 and seconds < 45.0
         (line,) = [line for line in err.splitlines() if line.startswith("mgehl")]
         assert line.startswith("mgehl: an error of mgehl's own: ArithmeticError: the second rank is ill")
-
-    def test_so_does_one_that_a_user_can_mend(self, tmp_path):
-        status, err, _ = self.run(tmp_path, "raise errors.OutputError('only here')")
-        assert status == 2 and "Traceback" not in err
-        assert [line for line in err.splitlines() if line.startswith("mgehl")] == ["mgehl: only here"]
 
     def test_a_signal_to_one_rank_stops_both(self, tmp_path):
         status, err, _ = self.run(tmp_path, "os.kill(os.getpid(), signal.SIGTERM)")

@@ -15,9 +15,8 @@ from mgehl.config import config_from_tables, load_config
 from mgehl.discretization.status import CONTACT
 from mgehl.output.result import Result
 from mgehl.output.solution import Solution
-from mgehl.output.terminal import Lines
 from mgehl.output.wedge_result import WedgeResult
-from mgehl.run import Watch, run, solve
+from mgehl.run import run, solve
 from mgehl.studies.study import PAPERS_DOMAIN, papers_grid
 
 CONFIGS = Path(__file__).resolve().parent.parent / "configs"
@@ -117,33 +116,6 @@ def test_a_run_that_does_not_converge_still_leaves_everything(tmp_path):
     assert {path.name for path in tmp_path.iterdir()} == FILES
     read = read_json(tmp_path)
     assert read["converged"] is False and "1 steps" in read["reason"]
-
-
-def test_it_says_what_it_does_and_whether_to_trust_it(tmp_path, capsys):
-    run(config_from_tables(FILM), tmp_path, MPI.COMM_SELF, Watch(Lines()))
-    out = capsys.readouterr().out
-    assert "  65 nodes" in out and max(map(len, out.splitlines()[:5])) <= 80
-    assert "\nCONVERGED" in out
-    assert str(tmp_path) in out.splitlines()[-1]
-
-
-def test_a_quiet_one_says_nothing(film, tmp_path, capsys):
-    run_quietly({**FILM, "solver": {"max_steps": 1}}, tmp_path)
-    assert capsys.readouterr().out == ""
-
-
-def test_moes_numbers_give_the_reference_film(tmp_path):
-    """references.md: M = 20, L = 10, 2B, 65 nodes."""
-    tables = {
-        "moes": {"M": 20, "L": 10},
-        "lubricant": {"density_law": "constant"},
-        "grid": {"nodes": 65, "x": [-4.5, 1.5], "y": [-3.0, 3.0]},
-        "discretization": {"couette": "2B", "face_mobility": "arithmetic"},
-    }
-    result = run_quietly(tables, tmp_path)
-    assert result.converged
-    assert result.moes_film.central == pytest.approx(4.65234, rel=1e-4)
-    assert result.moes_film.minimum == pytest.approx(2.88452, rel=1e-4)
 
 
 KINDS = {
@@ -262,48 +234,6 @@ def test_line_of_the_repository(name, tmp_path):
         assert 1e-9 * float(data["pressure"].max()) == pytest.approx(read["max_pressure_GPa"])
 
 
-def test_a_wedge_says_what_it_found(tmp_path, capsys):
-    run(
-        load_config(CONFIGS / "wedge_open.toml", ["grid.nodes=65"]), tmp_path, MPI.COMM_SELF, Watch(Lines())
-    )
-    out = capsys.readouterr().out
-    assert "\nCONVERGED: the residual holds" in out
-    assert "flow through closed faces 0.0e+00" in out
-    assert str(tmp_path) in out.splitlines()[-1]
-
-
-def test_force_clears_the_center_line_of_a_wedge_before(tmp_path):
-    """It must not pass for the next run's."""
-    here = tmp_path / "here"
-    assert main(["run", str(CONFIGS / "wedge_open.toml"), "--quiet", "--out", str(here)]) == 0
-    point = ["--set", "grid.nodes=65", "--set", "solver.start=contact"]
-    assert main(["run", *point, "--quiet", "--force", "--out", str(here)]) == 0
-    assert {path.name for path in here.iterdir()} == FILES
-
-
-def test_another_mean_is_solved_from_a_configuration():
-    """65 nodes at 1 m/s. (The harmonic mean takes 176 steps there, or does not get there.)"""
-    films = []
-    for mean in ("arithmetic", "geometric"):
-        tables = {
-            "grid": papers_grid(65),
-            "motion": {"speed": 1.0},
-            "discretization": {"face_mobility": mean},
-        }
-        result = solve(config_from_tables(tables), MPI.COMM_SELF).result
-        assert result.converged and result.residual <= 1e-8
-        films.append(result.central_film_nm)
-    assert films[0] < films[1]
-
-
-def test_a_run_keeps_the_domain_that_auto_became(tmp_path):
-    result = run_quietly({"motion": {"speed": "1 m/s"}, "grid": {"nodes": 65}}, tmp_path)
-    grid = load_config(tmp_path / "configuration.toml").grid
-    assert grid.x[0] < -1.9 and grid.y[1] == -grid.y[0] > 1.5
-    assert result.converged and result.resolution.domain == "sufficient"
-    assert read_json(tmp_path)["resolution"]["domain"] == "sufficient"
-
-
 class TestDomainThatCutsTheContact:
     """The equations hold in it, and what they hold for is no contact."""
 
@@ -324,8 +254,3 @@ class TestDomainThatCutsTheContact:
         result = solve(config_from_tables(tables), MPI.COMM_SELF).result
         assert result.settled and not result.converged
         assert said in result.reason
-
-    def test_of_a_line(self):
-        tables = {"contact": {"kind": "line"}, "grid": {"nodes": 65, "x": [-20, 1.01]}}
-        result = solve(config_from_tables(tables), MPI.COMM_SELF).result
-        assert not result.converged and "domain cuts the contact" in result.reason

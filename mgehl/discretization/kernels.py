@@ -1,7 +1,4 @@
-"""The few loops that numpy cannot fuse, compiled by numba and cached.
-
-Each has a numpy twin in the tests that says the same thing slowly.
-"""
+"""The few loops that numpy cannot fuse, compiled by numba and cached."""
 
 import numpy as np
 

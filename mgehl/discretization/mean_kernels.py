@@ -1,7 +1,4 @@
-"""Means of two nodes' mobilities and their slopes, compiled by numba and cached.
-
-Each has a numpy twin in the tests that says the same thing slowly.
-"""
+"""Means of two nodes' mobilities and their slopes, compiled by numba and cached."""
 
 import numpy as np
 

@@ -98,38 +98,10 @@ def test_each_grid_has_its_cells_and_the_grid_that_resolves_is_recommended(told)
     assert "no grid up to 16385 does" in told("full_film.toml", "--set", "motion.speed=1e-9")
 
 
-def test_full_contact_is_foretold_where_contact_closes_its_faces(told):
-    coarse = "--set", "motion.speed=2e-4", "--set", "grid.nodes=129", "--set", "solver.start=contact"
-    rough = "--set", "surface.kind=waviness", "--set", "surface.amplitude=1e-10"
-    waves = *rough, "--set", "surface.wavelength_x=5e-5"
-    assert "full contact" in told("full_film.toml", *coarse)
-    assert "full contact" in told("full_film.toml", *coarse, *waves)
-    by_linear_gap = "--set", "discretization.face_mobility=linear-gap"
-    assert "side by side" in told("full_film.toml", *coarse, *waves, *by_linear_gap)
-
-
-def test_peaks_that_touch_outside_of_the_domain_are_said(told):
-    near = "--set", "grid.x=[-1.2, 1.1]", "--set", "grid.y=[-2, 2]", "--set", "motion.speed=0.001"
-    assert "peaks may touch up to 1.13 a from the centre, outside of it" in told("rough.toml", *near)
-    assert "peaks may touch" not in told("rough.toml")
-
-
-def test_a_run_that_the_machine_cannot_hold_is_said(told, monkeypatch):
-    monkeypatch.setattr("mgehl.output.surroundings.memory_GiB", lambda: 1.0)
-    assert "MORE THAN THIS MACHINE'S 1.0" in told("full_film.toml")
-    assert "this machine has 1.0" in told("full_film.toml", "--set", "grid.nodes=65")
-
-
 def test_other_kinds_are_described(told):
     line, wedge = told("line_contact.toml"), told("wedge_square_pillar.toml")
     assert "valid, a line contact" in line and number(line, r"dowson higginson central ([\d.]+)") > 100.0
     assert "20 um at the exit, 50 um at the inlet" in wedge and "no convolutions" in wedge
-
-
-def test_a_pocket_is_described(told):
-    text = told("pocket.toml")
-    assert "1 um at the exit, 1.1 um at the inlet" in text
-    assert "pocket     0.4 um deep, 614.2 cells all across" in text and "gap would end" not in text
 
 
 @pytest.mark.parametrize(

@@ -62,15 +62,6 @@ def test_all_formats_of_a_run(kind, run, capsys):
     np.testing.assert_array_equal(table, solution.film.ravel())
 
 
-def test_a_process_of_its_own_writes_for_paraview(runs, tmp_path):
-    """PETSc wakes up without mpiexec and says nothing when it ends."""
-    command = [sys.executable, "-m", "mgehl", "export", str(runs("wedge")), "--to", "vts"]
-    done = subprocess.run([*command, "--out", tmp_path / "a"], capture_output=True, text=True, timeout=60)
-    assert (done.returncode, done.stderr) == (0, "")
-    assert done.stdout.split() == [str(tmp_path / "a.vts")]
-    assert b"<StructuredGrid" in (tmp_path / "a.vts").read_bytes()
-
-
 ON_A_FULL_DISK = """
 import resource, signal, sys
 from petsc4py import PETSc  # MPI has files of its own
@@ -137,10 +128,3 @@ def test_mistakes_are_one_line(words, said, run, capsys):
     err = capsys.readouterr().err
     assert said in err and err.count("\n") == 1
     assert (directory / "fields.csv").read_text() == "mine"
-
-
-def test_force_replaces(run):
-    directory = run("wedge")
-    (directory / "fields.csv").write_text("mine")
-    assert main(["export", str(directory), "--to", "csv", "--force"]) == 0
-    assert (directory / "fields.csv").read_text().startswith("x_m,y_m,")

@@ -11,8 +11,6 @@ from processes import own_environment
 
 from mgehl.cli import main, parser
 from mgehl.commands import COMMANDS
-from mgehl.commands.info import VALUE
-from mgehl.version import VERSION
 
 ROOT = Path(__file__).resolve().parents[2]
 SMALL = ["grid.nodes=65", "motion.speed=0.5 m/s", "solver.start=film"]
@@ -62,28 +60,6 @@ def test_mgehl_alone_is_a_question_for_help(capsys):
         main([])
     out, err = capsys.readouterr()
     assert stop.value.code == 0 and err == "" and all(f"\n    {name}" in out for name in COMMANDS)
-
-
-def test_its_version(capsys):
-    with pytest.raises(SystemExit) as stop:
-        main(["--version"])
-    assert stop.value.code == 0 and capsys.readouterr().out == f"mgehl {VERSION}\n"
-
-
-@pytest.mark.parametrize("columns", [80, 120])
-@pytest.mark.parametrize("command", ["keys", "info"])
-def test_lists_are_broken_at_spaces(command, columns, capsys, monkeypatch):
-    """Nothing is lost: put together again, the lines are those without a terminal."""
-    monkeypatch.delenv("COLUMNS", raising=False)
-    assert main([command]) == 0
-    whole = capsys.readouterr().out
-    monkeypatch.setenv("COLUMNS", str(columns))
-    assert main([command]) == 0
-    broken = capsys.readouterr().out
-    assert broken.split() == whole.split()
-    assert len(broken.splitlines()) >= len(whole.splitlines())
-    too_long = [line.split()[-1] for line in broken.splitlines() if len(line) > columns]
-    assert all(len(word) > columns - VALUE for word in too_long), "but for paths"
 
 
 @pytest.mark.parametrize("name", COMMANDS)

@@ -1,7 +1,5 @@
 """mgehl new: configurations that are valid, complete and not written over others."""
 
-import tomllib
-
 import pytest
 
 from mgehl.cli import main
@@ -34,39 +32,12 @@ def test_the_file_is_a_valid_configuration_of_its_kind(kind, written, capsys):
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_essential_keys_are_live_and_no_others(kind, written):
-    tables = tomllib.loads(written(kind))
-    live = {f"{name}.{key}" for name, table in tables.items() for key in table}
-    assert live == set(KINDS[kind].essential)
-
-
-@pytest.mark.parametrize("kind", KINDS)
 def test_every_key_that_means_something_is_there_with_its_meaning(kind, written):
     text = written(kind)
     flat = " ".join(line.removeprefix("# ") for line in text.splitlines())
     for name, key in KEYS.items():
         foreign = kind_choice(KINDS[kind]).means_nothing(name)
         assert (f"{key.metadata['help']} (" in flat) is not foreign, name
-
-
-@pytest.mark.parametrize("kind", KINDS)
-def test_comments_hold_the_defaults(kind, written):
-    """With every comment that is a key made live, and the essential keys gone, nothing changes."""
-    lines = []
-    for line in written(kind).splitlines():
-        key = line.removeprefix("# ").split(" =")[0]
-        if line.startswith("# ") and line != f"# {key} =" and key.isidentifier():
-            lines.append(line.removeprefix("# "))
-        elif line.startswith("["):
-            lines.append(line)
-    tables = tomllib.loads("\n".join(lines)) | {"contact": {"kind": kind}}
-    for name, table in tables.items():
-        for key, value in table.items():
-            default = KEYS[f"{name}.{key}"].default
-            assert f"{name}.{key}" == "contact.kind" or value == (
-                list(default) if isinstance(default, tuple) else default
-            )
-    assert sum(map(len, tables.values())) > 5
 
 
 @pytest.mark.parametrize("kind, nodes", [("point", 65), ("line", 129), ("wedge", 65)])
@@ -84,13 +55,6 @@ def test_a_file_that_exists_is_refused_and_replaced_with_force(empty_directory, 
     assert mine.read_text() == "old"
     assert main(["new", "mine.toml", "--force"]) == 0
     assert load_config(mine).contact.kind == "point"
-
-
-def test_a_directory_that_is_not_there_is_one_line(capsys, empty_directory):
-    assert main(["new", "missing/mine"]) == 2
-    out, err = capsys.readouterr()
-    assert out == "" and "missing/mine.toml: cannot be written" in err and len(err.splitlines()) == 1
-    assert not list(empty_directory.iterdir())
 
 
 @pytest.mark.parametrize("name", ["\udcff\udcfe", "two\nlines", "\x1b[2J"])

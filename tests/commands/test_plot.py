@@ -53,20 +53,6 @@ def test_several_runs_are_compared(plot, tmp_path):
     assert files(tmp_path) == {"plots/compare-lines.svg", "plots/compare-history.svg"}
 
 
-def test_all_of_several_runs(plot, tmp_path):
-    assert plot("dry light", "--kind", "lines,compare", "--format", "png", "--out", "o") == 0
-    expected = {"o/dry/lines.png", "o/light/lines.png", "o/compare-lines.png", "o/compare-history.png"}
-    assert files(tmp_path) == expected
-
-
-def test_a_style_file_is_laid_over(plot, tmp_path):
-    (tmp_path / "own.mplstyle").write_text("figure.facecolor: 123456\n")
-    assert (
-        plot("wedge", "--kind", "history", "--format", "svg", "--style", "own.mplstyle", "--out", "o") == 0
-    )
-    assert "#123456" in (tmp_path / "o" / "history.svg").read_text()
-
-
 @pytest.mark.parametrize(
     "names, options, said",
     [
@@ -85,19 +71,6 @@ def test_mistakes_end_in_one_line_and_nothing_is_written(plot, tmp_path, capsys,
     assert plot(names, *options, "--out", "o") == 2
     error = capsys.readouterr().err
     assert error.startswith("mgehl: ") and error.count("\n") == 1 and said in error
-    assert files(tmp_path) == set()
-
-
-def test_a_damaged_run(plot, runs, tmp_path, capsys):
-    fields = runs / "light" / "fields.h5"
-    whole = fields.read_bytes()
-    try:
-        fields.write_bytes(whole[: len(whole) // 3])
-        status = plot("dry light", "--out", "o")
-    finally:
-        fields.write_bytes(whole)
-    error = capsys.readouterr().err
-    assert status == 2 and error.count("\n") == 1
     assert files(tmp_path) == set()
 
 

@@ -67,12 +67,6 @@ def test_another_file_is_replaced_only_with_force(here, capsys):
     assert "report.html" not in names(here / "dry")
 
 
-def test_a_new_run_clears_the_page_of_the_old_one(here):
-    assert main(["report", "dry"]) == 0
-    assert main([*RUN, "--force"]) == 0
-    assert "report.html" not in names(here / "dry")
-
-
 @pytest.mark.parametrize("damage", ["missing", "cut off"])
 def test_a_damaged_run_is_refused_and_writes_nothing(here, capsys, damage):
     path = here / "dry" / "fields.h5"
@@ -83,13 +77,6 @@ def test_a_damaged_run_is_refused_and_writes_nothing(here, capsys, damage):
     before = names(here / "dry")
     refused(["dry"], capsys)
     assert names(here / "dry") == before
-
-
-@pytest.mark.parametrize("place", ["none", "empty", "file"])
-def test_what_is_neither_run_nor_study(here, capsys, place):
-    (here / "empty").mkdir()
-    (here / "file").touch()
-    assert place in refused([place], capsys)
 
 
 def test_a_page_that_cannot_be_written(here, capsys):

@@ -2,7 +2,6 @@
 
 import json
 import tomllib
-from pathlib import Path
 
 import pytest
 
@@ -10,7 +9,6 @@ from mgehl.cli import main
 from mgehl.config import chosen_config, default_config
 from mgehl.output.stored import read_run
 
-CONFIGS = Path(__file__).resolve().parents[2] / "configs"
 FILM = ["run", "--set", "grid.nodes=65", "--set", "motion.speed=3", "--set", "solver.start=film"]
 
 
@@ -44,11 +42,6 @@ def test_no_error_saves_it(run):
     assert "±" not in words and "no band: not asked for" in words
 
 
-def test_it_cannot_be_changed_on_the_way(tmp_path, capsys):
-    assert main(["run", "--resume", str(tmp_path), "--no-error"]) == 2
-    assert "goes on as it began, without --no-error" in capsys.readouterr().err
-
-
 class TestWithoutAConfiguration:
     @pytest.fixture(autouse=True)
     def empty_directory(self, tmp_path, monkeypatch):
@@ -72,16 +65,6 @@ class TestWithoutAConfiguration:
         assert f"no configuration named: solving {default_config()}, changed by --set\n" in words
         config = tomllib.loads((tmp_path / "runs" / "point_contact" / "configuration.toml").read_text())
         assert config["contact"]["load"] == 800.0
-
-    @pytest.mark.parametrize("quiet", ["--quiet", "--json-lines"])
-    def test_programs_that_listen_are_not_told(self, quiet, capsys, monkeypatch):
-        monkeypatch.setattr("mgehl.commands.run.chosen_config", lambda *_: CONFIGS / "thick_film.toml")
-        assert main(["run", quiet]) == 0
-        assert "solving" not in capsys.readouterr().out
-
-    def test_nor_is_who_names_one(self, capsys):
-        assert main([*FILM, str(CONFIGS / "thick_film.toml")]) == 0
-        assert "solving" not in capsys.readouterr().out
 
 
 def test_numbers_that_nobody_gave_are_told(run, tmp_path):

@@ -1,6 +1,5 @@
 """Directories of studies: one study each, whole or unfinished, and never read when they are not whole."""
 
-import json
 from dataclasses import replace
 from pathlib import Path
 
@@ -34,11 +33,6 @@ def refused(capsys, *words):
     assert main(list(words)) == 2
     (line,) = capsys.readouterr().err.splitlines()
     return line
-
-
-def test_its_files_are_known(study):
-    assert read_record(study).files == ("dry.csv", "dry.md")
-    assert {path.name for path in study.iterdir()} == {*read_record(study).files, "points", "study.json"}
 
 
 def test_one_that_is_not_whole_is_not_reported(study, capsys):
@@ -95,40 +89,9 @@ def test_it_goes_on_in_its_own_directory_alone(study, capsys):
     assert "is the directory of a study" in capsys.readouterr().err
 
 
-def test_one_that_was_stopped_keeps_the_result_before(study, capsys, monkeypatch):
-    """Tables are put together beside those that are there."""
-    before = read_record(study)
-    (study / "study.json").write_text(
-        (study / "study.json").read_text().replace(before.versions["mgehl"], "old")
-    )
-
-    def broken(self, name, rows):
-        self.directory.joinpath("half.csv").write_text("a,b\n")
-        raise KeyboardInterrupt
-
-    with monkeypatch.context() as change:
-        change.setattr("mgehl.studies.study.Study.write_table", broken)
-        assert main([*DRY, "here", "--force"]) == 130
-    assert read_record(study).versions["mgehl"] == "old"
-    assert main([*DRY, "here", "--resume"]) == 0
-    assert read_record(study) == before and not (study / "half.csv").exists()
-
-
 @pytest.mark.parametrize("name, said", [("onset", "study onset is no longer part of mgehl"), ("x", "x: ")])
 def test_a_study_that_is_none_is_one_line(capsys, name, said):
     with pytest.raises(SystemExit, match="2"):
         main(["study", name])
     (line,) = capsys.readouterr().err.splitlines()
     assert said in line and ("runs/README.md" in line or "wedge, grid" in line)
-
-
-@pytest.mark.parametrize("word, said", [("grid.nodes=65", "--nodes"), ("grid.nods=65", "unknown key"),
-                                        ("nodes", "section.key=value")])  # fmt: skip
-def test_settings_that_are_none_are_one_line(capsys, word, said):
-    assert said in refused(capsys, *DRY, "here", "--set", word)
-
-
-def test_points_hold_no_program(study):
-    for path in (study / "points").iterdir():
-        assert path.read_bytes().startswith(b"PK") and b"pickle" not in path.read_bytes()
-    assert json.loads((study / "study.json").read_text())["name"] == "dry"

@@ -1,111 +1,22 @@
 import numpy as np
 import pytest
-from dense import ALONG_X, BOTH_WAYS, dense_JQ, dense_stencil, line_stencils
+from dense import ALONG_X, BOTH_WAYS, dense_JQ, line_stencils
 
-from mgehl.discretization.axes import HALO
-from mgehl.discretization.band_kernels import REACH, build_bands
+from mgehl.discretization.band_kernels import REACH
 from mgehl.discretization.bands import (
     AT_A_TIME,
-    LINES_BESIDE,
-    REACH_OF_STENCIL,
-    STENCILS_AT_A_TIME,
-    STIFF,
     LineBands,
-    distributive_nodes,
     influence_of_columns,
 )
 from mgehl.discretization.influence import influence_coefficients
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.residual import Linearisation
-from mgehl.discretization.rows import FLOW, GAP, PRESSURE
-from mgehl.model.deformation import HalfPlane, HalfSpace
+from mgehl.model.deformation import HalfSpace
 
 MESH = Mesh(15, 11, (-1.9, 1.3), (-1.5, 1.5), k_e=0.6)
 K = influence_coefficients(MESH, HalfSpace(0.2))
 every_stencil = pytest.mark.parametrize("offsets", [ALONG_X, BOTH_WAYS], ids=["along x", "both ways"])
 every_share = pytest.mark.parametrize("share", [0.25, 0.5])
-
-
-@pytest.mark.parametrize(
-    "row, mobility, distributed",
-    [
-        (FLOW, 0.99, True),
-        (FLOW, 1.01, False),
-        (GAP, 0.0, True),
-        (GAP, -1.0, True),
-        (GAP, 50.0, True),
-        (PRESSURE, 0.0, False),
-        (PRESSURE, 50.0, False),
-    ],
-)
-def test_distributive_in_contact_and_where_poiseuille_flow_is_weak(row, mobility, distributed):
-    """`mobility` in units of the threshold eps = STIFF K00 dX; given pressures never distribute."""
-    dX, K00 = 0.25, 0.4
-    rows, eps = np.full((5, 7), FLOW), np.full((5, 7), 10.0)
-    rows[2, 3], eps[2, 3] = row, mobility * STIFF * K00 * dX
-    expected = np.zeros((5, 7), bool)
-    expected[2, 3] = distributed
-    assert (distributive_nodes(eps, rows, dX, K00) == expected).all()
-
-
-@every_share
-@pytest.mark.parametrize("line", range(LINES_BESIDE + 1))
-@pytest.mark.parametrize("k", range(REACH + 3))
-def test_influence_of_a_column_of_Q(line, k, share):
-    """A unit pressure, and one less its share on each of its four neighbours; held beyond REACH."""
-
-    def at(line, k):
-        return K[abs(line), abs(k)]
-
-    kappa = influence_of_columns(K[: LINES_BESIDE + 2, : REACH + 2], share)
-    assert kappa.shape == (2, LINES_BESIDE + 1, REACH + 3)
-    near = min(k, REACH)
-    spread = at(line, near - 1) + at(line, near + 1) + at(line - 1, near) + at(line + 1, near)
-    assert kappa[0, line, k] == at(line, near)
-    assert kappa[1, line, k] == pytest.approx(at(line, near) - share * spread, rel=1e-13)
-
-
-def test_distributed_column_hardly_reaches_beyond_the_band():
-    """Why corrections are distributed: the far field of (1, -1/4 ...) falls as 1/r^3, not 1/r.
-
-    On a square mesh the column is the discrete Laplacian of 1/r, far away 1/(4 r^3) of a cell; on
-    a line half the second difference of -ln|x|, far away 1/(2 x^2).
-    """
-    square = Mesh(33, 33, (-1.6, 1.6), (-1.6, 1.6))
-    _, distributed = influence_of_columns(influence_coefficients(square, HalfSpace(1.0)), 0.25)[:, 0, REACH]
-    laplacian = 1 / (REACH - 1) + 1 / (REACH + 1) + 2 / np.hypot(REACH, 1) - 4 / REACH
-    assert distributed == pytest.approx(-square.dX * laplacian / 4, rel=0.05)
-    assert laplacian / 4 < 1 / REACH / 20
-    line = Mesh(33, 1, (-1.6, 1.6), (0.0, 0.0))
-    nearby = influence_coefficients(line, HalfPlane(1.0), 0, LINES_BESIDE + 2)
-    _, distributed = influence_of_columns(nearby, 0.5)[:, 0, REACH]
-    assert distributed == pytest.approx(0.5 * line.dX * np.log(1.0 - 1.0 / REACH**2), rel=0.05)
-
-
-def given_ends(lines, nx):
-    """Two masks of given nodes: none; and from three to six at each end, some between, whole lines."""
-    nodes, line = np.arange(nx), np.arange(lines)[:, None]
-    ends = (nodes < 3 + line % 4) | (nodes >= nx - 3 - line % 3) | (nodes == 8)
-    return np.zeros((lines, nx), dtype=bool), ends | (line >= STENCILS_AT_A_TIME)
-
-
-@every_stencil
-def test_line_bands_solve_the_lines_of_a_stencil(offsets):
-    """A rigid gap: factor_stencil against numpy.linalg.solve, twice with the same bands."""
-    rng = np.random.default_rng(6)
-    lines, nx = STENCILS_AT_A_TIME + 2, MESH.nx
-    bands = LineBands(lines, nx, REACH_OF_STENCIL)
-    for A, given in zip(line_stencils(rng, offsets, lines, nx), given_ends(lines, nx), strict=True):
-        A[0] += 8.0
-        A[:, given] = 0.0
-        A[0, given] = -7.0
-        r, w = np.where(given, 0.0, rng.standard_normal((lines, nx))), np.empty((lines, nx))
-        bands.factor_stencil(Linearisation(np.array(offsets), A, None, None), given)
-        bands.solve(r, w)
-        J = dense_stencil(offsets, A).reshape(lines, nx, lines + 2 * HALO, nx)
-        for j in range(lines):
-            line = J[j, :, j + HALO]
-            np.testing.assert_allclose(w[j], np.linalg.solve(line, r[j]), rtol=1e-11, atol=1e-13)
 
 
 @every_share
@@ -130,87 +41,3 @@ def test_line_bands_solve_the_band_of_J_Q(offsets, share):
     for j in range(lines):
         line = np.where(np.abs(offset) <= REACH, JQ[j, :, j], 0.0)
         np.testing.assert_allclose(w[j], np.linalg.solve(line, r[j]), rtol=1e-11, atol=1e-13)
-
-
-@pytest.mark.parametrize("before", [0, 1, AT_A_TIME - 1, AT_A_TIME])
-def test_lines_have_their_spans_with_the_same_lines_on_any_number_of_ranks(before):
-    """Some lines of a plane alone are solved as they are among all."""
-    rng = np.random.default_rng(7)
-    lines, nx = 2 * AT_A_TIME + 3, MESH.nx
-    A, B = line_stencils(rng, ALONG_X, lines, nx)
-    given = np.arange(nx) < rng.integers(1, 7, lines)[:, None]
-    A[1:, given], B[:, given] = 0.0, 0.0
-    distributive = (rng.random((lines, nx)) < 0.5) & ~given
-    r, kappa = rng.standard_normal((lines, nx)), influence_of_columns(K, 0.25)
-    found = []
-    for first in (0, before):
-        bands, w = LineBands(lines - first, nx, before=first), np.empty((lines - first, nx))
-        stencils = (np.ascontiguousarray(each[:, first:]) for each in (A, B))
-        nodes = distributive[first:], given[first:]
-        diagonal = bands.factor(Linearisation(np.array(ALONG_X), *stencils, None), *nodes, kappa, 0.25)
-        bands.solve(r[first:], w)
-        found.append((diagonal[-AT_A_TIME:], w[-AT_A_TIME:]))
-    np.testing.assert_array_equal(*(diagonal for diagonal, _ in found))
-    np.testing.assert_array_equal(*(w for _, w in found))
-
-
-def wedge_term(nx):
-    """Stencils of a pure Couette flow by 1B, d H/dX of a line in steps of 1; its ends are given."""
-    here, upstream = 0, 1
-    A, B = np.zeros((2, 2, 1, nx))
-    A[here, :, [0, -1]] = -1.0
-    B[here, :, 1:-1], B[upstream, :, 1:-1] = -1.0, 1.0
-    distributive = np.ones((1, nx), bool)
-    distributive[:, [0, -1]] = False
-    return Linearisation(np.array([(0, 0), (0, -1)]), A, B, None), distributive
-
-
-def line_table():
-    """Table of the logarithmic kernel."""
-    near = influence_coefficients(
-        Mesh(257, 1, (-4.0, 2.0), (0.0, 0.0)), HalfPlane(1.0 / np.pi), 0, LINES_BESIDE + 2
-    )
-    return influence_of_columns(near, 0.5)
-
-
-def cut_off(kappa):
-    """The same table without what it holds beyond the band."""
-    kappa = kappa.copy()
-    kappa[:, :, REACH + 1 :] = 0.0
-    return kappa
-
-
-@pytest.mark.parametrize("kind", [0, 1], ids=["single", "distributed"])
-def test_rows_of_a_differenced_gap_sum_to_zero(kind):
-    """A pressure that is constant along the line changes no dH/dX: why the table holds its last value."""
-    nx = 4 * REACH
-    linear, distributive = wedge_term(nx)
-
-    def row_sums(kappa):
-        bands = np.empty((1, nx, 2 * REACH + 1))
-        stencils = linear.offsets, linear.A, linear.B
-        build_bands(*stencils, distributive & bool(kind), kappa, 0.5, bands, (0, 1), (0, nx))
-        # A row that reaches a line's end meets the end's column, which is never distributed.
-        return bands[0, REACH + 1 : -REACH - 1].sum(axis=1)
-
-    kappa = line_table()
-    np.testing.assert_allclose(row_sums(kappa), 0.0, rtol=0.0, atol=1e-14 * abs(kappa[kind, 0, 0]))
-    np.testing.assert_allclose(row_sums(cut_off(kappa)), -kappa[kind, 0, REACH], rtol=1e-10)
-
-
-def test_long_lines_of_a_differenced_gap_have_a_bounded_solution():
-    """One unit of residual asks for no more correction on 4097 nodes than on 257."""
-
-    def largest(kappa, nx):
-        linear, distributive = wedge_term(nx)
-        bands, r, w = LineBands(1, nx), np.zeros((1, nx)), np.empty((1, nx))
-        bands.factor(linear, distributive, np.zeros((1, nx), bool), kappa, 0.5)
-        r[0, nx // 4] = 1.0
-        bands.solve(r, w)
-        return np.abs(w).max()
-
-    kappa = line_table()
-    assert largest(kappa, 4097) == pytest.approx(largest(kappa, 257), rel=0.01)
-    # With a sum in every row the correction grows as exp(c nx).
-    assert largest(cut_off(kappa), 257) > 1e6 * largest(kappa, 257)
-    assert largest(cut_off(kappa), 4097) > 1e100 * largest(kappa, 4097)

@@ -6,26 +6,6 @@ import sys
 from pathlib import Path
 
 import mgehl
-from mgehl.discretization.compiled import _Lenient
-
-
-class Broken:
-    """A cache on a full disk, or a damaged one."""
-
-    cache_path = "there"
-
-    def load_overload(self, *_):
-        raise EOFError("Ran out of input")
-
-    def save_overload(self, *_):
-        raise OSError(28, "No space left on device")
-
-
-def test_a_cache_may_fail():
-    cache = _Lenient(Broken())
-    assert cache.load_overload("signature", "context") is None
-    cache.save_overload("signature", "data")
-    assert cache.cache_path == "there"
 
 
 def test_without_any_place_functions_are_compiled_again(tmp_path):
@@ -43,24 +23,6 @@ def test_without_any_place_functions_are_compiled_again(tmp_path):
     environment = dict(os.environ) | {"PYTHONPATH": str(Path(mgehl.__file__).parents[1])}
     done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, env=environment)
     assert done.returncode == 0, done.stderr
-
-
-def test_another_process_compiles_nothing_again():
-    """A function that closes over another would be kept anew by every process."""
-    text = (
-        "import numpy as np\n"
-        "from mgehl.discretization.band_kernels import banded\n"
-        "bands, r, w = np.full((3, 6, 9), 2.0), np.ones((3, 6)), np.ones((3, 6))\n"
-        "factor, solve = banded(4)\n"
-        "factor(bands, (0, 6))\n"
-        "solve(bands, np.tile([0, 6], (3, 1)), r, w)\n"
-        "print(sum(sum(each.stats.cache_misses.values()) for each in (factor, solve)))\n"
-    )
-    environment = dict(os.environ) | {"PYTHONPATH": str(Path(mgehl.__file__).parents[1])}
-    for misses in (None, "0\n"):
-        done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, env=environment)
-        assert done.returncode == 0, done.stderr
-        assert misses is None or done.stdout == misses
 
 
 SOLVED = """

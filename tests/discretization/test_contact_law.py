@@ -6,11 +6,6 @@ from mgehl.discretization.contact_law import BoundaryFilm, InterfaceConditions, 
 GAPS = np.array([-0.1, 0.0, 0.005, 0.01, 0.02])
 
 
-def test_interface_conditions_close_a_gap_at_the_threshold():
-    closed = InterfaceConditions(0.01).closed(GAPS, was_released=False)
-    assert closed.tolist() == [True, True, True, True, False]
-
-
 def test_what_was_let_go_closes_again_only_when_the_bodies_overlap():
     """Node by node."""
     law, released = InterfaceConditions(0.01), np.array([True, True, True, False, True])
@@ -38,34 +33,7 @@ def test_the_layers_of_a_boundary_film_are_not_carried_as_fluid():
     assert InterfaceConditions(0.01).carried(GAPS) is GAPS and UnifiedEquations(0.01).carried(GAPS) is GAPS
 
 
-def test_contact_keeps_no_gap_and_closes_its_faces_by_the_interface_conditions():
-    law = InterfaceConditions(0.01)
-    assert law.contact_gap == 0.0 and law.closes_faces
-
-
 def test_unified_equations_never_close_a_gap_and_fill_any():
     law = UnifiedEquations(0.01)
     assert not law.closed(GAPS, was_released=False).any()
     assert law.takes_fluid(GAPS).all()
-
-
-@pytest.mark.parametrize(
-    "law, seen",
-    [(InterfaceConditions(0.01), GAPS), (UnifiedEquations(0.01), [0.01, 0.01, 0.01, 0.01, 0.02])],
-)
-def test_gap_that_the_poiseuille_flow_sees(law, seen):
-    gap, _ = law.flow_gap(GAPS)
-    np.testing.assert_array_equal(gap, seen)
-
-
-@pytest.mark.parametrize("law", [InterfaceConditions(0.01), UnifiedEquations(0.01)])
-def test_its_slope_matches_central_differences(law):
-    H, d = GAPS[[0, 1, 2, 4]], 1e-6
-    _, slope = law.flow_gap(H)
-    measured = (law.flow_gap(H + d)[0] - law.flow_gap(H - d)[0]) / (2.0 * d)
-    np.testing.assert_allclose(np.broadcast_to(slope, H.shape), measured, rtol=1e-9)
-
-
-def test_only_interface_conditions_know_contact():
-    assert InterfaceConditions().has_contact and not UnifiedEquations().has_contact
-    assert InterfaceConditions(0.01).thinnest == UnifiedEquations(0.01).thinnest == 0.01

@@ -17,10 +17,6 @@ def test_cavities_before_a_film_feed_it():
     assert feeding(*masks("bccfccb"), False).tolist() == [[0, 1, 1, 0, 0, 0, 0]]
 
 
-def test_what_ends_before_other_nodes_feeds_nothing():
-    assert not feeding(*masks("bccbfcb"), False).any()
-
-
 def test_motion_at_an_angle_feeds_the_next_line_too():
     """A film there is fed from the line before, and so by the cavity before that one."""
     fields = masks("bcccb", "bbbfb", "bcccb")
@@ -49,10 +45,6 @@ def test_a_rise_is_carried_on():
     assert found[0] == pytest.approx([0.0, 0.25, 0.3, 0.2, 0.0, 0.0], abs=1e-16)
 
 
-def test_a_filling_falls_by_what_is_missing():
-    assert risen([0.0, -0.5, 0.1, 0.0], 2.0)[0] == pytest.approx([0.0, -0.25, -0.2, 0.0], rel=1e-15)
-
-
 def test_wherever_a_rise_is_marched_no_inflow_is_left():
     """At an angle; with other nodes between, which carry nothing on."""
     rng = np.random.default_rng(5)
@@ -73,7 +65,3 @@ def test_no_rise_is_more_than_overfull():
     """And no more is carried on; nor does it matter that nothing leaves."""
     assert risen([0.0, 9.0, 0.0, 0.0], 2.0)[0].tolist() == [0.0, OVERFULL, OVERFULL, 0.0]
     assert risen([0.0, 9.0, 1.0, 0.0], [2.0, 0.0, 2.0, 2.0])[0].tolist() == [0.0, OVERFULL, 0.5, 0.0]
-
-
-def test_nothing_rises_where_nothing_comes_and_nothing_leaves():
-    assert not risen([0.0, 0.0, 0.0, 0.0], 0.0).any()

@@ -6,6 +6,7 @@ from handmade import ALONG, Row
 
 from mgehl.discretization.couette import EE, SCHEMES, WW, E, W, add_couette, couette_scheme
 from mgehl.discretization.flow import Flow
+from mgehl.discretization.order import couette_order
 from mgehl.discretization.status import CONTACT, LUBRICATED, is_solid
 
 # One row of five nodes with small whole numbers, so that every flow is exact.
@@ -81,35 +82,6 @@ def test_flow_through_the_first_face_needs_no_node_upstream(couette_flows, schem
     assert couette_flows(scheme)[1].value[0] == enters
 
 
-def test_1B_node_difference_is_eq_8(difference):
-    assert difference("1B").tolist() == [33.0 - 14.0, 65.0 - 33.0, 24.0 - 65.0]
-
-
-def test_2B_node_difference_is_eq_9_and_1B_at_the_first_node(difference):
-    second = [(3 * 65 - 4 * 33 + 14) / 2, (3 * 24 - 4 * 65 + 33) / 2]
-    assert difference("2B").tolist() == [33.0 - 14.0, *second]
-
-
-def test_2C_node_difference_is_eq_10(difference):
-    assert difference("2C").tolist() == [(65 - 14) / 2, (24 - 33) / 2, (14 - 65) / 2]
-
-
-def test_S1B_node_difference_is_eq_12(difference):
-    """H_i (rho_i - rho_i-1) + rho_i (H_i - H_i-1) at every inner node."""
-    drho, dH = np.diff(RHO)[:-1], np.diff(GAP)[:-1]
-    eq_12 = GAP[1:-1] * drho + RHO[1:-1] * dH
-    assert difference("S1B").tolist() == eq_12.tolist()
-    one_term_more = np.diff(RHO * GAP)[:-1] + drho * dH
-    assert eq_12.tolist() == one_term_more.tolist()
-
-
-def test_S2C_node_difference_is_eq_13(difference):
-    """H_i (rho_i+1 - rho_i-1)/2 + rho_i (H_i+1 - H_i-1)/2 at every inner node."""
-    drho, dH = RHO[2:] - RHO[:-2], GAP[2:] - GAP[:-2]
-    eq_13 = (GAP[1:-1] * drho + RHO[1:-1] * dH) / 2
-    assert difference("S2C").tolist() == eq_13.tolist()
-
-
 def test_S2B_v_node_difference_is_option_v(difference):
     """The other factor is the mean of i - 1 and i + 1; the printed line above Eq. 15."""
     rho, H = RHO, GAP
@@ -125,13 +97,6 @@ def test_S2B_vi_node_difference_is_option_vi(difference):
     backward = [(3 * q[i] - 4 * q[i - 1] + q[i - 2]) / 2 for q in (rho, H)]
     option = H[i] * backward[0] + rho[i] * backward[1]
     assert difference("S2B-vi")[1:].tolist() == pytest.approx(option.tolist(), rel=1e-14)
-
-
-@pytest.mark.parametrize("scheme", ["2B", "S2B-v", "S2B-vi"])
-def test_second_order_backward_schemes_agree_on_a_linear_gap_of_constant_density(couette_flows, scheme):
-    """Each flow then is the face value of H, so none of them adds a constant flow of its own."""
-    for flow in couette_flows(scheme, rho=np.ones(5), gap=np.arange(2.0, 7.0)):
-        assert flow.value.tolist() == pytest.approx([2.5, 3.5, 4.5, 5.5], rel=1e-14)
 
 
 @pytest.mark.parametrize(
@@ -151,45 +116,6 @@ def test_nothing_is_extrapolated_from_the_far_side_of_a_contact(couette_flows, s
 def test_flow_is_the_velocity_s_multiple_and_turns_round_with_it(couette_flows, scheme):
     for one, half_back in zip(couette_flows(scheme), couette_flows(scheme, velocity=-0.5), strict=True):
         np.testing.assert_array_equal(-0.5 * one.value, half_back.value)
-
-
-def test_schemes_of_a_difference_of_rho_H_are_conservative():
-    conservative = [name for name, scheme in SCHEMES.items() if scheme.conservative]
-    assert conservative == ["1B", "2B", "2C", "3B", "3L", "S2C"]
-
-
-THIRD = [(1 / 3, E, E), (5 / 6, W, W), (-1 / 6, WW, WW)]
-
-
-# (c, a, b) of Eqs. 17 and 18 multiplied out; a term adds c rho'_a H_b by P_a and c rho_a by H_b.
-@pytest.mark.parametrize(
-    "scheme, leaves, enters",
-    [
-        ("1B", [(1.0, W, W)], [(1.0, W, W)]),
-        ("2B", [(1.5, W, W), (-0.5, WW, WW)], [(1.5, W, W), (-0.5, WW, WW)]),
-        ("2C", [(0.5, W, W), (0.5, E, E)], [(0.5, W, W), (0.5, E, E)]),
-        ("3B", THIRD, THIRD),
-        ("3L", THIRD, THIRD),
-        ("S1B", [(2.0, W, W), (-1.0, WW, W)], [(1.0, E, W)]),
-        ("S2C", [(0.5, W, E), (0.5, E, W)], [(0.5, W, E), (0.5, E, W)]),
-    ],
-)
-def test_derivatives_through_an_inner_face(couette_flows, scheme, leaves, enters):
-    for flow, terms in zip(couette_flows(scheme, linearised=True), (leaves, enters), strict=True):
-        by_P, by_H = np.zeros(4), np.zeros(4)
-        for c, a, b in terms:
-            # Nodes 0 to 3 are WW, W, E, EE of the face between nodes 1 and 2.
-            by_P[a] += c * SLOPE[a] * GAP[b]
-            by_H[b] += c * RHO[a]
-        assert [array[1] for array in flow.by_P.values()] == by_P.tolist()
-        assert [array[1] for array in flow.by_H.values()] == by_H.tolist()
-
-
-@pytest.mark.parametrize("scheme", SCHEMES)
-def test_uniform_fluid_passes_unchanged_by_every_scheme(couette_flows, scheme):
-    """With uniform rho and H every face carries rho H."""
-    leaving, entering = couette_flows(scheme, rho=np.full(5, 2.0), gap=np.full(5, 3.0))
-    assert (leaving.value == 6.0).all() and (entering.value == 6.0).all()
 
 
 # Through the face between nodes 1 and 2, WW, W, E: by 3B (5 W + 2 E - WW)/6. The first may be carried.
@@ -217,27 +143,6 @@ def test_3L_is_limited_beside_contact_too(couette_flows):
     assert couette_flows("3L", **row, status=[CONTACT, *FILM[1:]])[0].value[1] == 9.0
 
 
-@pytest.mark.parametrize("seed", range(5))
-def test_derivatives_of_a_limited_flow_are_those_of_its_value(couette_flows, seed):
-    """Random films that limits apply to at some faces: one node's gap, then one node's density, moves."""
-    chance, step = np.random.default_rng(seed), 1e-7
-    gap, rho = chance.uniform(0.1, 5.0, 5) ** 2, chance.uniform(1.0, 1.3, 5)
-    flow = couette_flows("3L", linearised=True, rho=rho, gap=gap)[0]
-    assert (flow.value != couette_flows("3B", rho=rho, gap=gap)[0].value).any()
-    for node in range(5):
-        moved = gap + step * (np.arange(5) == node)
-        denser = rho + step * SLOPE * (np.arange(5) == node)
-        by_H = (couette_flows("3L", rho=rho, gap=moved)[0].value - flow.value) / step
-        by_P = (couette_flows("3L", rho=denser, gap=gap)[0].value - flow.value) / step
-        for face in range(4):
-            position = node - face + W  # of the node beside the face
-            if position in (WW, W, E, EE):
-                assert by_H[face] == pytest.approx(flow.by_H[position][face], abs=1e-5)
-                assert by_P[face] == pytest.approx(flow.by_P[position][face], abs=1e-5)
-            else:
-                assert by_H[face] == by_P[face] == 0.0
-
-
 @pytest.mark.parametrize("power", [1, 2, 3])
 def test_3B_differences_a_cube_exactly(couette_flows, power):
     """d(X^3)/dX = 3 X^2 at nodes with both neighbours and the one before: third order."""
@@ -262,3 +167,11 @@ def test_a_coarse_grid_has_the_truncation_error_of_the_finest(coarsenings):
         slope(couette_scheme("1B"), 1.0)
     )
     assert couette_scheme("2B", 0) == SCHEMES["2B"]
+
+
+ORDERS = {"1B": 1, "2B": 2, "2C": 2, "S1B": 1, "S2C": 2, "S2B-v": 2, "S2B-vi": 2, "3B": 3, "3L": 3}
+
+
+@pytest.mark.parametrize("name", SCHEMES)
+def test_order_is_that_of_the_literature(name):
+    assert couette_order(name) == ORDERS[name]

@@ -1,24 +1,18 @@
 """One evaluated state: its inflow against the printed equations, balances, and what x and y share."""
 
-from functools import partial
-
 import numpy as np
 import pytest
 from handmade import ghosted, walled
 from test_status import neighbourhood, neighbourhoods
 
-from mgehl.discretization import evaluation as module
-from mgehl.discretization.axes import HALO, own
+from mgehl.discretization.axes import own
 from mgehl.discretization.couette import SCHEMES
 from mgehl.discretization.evaluation import Evaluation
 from mgehl.discretization.fluid import FACE_MOBILITIES
 from mgehl.discretization.mesh import Mesh
-from mgehl.discretization.residual import linearise, residual
-from mgehl.discretization.rows import FLOW, rows_of
 from mgehl.discretization.scheme import Scheme
-from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
+from mgehl.discretization.status import LUBRICATED
 
-every_scheme = pytest.mark.parametrize("couette", SCHEMES)
 every_mean = pytest.mark.parametrize("mean", FACE_MOBILITIES)
 
 # Liu eqs. 31 and 32 as printed: Couette flow leaving node i and entering it.
@@ -80,13 +74,6 @@ def test_node_with_four_closed_faces_gets_nothing(motion, contact):
     assert Evaluation(P, H, status, mesh, contact, Scheme(motion=motion)).inflow[1, 2] == 0.0
 
 
-def test_line_ends_get_no_inflow(film):
-    inflow = film.evaluation().inflow
-    assert inflow.shape == own(film.P).shape
-    assert not inflow[:, [0, -1]].any()
-    assert inflow[:, 1:-1].all()
-
-
 PATCHES = [(slice(1, 4), slice(2, 6)), (slice(0, 5), slice(1, 7)), (slice(2, 3), slice(3, 4))]
 
 
@@ -136,165 +123,3 @@ def test_nothing_crosses_the_walls_of_a_single_line(contact):
     np.testing.assert_allclose(evaluation.inflow[:, 1:-1], along, rtol=1e-14)
     _, across = evaluation.conductances
     assert across.shape == (2, 8) and not across.any()
-
-
-def test_source_is_the_inflow_without_its_poiseuille_flow(mixed):
-    """That of the same fluid without pressure differences, at the mobilities as they are."""
-    scheme = Scheme("2B", motion=(0.6, 0.8))
-    still = mixed.evaluation(scheme)
-    still.fluid.P = np.zeros_like(mixed.P)
-    inner = np.s_[:, 1:-1]
-    source = mixed.evaluation(scheme).source
-    np.testing.assert_allclose(source[inner], still.inflow[inner], rtol=1e-10, atol=1e-12)
-
-
-def test_conductance_of_a_node_is_the_sum_over_its_faces(mixed):
-    evaluation = mixed.evaluation()
-    along, across = evaluation.conductances
-    for j, i in ((0, 3), (2, 1), (4, 6)):
-        faces = along[j, i - 1], along[j, i], across[j, i], across[j + 1, i]
-        assert evaluation.conductance[j, i] == pytest.approx(sum(faces), rel=1e-14)
-    at_the_end = along[1, 0] + across[1, 0] + across[2, 0]
-    assert evaluation.conductance[1, 0] == pytest.approx(at_the_end, rel=1e-14)
-
-
-def test_ghost_lines_are_as_many_as_a_scheme_looks_upstream(film):
-    """The inflow of a line is the same on whatever rank it lies."""
-    scheme = Scheme("2B", motion=(0.6, 0.8))
-    whole = film.evaluation(scheme).inflow
-    for line in range(len(whole)):
-        cut = slice(line, line + 1 + 2 * HALO)
-        part = Evaluation(film.P[cut], film.H[cut], film.status[cut], film.mesh, film.contact, scheme)
-        np.testing.assert_array_equal(part.inflow[0], whole[line])
-
-
-class TestFluidIsEvaluatedOnce:
-    @pytest.fixture
-    def calls(self, monkeypatch):
-        made = []
-
-        def counted(fluid_state, *arguments):
-            made.append(arguments)
-            return fluid_state(*arguments)
-
-        monkeypatch.setattr(module, "fluid_state", partial(counted, module.fluid_state))
-        return made
-
-    def test_whatever_is_asked_and_however_often(self, calls, mixed):
-        evaluation = mixed.evaluation()
-        for name in 2 * ("flows", "inflow", "conductances", "conductance", "source"):
-            getattr(evaluation, name)
-        assert len(calls) == 1
-
-    def test_what_was_forgotten_is_found_again(self, mixed):
-        evaluation = mixed.evaluation()
-        before, conductance = evaluation.inflow.copy(), evaluation.conductance.copy()
-        evaluation.forget()
-        assert not {"flows", "mobilities", "conductance"} & vars(evaluation).keys()
-        np.testing.assert_array_equal(evaluation.inflow, before)
-        np.testing.assert_array_equal(evaluation.conductance, conductance)
-
-    def test_another_scheme_shares_it_and_has_its_own_flows(self, calls, mixed):
-        first = mixed.evaluation(Scheme("1B"))
-        second = first.by(Scheme("2B"))
-        assert first.by(Scheme("1B")) is first and second.fluid is first.fluid
-        assert second.mobilities is first.mobilities
-        assert first.by(Scheme("1B", "geometric")).mobilities is not first.mobilities
-        assert len(calls) == 1
-        np.testing.assert_array_equal(second.inflow, mixed.evaluation(Scheme("2B")).inflow)
-        assert (second.inflow != first.inflow).any()
-
-
-INNER = np.s_[1:-1, 1:-1]
-
-
-class TestXAndYAreTheSame:
-    """A state and its transpose, the motion turned with it."""
-
-    @pytest.fixture
-    def plane(self, contact):
-        """Function: evaluation of all of a plane with contact and cavities, or of its transpose."""
-        rng, ny, nx = np.random.default_rng(12), 9, 11
-        P, H = rng.uniform(0.2, 0.8, (ny, nx)), rng.uniform(0.05, 0.15, (ny, nx))
-        status = rng.choice([LUBRICATED] * 6 + [CAVITATED, CONTACT], (ny, nx)).astype(np.int8)
-        status[[0, -1]], status[:, [0, -1]] = BOUNDARY, BOUNDARY
-        P[(status == BOUNDARY) | (status == CAVITATED)] = 0.0
-        x, y = (-1.9, 1.3), (-1.5, 1.6)
-
-        def make(scheme, transposed=False, k_e=1.0):
-            fields, mesh = (P, H, status), Mesh(nx, ny, x, (k_e * y[0], k_e * y[1]), k_e)
-            if transposed:
-                fields, mesh = (P.T, H.T, status.T), Mesh(ny, nx, y, x)
-            return Evaluation(
-                ghosted(fields[0]), ghosted(fields[1]), walled(fields[2]), mesh, contact, scheme
-            )
-
-        return make
-
-    @pytest.fixture
-    def pair(self, plane):
-        """Function: evaluations of the state and of its transpose by a scheme."""
-
-        def make(couette, **choices):
-            one, other = (Scheme(couette, motion=motion, **choices) for motion in ((0.6, 0.8), (0.8, 0.6)))
-            return plane(one), plane(other, transposed=True)
-
-        return make
-
-    @every_scheme
-    @every_mean
-    @pytest.mark.parametrize("interface", ["closed", "untreated"])
-    def test_flows(self, pair, couette, mean, interface):
-        one, other = pair(couette, face_mobility=mean, couette_at_interface=interface)
-        for (x, y), turned in (((0, 1), False), ((1, 0), True)):
-            here, there = (other, one) if turned else (one, other)
-            for flow, same in zip(here.flows[x], there.flows[y], strict=True):
-                # Along Y there is a face between the last line and the wall, too.
-                across = same.value[1:-1] if x == 0 else same.value
-                along, across = (flow.value, across) if x == 0 else (flow.value[1:-1], across)
-                np.testing.assert_allclose(along, across.T, rtol=0.0, atol=1e-14)
-                assert along.any()
-
-    @every_scheme
-    @every_mean
-    def test_residual(self, pair, couette, mean):
-        one, other = pair(couette, face_mobility=mean)
-        rows = rows_of(own(one.status))
-        here, there = residual(one, rows), residual(other, rows.T).T
-        film = rows == FLOW
-        np.testing.assert_allclose(here[film], there[film], rtol=0.0, atol=1e-13)
-        # Rows of a given pressure or gap are in units of the spacing along X.
-        given = here[~film] * one.mesh.dX, there[~film] * other.mesh.dX
-        np.testing.assert_allclose(*given, rtol=1e-14)
-        assert (rows_of(own(one.status)) != FLOW)[INNER].any()
-
-    @every_scheme
-    def test_linearisation(self, pair, couette):
-        """Offsets swap their two parts, coefficients do not change."""
-        one, other = pair(couette)
-        rows = rows_of(own(one.status))
-        here, there = linearise(one, rows), linearise(other, rows.T)
-        place = {tuple(offset): k for k, offset in enumerate(there.offsets)}
-        assert len(place) == len(here.offsets)
-        film = rows == FLOW
-        for k, (line, node) in enumerate(here.offsets):
-            for mine, theirs in ((here.A, there.A), (here.B, there.B)):
-                turned = theirs[place[node, line]].T
-                np.testing.assert_allclose(mine[k][film], turned[film], rtol=0.0, atol=1e-12)
-
-    @every_scheme
-    def test_units_of_the_ellipse_are_a_matter_of_words(self, plane, couette):
-        """Y in units of b = a/k_e: the same gap, pressure and velocity, the same inflow."""
-        scheme = Scheme(couette, motion=(0.6, 0.8))
-        squeezed, plain = plane(scheme, k_e=0.5).inflow, plane(scheme).inflow
-        np.testing.assert_allclose(squeezed, plain, rtol=1e-12, atol=1e-13)
-
-
-def test_a_fluid_that_was_dropped_is_found_again(film):
-    evaluation = film.evaluation()
-    fluid, inflow = evaluation.fluid, evaluation.inflow
-    evaluation.forget_fluid()
-    assert "fluid" not in vars(evaluation) and "mobilities" not in vars(evaluation)
-    assert evaluation.fluid is not fluid
-    np.testing.assert_array_equal(evaluation.fluid.deps_dP, fluid.deps_dP)
-    np.testing.assert_array_equal(evaluation.inflow, inflow)

@@ -1,18 +1,17 @@
 from dataclasses import replace
-from math import log, sqrt
 
 import numpy as np
 import pytest
 from handmade import ALONG, Row
 
 from mgehl.discretization.axes import axes_of
-from mgehl.discretization.contact_law import BoundaryFilm, UnifiedEquations
+from mgehl.discretization.contact_law import BoundaryFilm
 from mgehl.discretization.couette import EE, SCHEMES, SHIFT, WW, E, W
 from mgehl.discretization.faces import conductances, flows
-from mgehl.discretization.fluid import FACE_MEANS, FACE_MOBILITIES, Fluid, fluid_state
+from mgehl.discretization.fluid import FACE_MOBILITIES, Fluid, fluid_state
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.scheme import Scheme
-from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
+from mgehl.discretization.status import BOUNDARY, CONTACT, LUBRICATED
 
 along_both = pytest.mark.parametrize("along", ALONG)
 every_scheme = pytest.mark.parametrize("couette", SCHEMES)
@@ -106,24 +105,6 @@ def test_contact_closes_a_face_for_both_flows_and_all_derivatives(couette, mixed
             assert free.value[closed].all()
 
 
-@every_mean
-@pytest.mark.parametrize("gap", [0.0, 1e-3, -1e-3, -0.1, 0.1])
-@along_both
-def test_closed_faces_stay_closed_for_any_gap_of_the_contact_node(along, gap, mean, contact):
-    """-0.1 mirrors the neighbours: the mobilities then cancel, which no mean may let through."""
-    row, scheme = Row(along), Scheme("1B", mean)
-    fluid = fluid_state(
-        row.lay([0.3, 0.3, 0.3, 0.4, 0.4]),
-        row.lay([0.1, 0.1, gap, 0.1, 0.1], 0.1),
-        contact,
-        scheme.contact_law,
-    )
-    status = row.status([LUBRICATED, LUBRICATED, CONTACT, LUBRICATED, LUBRICATED])
-    leaving, _ = flows(fluid, status, row.axis(), scheme, linearised=True)
-    assert (row.faces(leaving.value)[1:3] == 0.0).all()
-    assert all(np.isfinite(array).all() for array in arrays_of(leaving))
-
-
 # Liu eqs. 20-24: the pressure rise P_i - P_i-1 times eps/dX where the face carries no net flow.
 BLOCKED_RISE = {
     "1B": lambda rho, H, i: rho[i - 1] * H[i - 1],
@@ -157,150 +138,6 @@ def test_blocked_flow_recursion(couette, along):
         assert np.abs(leaving).max() < 1e-14
     # ... and the recursion is not empty: pressure climbs towards the block.
     assert (np.diff(P) > 0.1).all()
-
-
-@along_both
-@pytest.mark.parametrize("couette, i", [(couette, i) for couette in BLOCKED_RISE for i in (2, 3, 5)])
-def test_pressure_that_stops_one_face_is_the_recursion_s(couette, i, along):
-    """The face flow is linear in P_i at given mobility: its root is P_i of Eqs. 20-24."""
-    row, rng, n, dX = Row(along), np.random.default_rng(4), 8, 0.4
-    P, H = rng.uniform(0.2, 0.8, n), rng.uniform(0.05, 0.15, n)
-    rho, eps = rng.uniform(1.0, 1.4, n), rng.uniform(0.05, 0.1, n)
-
-    def entering(P_i):
-        there = P.copy()
-        there[i] = P_i
-        return flows_of(row, row.axis(dX, dX), there, H, rho, eps, Scheme(couette))[1][i - 1]
-
-    root = entering(0.0) / (entering(0.0) - entering(1.0))
-    rise = BLOCKED_RISE[couette](rho, H, i) * dX / (0.5 * (eps[i - 1] + eps[i]))
-    assert root == pytest.approx(P[i - 1] + rise, rel=1e-12)
-
-
-def moved(state, name, node, d):
-    """P and H of a state with one of them changed at one node."""
-    changed = {"P": state.P.copy(), "H": state.H.copy()}
-    changed[name][node] += d
-    return changed["P"], changed["H"]
-
-
-def face_at(axis, node, position):
-    """The face along the axis of which a ghosted `node` is at `position` (WW, W, E, EE)."""
-    own_line, behind = node[0] - 2, SHIFT[position]
-    return (own_line, node[1] - behind) if axis.number else (own_line + 1 - behind, node[1])
-
-
-def assert_derivatives(state, scheme, rigid=False):
-    """Every derivative a flow lists, and no other, agrees with central differences, along both axes."""
-
-    def found(P, H, axis, linearised=False):
-        fluid = fluid_state(P, H, state.contact, scheme.contact_law)
-        return flows(fluid, state.status, axis, scheme, linearised, rigid)
-
-    for axis in axes_of(state.mesh, scheme.motion):
-        linear = found(state.P, state.H, axis, True)
-        for name, d in (("P", 1e-6),) if rigid else (("P", 1e-6), ("H", 1e-7)):
-            listed = [getattr(flow, f"by_{name}") for flow in linear]
-            scale = [max(np.abs(array).max() for array in each.values()) for each in listed]
-            for node in np.ndindex(*state.P.shape):
-                ahead, behind = (found(*moved(state, name, node, s * d), axis) for s in (1.0, -1.0))
-                for side in (0, 1):
-                    measured = (ahead[side].value - behind[side].value) / (2.0 * d)
-                    expected = np.zeros(measured.shape)
-                    for position, array in listed[side].items():
-                        face = face_at(axis, node, position)
-                        if all(0 <= k < length for k, length in zip(face, measured.shape, strict=True)):
-                            expected[face] = array[face]
-                    np.testing.assert_allclose(measured, expected, rtol=1e-6, atol=1e-8 * scale[side])
-
-
-@every_mean
-@every_scheme
-def test_flow_derivatives(couette, mean, mixed):
-    assert_derivatives(mixed, Scheme(couette, mean, motion=(0.6, 0.8)))
-
-
-OPTIONS = {
-    "untreated": {"couette_at_interface": "untreated"},
-    "against": {"motion": (-0.6, -0.8)},
-    "unified": {"contact_law": UnifiedEquations(0.1), "couette_at_interface": "untreated"},
-    "boundary film": {"contact_law": BoundaryFilm(0.1)},
-    "boundary film, linear gap": {"contact_law": BoundaryFilm(0.1), "face_mobility": "linear-gap"},
-    "geometric share": {"face_mobility": "geometric", "mobility_share": 0.4},
-    "harmonic share": {"face_mobility": "harmonic", "mobility_share": 0.4},
-}
-"""Choices of a `Scheme` beside the two tables; the states' gaps lie on both sides of the smallest."""
-
-
-@pytest.mark.parametrize("options", OPTIONS.values(), ids=OPTIONS)
-@pytest.mark.parametrize("couette", ["1B", "2B", "S2B-v"])
-def test_flow_derivatives_of_options(couette, options, mixed):
-    assert_derivatives(mixed, Scheme(couette, **{"motion": (0.6, 0.8)} | options))
-
-
-def test_flow_derivatives_without_contact(film):
-    assert_derivatives(film, Scheme("2B", motion=(0.6, 0.8)))
-
-
-def test_flows_in_a_rigid_gap_have_no_derivatives_by_the_gap(mixed):
-    scheme = Scheme("2B", motion=(0.6, 0.8))
-    assert_derivatives(mixed, scheme, rigid=True)
-    for axis in axes_of(mixed.mesh, scheme.motion):
-        leaving, _ = flows(fluid_of(mixed, scheme), mixed.status, axis, scheme, linearised=True, rigid=True)
-        assert leaving.by_P and not leaving.by_H
-
-
-def test_without_motion_along_an_axis_its_flow_looks_no_further_than_its_faces(mixed):
-    scheme = Scheme("2B")
-    _, y = axes_of(mixed.mesh, scheme.motion)
-    leaving, entering = flows(fluid_of(mixed, scheme), mixed.status, y, scheme, linearised=True)
-    assert leaving is entering and set(leaving.by_P) == set(leaving.by_H) == {W, E}
-
-
-@every_scheme
-def test_values_do_not_depend_on_whether_derivatives_are_asked_for(couette, mixed):
-    scheme = Scheme(couette, "geometric", motion=(0.6, 0.8))
-    fluid = fluid_of(mixed, scheme)
-    for axis in axes_of(mixed.mesh, scheme.motion):
-        plain, linearised = (flows(fluid, mixed.status, axis, scheme, each) for each in (False, True))
-        for one, other in zip(plain, linearised, strict=True):
-            np.testing.assert_array_equal(one.value, other.value)
-            assert not one.by_P and other.by_P
-
-
-def test_geometric_mean_of_a_nearly_closed_gap_throttles_the_flow():
-    """eps of 1e-10 beside 1: the arithmetic mean leaks 0.5, the logarithmic 0.04, the geometric 1e-5."""
-    row = Row("x")
-    leak = {
-        mean: flows_of(row, row.axis(), [1.0, 0.0, 0.0], 0.0, 1.0, [1.0, 1e-10, 1e-10], Scheme("1B", mean))[
-            0
-        ][0]
-        for mean in FACE_MEANS
-    }
-    expected = {
-        "arithmetic": 0.5 + 0.5e-10,
-        "logarithmic": (1.0 - 1e-10) / log(1e10),
-        "geometric": sqrt(1e-10),
-        "harmonic": 2e-10 / (1.0 + 1e-10),
-    }
-    assert leak == pytest.approx(expected, rel=1e-14)
-
-
-@pytest.mark.parametrize("mean", ["logarithmic", "linear-gap", "geometric", "harmonic"])
-def test_flows_and_conductances_take_their_share_of_the_mean(mean, mixed):
-    """They are linear in the face's mobility: 0.4 of those by the mean and 0.6 of the arithmetic ones."""
-
-    def parts(name, share=1.0):
-        scheme = Scheme("2B", name, share)
-        state = fluid_of(mixed, scheme), mixed.status
-        axes = axes_of(mixed.mesh, scheme.motion)
-        return [flows(*state, axis, scheme)[0].value for axis in axes] + [
-            conductances(*state, axis, scheme) for axis in axes
-        ]
-
-    for shared, mine, paper in zip(parts(mean, 0.4), parts(mean), parts("arithmetic"), strict=True):
-        np.testing.assert_allclose(shared, 0.4 * mine + 0.6 * paper, rtol=1e-13, atol=1e-15)
-        assert np.abs(mine - paper).max() > 1e-4 * np.abs(paper).max()
 
 
 @every_mean
@@ -392,30 +229,6 @@ def test_motion_turns_the_couette_flow_round_and_nothing_else(couette, mixed):
         for one, other, carried, driven in zip(*every, strict=True):
             np.testing.assert_allclose(one.value + other.value, 2.0 * driven.value, rtol=1e-13, atol=1e-15)
             np.testing.assert_allclose(one.value - other.value, 2.0 * carried.value, rtol=1e-13, atol=1e-15)
-
-
-def test_edges_shorten_the_distance_of_the_pressures_only():
-    """-eps (P_E - P_W)/(dX/2) through the first face, whose Couette flow knows nothing of it."""
-    row, mesh = Row("x"), Mesh(3, 1, (0.0, 2.0), (0.0, 0.0), edges=(0.5, 1.75))
-    found, _ = flows_of(row, axis_of(row, mesh), [0.0, 1.0, 3.0], [2.0, 4.0, 8.0], 1.0, 3.0, Scheme())
-    assert found.tolist() == [2.0 - 3.0 / 0.5, 4.0 - 6.0 / 0.75]
-
-
-@every_scheme
-@pytest.mark.parametrize("motion", MOTIONS.values(), ids=MOTIONS)
-def test_full_cavities_pass_what_films_pass(couette, motion, mixed):
-    """But for the order of the sums."""
-    scheme = Scheme(couette, motion=motion)
-    film = fluid_of(mixed, scheme)
-    full = replace(film, torn=mixed.status == CAVITATED, filling=np.ones(film.P.shape))
-    for axis in axes_of(mixed.mesh, motion):
-        found, expected = (
-            flows(fluid, mixed.status, axis, scheme, linearised=True) for fluid in (full, film)
-        )
-        for flow, other in zip(found, expected, strict=True):
-            np.testing.assert_allclose(flow.value, other.value, rtol=1e-13, atol=2e-15)
-            for node, by_H in other.by_H.items():
-                np.testing.assert_allclose(flow.by_H[node], by_H, rtol=1e-13, atol=1e-13)
 
 
 @along_both

@@ -11,13 +11,6 @@ from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import BOUNDARY, LUBRICATED
 
 
-def test_spacing_and_coordinates():
-    mesh = Mesh(5, 3, (-1.0, 1.0), (0.0, 6.0), k_e=0.5)
-    assert (mesh.dX, mesh.dY, mesh.nodes, mesh.is_line) == (0.5, 3.0, 15, False)
-    assert mesh.X.tolist() == [-1.0, -0.5, 0.0, 0.5, 1.0]
-    assert mesh.Y.tolist() == [0.0, 3.0, 6.0]
-
-
 def test_one_line_is_a_slice_of_unit_width():
     line = Mesh(9, 1, (-4.0, 2.0), (0.0, 0.0))
     assert line.is_line
@@ -34,15 +27,6 @@ def test_coarsened_takes_every_other_node_and_stays_one_line(ny, coarse):
     assert coarsened.is_line == mesh.is_line
     assert (coarsened.x, coarsened.y, coarsened.k_e, coarsened.edges) == (mesh.x, mesh.y, 0.7, mesh.edges)
     np.testing.assert_allclose(coarsened.X, mesh.X[::2], rtol=1e-15)
-
-
-def test_pressures_of_a_face_are_one_spacing_apart():
-    assert Mesh(5, 3, (-1.0, 1.0), (0.0, 6.0)).pressure_dX == 0.5
-
-
-def test_an_edge_between_nodes_shortens_the_first_and_the_last_distance():
-    mesh = Mesh(5, 1, (0.0, 4.0), (0.0, 0.0), edges=(0.5, 3.75))
-    assert mesh.pressure_dX.tolist() == [0.5, 1.0, 1.0, 0.75]
 
 
 def dirichlet_error(cells, half_cells, edges):
@@ -79,6 +63,14 @@ def test_pressure_at_an_edge_between_nodes_is_of_second_order(half_cells):
     assert errors[1] / errors[2] == pytest.approx(4.0, rel=0.05)
 
 
-def test_without_the_edges_a_half_cell_costs_an_order():
-    errors = [dirichlet_error(cells, (1, 0), edges=False) for cells in (32, 64, 128)]
-    assert errors[1] / errors[2] == pytest.approx(2.0, rel=0.05)
+def test_axes_of_a_plane_mesh():
+    """Couette flow k_e rho H and Poiseuille flow k_e^2 eps dP/dY cross a line [Liu eq. 26]."""
+    mesh = Mesh(5, 9, (0.0, 2.0), (0.0, 2.0), k_e=0.5)
+    x, y = axes_of(mesh, (0.6, 0.8))
+    assert (x.number, x.cell, x.distance, x.couette) == (1, 0.5, 0.5, 0.6)
+    assert (y.number, y.cell, y.distance, y.couette) == (0, 0.25, 0.25 / 0.25, 0.4)
+
+
+def test_a_single_line_has_one_axis_and_edges_are_its_distances():
+    (x,) = axes_of(Mesh(3, 1, (0.0, 2.0), (0.0, 0.0), edges=(0.5, 1.75)), (1.0, 0.0))
+    assert x.cell == 1.0 and x.distance.tolist() == [0.5, 0.75]

@@ -4,16 +4,13 @@ from handmade import walled
 
 from mgehl.discretization.axes import HALO, axes_of, own
 from mgehl.discretization.mesh import Mesh
+from mgehl.discretization.rows import FLOW, GAP, PRESSURE, rows_of
 from mgehl.discretization.status import (
     BOUNDARY,
     CAVITATED,
     CONTACT,
     LUBRICATED,
-    NAMES,
-    WALL,
-    beside_contact,
     enclosed,
-    is_fluid,
     is_solid,
     largest_fluid_neighbour,
     open_faces,
@@ -60,12 +57,6 @@ def neighbourhood(closed, centre=LUBRICATED):
     return status
 
 
-def test_codes_index_the_names():
-    assert [NAMES[code] for code in (BOUNDARY, LUBRICATED, CAVITATED, CONTACT)] == [
-        "boundary", "lubricated", "cavitated", "contact",
-    ]  # fmt: skip
-
-
 @neighbourhoods
 def test_closed_faces_of_each_neighbourhood(number, closed):
     """Exactly the faces that the paper's case lists are closed."""
@@ -96,25 +87,6 @@ def test_fluid_is_shut_in_from_both_sides_along_the_motion(number, closed, motio
     np.testing.assert_array_equal(found, expected)
 
 
-@pytest.mark.parametrize("motion", [motion for motion, _ in MOTIONS.values()], ids=MOTIONS)
-def test_fluid_with_four_closed_faces_is_shut_in_by_any_motion(motion):
-    status = walled(neighbourhood({"west", "east", "south", "north"}))
-    assert np.argwhere(enclosed(status, axes_of(MESH, motion))).tolist() == [[1, 2]]
-
-
-def test_face_is_closed_by_either_node_and_by_what_is_solid_only():
-    row = np.array([BOUNDARY, CONTACT, CONTACT, CAVITATED, LUBRICATED, BOUNDARY])
-    expected = [False, False, False, True, True]
-    assert open_faces(is_solid(walled(row[None])), ALONG_X)[0].tolist() == expected
-    assert open_faces(is_solid(walled(row[:, None])), ALONG_Y)[:, 0].tolist() == [False, *expected, False]
-
-
-def test_contact_and_walls_are_solid_film_and_cavities_fluid():
-    every = np.array([BOUNDARY, LUBRICATED, CAVITATED, CONTACT, WALL])
-    assert is_solid(every).tolist() == [False, False, False, True, True]
-    assert is_fluid(every).tolist() == [False, True, True, False, False]
-
-
 def test_gaps_of_one_node_are_shut_in_wider_ones_and_the_boundary_s_are_not():
     """What is shut in has contact on both sides already: a second pass finds nothing."""
     K, F, V, B = CONTACT, LUBRICATED, CAVITATED, BOUNDARY
@@ -134,20 +106,6 @@ def test_a_wall_shuts_nothing_in():
     assert not enclosed(walled(np.full((1, 3), LUBRICATED)), axes_of(MESH, (0.0, 1.0))).any()
 
 
-def test_nodes_beside_contact_have_a_closed_face():
-    """A contact node in the middle, and one in the line of a ghost: each with its four neighbours."""
-    status = np.full((4 + 2 * HALO, 5), LUBRICATED)
-    status[HALO + 1, 2] = status[HALO - 1, 4] = CONTACT
-    near = np.zeros((4, 5), bool)
-    near[1, 1:4] = near[[0, 2], 2] = True
-    near[0, 4] = True
-    np.testing.assert_array_equal(beside_contact(status, X_AND_Y), near)
-
-
-def test_nodes_beside_a_wall_are_not_beside_contact():
-    assert not beside_contact(walled(np.full((1, 5), LUBRICATED)), X_AND_Y).any()
-
-
 def test_largest_fluid_neighbour_of_hand_made_lines():
     """Contact never counts, boundary and cavitated nodes do, and line ends have three neighbours."""
     K, F, V, B = CONTACT, LUBRICATED, CAVITATED, BOUNDARY
@@ -157,6 +115,9 @@ def test_largest_fluid_neighbour_of_hand_made_lines():
     assert result[1].tolist() == [0.0, 5.0, -np.inf, 4.0]
 
 
-def test_pressure_beyond_a_wall_is_no_neighbour_s():
-    status, P = walled(np.full((1, 3), CONTACT)), np.full((1 + 2 * HALO, 3), 9.0)
-    assert (largest_fluid_neighbour(P, status, X_AND_Y) == -np.inf).all()
+EVERY = np.array([[BOUNDARY, LUBRICATED, CAVITATED, CONTACT]])
+
+
+@pytest.mark.parametrize("rigid, contact", [(False, GAP), (True, PRESSURE)], ids=["elastic", "rigid"])
+def test_the_status_says_which(rigid, contact):
+    assert rows_of(EVERY, rigid).tolist() == [[PRESSURE, FLOW, PRESSURE, contact]]

@@ -5,8 +5,6 @@ import time
 import numpy as np
 import pytest
 
-PAUSE = 0.02
-
 
 @pytest.fixture
 def spent():
@@ -27,62 +25,6 @@ def spent():
 @pytest.fixture
 def grids(make_hierarchy, paper_contact):
     return make_hierarchy(paper_contact(), nodes=65)
-
-
-def pause():
-    time.sleep(PAUSE)
-
-
-def test_a_convolution_is_deflection_and_nothing_else(spent, grids):
-    deflection = grids.deflections[-1]
-    wall, parts = spent(lambda: deflection(np.zeros(deflection.grid.shape)))
-    assert 0.0 < parts.pop("deflection") <= wall
-    assert not any(parts.values())
-
-
-def test_transfers_that_call_each_other_count_once(spent, grids):
-    from mgehl.discretization.rows import rows_of
-    from mgehl.discretization.status import CONTACT
-    from mgehl.grid.transfers import PartitionedTransfer
-
-    transfer = grids.transfers[-1]
-    statuses = [np.full(grid.shape, CONTACT) for grid in (transfer.coarse, transfer.fine)]
-    kinds = [(status, rows_of(status)) for status in statuses]
-    wall, parts = spent(lambda: PartitionedTransfer(transfer).partition(*kinds))
-    assert 0.0 < parts.pop("transfers") <= wall
-    assert not any(parts.values())
-
-
-def test_what_a_linear_solve_takes_besides_its_parts_is_krylov(spent, grids):
-    from mgehl.grid.events import linear_solve
-
-    deflection = grids.deflections[-1]
-
-    def solve():
-        with linear_solve():
-            pause()
-            for _ in range(20):
-                deflection(np.ones(deflection.grid.shape))
-
-    wall, parts = spent(solve)
-    assert parts["Krylov"] >= PAUSE and parts["deflection"] > 0.0
-    assert sum(parts.values()) <= wall
-
-
-def test_a_linear_solve_that_fails_leaves_its_stage(spent):
-    from mgehl.grid.events import FILES, event, linear_solve
-
-    @event(FILES)
-    def write():
-        pause()
-
-    def fail():
-        with pytest.raises(ZeroDivisionError), linear_solve():
-            raise ZeroDivisionError
-        write()
-
-    _, parts = spent(fail)
-    assert parts["I/O"] >= PAUSE > parts["Krylov"]
 
 
 def test_log_view_names_the_parts(spent, grids, tmp_path):

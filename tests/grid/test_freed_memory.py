@@ -1,14 +1,18 @@
 """Memory that is freed is given back, where memory is short."""
 
+import errno
+import os
 import platform
 import subprocess
 import sys
 
 import numpy as np
 import pytest
+from mpi4py import MPI
 from processes import own_environment
 
-from mgehl.grid import freed_memory
+from mgehl.grid import freed_memory, shared_memory
+from mgehl.grid.shared_memory import shared_array
 
 FREE = """
 import numpy as np
@@ -44,10 +48,24 @@ def test_a_film_is_the_same_where_memory_is_short(solve, paper_contact, monkeypa
     np.testing.assert_allclose(short.state.P, usual.state.P, rtol=0.0, atol=1e-12)
 
 
-def test_large_grids_are_those_of_many_nodes():
-    class Mesh:
-        nodes = 4097**2
+pytestmark = pytest.mark.skipif(not shared_memory.DIRECTORY.is_dir(), reason="files are no memory here")
 
-    assert freed_memory.is_large(Mesh)
-    Mesh.nodes = 2049**2
-    assert not freed_memory.is_large(Mesh)
+
+@pytest.fixture
+def files(tmp_path, monkeypatch):
+    """Function: the files that are left where shared arrays had theirs."""
+    monkeypatch.setattr(shared_memory, "DIRECTORY", tmp_path)
+    return lambda: list(tmp_path.iterdir())
+
+
+def test_no_file_is_left(files):
+    array = shared_array(MPI.COMM_SELF, (3, 5), float)
+    assert array is not None and files() == []
+
+
+def test_without_room_there_is_none(files, monkeypatch):
+    def full(*_):
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    monkeypatch.setattr(os, "posix_fallocate", full)
+    assert shared_array(MPI.COMM_SELF, (3, 5), float) is None and files() == []

@@ -5,7 +5,7 @@ from math import log2
 import numpy as np
 import pytest
 
-from mgehl.grid.ownership import MIN_LINES, active_ranks, coarsened, deal_out, ownerships, regrouped
+from mgehl.grid.ownership import MIN_LINES, active_ranks, coarsened, deal_out, ownerships
 
 LINES = (5, 9, 65, 129, 1025)
 RANKS = (1, 2, 3, 7, 16, 20, 40, 600)
@@ -36,35 +36,7 @@ class TestEveryGrid:
         assert all(coarse <= fine for fine, coarse in zip(workers[:-1], workers[1:], strict=True))
 
 
-def test_a_finest_grid_with_enough_lines_is_shared_by_all_evenly():
-    assert deal_out(65, 3).tolist() == [0, 22, 44, 65]
-    assert deal_out(65, 16).tolist() == [0, *range(5, 66, 4)]
-
-
-def test_ranks_beyond_the_lines_hold_none():
-    held = np.diff(deal_out(9, 40))
-    assert held.tolist() == 38 * [0] + [5, 4]
-
-
 def test_a_coarse_line_stays_where_its_fine_line_is():
     fine = deal_out(65, 5)
     owner = np.repeat(range(5), np.diff(fine))
     assert np.repeat(range(5), np.diff(coarsened(fine))).tolist() == owner[::2].tolist()
-
-
-def test_ranks_with_enough_lines_are_left_alone():
-    starts = np.array([0, 5, 9, 9, 20])
-    assert regrouped(starts) is starts
-
-
-def test_every_second_rank_goes_on_with_few_lines():
-    starts = np.array([0, 3, 6, 9, 12, 15, 17])
-    assert np.diff(regrouped(starts)).tolist() == [0, 6, 0, 6, 0, 5]
-
-
-def test_two_ranks_may_have_too_few_lines_for_both():
-    assert np.diff(regrouped(np.array([0, 3, 5]))).tolist() == [0, 5]
-
-
-def test_one_line_has_one_owner():
-    assert deal_out(1, 3).tolist() == [0, 0, 0, 1]

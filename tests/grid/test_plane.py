@@ -4,14 +4,7 @@ import numpy as np
 import pytest
 from mpi4py import MPI
 
-from mgehl.grid.plane import (
-    SentPlane,
-    SharedPlane,
-    even_shares,
-    even_widths,
-    plane_of,
-    shares_of_work,
-)
+from mgehl.grid.plane import SentPlane, even_shares, even_widths, plane_of, shares_of_work
 
 LINES, COLUMNS = 5, 8
 STARTS = np.array([0, LINES])
@@ -35,15 +28,6 @@ def test_columns_have_what_was_written_to_the_lines(plane):
     np.testing.assert_array_equal(plane.lines, lines + 1.0)
 
 
-def test_a_rank_that_is_alone_copies_nothing():
-    plane = plane_of(MPI.COMM_SELF, STARTS, [COLUMNS], float)
-    assert isinstance(plane, SharedPlane) and np.shares_memory(plane.lines, plane.columns)
-
-
-def test_rows_are_no_power_of_two_apart(plane):
-    assert plane.columns.strides[0] == (COLUMNS + 1) * plane.columns.itemsize
-
-
 def test_no_rank_has_more_columns_than_the_last():
     for columns in range(1, 12):
         for ranks in range(1, 6):
@@ -60,18 +44,3 @@ def test_shares_of_work_are_equal_to_half_a_column():
         assert shares[-1][1] == len(work)
         parts = [work[first:end].sum() for first, end in shares]
         assert max(parts) - work.sum() / ranks <= work.max() and len(shares) == ranks
-
-
-@pytest.mark.parametrize("where", [0, 8, 16], ids=["at the beginning", "in the middle", "at the end"])
-@pytest.mark.parametrize("ranks", [1, 2, 8, 17])
-def test_each_rank_has_a_column_where_few_take_work(where, ranks):
-    work = np.zeros(17)
-    work[where] = 5.0
-    shares = shares_of_work(work, ranks)
-    assert [first for first, _ in shares] == [0, *(end for _, end in shares[:-1])]
-    assert shares[-1][1] == 17 and all(first < end for first, end in shares)
-
-
-def test_shares_of_equal_work_are_even():
-    assert shares_of_work(np.ones(8), 2) == even_shares(8, 2)
-    assert shares_of_work(np.array([1.0, 1.0, 1.0, 1.0, 0.0, 0.0]), 2) == [(0, 2), (2, 6)]

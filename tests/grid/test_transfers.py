@@ -20,11 +20,6 @@ def transfer(paper_contact, make_hierarchy):
     return make_hierarchy(paper_contact(), 65).transfers[0]
 
 
-def test_inject_takes_the_shared_nodes(transfer):
-    fine = np.random.default_rng(0).random(transfer.fine.shape)
-    np.testing.assert_array_equal(transfer.inject(fine), fine[::2, ::2])
-
-
 @pytest.mark.parametrize("line, node", [(-1, 0), (1, 0), (0, -1), (0, 1)])
 def test_halfway_to_a_neighbour(transfer, line, node):
     fine = np.random.default_rng(0).random(transfer.fine.shape)
@@ -79,20 +74,6 @@ def test_the_average_keeps_a_constant_everywhere_and_the_ends_of_lines(transfer)
     np.testing.assert_allclose(averaged[INNER], transfer.full_weighting(fine)[INNER], rtol=1e-14)
 
 
-def test_full_weighting_keeps_a_constant_and_ends_of_lines_are_zero(transfer):
-    coarse = transfer.full_weighting(np.full(transfer.fine.shape, 3.0))
-    np.testing.assert_allclose(coarse[INNER], 3.0, rtol=1e-14)
-    np.testing.assert_array_equal(coarse[:, [0, -1]], 0.0)
-
-
-def test_full_weighting_spreads_one_node_with_the_known_weights(transfer):
-    fine = np.zeros(transfer.fine.shape)
-    fine[21, 21] = 16.0  # between four coarse nodes
-    coarse = transfer.full_weighting(fine)
-    np.testing.assert_array_equal(coarse[10:12, 10:12], 1.0)
-    assert np.count_nonzero(coarse) == 4
-
-
 class TestPartitioned:
     """A disc of contact in the film, a cavity behind it."""
 
@@ -126,15 +107,6 @@ class TestPartitioned:
         assert np.all(fine[status == kind] > 0.0)
         np.testing.assert_array_equal(fine[status == other], 0.0)
 
-    def test_rows_of_boundary_and_cavity_are_zero(self, partitioned, status, coarse_status):
-        random = np.random.default_rng(2)
-        coarse = partitioned.restrict(random.random(status.shape) + 1.0)
-        fine = partitioned.prolong(random.random(coarse_status.shape) + 1.0)
-        for kind in (BOUNDARY, CAVITATED):
-            assert np.any(status == kind) and np.any(coarse_status == kind)
-            np.testing.assert_array_equal(coarse[coarse_status == kind], 0.0)
-            np.testing.assert_array_equal(fine[status == kind], 0.0)
-
     def test_constant_contact_residual_comes_out_halved(self, partitioned, status, coarse_status):
         coarse = partitioned.restrict(np.where(status == CONTACT, 4.0, 0.0))
         np.testing.assert_allclose(coarse[coarse_status == CONTACT], 2.0, rtol=1e-13)
@@ -142,24 +114,6 @@ class TestPartitioned:
     def test_constant_contact_correction_stays_constant(self, partitioned, status, coarse_status):
         fine = partitioned.prolong(np.where(coarse_status == CONTACT, 5.0, 0.0))
         np.testing.assert_allclose(fine[status == CONTACT], 5.0, rtol=1e-13)
-
-    def test_constant_film_correction_stays_constant_beside_contact(
-        self, transfer, partitioned, status, coarse_status
-    ):
-        fine = partitioned.prolong(np.where(coarse_status == CONTACT, 0.0, 5.0))
-        np.testing.assert_allclose(fine[status == LUBRICATED], 5.0, rtol=1e-13)
-
-    def test_without_contact_it_is_full_weighting_and_bilinear(self, transfer, status, coarse_status):
-        for each in (status, coarse_status):
-            each[each == CONTACT] = LUBRICATED
-        partitioned = PartitionedTransfer(transfer)
-        partitioned.partition(*kinds(coarse_status, status))
-        random = np.random.default_rng(3)
-        film, coarse_film = status == LUBRICATED, coarse_status == LUBRICATED
-        fine, coarse = film * random.random(film.shape), coarse_film * random.random(coarse_film.shape)
-        weighted = transfer.full_weighting(fine) * coarse_film
-        np.testing.assert_array_equal(partitioned.restrict(fine), weighted)
-        np.testing.assert_array_equal(partitioned.prolong(coarse), transfer.bilinear(coarse) * film)
 
     def test_frozen_film_has_no_part_in_it(self, transfer, status, coarse_status):
         """Its pressure is given: what it has is neither gathered nor corrected."""
@@ -170,21 +124,6 @@ class TestPartitioned:
         np.testing.assert_array_equal(partitioned.restrict(ones)[coarse_rows == PRESSURE], 0.0)
         np.testing.assert_array_equal(partitioned.prolong(coarse_ones)[rows == PRESSURE], 0.0)
         assert (partitioned.prolong(coarse_ones)[status == CONTACT] > 0.0).all()
-
-    def test_contact_in_a_rigid_gap_has_no_part_in_it(self, transfer, partitioned, status, coarse_status):
-        """Its pressure is given. Film beside it is corrected as where contact moves."""
-        rigid = PartitionedTransfer(transfer)
-        rigid.partition(*((each, rows_of(each, rigid=True)) for each in (coarse_status, status)))
-        assert not rigid.restrict(np.where(status == CONTACT, 1.0, 0.0)).any()
-        film = np.random.default_rng(5).random(coarse_status.shape) * (coarse_status == LUBRICATED)
-        np.testing.assert_array_equal(rigid.prolong(film), partitioned.prolong(film))
-
-    def test_contact_that_disappears_is_forgotten(self, partitioned, status, coarse_status):
-        film = np.where(status == CONTACT, LUBRICATED, status)
-        coarse_film = np.where(coarse_status == CONTACT, LUBRICATED, coarse_status)
-        partitioned.partition(*kinds(coarse_film, film))
-        coarse = partitioned.restrict(np.where(film == LUBRICATED, 1.0, 0.0))
-        np.testing.assert_allclose(coarse[16, 16], 1.0, rtol=1e-13)
 
 
 class TestOneLine:
@@ -203,9 +142,6 @@ class TestOneLine:
     def test_bilinear(self, transfer):
         coarse = np.array([[1.0, 3.0, 2.0, 6.0, -4.0]])
         assert transfer.bilinear(coarse).tolist() == [[1.0, 2.0, 3.0, 2.5, 2.0, 4.0, 6.0, 1.0, -4.0]]
-
-    def test_inject(self, transfer):
-        assert transfer.inject(np.arange(9.0)[None, :]).tolist() == [[0.0, 2.0, 4.0, 6.0, 8.0]]
 
     def test_full_weighting_is_half_of_the_adjoint_of_bilinear(self, transfer):
         """A coarse node stands for two fine ones, not for four."""

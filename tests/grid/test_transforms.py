@@ -38,11 +38,3 @@ def test_the_block_makes_no_difference(plane, monkeypatch, numbers):
     monkeypatch.setattr(transforms, "BLOCK", numbers)
     found = product(grid, kernel, values)
     np.testing.assert_allclose(found, whole, rtol=0, atol=1e-14 * np.max(np.abs(whole)))
-
-
-def test_lines_beyond_the_period_are_zero(plane):
-    grid, values, kernel = plane
-    short, out = PlaneTransforms(grid, 32, 32), np.ones(grid.shape)
-    short.product(values[:, :-1], short.spectrum(kernel[:, :-1]), out[:, :-1])
-    short.destroy()
-    assert np.all(out[-1, :-1] == 0.0) and np.all(out[:, -1] == 1.0)

@@ -40,13 +40,6 @@ def test_a_line_contact_has_no_y():
     check_contact(config, contact)
 
 
-def test_settled_twice_is_settled_once():
-    config, contact = loaded("motion.speed=1")
-    found = settled(config, contact)
-    assert settled(found, contact) == found
-    assert mesh_from(config, contact) == mesh_from(found, contact)
-
-
 @pytest.mark.parametrize("key", ["grid.x", "grid.y"])
 def test_auto_means_nothing_beside_a_wedge(key):
     with pytest.raises(ConfigError) as caught:
@@ -99,11 +92,3 @@ class Unreadable(Surface):
 
     def height(self, x, y):
         raise AssertionError("was asked")
-
-
-def test_peaks_within_the_contact_ask_for_nothing():
-    rough = ["contact.load=800", "motion.speed=0.1", "surface.kind=waviness", "surface.wavelength_x=0.1 mm"]
-    smooth, low, high = (
-        settled(*loaded(*rough, f"surface.amplitude={height} nm")).grid for height in (0, 10, 3000)
-    )
-    assert low == smooth and high.x[1] > smooth.x[1]

@@ -20,10 +20,7 @@ def dry(**settings):
     "settings, said",
     [
         ({"solver__method": "relaxation"}, 'solver.method = "relaxation": means nothing where'),
-        (
-            {"contact__kind": "wedge"},
-            "discretization.contact_model = 'dry': means nothing where",
-        ),
+        ({"contact__kind": "wedge"}, "discretization.contact_model = 'dry': means nothing where"),
     ],
 )
 def test_what_makes_no_sense_is_one_line(settings, said):
@@ -80,10 +77,3 @@ def test_auto_sees_a_soft_layer():
     ends = np.array(settled(config, contact).grid.x)
     assert contact.reach > 1.2
     np.testing.assert_allclose(ends, [-1.5 * contact.reach, 1.5 * contact.reach])
-
-
-def test_its_lines_say_what_is_solved():
-    config = dry()
-    contact = contact_from(config)
-    text = "\n".join(config.kind.lines(config, contact, mesh_from(config, contact)))
-    assert "dry contact" in text and "800 N" in text and "film" not in text

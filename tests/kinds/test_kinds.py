@@ -1,11 +1,9 @@
 """Kinds of contact: what they take, and that a new one is known everywhere from its own words."""
 
-from types import SimpleNamespace
-
 import pytest
 
 from mgehl.config import KEYS, SECTIONS, config_from_tables
-from mgehl.kinds import KINDS, contact_from, kind_choice, loaded, mesh_from
+from mgehl.kinds import KINDS, contact_from, kind_choice, mesh_from
 
 every_kind = pytest.mark.parametrize("kind", KINDS.values(), ids=KINDS)
 
@@ -41,10 +39,3 @@ def test_the_essentials_are_a_contact_of_that_kind(kind):
         section, _, key = name.partition(".")
         tables.setdefault(section, {})[key] = value
     assert config_from_tables(tables).kind is kind
-
-
-def test_bands_are_scalars_where_there_are_any():
-    """In m, of half-widths in nm; those of `mgehl export`'s NetCDF."""
-    found = loaded._bands(SimpleNamespace(central_nm=0.4, minimum_nm=None))
-    assert list(found) == ["central_film_error"]
-    assert found["central_film_error"][:2] == (pytest.approx(0.4e-9), "m")

@@ -28,11 +28,6 @@ def test_its_own_key_and_no_other(key):
     assert str(caught.value) == f"{key} = '/m.py:law': is wrong"
 
 
-def test_other_errors_pass():
-    with pytest.raises(KeyError), naming_keys(contact_from(config_from_tables({}))):
-        raise KeyError("other")
-
-
 def test_the_ambient_viscosity_is_called_by_its_key(tmp_path):
     (tmp_path / "mine.py").write_text("def law(at): return 50.0, 0.0")
     config = config_from_tables({"lubricant": {"viscosity_law": f"{tmp_path}/mine.py:law"}})

@@ -34,28 +34,6 @@ def test_reynolds_coefficient(contact):
     assert 1.0 / contact.lambda_ == pytest.approx(pressure_flow / (7.5e-3 * contact.film_scale), rel=1e-13)
 
 
-@every_contact
-def test_film_in_moes_units(contact):
-    """H_Moes = (h/R)(2U)^(-1/2)."""
-    expected = 1e-9 / 12.7e-3 / (2.0 * contact.groups.U) ** 0.5
-    assert 1e-9 * contact.moes_scale == pytest.approx(expected, rel=1e-14)
-
-
-@every_contact
-def test_expected_film_is_the_central_one_of_the_formulas(contact):
-    """Within a factor of two of Ertel-Grubin's."""
-    assert 0.5 < contact.expected_film / contact.formulas.grubin < 2.0
-
-
-@every_contact
-def test_another_speed_changes_nothing_else(contact):
-    slow = contact.at_speed(0.25 * contact.speed)
-    assert type(slow) is type(contact) and contact.speed == 7.5e-3
-    assert slow.speed == 0.25 * contact.speed
-    assert slow.hertz == contact.hertz and slow.lubricant is contact.lubricant
-    assert slow.lambda_ == pytest.approx(contact.lambda_ / 4.0, rel=1e-15)
-
-
 def mesh_of(contact, nodes):
     return Mesh(nodes, nodes, (-1.9, 1.3), (-1.5, 1.5), contact.k_e)
 

@@ -35,11 +35,6 @@ def test_without_images_it_is_the_half_space_to_the_last_bit():
     np.testing.assert_array_equal(layered.of_rectangles(X, Y), HalfSpace(0.7).of_rectangles(X, Y))
 
 
-def test_an_image_far_above_the_cells_is_the_half_space():
-    near = LayeredHalfSpace(1.0, one_image(1e-9)).of_rectangles(X, Y)
-    np.testing.assert_allclose(near, HalfSpace(1.0).of_rectangles(X, Y), rtol=1e-6)
-
-
 def deflection_by_a_point_force(compliance, r):
     """(1/pi) of the integral of c(k) J0(kr) by quadrature from zero to zero of J0, less c_0/r."""
     surface = float(compliance(np.array(1e4)))

@@ -1,12 +1,11 @@
 """The axes in which a contact is solved: nothing that is turned and mirrored gets lost."""
 
 from math import cos, radians, sin
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from mgehl.model.frame import Frame, SurfaceInFrame, direction
+from mgehl.model.frame import Frame, direction
 
 DIRECTIONS = range(-360, 361, 5)
 
@@ -40,20 +39,11 @@ def test_in_its_frame_every_motion_goes_towards_X_and_no_more_towards_Y(angle):
     assert frame.users_point(*there) == pytest.approx((cos(radians(angle)), sin(radians(angle))), abs=1e-15)
 
 
-@pytest.mark.parametrize("angle", DIRECTIONS)
-def test_direction_is_a_unit_vector_at_the_angle(angle):
-    assert direction(angle) == pytest.approx((cos(radians(angle)), sin(radians(angle))), abs=1e-15)
-
-
 @pytest.mark.parametrize(
     "angle, parts", {0: (1, 0), 90: (0, 1), 180: (-1, 0), 270: (0, -1), -90: (0, -1), 360: (1, 0)}.items()
 )
 def test_directions_along_the_axes_are_exact(angle, parts):
     assert direction(angle) == parts
-
-
-def test_every_frame_is_that_of_some_motion():
-    assert {Frame.of(angle)[0] for angle in DIRECTIONS} == set(FRAMES)
 
 
 @pytest.mark.parametrize("angle", (0, 10, 45, 360, -350))
@@ -73,13 +63,6 @@ class TestEveryFrame:
         there = np.meshgrid(np.linspace(*x, nx), np.linspace(*y, ny))
         np.testing.assert_allclose(frame.array(of_user()), values(*frame.users_point(*there)), rtol=1e-14)
 
-    def test_numbers_of_nodes_are_the_users(self, frame):
-        there = frame.array(of_user())
-        ny, nx = there.shape
-        for j, i in np.ndindex(ny, nx):
-            x, y = frame.users_node(i + 1, j + 1, nx, ny)
-            assert of_user()[y - 1, x - 1] == there[j, i]
-
     def test_ranges_of_nodes_are_the_users(self, frame):
         """Nodes marked on one of the user's lines along each axis are found again."""
         marked = np.zeros((NY, NX), bool)
@@ -89,14 +72,6 @@ class TestEveryFrame:
         along = [_ends(there.any(axis=axis)) for axis in (0, 1)]
         assert frame.users_ranges(*along, nx, ny) == ((2, 3), (1, 2))
 
-    def test_where_nothing_is_in_contact_there_is_no_range(self, frame):
-        assert frame.users_ranges(None, None, NX, NY) == (None, None)
-
-    def test_the_range_of_one_axis_is_enough(self, frame):
-        along_x, along_y = frame.pair((2, 3), None)
-        x, y = frame.users_ranges(along_x, along_y, *frame.pair(4, 3))
-        assert (x, y) == ((2, 3), None)
-
     def test_sides_of_a_node_are_the_users(self, frame):
         """West, east, before, after: the values beside the middle node."""
         there = frame.array(of_user())
@@ -105,11 +80,6 @@ class TestEveryFrame:
         j, i = NY // 2, NX // 2
         mine = of_user()
         assert frame.users_sides(*sides) == (mine[j, i - 1], mine[j, i + 1], mine[j - 1, i], mine[j + 1, i])
-
-    def test_a_surface_keeps_its_heights(self, frame):
-        surface = SurfaceInFrame(SimpleNamespace(height=values, function="mine"), frame)
-        assert surface.height(0.3, -0.7) == values(*frame.users_point(0.3, -0.7))
-        assert surface.function == "mine"
 
 
 def _ends(marked):

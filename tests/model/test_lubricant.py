@@ -3,16 +3,7 @@ from math import exp, log
 import numpy as np
 import pytest
 
-from mgehl.model.lubricant import (
-    DENSITY_LAWS,
-    VISCOSITY_LAWS,
-    Barus,
-    ConstantDensity,
-    ConstantViscosity,
-    DowsonHigginson,
-    Lubricant,
-    Roelands,
-)
+from mgehl.model.lubricant import DENSITY_LAWS, VISCOSITY_LAWS, Barus, DowsonHigginson, Roelands
 
 P_H = 0.8e9
 P = np.array([0.0, 0.25, 1.0, 1.7])
@@ -60,12 +51,6 @@ def test_roelands_at_a_known_pressure():
     assert slope[0] == pytest.approx(S * z * 2.0 ** (z - 1.0), rel=1e-14)
 
 
-def test_roelands_stays_below_barus():
-    """Its exponent z is below one here, so the logarithm grows more slowly than alpha p."""
-    roelands, barus = Roelands(0.096, 18.2e-9), Barus(0.096, 18.2e-9)
-    assert (roelands.log_viscosity(P[1:], P_H)[0] < barus.log_viscosity(P[1:], P_H)[0]).all()
-
-
 def test_roelands_takes_tension_as_ambient_pressure():
     """A Newton step may overshoot below p = 0, where the power has no value."""
     value, slope = Roelands(0.04, 20e-9).log_viscosity(np.array([-5.0, -1e-3]), P_H)
@@ -79,10 +64,6 @@ def test_roelands_refuses_a_viscosity_without_meaning(viscosity):
         Roelands(viscosity, 20e-9)
 
 
-def test_roelands_accepts_the_least_viscosity_its_message_promises():
-    Roelands(6.4e-5, 20e-9)
-
-
 def test_dowson_higginson_at_one_gigapascal():
     """1 + 0.6/(1 + 1.7) at 1 GPa, with slope 0.6/2.7^2 per GPa; 1 at ambient; at most 1 + 0.6/1.7."""
     density = DowsonHigginson().density
@@ -91,21 +72,3 @@ def test_dowson_higginson_at_one_gigapascal():
     assert slope[0] == pytest.approx(0.6 / 2.7**2 * 0.8, rel=1e-14)
     assert density(np.zeros(1), P_H)[0][0] == 1.0
     assert density(np.array([1e12]), P_H)[0][0] == pytest.approx(1.0 + 0.6 / 1.7, rel=1e-9)
-
-
-def test_constant_density():
-    rho, slope = ConstantDensity().density(P, P_H)
-    assert rho.tolist() == [1.0] * 4 and slope.tolist() == [0.0] * 4
-
-
-def test_lubricant_knows_its_ambient_viscosity_and_slope():
-    lubricant = Lubricant(Roelands(0.05, 21e-9), ConstantDensity())
-    assert (lubricant.viscosity, lubricant.pressure_viscosity) == (0.05, 21e-9)
-
-
-def test_constant_viscosity():
-    """ln(eta*) = 0 at every pressure, below ambient too, with arrays of P's shape."""
-    law = ConstantViscosity(0.05)
-    value, slope = law.log_viscosity(np.array([-3.0, 0.0, 2.0]), P_H)
-    assert value.tolist() == slope.tolist() == [0.0] * 3
-    assert Lubricant(law, ConstantDensity()).viscosity == 0.05

@@ -1,11 +1,14 @@
 """How far from the centre peaks of rough bodies may touch."""
 
+from math import exp
+
 import numpy as np
 import pytest
 
 from mgehl.config import config_from_tables
 from mgehl.kinds import contact_from
-from mgehl.model.peaks import LOOKED_AT_LAST, reach_of_peaks
+from mgehl.model.load_share import aihara, error_function, zhou_hoeprich
+from mgehl.model.peaks import reach_of_peaks
 from mgehl.studies.study import merged
 
 WAVES = {"kind": "waviness", "wavelength_x": 10e-6, "wavelength_y": 10e-6}
@@ -45,11 +48,6 @@ def test_smooth_bodies_and_valleys_touch_nowhere_else():
     assert max(reach(merged(LIGHT, dent), 200e-9)[0]) == 0.0
 
 
-def test_across_a_wide_contact_it_is_less_in_units_of_its_width():
-    (X, Y), contact = reach(merged(waves(100e-9), {"contact": {"radius_y": 0.1}}))
-    assert contact.y_scale > 2.0 * contact.x_scale and 1.0 < Y < X
-
-
 @pytest.mark.parametrize("across", [False, True])
 def test_a_ridge_reaches_along_itself_alone(across):
     """On a ball under 1 N it touches far out along y, and within the contact along x."""
@@ -57,21 +55,6 @@ def test_a_ridge_reaches_along_itself_alone(across):
     (X, Y), _ = reach(merged(LIGHT, {"surface": ridge}))
     along, beside = (X, Y) if across else (Y, X)
     assert along > 1.3 and beside < 1.0
-
-
-def test_waves_with_a_valley_in_the_middle_are_found():
-    """At whatever phase: the highest peak need not be at the centre."""
-    middle = waves(1e-6)
-    beside = merged(waves(1e-6), {"surface": {"x": 5e-6}})
-    (here, _), (there, _) = reach(middle)[0], reach(beside)[0]
-    assert there == pytest.approx(here, abs=0.3)
-
-
-def test_a_line_contact_has_none_across():
-    line = {"contact": {"kind": "line", "load_per_length": 1e3}, "motion": {"speed": 0.01}}
-    ridges = {"surface": {"kind": "waviness", "amplitude": 1e-6, "wavelength_x": 10e-6}}
-    (X, Y), _ = reach(merged(line, ridges))
-    assert X > 1.0 and Y == 0.0
 
 
 def test_a_peak_outside_of_the_contact_is_found():
@@ -82,6 +65,15 @@ def test_a_peak_outside_of_the_contact_is_found():
     assert contact.x_scale < 60e-6 < alone * contact.x_scale and both > 1.3 * alone
 
 
-def test_what_is_too_high_is_looked_for_so_far():
-    (X, Y), _ = reach(waves(1e-4))
-    assert LOOKED_AT_LAST - 1.0 < X == Y <= LOOKED_AT_LAST
+@pytest.mark.parametrize("fit", [aihara, zhou_hoeprich, error_function])
+def test_all_of_the_load_without_a_film_and_less_with_every_bit_of_it(fit):
+    parts = [fit(ratio) for ratio in (0.0, 0.1, 0.5, 1.0, 3.0)]
+    assert parts[0] == 1.0 and parts == sorted(parts, reverse=True) and 0.0 < parts[-1] < 0.01
+
+
+def test_spot_values():
+    assert aihara(1.0) == pytest.approx(exp(-1.8))
+    assert zhou_hoeprich(1.0) == pytest.approx(exp(-2.32))
+    assert error_function(1.0) == pytest.approx(0.157299207, rel=1e-8)  # tables of erfc
+    assert aihara(2.0) == pytest.approx(exp(-1.8 * 2.0**1.2))
+    assert zhou_hoeprich(2.0) == pytest.approx(exp(-2.32 * 2.0**0.97))

@@ -1,7 +1,5 @@
 """What a domain takes of a film: beside solutions on larger domains, and the same from every side."""
 
-from math import inf
-
 import numpy as np
 import pytest
 from tools.contacts import line, moes
@@ -10,6 +8,7 @@ from mgehl.config import config_from_tables
 from mgehl.kinds import contact_from
 from mgehl.model.frame import Frame
 from mgehl.model.starvation import Starvation
+from mgehl.model.way_in import STEPS, WayIn
 from mgehl.studies.study import merged
 
 WIDE = (-100.0, 100.0)
@@ -75,17 +74,18 @@ def test_it_is_the_same_in_the_axes_of_the_solver(angle):
     assert turned.lost(*frame.intervals(x, y)) == pytest.approx(found.lost(x, y), rel=1e-9)
 
 
-def test_a_ball_loses_by_the_side_it_comes_from():
-    at = {angle: starvation({"motion": {"speed": 1.0, "angle": angle}}) for angle in (0, 90, 180, 270)}
-    lost = {angle: found.lost((-1.5, 4.0), (-3.0, 3.0)) for angle, found in at.items()}
-    assert lost[0] > 2.0 * max(lost[90], lost[180], lost[270])
-    assert lost[90] == pytest.approx(lost[270], rel=1e-12)
+@pytest.fixture
+def way_in():
+    """To a wedge: its integral from s to the end is (h + 2 s)/(2 (h + s)^2)."""
+    return WayIn(0.3, STEPS)
 
 
-def test_a_contact_at_rest_loses_nothing():
-    assert starvation({"motion": {"speed": 1e-9}}, film=0.0).lost((-1.3, 1.3), (-1.3, 1.3)) < 0.01
+@pytest.mark.parametrize("way", [0.01, 0.3, 2.0, 50.0])
+def test_what_is_missing_is_the_integral_beyond(way_in, way):
+    part = 0.3 * (0.3 + 2.0 * way) / (0.3 + way) ** 2
+    assert way_in.missing(way) == pytest.approx(-np.log1p(-part), rel=1e-2)
 
 
-def test_no_room_takes_nearly_all():
-    assert starvation(moes(20.0, 10.0)).missing((-1.0, 2.0), (-3.0, 3.0))[0] > 3.0
-    assert starvation(moes(20.0, 10.0)).missing((-1.0, 2.0), (-3.0, 3.0))[0] < inf
+def test_the_way_of_what_is_missing(way_in):
+    for way in (0.01, 1.0, 300.0):
+        assert way_in.way(way_in.missing(way)) == pytest.approx(way, rel=1e-9)

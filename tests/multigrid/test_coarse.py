@@ -2,11 +2,10 @@
 
 import numpy as np
 import pytest
-from scipy.sparse import random as random_sparse
 
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import CAVITATED, CONTACT
-from mgehl.multigrid.coarse import CoarseSolve, dense_influence, fill_bordered
+from mgehl.multigrid.coarse import CoarseSolve
 
 NODES = 33
 
@@ -68,24 +67,3 @@ def test_it_follows_the_linearisation(make_problem, states, make_jacobian, inver
     state = states["contact"]
     jacobian.linearise(problem.evaluate(state), problem.rows(state.status))
     assert_same(*invert(problem, jacobian, coarse))
-
-
-def test_dense_influence_is_the_convolution(make_problem):
-    problem = make_problem(nodes=NODES)
-    P = np.where(problem.boundary, 0.0, np.random.default_rng(9).random(problem.grid.shape))
-    K = dense_influence(problem.grid.mesh, problem.contact.kernel)
-    expected = problem.deflection(P)
-    np.testing.assert_allclose((K @ P.ravel()).reshape(P.shape), expected, rtol=0.0, atol=1e-13)
-
-
-def test_the_dense_matrix_is_the_jacobian_of_the_free_nodes():
-    rng, nodes = np.random.default_rng(5), 12
-    A, B = (random_sparse(nodes, nodes, 0.3, "csr", random_state=rng) for _ in range(2))
-    K, free = rng.random((nodes, nodes)), np.array([0, 3, 4, 7, 11])
-    matrix = np.full((6, 6), np.nan)
-    rows = [(each.indptr, each.indices, each.data) for each in (A[free], B[free])]
-    fill_bordered(matrix, free, np.ones(len(K)), *rows, K, 0.7)
-    expected = (A + B @ K)[np.ix_(free, free)]
-    np.testing.assert_allclose(matrix[:-1, :-1], expected, rtol=1e-14)
-    np.testing.assert_allclose(matrix[:-1, -1], np.ravel(B[free].sum(axis=1)), rtol=1e-14)
-    np.testing.assert_array_equal(matrix[-1], [0.7] * 5 + [0.0])

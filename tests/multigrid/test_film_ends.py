@@ -53,13 +53,5 @@ def test_a_pressure_that_falls_evenly_to_zero_halfway_is_solved(laplacian, trans
         assert film.any() and not product(laplacian(axis, last), p)[film].any()
 
 
-def test_only_the_last_node_before_a_cavity_that_begins_halfway_has_another_row(laplacian):
-    assert (laplacian(1, LAST + 1)[0] == -4.0).all()
-    A = laplacian(1)
-    assert (A[0, 1:-1, LAST // 2] == -5.0).all() and (A[1:] == 1.0).all()
-    A[0, 1:-1, LAST // 2] = -4.0
-    assert (A[0] == -4.0).all()
-
-
 def test_contact_is_no_cavity(laplacian):
     assert (laplacian(1, beyond=CONTACT)[0] == -4.0).all()

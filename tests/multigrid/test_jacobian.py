@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from mgehl.discretization.residual import residual
-from mgehl.discretization.rows import FLOW, PRESSURE
+from mgehl.discretization.rows import FLOW
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import CAVITATED, CONTACT
 from mgehl.discretization.storage import Storage
@@ -69,13 +69,6 @@ def test_motion_at_an_angle(make_problem, rough_state, make_jacobian, make_vec, 
     assert_consistent(problem, rough_state(problem, contact=True), make_jacobian, make_vec)
 
 
-@pytest.mark.parametrize("contact", [False, True], ids=["film", "contact"])
-@pytest.mark.parametrize("mobility", ["geometric", "harmonic"])
-def test_face_mobilities(make_problem, rough_state, make_jacobian, make_vec, mobility, contact):
-    problem = make_problem(nodes=33, scheme=Scheme(face_mobility=mobility))
-    assert_consistent(problem, rough_state(problem, contact), make_jacobian, make_vec)
-
-
 def test_elliptical_contact(paper_contact, make_problem, rough_state, make_jacobian, make_vec):
     problem = make_problem(paper_contact(radius_y=25.4e-3), nodes=33)
     assert_consistent(problem, rough_state(problem, contact=True), make_jacobian, make_vec)
@@ -95,20 +88,6 @@ def assert_consistent(problem, state, make_jacobian, make_vec):
     assert border == pytest.approx(load * jacobian.load_scale, rel=1e-6)
     moved = np.where(state.status == CAVITATED, 0.0, dP)
     assert border == pytest.approx(jacobian.load_weight * moved.sum(), rel=1e-12)
-
-
-def test_frozen_film_has_the_row_of_the_identity(make_problem, rough_state, make_jacobian, make_vec):
-    problem = make_problem(nodes=33)
-    state = rough_state(problem, contact=True)
-    jacobian, frozen = make_jacobian(problem, state), problem.grid.X < 0.0
-    rows = problem.rows(state.status, np.broadcast_to(frozen, problem.grid.shape))
-    free, _ = apply(jacobian, make_vec, *direction(problem))
-    jacobian.linearise(problem.evaluate(state), rows)
-    held, _ = apply(jacobian, make_vec, *direction(problem))
-    dP, _ = direction(problem)
-    given = rows == PRESSURE
-    np.testing.assert_allclose(held[given], -dP[given] / problem.grid.mesh.dX, rtol=1e-12)
-    np.testing.assert_array_equal(held[~given], free[~given])
 
 
 @pytest.mark.parametrize("rate", [20.0, "each its own"])
@@ -136,26 +115,6 @@ def test_a_time_step_stores_in_the_film_what_flows_in(
     assert_close(r[film], ((ahead - behind) / (2.0 * STEP))[film])
 
 
-def test_response_to_h0_alone(make_problem, rough_state, make_jacobian, make_vec):
-    problem = make_problem(nodes=33)
-    state = rough_state(problem, contact=True)
-    zero = np.zeros(problem.grid.shape)
-    r, border = apply(make_jacobian(problem, state), make_vec, zero, 1.0)
-    expected, _ = differences(problem, state, zero, 1.0)
-    assert_close(r, expected)
-    np.testing.assert_allclose(r[state.status == CONTACT], -1.0 / problem.grid.mesh.dX, rtol=1e-12)
-    assert border == 0.0
-
-
-def test_given_pressures_have_the_row_of_the_identity(make_problem, rough_state, make_jacobian, make_vec):
-    problem = make_problem(nodes=33)
-    state = rough_state(problem, contact=True)
-    dP, dH0 = direction(problem)
-    r, _ = apply(make_jacobian(problem, state), make_vec, dP, dH0)
-    given = problem.boundary | (state.status == CAVITATED)
-    np.testing.assert_allclose(r[given], -dP[given] / problem.grid.mesh.dX, rtol=1e-12)
-
-
 @pytest.mark.parametrize("contact", [False, True], ids=["film", "contact"])
 def test_rigid_gap(make_problem, rough_state, make_jacobian, make_vec, contact):
     """No deflection: contact pressures are given, H0 is its own row, no convolution is made."""
@@ -171,25 +130,6 @@ def test_rigid_gap(make_problem, rough_state, make_jacobian, make_vec, contact):
     assert_close(r[~in_contact], expected[~in_contact])
     np.testing.assert_allclose(r[in_contact], -dP[in_contact] / problem.grid.mesh.dX, rtol=1e-12)
     assert border == dH0
-
-
-def test_one_convolution_for_each_product(make_problem, rough_state, make_jacobian, make_vec):
-    problem = make_problem(nodes=33)
-    state = rough_state(problem)
-    jacobian, before = make_jacobian(problem, state), problem.deflection.count
-    apply(jacobian, make_vec, *direction(problem))
-    assert problem.deflection.count == before + 1
-
-
-def test_space_reads_what_it_wrote(make_problem, rough_state, make_jacobian, make_vec):
-    problem = make_problem(nodes=33)
-    space = make_jacobian(problem, rough_state(problem)).space
-    P = np.random.default_rng(7).random(problem.grid.shape)
-    vec = make_vec(space, P, -3.0)
-    assert vec.getSize() == 33 * 33 + 1
-    read, border = space.read(vec)
-    np.testing.assert_array_equal(read, P)
-    assert border == -3.0
 
 
 @pytest.mark.parametrize("couette", ["1B", "3B"])

@@ -93,14 +93,6 @@ def test_it_solves_with_that_matrix_in_its_zone(jacobian, masks, zone, nearby):
         np.testing.assert_allclose(found, w, rtol=0.0, atol=1e-9)
 
 
-def test_the_next_linearisation_changes_its_entries(jacobian, masks, zone, nearby):
-    """Not their places: what was found of the first serves the second."""
-    nearby.factor(*masks)
-    jacobian.linearisation.A[:] *= np.linspace(0.5, 2.0, jacobian.grid.mesh.nx)
-    jacobian.linearisation.B[:] *= 0.5
-    test_it_solves_with_that_matrix_in_its_zone(jacobian, masks, zone, nearby)
-
-
 def test_it_does_not_depend_on_what_was_solved_before(jacobian, influence, masks, zone, nearby):
     """To the last bit: a run that goes on begins in the middle."""
     r, later = np.random.default_rng(4).standard_normal(jacobian.grid.shape), []

@@ -66,13 +66,6 @@ def test_oscillating_errors_under_high_pressure_decay(film, relax, along, across
     assert errors[4] < 0.1 * errors[0]
 
 
-def test_relaxation_alone_does_not_diverge(film, relax):
-    """A smooth error under high pressure, which a band of the kernel itself would overshoot."""
-    grid = film.problem.grid
-    errors, _ = relax(np.exp(-(grid.X**2 + grid.Y**2) / 0.35**2), 20)
-    assert np.all(errors < 1.5 * errors[0])
-
-
 @pytest.mark.parametrize("rigid", [False, True], ids=["elastic", "rigid"])
 def test_given_pressures_get_no_correction(make_problem, rough_state, make_jacobian, make_smoother, rigid):
     problem = make_problem(nodes=NODES)

@@ -4,13 +4,11 @@ import numpy as np
 import pytest
 from mpi4py import MPI
 
-from mgehl.discretization.band_kernels import REACH
 from mgehl.discretization.bands import LineBands, influence_of_columns
 from mgehl.discretization.influence import influence_coefficients
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.residual import Linearisation
 from mgehl.grid.grid import single_grid
-from mgehl.grid.ownership import MIN_LINES
 from mgehl.model.deformation import HalfSpace
 from mgehl.multigrid.y_bands import YBands
 
@@ -61,10 +59,6 @@ def turned(linearisation):
     return Linearisation(np.ascontiguousarray(OFFSETS[:, ::-1]), A, B, None)
 
 
-def test_bands_reach_no_line_that_is_not_a_neighbours():
-    assert REACH <= MIN_LINES
-
-
 def test_y_lines_are_solved_as_the_x_lines_of_the_turned_plane(y_bands, kappa, rng):
     linearisation, distributive, given = system(rng)
     r, w = np.where(given, 0.0, rng.standard_normal((NY, NX))), np.empty((NY, NX))
@@ -75,35 +69,3 @@ def test_y_lines_are_solved_as_the_x_lines_of_the_turned_plane(y_bands, kappa, r
     lines.solve(r.T.copy(), expected)
     np.testing.assert_allclose(w, expected.T, rtol=1e-11, atol=1e-13)
     assert w.any()
-
-
-def test_a_solution_may_take_the_place_of_its_right_hand_side(y_bands, rng):
-    linearisation, distributive, given = system(rng)
-    r, w = rng.standard_normal((NY, NX)), np.empty((NY, NX))
-    y_bands.factor(linearisation, distributive, given)
-    y_bands.solve(r, w)
-    y_bands.solve(r, r)
-    np.testing.assert_array_equal(r, w)
-
-
-def test_nothing_is_left_of_the_system_before(y_bands, rng):
-    """Nor of one that was forgotten."""
-    first, second = system(rng), system(rng)
-    r, found = rng.standard_normal((NY, NX)), []
-    for forgets in (False, True):
-        y_bands.factor(*first)
-        if forgets:
-            y_bands.forget()
-        y_bands.factor(*second)
-        w = np.empty((NY, NX))
-        y_bands.solve(r, w)
-        found.append(w)
-    np.testing.assert_array_equal(*found)
-
-
-def test_where_all_is_given_nothing_is_solved(y_bands, rng):
-    linearisation, distributive, given = system(rng)
-    w = np.full((NY, NX), np.nan)
-    y_bands.factor(linearisation, distributive, np.ones_like(given))
-    y_bands.solve(np.ones((NY, NX)), w)
-    np.testing.assert_array_equal(w, 0.0)

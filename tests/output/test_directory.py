@@ -82,13 +82,6 @@ def timeless(directory):
 
 
 class TestMaking:
-    def test_it_is_created_with_its_parents_and_one_that_exists_is_refused(self, tmp_path):
-        path = tmp_path / "one" / "two"
-        make_directory(path)
-        with pytest.raises(OutputError, match="--force"):
-            make_directory(path)
-        make_directory(path, force=True)
-
     @pytest.mark.parametrize("force", [False, True])
     def test_a_file_in_its_place_is_refused(self, tmp_path, force):
         (tmp_path / "file").write_text("mine")
@@ -112,12 +105,6 @@ class TestForeign:
         (tmp_path / name).parent.mkdir(exist_ok=True)
         (tmp_path / name).write_text("mine")
         self.refused(tmp_path)
-
-    def test_a_law(self, tmp_path):
-        (put(tmp_path / "run", -0.5) / "laws").mkdir()
-        (tmp_path / "run" / "laws" / "a.py").write_text("mine")
-        prepare_directory(tmp_path / "run", ["laws/b.py"])
-        self.refused(tmp_path / "run", ["laws/a.py"])
 
     def test_what_has_other_names_does_not_matter(self, tmp_path):
         (tmp_path / "checkpoint").mkdir()

@@ -5,12 +5,11 @@ from math import nan
 import pytest
 from tools.contacts import ON_TWICE_THE_DOMAIN, films_on_twice_the_domain
 
-from mgehl.config import config_from_tables
+from mgehl.config import config_from_tables, load_config
 from mgehl.discretization.mesh import Mesh
 from mgehl.kinds import contact_from, mesh_from
-from mgehl.output.domain import STARVED_FROM, domain_verdict, domain_words, film_lost, room_words
-from mgehl.output.resolution import resolution
-from mgehl.output.words import ADVICE
+from mgehl.output.domain import domain_verdict, domain_words, film_lost
+from mgehl.output.resolution import resolution, resolving_nodes
 
 CASE = {
     "contact": {"load": 250.0, "radius_x": 10e-3, "radius_y": 15e-3}, "motion": {"speed": 3.0},
@@ -42,29 +41,8 @@ def test_a_coarse_grid_stays_coarse_whatever_its_domain():
     assert resolution(*coarse).verdict == "coarse"
 
 
-@pytest.mark.parametrize("lost, verdict", [(0.0, "sufficient"), (0.99, "sufficient"), (2.0, "starved")])
-def test_verdict(lost, verdict):
-    assert domain_verdict(lost) == verdict
-    assert 0.5 < STARVED_FROM < 2.0
-
-
 def test_what_an_older_version_did_not_judge():
     assert "older version" in domain_words(domain_verdict(nan), nan)
-
-
-def test_words():
-    assert (
-        domain_words("sufficient", 0.31) == "sufficient: twice the size would change the film by some 0.3 %"
-    )
-    starved = domain_words("starved", 8.34)
-    assert starved.startswith("starved: twice the size would change the film by some 8.3 %; grid.x = ")
-    assert "starved" in ADVICE
-
-
-def test_room_in_words():
-    contact, mesh = contact_and_mesh(x=[-3.0, 1.5], y=[-2.0, 2.0])
-    assert room_words(mesh) == "x from -3 to 1.5 a, y from -2 to 2 b"
-    assert film_lost(contact, mesh) > 0.0
 
 
 def test_the_verdicts_on_films_that_were_solved_on_twice_the_domain_are_right():
@@ -79,3 +57,19 @@ def test_the_verdicts_on_films_that_were_solved_on_twice_the_domain_are_right():
         x, y = ((tuple(map(float, row[axis].split(" to "))) if row[axis] else (0.0, 0.0)) for axis in "xy")
         estimate = film_lost(contact, Mesh(65, 65, x, y))
         assert estimate == pytest.approx(float(row["estimated, %"]), abs=0.02)
+
+
+def film(nodes=257):
+    return load_config(settings={"grid.nodes": nodes, "motion.speed": 0.0075, "solver.start": "film"})
+
+
+def test_the_recommended_grid_is_the_first_that_resolves():
+    config = film()
+    contact = contact_from(config)
+    nodes = resolving_nodes(contact, mesh_from(config, contact))
+    fine, coarse = film(nodes=nodes), film(nodes=(nodes + 1) // 2)
+    verdicts = [
+        resolution(contact_from(each), mesh_from(each, contact_from(each))).verdict
+        for each in (fine, coarse)
+    ]
+    assert verdicts == ["resolved", "coarse"]

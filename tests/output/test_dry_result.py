@@ -85,14 +85,6 @@ def test_contact_of_too_few_nodes_is_none(settled, grid, across):
     assert across in result.reason and "needs 4: a smaller domain or more nodes" in result.reason
 
 
-def test_peaks_that_bear_more_than_the_rest_do_not_hide_it(settled):
-    """Contact is wide where any pressure is, however small beside that on a peak."""
-    problem, outcome = settled()
-    assert judged(problem, outcome).edge.nodes_along_x > 30
-    outcome.state.P[32, 32] *= 100.0
-    assert judged(problem, outcome).edge.nodes_along_x > 30
-
-
 def test_bodies_that_overlap_are_told(settled):
     problem, outcome = settled()
     beside = (outcome.state.P == 0.0) & ~problem.boundary
@@ -115,8 +107,3 @@ def test_it_reads_back(settled):
     tables = json.loads(json.dumps(finite(plain_result(result))))
     assert dacite.from_dict(Result, tables, AS_JSON) == result
     assert not {"central_film_nm", "residual", "resolution", "mass"} & tables.keys()
-
-
-def test_its_words_have_no_film(settled):
-    words = str(judged(*settled()))
-    assert words.startswith("CONVERGED") and "approach" in words and "film" not in words

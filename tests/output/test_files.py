@@ -10,16 +10,8 @@ import xarray
 
 from mgehl.config import config_from_tables
 from mgehl.discretization.mesh import Mesh
-from mgehl.discretization.status import NAMES
 from mgehl.output import files
-from mgehl.output.result import (
-    ContactResult,
-    InequalityResult,
-    Overlap,
-    Resolution,
-    Result,
-    Work,
-)
+from mgehl.output.result import ContactResult, InequalityResult, Overlap, Resolution, Result, Work
 from mgehl.output.solution import Fields, Solution
 
 
@@ -104,10 +96,3 @@ class TestFields:
         np.testing.assert_allclose(data["film"], fields.H * hertz.a**2 / 12.7e-3, rtol=1e-12)
         np.testing.assert_allclose(data["x"], mesh.X * hertz.a, rtol=1e-15)
         np.testing.assert_allclose(data["y"], mesh.Y * hertz.b, rtol=1e-15)
-
-    def test_coordinates_select_nodes(self, data, contact):
-        centre = data["P"].sel(x=0.5 * contact.hertz.a, y=0.0, method="nearest")
-        assert float(centre) == 8.0 / 15.0
-
-    def test_the_status_is_explained(self, data):
-        assert all(name in data["status"].attrs["long_name"] for name in NAMES)

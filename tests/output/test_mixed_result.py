@@ -13,9 +13,8 @@ from mgehl.model.line import LineContact
 from mgehl.model.lubricant import Barus, ConstantDensity, Lubricant
 from mgehl.model.surface import Waviness
 from mgehl.output.files import plain_result
-from mgehl.output.gap_error import GapError, GridGap, no_band
 from mgehl.output.mixed_result import Nodes, measured, mixed_result, patch_sizes
-from mgehl.output.mixed_words import mixed_lines, mixed_note
+from mgehl.output.mixed_words import mixed_lines
 from mgehl.solver.gaps import within_hertz
 
 FILM, LOW = 0.5, 0.25
@@ -41,6 +40,16 @@ def nodes():
 def touch(nodes, *places, P=1.0):
     for j, i in places:
         nodes.status[j, i], nodes.P[j, i], nodes.H[j, i] = CONTACT, P, 0.0
+
+
+class Raised:
+    """A surface at another level."""
+
+    def __init__(self, surface, by):
+        self.surface, self.by = surface, by
+
+    def height(self, x, y):
+        return self.surface.height(x, y) + self.by
 
 
 @pytest.mark.parametrize(
@@ -109,15 +118,24 @@ def test_solids_carry_what_the_fluid_under_them_does_not(contact, nodes):
     assert found.solid_load_fraction == pytest.approx(1.5 * 0.125 / contact.load_integral)
 
 
-def test_sealed_nodes_are_shut_in_by_sides(contact, nodes):
-    ring = (3, 8), (5, 8), (4, 7), (4, 9)
-    touch(nodes, *ring)
-    nodes.P[4, 8], nodes.P[4, 5] = 0.5, 4.0  # the second is open
-    assert measured(contact, MESH, nodes).sealed_load_fraction == pytest.approx(
-        0.5 * 0.125 / contact.load_integral
-    )
-    nodes.status[4, 9] = LUBRICATED
-    assert measured(contact, MESH, nodes).sealed_load_fraction == 0.0
+def test_the_filling_is_that_of_cavities_within_the_ellipse(contact, nodes):
+    for i, filling in ((7, 0.25), (9, 0.75), (1, 0.0)):  # the last is outside
+        nodes.status[4, i], nodes.filling[4, i] = CAVITATED, filling
+    assert measured(contact, MESH, nodes).torn_filling == pytest.approx(0.5)
+
+
+def test_heights_are_about_the_mean_that_sq_is_of(contact, make_problem):
+    """A surface that lies higher has the same valleys."""
+    higher = replace(contact, surface=Raised(WAVES, 1e-6))
+    found = []
+    for body in (contact, higher):
+        problem = make_problem(contact=body, nodes=33)
+        shape = problem.grid.shape
+        H = 1.0 + np.arange(shape[0] * shape[1]).reshape(shape)
+        state = problem.state(np.zeros(shape), 0.0, np.full(shape, LUBRICATED))
+        found.append(mixed_result(problem, replace(state, H=H)))
+    assert found[0].valley_film_nm == pytest.approx(found[1].valley_film_nm)
+    assert found[0].valley_film_nm != pytest.approx(found[0].mean_film_nm)
 
 
 @pytest.mark.parametrize("rows", [9, 1], ids=["point", "line"])
@@ -144,12 +162,6 @@ def test_sealed_is_what_no_path_leads_out_of(contact, rows):
         load = P[~solid].sum() - sum(P[each] for each in reached)
         found = measured(contact, mesh, nodes).sealed_load_fraction
         assert found == pytest.approx(load * mesh.dX * mesh.dY / contact.load_integral, abs=1e-12)
-
-
-def test_the_filling_is_that_of_cavities_within_the_ellipse(contact, nodes):
-    for i, filling in ((7, 0.25), (9, 0.75), (1, 0.0)):  # the last is outside
-        nodes.status[4, i], nodes.filling[4, i] = CAVITATED, filling
-    assert measured(contact, MESH, nodes).torn_filling == pytest.approx(0.5)
 
 
 def test_what_there_is_not_is_none(contact, nodes):
@@ -203,67 +215,6 @@ def test_the_mean_gaps_count_contact_and_torn_film_too(contact, nodes):
     assert found.mean_film_nm == pytest.approx(nm * FILM)
 
 
-def test_mean_gaps_are_said_with_their_bands(contact, nodes):
-    found = replace(measured(contact, MESH, nodes), mean_gap_nm=13.741, loaded_gap_nm=2.9112)
-    bare = "\n".join(mixed_lines(found))
-    assert "mean 13.7 nm within the Hertz ellipse, 2.91 nm by pressure" in bare and "band" not in bare
-    banded = replace(found, error=GapError(0.0636, 0.0488, "from the differences to 129 nodes"))
-    said = "\n".join(mixed_lines(banded))
-    assert "mean 13.74 ± 0.07 nm within the Hertz ellipse, 2.91 ± 0.05 nm by pressure" in said
-    assert "bands of gap, pressure and load: from the differences to 129 nodes" in said
-    assert mixed_note(banded).endswith(", no contact, mean gap 13.74 ± 0.07 nm")
-    none = replace(found, error=no_band("not asked for"))
-    assert "no band of gap, pressure and load: not asked for" in "\n".join(mixed_lines(none))
-    assert "gap" not in mixed_note(none)
-
-
-def test_loads_are_said_with_their_bands_or_to_be_the_grid_s(contact, nodes):
-    touch(nodes, (4, 8), P=2.0)
-    grids = tuple(GridGap(n, 9.0, 3.0, 0.1, True, max_pressure_GPa=1.0) for n in (257, 129))
-    error = GapError(0.1, 0.1, "from them", grids, 1.0, 0.02, 0.0125, None)
-    found = replace(
-        measured(contact, MESH, nodes), error=error, contact_load_share=0.1, solid_load_fraction=0.08
-    )
-    said = "\n".join(mixed_lines(found))
-    assert "contact carries 10.0 ± 1.3 % of the load" in said and "solids carry 8.00 % of the load" in said
-    assert "bands of gap, pressure and load: from them; the grid's: the load on solids" in said
-    text = str(make_result(groups=contact.groups, mixed=found))
-    assert "largest pressure 2.30 ± 0.02 GPa" in text
-
-
-def test_an_older_result_has_no_mean_gap(contact, nodes):
-    older = replace(measured(contact, MESH, nodes), mean_gap_nm=None, loaded_gap_nm=None)
-    assert "contact included" not in "\n".join(mixed_lines(older))
-
-
-def test_heights_are_about_the_mean_that_sq_is_of(contact, make_problem):
-    """A surface that lies higher has the same valleys."""
-    higher = replace(contact, surface=Raised(WAVES, 1e-6))
-    found = []
-    for body in (contact, higher):
-        problem = make_problem(contact=body, nodes=33)
-        shape = problem.grid.shape
-        H = 1.0 + np.arange(shape[0] * shape[1]).reshape(shape)
-        state = problem.state(np.zeros(shape), 0.0, np.full(shape, LUBRICATED))
-        found.append(mixed_result(problem, replace(state, H=H)))
-    assert found[0].valley_film_nm == pytest.approx(found[1].valley_film_nm)
-    assert found[0].valley_film_nm != pytest.approx(found[0].mean_film_nm)
-
-
-class Raised:
-    """A surface at another level."""
-
-    def __init__(self, surface, by):
-        self.surface, self.by = surface, by
-
-    def height(self, x, y):
-        return self.surface.height(x, y) + self.by
-
-
-def test_smooth_bodies_have_nothing_of_it(tiny_problem):
-    assert mixed_result(tiny_problem, None) is None
-
-
 def test_it_is_in_result_json_and_in_words(contact, nodes):
     touch(nodes, (4, 8), P=2.0)
     found = measured(contact, MESH, nodes)
@@ -275,13 +226,3 @@ def test_it_is_in_result_json_and_in_words(contact, nodes):
     area = f"{1e12 * found.contact_area_m2:.4g} um^2"
     assert f"real contact area {area}, 3.98 % of the Hertz area, in 1 patch, the largest {area}" in text
     assert "lambda" not in str(make_result())
-
-
-def test_the_note_of_pictures(contact, nodes):
-    assert mixed_note(None) == ""
-    ratio = f"lambda {contact.expected_film / contact.roughness:.3g}"
-    assert mixed_note(measured(contact, MESH, nodes)) == f"{ratio}, no contact"
-    touch(nodes, (4, 8), (2, 3), P=8.0)
-    carried = f"{100 * 2.0 / contact.load_integral:.1f} % of the load"
-    note = f"{ratio}, contact carries {carried} on 8.0 % of the Hertz area, in 2 patches"
-    assert mixed_note(measured(contact, MESH, nodes)) == note

@@ -1,13 +1,11 @@
 """The history of a run while it runs, and the time that is left."""
 
 import json
-from dataclasses import replace
-from math import inf, nan
 from types import SimpleNamespace
 
 import pytest
 
-from mgehl.output.progress import STEPS_A_GRID, Progress, newton_row, seconds_left
+from mgehl.output.progress import Progress, newton_row
 from mgehl.output.terminal import Silent
 from mgehl.solver.nested import LevelSolve
 from mgehl.solver.outcome import Cycle
@@ -57,20 +55,6 @@ def test_a_row_for_each_cycle_is_kept_and_told():
     assert speaker.told[0][1] is None and speaker.told[1][1] >= 0.0
 
 
-def test_news_are_told_once_and_before_the_cycles_that_they_lead_to():
-    speaker = Told()
-    progress = make_progress(speaker)
-    other = replace(LEVEL, news="another way")
-    for step, level in enumerate([LEVEL, other, other]):
-        progress(level, cycle(step))
-    assert [each if isinstance(each, str) else each["step"] for each, _ in speaker.told] == [
-        0,
-        "another way",
-        1,
-        2,
-    ]
-
-
 def test_it_goes_on_from_its_record():
     before = make_progress(convolutions=30.0)
     before(LEVEL, cycle(0))
@@ -91,24 +75,3 @@ def rows(residuals, grid=65, seconds=1.0, first=0.0):
         {"grid": grid, "step": k, "residual": residual, "seconds": first + k * seconds}
         for k, residual in enumerate(residuals)
     ]
-
-
-FALLING = rows([1.0, 1e-1, 1e-2, 1e-3], seconds=2.0, first=300.0)
-"""A decade each two seconds: five decades are left to 1e-8."""
-
-
-@pytest.mark.parametrize("history, finest, left", [
-    (FALLING, 65, 10.0),
-    (rows([1.0, 1e-2, 1e-8], seconds=50.0) + FALLING, 65, 10.0),  # another solve on the same grid
-    (rows([1.0, 0.99, 0.98, 1e-1, 1e-2, 1e-3, 1e-4]), 65, 4.0),  # the last steps count
-    (rows([1.0, 1e-9]), 65, 0.0),
-    (rows([1.0]), 65, None),
-    (rows([1.0, 0.1]) + rows([1.0], grid=129), 129, None),
-    (rows([1.0, 2.0, 4.0]), 65, STEPS_A_GRID),
-    (rows([nan, 1.0]), 65, STEPS_A_GRID),
-    (rows([1e-2, 1e-4, 1e-6]), 257, 1.0 + STEPS_A_GRID * (4.0 + 16.0)),  # two finer grids
-    (rows([1.0, nan]), 129, None),
-    (rows([1.0, inf]), 129, None),
-])  # fmt: skip
-def test_the_time_that_is_left(history, finest, left):
-    assert seconds_left(history, finest, 1e-8) == (left if left is None else pytest.approx(left))

@@ -53,16 +53,6 @@ def test_what_check_prints():
     assert "a peak is positive and lowers the gap" in third
 
 
-def test_a_function_s_sign_has_changed_and_that_is_said(tmp_path):
-    (tmp_path / "mine.py").write_text("def up(x, y): return 0.0 * x * y")
-    config, contact, mesh = case({"grid.nodes": 65, "contact.surface": f"{tmp_path}/mine.py:up"})
-    *_, last = surface_lines(config, contact, mesh)
-    assert last.endswith("up': in earlier versions such heights added to the gap")
-    assert surface_words(
-        *[getattr(resolution(contact, mesh), n) for n in ("surface", "surface_nodes")]
-    ) == ("it has no waves")
-
-
 def doubts(tmp_path, heights, **keys):
     np.save(tmp_path / "z.npy", heights)
     told = {"file": f"{tmp_path}/z.npy", "height_unit": "nm", "spacing": "14 um"} | keys

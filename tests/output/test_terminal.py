@@ -5,7 +5,6 @@ import io
 import json
 import os
 import pty
-import re
 import struct
 import subprocess
 import sys
@@ -46,24 +45,6 @@ def test_a_line_has_eighty_columns_at_the_most_and_a_verbose_one_all(row):
     assert "-2.0e-07" in line_of(ROW, verbose=True) and "changed 12345" in line_of(
         row | {"changed_nodes": 12345}, True
     )
-
-
-def test_a_verbose_run_has_all_of_its_result(capsys):
-    assert "flux imbalance" in said(Lines(verbose=True), capsys)[0]
-    assert "flux imbalance" not in said(Lines(), capsys)[0]
-
-
-@pytest.mark.parametrize("kind", [Lines, Live])
-def test_on_a_terminal_they_are_broken_at_spaces(capsys, monkeypatch, kind):
-    reason = " ".join(40 * ["sets"])
-    whole = said(kind(), capsys, reason=reason)[0]
-    monkeypatch.setenv("COLUMNS", "80")
-    broken = said(kind(), capsys, reason=reason)[0]
-    assert max(map(len, broken.splitlines())) <= 80 < max(map(len, whole.splitlines()))
-    assert broken.split() == whole.split() and "\n    sets " in broken
-    with kind() as words:
-        words.news(reason)
-    assert max(map(len, capsys.readouterr().out.splitlines())) <= 80
 
 
 def test_a_quiet_one_says_only_that_it_failed(capsys):
@@ -145,36 +126,13 @@ def shown(**environment):
     return shown.decode()
 
 
-COLOURS = re.compile(r"\x1b\[[0-9;]*3[0-9][0-9;]*m")
-
-
 class TestLive:
     @pytest.fixture(scope="class")
     def text(self):
         environment = {} if "NO_COLOR" not in os.environ else {"NO_COLOR": ""}
         return shown(**environment)
 
-    def test_it_tells_grid_step_and_time_left(self, text):
-        assert "4097 nodes, step 3" in text and "about 7 s left" in text and "0:00:00" in text
-
-    def test_its_bar_moves_before_anything_is_known(self, text):
-        frames = [each for each in text[: text.index("residual")].split("\r") if "first guess" in each]
-        assert len(set(frames)) > 2 and ("━" in text or "╸" in text or "-" in text)
-
-    def test_it_goes_on_moving_while_results_are_written(self, text):
-        """With the time since the beginning, and no word of time that is left."""
-        frames = [each for each in text.split("\r") if "writing results" in each]
-        assert len(set(frames)) > 2 and "left" not in "".join(frames)
-        assert "0:00:01" in frames[0] and "0:00:02" in frames[-1]
-
-    def test_lines_stay_above_it(self, text):
-        plain = re.sub(r"\x1b\[[0-9;?]*[A-Za-z]", "", text)
-        assert all(line_of(ROW | {"step": step}) in plain for step in range(4)) and "[line] xxx" in plain
-
     def test_it_leaves_the_terminal_as_it_was(self, text):
         assert text.rstrip().endswith("the end")
         assert "\x1b[?25l" in text and text.rindex("\x1b[?25h") > text.rindex("\x1b[?25l")
         assert "\x1b[2K" in text[text.rindex("writing results") :], "the bar is wiped out"
-
-    def test_who_wants_no_colours_gets_none(self, text):
-        assert COLOURS.search(text) and not COLOURS.search(shown(NO_COLOR="1"))

@@ -5,9 +5,14 @@ import signal
 import subprocess
 import sys
 
+import numpy as np
 import pytest
+from full_disk import files_of_at_most
+from made_solution import make_solution
 
 from mgehl.errors import OutputError
+from mgehl.output.files import write_fields
+from mgehl.output.memory_file import netcdf_file
 from mgehl.output.whole_file import whole_file, write_whole
 
 
@@ -20,16 +25,6 @@ def path(tmp_path):
 
 def names(path):
     return sorted(each.name for each in path.parent.iterdir())
-
-
-def test_what_was_written_is_the_file_and_nothing_else_stays(path):
-    for target in (path, path.with_name("new.h5")):
-        with whole_file(target) as part:
-            part.write_text("new")
-            assert not target.exists() or target.read_text() == "old"
-            assert part.suffix == ".h5" and part.parent == path.parent  # writers go by it
-        assert target.read_text() == "new"
-    assert names(path) == ["fields.h5", "new.h5"]
 
 
 def test_an_exception_leaves_the_old_one(path):
@@ -67,3 +62,17 @@ def test_what_cannot_be_written_is_one_line(path, monkeypatch):
     with pytest.raises(OutputError, match="fields.h5: cannot be written: No space left on device"):
         write_whole(path, "new")
     assert path.read_text() == "old" and names(path) == ["fields.h5"]
+
+
+def test_a_full_disk_raises_an_error(tmp_path):
+    """HDF5 writing to the file itself would end this process."""
+    with files_of_at_most(1000), pytest.raises(OSError), netcdf_file(tmp_path / "a.nc") as file:
+        file.dimensions = {"x": 1000}
+        file.create_variable("x", ("x",), float, data=np.arange(1000.0))
+
+
+def test_the_fields_of_a_run_do_not_crash_on_a_full_disk(tmp_path):
+    with files_of_at_most(1000), pytest.raises(OSError):
+        with whole_file(tmp_path / "fields.h5") as part:
+            write_fields(part, make_solution("point"), {})
+    assert not list(tmp_path.iterdir())

@@ -1,20 +1,15 @@
 """What is said of a result."""
 
 import re
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from made_solution import make_solution
 from test_files import make_result
 
-from mgehl.output.mixed_result import MixedResult
 from mgehl.output.resolution import Resolution
 from mgehl.output.result import InequalityResult
 from mgehl.output.words import FAILED, UNRESOLVED
-from mgehl.solver.inequality import Power
-
-MIXED = MixedResult(0.25, 80.0, 0.125, 0.875, 3e-9, 0.0625, 7, 1e-9, 40.0, None, 90.0, 0.015)
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -47,9 +42,6 @@ class TestWhereToReadOn:
     def test_of_a_film_that_is_not_resolved(self, verdict):
         assert str(make_result(resolution=Resolution(0.5, verdict))).splitlines()[-1] == f"  {UNRESOLVED}"
 
-    def test_nothing_of_a_film_that_is(self):
-        assert "README" not in str(make_result(resolution=Resolution(5.0, "resolved")))
-
 
 class TestOfALoadedContact:
     def test_the_answer_and_what_it_rests_on(self):
@@ -76,17 +68,6 @@ class TestOfALoadedContact:
         none = InequalityResult(8, 0, 0.0, 1.5, [])
         assert "inequality" not in make_result(pressure_inequality=none).words(verbose=False)
 
-    def test_where_eq_2_is_compared_between_nodes_is_said_at_length(self):
-        result = make_result(other_inequality=InequalityResult(8, 3, 0.16, 1.5, []))
-        line = "compared between nodes, a cell apart: broken at 3 of 8, by up to 1.6e-01 p_h"
-        assert line in result.words() and line not in result.words(verbose=False)
-
-    def test_faces_at_which_eq_2_is_not_decided_are_counted(self):
-        blind = InequalityResult(8, 0, 0.0, 0.0, [], "at the interface", Power(20, 1, 0.02))
-        line = "broken at 0 of 8 interface nodes, undecided at 1 of 20 faces"
-        assert line in make_result(pressure_inequality=blind).words()
-        assert "undecided" not in make_result().words()
-
     def test_a_node_that_can_be_neither_is_named_with_both_reasons(self):
         node = {
             "i": 7, "j": 9, "film_gap_nm": -0.6, "contact_pressure": -0.014,
@@ -95,36 +76,3 @@ class TestOfALoadedContact:
         text = str(make_result(converged=False, settled=False, contradictions=[node]))
         assert "node (7, 9): as film its gap is -6.00e-01 nm, as contact its pressure -1.40e-02 p_h" in text
         assert "lubricated, cavitated, lubricated, contact" in text
-
-    def test_a_long_list_is_cut_and_says_so(self):
-        nodes = [{"i": k, "j": 1, "size": 0.1} for k in range(1, 51)]
-        result = make_result(pressure_inequality=InequalityResult(60, 50, 0.1, 1.2, nodes))
-        text = str(result)
-        assert text.count("Eq. 2 violated at node") == 20
-        assert "30 more" in text
-
-    @pytest.mark.parametrize(
-        "verdict, advice", [("coarse", "expect the film to change"), ("grid-determined", "the grid's")]
-    )
-    def test_a_coarse_inlet_is_a_warning(self, verdict, advice):
-        assert advice in str(make_result(resolution=Resolution(0.5, verdict)))
-
-    def test_of_rough_bodies_it_does_not_decide_on_the_contact(self):
-        smooth = make_result(resolution=Resolution(0.5, "grid-determined"))
-        rough = replace(smooth, mixed=MIXED)
-        assert "contact set is the grid's" in str(smooth) and "contact set" not in str(rough)
-        assert "another film between the peaks" in str(rough)
-
-    def test_the_gap_in_contact_is_compared_with_the_layers_that_keep_it(self):
-        contact = make_result().contact
-        layers = replace(contact, largest_gap_nm=2.0, kept_gap_nm=2.0)
-        assert "largest gap 0.0e+00 nm" in str(make_result())
-        assert "; largest gap 2 nm, the boundary film is 2 nm" in str(make_result(contact=layers))
-        none = replace(layers, nodes=0, largest_gap_nm=0.0)
-        assert "largest gap 0.0e+00 nm" in str(make_result(contact=none))
-
-    def test_a_surface_that_the_grid_does_not_show_is_a_warning(self):
-        assert "surface" not in str(make_result())
-        unseen = Resolution(5.0, "resolved", "sufficient", 0.1, "grid-determined", 2.5)
-        text = str(make_result(resolution=unseen))
-        assert "  surface: 2.5 nodes in its shortest wave: THE SURFACE IS THE GRID'S" in text

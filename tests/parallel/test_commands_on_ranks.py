@@ -93,13 +93,3 @@ class TestPicture:
         COMM.barrier()
         assert main(["run", "--resume", "here", "--quiet"]) in (0, 1)
         assert (directory / "here" / "picture.png").read_bytes() == drawn
-
-    def test_one_that_cannot_be_drawn_costs_nothing(self, directory, capsys, monkeypatch):
-        def broken(solution):
-            raise RuntimeError("no latex")
-
-        monkeypatch.setattr("mgehl.output.pictures.wedge_picture.picture", broken)
-        assert main([*WEDGE, "--out", "here"]) == 0
-        said = COMM.allgather(capsys.readouterr().err)
-        assert "picture.png: cannot be drawn: no latex" in said[0] and not any(said[1:])
-        assert (directory / "here" / "result.json").exists()

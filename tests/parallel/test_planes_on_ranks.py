@@ -14,7 +14,7 @@ from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.residual import Linearisation
 from mgehl.grid import plane, shared_memory
 from mgehl.grid.grid import single_grid
-from mgehl.grid.plane import SentPlane, SharedPlane, even_widths, plane_of
+from mgehl.grid.plane import SentPlane, SharedPlane
 from mgehl.grid.shared_memory import shared_array
 from mgehl.model.deformation import HalfSpace
 from mgehl.multigrid.y_bands import YBands
@@ -57,42 +57,6 @@ def alone():
     made = single_grid(Mesh(NX, NY, (-1.9, 1.3), (-1.5, 1.5)), MPI.COMM_SELF)
     yield made
     made.destroy()
-
-
-def test_all_ranks_see_what_one_writes():
-    array = shared_array(COMM, (COMM.size, 3), float)
-    assert array is not None and not array.any()
-    COMM.Barrier()
-    array[COMM.rank] = COMM.rank + 1.0
-    COMM.Barrier()
-    np.testing.assert_array_equal(array.sum(axis=1), 3.0 * np.arange(1, COMM.size + 1))
-
-
-def test_where_one_rank_has_no_room_none_has(monkeypatch):
-    if COMM.rank == COMM.size - 1:
-        monkeypatch.setattr(shared_memory, "_mapped", lambda *_: None)
-    assert shared_array(COMM, (3, 5), float) is None
-
-
-def test_columns_have_what_all_wrote_to_their_lines(kind):
-    starts = np.array([0, *range(2, COMM.size + 1), 2 * COMM.size + 1])
-    lines, columns = int(starts[-1]), 3 * COMM.size + 1
-    expected = np.arange(lines * columns).reshape(lines, columns) * (1.0 + 2.0j)
-    mine = slice(*starts[COMM.rank : COMM.rank + 2])
-    made = plane_of(COMM, starts, even_widths(columns, COMM.size), complex)
-    try:
-        assert isinstance(made, kind) or COMM.size == 1 or lines <= NY
-        for factor in (1.0, 2.0):  # the second time over what was there
-            made.lines[:] = factor * expected[mine]
-            made.to_columns()
-            first = made.starts[COMM.rank]
-            here = slice(first, first + made.columns.shape[1])
-            np.testing.assert_array_equal(made.columns, factor * expected[:, here])
-            made.columns[:] += 1.0
-            made.to_lines()
-            np.testing.assert_array_equal(made.lines, factor * expected[mine] + 1.0)
-    finally:
-        made.destroy()
 
 
 def solved_y_lines(grid, moving):

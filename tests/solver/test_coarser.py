@@ -1,7 +1,5 @@
 """The same contact on coarser grids."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
@@ -52,13 +50,6 @@ def test_after_a_grid_with_contact_or_without_an_answer_there_is_no_other(film):
     assert len(grids) == 2 and not grids[1].is_film
     assert {level.nodes for level, _ in told} == {65}
     assert max(cycle.step for _, cycle in told) <= MAX_STEPS
-
-
-def test_they_may_have_another_scheme(film, solve, paper_contact):
-    scheme = replace(SETTINGS.scheme, couette="1B")
-    (_, coarser, _), _, nm = film(3.0, scheme=scheme)
-    own = solve(paper_contact(3.0), 65, couette="1B")
-    assert nm * coarser.films.central == pytest.approx(own.films[0], rel=1e-4)
 
 
 def test_a_grid_next_to_the_coarsest_has_one_other(film):

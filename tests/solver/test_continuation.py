@@ -1,94 +1,12 @@
 """A solution followed in speed and from mean to mean, beside solutions made from nothing."""
 
-from dataclasses import replace
-from pathlib import Path
-
 import numpy as np
 import pytest
 
 import mgehl
 from mgehl.discretization.scheme import Scheme
-from mgehl.discretization.status import CONTACT
-from mgehl.solver.continuation import BEYOND, Continuation, carry
-from mgehl.solver.outcome import Outcome
+from mgehl.solver.continuation import BEYOND, Continuation
 from mgehl.solver.settings import SolverSettings
-
-CONFIGS = Path(__file__).resolve().parents[2] / "configs"
-
-
-class Walk:
-    """A fake `solve` for `carry`, whose states are the t at which they were found.
-
-    It converges unless `fails(t, state)`; `tried` lists (t, state it was given).
-    """
-
-    def __init__(self, fails=lambda t, state: False):
-        self._fails, self.tried = fails, []
-
-    def __call__(self, t, state):
-        self.tried.append((t, state))
-        return f"problem at {t}", Outcome(t, not self._fails(t, state), "")
-
-
-class TestCarry:
-    SMALLEST = 1.0 / 16.0
-
-    @pytest.fixture(autouse=True)
-    def patient(self, monkeypatch):
-        """Four halvings, to see more of them."""
-        monkeypatch.setattr("mgehl.solver.continuation.SMALLEST_STEP", self.SMALLEST)
-
-    def test_one_step_where_nothing_fails(self):
-        walk = Walk()
-        problem, outcome = carry(walk, 0.0)
-        assert walk.tried == [(1.0, 0.0)]
-        assert problem == "problem at 1.0" and outcome.converged and outcome.state == 1.0
-
-    def test_steps_double_from_the_first(self):
-        walk = Walk()
-        carry(walk, 0.0, step=0.25)
-        assert walk.tried == [(0.25, 0.0), (0.75, 0.25), (1.0, 0.75)]
-
-    def test_a_step_that_fails_is_halved_from_the_last_state_that_converged(self):
-        """No step is longer than 0.3."""
-        walk = Walk(lambda t, state: t - state > 0.3)
-        problem, outcome = carry(walk, 0.0)
-        assert walk.tried == [
-            (1.0, 0.0), (0.5, 0.0), (0.25, 0.0),
-            (0.75, 0.25), (0.5, 0.25),
-            (1.0, 0.5), (0.75, 0.5),
-            (1.0, 0.75),
-        ]  # fmt: skip
-        assert problem == "problem at 1.0" and outcome.converged and outcome.state == 1.0
-
-    def test_it_ends_with_the_failure_of_the_smallest_step(self):
-        """Nothing is found beyond 0.3."""
-        walk = Walk(lambda t, state: t > 0.3)
-        problem, outcome = carry(walk, 0.0)
-        assert walk.tried == [
-            (1.0, 0.0), (0.5, 0.0), (0.25, 0.0),
-            (0.75, 0.25), (0.5, 0.25), (0.375, 0.25), (0.3125, 0.25),
-        ]  # fmt: skip
-        assert problem == "problem at 0.3125"
-        assert not outcome.converged and outcome.state == 0.3125
-
-    def test_a_last_step_that_was_cut_short_is_halved_from_its_own_length(self):
-        walk = Walk(lambda t, state: (t, state) == (1.0, 0.75))
-        carry(walk, 0.0, step=0.25)
-        assert walk.tried[2:] == [(1.0, 0.75), (0.875, 0.75), (1.0, 0.875)]
-
-    def test_the_smallest_step_is_tried_and_none_below_it(self):
-        walk = Walk(lambda t, state: True)
-        _, outcome = carry(walk, 0.0)
-        assert walk.tried[-1] == (self.SMALLEST, 0.0)
-        assert not outcome.converged
-
-    def test_a_way_whose_every_step_is_short_is_gone_to_its_end(self):
-        walk = Walk(lambda t, state: t - state > 1.5 * self.SMALLEST)
-        _, outcome = carry(walk, 0.0)
-        assert outcome.converged and outcome.state == 1.0
-        reached = [t for t, state in walk.tried if t - state <= self.SMALLEST]
-        assert reached == [k * self.SMALLEST for k in range(1, 17)]
 
 
 class Followed:
@@ -140,50 +58,6 @@ def test_a_film_followed_to_another_speed_is_the_film_of_that_speed(make, solve,
     assert np.abs(first.state.P - expected.P).max() > 1e-2
 
 
-def test_steps_in_speed_have_equal_ratios(make, monkeypatch):
-    """From 1 to 1/16 m/s, none longer than a half: 1/2, 1/4, ..."""
-
-    def at(continuation, speed, state, share=1.0):
-        tried.append(speed)
-        return None, Outcome(speed, speed > 0.45 * state, "")
-
-    tried = []
-    monkeypatch.setattr(Continuation, "at", at)
-    _, outcome = make().continuation.follow(1.0, 1.0, 0.0625)
-    steps = [0.0625, 0.25, 0.5, 0.125, 0.25, 0.0625, 0.125, 0.0625]
-    assert tried == pytest.approx(steps, rel=1e-14)
-    assert outcome.converged and outcome.state == 0.0625
-
-
-def test_where_a_stage_is_not_found_the_problem_is_still_the_one_that_was_asked_for(make):
-    """And its state is judged by it: a run that starts from another one says so, too."""
-    followed = make()
-    _, first = followed.continuation.begin(1.0, "film")
-    hurried = followed.continuation
-    hurried._settings = replace(hurried._settings, newton=replace(hurried._settings.newton, max_steps=1))
-    problem, outcome = hurried.follow(first.state, 1.0, 0.25)
-    assert not outcome.converged and problem.contact.speed == 0.25
-    speed = 1e3 * followed.speeds[-1]
-    assert 250.0 < speed < 1000.0
-    stage = f"a stage on the way (arithmetic mean, {speed:.4g} mm/s) was not found: "
-    assert outcome.reason.startswith(stage)
-    problem, outcome = hurried.at(0.25, first.state)
-    assert "stage" not in outcome.reason
-
-
-def test_contact_followed_to_another_speed_keeps_its_set(make):
-    """Twice 0.005 mm/s is too slow for the fluid to open a node of the Hertz circle."""
-    followed = make()
-    _, first = followed.continuation.begin(5e-6, "contact")
-    problem, outcome = followed.continuation.follow(first.state, 5e-6, 1e-5)
-    assert first.converged and outcome.converged
-    assert followed.speeds == [5e-6, 1e-5]
-    np.testing.assert_array_equal(outcome.state.status == CONTACT, first.state.status == CONTACT)
-    mesh, nodes = problem.grid.mesh, problem.grid.count(outcome.state.status == CONTACT)
-    assert nodes * mesh.dX * mesh.dY == pytest.approx(np.pi, rel=0.05)
-    assert true_residual(problem, outcome.state) <= 1e-8 < true_residual(problem, first.state)
-
-
 def test_a_start_from_beyond_is_followed_back(make):
     """Contact is begun at 0.005 mm/s for 0.04 mm/s."""
     followed = make()
@@ -191,26 +65,6 @@ def test_a_start_from_beyond_is_followed_back(make):
     assert followed.speeds == pytest.approx([4e-5 / BEYOND, 4e-5], rel=1e-15)
     assert outcome.converged and problem.contact.speed == 4e-5
     assert true_residual(problem, outcome.state) <= 1e-8
-
-
-def test_the_arithmetic_mean_is_begun_by_nested_iteration(make, solve, paper_contact):
-    followed = make()
-    _, outcome = followed.continuation.begin(1.0, "film")
-    assert followed.speeds == [1.0]
-    expected = solve(paper_contact(), 65).outcome.state
-    np.testing.assert_allclose(outcome.state.P, expected.P, rtol=0.0, atol=1e-6)
-
-
-@pytest.mark.parametrize("couette", ["1B", "3B"])
-def test_the_logarithmic_mean_takes_about_the_work_of_the_arithmetic(couette):
-    """Nested iteration finds it, and the linear gap's, from the formula's film: 1.3 times at the most."""
-    work = {}
-    for mean in ("arithmetic", "logarithmic", "linear-gap"):
-        scheme = {"discretization.couette": couette, "discretization.face_mobility": mean}
-        found = mgehl.solve(mgehl.load(CONFIGS / "thick_film.toml", scheme)).summary
-        assert found.converged
-        work[mean] = found.work.convolutions
-    assert max(work["logarithmic"], work["linear-gap"]) <= 1.3 * work["arithmetic"]
 
 
 def test_a_grid_too_coarse_for_the_logarithmic_mean_is_led_to_it_from_a_higher_speed(make):
@@ -235,35 +89,6 @@ def test_another_mean_is_found_from_the_logarithmic(make, solve, paper_contact):
     arithmetic = solve(paper_contact(), 65)
     central, _ = problem.films(outcome.state)
     assert central > 1.3 * arithmetic.problem.films(arithmetic.outcome.state)[0]
-
-
-def test_a_film_is_turned_to_another_mean_at_its_speed(make, solve, paper_contact):
-    """Where the grid resolves the inlet the means are close: nine steps at the most."""
-    followed, speed = make(face_mobility="geometric"), 3.0
-    state = solve(paper_contact(speed), 65).outcome.state
-    problem, outcome = followed.continuation.turn(speed, state)
-    assert outcome.converged and problem.scheme == followed.scheme
-    assert followed.speeds == [speed] and len(outcome.cycles) <= 14
-    assert true_residual(problem, outcome.state) <= 1e-8
-
-
-def test_by_the_harmonic_mean_single_nodes_do_not_hold_up_the_rest(make):
-    """Short time steps of their own take them past their folds: 12 steps, without 85."""
-    followed = make(face_mobility="harmonic")
-    problem, outcome = followed.continuation.begin(0.3, "film")
-    assert outcome.converged and true_residual(problem, outcome.state) <= 1e-8
-    assert len(outcome.cycles) <= 20
-
-
-def test_without_a_share_any_mean_is_the_arithmetic(make, solve, paper_contact):
-    """The arithmetic solution needs no step; with a share of the mean it is not one."""
-    followed = make(face_mobility="harmonic")
-    state = solve(paper_contact(), 65).outcome.state
-    problem, outcome = followed.continuation.at(1.0, state, share=0.0)
-    assert outcome.converged and len(outcome.cycles) == 1
-    assert problem.scheme == replace(followed.scheme, mobility_share=0.0)
-    problem, outcome = followed.continuation.at(1.0, state, share=0.1)
-    assert len(outcome.cycles) > 1 and problem.scheme.mobility_share == 0.1
 
 
 def test_a_stage_on_the_way_is_no_answer_of_its_own():

@@ -55,13 +55,6 @@ class TestInterface:
         state.status[4, 4] = CONTACT
         assert bool(check_interface(tiny_problem, state).violations) == found
 
-    def test_a_gap_that_opens_at_once_says_how_far_its_pressures_may_be_off(self, tiny_problem, across):
-        """A wake's edge: half of its step on either side is what a node's pressure of 0.3 deflects."""
-        P = np.r_[np.full(3, 0.8), np.full(3, 0.4)]
-        state = across(P)
-        state.H[state.status == CONTACT], state.H[state.status != CONTACT] = 0.0, 0.3 * tiny_problem.K00
-        assert check_interface(tiny_problem, state).worst == pytest.approx(0.4 - SAFETY * 0.3)
-
     def test_a_pressure_that_turns_near_the_interface_holds(self, tiny_problem, across):
         """0.03 from node to node, and no jump: the curvature of 0.04 on the fluid's side says so."""
         state = across(np.array([0.79, 0.84, 0.835, 0.80, 0.79, 0.79]))
@@ -69,11 +62,6 @@ class TestInterface:
 
     def test_without_contact_nothing_is_checked(self, tiny_problem, state):
         assert check_interface(tiny_problem, state).checked == 0
-
-    def test_contact_of_one_pressure_is_decided(self, tiny_problem, across):
-        """Nothing is extrapolated wrongly: the tolerance is nothing, at nine faces on either side."""
-        power = check_interface(tiny_problem, across(np.array([0.2] * 3 + [0.5] * 3))).power
-        assert (power, power.decides) == (Power(18, 0, 0.0), True)
 
     @pytest.mark.parametrize("first, undecided", [(0.24, 9), (0.35, 0)])
     def test_contact_that_rises_from_less_than_its_tolerance_is_not(
@@ -85,9 +73,6 @@ class TestInterface:
         found = check_interface(tiny_problem, state)
         assert found.violations == [] and found.power == Power(18, undecided, 0.125 if undecided else 0.0)
         assert found.power.decides == (not undecided)
-
-    def test_a_tenth_of_the_faces_may_be_undecided(self):
-        assert Power(20, 2, 0.1).decides and not Power(20, 3, 0.1).decides
 
 
 class TestPressureInequality:
@@ -111,20 +96,6 @@ class TestPressureInequality:
         result = check_pressure_inequality(tiny_problem, state)
         assert [violation.size for violation in result.violations] == [pytest.approx(0.3)]
 
-    def test_several_violations_are_all_named(self, tiny_problem, state):
-        for i in (2, 6):
-            state.status[4, i], state.P[4, i] = CONTACT, 0.1
-        state.P[4, 4], state.P[3, 6], state.P[3, 2] = 1.0, 0.4, 0.2
-        result = check_pressure_inequality(tiny_problem, state)
-        places = {(each.i, each.j): each.size for each in result.violations}
-        assert places == {(3, 5): pytest.approx(0.1), (7, 5): pytest.approx(0.3)}
-        assert result.worst == pytest.approx(0.3)
-
-    def test_equal_pressures_hold(self, tiny_problem, state):
-        state.status[NODE], state.P[NODE], state.P[4, 3] = CONTACT, 0.5, 0.5
-        result = check_pressure_inequality(tiny_problem, state)
-        assert (result.checked, result.violations) == (1, [])
-
     def test_contact_inside_contact_is_not_interface(self, tiny_problem, state):
         state.status[3:6, 3:6], state.P[3:6, 3:6] = CONTACT, 0.9
         state.P[NODE] = 0.1
@@ -138,22 +109,12 @@ class TestLargestRatio:
     def ratio(self, problem, state):
         return check_pressure_inequality(problem, state).largest_ratio
 
-    def test_without_contact_or_fluid_pressure_it_is_zero(self, tiny_problem, state):
-        assert self.ratio(tiny_problem, state) == 0.0
-        state.status[NODE] = CONTACT
-        assert self.ratio(tiny_problem, state) == 0.0
-
     def test_of_several_nodes_the_largest_counts_violation_or_not(self, tiny_problem, state):
         state.status[4, 2] = state.status[4, 6] = CONTACT
         state.P[4, 2], state.P[4, 1], state.P[3, 2] = 0.5, 0.25, 0.375
         assert self.ratio(tiny_problem, state) == 0.75
         state.P[4, 6], state.P[4, 7] = 0.25, 0.5
         assert self.ratio(tiny_problem, state) == 2.0
-
-    def test_contact_inside_contact_does_not_count(self, tiny_problem, state):
-        state.status[3:6, 3:6], state.P[3:6, 3:6] = CONTACT, 0.5
-        state.P[NODE], state.P[4, 2] = 0.001, 0.25
-        assert self.ratio(tiny_problem, state) == 0.5
 
     def test_beside_contact_without_pressure_it_is_infinite(self, tiny_problem, state):
         state.status[NODE], state.P[4, 3] = CONTACT, 1e-9

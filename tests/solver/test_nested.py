@@ -3,13 +3,10 @@
 import numpy as np
 import pytest
 
-from mgehl.discretization.mesh import Mesh
-from mgehl.discretization.status import CONTACT, LUBRICATED
+from mgehl.discretization.status import CONTACT
 from mgehl.model.hertz import hertz_pressure
 from mgehl.model.point import LOAD
 from mgehl.solver.inequality import check_pressure_inequality
-from mgehl.solver.nested import planned_solves
-from mgehl.solver.settings import NestedSettings, SolverSettings
 
 MOES_DOMAIN = {"x": (-4.5, 1.5), "y": (-3.0, 3.0)}
 
@@ -84,69 +81,6 @@ def test_dry_limit_of_an_elliptical_contact(solve, paper_contact):
     hertz, mesh = contact.hertz, grid.mesh
     newton = P.sum() * hertz.p_h * (mesh.dX * hertz.a) * (mesh.dY * hertz.b)
     assert newton == pytest.approx(800.0, rel=1e-7)
-
-
-def test_coarse_grids_are_solved_at_raised_speeds(solve, paper_contact):
-    """65 nodes cannot resolve the inlet at 1 m/s: two cells take more speed."""
-    contact = paper_contact()
-    told = solve(contact, 129).told
-    speeds = {level.nodes: level.speed for level, _ in told}
-    assert set(speeds) == {65, 129}
-    assert speeds[129] == contact.speed
-    cells = contact.at_speed(speeds[65]).inlet_length / (3.2 / 64)
-    assert speeds[65] >= contact.speed and cells >= 2.0 - 1e-9
-    assert [level.nodes for level, _ in told] == sorted(level.nodes for level, _ in told)
-    assert all(level.finest == (level.nodes == 129) for level, _ in told)
-
-
-def test_slow_contact_raises_the_speed_on_coarse_grids(solve, paper_contact):
-    contact = paper_contact(0.1)
-    told = solve(contact, 129, newton={"max_steps": 3}).told
-    speeds = {level.nodes: level.speed for level, _ in told}
-    assert speeds[129] == contact.speed < speeds[65]
-    cells = contact.at_speed(speeds[65]).inlet_length / (3.2 / 64)
-    assert cells == pytest.approx(2.0)
-
-
-@pytest.mark.parametrize(
-    "method, start, nodes",
-    [
-        ("newton-mg", "film", [65, 129]),
-        ("newton-mg", "contact", [129]),
-        ("relaxation", "film", [129]),
-        ("relaxation", "contact", [129]),
-    ],
-)
-def test_what_is_planned_ends_on_the_finest_grid_at_the_wanted_speed(paper_contact, method, start, nodes):
-    meshes = [Mesh(n, n, (-1.9, 1.3), (-1.5, 1.5)) for n in (33, 65, 129)]
-    contact = paper_contact(1e-3)
-    settings = SolverSettings(method=method, nested=NestedSettings(start=start, first_nodes=65))
-    solves = list(planned_solves(meshes, contact, settings))
-    assert [solve.nodes for _, solve in solves] == nodes == [meshes[level].nx for level, _ in solves]
-    assert [solve.finest for _, solve in solves] == [n == 129 for n in nodes]
-    assert solves[-1][1].speed == contact.speed
-    assert all(solve.speed > contact.speed for _, solve in solves[:-1])
-
-
-def test_no_coarse_grid_lifts_a_light_load_off(moes_contact):
-    """On its wide domain they would ask for speeds at which nothing of Hertz is left."""
-    contact = moes_contact(5.0, 5.0)
-    meshes = [Mesh(n, n, (-53.9, 1.74), (-27.65, 27.65)) for n in (33, 65, 129, 257)]
-    solves = [solve for _, solve in planned_solves(meshes, contact, SolverSettings())]
-    assert [solve.nodes for solve in solves] == [129, 257]
-    assert not any(contact.at_speed(solve.speed).hardly_yields for solve in solves)
-
-
-def test_contact_starts_on_the_finest_grid(solve, paper_contact):
-    told = solve(paper_contact(5e-6), 129, start="contact").told
-    assert {level.nodes for level, _ in told} == {129}
-
-
-def test_a_run_that_cannot_converge_says_so(solve, paper_contact):
-    solution = solve(paper_contact(), 65, newton={"max_steps": 1})
-    assert not solution.outcome.converged
-    assert solution.finest_steps == 1
-    assert np.any(solution.outcome.state.status == LUBRICATED)
 
 
 @pytest.mark.parametrize("speed, start", [(1.0, "film"), (5e-6, "contact")])

@@ -5,13 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mgehl.discretization.axes import own
-from mgehl.discretization.contact_law import InterfaceConditions, UnifiedEquations
+from mgehl.discretization.contact_law import InterfaceConditions
 from mgehl.discretization.fluid import fluid_state
 from mgehl.discretization.influence import influence_coefficients
 from mgehl.discretization.scheme import Scheme
-from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
-from mgehl.model.line import LineContact
+from mgehl.discretization.status import BOUNDARY, LUBRICATED
 from mgehl.solver.nested import single_loop
 from mgehl.solver.problem import State
 from mgehl.solver.relaxation import RelaxationSettings, relax
@@ -34,15 +32,6 @@ def one_sweep(problem, state, settings=WHOLE_WAY):
 def problem(make_problem):
     """9 x 9 nodes at 1 m/s; the film may be in tension, so that nothing is cut."""
     return make_problem(nodes=9, scheme=Scheme(cavitation=False))
-
-
-@pytest.fixture
-def line_problem(make_problem, paper_contact):
-    """A line contact on 9 nodes: the printed coefficients, which have no flow across, are all of it."""
-    lubricant = paper_contact().lubricant
-    contact = LineContact(1859e3, 12.7e-3, 219.78e9, 1.0, lubricant)
-    line = {"nodes": 9, "ny": 1, "y": (0.0, 0.0)}
-    return make_problem(contact, Scheme(cavitation=False), **line)
 
 
 def rough(problem):
@@ -94,89 +83,6 @@ def printed(problem, state, node):
     return alpha, beta, gamma, phi
 
 
-def assert_line_equation(problem, state, new, node):
-    """alpha P_i-1 + beta P_i + gamma P_i+1 = phi with the new pressures of the line."""
-    (j, i), (alpha, beta, gamma, phi) = node, printed(problem, state, node)
-    terms = alpha * new.P[j, i - 1], beta * new.P[j, i], gamma * new.P[j, i + 1]
-    scale = max(map(abs, (*terms, phi)))
-    assert sum(terms) == pytest.approx(phi, abs=1e-11 * scale)
-
-
-def interior(problem):
-    return [tuple(node) for node in np.argwhere(~problem.boundary)]
-
-
-class TestFluidNodes:
-    def test_coefficients_of_eq_52_are_those_printed(self, line_problem):
-        state = rough(line_problem)
-        new = one_sweep(line_problem, state)
-        for node in interior(line_problem):
-            assert_line_equation(line_problem, state, new, node)
-        # The state is not one where a part of them would go unnoticed.
-        fluid = line_problem.evaluate(state).fluid
-        poiseuille = own(fluid.eps)[0, 4] / line_problem.grid.mesh.dX
-        assert 0.05 < poiseuille / (own(fluid.rho)[0, 4] * influence(line_problem)[0]) < 100.0
-
-    def test_flow_across_is_that_of_the_pressures_before_the_sweep(self, problem):
-        state = rough(problem)
-        new = one_sweep(problem, state)
-        for node in interior(problem):
-            assert_line_equation(problem, state, new, node)
-
-    @pytest.mark.parametrize("beside", [(4, 3), (4, 5), (3, 4), (5, 4)], ids=["W", "E", "S", "N"])
-    def test_closed_faces_drop_their_terms(self, problem, beside):
-        state = close(rough(problem), beside)
-        new = one_sweep(problem, state)
-        assert_line_equation(problem, state, new, NODE)
-
-    def test_boundary_pressures_stay(self, problem):
-        new = one_sweep(problem, rough(problem))
-        np.testing.assert_allclose(new.P[problem.boundary], 0.0, rtol=0.0, atol=1e-16)
-
-    def test_by_points_neighbours_keep_their_old_pressures(self, problem):
-        """[Liu eq. 36], with the gap's answer to P_i in its denominator."""
-        state = rough(problem)
-        new = one_sweep(problem, state, replace(WHOLE_WAY, fluid_update="point"))
-        inflow = problem.evaluate(state).inflow
-        for node in interior(problem):
-            _, beta, _, _ = printed(problem, state, node)
-            assert new.P[node] - state.P[node] == pytest.approx(-inflow[node] / beta, rel=1e-11)
-
-
-class TestContactNodes:
-    @pytest.mark.parametrize("stability", [1.0, 10.0])
-    def test_by_lines_eq_41(self, problem, stability):
-        """Both neighbours' changes count, C_c multiplies the node's own."""
-        state = close(rough(problem), (4, 3), (4, 4), (4, 5))
-        new = one_sweep(problem, state, replace(WHOLE_WAY, stability=stability))
-        D, change = influence(problem), new.P - state.P
-        for i in (3, 4, 5):
-            left = D[1] * change[4, i - 1] + stability * D[0] * change[4, i] + D[1] * change[4, i + 1]
-            assert left == pytest.approx(-state.H[4, i], rel=1e-11)
-
-    @pytest.mark.parametrize("stability", [1.0, 10.0])
-    def test_by_points_eq_42(self, problem, stability):
-        """Only the change of the node before counts: P_new = P - (H + D_1,0 dP_i-1)/(C_c D_0,0)."""
-        state = close(rough(problem), (4, 3), (4, 4), (4, 5))
-        new = one_sweep(problem, state, replace(WHOLE_WAY, stability=stability, contact_update="point"))
-        D, change = influence(problem), new.P - state.P
-        for i in (3, 4, 5):
-            expected = -(state.H[4, i] + D[1] * change[4, i - 1]) / (stability * D[0])
-            assert change[4, i] == pytest.approx(expected, rel=1e-11)
-
-    def test_a_gap_that_is_closed_is_contact_and_one_that_opens_is_film(self, problem):
-        state = close(rough(problem), NODE)
-        state.status[2, 2] = CONTACT
-        relax(problem, state, replace(WHOLE_WAY, max_sweeps=0), lambda sweep: None)
-        assert state.status[NODE] == CONTACT and state.status[2, 2] == LUBRICATED
-
-    def test_without_interface_conditions_there_is_none(self, make_problem):
-        problem = make_problem(nodes=9, scheme=Scheme(cavitation=False, contact_law=UnifiedEquations()))
-        state = close(rough(problem), NODE)
-        relax(problem, state, replace(WHOLE_WAY, max_sweeps=0), lambda sweep: None)
-        assert not np.any(state.status == CONTACT)
-
-
 class TestMove:
     """P_new = P + omega (P_new - P): the sign of [Liu eq. 53] mended."""
 
@@ -196,10 +102,6 @@ class TestMove:
         assert free.min() < 0.0
         np.testing.assert_allclose(one_sweep(problem, state).P, np.maximum(free, 0.0), atol=1e-15)
 
-    def test_the_gap_is_that_of_the_new_pressure(self, problem):
-        new = one_sweep(problem, rough(problem))
-        np.testing.assert_array_equal(new.H, problem.gap(new.P, new.H0))
-
 
 class TestLoad:
     @pytest.mark.parametrize("every, sweeps, corrected", [(1, 1, True), (2, 1, False), (2, 2, True)])
@@ -214,36 +116,6 @@ class TestLoad:
         assert new.H0 == pytest.approx(-0.25 * missing if corrected else 0.0, rel=1e-12)
 
 
-class TestCavities:
-    @pytest.fixture
-    def torn(self, make_problem):
-        """Film that ends in a widening gap without pressure."""
-        problem = make_problem(nodes=9)
-        state = rough(problem)
-        state.H[:] = 0.15 + 0.02 * np.maximum(np.arange(9) - 3, 0)
-        state.P[:, 5:] = 0.0
-        return problem, state
-
-    def test_they_keep_no_pressure_and_the_film_beside_them_knows_it(self, torn):
-        problem, state = torn
-        assert problem.evaluate(state).inflow[4, 6] < 0.0
-        new = one_sweep(problem, state)
-        np.testing.assert_array_equal(new.P[1:-1, 6:], 0.0)
-        for j in range(2, 7):
-            for i in range(1, 5):
-                if new.P[j, i] > 0.0 and new.P[j, i - 1 : i + 2].min() >= 0.0:
-                    assert_line_equation(problem, state, new, (j, i))
-
-    def test_they_are_told_from_film_by_their_inflow(self, torn):
-        problem, state = torn
-        state.p[:] = state.P
-        inflow = problem.evaluate_full(state).inflow
-        relax(problem, state, replace(WHOLE_WAY, max_sweeps=0), lambda sweep: None)
-        expected = ~problem.boundary & (state.P <= 0.0) & (inflow <= 0.0)
-        assert expected.any()
-        np.testing.assert_array_equal(state.status == CAVITATED, expected)
-
-
 class TestRuns:
     """65 nodes at 1 m/s."""
 
@@ -256,10 +128,9 @@ class TestRuns:
         problem, outcome = single_loop(hierarchy, contact, everything, lambda *each: told.append(each))
         return hierarchy, problem, outcome, told
 
-    @pytest.mark.parametrize("omega", [0.1, 0.2])
-    def test_it_finds_the_film_that_newton_finds(self, make_hierarchy, solve, paper_contact, omega):
+    def test_it_finds_the_film_that_newton_finds(self, make_hierarchy, solve, paper_contact):
         contact = paper_contact()
-        hierarchy, problem, outcome, told = self.run(make_hierarchy, contact, omega=omega, tolerance=1e-6)
+        hierarchy, problem, outcome, told = self.run(make_hierarchy, contact, omega=0.2, tolerance=1e-6)
         assert outcome.converged
         state, last = outcome.state, outcome.cycles[-1]
         true = problem.rms(problem.residual(problem.evaluate(state), state.status))
@@ -288,10 +159,3 @@ class TestRuns:
             outcome = relax(problem, state, RelaxationSettings(), lambda sweep: None)
         assert not outcome.converged
         assert outcome.reason.startswith("diverged") and outcome.reason.endswith("after 0 sweeps")
-
-    def test_overflow_between_two_lines_of_the_history_ends_it_too(self, make_hierarchy, paper_contact):
-        wild = {"omega": 1.0, "load_factor": 10.0, "load_every": 1, "max_sweeps": 2000}
-        with np.errstate(all="ignore"):
-            _, _, outcome, _ = self.run(make_hierarchy, paper_contact(), cavitation=False, **wild)
-        assert not outcome.converged
-        assert outcome.reason.startswith("diverged")

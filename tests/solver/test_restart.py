@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from mpi4py import MPI
 
-import mgehl
 from mgehl.config import config_from_tables
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
 from mgehl.errors import UserError
@@ -100,10 +99,6 @@ class TestInterpolated:
         assert share == pytest.approx(4.0, rel=0.03)
         assert not (state.status[problem.boundary] == CONTACT).any()
 
-    def test_without_interface_conditions_there_is_no_contact(self, dry, onto):
-        state, _ = onto(dry, DRY, {"discretization": {"contact_model": "unified"}})
-        assert not (state.status == CONTACT).any()
-
 
 class TestSolveFrom:
     """Its answer is that of a start from nothing, found in fewer steps, all on the finest grid."""
@@ -140,28 +135,12 @@ class TestSolveFrom:
         np.testing.assert_allclose(started.fields.H, plain.fields.H, rtol=0.0, atol=1e-6)
         assert started.rows[-1]["speed_mm_s"] == 4000.0
 
-    def test_by_relaxation(self, film):
-        """One sweep sees that there is nothing to do."""
-        relaxed = {"solver": {"method": "relaxation", "tolerance": 1e-6}, "relaxation": {"max_sweeps": 3}}
-        started = solved(FILM, relaxed, start=film)
-        assert started.result.settled and started.result.work.steps == 0
-        assert started.rows[0]["grid"] == 65 and started.rows[0]["speed_mm_s"] == 500.0
-
 
 class TestOfAnotherKind:
     @pytest.mark.parametrize("kind", ["line", "wedge"])
     def test_it_is_refused(self, film, kind):
         with pytest.raises(UserError, match=f"a point is no start for a {kind}"):
             check_start(film, kind)
-
-    def test_a_wedge_starts_nothing(self):
-        wedge = solved({"contact": {"kind": "wedge"}, "grid": {"nodes": 65}})
-        with pytest.raises(UserError, match="a wedge is no start for a wedge"):
-            check_start(wedge, "wedge")
-
-    def test_the_python_interface_refuses_it_too(self, film):
-        with pytest.raises(UserError, match="a point is no start for a line"):
-            mgehl.solve(config_of(LINE), MPI.COMM_SELF, start=film)
 
 
 def test_what_tells_another_contact_is_named():
@@ -176,15 +155,3 @@ def test_what_tells_another_contact_is_named():
     assert list(differences(Start, same)) == []
     other = mgehl.load(None, {"contact.radius_y": 0.02, "lubricant.viscosity_law": "roelands"})
     assert list(differences(Start, other)) == ["contact.radius_y", "lubricant.viscosity_law"]
-
-
-def test_to_a_dry_contact_its_fluid_makes_no_difference():
-    import mgehl
-    from mgehl.solver.restart import differences
-
-    class Start:
-        config = mgehl.load(None, {"discretization.contact_model": "dry", "lubricant.viscosity": 0.01})
-
-    dry, wet = (mgehl.load(None, {"discretization.contact_model": model}) for model in ("dry", "lcic"))
-    assert list(differences(Start, dry)) == []
-    assert list(differences(Start, wet)) == ["lubricant.viscosity", "discretization.contact_model"]

@@ -10,8 +10,7 @@ from mgehl.model.surface import Surface
 from mgehl.multigrid import valleys
 from mgehl.solver.inequality import check_interface
 from mgehl.solver.journal import NOTHING_KEPT, Journal
-from mgehl.solver.nested import first_guess, nested_iteration, planned_solves
-from mgehl.solver.problem import ContactProblem
+from mgehl.solver.nested import nested_iteration
 from mgehl.solver.record import Record
 from mgehl.solver.settings import NestedSettings, NewtonSettings, SolverSettings
 from mgehl.solver.verification import complementarity_error
@@ -119,29 +118,6 @@ def test_contact_carries_much_of_the_load(solve_rough, start, speed, steps, shar
     assert check_interface(problem, state).violations == []
 
 
-def test_it_is_solved_at_once_on_the_finest_grid(paper_contact):
-    contact = paper_contact(1e-3, surface=Waves(1e-7, 2e-4))
-    settings = SolverSettings(scheme=Scheme(face_mobility="linear-gap", contact_law=BoundaryFilm(1e-5)))
-
-    class Mesh:
-        nx = 65
-
-    assert [solve.finest for _, solve in planned_solves([Mesh, Mesh], contact, settings)] == [True]
-
-
-@pytest.mark.parametrize("start", ["film", "contact"])
-def test_the_first_guess_is_the_dry_rough_contact(make_problem, paper_contact, start):
-    contact = paper_contact(1e-3, load=100.0, surface=Waves(1e-7, 2.05e-4))
-    law = BoundaryFilm(1e-5)
-    problem = make_problem(contact, Scheme(face_mobility="linear-gap", contact_law=law), nodes=65)
-    state = first_guess(problem, start)
-    assert isinstance(problem, ContactProblem)
-    assert problem.load_deficit(state.P) == pytest.approx(0.0, abs=1e-12)
-    film = contact.expected_film / contact.film_scale * (1.0 if start == "film" else 0.1)
-    assert problem.mean(state.H, state.P > 0.0) == pytest.approx(film + law.contact_gap, rel=1e-9)
-    assert film > 0.0 and not (state.status == CONTACT).any()
-
-
 class Kept(Journal):
     """What a checkpoint would have before every step on 65 nodes."""
 
@@ -176,13 +152,6 @@ class TestNearbyNodesAtOnce:
     def solve(self, solve_rough):
         """Function: the outcome."""
         return lambda journal=NOTHING_KEPT: solve_rough(2e-7, 4e-5, journal=journal)[1]
-
-    def test_by_lines_alone_it_takes_more_than_twice_the_iterations(self, solve, monkeypatch):
-        def iterations(patience):
-            monkeypatch.setattr(valleys, "PATIENCE", patience)
-            return sum(cycle.linear_iterations for cycle in solve().cycles)
-
-        assert iterations(1000) > 2 * iterations(5)
 
     def test_it_settles_and_a_run_that_was_stopped_on_the_way_goes_on_the_same(self, solve, monkeypatch):
         monkeypatch.setattr(valleys, "PATIENCE", 5)

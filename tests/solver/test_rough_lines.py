@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from mpi4py import MPI
 
-import mgehl.solver.beginning as module
 from mgehl.config import config_from_tables
 from mgehl.kinds import case_of, contact_from
 from mgehl.multigrid import cycle
@@ -46,24 +45,12 @@ def test_each_linear_system_is_solved_at_once():
     assert {row["speed_mm_s"] for row in rows} == {50.0}, "from the dry contact, without a walk"
 
 
-def test_one_iteration_is_all_where_every_cavity_follows_from_what_flows_in():
-    result, rows = solved(contact={"boundary_film": 1e-9}, motion={"speed": 0.01})
-    assert result.converged and {row["linear_iterations"] for row in rows[1:]} == {1}
-
-
 def test_above_the_largest_direct_solve_the_grids_of_the_cycle_lead_to_the_same(monkeypatch):
     at_once, _ = solved()
     monkeypatch.setattr(cycle, "DIRECT", 65)
     result, rows = solved()
     assert result.converged and max(row["linear_iterations"] for row in rows) > 1
     assert result.mixed.mean_gap_nm == pytest.approx(at_once.mixed.mean_gap_nm, rel=1e-5)
-
-
-def test_smooth_lines_are_solved_by_the_cycle():
-    smooth = {name: table for name, table in ROLLER.items() if name != "surface"}
-    config = config_from_tables(merged(smooth, {"motion": {"speed": 1.0}}))
-    rows = solve(config, MPI.COMM_SELF).rows
-    assert max(row["linear_iterations"] for row in rows) > 1
 
 
 class TestFromAThickFilm:
@@ -93,27 +80,6 @@ class TestFromAThickFilm:
         ]
         one, other = (gaps(problem, outcome.state).mean for problem, outcome in found)
         assert one == pytest.approx(other, rel=1e-6)
-
-    @pytest.mark.parametrize("start, converged", [("film", True), ("contact", False)])
-    def test_it_is_the_way_where_the_other_fails(self, parts, monkeypatch, start, converged):
-        """A start from contact asks for that side and no other."""
-        contact, hierarchy, settings = parts
-        settings = replace(settings, nested=replace(settings.nested, start=start))
-        nested, asked = module.nested_iteration, []
-
-        def failing(hierarchy, contact, *others):
-            asked.append(contact.speed)
-            problem, outcome = nested(hierarchy, contact, *others)
-            outcome.converged &= len(asked) > 1
-            return problem, outcome
-
-        monkeypatch.setattr(module, "nested_iteration", failing)
-        told = []
-        tell = lambda level, cycle: told.append(level.news)  # noqa: E731
-        problem, outcome = begin(hierarchy, contact, settings, tell)
-        assert outcome.converged is converged and problem.contact.speed == contact.speed
-        assert len(asked) == 1 + converged and asked[0] == contact.speed
-        assert told[0] == "" and told[-1].endswith("now from a thick film" if converged else "")
 
     def test_where_both_fail_the_state_is_of_the_contact_s_own_speed(self, parts):
         contact, hierarchy, settings = parts

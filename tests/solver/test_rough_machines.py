@@ -39,12 +39,7 @@ RIDGES = {
     "contact": {"radius_x": 2.92e-3, "radius_y": 2.92e-3, "reduced_modulus": 226e9, "load": 13.2},
     "lubricant": {"viscosity": 0.0149, "pressure_viscosity": 9.6e-9, "viscosity_law": "roelands"},
     "motion": {"speed": 1.37},
-    "surface": {
-        "kind": "waviness",
-        "amplitude": 110e-9,
-        "wavelength_x": 28.3e-6,
-        "wavelength_y": 19.6e-6,
-    },
+    "surface": {"kind": "waviness", "amplitude": 110e-9, "wavelength_x": 28.3e-6, "wavelength_y": 19.6e-6},
 }
 """Short waves along both axes under a film as thick as they are, which coarser grids do not see."""
 

@@ -5,7 +5,6 @@ from mpi4py import MPI
 from tools.contacts import soft
 
 from mgehl.config import config_from_tables
-from mgehl.kinds import contact_from, mesh_from, settled
 from mgehl.run import solve
 
 
@@ -36,16 +35,14 @@ def test_points_converge_to_moes_film(M, L, ratio):
 WIDE = {
     "contact": {"radius_x": 22e-3, "radius_y": 114e-3, "reduced_modulus": 4e9, "load": 735.0},
     "lubricant": {"viscosity": 0.13, "pressure_viscosity": 12e-9, "viscosity_law": "roelands"},
-    "motion": {"speed": 0.1},
+    "motion": {"speed": 0.1, "angle": 6.0},
 }
 """Polymer on a wide roller, M = 5000: 0.065 GPa."""
 
 
-@pytest.mark.parametrize("angle", [0.0, 6.0])
-def test_a_wide_contact_has_a_film(angle):
+def test_a_wide_contact_has_a_film():
     """By contact that closes its faces there was none: what had closed on the way stayed closed."""
-    own = {"motion": WIDE["motion"] | {"angle": angle}, "solver": {"error": False}}
-    result = solve(config_from_tables(WIDE | own), MPI.COMM_SELF).result
+    result = solve(config_from_tables(WIDE | {"solver": {"error": False}}), MPI.COMM_SELF).result
     assert result.converged and result.contact.nodes == 0 and result.work.convolutions < 140.0
     assert result.central_film_nm == pytest.approx(387.0, rel=0.01)
 
@@ -63,15 +60,3 @@ def test_ridges_along_the_motion_on_a_soft_ball():
     result = solve(config_from_tables(tables), MPI.COMM_SELF).result
     assert result.converged and result.work.convolutions < 800.0
     assert result.mixed.lambda_ratio < 0.5
-
-
-def test_their_inlet_is_that_of_their_own_film():
-    """Which is longer than Ertel's and Grubin's: the speed on coarse grids goes by that one."""
-    config = config_from_tables(soft("line", 30.0, 0.3))
-    contact = contact_from(config)
-    mesh = mesh_from(settled(config, contact), contact)
-    assert contact.is_soft and contact.expected_film == contact.flooded_film
-    by_grubin = (contact.grubin_film / contact.flooded_film) ** (2.0 / 3.0) * contact.inlet_cells(mesh)
-    assert by_grubin < 0.5 * contact.inlet_cells(mesh)
-    assert contact.matched_speed(mesh, by_grubin) == pytest.approx(contact.speed, rel=1e-12)
-    assert contact.matched_speed(mesh, 2.0 * by_grubin) == pytest.approx(4.0 * contact.speed, rel=1e-12)

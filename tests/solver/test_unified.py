@@ -34,10 +34,9 @@ def test_full_film_is_that_of_the_interface_conditions(nodes):
     assert unified.result.overlap.nodes == 0 and unified.result.reason == lcic.result.reason
 
 
-@pytest.mark.parametrize("nodes", [129, 257])
-def test_where_the_film_is_too_thin_for_the_grid_the_bodies_overlap(nodes):
+def test_where_the_film_is_too_thin_for_the_grid_the_bodies_overlap():
     """20 mm/s: the equations hold, and the reason says at what price."""
-    solved = solution(0.02, nodes)
+    solved = solution(0.02, 129)
     result, H = solved.result, solved.fields.H
     assert result.converged and result.residual <= 1e-8
     nm = 1e9 * solved.contact.film_scale

@@ -10,15 +10,13 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from mgehl.config import config_from_tables
-from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.status import CAVITATED
 from mgehl.grid.grid import single_grid
 from mgehl.kinds import contact_from
 from mgehl.run import solve
 from mgehl.solver.from_config import scheme_from
 from mgehl.solver.mass import CLOSED
-from mgehl.solver.verification import complementarity_error
-from mgehl.solver.wedge import WedgeProblem, solve_wedge
+from mgehl.solver.wedge import solve_wedge
 from mgehl.studies import pocket_reference as reference
 from mgehl.studies.study import merged, observed_order
 from mgehl.studies.wedge_pocket import SIZES, case, difference, pressures
@@ -153,18 +151,6 @@ def test_walls_at_the_sides_make_all_lines_alike():
     grid.destroy()
 
 
-def test_half_a_pocket_beside_a_wall_is_not_a_line():
-    """Walls and a pocket that is narrower than the pad: many lines, half a cell from the walls."""
-    found = solution(65, sides="closed", pocket_width=5e-3)
-    mesh, width = found.mesh, found.contact.width / found.contact.y_scale
-    assert (mesh.nx, mesh.ny) == (65, 65)
-    assert mesh.dY * mesh.ny == pytest.approx(width, rel=1e-14)
-    assert found.result.converged and found.result.mass.made_share < 1e-8
-    P = found.fields.P
-    np.testing.assert_allclose(P, P[::-1], rtol=0.0, atol=1e-10)
-    assert np.all(P[[0, -1], 1:-1] != found.contact.ambient)
-
-
 @pytest.mark.parametrize("size", SIZES)
 def test_finite_width_beside_the_figures(size):
     """129 nodes: the largest pressure is 6.5 % above and within 1 % of what was read, 8.50 and 41.8 MPa."""
@@ -174,43 +160,3 @@ def test_finite_width_beside_the_figures(size):
     P, ambient = found.fields.P, found.contact.ambient
     np.testing.assert_allclose(P, P[::-1], rtol=0.0, atol=1e-9)
     assert np.all(P[[0, -1]] == ambient) and np.all(P[:, [0, -1]] == ambient)
-
-
-@pytest.mark.parametrize("size", [None, "small"])
-def test_a_pad_by_its_slope_is_the_pad_by_its_films(size):
-    """The same pad in the paper's words, x from where it would meet the plate, and turned by 180 degrees.
-
-    By central differences they are images of each other; P is in units of their own.
-    """
-    tables = case(65, "2C", size)
-    for key in ("length", "inlet_film", "exit_film"):
-        del tables["wedge"][key]
-    slope = {"exit": 0.2, "inlet": 0.22, "slope": 5e-6, "pocket_from": 0.21, "pocket_to": 0.216}
-    found = solution(65, "2C", size)
-    for turned in (False, True):
-        other = solve(
-            config_from_tables(merged(tables, {"wedge": slope | {"reversed": turned}})), MPI.COMM_SELF
-        )
-        way = 1 if turned else -1
-        assert other.result.cavitated_nodes > 0 and other.result.mass.made_share < 1e-8
-        np.testing.assert_array_equal(other.status[::way, ::way], found.status)
-        np.testing.assert_allclose(other.film[::way, ::way], found.film, rtol=1e-12)
-        np.testing.assert_allclose(other.pressure[::way, ::way], found.pressure, rtol=0.0, atol=1.0)
-        assert other.result.load_N == pytest.approx(found.result.load_N, rel=1e-8)
-
-
-def test_the_film_between_edges_fulfils_its_conditions():
-    """P >= 0, fillings below 1, and the pressure at the ends is part of the residual."""
-    config = config_from_tables(case(257))
-    bearing = contact_from(config)
-    grid = single_grid(config.kind.mesh(config, bearing), MPI.COMM_SELF)
-    assert grid.mesh == Mesh(257, 1, *bearing.placement(257)[:1], (0.0, 0.0), edges=(0.0, 20.0))
-    problem, outcome = solve_wedge(grid, bearing, scheme_from(config, bearing), "mgehl_", 1e-10, 60)
-    state = outcome.state
-    assert isinstance(problem, WedgeProblem) and outcome.converged
-    assert complementarity_error(problem, state, problem.evaluate(state)) < 1e-11
-    assert problem.rms(problem.residual(problem.evaluate(state), state.status)) < 1e-11
-    state.P[0, 0] = state.p[0, 0] = 0.0
-    F = problem.residual(problem.evaluate(state), state.status)
-    assert F[0, 0] == pytest.approx(bearing.ambient / grid.mesh.dX)
-    grid.destroy()

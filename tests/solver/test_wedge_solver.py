@@ -14,7 +14,7 @@ from mgehl.model.wedge_series import WedgeSeries
 from mgehl.output.center_line import center_line
 from mgehl.run import solve as solve_config
 from mgehl.solver.from_config import scheme_from
-from mgehl.solver.verification import closed_face_flow, complementarity_error, flux_imbalance
+from mgehl.solver.verification import complementarity_error, flux_imbalance
 from mgehl.solver.wedge import solve_wedge
 from mgehl.studies.study import merged, observed_order
 from mgehl.studies.wedge import PLACES, case, relative_errors
@@ -106,45 +106,14 @@ def test_turned_bearing_gives_the_mirror_image_by_central_differences(shape):
     np.testing.assert_allclose(turned.fields.P, here.fields.P[::-1, ::-1], rtol=0.0, atol=1e-14)
 
 
-@pytest.mark.parametrize("nodes", [65, 129])
 @pytest.mark.parametrize("couette", ["1B", "2B", "2C"])
 @pytest.mark.parametrize("shape", [*SHAPES, *PILLARS])
-def test_residual_flux_and_walls(shape, couette, nodes):
-    result = solution(shape, nodes, couette).result
+def test_residual_flux_and_walls(shape, couette):
+    result = solution(shape, couette=couette).result
     assert result.converged
     assert result.residual <= 1e-10
     assert result.flux_imbalance <= 1e-12
     assert result.closed_face_flow == 0.0
-
-
-def test_verification_is_that_of_the_final_pressures(solve_tables):
-    """The record's numbers once more, from the state itself."""
-    problem, outcome = solve_tables(case("square pillar", 65))
-    state, result = outcome.state, solution("square pillar").result
-    np.testing.assert_array_equal(state.P, solution("square pillar").fields.P)
-    true = problem.rms(problem.residual(problem.evaluate(state), state.status))
-    assert (true, flux_imbalance(problem, problem.evaluate(state))) == (
-        result.residual,
-        result.flux_imbalance,
-    )
-    assert closed_face_flow(problem, problem.evaluate(state)) == 0.0
-    assert problem.load(state.P) == result.load
-    # The pad's edges are at ambient pressure, and so is what is solid.
-    assert np.all(state.P[problem.boundary | (state.status == CONTACT)] == 0.0)
-
-
-@pytest.mark.parametrize("shape", [*SHAPES, *PILLARS])
-def test_iterations_hardly_grow_with_the_grid(shape):
-    """Of one linear solve by eleven digits: about 20 on 65 nodes and 25 on 257."""
-    most = [max(row["linear_iterations"] for row in solution(shape, n).rows) for n in (65, 129, 257)]
-    assert most[0] <= 23
-    assert max(most) <= 1.45 * most[0]
-
-
-def inlet_and_exit(shape, **options):
-    """Largest P between inlet and pillar and between pillar and exit."""
-    X, P = film_on_center_line(solution(shape, **options))
-    return P[X > 39.0].max(), P[X < 31.0].max()
 
 
 @pytest.mark.parametrize("shape", PILLARS)
@@ -161,22 +130,6 @@ class TestUntreatedCouetteFlow:
         gaps = np.abs(np.broadcast_to(solved.mesh.X[:-1], left.shape)[left])
         assert result.closed_face_flow == pytest.approx(gaps.max(), rel=1e-12)
 
-    def test_it_fills_the_film_towards_the_exit_and_spares_the_inlet(self, shape):
-        """Unreversed: "much higher pressures close to the exit", "around the inlet very close"."""
-        (inlet, exit), (inlet_untreated, exit_untreated) = (
-            inlet_and_exit(shape, interface=interface) for interface in ("closed", "untreated")
-        )
-        assert exit_untreated > 5.0 * exit
-        assert inlet_untreated == pytest.approx(inlet, rel=0.05)
-
-    def test_turned_it_takes_the_pressure_before_the_pillar(self, shape):
-        """ "The pressure build-up peak in the inlet zone is much lower"."""
-        (inlet, exit), (inlet_untreated, exit_untreated) = (
-            inlet_and_exit(shape, interface=interface, turned=True) for interface in ("closed", "untreated")
-        )
-        assert inlet_untreated < 0.2 * inlet
-        assert exit_untreated == pytest.approx(exit, rel=0.2)
-
 
 def test_pressures_at_the_inlet_are_in_the_order_of_figure_9():
     """ "Greater for the square-pillar blockage, followed by the cylinder-pillar, the exit, and none"."""
@@ -186,7 +139,9 @@ def test_pressures_at_the_inlet_are_in_the_order_of_figure_9():
 
 def test_cavitation_leaves_no_tension(solve_tables):
     """Behind the pillar the film tears: P >= 0, P = 0 in the cavity, and as much flows out of it as in."""
-    problem, outcome = solve_tables(merged(case("square pillar"), {"discretization": {"cavitation": True}}))
+    problem, outcome = solve_tables(
+        merged(case("square pillar", 65), {"discretization": {"cavitation": True}})
+    )
     state = outcome.state
     assert outcome.converged
     assert state.P.min() == 0.0

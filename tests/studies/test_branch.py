@@ -6,19 +6,14 @@ import signal
 import subprocess
 import sys
 import time
-from types import SimpleNamespace
 
-import numpy as np
 import pytest
 from mpi4py import MPI
 
 from mgehl.cli import main
-from mgehl.discretization.status import CONTACT
-from mgehl.studies import grid, transition
+from mgehl.studies import transition
 from mgehl.studies.branch import Branches
-from mgehl.studies.study import PAPER, Study, merged, papers_grid
-
-FILM = merged(PAPER, {"grid": papers_grid(65)})
+from mgehl.studies.study import Study
 
 
 def read(path):
@@ -61,10 +56,6 @@ class TestBothBranches:
         assert up.result.contact.area_fraction > 0.95 and abs(up.result.central_film_nm) < 1e-6
         assert up.result.contact.load_fraction > 0.95
 
-    def test_the_contact_of_either_is_pressed(self, points):
-        for point in points:
-            assert point.fields.P[point.fields.status == CONTACT].min() >= 0.0
-
 
 class TestJump:
     def test_a_branch_that_ends_goes_on_from_the_other_start(self, study):
@@ -75,39 +66,6 @@ class TestJump:
         assert film.obstacle == "" and contact.obstacle != ""  # why it ended, kept with the point
         assert contact.origin == "other start" and contact.result.contact.area_fraction > 0.95
         assert contact.result.settled
-
-
-class TestStart:
-    def test_a_start_may_take_twice_the_steps(self, tmp_path):
-        """18 from nothing at 0.2 m/s on 65 nodes, in a study whose points may take ten."""
-        study = Study(tmp_path, MPI.COMM_SELF, (65,), speak=False)
-        with Branches(study, merged(FILM, {"solver": {"max_steps": 10}})) as branches:
-            (start,) = branches.walk("down", [0.2])
-        assert start.origin == "start" and start.result.settled
-        assert 10 < start.result.work.steps <= 20
-
-
-class TestPoints:
-    def test_a_second_walk_solves_nothing(self, study, monkeypatch):
-        with Branches(study, FILM) as branches:
-            first = branches.walk("down", [1.0, 0.8])
-        monkeypatch.setattr("mgehl.solver.continuation.Continuation.begin", None)
-        monkeypatch.setattr("mgehl.solver.continuation.Continuation.follow", None)
-        with Branches(study, FILM) as branches:
-            second = branches.walk("down", [1.0, 0.8])
-        assert [point.result for point in first] == [point.result for point in second]
-        assert all(np.array_equal(a.fields.H, b.fields.H) for a, b in zip(first, second, strict=True))
-
-    def test_another_way_is_another_point(self, study):
-        with Branches(study, FILM) as branches:
-            keys = {
-                branches._key(branch, way, ())
-                for branch in ("down", "up")
-                for way in ([1.0], [0.8], [1.0, 0.8])
-            }
-        with Branches(study, transition.case(129)) as branches:
-            keys.add(branches._key("down", [1.0], ()))
-        assert len(keys) == 7
 
 
 class TestStudies:
@@ -136,14 +94,6 @@ class TestStudies:
                 png = tmp_path / "t" / f"transition-{nodes}-{picture}.png"
                 assert png.read_bytes().startswith(b"\x89PNG")
 
-    def test_one_direction_of_another_mean(self, tmp_path, monkeypatch):
-        monkeypatch.setattr(transition, "SLOWEST", 0.05)
-        monkeypatch.setattr(transition, "COUNT", 2)
-        words = ("transition", "--grid", "129", "--direction", "down")
-        assert run(tmp_path / "t", *words, "--set", "discretization.face_mobility=geometric") == 0
-        rows = read(tmp_path / "t" / "transition-129.csv")
-        assert [(row["branch"], row["contact/Hertz area"]) for row in rows] == [("down", "0.0000")] * 2
-
     def test_grid(self, tmp_path):
         assert run(tmp_path / "g", "grid", "--nodes", "65,129") == 0
         rows = read(tmp_path / "g" / "contact.csv")
@@ -152,24 +102,6 @@ class TestStudies:
         assert len(read(tmp_path / "g" / "film.csv")) == 2
         assert {row["central: limit, order"] for row in read(tmp_path / "g" / "film.csv")} == {""}
         assert {"figures-11-12.png", "figure-13.png"} <= {path.name for path in (tmp_path / "g").iterdir()}
-
-
-@pytest.mark.parametrize(
-    ("films", "contact", "text"),
-    [
-        ((9.0, 8.25, 8.0625), (0, 0, 0), "8.000, 2.00"),
-        ((9.0, 8.25, 8.0625), (5, 0, 0), ""),
-        ((12.4364, 12.0798, 11.77), (0, 0, 0), "not to be told yet"),
-        ((9.0, 8.25), (0, 0), ""),
-    ],
-    ids=["second order", "contact on the first", "order 0.2", "two grids"],
-)
-def test_a_limit_is_that_of_three_full_films(films, contact, text):
-    found = [
-        SimpleNamespace(film=film, contact=SimpleNamespace(nodes=nodes))
-        for film, nodes in zip(films, contact, strict=True)
-    ]
-    assert grid._limit(found, "film") == text
 
 
 class TestKill:
@@ -202,8 +134,3 @@ class TestKill:
         for one, other in zip(resumed, whole, strict=True):
             assert one["branch"] == other["branch"] and one["from"] == other["from"]
             assert float(one["central nm"]) == pytest.approx(float(other["central nm"]), abs=1e-3)
-
-    def test_a_directory_that_exists_is_kept(self, tmp_path, capsys):
-        (tmp_path / "t").mkdir()
-        assert run(tmp_path / "t", "transition", "--grid", "65") == 2
-        assert "exists" in capsys.readouterr().err

@@ -4,14 +4,12 @@ import hashlib
 import pickle
 from dataclasses import dataclass, replace
 from io import BytesIO
-from pathlib import Path
 from zipfile import ZipFile
 
 import numpy as np
 import pytest
 from mpi4py import MPI
 
-from mgehl.errors import OutputError
 from mgehl.studies import cache as cache_module
 from mgehl.studies.cache import FOLDER, PointCache, key_of
 
@@ -55,27 +53,6 @@ class TestPoints:
         cache.store("a", POINT.record)
         assert_same(cache.load("a", made), POINT)
 
-    def test_points_are_told_apart_by_their_keys(self, cache):
-        cache.store("a", POINT.record)
-        cache.store("b", replace(POINT, speed=1.0).record)
-        assert (cache.load("a", made).speed, cache.load("b", made).speed) == (0.7, 1.0)
-        assert cache.load("c", made) is None
-
-    def test_nothing_is_found_before_anything_is_stored(self, cache, folder):
-        assert cache.load("a", made) is None
-        assert not folder.exists()
-
-    def test_all_points_may_be_forgotten(self, cache, folder):
-        cache.clear()
-        cache.store("a", POINT.record)
-        key = key_of(DESCRIPTION)
-        cache.store(key, POINT.record)
-        (folder / "precious.txt").touch()
-        (folder / f"{'0' * 24}.npz").symlink_to(folder / "precious.txt")
-        cache.clear()
-        assert cache.load(key, made) is None
-        assert {path.name for path in folder.iterdir()} == {"a.npz", "precious.txt", f"{'0' * 24}.npz"}
-
 
 class TestKills:
     def test_a_point_cut_off_at_any_byte_is_missing(self, cache, folder):
@@ -86,11 +63,6 @@ class TestKills:
             assert cache.load("a", made) is None
         (folder / "a.npz").write_bytes(whole)
         assert_same(cache.load("a", made), POINT)
-
-    def test_a_point_of_another_key_is_missing(self, cache, folder):
-        cache.store("a", POINT.record)
-        (folder / "a.npz").rename(folder / "b.npz")
-        assert cache.load("b", made) is None
 
     def test_a_pickle_is_not_opened(self, cache, folder):
         folder.mkdir()
@@ -103,25 +75,6 @@ class TestKills:
             archive.writestr("record.json", "{}")
             archive.writestr("P.npy", pickled_array())
         assert cache.load("a", made) is None
-
-    @pytest.mark.parametrize("before", [None, 1.0])
-    def test_a_kill_before_the_rename_leaves_what_was_there(self, cache, folder, monkeypatch, before):
-        """No point, or the one before; the next write is not in the way of what is left."""
-        if before:
-            cache.store("a", replace(POINT, speed=before).record)
-        with monkeypatch.context() as patch:
-            patch.setattr("pathlib.Path.replace", self.kill)
-            with pytest.raises(KeyboardInterrupt):
-                cache.store("a", POINT.record)
-        assert (folder / "a.npz").exists() == bool(before)
-        found = cache.load("a", made)
-        assert found.speed == before if before else found is None
-        cache.store("a", POINT.record)
-        assert_same(cache.load("a", made), POINT)
-        assert [path.name for path in folder.iterdir()] == ["a.npz"]
-
-    def kill(self, *_):
-        raise KeyboardInterrupt
 
 
 class Trap:
@@ -138,35 +91,6 @@ def pickled_array():
 
 
 DESCRIPTION = [{"grid": {"nodes": 65, "x": [-1.9, 1.3]}, "mean": "arithmetic"}, "down", [1.0, 0.7], True]
-
-
-class TestKeys:
-    def test_equal_descriptions_have_one_key_whatever_the_order_of_their_tables(self):
-        again = [{"mean": "arithmetic", "grid": {"x": [-1.9, 1.3], "nodes": 65}}, "down", [1.0, 0.7], True]
-        assert key_of(again) == key_of(DESCRIPTION)
-        assert key_of(DESCRIPTION).isalnum() and len(key_of(DESCRIPTION)) == 24
-
-    def test_any_value_changes_the_key(self):
-        tables, branch, way, jump = DESCRIPTION
-        grid = tables["grid"]
-        others = [
-            [tables | {"grid": grid | {"nodes": 129}}, branch, way, jump],
-            [tables | {"grid": grid | {"x": [-1.9, 1.3 + 1e-15]}}, branch, way, jump],
-            [tables | {"mean": "harmonic"}, branch, way, jump],
-            [tables | {"more": None}, branch, way, jump],
-            [{"grid": grid}, branch, way, jump],
-            [tables, "up", way, jump],
-            [tables, branch, [0.7, 1.0], jump],
-            [tables, branch, [1.0], jump],
-            [tables, branch, way, False],
-        ]
-        keys = {key_of(each) for each in (DESCRIPTION, *others)}
-        assert len(keys) == 1 + len(others)
-
-    def test_another_version_has_other_keys(self, monkeypatch):
-        key = key_of(DESCRIPTION)
-        monkeypatch.setattr(cache_module, "VERSION", "0.0.0")
-        assert key_of(DESCRIPTION) != key
 
 
 COMPUTES = ("model/a.py", "kinds/b.py", "solver/deep/c.py", "output/d.py", "run.py", "studies/branch.py")
@@ -193,32 +117,3 @@ class TestCode:
 
     def test_a_change_of_any_module_that_computes_is_another_key(self, key):
         assert len({key(), *map(key, COMPUTES)}) == 1 + len(COMPUTES)
-
-    def test_pictures_do_not_count(self, key):
-        assert key("studies/figures.py") == key()
-
-    def test_all_of_it_is_there(self):
-        root = Path(cache_module.__file__).parents[1]
-        assert all(any(root.glob(pattern)) for pattern in cache_module.COMPUTING)
-
-
-class TestPlacesThatCannotBeWritten:
-    """Files in the place of folders, which stop root, too."""
-
-    def one_line(self, cache):
-        with pytest.raises(OutputError, match="points.*: cannot be written: ") as caught:
-            cache.store("a", POINT.record)
-        assert "\n" not in str(caught.value)
-        assert cache.load("a", made) is None
-
-    def test_a_directory_that_is_a_file(self, tmp_path):
-        (tmp_path / "file").touch()
-        self.one_line(PointCache(tmp_path / "file", MPI.COMM_SELF))
-
-    def test_a_folder_of_points_that_is_a_file(self, cache, folder):
-        folder.touch()
-        self.one_line(cache)
-
-    def test_a_point_that_is_a_folder(self, cache, folder):
-        (folder / "a.npz").mkdir(parents=True)
-        self.one_line(cache)

@@ -1,18 +1,13 @@
 """Studies mixed, machine and rollers on tiny grids: what is drawn, what is kept, what is said of all."""
 
 import csv
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from mgehl.cli import main
-from mgehl.config import config_from_tables
-from mgehl.errors import UserError
-from mgehl.kinds import contact_from
-from mgehl.studies import chance, machine, mixed, rollers, study
-from mgehl.studies.chance import Drawn, summary
-from mgehl.studies.machine import HARD, PRESSURE, PRESSURE_OF_SOFT, SOFT
+from mgehl.studies import machine, mixed, rollers, study
+from mgehl.studies.chance import Drawn
 from mgehl.studies.study import merged
 
 GRIDS = {"mixed": "65", "machine": "65", "rollers": "257"}
@@ -68,32 +63,6 @@ class TestBalls:
         assert found["verdict"].startswith("NOT CONVERGED: ")
         assert said(here, "mixed")["converged"] == "0" and said(here, "mixed")["not settled"] == "1"
 
-    def test_a_case_that_breaks_off_is_said_and_passed(self, tmp_path, long_waves, monkeypatch):
-        """The others have their rows; it is counted among those that did not settle."""
-        whole, here = study.solve, tmp_path / "mixed"
-
-        def broken(config, comm):
-            if config.surface.seed == 1:
-                raise UserError("there is no room")
-            return whole(config, comm)
-
-        monkeypatch.setattr(study, "solve", broken)
-        assert run("mixed", here, "--cases", "2", "--seed", "3") == 1
-        lost, good = read(here / "mixed.csv")
-        assert (lost["case"], lost["verdict"]) == ("1", "NOT SOLVED: there is no room")
-        assert good["verdict"] == "converged" and said(here, "mixed")["not settled"] == "1"
-
-    def test_all_lie_within_their_limits_and_fill_them(self):
-        cases = mixed.draw(400, 1)
-        keys = {"surface.rms": mixed.RMS, "contact.load": mixed.LOAD, "motion.speed": mixed.SPEED}
-        for name, (low, high) in keys.items():
-            section, key = name.split(".")
-            values = [case.tables[section][key] / low for case in cases]
-            shares = np.log(values) / np.log(high / low)
-            assert 0.0 <= shares.min() < 0.02 and 0.98 < shares.max() <= 1.0
-            assert abs(shares.mean() - 0.5) < 0.05
-        assert {case.tables["surface"]["seed"] for case in cases} == set(range(1, 401))
-
 
 STEEL = {"reduced_modulus": 226e9, "boundary_film": 2e-9}
 ONE = {
@@ -123,58 +92,6 @@ class TestMachines:
         assert float(found["Sq nm"]) == pytest.approx(100.0 / 2.0**0.5, abs=1.0)
         assert said(tmp_path / name, name)["with a band about the mean gap"] == "1"
 
-    def test_pressures_and_films_are_what_was_drawn(self, name, module):
-        contacts = [contact_from(config_from_tables(case.tables)) for case in module.draw(60, 3)]
-        assert {contact.reduced_modulus for contact in contacts} == {*HARD, *SOFT}
-        for contact in contacts:
-            of_soft = contact.reduced_modulus in SOFT
-            p_h = contact.hertz.p_h / (contact.reduced_modulus if of_soft else 1.0)
-            low, high = PRESSURE_OF_SOFT if of_soft else PRESSURE
-            assert low * (1.0 - 1e-9) <= p_h <= high * (1.0 + 1e-9)
-
-
-@pytest.mark.parametrize("module", [mixed, machine, rollers])
-def test_more_cases_begin_with_the_same(module):
-    assert module.draw(9, 7)[:3] == module.draw(3, 7) != module.draw(3, 8)
-
-
-def test_surfaces_of_machines_have_the_roughness_they_were_given():
-    """Of every sort, about 100 nm rms."""
-    some, sorts = np.random.default_rng(1), set()
-    for number in range(1, 30):
-        surface = machine.surface_of(some, number, 1e-7, 1e-5)
-        sorts.add(machine.finish(surface))
-        contact = contact_from(config_from_tables({"motion": {"speed": 1.0}, "surface": surface}))
-        assert contact.roughness == pytest.approx(1e-7, rel=0.25)
-    assert {"waves along x", "waves along y", "waves along x and y", "random 1:1"} <= sorts
-
-
-def result(convolutions, band, made=1e-12, **verdict):
-    """What a summary asks of a `Result`."""
-    error = None if band is None else SimpleNamespace(mean_nm=band)
-    parts = {"work": SimpleNamespace(convolutions=convolutions), "mixed": SimpleNamespace(error=error)}
-    parts |= {"mass": SimpleNamespace(made_share=made)}
-    return SimpleNamespace(**{"converged": True, "settled": True} | verdict, **parts)
-
-
-def test_the_summary_tells_converged_doubted_and_not_settled_apart():
-    numbers = summary(
-        [
-            result(100.0, 0.2),
-            result(200.0, None),
-            result(600.0, 0.1, made=3e-10),
-            result(9.0, 0.1, made=1.0, converged=False),
-            result(2000.0, 0.1, converged=False, settled=False),
-        ],
-        lost=1,
-    )
-    assert numbers["with a band about the mean gap"] == "2"
-    verdicts = [numbers[what] for what in ("cases", "converged", "in doubt", "not settled")]
-    assert verdicts == ["6", "3", "1", "2"]
-    assert numbers["mean of the converged"] == "300.0"
-    assert (numbers["median"], numbers["most"]) == ("200.0", "2000.0")
-    assert numbers["largest made"] == "3.0e-10"
-
 
 @pytest.mark.parametrize(
     "word", ["--cases=0", "--seed=-1", "--cases=ten", "--seed=1.5", "--seed=9999999999"]
@@ -183,12 +100,3 @@ def test_numbers_that_are_none_are_refused_in_a_line(capsys, tmp_path, word):
     assert run("mixed", tmp_path / "mixed", word) == 2
     (line,) = capsys.readouterr().err.splitlines()
     assert word.replace("=", " ") in line and "must be a whole number from" in line
-
-
-def test_other_studies_draw_nothing(capsys, tmp_path):
-    assert main(["study", "dry", "--cases", "3", "--out", str(tmp_path / "dry")]) == 2
-    assert "--cases 3: means nothing to study dry" in capsys.readouterr().err
-
-
-def test_the_seed_by_default_is_none_of_those_that_constants_were_chosen_on():
-    assert chance.drawn_of(SimpleNamespace(wanted=3, seed=None), mixed.draw, 9) == mixed.draw(3, 2030)

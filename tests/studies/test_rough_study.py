@@ -5,10 +5,7 @@ import csv
 import pytest
 
 from mgehl.cli import main
-from mgehl.config import config_from_tables
-from mgehl.kinds import contact_from, mesh_from
 from mgehl.model.load_share import aihara
-from mgehl.output.surface import RESOLVED_NODES, wave_nodes
 from mgehl.studies import rough
 from mgehl.studies.study import merged
 
@@ -62,11 +59,3 @@ def test_points_that_do_not_converge_have_a_verdict_and_no_numbers(study):
     assert {row[name] for row in rows for name in NUMBERS} == {""}
     assert {row["load on contact apart from the other start"] for row in rows} == {""}
     assert (here / "load-share.png").read_bytes().startswith(b"\x89PNG")
-
-
-def test_the_case_is_resolved_and_goes_from_full_film_to_nearly_dry():
-    config = config_from_tables(rough.case(rough.NODES, rough.FASTEST, "film"))
-    contact = contact_from(config)
-    assert wave_nodes(contact, mesh_from(config, contact)) > RESOLVED_NODES
-    ratios = [contact.at_speed(speed).expected_film / contact.roughness for speed in rough.speeds()]
-    assert len(ratios) == 20 and ratios[0] > 3.0 and ratios[-1] < 0.01

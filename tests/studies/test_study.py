@@ -7,11 +7,11 @@ import pytest
 from mpi4py import MPI
 
 from mgehl.config import config_from_tables
-from mgehl.errors import ConfigError, OutputError, UserError
+from mgehl.errors import ConfigError, UserError
 from mgehl.kinds import case_of
 from mgehl.run import solve
 from mgehl.solver.from_config import set_up
-from mgehl.studies.study import BEST, PAPER, Study, merged, observed_order, richardson
+from mgehl.studies.study import BEST, Study, merged, observed_order, richardson
 
 FILM = {"motion": {"speed": 1.0}, "grid": {"nodes": 65}}
 SLOWER = {"motion": {"speed": 0.7}}
@@ -33,10 +33,6 @@ class TestMadeUpSequences:
     def test_richardson_finds_limit_and_order(self, amplitude, order):
         assert richardson(self.values(amplitude, order)) == pytest.approx((8.0, order), rel=1e-12)
 
-    def test_the_last_three_grids_count(self, amplitude, order):
-        values = [1e6, *self.values(amplitude, order)]
-        assert richardson(values) == pytest.approx((8.0, order), rel=1e-12)
-
     def test_order_of_errors_of_whatever_sign(self, amplitude, order):
         coarse, fine = (value - 8.0 for value in self.values(amplitude, order, 2))
         assert observed_order(coarse, fine) == pytest.approx(order, rel=1e-12)
@@ -47,18 +43,6 @@ class TestMadeUpSequences:
 def test_without_falling_differences_of_one_sign_there_is_no_limit_to_see(values):
     limit, order = richardson(values)
     assert isnan(limit) and isnan(order)
-
-
-@pytest.mark.parametrize("errors", [(0.0, 1.0), (1.0, 0.0), (0.0, 0.0)])
-def test_no_order_without_errors(errors):
-    assert isnan(observed_order(*errors))
-
-
-def test_later_tables_have_authority_and_none_is_changed():
-    first = {"grid": {"nodes": 65, "x": [-2, 2]}}
-    second = {"grid": {"nodes": 129}, "motion": {"speed": 1.0}}
-    assert merged(first, second) == {"grid": {"nodes": 129, "x": [-2, 2]}, "motion": {"speed": 1.0}}
-    assert first == {"grid": {"nodes": 65, "x": [-2, 2]}} and second["grid"] == {"nodes": 129}
 
 
 @pytest.fixture
@@ -76,24 +60,6 @@ def test_a_table_is_written_twice_and_printed(study, capsys):
     text = (study.directory / "films.md").read_text()
     assert text == "| name | film nm |\n| --- | --- |\n| a | 1.5 |\n| b |  |\n"
     assert "name   film nm\n──────────────\na          1.5\nb\n" in capsys.readouterr().out
-
-
-def test_a_quiet_study_prints_nothing(study, capsys):
-    study.speak = False
-    study.write_table("films", ROWS)
-    study.draw("picture", lambda path, text: path.write_text(text), "drawn")
-    study.solve("a film", FILM)
-    assert capsys.readouterr().out == ""
-    assert (study.directory / "picture.png").read_text() == "drawn"
-
-
-def test_it_says_what_it_solved_and_what_did_not_converge(study, capsys):
-    study.cases = 2
-    assert study.solve("a film", FILM).result.converged
-    study.solve("too short", merged(PAPER, FILM, {"solver": {"max_steps": 1}}))
-    first, second = capsys.readouterr().out.splitlines()
-    assert first.startswith("  1/2") and first.endswith("a film")
-    assert second.startswith("  2/2") and "too short  NOT CONVERGED: residual" in second
 
 
 def test_named_cases_are_solved_in_their_order_and_one_that_cannot_be_is_passed(study, capsys, monkeypatch):
@@ -122,26 +88,3 @@ def test_a_configuration_that_is_none_ends_a_study_before_it_begins(study, capsy
 def test_settings_have_authority_over_every_case(study):
     study.settings = SLOWER
     assert study.solve("a film", FILM).config.motion.speed == SLOWER["motion"]["speed"]
-
-
-def test_a_point_without_fields_is_small(study):
-    one, again = (study.solve("a film", FILM, with_fields=False) for _ in range(2))
-    assert one.fields is again.fields is None and again.result == one.result and again.rows == one.rows
-    (point,) = (study.directory / "points").iterdir()
-    assert point.stat().st_size < 50_000
-
-
-def test_a_table_that_cannot_be_written_is_one_line(tmp_path):
-    (tmp_path / "file").touch()
-    study = Study(tmp_path / "file", MPI.COMM_SELF, speak=False)
-    with pytest.raises(OutputError, match="cannot be written"):
-        study.write_table("films", ROWS)
-
-
-def test_a_picture_that_cannot_be_drawn_is_said_and_costs_nothing(tmp_path, capsys):
-    def broken(path):
-        raise RuntimeError("Failed to process string with tex because latex could not be found")
-
-    Study(tmp_path, MPI.COMM_SELF, speak=False).draw("films", broken)
-    (line,) = capsys.readouterr().err.splitlines()
-    assert line.startswith("mgehl: ") and "films.png: cannot be drawn: Failed to process" in line

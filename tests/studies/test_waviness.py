@@ -9,7 +9,7 @@ from mpi4py import MPI
 from mgehl.cli import main
 from mgehl.studies import venner_laws, waviness
 from mgehl.studies.study import Study, merged
-from mgehl.studies.waviness import GRIDS, LINES, REFERENCE, fitted, line_case, respond
+from mgehl.studies.waviness import GRIDS, LINES, REFERENCE, line_case, respond
 
 
 def responses(directory, couette, mean, nodes, line):
@@ -48,26 +48,6 @@ def test_waves_are_flattened_but_for_what_the_density_gives_way(tmp_path):
     C = film * 220e9 * (2.0 * np.pi / b) / 4.0 * (slope / density)[0]
     assert found[1.0].wave == pytest.approx(C / (1.0 + C), rel=0.1)
     assert found[0.5].wave == pytest.approx(2.0 * C / (1.0 + 2.0 * C), rel=0.1)
-
-
-@pytest.mark.parametrize("length", [1.0, 0.5, 0.25])
-def test_parts_of_a_response_are_told_apart(length):
-    X, k = np.linspace(-4.0, 1.5, 1025), 2.0 * np.pi / length
-    uniform, wave = 0.2 - 0.1j, 0.03 + 0.04j
-    changes = [
-        ((uniform + wave * np.exp(1j * k * X)) * np.exp(-1j * k * quarter * length)).real
-        for quarter in (0.0, 0.25)
-    ]
-    assert fitted(X, changes, length) == pytest.approx((abs(uniform), abs(wave)), rel=1e-9)
-
-
-def test_the_fluid():
-    p, step = np.array([0.0, 1e8, 1e9, 2e9]), 1e3
-    eta, slope = venner_laws.roelands(p, 0.04, 2.2e-8)
-    assert eta[0] == pytest.approx(0.04) and slope[0] == pytest.approx(0.04 * 2.2e-8)
-    for law in (lambda p: venner_laws.roelands(p, 0.04, 2.2e-8), venner_laws.dowson_higginson):
-        differences = (law(p + step)[0] - law(p - step)[0]) / (2.0 * step)
-        np.testing.assert_allclose(law(p)[1], differences, rtol=1e-4)
 
 
 def test_the_table(tmp_path, monkeypatch):

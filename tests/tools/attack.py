@@ -1,17 +1,13 @@
 """Attacks on the finished program, made up by chance: no traceback, no hang, nothing false, nothing lost.
 
     python tests/tools/attack.py words --count 1000 --seed 1
-    python tests/tools/attack.py cases --count 1000
     python tests/tools/attack.py damage --count 200
     python tests/tools/attack.py flips --count 400
-    python tests/tools/attack.py writers --count 50
-    python tests/tools/attack.py kills --count 20 --ranks 2
 
 Each prints a line for every finding and at last the counts as JSON; exit status 1 where something was
 found.
 Whatever is written is in a directory of its own, which goes in the end. Words, damage and flips are tried
-in forks of one process, which has everything imported: a thousand take minutes. With --fresh each command
-line is a process of its own, from the first import on.
+in forks of one process, which has everything imported: a thousand take minutes.
 """
 
 import argparse
@@ -22,15 +18,12 @@ import sys
 import tempfile
 from pathlib import Path
 
-from attack_cases import attack_cases
 from attack_files import attack_damage, attack_flips
 from attack_ground import Findings
-from attack_jobs import attack_kills, attack_writers
 from attack_words import attack_words
 
 ATTACKS = {
-    "words": attack_words, "cases": attack_cases, "damage": attack_damage, "flips": attack_flips,
-    "writers": attack_writers, "kills": attack_kills,
+    "words": attack_words, "damage": attack_damage, "flips": attack_flips,
 }  # fmt: skip
 
 
@@ -39,17 +32,14 @@ def main():
     parser.add_argument("attack", choices=ATTACKS)
     parser.add_argument("--count", type=int, default=20)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--ranks", type=int, default=1, help="processes of a run that is killed")
-    parser.add_argument("--fresh", action="store_true", help="each command line is a process of its own")
     parser.add_argument("--seconds", type=float, default=float("inf"), help="end after so long")
     options = parser.parse_args()
-    more = {"kills": {"ranks": options.ranks}, "words": {"fresh": options.fresh}}.get(options.attack, {})
     findings, before = Findings(options.seconds), Path.cwd()
     with tempfile.TemporaryDirectory(prefix="attack-") as name:
         os.chdir(name)
         try:
             chance = random.Random(options.seed)
-            ATTACKS[options.attack](options.count, chance, Path(name), findings, **more)
+            ATTACKS[options.attack](options.count, chance, Path(name), findings)
         finally:
             os.chdir(before)
     counts = {"attack": options.attack, "seed": options.seed, "outcomes": findings.counts}

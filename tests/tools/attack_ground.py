@@ -3,12 +3,9 @@
 import os
 import resource
 import signal
-import subprocess
 import sys
 import time
 from collections import Counter
-
-from processes import own_environment
 
 STATUSES = {0, 1, 2, 129, 130, 141, 143}
 LIMIT = 60.0
@@ -84,33 +81,6 @@ def forked(words, folder):
     os.kill(child, signal.SIGKILL)
     os.waitpid(child, 0)
     return None, "", ""
-
-
-def alone(words, folder):
-    """(status, stdout, stderr) of a command line in a process of its own; None for a hang."""
-    process = command(words, limit=FILE_LIMIT)
-    try:
-        _, err = process.communicate(timeout=LIMIT)
-    except subprocess.TimeoutExpired:
-        process.kill()
-        process.communicate()
-        return None, "", ""
-    return process.returncode, "", err
-
-
-def command(words, ranks=1, limit=None):
-    """A process of mgehl of its own, or a job of several; `limit` is that of a file's bytes."""
-    words = [sys.executable, "-m", "mgehl", *words]
-    words = ["mpiexec", "-n", str(ranks), *words] if ranks > 1 else words
-    words = ["bash", "-c", f'ulimit -f {limit // 1024}; exec "$@"', "-", *words] if limit else words
-    return subprocess.Popen(
-        words,
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.PIPE,
-        text=True,
-        errors="replace",
-        env=own_environment(),
-    )
 
 
 def judge(findings, words, status, err):

@@ -2,7 +2,7 @@
 
 import shutil
 
-from attack_ground import FOREIGN, SMALL, alone, forked, judge, lay, untouched, warm
+from attack_ground import FOREIGN, SMALL, forked, judge, lay, untouched, warm
 
 NASTY = ["", " ", "-", "--", ".", "..", "/", "//", "a\x00b", "\x1b[2J", "x" * 5000, "\udcff\udcfe", "nan",
          "-1", "1e400", "0x10", "{}", "[]", "'", '"', "\n", "/dev/null", "/dev/full", "/dev/zero",
@@ -74,14 +74,13 @@ def line_of(chance):
     return words
 
 
-def attack_words(count, chance, folder, findings, fresh=False):
+def attack_words(count, chance, folder, findings):
     """Command lines with malice."""
     warm()
     lay(folder)
     for _ in findings.rounds(count):
         words = line_of(chance)
-        is_alone = fresh and "\0" not in "".join(words)  # no process can be started with that
-        status, _, err = (alone if is_alone else forked)(words, folder)
+        status, _, err = forked(words, folder)
         judge(findings, words, status, err)
         untouched(findings, folder, words)
         for path in folder.iterdir():  # what a command made of nasty words

@@ -1,6 +1,5 @@
 """NumPy's archive and the table of text: read back by what reads them."""
 
-import csv
 import json
 
 import numpy as np
@@ -53,11 +52,3 @@ def test_the_table_reads_back_to_the_bit(kind, tmp_path):
     np.testing.assert_array_equal(read["pressure_Pa"].reshape(shape), solution.pressure)
     np.testing.assert_array_equal(read["film_m"].reshape(shape), solution.film)
     assert [NAMES.index(name) for name in read["status"]] == solution.status.ravel().tolist()
-
-
-def test_the_table_is_one_of_text(tmp_path):
-    write_csv(tmp_path / "a.csv", make_solution("point"))
-    with (tmp_path / "a.csv").open(newline="") as file:
-        rows = list(csv.reader(file))
-    assert rows[0] == ["x_m", "y_m", "pressure_Pa", "film_m", "status"]
-    assert len(rows) == 1 + 35 and {row[4] for row in rows[1:]} == set(NAMES)

@@ -1,7 +1,5 @@
 """Exports: formats, names of files, and what stays where one cannot be written."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 from full_disk import files_of_at_most
@@ -24,19 +22,6 @@ class TestFormats:
 
 
 class TestTargets:
-    @pytest.mark.parametrize(
-        "formats, out, names",
-        [
-            (["nc"], None, ["run/fields.nc"]),
-            (["vts", "csv"], None, ["run/fields.vts", "run/fields.csv"]),
-            (["nc"], "here/mine.nc", ["here/mine.nc"]),
-            (["nc"], "here/mine", ["here/mine.nc"]),
-            (["nc", "npz"], "a.v2", ["a.v2.nc", "a.v2.npz"]),
-        ],
-    )
-    def test_names(self, formats, out, names):
-        assert targets(formats, "run", out) == dict(zip(formats, map(Path, names), strict=True))
-
     def test_a_directory_gets_the_default_name(self, tmp_path):
         assert targets(["nc"], "run", str(tmp_path)) == {"nc": tmp_path / "fields.nc"}
 
@@ -47,13 +32,6 @@ class TestTargets:
 
 
 class TestExport:
-    @every_format
-    def test_it_leaves_the_file_and_nothing_else(self, name, tmp_path):
-        path = tmp_path / "deep" / f"mine.{name}"
-        export(make_solution("point"), {name: path})
-        assert [each.name for each in path.parent.iterdir()] == [path.name]
-        assert path.stat().st_size > 1000
-
     @every_format
     def test_one_that_exists_stays_without_force(self, name, tmp_path):
         path = tmp_path / f"mine.{name}"
@@ -100,9 +78,3 @@ class TestExport:
         with pytest.raises(OutputError, match=f"the {word} of this run is not finite at 1 nodes"):
             export(solution, {"csv": tmp_path / "a.csv"})
         assert not list(tmp_path.iterdir())
-
-    def test_a_status_that_is_none_is_refused(self, tmp_path):
-        solution = make_solution("line")
-        solution.fields.status[0, 3] = 4
-        with pytest.raises(OutputError, match="status of this run is damaged"):
-            export(solution, {"csv": tmp_path / "a.csv"})

@@ -48,11 +48,6 @@ def test_paraview_has_them(solution, tmp_path):
     assert b'Name="heights' in content
 
 
-def test_an_older_result_is_without_them(tmp_path):
-    export(make_solution("point"), {"npz": tmp_path / "a.npz"})
-    assert not {"fluid_pressure", "filling", "heights"} & set(read(tmp_path / "a.npz"))
-
-
 def test_a_filling_that_is_not_finite_is_not_exported(solution, tmp_path):
     solution.fields.filling[0, 0] = np.nan
     with pytest.raises(OutputError, match="filling of this run is not finite at 1 nodes"):

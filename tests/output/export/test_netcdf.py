@@ -85,12 +85,6 @@ def test_scalars_of_a_loaded_contact(kind, opened):
         assert float(data[name]) == getattr(contact.groups, name[-1])
 
 
-def test_scalars_of_a_wedge(opened):
-    solution, data = opened("wedge")
-    scalars = float(data.speed), float(data.normal_load), float(data.maximum_pressure)
-    assert scalars == (solution.contact.speed, 48.0, 1.25e5)
-
-
 @every_kind
 def test_the_file_says_where_it_comes_from(kind, opened, tmp_path):
     solution, data = opened(kind)

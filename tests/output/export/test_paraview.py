@@ -56,25 +56,6 @@ def test_every_value_is_in_the_file(kind, tmp_path):
         np.testing.assert_array_equal(arrays[name], field.ravel())
 
 
-@every_kind
-def test_vtk_reads_it(kind, tmp_path):
-    reading = pytest.importorskip("vtkmodules.vtkIOXML", reason="vtk is not installed")
-    from vtkmodules.util.numpy_support import vtk_to_numpy
-
-    solution = make_solution(kind)
-    write_vts(tmp_path / "a.vts", solution)
-    reader = reading.vtkXMLStructuredGridReader()
-    reader.SetFileName(str(tmp_path / "a.vts"))
-    reader.Update()
-    grid, (ny, nx) = reader.GetOutput(), SHAPES[kind]
-    assert grid.GetExtent() == (0, nx - 1, 0, ny - 1, 0, 0)
-    np.testing.assert_array_equal(vtk_to_numpy(grid.GetPoints().GetData()), places_of(solution))
-    data = grid.GetPointData()
-    assert [data.GetArrayName(k) for k in range(data.GetNumberOfArrays())] == list(NAMES)
-    for name, field in values_of(solution).items():
-        np.testing.assert_array_equal(vtk_to_numpy(data.GetArray(name)), field.ravel())
-
-
 def test_one_too_large_for_this_petsc_is_refused(tmp_path, monkeypatch):
     """Its offsets would wrap around; the limit is lowered to that of a small file."""
     monkeypatch.setattr(paraview, "_SHORT_OFFSETS_UNTIL", (99, 0))
@@ -90,13 +71,3 @@ def test_a_place_that_cannot_be_written_is_found_before_petsc_does(tmp_path):
     """Its viewer would try again when PETSc ends."""
     with pytest.raises(FileNotFoundError):
         write_vts(tmp_path / "missing" / "a.vts", make_solution("point"))
-
-
-@pytest.mark.parametrize("kept", [0, 5, 1000, -1])
-def test_one_that_is_cut_off_is_noticed(kept, tmp_path):
-    path = tmp_path / "a.vts"
-    write_vts(path, make_solution("point"))
-    paraview._check_end(path)
-    path.write_bytes(path.read_bytes()[:kept])
-    with pytest.raises(OSError, match="a part of it only"):
-        paraview._check_end(path)

@@ -42,29 +42,6 @@ def test_lines_of_all_runs_in_GPa_and_nm(make_solution, drawn, check_texts):
     )  # fmt: skip
 
 
-def test_each_load_has_its_own_hertz_pressure_and_no_common_axis(make_solution, drawn):
-    runs = [make_solution(settings=[f"contact.load={load} N"]) for load in (800, 100, 800)]
-    axes = drawn(compare_lines, runs, "abc").axes
-    hertz = [line.get_ydata().max() for line in axes[0].get_lines() if line.get_label() == "Hertz"]
-    assert hertz == pytest.approx([1e-9 * run.contact.hertz.p_h for run in runs[:2]])
-    assert axes[2].get_xlabel() == "X = x/a"
-
-
-def test_films_that_differ_much_are_drawn_on_a_logarithmic_axis(make_solution, drawn):
-    """Ten times as thick: no line of either is cut off inside the contact."""
-    runs = [make_solution(nodes=65), make_solution(nodes=65)]
-    assert drawn(compare_lines, runs, "ab").axes[2].get_yscale() == "linear"
-    runs[1].fields.H *= 10.0
-    axes = drawn(compare_lines, runs, "ab").axes[2]
-    thin, thick = (1e9 * run.film.min() for run in runs)
-    low, high = axes.get_ylim()
-    assert axes.get_yscale() == "log" and 0.0 < low < thin and thick < high
-
-
-def test_line_contacts_have_no_lines_across(make_line, drawn):
-    assert len(drawn(compare_lines, [make_line(65), make_line(129)], "ab").axes) == 2
-
-
 def test_wedges(make_wedge, drawn, check_texts):
     runs = [make_wedge(), make_wedge(settings=["wedge.pillar=none"])]
     figure = drawn(compare_lines, runs, ["square pillar", "no pillar"])
@@ -92,19 +69,3 @@ def test_histories_with_a_ring_where_a_grid_begins(make_solution, make_rows, dra
         np.testing.assert_array_equal(line_of(load, label).get_ydata(), errors)
     assert [line_of(residual, label).get_markevery() for label in ("two", "one")] == [[0, 4], [0]]
     check_texts(figure, "residual (rms), dimensionless", "|load error|, dimensionless", "cycle, in order")
-
-
-def test_nine_runs_are_told_apart_and_their_legend_has_room(make_solution, drawn, check_texts):
-    labels = [f"{10**k} mm/s, harmonic mean of the mobility" for k in range(9)]
-    figure = drawn(compare_histories, [make_solution() for _ in labels], labels)
-    lines = [line_of(figure.axes[0], label) for label in labels]
-    assert len({(line.get_color(), line.get_linestyle()) for line in lines}) == 9
-    check_texts(figure, *labels)
-
-
-@pytest.mark.parametrize(
-    "angle, title", [(0, "Y = 0, along the motion (left to right)"), (30, "Y = 0, along x")]
-)
-def test_lines_are_along_the_motion_if_they_all_are(make_solution, drawn, angle, title):
-    runs = [make_solution(), make_solution(settings=[f"motion.angle={angle}"])]
-    assert drawn(compare_lines, runs, "ab").axes[0].get_title() == title

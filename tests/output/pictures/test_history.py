@@ -5,7 +5,7 @@ import pytest
 
 from mgehl.errors import OutputError
 from mgehl.output.pictures import style
-from mgehl.output.pictures.history import column, cycles, grids, history
+from mgehl.output.pictures.history import column, history
 
 OWN_SPEED = ["motion.speed=0.5 m/s"]
 """That of the last rows of `make_rows`."""
@@ -50,55 +50,11 @@ def test_grids_have_bands_and_names(make_solution, make_rows, drawn, check_texts
     assert above.get_xticks().tolist() == [1.5, 5.5, 9.5]
 
 
-def test_names_of_short_stays_are_turned(make_solution, make_rows, drawn):
-    rows = make_rows(grids=(65,), cycles=3) + make_rows(grids=(129,), cycles=40)
-    (above,) = drawn(make_solution(rows=rows, settings=OWN_SPEED)).axes[0].child_axes
-    assert {label.get_rotation() for label in above.get_xticklabels()} == {30.0}
-
-
-def test_sweeps_stand_at_their_number(make_solution, drawn):
-    sweep = {"grid": 65, "speed_mm_s": 5.0, "residual": 1.0, "load_error": 1e-3, "e_p": 1e-2}
-    rows = [sweep | {"step": k, "contact_nodes": 1, "cavitated_nodes": 2} for k in (0, 100, 250)]
-    assert cycles(rows)[0].tolist() == [0, 100, 250]
-    figure = drawn(make_solution(rows=rows))
-    assert figure.axes[-1].get_xlabel() == "relaxation sweep"
-    assert set(lines_of(figure.axes[1])) == {"in contact", "cavitated"}
-
-
 def test_a_wedge_has_the_residuals_of_its_solves(make_wedge, drawn, check_texts):
     figure = drawn(make_wedge())
     (errors,) = figure.axes
     np.testing.assert_array_equal(lines_of(errors)["residual (rms)"], [1.0, 1e-6, 1e-12])
     check_texts(figure, "linear solve", "error, dimensionless", "33 nodes")
-
-
-def test_texts(make_solution, drawn, check_texts):
-    check_texts(
-        drawn(make_solution(settings=["motion.speed=0.5 m/s"])), "cycle, in order", "number of nodes",
-        "error, dimensionless", "residual (rms)", "|load error|",
-        "convergence, 500 mm/s, 800 N, 33 x 33 nodes: converged",
-    )  # fmt: skip
-
-
-def test_one_cycle(make_solution, make_rows, drawn):
-    errors, _ = drawn(make_solution(rows=make_rows(grids=(65,), cycles=1))).axes
-    assert errors.get_xlim() == (-0.5, 0.5)
-
-
-def test_grids_come_back():
-    rows = [{"grid": nodes} for nodes in (65, 65, 129, 65)]
-    assert grids(rows) == [(0, 1), (2, 2), (3, 3)]
-
-
-def test_speeds_on_one_grid_are_told_apart(make_solution, make_rows, drawn):
-    """Of a walk in speed; the run's own has no name, wherever it stands."""
-    own = 1e3 * make_solution().contact.speed
-    rows = [row | {"speed_mm_s": speed} for speed in (own, 500.0, 250.0)
-            for row in make_rows(grids=(129,), cycles=20)]  # fmt: skip
-    assert grids(rows) == [(0, 19), (20, 39), (40, 59)]
-    (above,) = drawn(make_solution(rows=rows)).axes[0].child_axes
-    texts = [text.get_text() for text in above.get_xticklabels()]
-    assert texts == ["129 nodes", "129 nodes, 500 mm/s", "129 nodes, 250 mm/s"]
 
 
 @pytest.mark.parametrize("rows", [[{"grid": 1}], [{"residual": "x"}]])

@@ -60,15 +60,6 @@ class TestRough:
         fields.filling = np.where(fields.status == CAVITATED, 0.1, 1.0)
         return solution
 
-    def test_its_gap_has_a_logarithmic_axis_on_which_all_of_it_is_seen(self, solution, drawn):
-        film = drawn(solution)[2]
-        assert film.get_yscale() == "log"
-        low, high = film.get_ylim()
-        contact = lines_of(film)["contact"]
-        assert low <= contact.get_ydata().min() and 1e9 * solution.film[32].max() < high
-        where = solution.status[32] == CONTACT
-        np.testing.assert_allclose(contact.get_xdata(), solution.mesh.X[where])
-
     def test_its_fluid_has_a_line_of_its_own_and_solids_carry_the_rest(self, solution, drawn, check_texts):
         pressure = drawn(solution)[0]
         own = lines_of(pressure)["pressure of the fluid in contact"].get_ydata()
@@ -84,62 +75,8 @@ class TestRough:
         np.testing.assert_allclose(oil.get_ydata(), 2.0 + 0.1 * (1e9 * solution.film[32, where] - 2.0))
 
 
-def test_of_smooth_bodies_fluid_and_total_pressure_are_one(make_solution, drawn):
-    assert "pressure of the fluid in contact" not in lines_of(drawn(make_solution(contact=0.4))[0])
-
-
-def test_texts(make_solution, make_line, drawn, check_texts):
-    check_texts(
-        drawn(make_solution(settings=["motion.speed=0.5 m/s"]))[0].figure, "pressure, GPa",
-        "film thickness, nm", "x, mm", "y, mm", "X = x/a, a = 0.4108 mm", "Y = y/b, b = 0.4108 mm",
-        "film", "dry contact (Hertz)", "centre lines, 500 mm/s, 800 N, 33 x 33 nodes: converged",
-    )  # fmt: skip
-    settings = ["contact.load_per_length=1859 N/mm", "motion.speed=100 mm/s"]
-    check_texts(drawn(make_line(settings=settings))[0].figure, "X = x/a, a = 0.523 mm", "x, mm",
-                "centre lines, 100 mm/s, 1859 N/mm, 65 nodes: converged")  # fmt: skip
-
-
-def test_the_dry_contact_of_a_coated_body_is_named_as_another(make_solution, drawn):
-    keys = ["contact.deformation=coated", "coating.thickness=40 um", "coating.modulus=4 GPa"]
-    assert "dry contact (Hertz, uncoated)" in lines_of(drawn(make_solution(settings=keys))[2])
-
-
-def test_a_line_contact_has_one_column(make_line, drawn):
-    assert len(drawn(make_line())) == 2
-
-
-def test_millimetres_along_the_upper_side(make_solution, drawn):
-    solution = make_solution()
-    pressure = drawn(solution)[0]
-    pressure.figure.draw_without_rendering()
-    (upper,) = pressure.child_axes
-    assert upper.get_xlim() == pytest.approx(1e3 * solution.x[[0, -1]], rel=1e-12)
-
-
-def test_the_axis_of_the_film_shows_what_is_inside_and_below(make_solution, drawn):
-    solution = make_solution(65)
-    film = 1e9 * solution.film.min()
-    assert drawn(solution)[2].get_ylim() == pytest.approx((0.0, 3.0 * film))
-    i, j = solution.mesh.nearest(0.0, 0.0)
-    solution.fields.H[j, i] *= -2.0  # the bodies overlap
-    assert drawn(solution)[2].get_ylim() == pytest.approx((-2.2 * film, 3.0 * film))
-
-
 @pytest.mark.parametrize("contact, reach", [(0.9, 1.9), (1.05, 1.9), (0.0, 60.0)])
 def test_it_is_drawn_where_no_film_or_no_node_is_inside(make_solution, drawn, contact, reach):
     film = drawn(make_solution(contact=contact, settings=[f"grid.x=[-{reach},{reach}]"]))[2]
     low, high = film.get_ylim()
     assert 0.0 <= low < high
-
-
-@pytest.mark.parametrize(
-    "angle, titles",
-    {
-        0: ["Y = 0, along the motion (left to right)", "X = 0, across the motion"],
-        30: ["Y = 0, along x", "X = 0, along y"],
-        180: ["Y = 0, along x", "X = 0, along y"],
-    }.items(),
-)
-def test_lines_are_named_by_the_motion_where_that_is_along_x(make_solution, drawn, angle, titles):
-    axes = drawn(make_solution(settings=[f"motion.angle={angle}"]))
-    assert [each.get_title() for each in axes[:2]] == titles

@@ -7,7 +7,7 @@ from matplotlib.image import imread
 from matplotlib.patches import Ellipse
 from matplotlib.quiver import Quiver
 
-from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
+from mgehl.discretization.status import CAVITATED, CONTACT
 from mgehl.output.pictures import maps, plane, style
 
 ALL = [maps.film_map, maps.pressure_map, maps.status_map]
@@ -98,56 +98,6 @@ class TestShape:
         (ellipse,) = [each for each in axes.patches if isinstance(each, Ellipse)]
         assert ellipse.height == pytest.approx(2e3 * solution.contact.y_scale)
 
-    def test_beyond_four_to_one_it_is_stretched_which_the_axis_says(
-        self, make_solution, drawn, function, check_texts
-    ):
-        axes = drawn(function, make_solution(settings=["contact.radius_y=800 mm"]))
-        wide, high = np.ptp(axes.get_xlim()), np.ptp(axes.get_ylim())
-        assert high > 5.0 * wide and axes.get_box_aspect() == pytest.approx(2.0)
-        said = f"x, mm (stretched {0.5 * high / wide:.2g} times)"
-        assert (axes.get_xlabel(), axes.get_ylabel()) == (said, "y, mm")
-        check_texts(axes.figure)
-
-
-@pytest.mark.parametrize("coated, words", [(False, "Hertz: a = b = "), (True, "Hertz, uncoated: a = b = ")])
-def test_the_dry_contact_is_named(make_solution, drawn, coated, words):
-    keys = ["contact.deformation=coated", "coating.thickness=40 um", "coating.modulus=4 GPa"]
-    solution = make_solution(settings=keys if coated else [])
-    size = f"{1e3 * solution.contact.x_scale:.3g} mm"
-    assert words + size in labels_of(drawn(maps.film_map, solution))
-
-
-@pytest.mark.parametrize("function", ALL)
-def test_contact_and_cavities_are_named_where_there_are_some(make_solution, drawn, function):
-    solution = make_solution(contact=0.4)
-    assert {"contact", "edge of a cavity"} < set(labels_of(drawn(function, solution)))
-    solution.fields.status[solution.status != BOUNDARY] = LUBRICATED
-    axes = drawn(function, solution)
-    assert not {"contact", "edge of a cavity"} & set(
-        labels_of(axes)
-    ) and "cavity:\npart filled" not in shown(axes)
-
-
-def test_lines_of_equal_film_are_numbered_in_nm(make_solution, drawn):
-    """A film that falls to the sides: its lines are those of numbers on the colour bar."""
-    solution = make_solution(nodes=65)
-    solution.fields.H *= 1.0 - 0.5 * np.minimum(np.abs(solution.mesh.Y[:, None]), 1.0)
-    axes = drawn(maps.film_map, solution)
-    numbers = {float(text.get_text()) for text in axes.texts}
-    assert len(numbers) >= 2
-    assert numbers <= {float(label.get_text()) for label in axes.child_axes[0].get_yticklabels()}
-
-
-@pytest.mark.parametrize(
-    "function, contact", [(maps.film_map, 0.4), (maps.pressure_map, 1.05), (maps.status_map, 0.0)]
-)
-def test_texts(make_solution, drawn, check_texts, function, contact):
-    axes = drawn(function, make_solution(contact=contact, converged=contact < 1.0))
-    what = {"film_map": "film", "pressure_map": "pressure", "status_map": "status of the nodes"}
-    verdict = "converged" if contact < 1.0 else "NOT converged"
-    title = f"{what[function.__name__]}, 0.005 mm/s, 800 N, 33 x 33 nodes: {verdict}"
-    check_texts(axes.figure, "x, mm", "y, mm", title)
-
 
 @pytest.mark.parametrize("function", [maps.film_map, maps.status_map])
 def test_a_single_node_in_contact_is_seen_on_the_map_of_a_large_grid(make_solution, function, tmp_path):
@@ -173,16 +123,3 @@ class TestMotion:
         assert arrow.angles == "xy"  # as on the map, which may be stretched
         (left, right), (bottom, top) = axes.get_xlim(), axes.get_ylim()
         assert left < arrow.X[0] < right and bottom < arrow.Y[0] < top
-
-    def test_a_wedge_has_none(self, make_wedge, drawn):
-        axes = drawn(maps.status_map, make_wedge())
-        assert not [each for each in axes.collections if isinstance(each, Quiver)]
-
-
-@pytest.mark.parametrize("reach", [1.35, 30.0, 500.0])
-def test_a_grid_of_few_nodes_in_the_window_is_drawn(make_solution, reach, tmp_path):
-    """One line of nodes, or none, has no contours."""
-    solution = make_solution(contact=0.9, settings=[f"grid.x=[-{2 * reach},{2 * reach}]"])
-    with style.applied():
-        style.save(maps.film_map(solution), tmp_path / "film.png")
-    assert (tmp_path / "film.png").stat().st_size > 1000

@@ -7,9 +7,14 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from matplotlib.colors import to_rgb
+from matplotlib.figure import Figure
 
-from mgehl.discretization.status import CONTACT, LUBRICATED
+from mgehl.discretization.mesh import Mesh
+from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
+from mgehl.errors import UserError
 from mgehl.output.pictures import style
+from mgehl.output.pictures.blocks import Blocks
+from mgehl.output.pictures.figures import draw_all, figures
 from mgehl.output.pictures.picture import drawn
 
 
@@ -45,16 +50,54 @@ def test_of_a_line_contact_and_a_wedge(kind, request):
     assert share(image_of(request.getfixturevalue(kind)()), style.PRESSURE) > 5e-4
 
 
-def test_of_contact_with_layers_it_shows_what_solids_carry(make_solution):
-    """Half of the pressure: its colour is light."""
-    solution = make_solution(65, contact=0.7, settings=["contact.boundary_film=2 nm"])
-    solution.fields.p = 0.5 * solution.fields.P
-    with style.applied():
-        light = 0.4 * np.array(to_rgb(style.CONTACT_COLOUR)) + 0.6
-    assert share(image_of(solution), light) > 0.005
+def test_a_point_contact_has_them_all(make_solution):
+    pictures = figures(make_solution())
+    assert [picture.name for picture in pictures] == ["lines", "film", "pressure", "status", "history"]
+    assert all(isinstance(picture.figure, Figure) and picture.title for picture in pictures)
 
 
-def test_no_figure_stays_open_and_no_style_is_left(make_solution):
-    image_of(make_solution())
-    assert plt.get_fignums() == []
-    assert plt.rcParams["figure.dpi"] == plt.rcParamsDefault["figure.dpi"]
+def test_a_line_contact_and_a_wedge_have_what_makes_sense(make_line, make_wedge):
+    assert [picture.name for picture in figures(make_line())] == ["lines", "history"]
+    assert [picture.name for picture in figures(make_wedge())] == ["lines", "pressure", "status", "history"]
+
+
+def test_a_kind_that_a_contact_does_not_have(make_line):
+    with pytest.raises(UserError, match="no picture 'film' of this contact: it has lines, history"):
+        figures(make_line(), ["history", "film"])
+
+
+def test_draw_all_writes_every_format(make_line, tmp_path):
+    paths = draw_all(make_line(), tmp_path / "new", ("png", "svg", "pdf"))
+    names = [f"{name}.{form}" for name in ("lines", "history") for form in ("png", "svg", "pdf")]
+    assert [path.name for path in paths] == names
+    assert {path.name for path in (tmp_path / "new").iterdir()} == set(names)
+    assert all(path.stat().st_size > 1000 for path in paths)
+
+
+def test_blocks_of_three_by_three_and_what_is_left():
+    """Seven and five nodes in blocks of three: the last hold one and two, and reach beyond."""
+    mesh = Mesh(7, 5, (-1.0, 1.0), (0.0, 3.0))
+    each, values = Blocks(mesh.X, mesh.Y, 3), np.arange(35).reshape(5, 7)
+    np.testing.assert_array_equal(each.least(values), [[0, 3, 6], [21, 24, 27]])
+    np.testing.assert_array_equal(each.largest(values), [[16, 19, 20], [30, 33, 34]])
+    np.testing.assert_allclose(each.X, [mesh.X[1], mesh.X[4], mesh.X[6]], atol=1e-15)
+    np.testing.assert_allclose(each.Y, [mesh.Y[1], 0.5 * (mesh.Y[3] + mesh.Y[4])], atol=1e-15)
+    cell = 2.0 / 6
+    assert each.extent[:2] == pytest.approx((-1.0 - cell / 2, -1.0 - cell / 2 + 9 * cell))
+
+
+def test_single_nodes_and_thin_lines_of_contact_stay():
+    """Contact wins over a cavity, and that over the film, wherever it is in its block."""
+    status = np.full((64, 64), LUBRICATED)
+    status[40:] = CAVITATED
+    nodes = [(5, 6), (50, 61), (63, 0)]
+    for node in nodes:
+        status[node] = CONTACT
+    status[:, 33] = CONTACT
+    drawn = Blocks(np.arange(64.0), np.arange(64.0), 10).largest(status)
+    expected = np.full((10, 10), LUBRICATED)
+    expected[5:] = CAVITATED  # lines 35 to 41 and after
+    expected[:, 33 // 7] = CONTACT
+    for j, i in nodes:
+        expected[j // 7, i // 7] = CONTACT
+    np.testing.assert_array_equal(drawn, expected)

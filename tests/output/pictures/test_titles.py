@@ -6,20 +6,8 @@ import pytest
 
 from mgehl.config import load_config
 from mgehl.errors import UserError
-from mgehl.output.film_error import FilmError, no_band
-from mgehl.output.pictures.titles import labels, run_names, title, title_with_films
+from mgehl.output.pictures.titles import labels, run_names
 from mgehl.output.result import Overlap
-
-
-def test_films_that_have_bands_are_on_a_second_line(make_solution):
-    solution = make_solution()
-    solution.result.central_film_nm, solution.result.minimum_film_nm = 12.1436, 5.05
-    solution.result.error = FilmError(0.37, 0.2, "of two grids")
-    first, second = title_with_films(solution).splitlines()
-    assert first == title(solution)
-    assert second == "central film 12.1 ± 0.4 nm, minimum 5.0 ± 0.2 nm"
-    solution.result.error = no_band("there is solid contact")
-    assert title_with_films(solution) == title(solution)
 
 
 def runs(*settings, converged=True):
@@ -42,21 +30,6 @@ def runs(*settings, converged=True):
 )  # fmt: skip
 def test_they_say_the_keys_that_differ(one, other, said):
     assert labels(runs(one, other), ["a", "b"]) == said
-
-
-def test_several_keys_in_the_order_of_the_configuration():
-    three = runs(["grid.nodes=65"], ["motion.speed=0.1"], ["grid.nodes=65", "motion.speed=0.1"])
-    assert labels(three, "abc") == ["0.005 mm/s, 65 nodes", "100 mm/s, 257 nodes", "100 mm/s, 65 nodes"]
-
-
-def test_equal_runs_have_their_names():
-    assert labels(runs([], []), ["a", "b"]) == ["a", "b"]
-    assert labels(runs([], [], ["grid.nodes=65"]), "abc") == ["a", "b", "c"]
-
-
-def test_runs_that_differ_in_too_much_have_their_names():
-    other = ["grid.nodes=65", "motion.speed=0.1", "contact.load=100", "solver.tolerance=1e-6"]
-    assert labels(runs([], other), ["a", "b"]) == ["a", "b"]
 
 
 def test_a_run_that_did_not_converge_says_so():

@@ -28,8 +28,6 @@ SETTINGS = {
 
 WIDTHS = (1200, 400)
 LIGHT = ("rgb(27, 31, 36)", "rgb(255, 255, 255)")
-DARK = ("rgb(230, 233, 237)", "rgb(20, 24, 29)")
-"""Ink and paper of report.css."""
 
 LOOK = """
 const inBox = element => element.closest(".scroll") && !element.matches(".scroll");
@@ -142,28 +140,3 @@ def test_the_page_in_a_browser(pages, kind, width, tmp_path):
     assert found["texts"] > 20
     assert found["fetched"] == [] and said == []
     assert (found["ink"], found["paper"]) == LIGHT
-
-
-def test_dark_pages_where_the_reader_wants_them(pages, tmp_path):
-    dark, _ = measured(pages["study"], 400, tmp_path, "--blink-settings=preferredColorScheme=0")
-    assert (dark["ink"], dark["paper"]) == DARK
-
-
-FAULTS = """
-<p style="position: relative; left: 600px">outside</p>
-<div><p>one</p><p style="margin-top: -2.2rem">overlapping</p></div>
-<p style="width: 3rem; overflow: hidden; white-space: nowrap">cut off at its end</p>
-<img src="http://nowhere.invalid/none.png" alt="not there">
-<script>console.error("a fault")</script>
-"""
-
-
-def test_faults_are_found(pages, tmp_path):
-    """The measurements above can fail."""
-    found, said = measured(pages["study"].replace("</main>", FAULTS + "</main>"), 400, tmp_path)
-    assert found["scrolls"] and found["outside"] == ["P outside"]
-    assert found["overlapping"] == ["P one | P overlapping"]
-    assert found["cutOff"] == ["P cut off at its end"]
-    assert [natural for natural, _ in found["pictures"]] == [1500, 0]
-    assert found["fetched"] == ["http://nowhere.invalid/none.png"]
-    assert any("a fault" in line for line in said)

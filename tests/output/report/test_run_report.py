@@ -3,19 +3,16 @@
 import re
 from dataclasses import replace
 from html.parser import HTMLParser
-from math import nan
 
 import pytest
 from mpi4py import MPI
 
 import mgehl
 from mgehl.output.files import plain_result
-from mgehl.output.film_error import no_band
 from mgehl.output.gap_error import GapError, GridGap
 from mgehl.output.mixed_result import MixedResult
 from mgehl.output.report.page import BAD, DOUBTFUL, GOOD, NO_NUMBER
-from mgehl.output.report.run_report import LONG_HISTORY, film, history_of, report, setting, verdict
-from mgehl.solver.inequality import Power
+from mgehl.output.report.run_report import report, setting, verdict
 
 VOID = {"meta", "img", "br", "hr", "link", "input"}
 CHECKS = "What was checked on the final state"
@@ -127,26 +124,10 @@ class TestEveryKind:
         assert targets and all(value.startswith(("data:image/", "#")) for value in targets)
         assert not {"script", "link", "iframe", "object"} & set(reader.tags)
 
-    def test_what_readers_and_their_tools_rely_on(self, html):
-        reader = Reader(html)
-        assert ("html", "lang", "en") in reader.attributes
-        assert [reader.tags.count(tag) for tag in ("title", "h1", "nav", "main")] == [1, 1, 1, 1]
-        assert reader.tags.count("caption") == reader.tags.count("table") == len(reader.tables) > 5
-        alternatives = [value for tag, name, value in reader.attributes if (tag, name) == ("img", "alt")]
-        assert len(alternatives) == reader.tags.count("img") and all(map(len, alternatives))
-        ids = [value for _, name, value in reader.attributes if name == "id"]
-        assert len(ids) == len(set(ids))
-        links = [value[1:] for tag, name, value in reader.attributes if (tag, name) == ("a", "href")]
-        assert links and set(links) <= set(ids)
-
     def test_name_verdict_and_versions_can_be_read(self, run, html):
         text = Reader(html).text
         assert "my-run" in text and verdict(run.result)[1] in text and run.result.reason in text
         assert all(name in text and version in text for name, version in run.result.versions.items())
-
-    def test_its_pictures(self, run, html):
-        captions = re.findall(r"<figcaption>(.*?)</figcaption>", html)
-        assert len(captions) == {"line": 2, "wedge": 4, "point": 5}[run.config.contact.kind]
 
     def test_every_key_of_the_configuration_with_its_value(self, run, quick):
         rows = quick(run).rows(CONFIGURATION)
@@ -168,46 +149,8 @@ class TestEveryKind:
         page = quick(run, reason=reason)
         assert not {"script", "img"} & set(page.tags) and reason in page.text
 
-    @pytest.mark.parametrize("lost", [nan, None])
-    def test_numbers_that_are_none_are_called_so(self, run, quick, lost):
-        page = quick(run, residual=lost, flux_imbalance=lost, converged=False)
-        checks = page.rows(CHECKS)
-        (residual,) = [row for name, row in checks.items() if name.startswith("residual")]
-        assert residual[0] == NO_NUMBER and residual[2] == "broken"
-        assert checks["imbalance of the flux"][0] == NO_NUMBER
-        assert not re.search(r"\b(nan|NaN|None|null)\b", page.text)
-
-    def test_a_run_without_history(self, run):
-        assert "No cycle was recorded." in Reader(report(replace(run, rows=[]), "my-run")).text
-
-
-def test_the_same_run_makes_the_same_page(line_run):
-    assert report(line_run, "") == report(line_run, "")
-
 
 class TestLoaded:
-    def test_films_stand_beside_formulas(self, film_run, quick):
-        result, rows = film_run.result, quick(film_run).rows(FILMS)
-        own = result.central_film_nm, result.minimum_film_nm
-        shown = [
-            film(*each)
-            for each in zip(own, (result.error.central_nm, result.error.minimum_nm), strict=True)
-        ]
-        assert rows["computed"] == [shown[0], "", shown[1], ""] and "±" in shown[0]
-        found = list(map(float, rows["Hamrock and Dowson"]))
-        formulas = [result.formulas[f"hamrock_dowson_{which}_nm"] for which in ("central", "minimum")]
-        ratios = [film / formula for film, formula in zip(own, formulas, strict=True)]
-        assert found[::2] == pytest.approx(formulas, abs=1e-4) and found[1::2] == pytest.approx(
-            ratios, rel=1e-3
-        )
-        assert rows["Ertel and Grubin"][2:] == ["", ""]
-
-    def test_films_without_bands_say_why(self, film_run, quick):
-        grids = [name for name in quick(film_run).tables if name.startswith("Films of the grids")]
-        page = quick(film_run, error=no_band("there is solid contact"))
-        assert "No band: there is solid contact." in page.text and grids and grids[0] not in page.tables
-        assert page.highlights["central film"].endswith(" nm, no band")
-
     def test_violations_and_contradictions_are_folded_lists(self, film_run, quick):
         nodes = [{"i": 7, "j": k, "size": 0.25} for k in range(40)]
         inequality = replace(film_run.result.pressure_inequality, checked=50, violations=40, nodes=nodes)
@@ -226,16 +169,6 @@ class TestLoaded:
         assert checks["nodes that can be neither film nor contact"] == ["1", "0", "broken"]
         assert page.tags.count("details") == 4
 
-    @pytest.mark.parametrize("undecided, verdict", [(5, "holds"), (6, "not decided on this grid")])
-    def test_eq_2_may_not_be_decided(self, film_run, quick, undecided, verdict):
-        inequality = replace(
-            film_run.result.pressure_inequality, checked=40, power=Power(50, undecided, 0.1)
-        )
-        page = quick(film_run, pressure_inequality=inequality)
-        assert page.rows(CHECKS)["interface nodes that break Eq. 2"] == ["0 of 40", "0", verdict]
-        what = "faces where the tolerance is larger than contact's own pressure"
-        assert page.rows(CONTACT_TABLE)[what] == [f"{undecided} of 50"]
-
     @pytest.mark.parametrize("mark, settled", [("not converged", False), ("in doubt", True)])
     def test_after_a_failure_every_number_says_so(self, film_run, quick, mark, settled):
         page = quick(film_run, converged=False, settled=settled)
@@ -247,26 +180,10 @@ class TestLoaded:
         assert "(" not in "".join(quick(film_run).highlights)
 
 
-def test_who_does_not_see_a_picture_is_told_of_a_failure_too(line_run):
-    page = Reader(report(changed(line_run, converged=False, settled=False), "my-run"))
-    alternatives = [value for tag, name, value in page.attributes if (tag, name) == ("img", "alt")]
-    assert alternatives and all(" Not converged: " in text for text in alternatives)
-
-
 class TestRoughBodies:
     """How film and contact share has a section; of smooth bodies there is none."""
 
     MIXED = MixedResult(0.25, 80.0, 0.125, 0.875, 3e-9, 0.0625, 7, 1e-9, 40.0, None, 90.0, 0.015)
-
-    def test_every_number_with_its_unit(self, film_run, quick):
-        page = quick(film_run, mixed=self.MIXED)
-        values = {(value, unit) for _, value, unit in page.tables[MIXED_TABLE + "ellipse"]}
-        assert values >= {
-            ("0.25", ""), ("80", "nm"), ("12.5", "%"), ("87.5", "%"), ("3000", "µm²"), ("6.25", "%"),
-            ("7", ""), ("1000", "µm²"), ("40", "nm"), (NO_NUMBER, "nm"), ("90", "nm"), ("1.5", "%"),
-        }  # fmt: skip
-        assert page.highlights["lambda"] == "0.25" and page.highlights["load on contact"] == "12.5 %"
-        assert "lambda" not in quick(film_run).highlights
 
     def test_mean_gaps_have_their_bands_and_the_grids_these_come_from(self, film_run, quick):
         grids = (
@@ -287,27 +204,6 @@ class TestRoughBodies:
         assert "± 0.13 GPa" in page.highlights["largest pressure"]
         assert "from the differences to 129 nodes; the grid's: the load on solids." in page.text
 
-    def test_a_load_that_the_grid_does_not_hold_is_the_grid_s(self, film_run, quick):
-        error = GapError(0.1, 0.1, "from them", (GridGap(65, 9.0, 3.0, 0.1, True, max_pressure_GPa=1.0),))
-        gaps = {"mean_gap_nm": 9.0, "loaded_gap_nm": 3.0, "near_contact_load_share": 0.1}
-        page = quick(film_run, mixed=replace(self.MIXED, **gaps, error=error))
-        assert page.highlights["load on contact"] == "12.5 %, the grid's"
-
-    def test_what_solids_and_pockets_carry(self, film_run, quick):
-        mixed = replace(self.MIXED, solid_load_fraction=0.0625, sealed_load_fraction=0.03125)
-        rows = quick(film_run, mixed=mixed).rows(MIXED_TABLE + "ellipse")
-        assert rows["part of the load that solids carry"] == ["6.25", "%"]
-        assert rows["part of the load on pockets that contact shuts in"] == ["3.125", "%"]
-
-    def test_the_boundary_film_stands_beside_the_gap_it_keeps(self, film_run, quick):
-        contact = replace(film_run.result.contact, largest_gap_nm=2.0, kept_gap_nm=2.0)
-        rows = quick(film_run, contact=contact, mixed=self.MIXED).rows(CONTACT_TABLE)
-        assert rows["largest |gap| in contact, nm"] == rows["boundary film that keeps it, nm"] == ["2"]
-
-    def test_a_line_contact_s_areas_are_of_a_metre(self, line_run, quick):
-        page = quick(line_run, converged=True, mixed=replace(self.MIXED, per_metre=True))
-        assert page.rows(MIXED_TABLE + "width")["largest patch"] == ["1000", "µm² in each metre"]
-
 
 def test_verdicts(film_run, wedge_run):
     overlap = replace(film_run.result.overlap, nodes=3)
@@ -320,26 +216,3 @@ def test_verdicts(film_run, wedge_run):
         (wedge_run, {"converged": False}, (BAD, "Not converged")),
     ):
         assert verdict(changed(solution, **result).result) == judged
-
-
-def test_a_leak_through_solid_is_said(wedge_run, quick):
-    leak = quick(wedge_run, closed_face_flow=12.5).rows(CHECKS)[
-        "largest flow through a face that contact closes"
-    ]
-    assert leak == ["12", "0", "to be read with care"]
-
-
-def test_long_histories_are_thinned_but_keep_the_last_cycle_of_each_grid():
-    _, last, shown = history_of([{"grid": 65, "step": k} for k in range(2001)] + [{"grid": 129, "step": 0}])
-    assert len(shown) <= LONG_HISTORY + 1 and shown[-2:] == last == [["65", "2000"], ["129", "0"]]
-
-
-@pytest.mark.parametrize(
-    "value, unit, text",
-    [
-        (0.1 + 0.2, "m", "0.3 m"), (257, None, "257"), (True, None, "true"), (None, "m", "unset"),
-        ((-1.9, 1.3), None, "-1.9 to 1.3"), ("barus", None, "barus"),
-    ],
-)  # fmt: skip
-def test_values_of_the_configuration(value, unit, text):
-    assert setting(value, unit) == text

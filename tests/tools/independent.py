@@ -1,113 +1,16 @@
-"""Extreme configurations made up by chance, and what must hold of an answer that says "converged".
+"""What must hold of an answer that says "converged", asked in SI units of its fields alone.
 
-An answer is tested in SI units, from its fields alone. The gap is that of paraboloids and of the
-deflection by Love's formula, or a plane's, summed node by node without a Fourier transform. The pressure
-carries the load. Pressure and gap exclude each other. The contact lies within its domain.
+The gap is that of paraboloids and of the deflection by Love's formula, or a plane's, summed node by node
+without a Fourier transform. The pressure carries the load. Pressure and gap exclude each other. The contact
+lies within its domain.
 """
 
-import json
-import signal
 from math import pi
 
 import numpy as np
-from attack_ground import LIMIT
 
 FILM_TOLERANCE = 1e-6
 """Breach of a gap that a converged answer may have, in units of H; of a pressure, in p_h."""
-
-
-def anywhere(chance, low, high):
-    """A number of a range, its logarithm by chance."""
-    return float(f"{10 ** chance.uniform(np.log10(low), np.log10(high)):.4g}")
-
-
-def extreme(chance):
-    """Tables of a configuration whose numbers are anywhere in their ranges, and beyond what is sensible."""
-    kind = chance.choice(["point", "point", "point", "line"])
-    contact, grid = _contact(chance, kind)
-    tables = {
-        "contact": contact,
-        "lubricant": {
-            "viscosity": anywhere(chance, 1e-4, 1e2),
-            "pressure_viscosity": anywhere(chance, 1e-10, 1e-7),
-        },
-        "motion": {"speed": anywhere(chance, 1e-9, 1e2)},
-        "grid": grid,
-        "discretization": _discretization(chance),
-        "solver": {"start": chance.choice(["film", "contact"]), "error": False, "max_steps": 20},
-    }
-    if kind == "point":
-        tables["motion"]["angle"] = chance.uniform(0, 360)
-        if chance.random() < 0.1:
-            contact["deformation"] = "coated"
-            tables["coating"] = _coating(chance)
-    if chance.random() < 0.2:
-        contact["boundary_film"] = anywhere(chance, 1e-11, 1e-8)
-    if chance.random() < 0.35:
-        tables["surface"] = _surface(chance)
-    return tables
-
-
-def _contact(chance, kind):
-    """Tables of the bodies and of a domain that may cut them."""
-
-    def ends():
-        sides = [1.01, 1.05, 1.3, 2.0, 10.0, 60.0]
-        return chance.choice(["auto", [-chance.choice(sides), chance.choice(sides)]])
-
-    contact = {
-        "kind": kind,
-        "radius_x": anywhere(chance, 1e-4, 1.0),
-        "reduced_modulus": anywhere(chance, 1e8, 1e12),
-    }
-    grid = {"nodes": 65, "x": ends()}
-    if kind == "point":
-        contact |= {
-            "load": anywhere(chance, 1e-3, 1e5),
-            "radius_y": contact["radius_x"] * anywhere(chance, 0.05, 20.0),
-        }
-        grid["y"] = ends()
-    else:
-        contact["load_per_length"] = anywhere(chance, 1e2, 1e7)
-    return contact, grid
-
-
-def _discretization(chance):
-    found = {"contact_model": chance.choice(["lcic", "lcic", "lcic", "unified", "dry"])}
-    if chance.random() < 0.5:
-        means = ["arithmetic", "logarithmic", "linear-gap", "geometric"]
-        found["face_mobility"] = chance.choice(means)
-    if chance.random() < 0.2:
-        found["couette"] = chance.choice(["1B", "2B", "3B", "3L", "2C"])
-    if chance.random() < 0.2 and found["contact_model"] != "dry":
-        found["cavitation"] = False
-    return found
-
-
-def _coating(chance):
-    return {
-        "thickness": anywhere(chance, 1e-8, 1e-3),
-        "modulus": anywhere(chance, 1e8, 1e12),
-        "poisson": chance.uniform(0.0, 0.5),
-    }
-
-
-def _surface(chance):
-    kind = chance.choice(["waviness", "self-affine", "dent", "ridge"])
-    height = anywhere(chance, 1e-10, 1e-5)
-    body = chance.choice(["still", "still", "still", "moving"])
-    if kind == "waviness":
-        return {
-            "kind": kind,
-            "amplitude": height,
-            "wavelength_x": anywhere(chance, 1e-6, 1e-2),
-            "body": body,
-        }
-    if kind == "self-affine":
-        short = anywhere(chance, 1e-6, 1e-3)
-        waves = {"shortest_wavelength": short, "longest_wavelength": short * anywhere(chance, 1.0, 50.0)}
-        return {"kind": kind, "rms": height, "seed": chance.randrange(1000), "body": body} | waves
-    return {"kind": kind, "amplitude": height, "width": anywhere(chance, 1e-6, 1e-2), "body": body}
 
 
 def wrong(solution):
@@ -232,52 +135,3 @@ def _wrong_place(solution):
     if loaded.any(axis=0).sum() < 4 or (not is_line and loaded.any(axis=1).sum() < 4):
         return "too few nodes"
     return ""
-
-
-def attack_cases(count, chance, _folder, findings):
-    """Extreme configurations; a verdict "converged" must stand an independent test.
-
-    `count` of them are solved; those that are refused come besides.
-    """
-
-    def alarm(*_):
-        raise TimeoutError
-
-    signal.signal(signal.SIGALRM, alarm)
-    solved = 0
-    for _ in findings.rounds(20 * count):
-        tables = extreme(chance)
-        signal.alarm(int(LIMIT))
-        try:
-            solved += _attack(tables, findings)
-        except TimeoutError:
-            solved += 1
-            findings.tried(f"more than {LIMIT:.0f} s")
-            print("SLOW", json.dumps(tables), flush=True)
-        except Exception as error:
-            findings.say(f"{type(error).__name__}: {error}: {json.dumps(tables)}")
-        finally:
-            signal.alarm(0)
-        if solved == count:
-            return
-
-
-def _attack(tables, findings):
-    """Solve one; whether it was not refused."""
-    import mgehl
-    from mgehl.config import config_from_tables
-
-    try:
-        solution = mgehl.solve(config_from_tables(tables))
-    except mgehl.UserError as error:
-        findings.tried("refused")
-        if "\n" in str(error):
-            findings.say(f"lines: {error}: {json.dumps(tables)}")
-        return False
-    result = solution.result
-    model = "dry, " if solution.is_dry else ""
-    said = "converged" if result.converged else "settled" if result.settled else "not converged"
-    findings.tried(model + said)
-    if result.converged and (found := wrong(solution)):
-        findings.say(f"false: {found}: {json.dumps(tables)}")
-    return True
