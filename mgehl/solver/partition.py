@@ -143,6 +143,7 @@ class Partition:
         """
         may_close = is_fluid(state.status) & ~self.past.just_released
         closed = may_close & self._contact_law.closed(state.H, self.past.was_released)
+        closed |= self._still_pressed(state)
         state.status[closed] = CONTACT
         state.p[closed] = state.P[closed]  # of a film both are one; p is still that before the step
         if self._contact_law.closes_faces:
@@ -152,6 +153,21 @@ class Partition:
             state.status[shut_in] = CONTACT
             closed |= shut_in
         changes.entered += self._grid.count(closed)
+
+    def _still_pressed(self, state):
+        """Nodes that have just been torn open though bodies overlap there by more than the tension was.
+
+        A step that is not taken whole leaves the overlap of a first guess, and a node that opens with it has
+        a film of less than nothing.
+        """
+        torn = self.past.just_released & is_fluid(state.status)
+        if self._contact_law.closes_faces:
+            return np.zeros(torn.shape, dtype=bool)
+        return torn & (self.past.torn_pressure > self._lifted(state))
+
+    def _lifted(self, state):
+        """Pressures by which nodes would lift themselves off the layers as far as they are, (lines, nx)."""
+        return (state.H - self._contact_law.contact_gap) / self._problem.K00
 
     def fit(self, state):
         """Contents from nothing to what the gap holds, and p as P where there are no solids; in place."""
@@ -170,8 +186,8 @@ class Partition:
         """Contact that leaves its faces open becomes film where the fluid would press harder than it."""
         if self._contact_law.closes_faces:
             return
-        lifted = (state.H - self._contact_law.contact_gap) / self._problem.K00
-        opened = (state.status == CONTACT) & (state.p - state.P > np.maximum(-lifted, 0.0))
+        pressed = np.maximum(-self._lifted(state), 0.0)
+        opened = (state.status == CONTACT) & (state.p - state.P > pressed)
         state.status[opened] = LUBRICATED
         self.past.just_released |= opened
         changes.released += self._grid.count(opened)

@@ -254,6 +254,17 @@ class TestContinuousContact:
         changed_by(partition.open_contact, pressed, released=int(opens))
         assert (pressed.status[NODE] == LUBRICATED) == opens
 
+    @pytest.mark.parametrize("part, stays", [(0.9, False), (1.1, True)])
+    def test_what_overlaps_is_torn_open_by_enough_tension_alone(
+        self, partition, tiny_problem, pressed, part, stays
+    ):
+        """The overlap in parts of what the tension gives the node: a first guess may overlap by far more."""
+        pressed.P[NODE] = -0.1
+        partition.cut_tension(pressed, Changes())
+        pressed.H[NODE] -= part * 0.1 * tiny_problem.K00
+        changed_by(partition.enter_contact, pressed, entered=int(stays))
+        assert (pressed.status[NODE] == CONTACT) == stays and pressed.P[NODE] == 0.0
+
     def test_what_has_opened_does_not_close_before_the_next_step(self, partition, pressed):
         pressed.p[NODE] += 0.1
         pressed.H[NODE] *= 0.99

@@ -49,8 +49,8 @@ def over_time(solution):
 
 
 def _there(rows, columns):
-    """The columns that are not nothing throughout."""
-    return {name: how for name, how in columns.items() if np.any(column(rows, name))}
+    """The columns that are there, and not nothing throughout."""
+    return {name: how for name, how in columns.items() if name in rows[0] and np.any(column(rows, name))}
 
 
 def _in_units(t):
