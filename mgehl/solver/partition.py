@@ -157,10 +157,10 @@ class Partition:
     def _still_pressed(self, state):
         """Nodes that have just been torn open though bodies overlap there by more than the tension was.
 
-        A step that is not taken whole leaves the overlap of a first guess, and a node that opens with it has
-        a film of less than nothing.
+        A step that is not taken whole leaves the overlap of a first guess. A node that opens with it has a
+        film of less than nothing.
         """
-        torn = self.past.just_released & is_fluid(state.status)
+        torn = self.past.just_released & is_fluid(state.status) & (self.past.torn_pressure < 0.0)
         if self._contact_law.closes_faces:
             return np.zeros(torn.shape, dtype=bool)
         return torn & (self.past.torn_pressure > self._lifted(state))

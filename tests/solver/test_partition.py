@@ -258,7 +258,7 @@ class TestContinuousContact:
     def test_what_overlaps_is_torn_open_by_enough_tension_alone(
         self, partition, tiny_problem, pressed, part, stays
     ):
-        """The overlap in parts of what the tension gives the node: a first guess may overlap by far more."""
+        """The overlap in parts of what the tension gives the node: first guesses overlap by far more."""
         pressed.P[NODE] = -0.1
         partition.cut_tension(pressed, Changes())
         pressed.H[NODE] -= part * 0.1 * tiny_problem.K00
