@@ -16,7 +16,7 @@ from pathlib import Path
 
 from mgehl.errors import OutputError
 from mgehl.output.checkpoint import BEGUN, OVER, read_begun
-from mgehl.output.files import CHECKPOINT, FIELDS, NAMES, REPORT
+from mgehl.output.files import CHECKPOINT, FIELDS, NAMES, REPORT, SERIES
 from mgehl.output.laws import FOLDER as LAWS
 from mgehl.output.report.study_record import NAME as STUDY
 from mgehl.output.stored import files_of
@@ -53,7 +53,7 @@ def check_replaceable(directory, laws=()):
     folder = directory / CHECKPOINT
     if (directory / STUDY).exists():
         raise OutputError(f"{directory}: is the directory of a study; choose another with --out")
-    known = files_of(directory)
+    known = files_of(directory) | ({SERIES} if is_plain(folder / BEGUN) else set())
     for name in (*NAMES, *laws):
         if os.path.lexists(directory / name) and not (name in known and is_plain(directory / name)):
             raise OutputError(_foreign(directory / name))
