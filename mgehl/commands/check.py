@@ -59,7 +59,7 @@ def _given(config, missing):
     """Lines with all that makes the contact, by sections; what follows from what; and what is `missing`."""
     for section, keys in groupby(config.physical, lambda key: key.partition(".")[0]):
         words = (f"{key.partition('.')[2]} {config.said(key)}" for key in keys)
-        yield f"{section:{NAME}}{'   '.join(words)}"
+        yield f"{section:{NAME}}{'' if len(section) < NAME else ' '}{'   '.join(words)}"
     for head, each in zip(chain(["follows"], repeat("")), config.derived, strict=False):
         yield f"{head:{NAME}}{each.key} = {config.said(each.key)}: {each.how}"
     yield from (f"{'oil':{NAME}}{words}" for words in oil_words(config))

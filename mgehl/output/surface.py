@@ -59,7 +59,8 @@ def surface_lines(config, contact, mesh):
     verdict = surface_verdict(contact, nodes)
     wave = "" if isinf(shortest) else f"{_shortest_words(config)} {1e6 * shortest:.4g} um, "
     yield f"           {wave}{surface_words(verdict, nodes)}{_recommended(verdict, nodes, mesh)}"
-    yield "           a peak is positive and lowers the gap; the rough body stands still, the other has 2 u"
+    still = "" if config.is_in_time else "; the rough body stands still, the other has 2 u"
+    yield f"           a peak is positive and lowers the gap{still}"
     for key, part in parts_of(config):
         yield from _part_lines(key, part, contact, mesh)
     yield from (f"warning    {words}" for words in surface_doubts(config, contact))

@@ -1,6 +1,7 @@
 """How long the next step in time is: by the cells that surfaces go in it, and by its error."""
 
 from dataclasses import dataclass
+from itertools import pairwise
 from math import inf, sqrt
 
 MOST_CELLS, MOST_CELLS_ROUGH = 4.0, 1.0
@@ -24,6 +25,15 @@ HALVINGS = 10
 
 JUST = 1e-9
 """Part of a step by which times may be off."""
+
+
+def expected_steps(scene, mesh, fixed=None):
+    """Steps that a `Scene` will take on a mesh, if none is halved; of smooth bodies a guess."""
+    if fixed:
+        return int(-(-scene.end // fixed))
+    times = [scene.end * part / FIRST_STEPS for part in range(FIRST_STEPS + 1)]
+    cells = sum(scene.fastest(scene.speed.integral(*ends), mesh) for ends in pairwise(times))
+    return max(int(cells / (MOST_CELLS_ROUGH if scene.moves else 1.0)), FIRST_STEPS // 4)
 
 
 @dataclass
