@@ -20,8 +20,8 @@ from mgehl.grid.freed_memory import is_large
 from mgehl.grid.grid import single_grid
 from mgehl.kinds import mesh_from
 from mgehl.kinds.kind import Effort
-from mgehl.model.deformation import HalfPlane, HalfSpace
 from mgehl.kinds.time import scene_of
+from mgehl.model.deformation import HalfPlane, HalfSpace
 from mgehl.multigrid.cycle import DIRECT
 from mgehl.output.resolution import CONTACT_OPENS, FILM_TOUCHES
 from mgehl.output.surroundings import cores_allowed
@@ -131,7 +131,7 @@ def forecast(config, contact, mesh, ranks):
 
 
 OF_A_STEP = (12.0, 20.0, 45.0)
-"""Convolutions of a step in time: of smooth bodies, of rough ones in a film, of those whose peaks touch. From
+"""Convolutions of a step in time: of smooth bodies, of rough ones in a film, of those that touch. From
 65 to 257 nodes they took 1 to 16, 18 to 33 and 24 to 60."""
 
 
