@@ -32,8 +32,12 @@ BEGUN = 1e-15
 """Size of z where a film has just torn, or a cavity has just been filled."""
 
 
-def density(p):
-    """rho/rho_0 and its derivative; also lubricant.density_law of the study's configurations."""
+def density(at):
+    """rho/rho_0 and its derivative: lubricant.density_law of the study's configurations."""
+    return density_at(at.pressure)
+
+
+def density_at(p):
     return (C1 + C2 * p) / (C1 + p), (C2 - 1.0) * C1 / (C1 + p) ** 2
 
 
@@ -93,7 +97,7 @@ def _flow(x, z):
     """
     dx = LENGTH / x.size
     p = SCALE * np.pad(np.maximum(z, 0.0), 1, constant_values=AMBIENT / SCALE)
-    theta, (rho, _) = np.append(1.0, 1.0 + np.minimum(z, 0.0)), density(p)
+    theta, (rho, _) = np.append(1.0, 1.0 + np.minimum(z, 0.0)), density_at(p)
     eta = VISCOSITY * np.exp(PRESSURE_VISCOSITY * p)
     halves = np.append(np.inf, film(x + 0.25 * dx)), np.append(film(x - 0.25 * dx), np.inf)
     resistances = [3.0 * dx / gap**3 * (eta[:-1] + eta[1:]) for gap in halves]

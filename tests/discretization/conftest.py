@@ -30,10 +30,11 @@ class State:
     H: np.ndarray
     status: np.ndarray
 
-    def evaluation(self, scheme=None, P=None, H=None, filling=None):
+    def evaluation(self, scheme=None, P=None, H=None, filling=None, storage=None):
         """Of this state, or of another P or H with its status; cavities are full without a `filling`."""
         P, H = self.P if P is None else P, self.H if H is None else H
-        return Evaluation(P, H, self.status, self.mesh, self.contact, scheme or Scheme(), filling=filling)
+        how = {"filling": filling, "storage": storage}
+        return Evaluation(P, H, self.status, self.mesh, self.contact, scheme or Scheme(), **how)
 
     def rows(self, rigid=False):
         """The kind of row of the rank's own nodes."""

@@ -36,7 +36,7 @@ def risen(inflow, leaving_x, leaving_y=0.0, marched=None):
         marched = np.ones(inflow.shape, bool)
         marched[:, [0, -1]] = False
     leaving = (np.array(np.broadcast_to(each, inflow.shape), float) for each in (leaving_x, leaving_y))
-    return missing_fillings(marched, inflow, *leaving)
+    return missing_fillings(marched, inflow, *leaving, np.zeros(inflow.shape))
 
 
 def test_a_rise_is_carried_on():
@@ -52,8 +52,9 @@ def test_wherever_a_rise_is_marched_no_inflow_is_left():
     leaving_x, leaving_y = rng.uniform(1.0, 2.0, (2, 4, 7))
     marched = rng.uniform(size=(4, 7)) < 0.7
     marched[:, [0, -1]] = False
-    rise = missing_fillings(marched, inflow, leaving_x, leaving_y)
-    left = inflow - (leaving_x + leaving_y) * rise
+    stored = rng.uniform(0.0, 1.0, (4, 7))
+    rise = missing_fillings(marched, inflow, leaving_x, leaving_y, stored)
+    left = inflow - (leaving_x + leaving_y + stored) * rise
     left[:, 1:] += (leaving_x * rise)[:, :-1]
     left[1:] += (leaving_y * rise)[:-1]
     assert not rise[~marched].any()

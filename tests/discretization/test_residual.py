@@ -56,7 +56,7 @@ def assert_linearised(state, scheme, rigid=False, storage=None):
     for name, d, stencil in (("P", 1e-6, linear.A), ("H", 1e-7, linear.B))[: 1 if rigid else 2]:
 
         def function(changed, name=name):
-            return residual(state.evaluation(scheme, **{name: changed}), rows, storage)
+            return residual(state.evaluation(scheme, storage=storage, **{name: changed}), rows)
 
         measured = central_differences(function, getattr(state, name), d)
         found, scale = dense_stencil(linear.offsets, stencil), np.abs(stencil).max()
@@ -128,7 +128,8 @@ def test_linearisation_by_contents_matches_central_differences(couette, mean, mo
 
     def measured(name, d):
         def function(changed):
-            return residual(mixed.evaluation(scheme, **fields | {name: changed}), rows, storage)
+            changes = fields | {name: changed}
+            return residual(mixed.evaluation(scheme, storage=storage, **changes), rows)
 
         return central_differences(function, fields[name], d)
 

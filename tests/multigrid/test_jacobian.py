@@ -103,12 +103,9 @@ def test_a_time_step_stores_in_the_film_what_flows_in(
     jacobian, storage = make_jacobian(problem, state), Storage.begun(now.fluid, rate)
     jacobian.linearise(now, rows, rate)
     r, _ = apply(jacobian, make_vec, dP, dH0)
+    problem.storage = storage
     ahead, behind = (
-        residual(
-            problem.evaluate(problem.state(state.P + s * dP, state.H0 + s * dH0, state.status)),
-            rows,
-            storage,
-        )
+        residual(problem.evaluate(problem.state(state.P + s * dP, state.H0 + s * dH0, state.status)), rows)
         for s in (STEP, -STEP)
     )
     film = rows == FLOW

@@ -42,7 +42,7 @@ def exact():
     """
 
     def followed(q, first, last, p):
-        h, rho = reference.film(0.5 * (first + last)), lambda p: reference.density(p)[0]
+        h, rho = reference.film(0.5 * (first + last)), lambda p: reference.density_at(p)[0]
         slope = (reference.EXIT_FILM - reference.INLET_FILM) / reference.LENGTH
         h -= slope * 0.5 * (first + last)
 

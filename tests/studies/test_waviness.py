@@ -7,6 +7,7 @@ import pytest
 from mpi4py import MPI
 
 from mgehl.cli import main
+from mgehl.model.conditions import Conditions
 from mgehl.studies import venner_laws, waviness
 from mgehl.studies.study import Study, merged
 from mgehl.studies.waviness import GRIDS, LINES, REFERENCE, line_case, respond
@@ -42,7 +43,7 @@ def test_waves_are_flattened_but_for_what_the_density_gives_way(tmp_path):
     """a/A = C/(1 + C), C = h E' k/(4 B), where nothing flows through the wave [Hooke 2006]."""
     _, found = responses(tmp_path, "3B", "linear-gap", 1025, LINES[0])
     p = np.array([1.995e9])
-    density, slope = venner_laws.dowson_higginson(p)
+    density, slope = venner_laws.dowson_higginson(Conditions(p))
     film = 3.64 * (2.2e-8 * 220e9 / 11.0) ** -2 * waviness.RADIUS
     b = 4.606e-4
     C = film * 220e9 * (2.0 * np.pi / b) / 4.0 * (slope / density)[0]
