@@ -15,9 +15,9 @@ from mgehl.solver.nested import LevelSolve
 from mgehl.solver.problem import ContactProblem
 from mgehl.solver.relaxation import relax
 
-FORECAST_STEPS = 25
+FORECAST_STEPS = 40
 """Newton steps that a forecast may take before the way from the nearest solution is taken instead: the
-speeds of rough.toml take 8 to 17 on 129 nodes, with the continuation's squeeze a fifth more work."""
+speeds of rough.toml take 8 to 30 on 129 nodes, with the continuation's squeeze a fifth more work."""
 
 LEAST_LEFT = 0.2
 """Part of a pressure that a forecast leaves at the least."""
