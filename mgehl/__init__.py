@@ -2,8 +2,8 @@
 
     solution = mgehl.solve(mgehl.load("my.toml"))
 
-`load`, `solve` and `read` are the interface, `Config.with_`, `Solution.plot`, `to_xarray` and `save` what
-can be done with what they return.
+`load`, `solve`, `sweep` and `read` are the interface, `Config.with_`, `Solution.plot`, `to_xarray` and
+`save` what can be done with what they return.
 
 The layers, lowest first; none imports a higher one (``tests/test_layers.py`` asserts it):
 
@@ -26,13 +26,23 @@ from mgehl.version import VERSION
 
 if TYPE_CHECKING:
     from mgehl.answer import Solution
-    from mgehl.api import load, read, solve
+    from mgehl.api import load, read, solve, sweep
     from mgehl.config import Config
     from mgehl.errors import ConfigError, UserError
 
 __version__ = VERSION
 
-__all__ = ["Config", "ConfigError", "Solution", "UserError", "__version__", "load", "read", "solve"]
+__all__ = [
+    "Config",
+    "ConfigError",
+    "Solution",
+    "UserError",
+    "__version__",
+    "load",
+    "read",
+    "solve",
+    "sweep",
+]
 
 _MODULES = {
     "Config": "mgehl.config",
@@ -42,6 +52,7 @@ _MODULES = {
     "load": "mgehl.api",
     "read": "mgehl.api",
     "solve": "mgehl.api",
+    "sweep": "mgehl.api",
 }
 """Where each name comes from. It is imported when it is first asked for: where numpy and numba are missing
 the command line can then still say how to put the environment on."""

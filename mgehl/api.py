@@ -9,12 +9,14 @@
     solution.plot("film"), solution.to_xarray(), solution.save("runs/my")
     slower = mgehl.solve(config.with_({"motion.speed": "0.4 m/s"}), start=solution)
     mgehl.read("runs/my")
+    mgehl.sweep(config, {"motion.speed": "1e-3..1 m/s:10"}, "runs/speeds").mean_gap_nm.plot()
 
 The same under mpiexec, where every rank calls `solve`.
 """
 
 from collections.abc import Iterable, Mapping
 from os import PathLike
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from mgehl.config import Config, load_config
@@ -22,6 +24,7 @@ from mgehl.errors import Stopped
 from mgehl.petsc_options import leave_signals_alone
 
 if TYPE_CHECKING:
+    import xarray
     from mpi4py import MPI
 
     from mgehl.answer import Solution
@@ -89,3 +92,26 @@ def solve(
         told = str(stopped)
     # Not from within: its traceback would keep PETSc's objects until PETSc has ended, and crash then.
     raise KeyboardInterrupt(told)
+
+
+def sweep(
+    config: Config,
+    over: Mapping[str, str | Iterable[object]],
+    directory: str | PathLike[str],
+    comm: "MPI.Comm | None" = None,
+) -> "xarray.Dataset":
+    """Solve a contact at many values of keys, as `mgehl sweep --resume` does; collective.
+
+    `over` has the values of each key, the fastest first: {"motion.speed": [0.1, 0.2], "contact.load":
+    "50,100 N"}. Returns what sweep.nc holds: a dimension for each key, nan where there is no answer.
+    """
+    leave_signals_alone()
+    import xarray
+    from mpi4py import MPI
+
+    from mgehl.run import Watch
+    from mgehl.studies.sweep import axis_of, points_of, swept
+
+    axes = [axis_of(config, key, values) for key, values in over.items()]
+    swept(directory, comm or MPI.COMM_WORLD, axes, points_of(config, axes), Watch(), speak=False)
+    return xarray.load_dataset(Path(directory) / "sweep.nc", engine="h5netcdf")

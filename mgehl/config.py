@@ -341,6 +341,13 @@ def read_setting(setting):
     return f"{section}.{name}", value
 
 
+def checked_key(option, key):
+    """A "section.key" that an option names. Raises ConfigError where there is none."""
+    if key not in KEYS:
+        raise ConfigError(f"{option} {key}: unknown key{_closest_key(*key.rpartition('.')[::2])}")
+    return key
+
+
 def _closest(name, known):
     close = difflib.get_close_matches(name, known, n=1, cutoff=0.4)
     return f"; did you mean {close[0]}?" if close else f"; known are {', '.join(known)}"

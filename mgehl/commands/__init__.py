@@ -8,7 +8,7 @@ elsewhere `execute(options)`, of several ranks on the first.
 from pathlib import Path
 
 COMMANDS = (
-    "run", "study", "collect", "plot", "report", "export", "cite",
+    "run", "sweep", "study", "collect", "plot", "report", "export", "cite",
     "check", "new", "keys", "info", "bench", "completion",
 )  # fmt: skip
 """In the order of the help."""

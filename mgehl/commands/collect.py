@@ -14,21 +14,24 @@ def add(commands):
         "collect",
         help="make one table of several run directories",
         description="Print a Markdown table with a row for each run directory.",
-        epilog="example: mgehl collect runs/try --columns 'run,nodes,central nm' --out runs/try.csv",
+        epilog="example: mgehl collect runs/try --columns 'run,motion.speed,central nm' --out runs/try.csv",
     )
     parser.add_argument("runs", nargs="+", metavar="RUN", help="run directory")
     parser.add_argument("--out", metavar="FILE", help="write the whole table as CSV, too")
-    parser.add_argument("--columns", metavar="A,B", help="print only these columns")
+    parser.add_argument("--columns", metavar="A,B", help="print only these columns; any key of "
+                        "the configuration may be one")  # fmt: skip
     return parser
 
 
 def execute(options):
     """Print the table, drawn on a terminal and else in Markdown; write it as CSV, too, where asked to."""
+    from mgehl.config import KEYS
     from mgehl.output.table import collect, drawn, markdown, with_bands, write_csv
     from mgehl.saying import columns as terminal_columns
 
+    named = options.columns.split(",") if options.columns else []
     try:
-        rows = collect(options.runs)
+        rows = collect(options.runs, [column for column in named if column in KEYS])
         if options.out:
             write_csv(Path(options.out), rows)
     except OSError as error:
@@ -36,10 +39,10 @@ def execute(options):
     except (ValueError, KeyError) as error:
         raise OutputError(f"a file of these runs is damaged: {error}") from None
     rows = with_bands(rows)
-    columns = options.columns.split(",") if options.columns else list(rows[0])
+    columns = named or list(rows[0])
     unknown = [column for column in columns if column not in rows[0]]
     if unknown:
-        raise UserError(f"--columns {unknown[0]}: known are {', '.join(rows[0])}")
+        raise UserError(f"--columns {unknown[0]}: known are {', '.join(rows[0])}, and keys (mgehl keys)")
     width = terminal_columns()
     print(drawn(rows, columns, width) if width else markdown(rows, columns))
     return CONVERGED

@@ -27,6 +27,8 @@ def add(commands):
     parser.add_argument("runs", nargs="+", metavar="RUN", help="run directory")
     parser.add_argument("--kind", action="append", metavar="K,K,...", help=f"pictures: {', '.join(KINDS)} "
                      "(default: all; of several runs compare); may be repeated")  # fmt: skip
+    parser.add_argument("--against", metavar="KEY", help="one picture of films, load on solids, friction "
+                     "and pressure of all runs against a key such as motion.speed")  # fmt: skip
     parser.add_argument("--out", metavar="DIR", help="directory of the pictures (default: RUN/plots, of "
                      "comparisons plots); with it each of several runs gets DIR/RUN")  # fmt: skip
     parser.add_argument("--format", action="append", metavar="F,F,...",
@@ -41,6 +43,8 @@ def add(commands):
 
 def execute(options):
     """Read all runs, then draw, then write."""
+    if options.against and (options.kind or options.movie):
+        raise UserError(f"--against {options.against}: is a picture of its own, without --kind and --movie")
     kinds = _words("--kind", options.kind, KINDS, ("all" if len(options.runs) == 1 else "compare",))
     formats = _words("--format", options.format, FORMATS, DEFAULT_FORMATS)
     if options.dpi is not None and not 30 <= options.dpi <= 1200:
@@ -82,8 +86,22 @@ def _words(option, given, known, default):
     return tuple(dict.fromkeys(words)) or default
 
 
+def _curves(options):
+    """The picture of all runs against a key."""
+    from mgehl.config import checked_key
+    from mgehl.output.pictures.curves import curves
+    from mgehl.output.pictures.figures import Picture
+    from mgehl.output.quantities import read_told
+
+    key = checked_key("--against", options.against)
+    figure = curves([read_told(run) for run in options.runs], key)
+    return Picture(f"against-{key}", f"all runs against {key}", figure)
+
+
 def _drawn(options, kinds):
     """Lists of pictures, each with its directory."""
+    if options.against:
+        return [([_curves(options)], Path(options.out or "plots"))]
     from mgehl.output.pictures.figures import compared, figures, left_out
     from mgehl.output.pictures.titles import run_names
     from mgehl.output.stored import read_run

@@ -47,8 +47,9 @@ def _page(directory):
     from mgehl.output.report.study_report import is_study, study_report
     from mgehl.output.stored import read_run
     from mgehl.output.study_directory import check_study
+    from mgehl.studies.sweep import WHAT
 
     if is_study(directory):
         check_study(directory)
-        return render(study_report(directory, STUDIES))
+        return render(study_report(directory, STUDIES | {"sweep": WHAT}))
     return report(read_run(directory), directory.resolve().name)

@@ -152,6 +152,7 @@ def _resume(options, comm, solve):
     from mgehl.output.files import on_first_rank
     from mgehl.output.finish import taken_up
     from mgehl.output.lock import locked
+    from mgehl.output.solution import on_every_rank
 
     _check_alone(options)
     directory = Path(options.resume)
@@ -160,7 +161,7 @@ def _resume(options, comm, solve):
         config, start, said = on_first_rank(comm, taken_up, directory) or (None, None, ())
         if not (options.quiet or options.json_lines):
             _say(said)
-        told, start = comm.bcast(config), _shared(start, comm)
+        told, start = comm.bcast(config), on_every_rank(comm, start)
         if told is None:
             return comm.bcast(on_first_rank(comm, _finished, directory, options))
         return solve(told, directory, start, None)
@@ -214,18 +215,13 @@ _WORDS = {
 def _start(directory, config, comm):
     """The `Solution` of another run, whole on every rank; it must be of the same kind."""
     from mgehl.output.files import on_first_rank
+    from mgehl.output.solution import on_every_rank
     from mgehl.output.stored import read_run
     from mgehl.solver.restart import check_start
 
-    start = _shared(on_first_rank(comm, read_run, directory), comm)
+    start = on_every_rank(comm, on_first_rank(comm, read_run, directory))
     try:
         check_start(start, config.contact.kind)
     except UserError as error:
         raise UserError(f"--start-from {directory}: {error}") from None
     return start
-
-
-def _shared(solution, comm):
-    """The `Solution` that rank 0 has or has not, and what the others know of it (collective)."""
-    told = comm.bcast(solution and solution.shared())
-    return solution or told

@@ -94,17 +94,18 @@ def write_series(path, rows, title):
     with whole_file(path) as part, netcdf_file(part) as file:
         file.attrs.update({"Conventions": "CF-1.8", "title": title, "source": f"mgehl {VERSION}"})
         file.dimensions = {"time": len(rows)}
-        put = partial(_put, file)
-        put("time", ("time",), _column(rows, "time_s"), units="s", long_name="time", axis="T")
+        write = partial(put, file)
+        write("time", ("time",), _column(rows, "time_s"), units="s", long_name="time", axis="T")
         for name, (unit, meaning) in COLUMNS.items():
-            put(name, ("time",), _column(rows, name), units=unit, long_name=meaning)
+            write(name, ("time",), _column(rows, name), units=unit, long_name=meaning)
 
 
 def _column(rows, name):
     return np.array([row[name] for row in rows], dtype=float)
 
 
-def _put(file, name, dimensions, values, **attributes):
+def put(file, name, dimensions, values, **attributes):
+    """Write a variable with its attributes to an `h5netcdf.File`."""
     variable = file.create_variable(name, dimensions, values.dtype, data=values)
     variable.attrs.update(attributes)
 
@@ -170,10 +171,10 @@ def write_frames(path, frames, x, y, title):
     with whole_file(path) as part, netcdf_file(part) as file:
         file.attrs.update({"Conventions": "CF-1.8", "title": title, "source": f"mgehl {VERSION}"})
         file.dimensions = {"time": len(frames), "y": len(y), "x": len(x)}
-        put = partial(_put, file)
-        put("time", ("time",), np.array([t for t, _ in frames]), units="s", long_name="time", axis="T")
-        put("x", ("x",), x, units="m", long_name="distance along x", axis="X")
-        put("y", ("y",), y, units="m", long_name="distance along y", axis="Y")
+        write = partial(put, file)
+        write("time", ("time",), np.array([t for t, _ in frames]), units="s", long_name="time", axis="T")
+        write("x", ("x",), x, units="m", long_name="distance along x", axis="X")
+        write("y", ("y",), y, units="m", long_name="distance along y", axis="Y")
         for name, (unit, meaning) in FIELDS.items():
             values = np.stack([fields[name] for _, fields in frames])
             how = {"chunks": (1, len(y), len(x)), "compression": "gzip", "compression_opts": 1}

@@ -4,6 +4,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
+from mpi4py import MPI
 from numpy.typing import NDArray
 
 from mgehl.config import Config
@@ -114,3 +115,9 @@ class Solution:
 
     def __str__(self) -> str:
         return str(self.result)
+
+
+def on_every_rank(comm: MPI.Comm, solution: "Solution | None") -> "Solution | None":
+    """The `Solution` that rank 0 has or has not, and what the others know of it (collective)."""
+    told = comm.bcast(solution and solution.shared())
+    return solution or told

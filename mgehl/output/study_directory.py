@@ -13,7 +13,7 @@ from mgehl.output.whole_file import clear_parts, is_folder, is_plain, writing
 UNFINISHED = "unfinished"
 """Folder of tables and pictures until all are there."""
 
-ENDINGS = {".csv", ".md", ".png"}
+ENDINGS = {".csv", ".md", ".nc", ".png"}
 
 
 def begin_study(directory, record, resume):
@@ -100,4 +100,4 @@ def check_study(directory):
         if not (directory / name).exists():
             raise OutputError(f"{directory / name}: is missing: the study must be made again")
     if _is_whole(directory / UNFINISHED):
-        raise OutputError(f"{directory}: has not finished: go on with: mgehl study --resume")
+        raise OutputError(f"{directory}: has not finished: go on with --resume")

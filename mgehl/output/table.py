@@ -13,6 +13,7 @@ from rich.table import Table
 from rich.text import Text
 
 from mgehl.errors import printable
+from mgehl.kinds.choice import value_of
 from mgehl.output.digits import is_number, with_band
 from mgehl.output.stored import read_texts
 from mgehl.output.whole_file import whole_file
@@ -40,6 +41,11 @@ COLUMNS = {
     "loaded gap nm": ("mixed.loaded_gap_nm", ".6g"),
     "mean gap ± nm": ("mixed.error.mean_nm", ".4g"),
     "loaded gap ± nm": ("mixed.error.loaded_nm", ".4g"),
+    "friction": ("friction.coefficient", ".4g"),
+    "friction ±": ("friction.coefficient_band", ".2g"),
+    "friction of film": ("friction.film_coefficient", ".4g"),
+    "friction of solids": ("friction.solid_coefficient", ".4g"),
+    "rolling friction": ("friction.rolling_coefficient", ".4g"),
     "lambda": ("mixed.lambda_ratio", ".4g"),
     "mean film nm": ("mixed.mean_film_nm", ".4g"),
     "contact nodes on X": ("contact.x_nodes", span),
@@ -56,23 +62,26 @@ WIDTH = 120
 """Columns of a table where the width of the terminal is not known."""
 
 
-def collect(directories):
+def collect(directories, keys=()):
     """A row (dict of text) for each run directory, all of the same columns; empty where a run has none.
+
+    Among them are these `keys` of the configurations, "section.key", in SI units.
 
     Raises OutputError for a directory that is not as its run wrote it, OSError if one cannot be read.
     """
-    rows = [_row(Path(directory)) for directory in directories]
+    rows = [_row(Path(directory), keys) for directory in directories]
     columns = dict.fromkeys(name for row in rows for name in row)
     return [{name: row.get(name, "") for name in columns} for row in rows]
 
 
-def _row(directory):
+def _row(directory, keys):
     texts = read_texts(directory)
     result, config = json.loads(texts["result.json"]), tomllib.loads(texts["configuration.toml"])
     history = list(csv.DictReader(texts["history.csv"].splitlines()))
     nodes = config["grid"]["nodes"]
     row = {
         "run": directory.resolve().name,
+        **{key: said(value_of(config, key)) for key in keys},
         "nodes": str(nodes),
         "couette": config["discretization"].get("couette", DEFAULT),
     }
@@ -83,6 +92,11 @@ def _row(directory):
     of_all = nodes if config["contact"]["kind"] == "line" else nodes**2
     row |= _work([each for each in history if int(each["grid"]) == nodes], of_all)
     return row | {"wall s": f"{result['wall_s']:.1f}"}
+
+
+def said(value):
+    """A value of a configuration; empty without one."""
+    return "" if value is None else f"{value:.10g}" if isinstance(value, float) else str(value)
 
 
 def _text(found, names, shape):

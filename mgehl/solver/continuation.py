@@ -58,8 +58,9 @@ class Continuation:
             problem, outcome = self._follow(outcome.state, first, speed)
         return self._asked(speed, problem, outcome)
 
-    def at(self, speed, state, share=1.0):
-        """Solve at `speed` from `state`; return the problem and the `Outcome`."""
+    def at(self, speed, state, share=1.0, newton=None):
+        """Solve at `speed` from `state`, by own `NewtonSettings` where some are given; return the problem
+        and the `Outcome`."""
         hierarchy, settings = self._hierarchy, self._settings
         scheme = replace(settings.scheme, mobility_share=share)
         level, contact = len(hierarchy.grids) - 1, self._contact.at_speed(speed)
@@ -69,7 +70,7 @@ class Continuation:
         multigrid = MultigridSolver(hierarchy, level, contact, scheme, settings.cycle)
         tell = partial(self._monitor, LevelSolve(grid.mesh.nx, speed, True))
         prefix = settings.cycle.options_prefix
-        newton = Newton(problem, multigrid, settings.newton, None, prefix, tell)
+        newton = Newton(problem, multigrid, newton or settings.newton, None, prefix, tell)
         try:
             return problem, newton.run(state, self._journal)
         finally:

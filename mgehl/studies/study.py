@@ -82,11 +82,7 @@ class Study:
             except OutputError:
                 raise
             except UserError as error:
-                self.lost[name] = str(error)
-                self.failures += 1
-                self._done += 1
-                if self.first:
-                    complain(f"{name}: not solved: {error}")
+                self.lose(name, error)
             else:
                 yield name, solution
 
@@ -107,6 +103,14 @@ class Study:
         self.failures += must_converge and not solution.result.converged
         self.tell(title, solution.result, must_converge)
         return solution
+
+    def lose(self, name, error):
+        """Say and remember why a case has no answer at all."""
+        self.lost[name] = str(error)
+        self.failures += 1
+        self._done += 1
+        if self.first:
+            complain(f"{name}: not solved: {error}")
 
     def config(self, tables):
         """The configuration of a case; its films get no bands where the tables say nothing of them."""
@@ -134,18 +138,19 @@ class Study:
             left = spent / self._done * max(self.cases - self._done, 0)
             say(f"{self._done:3d}/{max(self.cases, self._done)}  {left:5.0f} s left  {title}{what}")
 
-    def write_table(self, name, rows):
-        """Write rows (dictionaries of text) as NAME.csv and NAME.md, and print them (collective).
+    def write_table(self, name, rows, shown=()):
+        """Write rows (dictionaries of text) as NAME.csv and NAME.md, and print them, or what is to be
+        `shown` of their columns (collective).
 
         Columns are those of all rows; nothing is written of no row.
         """
-        on_first_rank(self.comm, self._write_table, name, rows)
+        on_first_rank(self.comm, self._write_table, name, rows, shown)
 
     def draw(self, name, function, *arguments):
         """Draw NAME.png by `function(path, *arguments)` on rank 0 (collective)."""
         on_first_rank(self.comm, self._draw, name, function, arguments)
 
-    def _write_table(self, name, rows):
+    def _write_table(self, name, rows, shown):
         if not rows:
             return
         heads = list(dict.fromkeys(head for row in rows for head in row))
@@ -156,7 +161,8 @@ class Study:
             raise OutputError(f"{self.directory}: cannot be written: {error}") from None
         write_whole(self.directory / f"{name}.md", markdown(rows, heads) + "\n")
         if self.speak:
-            say(f"\n{name}\n\n{drawn(rows, heads, columns())}\n")
+            shown = [head for head in shown if head in heads] or heads
+            say(f"\n{name}\n\n{drawn(rows, shown, columns())}\n")
 
     def _draw(self, name, function, arguments):
         path = self.directory / f"{name}.png"

@@ -1,9 +1,8 @@
 """What a picture is of, what its axes show, and what tells runs apart that are shown together."""
 
-from dataclasses import fields
 from pathlib import Path
 
-from mgehl.config import SECTIONS
+from mgehl.config import KEYS
 from mgehl.errors import UserError
 from mgehl.kinds import KINDS
 from mgehl.kinds.loaded import speed_words
@@ -106,7 +105,9 @@ def labels(solutions, names):
     keys = [key for key in dict.fromkeys(key for table in tables for key in table)
             if any(table.get(key) != tables[0].get(key) for table in tables)]  # fmt: skip
     keys = [key for key in keys if ".".join(key) not in DOMAIN] or keys
-    said = [", ".join(_say(*key, table[key]) for key in keys if key in table) for table in tables]
+    said = [
+        ", ".join(key_words(".".join(key), table[key]) for key in keys if key in table) for table in tables
+    ]
     if not keys or len(keys) > MOST_KEYS or len(set(said)) < len(said):
         said = names
     return [
@@ -115,11 +116,10 @@ def labels(solutions, names):
     ]
 
 
-def _say(section, key, value):
+def key_words(name, value):
     """A key and its value, in a few words with the unit."""
-    name = f"{section}.{key}"
     if name in _SHORT:
         return _SHORT[name](value)
-    unit = next(each.metadata["unit"] for each in fields(SECTIONS[section]) if each.name == key) or ""
+    unit = KEYS[name].metadata["unit"] or ""
     text = f"{value:.6g}" if isinstance(value, float) else str(value).lower()
     return f"{name} {text} {unit}".rstrip()

@@ -1,0 +1,72 @@
+"""mgehl sweep: a contact at many values of one key, or of several."""
+
+from pathlib import Path
+from shlex import quote
+
+from mgehl.commands import CONVERGED, NOT_CONVERGED, add_configuration, add_settings
+from mgehl.config import chosen_config, load_config, naming_file
+from mgehl.errors import ConfigError, OutputError
+
+PARALLEL = True
+
+
+def add(commands):
+    """Add the parser."""
+    parser = commands.add_parser(
+        "sweep",
+        help="solve a contact at many values of a key, each from its neighbour",
+        allow_abbrev=False,
+        description="Solve a contact at many values of one key, or of several, each point from its "
+        "neighbours; write a run directory for each, one table (sweep.csv), the same as arrays (sweep.nc), "
+        "curves and a page. A point without an answer is said and passed. Values are a list, "
+        "'50,100,200 N', in SI units where it names none, or so many in a range, '1e-4..1 m/s:20'. These "
+        "are of equal ratio where both ends are above 0 and more than a decade apart, and else of equal "
+        "distance; "
+        "'log(1..5 m/s:9)' and 'lin(1..50 m/s:9)' choose. The first key changes fastest.",
+        epilog="example: mgehl sweep my.toml --over motion.speed='1e-4..1 m/s:20' "
+        "--over contact.load='50,100,200 N' --out runs/stribeck",
+    )
+    add_configuration(parser)
+    parser.add_argument("--over", action="append", required=True, metavar="KEY=VALUES",
+                        help="a key with a number and its values; may be repeated")  # fmt: skip
+    add_settings(parser)
+    parser.add_argument(
+        "--both-ways", action="store_true", help="go back along all points, too, from the last"
+    )
+    parser.add_argument("--out", metavar="DIR", help="directory of the results (default: runs/sweep-NAME)")
+    parser.add_argument("--resume", action="store_true", help="go on with the points that are finished")
+    parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
+    return parser
+
+
+def execute(options, comm):
+    """Solve all points on all ranks."""
+    from mgehl.run import Watch
+    from mgehl.saying import say
+    from mgehl.stopping import StopWhenTold
+    from mgehl.studies.sweep import axis_of, points_of, swept
+
+    file = chosen_config(options.config, options.settings)
+    with naming_file(file, options.settings):
+        config = load_config(file, options.settings)
+    axes = [axis_of(config, *_split(word)) for word in options.over]
+    points = points_of(config, axes, options.both_ways)
+    directory = Path(options.out or Path("runs") / f"sweep-{file.stem}")
+    if comm.bcast(directory.exists()) and not options.resume:
+        raise OutputError(f"{directory} exists: add --resume to go on, or choose another with --out")
+    asked = (*(f"--over {word}" for word in options.over), *options.settings)
+    with StopWhenTold(f"go on with --resume, --out {quote(str(directory))}") as stop:
+        study = swept(directory, comm, axes, points, Watch(stop=stop), not options.quiet, asked)
+    if study.first and study.speak:
+        say(f"results in {directory}")
+    return NOT_CONVERGED if study.failures else CONVERGED
+
+
+def _split(word):
+    """Key and values of a word of --over."""
+    key, equals, values = (part.strip() for part in word.partition("="))
+    if not (equals and values):
+        raise ConfigError(
+            f"--over {word}: must be section.key=VALUES, such as motion.speed='1e-4..1 m/s:20'"
+        )
+    return key, values

@@ -1,0 +1,127 @@
+"""Numbers of runs against a key of their configurations: films, what carries the load, friction."""
+
+from collections import defaultdict
+from math import isfinite
+
+import numpy as np
+
+from mgehl.config import KEYS
+from mgehl.errors import UserError
+from mgehl.output.pictures.style import COLOURS, MARKS, legend_under_all, subplots
+from mgehl.output.pictures.titles import DOMAIN, key_words
+from mgehl.output.quantities import QUANTITIES
+
+PANELS = {
+    "film, nm": ("mean_gap_nm", "central_film_nm", "minimum_film_nm"),
+    "part of the load": ("load_on_solids", "load_on_contact"),
+    "friction coefficient": ("friction", "friction_of_film", "friction_of_solids"),
+    "largest pressure, GPa": ("max_pressure_GPa",),
+}
+"""Axis of each panel and what it shows: each its own stroke."""
+
+STROKES = "-", "--", ":"
+
+OF_ONE_NODE = "central_film_nm", "minimum_film_nm"
+"""Left out where there is a mean gap: a single node of a rough surface says little."""
+
+DECADE = 10.0
+"""Largest over smallest value from which on an axis is logarithmic."""
+
+NOT_HERE = {"color": "0.4", "marker": "|", "linestyle": "none", "markersize": 10}
+"""On the upper edge, where a run has no answer."""
+
+
+def curves(runs, key, names=()):
+    """Figure of `Told` runs against a key: a colour for what else differs, or for `names` of the runs.
+
+    Bands are bars; a point without a band that others of its kind have is hollow: it is the grid's. Raises
+    UserError where there is nothing to draw.
+    """
+    x = [run.value(key) for run in runs]
+    if any(isinstance(each, bool) or not isinstance(each, int | float) for each in x):
+        raise UserError(f"--against {key}: has no number in each of these runs")
+    if len(set(x)) < 2:
+        raise UserError(f"--against {key}: is {x[0]:g} in all of these runs")
+    groups = _groups(runs, key, names)
+    panels = {label: _there(runs, panel) for label, panel in PANELS.items()}
+    panels = {label: panel for label, panel in panels.items() if panel}
+    if not panels:
+        raise UserError(f"--against {key}: none of these runs has an answer to draw")
+    rows = (len(panels) + 1) // 2
+    figure, axes = subplots(rows, min(2, len(panels)), size=(10.5, 1.0 + 3.4 * rows), squeeze=False)
+    for axis, (label, panel) in zip(axes.flat, panels.items(), strict=False):
+        handles = [_draw(axis, runs, x, *each, panel) for each in groups.items()]
+        axis.set(ylabel=label, xlabel=f"{key}, {KEYS[key].metadata['unit'] or '1'}")
+        _scale(
+            axis, x, [run.number(QUANTITIES[name].path) for run in runs if run.settled for name in panel]
+        )
+        failed = [each for each, run in zip(x, runs, strict=True) if not run.settled]
+        axis.plot(failed, len(failed) * [0.98], transform=axis.get_xaxis_transform(), **NOT_HERE)
+        if len(panel) > 1:
+            axis.legend(handles=handles[0])
+    for axis in axes.flat[len(panels) :]:
+        axis.remove()
+    if len(groups) > 1:
+        colours = zip(groups, COLOURS * len(groups), strict=False)
+        legend_under_all(figure, [axes.flat[0].plot([], [], color=c, label=name)[0] for name, c in colours])
+    failed = sum(not run.settled for run in runs)
+    note = f", {failed} without an answer (ticks above)" if failed else ""
+    figure.suptitle(f"{len(runs)} runs against {key}{note}")
+    return figure
+
+
+def _groups(runs, key, names):
+    """{what runs have in common but the key: (their numbers, colour, mark)}, in order."""
+    differ = dict.fromkeys(
+        f"{section}.{name}" for run in runs for section, table in run.tables.items() for name in table
+    )
+    differ = [
+        each for each in differ
+        if each not in (key, *DOMAIN) and any(run.value(each) != runs[0].value(each) for run in runs)
+    ]  # fmt: skip
+    found = defaultdict(list)
+    for number, run in enumerate(runs):
+        said = [key_words(each, run.value(each)) for each in differ if run.value(each) is not None]
+        found[", ".join([*said, *names[number : number + 1]])].append(number)
+    looks = zip(found.items(), COLOURS * len(found), MARKS * len(found), strict=False)
+    return {name: (numbers, colour, mark) for (name, numbers), colour, mark in looks}
+
+
+def _there(runs, panel):
+    """Quantities of a panel that say something of some run."""
+
+    def of(name):
+        return [run.number(QUANTITIES[name].path) for run in runs if run.settled]
+
+    found = [name for name in panel if any(isfinite(each) and each for each in of(name))]
+    return [name for name in found if name not in OF_ONE_NODE or "mean_gap_nm" not in found]
+
+
+def _draw(axis, runs, x, name, look, panel):
+    """The curves of one group; their handles."""
+    numbers, colour, mark = look
+    numbers = sorted((number for number in numbers if runs[number].settled), key=lambda n: x[n])
+    handles = []
+    for quantity, stroke in zip(panel, STROKES, strict=False):
+        path, _, meaning, band = QUANTITIES[quantity]
+        at = np.array([x[number] for number in numbers])
+        y = np.array([runs[number].number(path) for number in numbers])
+        width = np.array([runs[number].number(band or "none") for number in numbers])
+        (line,) = axis.plot(at, y, stroke, color=colour, label=meaning)
+        handles.append(line)
+        bare = np.isnan(width) & np.isfinite(width).any()
+        for part, face in ((~bare, colour), (bare, "white")):
+            axis.plot(at[part], y[part], mark, color=colour, markerfacecolor=face, markersize=4)
+        if np.isfinite(width).any():
+            axis.errorbar(at, y, np.where(bare, 0.0, width), fmt="none", ecolor=colour, capsize=2)
+    return handles
+
+
+def _scale(axis, x, y):
+    """Logarithmic axes where values go over a decade; where some are zero, linear."""
+    for name, values in (("x", x), ("y", y)):
+        values = [each for each in values if isfinite(each)]
+        if values and min(values) > 0.0 and max(values) >= DECADE * min(values):
+            axis.set(**{f"{name}scale": "log"})
+        elif name == "y":
+            axis.set_ylim(bottom=min(0.0, *values) if values else None)

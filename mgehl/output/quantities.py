@@ -1,0 +1,76 @@
+"""Numbers by which runs are compared along a key: where result.json has them, in curves and in sweep.nc."""
+
+import json
+import tomllib
+from dataclasses import dataclass
+from math import nan
+from typing import NamedTuple
+
+from mgehl.kinds.choice import value_of
+from mgehl.output.stored import read_texts
+
+
+class Quantity(NamedTuple):
+    """Where a number is, its unit and meaning, and where the half-width of its band is."""
+
+    path: str
+    unit: str
+    meaning: str
+    band: str = ""
+
+
+QUANTITIES = {
+    "central_film_nm": Quantity("central_film_nm", "nm", "central film", "error.central_nm"),
+    "minimum_film_nm": Quantity("minimum_film_nm", "nm", "smallest film", "error.minimum_nm"),
+    "mean_gap_nm": Quantity("mixed.mean_gap_nm", "nm", "mean gap within Hertz", "mixed.error.mean_nm"),
+    "load_on_solids": Quantity(
+        "mixed.solid_load_fraction", "1", "load on solids", "mixed.error.solid_load_fraction"
+    ),
+    "load_on_contact": Quantity(
+        "mixed.contact_load_share", "1", "load on contact", "mixed.error.contact_load_share"
+    ),
+    "friction": Quantity("friction.coefficient", "1", "friction", "friction.coefficient_band"),
+    "friction_of_film": Quantity("friction.film_coefficient", "1", "friction of the film"),
+    "friction_of_solids": Quantity("friction.solid_coefficient", "1", "friction of solids"),
+    "friction_of_rolling": Quantity("friction.rolling_coefficient", "1", "rolling friction"),
+    "max_pressure_GPa": Quantity(
+        "max_pressure_GPa", "GPa", "largest pressure", "mixed.error.max_pressure_GPa"
+    ),
+    "lambda_ratio": Quantity("mixed.lambda_ratio", "1", "film of smooth bodies over Sq"),
+    "convolutions": Quantity("work.convolutions", "1", "fine-grid convolutions"),
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Told:
+    """What a run tells, nested plain values: its configuration and its result, None where it failed."""
+
+    tables: dict
+    result: dict | None
+
+    def value(self, key):
+        """The value of "section.key"; None without one."""
+        return value_of(self.tables, key)
+
+    def number(self, path):
+        """What result.json has under nested names; nan where that is nothing."""
+        found = self.result
+        for name in path.split("."):
+            found = (found or {}).get(name)
+        return nan if found is None else float(found)
+
+    @property
+    def settled(self):
+        """Whether the result solves the discrete equations."""
+        return bool(self.result) and self.result.get("settled", self.result["converged"])
+
+    @property
+    def converged(self):
+        """Whether more than that holds."""
+        return bool(self.result) and self.result["converged"]
+
+
+def read_told(directory):
+    """The `Told` of a finished run. Raises OutputError."""
+    texts = read_texts(directory)
+    return Told(tomllib.loads(texts["configuration.toml"]), json.loads(texts["result.json"]))

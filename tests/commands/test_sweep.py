@@ -1,0 +1,209 @@
+"""mgehl sweep: points on disk, each from its neighbours; one table, one array, curves."""
+
+import csv
+import json
+
+import h5netcdf
+import numpy as np
+import pytest
+from mpi4py import MPI
+
+import mgehl
+from mgehl.cli import main
+from mgehl.config import load_config
+from mgehl.errors import UserError
+from mgehl.solver.restart import Forecast
+from mgehl.studies import sweep
+
+FILM = ["--set", "grid.nodes=65", "--set", "solver.error=false", "--set", "solver.start=film"]
+SPEEDS = "motion.speed=0.5..2 m/s:3"
+SWEEP = ["sweep", *FILM, "--quiet", "--over", SPEEDS, "--out"]
+
+
+@pytest.fixture(scope="module")
+def film(tmp_path_factory):
+    """Directory of a sweep of a smooth film over three speeds."""
+    directory = tmp_path_factory.mktemp("sweeps") / "film"
+    assert main([*SWEEP, str(directory)]) == 0
+    return directory
+
+
+def table(directory):
+    return list(csv.DictReader((directory / "sweep.csv").open()))
+
+
+def array(directory, name):
+    with h5netcdf.File(directory / "sweep.nc", "r") as file:
+        return file[name][()]
+
+
+def test_it_leaves_runs_a_table_an_array_curves_and_a_page(film):
+    assert {path.name for path in film.iterdir()} == {
+        "report.html", "runs", "study.json", "sweep.csv", "sweep.md", "sweep.nc", "sweep.png",
+    }  # fmt: skip
+    results = [
+        json.loads((film / "runs" / name / "result.json").read_text()) for name in ("001", "002", "003")
+    ]
+    assert [row["motion.speed"] for row in table(film)] == ["0.5", "1.25", "2"]
+    assert array(film, "central_film_nm").tolist() == [each["central_film_nm"] for each in results]
+    with h5netcdf.File(film / "sweep.nc", "r") as file:
+        assert file["motion_speed"].attrs["units"] == "m/s"
+        assert file["central_film_nm"].dimensions == ("motion_speed",)
+    assert "Study sweep" in (film / "report.html").read_text()
+
+
+def test_a_point_from_its_neighbours_is_the_one_from_nothing(film):
+    config = load_config(None, {"grid.nodes": 65, "solver.error": False, "solver.start": "film"})
+    for point, speed in enumerate((0.5, 1.25, 2.0)):
+        cold = mgehl.solve(config.with_({"motion.speed": speed}), MPI.COMM_SELF).result
+        assert array(film, "central_film_nm")[point] == pytest.approx(cold.central_film_nm, rel=1e-6)
+
+
+def test_killed_and_resumed_it_has_the_same_table(film, tmp_path, monkeypatch):
+    run, count = sweep.run, iter(range(2))
+
+    def killed(*arguments):
+        if next(count, None) is None:
+            raise KeyboardInterrupt
+        return run(*arguments)
+
+    monkeypatch.setattr(sweep, "run", killed)
+    assert main([*SWEEP, str(tmp_path / "film")]) != 0
+    assert not (tmp_path / "film" / "sweep.csv").exists()
+    monkeypatch.setattr(sweep, "run", run)
+    assert main([*SWEEP, str(tmp_path / "film"), "--resume"]) == 0
+    for name in ("sweep.csv", "sweep.md"):
+        assert (tmp_path / "film" / name).read_bytes() == (film / name).read_bytes()
+
+
+def test_what_is_there_is_not_solved_again_nor_taken_for_another(film, capsys, monkeypatch):
+    monkeypatch.setattr(sweep, "run", None)
+    assert main([*SWEEP, str(film), "--resume"]) == 0
+    words = [word.replace("0.5..", "0.6..") for word in SWEEP]
+    assert main([*words, str(film), "--resume"]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert "001 is of another configuration" in line
+
+
+def test_a_point_that_fails_is_said_and_passed(tmp_path, capsys, monkeypatch):
+    run, starts = sweep.run, []
+
+    def failing(case, path, comm, watch, start):
+        starts.append(start)
+        if path.name == "002":
+            raise UserError("no memory")
+        return run(case, path, comm, watch, start)
+
+    monkeypatch.setattr(sweep, "run", failing)
+    assert main([*SWEEP, str(tmp_path / "film")]) == 1
+    assert "1.25 m/s: not solved: no memory" in capsys.readouterr().err
+    first, second, third = starts
+    assert first is None and second is not None and third.config.motion.speed == 0.5
+    assert np.isnan(array(tmp_path / "film", "central_film_nm")).tolist() == [False, True, False]
+    assert [row["why not"] for row in table(tmp_path / "film")] == ["", "no memory", ""]
+
+
+def test_the_third_of_a_line_is_forecast(film):
+    """By a power of the speed where both solutions before have one."""
+    config = load_config(None, {"motion.speed": 1.0})
+    axes = [sweep.axis_of(config, "motion.speed", [0.5, 1.25, 2.0])]
+    points = sweep.points_of(config, axes)
+    behind = [(points[k], mgehl.read(film / "runs" / points[k].run)) for k in range(2)]
+    start = sweep._start(behind, axes, points[2])
+    assert isinstance(start, Forecast) and start.last is behind[1][1]
+    before, last = (each.result.central_film_nm for _, each in behind)
+    assert last + start.factor * (last - before) == pytest.approx(
+        last * (last / before) ** (np.log(2.0 / 1.25) / np.log(1.25 / 0.5))
+    )
+    assert sweep._start(behind[1:], axes, points[2]) is behind[1][1]
+
+
+@pytest.mark.parametrize(
+    "text, values",
+    [
+        ("1..5 mm/s:3", [0.001, 0.003, 0.005]),
+        ("1e-4..1 m/s:5", [1e-4, 1e-3, 1e-2, 0.1, 1.0]),
+        ("1..0.01 m/s:3", [1.0, 0.1, 0.01]),
+        ("log(1..4 m/s:3)", [1.0, 2.0, 4.0]),
+        ("lin(1..101 m/s:3)", [1.0, 51.0, 101.0]),
+        ("50,100,200 mm/s", [0.05, 0.1, 0.2]),
+        ("1,2 mm/s,3", [1.0, 0.002, 3.0]),
+    ],
+)
+def test_ranges_and_lists(text, values):
+    assert sweep.axis_of(load_config(), "motion.speed", text).values == pytest.approx(values)
+
+
+def test_several_keys_are_a_snake_there_and_back():
+    config = load_config()
+    axes = [
+        sweep.axis_of(config, "motion.speed", [1.0, 2.0, 3.0]),
+        sweep.axis_of(config, "contact.load", [50, 60]),
+    ]
+    there = [(0, 0), (1, 0), (2, 0), (2, 1), (1, 1), (0, 1)]
+    points = sweep.points_of(config, axes, both_ways=True)
+    assert [point.place for point in points] == there + there[::-1]
+    assert [point.way for point in points] == 6 * [0] + 6 * [1]
+    assert points[3].config.motion.speed == 3.0 and points[3].config.contact.load == 60.0
+
+
+@pytest.mark.parametrize(
+    "words, said",
+    [
+        (["motion.speed"], "must be section.key=VALUES"),
+        (["motion.speed=1e-4..1:20"], "needs a unit, such as m/s"),
+        (["motion.speed=1..1 m/s:20"], "is empty"),
+        (["motion.speed=1..2 m/s:0"], "is empty"),
+        (["motion.speed=1..2 m/s"], "must be as"),
+        (["motion.speed=fast,slow"], "must be as"),
+        (["motion.speed=1..2 kg:3"], "wrong unit"),
+        (["motion.speed=1e-30..1 m/s:3"], "must be a number in m/s"),
+        (["motion.speed=1"], "fewer than two"),
+        (["motion.speed=1,1"], "same value twice"),
+        (["motion.angle=log(0..10 deg:3)"], "log needs ends above 0"),
+        (["motion.spede=1,2"], "unknown key; did you mean motion.speed?"),
+        (["lubricant.viscosity_law=barus,roelands"], "only keys with a number"),
+        (["solver.error=1,0"], "only keys with a number"),
+        (["time.end=1,2"], "[time]"),
+        (["grid.nodes=65,100"], "must be 2^k + 1"),
+        (["motion.speed=1,2", "motion.speed=3,4"], "motion.speed: is given twice"),
+        (["motion.speed=1..2 m/s:200", "contact.load=1..2 N:200"], "more than 10000 points"),
+    ],
+)  # fmt: skip
+def test_bad_input_is_one_line(words, said, tmp_path, capsys):
+    over = [part for word in words for part in ("--over", word)]
+    assert main(["sweep", *over, "--out", str(tmp_path / "new")]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert said in line
+    assert not (tmp_path / "new").exists()
+
+
+def test_a_directory_that_exists_is_left_alone(tmp_path, capsys):
+    assert main([*SWEEP, str(tmp_path)]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert "exists: add --resume to go on, or choose another with --out" in line
+    assert not list(tmp_path.iterdir())
+
+
+def test_collect_takes_keys_and_plot_draws_against_one(film, tmp_path, capsys):
+    runs = sorted(map(str, (film / "runs").iterdir()))
+    assert main(["collect", *runs, "--columns", "run,motion.speed,contact.load,central nm"]) == 0
+    assert "| 001 | 0.5 | 800 |" in capsys.readouterr().out
+    assert (
+        main(["plot", *runs, "--against", "motion.speed", "--format", "png", "--out", str(tmp_path)]) == 0
+    )
+    assert (tmp_path / "against-motion.speed.png").stat().st_size > 10000
+    capsys.readouterr()
+    for key, said in {
+        "motion.angle": "is 0 in all", "contact.kind": "has no number",
+        "motion.sped": "did you mean motion.speed",
+    }.items():  # fmt: skip
+        assert main(["plot", *runs, "--against", key, "--out", str(tmp_path)]) == 2
+        (line,) = capsys.readouterr().err.splitlines()
+        assert said in line
+
+
+def test_from_python(film):
+    config = load_config(None, {"grid.nodes": 65, "solver.error": False, "solver.start": "film"})
+    found = mgehl.sweep(config, {"motion.speed": "0.5..2 m/s:3"}, film)
+    assert found.central_film_nm.sel(motion_speed=1.25) == array(film, "central_film_nm")[1]
