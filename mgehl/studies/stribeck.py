@@ -9,14 +9,14 @@ from math import isfinite
 import numpy as np
 
 from mgehl.model.oils import OILS
-from mgehl.output.pictures.style import COLOURS, applied, save, subplots
+from mgehl.output.pictures.style import COLOURS, applied, legend_under_all, save, subplots
 from mgehl.output.quantities import QUANTITIES
 from mgehl.run import Watch
 from mgehl.studies.chance import BALL
 from mgehl.studies.study import merged
 from mgehl.studies.sweep import axis_of, fill, points_of
 
-NODES, SPEEDS = 129, "1..1e-3 m/s:10"
+NODES, SPEEDS = 129, "0.3..3e-4 m/s:10"
 
 CASE = merged(
     BALL,
@@ -70,13 +70,15 @@ def curves(path, found):
                     label = oil if said in ("", "friction") else said if colour == COLOURS[0] else None
                     axis.plot(speed, y, stroke, color=colour, markersize=3, label=label)
                     width = np.array([each.number(band or "none") for each in runs])
-                    axis.fill_between(speed, y - width, y + width, color=colour, alpha=0.2, linewidth=0)
+                    axis.fill_between(
+                        speed, np.maximum(y - width, 0.0), y + width, color=colour, alpha=0.2, linewidth=0
+                    )
         _mark_regimes(axes[0], found)
         for axis, label in zip(axes, PANELS, strict=True):
             axis.set(xscale="log", ylabel=label)
         axes[2].set(yscale="log", xlabel="entrainment speed, m/s")
         axes[0].set_ylim(bottom=0.0)
-        axes[0].legend()
+        legend_under_all(figure, axes[0].get_legend_handles_labels()[0])
         save(figure, path)
 
 

@@ -260,15 +260,17 @@ def _start(behind, axes, point):
     if not behind or point.config.is_in_time:
         return None
     last = behind[-1][1]
-    if len(behind) < 2 or point.config.is_dry:
+    if point.config.is_dry or not last.contact.is_loaded:
         return last
+    if len(behind) < 2:
+        return Forecast(last)
     places = [*(each.place for each, _ in behind), point.place]
     moved = [[k for k, (a, b) in enumerate(zip(*pair, strict=True)) if a != b] for pair in pairwise(places)]
     if len(moved[0]) != 1 or moved[0] != moved[1]:
-        return last
+        return Forecast(last)
     axis = axes[moved[0][0]]
     factor = _factor([axis.values[place[moved[0][0]]] for place in places], *(each for _, each in behind))
-    return Forecast(last, behind[0][1], factor) if factor else last
+    return Forecast(last, behind[0][1], factor) if factor else Forecast(last)
 
 
 def _factor(values, before, last):
