@@ -22,6 +22,7 @@ STUDIES = {
     "machine": "rough contacts of machines by chance: verdicts and gaps",
     "rollers": "rough line contacts by chance: verdicts and gaps",
     "rough": "a rough ball from full film to nearly dry",
+    "stribeck": "friction of a rough ball over speed, three oils",
     "waviness": "waves in the film of a line contact, beside published numbers",
     "moving": "waves and a dimple that pass through full films",
     "dry": "dry contacts beside a public code's numbers",
@@ -33,7 +34,7 @@ REMOVED = ("line", "inlet", "onset", "bracket", "accuracy", "angle", "domain", "
 DOUBLING = ("wedge", "schemes", "error", "gaps")
 """Studies that need grids each of half the spacing of the one before: they tell orders and limits."""
 
-GRIDS = dict.fromkeys(("rough", "mixed", "machine", "rollers", "moving"), 1) | {
+GRIDS = dict.fromkeys(("rough", "stribeck", "mixed", "machine", "rollers", "moving"), 1) | {
     "gaps": 2,
     "methods": 0,
     "waviness": 0,
@@ -118,6 +119,7 @@ def _solve(options, comm, directory, record, settings):
 
     stage = comm.bcast(on_first_rank(comm, begin_study, directory, record, options.resume))
     asked = {"branch": record.branch, "wanted": record.cases, "seed": record.seed, "settings": settings}
+    asked["resume"] = options.resume
     study = Study(stage, comm, record.nodes, not options.quiet, home=directory, **asked)
     if not options.resume:
         on_first_rank(comm, study.cache.clear)

@@ -47,6 +47,8 @@ class Told:
 
     tables: dict
     result: dict | None
+    why: str = ""
+    """Why it has none."""
 
     def value(self, key):
         """The value of "section.key"; None without one."""

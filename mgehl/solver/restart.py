@@ -25,12 +25,14 @@ LEAST_LEFT = 0.2
 
 @dataclass(frozen=True)
 class Forecast:
-    """Two solutions on the way to the next one: what has changed from `before` to `last` goes on. Both
-    `Solution`s are whole on rank 0."""
+    """Two solutions on the way to the next one: what has changed from `before` to `last` goes on.
+
+    Both `Solution`s are whole on rank 0. Without `before` the film alone changes, as a formula has it.
+    """
 
     last: object
-    before: object
-    factor: float
+    before: object = None
+    factor: float = 0.0
     """Change that is expected, over that from `before` to `last`."""
 
 
@@ -83,11 +85,10 @@ def solve_from(hierarchy, contact, settings, start, frame, monitor, journal):
         return problem, relax(problem, state, settings.relaxation, tell, journal)
     continuation = Continuation(hierarchy, contact, settings, monitor, journal)
     if forecast:
-        before = interpolated(problem, forecast.before, frame)
         patient = min(FORECAST_STEPS, settings.newton.max_steps)
         newton = replace(settings.newton, max_steps=patient)
         found = continuation.at(
-            contact.speed, forecast_state(problem, state, before, forecast), newton=newton
+            contact.speed, forecast_state(problem, state, forecast, frame), newton=newton
         )
         if found[1].converged:
             return found
@@ -97,8 +98,13 @@ def solve_from(hierarchy, contact, settings, start, frame, monitor, journal):
     return continuation.follow(state, speed, contact.speed)
 
 
-def forecast_state(problem, last, before, forecast):
-    """The state that a `Forecast` expects of this problem, from both of its own as `State`s of it."""
+def forecast_state(problem, last, forecast, frame):
+    """The state that a `Forecast` in a `Frame` expects of this problem; `last` is the last one of it."""
+    if forecast.before is None:
+        films = problem.contact.expected_film, forecast.last.contact.expected_film
+        H0 = last.H0 + (films[0] - films[1]) / problem.contact.film_scale
+        return problem.state(last.P, H0, last.status, last.p, last.filling)
+    before = interpolated(problem, forecast.before, frame)
 
     def on(newer, older):
         more = newer + forecast.factor * (newer - older)

@@ -53,6 +53,8 @@ class Study:
     """Random cases of studies that draw some; None for its own choice."""
     seed: int | None = None
     """By which it draws them."""
+    resume: bool = True
+    """Whether what has finished is taken as it is."""
     home: Path | None = None
     """Directory of its points where it is not that of tables and pictures."""
     lost: dict = field(default_factory=dict, init=False)

@@ -22,7 +22,7 @@ import tomli_w
 from mgehl.config import KEYS, Config, checked_key
 from mgehl.errors import ConfigError, OutputError, UserError
 from mgehl.output.checkpoint import is_begun
-from mgehl.output.directory import make_directory
+from mgehl.output.directory import clear_checkpoint, make_directory
 from mgehl.output.files import CONFIGURATION, FIELDS, REPORT, on_first_rank
 from mgehl.output.laws import portable
 from mgehl.output.lock import locked
@@ -203,27 +203,30 @@ def _write_page(directory):
     write_whole(directory / REPORT, render(study_report(directory, {"sweep": WHAT})))
 
 
-def fill(study, directory, axes, points, watch):
-    """The same with the files of a `Study`, which go to its own directory (collective)."""
+def fill(study, directory, axes, points, watch, name="sweep"):
+    """The same with the files of a `Study`, NAME.csv and others in its own directory; return the `Told`
+    runs (collective)."""
     folder, behind, runs = Path(directory) / FOLDER, [], []
-    study.cases = len(points)
+    called = "" if name == "sweep" else f"{name}, "
+    study.cases = max(study.cases, len(points))
     for point in points:
         try:
-            solution = _solved(study.comm, folder / point.run, point, _start(behind, axes, point), watch)
+            solution = _solved(study, folder / point.run, point, _start(behind, axes, point), watch)
         except OutputError:
             raise
         except UserError as error:
-            study.lose(_title(axes, point), error)
-            runs.append(Told(portable(point.config), None))
+            study.lose(f"{called}{_title(axes, point)}", error)
+            runs.append(Told(portable(point.config), None, str(error)))
             continue
         study.failures += not solution.result.converged
-        study.tell(_title(axes, point), solution.result)
+        study.tell(f"{called}{_title(axes, point)}", solution.result)
         runs.append(study.comm.bcast(on_first_rank(study.comm, read_told, folder / point.run)))
         behind = [*behind[-1:], (point, solution)] if solution.result.settled else behind
-    rows = study.comm.bcast(on_first_rank(study.comm, _rows, study, folder, axes, points, runs))
-    study.write_table("sweep", rows, [axis.key for axis in axes] + SHOWN)
-    on_first_rank(study.comm, _write_arrays, study.directory / "sweep.nc", axes, points, runs)
-    study.draw("sweep", _draw, runs, axes[0].key, [WAYS[p.way] for p in points if points[-1].way])
+    rows = study.comm.bcast(on_first_rank(study.comm, _rows, folder, axes, points, runs))
+    study.write_table(name, rows, [axis.key for axis in axes] + SHOWN)
+    on_first_rank(study.comm, _write_arrays, study.directory / f"{name}.nc", axes, points, runs)
+    study.draw(name, _draw, runs, axes[0].key, [WAYS[p.way] for p in points if points[-1].way])
+    return runs
 
 
 def _title(axes, point):
@@ -231,10 +234,12 @@ def _title(axes, point):
     return ", ".join(words) + (f", {WAYS[1]}" if point.way else "")
 
 
-def _solved(comm, path, point, start, watch):
+def _solved(study, path, point, start, watch):
     """The `Solution` of a point, from its directory where it has finished (collective)."""
-    case = enter(point.config, comm)
-    if not comm.bcast(on_first_rank(comm, _has_finished, path, case.config)):
+    comm, case = study.comm, enter(point.config, study.comm)
+    if not study.resume:
+        on_first_rank(comm, clear_checkpoint, path)
+    if not study.resume or not comm.bcast(on_first_rank(comm, _has_finished, path, case.config)):
         on_first_rank(comm, make_directory, path, True)
         with locked(comm, path):
             run(case, path, comm, watch, start if case.contact.is_loaded else None)
@@ -255,15 +260,17 @@ def _start(behind, axes, point):
     if not behind or point.config.is_in_time:
         return None
     last = behind[-1][1]
-    if len(behind) < 2 or point.config.is_dry:
+    if point.config.is_dry or not last.contact.is_loaded:
         return last
+    if len(behind) < 2:
+        return Forecast(last)
     places = [*(each.place for each, _ in behind), point.place]
     moved = [[k for k, (a, b) in enumerate(zip(*pair, strict=True)) if a != b] for pair in pairwise(places)]
     if len(moved[0]) != 1 or moved[0] != moved[1]:
-        return last
+        return Forecast(last)
     axis = axes[moved[0][0]]
     factor = _factor([axis.values[place[moved[0][0]]] for place in places], *(each for _, each in behind))
-    return Forecast(last, behind[0][1], factor) if factor else last
+    return Forecast(last, behind[0][1], factor) if factor else Forecast(last)
 
 
 def _factor(values, before, last):
@@ -284,7 +291,7 @@ def _film(result):
     return result.mixed.mean_gap_nm if result.mixed else result.central_film_nm
 
 
-def _rows(study, folder, axes, points, runs):
+def _rows(folder, axes, points, runs):
     """Text of all points, in order."""
     keys = [axis.key for axis in axes]
     there = [folder / point.run for point, told in zip(points, runs, strict=True) if told.result]
@@ -294,7 +301,7 @@ def _rows(study, folder, axes, points, runs):
         row = {"run": point.run} | ({"way": WAYS[point.way]} if points[-1].way else {})
         row |= {key: said(point.config.value(key)) for key in keys}
         row |= found.get(point.run, {"converged": "no"})
-        why = told.result["reason"] if told.result else study.lost[_title(axes, point)]
+        why = told.result["reason"] if told.result else told.why
         rows.append(row | {"why not": "" if told.converged else why})
     return [{name: text for name, text in row.items() if name not in NEVER_THE_SAME} for row in rows]
 

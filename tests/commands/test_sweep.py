@@ -98,7 +98,7 @@ def test_a_point_that_fails_is_said_and_passed(tmp_path, capsys, monkeypatch):
     assert main([*SWEEP, str(tmp_path / "film")]) == 1
     assert "1.25 m/s: not solved: no memory" in capsys.readouterr().err
     first, second, third = starts
-    assert first is None and second is not None and third.config.motion.speed == 0.5
+    assert first is None and second is not None and third.last.config.motion.speed == 0.5
     assert np.isnan(array(tmp_path / "film", "central_film_nm")).tolist() == [False, True, False]
     assert [row["why not"] for row in table(tmp_path / "film")] == ["", "no memory", ""]
 
@@ -115,7 +115,7 @@ def test_the_third_of_a_line_is_forecast(film):
     assert last + start.factor * (last - before) == pytest.approx(
         last * (last / before) ** (np.log(2.0 / 1.25) / np.log(1.25 / 0.5))
     )
-    assert sweep._start(behind[1:], axes, points[2]) is behind[1][1]
+    assert sweep._start(behind[1:], axes, points[2]) == Forecast(behind[1][1])
 
 
 @pytest.mark.parametrize(
