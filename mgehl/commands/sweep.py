@@ -23,8 +23,8 @@ def add(commands):
         "are of equal ratio where both ends are above 0 and more than a decade apart, and else of equal "
         "distance; "
         "'log(1..5 m/s:9)' and 'lin(1..50 m/s:9)' choose. The first key changes fastest.",
-        epilog="example: mgehl sweep my.toml --over motion.speed='1e-4..1 m/s:20' "
-        "--over contact.load='50,100,200 N' --out runs/stribeck",
+        epilog="example: mgehl sweep --set grid.nodes=65 --set solver.start=film "
+        "--over motion.speed='0.5,1 m/s' --out runs/speeds",
     )
     add_configuration(parser)
     parser.add_argument("--over", action="append", required=True, metavar="KEY=VALUES",
