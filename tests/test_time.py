@@ -173,3 +173,12 @@ def test_what_is_refused(settings, what, course):
     }
     with pytest.raises(ConfigError, match=what):
         enter(mgehl.load(None, BALL | settings), MPI.COMM_SELF)
+
+
+def test_a_file_must_reach_as_far_as_it_goes(tmp_path):
+    np.save(tmp_path / "map.npy", np.zeros((60, 60)))
+    surface = {"surface.file": str(tmp_path / "map.npy"), "surface.body": "body_1"}
+    surface |= {"surface.spacing": 1e-5, "surface.height_unit": "m"}
+    enter(mgehl.load(None, BALL | surface | {"time.end": 0.1 * UNIT}), MPI.COMM_SELF)
+    with pytest.raises(ConfigError, match="on its way ends inside the contact"):
+        enter(mgehl.load(None, BALL | surface | {"time.end": 2.0 * UNIT}), MPI.COMM_SELF)

@@ -10,9 +10,11 @@ import numpy as np
 from mgehl.errors import ConfigError
 from mgehl.kinds.own import own_surface_from
 from mgehl.kinds.surface_kinds import NAMES, share_of, surface_of
+from mgehl.kinds.time import ways_of
 from mgehl.model.frame import direction
 from mgehl.model.own_function import OwnFunctionError
 from mgehl.model.own_laws import OwnSurface
+from mgehl.model.scene import Moved
 from mgehl.model.surface import Measured, summed
 from mgehl.model.surface.map import SurfaceFileError
 from mgehl.model.surface.self_affine import LARGEST_SPAN
@@ -89,6 +91,8 @@ def check_surfaces(config, contact, mesh):
             else:
                 _check_heights(key, surface, x, y, radius)
                 _check_size(key, surface, contact)
+                for way in ways_of(config, key.partition(".")[0]):
+                    _check_size(key, Moved(surface, way), contact, "on its way ")
 
 
 def check_known(config, contact):
@@ -143,9 +147,10 @@ def _check_heights(key, surface, x, y, radius):
             )
 
 
-def _check_size(key, surface, contact):
+def _check_size(key, surface, contact, when=""):
     """A file that does not go on beyond its edge must cover the dry contact."""
-    if not isinstance(surface, Measured):
+    file = surface.surface if isinstance(surface, Moved) else surface
+    if not isinstance(file, Measured):
         return
     turn = np.linspace(0.0, 2.0 * np.pi, 73)
     across = 0.0 if contact.is_plane else contact.y_scale
@@ -153,8 +158,8 @@ def _check_size(key, surface, contact):
     missing = ~surface.reaches(x, y)
     if missing.any():
         i = int(missing.argmax())
-        width, length, x, y = (1e6 * each for each in (*surface.heights.size, x[i], y[i]))
+        width, length, x, y = (1e6 * each for each in (*file.heights.size, x[i], y[i]))
         raise ConfigError(
-            f"{key}: is {width:.4g} um by {length:.4g} um and ends inside the contact, such as at "
+            f"{key}: is {width:.4g} um by {length:.4g} um and {when}ends inside the contact, such as at "
             f"x = {x:.4g} um, y = {y:.4g} um; give a larger one, or a continuation"
         )

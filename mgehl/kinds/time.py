@@ -1,6 +1,9 @@
 """What changes with time: keys of [time], and the `Scene` that they and the motion make."""
 
 from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
 
 from mgehl.config_value import key_field
 from mgehl.errors import ConfigError
@@ -8,6 +11,7 @@ from mgehl.kinds.choice import Choice, value_of
 from mgehl.kinds.own import own_surface_from
 from mgehl.kinds.surface_kinds import NAMES, share_of, surface_of
 from mgehl.model.course import CourseError, course_of
+from mgehl.model.frame import direction
 from mgehl.model.own_function import OwnFunctionError, is_own
 from mgehl.model.scene import Scene
 
@@ -111,6 +115,23 @@ def reverses(config):
     if config.time.end is None or not isinstance(value, str):
         return False
     return _naming("motion.speed", value, lambda: course_of(value).range(config.time.end))[0] < 0.0
+
+
+PARTS = 200
+"""Parts of a run whose ways are added up to find how far a surface gets."""
+
+
+def ways_of(config, name):
+    """The farthest ways (x, y) in m that the surface of a section goes in time; none of one that rests."""
+    section = getattr(config, name)
+    share = share_of(section.body, config.motion.slide_to_roll)
+    if not config.is_in_time or share == 0.0 or config.moes.M is not None:
+        return []
+    speed, times = course_of(config.motion.speed), np.linspace(0.0, config.time.end, PARTS + 1)
+    parts = [speed.integral(*ends) for ends in pairwise(times)]
+    path = share * np.concatenate([[0.0], np.cumsum(parts)])
+    c, s = direction(config.motion.angle)
+    return [(c * way, s * way) for way in (path.min(), path.max()) if way]
 
 
 def scene_of(config, contact):

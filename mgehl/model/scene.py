@@ -31,6 +31,10 @@ class Moved(Surface):
         """As where it was."""
         return self.surface.shortest(x - self.way[0], y - self.way[1])
 
+    def reaches(self, x, y):
+        """Of one from a file whether points lie within it, where it is now."""
+        return self.surface.reaches(x - self.way[0], y - self.way[1])
+
     def varies_along(self, direction):
         """As where it was."""
         return self.surface.varies_along(direction)
