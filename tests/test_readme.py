@@ -105,7 +105,7 @@ def shell_lines(text):
 
 def is_only_read(line):
     """Whether tests of their own run such a command."""
-    return any(word in line for word in (" study ", " sweep ", " bench ", " pytest"))
+    return any(word in line for word in (" study ", " sweep ", "runs/sweep-", " bench ", " pytest"))
 
 
 COMMANDS = [line for page in PAGES.values() for line in shell_lines(page) if "pytest" not in line]
