@@ -91,7 +91,7 @@ class Problem:
             return evaluation
         along, across = evaluation.carried_by_full_gaps()
         leaving = np.pad(along, ((0, 0), (0, 1))), across[1:]
-        kept = np.zeros(along.shape) if self.storage is None else self.storage.of_full(evaluation.fluid)
+        kept = np.zeros(state.P.shape) if self.storage is None else self.storage.of_full(evaluation.fluid)
         rise = self._in_order(missing_fillings, marched, evaluation.inflow, *leaving, kept)
         state.filling = np.clip(state.filling + rise, 0.0, OVERFULL)
         return evaluation.filled(self.grid.halo(state.filling))
