@@ -98,6 +98,7 @@ bench: $(ENVIRONMENT)
 # make study-NAME  one of them. One that was stopped goes on; what did not converge says so in the table.
 STUDIES := wedge grid transition methods schemes error gaps mixed machine rollers rough waviness moving dry
 GRIDS_grid := --nodes 257,513,1025,2049
+GRIDS_moving := --nodes 513
 GRIDS_transition := --nodes 257,513,1025
 SHOWN_grid := *.png
 SHOWN_transition := *.png
