@@ -168,7 +168,7 @@ def _solve_in_time(case, parts, comm, watch, start):
         problem, outcome = march(scene, hierarchy, *how, start and (start, parts.frame))
         work = Work(monitor.convolutions, len(monitor.rows))
         result = summarise_in_time(
-            problem, outcome, monitor.rows, settings.newton, work, monitor.seconds, versions()
+            problem, outcome, monitor.rows, config.solver.tolerance, work, monitor.seconds, versions()
         )
         solution = _solution(case, parts, problem, outcome.state, monitor.rows, result)
         return replace(solution, frames=diary.frames)

@@ -97,6 +97,8 @@ def rough():
 def test_rough_bodies_make_no_oil(rough):
     assert rough.summary.converged
     assert np.abs(column(rough, "closure")).max() < 1e-8
+    assert rough.summary.time.largest_node < 1e-8
+    assert rough.summary.complementarity_error < 1e-6
     assert column(rough, "load_on_contact").max() > 0.0
 
 
@@ -159,6 +161,7 @@ DENT = {"surface.kind": "dent", "surface.amplitude": 1e-7, "surface.width": 1e-5
         ({"motion.speed": [(0, 1), (1, 1)]}, "time.end is not given"),
         ({"motion.speed": [(0, 1), (1, 1)], "time.end": 2.0}, "must cover 0 to 2"),
         ({"motion.speed": [(0, 0), (1, 0)], "time.end": 1.0}, "is 0 throughout"),
+        ({"motion.speed": [(0, -1), (1, 1)], "time.end": 1.0}, "begins below 0"),
         ({"contact.load": [(0, 1), (1, 0)], "time.end": 1.0}, "must stay above 0"),
         ({"time.step": 2.0, "time.end": 1.0}, "must be at most 1"),
         ({"time.step": 2.0}, "without time.end"),

@@ -89,6 +89,8 @@ def check_courses(config):
             raise ConfigError(f"{key} = {value!r}: falls to {least:g}; must stay above 0")
         if key == "motion.speed" and least == most == 0.0:
             raise ConfigError(f"{key} = {value!r}: is 0 throughout; give a number for a dry contact")
+        if key == "motion.speed" and course_of(value).value(0.0) < 0.0:
+            raise ConfigError(f"{key} = {value!r}: begins below 0; turn motion.angle by 180 degrees")
     step, end = config.time.step, config.time.end
     if end is not None and step is not None and step > end:
         raise ConfigError(f"time.step = {step:g}: must be at most {end:g}, time.end")

@@ -36,6 +36,8 @@ class TimeResult:
     """Steps that had to be taken in parts."""
     largest_closure: float
     """Largest part of the stored oil that storage and flow leave open in a step."""
+    largest_node: float
+    """The same of a single node in the last step."""
     convolutions_a_step: float
     """Half of the steps took fewer."""
     passages: float

@@ -133,7 +133,7 @@ class Frames:
             self._kept[number] = (t, found)
             return
         with whole_file(self.folder / f"frame-{number:06d}.npz") as part:
-            np.savez(part.open("wb"), t=t, **found)
+            np.savez(part, t=t, **found)
 
     def all(self):
         """(Time, {name: array}) of the instants, in order."""

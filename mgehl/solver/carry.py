@@ -1,16 +1,17 @@
 """Steps in time: contents are carried along with the surfaces, and what is pressed is solved for.
 
-    m - m* = dT (b F + ...)         m* = what the surfaces have brought to a node, [derived]
+    m - m* = what enters by G       m* = what the surfaces have brought to a node, [derived]
 
-m is the content rho (H - h_b) theta of a node, F what the pressure drives into it. Along the motion nothing
-is differenced: m* is cut out of the contents before (`discretization.transport`), so film waves go with the
-surfaces' mean velocity without error where that is a whole number of cells. F is taken by the second
-backward formula, written for what passes each face in a step:
+m is the content rho (H - h_b) theta of a node, G what the pressure drives through a face in a step. Along
+the motion nothing is differenced: m* is cut out of the contents before (`discretization.transport`), so
+film waves go with the surfaces' mean velocity without error where that is a whole number of cells. G
+follows the second backward formula, written for each face:
 
-    G = w c S(G before) + (1 - w c') dT Q       c = r^2/(1 + 2 r), r = this step over the one before
+    G = w c S(G before) + (w b + 1 - w) dT Q        c = r^2/(1 + 2 r), b = (1 + r)/(1 + 2 r)
 
-Q is the Poiseuille flow, S moves it along. w is 1 where the film is, and 0 beside cavities and contact,
-where the first backward formula keeps contents positive. Whatever w is, what leaves a node enters another.
+r is this step over the one before, Q the Poiseuille flow; S moves along. w is 1 where the film is, and 0
+beside cavities and contact, where the first backward formula keeps contents positive. Whatever w is, what
+leaves a node enters another.
 
 Where no heights move, the steady state at the beginning is kept to the last digit (`Reference`): the flows
 by which it is steady are differenced otherwise, and what that makes is a flow, too, which is added.

@@ -54,8 +54,6 @@ class Standing(Kept):
     step: float
     """In s, the next one that is tried."""
     number: int = 0
-    halved: int = 0
-    """Steps that had to be halved."""
     times: list = field(default_factory=list)
     """Of the last states, the present one the last."""
     P: np.ndarray | None = None
@@ -92,7 +90,6 @@ class Instant:
     """Oil in the domain, the layers' apart, in units of H, X and Y."""
     closure: float
     """By how much the account of the oil is off in this step, over what is stored."""
-    error: float
     halvings: int
 
 
@@ -133,8 +130,12 @@ class March:
         return self._ended(standing, True, reason or "all steps in time settled")
 
     def _ended(self, standing, converged, reason):
-        """The `Outcome` of the last step, or of where the run was given up."""
+        """The `Outcome` of the last step, solved to the last digits, or of where the run was given up."""
         self._turn(standing.t, standing.path)
+        if converged and self._problem.storage is not None:
+            last = self._newton.run(standing.state, tolerance=self._settings.least)
+            converged, reason = last.converged, reason if last.converged else last.reason
+            standing.state = last.state
         return Outcome(standing.state, converged, reason)
 
     def _turn(self, t, path):
@@ -174,11 +175,11 @@ class March:
         error = self._error(standing, t, newton.state)
         standing.state, standing.carried = newton.state, leg.ended(evaluation)
         standing.t, standing.path, standing.number = t, standing.path + way, standing.number + 1
-        standing.halved, standing.reference = standing.halved + (halvings > 0), reference
+        standing.reference = reference
         standing.step = self._pace.next(t, step, error, halvings > 0)
         self._remember(standing)
         load = scene.load_share(t)
-        return Instant(standing.number, t, step, speeds[1], load, newton, stored, closure, error, halvings)
+        return Instant(standing.number, t, step, speeds[1], load, newton, stored, closure, halvings)
 
     def _solved(self, state, leg):
         """Newton's `Outcome` from a guess, to a part of the residual that it begins with, and until the
