@@ -162,6 +162,7 @@ DENT = {"surface.kind": "dent", "surface.amplitude": 1e-7, "surface.width": 1e-5
         ({"motion.speed": [(0, 1), (1, 1)], "time.end": 2.0}, "must cover 0 to 2"),
         ({"motion.speed": [(0, 0), (1, 0)], "time.end": 1.0}, "is 0 throughout"),
         ({"motion.speed": [(0, -1), (1, 1)], "time.end": 1.0}, "begins below 0"),
+        ({"motion.speed": [(0, 1), (1, -1)], "time.end": 1.0, "grid.x": (-3.0, 1.1)}, "must end beyond"),
         ({"contact.load": [(0, 1), (1, 0)], "time.end": 1.0}, "must stay above 0"),
         ({"time.step": 2.0, "time.end": 1.0}, "must be at most 1"),
         ({"time.step": 2.0}, "without time.end"),

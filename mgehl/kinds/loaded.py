@@ -79,6 +79,8 @@ class LoadedKind(Kind):
         if contact.surface is not None:
             surface.check_surfaces(config, contact, self.mesh(config, contact))
         self.check_fluid(config.grid, contact)
+        if time.reverses(config):
+            loaded_checks.check_domain(config.grid, contact, way=-1.0)
 
     def check_fluid(self, grid, contact):
         """Laws must give numbers; the domain must be large enough for contact and inlet."""

@@ -64,9 +64,12 @@ def check_exponent(contact):
         )
 
 
-def check_domain(grid, contact):
-    """The contact must lie in the domain, and so must the inlet upstream of it."""
-    length = contact.inlet_length
+def check_domain(grid, contact, way=1.0):
+    """The contact must lie in the domain, and so must the inlet upstream of it.
+
+    `way` is -1 for surfaces that have turned round.
+    """
+    length = way * contact.inlet_length
     inlets = contact.motion[0] * length, contact.motion[1] * length * contact.k_e
     for (name, ends), inlet in zip(_sides(grid, contact), inlets, strict=False):
         _check_inlet(f"grid.{name} = {list(ends)!r}", ends, contact.reach, inlet)

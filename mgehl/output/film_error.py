@@ -62,6 +62,7 @@ def no_band(why):
 
 
 NOT_ASKED = no_band("not asked for (solver.error = false)")
+OF_AN_INSTANT = no_band("the film of an instant has none")
 
 
 def why_no_band(result, contact):

@@ -6,6 +6,7 @@ from itertools import pairwise
 import numpy as np
 
 from mgehl.discretization.storage import content
+from mgehl.output.film_error import OF_AN_INSTANT
 from mgehl.output.passages import TimeResult, means
 from mgehl.output.result import summarise
 
@@ -28,7 +29,8 @@ def summarise_in_time(problem, outcome, rows, tolerance, work, wall_s, versions)
         reason = f"the account of the oil is off by {off:.1e} of it in a step"
     cut, why = result.edge.wrong
     verdict = {"converged": settled and not cut, "settled": settled, "reason": (settled and why) or reason}
-    return replace(result, **verdict, mass=None, flux_imbalance=None, time=found)
+    others = {"mass": None, "flux_imbalance": None, "error": OF_AN_INSTANT}
+    return replace(result, **verdict, **others, time=found)
 
 
 def _largest_node(problem, state):

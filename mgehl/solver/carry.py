@@ -123,11 +123,9 @@ class Transport:
         Where a node holds less than the reference, that much less.
         """
         passed = self._passing(reference.m, shift)
-        flows = self._faces(
-            way * reference.Q_x, reference.Q_y if reference.Q_y is None else way * reference.Q_y
-        )
-        pressed = self._faces(
-            way * reference.F_x, reference.F_y if reference.F_y is None else way * reference.F_y
+        flows, pressed = (
+            [way * each for each in self._faces(*both)]
+            for both in ((reference.Q_x, reference.Q_y), (reference.F_x, reference.F_y))
         )
         if leg.G is None:
             G = pressed
@@ -149,8 +147,8 @@ class Transport:
     def _passing(self, m, shift):
         """What passes the faces of each axis when contents m go along, as flows are counted."""
         along = shift.passing_x(m)
-        mesh, found = self._grid.mesh, []
-        found.append(mesh.dX * along[:, 1:-1])
+        mesh = self._grid.mesh
+        found = [mesh.dX * along[:, 1:-1]]
         if mesh.is_line:
             return found
         across = np.zeros(m.shape)
