@@ -49,7 +49,7 @@ def execute(options):
     print(f"{options.config or shown(file)}: valid, a {config.kind.noun}\n")
     lines = [*_given(config, left_out(config, tables)), *_odd(config, contact), ""]
     lines += *_described(config, contact, mesh), *_estimate(config, contact, mesh, options.ranks)
-    lines += "", *_sources(config, contact)
+    lines += *_recipe(config, contact), "", *_sources(config, contact)
     width = columns()
     print(*(folded(line, " " * NAME, width) for line in lines), sep="\n")
     return CONVERGED
@@ -114,6 +114,21 @@ def _inlet(config, contact, mesh):
     yield from (f"           {words}" for words in domain.peaks_words(contact, mesh))
     yield from (f"load       {words}" for words in domain.beyond_words(100.0 * contact.share_beyond(mesh)))
     yield f"resolved   with {RESOLVED_CELLS:.0f} cells in the inlet, from {needed} nodes on: {verdict}"
+
+
+def _recipe(config, contact):
+    """Lines with all that is chosen for the solve of a loaded contact with a fluid."""
+    if not contact.is_loaded or config.is_dry:
+        return
+    from mgehl.solver.from_config import settings_from
+    from mgehl.solver.recipe import recipe_of
+    from mgehl.solver.recipe_words import recipe_words
+
+    words = recipe_words(recipe_of(settings_from(config, contact), contact))
+    yield ""
+    yield from (
+        f"{head:{NAME}}{each}" for head, each in zip(chain(["recipe"], repeat("")), words, strict=False)
+    )
 
 
 def _surface(config, contact, mesh):

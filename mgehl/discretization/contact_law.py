@@ -9,6 +9,8 @@ import numpy as np
 class ContactLaw(ABC):
     """How small gaps let fluid through, and when they are closed; gaps in units of H."""
 
+    words: str
+    """How contact closes, in a few words after "contact"."""
     has_contact: bool
     """Whether bodies touch: without it no node is ever in contact, and bodies may overlap."""
     closes_faces = True
@@ -50,6 +52,7 @@ class InterfaceConditions(ContactLaw):
     threshold: float = 0.0
     """H_th: a smaller gap is closed."""
 
+    words = "closes its faces at once"
     has_contact = True
 
     def flow_gap(self, H):
@@ -84,6 +87,7 @@ class BoundaryFilm(ContactLaw):
     film: float
     """h_b."""
 
+    words = "closes continuously, on layers that leak as their thickness says"
     has_contact = True
     closes_faces = False
 
@@ -119,6 +123,7 @@ class UnifiedEquations(ContactLaw):
 
     smallest_gap: float = 0.0
 
+    words = "has no place in the unified equations: bodies may overlap"
     has_contact = False
 
     def flow_gap(self, H):

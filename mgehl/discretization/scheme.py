@@ -49,13 +49,5 @@ class Scheme:
         """True where more pressure at a node may drive less flow out of it."""
         return self.face_mobility in FOLDING
 
-    def lets_peaks_touch(self, contact):
-        """Whether peaks of a rough `contact` reach through its film and close it continuously.
-
-        Such a contact has a way of its own: the first guess, the grids, the time steps, the smoother and
-        the memory are others than those of a smooth one.
-        """
-        return self.contact_law.is_continuous and contact.is_mixed
-
 
 INTERFACES = ("closed", "untreated")

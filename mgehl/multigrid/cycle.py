@@ -45,11 +45,6 @@ ASKEW_OR_APART = IN_THE_CYCLE | {"3B": "2B"}
 194), and where fluid and contact are solved apart (0.5 mm/s on 257 nodes: 133 for 333). Elsewhere 3B takes
 a third less by its own operators (M = 20, L = 10 on 257 nodes: 55 for 78)."""
 
-THICK = 2.0
-"""Film that smooth bodies would have over the roughness from which on the cycle is that of smooth bodies. A
-ball of lambda 1.7 takes 312 convolutions by the cycle for thin films and 644 by the other, balls of lambda
-3 to 14 an eighth more."""
-
 DIRECT = 4097
 """Most nodes of a line between rough bodies that is solved directly. What a valley couples to others leads
 through the peaks beside it, and coarse grids do not see them: of 40 such contacts (513 to 2049 nodes) by
@@ -76,15 +71,19 @@ class CycleSettings:
     restart after 30 they never end."""
     options_prefix: str = "mgehl_"
     """Under which PETSc options reach the solvers of a run."""
+    rough: bool = False
+    """Whether peaks are as small as a coarse grid's cells: then corrections are remembered, and lines are
+    solved directly."""
+    in_valleys: bool = False
+    """Whether the film is thin besides: it has a smoother, coarse mobilities, and coarse films that end at
+    nodes, of its own."""
 
 
 class MultigridSolver:
     """Flexible GMRES with one F-cycle for the bordered Jacobian of grid `level`.
 
     With a `rigid` gap it solves for the fluid alone and makes no convolution. Where the fluid is solved
-    `apart` from the gap only contact is left, and contact knows no direction of motion. Rough surfaces have
-    a memory of their own, and where the film is thin a smoother, coarse mobilities, and coarse films that
-    end at nodes.
+    `apart` from the gap only contact is left, and contact knows no direction of motion.
     """
 
     def __init__(
@@ -92,8 +91,7 @@ class MultigridSolver:
     ):
         self.contact, self._settings, self._hierarchy = contact, settings, hierarchy
         self._oblique = scheme.is_oblique and not (rigid or apart)
-        self._rough = contact.roughness > 0.0 and not rigid
-        self._thin = self._rough and contact.expected_film < THICK * contact.roughness
+        self._rough, self._in_valleys = settings.rough and not rigid, settings.in_valleys and not rigid
         better = ASKEW_OR_APART if self._oblique or rigid or apart else IN_THE_CYCLE
         self._scheme = _scheme_of_cycle(settings.couette, scheme, better)
         first = self._first_grid(hierarchy.grids, level)
@@ -112,7 +110,7 @@ class MultigridSolver:
         self._transfers = hierarchy.transfers[first:level]
         self._partitioned = [PartitionedTransfer(transfer) for transfer in self._transfers]
         self._smoothers = [
-            smoother_of(each, self._thin, each is self.jacobians[-1], apart)(each, settings.omega)
+            smoother_of(each, self._in_valleys, each is self.jacobians[-1], apart)(each, settings.omega)
             for each in self.jacobians[1:]
         ]
         self._coarse = CoarseSolve(self.jacobians[0])
@@ -188,11 +186,11 @@ class MultigridSolver:
             rate = inject(rate) if np.ndim(rate) else rate
             filling = None if filling is None else inject(filling)
             found = _evaluate(jacobian, *coarse, filling)
-            if self._thin:
+            if self._in_valleys:
                 eps = transfer.averaged(eps)
                 found = found.with_mobility(jacobian.grid.halo(eps))
             jacobian.linearise(found, coarse_rows, rate)
-            if not self._thin:
+            if not self._in_valleys:
                 end_halfway(jacobian.linearisation, coarse_rows, transfer, rows, fine[-1])
             self._smoothers[level - 1].partition(rows)
             self._partitioned[level - 1].partition((status, coarse_rows), (fine[-1], rows))

@@ -2,10 +2,10 @@
 
 from dataclasses import replace
 
-from mgehl.discretization.fluid import FOLDING
 from mgehl.solver.continuation import SPEED_RATIO, Continuation
 from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.nested import nested_iteration
+from mgehl.solver.recipe import TOUCHING, needs_a_walk, recipe_of
 
 COVERED = 1.5
 """Film of smooth bodies over the roughness from which on a walk down in speed may begin: more than 1, or
@@ -18,20 +18,18 @@ NOR_FROM_A_FILM = "nor from a thick film"
 def begin(hierarchy, contact, settings, monitor, journal=NOTHING_KEPT):
     """Solve `contact` in the way that its surface, and its mean of the mobility, need; as
     `nested_iteration`."""
-    mean, nested = settings.scheme.face_mobility, settings.nested
-    if settings.scheme.lets_peaks_touch(contact):
+    if recipe_of(settings, contact).peaks == TOUCHING:
         return _begin_touching(hierarchy, contact, settings, monitor, journal)
-    resolved = contact.matched_speed(hierarchy.grids[-1].mesh, nested.inlet_cells) == contact.speed
-    if mean == "arithmetic" or (mean not in FOLDING and resolved):
+    if not needs_a_walk(settings, contact, hierarchy.grids[-1].mesh):
         return nested_iteration(hierarchy, contact, settings, monitor, journal)
     continuation = Continuation(hierarchy, contact, settings, monitor, journal)
-    return continuation.begin(contact.speed, nested.start)
+    return continuation.begin(contact.speed, settings.nested.start)
 
 
 def _begin_touching(hierarchy, contact, settings, monitor, journal):
     """The same where peaks touch: from the dry contact, and where that fails from a thick film."""
     problem, outcome = nested_iteration(hierarchy, contact, settings, monitor, journal)
-    if outcome.converged or settings.nested.start != "film":
+    if outcome.converged or not recipe_of(settings, contact).or_from_thick_film:
         return problem, outcome
     news = f"not found from the dry contact: {outcome.reason}; now from a thick film"
 

@@ -12,13 +12,13 @@ from functools import partial
 
 import numpy as np
 
-from mgehl.multigrid.cycle import MultigridSolver
 from mgehl.solver.films import Films, films_beside, films_between_nodes
 from mgehl.solver.gaps import Gaps, Loads, differences, gaps, load_differences, loads
 from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.nested import LevelSolve
-from mgehl.solver.newton import Newton
+from mgehl.solver.on_grid import solve_on
 from mgehl.solver.problem import ContactProblem
+from mgehl.solver.recipe import A_STATE, recipe_of
 
 COARSER = 2
 """Grids besides the finest: two differences show whether the error falls as the scheme's does."""
@@ -115,33 +115,27 @@ class CoarserGrids:
 
     def _whole(self, level):
         """Problem and `Outcome` of the contact with all of its surface, by the scheme of the run."""
-        contact, scheme, limits = self.problem.contact, self.problem.scheme, self.settings.newton
-        limits = limits.squeezed() if scheme.lets_peaks_touch(contact) else limits
-        limits = replace(limits, max_steps=MAX_STEPS_OF_ROUGH)
-        return self._solve(level, contact, self._state, scheme, limits)
+        contact, scheme = self.problem.contact, self.problem.scheme
+        return self._solve(level, contact, self._state, scheme, max_steps=MAX_STEPS_OF_ROUGH)
 
     def _film(self, level, contact, state, scheme):
         """Problem and `Outcome` of a film; those that have told the gaps, where they are the same."""
         if self._of_gaps and _is_of(self._of_gaps[0], self._hierarchy.grids[level], contact, scheme):
             return self._of_gaps
-        limits = replace(self.settings.newton, max_steps=MAX_STEPS, spreading_steps=SPREADING_STEPS)
-        return self._solve(level, contact, state, scheme, limits)
+        limits = {"max_steps": MAX_STEPS, "spreading_steps": SPREADING_STEPS}
+        return self._solve(level, contact, state, scheme, **limits)
 
-    def _solve(self, level, contact, state, scheme, limits):
+    def _solve(self, level, contact, state, scheme, **limits):
         """Problem and `Outcome` of a contact on a coarser grid, from the finer `state` at its nodes.
 
-        By these `NewtonSettings`, but for the tolerance; Eq. 2 lets nothing go.
+        With these limits of Newton's; Eq. 2 lets nothing go.
         """
-        hierarchy, cycle = self._hierarchy, self.settings.cycle
-        problem, state = _injected(hierarchy, level, contact, state, scheme)
-        limits = replace(limits, tolerance=max(TOLERANCE, limits.tolerance), release_budget=0)
-        multigrid = MultigridSolver(hierarchy, level, contact, scheme, cycle)
+        tolerance = max(TOLERANCE, self.settings.newton.tolerance)
+        newton = replace(self.settings.newton, tolerance=tolerance, release_budget=0, **limits)
+        recipe = recipe_of(replace(self.settings, scheme=scheme, newton=newton), contact, A_STATE)
+        problem, state = _injected(self._hierarchy, level, contact, state, scheme)
         tell = partial(self._monitor, LevelSolve(problem.grid.mesh.nx, contact.speed, False))
-        newton = Newton(problem, multigrid, limits, None, cycle.options_prefix, tell)
-        try:
-            return problem, newton.run(state, self._journal)
-        finally:
-            newton.free()
+        return problem, solve_on(self._hierarchy, level, problem, state, recipe, tell, self._journal)
 
 
 def _is_of(problem, grid, contact, scheme):

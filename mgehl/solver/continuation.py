@@ -4,11 +4,11 @@ from dataclasses import replace
 from functools import partial
 
 from mgehl.discretization.fluid import FOLDING
-from mgehl.multigrid.cycle import MultigridSolver
 from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.nested import LevelSolve, nested_iteration
-from mgehl.solver.newton import Newton
+from mgehl.solver.on_grid import solve_on
 from mgehl.solver.problem import ContactProblem
+from mgehl.solver.recipe import A_STATE, recipe_of
 
 SMALLEST_STEP = 0.25
 """A step that failed is halved, down to this part of the first step. From 0.05 to 1 the same steps on 65
@@ -58,23 +58,19 @@ class Continuation:
             problem, outcome = self._follow(outcome.state, first, speed)
         return self._asked(speed, problem, outcome)
 
-    def at(self, speed, state, share=1.0, newton=None):
-        """Solve at `speed` from `state`, by own `NewtonSettings` where some are given; return the problem
-        and the `Outcome`."""
+    def at(self, speed, state, share=1.0, **limits):
+        """Solve at `speed` from `state`, with own limits of Newton's where some are given; return the
+        problem and the `Outcome`."""
         hierarchy, settings = self._hierarchy, self._settings
         scheme = replace(settings.scheme, mobility_share=share)
         level, contact = len(hierarchy.grids) - 1, self._contact.at_speed(speed)
         grid = hierarchy.grids[level]
         problem = ContactProblem(grid, hierarchy.deflections[level], contact, scheme)
         state = problem.state(state.P, state.H0, state.status, state.p, state.filling)
-        multigrid = MultigridSolver(hierarchy, level, contact, scheme, settings.cycle)
+        recipe = recipe_of(replace(settings, scheme=scheme), contact, A_STATE)
+        recipe = replace(recipe, newton=replace(recipe.newton, **limits))
         tell = partial(self._monitor, LevelSolve(grid.mesh.nx, speed, True))
-        prefix = settings.cycle.options_prefix
-        newton = Newton(problem, multigrid, newton or settings.newton, None, prefix, tell)
-        try:
-            return problem, newton.run(state, self._journal)
-        finally:
-            newton.free()
+        return problem, solve_on(hierarchy, level, problem, state, recipe, tell, self._journal)
 
     def follow(self, state, first_speed, last_speed):
         """Carry the `state` at one speed to another, in steps of equal ratio."""

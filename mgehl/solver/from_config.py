@@ -3,7 +3,7 @@
 from dataclasses import asdict, dataclass
 
 from mgehl.config import COARSEST_NODES
-from mgehl.discretization.contact_law import BoundaryFilm, InterfaceConditions, UnifiedEquations
+from mgehl.discretization.contact_law import UnifiedEquations
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.scheme import Scheme
 from mgehl.grid.hierarchy import Hierarchy
@@ -11,6 +11,7 @@ from mgehl.model.contact import LoadedContact
 from mgehl.model.frame import Frame
 from mgehl.model.wedge import WedgeBearing
 from mgehl.multigrid.cycle import CycleSettings
+from mgehl.solver.recipe import couette_scheme_of, interface_law, share_of_the_flow
 from mgehl.solver.relaxation import RelaxationSettings
 from mgehl.solver.settings import NestedSettings, NewtonSettings, SolverSettings
 
@@ -37,13 +38,6 @@ def set_up(case):
     return SetUp(contact, case.mesh.in_frame(frame), settings_from(case.config, contact), frame)
 
 
-OF_SMOOTH, OF_ROUGH = "3B", "3L"
-"""The Couette flow's schemes of smooth and of rough bodies where the configuration names none. Behind a
-peak the film falls to nothing from one node to the next; without limits it might be less than none. By 1B
-it stays a film, too, but on a usual grid one that is 6 to 15 % too thick, and of a
-short wave twice as thick (`tests/solver/test_rough.py`)."""
-
-
 def scheme_from(config, contact):
     """How the Reynolds equation is differenced; of a dry contact, which has none, nothing is said."""
     if config.is_dry:
@@ -51,7 +45,7 @@ def scheme_from(config, contact):
     section = config.discretization
     cavitation = config.kind.cavitates if section.cavitation is None else section.cavitation
     return Scheme(
-        couette=section.couette or (OF_ROUGH if contact.roughness > 0.0 else OF_SMOOTH),
+        couette=section.couette or couette_scheme_of(contact),
         face_mobility=section.face_mobility,
         couette_at_interface=section.couette_at_interface,
         motion=contact.motion,
@@ -61,24 +55,8 @@ def scheme_from(config, contact):
 
 
 def _interface_conditions(config, contact):
-    """Faces that contact closes; where it closes continuously, those that a vanishing mobility closes.
-
-    It closes continuously where bodies have layers or may touch on the way to a film, as rough and soft
-    ones do. Faces that were shut would keep that contact (a smooth ellipse of polymer at 0.1 m/s on 257
-    nodes: 2600 nodes, and no end; so it has a film after 117 convolutions).
-    """
-    section, boundary_film = config.discretization, config.contact.boundary_film
-    may_touch = contact.roughness > 0.0 or _has_soft_film(config, contact)
-    if boundary_film > 0.0 or may_touch or config.is_in_time:
-        return BoundaryFilm(max(boundary_film, section.film_threshold) / contact.film_scale)
-    return InterfaceConditions(section.film_threshold / contact.film_scale)
-
-
-def _has_soft_film(config, contact):
-    """Whether a solve leads to a film of soft bodies: nearly at rest all count as soft, and touch."""
-    if not contact.is_soft or config.solver.start != "film":
-        return False
-    return contact.expected_film > config.discretization.film_threshold
+    layers, threshold = config.contact.boundary_film, config.discretization.film_threshold
+    return interface_law(contact, layers, threshold, config.solver.start, config.is_in_time)
 
 
 def _unified_equations(config, contact):
@@ -89,18 +67,6 @@ CONTACT_LAWS = {"lcic": _interface_conditions, "unified": _unified_equations}
 """By discretization.contact_model."""
 
 
-LEAST_SHARE = 1e-2
-"""Least part of the tolerance that a thin film asks for: less comes near to rounding."""
-
-
-def _share_of_the_flow(contact, scheme):
-    """What flows through thin films over the flow in which residuals count: so much smaller must they be
-    where the balance of every node decides what is film and what is contact."""
-    if not contact.is_loaded or scheme.contact_law.closes_faces:
-        return 1.0
-    return min(max(contact.expected_film / contact.film_scale, LEAST_SHARE), 1.0)
-
-
 def settings_from(config, contact):
     """Everything the solver is told."""
     solver, relaxation, scheme = config.solver, config.relaxation, scheme_from(config, contact)
@@ -109,7 +75,7 @@ def settings_from(config, contact):
         scheme=scheme,
         nested=NestedSettings(solver.start, solver.first_nodes, solver.inlet_cells),
         newton=NewtonSettings(
-            tolerance=_share_of_the_flow(contact, scheme) * solver.tolerance,
+            tolerance=share_of_the_flow(contact, scheme) * solver.tolerance,
             max_steps=solver.max_steps,
             idle_steps=solver.idle_steps,
             max_work=solver.max_work,

@@ -3,14 +3,14 @@
 import numpy as np
 
 from mgehl.discretization.status import CONTACT, LUBRICATED
-from mgehl.multigrid.cycle import MultigridSolver
 from mgehl.solver.beginning import begin
 from mgehl.solver.carry import Reference
 from mgehl.solver.dry import guess_on_finest, solve_dry
 from mgehl.solver.journal import NOTHING_KEPT
-from mgehl.solver.march import March, in_time
-from mgehl.solver.newton import Newton
+from mgehl.solver.march import March
+from mgehl.solver.on_grid import newton_on
 from mgehl.solver.problem import ContactProblem
+from mgehl.solver.recipe import recipe_in_time
 from mgehl.solver.restart import interpolated
 
 
@@ -23,8 +23,8 @@ def march(scene, hierarchy, settings, time, told, monitor, journal=NOTHING_KEPT,
     """
     reference = None
     contact, grid, deflection = scene.framed, hierarchy.grids[-1], hierarchy.deflections[-1]
-    scheme, limits = in_time(settings.scheme, settings.newton)
-    problem = ContactProblem(grid, deflection, contact, scheme)
+    recipe = recipe_in_time(settings, contact)
+    problem = ContactProblem(grid, deflection, contact, recipe.scheme)
     if start:
         state = interpolated(problem, *start)
     else:
@@ -36,12 +36,8 @@ def march(scene, hierarchy, settings, time, told, monitor, journal=NOTHING_KEPT,
         state = first.state
         if beginning is _steady and not scene.moves:
             reference = Reference.of(steady, state)
-    multigrid = MultigridSolver(hierarchy, len(hierarchy.grids) - 1, contact, scheme, settings.cycle)
-    newton = Newton(problem, multigrid, limits, options_prefix=settings.cycle.options_prefix)
-    try:
-        return problem, March(scene, problem, multigrid, newton, time, told).run(state, reference, journal)
-    finally:
-        newton.free()
+    with newton_on(hierarchy, len(hierarchy.grids) - 1, problem, recipe) as newton:
+        return problem, March(scene, problem, newton, time, told).run(state, reference, journal)
 
 
 def _steady(scene, hierarchy, settings, monitor, journal):

@@ -28,15 +28,6 @@ IDLE_STUCK = 5
 brought back what another had lost. At the ends of wide ellipses the edge of the film crosses the lines, and
 the sets went in a circle (radii 1:112, 257 nodes). Films that were found before took at most 4."""
 
-IDLE_STEPS, IDLE_IN_TIME, IDLE_CONTINUOUS = 15, 30, 60
-"""Steps in a row that may leave more than `STUCK` of the least residual: then a solve is given up. The
-second number is for implicit time steps, which pass a fold slowly and let contact spread node by node. Of
-800 solves that converged, those by Newton's own steps took at most 4 such steps. In time a film start that
-ends in full contact took 14, the geometric mean 15, a rough ball of 197 nm rms 23. Films that the grid does
-not hold took 60 steps in vain (65 nodes, 20 and 50 mm/s); now some 20. The third is for contact that closes
-continuously, and where nearby nodes are solved at once: valleys fill slowly, and until they are full the
-residual stays what it is (a ball of 104 nm rms at 0.02 mm/s settles after more than 30 steps in vain)."""
-
 
 @dataclass(frozen=True)
 class Limits:
@@ -46,7 +37,7 @@ class Limits:
     """For the rms residual and the load error."""
     max_steps: int
     idle_steps: int
-    """Steps in a row that may leave the residual as it is."""
+    """Steps in a row that may leave more than `STUCK` of the least residual."""
     spreading_steps: int | None = None
     """Steps in which contact may spread; None: any."""
 
@@ -65,16 +56,9 @@ class Verdict:
 GO_ON = Verdict(ends=False)
 
 
-def limits_of(settings, scheme, tolerance, max_steps):
-    """The `Limits` of a solve by `NewtonSettings` and a `Scheme`."""
-    idle = settings.idle_steps or _idle_steps(settings, scheme)
-    return Limits(tolerance, max_steps, idle, settings.spreading_steps)
-
-
-def _idle_steps(settings, scheme):
-    if scheme.contact_law.is_continuous:
-        return IDLE_CONTINUOUS
-    return IDLE_IN_TIME if scheme.may_fold or settings.squeeze > 0.0 else IDLE_STEPS
+def limits_of(settings, tolerance, max_steps):
+    """The `Limits` of a solve by `NewtonSettings`."""
+    return Limits(tolerance, max_steps, settings.idle_steps, settings.spreading_steps)
 
 
 def judge(position, partition, limits):
@@ -102,9 +86,9 @@ def judge(position, partition, limits):
     return GO_ON
 
 
-def is_stuck(position, scheme):
+def is_stuck(position, by_film):
     """Whether the last two steps gained nothing, or many did not, where contact closes at once."""
-    if not scheme.contact_law.is_continuous and steps_since_lowered(position) >= IDLE_STUCK:
+    if not by_film and steps_since_lowered(position) >= IDLE_STUCK:
         return True
     last = [cycle.residual for cycle in position.cycles[-3:]]
     return len(last) == 3 and min(last[1:]) > STUCK * last[0]

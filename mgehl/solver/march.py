@@ -8,7 +8,7 @@
 A step that does not settle is halved.
 """
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -21,10 +21,6 @@ from mgehl.solver.outcome import Outcome
 from mgehl.solver.pace import HALVINGS, Pace
 from mgehl.solver.problem import State
 from mgehl.solver.record import Kept, Record
-from mgehl.solver.remembered import remembered
-
-MOST_STEPS = 30
-"""Newton steps after which a step in time is halved."""
 
 LOOSEST = 1e-4
 """Largest residual that a step may leave, however much it begins with."""
@@ -96,13 +92,10 @@ class Instant:
 class March:
     """Runs a `Scene` in time, on a problem and a `Newton` that stand at its beginning."""
 
-    def __init__(
-        self, scene, problem, multigrid, newton, settings, told=lambda instant, standing, problem: ""
-    ):
-        """`newton` solves with the `multigrid`; `settings` are a `TimeSettings`. `told` is called with each
+    def __init__(self, scene, problem, newton, settings, told=lambda instant, standing, problem: ""):
+        """`newton` solves each step; `settings` are a `TimeSettings`. `told` is called with each
         `Instant`, the `Standing` after it and the problem; what it returns ends the run, in words."""
         self._scene, self._problem, self._newton, self._told = scene, problem, newton, told
-        self._multigrid = multigrid
         self._settings, self._pace = settings, Pace(scene, problem.grid.mesh, settings.step)
         self._transport = Transport(problem)
 
@@ -118,7 +111,7 @@ class March:
             standing = Standing(state, first, 0.0, 0.0, self._pace.first())
             standing.reference = reference
             self._remember(standing)
-        standing.memory = remembered(self._multigrid, standing.memory)
+        standing.memory = self._newton.remembered(standing.memory)
         reason = ""
         while not reason and standing.t < self._scene.end * (1.0 - 1e-9):
             journal.step(grid, standing)
@@ -258,9 +251,3 @@ class TimeSettings:
     """Residual that a step may leave, over that with which it begins."""
     least: float
     """Residual below which nothing is asked."""
-
-
-def in_time(scheme, newton):
-    """A `Scheme` and `NewtonSettings` for steps in time: what the surfaces carry is known beforehand."""
-    still = replace(scheme, motion=(0.0, 0.0))
-    return still, replace(newton, squeeze=0.0, max_work=10**9, max_steps=MOST_STEPS)

@@ -81,11 +81,15 @@ class Newton:
             journal.finish(grid, outcome)
         return outcome
 
+    def remembered(self, kept):
+        """What the linear solver remembers from now on: first what was `kept`, a `Record` or None."""
+        return remembered(self._multigrid, kept)
+
     def _go_on(self, position):
         """Let SNES solve from a position; return the `Outcome`."""
         self._position, self._partition.past = position, position.past
         self._outcome, self._stopped = None, None
-        position.memory = remembered(self._multigrid, position.memory)
+        position.memory = self.remembered(position.memory)
         self._snes.solve(None, self._unknown)
         if self._stopped:
             raise self._stopped
@@ -108,13 +112,13 @@ class Newton:
 
     def _iterate(self, snes, x):
         """One solve from top to bottom."""
-        position, partition, scheme = self._position, self._partition, self._problem.scheme
+        position, partition = self._position, self._partition
         _, tolerance, _, max_steps = snes.getTolerances()
         while True:
             self._journal.step(self._problem.grid, position)
             self._settle()
             self._measure(snes, x)
-            limits = limits_of(self._settings, scheme, tolerance, max_steps)
+            limits = limits_of(self._settings, tolerance, max_steps)
             verdict = judge(position, partition, limits)
             verdict = judge_work(verdict, self._multigrid.work, self._settings.max_work)
             ruling = rule(position, verdict, partition, self._fluid is not None)
@@ -142,7 +146,7 @@ class Newton:
             changes.cavitated += problem.grid.count(before != state.status)
         else:
             evaluation, moved = problem.evaluate(state), 0
-            if not is_stuck(self._position, problem.scheme):
+            if not is_stuck(self._position, self._settings.by_film):
                 moved = relax_cavitation_set(problem, state, evaluation)
             changes.cavitated += moved
             self._evaluate(None if moved else evaluation)
@@ -230,8 +234,8 @@ class Newton:
         state, changes = position.state, position.changes
         c, dH0 = self._space.read(self._correction)
         dP = self._multigrid.jacobian.pressures(c)
-        limit = self._settings.max_pressure_step
-        length, H, dH = step_length(problem, self._partition, self._evaluation, state, dP, dH0, limit)
+        step = problem, self._partition, self._evaluation, state, dP, dH0
+        length, H, dH = step_length(*step, self._settings)
         if self._layers:
             self._layers.follow(state, c, dH, length)
         state.P -= length * dP

@@ -1,6 +1,6 @@
 """A start from the fields of another run: another grid, another speed, another load."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
@@ -86,10 +86,8 @@ def solve_from(hierarchy, contact, settings, start, frame, monitor, journal):
     continuation = Continuation(hierarchy, contact, settings, monitor, journal)
     if forecast:
         patient = min(FORECAST_STEPS, settings.newton.max_steps)
-        newton = replace(settings.newton, max_steps=patient)
-        found = continuation.at(
-            contact.speed, forecast_state(problem, state, forecast, frame), newton=newton
-        )
+        limits = {"max_steps": patient, "squeeze": settings.newton.squeeze}
+        found = continuation.at(contact.speed, forecast_state(problem, state, forecast, frame), **limits)
         if found[1].converged:
             return found
     speed = contact.speed if start.is_dry else start.contact.speed

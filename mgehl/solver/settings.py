@@ -40,7 +40,7 @@ class NewtonSettings:
     """For the rms residual and the load error."""
     max_steps: int = SolverSection.max_steps
     idle_steps: int | None = SolverSection.idle_steps
-    """Steps that may leave the residual as it is; None: as many as `judge` has for its scheme."""
+    """Steps in a row that may leave the residual as it is; None: as many as the recipe has."""
     max_work: int = SolverSection.max_work
     """Convolutions of all solves of a run, in those of the finest grid, after which none goes on."""
     spreading_steps: int | None = None
@@ -49,10 +49,14 @@ class NewtonSettings:
     """Relative tolerance of GMRES in a step. From 0.05 to 0.2 the work varies by a quarter, now more, now
     less: the looser, the more steps and the fewer iterations in each."""
     max_pressure_step: float = LARGEST_STEP
-    """Largest change of a pressure in one step, over p_h (of rough bodies over the largest pressure). Where
-    the viscosity is not steep it may be larger (`step_length`). A longer step is shortened as a whole. From
+    """Largest change of a pressure in one step, over p_h. A longer step is shortened as a whole. From
     0.2 to 0.5 films take the same work within a tenth (a motion at 30 degrees 271 to 187 convolutions),
     contact starts the same steps."""
+    over_largest: bool = False
+    """Whether it is over the largest pressure, where that is more than p_h."""
+    by_film: bool = False
+    """Whether steps are measured by what they change of the film, too: where it closes as continuously as
+    it opens."""
     release_budget: int = SolverSection.release_budget
     """Times a contact node may be released on Eq. 2. With 1 the same steps; with 0 mixed lubrication ends
     with nodes that break Eq. 2."""

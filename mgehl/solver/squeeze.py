@@ -47,7 +47,7 @@ def squeeze_rates(problem, evaluation, rows, F, settings):
     if settings.squeeze == 0.0:
         return 0.0
     mean, law = problem.scheme.face_mobility, problem.scheme.contact_law
-    rms = problem.rms(F * share_of_the_gap(problem, evaluation) if law.is_continuous else F)
+    rms = problem.rms(F * share_of_the_gap(problem, evaluation) if settings.by_film else F)
     own_part = OF_NODES[mean] * np.abs(F) / np.maximum(own(evaluation.H), max(law.thinnest, THINNEST))
     rates = settings.squeeze * (rms / problem.grid.mesh.dX + own_part)
     if not problem.scheme.may_fold:

@@ -10,8 +10,10 @@ from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import LUBRICATED
 from mgehl.model.surface.waviness import Waviness
 from mgehl.multigrid import valleys
-from mgehl.multigrid.cycle import MultigridSolver
+from mgehl.multigrid.cycle import CycleSettings, MultigridSolver
 from mgehl.solver.problem import ContactProblem
+
+OF_PEAKS = CycleSettings(rough=True, in_valleys=True)
 
 HARD, EASY = 1e-4, 0.1
 """Speeds in m/s."""
@@ -28,7 +30,7 @@ class System:
         hierarchy = make_hierarchy(contact, 65)
         scheme = Scheme("1B", "linear-gap", contact_law=BoundaryFilm(1e-6))
         self.problem = ContactProblem(hierarchy.grids[-1], hierarchy.deflections[-1], contact, scheme)
-        self.multigrid = MultigridSolver(hierarchy, len(hierarchy.grids) - 1, contact, scheme)
+        self.multigrid = MultigridSolver(hierarchy, len(hierarchy.grids) - 1, contact, scheme, OF_PEAKS)
         self.ksp = PETSc.KSP().create(MPI.COMM_SELF)
         self.multigrid.configure(self.ksp, 1e-2)
         self.b, self.x = (self.multigrid.space.create_vec() for _ in range(2))

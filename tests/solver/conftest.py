@@ -8,7 +8,8 @@ from mgehl.discretization.status import BOUNDARY, LUBRICATED
 from mgehl.multigrid.cycle import MultigridSolver
 from mgehl.solver.newton import Newton
 from mgehl.solver.problem import ContactProblem, State
-from mgehl.solver.settings import NewtonSettings
+from mgehl.solver.recipe import recipe_of
+from mgehl.solver.settings import NewtonSettings, SolverSettings
 
 
 @pytest.fixture
@@ -20,9 +21,9 @@ def make_newton(make_hierarchy, paper_contact):
         contact, scheme = contact or paper_contact(), scheme or Scheme()
         hierarchy = make_hierarchy(contact, 65)
         problem = ContactProblem(hierarchy.grids[-1], hierarchy.deflections[-1], contact, scheme)
-        multigrid = MultigridSolver(hierarchy, 1, contact, scheme)
-        settings = NewtonSettings(**limits)
-        made.append(kind(problem, multigrid, settings, None, options_prefix, monitor))
+        recipe = recipe_of(SolverSettings(scheme=scheme, newton=NewtonSettings(**limits)), contact)
+        multigrid = MultigridSolver(hierarchy, 1, contact, scheme, recipe.cycle)
+        made.append(kind(problem, multigrid, recipe.newton, None, options_prefix, monitor))
         return problem, made[-1]
 
     yield make

@@ -13,11 +13,11 @@ from mgehl.model.course import Constant
 from mgehl.model.lubricant import Barus, ConstantDensity, Lubricant
 from mgehl.model.point import PointContact
 from mgehl.model.scene import Scene
-from mgehl.multigrid.cycle import MultigridSolver
-from mgehl.solver.march import March, TimeSettings, in_time
-from mgehl.solver.newton import Newton
+from mgehl.solver.march import March, TimeSettings
+from mgehl.solver.on_grid import newton_on
 from mgehl.solver.problem import ContactProblem
-from mgehl.solver.settings import NewtonSettings
+from mgehl.solver.recipe import recipe_in_time
+from mgehl.solver.settings import SolverSettings
 
 R, F, ETA, FILM = 12.5e-3, 1e-3, 0.25, 1e-6
 RATE = F / (6.0 * np.pi * ETA * R**2)
@@ -35,10 +35,9 @@ def measured(wide, nodes=65, end=0.5):
         Mesh(nodes, nodes, (-half, half), (-half, half)), 33, contact.kernel, MPI.COMM_SELF
     )
     law = BoundaryFilm(1e-11 / contact.film_scale)
-    scheme, limits = in_time(Scheme(face_mobility="linear-gap", contact_law=law), NewtonSettings())
-    problem = ContactProblem(hierarchy.grids[-1], hierarchy.deflections[-1], contact, scheme)
-    multigrid = MultigridSolver(hierarchy, len(hierarchy.grids) - 1, contact, scheme)
-    newton = Newton(problem, multigrid, limits, options_prefix="squeezed_")
+    scheme = Scheme(face_mobility="linear-gap", contact_law=law)
+    recipe, level = recipe_in_time(SolverSettings(scheme=scheme), contact), len(hierarchy.grids) - 1
+    problem = ContactProblem(hierarchy.grids[-1], hierarchy.deflections[-1], contact, recipe.scheme)
     scene = Scene(contact, Constant(0.0), Constant(F), (), end / RATE)
     grid, films = problem.grid, []
     r2 = (grid.X**2 + grid.Y**2) * contact.x_scale**2
@@ -51,9 +50,9 @@ def measured(wide, nodes=65, end=0.5):
         return ""
 
     try:
-        outcome = March(scene, problem, multigrid, newton, settings, told).run(state)
+        with newton_on(hierarchy, level, problem, recipe) as newton:
+            outcome = March(scene, problem, newton, settings, told).run(state)
     finally:
-        newton.free()
         hierarchy.destroy()
     assert outcome.converged, outcome.reason
     t, h = np.array(films)[5:].T

@@ -1,0 +1,200 @@
+"""The recipe of a contact: every choice of its solve, and why. Nobody else decides.
+
+    peaks       Couette flow   begins from        on              smoother              remembers
+    none        3B             a full film        coarse grids    lines along X, cliffs nothing
+    covered     3L             a full film        coarse grids    lines along X, cliffs corrections
+    near        3L             a full film        coarse grids    lines in valleys      corrections
+    touching    3L             the dry contact    the finest      lines in valleys      corrections
+
+Keys of the configuration overrule it. A contact at another speed, or as a coarser grid sees it, has a
+recipe of its own.
+"""
+
+from dataclasses import dataclass, replace
+
+from mgehl.discretization.contact_law import BoundaryFilm, InterfaceConditions
+from mgehl.discretization.fluid import FOLDING
+from mgehl.discretization.scheme import Scheme
+from mgehl.multigrid.cycle import CycleSettings
+from mgehl.solver.settings import NewtonSettings
+from mgehl.solver.squeeze import SQUEEZE
+
+NONE, COVERED, NEAR, TOUCHING = "none", "covered", "near", "touching"
+"""Peaks: none; below a film of `THICK`; near the other body; reaching through the film that smooth bodies
+would have, where the law lets them touch."""
+
+THICK = 2.0
+"""Film that smooth bodies would have over the roughness from which on the cycle is that of smooth bodies. A
+ball of lambda 1.7 takes 312 convolutions by the cycle for thin films and 644 by the other, balls of lambda
+3 to 14 an eighth more."""
+
+OF_SMOOTH, OF_ROUGH = "3B", "3L"
+"""The Couette flow's schemes of smooth and of rough bodies. Behind a peak the film falls to nothing from
+one node to the next; without limits it might be less than none. By 1B it stays a film, too, but on a usual
+grid one that is 6 to 15 % too thick, and of a short wave twice as thick (`tests/solver/test_rough.py`)."""
+
+FILM, CONTACT, A_STATE = "film", "contact", "a state"
+UNDER_FILM, UNDER_THIN_FILM = "dry contact under a film", "dry contact under a thin film"
+DRY = "dry contact"
+"""First guesses: a film of the formula's thickness, or contact, under the pressure of smooth bodies;
+another solution; the dry contact of the peaks with such a film, with nearly none, without a fluid."""
+
+BESIDE_LAYERS = 1.0
+"""The formula's film over the layers below which a start takes the dry contact as it is. A ball of 100 nm
+rms with layers of 2 nm at 0.1 mm/s (half a layer): 209 convolutions for 425 from a thin film on 129 nodes.
+Below 0.1 um/s it is found from the dry contact alone. At 0.6 mm/s (1.7 layers) the dry contact saves a
+quarter on 129 nodes, and leads nowhere on 257."""
+
+IDLE, IDLE_IN_TIME, IDLE_BY_FILM = 15, 30, 60
+"""Steps in a row that may gain nothing. The second number is for implicit time steps, which pass a fold
+slowly and let contact spread node by node. Of 800 solves that converged, those by Newton's own steps took
+at most 4 such steps. In time a film start that ends in full contact took 14, the geometric mean 15, a rough
+ball of 197 nm rms 23. Films that the grid does not hold took 60 steps in vain (65 nodes, 20 and 50 mm/s);
+now some 20. The third is for contact that closes continuously: valleys fill slowly, and until they are full
+the residual stays what it is (a ball of 104 nm rms at 0.02 mm/s settles after more than 30)."""
+
+MOST_IN_TIME = 30
+"""Newton steps after which a step in time is halved."""
+
+STEEP, MOST_MORE = 19.0, 2.0
+"""alpha p_h below which a step may change the pressures of smooth bodies by more, in proportion: a longer
+step goes wrong because the viscosity does not follow its tangent. A pressure spike grows from grid to grid
+by p_h and more, which takes many short steps: M = 20, L = 10 (alpha p_h = 10) on 1025 nodes by 3B and the
+arithmetic mean 17 without this, 12 with it. With 15 to 20 as many within two; with alpha p_h from 20 on
+longer steps do harm as often as good. `MOST_MORE` is how many times as much at the most: a longer step
+closes the film of soft bodies, and they do not part again (without it 32 of 92 did not converge).
+
+The pressures of rough bodies are compared with the largest one, which may be several p_h: of 37 contacts
+(257 nodes) six take a third to two thirds less work by it, one 2 % more. With more besides, a ball of
+294 nm rms at 0.64 m/s and 22 N does not settle on 257 nodes."""
+
+LEAST_SHARE = 1e-2
+"""Least part of the tolerance that a thin film asks for: less comes near to rounding."""
+
+ALMOST_NOTHING = 1e-300
+"""So that nothing is divided by zero."""
+
+
+@dataclass(frozen=True)
+class Recipe:
+    """All choices of the solve of one contact."""
+
+    scheme: Scheme
+    peaks: str
+    begins: str
+    """Its first guess."""
+    on_coarse_grids: bool
+    """Whether it begins on coarse grids, at speeds that they resolve."""
+    or_from_thick_film: bool
+    """Whether it begins anew at a speed whose film covers the peaks, where the first way fails."""
+    fluid_apart: bool
+    """Whether fluid beside contact is solved at each gap by itself."""
+    newton: NewtonSettings
+    cycle: CycleSettings
+
+
+def recipe_of(settings, contact, begins=None):
+    """The `Recipe` of a loaded contact by what `SolverSettings` ask; `begins` may be `A_STATE`."""
+    law, peaks = settings.scheme.contact_law, _peaks(settings.scheme.contact_law, contact)
+    start = begins or settings.nested.start
+    closed = start == CONTACT and law.has_contact
+    touching, rough = peaks == TOUCHING, peaks != NONE
+    return Recipe(
+        scheme=settings.scheme,
+        peaks=peaks,
+        begins=_first_guess(start, law, contact) if touching else start,
+        # Coarse grids do not see the peaks, and the dry contact's pressure is nearer to the answer than
+        # that of any film. From the dry contact a film twice as thick as the roughness takes twice the
+        # work, and one three times as thick is not found (random balls, 257 nodes).
+        on_coarse_grids=start == FILM and not touching and settings.method != "relaxation",
+        or_from_thick_film=start == FILM and touching,
+        fluid_apart=closed and law.closes_faces,
+        newton=_newton(settings, contact, in_time=closed or touching),
+        cycle=replace(settings.cycle, rough=rough, in_valleys=peaks in (NEAR, TOUCHING)),
+    )
+
+
+def recipe_in_time(settings, contact):
+    """The `Recipe` of a step in time: what the surfaces carry is known beforehand."""
+    recipe = recipe_of(settings, contact, A_STATE)
+    newton = replace(recipe.newton, squeeze=0.0, max_work=10**9, max_steps=MOST_IN_TIME)
+    return replace(recipe, scheme=replace(recipe.scheme, motion=(0.0, 0.0)), newton=newton)
+
+
+def _peaks(law, contact):
+    film, rms = contact.expected_film, contact.roughness
+    if rms == 0.0:
+        return NONE
+    if law.is_continuous and contact.is_mixed:
+        return TOUCHING
+    return NEAR if film < THICK * rms else COVERED
+
+
+def _first_guess(start, law, contact):
+    """That of peaks that touch.
+
+    A start from contact takes the thinnest film and no node in contact. With contact everywhere, nodes
+    would open and close for ever (a ball of 100 nm rms at 0.1 m/s: 60 steps without an end, 14 from the
+    thin film). Where the film is thin beside the layers, solids carry nearly all.
+    """
+    if start == A_STATE:
+        return start
+    if contact.expected_film / contact.film_scale < BESIDE_LAYERS * law.contact_gap:
+        return DRY
+    return UNDER_THIN_FILM if start == CONTACT else UNDER_FILM
+
+
+def _newton(settings, contact, in_time):
+    """Newton's rules; `in_time` steps have a squeeze at the least."""
+    asked, scheme, rough = settings.newton, settings.scheme, contact.roughness > 0.0
+    by_film, squeeze = scheme.contact_law.is_continuous, asked.squeeze
+    squeeze = max(squeeze, SQUEEZE) if in_time else squeeze
+    idle = IDLE_BY_FILM if by_film else IDLE_IN_TIME if scheme.may_fold or squeeze > 0.0 else IDLE
+    return replace(
+        asked,
+        squeeze=squeeze,
+        idle_steps=asked.idle_steps or idle,
+        max_pressure_step=asked.max_pressure_step * (1.0 if rough else _more(contact)),
+        over_largest=rough,
+        by_film=by_film,
+    )
+
+
+def _more(contact):
+    """How many times as much pressures may change as where the viscosity is steep; at least 1."""
+    alpha_bar = contact.lubricant.pressure_viscosity * contact.pressure_scale
+    return min(max(1.0, STEEP / max(alpha_bar, ALMOST_NOTHING)), MOST_MORE)
+
+
+def needs_a_walk(settings, contact, mesh):
+    """Whether a mean of the mobility is found from the arithmetic one, or from a higher speed."""
+    mean = settings.scheme.face_mobility
+    resolved = contact.matched_speed(mesh, settings.nested.inlet_cells) == contact.speed
+    return mean in FOLDING or (mean != "arithmetic" and not resolved)
+
+
+def couette_scheme_of(contact):
+    """The Couette flow's scheme where none is named."""
+    return OF_ROUGH if contact.roughness > 0.0 else OF_SMOOTH
+
+
+def interface_law(contact, layers, threshold, start, in_time):
+    """Faces that contact closes; where it closes continuously, those that a vanishing mobility closes.
+
+    `layers` (h_b) and `threshold` (H_th) in m. It closes continuously where bodies have layers or may touch
+    on the way to a film, as rough and soft ones do, and in time. Faces that were shut would keep that
+    contact (a smooth ellipse of polymer at 0.1 m/s on 257 nodes: 2600 nodes, and no end; so it has a film
+    after 117 convolutions). Nearly at rest all bodies count as soft, and touch.
+    """
+    soft_film = contact.is_soft and start == FILM and contact.expected_film > threshold
+    if layers > 0.0 or contact.roughness > 0.0 or soft_film or in_time:
+        return BoundaryFilm(max(layers, threshold) / contact.film_scale)
+    return InterfaceConditions(threshold / contact.film_scale)
+
+
+def share_of_the_flow(contact, scheme):
+    """What flows through thin films over the flow in which residuals count: so much smaller must they be
+    where the balance of every node decides what is film and what is contact."""
+    if not contact.is_loaded or scheme.contact_law.closes_faces:
+        return 1.0
+    return min(max(contact.expected_film / contact.film_scale, LEAST_SHARE), 1.0)

@@ -1,0 +1,85 @@
+"""A recipe in words, a choice each, as `mgehl check` prints it; in plain values, as result.json has it."""
+
+from dataclasses import asdict
+
+from mgehl.solver.recipe import (
+    A_STATE,
+    CONTACT,
+    COVERED,
+    DRY,
+    FILM,
+    NEAR,
+    NONE,
+    THICK,
+    TOUCHING,
+    UNDER_FILM,
+    UNDER_THIN_FILM,
+)
+from mgehl.solver.step_length import LARGEST_CHANGE
+
+PEAKS = {
+    NONE: "smooth bodies",
+    COVERED: f"peaks under a film of more than {THICK:g} times the roughness",
+    NEAR: f"peaks near the other body: the film is less than {THICK:g} times the roughness",
+    TOUCHING: "peaks that touch: the roughness is more than the film that smooth bodies would have",
+}
+
+BEGINS = {
+    FILM: "from a full film",
+    CONTACT: "from the dry contact, in contact",
+    UNDER_FILM: "from the dry contact of the peaks, a film laid on it",
+    UNDER_THIN_FILM: "from the dry contact of the peaks, nearly no film on it",
+    DRY: "from the dry contact of the peaks alone: the film is thinner than the layers",
+    A_STATE: "from another solution",
+}
+
+
+def recipe_words(recipe):
+    """Words for each choice of a `Recipe` and what it follows from."""
+    law, newton, cycle = recipe.scheme.contact_law, recipe.newton, recipe.cycle
+    yield PEAKS[recipe.peaks]
+    limited = ", limited: no film behind a peak is less than none" if recipe.scheme.couette == "3L" else ""
+    mean = f"{recipe.scheme.face_mobility} mean of mobilities"
+    yield f"Couette flow by {recipe.scheme.couette}{limited}; {mean}"
+    yield f"contact {law.words}"
+    grids = "coarse grids first" if recipe.on_coarse_grids else "on the finest grid alone"
+    yield f"begins {BEGINS[recipe.begins]}, {grids}"
+    if recipe.or_from_thick_film:
+        yield "where that fails, from a film that covers the peaks, slowed down"
+    if recipe.fluid_apart:
+        yield "fluid beside contact is solved at each gap, apart from the linear systems"
+    yield _steps(newton)
+    lines = "lines along x and y, nearby nodes at once" if cycle.in_valleys else "lines along x"
+    memory = "; corrections of one system are remembered for the next" if cycle.rough else ""
+    yield f"smoother: {lines}{memory}"
+
+
+def _steps(newton):
+    """Newton's steps."""
+    kind = f"implicit steps in time, rate {newton.squeeze:g}" if newton.squeeze else "Newton's own steps"
+    scale = "the largest pressure" if newton.over_largest else "p_h"
+    film = f" and {LARGEST_CHANGE:g} of the film" if newton.by_film else ""
+    change = f"{newton.max_pressure_step:.2g} of {scale}{film}"
+    return f"{kind}; one changes at most {change}; {newton.idle_steps} in vain end it"
+
+
+def plain(recipe):
+    """{choice: value} of a `Recipe`, for files."""
+    newton = {key: asdict(recipe.newton)[key] for key in NEWTON}
+    return {
+        "peaks": recipe.peaks,
+        "couette": recipe.scheme.couette,
+        "face_mobility": recipe.scheme.face_mobility,
+        "contact": recipe.scheme.contact_law.words,
+        "begins": recipe.begins,
+        "on_coarse_grids": recipe.on_coarse_grids,
+        "or_from_thick_film": recipe.or_from_thick_film,
+        "fluid_apart": recipe.fluid_apart,
+        **newton,
+        "smoother": "in valleys" if recipe.cycle.in_valleys else "by lines",
+        "remembers": recipe.cycle.rough,
+    }
+
+
+NEWTON = "tolerance", "squeeze", "idle_steps", "max_pressure_step", "over_largest", "by_film"
+"""Newton's rules that a recipe has."""

@@ -1,0 +1,90 @@
+"""What a contact gets, by its peaks, its law and its start."""
+
+import pytest
+
+from mgehl.discretization.contact_law import BoundaryFilm, InterfaceConditions
+from mgehl.discretization.scheme import Scheme
+from mgehl.model.surface.waviness import Waviness
+from mgehl.solver.recipe import (
+    A_STATE,
+    COVERED,
+    DRY,
+    IDLE,
+    IDLE_BY_FILM,
+    IDLE_IN_TIME,
+    NEAR,
+    NONE,
+    TOUCHING,
+    UNDER_FILM,
+    UNDER_THIN_FILM,
+    recipe_in_time,
+    recipe_of,
+)
+from mgehl.solver.settings import NestedSettings, NewtonSettings, SolverSettings
+
+CLOSING, CLOSED = BoundaryFilm(1e-6), InterfaceConditions(1e-6)
+
+
+@pytest.fixture
+def recipe(paper_contact):
+    """Function: the recipe of the paper's ball at 1 m/s (film 390 nm), with waves of a size in m."""
+
+    def made(amplitude=0.0, law=CLOSED, start="film", mean="arithmetic", layers=None, **newton):
+        surface = Waviness(amplitude, 2e-4, 2e-4) if amplitude else None
+        contact = paper_contact(1.0, surface=surface)
+        law = law if layers is None else BoundaryFilm(layers / contact.film_scale)
+        settings = SolverSettings(
+            scheme=Scheme(face_mobility=mean, contact_law=law),
+            nested=NestedSettings(start=start),
+            newton=NewtonSettings(**newton),
+        )
+        return recipe_of(settings, contact)
+
+    return made
+
+
+@pytest.mark.parametrize(
+    "amplitude, law, peaks, in_valleys, on_coarse_grids",
+    [
+        (0.0, CLOSED, NONE, False, True),
+        (1e-8, CLOSING, COVERED, False, True),
+        (6e-7, CLOSING, NEAR, True, True),
+        (4e-6, CLOSING, TOUCHING, True, False),
+        (4e-6, CLOSED, NEAR, True, True),
+    ],
+)
+def test_peaks_decide_grids_and_smoother(recipe, amplitude, law, peaks, in_valleys, on_coarse_grids):
+    made = recipe(amplitude, law)
+    assert made.peaks == peaks
+    assert (made.cycle.rough, made.cycle.in_valleys) == (peaks != NONE, in_valleys)
+    assert made.on_coarse_grids == on_coarse_grids
+    assert made.or_from_thick_film == (peaks == TOUCHING)
+    assert made.newton.over_largest == (peaks != NONE)
+
+
+def test_peaks_that_touch_begin_from_their_dry_contact(recipe):
+    assert recipe(4e-6, CLOSING).begins == UNDER_FILM
+    assert recipe(4e-6, CLOSING, start="contact").begins == UNDER_THIN_FILM
+    assert recipe(4e-6, layers=1e-6).begins == DRY
+
+
+def test_contact_that_closes_faces_has_its_fluid_solved_apart(recipe):
+    assert recipe(start="contact").fluid_apart
+    assert not recipe().fluid_apart and not recipe(law=CLOSING, start="contact").fluid_apart
+
+
+def test_patience_is_more_in_time_and_most_where_films_close_continuously(recipe):
+    assert recipe().newton.idle_steps == IDLE
+    assert recipe(squeeze=3.0).newton.idle_steps == IDLE_IN_TIME > IDLE
+    assert recipe(mean="harmonic").newton.idle_steps == IDLE_IN_TIME
+    assert recipe(start="contact").newton.idle_steps == IDLE_IN_TIME
+    assert recipe(law=CLOSING).newton.idle_steps == IDLE_BY_FILM > IDLE_IN_TIME
+    assert recipe(law=CLOSING, idle_steps=7).newton.idle_steps == 7
+
+
+def test_from_a_state_and_in_time_nothing_is_guessed(paper_contact):
+    settings = SolverSettings(nested=NestedSettings(start="contact"))
+    contact = paper_contact(1.0)
+    made = recipe_of(settings, contact, A_STATE)
+    assert made.begins == A_STATE and not made.fluid_apart and made.newton.squeeze == 0.0
+    assert recipe_in_time(settings, contact).scheme.motion == (0.0, 0.0)
