@@ -35,7 +35,6 @@ from mgehl.solver.dry import guess_on_finest, solve_dry
 from mgehl.solver.from_config import set_up
 from mgehl.solver.in_time import march
 from mgehl.solver.journal import Journal, told_to_stop
-from mgehl.solver.march import TimeSettings
 from mgehl.solver.nested import LevelSolve, single_loop
 from mgehl.solver.problem import ContactProblem
 from mgehl.solver.restart import interpolated, solve_from
@@ -155,7 +154,7 @@ def _solve_loaded(case, parts, comm, watch, start):
 
 def _solve_in_time(case, parts, comm, watch, start):
     """A loaded contact in time."""
-    config, settings, time_keys = case.config, parts.settings, case.config.time
+    config, settings = case.config, parts.settings
     hierarchy, scene = parts.hierarchy(comm), case.scene
     try:
         tolerance = settings.newton.tolerance
@@ -163,8 +162,7 @@ def _solve_in_time(case, parts, comm, watch, start):
             progress.newton_row, parts.contact.film_scale, hierarchy, tolerance, watch.speaker
         )
         diary = Diary(case, parts.frame, hierarchy.grids[-1], monitor, watch)
-        time_settings = TimeSettings(time_keys.step, time_keys.tolerance, config.solver.tolerance)
-        how = settings, time_settings, diary, monitor.beside, _journal(config, monitor, watch)
+        how = settings, diary, monitor.beside, _journal(config, monitor, watch)
         problem, outcome = march(scene, hierarchy, *how, start and (start, parts.frame))
         work = Work(monitor.convolutions, len(monitor.rows))
         result = summarise_in_time(

@@ -13,7 +13,7 @@ from mgehl.model.wedge import WedgeBearing
 from mgehl.multigrid.cycle import CycleSettings
 from mgehl.solver.recipe import couette_scheme_of, interface_law, share_of_the_flow
 from mgehl.solver.relaxation import RelaxationSettings
-from mgehl.solver.settings import NestedSettings, NewtonSettings, SolverSettings
+from mgehl.solver.settings import NestedSettings, NewtonSettings, SolverSettings, TimeSettings
 
 
 @dataclass(frozen=True)
@@ -85,5 +85,8 @@ def settings_from(config, contact):
         ),
         cycle=CycleSettings(sweeps=solver.sweeps, omega=solver.omega, couette=solver.cycle_couette),
         relaxation=RelaxationSettings(**asdict(relaxation), tolerance=solver.tolerance),
+        time=TimeSettings(config.time.step, config.time.tolerance, solver.tolerance)
+        if config.is_in_time
+        else None,
         error=solver.error,
     )

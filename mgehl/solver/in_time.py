@@ -14,11 +14,10 @@ from mgehl.solver.recipe import recipe_in_time
 from mgehl.solver.restart import interpolated
 
 
-def march(scene, hierarchy, settings, time, told, monitor, journal=NOTHING_KEPT, start=None):
+def march(scene, hierarchy, settings, told, monitor, journal=NOTHING_KEPT, start=None):
     """Run a `Scene` in time on the finest grid; return its `ContactProblem` and its `Outcome`.
 
-    From `start`, a `Solution` and the `Frame` here, or from the steady state of its beginning; `time` are
-    the `TimeSettings`. `told` is called after each step, as `March` says, `monitor` for each cycle on the
+    From `start`, a `Solution` and the `Frame` here, or from the steady state of its beginning. `told` is called after each step, as `March` says, `monitor` for each cycle on the
     way to the beginning.
     """
     reference = None
@@ -37,7 +36,7 @@ def march(scene, hierarchy, settings, time, told, monitor, journal=NOTHING_KEPT,
         if beginning is _steady and not scene.moves:
             reference = Reference.of(steady, state)
     with newton_on(hierarchy, len(hierarchy.grids) - 1, problem, recipe) as newton:
-        return problem, March(scene, problem, newton, time, told).run(state, reference, journal)
+        return problem, March(scene, problem, newton, settings.time, told).run(state, reference, journal)
 
 
 def _steady(scene, hierarchy, settings, monitor, journal):

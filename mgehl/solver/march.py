@@ -239,15 +239,3 @@ def _continued(times, t):
     return np.array(
         [np.prod([(t - other) / (each - other) for other in times if other != each]) for each in times]
     )
-
-
-@dataclass(frozen=True)
-class TimeSettings:
-    """How a run in time is solved."""
-
-    step: float | None
-    """Steps in s; None: as `Pace` chooses."""
-    part: float
-    """Residual that a step may leave, over that with which it begins."""
-    least: float
-    """Residual below which nothing is asked."""

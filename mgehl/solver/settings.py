@@ -69,6 +69,18 @@ class NewtonSettings:
 
 
 @dataclass(frozen=True)
+class TimeSettings:
+    """How a run in time is solved."""
+
+    step: float | None
+    """Steps in s; None: as `Pace` chooses."""
+    part: float
+    """Residual that a step may leave, over that with which it begins."""
+    least: float
+    """Residual below which nothing is asked."""
+
+
+@dataclass(frozen=True)
 class SolverSettings:
     """All that the solver may be told."""
 
@@ -79,6 +91,8 @@ class SolverSettings:
     newton: NewtonSettings = field(default_factory=NewtonSettings)
     cycle: CycleSettings = field(default_factory=CycleSettings)
     relaxation: RelaxationSettings = field(default_factory=RelaxationSettings)
+    time: TimeSettings | None = None
+    """Of a run in time."""
     error: bool = SolverSection.error
     """Whether coarser grids are solved, too, to tell how far the films are from their limit."""
 

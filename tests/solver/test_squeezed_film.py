@@ -13,11 +13,11 @@ from mgehl.model.course import Constant
 from mgehl.model.lubricant import Barus, ConstantDensity, Lubricant
 from mgehl.model.point import PointContact
 from mgehl.model.scene import Scene
-from mgehl.solver.march import March, TimeSettings
+from mgehl.solver.march import March
 from mgehl.solver.on_grid import newton_on
 from mgehl.solver.problem import ContactProblem
 from mgehl.solver.recipe import recipe_in_time
-from mgehl.solver.settings import SolverSettings
+from mgehl.solver.settings import SolverSettings, TimeSettings
 
 R, F, ETA, FILM = 12.5e-3, 1e-3, 0.25, 1e-6
 RATE = F / (6.0 * np.pi * ETA * R**2)
