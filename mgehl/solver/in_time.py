@@ -17,8 +17,8 @@ from mgehl.solver.restart import interpolated
 def march(scene, hierarchy, settings, told, monitor, journal=NOTHING_KEPT, start=None):
     """Run a `Scene` in time on the finest grid; return its `ContactProblem` and its `Outcome`.
 
-    From `start`, a `Solution` and the `Frame` here, or from the steady state of its beginning. `told` is called after each step, as `March` says, `monitor` for each cycle on the
-    way to the beginning.
+    From `start`, a `Solution` and the `Frame` here, or from the steady state of its beginning. `told` is
+    called after each step, as `March` says, `monitor` for each cycle on the way to the beginning.
     """
     reference = None
     contact, grid, deflection = scene.framed, hierarchy.grids[-1], hierarchy.deflections[-1]
