@@ -28,6 +28,7 @@ from mgehl.discretization.axes import HALO, own
 from mgehl.discretization.status import BOUNDARY, LUBRICATED
 from mgehl.discretization.storage import Storage, content
 from mgehl.discretization.transport import moved
+from mgehl.solver.debts import paid
 from mgehl.solver.record import Kept
 
 LEAST_LEFT = 0.5
@@ -156,6 +157,11 @@ class Transport:
             whole = self._grid.gather(m + along[:, :-1] - along[:, 1:])
             across = self._grid.scatter(shift.passing_y(whole)[:-1] if self._grid.comm.rank == 0 else None)
         return [*found, mesh.dY * self._faces(along, across)[1]]
+
+    def ended(self, leg, evaluation):
+        """The `Carried` after a `Leg`, by the `Evaluation` of its answer; no node owes anything."""
+        carried = leg.ended(evaluation)
+        return replace(carried, m=paid(self._problem, carried.m))
 
     def _leg(self, carried, status, dT, shift):
         """The same without a reference."""

@@ -166,7 +166,7 @@ class March:
         evaluation = problem.evaluate(newton.state)
         stored, closure = self._account(leg, carried, evaluation)
         error = self._error(standing, t, newton.state)
-        standing.state, standing.carried = newton.state, leg.ended(evaluation)
+        standing.state, standing.carried = newton.state, self._transport.ended(leg, evaluation)
         standing.t, standing.path, standing.number = t, standing.path + way, standing.number + 1
         standing.reference = reference
         standing.step = self._pace.next(t, step, error, halvings > 0)
