@@ -5,7 +5,6 @@ RUN/checkpoint/
     solve-0000.npz, ...   finished solves, in order: a grid of the nested iteration each, or a step in speed
     under-way.npz         where the next one stands, saved every so many seconds
     finished/             the files of the finished run, until they are published
-    over.npz              begun.npz, once only this folder is left to be removed
 
 Every file is whole, and knows again each bit of it (`archive`). Its record has
 
@@ -41,7 +40,7 @@ from mgehl.solver.journal import Journal, told_to_stop
 from mgehl.solver.record import Record
 from mgehl.version import VERSION
 
-BEGUN, UNDER_WAY, OVER = "begun.npz", "under-way.npz", "over.npz"
+BEGUN, UNDER_WAY = "begun.npz", "under-way.npz"
 
 START = "start"
 """In begun.npz the bytes of the fields.h5 of the run that this one was started from."""
@@ -78,9 +77,9 @@ def begin_run(directory, config, start=None):
     save(_begun(directory), _head(portable(config)) | {"names": list(kept), "origins": origins}, arrays)
 
 
-def read_begun(directory, name=BEGUN):
+def read_begun(directory):
     """The `Begun` run of a directory, None where there is none. Raises OutputError where it is damaged."""
-    path = _begun(directory, name)
+    path = _begun(directory)
     if not (found := load(path)):
         return None
     record, arrays = found
@@ -99,8 +98,8 @@ def is_begun(directory):
     return _begun(directory).exists()
 
 
-def _begun(directory, name=BEGUN):
-    return Path(directory) / CHECKPOINT / name
+def _begun(directory):
+    return Path(directory) / CHECKPOINT / BEGUN
 
 
 class Checkpoint(Journal):

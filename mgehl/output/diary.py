@@ -7,8 +7,9 @@ import numpy as np
 
 from mgehl.errors import one_line
 from mgehl.output.files import CHECKPOINT, SERIES, on_first_rank
+from mgehl.output.frames import Frames
 from mgehl.output.passages import have_settled
-from mgehl.output.series import Frames, row_of, write_series
+from mgehl.output.series import row_of, title_of, write_series
 from mgehl.saying import complain
 
 FRAMES_OF_A_RUN = 50
@@ -22,7 +23,7 @@ class Diary:
         self._config, self._contact, self._frame = case.config, case.contact, frame
         self._problem_grid, self._progress, self._watch = grid, progress, watch
         self._length = 2e6 * case.scene.framed.x_scale
-        self._title = f"{case.config.kind.content} {case.config.kind.noun} over time"
+        self._title = title_of(case.config)
         self._written = time.monotonic()
         keys = case.config.time
         folder = watch.directory and watch.directory / CHECKPOINT

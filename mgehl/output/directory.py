@@ -15,11 +15,11 @@ from contextlib import suppress
 from pathlib import Path
 
 from mgehl.errors import OutputError
-from mgehl.output.checkpoint import BEGUN, OVER, read_begun
+from mgehl.output.checkpoint import BEGUN, read_begun
 from mgehl.output.files import CHECKPOINT, FIELDS, NAMES, REPORT, SERIES
 from mgehl.output.laws import FOLDER as LAWS
-from mgehl.output.report.study_record import NAME as STUDY
 from mgehl.output.stored import files_of
+from mgehl.output.study_directory import NAME as STUDY
 from mgehl.output.whole_file import clear_parts, is_folder, is_plain, writing
 
 FINISHED = "finished"
@@ -60,7 +60,7 @@ def check_replaceable(directory, laws=()):
     for each in (directory / LAWS, folder):
         if os.path.lexists(each) and not is_folder(each):
             raise OutputError(_foreign(each))
-    if _own_files(folder) and not any(is_plain(folder / name) for name in (BEGUN, OVER)):
+    if _own_files(folder) and not is_plain(folder / BEGUN):
         raise OutputError(_foreign(folder))
 
 
@@ -83,17 +83,14 @@ def clear_checkpoint(directory):
     folder = Path(directory) / CHECKPOINT
     if not is_folder(folder):
         return
-    stage = folder / FINISHED
+    stage, laws = folder / FINISHED, ()
+    with suppress(OutputError, AttributeError):  # damaged, or not there
+        laws = read_begun(directory).laws
+    own = [stage / name for name in (*NAMES, *laws)] + [folder / name for name in laws] + _own_files(folder)
     with suppress(OSError):  # what stays is not read
-        if is_plain(folder / BEGUN):
-            (folder / BEGUN).replace(folder / OVER)  # the run is over, whatever comes
-        laws = ()
-        with suppress(OutputError, AttributeError):  # damaged, or not there
-            laws = read_begun(directory, OVER).laws
         clear_parts(folder)
         clear_parts(stage)
-        own = [stage / name for name in (*NAMES, *laws)] + [folder / name for name in laws]
-        for path in (*own, *_own_files(folder), folder / OVER):  # which says that they are mgehl's
+        for path in (*own, folder / BEGUN):  # last the one that says that they are mgehl's
             if is_plain(path):
                 path.unlink()
     for each in (stage / LAWS, stage, folder / LAWS, folder):
@@ -118,11 +115,7 @@ def publish(directory, stage, names):
             (directory / name).unlink()
     with suppress(OSError):  # in use, or not there
         (directory / LAWS).rmdir()
-    _remove_report(directory / REPORT)
-
-
-def _remove_report(path):
-    """A page of the run before, if mgehl made it."""
-    with suppress(OSError):
-        if is_plain(path) and _SIGN in path.read_bytes()[:4096]:
-            path.unlink()
+    page = directory / REPORT
+    with suppress(OSError):  # of the run before, if mgehl made it
+        if is_plain(page) and _SIGN in page.read_bytes()[:4096]:
+            page.unlink()

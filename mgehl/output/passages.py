@@ -4,9 +4,11 @@ A passage is the time in which the mean surface goes the length of the Hertz con
 what the means of the last two passages differ by; it has settled where that is little.
 """
 
-from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
+
+from mgehl.output.result import Mean, TimeResult
 
 SETTLED = 0.01
 """Part of a mean that its band may be; of a load share that part of the load."""
@@ -16,34 +18,6 @@ FEWEST = 3
 
 OF_A_LENGTH = ("mean_gap_nm", "central_film_nm", "minimum_film_nm", "max_pressure_GPa")
 OF_THE_LOAD = ("load_on_contact", "load_on_solids", "friction")
-
-
-@dataclass(frozen=True)
-class Mean:
-    """A mean over the last passage; `band` is None where there was but one."""
-
-    value: float
-    band: float | None
-
-
-@dataclass(frozen=True)
-class TimeResult:
-    """Of a run in time; the films and pressures beside it are those at its end."""
-
-    end_s: float
-    steps: int
-    halved: int
-    """Steps that had to be taken in parts."""
-    largest_closure: float
-    """Largest part of the stored oil that storage and flow leave open in a step."""
-    largest_node: float
-    """The same of a single node in the last step."""
-    convolutions_a_step: float
-    """Half of the steps took fewer."""
-    passages: float
-    """Lengths of the Hertz contact that the mean surface has gone."""
-    means: dict[str, Mean]
-    """Over the last passage."""
 
 
 def means(rows, length):
@@ -72,3 +46,19 @@ def have_settled(rows, length):
     found = means(rows, length)
     gap, solids = found["mean_gap_nm"], found["load_on_solids"]
     return gap.band <= SETTLED * gap.value and solids.band <= SETTLED
+
+
+def time_result(rows, length, work, largest_node):
+    """The `TimeResult` of the rows of a history; `length` in um is that of a passage."""
+    each = [after["convolutions"] - before["convolutions"] for before, after in pairwise(rows)]
+    gone = sum(abs(row["speed_mm_s"]) * 1e3 * row["step_s"] for row in rows)
+    return TimeResult(
+        end_s=rows[-1]["time_s"],
+        steps=len(rows),
+        halved=sum(row["halvings"] > 0 for row in rows),
+        largest_closure=max(abs(row["closure"]) for row in rows),
+        largest_node=largest_node,
+        convolutions_a_step=sorted(each)[len(each) // 2] if each else work.convolutions,
+        passages=gone / length,
+        means=means(rows, length),
+    )

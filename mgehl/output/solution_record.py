@@ -23,7 +23,7 @@ def solution_from(plain, arrays):
     config = config_from_tables(plain["configuration"])
     contact = contact_from(config)
     fields = fields_from(arrays) if arrays else None
-    result, mesh = result_from(plain["result"], config), mesh_from(config, contact)
+    result, mesh = result_from(plain["result"]), mesh_from(config, contact)
     if fields and fields.P.shape != (mesh.ny, mesh.nx):
         raise ValueError("its fields are not of its grid")
     return Solution(config, contact, mesh, fields, plain["rows"], result, plain["H0"], local=fields)

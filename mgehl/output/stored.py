@@ -31,13 +31,12 @@ from mgehl.output.files import (
     RESULT,
     SERIES,
     WHOLE,
-)
+)  # fmt: skip
 from mgehl.output.files import NAMES as RUN_FILES
-from mgehl.output.laws import FOLDER, checksum, is_law, law_files, laws_in, placed
+from mgehl.output.frames import StoredFrames
+from mgehl.output.laws import is_law, laws_in, placed
 from mgehl.output.result import Result
-from mgehl.output.series import StoredFrames
 from mgehl.output.solution import Fields, Solution
-from mgehl.output.wedge_result import WedgeResult
 from mgehl.output.whole_file import is_plain
 
 OPTIONAL = "p", "filling", "heights", "shear", "flash_1", "flash_2"
@@ -60,11 +59,7 @@ def read_run(directory) -> Solution:
     Its own laws are not run: the directory may be anybody's. Raises OutputError where there is none,
     or it is damaged.
     """
-    directory = Path(directory)
-    solution = _read(_fields_of(directory), directory, _solution)
-    for name in changed_laws(directory):
-        raise OutputError(f"{directory / name}: is missing, damaged, or of another run")
-    return solution
+    return _read(_fields_of(Path(directory)), Path(directory), _solution)
 
 
 def start_from(content, directory) -> Solution:
@@ -73,7 +68,7 @@ def start_from(content, directory) -> Solution:
 
 
 def read_texts(directory):
-    """{name: text} of the files of a finished run; "laws" has checksums of those. Raises OutputError."""
+    """{name: text} of the files of a finished run. Raises OutputError."""
     return _read(_fields_of(Path(directory)), Path(directory), _texts)
 
 
@@ -81,47 +76,21 @@ def files_of(directory):
     """Names of the files that the run in a directory wrote; none where there is no run."""
     try:
         texts = read_texts(directory)
-        laws = laws_in(tomllib.loads(texts[CONFIGURATION]))
+        tables = tomllib.loads(texts[CONFIGURATION])
+        own = {*filter(is_law, laws_in(tables)), *({*RUN_FILES} & texts.keys())}
     except (OutputError, ValueError, KeyError):
         return set()
-    return {
-        FIELDS,
-        PICTURE,
-        *_of_time(tomllib.loads(texts[CONFIGURATION])),
-        *({*RUN_FILES} & texts.keys()),
-        *filter(is_law, laws),
-    }
+    return own | {FIELDS, PICTURE} | ({SERIES, FRAMES} if "end" in tables.get("time", {}) else set())
 
 
-def _of_time(tables):
-    """Names of the files that a run in time has besides."""
-    return {SERIES, FRAMES} if "end" in tables.get("time", {}) else set()
-
-
-def changed_laws(directory):
-    """Names of files in the laws/ of a run that are not as it left them; none where there is no run."""
-    try:
-        known = read_texts(directory).get(FOLDER, {})
-    except OutputError:
-        return []
-    return [name for name, each in known.items() if checksum(Path(directory) / name) != each]
-
-
-def changed_copies(config):
-    """Files in the laws/ of run directories that are not as those runs left them."""
-    for file in map(Path, law_files(config)):
-        if file.parent.name == FOLDER and f"{FOLDER}/{file.name}" in changed_laws(file.parent.parent):
-            yield file
-
-
-def result_from(tables, config):
-    """The `Result` or `WedgeResult` that nested plain values stand for; its numbers that are null are nan.
+def result_from(tables):
+    """The `Result` that nested plain values stand for; its numbers that are null are nan.
 
     Raises ValueError, TypeError or DaciteError where they stand for none.
     """
     # A dry contact of an older mgehl says once that it has converged.
     settled = {"settled": tables["converged"]}
-    return dacite.from_dict(Result if config.kind.is_loaded else WedgeResult, settled | tables, AS_JSON)
+    return dacite.from_dict(Result, settled | tables, AS_JSON)
 
 
 def _fields_of(directory):
@@ -162,14 +131,14 @@ def _solution(file, directory):
         raise ValueError("it has no domain in numbers, as a finished run has")
     contact = without_running(contact_from(config))
     mesh = mesh_from(config, contact)
-    fields, result = _fields(file, mesh), result_from(record, config)
+    fields, result = _fields(file, mesh), result_from(record)
     H0 = float(file.attrs["H0"])
     if not np.isfinite(H0):
         raise ValueError("H0 is not finite")
-    found = config, contact, mesh, fields, _rows(texts[HISTORY]), result, H0
-    frames = directory / FRAMES
-    kept = StoredFrames(frames) if config.is_in_time and is_plain(frames) else None
-    return Solution(*found, local=fields, frames=kept)
+    frames = StoredFrames(directory / FRAMES)
+    kept = frames if config.is_in_time and is_plain(frames.path) else None
+    rows = _rows(texts[HISTORY])
+    return Solution(config, contact, mesh, fields, rows, result, H0, local=fields, frames=kept)
 
 
 def _fields(file, mesh):

@@ -1,11 +1,16 @@
-"""Fields of a run for ParaView: a VTK structured grid, written by PETSc's own viewer."""
+"""Fields of a run for ParaView: VTK structured grids by PETSc's own viewer; of a run in time many."""
 
 import os
+from dataclasses import replace
+from xml.etree import ElementTree
 
 import numpy as np
 from petsc4py import PETSc
 
-from mgehl.output.export.further import further_fields
+from mgehl.errors import UserError
+from mgehl.output.files import further_fields
+from mgehl.output.solution import Fields
+from mgehl.output.whole_file import whole_file
 
 _COORDINATES = 3
 """Numbers per node that VTK takes for its position."""
@@ -86,3 +91,24 @@ def _check_end(path):
 def _check_size(numbers):
     if PETSc.Sys.getVersion() < _SHORT_OFFSETS_UNTIL and 8 * numbers >= _SHORT_LIMIT:
         raise OSError("over 2 GB, too large for the viewer of PETSc before 3.19; nc has no such limit")
+
+
+def write_pvd(path, solution):
+    """Write PATH, which names a VTK file for each instant, and these in a folder of its name.
+
+    Raises UserError where the run has no frames, OSError where a file cannot be written.
+    """
+    if solution.frames is None:
+        raise UserError("--to pvd: this run has no frames, as runs in time have (frames.nc)")
+    folder, contact = path.with_suffix(""), solution.contact
+    folder.mkdir(parents=True, exist_ok=True)
+    root = ElementTree.Element("VTKFile", type="Collection", version="0.1")
+    collection = ElementTree.SubElement(root, "Collection")
+    for number, (t, fields) in enumerate(solution.frames.all()):
+        name = f"frame-{number:04d}.vts"
+        P, H = fields["pressure"] / contact.pressure_scale, fields["film"] / contact.film_scale
+        with whole_file(folder / name) as part:
+            write_vts(part, replace(solution, fields=Fields(P, H, fields["status"])))
+        ElementTree.SubElement(collection, "DataSet", timestep=repr(t), file=f"{folder.name}/{name}")
+    with whole_file(path) as part:
+        ElementTree.ElementTree(root).write(part, "utf-8", xml_declaration=True)

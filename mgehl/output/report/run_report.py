@@ -23,7 +23,7 @@ from mgehl.output.pictures import style
 from mgehl.output.pictures.figures import drawn_by, figures
 from mgehl.output.report.page import BAD, DOUBTFUL, GOOD, NO_NUMBER, Cell, Page, number, picture, render
 from mgehl.output.resolution import RESOLVED_CELLS
-from mgehl.output.result import COMPLEMENTARITY_TOLERANCE
+from mgehl.output.summary import COMPLEMENTARITY_TOLERANCE
 from mgehl.output.surface import ADVICE as SURFACE
 from mgehl.output.surface import RESOLVED_NODES
 from mgehl.output.words import advice, band_words, largest_pressure_words, span

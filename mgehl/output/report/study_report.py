@@ -8,7 +8,7 @@ from pathlib import Path
 from mgehl.errors import OutputError
 from mgehl.output.files import NAMES
 from mgehl.output.report.page import Cell, Page, Section, Text, picture, table
-from mgehl.output.report.study_record import read_record
+from mgehl.output.study_directory import read_record
 
 DPI = 150
 """Of pictures of studies."""

@@ -4,8 +4,8 @@ import pytest
 
 from mgehl.errors import OutputError
 from mgehl.output.report.page import render
-from mgehl.output.report.study_record import StudyRecord, read_record, write_record
 from mgehl.output.report.study_report import study_report
+from mgehl.output.study_directory import StudyRecord, read_record, write_record
 
 STUDIES = {"wedge": "what wedge is", "grid": "what grid is"}
 RECORD = StudyRecord("wedge", (65, 129), 2, {"mgehl": "0.1.0", "petsc": "3.18.5"})
