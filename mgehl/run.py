@@ -17,11 +17,11 @@ from mgehl.output.diary import Diary
 from mgehl.output.directory import make_directory, prepare_directory
 from mgehl.output.film_error import film_error
 from mgehl.output.finish import finish_run
+from mgehl.output.forecast import check_memory
 from mgehl.output.friction_result import friction_result, with_band
 from mgehl.output.gap_error import gap_error
 from mgehl.output.laws import law_files
 from mgehl.output.lock import locked
-from mgehl.output.memory_limit import check_memory
 from mgehl.output.result import Work
 from mgehl.output.solution import Fields, Solution
 from mgehl.output.summary import summarise, summarise_dry, summarise_in_time, summarise_wedge

@@ -25,7 +25,7 @@ from mgehl.output.whole_file import clear_parts, is_folder, is_plain, writing
 FINISHED = "finished"
 """Folder of the checkpoint in which a run is put together."""
 
-_OWN_IN_CHECKPOINT = re.compile(r"solve-\d{4}\.npz|under-way\.npz|frame-\d{6}\.npz")
+_OWN = re.compile(r"solve-\d{4}\.npz|under-way\.npz|frame-\d{6}\.npz")
 _SIGN = b'<meta name="generator" content="mgehl'
 
 
@@ -54,28 +54,23 @@ def check_replaceable(directory, laws=()):
     if (directory / STUDY).exists():
         raise OutputError(f"{directory}: is the directory of a study; choose another with --out")
     known = files_of(directory) | ({SERIES} if is_plain(folder / BEGUN) else set())
-    for name in (*NAMES, *laws):
-        if os.path.lexists(directory / name) and not (name in known and is_plain(directory / name)):
-            raise OutputError(_foreign(directory / name))
-    for each in (directory / LAWS, folder):
-        if os.path.lexists(each) and not is_folder(each):
-            raise OutputError(_foreign(each))
+    names = [name for name in (*NAMES, *laws) if not (name in known and is_plain(directory / name))]
+    foreign = [directory / name for name in names]
+    foreign += [path for path in (directory / LAWS, folder) if not is_folder(path)]
+    foreign = [path for path in foreign if os.path.lexists(path)]
     if _own_files(folder) and not is_plain(folder / BEGUN):
-        raise OutputError(_foreign(folder))
-
-
-def _foreign(path):
-    return (
-        f"{path}: is not mgehl's, or damaged: it is left alone; "
-        "move it away, or choose another directory with --out"
-    )
+        foreign.append(folder)
+    if foreign:
+        raise OutputError(
+            f"{foreign[0]}: is not mgehl's, or damaged: it is left alone; "
+            "move it away, or choose another directory with --out"
+        )
 
 
 def _own_files(folder):
     """Plain files in the folder of a checkpoint that have names of mgehl's."""
     names = os.listdir(folder) if is_folder(folder) else []
-    own = [folder / name for name in names if _OWN_IN_CHECKPOINT.fullmatch(name)]
-    return list(filter(is_plain, own))
+    return [path for path in map(folder.joinpath, filter(_OWN.fullmatch, names)) if is_plain(path)]
 
 
 def clear_checkpoint(directory):

@@ -71,9 +71,10 @@ def _sendable(error):
 
 def texts_of(solution):
     """{name: text} of the files of a run that are text: configuration, result, history, a center line."""
+    told = plain_result(solution.result) | {INPUTS: solution.config.inputs}
     texts = {
         CONFIGURATION: tomli_w.dumps(portable(solution.config)),
-        RESULT: json.dumps(finite(record_of(solution)), indent=2, allow_nan=False) + "\n",
+        RESULT: json.dumps(finite(told), indent=2, allow_nan=False) + "\n",
         HISTORY: _table(
             [list(solution.rows[0]) if solution.rows else [], *map(dict.values, solution.rows)]
         ),
@@ -93,11 +94,6 @@ def _table(rows):
 def plain_result(result):
     """A result as plain data. What this kind of contact has not is left out."""
     return {name: each for name, each in asdict(result).items() if each is not None or name == "mixed"}
-
-
-def record_of(solution):
-    """What result.json holds: the result, and the numbers that the contact was made of."""
-    return plain_result(solution.result) | {INPUTS: solution.config.inputs}
 
 
 def finite(value):

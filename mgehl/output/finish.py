@@ -42,22 +42,17 @@ def _finish(directory, solution):
             write_whole(stage / name, text)
         with whole_file(stage / FIELDS) as part:
             write_fields(part, solution, texts)
-        in_time = _write_time(stage, solution)
-        drawn = [PICTURE] if _is_drawn(stage / PICTURE, solution, directory) else []
-        publish(directory, stage, [FIELDS, *texts, *laws, *in_time, *drawn])
+        names, title = [FIELDS, *texts, *laws], title_of(solution.config)
+        if solution.config.is_in_time and solution.rows:
+            write_series(stage / SERIES, solution.rows, title)
+            names.append(SERIES)
+            if solution.frames:
+                write_frames(stage / FRAMES, solution.frames.all(), solution.x, solution.y, title)
+                names.append(FRAMES)
+        if _is_drawn(stage / PICTURE, solution, directory):
+            names.append(PICTURE)
+        publish(directory, stage, names)
     clear_checkpoint(directory)
-
-
-def _write_time(stage, solution):
-    """Names of the files that a run in time has besides: they are written here."""
-    if not solution.config.is_in_time or not solution.rows:
-        return []
-    title = title_of(solution.config)
-    write_series(stage / SERIES, solution.rows, title)
-    if not solution.frames:
-        return [SERIES]
-    write_frames(stage / FRAMES, solution.frames.all(), solution.x, solution.y, title)
-    return [SERIES, FRAMES]
 
 
 def _is_drawn(path, solution, directory):

@@ -22,19 +22,21 @@ class Frames:
     def __post_init__(self):
         self._kept = {}
 
-    def take(self, t, step, fields):
-        """Keep `fields`, {name: a function that gathers (ny, nx)}, where it is time for it (collective)."""
-        number = int(t / self.every * (1.0 + 1e-9))
-        if number == int(max(t - step, 0.0) / self.every * (1.0 + 1e-9)) and t > step:
-            return
-        found = {name: gathered() for name, gathered in fields.items()}
-        if found["film"] is None:
-            return
+    def is_due(self, t, step):
+        """Whether the fields of this instant are to be kept: the first ones, and from time to time."""
+        number = self._number(t)
+        return t <= step or number != self._number(max(t - step, 0.0))
+
+    def _number(self, t):
+        return int(t / self.every * (1.0 + 1e-9))
+
+    def take(self, t, fields):
+        """Keep {name: (ny, nx)}."""
         if self.folder is None:
-            self._kept[number] = (t, found)
+            self._kept[self._number(t)] = (t, fields)
             return
-        with whole_file(self.folder / f"frame-{number:06d}.npz") as part:
-            np.savez(part, t=t, **found)
+        with whole_file(self.folder / f"frame-{self._number(t):06d}.npz") as part:
+            np.savez(part, t=t, **fields)
 
     def all(self):
         """(Time, {name: array}) of the instants, in order."""

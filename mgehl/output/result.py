@@ -157,7 +157,7 @@ class TimeResult:
     """Over the last passage."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Result:
     """Everything result.json holds. What a contact has not, as a dry one has no film, is None here and left
     out there. (None, and no Optional: in result.json null is a number that is not finite.)
@@ -170,10 +170,6 @@ class Result:
     """Sets, residual, load and complementarity hold: a solution of the discrete equations. Of a dry contact
     and of a bearing as `converged`: there is no inequality besides."""
     reason: str
-    wall_s: float
-    ranks: int
-    versions: dict
-    error: FilmError = NOT_ASKED
 
     # Of a loaded contact.
     max_pressure_GPa: float = None
@@ -184,6 +180,10 @@ class Result:
     overlap: Overlap = Overlap(0, 0.0)
     work: Work = None
     """Of a dry contact the steps are sets of pressed nodes."""
+    wall_s: float
+    ranks: int
+    versions: dict
+    error: FilmError = NOT_ASKED
     edge: EdgeResult = NOT_SEEN
 
     # With a fluid.

@@ -8,7 +8,6 @@ from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, WALL
 from mgehl.discretization.storage import content
 from mgehl.output.film_error import OF_AN_INSTANT, no_band
 from mgehl.output.mixed_result import mixed_result
-from mgehl.output.passages import time_result
 from mgehl.output.resolution import resolution
 from mgehl.output.result import (
     ContactResult,
@@ -19,6 +18,7 @@ from mgehl.output.result import (
     Overlap,
     Result,
 )  # fmt: skip
+from mgehl.output.series import time_result
 from mgehl.output.words import undecided_words
 from mgehl.solver.inequality import check_interface, check_pressure_inequality, check_under_contact
 from mgehl.solver.mass import CLOSED, account, mass_account

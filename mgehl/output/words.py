@@ -1,9 +1,8 @@
 """A result in words: what a run, a `Solution` and a script print of it."""
 
 from mgehl.output.digits import with_band
-from mgehl.output.domain import beyond_words, domain_words
 from mgehl.output.mixed_words import filling_words, friction_lines, heating_words, mixed_lines
-from mgehl.output.resolution import RESOLVED_CELLS, SEEN_CELLS
+from mgehl.output.resolution import RESOLVED_CELLS, SEEN_CELLS, beyond_words, domain_words
 from mgehl.output.surface import surface_words
 
 LISTED = 20

@@ -16,8 +16,7 @@ from mgehl.kinds import case_of
 from mgehl.output.files import plain_result
 from mgehl.output.result import Work
 from mgehl.output.solution import Fields
-from mgehl.output.solution_record import arrays_of, fields_from
-from mgehl.output.stored import result_from
+from mgehl.output.stored import arrays_of, fields_from, result_from
 from mgehl.output.summary import summarise
 from mgehl.output.surroundings import versions
 from mgehl.solver.continuation import Continuation

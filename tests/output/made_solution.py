@@ -31,7 +31,7 @@ def make_solution(kind):
 
 def _wedge_result():
     return Result(
-        converged=True, settled=True, reason="the residual holds", load=0.5, load_N=48.0, max_P=0.25, min_P=0.0,
-        max_pressure_MPa=0.125, residual=1e-12, flux_imbalance=1e-13, closed_face_flow=0.0,
+        converged=True, settled=True, reason="the residual holds", load=0.5, load_N=48.0, max_P=0.25,
+        min_P=0.0, max_pressure_MPa=0.125, residual=1e-12, flux_imbalance=1e-13, closed_face_flow=0.0,
         solid_nodes=9, cavitated_nodes=0, linear_iterations=12, wall_s=0.5, ranks=1, versions={},
     )  # fmt: skip

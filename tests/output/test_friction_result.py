@@ -67,8 +67,7 @@ def test_where_the_load_on_solids_is_the_grid_s_so_is_friction(found):
     result = with_band(found(0.2), mixed(None), 0.1)
     assert result.coefficient_band is None and result.is_the_grids
     assert (
-        list(friction_lines(result, verbose=False))[1]
-        == "friction is the grid's, as the load on solids is"
+        list(friction_lines(result, verbose=False))[1] == "friction is the grid's, as the load on solids is"
     )
 
 
