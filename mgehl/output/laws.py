@@ -1,4 +1,4 @@
-"""A run's own laws and heights: their files are kept in its directory, and known again."""
+"""A run's own laws and heights: their files are kept in its directory, for a run that goes on, too."""
 
 import os
 import re

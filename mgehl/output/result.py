@@ -186,16 +186,14 @@ class Result:
     error: FilmError = NOT_ASKED
     edge: EdgeResult = NOT_SEEN
 
-    # With a fluid.
+    # With a fluid; a bearing has not all of these.
+    central_film_nm: float = None
+    minimum_film_nm: float = None
     residual: float = None
     flux_imbalance: float = None
     cavitated_nodes: int = None
     mass: Mass | None = None
     """The account of the oil; None in older results."""
-
-    # Of both.
-    central_film_nm: float = None
-    minimum_film_nm: float = None
     pressure_inequality: InequalityResult | None = None
     """Compared at the interface, as the paper states it: `converged` asks for this."""
     other_inequality: InequalityResult | None = None
