@@ -37,10 +37,9 @@ class Solution(Solved):
         text = f"<h4>{escape(self._heading())}</h4><pre>{escape(self.summary.words(verbose=False))}</pre>"
         if self.fields is None:
             return text
-        from mgehl.output.pictures import picture, wedge_picture
+        from mgehl.output.pictures.picture import drawn
 
-        drawn = (picture if self.contact.is_loaded else wedge_picture).drawn(self)
-        image = base64.b64encode(drawn).decode()
+        image = base64.b64encode(drawn(self)).decode()
         return f'{text}<img alt="{escape(self._heading())}" src="data:image/png;base64,{image}">'
 
     def _heading(self) -> str:

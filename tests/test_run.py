@@ -15,7 +15,6 @@ from mgehl.config import config_from_tables, load_config
 from mgehl.discretization.status import CONTACT
 from mgehl.output.result import Result
 from mgehl.output.solution import Solution
-from mgehl.output.wedge_result import WedgeResult
 from mgehl.run import run, solve
 from mgehl.studies.study import PAPERS_DOMAIN, papers_grid
 
@@ -130,7 +129,7 @@ KINDS = {
         Result,
         (1, 257),
     ),
-    "wedge": ({"contact": {"kind": "wedge"}, "grid": {"nodes": 65}}, WedgeResult, (65, 65)),
+    "wedge": ({"contact": {"kind": "wedge"}, "grid": {"nodes": 65}}, Result, (65, 65)),
     "relaxed point": (
         FILM | {"solver": {"method": "relaxation"}, "relaxation": {"max_sweeps": 5}}, Result, (65, 65)
     ),

@@ -91,29 +91,31 @@ def _described(config, contact, mesh):
 def _inlet(config, contact, mesh):
     """Lines about the inlet on every grid."""
     from mgehl.kinds.loaded import speed_words
-    from mgehl.output import domain
+    from mgehl.output import resolution
     from mgehl.output.forecast import LARGEST_NODES, inlet_grids
-    from mgehl.output.resolution import RESOLVED_CELLS, expectation, resolving_nodes
     from mgehl.solver.from_config import scheme_from
 
     grids = inlet_grids(config, contact)
     for grid in grids:
         at = "" if grid.speed is None else f"   solved at {speed_words(grid.speed)}"
         yield f"grid {grid.nodes:5d}   {grid.cells:8.2f} cells in the inlet{at}"
-    needed = resolving_nodes(contact, mesh)
+    needed = resolution.resolving_nodes(contact, mesh)
     cells, start = grids[-1].cells, config.solver.start
     yield ""
     begins_closed = start == "contact" and scheme_from(config, contact).contact_law.closes_faces
-    yield f"expected   from a {start} start, {expectation(cells, begins_closed, contact.is_mixed)}"
+    expected = resolution.expectation(cells, begins_closed, contact.is_mixed)
+    yield f"expected   from a {start} start, {expected}"
     verdict = "this grid does" if needed <= config.grid.nodes else f"recommended: grid.nodes={needed}"
     if needed > LARGEST_NODES:
         verdict = f"no grid up to {LARGEST_NODES} does; a higher speed or a smaller domain helps"
-    lost = domain.film_lost(contact, mesh)
-    yield f"domain     {domain.room_words(mesh)}"
-    yield f"           {domain.domain_words(domain.domain_verdict(lost), lost)}"
-    yield from (f"           {words}" for words in domain.peaks_words(contact, mesh))
-    yield from (f"load       {words}" for words in domain.beyond_words(100.0 * contact.share_beyond(mesh)))
-    yield f"resolved   with {RESOLVED_CELLS:.0f} cells in the inlet, from {needed} nodes on: {verdict}"
+    lost = resolution.film_lost(contact, mesh)
+    yield f"domain     {resolution.room_words(mesh)}"
+    yield f"           {resolution.domain_words(resolution.domain_verdict(lost), lost)}"
+    yield from (f"           {words}" for words in resolution.peaks_words(contact, mesh))
+    beyond = resolution.beyond_words(100.0 * contact.share_beyond(mesh))
+    yield from (f"load       {words}" for words in beyond)
+    cells = f"with {resolution.RESOLVED_CELLS:.0f} cells in the inlet"
+    yield f"resolved   {cells}, from {needed} nodes on: {verdict}"
 
 
 def _recipe(config, contact):

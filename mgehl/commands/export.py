@@ -28,7 +28,7 @@ def add(commands):
 def execute(options):
     """Write the files and name them."""
     from mgehl.output.export.export import export, read_formats, targets
-    from mgehl.output.stored import read_run  # starts PETSc, which vts needs
+    from mgehl.output.stored import read_run
 
     paths = targets(read_formats(options.to), options.run, options.out)
     export(read_run(options.run), paths, options.force)

@@ -82,7 +82,6 @@ def _begin(options, comm, solve):
         tables = read_tables(file, settings)
         case = enter(config_from_tables(tables), comm)
     config = case.config
-    on_first_rank(comm, _say_what_changed, config)
     on_first_rank(comm, _say_doubts, case)
     start = _start(options.start_from, config, comm) if options.start_from else None
     if start and comm.rank == 0:
@@ -112,15 +111,6 @@ def _say_what(options, file, case, tables):
         say(folded(f"mgehl: {words}", "    ", columns()))
 
 
-def _say_what_changed(config):
-    """Warn of a law that was changed since the run beside which it lies."""
-    from mgehl.output.stored import changed_copies
-    from mgehl.saying import complain
-
-    for file in changed_copies(config):
-        complain(f"{file}: has changed since the run that it lies beside")
-
-
 def _say_doubts(case):
     """Warn of heights that may be errors."""
     from mgehl.output.surface import surface_doubts
@@ -133,14 +123,14 @@ def _say_doubts(case):
 
 def _say_what_differs(directory, start, config):
     """Warn of a start from another contact: it is a first guess, and may be a bad one."""
-    from mgehl.output.laws import checksum, law_files
+    from mgehl.output.laws import content_of, law_files
     from mgehl.saying import complain
     from mgehl.solver.restart import differences
 
     keys = list(differences(start, config))
-    theirs = {Path(file).name: checksum(file) for file in law_files(start.config)}
+    theirs = {Path(file).name: content_of(file) for file in law_files(start.config)}
     for file in law_files(config):
-        if theirs.get(Path(file).name, checksum(file)) != checksum(file):
+        if theirs.get(Path(file).name, content_of(file)) != content_of(file):
             keys.append(Path(file).name)
     if keys:
         complain(f"--start-from {directory}: is of another contact ({', '.join(keys)}): a first guess only")

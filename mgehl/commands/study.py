@@ -92,7 +92,7 @@ def execute(options, comm):
     from mgehl.output.directory import make_directory
     from mgehl.output.files import on_first_rank
     from mgehl.output.lock import locked
-    from mgehl.output.report.study_record import StudyRecord
+    from mgehl.output.study_directory import StudyRecord
     from mgehl.output.surroundings import versions
     from mgehl.saying import complain
 

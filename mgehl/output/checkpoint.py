@@ -5,7 +5,6 @@ RUN/checkpoint/
     solve-0000.npz, ...   finished solves, in order: a grid of the nested iteration each, or a step in speed
     under-way.npz         where the next one stands, saved every so many seconds
     finished/             the files of the finished run, until they are published
-    over.npz              begun.npz, once only this folder is left to be removed
 
 Every file is whole, and knows again each bit of it (`archive`). Its record has
 
@@ -19,10 +18,6 @@ or, in begun.npz, what its arrays are and where the laws were. The names of valu
 in `solver.record`; here nothing is known of them. An array in a file is of the whole grid, (ny, nx), or of
 several such. A run that goes on repeats its solves in order; those that are finished are read instead of
 solved.
-
-On a rough surface nearly all of under-way.npz is what the linear solver remembers: 75 to 150 MB on 257
-nodes, saved in half a second, 450 MB on 513 in two seconds. A solve of ten seconds on 257 nodes ends before
-it is saved once.
 """
 
 import os
@@ -41,7 +36,7 @@ from mgehl.solver.journal import Journal, told_to_stop
 from mgehl.solver.record import Record
 from mgehl.version import VERSION
 
-BEGUN, UNDER_WAY, OVER = "begun.npz", "under-way.npz", "over.npz"
+BEGUN, UNDER_WAY = "begun.npz", "under-way.npz"
 
 START = "start"
 """In begun.npz the bytes of the fields.h5 of the run that this one was started from."""
@@ -75,12 +70,13 @@ def begin_run(directory, config, start=None):
         kept = laws_of(config) | ({START: (Path(start) / FIELDS).read_bytes()} if start else {})
     origins = {name: os.path.relpath(file, directory) for file, name in law_files(config).items()}
     arrays = {str(number): np.frombuffer(each, np.uint8) for number, each in enumerate(kept.values())}
-    save(_begun(directory), _head(portable(config)) | {"names": list(kept), "origins": origins}, arrays)
+    record = _head(portable(config)) | {"names": list(kept), "origins": origins}
+    save(Path(directory) / CHECKPOINT / BEGUN, record, arrays)
 
 
-def read_begun(directory, name=BEGUN):
+def read_begun(directory):
     """The `Begun` run of a directory, None where there is none. Raises OutputError where it is damaged."""
-    path = _begun(directory, name)
+    path = Path(directory) / CHECKPOINT / BEGUN
     if not (found := load(path)):
         return None
     record, arrays = found
@@ -96,11 +92,7 @@ def read_begun(directory, name=BEGUN):
 
 def is_begun(directory):
     """Whether a directory has the checkpoint of a run that has not finished, or was just about to."""
-    return _begun(directory).exists()
-
-
-def _begun(directory, name=BEGUN):
-    return Path(directory) / CHECKPOINT / name
+    return (Path(directory) / CHECKPOINT / BEGUN).exists()
 
 
 class Checkpoint(Journal):
@@ -119,9 +111,8 @@ class Checkpoint(Journal):
 
     def recall(self, grid, made):
         """The end of the next solve where its file is there, else None (collective)."""
-        outcome = self._read(grid, self._finished(self._solved), made)
-        if outcome is not None:
-            self._solved += 1
+        outcome = self._read(grid, self._finished, made)
+        self._solved += outcome is not None
         return outcome
 
     def standing(self, grid, made):
@@ -140,11 +131,12 @@ class Checkpoint(Journal):
 
     def finish(self, grid, outcome):
         """Save the end of a solve, which is no longer under way (collective)."""
-        self._write(grid, self._finished(self._solved), outcome)
+        self._write(grid, self._finished, outcome)
         self._solved += 1
 
-    def _finished(self, number):
-        return self._folder / f"solve-{number:04d}.npz"
+    @property
+    def _finished(self):
+        return self._folder / f"solve-{self._solved:04d}.npz"
 
     def _write(self, grid, path, kept):
         """Write what `kept.record()` has, the arrays gathered."""

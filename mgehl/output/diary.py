@@ -1,14 +1,11 @@
 """What is written down while a run in time goes on: its rows, its series on disk, its frames."""
 
 import time
-from functools import partial
-
-import numpy as np
 
 from mgehl.errors import one_line
 from mgehl.output.files import CHECKPOINT, SERIES, on_first_rank
-from mgehl.output.passages import have_settled
-from mgehl.output.series import Frames, row_of, write_series
+from mgehl.output.frames import Frames
+from mgehl.output.series import have_settled, row_of, title_of, write_series
 from mgehl.saying import complain
 
 FRAMES_OF_A_RUN = 50
@@ -19,53 +16,43 @@ class Diary:
     """Told of each step by a `March` (collective)."""
 
     def __init__(self, case, frame, grid, progress, watch):
-        self._config, self._contact, self._frame = case.config, case.contact, frame
-        self._problem_grid, self._progress, self._watch = grid, progress, watch
+        self._config, self._frame, self._grid = case.config, frame, grid
+        self._progress, self._watch, self._written = progress, watch, time.monotonic()
         self._length = 2e6 * case.scene.framed.x_scale
-        self._title = f"{case.config.kind.content} {case.config.kind.noun} over time"
-        self._written = time.monotonic()
-        keys = case.config.time
-        folder = watch.directory and watch.directory / CHECKPOINT
+        pressure, film = case.contact.pressure_scale, case.contact.in_frame(frame).film_scale
+        self._kept = {"pressure": (pressure, "f4"), "film": (film, "f4"), "status": (1, "i1")}
+        keys, folder = case.config.time, watch.directory and watch.directory / CHECKPOINT
         self.frames = Frames(keys.save_every or keys.end / FRAMES_OF_A_RUN, folder)
         """Of the instants that are kept, in the user's axes."""
 
     def __call__(self, instant, standing, problem):
         """Write a step down; return why the run ends with it, in words, or "" """
-        progress, config = self._progress, self._config
+        progress, keys = self._progress, self._config.time
         row = row_of(instant, standing, problem, progress.convolutions, progress.seconds)
-        left = progress.seconds * (config.time.end - instant.t) / instant.t
-        progress.take(row, left)
-        self._take_frame(instant, standing.state)
-        self._write()
-        if config.time.until == "settled" and have_settled(progress.rows, self._length):
-            return "means over passages have settled"
-        return ""
+        progress.take(row, progress.seconds * (keys.end - instant.t) / instant.t)
+        if self.frames.is_due(instant.t, instant.step):
+            self._take_frame(instant.t, standing.state)
+        self._write_series()
+        settled = keys.until == "settled" and have_settled(progress.rows, self._length)
+        return "means over passages have settled" if settled else ""
 
-    def _take_frame(self, instant, state):
-        contact = self._contact
-        fields = {
-            "pressure": partial(self._gathered, state.P, contact.pressure_scale, np.float32),
-            "film": partial(self._gathered, state.H, self._film_scale, np.float32),
-            "status": partial(self._gathered, state.status, 1, np.int8),
-        }
-        self.frames.take(instant.t, instant.step, fields)
+    def _take_frame(self, t, state):
+        """Keep the fields of an instant in the user's axes and units."""
+        fields = dict(zip(self._kept, (state.P, state.H, state.status), strict=True))
+        whole = {name: self._grid.gather(each) for name, each in fields.items()}
+        if whole["film"] is not None:
+            self.frames.take(t, {
+                name: self._frame.users_array(scale * whole[name]).astype(kind)
+                for name, (scale, kind) in self._kept.items()
+            })  # fmt: skip
 
-    @property
-    def _film_scale(self):
-        return self._contact.in_frame(self._frame).film_scale
-
-    def _gathered(self, array, scale, kind):
-        """The whole array in the user's axes and units on rank 0, None elsewhere."""
-        whole = self._problem_grid.gather(array)
-        return None if whole is None else self._frame.users_array(scale * whole).astype(kind)
-
-    def _write(self):
+    def _write_series(self):
         """series.nc as far as it goes, now and then."""
-        watch, grid = self._watch, self._problem_grid
+        watch, grid = self._watch, self._grid
         due = grid.max([time.monotonic() - self._written]) >= watch.save_every
         if watch.directory and due:
             path, rows = watch.directory / SERIES, self._progress.rows
-            on_first_rank(grid.comm, _written, path, rows, self._title)
+            on_first_rank(grid.comm, _written, path, rows, title_of(self._config))
             self._written = time.monotonic()
 
 

@@ -15,17 +15,17 @@ from contextlib import suppress
 from pathlib import Path
 
 from mgehl.errors import OutputError
-from mgehl.output.checkpoint import BEGUN, OVER, read_begun
+from mgehl.output.checkpoint import BEGUN, read_begun
 from mgehl.output.files import CHECKPOINT, FIELDS, NAMES, REPORT, SERIES
 from mgehl.output.laws import FOLDER as LAWS
-from mgehl.output.report.study_record import NAME as STUDY
 from mgehl.output.stored import files_of
+from mgehl.output.study_directory import NAME as STUDY
 from mgehl.output.whole_file import clear_parts, is_folder, is_plain, writing
 
 FINISHED = "finished"
 """Folder of the checkpoint in which a run is put together."""
 
-_OWN_IN_CHECKPOINT = re.compile(r"solve-\d{4}\.npz|under-way\.npz|frame-\d{6}\.npz")
+_OWN = re.compile(r"solve-\d{4}\.npz|under-way\.npz|frame-\d{6}\.npz")
 _SIGN = b'<meta name="generator" content="mgehl'
 
 
@@ -54,28 +54,23 @@ def check_replaceable(directory, laws=()):
     if (directory / STUDY).exists():
         raise OutputError(f"{directory}: is the directory of a study; choose another with --out")
     known = files_of(directory) | ({SERIES} if is_plain(folder / BEGUN) else set())
-    for name in (*NAMES, *laws):
-        if os.path.lexists(directory / name) and not (name in known and is_plain(directory / name)):
-            raise OutputError(_foreign(directory / name))
-    for each in (directory / LAWS, folder):
-        if os.path.lexists(each) and not is_folder(each):
-            raise OutputError(_foreign(each))
-    if _own_files(folder) and not any(is_plain(folder / name) for name in (BEGUN, OVER)):
-        raise OutputError(_foreign(folder))
-
-
-def _foreign(path):
-    return (
-        f"{path}: is not mgehl's, or damaged: it is left alone; "
-        "move it away, or choose another directory with --out"
-    )
+    names = [name for name in (*NAMES, *laws) if not (name in known and is_plain(directory / name))]
+    foreign = [directory / name for name in names]
+    foreign += [path for path in (directory / LAWS, folder) if not is_folder(path)]
+    foreign = [path for path in foreign if os.path.lexists(path)]
+    if _own_files(folder) and not is_plain(folder / BEGUN):
+        foreign.append(folder)
+    if foreign:
+        raise OutputError(
+            f"{foreign[0]}: is not mgehl's, or damaged: it is left alone; "
+            "move it away, or choose another directory with --out"
+        )
 
 
 def _own_files(folder):
     """Plain files in the folder of a checkpoint that have names of mgehl's."""
     names = os.listdir(folder) if is_folder(folder) else []
-    own = [folder / name for name in names if _OWN_IN_CHECKPOINT.fullmatch(name)]
-    return list(filter(is_plain, own))
+    return [path for path in map(folder.joinpath, filter(_OWN.fullmatch, names)) if is_plain(path)]
 
 
 def clear_checkpoint(directory):
@@ -83,17 +78,14 @@ def clear_checkpoint(directory):
     folder = Path(directory) / CHECKPOINT
     if not is_folder(folder):
         return
-    stage = folder / FINISHED
+    stage, laws = folder / FINISHED, ()
+    with suppress(OutputError, AttributeError):  # damaged, or not there
+        laws = read_begun(directory).laws
+    own = [stage / name for name in (*NAMES, *laws)] + [folder / name for name in laws] + _own_files(folder)
     with suppress(OSError):  # what stays is not read
-        if is_plain(folder / BEGUN):
-            (folder / BEGUN).replace(folder / OVER)  # the run is over, whatever comes
-        laws = ()
-        with suppress(OutputError, AttributeError):  # damaged, or not there
-            laws = read_begun(directory, OVER).laws
         clear_parts(folder)
         clear_parts(stage)
-        own = [stage / name for name in (*NAMES, *laws)] + [folder / name for name in laws]
-        for path in (*own, *_own_files(folder), folder / OVER):  # which says that they are mgehl's
+        for path in (*own, folder / BEGUN):  # last the one that says that they are mgehl's
             if is_plain(path):
                 path.unlink()
     for each in (stage / LAWS, stage, folder / LAWS, folder):
@@ -118,11 +110,7 @@ def publish(directory, stage, names):
             (directory / name).unlink()
     with suppress(OSError):  # in use, or not there
         (directory / LAWS).rmdir()
-    _remove_report(directory / REPORT)
-
-
-def _remove_report(path):
-    """A page of the run before, if mgehl made it."""
-    with suppress(OSError):
-        if is_plain(path) and _SIGN in path.read_bytes()[:4096]:
-            path.unlink()
+    page = directory / REPORT
+    with suppress(OSError):  # of the run before, if mgehl made it
+        if is_plain(page) and _SIGN in page.read_bytes()[:4096]:
+            page.unlink()

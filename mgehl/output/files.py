@@ -4,7 +4,6 @@ import csv
 import json
 import pickle
 from dataclasses import asdict
-from functools import partial
 from io import StringIO
 from math import isfinite
 
@@ -16,7 +15,7 @@ from mgehl.errors import one_line
 from mgehl.grid.events import FILES, event
 from mgehl.output.center_line import center_line
 from mgehl.output.laws import portable
-from mgehl.output.memory_file import netcdf_file
+from mgehl.output.netcdf import netcdf_file, put
 from mgehl.version import VERSION
 
 NAMES = CONFIGURATION, RESULT, HISTORY, FIELDS, PICTURE, CENTER_LINE, SERIES, FRAMES = (
@@ -72,9 +71,10 @@ def _sendable(error):
 
 def texts_of(solution):
     """{name: text} of the files of a run that are text: configuration, result, history, a center line."""
+    told = plain_result(solution.result) | {INPUTS: solution.config.inputs}
     texts = {
         CONFIGURATION: tomli_w.dumps(portable(solution.config)),
-        RESULT: json.dumps(finite(record_of(solution)), indent=2, allow_nan=False) + "\n",
+        RESULT: json.dumps(finite(told), indent=2, allow_nan=False) + "\n",
         HISTORY: _table(
             [list(solution.rows[0]) if solution.rows else [], *map(dict.values, solution.rows)]
         ),
@@ -96,11 +96,6 @@ def plain_result(result):
     return {name: each for name, each in asdict(result).items() if each is not None or name == "mixed"}
 
 
-def record_of(solution):
-    """What result.json holds: the result, and the numbers that the contact was made of."""
-    return plain_result(solution.result) | {INPUTS: solution.config.inputs}
-
-
 def finite(value):
     """A value of plain data with None for every number that is not finite, which JSON cannot hold."""
     if isinstance(value, dict):
@@ -110,49 +105,58 @@ def finite(value):
     return None if isinstance(value, float) and not isfinite(value) else value
 
 
+FURTHER = {
+    "fluid_pressure": ("Pa", "pressure of the fluid, under contact of that in the layers"),
+    "filling": ("1", "part of the gap above the layers that holds fluid"),
+    "heights": ("m", "heights of the bodies over smooth ones, a peak positive"),
+    "shear": ("Pa", "shear stress of film and solids by sliding"),
+    "flash_1": ("K", "rise of the surface of body 1 by friction"),
+    "flash_2": ("K", "rise of the surface of body 2 by friction"),
+}
+"""Unit and meaning of fields that smooth bodies or older results are without."""
+
+
+def further_fields(solution):
+    """What there is of `FURTHER`, by name; the filling is below 1 in cavities alone."""
+    fields = solution.fields.named
+    if "p" in fields:
+        fields["fluid_pressure"] = fields["p"] * solution.contact.pressure_scale
+    return {name: fields[name] for name in FURTHER if name in fields}
+
+
 def write_fields(path, solution, texts):
     """fields.h5, netCDF-4: pressure, film and status with coordinates, SI and dimensionless; all `texts`.
 
     Each part of it has a checksum, the data Fletcher's and HDF5's own lists those of its version 1.10.
     """
-    mesh, contact, fields = solution.mesh, solution.contact, solution.fields
-    with netcdf_file(path, libver=("v110", "v110")) as file:
-        file.dimensions = {"y": mesh.ny, "x": mesh.nx}
-        file.attrs["mgehl"] = VERSION
-        file.attrs["H0"] = solution.H0
-        put = partial(_put, file)
-        put("x", ("x",), solution.x, "m", "distance along x")
-        put("y", ("y",), solution.y, "m", "distance along y")
-        put("X", ("x",), mesh.X, "1", "x over its unit: Hertz semi-axis a, or mm")
-        put("Y", ("y",), mesh.Y, "1", "y over its unit: Hertz semi-axis b, or mm")
-        plane = ("y", "x")
-        put("pressure", plane, solution.pressure, "Pa", "fluid or contact pressure")
-        put("film", plane, solution.film, "m", "film thickness or gap")
-        unit = f"maximum Hertz pressure, or eta u/(m^2 mm): {contact.pressure_scale:.6g} Pa"
-        put("P", plane, fields.P, "1", f"pressure over its unit, {unit}")
-        put("H", plane, fields.H, "1", f"gap over its unit, a^2/R_x, or m mm: {contact.film_scale:.6g} m")
-        names = ", ".join(f"{k} {name}" for k, name in enumerate(status.names(solution.is_dry)))
-        put("status", plane, fields.status, "1", names)
-        if fields.p is not None:
-            put("p", plane, fields.p, "1", f"the fluid's own pressure over its unit, {unit}")
-            put("filling", plane, fields.filling, "1", "part of the gap above the layers that holds fluid")
-        if fields.shear is not None:
-            put("shear", plane, fields.shear, "Pa", "shear stress of film and solids by sliding")
-        if fields.flash_1 is not None:
-            put("flash_1", plane, fields.flash_1, "K", "rise of the surface of body 1 by friction")
-            put("flash_2", plane, fields.flash_2, "K", "rise of the surface of body 2 by friction")
-        if fields.heights is not None:
-            put("heights", plane, fields.heights, "m", "heights of the bodies, a peak positive")
-        group, name = WHOLE.split("/")
-        content = np.frombuffer(json.dumps(texts).encode(), np.uint8)
-        inner = file.create_group(group)
-        inner.dimensions = {"bytes": content.size}
-        _put(inner, name, ("bytes",), content, "1", "the run's texts by their names, as JSON")
-
-
-def _put(file, name, dimensions, values, unit, description):
+    mesh, contact = solution.mesh, solution.contact
+    unit = f"maximum Hertz pressure, or eta u/(m^2 mm): {contact.pressure_scale:.6g} Pa"
+    names = ", ".join(f"{k} {name}" for k, name in enumerate(status.names(solution.is_dry)))
+    meanings = FURTHER | {
+        "pressure": ("Pa", "fluid or contact pressure"),
+        "film": ("m", "film thickness or gap"),
+        "P": ("1", f"pressure over its unit, {unit}"),
+        "H": ("1", f"gap over its unit, a^2/R_x, or m mm: {contact.film_scale:.6g} m"),
+        "status": ("1", names),
+        "p": ("1", f"the fluid's own pressure over its unit, {unit}"),
+    }
+    planes = {"pressure": solution.pressure, "film": solution.film} | solution.fields.named
     # Shuffled, a double's like bytes lie side by side: a sixth less on the disk, in half the time.
     packed = {"compression": "gzip", "compression_opts": 1, "shuffle": True, "fletcher32": True}
-    variable = file.create_variable(name, dimensions, values.dtype, data=values, **packed)
-    variable.attrs["units"] = unit
-    variable.attrs["long_name"] = description
+    with netcdf_file(path, libver=("v110", "v110")) as file:
+
+        def write(name, dimensions, values, unit, meaning, into=file):
+            put(into, name, dimensions, values, packed, units=unit, long_name=meaning)
+
+        file.dimensions = {"y": mesh.ny, "x": mesh.nx}
+        file.attrs.update({"mgehl": VERSION, "H0": solution.H0})
+        for axis in "xy":
+            write(axis, (axis,), getattr(solution, axis), "m", f"distance along {axis}")
+            meaning = f"{axis} over its unit: Hertz semi-axis {'a' if axis == 'x' else 'b'}, or mm"
+            write(axis.upper(), (axis,), getattr(mesh, axis.upper()), "1", meaning)
+        for name, values in planes.items():
+            write(name, ("y", "x"), values, *meanings[name])
+        group, name = WHOLE.split("/")
+        content, inner = np.frombuffer(json.dumps(texts).encode(), np.uint8), file.create_group(group)
+        inner.dimensions = {"bytes": content.size}
+        write(name, ("bytes",), content, "1", "the run's texts by their names, as JSON", inner)

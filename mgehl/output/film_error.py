@@ -93,30 +93,20 @@ def film_error(result, coarser, progress):
     why_not = why_no_band(result, contact)
     if why_not or not settings.error:
         return no_band(why_not) if why_not else NOT_ASKED
-    before = progress.convolutions
-    scheme = telling_scheme(settings.scheme)
-    nm = 1e9 * contact.film_scale
-    grids = tuple(_in_nm(each, nm) for each in coarser.films(scheme))
-    told = from_grids(result, grids, scheme_order(scheme), scheme if scheme != settings.scheme else None)
-    return replace(told, grids=grids, convolutions=progress.convolutions - before)
+    before, scheme = progress.convolutions, settings.scheme
+    other = replace(scheme, **BETTER) if _order(scheme) == 1 else None
+    nm, grids = 1e9 * contact.film_scale, []
+    for grid in coarser.films(other or scheme):
+        films, known = grid.films, (grid.contact_nodes, grid.settled)
+        central, minimum = nm * films.central, nm * films.minimum
+        grids.append(GridFilm(grid.nodes, central, minimum, *known, nm * films.around, nm * films.spread))
+    told = from_grids(result, tuple(grids), _order(other or scheme), other)
+    return replace(told, grids=tuple(grids), convolutions=progress.convolutions - before)
 
 
-def _in_nm(grid, nm):
-    films = grid.films
-    central, minimum, around, spread = (
-        nm * each for each in (films.central, films.minimum, films.around, films.spread)
-    )
-    return GridFilm(grid.nodes, central, minimum, grid.contact_nodes, grid.settled, around, spread)
-
-
-def scheme_order(scheme):
+def _order(scheme):
     """Power of the spacing with which a film's error falls by a `Scheme`."""
     return min(couette_order(scheme.couette), POISEUILLE_ORDER)
-
-
-def telling_scheme(scheme):
-    """The `Scheme` of the coarser grids: the same, or a better one beside one of first order."""
-    return scheme if scheme_order(scheme) > 1 else replace(scheme, **BETTER)
 
 
 def from_grids(result, grids, order, other=None):
@@ -129,14 +119,11 @@ def from_grids(result, grids, order, other=None):
         return no_band(f"on {coarser.nodes} nodes, the next coarser grid, there is no film to compare with")
     known, unlike = [each for each in grids if each.settled], "" if other else _unlike(result, *grids[:2])
     central, minimum = (_band(result, known, film, order, bool(unlike), other) for film in FILMS)
-    return FilmError(
-        central.half_width,
-        minimum.half_width,
-        _how(known, order, other) + unlike,
-        order,
-        central.observed_order,
-        minimum.observed_order,
-    )
+    by = f" by {other.couette} and the {other.face_mobility} mean" if other else ""
+    nodes = " and ".join(str(grid.nodes) for grid in known[1:])
+    how = f"from the differences to {nodes} nodes{by}, of order {order}{unlike}"
+    found = central.half_width, minimum.half_width, how, order
+    return FilmError(*found, central.observed_order, minimum.observed_order)
 
 
 def _unlike(result, finest, coarser):
@@ -156,10 +143,3 @@ def _band(result, grids, film, order, unlike, other):
     if film == "minimum":
         return band_of_smallest(reported, [finest, *coarser], grids[1].spread_nm, order, unlike)
     return band(reported, [finest, *coarser], grids[1].around_nm, order, unlike)
-
-
-def _how(films, order, other):
-    """How a band came about, in words."""
-    nodes = " and ".join(str(grid.nodes) for grid in films[1:])
-    by = f" by {other.couette} and the {other.face_mobility} mean" if other else ""
-    return f"from the differences to {nodes} nodes{by}, of order {order}"

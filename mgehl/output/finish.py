@@ -14,10 +14,10 @@ from mgehl.output.files import (
     on_first_rank,
     texts_of,
     write_fields,
-)
-from mgehl.output.laws import FOLDER as LAWS
-from mgehl.output.laws import as_they_were, checksum, laws_of, put_laws
-from mgehl.output.series import write_frames, write_series
+)  # fmt: skip
+from mgehl.output.frames import write_frames
+from mgehl.output.laws import as_they_were, laws_of, put_laws
+from mgehl.output.series import title_of, write_series
 from mgehl.output.stored import read_run, read_texts, start_from
 from mgehl.output.whole_file import whole_file, write_whole, writing
 from mgehl.saying import complain
@@ -40,25 +40,19 @@ def _finish(directory, solution):
         put_laws(stage, laws)
         for name, text in texts.items():
             write_whole(stage / name, text)
-        known = {name: checksum(stage / name) for name in laws}
         with whole_file(stage / FIELDS) as part:
-            write_fields(part, solution, texts | {LAWS: known})
-        in_time = _write_time(stage, solution)
-        drawn = [PICTURE] if _is_drawn(stage / PICTURE, solution, directory) else []
-        publish(directory, stage, [FIELDS, *texts, *known, *in_time, *drawn])
+            write_fields(part, solution, texts)
+        names, title = [FIELDS, *texts, *laws], title_of(solution.config)
+        if solution.config.is_in_time and solution.rows:
+            write_series(stage / SERIES, solution.rows, title)
+            names.append(SERIES)
+            if solution.frames:
+                write_frames(stage / FRAMES, solution.frames.all(), solution.x, solution.y, title)
+                names.append(FRAMES)
+        if _is_drawn(stage / PICTURE, solution, directory):
+            names.append(PICTURE)
+        publish(directory, stage, names)
     clear_checkpoint(directory)
-
-
-def _write_time(stage, solution):
-    """Names of the files that a run in time has besides: they are written here."""
-    if not solution.config.is_in_time or not solution.rows:
-        return []
-    title = f"{solution.config.kind.content} {solution.config.kind.noun} over time"
-    write_series(stage / SERIES, solution.rows, title)
-    if not solution.frames:
-        return [SERIES]
-    write_frames(stage / FRAMES, solution.frames.all(), solution.x, solution.y, title)
-    return [SERIES, FRAMES]
 
 
 def _is_drawn(path, solution, directory):

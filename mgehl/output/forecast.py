@@ -1,13 +1,15 @@
-"""What a run will take, as far as that can be told before it starts.
+"""What a run will take, as far as that can be told before it starts, and whether it has room in memory.
 
 Its time is that of so many convolutions. One convolution is timed on this machine; how many a run takes,
 and how much time beside each, was measured (processor time on one rank, the cases of configs/). Runs that
 converge take half to twice the estimate.
 """
 
+import resource
 import time
 from dataclasses import dataclass, replace
 from math import log
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
@@ -15,6 +17,7 @@ from mpi4py import MPI
 
 from mgehl.config import COARSEST_NODES, SECTIONS
 from mgehl.discretization.mesh import Mesh
+from mgehl.errors import UserError
 from mgehl.grid.convolution import Deflection
 from mgehl.grid.freed_memory import is_large
 from mgehl.grid.grid import single_grid
@@ -36,6 +39,9 @@ LARGEST_NODES = SECTIONS["grid"].__dataclass_fields__["nodes"].metadata["high"]
 """Most nodes that a grid may have along each side."""
 
 MiB = 2**20
+
+SPARE = 128 * MiB
+"""Bytes of buffers that BLAS and MPI take during a run."""
 
 SAVED_ON_LARGE_GRIDS = 430.0
 """Bytes a node that are given back in time, or not asked for, where memory is short
@@ -112,9 +118,8 @@ def forecast(config, contact, mesh, ranks):
     """The `Forecast` of a run on so many ranks; times a convolution."""
     effort = effort_of(config, contact, mesh)
     nodes = mesh.nx if mesh.is_line else min(mesh.nx, LARGEST_TIMED)
-    timed = Mesh(
-        nodes, 1 if mesh.is_line else nodes, (-2.0, 2.0), (0.0, 0.0) if mesh.is_line else (-2.0, 2.0)
-    )
+    y = (1, (0.0, 0.0)) if mesh.is_line else (nodes, (-2.0, 2.0))
+    timed = Mesh(nodes, y[0], (-2.0, 2.0), y[1])
     second = time_convolution(timed) * mesh.nodes * log(mesh.nodes) / (timed.nodes * log(timed.nodes))
     workers = 1 if mesh.is_line else min(ranks, cores_allowed())
     each = (second + effort.node_seconds * mesh.nodes) / workers + effort.beside
@@ -164,21 +169,18 @@ def _steady_effort(config, contact, mesh):
     if not contact.is_loaded or config.is_dry or config.solver.method != "newton-mg":
         return by_kind
     if mesh.is_line:
-        return _of_rough_line(mesh) if contact.roughness else by_kind
+        if not contact.roughness:
+            return by_kind
+        direct = min(mesh.nx, DIRECT)
+        seconds = ROUGH_LINE.beside + DIRECT_SECONDS * (direct / DIRECT) ** 3
+        each = ROUGH_LINE.bytes_per_node + 2.0 * 8.0 * direct**2 / mesh.nx
+        return replace(ROUGH_LINE, beside=seconds, bytes_per_node=each)
     cells = contact.inlet_cells(mesh)
     if contact.is_mixed:
         return replace(ROUGH, convolutions=_of_peaks(contact, config.contact.boundary_film > 0.0, mesh))
     if config.solver.start == "contact":
         return SIDE_BY_SIDE if cells > CONTACT_OPENS else by_kind
     return UNSEEN if cells < FILM_TOUCHES else by_kind
-
-
-def _of_rough_line(mesh):
-    """That of direct solves."""
-    direct = min(mesh.nx, DIRECT)
-    seconds = ROUGH_LINE.beside + DIRECT_SECONDS * (direct / DIRECT) ** 3
-    each = ROUGH_LINE.bytes_per_node + 2.0 * 8.0 * direct**2 / mesh.nx
-    return replace(ROUGH_LINE, beside=seconds, bytes_per_node=each)
 
 
 def _of_peaks(contact, has_layers, mesh):
@@ -208,3 +210,26 @@ def time_convolution(mesh, repeats=5):
         for thing in (deflection, grid):
             thing.destroy()
     return min(seconds)
+
+
+def check_memory(case, ranks):
+    """Raise UserError where one of so many ranks may not take what a `Case` needs (ulimit -v): without room
+    libraries crash or hang."""
+    limit, _ = resource.getrlimit(resource.RLIMIT_AS)
+    if limit == resource.RLIM_INFINITY:
+        return
+    effort = effort_of(case.config, case.contact, case.mesh)
+    need = _taken() + SPARE + bytes_of_rank(effort, case.mesh, ranks)
+    if need > limit:
+        what, nodes = f"about {need / MiB:.0f} MiB of address space", case.config.grid.nodes
+        raise UserError(
+            f"grid.nodes = {nodes}: takes {what}, and this shell allows {limit / MiB:.0f} (ulimit -v)"
+        )
+
+
+def _taken():
+    """Bytes of address space that this process has."""
+    try:
+        return int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
+    except (OSError, ValueError):
+        return 0

@@ -126,18 +126,18 @@ def gap_error(result, coarser, progress):
 
 
 def _in_units(grid, nm, GPa):
-    gaps, loads, of_gaps, of_loads = grid.gaps, grid.loads, grid.differences, grid.load_differences
-    found = GridGap(
+    gaps, loads, apart = grid.gaps, grid.loads, {}
+    if grid.differences is not None:
+        of_gaps, of_loads = grid.differences, grid.load_differences
+        apart = {
+            "mean_apart_nm": nm * of_gaps.mean, "loaded_apart_nm": nm * of_gaps.loaded,
+            "pressure_apart_GPa": GPa * of_loads.largest, "contact_load_apart": of_loads.contact,
+            "solid_load_apart": of_loads.solids,
+        }  # fmt: skip
+    return GridGap(
         grid.nodes, nm * gaps.mean, nm * gaps.loaded, loads.contact, grid.settled,
         max_pressure_GPa=GPa * loads.largest, pressure_crest_GPa=GPa * loads.crest,
-        solid_load_fraction=loads.solids,
-    )  # fmt: skip
-    if of_gaps is None:
-        return found
-    return replace(
-        found, mean_apart_nm=nm * of_gaps.mean, loaded_apart_nm=nm * of_gaps.loaded,
-        pressure_apart_GPa=GPa * of_loads.largest, contact_load_apart=of_loads.contact,
-        solid_load_apart=of_loads.solids,
+        solid_load_fraction=loads.solids, **apart,
     )  # fmt: skip
 
 
@@ -155,20 +155,17 @@ def from_grids(grids):
         return no_band(
             f"on {coarser.nodes} nodes the mean gap is {coarser.mean_nm:.3g} nm, too far from this"
         )
-    pressure = finest.pressure_crest_GPa + half_width(
-        finest.max_pressure_GPa, coarser.max_pressure_GPa, coarser.pressure_apart_GPa
-    )
+    pressures = finest.max_pressure_GPa, coarser.max_pressure_GPa, coarser.pressure_apart_GPa
+    contact = finest.contact_load_share, coarser.contact_load_share, coarser.contact_load_apart
+    solids = finest.solid_load_fraction, coarser.solid_load_fraction, coarser.solid_load_apart
+    pressure = finest.pressure_crest_GPa + half_width(*pressures)
     return GapError(
         mean,
         _unless_wider(loaded, WIDEST * finest.loaded_nm),
         f"from the differences to {coarser.nodes} nodes",
         max_pressure_GPa=_unless_wider(pressure, WIDEST * finest.max_pressure_GPa),
-        contact_load_share=share_half_width(
-            finest.contact_load_share, coarser.contact_load_share, coarser.contact_load_apart
-        ),
-        solid_load_fraction=share_half_width(
-            finest.solid_load_fraction, coarser.solid_load_fraction, coarser.solid_load_apart
-        ),
+        contact_load_share=share_half_width(*contact),
+        solid_load_fraction=share_half_width(*solids),
     )
 
 

@@ -1,8 +1,8 @@
-"""A run's own laws and heights: their files are kept in its directory, and known again."""
+"""A run's own laws and heights: their files are kept in its directory, for a run that goes on, too."""
 
-import hashlib
 import os
 import re
+from contextlib import suppress
 from pathlib import Path
 
 from mgehl.config import config_from_tables
@@ -45,12 +45,10 @@ def laws_in(tables):
     return {file for _, _, (file, _) in _own(tables)}
 
 
-def checksum(file):
-    """SHA-256 of a plain file; None where there is none that can be read."""
-    try:
-        return hashlib.sha256(Path(file).read_bytes()).hexdigest() if is_plain(file) else None
-    except OSError:
-        return None
+def content_of(file):
+    """The bytes of a plain file; None where there is none that can be read."""
+    with suppress(OSError):
+        return Path(file).read_bytes() if is_plain(file) else None
 
 
 def is_law(name):
@@ -73,16 +71,15 @@ def as_they_were(begun, folder, directory):
     There a law finds the files that it reads. Otherwise, as on another machine, the copies in `folder` are
     run. `begun` is what the `checkpoint.Begun` run of the `directory` began with.
     """
-    places, copies, said = {}, {}, []
+    places, said = {}, []
     for name, content in begun.laws.items():
         origin = Path(os.path.normpath(Path(directory) / begun.origins[name]))
-        found, known = checksum(origin), hashlib.sha256(content).hexdigest()
-        if found != known:
-            copies[name] = content
-        if found not in (None, known):
+        found = content_of(origin)
+        if found not in (None, content):
             said.append(f"{origin} has changed since the run began, which goes on with its copy of it")
-        places[name] = str((folder / name if name in copies else origin).resolve())
-    put_laws(folder, copies)
+        if found != content:
+            put_laws(folder, {name: content})
+        places[name] = str((origin if found == content else folder / name).resolve())
     return placed(begun.tables, places), said
 
 

@@ -44,7 +44,7 @@ def _take(path):
     with writing(path.parent):
         while True:
             file = os.open(path, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_CLOEXEC, 0o644)
-            if _flock(file) and _is_still(path, file):
+            if _is_locked(path, file):
                 os.ftruncate(file, 0)
                 os.write(file, f"mgehl process {os.getpid()} on {socket.gethostname()}\n".encode())
                 return file
@@ -54,11 +54,13 @@ def _take(path):
             time.sleep(0.05)
 
 
-def _flock(file):
-    """Whether nobody else has it locked, as far as the file system knows locks."""
+def _is_locked(path, file):
+    """Whether it is locked now, as far as the file system knows locks, and has its name still: who let go
+    of it has removed it."""
     try:
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
+        return os.path.samestat(os.fstat(file), os.stat(path))
+    except (BlockingIOError, FileNotFoundError):
         return False
     except OSError as error:
         if error.errno not in _WITHOUT_LOCKS:
@@ -66,16 +68,8 @@ def _flock(file):
     return True
 
 
-def _is_still(path, file):
-    """Whether the open file has the name still: who let go of it has removed it."""
-    with suppress(FileNotFoundError):
-        return os.path.samestat(os.fstat(file), os.stat(path))
-    return False
-
-
 def _held(path):
-    owner = ""
+    owner = "another mgehl process"
     with suppress(OSError, ValueError):
-        owner = path.read_text(encoding="utf-8").strip()[:200]
-    who = owner or "another mgehl process"
-    return f"{path.parent}: is being written by {who}: wait for it, or choose another with --out"
+        owner = path.read_text(encoding="utf-8").strip()[:200] or owner
+    return f"{path.parent}: is being written by {owner}: wait for it, or choose another with --out"

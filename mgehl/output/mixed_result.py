@@ -115,8 +115,8 @@ def measured(contact, mesh, nodes, kept=0.0):
     return MixedResult(
         lambda_ratio=contact.expected_film / Sq if Sq else None,
         Sq_nm=1e9 * Sq,
-        contact_load_share=float(cell * nodes.P[solid].sum() / contact.load_integral),
-        film_load_share=float(cell * nodes.P[is_fluid(nodes.status)].sum() / contact.load_integral),
+        contact_load_share=share(nodes.P[solid]),
+        film_load_share=share(nodes.P[is_fluid(nodes.status)]),
         contact_area_m2=float(solid.sum() * square_metres),
         contact_area_over_hertz=float(solid.sum() * cell / contact.contact_area),
         patches=len(sizes),

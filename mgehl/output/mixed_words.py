@@ -1,4 +1,4 @@
-"""Film and contact of rough bodies in words: what carries the load, how wide gaps are, how thick films."""
+"""Film and contact of rough bodies, and what resists the motion, in words."""
 
 from math import isfinite
 
@@ -12,13 +12,13 @@ def mixed_lines(mixed):
     unit = mixed.area_unit.replace("µm²", "um^2")
     largest = f", the largest {1e12 * mixed.largest_patch_m2:.4g} {unit}" if mixed.patches else ""
     return [
-        f"  lambda {_known(mixed.lambda_ratio)} (smooth film of the formula over Sq {mixed.Sq_nm:.4g} nm): "
+        f"lambda {_known(mixed.lambda_ratio)} (smooth film of the formula over Sq {mixed.Sq_nm:.4g} nm): "
         f"contact carries {_shares(mixed)}",
-        f"  real contact area {1e12 * mixed.contact_area_m2:.4g} {unit}, "
+        f"real contact area {1e12 * mixed.contact_area_m2:.4g} {unit}, "
         f"{100 * mixed.contact_area_over_hertz:.2f} % of the Hertz area, in {patches}{largest}",
         *_carried_by_solids(mixed),
         *_mean_gaps(mixed),
-        f"  film within the {mixed.hertz_region}: mean {_known(mixed.mean_film_nm)} nm, minimum "
+        f"film within the {mixed.hertz_region}: mean {_known(mixed.mean_film_nm)} nm, minimum "
         f"{_known(mixed.minimum_film_nm)} nm, {_known(mixed.valley_film_nm)} nm in valleys deeper than Sq; "
         f"torn on {100 * mixed.torn_share:.2f} % of it{filling_words(mixed)}",
     ]
@@ -47,7 +47,7 @@ def _carried_by_solids(mixed):
     if mixed.patches and mixed.solid_load_fraction is not None:
         solids = load_words(mixed, "solid_load_fraction")
         yield (
-            f"  solids carry {solids} of the load, the fluid in contact's layers "
+            f"solids carry {solids} of the load, the fluid in contact's layers "
             f"{100 * (mixed.contact_load_share - mixed.solid_load_fraction):.2f} %, pockets that "
             f"contact shuts in {100 * mixed.sealed_load_fraction:.2f} %"
         )
@@ -59,11 +59,11 @@ def _mean_gaps(mixed):
         return
     mean, loaded = mean_gaps(mixed)
     yield (
-        f"  gap, contact included: mean {mean} nm within the {mixed.hertz_region}, {loaded} nm by pressure "
+        f"gap, contact included: mean {mean} nm within the {mixed.hertz_region}, {loaded} nm by pressure "
         f"(where the load rests)"
     )
     if mixed.error:
-        yield f"  {gap_band_words(mixed.error)}"
+        yield f"{gap_band_words(mixed.error)}"
 
 
 def gap_band_words(error):
@@ -94,18 +94,12 @@ def mixed_note(mixed):
     if not mixed:
         return ""
     gap = f", mean gap {mean_gaps(mixed)[0]} nm" if mixed.error and mixed.error.mean_nm else ""
-    return f"lambda {_known(mixed.lambda_ratio)}, {_patches(mixed)}{gap}"
-
-
-def _patches(mixed):
-    """Where contact is, and what it carries."""
-    if not mixed.patches:
-        return "no contact"
-    return (
+    where = "no contact" if not mixed.patches else (
         f"contact carries {100 * mixed.contact_load_share:.1f} % "
         f"of the load on {100 * mixed.contact_area_over_hertz:.1f} % of the Hertz area, in "
         f"{counted(mixed.patches, 'patch', 'patches')}"
-    )
+    )  # fmt: skip
+    return f"lambda {_known(mixed.lambda_ratio)}, {where}{gap}"
 
 
 def counted(number, one, more):
@@ -116,3 +110,48 @@ def counted(number, one, more):
 def _known(value):
     """Three digits; of a number that does not exist a dash."""
     return "-" if value is None or not isfinite(value) else f"{value:.3g}"
+
+
+def friction_lines(friction, verbose):
+    """What resists, in words: of sliding surfaces, and `verbose` of rolling ones, too."""
+    if not friction or not (verbose or friction.slide_to_roll or friction.model != "newtonian"):
+        return
+    unit = "/m" if friction.per_metre else ""
+    beyond = friction.rolling_beyond
+    more = f" (and {beyond:.2g} beyond the domain, were it flooded)" if beyond else ""
+    rolling = f"rolling takes {friction.rolling_coefficient:.3g} of the load on each body{more}"
+    if not friction.slide_to_roll:
+        yield f"friction 0: the surfaces do not slide; {rolling}"
+        return
+    band = "" if friction.coefficient_band is None else f" ± {friction.coefficient_band:.2g}"
+    yield (
+        f"friction {friction.coefficient:.5f}{band} ({friction.model}): film "
+        f"{friction.film_coefficient:.5f}, solids {friction.solid_coefficient:.5f}; {rolling}; "
+        f"{friction.power_loss_W:.3g} W{unit}, largest shear {friction.largest_shear_MPa:.4g} MPa"
+    )
+    if friction.temperatures:
+        yield temperature_words(friction.temperatures)
+    if friction.is_the_grids:
+        yield "friction is the grid's, as the load on solids is"
+
+
+def temperature_words(found):
+    """How much warmer surfaces and film are than the bodies."""
+    film = (
+        ""
+        if found.film is None
+        else f", film on average {found.film:.3g} K, at most {found.largest_film:.3g} K"
+    )
+    return f"flash temperature: body 1 up to {found.largest_1:.3g} K, body 2 {found.largest_2:.3g} K{film}"
+
+
+def heating_words(reduction, is_thinned):
+    """What the heat of shear in the inlet takes of the film, in a list; nothing below a per cent."""
+    if reduction is None or reduction > 0.99:
+        return []
+    percent = "all of it, by a formula out of range"
+    if reduction > 0.0:
+        percent = f"some {100.0 * (1.0 - reduction):.0f} %"
+    if is_thinned:
+        return [f"shear in the inlet has taken {percent} (lubricant.heating)"]
+    return [f"this is the isothermal film; shear in the inlet would take {percent}"]

@@ -92,15 +92,9 @@ def dry_row(step, nm):
 
 def _state_row(cycle, nm):
     """The state that a Newton cycle or a sweep starts from."""
-    return {
-        "step": cycle.step,
-        "residual": cycle.residual,
-        "load_error": cycle.load_error,
-        "central_film_nm": cycle.central * nm,
-        "minimum_film_nm": cycle.minimum * nm,
-        "contact_nodes": cycle.contact_nodes,
-        "cavitated_nodes": cycle.cavitated_nodes,
-    }
+    films = {"central_film_nm": cycle.central * nm, "minimum_film_nm": cycle.minimum * nm}
+    errors = {name: getattr(cycle, name) for name in ("step", "residual", "load_error")}
+    return errors | films | {name: getattr(cycle, name) for name in ("contact_nodes", "cavitated_nodes")}
 
 
 def wedge_rows(nodes, steps):
@@ -122,20 +116,14 @@ def seconds_left(rows, finest, tolerance):
     if len(here) < 2 or not isfinite(here[-1]["residual"]):
         return None
     each = (here[-1]["seconds"] - here[0]["seconds"]) / (len(here) - 1)
-    left = _steps_left([row["residual"] for row in here[-4:]], tolerance) * each
+    first, *others, last = (row["residual"] for row in here[-4:])
+    steps = STEPS_A_GRID
+    if last <= tolerance:
+        steps = 0.0
+    elif last < first < inf:
+        steps = log(last / tolerance) / log(first / last) * (1 + len(others))
+    left = steps * each
     while nodes < finest:
         nodes, each = 2 * nodes - 1, 4.0 * each
         left += STEPS_A_GRID * each
     return left
-
-
-def _steps_left(residuals, tolerance):
-    """Steps until the residual is within `tolerance`, falling as it did."""
-    first, last = residuals[0], residuals[-1]
-    if last <= tolerance:
-        return 0.0
-    return (
-        log(last / tolerance) / log(first / last) * (len(residuals) - 1)
-        if last < first < inf
-        else STEPS_A_GRID
-    )

@@ -20,25 +20,30 @@ class Quantity(NamedTuple):
 
 
 QUANTITIES = {
-    "central_film_nm": Quantity("central_film_nm", "nm", "central film", "error.central_nm"),
-    "minimum_film_nm": Quantity("minimum_film_nm", "nm", "smallest film", "error.minimum_nm"),
-    "mean_gap_nm": Quantity("mixed.mean_gap_nm", "nm", "mean gap within Hertz", "mixed.error.mean_nm"),
-    "load_on_solids": Quantity(
-        "mixed.solid_load_fraction", "1", "load on solids", "mixed.error.solid_load_fraction"
-    ),
-    "load_on_contact": Quantity(
-        "mixed.contact_load_share", "1", "load on contact", "mixed.error.contact_load_share"
-    ),
-    "friction": Quantity("friction.coefficient", "1", "friction", "friction.coefficient_band"),
-    "friction_of_film": Quantity("friction.film_coefficient", "1", "friction of the film"),
-    "friction_of_solids": Quantity("friction.solid_coefficient", "1", "friction of solids"),
-    "friction_of_rolling": Quantity("friction.rolling_coefficient", "1", "rolling friction"),
-    "max_pressure_GPa": Quantity(
-        "max_pressure_GPa", "GPa", "largest pressure", "mixed.error.max_pressure_GPa"
-    ),
-    "lambda_ratio": Quantity("mixed.lambda_ratio", "1", "film of smooth bodies over Sq"),
-    "convolutions": Quantity("work.convolutions", "1", "fine-grid convolutions"),
+    name: Quantity(*told) for name, told in {
+        "central_film_nm": ("central_film_nm", "nm", "central film", "error.central_nm"),
+        "minimum_film_nm": ("minimum_film_nm", "nm", "smallest film", "error.minimum_nm"),
+        "mean_gap_nm": ("mixed.mean_gap_nm", "nm", "mean gap within Hertz", "mixed.error.mean_nm"),
+        "load_on_solids": ("mixed.solid_load_fraction", "1", "load on solids",
+                           "mixed.error.solid_load_fraction"),
+        "load_on_contact": ("mixed.contact_load_share", "1", "load on contact",
+                            "mixed.error.contact_load_share"),
+        "friction": ("friction.coefficient", "1", "friction", "friction.coefficient_band"),
+        "friction_of_film": ("friction.film_coefficient", "1", "friction of the film"),
+        "friction_of_solids": ("friction.solid_coefficient", "1", "friction of solids"),
+        "friction_of_rolling": ("friction.rolling_coefficient", "1", "rolling friction"),
+        "max_pressure_GPa": ("max_pressure_GPa", "GPa", "largest pressure", "mixed.error.max_pressure_GPa"),
+        "lambda_ratio": ("mixed.lambda_ratio", "1", "film of smooth bodies over Sq"),
+        "convolutions": ("work.convolutions", "1", "fine-grid convolutions"),
+    }.items()
 }  # fmt: skip
+
+
+def told_at(result, path):
+    """What result.json has under nested names; None where that is nothing."""
+    for name in path.split("."):
+        result = (result or {}).get(name)
+    return result
 
 
 @dataclass(frozen=True)
@@ -56,9 +61,7 @@ class Told:
 
     def number(self, path):
         """What result.json has under nested names; nan where that is nothing."""
-        found = self.result
-        for name in path.split("."):
-            found = (found or {}).get(name)
+        found = told_at(self.result, path)
         return nan if found is None else float(found)
 
     @property

@@ -1,15 +1,18 @@
-"""How well a grid resolves the inlet, where the film is made, and what to expect of it.
+"""How well a grid resolves the inlet, where the film is made, and whether the domain is large enough for
+the film; the words for it. A film is resolved where both are enough.
 
-A film is resolved where its inlet has cells enough and its domain is large enough.
+The verdict follows from the contact, the grid and the film of a formula alone: `mgehl check` and the run
+say the same.
 """
 
 from dataclasses import dataclass
-from math import isfinite, nan
+from math import isfinite, isnan, nan
 
 from mgehl.config import COARSEST_NODES
 from mgehl.model.contact import RESOLVED_CELLS
+from mgehl.model.peaks import reach_of_peaks
+from mgehl.model.starvation import Starvation
 from mgehl.output import surface
-from mgehl.output.domain import SUFFICIENT, UNKNOWN, domain_verdict, film_lost
 
 SEEN_CELLS = 1.0
 """Cells in the inlet below which the contact set is the grid's, not the problem's."""
@@ -17,6 +20,13 @@ SEEN_CELLS = 1.0
 FILM_TOUCHES, CONTACT_OPENS = 1.5, 0.75
 """Cells in the inlet below which a film start has had contact, and above which a contact start has lost
 full contact: `study onset` on 129 to 513 nodes, arithmetic mean."""
+
+
+STARVED_FROM = 1.0
+"""A domain starves its film from so many per cent on that a domain of twice the size would have more."""
+
+SUFFICIENT, STARVED, UNKNOWN = "sufficient", "starved", "unknown"
+"""Verdicts; the last of runs that older versions made."""
 
 
 @dataclass(frozen=True)
@@ -40,18 +50,13 @@ class Resolution:
 def resolution(contact, mesh):
     """The `Resolution` of a loaded contact's inlet and surface by a mesh, and of its film by the domain."""
     cells, lost = contact.inlet_cells(mesh), film_lost(contact, mesh)
-    domain = domain_verdict(lost)
-    nodes = surface.wave_nodes(contact, mesh)
-    shown = surface.surface_verdict(contact, nodes)
-    found = cells, _verdict(cells, domain), domain, lost, shown, nodes if isfinite(nodes) else None
-    return Resolution(*found, 100.0 * contact.share_beyond(mesh))
-
-
-def _verdict(cells, domain):
-    """The verdict: "resolved" needs cells in the inlet and a domain that holds it."""
+    domain, nodes = domain_verdict(lost), surface.wave_nodes(contact, mesh)
+    verdict = "coarse" if cells >= SEEN_CELLS else "grid-determined"
     if cells >= RESOLVED_CELLS:
-        return "resolved" if domain == SUFFICIENT else domain
-    return "coarse" if cells >= SEEN_CELLS else "grid-determined"
+        verdict = "resolved" if domain == SUFFICIENT else domain
+    shown, waves = surface.surface_verdict(contact, nodes), nodes if isfinite(nodes) else None
+    beyond = 100.0 * contact.share_beyond(mesh)
+    return Resolution(cells, verdict, domain, lost, shown, waves, beyond)
 
 
 def resolving_nodes(contact, mesh):
@@ -76,3 +81,52 @@ def expectation(cells, begins_closed, is_mixed=False):
     if begins_closed and cells < CONTACT_OPENS:
         return "full contact, whose inlet the grid does not see"
     return "film and contact side by side; where they meet is decided by the grid"
+
+
+def film_lost(contact, mesh):
+    """Estimate, in per cent, of the film that a domain of twice the size would have more.
+
+    Of central and minimum film the one that changes more; good to a factor of two.
+    """
+    return Starvation(contact, contact.flooded_film).lost(mesh.x, mesh.y)
+
+
+def domain_verdict(lost):
+    """The verdict on a domain that takes so many per cent of the film away."""
+    if isnan(lost):
+        return UNKNOWN
+    return STARVED if lost >= STARVED_FROM else SUFFICIENT
+
+
+def domain_words(verdict, lost):
+    """A verdict and its estimate in words."""
+    if verdict == UNKNOWN:
+        return "not judged: made by an older version"
+    if verdict == SUFFICIENT:
+        return f"sufficient: twice the size would change the film by some {lost:.1f} %"
+    return (
+        f"starved: twice the size would change the film by some {lost:.2g} %; "
+        'grid.x = "auto" and grid.y = "auto" choose one as large as the nodes allow'
+    )
+
+
+def beyond_words(percent):
+    """How much of the load the film in a domain need not carry, in a list; empty where hardly any."""
+    words = f"{percent:.1f} % of it is carried beyond the domain or lost at its sides, the rest within"
+    return [words] if percent >= 0.05 else []
+
+
+def peaks_words(contact, mesh):
+    """How far out peaks may touch, in a list; empty where the domain of a mesh holds them."""
+    reach = reach_of_peaks(contact, contact.flooded_film)
+    sides = zip(reach, (mesh.x,) if mesh.is_line else (mesh.x, mesh.y), "ab", strict=False)
+    outside = [f"{peak:.2f} {unit}" for peak, ends, unit in sides if peak > min(-ends[0], ends[1])]
+    if not outside:
+        return []
+    return [f"peaks may touch up to {' and '.join(outside)} from the centre, outside of it"]
+
+
+def room_words(mesh):
+    """The ends of a domain."""
+    x = f"x from {mesh.x[0]:g} to {mesh.x[1]:g} a"
+    return x if mesh.is_line else f"{x}, y from {mesh.y[0]:g} to {mesh.y[1]:g} b"

@@ -1,18 +1,20 @@
-"""A run in time: what is kept of each step, and the fields of some instants.
+"""A run in time: what is kept of each step, and series.nc, the same over time after CF.
 
-series.nc    a number of each step over time, CF; written anew with every checkpoint and at the end
-frames.nc    pressure, film and status of some instants, CF
+It is written anew with every checkpoint and at the end. And the means over passages: what an engineer asks
+of roughness that moves. A passage is the time in which the mean surface goes the length of the Hertz
+contact. The band of a mean is what the means of the last two passages differ by; it has settled where that
+is little.
 """
 
 from copy import copy
-from dataclasses import dataclass, replace
-from functools import partial
+from dataclasses import replace
+from itertools import pairwise
 
-import h5netcdf
 import numpy as np
 
-from mgehl.discretization.status import CONTACT, names
-from mgehl.output.memory_file import netcdf_file
+from mgehl.discretization.status import CONTACT
+from mgehl.output.netcdf import netcdf_file, put
+from mgehl.output.result import Mean, TimeResult
 from mgehl.output.whole_file import whole_file
 from mgehl.solver.shear import shear_of
 from mgehl.version import VERSION
@@ -43,6 +45,18 @@ COLUMNS = {
     "seconds": ("s", "seconds of work until then"),
 }
 """What history.csv and series.nc have of each step beside time_s: unit and meaning."""
+
+SETTLED = 0.01
+"""Part of a mean that its band may be; of a load share that part of the load."""
+
+FEWEST = 3
+"""Passages before means are asked whether they have settled: the first one begins."""
+
+MEANS = (
+    "mean_gap_nm", "central_film_nm", "minimum_film_nm", "max_pressure_GPa",
+    "load_on_contact", "load_on_solids", "friction",
+)  # fmt: skip
+"""Columns of which there are means."""
 
 
 def row_of(instant, standing, problem, convolutions, seconds):
@@ -89,94 +103,62 @@ def _resistance(instant, state, problem):
     return {"friction": sliding / load, "rolling": shear.rolling_force / load}
 
 
+def title_of(config):
+    """The title of files of a run in time."""
+    return f"{config.kind.content} {config.kind.noun} over time"
+
+
 def write_series(path, rows, title):
     """series.nc of the rows of a history. Raises OSError."""
     with whole_file(path) as part, netcdf_file(part) as file:
         file.attrs.update({"Conventions": "CF-1.8", "title": title, "source": f"mgehl {VERSION}"})
         file.dimensions = {"time": len(rows)}
-        write = partial(put, file)
-        write("time", ("time",), _column(rows, "time_s"), units="s", long_name="time", axis="T")
-        for name, (unit, meaning) in COLUMNS.items():
-            write(name, ("time",), _column(rows, name), units=unit, long_name=meaning)
+        for name, (unit, meaning) in {"time_s": ("s", "time"), **COLUMNS}.items():
+            values = np.array([row[name] for row in rows], dtype=float)
+            told = {"axis": "T"} if name == "time_s" else {}
+            called = "time" if told else name
+            put(file, called, ("time",), values, units=unit, long_name=meaning, **told)
 
 
-def _column(rows, name):
-    return np.array([row[name] for row in rows], dtype=float)
+def means(rows, length):
+    """{name: `Mean`} of the last passage of `length` in um; empty before the end of the first."""
+    path = np.array([row["path_um"] for row in rows])
+    gone = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(path, prepend=0.0)))])
+    if gone[-1] < length:
+        return {}
+    weights = np.array([row["step_s"] for row in rows])
+    last, before = (gone[1:] > gone[-1] - length), (gone[1:] <= gone[-1] - length)
+    before &= gone[1:] > gone[-1] - 2.0 * length
+    found = {}
+    for name in MEANS:
+        values = np.array([row[name] for row in rows])
+        mean = float(np.average(values[last], weights=weights[last]))
+        two = gone[-1] >= 2.0 * length and before.any()
+        earlier = float(np.average(values[before], weights=weights[before])) if two else None
+        found[name] = Mean(mean, None if earlier is None else abs(mean - earlier))
+    return found
 
 
-def put(file, name, dimensions, values, **attributes):
-    """Write a variable with its attributes to an `h5netcdf.File`."""
-    variable = file.create_variable(name, dimensions, values.dtype, data=values)
-    variable.attrs.update(attributes)
+def have_settled(rows, length):
+    """Whether the means of gap and load on solids have settled after `FEWEST` passages."""
+    if sum(abs(row["speed_mm_s"]) * 1e3 * row["step_s"] for row in rows) < FEWEST * length:
+        return False
+    found = means(rows, length)
+    gap, solids = found["mean_gap_nm"], found["load_on_solids"]
+    return gap.band <= SETTLED * gap.value and solids.band <= SETTLED
 
 
-@dataclass
-class Frames:
-    """Fields of some instants, on rank 0: kept in a folder until the end, or in memory without one."""
-
-    every: float
-    """Seconds from one to the next."""
-    folder: object = None
-
-    def __post_init__(self):
-        self._kept = {}
-
-    def take(self, t, step, fields):
-        """Keep `fields`, {name: a function that gathers (ny, nx)}, where it is time for it (collective)."""
-        number = int(t / self.every * (1.0 + 1e-9))
-        if number == int(max(t - step, 0.0) / self.every * (1.0 + 1e-9)) and t > step:
-            return
-        found = {name: gathered() for name, gathered in fields.items()}
-        if found["film"] is None:
-            return
-        if self.folder is None:
-            self._kept[number] = (t, found)
-            return
-        with whole_file(self.folder / f"frame-{number:06d}.npz") as part:
-            np.savez(part, t=t, **found)
-
-    def all(self):
-        """(Time, {name: array}) of the instants, in order."""
-        if self.folder is None:
-            yield from (self._kept[number] for number in sorted(self._kept))
-            return
-        for path in sorted(self.folder.glob("frame-*.npz")):
-            with np.load(path) as file:
-                yield float(file["t"]), {name: file[name] for name in file.files if name != "t"}
-
-
-class StoredFrames:
-    """The frames of a finished run, in its frames.nc."""
-
-    def __init__(self, path):
-        self._path = path
-
-    def all(self):
-        """(Time, {name: array}) of the instants, in order."""
-        with h5netcdf.File(self._path, "r") as file:
-            for number, t in enumerate(file["time"][:]):
-                yield float(t), {name: file[name][number] for name in FIELDS}
-
-
-FIELDS = {
-    "pressure": ("Pa", "fluid or contact pressure"),
-    "film": ("m", "film thickness or gap"),
-    "status": ("1", ", ".join(f"{k} {name}" for k, name in enumerate(names(False)))),
-}
-
-
-def write_frames(path, frames, x, y, title):
-    """frames.nc of (time, {name: (ny, nx)}) in order, with x and y in m. Raises OSError."""
-    frames = list(frames)
-    with whole_file(path) as part, netcdf_file(part) as file:
-        file.attrs.update({"Conventions": "CF-1.8", "title": title, "source": f"mgehl {VERSION}"})
-        file.dimensions = {"time": len(frames), "y": len(y), "x": len(x)}
-        write = partial(put, file)
-        write("time", ("time",), np.array([t for t, _ in frames]), units="s", long_name="time", axis="T")
-        write("x", ("x",), x, units="m", long_name="distance along x", axis="X")
-        write("y", ("y",), y, units="m", long_name="distance along y", axis="Y")
-        for name, (unit, meaning) in FIELDS.items():
-            values = np.stack([fields[name] for _, fields in frames])
-            how = {"chunks": (1, len(y), len(x)), "compression": "gzip", "compression_opts": 1}
-            variable = file.create_variable(name, ("time", "y", "x"), values.dtype, data=values, **how)
-            variable.attrs.update({"units": unit, "long_name": meaning})
+def time_result(rows, length, work, largest_node):
+    """The `TimeResult` of the rows of a history; `length` in um is that of a passage."""
+    each = [after["convolutions"] - before["convolutions"] for before, after in pairwise(rows)]
+    gone = sum(abs(row["speed_mm_s"]) * 1e3 * row["step_s"] for row in rows)
+    return TimeResult(
+        end_s=rows[-1]["time_s"],
+        steps=len(rows),
+        halved=sum(row["halvings"] > 0 for row in rows),
+        largest_closure=max(abs(row["closure"]) for row in rows),
+        largest_node=largest_node,
+        convolutions_a_step=sorted(each)[len(each) // 2] if each else work.convolutions,
+        passages=gone / length,
+        means=means(rows, length),
+    )

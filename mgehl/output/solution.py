@@ -13,7 +13,6 @@ from mgehl.grid.grid import Grid
 from mgehl.model.contact import LoadedContact
 from mgehl.model.wedge import WedgeBearing
 from mgehl.output.result import Result
-from mgehl.output.wedge_result import WedgeResult
 
 Reals = NDArray[np.float64]
 
@@ -61,7 +60,7 @@ class Solution:
     mesh: Mesh
     fields: Fields | None
     rows: list[dict[str, float]]
-    result: Result | WedgeResult
+    result: Result
     H0: float = 0.0
     """Constant part of the gap in units of H  [Liu eq. 48], less the closer the bodies; 0 for a wedge."""
     local: Fields | None = None
@@ -105,7 +104,7 @@ class Solution:
         return self.mesh.Y * self.contact.y_scale
 
     @property
-    def summary(self) -> Result | WedgeResult:
+    def summary(self) -> Result:
         """Films, verdicts, contact, formulas and work: what result.json holds."""
         return self.result
 

@@ -1,4 +1,5 @@
-"""A run read back from its fields.h5, for pictures, reports, exports and new starts.
+"""A run read back from its fields.h5, for pictures, reports, exports and new starts; and a `Solution` as
+plain data and arrays, which is what a study keeps of its points.
 
 fields.h5 holds all of a run. The other files of its directory are copies, and are not read. Each part of
 fields.h5 has a checksum of HDF5's: what is damaged is refused. Nothing that a file holds is ever run.
@@ -15,6 +16,7 @@ import dacite
 import h5py
 import numpy as np
 
+from mgehl.config import config_from_tables
 from mgehl.config_value import AUTO
 from mgehl.discretization.status import NAMES
 from mgehl.errors import OutputError, one_line
@@ -25,23 +27,21 @@ from mgehl.output.files import (
     CONFIGURATION,
     FIELDS,
     FRAMES,
+    FURTHER,
     HISTORY,
     INPUTS,
     PICTURE,
     RESULT,
     SERIES,
     WHOLE,
-)
+    plain_result,
+)  # fmt: skip
 from mgehl.output.files import NAMES as RUN_FILES
-from mgehl.output.laws import FOLDER, checksum, is_law, law_files, laws_in, placed
+from mgehl.output.frames import StoredFrames
+from mgehl.output.laws import is_law, laws_in, placed
 from mgehl.output.result import Result
-from mgehl.output.series import StoredFrames
 from mgehl.output.solution import Fields, Solution
-from mgehl.output.wedge_result import WedgeResult
 from mgehl.output.whole_file import is_plain
-
-OPTIONAL = "p", "filling", "heights", "shear", "flash_1", "flash_2"
-"""Fields that smooth bodies, surfaces that do not slide, or older results are without."""
 
 
 def _real(value):
@@ -54,93 +54,91 @@ AS_JSON = dacite.Config(cast=[tuple], type_hooks={float: _real})
 """JSON knows neither tuples nor numbers that are not finite (they are null)."""
 
 
+def result_from(tables):
+    """The `Result` that nested plain values stand for; its numbers that are null are nan.
+
+    Raises ValueError, TypeError or DaciteError where they stand for none.
+    """
+    # A dry contact of an older mgehl says once that it has converged.
+    return dacite.from_dict(Result, {"settled": tables["converged"]} | tables, AS_JSON)
+
+
+def record_of(solution):
+    """(plain data, {name: array}) of a `Solution` with whole fields, or without any."""
+    plain = {
+        "configuration": solution.config.as_toml_tables(),
+        "rows": solution.rows,
+        "result": plain_result(solution.result),
+        "H0": float(solution.H0),
+    }
+    return plain, arrays_of(solution.fields)
+
+
+def solution_from(plain, arrays):
+    """The `Solution` of which `record_of` made these; its fields, if it had any, are whole, and here."""
+    config = config_from_tables(plain["configuration"])
+    contact = contact_from(config)
+    fields, mesh = fields_from(arrays) if arrays else None, mesh_from(config, contact)
+    if fields and fields.P.shape != (mesh.ny, mesh.nx):
+        raise ValueError("its fields are not of its grid")
+    result = result_from(plain["result"])
+    return Solution(config, contact, mesh, fields, plain["rows"], result, plain["H0"], local=fields)
+
+
+def arrays_of(fields):
+    """{name: array} of `Fields`; empty of none."""
+    return fields.named if fields else {}
+
+
+def fields_from(arrays):
+    """The `Fields` of which `arrays_of` made these."""
+    if not arrays["P"].shape == arrays["H"].shape == arrays["status"].shape:
+        raise ValueError("its fields are not of one grid")
+    return Fields(**arrays)
+
+
 def read_run(directory) -> Solution:
     """The `Solution` that a finished run left in its directory, fields and all, on this rank.
 
     Its own laws are not run: the directory may be anybody's. Raises OutputError where there is none,
     or it is damaged.
     """
-    directory = Path(directory)
-    solution = _read(_fields_of(directory), directory, _solution)
-    for name in changed_laws(directory):
-        raise OutputError(f"{directory / name}: is missing, damaged, or of another run")
-    return solution
+    return _read(directory, _solution)
 
 
 def start_from(content, directory) -> Solution:
     """The same from the bytes of a fields.h5 that a checkpoint in the directory kept."""
-    return _read(BytesIO(content), Path(directory), _solution)
+    return _read(directory, _solution, BytesIO(content))
 
 
 def read_texts(directory):
-    """{name: text} of the files of a finished run; "laws" has checksums of those. Raises OutputError."""
-    return _read(_fields_of(Path(directory)), Path(directory), _texts)
+    """{name: text} of the files of a finished run. Raises OutputError."""
+    return _read(directory, _texts)
 
 
 def files_of(directory):
     """Names of the files that the run in a directory wrote; none where there is no run."""
     try:
         texts = read_texts(directory)
-        laws = laws_in(tomllib.loads(texts[CONFIGURATION]))
+        tables = tomllib.loads(texts[CONFIGURATION])
+        own = {*filter(is_law, laws_in(tables)), *({*RUN_FILES} & texts.keys())}
     except (OutputError, ValueError, KeyError):
         return set()
-    return {
-        FIELDS,
-        PICTURE,
-        *_of_time(tomllib.loads(texts[CONFIGURATION])),
-        *({*RUN_FILES} & texts.keys()),
-        *filter(is_law, laws),
-    }
+    return own | {FIELDS, PICTURE} | ({SERIES, FRAMES} if "end" in tables.get("time", {}) else set())
 
 
-def _of_time(tables):
-    """Names of the files that a run in time has besides."""
-    return {SERIES, FRAMES} if "end" in tables.get("time", {}) else set()
-
-
-def changed_laws(directory):
-    """Names of files in the laws/ of a run that are not as it left them; none where there is no run."""
-    try:
-        known = read_texts(directory).get(FOLDER, {})
-    except OutputError:
-        return []
-    return [name for name, each in known.items() if checksum(Path(directory) / name) != each]
-
-
-def changed_copies(config):
-    """Files in the laws/ of run directories that are not as those runs left them."""
-    for file in map(Path, law_files(config)):
-        if file.parent.name == FOLDER and f"{FOLDER}/{file.name}" in changed_laws(file.parent.parent):
-            yield file
-
-
-def result_from(tables, config):
-    """The `Result` or `WedgeResult` that nested plain values stand for; its numbers that are null are nan.
-
-    Raises ValueError, TypeError or DaciteError where they stand for none.
-    """
-    # A dry contact of an older mgehl says once that it has converged.
-    settled = {"settled": tables["converged"]}
-    return dacite.from_dict(Result if config.kind.is_loaded else WedgeResult, settled | tables, AS_JSON)
-
-
-def _fields_of(directory):
-    """Path of the fields.h5 in a directory. Raises OutputError where there is none."""
+def _read(directory, found, source=None):
+    """What is `found(file, directory)` in the fields.h5 of a directory. Raises OutputError."""
+    directory = Path(directory)
     path = directory / FIELDS
-    if is_plain(path):
-        return path
-    if is_begun(directory):
-        raise OutputError(f"{directory}: has not finished: go on with: mgehl run --resume {directory}")
-    raise OutputError(f"{directory}: is no run directory: it has no {FIELDS}")
-
-
-def _read(source, directory, found):
-    """What is `found(file, directory)` in a fields.h5. Raises OutputError."""
+    if source is None and not is_plain(path):
+        if is_begun(directory):
+            raise OutputError(f"{directory}: has not finished: go on with: mgehl run --resume {directory}")
+        raise OutputError(f"{directory}: is no run directory: it has no {FIELDS}")
     try:
-        with h5py.File(source, "r") as file:
+        with h5py.File(source or path, "r") as file:
             return found(file, directory)
     except Exception as error:  # what a damaged file raises is anybody's guess
-        path = directory / FIELDS
         raise OutputError(f"{path}: is damaged, or no run of mgehl: {one_line(error)}") from None
 
 
@@ -153,28 +151,26 @@ def _texts(file, directory):
 
 def _solution(file, directory):
     texts = _texts(file, directory)
-    tables = tomllib.loads(texts[CONFIGURATION])
+    tables, record = tomllib.loads(texts[CONFIGURATION]), json.loads(texts[RESULT])
     config = placed(tables, {name: str((directory / name).resolve()) for name in laws_in(tables)})
-    record = json.loads(texts[RESULT])
     config = config.with_numbers(record.get(INPUTS, {}))
     named = config.as_toml_tables()["grid"]
     if config.kind.is_loaded and AUTO in (named.get("x"), named.get("y")):
         raise ValueError("it has no domain in numbers, as a finished run has")
     contact = without_running(contact_from(config))
     mesh = mesh_from(config, contact)
-    fields, result = _fields(file, mesh), result_from(record, config)
-    H0 = float(file.attrs["H0"])
+    fields, result, H0 = _fields(file, mesh), result_from(record), float(file.attrs["H0"])
     if not np.isfinite(H0):
         raise ValueError("H0 is not finite")
-    found = config, contact, mesh, fields, _rows(texts[HISTORY]), result, H0
-    frames = directory / FRAMES
-    kept = StoredFrames(frames) if config.is_in_time and is_plain(frames) else None
-    return Solution(*found, local=fields, frames=kept)
+    frames = StoredFrames(directory / FRAMES)
+    kept = frames if config.is_in_time and is_plain(frames.path) else None
+    rows = _rows(texts[HISTORY])
+    return Solution(config, contact, mesh, fields, rows, result, H0, local=fields, frames=kept)
 
 
 def _fields(file, mesh):
     """`Fields` of the whole grid of this mesh."""
-    names = "P", "H", "status", *(name for name in OPTIONAL if name in file)
+    names = ["P", "H", "status", *({"p", *FURTHER} & file.keys())]
     if any(file[name].shape != (mesh.ny, mesh.nx) for name in names):
         raise ValueError(f"its fields are not of {mesh.nx} x {mesh.ny} nodes")
     fields = Fields(**{name: file[name][()] for name in names})

@@ -1,19 +1,62 @@
-"""A study's directory: new tables are put together in a folder, and replace the old ones at the end."""
+"""A study's directory: study.json says what was asked for. New tables are put together in a folder, and
+replace the old ones at the end."""
 
+import json
 import os
 from contextlib import suppress
-from dataclasses import replace
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
+
+import dacite
 
 from mgehl.errors import OutputError, UserError
 from mgehl.output.files import FIELDS
-from mgehl.output.report.study_record import NAME, read_record, write_record
-from mgehl.output.whole_file import clear_parts, is_folder, is_plain, writing
+from mgehl.output.whole_file import clear_parts, is_folder, is_plain, write_whole, writing
+
+NAME = "study.json"
 
 UNFINISHED = "unfinished"
 """Folder of tables and pictures until all are there."""
 
 ENDINGS = {".csv", ".md", ".nc", ".png"}
+
+
+@dataclass(frozen=True)
+class StudyRecord:
+    """What was asked for, and what computes it; what is empty or None is the study's own."""
+
+    name: str
+    nodes: tuple
+    ranks: int
+    versions: dict
+    branch: str = "both"
+    """Of study transition."""
+    settings: tuple = ()
+    """Of --set, "section.key=value", for every case."""
+    cases: int | None = None
+    """How many are drawn by chance, as `seed`."""
+    seed: int | None = None
+    files: tuple = ()
+    """Tables and pictures that it wrote; none until it has finished."""
+
+
+def write_record(directory, record):
+    """Write study.json. Raises OutputError where it cannot be written."""
+    write_whole(Path(directory) / NAME, json.dumps(asdict(record), indent=2) + "\n")
+
+
+def read_record(directory):
+    """The `StudyRecord` of a directory; None without one, as of studies of an earlier version.
+
+    Raises OutputError where it is damaged.
+    """
+    path = Path(directory) / NAME
+    try:
+        return dacite.from_dict(StudyRecord, json.loads(path.read_text()), dacite.Config(cast=[tuple]))
+    except FileNotFoundError:
+        return None
+    except (OSError, ValueError, TypeError, dacite.DaciteError) as error:
+        raise OutputError(f"{path}: cannot be read: {' '.join(str(error).split())[:120]}") from None
 
 
 def begin_study(directory, record, resume):
@@ -27,7 +70,11 @@ def begin_study(directory, record, resume):
         raise OutputError(f"{stage}: is no folder of mgehl's: it is left alone")
     if _is_whole(stage):  # a kill at the very end
         _publish(directory, stage)
-    _check_kind(directory, record, resume)
+    if os.path.lexists(directory / FIELDS):
+        raise UserError(f"{directory}: is the directory of a run; choose another with --out")
+    before = read_record(stage) or read_record(directory)
+    if resume and before and before.name != record.name:
+        raise UserError(f"--resume: {directory} is of study {before.name}, not of study {record.name}")
     with writing(stage):
         stage.mkdir(exist_ok=True)
         clear_parts(stage)
@@ -50,14 +97,6 @@ def _drawn(stage):
 def _is_name(name):
     """True of a table or picture in the directory itself."""
     return Path(name).suffix in ENDINGS and not {"/", "\0"} & {*name}
-
-
-def _check_kind(directory, record, resume):
-    if os.path.lexists(directory / FIELDS):
-        raise UserError(f"{directory}: is the directory of a run; choose another with --out")
-    before = read_record(directory / UNFINISHED) or read_record(directory)
-    if resume and before and before.name != record.name:
-        raise UserError(f"--resume: {directory} is of study {before.name}, not of study {record.name}")
 
 
 def finish_study(directory, stage, resume):
@@ -93,11 +132,6 @@ def _publish(directory, stage):
 
 
 def check_study(directory):
-    """Raise OutputError where the files of a study are not all there, or only some are replaced yet."""
-    directory = Path(directory)
-    record = read_record(directory)
-    for name in record.files if record else ():
-        if not (directory / name).exists():
-            raise OutputError(f"{directory / name}: is missing: the study must be made again")
-    if _is_whole(directory / UNFINISHED):
+    """Raise OutputError where only some of a study's files are replaced yet."""
+    if _is_whole(Path(directory) / UNFINISHED):
         raise OutputError(f"{directory}: has not finished: go on with --resume")

@@ -57,19 +57,16 @@ def surface_lines(config, contact, mesh):
         f"lambda {ratio} (the formula's film over Sq)"
     )
     verdict = surface_verdict(contact, nodes)
-    wave = "" if isinf(shortest) else f"{_shortest_words(config)} {1e6 * shortest:.4g} um, "
+    # A filter's cut-off leaves a part of shorter ones.
+    by_heights = any(part.function or isinstance(part, Measured) for _, part in parts_of(config))
+    called = "shortest wave seen in the spectrum" if by_heights else "shortest wavelength"
+    wave = "" if isinf(shortest) else f"{called} {1e6 * shortest:.4g} um, "
     yield f"           {wave}{surface_words(verdict, nodes)}{_recommended(verdict, nodes, mesh)}"
     still = "" if config.is_in_time else "; the rough body stands still, the other has 2 u"
     yield f"           a peak is positive and lowers the gap{still}"
     for key, part in parts_of(config):
         yield from _part_lines(key, part, contact, mesh)
     yield from (f"warning    {words}" for words in surface_doubts(config, contact))
-
-
-def _shortest_words(config):
-    """What the shortest wave is called: a filter's cut-off leaves a part of shorter ones."""
-    by_heights = any(part.function or isinstance(part, Measured) for _, part in parts_of(config))
-    return "shortest wave seen in the spectrum" if by_heights else "shortest wavelength"
 
 
 def surface_doubts(config, contact):

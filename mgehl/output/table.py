@@ -2,8 +2,6 @@
 
 import csv
 import io
-import json
-import tomllib
 from itertools import pairwise
 from pathlib import Path
 
@@ -13,8 +11,8 @@ from rich.table import Table
 from rich.text import Text
 
 from mgehl.errors import printable
-from mgehl.kinds.choice import value_of
 from mgehl.output.digits import is_number, with_band
+from mgehl.output.quantities import read_told, told_at
 from mgehl.output.stored import read_texts
 from mgehl.output.whole_file import whole_file
 from mgehl.output.words import span
@@ -75,21 +73,20 @@ def collect(directories, keys=()):
 
 
 def _row(directory, keys):
-    texts = read_texts(directory)
-    result, config = json.loads(texts["result.json"]), tomllib.loads(texts["configuration.toml"])
-    history = list(csv.DictReader(texts["history.csv"].splitlines()))
-    nodes = config["grid"]["nodes"]
+    told, texts = read_told(directory), read_texts(directory)
+    nodes, result = told.value("grid.nodes"), told.result
     row = {
         "run": directory.resolve().name,
-        **{key: said(value_of(config, key)) for key in keys},
+        **{key: said(told.value(key)) for key in keys},
         "nodes": str(nodes),
-        "couette": config["discretization"].get("couette", DEFAULT),
+        "couette": told.tables["discretization"].get("couette", DEFAULT),
     }
-    row |= {
-        name: _text(result, path.split("."), shape)
-        for name, (path, shape) in COLUMNS.items() if path.split(".")[0] in result
-    }  # fmt: skip
-    of_all = nodes if config["contact"]["kind"] == "line" else nodes**2
+    for name, (path, shape) in COLUMNS.items():
+        if path.split(".")[0] in result:
+            found = told_at(result, path)
+            row[name] = shape(found) if callable(shape) else "" if found is None else format(found, shape)
+    history = csv.DictReader(texts["history.csv"].splitlines())
+    of_all = nodes if told.value("contact.kind") == "line" else nodes**2
     row |= _work([each for each in history if int(each["grid"]) == nodes], of_all)
     return row | {"wall s": f"{result['wall_s']:.1f}"}
 
@@ -97,15 +94,6 @@ def _row(directory, keys):
 def said(value):
     """A value of a configuration; empty without one."""
     return "" if value is None else f"{value:.10g}" if isinstance(value, float) else str(value)
-
-
-def _text(found, names, shape):
-    """What result.json has under nested names; empty where that is nothing, or no finite number."""
-    for name in names:
-        found = (found or {}).get(name)
-    if callable(shape):
-        return shape(found)
-    return "" if found is None else format(found, shape)
 
 
 def _work(finest, nodes):
@@ -128,12 +116,12 @@ def _work(finest, nodes):
 def with_bands(rows):
     """The rows of `collect` as they are shown: films and gaps with their bands and no more digits than they
     have."""
-    return [{name: _with_band(row, name) for name in row if "±" not in name} for row in rows]
 
+    def shown(row, name):
+        band = row.get(name.replace(" nm", " ± nm")) if name.endswith(" nm") else ""
+        return with_band(float(row[name]), float(band)) if band else row[name]
 
-def _with_band(row, name):
-    band = row.get(name.replace(" nm", " ± nm")) if name.endswith(" nm") else ""
-    return with_band(float(row[name]), float(band)) if band else row[name]
+    return [{name: shown(row, name) for name in row if "±" not in name} for row in rows]
 
 
 def drawn(rows, columns, width=None):
@@ -144,14 +132,11 @@ def drawn(rows, columns, width=None):
     first, *others = columns
     blocks, width = [[first]], width or WIDTH
     for column in others:
-        if len(blocks[-1]) > 1 and _wide(_shown(rows, [*blocks[-1], column])) > width:
+        wider = _shown(rows, [*blocks[-1], column]).splitlines()
+        if len(blocks[-1]) > 1 and max(map(len, wider)) > width:
             blocks.append([first])
         blocks[-1].append(column)
     return "\n\n".join(_shown(rows, block, width) for block in blocks)
-
-
-def _wide(text):
-    return max(map(len, text.splitlines()))
 
 
 def _shown(rows, columns, width=10**6):

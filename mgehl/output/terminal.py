@@ -123,33 +123,28 @@ class Live(Lines):
     def __enter__(self):
         from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
-        left = TextColumn("{task.fields[left]}")
-        self._display = Progress(
-            TextColumn("{task.description}"), BarColumn(24), TimeElapsedColumn(), left, transient=True
-        )
+        told, left = TextColumn("{task.description}"), TextColumn("{task.fields[left]}")
+        self._display = Progress(told, BarColumn(24), TimeElapsedColumn(), left, transient=True)
         self._task = self._display.add_task("first guess", total=None, left="")
-        with _AS_LONG_AS_IT_SHOWS:
-            self._display.start()
+        _safely(self._display.start)
         return self
 
     def __exit__(self, *_):
-        with _AS_LONG_AS_IT_SHOWS:
-            self._display.stop()
+        _safely(self._display.stop)
 
     def row(self, row, left=None):
         super().row(row)
-        spent = row.get("seconds", 0.0)
-        known = (
-            {}
-            if left is None
-            else {"total": 1.0, "completed": min(spent / max(spent + left, 1e-9), ALMOST)}
-        )
-        told = "" if left is None else f"about {ceil(left)} s left"
-        self._update(description=f"{row['grid']} nodes, step {row['step']}", left=told, **known)
+        fields = {"left": ""}
+        if left is not None:
+            spent = row.get("seconds", 0.0)
+            done = min(spent / max(spent + left, 1e-9), ALMOST)
+            fields = {"left": f"about {ceil(left)} s left", "total": 1.0, "completed": done}
+        told = f"{row['grid']} nodes, step {row['step']}"
+        _safely(self._display.update, self._task, description=told, **fields)
 
     def writing(self):
         self._display.tasks[0].total = None
-        self._update(description="writing results", left="")
+        _safely(self._display.update, self._task, description="writing results", left="")
 
     def end(self, solution, directory):
         self.__exit__()
@@ -157,32 +152,26 @@ class Live(Lines):
 
     def _print(self, words):
         """Put words above the bar."""
-        with _AS_LONG_AS_IT_SHOWS:
-            self._display.console.print(words, highlight=False, markup=False, soft_wrap=True)
-
-    def _update(self, **fields):
-        with _AS_LONG_AS_IT_SHOWS:
-            self._display.update(self._task, **fields)
+        options = {"highlight": False, "markup": False, "soft_wrap": True}
+        _safely(self._display.console.print, words, **options)
 
 
-_AS_LONG_AS_IT_SHOWS = suppress(OSError, ValueError)
-"""A terminal may be closed."""
+def _safely(show, *words, **options):
+    """A terminal may be closed."""
+    with suppress(OSError, ValueError):
+        show(*words, **options)
 
 
 def speaker(quiet=False, json_lines=False, stream=None, verbose=False):
-    """The speaker that options and the terminal ask for."""
-    if quiet:
-        return Quiet()
-    return JsonLines() if json_lines else (Live if _shows(stream or sys.stdout) else Lines)(verbose)
-
-
-def _shows(stream):
-    """Whether it is a terminal that can show a bar.
+    """The speaker that options and the terminal ask for.
 
     Open MPI gives its ranks a terminal of their own. It has the width of that on which mpiexec was started,
-    and none where the words go to a file.
+    and none where the words go to a file: that cannot show a bar.
     """
-    try:
-        return stream.isatty() and os.get_terminal_size(stream.fileno()).columns > 0
-    except (OSError, ValueError, AttributeError):  # closed
-        return False
+    if quiet or json_lines:
+        return Quiet() if quiet else JsonLines()
+    stream = stream or sys.stdout
+    with suppress(OSError, ValueError, AttributeError):  # closed
+        if stream.isatty() and os.get_terminal_size(stream.fileno()).columns > 0:
+            return Live(verbose)
+    return Lines(verbose)

@@ -38,13 +38,11 @@ def _result(result, frame, mesh):
         sides = node.get("neighbours")
         return node | {"i": x, "j": y} | ({"neighbours": list(frame.users_sides(*sides))} if sides else {})
 
-    x_nodes, y_nodes = frame.users_ranges(result.contact.x_nodes, result.contact.y_nodes, mesh.nx, mesh.ny)
-
-    edge, across = result.edge, frame.pair(result.edge.nodes_along_x, result.edge.nodes_along_y)
-
     def in_users_nodes(inequality):
         return replace(inequality, nodes=[at(node) for node in inequality.nodes])
 
+    x_nodes, y_nodes = frame.users_ranges(result.contact.x_nodes, result.contact.y_nodes, mesh.nx, mesh.ny)
+    edge, across = result.edge, frame.pair(result.edge.nodes_along_x, result.edge.nodes_along_y)
     return replace(
         result,
         edge=replace(edge, nodes_along_x=across[0], nodes_along_y=across[1]),

@@ -1,10 +1,8 @@
 """A result in words: what a run, a `Solution` and a script print of it."""
 
 from mgehl.output.digits import with_band
-from mgehl.output.domain import beyond_words, domain_words
-from mgehl.output.friction_result import friction_lines, heating_words
-from mgehl.output.mixed_words import filling_words, mixed_lines
-from mgehl.output.resolution import RESOLVED_CELLS, SEEN_CELLS
+from mgehl.output.mixed_words import filling_words, friction_lines, heating_words, mixed_lines
+from mgehl.output.resolution import RESOLVED_CELLS, SEEN_CELLS, beyond_words, domain_words
 from mgehl.output.surface import surface_words
 
 LISTED = 20
@@ -14,91 +12,81 @@ FAILED = 'what now: configs/README.md, "It did not converge: what now?"'
 UNRESOLVED = 'how to do better: configs/README.md, "Choosing the domain and the grid"'
 
 
-def where_to_read(result):
-    """The line that says where to read on, in a list; empty where the answer can be used as it is."""
-    if not result.converged:
-        return [f"  {FAILED}"]
-    resolution = getattr(result, "resolution", None)
-    return [f"  {UNRESOLVED}"] if resolution and resolution.verdict != "resolved" else []
-
-
-def bearing_words(result):
-    """The answer of a rigid bearing, and whether it can be trusted."""
-    return "\n".join(
-        [
-            f"{'CONVERGED' if result.converged else 'NOT CONVERGED'}: {result.reason}",
-            f"  load {result.load:.6f} mm ({result.load_N:.4g} N), P from {result.min_P:.6f} to "
-            f"{result.max_P:.6f} /mm (at most {result.max_pressure_MPa:.4g} MPa)",
-            f"  residual {result.residual:.1e}, flux imbalance {result.flux_imbalance:.1e}, "
-            f"flow through closed faces {result.closed_face_flow:.1e}",
-            f"  solid nodes: {result.solid_nodes}, cavitated: {result.cavitated_nodes}"
-            f"{filling_words(result)}",
-            *_oil(result.mass, "film under the pad"),
-            f"  work: {result.linear_iterations} iterations, {_took(result)}",
-            *where_to_read(result),
-        ]
-    )
-
-
-def dry_words(result):
-    """The answer of a dry contact, and whether and why it can be trusted."""
-    contact, hertz = result.contact, result.hertz
-    lines = [
-        f"{'CONVERGED' if result.converged else 'NOT CONVERGED'}: {result.reason}",
-        f"  largest pressure {pressure_words(result.max_pressure_GPa)}, that of Hertz "
-        f"{pressure_words(hertz.max_pressure_GPa)}",
-        f"  approach {_number(result.approach_um)} um, that of Hertz {_number(hertz.approach_um)}",
-        f"  contact: {contact.nodes} nodes, {100 * contact.area_fraction:.2f} % of the Hertz area; "
-        f"nodes {span(contact.x_nodes)} on Y = 0, {span(contact.y_nodes)} on X = 0; "
-        f"largest gap {contact.largest_gap_nm:.1e} nm",
-        f"  load error {result.load_error:.1e}, complementarity {result.complementarity_error:.1e}",
-        _work(result),
-    ]
-    if result.overlap.nodes:
-        nodes, largest = result.overlap.nodes, result.overlap.largest_nm
-        lines.append(f"  THE BODIES OVERLAP at {nodes} nodes by up to {largest:.2e} nm")
-    return "\n".join(lines + where_to_read(result))
-
-
-def loaded_words(result, verbose=True):
-    """The answer of a loaded contact, and whether and why it can be trusted."""
-    resolution = result.resolution
+def result_words(result, verbose=True):
+    """The answer, and whether and why it can be trusted; `verbose` ones have all numbers."""
     verdict = "CONVERGED" if result.converged else "NOT CONVERGED"
     if result.settled and not result.converged:
         verdict = f"SETTLED, BUT {result.doubt.upper()}"
-    heating = heating_words(result.thermal_reduction, result.is_thermally_reduced)
-    shown = surface_words(resolution.surface, resolution.surface_nodes)
-    lines = [
-        f"{verdict}: {result.reason}",
-        *(time_lines(result.time) if result.time else ()),
-        f"  {films_words(result)}, largest pressure {largest_pressure_words(result)}",
-        f"  {band_words(result.error)}",
-        *((f"  {heating}",) if heating else ()),
-        *(_errors(result) if verbose else ()),
-        *_overlap(result.overlap),
-        *_contact(result, verbose),
-        f"  inlet: {resolution.inlet_cells:.2f} cells, {advice(result)[resolution.verdict]}",
-        f"  domain: {_domain(result)}",
-        *(f"  load: {words}" for words in beyond_words(resolution.load_beyond_percent)),
-        *((f"  surface: {shown}",) if shown else ()),
-        *(mixed_lines(result.mixed) if result.mixed else ()),
-        *friction_lines(result.friction, verbose),
-        _work(result),
-        *(_nodes(result) if verbose else ()),
-    ]
-    return "\n".join(lines + where_to_read(result))
+    if result.load is not None:
+        lines = _bearing_lines(result)
+    else:
+        lines = _dry_lines(result) if result.hertz else _loaded_lines(result, verbose)
+    lines = *lines, *where_to_read(result)
+    return "\n".join([f"{verdict}: {result.reason}", *(f"  {line}" for line in lines)])
 
 
-def _domain(result):
-    """Whether it is large enough; nothing is known of its film where it cuts the contact."""
-    if result.edge.cuts:
-        return "too small: it cuts the contact"
-    return domain_words(result.resolution.domain, result.resolution.domain_loss_percent)
+def where_to_read(result):
+    """The line that says where to read on, in a list; empty where the answer can be used as it is."""
+    if not result.converged:
+        return [FAILED]
+    return [UNRESOLVED] if result.resolution and result.resolution.verdict != "resolved" else []
+
+
+def _bearing_lines(result):
+    yield (
+        f"load {result.load:.6f} mm ({result.load_N:.4g} N), P from {result.min_P:.6f} to "
+        f"{result.max_P:.6f} /mm (at most {result.max_pressure_MPa:.4g} MPa)"
+    )
+    yield (
+        f"residual {result.residual:.1e}, flux imbalance {result.flux_imbalance:.1e}, "
+        f"flow through closed faces {result.closed_face_flow:.1e}"
+    )
+    cavities = f"{result.cavitated_nodes}{filling_words(result)}"
+    yield f"solid nodes: {result.solid_nodes}, cavitated: {cavities}"
+    yield from _oil(result.mass, "film under the pad")
+    yield f"work: {result.linear_iterations} iterations, {_took(result)}"
+
+
+def _dry_lines(result):
+    contact, hertz = result.contact, result.hertz
+    largest, theirs = pressure_words(result.max_pressure_GPa), pressure_words(hertz.max_pressure_GPa)
+    yield f"largest pressure {largest}, that of Hertz {theirs}"
+    yield f"approach {_number(result.approach_um)} um, that of Hertz {_number(hertz.approach_um)}"
+    yield f"contact: {_size(contact)}; {_where(contact)}; largest gap {contact.largest_gap_nm:.1e} nm"
+    yield f"load error {result.load_error:.1e}, complementarity {result.complementarity_error:.1e}"
+    yield _work(result)
+    yield from _overlap(result.overlap)
+
+
+def _loaded_lines(result, verbose):
+    resolution = result.resolution
+    if result.time:
+        yield from _time_lines(result.time)
+    yield f"{films_words(result)}, largest pressure {largest_pressure_words(result)}"
+    yield band_words(result.error)
+    yield from heating_words(result.thermal_reduction, result.is_thermally_reduced)
+    if verbose:
+        yield from _errors(result)
+    yield from _overlap(result.overlap)
+    yield from _contact(result, verbose)
+    yield f"inlet: {resolution.inlet_cells:.2f} cells, {advice(result)[resolution.verdict]}"
+    room = domain_words(resolution.domain, resolution.domain_loss_percent)
+    # Nothing is known of the film of a domain that cuts the contact.
+    yield f"domain: {'too small: it cuts the contact' if result.edge.cuts else room}"
+    yield from (f"load: {words}" for words in beyond_words(resolution.load_beyond_percent))
+    if shown := surface_words(resolution.surface, resolution.surface_nodes):
+        yield f"surface: {shown}"
+    if result.mixed:
+        yield from mixed_lines(result.mixed)
+    yield from friction_lines(result.friction, verbose)
+    yield _work(result)
+    if verbose:
+        yield from _nodes(result)
 
 
 def _work(result):
     work = result.work
-    return f"  work: {work.convolutions:.1f} fine-grid convolutions, {work.steps} steps, {_took(result)}"
+    return f"work: {work.convolutions:.1f} fine-grid convolutions, {work.steps} steps, {_took(result)}"
 
 
 def _took(result):
@@ -107,10 +95,10 @@ def _took(result):
 
 
 def _errors(result):
+    flux = "" if result.flux_imbalance is None else f", flux imbalance {result.flux_imbalance:.1e}"
     yield (
-        f"  residual {result.residual:.1e}, load error {result.load_error:.1e}, complementarity "
-        f"{result.complementarity_error:.1e}"
-        + ("" if result.flux_imbalance is None else f", flux imbalance {result.flux_imbalance:.1e}")
+        f"residual {result.residual:.1e}, load error {result.load_error:.1e}, complementarity "
+        f"{result.complementarity_error:.1e}{flux}"
     )
     yield from _oil(result.mass, "Hertz ellipse")
 
@@ -119,29 +107,39 @@ def _oil(mass, where):
     """What flows through, and what is made of it; nothing of an older result."""
     if mass:
         yield (
-            f"  oil: {mass.enters:.3g} m3/s enter the {where}, {mass.leaves:.3g} leave "
+            f"oil: {mass.enters:.3g} m3/s enter the {where}, {mass.leaves:.3g} leave "
             f"it; a node, or nodes of one kind, make at most {mass.made_share:.1e} of it"
         )
 
 
 def _overlap(overlap):
     if overlap.nodes:
-        yield f"  THE BODIES OVERLAP at {overlap.nodes} nodes by up to {overlap.largest_nm:.2e} nm"
+        yield f"THE BODIES OVERLAP at {overlap.nodes} nodes by up to {overlap.largest_nm:.2e} nm"
+
+
+def _size(contact):
+    return f"{contact.nodes} nodes, {100 * contact.area_fraction:.2f} % of the Hertz area"
+
+
+def _where(contact):
+    return f"nodes {span(contact.x_nodes)} on Y = 0, {span(contact.y_nodes)} on X = 0"
 
 
 def _contact(result, verbose):
     """The solid contact, and where its pressure is below the fluid's."""
     contact, inequality, other = result.contact, result.pressure_inequality, result.other_inequality
-    where = f"; nodes {span(contact.x_nodes)} on Y = 0, {span(contact.y_nodes)} on X = 0; {_gap(contact)}"
-    size = f"{contact.nodes} nodes, {100 * contact.area_fraction:.2f} % of the Hertz area"
-    yield f"  contact: {size}{where if verbose else ''}"
+    largest, kept = contact.largest_gap_nm, contact.kept_gap_nm
+    gap = f"largest gap {largest:.1e} nm"
+    if kept and contact.nodes:  # of bodies that layers keep apart
+        gap = f"largest gap {largest:.4g} nm, the boundary film is {kept:.4g} nm"
+    yield f"contact: {_size(contact)}" + (f"; {_where(contact)}; {gap}" if verbose else "")
     if verbose or inequality.violations:
         broken = f"{inequality.violations} of {inequality.checked}"
         blind = f", undecided at {_of_faces(inequality.power)}" if inequality.power.undecided else ""
-        yield f"  pressure inequality broken at {broken} interface nodes{blind}"
+        yield f"pressure inequality broken at {broken} interface nodes{blind}"
     if verbose and other.violations:
         broken = f"{other.violations} of {other.checked}"
-        yield f"  compared between nodes, a cell apart: broken at {broken}, by up to {other.worst:.1e} p_h"
+        yield f"compared between nodes, a cell apart: broken at {broken}, by up to {other.worst:.1e} p_h"
 
 
 def undecided_words(power):
@@ -156,27 +154,19 @@ def _of_faces(power):
     return f"{power.undecided} of {power.faces} faces"
 
 
-def _gap(contact):
-    """The largest gap in contact; of bodies that layers keep apart beside the layers' thickness."""
-    largest, kept = contact.largest_gap_nm, contact.kept_gap_nm
-    if not (kept and contact.nodes):
-        return f"largest gap {largest:.1e} nm"
-    return f"largest gap {largest:.4g} nm, the boundary film is {kept:.4g} nm"
-
-
 def _nodes(result):
     """Nodes that break Eq. 2 or can be neither film nor contact."""
     inequality = result.pressure_inequality
     for each in inequality.nodes[:LISTED]:
-        yield f"  Eq. 2 violated at node ({each['i']}, {each['j']}) by {each['size']:.2e} p_h"
+        yield f"Eq. 2 violated at node ({each['i']}, {each['j']}) by {each['size']:.2e} p_h"
     for each in result.contradictions[:LISTED]:
         yield (
-            f"  node ({each['i']}, {each['j']}): as film its gap is {each['film_gap_nm']:.2e} nm, "
+            f"node ({each['i']}, {each['j']}): as film its gap is {each['film_gap_nm']:.2e} nm, "
             f"as contact its pressure {each['contact_pressure']:.2e} p_h; "
             f"beside it {', '.join(each['neighbours'])}"
         )
     if inequality.violations > LISTED:
-        yield f"  ... and at {inequality.violations - LISTED} more nodes, listed in result.json"
+        yield f"... and at {inequality.violations - LISTED} more nodes, listed in result.json"
 
 
 ADVICE = {
@@ -236,13 +226,13 @@ def span(ends):
     return f"{ends[0]}..{ends[1]}" if ends else "none"
 
 
-def time_lines(time):
+def _time_lines(time):
     """What happened in a run in time, and the means over its last passage."""
     yield (
-        f"  in time: {1e3 * time.end_s:.6g} ms in {time.steps} steps, {time.halved} of them halved, half "
+        f"in time: {1e3 * time.end_s:.6g} ms in {time.steps} steps, {time.halved} of them halved, half "
         f"of them in {time.convolutions_a_step:.3g} convolutions or fewer; {time.passages:.3g} passages"
     )
-    yield f"  oil: storage and flow close to {time.largest_closure:.1e} of what is stored in every step"
+    yield f"oil: storage and flow close to {time.largest_closure:.1e} of what is stored in every step"
     if time.means:
         shown = {
             "mean_gap_nm": ("mean gap", 1.0, "nm"),
@@ -252,8 +242,8 @@ def time_lines(time):
         if time.means["friction"].value:
             shown["friction"] = ("friction", 1.0, "of the load")
         parts = [_mean_words(time.means[name], *how) for name, how in shown.items()]
-        yield f"  over the last passage: {', '.join(parts)}"
-    yield "  at the end:"
+        yield f"over the last passage: {', '.join(parts)}"
+    yield "at the end:"
 
 
 def _mean_words(mean, name, scale, unit):

@@ -14,10 +14,10 @@ import numpy as np
 
 from mgehl.kinds import case_of
 from mgehl.output.files import plain_result
-from mgehl.output.result import Work, summarise
+from mgehl.output.result import Work
 from mgehl.output.solution import Fields
-from mgehl.output.solution_record import arrays_of, fields_from
-from mgehl.output.stored import result_from
+from mgehl.output.stored import arrays_of, fields_from, result_from
+from mgehl.output.summary import summarise
 from mgehl.output.surroundings import versions
 from mgehl.solver.continuation import Continuation
 from mgehl.solver.from_config import set_up
@@ -106,7 +106,7 @@ class Branches:
         found = fields_from(arrays)
         if found.P.shape != (self.mesh.ny, self.mesh.nx):
             raise ValueError("its fields are not of this grid")
-        result = result_from(plain["result"], self._config)
+        result = result_from(plain["result"])
         return Point(**plain | {"result": result, "sweep": tuple(plain["sweep"]), "fields": found})
 
     def _key(self, branch, way, beside):

@@ -15,7 +15,7 @@ from mpi4py import MPI
 from mgehl.config import config_from_tables
 from mgehl.errors import OutputError, UserError, one_line
 from mgehl.output.files import on_first_rank
-from mgehl.output.solution_record import record_of, solution_from
+from mgehl.output.stored import record_of, solution_from
 from mgehl.output.table import drawn, markdown, write_csv
 from mgehl.output.whole_file import write_whole
 from mgehl.run import solve

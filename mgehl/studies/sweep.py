@@ -26,15 +26,13 @@ from mgehl.output.directory import clear_checkpoint, make_directory
 from mgehl.output.files import CONFIGURATION, FIELDS, REPORT, on_first_rank
 from mgehl.output.laws import portable
 from mgehl.output.lock import locked
-from mgehl.output.memory_file import netcdf_file
+from mgehl.output.netcdf import netcdf_file, put
 from mgehl.output.quantities import QUANTITIES, Told, read_told
 from mgehl.output.report.page import render
-from mgehl.output.report.study_record import StudyRecord
 from mgehl.output.report.study_report import study_report
-from mgehl.output.series import put
 from mgehl.output.solution import on_every_rank
 from mgehl.output.stored import read_run, read_texts
-from mgehl.output.study_directory import begin_study, finish_study
+from mgehl.output.study_directory import StudyRecord, begin_study, finish_study
 from mgehl.output.surroundings import versions
 from mgehl.output.table import collect, said
 from mgehl.output.whole_file import whole_file, write_whole, writing

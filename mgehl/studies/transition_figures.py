@@ -4,7 +4,7 @@ import matplotlib
 import numpy as np
 
 from mgehl.discretization.status import CONTACT
-from mgehl.output.pictures.blocks import Blocks
+from mgehl.output.pictures.plane import Blocks
 from mgehl.output.pictures.style import COLOURS, applied, save, subplots
 
 PROFILES = 6

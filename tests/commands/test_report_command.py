@@ -4,7 +4,7 @@ import pytest
 
 from mgehl.cli import main
 from mgehl.commands.study import STUDIES
-from mgehl.output.report.study_record import StudyRecord, write_record
+from mgehl.output.study_directory import StudyRecord, write_record
 
 RUN = ["run", "--set", "grid.nodes=65", "--set", "solver.start=contact", "--quiet", "--out", "dry"]
 

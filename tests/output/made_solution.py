@@ -6,8 +6,8 @@ from test_files import make_result
 from mgehl.config import config_from_tables
 from mgehl.discretization.mesh import Mesh
 from mgehl.kinds import contact_from
+from mgehl.output.result import Result
 from mgehl.output.solution import Fields, Solution
-from mgehl.output.wedge_result import WedgeResult
 
 TABLES = {
     "point": {"contact": {"radius_y": 25.4e-3}, "motion": {"speed": 0.5}},
@@ -30,8 +30,8 @@ def make_solution(kind):
 
 
 def _wedge_result():
-    return WedgeResult(
-        converged=True, reason="the residual holds", load=0.5, load_N=48.0, max_P=0.25, min_P=0.0,
-        max_pressure_MPa=0.125, residual=1e-12, flux_imbalance=1e-13, closed_face_flow=0.0,
+    return Result(
+        converged=True, settled=True, reason="the residual holds", load=0.5, load_N=48.0, max_P=0.25,
+        min_P=0.0, max_pressure_MPa=0.125, residual=1e-12, flux_imbalance=1e-13, closed_face_flow=0.0,
         solid_nodes=9, cavitated_nodes=0, linear_iterations=12, wall_s=0.5, ranks=1, versions={},
     )  # fmt: skip

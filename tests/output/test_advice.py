@@ -8,8 +8,8 @@ from test_files import make_result
 from mgehl.config import load_config
 from mgehl.kinds import contact_from, settled
 from mgehl.output.advice import MOST, what_next
-from mgehl.output.edge_result import NOT_SEEN
 from mgehl.output.resolution import Resolution
+from mgehl.output.result import NOT_SEEN
 from mgehl.output.solution import Solution
 
 

@@ -207,7 +207,7 @@ class TestPublishing:
                 found.append(read.H0)
         assert writer.returncode == 0 and {*found} == {-0.25, -0.5}
 
-    @pytest.mark.parametrize("moved", range(0, 20))
+    @pytest.mark.parametrize("moved", range(0, 19))
     def test_an_end_in_between_leaves_the_old_or_the_new_and_a_new_run_clears_up(
         self, tmp_path, monkeypatch, moved
     ):

@@ -6,10 +6,10 @@ import dacite
 import numpy as np
 import pytest
 
-from mgehl.output.dry_result import summarise_dry
 from mgehl.output.files import finite, plain_result
 from mgehl.output.result import Result, Work
 from mgehl.output.stored import AS_JSON
+from mgehl.output.summary import summarise_dry
 from mgehl.solver.dry import solve_dry
 
 TOLERANCE = 1e-8

@@ -11,8 +11,9 @@ from mgehl.config import config_from_tables
 from mgehl.discretization.mesh import Mesh
 from mgehl.model.rheology import Friction
 from mgehl.output import friction_result as module
-from mgehl.output.friction_result import friction_lines, friction_result, with_band
+from mgehl.output.friction_result import friction_result, with_band
 from mgehl.output.gap_error import GapError, GridGap
+from mgehl.output.mixed_words import friction_lines
 from mgehl.output.report.run_report import report
 from mgehl.solver.shear import Shear
 
@@ -59,15 +60,14 @@ def test_the_band_of_the_load_on_solids_is_friction_s(found):
     result = with_band(found(0.2), mixed(0.02), 0.1)
     assert result.coefficient_band == pytest.approx(0.002) and not result.is_the_grids
     (line,) = friction_lines(result, verbose=False)
-    assert line.startswith("  friction 0.06000 ± 0.002 (newtonian): film 0.05000, solids 0.01000; rolling")
+    assert line.startswith("friction 0.06000 ± 0.002 (newtonian): film 0.05000, solids 0.01000; rolling")
 
 
 def test_where_the_load_on_solids_is_the_grid_s_so_is_friction(found):
     result = with_band(found(0.2), mixed(None), 0.1)
     assert result.coefficient_band is None and result.is_the_grids
     assert (
-        list(friction_lines(result, verbose=False))[1]
-        == "  friction is the grid's, as the load on solids is"
+        list(friction_lines(result, verbose=False))[1] == "friction is the grid's, as the load on solids is"
     )
 
 
@@ -75,7 +75,7 @@ def test_zero_is_the_answer_of_surfaces_that_do_not_slide(found):
     result = with_band(found(0.0), mixed(None), 0.1)
     assert result.coefficient == 0.0 and not result.is_the_grids
     (line,) = friction_lines(replace(result, model="eyring"), verbose=False)
-    assert line == "  friction 0: the surfaces do not slide; rolling takes 0.0005 of the load on each body"
+    assert line == "friction 0: the surfaces do not slide; rolling takes 0.0005 of the load on each body"
     assert not list(friction_lines(result, verbose=False)) and not list(friction_lines(None, verbose=True))
 
 

@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from mgehl.cli import main
-from mgehl.errors import OutputError
 from mgehl.output.stored import read_run
 
 DRY = ["--set", "discretization.contact_model=dry", "--set", "grid.nodes=65", "--quiet"]
@@ -54,16 +53,6 @@ def test_it_runs_again_where_the_original_is_not(here, finished, tmp_path_factor
     np.testing.assert_array_equal(again.pressure, first.pressure)
     copies = [each / "laws" / "heights.npy" for each in (elsewhere / "moved", Path("again"))]
     assert copies[0].read_bytes() == copies[1].read_bytes()
-
-
-def test_a_copy_that_was_changed_is_said_and_its_run_is_not_read(finished, capsys):
-    np.save(finished / "laws" / "heights.npy", heights(2))
-    with pytest.raises(OutputError, match="laws/heights.npy: is missing, damaged, or of another run"):
-        read_run(finished)
-    capsys.readouterr()
-    assert main(["run", "run/configuration.toml", "--out", "again", "--quiet"]) == 0
-    said = f"mgehl: {finished}/laws/heights.npy: has changed since the run that it lies beside\n"
-    assert capsys.readouterr().err == said
 
 
 def test_a_run_goes_on_with_its_copy_and_says_that_the_file_changed(here, capsys):

@@ -7,8 +7,9 @@ import pytest
 
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.status import BOUNDARY, CONTACT, LUBRICATED
-from mgehl.output.edge_result import EdgeResult
-from mgehl.output.result import Work, resolution, summarise
+from mgehl.output.resolution import resolution
+from mgehl.output.result import EdgeResult, Work
+from mgehl.output.summary import summarise
 from mgehl.solver.outcome import Cycle, Outcome
 from mgehl.solver.partition import Changes
 from mgehl.solver.problem import State
@@ -32,7 +33,7 @@ def summary(tiny_problem, outcome, monkeypatch):
         monkeypatch.setattr(tiny_problem, "state", lambda *_: outcome.state)
         monkeypatch.setattr(tiny_problem, "residual", lambda _, status: np.full(status.shape, residual))
         monkeypatch.setattr(tiny_problem, "load_deficit", lambda P: load)
-        monkeypatch.setattr("mgehl.output.result._conserves", lambda *_: True)
+        monkeypatch.setattr("mgehl.output.summary._conserves", lambda *_: True)
         return summarise(tiny_problem, outcome, 1e-8, Work(12.5, 7), 3.0, {"mgehl": "0"})
 
     return make

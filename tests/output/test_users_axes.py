@@ -11,8 +11,7 @@ from mgehl.config import config_from_tables
 from mgehl.grid.grid import single_grid
 from mgehl.kinds import Case, case_of, contact_from, mesh_from
 from mgehl.model.frame import Frame
-from mgehl.output.edge_result import NOT_SEEN
-from mgehl.output.result import ContactResult, InequalityResult
+from mgehl.output.result import NOT_SEEN, ContactResult, InequalityResult
 from mgehl.output.solution import Fields, Solution
 from mgehl.output.users_axes import in_users_axes
 from mgehl.solver.from_config import set_up

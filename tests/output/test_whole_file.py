@@ -12,7 +12,7 @@ from made_solution import make_solution
 
 from mgehl.errors import OutputError
 from mgehl.output.files import write_fields
-from mgehl.output.memory_file import netcdf_file
+from mgehl.output.netcdf import netcdf_file
 from mgehl.output.whole_file import whole_file, write_whole
 
 

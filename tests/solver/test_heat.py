@@ -6,7 +6,7 @@ import mgehl
 from mgehl.config import config_from_tables
 from mgehl.errors import ConfigError
 from mgehl.kinds import contact_from
-from mgehl.output.friction_result import heating_words
+from mgehl.output.mixed_words import heating_words
 
 OIL = {"conductivity": 0.14, "thermoviscosity": 0.04}
 STEEL = {"conductivity_1": 46.0, "conductivity_2": 46.0, "capacity_1": 3.6e6, "capacity_2": 3.6e6}
@@ -38,7 +38,7 @@ def test_the_factor_thins_the_film_by_as_much():
 
 @pytest.mark.parametrize("reduction", [None, 0.995])
 def test_nothing_is_said_of_less_than_a_per_cent(reduction):
-    assert heating_words(reduction, False) == ""
+    assert heating_words(reduction, False) == []
 
 
 def test_temperatures_of_a_solved_contact():

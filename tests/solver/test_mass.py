@@ -10,7 +10,8 @@ from mpi4py import MPI
 from mgehl.config import load_config
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
 from mgehl.kinds import case_of
-from mgehl.output.result import Work, summarise
+from mgehl.output.result import Work
+from mgehl.output.summary import summarise
 from mgehl.solver.beginning import begin
 from mgehl.solver.from_config import set_up
 from mgehl.solver.inequality import check_under_contact

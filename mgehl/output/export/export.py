@@ -1,17 +1,60 @@
 """A run's fields in the formats of other programs, each file whole or not there at all."""
 
+import csv
+import json
+from io import BytesIO
 from pathlib import Path
 
 import numpy as np
 
-from mgehl.discretization.status import NAMES
+from mgehl.discretization import status
 from mgehl.errors import OutputError, UserError
-from mgehl.output.export.arrays import write_csv, write_npz
-from mgehl.output.export.further import further_fields
 from mgehl.output.export.netcdf import write_netcdf
-from mgehl.output.export.paraview import write_vts
-from mgehl.output.export.pvd import write_pvd
+from mgehl.output.export.paraview import write_pvd, write_vts
+from mgehl.output.files import finite, further_fields, plain_result
+from mgehl.output.laws import portable
 from mgehl.output.whole_file import whole_file, writing
+
+UNITS = {"fluid_pressure": "fluid_pressure_Pa", "heights": "heights_m"}
+"""Columns of `further_fields` with a unit in their names."""
+
+
+def write_npz(path, solution):
+    """Write x, y, pressure and film in SI, P, H, status and its names, `further_fields`, and two texts.
+
+    The texts `result` and `configuration` are strings of JSON; nothing in the file is pickled.
+    """
+    memory = BytesIO()  # zipfile complains at length where the disk is full
+    np.savez_compressed(
+        memory,
+        **{name: getattr(solution, name) for name in ("x", "y", "pressure", "film", "status")},
+        P=solution.fields.P,
+        H=solution.fields.H,
+        **further_fields(solution),
+        status_names=np.array(status.names(solution.is_dry)),
+        result=json.dumps(finite(plain_result(solution.result)), allow_nan=False),
+        configuration=json.dumps(portable(solution.config)),
+    )
+    path.write_bytes(memory.getbuffer())
+
+
+def write_csv(path, solution):
+    """Write a row for each node, x running fastest; numbers read back to the last bit."""
+    x, y = np.meshgrid(solution.x, solution.y)
+    names = np.array(status.names(solution.is_dry))[solution.status]
+    columns = {
+        "x_m": x,
+        "y_m": y,
+        "pressure_Pa": solution.pressure,
+        "film_m": solution.film,
+        "status": names,
+    }
+    columns |= {UNITS.get(name, name): values for name, values in further_fields(solution).items()}
+    with path.open("w", newline="") as file:
+        writer = csv.writer(file)
+        writer.writerow(columns)
+        writer.writerows(zip(*(each.ravel().tolist() for each in columns.values()), strict=True))
+
 
 WRITERS = {"vts": write_vts, "nc": write_netcdf, "npz": write_npz, "csv": write_csv}
 """Format, which is also the file's ending: a function of path and `Solution`."""
@@ -58,30 +101,21 @@ def export(solution, paths, force=False):
             raise OutputError(f"{path} exists: add --force to replace it, or choose another with --out")
     _check_fields(solution)
     for each, path in paths.items():
-        if each in OF_FRAMES:
-            with writing(path):
+        with writing(path):
+            path.parent.mkdir(parents=True, exist_ok=True)
+            if each in OF_FRAMES:
                 OF_FRAMES[each](path, solution)
-        else:
-            _write_whole(WRITERS[each], path, solution)
+            else:
+                with whole_file(path) as part:
+                    WRITERS[each](part, solution)
 
 
 def _check_fields(solution):
     """Neither an iteration that diverged nor a damaged file may pass for an answer."""
-    for name, field in {
-        "pressure": solution.pressure,
-        "film": solution.film,
-        **further_fields(solution),
-    }.items():
+    fields = {"pressure": solution.pressure, "film": solution.film} | further_fields(solution)
+    for name, field in fields.items():
         bad = np.count_nonzero(~np.isfinite(field))
         if bad:
             raise OutputError(f"the {name} of this run is not finite at {bad} nodes: nothing to export")
-    if not np.isin(solution.status, range(len(NAMES))).all():
+    if not np.isin(solution.status, range(len(status.NAMES))).all():
         raise OutputError("the status of this run is damaged: it has nodes that are nothing known")
-
-
-def _write_whole(write, path, solution):
-    """Write a file; what was there before stays until the new one is whole."""
-    with writing(path):
-        path.parent.mkdir(parents=True, exist_ok=True)
-        with whole_file(path) as part:
-            write(part, solution)

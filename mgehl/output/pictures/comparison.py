@@ -56,11 +56,8 @@ def compare_histories(solutions, labels):
     for solution, label, style in zip(solutions, labels, _styles(), strict=False):
         position, unit = cycles(solution.rows)
         units[unit] = True
-        ring = {
-            "marker": "o",
-            "markerfacecolor": "white",
-            "markevery": [k for k, _ in grids(solution.rows)],
-        }
+        begins = [k for k, _ in grids(solution.rows)]
+        ring = {"marker": "o", "markerfacecolor": "white", "markevery": begins}
         for panel, name in zip(axes[:, 0], errors, strict=True):
             panel.plot(position, np.abs(column(solution.rows, name)), label=label, **ring, **style)
             panel.set(yscale="log", ylabel=errors[name])

@@ -8,7 +8,7 @@ import numpy as np
 from mgehl.config import KEYS
 from mgehl.errors import UserError
 from mgehl.output.pictures.style import COLOURS, MARKS, legend_under_all, subplots
-from mgehl.output.pictures.titles import DOMAIN, key_words
+from mgehl.output.pictures.titles import DOMAIN, differing, key_words
 from mgehl.output.quantities import QUANTITIES
 
 PANELS = {
@@ -72,13 +72,7 @@ def curves(runs, key, names=()):
 
 def _groups(runs, key, names):
     """{what runs have in common but the key: (their numbers, colour, mark)}, in order."""
-    differ = dict.fromkeys(
-        f"{section}.{name}" for run in runs for section, table in run.tables.items() for name in table
-    )
-    differ = [
-        each for each in differ
-        if each not in (key, *DOMAIN) and any(run.value(each) != runs[0].value(each) for run in runs)
-    ]  # fmt: skip
+    differ = [each for each in differing([run.tables for run in runs]) if each not in (key, *DOMAIN)]
     found = defaultdict(list)
     for number, run in enumerate(runs):
         said = [key_words(each, run.value(each)) for each in differ if run.value(each) is not None]
@@ -89,11 +83,8 @@ def _groups(runs, key, names):
 
 def _there(runs, panel):
     """Quantities of a panel that say something of some run."""
-
-    def of(name):
-        return [run.number(QUANTITIES[name].path) for run in runs if run.settled]
-
-    found = [name for name in panel if any(isfinite(each) and each for each in of(name))]
+    numbers = {name: [run.number(QUANTITIES[name].path) for run in runs if run.settled] for name in panel}
+    found = [name for name, values in numbers.items() if any(isfinite(each) and each for each in values)]
     return [name for name in found if name not in OF_ONE_NODE or "mean_gap_nm" not in found]
 
 

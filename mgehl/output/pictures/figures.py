@@ -40,10 +40,8 @@ _POINT = {
     "history": ("how the run converged", history),
 }
 """Pictures of a point contact, in order: the kind, what it shows, the function that draws it."""
-_DRY = {
-    "lines": ("pressure and gap on the centre lines, against the contact of smooth bodies", centre_lines),
-    "gap": ("gap, with contact", maps.film_map),
-}
+_GAP = "pressure and gap on the centre lines, against the contact of smooth bodies"
+_DRY = {"lines": (_GAP, centre_lines), "gap": ("gap, with contact", maps.film_map)}
 _SLIDES = {"shear": ("shear stress by sliding, with contact outlined", maps.shear_map)}
 _ROUGH = {"surface": ("heights of the surface with contact, the gap, their distribution", surface_picture)}
 _IN_TIME = {"time": ("films, pressure and shares of the load over time", over_time)}
@@ -53,7 +51,8 @@ _BEARING = {
     "status": _POINT["status"],
     "history": _POINT["history"],
 }
-_BEARING_LINE = {name: _BEARING[name] for name in ("lines", "history")}
+_FLAT = {"film", "gap", "pressure", "status", "shear"}
+"""Maps, which a single line has not."""
 
 
 def drawn_by(solution):
@@ -77,16 +76,15 @@ def left_out(solution):
 
 def _possible(solution):
     """As `drawn_by`, with those that are left out."""
+    drawn = _POINT | (_ROUGH if solution.contact.is_loaded and solution.contact.surface is not None else {})
     if not solution.contact.is_loaded:
-        return dict(_BEARING_LINE if solution.mesh.is_line else _BEARING)
-    drawn = _POINT | (_ROUGH if solution.contact.surface is not None else {})
-    if solution.is_dry:
+        drawn = _BEARING
+    elif solution.is_dry:
         drawn = _DRY | {kind: drawn[kind] for kind in drawn if kind not in ("lines", "film")}
     if solution.config.is_in_time:
         drawn = _IN_TIME | {kind: each for kind, each in drawn.items() if kind != "history"}
-    drawn |= _SLIDES if solution.fields.shear is not None else {}
-    flat = ("film", "gap", "pressure", "status", "shear") if solution.mesh.is_line else ()
-    return {kind: drawn[kind] for kind in drawn if kind not in flat}
+    drawn = drawn | (_SLIDES if solution.fields.shear is not None else {})
+    return {kind: each for kind, each in drawn.items() if not (solution.mesh.is_line and kind in _FLAT)}
 
 
 def figures(solution: Solution, kinds: Sequence[str] | None = None) -> list[Picture]:
@@ -136,10 +134,8 @@ def write(
     """Write `Picture`s as directory/NAME.FORMAT, pictures of the same name replaced; return the paths."""
     directory = Path(directory)
     directory.mkdir(parents=True, exist_ok=True)
-    paths = []
+    paths = [(each, directory / f"{each.name}.{form}") for each in pictures for form in formats]
     with style.applied():
-        for picture in pictures:
-            for form in formats:
-                paths.append(directory / f"{picture.name}.{form}")
-                style.save(picture.figure, paths[-1])
-    return paths
+        for picture, path in paths:
+            style.save(picture.figure, path)
+    return [path for _, path in paths]

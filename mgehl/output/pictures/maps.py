@@ -1,5 +1,7 @@
 """Maps of a run in mm: film, pressure, status of the nodes; contact, and cavities by how full they are."""
 
+from functools import partial
+
 import matplotlib
 import numpy as np
 from matplotlib.colors import LogNorm
@@ -31,12 +33,14 @@ def film_map(solution):
 
 def pressure_map(solution):
     """Figure of the pressure in GPa; of contact the outline."""
-    return _map(draw_pressure, f"pressure, {title(solution)}", solution)
+    draw = partial(_draw_smooth, "pressure", "pressure, GPa")
+    return _map(draw, f"pressure, {title(solution)}", solution)
 
 
 def shear_map(solution):
     """Figure of the shear stress by sliding in MPa; of contact the outline."""
-    return _map(draw_shear, f"shear stress, {title(solution)}", solution)
+    draw = partial(_draw_smooth, "shear", "shear stress, MPa")
+    return _map(draw, f"shear stress, {title(solution)}", solution)
 
 
 def status_map(solution):
@@ -59,11 +63,9 @@ def draw_film(axes, solution, most=MOST):
     image = draw_image(axes, plane, np.maximum(film, norm.vmin), "bilinear", norm=norm, cmap=colours)
     thinner = ((film < norm.vmin) & (plane.status < CAVITATED)).any()
     extend = ("neither", "min", "max", "both")[thinner + 2 * (film > norm.vmax).any()]
-    steps = (
-        LogLocator(subs=(1.0, 2.0, 5.0))
-        if isinstance(norm, LogNorm)
-        else MaxNLocator(6, steps=[1, 2, 5, 10])
-    )
+    steps = MaxNLocator(6, steps=[1, 2, 5, 10])
+    if isinstance(norm, LogNorm):
+        steps = LogLocator(subs=(1.0, 2.0, 5.0))
     numbers = {"ticks": steps, "format": "%g", "extend": extend}
     bar = colour_bar(axes, plane, image, gap_words(solution.contact)[1], **numbers)
     bar.minorticks_off()
@@ -72,20 +74,10 @@ def draw_film(axes, solution, most=MOST):
     return [*draw_cavities(axes, plane), *draw_sets(axes, plane), *finish(axes, solution, plane)]
 
 
-def draw_pressure(axes, solution):
-    """As `draw_film`, of the pressure."""
+def _draw_smooth(name, label, axes, solution):
+    """As `draw_film`, of another field of the plane."""
     plane = Plane(solution)
-    return _draw_smooth(axes, solution, plane, plane.pressure, "pressure, GPa")
-
-
-def draw_shear(axes, solution):
-    """As `draw_film`, of the shear stress."""
-    plane = Plane(solution)
-    return _draw_smooth(axes, solution, plane, plane.shear, "shear stress, MPa")
-
-
-def _draw_smooth(axes, solution, plane, values, label):
-    colour_bar(axes, plane, draw_image(axes, plane, values, "bilinear"), label)
+    colour_bar(axes, plane, draw_image(axes, plane, getattr(plane, name), "bilinear"), label)
     handles = draw_cavities(axes, plane)
     if (plane.status == CONTACT).any():
         _contour(axes, plane, plane.status == CONTACT, (0.5,), colors=style.CONTACT_COLOUR, linewidths=1.2)

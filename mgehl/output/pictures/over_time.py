@@ -24,25 +24,24 @@ def over_time(solution):
     """Figure of films, largest pressure and shares of the load against time, with speed and load above them
     where they change."""
     rows = solution.rows
-    t, unit = _in_units(column(rows, "time_s"))
+    t, units = column(rows, "time_s"), {"s": 1.0, "ms": 1e3, "us": 1e6}
+    unit = next((unit for unit, factor in units.items() if t[-1] * factor >= 1.0), "us")
+    t = t * units[unit]
     panels = [(label, _there(rows, columns)) for label, columns in PANELS]
     panels = [(label, columns) for label, columns in panels if columns]
     driven = {name: how for name, how in DRIVEN.items() if np.ptp(column(rows, name)) > 0.0}
     count = len(panels) + bool(driven)
     figure, axes = subplots(count, size=(8.4, 1.6 + 1.9 * count), sharex=True, squeeze=False)
     axes = axes[:, 0]
-    for panel, (label, columns) in zip(axes[bool(driven) :], panels, strict=True):
+    panels = [("over the largest", driven)] * bool(driven) + panels
+    for panel, (label, columns) in zip(axes, panels, strict=True):
         for name, (said, colour) in columns.items():
-            panel.plot(t, column(rows, name), color=colour, label=said)
-        panel.set_ylabel(label)
-        if len(columns) > 1:
-            panel.legend()
-    if driven:
-        for name, (said, colour) in driven.items():
             values = column(rows, name)
-            axes[0].plot(t, values / np.abs(values).max(), color=colour, label=said)
-        axes[0].set_ylabel("over the largest")
-        axes[0].legend()
+            largest = np.abs(values).max() if columns is driven else 1.0
+            panel.plot(t, values / largest, color=colour, label=said)
+        panel.set_ylabel(label)
+        if len(columns) > 1 or columns is driven:
+            panel.legend()
     axes[-1].set_xlabel(f"time, {unit}")
     figure.suptitle(title(solution))
     return figure
@@ -51,10 +50,3 @@ def over_time(solution):
 def _there(rows, columns):
     """The columns that are there, and not nothing throughout."""
     return {name: how for name, how in columns.items() if name in rows[0] and np.any(column(rows, name))}
-
-
-def _in_units(t):
-    """Times in a unit in which the last one has a number that can be read."""
-    units = {"s": 1.0, "ms": 1e3, "us": 1e6}
-    unit = next((unit for unit, factor in units.items() if t[-1] * factor >= 1.0), "us")
-    return t * units[unit], unit

@@ -1,11 +1,14 @@
-"""What maps show: a part of a run's plane in mm, what the fields are there, and the scale of its film."""
+"""What maps show: a part of a run's plane in mm, in blocks of nodes, and the scale of its film."""
+
+from math import ceil
 
 import numpy as np
 from matplotlib.colors import LogNorm, Normalize
 
 from mgehl.discretization.status import CAVITATED, CONTACT, NAMES
-from mgehl.output.pictures.blocks import MOST, Blocks
 
+MOST = 700
+"""Nodes or blocks along a side that a map of its own shows: about as many as it has dots."""
 OVERLAP = len(NAMES)
 """Drawn as a status: nodes outside of contact whose gap is negative."""
 LOADED = 0.1
@@ -22,6 +25,41 @@ NO_FILM = 10.0
 """Upper end of a scale of films, in nm, where there is none."""
 
 
+class Blocks:
+    """Equal blocks of the nodes at X (nx,) and Y (ny,), at most `most` along either side.
+
+    A block is drawn as the least or the largest of its nodes: of the film the least, of pressure and status
+    the largest, for contact is above cavitated and that above lubricated. So single nodes in contact stay.
+    """
+
+    def __init__(self, X, Y, most=MOST):
+        self._stride = ceil(max(len(X), len(Y)) / most)
+        self.X, self.Y = (
+            self._reduced(np.add, line) / self._reduced(np.add, 1.0 + 0.0 * line) for line in (X, Y)
+        )
+        self.extent = *self._ends(X), *self._ends(Y)
+        """Left, right, lower and upper end of an image; its last blocks may reach beyond the nodes."""
+
+    def least(self, values):
+        """The least of each block's values: (ny, nx) to (len(Y), len(X))."""
+        return self._reduced(np.minimum, values)
+
+    def largest(self, values):
+        """The largest of each block's values: (ny, nx) to (len(Y), len(X))."""
+        return self._reduced(np.maximum, values)
+
+    def _reduced(self, extreme, values):
+        for axis in range(values.ndim):
+            values = extreme.reduceat(values, np.arange(0, values.shape[axis], self._stride), axis=axis)
+        return values
+
+    def _ends(self, line):
+        """Where the first block of a line of nodes begins, and where the last whole one ends."""
+        cell = (line[-1] - line[0]) / (len(line) - 1) if len(line) > 1 else 1.0
+        first = float(line[0]) - 0.5 * cell
+        return first, first + ceil(len(line) / self._stride) * self._stride * cell
+
+
 class Plane:
     """A part of a run's plane in `blocks`, in mm; fields are (len(blocks.Y), len(blocks.X)).
 
@@ -33,12 +71,8 @@ class Plane:
     def __init__(self, solution, most=MOST, whole=False):
         contact, fields = solution.contact, solution.fields
         loaded = (fields.P > LOADED * fields.P.max()) | (fields.status == CONTACT)
-        places = []
-        for axis, (line, scale) in enumerate(
-            ((solution.y, contact.y_scale), (solution.x, contact.x_scale))
-        ):
-            places.append(_place(1e3 * line, 1e3 * scale, loaded.any(axis=1 - axis), whole))
-        (Y, y, high, rows), (X, x, wide, columns) = places
+        Y, y, high, rows = _place(1e3 * solution.y, 1e3 * contact.y_scale, loaded.any(axis=1), whole)
+        X, x, wide, columns = _place(1e3 * solution.x, 1e3 * contact.x_scale, loaded.any(axis=0), whole)
         self.part = part = rows, columns
         self.blocks = Blocks(X, Y, most)
         overlap = (fields.H < 0.0) & (fields.status != CONTACT)

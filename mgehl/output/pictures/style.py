@@ -5,12 +5,10 @@ saved under `applied`: matplotlib asks for the style of a tick only when it draw
 """
 
 import io
-import logging
 import os
 from contextlib import contextmanager
 from contextvars import ContextVar
 from importlib import resources
-from logging.handlers import BufferingHandler
 from pathlib import Path
 
 import matplotlib
@@ -115,20 +113,13 @@ def _read(path):
     """Settings of a style file; matplotlib only warns of lines that it does not know."""
     if os.path.exists(path) and not (os.path.isfile(path) and os.path.getsize(path) <= LARGEST_STYLE):
         raise UserError(f"{path}: cannot be read: is no file of at most {LARGEST_STYLE} bytes")
-    complaints, logger = BufferingHandler(LARGEST_STYLE), logging.getLogger("matplotlib")
-    complaints.setLevel(logging.WARNING)
-    logger.addHandler(complaints)
-    propagate, logger.propagate = logger.propagate, False
     try:
-        settings = matplotlib.rc_params_from_file(path, fail_on_error=True, use_default_template=False)
-        wrong = [record.getMessage().strip().splitlines()[0] for record in complaints.buffer]
+        for line in map(str.strip, Path(path).read_text("utf-8").splitlines()):
+            key, colon, _ = line.partition(":")
+            if line and not line.startswith("#") and not (colon and key.strip() in matplotlib.rcParams):
+                raise ValueError(f"it has no {line}")
+        return matplotlib.rc_params_from_file(path, fail_on_error=True, use_default_template=False)
     except OSError as error:
         raise UserError(f"{path}: cannot be read: {error.strerror}") from None
     except ValueError as error:
-        wrong = [str(error)]
-    finally:
-        logger.propagate = propagate
-        logger.removeHandler(complaints)
-    if wrong:
-        raise UserError(f"{path}: no style of matplotlib: {' '.join(wrong[0].split())[:160]}")
-    return settings
+        raise UserError(f"{path}: no style of matplotlib: {' '.join(str(error).split())[:160]}") from None

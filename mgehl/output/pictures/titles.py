@@ -94,19 +94,11 @@ def labels(solutions, names):
 
     A run that did not converge says so.
     """
-    tables = [
-        {
-            (section, key): value
-            for section, table in portable(each.config).items()
-            for key, value in table.items()
-        }
-        for each in solutions
-    ]
-    keys = [key for key in dict.fromkeys(key for table in tables for key in table)
-            if any(table.get(key) != tables[0].get(key) for table in tables)]  # fmt: skip
-    keys = [key for key in keys if ".".join(key) not in DOMAIN] or keys
+    tables = [portable(each.config) for each in solutions]
+    keys = differing(tables)
+    keys = [key for key in keys if key not in DOMAIN] or keys
     said = [
-        ", ".join(key_words(".".join(key), table[key]) for key in keys if key in table) for table in tables
+        ", ".join(key_words(key, each[key]) for key in keys if key in each) for each in map(_flat, tables)
     ]
     if not keys or len(keys) > MOST_KEYS or len(set(said)) < len(said):
         said = names
@@ -114,6 +106,17 @@ def labels(solutions, names):
         text if each.result.converged else f"{text} ({verdict(each.result)})"
         for text, each in zip(said, solutions, strict=True)
     ]
+
+
+def differing(tables):
+    """The keys, "section.key", that are not the same in all configurations, nested tables."""
+    flat = [_flat(each) for each in tables]
+    known = dict.fromkeys(key for each in flat for key in each)
+    return [key for key in known if any(each.get(key) != flat[0].get(key) for each in flat)]
+
+
+def _flat(tables):
+    return {f"{section}.{key}": value for section, table in tables.items() for key, value in table.items()}
 
 
 def key_words(name, value):

@@ -16,14 +16,13 @@ from mgehl.model.own_function import file_and_function
 from mgehl.model.sources import SOURCES
 from mgehl.output.advice import beside_bands
 from mgehl.output.digits import with_band
-from mgehl.output.domain import STARVED_FROM
 from mgehl.output.files import plain_result
 from mgehl.output.mixed_words import gap_band_words, mean_gaps, mixed_note
 from mgehl.output.pictures import style
 from mgehl.output.pictures.figures import drawn_by, figures
-from mgehl.output.report.page import BAD, DOUBTFUL, GOOD, NO_NUMBER, Cell, Page, number, picture, render
-from mgehl.output.resolution import RESOLVED_CELLS
-from mgehl.output.result import COMPLEMENTARITY_TOLERANCE
+from mgehl.output.report.page import BAD, DOUBTFUL, GOOD, NO_NUMBER, number, picture, render
+from mgehl.output.resolution import RESOLVED_CELLS, STARVED_FROM
+from mgehl.output.summary import COMPLEMENTARITY_TOLERANCE
 from mgehl.output.surface import ADVICE as SURFACE
 from mgehl.output.surface import RESOLVED_NODES
 from mgehl.output.words import advice, band_words, largest_pressure_words, span
@@ -42,15 +41,16 @@ LONG_HISTORY = 400
 LISTED = ("nodes", "contradictions", "grids")
 """Lists of nodes and of grids in a result, which have tables of their own."""
 
-HOLDS, CARE, BROKEN = Cell("holds", GOOD), Cell("to be read with care", DOUBTFUL), Cell("broken", BAD)
-UNDECIDED = Cell("not decided on this grid", DOUBTFUL)
+HOLDS, CARE, BROKEN = ("holds", GOOD), ("to be read with care", DOUBTFUL), ("broken", BAD)
+UNDECIDED = "not decided on this grid", DOUBTFUL
 
 
 def report(solution, name):
     """The page of a `Solution` on rank 0 as HTML text; `name` is the run's, such as its directory's."""
     result, config, rows = solution.result, solution.config, solution.rows
     kind = "dry" if solution.is_dry else "loaded" if solution.contact.is_loaded else "wedge"
-    page = Page(config.kind.heading(solution), f"Run {name}", verdict=(*verdict(result), result.reason))
+    page = {"title": config.kind.heading(solution), "subtitle": f"Run {name}"}
+    page["verdict"] = *verdict(result), result.reason
     heads, last, shown = history_of(rows)
     mark = "" if result.converged else " (in doubt)" if result.settled else " (not converged)"
     with naming_keys(solution.contact):  # some numbers ask the user's own laws again
@@ -63,8 +63,8 @@ def report(solution, name):
             odd=list(implausible(config, solution.contact)), sources=list(sources_of(solution)),
             heads=heads, last=last, shown=shown,
             every="Every cycle" if len(shown) == len(rows) else f"{len(shown)} of {len(rows)} cycles",
-            versions=[(package, Cell(text, "code")) for package, text in result.versions.items()],
-            record=[(Cell(field, "code"), text) for field, text in _leaves(plain_result(result))],
+            versions=[(package, (text, "code")) for package, text in result.versions.items()],
+            record=[((field, "code"), text) for field, text in _leaves(plain_result(result))],
         )  # fmt: skip
 
 
@@ -94,12 +94,12 @@ def absent(name, amount, of=None, care=False, decided=True):
 
 def informing(name, value):
     """A row beside checks that judges nothing."""
-    return name, number(value, 2), "", Cell("for information", "muted")
+    return name, number(value, 2), "", ("for information", "muted")
 
 
 def judged(verdict, words):
     """The judgement of a grid or a domain by its verdict."""
-    return Cell(words, GOOD if verdict in ("resolved", "sufficient") else DOUBTFUL)
+    return words, (GOOD if verdict in ("resolved", "sufficient") else DOUBTFUL)
 
 
 def from_each(records, names, digits=6):
@@ -146,11 +146,8 @@ def films_of(result):
     rows = [("computed", shown[0], "", shown[1], "")]
     formulas = {name.removesuffix("_nm"): nm for name, nm in result.formulas.items()}
     for name in dict.fromkeys(re.sub("_(central|minimum)$", "", name) for name in formulas):
-        central, minimum = (
-            formulas.get(f"{name}_central", formulas.get(name)),
-            formulas.get(f"{name}_minimum"),
-        )
-        cells = (_beside(*each, result.converged) for each in zip(own, (central, minimum), strict=True))
+        theirs = formulas.get(f"{name}_central", formulas.get(name)), formulas.get(f"{name}_minimum")
+        cells = (_beside(*each, result.converged) for each in zip(own, theirs, strict=True))
         known = FORMULAS.get(name)
         rows.append((known.label if known else name.replace("_", " "), *chain(*cells)))
     return rows
@@ -167,17 +164,16 @@ def pictures(solution):
     """Every picture of the run as SVG."""
     kinds = [kind for kind in drawn_by(solution) if solution.rows or kind != "history"]
     with style.applied():
-        for each in figures(solution, kinds):
-            title = each.title
-            content, size = style.rendered(each.figure, "svg"), each.figure.get_size_inches()
-            yield picture(f"{title[0].upper()}{title[1:]}.", "", content, "image/svg+xml", size, each.name)
+        for name, title, figure in figures(solution, kinds):
+            content, size = style.rendered(figure, "svg"), figure.get_size_inches()
+            yield picture(FUNCTIONS["sentence"](title), "", content, "image/svg+xml", size, name)
 
 
 def inputs_of(config):
     """Rows of every key that makes the contact, with what those follow from that nobody gave."""
     how = {each.key: each.how for each in config.derived}
     for key in config.physical:
-        yield Cell(key, "code"), config.said(key), how.get(key, "")
+        yield (key, "code"), config.said(key), how.get(key, "")
 
 
 def notes_on(solution):
@@ -200,19 +196,12 @@ def keys_of(config):
         keys = [key for key in fields(getattr(config, section))
                 if not {section, f"{section}.{key.name}"} & set(config.unused)]  # fmt: skip
         if keys:
-            yield (Cell(f"[{section}]"),)
+            yield (f"[{section}]",)
         for key in keys:
-            used, default = (
-                setting(value, key.metadata["unit"])
-                for value in (getattr(getattr(config, section), key.name), key.default)
-            )
-            name, changed = Cell(f"{section}.{key.name}", "code"), used != default
-            yield (
-                name,
-                Cell(used, "changed" if changed else ""),
-                default if changed else "",
-                key.metadata["help"],
-            )
+            used = setting(getattr(getattr(config, section), key.name), key.metadata["unit"])
+            default = setting(key.default, key.metadata["unit"])
+            told = ((used, "changed"), default) if used != default else (used, "")
+            yield (f"{section}.{key.name}", "code"), *told, key.metadata["help"]
 
 
 def setting(value, unit=None):
@@ -248,9 +237,7 @@ def _leaves(tree, path=""):
             yield path + name, f"a list of {len(value)}"
         elif name in ("x_nodes", "y_nodes"):
             yield path + name, span(value)
+        elif isinstance(value, bool):
+            yield path + name, str(value).lower()
         else:
-            yield path + name, value if isinstance(value, str) else _leaf(value)
-
-
-def _leaf(value):
-    return str(value).lower() if isinstance(value, bool) else number(value, 10)
+            yield path + name, value if isinstance(value, str) else number(value, 10)

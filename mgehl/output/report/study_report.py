@@ -7,8 +7,8 @@ from pathlib import Path
 
 from mgehl.errors import OutputError
 from mgehl.output.files import NAMES
-from mgehl.output.report.page import Cell, Page, Section, Text, picture, table
-from mgehl.output.report.study_record import read_record
+from mgehl.output.report.page import picture, table
+from mgehl.output.study_directory import read_record
 
 DPI = 150
 """Of pictures of studies."""
@@ -21,22 +21,23 @@ def is_study(directory):
 
 
 def study_report(directory, studies):
-    """The `Page` of a study's directory; `studies` has what each study is, by name.
+    """The page of a study's directory, for `render`; `studies` has what each study is, by name.
 
     Raises OutputError where a file cannot be read.
     """
     directory = Path(directory)
-    record = read_record(directory)
+    record, name = read_record(directory), directory.resolve().name
     known = [record.name] if record else _named_by_files(directory, studies)
-    what = [Text(f"Study {name}: {studies[name]}.") for name in known if name in studies]
-    sections = [_tables(directory), _pictures(directory)]
-    if record:
-        sections.append(_origin(record))
-    title = f"Study {known[0]}" if len(known) == 1 else f"Studies in {directory.resolve().name}"
-    unknown = Text("Tables of a study that its files do not name.")
-    introduction = Section("what", "What it is", tuple(what) or (unknown,))
-    shown = (introduction, *(section for section in sections if section.blocks))
-    return Page(title, f"Study in {directory.resolve().name}", shown)
+    what = [f"Study {each}: {studies[each]}." for each in known if each in studies]
+    return {
+        "title": f"Study {known[0]}" if len(known) == 1 else f"Studies in {name}",
+        "subtitle": f"Study in {name}",
+        "verdict": None,
+        "what": what or ["Tables of a study that its files do not name."],
+        "tables": [_table(path) for path in _in_order(directory, "*.csv")],
+        "pictures": [_picture(path) for path in _in_order(directory, "*.png")],
+        "origin": record and list(_origin(record)),
+    }
 
 
 def _named_by_files(directory, studies):
@@ -44,10 +45,6 @@ def _named_by_files(directory, studies):
     own = [name for name in studies if directory.resolve().name in (name, f"study-{name}")]
     stems = sorted(path.stem for path in directory.glob("*.csv"))
     return own or [name for name in studies if any(stem.split("-")[0] == name for stem in stems)]
-
-
-def _tables(directory):
-    return Section("tables", "Tables", tuple(_table(path) for path in _in_order(directory, "*.csv")))
 
 
 def _in_order(directory, pattern):
@@ -69,10 +66,6 @@ def _table(path):
     return table(f"{path.stem} ({len(rows)} rows)", heads, rows)
 
 
-def _pictures(directory):
-    return Section("pictures", "Pictures", tuple(_picture(path) for path in _in_order(directory, "*.png")))
-
-
 def _picture(path):
     name = path.stem.replace("_", " ").replace("-", " ")
     try:
@@ -80,23 +73,18 @@ def _picture(path):
     except OSError as error:
         raise OutputError(f"{path}: cannot be read: {error.strerror}") from None
     alt = f"Picture of the study: {name}. Its numbers are in the tables above."
-    return picture(name, alt, content, "image/png", _inches(content))
-
-
-def _inches(png):
-    """Width and height of a PNG file, drawn with `DPI` dots to the inch; (0, 0) where it is none."""
-    if len(png) < 24 or not png.startswith(b"\x89PNG"):
-        return 0.0, 0.0
-    width, height = struct.unpack(">II", png[16:24])
-    return width / DPI, height / DPI
+    dots = (0, 0)  # of a file that is no PNG
+    if len(content) >= 24 and content.startswith(b"\x89PNG"):
+        dots = struct.unpack(">II", content[16:24])
+    return picture(name, alt, content, "image/png", (dots[0] / DPI, dots[1] / DPI))
 
 
 def _origin(record):
-    grids = ", ".join(map(str, record.nodes)) or "the study's own"
+    """Rows of what was asked for and of the software."""
     asked = {
-        "grids": grids, "branches": record.branch, "settings": ", ".join(record.settings) or None,
+        "grids": ", ".join(map(str, record.nodes)) or "the study's own", "branches": record.branch,
+        "settings": ", ".join(record.settings) or None,
         "cases": record.cases, "seed": record.seed, "ranks": record.ranks,
     }  # fmt: skip
-    rows = [(name, str(value)) for name, value in asked.items() if value is not None]
-    rows += [(name, Cell(text, "code")) for name, text in record.versions.items()]
-    return Section("origin", "How it was made", (table("Options and software", ("what", "value"), rows),))
+    yield from ((name, str(value)) for name, value in asked.items() if value is not None)
+    yield from ((name, (text, "code")) for name, text in record.versions.items())

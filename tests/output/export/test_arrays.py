@@ -8,7 +8,7 @@ from made_solution import SHAPES, make_solution
 
 from mgehl.config import config_from_tables
 from mgehl.discretization.status import NAMES
-from mgehl.output.export.arrays import write_csv, write_npz
+from mgehl.output.export.export import write_csv, write_npz
 from mgehl.output.files import plain_result
 
 every_kind = pytest.mark.parametrize("kind", SHAPES)

@@ -13,9 +13,9 @@ from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
 from mgehl.errors import UserError
 from mgehl.output.pictures import style
-from mgehl.output.pictures.blocks import Blocks
 from mgehl.output.pictures.figures import draw_all, figures
 from mgehl.output.pictures.picture import drawn
+from mgehl.output.pictures.plane import Blocks
 
 
 def image_of(solution):

@@ -213,6 +213,6 @@ def test_verdicts(film_run, wedge_run):
         (film_run, {"converged": False, "settled": False}, (BAD, "Not converged")),
         (film_run, {"overlap": overlap}, (DOUBTFUL, "Converged, but the bodies overlap")),
         (wedge_run, {}, (GOOD, "Converged")),
-        (wedge_run, {"converged": False}, (BAD, "Not converged")),
+        (wedge_run, {"converged": False, "settled": False}, (BAD, "Not converged")),
     ):
         assert verdict(changed(solution, **result).result) == judged

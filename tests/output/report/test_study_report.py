@@ -4,8 +4,8 @@ import pytest
 
 from mgehl.errors import OutputError
 from mgehl.output.report.page import render
-from mgehl.output.report.study_record import StudyRecord, read_record, write_record
 from mgehl.output.report.study_report import study_report
+from mgehl.output.study_directory import StudyRecord, read_record, write_record
 
 STUDIES = {"wedge": "what wedge is", "grid": "what grid is"}
 RECORD = StudyRecord("wedge", (65, 129), 2, {"mgehl": "0.1.0", "petsc": "3.18.5"})
@@ -24,34 +24,26 @@ def directory(tmp_path):
     return directory
 
 
-def blocks_of(page, anchor):
-    (section,) = [each for each in page.sections if each.anchor == anchor]
-    return section.blocks
-
-
 def test_tables(directory):
-    (table,) = blocks_of(study_report(directory, STUDIES), "tables")
-    assert [cell.text for cell in table.columns] == ["case", "P(22,0)", "order"]
-    assert [cell.kind for cell in table.columns][1:] == ["number", "number"]
-    assert [[cell.text for cell in row] for row in table.rows] == [
+    page = study_report(directory, STUDIES)
+    (table,) = page["tables"]
+    assert [text for text, _ in table["columns"]] == ["case", "P(22,0)", "order"]
+    assert [kind for _, kind in table["columns"]][1:] == ["number", "number"]
+    assert [[text for text, _ in row] for row in table["rows"]] == [
         ["<b>", "0.5", ""],
         ["blocked exit", "-1e-3", "2.01"],
     ]
-    html = render(study_report(directory, STUDIES))
+    html = render(page)
     assert "&lt;b&gt;" in html and '<td class="number">2.01</td>' in html and "not shown" not in html
+    assert html.index("figure 9") < html.index("figure 10")
 
 
-class TestWhatItIs:
-    def said(self, directory):
-        page = study_report(directory, STUDIES)
-        return page.title, [text.text for text in blocks_of(page, "what")]
-
-    def test_by_its_record(self, directory):
-        write_record(directory, RECORD)
-        assert self.said(directory) == ("Study wedge", ["Study wedge: what wedge is."])
-        (table,) = blocks_of(study_report(directory, STUDIES), "origin")
-        rows = dict([cell.text for cell in row] for row in table.rows)
-        assert rows["grids"] == "65, 129" and rows["petsc"] == "3.18.5" and rows["ranks"] == "2"
+def test_what_it_is_is_told_by_its_record(directory):
+    write_record(directory, RECORD)
+    page = study_report(directory, STUDIES)
+    assert (page["title"], page["what"]) == ("Study wedge", ["Study wedge: what wedge is."])
+    rows = dict(page["origin"])
+    assert rows["grids"] == "65, 129" and rows["petsc"] == ("3.18.5", "code") and rows["ranks"] == "2"
 
 
 @pytest.mark.parametrize(

@@ -17,3 +17,9 @@ def netcdf_file(path, **options):
     with h5netcdf.File(memory, "w", **options) as file:
         yield file
     path.write_bytes(memory.getbuffer())
+
+
+def put(file, name, dimensions, values, packed=None, **attributes):
+    """Write a variable with its attributes to an `h5netcdf.File`; `packed` is how HDF5 stores it."""
+    variable = file.create_variable(name, dimensions, values.dtype, data=values, **(packed or {}))
+    variable.attrs.update(attributes)

@@ -1,0 +1,85 @@
+"""Pressure, film and status of some instants of a run in time: frames.nc, CF."""
+
+from dataclasses import dataclass
+
+import h5netcdf
+import numpy as np
+
+from mgehl.discretization.status import names
+from mgehl.output.netcdf import netcdf_file, put
+from mgehl.output.whole_file import whole_file
+from mgehl.version import VERSION
+
+
+@dataclass
+class Frames:
+    """Fields of some instants, on rank 0: kept in a folder until the end, or in memory without one."""
+
+    every: float
+    """Seconds from one to the next."""
+    folder: object = None
+
+    def __post_init__(self):
+        self._kept = {}
+
+    def is_due(self, t, step):
+        """Whether the fields of this instant are to be kept: the first ones, and from time to time."""
+        number = self._number(t)
+        return t <= step or number != self._number(max(t - step, 0.0))
+
+    def _number(self, t):
+        return int(t / self.every * (1.0 + 1e-9))
+
+    def take(self, t, fields):
+        """Keep {name: (ny, nx)}."""
+        if self.folder is None:
+            self._kept[self._number(t)] = (t, fields)
+            return
+        with whole_file(self.folder / f"frame-{self._number(t):06d}.npz") as part:
+            np.savez(part, t=t, **fields)
+
+    def all(self):
+        """(Time, {name: array}) of the instants, in order."""
+        if self.folder is None:
+            yield from (self._kept[number] for number in sorted(self._kept))
+            return
+        for path in sorted(self.folder.glob("frame-*.npz")):
+            with np.load(path) as file:
+                yield float(file["t"]), {name: file[name] for name in file.files if name != "t"}
+
+
+@dataclass
+class StoredFrames:
+    """The frames of a finished run, in its frames.nc."""
+
+    path: object
+
+    def all(self):
+        """(Time, {name: array}) of the instants, in order."""
+        with h5netcdf.File(self.path, "r") as file:
+            for number, t in enumerate(file["time"][:]):
+                yield float(t), {name: file[name][number] for name in FIELDS}
+
+
+FIELDS = {
+    "pressure": ("Pa", "fluid or contact pressure"),
+    "film": ("m", "film thickness or gap"),
+    "status": ("1", ", ".join(f"{k} {name}" for k, name in enumerate(names(False)))),
+}
+
+
+def write_frames(path, frames, x, y, title):
+    """frames.nc of (time, {name: (ny, nx)}) in order, with x and y in m. Raises OSError."""
+    frames = list(frames)
+    with whole_file(path) as part, netcdf_file(part) as file:
+        file.attrs.update({"Conventions": "CF-1.8", "title": title, "source": f"mgehl {VERSION}"})
+        file.dimensions = {"time": len(frames), "y": len(y), "x": len(x)}
+        put(
+            file, "time", ("time",), np.array([t for t, _ in frames]), units="s", long_name="time", axis="T"
+        )
+        put(file, "x", ("x",), x, units="m", long_name="distance along x", axis="X")
+        put(file, "y", ("y",), y, units="m", long_name="distance along y", axis="Y")
+        packed = {"chunks": (1, len(y), len(x)), "compression": "gzip", "compression_opts": 1}
+        for name, (unit, meaning) in FIELDS.items():
+            values = np.stack([fields[name] for _, fields in frames])
+            put(file, name, ("time", "y", "x"), values, packed, units=unit, long_name=meaning)

@@ -1,0 +1,307 @@
+"""The `Result` of a final state: verified anew, nothing that an iteration said of it is trusted."""
+
+from dataclasses import asdict, replace
+
+import numpy as np
+
+from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, WALL
+from mgehl.discretization.storage import content
+from mgehl.output.film_error import OF_AN_INSTANT, no_band
+from mgehl.output.mixed_result import mixed_result
+from mgehl.output.resolution import resolution
+from mgehl.output.result import (
+    ContactResult,
+    EdgeResult,
+    HertzResult,
+    InequalityResult,
+    MoesFilm,
+    Overlap,
+    Result,
+)  # fmt: skip
+from mgehl.output.series import time_result
+from mgehl.output.words import undecided_words
+from mgehl.solver.inequality import check_interface, check_pressure_inequality, check_under_contact
+from mgehl.solver.mass import CLOSED, account, mass_account
+from mgehl.solver.verification import (
+    LOADED,
+    check_edge,
+    closed_face_flow,
+    complementarity_error,
+    flux_imbalance,
+)  # fmt: skip
+
+COMPLEMENTARITY_TOLERANCE = 1e-6
+"""Breach of P >= 0, H >= 0 and no inflow (units of P and H) that a converged answer may have,
+however loose the tolerance of the residual."""
+
+PRESSED = 1e-12
+"""Pressure of dry contact over the largest, which a peak may have: more than rounding."""
+
+CLOSED_IN_TIME = 1e-8
+"""Part of the stored oil by which the account of a step may be off."""
+
+
+def summarise(problem, outcome, tolerance, work, wall_s, versions):
+    """The `Result` of a loaded contact with a film (collective); gap, residual and load are evaluated anew
+    from P, H0 and the partition."""
+    contact, found = problem.contact, outcome.state
+    state = outcome.state = problem.state(found.P, found.H0, found.status, found.p, found.filling)
+    evaluation = problem.evaluate(state)
+    nm, moes = 1e9 * contact.film_scale, contact.film_scale * contact.moes_scale
+    central, minimum = problem.films(state)
+    result = Result(
+        **_of_every_load(problem, state, work, wall_s, versions, LOADED),
+        central_film_nm=central * nm,
+        minimum_film_nm=minimum * nm,
+        residual=problem.rms(problem.residual(evaluation, state.status)),
+        complementarity_error=complementarity_error(problem, state, evaluation),
+        flux_imbalance=flux_imbalance(problem, evaluation),
+        pressure_inequality=_eq_2(problem, state),
+        other_inequality=_inequality(check_pressure_inequality(problem, state), "at the nodes"),
+        contradictions=[_contradiction(each, nm) for each in outcome.contradictions],
+        cavitated_nodes=problem.counts(state.status)[1],
+        resolution=resolution(contact, problem.grid.mesh),
+        groups=contact.groups,
+        moes_film=MoesFilm(central * moes, minimum * moes),
+        formulas={f"{name}_nm": 1e9 * film for name, film in contact.compared.items()},
+        mixed=mixed_result(problem, state),
+        mass=mass_account(problem, state, evaluation),
+        thermal_reduction=contact.thermal_reduction,
+        is_thermally_reduced=contact.lubricant.thinned < 1.0,
+    )
+    broken = _first_broken(_equations(result, outcome, tolerance))
+    conserves = _conserves(problem, result.mass, tolerance)
+    holds = result.pressure_inequality.violations == 0 and conserves and not result.edge.wrong[0]
+    reason = broken or _first_broken(_more(result, conserves))
+    return replace(
+        result, converged=not broken and holds, settled=not broken,
+        reason=reason or "residual, load, sets, complementarity and the pressure inequality hold",
+    )  # fmt: skip
+
+
+def summarise_dry(problem, outcome, tolerance, work, wall_s, versions):
+    """The `Result` of a contact without a film (collective); gap and load are evaluated anew from P and
+    H0."""
+    contact = problem.contact
+    state = outcome.state = problem.state(outcome.state.P, outcome.state.H0, outcome.state.status)
+    nm, hertz = 1e9 * contact.film_scale, contact.hertz
+    result = Result(
+        **_of_every_load(problem, state, work, wall_s, versions, PRESSED),
+        error=no_band("there is no film"),
+        complementarity_error=_dry_complementarity_error(problem.grid, state),
+        approach_um=-1e-3 * nm * state.H0,
+        boundary_nodes=_boundary_nodes(problem, state, tolerance),
+        hertz=HertzResult(1e-9 * hertz.p_h, 1e6 * hertz.approach),
+        Sq_nm=1e9 * contact.roughness,
+    )
+    overlaps = result.overlap.largest_nm > tolerance * nm
+    broken = _first_broken(_dry_equations(result, outcome, tolerance))
+    return replace(
+        result, converged=not broken, settled=not broken,
+        overlap=result.overlap if overlaps else Overlap(0, 0.0),
+        reason=broken or "load, contact and gap hold, and the contact ends within the domain",
+    )  # fmt: skip
+
+
+def summarise_in_time(problem, outcome, rows, tolerance, work, wall_s, versions):
+    """The `Result` of a run in time, its last state verified (collective)."""
+    result = summarise(problem, outcome, tolerance, work, wall_s, versions)
+    if not rows:
+        return replace(result, converged=False, settled=False, reason=outcome.reason, mass=None)
+    largest_node = _largest_node(problem, outcome.state)
+    time = time_result(rows, 2e6 * problem.contact.x_scale, work, largest_node)
+    off = max(time.largest_closure, largest_node)
+    settled, reason = result.settled and off <= CLOSED_IN_TIME, outcome.reason
+    if not result.settled:
+        reason = result.reason
+    elif not settled:
+        reason = f"the account of the oil is off by {off:.1e} of it in a step"
+    cut, why = result.edge.wrong
+    return replace(
+        result, converged=settled and not cut, settled=settled, reason=(settled and why) or reason,
+        mass=None, flux_imbalance=None, error=OF_AN_INSTANT, time=time,
+    )  # fmt: skip
+
+
+def summarise_wedge(problem, outcome, wall_s, versions):
+    """The `Result` of a rigid bearing, its final state evaluated (collective)."""
+    grid, bearing, state = problem.grid, problem.contact, outcome.state
+    evaluation = problem.evaluate(state)
+    across = bearing.width / bearing.y_scale if grid.mesh.is_line else 1.0
+    solid, torn = state.status == CONTACT, state.status == CAVITATED
+    load = across * problem.load(np.where(solid, state.P, state.P - bearing.ambient))
+    largest, cavities = grid.max(state.P), grid.count(torn)
+    pad = (evaluation.status != BOUNDARY) & (evaluation.status != WALL)
+    # Half of what the plate would carry along is dragged through a gap.
+    unit = 0.5 * bearing.speed * bearing.film_scale * bearing.y_scale * across
+    return Result(
+        converged=outcome.converged,
+        settled=outcome.converged,
+        reason=outcome.reason,
+        load=load,
+        load_N=load * bearing.pressure_scale * bearing.x_scale * bearing.y_scale,
+        max_P=largest,
+        min_P=grid.min(state.P),
+        max_pressure_MPa=1e-6 * bearing.pressure_scale * largest,
+        residual=problem.rms(problem.residual(evaluation, state.status)),
+        flux_imbalance=flux_imbalance(problem, evaluation),
+        closed_face_flow=closed_face_flow(problem, evaluation),
+        solid_nodes=grid.count(solid),
+        cavitated_nodes=cavities,
+        linear_iterations=sum(step.linear_iterations for step in outcome.cycles),
+        wall_s=wall_s,
+        ranks=grid.comm.size,
+        versions=versions,
+        error=no_band("the gap of a rigid bearing is given"),
+        torn_filling=grid.sum(state.filling[torn].sum()) / cavities if cavities else None,
+        mass=account(problem, state, evaluation, pad, unit),
+    )
+
+
+def _of_every_load(problem, state, work, wall_s, versions, part):
+    """What a `Result` has of every loaded contact, not judged yet; the loaded zone has at least this `part`
+    of the largest pressure (collective)."""
+    grid, contact = problem.grid, problem.contact
+    nm, edge = 1e9 * contact.film_scale, check_edge(problem, state, part)
+    return {
+        "converged": False, "settled": False, "reason": "",
+        "max_pressure_GPa": 1e-9 * contact.hertz.p_h * grid.max(state.P),
+        "load_error": problem.load_deficit(state.P),
+        "contact": _contact(problem, state, nm),
+        "overlap": _overlap(grid, state, nm),
+        "edge": EdgeResult(edge.pressure, edge.overlapping, nm * edge.largest_overlap, *edge.across),
+        "work": work, "wall_s": wall_s, "ranks": grid.comm.size, "versions": versions,
+    }  # fmt: skip
+
+
+def _first_broken(checks):
+    """The words of the first of pairs (whether it is broken, words); empty where all hold."""
+    return next((words for broken, words in checks if broken), "")
+
+
+def _equations(result, outcome, tolerance):
+    """What a solution of the discrete equations must hold."""
+    residual, broken = result.residual, result.complementarity_error
+    found = f"the residual of the final state is {residual:.1e}, above {tolerance:.1e}"
+    yield not outcome.converged, outcome.reason
+    yield not residual <= tolerance, found
+    yield not abs(result.load_error) <= tolerance, _off(result.load_error, tolerance)
+    yield not broken <= COMPLEMENTARITY_TOLERANCE, f"complementarity is broken by {broken:.1e}"
+
+
+def _dry_equations(result, outcome, tolerance):
+    """What a dry contact must hold."""
+    broken, reached = result.complementarity_error, f"at {result.boundary_nodes} nodes: a larger grid.x or"
+    yield not outcome.converged, outcome.reason
+    yield not abs(result.load_error) <= tolerance, _off(result.load_error, tolerance)
+    yield result.boundary_nodes, f"the contact reaches the domain's boundary {reached} grid.y is needed"
+    yield not broken <= tolerance, f"complementarity is broken by {broken:.1e}"
+    yield result.edge.too_few, result.edge.too_few
+
+
+def _off(load_error, tolerance):
+    return f"the load is off by {load_error:.1e}, more than {tolerance:.1e}"
+
+
+def _more(result, conserves):
+    """What a settled state may break or leave open all the same."""
+    inequality, overlap = result.pressure_inequality, result.overlap
+    below = f"at {inequality.violations} of {inequality.checked} interface nodes"
+    worst = f"contact pressure is below the fluid pressure beside it {below}, by up to"
+    yield inequality.violations, f"{worst} {inequality.worst:.1e} p_h"
+    yield result.edge.wrong
+    made = f"{result.mass.made_share:.1e} of the oil that flows through"
+    yield not conserves, f"a node, or nodes of one kind, make {made}"
+    large = f"at {overlap.nodes} nodes by up to {overlap.largest_nm:.3g} nm"
+    yield overlap.nodes, f"the unified equations hold, but the bodies overlap {large}"
+    others = "residual, load, sets and complementarity hold; the pressure inequality is"
+    yield not inequality.power.decides, f"{others} {undecided_words(inequality.power)}"
+
+
+def _conserves(problem, mass, tolerance):
+    """Whether no oil is made.
+
+    The unified equations know no contents and do not say. Where contact closes its faces hardly anything
+    may flow through; there what a residual of the `tolerance` makes is nothing.
+    """
+    law, mesh, contact = problem.scheme.contact_law, problem.grid.mesh, problem.contact
+    if mass.made_share <= CLOSED or not law.has_contact:
+        return True
+    area = (mesh.x[1] - mesh.x[0]) * (1.0 if mesh.is_line else mesh.y[1] - mesh.y[0])
+    unit = contact.speed * contact.film_scale * (1.0 if mesh.is_line else contact.y_scale)
+    return law.closes_faces and mass.made <= tolerance * unit * area
+
+
+def _eq_2(problem, state):
+    """What the verdict asks of Eq. 2: p <= P under contact where the fluid has a pressure there."""
+    if problem.scheme.contact_law.closes_faces:
+        return _inequality(check_interface(problem, state), "at the interface")
+    return _inequality(check_under_contact(problem, state), "under contact")
+
+
+def _contradiction(node, nm):
+    """What result.json says of a node that can be neither."""
+    return {
+        "i": node.i,
+        "j": node.j,
+        "film_gap_nm": nm * node.gap,
+        "contact_pressure": node.pressure,
+        "neighbours": list(node.neighbours),
+    }
+
+
+def _contact(problem, state, nm):
+    """The `ContactResult` of a state; `nm` is nanometres in a unit of H (collective)."""
+    grid, contact_area = problem.grid, problem.contact.contact_area
+    contact = state.status == CONTACT
+    carried = problem.share_of_load(state.P, contact)
+    largest_gap = nm * grid.max(np.abs(state.H[contact]), initial=0.0)
+    cell = grid.mesh.dX * grid.mesh.dY
+    nodes = grid.count(contact)
+    i, j = grid.mesh.nearest(0.0, 0.0)
+    along_x = contact[j - grid.first] if grid.first <= j < grid.last else np.zeros(grid.mesh.nx, bool)
+    x_nodes = np.flatnonzero(np.logical_or.reduce(grid.comm.allgather(along_x))) + 1
+    y_nodes = np.flatnonzero(np.concatenate(grid.comm.allgather(contact[:, i]))) + 1
+    across = None if grid.mesh.is_line else _ends(y_nodes)
+    ends = _ends(x_nodes), across
+    kept = nm * problem.scheme.contact_law.contact_gap
+    return ContactResult(nodes, nodes * cell / contact_area, carried, *ends, largest_gap, kept)
+
+
+def _inequality(inequality, compared):
+    nodes = [asdict(violation) for violation in inequality.violations]
+    found = inequality.checked, len(nodes), inequality.worst, inequality.largest_ratio
+    return InequalityResult(*found, nodes, compared, inequality.power)
+
+
+def _overlap(grid, state, nm):
+    """The `Overlap` of a state, as `_contact` (collective)."""
+    below = np.where(state.status == CONTACT, 0.0, -state.H)
+    return Overlap(grid.count(below > 0.0), nm * grid.max(below, initial=0.0))
+
+
+def _ends(nodes):
+    return (int(nodes[0]), int(nodes[-1])) if len(nodes) else None
+
+
+def _dry_complementarity_error(grid, state):
+    """Largest breach of P >= 0, H >= 0, one of them zero, over all nodes."""
+    pressed = state.P > 0.0
+    breaches = -state.P, np.abs(state.H[pressed]), -state.H[~pressed]
+    return max(grid.max(breach, initial=0.0) for breach in breaches)
+
+
+def _boundary_nodes(problem, state, tolerance):
+    """Pressed nodes beside the boundary, and boundary nodes where the bodies would overlap."""
+    grid = problem.grid
+    pressed = (state.P > 0.0) & np.logical_or(*grid.beside_boundary())
+    return grid.count(pressed | (problem.boundary & (state.H < -tolerance)))
+
+
+def _largest_node(problem, state):
+    """What the balance of a node is off in the last step at the most, over the oil that is stored."""
+    if problem.storage is None:
+        return 0.0
+    evaluation, inner = problem.evaluate(state), ~problem.boundary
+    made = np.abs(np.where(inner, evaluation.inflow / problem.storage.rate, 0.0))
+    return problem.grid.max(made) / problem.grid.sum(content(evaluation.fluid)[inner].sum())
