@@ -144,7 +144,8 @@ def _solve_loaded(case, parts, comm, watch, start):
         bands = {"mixed": mixed, "error": film_error(result, coarser, monitor)}
         friction, maps = friction_result(problem, outcome.state)
         friction = with_band(friction, mixed, contact.friction.boundary_coefficient)
-        result = replace(result, **bands, friction=friction, wall_s=monitor.seconds)
+        told = bands | {"friction": friction, "recipe": parts.recipe(start)}
+        result = replace(result, **told, wall_s=monitor.seconds)
         return _solution(case, parts, problem, outcome.state, monitor.rows, result, maps)
     finally:
         hierarchy.destroy()
@@ -166,6 +167,7 @@ def _solve_in_time(case, parts, comm, watch, start):
         result = summarise_in_time(
             problem, outcome, monitor.rows, config.solver.tolerance, work, monitor.seconds, versions()
         )
+        result = replace(result, recipe=parts.recipe(start))
         solution = _solution(case, parts, problem, outcome.state, monitor.rows, result)
         return replace(solution, frames=diary.frames)
     finally:

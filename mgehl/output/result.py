@@ -216,6 +216,8 @@ class Result:
     """Whether the film has been solved with so much less viscosity."""
     time: TimeResult | None = None
     """Of a run in time; all else is of the state at its end."""
+    recipe: dict | None = None
+    """{choice: value} of `mgehl.solver.recipe`: how it was solved; None in older results."""
 
     # Of a loaded contact without a fluid.
     approach_um: float = None

@@ -11,7 +11,8 @@ from mgehl.model.contact import LoadedContact
 from mgehl.model.frame import Frame
 from mgehl.model.wedge import WedgeBearing
 from mgehl.multigrid.cycle import CycleSettings
-from mgehl.solver.recipe import couette_scheme_of, interface_law, share_of_the_flow
+from mgehl.solver.recipe import A_STATE, couette_scheme_of, interface_law, recipe_of, share_of_the_flow
+from mgehl.solver.recipe_words import plain
 from mgehl.solver.relaxation import RelaxationSettings
 from mgehl.solver.settings import NestedSettings, NewtonSettings, SolverSettings, TimeSettings
 
@@ -25,6 +26,10 @@ class SetUp:
     settings: SolverSettings
     frame: Frame
     """Those axes, beside the user's."""
+
+    def recipe(self, start=None):
+        """{choice: value} of the `Recipe` of a loaded contact with a fluid, maybe from a `start`."""
+        return plain(recipe_of(self.settings, self.contact, start and A_STATE))
 
     def hierarchy(self, comm):
         """The grids of a loaded contact on `comm` (collective); the caller destroys them."""
