@@ -23,15 +23,15 @@ from mgehl.output.whole_file import whole_file, write_whole, writing
 from mgehl.saying import complain
 
 
-def finish_run(comm, directory, solution):
+def finish_run(comm, directory, solution, picture=True):
     """Replace the run in the directory by the files of a `Solution`, remove the checkpoint (collective).
 
     Raises OutputError where the disk does not take them; the run before and the checkpoint stay then.
     """
-    on_first_rank(comm, _finish, Path(directory), solution)
+    on_first_rank(comm, _finish, Path(directory), solution, picture)
 
 
-def _finish(directory, solution):
+def _finish(directory, solution, picture):
     stage, texts = directory / CHECKPOINT / FINISHED, texts_of(solution)
     with writing(directory):
         stage.mkdir(parents=True, exist_ok=True)
@@ -44,7 +44,7 @@ def _finish(directory, solution):
         with whole_file(stage / FIELDS) as part:
             write_fields(part, solution, texts | {LAWS: known})
         in_time = _write_time(stage, solution)
-        drawn = [PICTURE] if _is_drawn(stage / PICTURE, solution, directory) else []
+        drawn = [PICTURE] if picture and _is_drawn(stage / PICTURE, solution, directory) else []
         publish(directory, stage, [FIELDS, *texts, *known, *in_time, *drawn])
     clear_checkpoint(directory)
 

@@ -1,4 +1,4 @@
-"""Whether bands about numbers hold their limits: what studies error and gaps have in common."""
+"""Whether bands about numbers hold their limits, and how wide they are."""
 
 from math import isfinite
 from typing import NamedTuple
@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mgehl.output.digits import with_band
-from mgehl.studies.study import statistic
+from mgehl.studies.columns import statistic
 
 
 class Band(NamedTuple):

@@ -13,7 +13,8 @@ from pathlib import Path
 import numpy as np
 
 from mgehl.studies import venner_laws
-from mgehl.studies.study import merged, yes
+from mgehl.studies.columns import yes
+from mgehl.studies.study import merged
 
 SMALL = 0.01
 """Amplitude of the waves over the smooth central film: with 0.002 the same four digits."""
