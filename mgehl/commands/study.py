@@ -67,9 +67,8 @@ def execute(options, comm):
         options.study, _checked_nodes(options), comm.size, versions(), options.direction or "both",
         tuple(options.settings), _number(options, "cases", 1), _number(options, "seed", 0),
     )  # fmt: skip
-    asked = {"branch": record.branch, "wanted": record.cases, "seed": record.seed, "settings": settings}
     how = not options.quiet, options.resume, options.force
-    with begun(directory, comm, record, *how, **asked) as study:
+    with begun(directory, comm, record, *how, settings=settings) as study:
         import_module(f"mgehl.studies.{options.study}").run(study)
     if options.quiet and study.failures and comm.rank == 0:
         complain(f"{study.failures} cases of the study did not converge")

@@ -48,12 +48,6 @@ def cells(name, band):
     }
 
 
-def work_of_band(result, error):
-    """Column of the work that the band took besides, over that of the run; empty without an `error`."""
-    more = f"{100.0 * error.convolutions / result.work.convolutions:.0f}" if error else ""
-    return {"more work %": more}
-
-
 def summary(bands):
     """A row for each name of `bands`, {name: [Band]}: how often they hold the limit, how wide they are."""
     for name, found in bands.items():

@@ -59,7 +59,8 @@ def begun(directory, comm, record, speak=True, resume=True, force=False, **asked
         stage = comm.bcast(on_first_rank(comm, begin_study, directory, record, resume))
         if not resume:
             on_first_rank(comm, clear_runs, directory)
-        study = Study(stage, comm, record.nodes, speak, home=Path(directory), **asked)
+        drawn = {"branch": record.branch, "wanted": record.cases, "seed": record.seed}
+        study = Study(stage, comm, record.nodes, speak, home=Path(directory), **drawn, **asked)
         yield study
         on_first_rank(comm, finish_study, directory, stage, resume)
         on_first_rank(comm, _write_page, study.home)
