@@ -5,11 +5,12 @@ degrees C; their limit and Eyring stress are round numbers within what is measur
 """
 
 from mgehl.model.oils import OILS
+from mgehl.output.pictures.curves import curves
 from mgehl.studies.axes import axis_of
 from mgehl.studies.chance import BALL
 from mgehl.studies.points import points_of
 from mgehl.studies.study import merged
-from mgehl.studies.sweep import draw, fill
+from mgehl.studies.sweep import fill
 
 NODES, SPEEDS = 129, "0.3..3e-4 m/s:10"
 
@@ -37,4 +38,4 @@ def run(study):
         points = points_of(config, axes)
         study.cases = len(OILS) * len(points)
         told += fill(study, study.home / oil, axes, points, f"stribeck-{oil}")
-    study.draw("stribeck", draw, told, "motion.speed", ())
+    study.draw("stribeck", curves, told, "motion.speed")

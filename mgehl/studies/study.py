@@ -202,7 +202,7 @@ class Study:
         on_first_rank(self.comm, self._write_table, name, list(rows), shown)
 
     def draw(self, name, function, *arguments):
-        """Draw NAME.png by `function(path, *arguments)` on rank 0 (collective)."""
+        """Draw NAME.png, the figure that `function(*arguments)` returns, on rank 0 (collective)."""
         on_first_rank(self.comm, self._draw, name, function, arguments)
 
     def _write_table(self, name, rows, shown):
@@ -220,9 +220,12 @@ class Study:
             say(f"\n{name}\n\n{drawn(rows, shown, columns())}\n")
 
     def _draw(self, name, function, arguments):
+        from mgehl.output.pictures.style import applied, save  # matplotlib is slow to import
+
         path = self.directory / f"{name}.png"
         try:
-            function(path, *arguments)
+            with applied():
+                save(function(*arguments), path)
         except Exception as error:  # what matplotlib raises is anybody's guess; the tables are there
             complain(f"{path}: cannot be drawn: {one_line(error)}")
         else:

@@ -44,6 +44,8 @@ def swept(directory, comm, axes, points, watch, speak=True, asked=()):
 def fill(study, directory, axes, points, name="sweep"):
     """The same in a directory of a `Study`, whose files are NAME.csv and others; return the `Told` runs
     (collective)."""
+    from mgehl.output.pictures.curves import curves  # matplotlib is slow to import
+
     folder, behind, runs = directory / RUNS, [], []
     called = "" if name == "sweep" else f"{name}, "
     study.cases = max(study.cases, len(points))
@@ -60,7 +62,7 @@ def fill(study, directory, axes, points, name="sweep"):
     rows = study.comm.bcast(on_first_rank(study.comm, _rows, folder, axes, points, runs))
     study.write_table(name, rows, [axis.key for axis in axes] + SHOWN)
     on_first_rank(study.comm, write_arrays, study.directory / f"{name}.nc", axes, points, runs)
-    study.draw(name, draw, runs, axes[0].key, [WAYS[p.way] for p in points if points[-1].way])
+    study.draw(name, curves, runs, axes[0].key, [WAYS[p.way] for p in points if points[-1].way])
     return runs
 
 
@@ -82,12 +84,3 @@ def _rows(folder, axes, points, runs):
         why = told.result["reason"] if told.result else told.why
         rows.append(row | {"why not": "" if told.converged else why})
     return [{name: text for name, text in row.items() if name not in NEVER_THE_SAME} for row in rows]
-
-
-def draw(path, runs, key, names):
-    """Curves of `Told` runs over a key, a colour for what else differs, or for their `names`."""
-    from mgehl.output.pictures.curves import curves
-    from mgehl.output.pictures.style import applied, save
-
-    with applied():
-        save(curves(runs, key, names), path)
