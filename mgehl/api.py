@@ -110,7 +110,9 @@ def sweep(
     from mpi4py import MPI
 
     from mgehl.run import Watch
-    from mgehl.studies.sweep import axis_of, points_of, swept
+    from mgehl.studies.axes import axis_of
+    from mgehl.studies.points import points_of
+    from mgehl.studies.sweep import swept
 
     axes = [axis_of(config, key, values) for key, values in over.items()]
     swept(directory, comm or MPI.COMM_WORLD, axes, points_of(config, axes), Watch(), speak=False)

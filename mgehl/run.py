@@ -51,6 +51,8 @@ class Watch:
     """Seconds from one save to the next."""
     stop: object = lambda: None
     """Asked before every step; returns None or the `Stopped` to raise when all is saved."""
+    picture: bool = True
+    """Whether one is drawn: it takes a second, as long as many a case of a study."""
 
 
 def enter(config, comm):
@@ -75,19 +77,19 @@ def run(case, directory, comm, watch=Watch(), start=None, start_directory=None):
     solution = solve(case, comm, replace(watch, directory=directory), start)
     if comm.rank == 0:
         watch.speaker.writing()
-    finish_run(comm, directory, solution)
+    finish_run(comm, directory, solution, watch.picture)
     if comm.rank == 0:
         watch.speaker.end(solution, directory)
     return solution.result
 
 
-def save(solution, directory):
+def save(solution, directory, picture=True):
     """Write the directory of a `Solution` whose fields are here, as `run` leaves it."""
     make_directory(directory, force=True)
     with locked(MPI.COMM_SELF, directory):
         prepare_directory(directory, law_files(solution.config).values())
         begin_run(directory, solution.config)
-        finish_run(MPI.COMM_SELF, directory, solution)
+        finish_run(MPI.COMM_SELF, directory, solution, picture)
 
 
 def solve(case, comm, watch=Watch(), start=None):

@@ -233,7 +233,6 @@ BAD = [
     (["study", "frobnicate"], ["frobnicate", "wedge", "schemes"]),
     (["study", "schemes", "--nodes", "100"], ["grid.nodes = 100", "65 or 129"]),
     (["study", "schemes", "--set", "grid.nodes=65"], ["--set", "--nodes"]),
-    (["study", "rough", "--nodes", "65,129"], ["--nodes 65,129", "one grid"]),
     (["study", "schemes", "--out", "broken.toml"], ["broken.toml", "exists"]),
     (["study", "schemes", "--out", "broken.toml/deep"], ["broken.toml/deep", "cannot be written"]),
 ]

@@ -70,17 +70,11 @@ def _tell(timing):
 
 def _columns(benchmark):
     """What is printed of every case; the times of parts are wall times."""
-    return {
-        timing.case: {
-            "convolutions": timing.convolutions,
-            "steps": timing.steps,
-            "memory MiB": timing.memory_MiB,
-            "cpu s": timing.time.cpu,
-            "wall s": timing.time.wall,
-        }
-        | timing.parts
-        for timing in benchmark.timings
-    }
+    numbers = {}
+    for each in benchmark.timings:
+        work = {"convolutions": each.convolutions, "steps": each.steps, "memory MiB": each.memory_MiB}
+        numbers[each.case] = work | {"cpu s": each.time.cpu, "wall s": each.time.wall} | each.parts
+    return numbers
 
 
 def _print(columns):
@@ -88,9 +82,9 @@ def _print(columns):
     from mgehl.output.table import drawn
     from mgehl.saying import columns as terminal_columns
 
-    names = dict.fromkeys(name for column in columns.values() for name in column)
     rows = [
-        {"": name} | {case: _cell(column.get(name)) for case, column in columns.items()} for name in names
+        {"": name} | {case: _cell(column.get(name)) for case, column in columns.items()}
+        for name in dict.fromkeys(name for column in columns.values() for name in column)
     ]
     print(f"\n{drawn(rows, ['', *columns], terminal_columns())}\n")
 

@@ -3,7 +3,6 @@
 from pathlib import Path
 
 from mgehl.commands import CONVERGED
-from mgehl.commands.study import STUDIES
 from mgehl.errors import OutputError
 
 PARALLEL = False
@@ -47,9 +46,9 @@ def _page(directory):
     from mgehl.output.report.study_report import is_study, study_report
     from mgehl.output.stored import read_run
     from mgehl.output.study_directory import check_study
-    from mgehl.studies.sweep import WHAT
+    from mgehl.studies.catalogue import WHAT
 
     if is_study(directory):
         check_study(directory)
-        return render(study_report(directory, STUDIES | {"sweep": WHAT}))
+        return render(study_report(directory, WHAT))
     return report(read_run(directory), directory.resolve().name)

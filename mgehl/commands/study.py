@@ -2,52 +2,20 @@
 
 from argparse import ArgumentTypeError, RawDescriptionHelpFormatter
 from importlib import import_module
+from itertools import pairwise
 from pathlib import Path
 
 from mgehl.commands import CONVERGED, NOT_CONVERGED
 from mgehl.config import load_config, read_setting
 from mgehl.errors import ConfigError
+from mgehl.studies.catalogue import REMOVED, STUDIES
 
 PARALLEL = True
-
-STUDIES = {
-    "wedge": "the rigid wedge bearing: Figures 7 to 10, exact series, a pocket",
-    "grid": "full contact and full film on ever finer grids: Figures 11 to 13",
-    "transition": "from full film to full contact and back: Figure 14, Table 1",
-    "methods": "Newton beside relaxation, interface conditions beside none",
-    "schemes": "a film by every differential scheme",
-    "error": "do the bands about films hold? Point contacts by chance",
-    "gaps": "do the bands about mean gaps hold? Rough balls by chance",
-    "mixed": "rough balls by chance: verdicts and work",
-    "machine": "rough contacts of machines by chance: verdicts and gaps",
-    "rollers": "rough line contacts by chance: verdicts and gaps",
-    "rough": "a rough ball from full film to nearly dry",
-    "stribeck": "friction of a rough ball over speed, three oils",
-    "waviness": "waves in the film of a line contact, beside published numbers",
-    "moving": "waves and a dimple that pass through full films",
-    "dry": "dry contacts beside a public code's numbers",
-}
-
-REMOVED = ("line", "inlet", "onset", "bracket", "accuracy", "angle", "domain", "soft", "peaks", "ranks")
-"""What they found is in runs/README.md."""
-
-DOUBLING = ("wedge", "schemes", "error", "gaps")
-"""Studies that need grids each of half the spacing of the one before: they tell orders and limits."""
-
-GRIDS = dict.fromkeys(("rough", "stribeck", "mixed", "machine", "rollers", "moving"), 1) | {
-    "gaps": 2,
-    "methods": 0,
-    "waviness": 0,
-}
-"""How many grids --nodes must name, where that is limited; 0 where a study has its own."""
-
-DRAW = ("error", "gaps", "mixed", "machine", "rollers")
-"""Studies whose cases chance draws."""
 
 LARGEST_NUMBER = 2**31
 """Of --cases and --seed."""
 
-_TAKES = {0: "has grids of its own", 1: "takes one grid", 2: "takes two grids"}
+_TAKES = {0: "has grids of its own", 1: "takes one grid"}
 
 
 def add(commands):
@@ -58,7 +26,7 @@ def add(commands):
         allow_abbrev=False,
         formatter_class=RawDescriptionHelpFormatter,
         description="Solve the cases of a study; write its tables and pictures.\n\n"
-        + "\n".join(f"  {name:12}{text}" for name, text in STUDIES.items()),
+        + "\n".join(f"  {name:12}{study.what}" for name, study in STUDIES.items()),
         epilog="example: mpiexec -n 2 python -m mgehl study schemes --nodes 65,129",
     )
     parser.add_argument("study", type=_name, choices=tuple(STUDIES), metavar="NAME", help="of those above")
@@ -88,46 +56,23 @@ def _name(text):
 
 
 def execute(options, comm):
-    """Solve all cases on all ranks; write tables and pictures."""
-    from mgehl.output.directory import make_directory
-    from mgehl.output.files import on_first_rank
-    from mgehl.output.lock import locked
+    """Solve all cases on all ranks; write tables, pictures and a page."""
     from mgehl.output.study_directory import StudyRecord
     from mgehl.output.surroundings import versions
     from mgehl.saying import complain
+    from mgehl.studies.study import begun
 
-    settings = _settings(options.settings)
+    settings, directory = _settings(options.settings), Path(options.out or f"runs/study-{options.study}")
     record = StudyRecord(
         options.study, _checked_nodes(options), comm.size, versions(), options.direction or "both",
         tuple(options.settings), _number(options, "cases", 1), _number(options, "seed", 0),
     )  # fmt: skip
-    directory = Path(options.out or Path("runs") / f"study-{options.study}")
-    on_first_rank(comm, make_directory, directory, options.force or options.resume)
-    with locked(comm, directory):
-        study = _solve(options, comm, directory, record, settings)
+    how = not options.quiet, options.resume, options.force
+    with begun(directory, comm, record, *how, settings=settings) as study:
+        import_module(f"mgehl.studies.{options.study}").run(study)
     if options.quiet and study.failures and comm.rank == 0:
         complain(f"{study.failures} cases of the study did not converge")
     return NOT_CONVERGED if study.failures else CONVERGED
-
-
-def _solve(options, comm, directory, record, settings):
-    """Solve all cases in the directory, which is locked; return the `Study`."""
-    from mgehl.output.files import on_first_rank
-    from mgehl.output.study_directory import begin_study, finish_study
-    from mgehl.saying import say
-    from mgehl.studies.study import Study
-
-    stage = comm.bcast(on_first_rank(comm, begin_study, directory, record, options.resume))
-    asked = {"branch": record.branch, "wanted": record.cases, "seed": record.seed, "settings": settings}
-    asked["resume"] = options.resume
-    study = Study(stage, comm, record.nodes, not options.quiet, home=directory, **asked)
-    if not options.resume:
-        on_first_rank(comm, study.cache.clear)
-    import_module(f"mgehl.studies.{options.study}").run(study)
-    on_first_rank(comm, finish_study, directory, stage, options.resume)
-    if study.first and study.speak:
-        say(f"results in {directory}")
-    return study
 
 
 def _settings(words):
@@ -143,15 +88,15 @@ def _settings(words):
 
 def _checked_nodes(options):
     """The grids of --nodes. Raises ConfigError for options that the study does not take."""
-    nodes, most = _nodes(options.nodes), GRIDS.get(options.study)
-    if options.study in DOUBLING:
-        for coarse, fine in zip(nodes[:-1], nodes[1:], strict=True):
+    nodes, entry = _nodes(options.nodes), STUDIES[options.study]
+    if entry.doubles:
+        for coarse, fine in pairwise(nodes):
             if fine != 2 * coarse - 1:
                 raise ConfigError(
                     f"--nodes {coarse},{fine}: {2 * coarse - 1} must follow {coarse} in this study"
                 )
-    if nodes and most is not None and len(nodes) != most:
-        raise ConfigError(f"--nodes {options.nodes}: study {options.study} {_TAKES[most]}")
+    if nodes and entry.grids not in (None, len(nodes)):
+        raise ConfigError(f"--nodes {options.nodes}: study {options.study} {_TAKES[entry.grids]}")
     if options.direction and options.study != "transition":
         raise ConfigError(f"--direction: study {options.study} does not take it, study transition does")
     if options.force and options.resume:
@@ -160,11 +105,11 @@ def _checked_nodes(options):
 
 
 def _number(options, name, low):
-    """The whole number of an option of studies that `DRAW`, `low` or more; None for the study's own."""
+    """The whole number of an option of studies by chance, `low` or more; None for the study's own."""
     text = getattr(options, name)
     if text is None:
         return None
-    if options.study not in DRAW:
+    if not STUDIES[options.study].draws:
         raise ConfigError(f"--{name} {text}: means nothing to study {options.study}")
     if not (text.isascii() and text.isdecimal() and low <= int(text) <= LARGEST_NUMBER):
         raise ConfigError(f"--{name} {text}: must be a whole number from {low} to {LARGEST_NUMBER}")

@@ -42,9 +42,10 @@ def add(commands):
 def execute(options, comm):
     """Solve all points on all ranks."""
     from mgehl.run import Watch
-    from mgehl.saying import say
     from mgehl.stopping import StopWhenTold
-    from mgehl.studies.sweep import axis_of, points_of, swept
+    from mgehl.studies.axes import axis_of
+    from mgehl.studies.points import points_of
+    from mgehl.studies.sweep import swept
 
     file = chosen_config(options.config, options.settings)
     with naming_file(file, options.settings):
@@ -57,8 +58,6 @@ def execute(options, comm):
     asked = (*(f"--over {word}" for word in options.over), *options.settings)
     with StopWhenTold(f"go on with --resume, --out {quote(str(directory))}") as stop:
         study = swept(directory, comm, axes, points, Watch(stop=stop), not options.quiet, asked)
-    if study.first and study.speak:
-        say(f"results in {directory}")
     return NOT_CONVERGED if study.failures else CONVERGED
 
 

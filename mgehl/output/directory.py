@@ -16,10 +16,9 @@ from pathlib import Path
 
 from mgehl.errors import OutputError
 from mgehl.output.checkpoint import BEGUN, read_begun
-from mgehl.output.files import CHECKPOINT, FIELDS, NAMES, REPORT, SERIES
+from mgehl.output.files import CHECKPOINT, FIELDS, NAMES, REPORT, SERIES, STUDY
 from mgehl.output.laws import FOLDER as LAWS
 from mgehl.output.stored import files_of
-from mgehl.output.study_directory import NAME as STUDY
 from mgehl.output.whole_file import clear_parts, is_folder, is_plain, writing
 
 FINISHED = "finished"

@@ -27,6 +27,9 @@ NAMES = CONFIGURATION, RESULT, HISTORY, FIELDS, PICTURE, CENTER_LINE, SERIES, FR
 CHECKPOINT = "checkpoint"
 """Folder of what a run that has not finished has reached."""
 
+STUDY = "study.json"
+"""What a study or a sweep was asked for."""
+
 REPORT = "report.html"
 """The page that `mgehl report` makes of a directory where no other file is named."""
 

@@ -23,15 +23,15 @@ from mgehl.output.whole_file import whole_file, write_whole, writing
 from mgehl.saying import complain
 
 
-def finish_run(comm, directory, solution):
+def finish_run(comm, directory, solution, picture=True):
     """Replace the run in the directory by the files of a `Solution`, remove the checkpoint (collective).
 
     Raises OutputError where the disk does not take them; the run before and the checkpoint stay then.
     """
-    on_first_rank(comm, _finish, Path(directory), solution)
+    on_first_rank(comm, _finish, Path(directory), solution, picture)
 
 
-def _finish(directory, solution):
+def _finish(directory, solution, picture):
     stage, texts = directory / CHECKPOINT / FINISHED, texts_of(solution)
     with writing(directory):
         stage.mkdir(parents=True, exist_ok=True)
@@ -49,7 +49,7 @@ def _finish(directory, solution):
             if solution.frames:
                 write_frames(stage / FRAMES, solution.frames.all(), solution.x, solution.y, title)
                 names.append(FRAMES)
-        if _is_drawn(stage / PICTURE, solution, directory):
+        if picture and _is_drawn(stage / PICTURE, solution, directory):
             names.append(PICTURE)
         publish(directory, stage, names)
     clear_checkpoint(directory)

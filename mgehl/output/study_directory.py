@@ -1,8 +1,10 @@
 """A study's directory: study.json says what was asked for. New tables are put together in a folder, and
-replace the old ones at the end."""
+replace the old ones at the end. Its cases are run directories, in runs/ or in runs/ of folders in it.
+"""
 
 import json
 import os
+import re
 from contextlib import suppress
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
@@ -10,13 +12,24 @@ from pathlib import Path
 import dacite
 
 from mgehl.errors import OutputError, UserError
+from mgehl.output.directory import clear_checkpoint
 from mgehl.output.files import FIELDS
+from mgehl.output.files import STUDY as NAME
+from mgehl.output.laws import FOLDER as LAWS
+from mgehl.output.stored import files_of
 from mgehl.output.whole_file import clear_parts, is_folder, is_plain, write_whole, writing
-
-NAME = "study.json"
 
 UNFINISHED = "unfinished"
 """Folder of tables and pictures until all are there."""
+
+RUNS = "runs"
+"""Folder of run directories."""
+
+POINT = "point.json"
+"""In a run directory what a study knows of it besides."""
+
+_RUN = re.compile(r"\d{3,}|.*-[0-9a-f]{16}")
+"""Names of run directories that sweeps and studies make."""
 
 ENDINGS = {".csv", ".md", ".nc", ".png"}
 
@@ -82,6 +95,26 @@ def begin_study(directory, record, resume):
             path.unlink()
     write_record(stage, record)
     return stage
+
+
+def clear_runs(directory):
+    """Remove the runs of a study's cases, and nothing else that lies there. Raises OutputError."""
+    directory = Path(directory)
+    with writing(directory):
+        for folder in filter(is_folder, (directory / RUNS, *directory.glob(f"*/{RUNS}"))):
+            for path in filter(is_folder, folder.iterdir()):
+                if _RUN.fullmatch(path.name):
+                    _clear_run(path)
+
+
+def _clear_run(path):
+    clear_checkpoint(path)
+    for name in (*files_of(path), POINT):
+        if is_plain(path / name):
+            (path / name).unlink()
+    for folder in (path / LAWS, path):
+        with suppress(OSError):  # not there, or somebody else's, too
+            folder.rmdir()
 
 
 def _is_whole(stage):

@@ -1,4 +1,4 @@
-"""Whether bands about numbers hold their limits: what studies error and gaps have in common."""
+"""Whether bands about numbers hold their limits, and how wide they are."""
 
 from math import isfinite
 from typing import NamedTuple
@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mgehl.output.digits import with_band
-from mgehl.studies.study import statistic
+from mgehl.studies.columns import statistic
 
 
 class Band(NamedTuple):
@@ -46,12 +46,6 @@ def cells(name, band):
         f"{name} limit nm": f"{band.limit:.4g}",
         f"{name} band/error": band.over_error,
     }
-
-
-def work_of_band(result, error):
-    """Column of the work that the band took besides, over that of the run; empty without an `error`."""
-    more = f"{100.0 * error.convolutions / result.work.convolutions:.0f}" if error else ""
-    return {"more work %": more}
 
 
 def summary(bands):

@@ -12,7 +12,6 @@ import tempfile
 import time
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from statistics import mean, median_low
 
 import dacite
 import numpy as np
@@ -69,7 +68,6 @@ WARM_UP = (_point(65, 5e-6, "contact"), _PILLAR | {"grid": {"nodes": 65}})
 REFERENCE_NODES, REFERENCE_SECONDS = 256, 0.3
 """Side of the plane whose FFT is the reference, and how long it is repeated before and after a case."""
 
-
 NEGLIGIBLE = 0.01
 """Part of the whole below which a comparison says nothing."""
 
@@ -81,13 +79,10 @@ class Clocks:
     wall: float
     cpu: float
 
-    @classmethod
-    def now(cls):
-        return cls(time.perf_counter(), time.process_time())
 
-    def since(self, start, parts=1):
-        """The time from `start` to this, or a part of it."""
-        return Clocks((self.wall - start.wall) / parts, (self.cpu - start.cpu) / parts)
+def _since(start=(0.0, 0.0)):
+    """Seconds on both clocks from `start` on, (2,)."""
+    return np.array([time.perf_counter(), time.process_time()]) - start
 
 
 @dataclass(frozen=True)
@@ -132,38 +127,39 @@ def measure(names, repeats, comm, tell=lambda timing: None):
         _run(tables, comm)
     timings = []
     for name in names:
-        runs = [_time(name, cases[name], comm) for _ in range(repeats)]
-        typical = median_low(timing.relative.cpu for timing in runs)
-        timings.append(next(timing for timing in runs if timing.relative.cpu == typical))
+        runs = sorted(
+            (_time(name, cases[name], comm) for _ in range(repeats)), key=lambda each: each.relative.cpu
+        )
+        timings.append(runs[(repeats - 1) // 2])
         tell(timings[-1])
     return Benchmark(comm.size, versions(), timings)
 
 
 def _time(name, tables, comm):
     """Solve one case between two timings of the reference; collective."""
-    references, before = [_reference()], seconds_by_part()
+    reference, before = _reference(), seconds_by_part()
     comm.Barrier()
-    started = Clocks.now()
+    started = _since()
     result = _run(tables, comm)
-    elapsed = Clocks.now().since(started)
+    elapsed = _since(started)
     parts = {part: total - before[part] for part, total in seconds_by_part().items()}
-    parts["other"] = elapsed.wall - sum(parts.values())
-    references.append(_reference())
+    parts["other"] = elapsed[0] - sum(parts.values())
     work = getattr(result, "work", None)
     return Timing(
         case=name,
         converged=result.converged,
         convolutions=work.convolutions if work else 0.0,
         steps=work.steps if work else result.linear_iterations,
-        time=_mean(comm.allgather(elapsed)),
-        reference=_mean([each for pair in comm.allgather(references) for each in pair]),
+        time=_mean(comm, elapsed),
+        reference=_mean(comm, 0.5 * (reference + _reference())),
         memory_MiB=max(comm.allgather(_peak_memory())),
         parts={part: comm.allreduce(seconds) / comm.size for part, seconds in parts.items()},
     )
 
 
-def _mean(clocks):
-    return Clocks(mean(each.wall for each in clocks), mean(each.cpu for each in clocks))
+def _mean(comm, seconds):
+    """Of all ranks (collective)."""
+    return Clocks(*(float(each) for each in np.mean(comm.allgather(seconds), axis=0)))
 
 
 def _run(tables, comm):
@@ -173,13 +169,13 @@ def _run(tables, comm):
 
 
 def _reference():
-    """Mean time of the reference FFT, now."""
+    """Mean times of the reference FFT, now, (2,)."""
     plane = np.random.default_rng(1).random((REFERENCE_NODES, REFERENCE_NODES))
-    started, repeats = Clocks.now(), 0
-    while Clocks.now().since(started).wall < REFERENCE_SECONDS:
+    started, repeats = _since(), 0
+    while _since(started)[0] < REFERENCE_SECONDS:
         np.fft.irfft2(np.fft.rfft2(plane))
         repeats += 1
-    return Clocks.now().since(started, repeats)
+    return _since(started) / repeats
 
 
 def _peak_memory():
@@ -198,10 +194,9 @@ def ratios(old, new):
 
 
 def _ratios(old, new):
-    wall = new.relative.wall / old.relative.wall
+    wall, cpu = (getattr(new.relative, each) / getattr(old.relative, each) for each in ("wall", "cpu"))
     found = {"convolutions": new.convolutions / old.convolutions} if old.convolutions else {}
-    found |= {"memory": new.memory_MiB / old.memory_MiB, "wall": wall}
-    found["cpu"] = new.relative.cpu / old.relative.cpu
+    found |= {"memory": new.memory_MiB / old.memory_MiB, "wall": wall, "cpu": cpu}
     for part in [part for part in new.parts if part in old.parts]:
         shares = [timing.parts[part] / timing.time.wall for timing in (old, new)]
         if max(shares) > NEGLIGIBLE and min(shares) > 0.0:

@@ -7,23 +7,27 @@ A branch ends where no state near the last one solves the equations at the next 
 taken from the other branch, or from the other start, and says so.
 """
 
+import json
 import time
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from mgehl.kinds import case_of
-from mgehl.output.files import plain_result
+from mgehl.output.directory import make_directory
+from mgehl.output.files import on_first_rank
+from mgehl.output.progress import newton_row
 from mgehl.output.result import Work
-from mgehl.output.solution import Fields
-from mgehl.output.stored import arrays_of, fields_from, result_from
+from mgehl.output.solution import Fields, Solution
+from mgehl.output.study_directory import POINT
 from mgehl.output.summary import summarise
 from mgehl.output.surroundings import versions
+from mgehl.output.whole_file import write_whole
+from mgehl.run import save
 from mgehl.solver.continuation import Continuation
 from mgehl.solver.from_config import set_up
 from mgehl.solver.problem import State
 from mgehl.solver.relaxation import RelaxationSettings, relax
-from mgehl.studies.cache import key_of
 
 STARTS = {"down": "film", "up": "contact"}
 OTHER = {"down": "up", "up": "down"}
@@ -39,34 +43,31 @@ class Point:
 
     speed: float
     branch: str
+    solution: Solution
     origin: str
     """Of "start", "continued", "other branch", "other start"; "none" if unsolved."""
-    result: object
-    fields: Fields | None
-    """On rank 0."""
-    H0: float
-    sweep: tuple
+    sweep: list
     """e^p, e^p lubr. and e^p solid of one sweep of the paper's relaxation from here  [Liu eq. 45]."""
     obstacle: str
     """Why the way that was tried first did not lead to it; empty where it did."""
 
-    def shared(self):
-        """What every rank knows."""
-        return replace(self, fields=None)
+    @property
+    def result(self):
+        return self.solution.result
 
-    def record(self):
-        """(Plain data, arrays) of it; on the rank that has the fields."""
-        values = {each.name: getattr(self, each.name) for each in fields(self) if each.name != "fields"}
-        return values | {"result": plain_result(self.result)}, arrays_of(self.fields)
+    @property
+    def fields(self):
+        """On rank 0."""
+        return self.solution.fields
 
 
 class Branches:
     """Both branches of one configuration's contact; a context manager, which frees the grids."""
 
     def __init__(self, study, tables):
-        self._config = config = study.config(tables)
-        self._study, self._tables = study, config.as_toml_tables()
-        self._parts = set_up(case_of(config))
+        case = case_of(study.config(tables))
+        self._study, self._config = study, case.config
+        self._parts = set_up(case)
         self.contact, self.mesh = self._parts.contact, self._parts.mesh
         self._settings = self._parts.settings
         self._hierarchy = None
@@ -93,29 +94,27 @@ class Branches:
 
     def _point(self, branch, way, last, beside):
         """The point at the last speed of the `way` along a branch, from disk or from point `last`."""
-        key = self._key(branch, way, beside)
-        point = self._study.cache.load(key, self._point_from)
-        if point is None:
-            point = self._find(branch, way[-1], self._ways(branch, way[-1], last, beside))
-            self._study.cache.store(key, point.record)
-        self._study.tell(f"{self.mesh.nx} nodes, {branch}, {1e3 * way[-1]:.4g} mm/s", point.result)
+        study, speed = self._study, way[-1]
+        title = f"{self.mesh.nx} nodes, {branch}, {1e3 * speed:.4g} mm/s"
+        path, config = study.path_of(title, self._all(branch, way, beside)), self._at(speed)
+        if not study.has(path, config):
+            found, told = self._find(config, self._ways(branch, speed, last, beside))
+            on_first_rank(study.comm, _keep, path, found, told)
+        told = study.comm.bcast(on_first_rank(study.comm, _told, path))
+        point = Point(speed, branch, study.read(path), **told)
+        study.tell(title, point.result)
         return point
 
-    def _point_from(self, plain, arrays):
-        """The `Point` of which `record` made these."""
-        found = fields_from(arrays)
-        if found.P.shape != (self.mesh.ny, self.mesh.nx):
-            raise ValueError("its fields are not of this grid")
-        result = result_from(plain["result"])
-        return Point(**plain | {"result": result, "sweep": tuple(plain["sweep"]), "fields": found})
-
-    def _key(self, branch, way, beside):
+    def _all(self, branch, way, beside):
         """Everything on which the answer at the end of the `way` depends."""
-        tables = {name: table for name, table in self._tables.items() if name != "motion"}
-        return key_of([tables, branch, [float(speed) for speed in way], len(beside)])
+        tables = {name: table for name, table in self._config.as_toml_tables().items() if name != "motion"}
+        return [tables, branch, [float(speed) for speed in way], len(beside)]
 
-    def _find(self, branch, speed, ways):
-        """Solve one point by whatever of the `ways` leads to it."""
+    def _at(self, speed):
+        return self._config.with_({"motion.speed": float(speed)})
+
+    def _find(self, config, ways):
+        """Solve one point by whatever of the `ways` leads to it: its `Solution`, and what else is told."""
         started, before = time.perf_counter(), self._grids.convolutions
         tried = []
         for origin, solve in ways:
@@ -132,9 +131,15 @@ class Branches:
         obstacle = "" if first.converged else first.reason
         work = Work(self._grids.convolutions - before, len(outcome.cycles) - 1)
         result, errors = self._judged(problem, outcome, work, time.perf_counter() - started)
-        state = outcome.state
-        fields = Fields(state.P, state.H, state.status, state.p, state.filling).gathered(problem.grid)
-        return Point(speed, branch, origin, result, fields, outcome.state.H0, errors, obstacle)
+        solution = self._solution(config, problem, outcome, result)
+        return solution, {"origin": origin, "sweep": errors, "obstacle": obstacle}
+
+    def _solution(self, config, problem, outcome, result):
+        """With whole fields on rank 0 (collective)."""
+        state, nm = outcome.state, 1e9 * problem.contact.film_scale
+        whole = Fields(state.P, state.H, state.status, state.p, state.filling).gathered(problem.grid)
+        rows = [{"grid": self.mesh.nx} | newton_row(cycle, nm) for cycle in outcome.cycles]
+        return Solution(config, problem.contact, self.mesh, whole, rows, result, state.H0)
 
     def _ways(self, branch, speed, last, beside):
         """(Name, function) of what may lead to a point, the best first."""
@@ -166,7 +171,7 @@ class Branches:
         grid, fields = self._grids.grids[-1], point.fields
         whole = list(fields.named.values()) if fields else 5 * [None]
         P, H, *others = map(grid.scatter, whole)
-        return State(P, point.H0, H, *others)
+        return State(P, point.solution.H0, H, *others)
 
     @property
     def _grids(self):
@@ -179,3 +184,14 @@ class Branches:
         newton = self._settings.newton
         newton = replace(newton, max_steps=patience * newton.max_steps)
         return Continuation(self._grids, self.contact, replace(self._settings, newton=newton))
+
+
+def _keep(path, solution, told):
+    """Leave the run directory of a point; a kill leaves none that has finished without what is `told`."""
+    make_directory(path, True)
+    write_whole(path / POINT, json.dumps(told) + "\n")
+    save(solution, path, picture=False)
+
+
+def _told(path):
+    return json.loads((path / POINT).read_text())

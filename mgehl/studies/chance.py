@@ -8,7 +8,8 @@ from math import log
 
 import numpy as np
 
-from mgehl.studies.study import merged, statistic, verdict
+from mgehl.studies.columns import statistic, told
+from mgehl.studies.study import merged, verdict
 
 SEED = 2030
 """No constant of the solver was chosen on the contacts that it draws."""
@@ -19,9 +20,6 @@ BALL = {
     "grid": {"x": [-2.0, 1.5], "y": [-1.75, 1.75]},
 }
 """Steel on a ground disc (nested tables of a configuration)."""
-
-RMS, HURST = (20e-9, 400e-9), (0.5, 0.9)
-"""Of such a ball, from, to: roughness in m, Hurst's exponent."""
 
 
 @dataclass(frozen=True)
@@ -44,10 +42,12 @@ def run_drawn(study, name, draw, row, nodes, cases):
     On so many `nodes`, and so many `cases`, where the study is not told others.
     """
     (nodes,) = study.nodes or (nodes,)
-    drawn = {case.title: case for case in drawn_of(study, draw, cases)}
+    drawn = {
+        case.title: case for case in draw(study.wanted or cases, SEED if study.seed is None else study.seed)
+    }
     tables = {title: merged(case.tables, {"grid": {"nodes": nodes}}) for title, case in drawn.items()}
     rows, results = {}, []
-    for title, solution in study.solved(tables, with_fields=False):
+    for title, solution in study.solved(tables):
         rows[title] = row(drawn[title], solution)
         results.append(solution.result)
     for title, why in study.lost.items():
@@ -56,25 +56,9 @@ def run_drawn(study, name, draw, row, nodes, cases):
     study.write_table(f"{name}-summary", [summary(results, len(study.lost))])
 
 
-def drawn_of(study, draw, cases):
-    """What `draw(cases, seed)` finds by the number and the seed that the study was asked for."""
-    return draw(study.wanted or cases, SEED if study.seed is None else study.seed)
-
-
 def by_logarithm(chance, low, high):
     """A number between two, drawn evenly by its logarithm."""
     return float(np.exp(chance.uniform(log(low), log(high))))
-
-
-def ball(number, rms, load, speed, hurst, **surface):
-    """The tables of a rough ball, in SI units."""
-    surface |= {"rms": rms, "hurst": hurst, "seed": number}
-    return merged(BALL, {"contact": {"load": load}, "motion": {"speed": speed}, "surface": surface})
-
-
-def said_of_ball(rms, load, speed):
-    """A ball in a few words."""
-    return f"{1e9 * rms:.0f} nm, {load:.0f} N, {1e3 * speed:.3g} mm/s"
 
 
 def answer(result):
@@ -83,9 +67,7 @@ def answer(result):
     return {
         "load on contact": f"{mixed.contact_load_share:.4f}",
         "load on solids": f"{mixed.solid_load_fraction:.4f}",
-        "made": f"{result.mass.made_share:.1e}",
-        "convolutions": f"{result.work.convolutions:.1f}",
-        "steps": str(result.work.steps),
+        **told(result, "made, convolutions, steps"),
         "verdict": verdict(result),
     }
 

@@ -4,7 +4,8 @@ from pathlib import Path
 from typing import NamedTuple
 
 from mgehl.studies import dry_surfaces
-from mgehl.studies.study import merged, papers_grid, yes
+from mgehl.studies.columns import told
+from mgehl.studies.study import merged, papers_grid
 
 NODES = (129, 257)
 
@@ -68,8 +69,7 @@ def run(study):
     cases = {(surface, n): tables_of(surface, n) for surface in SURFACES for n in study.nodes or NODES}
     named = {f"{surface}, {n} nodes": (surface, n) for surface, n in cases}
     tables = {name: cases[case] for name, case in named.items()}
-    found = study.solved(tables, with_fields=False)
-    study.write_table("dry", [_row(*named[name], each.result) for name, each in found])
+    study.write_table("dry", [_row(*named[name], each.result) for name, each in study.solved(tables)])
 
 
 def tables_of(surface, nodes):
@@ -84,14 +84,13 @@ def _row(surface, nodes, result):
     return {
         "surface": surface,
         "nodes": str(nodes),
-        "converged": yes(result.converged),
-        "contact nodes": str(result.contact.nodes),
+        **told(result, "converged, contact nodes"),
         "public code's": str(known.contact_nodes) if known else "",
         "area / Hertz": f"{result.contact.area_fraction:.5f}",
         "p_max GPa": f"{result.max_pressure_GPa:.6f}",
         "public code's p_max": f"{known.max_pressure:.6f}" if known else "",
         "approach um": f"{result.approach_um:.6f}",
         "public code's approach": f"{known.approach:.6f}" if known else "",
-        "convolutions": f"{result.work.convolutions:.1f}",
+        **told(result, "convolutions"),
         "public code's convolutions": str(known.convolutions) if known else "",
     }

@@ -8,7 +8,8 @@ from math import nan
 
 import numpy as np
 
-from mgehl.studies.bands import Band, cells, summary, work_of_band
+from mgehl.studies.bands import Band, cells, summary
+from mgehl.studies.columns import told
 from mgehl.studies.study import BEST, merged
 
 NODES, CASES, SEED = (65, 129, 257), 40, 11
@@ -40,7 +41,7 @@ def run(study):
     for name, contact in contacts.items():
         grids = *nodes, 2 * nodes[-1] - 1
         tables = {f"{name}, {n} nodes": merged(contact, {"grid": {"nodes": n}}) for n in grids}
-        found = [each for _, each in study.solved(tables, must_converge=False, with_fields=False)]
+        found = [each for _, each in study.solved(tables, must_converge=False)]
         if len(found) < len(grids):
             continue
         limits = limits_of(found[-1].result.error)
@@ -50,7 +51,7 @@ def run(study):
             for film, band in own.items():
                 bands[film].append(band)
     study.write_table("cases", rows)
-    study.write_table("bands", list(summary(bands)))
+    study.write_table("bands", summary(bands))
 
 
 def draw(cases, seed):
@@ -89,12 +90,9 @@ def _band(film, result, limit):
 
 def _row(name, solution, bands):
     result = solution.result
-    row = {
-        "contact": name,
-        "nodes": str(solution.mesh.nx),
-        "inlet cells": f"{result.resolution.inlet_cells:.2f}",
-    }
+    row = {"contact": name, "nodes": str(solution.mesh.nx), **told(result, "inlet cells")}
     for film, band in bands.items():
         row |= cells(film, band)
+    more = f"{100.0 * result.error.convolutions / result.work.convolutions:.0f}"
     why = "" if result.error.central_nm is not None else result.error.how
-    return row | work_of_band(result, result.error) | {"no band": why}
+    return row | {"more work %": more, "no band": why}

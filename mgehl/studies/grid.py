@@ -7,8 +7,10 @@ import numpy as np
 
 from mgehl.discretization.status import CONTACT
 from mgehl.model.hertz import hertz_pressure
-from mgehl.output.words import span
-from mgehl.studies.study import PAPER, merged, observed_order, papers_grid, plausible, richardson, yes
+from mgehl.studies import grid_figures as figures
+from mgehl.studies.columns import told
+from mgehl.studies.limits import limit_said, observed_order
+from mgehl.studies.study import PAPER, merged, papers_grid
 
 NODES = (257, 513, 1025)
 CONTACT_SPEED, FILM_SPEED = 5e-6, 7.5e-3
@@ -26,8 +28,6 @@ def run(study):
     profiles = study.comm.bcast([Profile(each) for each in dry] if study.first else None)
     study.write_table("contact", _contact_rows(dry, profiles))
     study.write_table("film", _film_rows(wet))
-    from mgehl.studies import grid_figures as figures
-
     study.draw("figures-11-12", figures.against_hertz, profiles)
     study.draw("figure-13", figures.before_interface, profiles)
 
@@ -66,56 +66,37 @@ class Profile:
 
 
 def _contact_rows(solutions, profiles):
-    rows, before = [], None
+    before = None
     for solution, profile in zip(solutions, profiles, strict=True):
-        contact = solution.result.contact
-        order = observed_order(before.largest_inside, profile.largest_inside) if before else None
-        rows.append(
-            _common(solution)
-            | {
-                "contact on X": span(contact.x_nodes),
-                "on Y": span(contact.y_nodes),
-                "contact/Hertz area": f"{contact.area_fraction:.5f}",
-                "load on contact": f"{contact.load_fraction:.6f}",
-                "P - Hertz inside 0.9 a": f"{profile.largest_inside:.2e}",
-                "order": "" if order is None else f"{order:.2f}",
-                "anywhere": f"{profile.largest:.2e}",
-                "P before contact": f"{profile.before_contact:.2e}",
-                "largest gap nm": f"{contact.largest_gap_nm:.1e}",
-            }
-        )
+        order = f"{observed_order(before.largest_inside, profile.largest_inside):.2f}" if before else ""
+        yield _common(solution) | {
+            **told(solution.result, "contact on X, on Y, contact/Hertz area:.5f, load on contact:.6f"),
+            "P - Hertz inside 0.9 a": f"{profile.largest_inside:.2e}",
+            "order": order,
+            "anywhere": f"{profile.largest:.2e}",
+            "P before contact": f"{profile.before_contact:.2e}",
+            **told(solution.result, "largest gap nm"),
+        }
         before = profile
-    return rows
 
 
 def _film_rows(solutions):
     results = [each.result for each in solutions]
-    return [
-        _common(solution)
-        | {
-            "central nm": f"{solution.result.central_film_nm:.4f}",
-            "minimum nm": f"{solution.result.minimum_film_nm:.4f}",
-            "contact nodes": str(solution.result.contact.nodes),
+    for k, solution in enumerate(solutions):
+        yield _common(solution) | {
+            **told(solution.result, "central nm, minimum nm, contact nodes"),
             "central: limit, order": _limit(results[: k + 1], "central_film_nm"),
             "minimum: limit, order": _limit(results[: k + 1], "minimum_film_nm"),
         }
-        for k, solution in enumerate(solutions)
-    ]
 
 
 def _common(solution):
     """Columns of both tables."""
-    result = solution.result
-    inequality, resolution = result.other_inequality, result.resolution
     return {
         "grid": str(solution.mesh.nx),
-        "settled": yes(result.settled),
-        "Eq. 2 broken": f"{inequality.violations} of {inequality.checked}",
-        "inlet cells": f"{resolution.inlet_cells:.2f}",
-        "verdict": resolution.verdict,
-        "residual": f"{result.residual:.1e}",
-        "convolutions": f"{result.work.convolutions:.1f}",
-        "wall s": f"{result.wall_s:.1f}",
+        **told(solution.result, "settled, Eq. 2 broken, inlet cells"),
+        "verdict": solution.result.resolution.verdict,
+        **told(solution.result, "residual, convolutions, wall s"),
     }
 
 
@@ -125,5 +106,4 @@ def _limit(found, film):
     last = found[-3:]
     if len(last) < 3 or any(each.contact.nodes for each in last):
         return ""
-    value, order = richardson([getattr(each, film) for each in last])
-    return f"{value:.3f}, {order:.2f}" if plausible(order) else "not to be told yet"
+    return limit_said([getattr(each, film) for each in last], "{:.3f}, {:.2f}")

@@ -9,6 +9,7 @@ from mgehl.config import config_from_tables
 from mgehl.kinds import contact_from, mesh_from
 from mgehl.output.digits import with_band
 from mgehl.studies.chance import Drawn, answer, by_logarithm, run_drawn
+from mgehl.studies.columns import told
 from mgehl.studies.study import merged
 
 NODES, CASES = 257, 60
@@ -150,8 +151,7 @@ def row_of(case, solution, shape):
         **shape,
         "Sq nm": f"{mixed.Sq_nm:.0f}",
         "layers nm": f"{1e9 * case.tables['contact']['boundary_film']:.0f}",
-        "lambda": f"{mixed.lambda_ratio:.3g}",
-        "inlet cells": f"{result.resolution.inlet_cells:.2f}",
+        **told(result, "lambda, inlet cells"),
         "nodes in the shortest wave": f"{result.resolution.surface_nodes:.1f}",
         "mean gap nm": with_band(mixed.mean_gap_nm, mean),
         "by pressure nm": with_band(mixed.loaded_gap_nm, loaded),

@@ -6,10 +6,14 @@ its own. Each case is solved for itself: no case starts from another.
 
 import numpy as np
 
-from mgehl.studies.chance import HURST, RMS, Drawn, answer, ball, by_logarithm, run_drawn, said_of_ball
+from mgehl.studies.chance import BALL, Drawn, answer, by_logarithm, run_drawn
+from mgehl.studies.columns import told
 from mgehl.studies.study import merged
 
 NODES, CASES = 257, 120
+
+RMS, HURST = (20e-9, 400e-9), (0.5, 0.9)
+"""From, to: roughness in m, Hurst's exponent."""
 
 LOAD, SPEED = (20.0, 800.0), (1e-5, 1.0)
 """From, to: N, m/s."""
@@ -25,12 +29,16 @@ def run(study):
 
 def draw(cases, seed):
     """So many `Drawn`. A longer list begins with the same cases."""
-    chance, drawn = np.random.default_rng(seed), []
-    for number in range(1, cases + 1):
-        rms, load, speed = (by_logarithm(chance, *ends) for ends in (RMS, LOAD, SPEED))
-        tables = ball(number, rms, load, speed, float(chance.uniform(*HURST)))
-        drawn.append(Drawn(number, said_of_ball(rms, load, speed), merged(tables, COMMON)))
-    return drawn
+    chance = np.random.default_rng(seed)
+    return [_drawn(chance, number) for number in range(1, cases + 1)]
+
+
+def _drawn(chance, number):
+    rms, load, speed = (by_logarithm(chance, *ends) for ends in (RMS, LOAD, SPEED))
+    surface = {"rms": rms, "hurst": float(chance.uniform(*HURST)), "seed": number}
+    own = {"contact": {"load": load}, "motion": {"speed": speed}, "surface": surface}
+    what = f"{1e9 * rms:.0f} nm, {load:.0f} N, {1e3 * speed:.3g} mm/s"
+    return Drawn(number, what, merged(BALL, own, COMMON))
 
 
 def row(case, solution):
@@ -42,6 +50,6 @@ def row(case, solution):
         "load N": f"{tables['contact']['load']:.1f}",
         "speed mm/s": f"{1e3 * tables['motion']['speed']:.4g}",
         "Hurst": f"{tables['surface']['hurst']:.3f}",
-        "lambda": f"{solution.result.mixed.lambda_ratio:.3g}",
+        **told(solution.result, "lambda"),
         **answer(solution.result),
     }

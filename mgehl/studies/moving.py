@@ -10,7 +10,8 @@ from pathlib import Path
 
 import numpy as np
 
-from mgehl.studies.study import merged, yes
+from mgehl.studies.columns import told
+from mgehl.studies.study import merged
 from mgehl.studies.waviness import SMALL, line_case
 
 NODES = 1025
@@ -96,7 +97,7 @@ def _wave(study, smooth, line, length, s, nodes):
         "apart %": "" if known is None else f"{100.0 * (swing / known - 1.0):+.1f}",
         "published": "" if published is None else f"{published:.3f}",
         **_steps(found.result.time),
-        "converged": yes(found.result.converged),
+        **told(found.result, "converged"),
     }  # fmt: skip
 
 
@@ -129,7 +130,7 @@ def _dimple(study):
             "published MPa": f"{pressure}",
             "smooth film nm": f"{smooth.result.central_film_nm:.1f}",
             **_steps(found.result.time),
-            "converged": yes(found.result.converged),
+            **told(found.result, "converged"),
         }  # fmt: skip
 
 

@@ -6,7 +6,10 @@ listed, and limits are taken of the film with the saw-tooth averaged out.
 """
 
 from mgehl.discretization.couette import SCHEMES
-from mgehl.studies.study import PAPER, merged, papers_grid, plausible, richardson, yes
+from mgehl.studies import film_figures
+from mgehl.studies.columns import told
+from mgehl.studies.limits import limit_said
+from mgehl.studies.study import PAPER, merged, papers_grid
 
 NODES = (65, 129, 257, 513)
 BASE = merged(PAPER, {"motion": {"speed": 1.0}})
@@ -25,18 +28,12 @@ def run(study):
             if len(solutions) == len(nodes) >= 3:
                 rows.append(_limit_row(couette, films[couette]))
     study.write_table("films", rows)
-    from mgehl.studies import film_figures
-
     study.draw("films", film_figures.schemes, nodes, films)
 
 
 def _cases(couette, nodes):
-    return {
-        f"{couette}, {n} nodes": merged(
-            BASE, {"grid": papers_grid(n), "discretization": {"couette": couette}}
-        )
-        for n in nodes
-    }
+    scheme = {"discretization": {"couette": couette}}
+    return {f"{couette}, {n} nodes": merged(BASE, scheme, {"grid": papers_grid(n)}) for n in nodes}
 
 
 def _films(solution):
@@ -52,27 +49,22 @@ def saw_tooth(solution):
 
 
 def _row(couette, solution, films):
-    result, nodes = solution.result, solution.mesh.nx
+    nodes = solution.mesh.nx
     finest = [row["linear_iterations"] for row in solution.rows if row["grid"] == nodes]
     return {
         "couette": couette,
         "nodes": str(nodes),
-        "converged": yes(result.converged),
-        "central nm": f"{result.central_film_nm:.4f}",
+        **told(solution.result, "converged, central nm"),
         "saw-tooth nm": f"{saw_tooth(solution):.4f}",
         "central averaged nm": f"{films[0]:.4f}",
         "minimum nm": f"{films[1]:.4f}",
-        "residual": f"{result.residual:.1e}",
+        **told(solution.result, "residual"),
         "most GMRES iterations": str(max(finest)),
-        "convolutions": f"{result.work.convolutions:.0f}",
+        **told(solution.result, "convolutions:.0f"),
     }
 
 
 def _limit_row(couette, films):
     """Richardson's limits from the three finest grids, where their differences show an order."""
-    texts = []
-    for values in zip(*films, strict=True):
-        limit, order = richardson(values)
-        texts.append(f"{limit:.2f} (order {order:.1f})" if plausible(order) else "not to be told yet")
-    names = "couette", "nodes", "central averaged nm", "minimum nm"
-    return dict(zip(names, (couette, "limit", *texts), strict=True))
+    central, minimum = (limit_said(values, "{:.2f} (order {:.1f})") for values in zip(*films, strict=True))
+    return {"couette": couette, "nodes": "limit", "central averaged nm": central, "minimum nm": minimum}

@@ -1,26 +1,41 @@
-"""What every study does: solve named configurations, keep their points, write tables and pictures.
+"""Cases, each solved once and a run directory before the next begins; tables, pictures and a page.
+
+DIRECTORY/
+    runs/                     a run directory for each case
+    *.csv, *.md, *.nc, *.png  tables, the same as arrays, and pictures
+    report.html, study.json   all on one page, and what was asked for
 
 A study is a module with `run(study)`: named configurations go to `Study.solved`, what comes back becomes
-rows of tables, and pictures where there are any.
+rows of tables, and pictures where there are any. A sweep is a study whose cases follow from axes.
 """
 
 import time
+import tomllib
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
-from functools import cached_property, partial
-from math import log2
 from pathlib import Path
 
+import tomli_w
 from mpi4py import MPI
 
 from mgehl.config import config_from_tables
 from mgehl.errors import OutputError, UserError, one_line
-from mgehl.output.files import on_first_rank
-from mgehl.output.stored import record_of, solution_from
+from mgehl.output.checkpoint import is_begun
+from mgehl.output.directory import make_directory
+from mgehl.output.files import CONFIGURATION, FIELDS, REPORT, on_first_rank
+from mgehl.output.laws import portable
+from mgehl.output.lock import locked
+from mgehl.output.report.page import render
+from mgehl.output.report.study_report import study_report
+from mgehl.output.solution import on_every_rank
+from mgehl.output.stored import read_run, read_texts
+from mgehl.output.study_directory import RUNS, begin_study, clear_runs, finish_study
 from mgehl.output.table import drawn, markdown, write_csv
 from mgehl.output.whole_file import write_whole
-from mgehl.run import solve
+from mgehl.run import Watch, enter, run
 from mgehl.saying import columns, complain, say
-from mgehl.studies.cache import PointCache, key_of
+from mgehl.studies.case_names import directory_of
+from mgehl.studies.catalogue import WHAT
 
 PAPER = {"discretization": {"couette": "1B", "face_mobility": "arithmetic"}}
 """What the paper differences by."""
@@ -28,10 +43,33 @@ PAPER = {"discretization": {"couette": "1B", "face_mobility": "arithmetic"}}
 BEST = {"couette": "3B", "face_mobility": "linear-gap"}
 """What a smooth case of one's own is differenced by."""
 
-PLAUSIBLE_ORDERS = (0.5, 3.0)
-"""Orders outside of this range come from values that are too far from their limit to tell it."""
-
 PAPERS_DOMAIN = {"x": [-1.9, 1.3], "y": [-1.5, 1.5]}
+
+
+@contextmanager
+def begun(directory, comm, record, speak=True, resume=True, force=False, **asked):
+    """The `Study` of a `StudyRecord` in a directory, which it holds; at the end its tables replace those
+    that were there (collective).
+
+    What has finished is taken as it is with `resume`; all is solved anew with `force`. `asked` are other
+    fields of the `Study`.
+    """
+    on_first_rank(comm, make_directory, directory, resume or force)
+    with locked(comm, directory):
+        stage = comm.bcast(on_first_rank(comm, begin_study, directory, record, resume))
+        if not resume:
+            on_first_rank(comm, clear_runs, directory)
+        drawn = {"branch": record.branch, "wanted": record.cases, "seed": record.seed}
+        study = Study(stage, comm, record.nodes, speak, home=Path(directory), **drawn, **asked)
+        yield study
+        on_first_rank(comm, finish_study, directory, stage, resume)
+        on_first_rank(comm, _write_page, study.home)
+    if study.first and speak:
+        say(f"results in {directory}")
+
+
+def _write_page(directory):
+    write_whole(directory / REPORT, render(study_report(directory, WHAT)))
 
 
 @dataclass
@@ -39,6 +77,7 @@ class Study:
     """A study's directory and what was asked of it; `comm` solves its cases, rank 0 speaks and writes."""
 
     directory: Path
+    """Of tables and pictures."""
     comm: MPI.Comm
     nodes: tuple = ()
     """Nodes along each side, coarsest first; empty for the study's own choice."""
@@ -53,10 +92,10 @@ class Study:
     """Random cases of studies that draw some; None for its own choice."""
     seed: int | None = None
     """By which it draws them."""
-    resume: bool = True
-    """Whether what has finished is taken as it is."""
     home: Path | None = None
-    """Directory of its points where it is not that of tables and pictures."""
+    """Directory of its runs where it is not that of tables and pictures."""
+    watch: Watch = Watch(picture=False)
+    """What accompanies every solve."""
     lost: dict = field(default_factory=dict, init=False)
     """Why cases have no answer at all, by their names."""
     failures: int = field(default=0, init=False)
@@ -64,55 +103,53 @@ class Study:
     _done: int = field(default=0, init=False)
     _started: float = field(default_factory=time.perf_counter, init=False)
 
+    def __post_init__(self):
+        self.home = self.home or self.directory
+
     @property
     def first(self):
         """True on the rank that writes; fields of solutions are whole there."""
         return self.comm.rank == 0
 
-    def solved(self, cases, **how):
+    def solved(self, cases, must_converge=True):
         """Solve configurations, {name: nested tables}, one after the other; yield (name, `Solution`).
 
         A case that cannot be solved is said, remembered in `lost` and passed. Raises ConfigError before the
-        first is solved if one cannot be used. `how` as of `solve`.
+        first is solved if one cannot be used.
         """
         for tables in cases.values():
             self.config(tables)
         self.cases = max(self.cases, self._done + len(cases))
         for name, tables in cases.items():
-            try:
-                solution = self.solve(name, tables, **how)
-            except OutputError:
-                raise
-            except UserError as error:
-                self.lose(name, error)
-            else:
+            solution = self.passed(name, self.solve, name, tables, must_converge)
+            if solution:
                 yield name, solution
 
-    def solve(self, title, tables, must_converge=True, with_fields=True):
-        """Solve the configuration of nested `tables`; return the `Solution`.
+    def passed(self, name, solve, *arguments):
+        """What a case's `solve` returns; None without an answer, which is said and remembered."""
+        try:
+            return solve(*arguments)
+        except OutputError:
+            raise
+        except UserError as error:
+            self.lost[name] = str(error)
+            self.failures += 1
+            self._done += 1
+            if self.first:
+                complain(f"{name}: not solved: {error}")
+            return None
+
+    def solve(self, title, tables, must_converge=True):
+        """The `Solution` of the configuration of nested `tables`.
 
         Films get no bands unless the tables ask for them: studies compare grids themselves. Where a case
-        without a solution is an answer, too, it does not make the study a failure. Without fields, points
-        are small.
+        without a solution is an answer, too, it does not make the study a failure.
         """
         config = self.config(tables)
-        key = key_of(config.as_toml_tables())
-        solution = self.cache.load(key, solution_from)
-        if solution is None:
-            solution = solve(config, self.comm)
-            solution = solution if with_fields else solution.shared()
-            self.cache.store(key, partial(record_of, solution))
+        solution = self.run(self.path_of(title, config.as_toml_tables()), config)
         self.failures += must_converge and not solution.result.converged
         self.tell(title, solution.result, must_converge)
         return solution
-
-    def lose(self, name, error):
-        """Say and remember why a case has no answer at all."""
-        self.lost[name] = str(error)
-        self.failures += 1
-        self._done += 1
-        if self.first:
-            complain(f"{name}: not solved: {error}")
 
     def config(self, tables):
         """The configuration of a case; its films get no bands where the tables say nothing of them."""
@@ -122,22 +159,38 @@ class Study:
             return config
         return replace(config, solver=replace(config.solver, error=False))
 
-    @cached_property
-    def cache(self):
-        """Its finished points."""
-        return PointCache(self.home or self.directory, self.comm)
+    def path_of(self, title, description):
+        """The run directory of a case whose answer depends on a `description`, plain data (collective)."""
+        return self.comm.bcast(directory_of(self.home / RUNS, title, description) if self.first else None)
+
+    def run(self, path, config, start=None):
+        """The `Solution` of a configuration, from its run directory where it has finished.
+
+        Else it goes on there, or is solved from the `start` that a run takes (collective). Raises
+        OutputError where the run that is there is of another configuration.
+        """
+        case = enter(config, self.comm)
+        if not self.has(path, case.config):
+            on_first_rank(self.comm, make_directory, path, True)
+            with locked(self.comm, path):
+                run(case, path, self.comm, self.watch, start if case.contact.is_loaded else None)
+        return self.read(path)
+
+    def has(self, path, config):
+        """Whether the run of a configuration has finished (collective)."""
+        return self.comm.bcast(on_first_rank(self.comm, _has_finished, path, config))
+
+    def read(self, path):
+        """The `Solution` of a run directory, with its fields on rank 0 (collective)."""
+        return on_every_rank(self.comm, on_first_rank(self.comm, read_run, path))
 
     def tell(self, title, result, must_converge=True):
-        """Say what came of a finished case."""
-        none = "NOT CONVERGED" if must_converge else "no solution, which is an answer here"
-        self._tell(title, "" if result.converged else f"  {verdict(result, none)}")
-
-    def _tell(self, title, what):
-        """Say a case, and how long the others will take."""
+        """Say what came of a finished case, and how long the others will take."""
         self._done += 1
         if self.first and self.speak:
-            spent = time.perf_counter() - self._started
-            left = spent / self._done * max(self.cases - self._done, 0)
+            none = "NOT CONVERGED" if must_converge else "no solution, which is an answer here"
+            what = "" if result.converged else f"  {verdict(result, none)}"
+            left = (time.perf_counter() - self._started) / self._done * max(self.cases - self._done, 0)
             say(f"{self._done:3d}/{max(self.cases, self._done)}  {left:5.0f} s left  {title}{what}")
 
     def write_table(self, name, rows, shown=()):
@@ -146,10 +199,10 @@ class Study:
 
         Columns are those of all rows; nothing is written of no row.
         """
-        on_first_rank(self.comm, self._write_table, name, rows, shown)
+        on_first_rank(self.comm, self._write_table, name, list(rows), shown)
 
     def draw(self, name, function, *arguments):
-        """Draw NAME.png by `function(path, *arguments)` on rank 0 (collective)."""
+        """Draw NAME.png, the figure that `function(*arguments)` returns, on rank 0 (collective)."""
         on_first_rank(self.comm, self._draw, name, function, arguments)
 
     def _write_table(self, name, rows, shown):
@@ -167,9 +220,12 @@ class Study:
             say(f"\n{name}\n\n{drawn(rows, shown, columns())}\n")
 
     def _draw(self, name, function, arguments):
+        from mgehl.output.pictures.style import applied, save  # matplotlib is slow to import
+
         path = self.directory / f"{name}.png"
         try:
-            function(path, *arguments)
+            with applied():
+                save(function(*arguments), path)
         except Exception as error:  # what matplotlib raises is anybody's guess; the tables are there
             complain(f"{path}: cannot be drawn: {one_line(error)}")
         else:
@@ -177,16 +233,20 @@ class Study:
                 say(f"picture {path.name}")
 
 
+def _has_finished(path, config):
+    """Whether the run of this configuration is there."""
+    if is_begun(path) or not (path / FIELDS).exists():
+        return False
+    if tomllib.loads(read_texts(path)[CONFIGURATION]) != tomllib.loads(tomli_w.dumps(portable(config))):
+        raise OutputError(f"--resume: {path} is of another configuration; choose another with --out")
+    return True
+
+
 def verdict(result, otherwise="NOT CONVERGED"):
     """Converged, or in doubt or `otherwise` and why."""
     if result.converged:
         return "converged"
     return f"{result.doubt if result.settled else otherwise}: {result.reason}"
-
-
-def yes(holds):
-    """As tables have it."""
-    return "yes" if holds else "no"
 
 
 def papers_grid(nodes):
@@ -201,32 +261,3 @@ def merged(*tables):
         for section, keys in table.items():
             result.setdefault(section, {}).update(keys)
     return result
-
-
-def observed_order(coarse, fine):
-    """Power of the spacing by which an error falls when that is halved."""
-    return log2(abs(coarse) / abs(fine)) if coarse and fine else float("nan")
-
-
-def richardson(values):
-    """(limit, observed order) from the values on the last three grids, each twice as fine.
-
-    NaN where the differences do not fall with one sign: there is no limit to see yet.
-    """
-    coarse, middle, fine = values[-3:]
-    first, second = middle - coarse, fine - middle
-    if second == 0.0 or not first / second > 1.0:
-        return float("nan"), float("nan")
-    ratio = first / second
-    return fine + second / (ratio - 1.0), log2(ratio)
-
-
-def plausible(order):
-    """True of an observed order that a second-order code may have on its way to the limit."""
-    return PLAUSIBLE_ORDERS[0] <= order <= PLAUSIBLE_ORDERS[1]
-
-
-def statistic(function, values, shown="{:.1f}"):
-    """A mean, median or the like of some values, as a summary tells it; "none" where there are none."""
-    values = list(values)
-    return shown.format(function(values)) if values else "none"

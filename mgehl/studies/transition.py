@@ -6,8 +6,10 @@ discrete equations.
 
 import numpy as np
 
+from mgehl.studies import transition_figures as figures
 from mgehl.studies.branch import Branches
-from mgehl.studies.study import PAPER, merged, papers_grid, yes
+from mgehl.studies.columns import told
+from mgehl.studies.study import PAPER, merged, papers_grid
 
 FASTEST, SLOWEST, COUNT = 7.5e-3, 5e-6, 25
 """m/s: the range of [Liu sec. 4.3]."""
@@ -37,8 +39,6 @@ def run(study):
                 way = speeds(n) if direction == "down" else speeds(n)[::-1]
                 points += branches.walk(direction, way, tuple(points))
             study.write_table(f"transition-{n}", [row(branches, point) for point in points])
-            from mgehl.studies import transition_figures as figures
-
             study.draw(f"transition-{n}-films", figures.branches, branches, points)
             study.draw(f"transition-{n}-figure-14", figures.figure_14, branches, points)
 
@@ -57,10 +57,8 @@ def case(nodes):
 def row(branches, point):
     """Text of one point: the columns of the paper's Table 1, and ours."""
     result, contact = point.result, point.result.contact
-    cells = result.resolution
-    at_interface, at_nodes = result.pressure_inequality, result.other_inequality
     U = branches.contact.at_speed(point.speed).groups.U
-    e_p, e_p_fluid, e_p_solid = (f"{error:.1e}" for error in point.sweep)
+    errors = zip(("e^p", "e^p lubr.", "e^p solid"), point.sweep, strict=True)
     return {
         "grid": str(branches.mesh.nx),
         "branch": point.branch,
@@ -69,25 +67,17 @@ def row(branches, point):
         "U of the paper": f"{U * branches.contact.radius_x / PAPER_RADIUS:.3e}",
         "U": f"{U:.3e}",
         "iterations": str(result.work.steps),
-        "e^p": e_p,
-        "e^p lubr.": e_p_fluid,
-        "e^p solid": e_p_solid,
-        "load error": f"{result.load_error:.1e}",
-        "settled": yes(result.settled),
-        "residual": f"{result.residual:.1e}",
-        "central nm": f"{result.central_film_nm + 0.0:.4f}",
-        "minimum nm": f"{result.minimum_film_nm + 0.0:.4f}",
-        "contact/Hertz area": f"{contact.area_fraction:.4f}",
-        "load on contact": f"{contact.load_fraction:.4f}",
+        **{name: f"{error:.1e}" for name, error in errors},
+        **told(
+            result,
+            "load error, settled, residual, central nm, minimum nm, contact/Hertz area, load on contact",
+        ),
         "load on fluid": f"{1.0 - contact.load_fraction:.4f}",
-        "Eq. 2 broken": f"{at_nodes.violations} of {at_nodes.checked}",
-        "by at most p_h": f"{at_nodes.worst:.1e}",
-        "at the interface": f"{at_interface.violations} of {at_interface.checked}",
-        "there by at most p_h": f"{at_interface.worst:.1e}",
+        **told(result, "Eq. 2 broken"),
+        "by at most p_h": f"{result.other_inequality.worst:.1e}",
+        **told(result, "at the interface"),
+        "there by at most p_h": f"{result.pressure_inequality.worst:.1e}",
         "not continued because": point.obstacle,
         "nodes that can be neither": str(len(result.contradictions)),
-        "inlet cells": f"{cells.inlet_cells:.2f}",
-        "grid verdict": cells.verdict,
-        "convolutions": f"{result.work.convolutions:.0f}",
-        "wall s": f"{result.wall_s:.1f}",
+        **told(result, "inlet cells, grid verdict, convolutions:.0f, wall s"),
     }

@@ -5,7 +5,7 @@ import numpy as np
 
 from mgehl.discretization.status import CONTACT
 from mgehl.output.pictures.plane import Blocks
-from mgehl.output.pictures.style import COLOURS, applied, save, subplots
+from mgehl.output.pictures.style import COLOURS, subplots
 
 PROFILES = 6
 """Speeds in Figure 14a and b, from the last full film to the first full contact."""
@@ -20,63 +20,59 @@ SMALLEST_AXIS = 1.0
 """nm."""
 
 
-def branches(path, followed, points):
+def branches(followed, points):
     """Films and contact ratio against speed, both branches, with the formulas."""
-    with applied():
-        figure, (films, ratio) = subplots(1, 2, size=(10.5, 4.6))
-        for branch, colour, mark in zip(("down", "up"), COLOURS, ("v", "^"), strict=False):
-            own = [point for point in points if point.branch == branch and point.result.settled]
-            if not own:
-                continue
-            mm_s = [1e3 * point.speed for point in own]
-            for name, line in (("central", "-"), ("minimum", ":")):
-                film = [getattr(point.result, f"{name}_film_nm") for point in own]
-                label = f"{name}, {branch}"
-                films.plot(mm_s, np.maximum(film, 0.0), mark + line, color=colour, ms=4, label=label)
-            area = [point.result.contact.area_fraction for point in own]
-            ratio.plot(mm_s, area, mark + "-", color=colour, ms=4, label=branch)
-        all_speeds = sorted({point.speed for point in points})
-        formulas = [followed.contact.at_speed(speed).formulas for speed in all_speeds]
-        for name, grey in zip(vars(formulas[0]), ("0.3", "0.55", "0.75", "0.85"), strict=False):
-            heights = [1e9 * getattr(formula, name) for formula in formulas]
-            label = name.replace("_", " ")
-            films.plot(
-                [1e3 * speed for speed in all_speeds], heights, "--", color=grey, lw=0.9, label=label
-            )
-        films.set(xscale="log", xlabel="speed, mm/s", ylabel="film, nm (0: contact)")
-        films.set_yscale("symlog", linthresh=1.0)
-        films.set_ylim(bottom=-0.1)
-        ratio.set(xscale="log", xlabel="speed, mm/s", ylabel="contact area over Hertz area")
-        for axes in (films, ratio):
-            axes.legend(frameon=False)
-        directions = " and ".join(dict.fromkeys(point.branch for point in points))
-        figure.suptitle(f"{followed.name}: film and contact, speed going {directions}")
-        save(figure, path)
+    figure, (films, ratio) = subplots(1, 2, size=(10.5, 4.6))
+    for branch, colour, mark in zip(("down", "up"), COLOURS, ("v", "^"), strict=False):
+        own = [point for point in points if point.branch == branch and point.result.settled]
+        if not own:
+            continue
+        mm_s = [1e3 * point.speed for point in own]
+        for name, line in (("central", "-"), ("minimum", ":")):
+            film = [getattr(point.result, f"{name}_film_nm") for point in own]
+            label = f"{name}, {branch}"
+            films.plot(mm_s, np.maximum(film, 0.0), mark + line, color=colour, ms=4, label=label)
+        area = [point.result.contact.area_fraction for point in own]
+        ratio.plot(mm_s, area, mark + "-", color=colour, ms=4, label=branch)
+    all_speeds = sorted({point.speed for point in points})
+    formulas = [followed.contact.at_speed(speed).formulas for speed in all_speeds]
+    for name, grey in zip(vars(formulas[0]), ("0.3", "0.55", "0.75", "0.85"), strict=False):
+        heights = [1e9 * getattr(formula, name) for formula in formulas]
+        label = name.replace("_", " ")
+        films.plot([1e3 * speed for speed in all_speeds], heights, "--", color=grey, lw=0.9, label=label)
+    films.set(xscale="log", xlabel="speed, mm/s", ylabel="film, nm (0: contact)")
+    films.set_yscale("symlog", linthresh=1.0)
+    films.set_ylim(bottom=-0.1)
+    ratio.set(xscale="log", xlabel="speed, mm/s", ylabel="contact area over Hertz area")
+    for axes in (films, ratio):
+        axes.legend(frameon=False)
+    directions = " and ".join(dict.fromkeys(point.branch for point in points))
+    figure.suptitle(f"{followed.name}: film and contact, speed going {directions}")
+    return figure
 
 
-def figure_14(path, followed, points):
+def figure_14(followed, points):
     """(a) film across, (b) pressure before the contact, (c) map of the film; of one branch."""
     branch = points[0].branch
     own = [point for point in points if point.branch == branch and point.result.settled]
     mesh, nm = followed.mesh, 1e9 * followed.contact.film_scale
     i, j = mesh.nearest(0.0, 0.0)
-    with applied():
-        figure, (across, inlet, film) = subplots(1, 3, size=(14.0, 4.4))
-        shown = _between_film_and_contact(own)
-        for point, colour in zip(shown, COLOURS, strict=False):
-            label = f"{1e3 * point.speed:.3g} mm/s"
-            across.plot(mesh.Y, point.fields.H[:, i] * nm, color=colour, lw=1.0, label=label)
-            inlet.plot(mesh.X, point.fields.P[j], color=colour, lw=1.0, label=label)
-        top = max(_top(point, mesh, nm) for point in shown)
-        across.set(xlim=(-1.2, 1.2), ylim=(-0.03 * top, top), xlabel="Y = y/b", ylabel="film, nm")
-        across.set_title("a  film at X = 0")
-        inlet.set(xlim=(-1.3, -0.7), ylim=(-0.02, 0.8), xlabel="X = x/a", ylabel="P = p/p$_h$")
-        inlet.set_title("b  pressure at Y = 0 on the inlet side")
-        inlet.legend(frameon=False)
-        mixed = min(own, key=lambda point: abs(point.result.contact.area_fraction - 0.5))
-        _film_map(figure, film, mesh, mixed, nm)
-        figure.suptitle(f"{followed.name}, {branch}")
-        save(figure, path)
+    figure, (across, inlet, film) = subplots(1, 3, size=(14.0, 4.4))
+    shown = _between_film_and_contact(own)
+    for point, colour in zip(shown, COLOURS, strict=False):
+        label = f"{1e3 * point.speed:.3g} mm/s"
+        across.plot(mesh.Y, point.fields.H[:, i] * nm, color=colour, lw=1.0, label=label)
+        inlet.plot(mesh.X, point.fields.P[j], color=colour, lw=1.0, label=label)
+    top = max(_top(point, mesh, nm) for point in shown)
+    across.set(xlim=(-1.2, 1.2), ylim=(-0.03 * top, top), xlabel="Y = y/b", ylabel="film, nm")
+    across.set_title("a  film at X = 0")
+    inlet.set(xlim=(-1.3, -0.7), ylim=(-0.02, 0.8), xlabel="X = x/a", ylabel="P = p/p$_h$")
+    inlet.set_title("b  pressure at Y = 0 on the inlet side")
+    inlet.legend(frameon=False)
+    mixed = min(own, key=lambda point: abs(point.result.contact.area_fraction - 0.5))
+    _film_map(figure, film, mesh, mixed, nm)
+    figure.suptitle(f"{followed.name}, {branch}")
+    return figure
 
 
 def _top(point, mesh, nm):

@@ -6,14 +6,15 @@ small waves, with a peak in the centre and a quarter of a length further on. Hal
 waves of either sign has no part that grows with the square of their height.
 """
 
-from dataclasses import dataclass
 from math import hypot, pi, sqrt
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
 from mgehl.studies import venner_laws
-from mgehl.studies.study import merged, yes
+from mgehl.studies.columns import yes
+from mgehl.studies.study import merged
 
 SMALL = 0.01
 """Amplitude of the waves over the smooth central film: with 0.002 the same four digits."""
@@ -45,18 +46,14 @@ GRIDS = (("2B", "arithmetic", 2049), ("3B", "linear-gap", 4097))
 """As the reference has it; and the usual scheme on 4097 nodes."""
 
 
-@dataclass(frozen=True)
-class Response:
-    """Change of film over the waves' amplitude along the line of nodes through the centre."""
+class Response(NamedTuple):
+    """Change of film over the waves' amplitude along the line through the centre: its uniform part, and the
+    waves that are left; whether all solves converged, and the mean of their convolutions."""
 
     uniform: float
-    """Of the uniform change of film."""
     wave: float
-    """Of the waves that are left in the film."""
     converged: bool
-    """All solves that it was made of."""
     convolutions: float
-    """Mean of them."""
 
 
 def run(study):

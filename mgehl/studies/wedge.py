@@ -1,4 +1,4 @@
-"""The rigid wedge bearing: Figures 7 to 10 of the paper, convergence to the exact series, and a pocket."""
+"""The rigid wedge bearing: Figures 7 to 10 of the paper and convergence to the exact series."""
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -6,8 +6,10 @@ from scipy.interpolate import CubicSpline
 from mgehl.discretization.couette import SCHEMES
 from mgehl.model.wedge_series import WedgeSeries
 from mgehl.output.center_line import center_line
-from mgehl.studies import wedge_pocket
-from mgehl.studies.study import merged, observed_order
+from mgehl.studies import wedge_figures as figures
+from mgehl.studies.columns import told
+from mgehl.studies.limits import observed_order
+from mgehl.studies.study import merged
 
 BASE = {
     "contact": {"kind": "wedge"},
@@ -31,11 +33,10 @@ NODES = (129, 257, 513, 1025)
 
 
 def run(study):
-    """Solve all cases; write tables `cases`, `convergence` and two of a pocket, figures 7, 8, 9, 10."""
+    """Solve all cases; write tables `cases` and `convergence`, figures 7, 8, 9, 10."""
     nodes = study.nodes or NODES
     study.cases = 4 + 3 * len(PILLARS) + 2 * len(SCHEMES) * len(nodes)
-    study.cases += len(wedge_pocket.COUETTE) * len(wedge_pocket.LINE_NODES) + len(wedge_pocket.SIZES)
-    solutions = _figure_cases(study)
+    solutions = {name: study.solve(name, tables) for name, tables in _figure_cases().items()}
     study.write_table("cases", [_case_row(name, solution) for name, solution in solutions.items()])
     rows = []
     for shape in ("blocked exit", "no blockage"):
@@ -44,58 +45,35 @@ def run(study):
         for couette in SCHEMES:
             rows += _convergence(study, shape, couette, nodes, exact)
     study.write_table("convergence", rows)
-    wedge_pocket.run(study, min(max(nodes), FIGURE_NODES))
-    from mgehl.studies import wedge_figures  # matplotlib is slow to import
-
-    study.draw("figure_7", wedge_figures.pressure_map, solutions["square pillar"])
-    study.draw("figure_8", wedge_figures.pressure_map, solutions["cylindrical pillar"])
-    study.draw("figure_9", wedge_figures.center_lines, solutions)
-    study.draw("figure_10", wedge_figures.untreated, solutions)
+    study.draw("figure_7", figures.pressure_map, solutions["square pillar"])
+    study.draw("figure_8", figures.pressure_map, solutions["cylindrical pillar"])
+    study.draw("figure_9", figures.center_lines, solutions)
+    study.draw("figure_10", figures.untreated, solutions)
 
 
 def case(shape, nodes=FIGURE_NODES, couette="1B", interface="closed", turned=False):
     """The tables of one configuration."""
-    return merged(
-        BASE,
-        {
-            "wedge": SHAPES[shape] | {"reversed": turned},
-            "grid": {"nodes": nodes},
-            "discretization": {
-                "couette": couette,
-                "face_mobility": "arithmetic",
-                "couette_at_interface": interface,
-            },
-        },
-    )
+    scheme = {"couette": couette, "face_mobility": "arithmetic", "couette_at_interface": interface}
+    wedge = SHAPES[shape] | {"reversed": turned}
+    return merged(BASE, {"wedge": wedge, "grid": {"nodes": nodes}, "discretization": scheme})
 
 
-def _figure_cases(study):
-    """Solutions of the figures by name."""
-    solutions = {}
-    for shape in SHAPES:
-        solutions[shape] = study.solve(shape, case(shape))
+def _figure_cases():
+    """Tables of the figures' cases by name."""
+    cases = {shape: case(shape) for shape in SHAPES}
     for shape in PILLARS:
-        for name, options in (
-            (f"{shape}, untreated", {"interface": "untreated"}),
-            (f"{shape}, turned", {"turned": True}),
-            (f"{shape}, turned, untreated", {"turned": True, "interface": "untreated"}),
-        ):
-            solutions[name] = study.solve(name, case(shape, **options))
-    return solutions
+        cases[f"{shape}, untreated"] = case(shape, interface="untreated")
+        cases[f"{shape}, turned"] = case(shape, turned=True)
+        cases[f"{shape}, turned, untreated"] = case(shape, turned=True, interface="untreated")
+    return cases
 
 
 def _case_row(name, solution):
-    result = solution.result
+    numbers = "load mm, largest P 1/mm, smallest P 1/mm, flow through closed faces, flux imbalance"
     return {
         "case": name,
         "nodes": str(solution.mesh.nx),
-        "load mm": f"{result.load:.5f}",
-        "largest P 1/mm": f"{result.max_P:.6f}",
-        "smallest P 1/mm": f"{result.min_P:.6f}",
-        "flow through closed faces": f"{result.closed_face_flow:.1e}",
-        "flux imbalance": f"{result.flux_imbalance:.1e}",
-        "residual": f"{result.residual:.1e}",
-        "iterations": str(result.linear_iterations),
+        **told(solution.result, f"{numbers}, residual, iterations"),
     }
 
 
@@ -107,18 +85,13 @@ def _convergence(study, shape, couette, nodes, exact):
         if not study.first:
             continue
         errors = relative_errors(solution, exact)
-        orders = [observed_order(*pair) for pair in zip(before or errors, errors, strict=True)]
         row = {"case": shape, "couette": couette, "nodes": str(n)}
-        for name, error, order in zip((*PLACES, "load"), errors, orders, strict=True):
+        for name, error, coarse in zip((*PLACES, "load"), errors, before or errors, strict=True):
             label = name if name == "load" else f"P({name:g},0)"
             row[f"{label} error %"] = f"{100 * error:+.5f}"
-            row[f"{label} order"] = f"{order:.2f}" if before else ""
-        row["residual"] = f"{solution.result.residual:.1e}"
-        row["flux imbalance"] = f"{solution.result.flux_imbalance:.1e}"
-        row["flow through closed faces"] = f"{solution.result.closed_face_flow:.1e}"
-        row["iterations"] = str(solution.result.linear_iterations)
-        row["wall s"] = f"{solution.result.wall_s:.2f}"
-        rows.append(row)
+            row[f"{label} order"] = f"{observed_order(coarse, error):.2f}" if before else ""
+        numbers = "residual, flux imbalance, flow through closed faces, iterations, wall s:.2f"
+        rows.append(row | told(solution.result, numbers))
         before = errors
     return rows
 

@@ -13,49 +13,42 @@ LIMITS = (-0.026, 0.018)
 """P of both pressure maps, as one colour scale."""
 
 
-def pressure_map(path, solution):
+def pressure_map(solution):
     """Figures 7 and 8: the pressure over the pad."""
-    with style.applied():
-        figure, axes = style.subplots(size=(6.2, 3.9))
-        wedge_picture.pressure_map(axes, solution, LIMITS, extend="both")
-        axes.set_title(f"{solution.contact.pillar} pillar (grey); the film moves towards small X")
-        style.save(figure, path)
+    figure, axes = style.subplots(size=(6.2, 3.9))
+    wedge_picture.pressure_map(axes, solution, LIMITS, extend="both")
+    axes.set_title(f"{solution.contact.pillar} pillar (grey); the film moves towards small X")
+    return figure
 
 
-def center_lines(path, solutions):
+def center_lines(solutions):
     """Figure 9: all four cases on Y = 0, the blocked exit's series as marks."""
-    with style.applied():
-        figure, axes = style.subplots(size=(6.8, 4.4))
-        for shape, colour in COLOURS.items():
-            dash = "--" if shape == "no blockage" else "-"
-            axes.plot(
-                *center_line(solutions[shape].mesh, solutions[shape].fields),
-                dash,
-                color=colour,
-                label=shape,
-            )
-        X = np.linspace(20.0, 48.0, 15)
-        series = WedgeSeries(20.0, 50.0, 20.0, True)
-        label = "blocked exit, series"
-        axes.plot(X, series.pressure(X), "s", color=COLOURS["blocked exit"], markersize=4, label=label)
-        _finish(axes, "Figure 9: pressure on Y = 0")
-        style.save(figure, path)
+    figure, axes = style.subplots(size=(6.8, 4.4))
+    for shape, colour in COLOURS.items():
+        dash = "--" if shape == "no blockage" else "-"
+        line = center_line(solutions[shape].mesh, solutions[shape].fields)
+        axes.plot(*line, dash, color=colour, label=shape)
+    X = np.linspace(20.0, 48.0, 15)
+    series = WedgeSeries(20.0, 50.0, 20.0, True)
+    label = "blocked exit, series"
+    axes.plot(X, series.pressure(X), "s", color=COLOURS["blocked exit"], markersize=4, label=label)
+    _finish(axes, "Figure 9: pressure on Y = 0")
+    return figure
 
 
-def untreated(path, solutions):
+def untreated(solutions):
     """Figure 10: what an untreated Couette flow does, in both orientations."""
-    with style.applied():
-        figure, panels = style.subplots(1, 2, size=(11.5, 4.4))
-        titles = ("(a) film moves against the differencing", "(b) turned: with the differencing")
-        for axes, turned, title in zip(panels, ("", ", turned"), titles, strict=True):
-            for shape in ("square pillar", "cylindrical pillar"):
-                for case, dash, label in (("", "-", shape), (", untreated", "--", f"{shape}, NTCF")):
-                    solution = solutions[f"{shape}{turned}{case}"]
-                    line = center_line(solution.mesh, solution.fields)
-                    axes.plot(*line, dash, color=COLOURS[shape], label=label)
-            _finish(axes, title)
-        figure.suptitle("Figure 10: scheme 1B with and without treatment of the Couette flow (NTCF)")
-        style.save(figure, path)
+    figure, panels = style.subplots(1, 2, size=(11.5, 4.4))
+    titles = ("(a) film moves against the differencing", "(b) turned: with the differencing")
+    for axes, turned, title in zip(panels, ("", ", turned"), titles, strict=True):
+        for shape in ("square pillar", "cylindrical pillar"):
+            for case, dash, label in (("", "-", shape), (", untreated", "--", f"{shape}, NTCF")):
+                solution = solutions[f"{shape}{turned}{case}"]
+                line = center_line(solution.mesh, solution.fields)
+                axes.plot(*line, dash, color=COLOURS[shape], label=label)
+        _finish(axes, title)
+    figure.suptitle("Figure 10: scheme 1B with and without treatment of the Couette flow (NTCF)")
+    return figure
 
 
 def _finish(axes, title):

@@ -3,8 +3,8 @@
 import pytest
 
 from mgehl.cli import main
-from mgehl.commands.study import STUDIES
 from mgehl.output.study_directory import StudyRecord, write_record
+from mgehl.studies.catalogue import WHAT
 
 RUN = ["run", "--set", "grid.nodes=65", "--set", "solver.start=contact", "--quiet", "--out", "dry"]
 
@@ -91,5 +91,5 @@ def test_a_study(here, capsys):
     write_record(here / "mine", StudyRecord("schemes", (65,), 1, {"petsc": "3.18.5"}))
     assert main(["report", "mine"]) == 0
     html = (here / "mine" / "report.html").read_text(encoding="utf-8")
-    assert "<h1>Study schemes</h1>" in html and STUDIES["schemes"] in html
+    assert "<h1>Study schemes</h1>" in html and WHAT["schemes"] in html
     assert "S2B-vi" in html and "3.18.5" in html

@@ -78,6 +78,18 @@ def test_an_end_in_between_is_made_good(tmp_path, moved, monkeypatch):
     assert found == {"b.csv": "1", "c.csv": "1"} and read_record(tmp_path).versions == {"mgehl": "1"}
 
 
+def test_by_force_its_runs_are_solved_anew_and_what_is_not_its_own_stays(study):
+    (run,) = (study / "runs").iterdir()
+    before = (run / "fields.h5").stat().st_mtime_ns
+    (run / "notes.txt").write_text("mine")
+    (study / "runs" / "mine").mkdir()
+    assert main([*DRY, "here", "--force"]) == 0
+    assert (run / "fields.h5").stat().st_mtime_ns > before
+    assert (run / "notes.txt").read_text() == "mine" and (study / "runs" / "mine").exists()
+    assert main(["study", "dry", "--nodes", "129", "--quiet", "--out", "here", "--force"]) == 0
+    assert {path.name for path in run.iterdir()} == {"notes.txt"}
+
+
 def test_it_goes_on_in_its_own_directory_alone(study, capsys):
     assert main([*DRY, "here", "--resume"]) == 0
     line = refused(capsys, "study", "wedge", "--out", "here", "--resume")

@@ -13,7 +13,10 @@ from mgehl.cli import main
 from mgehl.config import load_config
 from mgehl.errors import UserError
 from mgehl.solver.restart import Forecast
-from mgehl.studies import sweep
+from mgehl.studies import study
+from mgehl.studies.axes import axis_of
+from mgehl.studies.neighbours import start_of
+from mgehl.studies.points import points_of
 
 FILM = ["--set", "grid.nodes=65", "--set", "solver.error=false", "--set", "solver.start=film"]
 SPEEDS = "motion.speed=0.5..2 m/s:3"
@@ -60,24 +63,24 @@ def test_a_point_from_its_neighbours_is_the_one_from_nothing(film):
 
 
 def test_killed_and_resumed_it_has_the_same_table(film, tmp_path, monkeypatch):
-    run, count = sweep.run, iter(range(2))
+    run, count = study.run, iter(range(2))
 
     def killed(*arguments):
         if next(count, None) is None:
             raise KeyboardInterrupt
         return run(*arguments)
 
-    monkeypatch.setattr(sweep, "run", killed)
+    monkeypatch.setattr(study, "run", killed)
     assert main([*SWEEP, str(tmp_path / "film")]) != 0
     assert not (tmp_path / "film" / "sweep.csv").exists()
-    monkeypatch.setattr(sweep, "run", run)
+    monkeypatch.setattr(study, "run", run)
     assert main([*SWEEP, str(tmp_path / "film"), "--resume"]) == 0
     for name in ("sweep.csv", "sweep.md"):
         assert (tmp_path / "film" / name).read_bytes() == (film / name).read_bytes()
 
 
 def test_what_is_there_is_not_solved_again_nor_taken_for_another(film, capsys, monkeypatch):
-    monkeypatch.setattr(sweep, "run", None)
+    monkeypatch.setattr(study, "run", None)
     assert main([*SWEEP, str(film), "--resume"]) == 0
     words = [word.replace("0.5..", "0.6..") for word in SWEEP]
     assert main([*words, str(film), "--resume"]) == 2
@@ -86,7 +89,7 @@ def test_what_is_there_is_not_solved_again_nor_taken_for_another(film, capsys, m
 
 
 def test_a_point_that_fails_is_said_and_passed(tmp_path, capsys, monkeypatch):
-    run, starts = sweep.run, []
+    run, starts = study.run, []
 
     def failing(case, path, comm, watch, start):
         starts.append(start)
@@ -94,7 +97,7 @@ def test_a_point_that_fails_is_said_and_passed(tmp_path, capsys, monkeypatch):
             raise UserError("no memory")
         return run(case, path, comm, watch, start)
 
-    monkeypatch.setattr(sweep, "run", failing)
+    monkeypatch.setattr(study, "run", failing)
     assert main([*SWEEP, str(tmp_path / "film")]) == 1
     assert "1.25 m/s: not solved: no memory" in capsys.readouterr().err
     first, second, third = starts
@@ -106,16 +109,16 @@ def test_a_point_that_fails_is_said_and_passed(tmp_path, capsys, monkeypatch):
 def test_the_third_of_a_line_is_forecast(film):
     """By a power of the speed where both solutions before have one."""
     config = load_config(None, {"motion.speed": 1.0})
-    axes = [sweep.axis_of(config, "motion.speed", [0.5, 1.25, 2.0])]
-    points = sweep.points_of(config, axes)
+    axes = [axis_of(config, "motion.speed", [0.5, 1.25, 2.0])]
+    points = points_of(config, axes)
     behind = [(points[k], mgehl.read(film / "runs" / points[k].run)) for k in range(2)]
-    start = sweep._start(behind, axes, points[2])
+    start = start_of(behind, axes, points[2])
     assert isinstance(start, Forecast) and start.last is behind[1][1]
     before, last = (each.result.central_film_nm for _, each in behind)
     assert last + start.factor * (last - before) == pytest.approx(
         last * (last / before) ** (np.log(2.0 / 1.25) / np.log(1.25 / 0.5))
     )
-    assert sweep._start(behind[1:], axes, points[2]) == Forecast(behind[1][1])
+    assert start_of(behind[1:], axes, points[2]) == Forecast(behind[1][1])
 
 
 @pytest.mark.parametrize(
@@ -131,17 +134,17 @@ def test_the_third_of_a_line_is_forecast(film):
     ],
 )
 def test_ranges_and_lists(text, values):
-    assert sweep.axis_of(load_config(), "motion.speed", text).values == pytest.approx(values)
+    assert axis_of(load_config(), "motion.speed", text).values == pytest.approx(values)
 
 
 def test_several_keys_are_a_snake_there_and_back():
     config = load_config()
     axes = [
-        sweep.axis_of(config, "motion.speed", [1.0, 2.0, 3.0]),
-        sweep.axis_of(config, "contact.load", [50, 60]),
+        axis_of(config, "motion.speed", [1.0, 2.0, 3.0]),
+        axis_of(config, "contact.load", [50, 60]),
     ]
     there = [(0, 0), (1, 0), (2, 0), (2, 1), (1, 1), (0, 1)]
-    points = sweep.points_of(config, axes, both_ways=True)
+    points = points_of(config, axes, both_ways=True)
     assert [point.place for point in points] == there + there[::-1]
     assert [point.way for point in points] == 6 * [0] + 6 * [1]
     assert points[3].config.motion.speed == 3.0 and points[3].config.contact.load == 60.0

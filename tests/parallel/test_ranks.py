@@ -11,6 +11,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from mpi4py import MPI
+from pocket_reference import case as pocket_case
 
 from mgehl.config import config_from_tables
 from mgehl.discretization.residual import Linearisation
@@ -30,7 +31,6 @@ from mgehl.solver.verification import complementarity_error, flux_imbalance
 from mgehl.studies.branch import Branches
 from mgehl.studies.study import PAPER, Study, merged, papers_grid
 from mgehl.studies.wedge import case as wedge_case
-from mgehl.studies.wedge_pocket import case as pocket_case
 
 pytestmark = pytest.mark.parallel
 

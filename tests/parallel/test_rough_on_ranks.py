@@ -8,12 +8,22 @@ from mpi4py import MPI
 from mgehl.config import config_from_tables
 from mgehl.multigrid import valleys
 from mgehl.run import solve
-from mgehl.studies import rough
+from mgehl.studies.chance import BALL
 from mgehl.studies.study import merged
 
 pytestmark = pytest.mark.parallel
 
 COMM = MPI.COMM_WORLD
+
+LONG_WAVES = merged(
+    BALL,
+    {
+        "contact": {"load": 100.0, "boundary_film": 10e-9},
+        "surface": {"rms": 20e-9, "hurst": 0.8, "shortest_wavelength": 90e-6, "seed": 1},
+        "grid": {"nodes": 65},
+        "motion": {"speed": 0.007},
+    },
+)
 
 
 def numbers(mixed):
@@ -23,8 +33,7 @@ def numbers(mixed):
 
 @pytest.mark.parametrize("angle", [0.0, 90.0])
 def test_film_and_contact_are_those_of_one_rank(angle):
-    long_waves = {"surface": {"rms": 20e-9, "shortest_wavelength": 90e-6}}
-    tables = merged(rough.case(65, 0.007, "contact", 10e-9), long_waves, {"motion": {"angle": angle}})
+    tables = merged(LONG_WAVES, {"solver": {"start": "contact"}, "motion": {"angle": angle}})
     config = config_from_tables(merged(tables, {"solver": {"error": True}}))
     together, alone = solve(config, COMM).result, solve(config, MPI.COMM_SELF).result
     assert together.converged and alone.converged
@@ -43,8 +52,7 @@ def test_film_and_contact_are_those_of_one_rank(angle):
 def test_so_are_they_where_nearby_nodes_are_solved_at_once(monkeypatch):
     """From the first relaxation on, on all grids but the coarsest."""
     monkeypatch.setattr(valleys, "PATIENCE", 0)
-    long_waves = {"surface": {"rms": 20e-9, "shortest_wavelength": 90e-6}}
-    tables = merged(rough.case(65, 0.007, "film", 10e-9), long_waves, {"solver": {"error": False}})
+    tables = merged(LONG_WAVES, {"solver": {"start": "film", "error": False}})
     found = [solve(config_from_tables(tables), comm).result for comm in (COMM, MPI.COMM_SELF)]
     together, alone = found
     assert together.converged and alone.converged

@@ -16,7 +16,8 @@ from mgehl.run import solve as solve_config
 from mgehl.solver.from_config import scheme_from
 from mgehl.solver.verification import complementarity_error, flux_imbalance
 from mgehl.solver.wedge import solve_wedge
-from mgehl.studies.study import merged, observed_order
+from mgehl.studies.limits import observed_order
+from mgehl.studies.study import merged
 from mgehl.studies.wedge import PLACES, case, relative_errors
 
 SHAPES = ("blocked exit", "no blockage")

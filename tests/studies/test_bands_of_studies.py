@@ -1,4 +1,4 @@
-"""Studies error and gaps: what is drawn, how a band is judged, what is said of all."""
+"""Study error: what is drawn, how a band is judged, what is said of all."""
 
 import csv
 from math import nan
@@ -6,7 +6,6 @@ from math import nan
 import pytest
 from mpi4py import MPI
 
-from mgehl.cli import main
 from mgehl.studies import error
 from mgehl.studies.bands import Band, cells
 from mgehl.studies.study import Study
@@ -27,19 +26,6 @@ def test_films_of_a_random_contact(tmp_path):
         off = abs(float(row["central limit nm"]) - film)
         assert row["central band/error"].endswith("!") == (off > half_width)
     assert [(row["of"], row["bands"]) for row in bands] == [("central", "2"), ("minimum", "2")]
-
-
-def test_gaps_of_a_ball_on_two_grids(tmp_path):
-    """Of a seed whose first surface 65 nodes show."""
-    here, grids = tmp_path / "gaps", ["--nodes", "65,129", "--cases", "1", "--seed", "36"]
-    assert main(["study", "gaps", *grids, "--quiet", "--out", str(here)]) == 0
-    (row,) = read(here / "gaps.csv")
-    assert row["converged"] == "yes yes" and 0.0 < float(row["more work %"]) < 100.0
-    for gap in ("mean gap", "by pressure"):
-        nm, half_width = map(float, row[f"{gap} nm"].split(" ± "))
-        off = abs(float(row[f"{gap} limit nm"]) - nm)
-        assert row[f"{gap} band/error"].endswith("!") == (off > half_width)
-    assert [row["of"] for row in read(here / "gaps-summary.csv")] == ["mean gap", "by pressure"]
 
 
 @pytest.mark.parametrize(

@@ -118,13 +118,13 @@ class TestKill:
         """Killed with some points done, gone on with: the table of a study that was left alone."""
         killed, alone = tmp_path / "killed", tmp_path / "alone"
         child = subprocess.Popen(self.command(killed), start_new_session=True, stdout=subprocess.DEVNULL)
-        points = killed / "points"
+        points = killed / "runs"
         deadline = time.monotonic() + 300.0
-        while time.monotonic() < deadline and len(list(points.glob("*"))) < 3:
+        while time.monotonic() < deadline and len(list(points.glob("*/fields.h5"))) < 2:
             time.sleep(0.02)
         os.killpg(child.pid, signal.SIGKILL)
         child.wait()
-        done = {path: path.stat().st_mtime_ns for path in points.glob("[!.]*.npz")}
+        done = {path: path.stat().st_mtime_ns for path in points.glob("*/fields.h5")}
         assert 2 <= len(done) < 6 and not (killed / "transition-65.csv").exists()
         subprocess.run(self.command(killed, "--resume"), check=True, stdout=subprocess.DEVNULL)
         subprocess.run(self.command(alone), check=True, stdout=subprocess.DEVNULL)

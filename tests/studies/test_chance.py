@@ -51,8 +51,8 @@ class TestBalls:
         assert float(whole["convolutions, mean"]) == pytest.approx(mean, abs=0.1)
         most = max(float(each["made"]) for each in rows)
         assert float(whole["largest made"]) == most
-        assert len(list((here / "points").iterdir())) == 2
-        monkeypatch.setattr(study, "solve", None)  # nothing is solved again
+        assert len(list((here / "runs").iterdir())) == 2
+        monkeypatch.setattr(study, "run", None)  # nothing is solved again
         assert run("mixed", here, "--cases", "2", "--seed", "3", "--resume") == 0
         assert read(here / "mixed.csv") == rows
 

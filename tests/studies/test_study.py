@@ -9,9 +9,10 @@ from mpi4py import MPI
 from mgehl.config import config_from_tables
 from mgehl.errors import ConfigError, UserError
 from mgehl.kinds import case_of
-from mgehl.run import solve
+from mgehl.run import run
 from mgehl.solver.from_config import set_up
-from mgehl.studies.study import BEST, Study, merged, observed_order, richardson
+from mgehl.studies.limits import observed_order, richardson
+from mgehl.studies.study import BEST, Study, merged
 
 FILM = {"motion": {"speed": 1.0}, "grid": {"nodes": 65}}
 SLOWER = {"motion": {"speed": 0.7}}
@@ -63,12 +64,12 @@ def test_a_table_is_written_twice_and_printed(study, capsys):
 
 
 def test_named_cases_are_solved_in_their_order_and_one_that_cannot_be_is_passed(study, capsys, monkeypatch):
-    def broken(config, comm):
-        if config.grid.nodes == 129:
+    def broken(case, *how):
+        if case.config.grid.nodes == 129:
             raise UserError("there is no room")
-        return solve(config, comm)
+        return run(case, *how)
 
-    monkeypatch.setattr("mgehl.studies.study.solve", broken)
+    monkeypatch.setattr("mgehl.studies.study.run", broken)
     large = merged(FILM, {"grid": {"nodes": 129}})
     found = dict(study.solved({"a film": FILM, "large": large, "slower": merged(FILM, SLOWER)}))
     assert list(found) == ["a film", "slower"] and study.failures == 1

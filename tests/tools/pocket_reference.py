@@ -7,9 +7,16 @@ unknown is enough for a cell: z is p over a pressure of the film, and in a cavit
 """
 
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 from scipy.linalg import solve_banded
+
+from mgehl.config import load_config
+from mgehl.output.center_line import center_line
+from mgehl.studies.study import BEST, merged
+
+FILE = Path(__file__).parents[2] / "configs" / "pocket.toml"
 
 LENGTH, INLET_FILM, EXIT_FILM = 20e-3, 1.1e-6, 1.0e-6
 POCKET, DEPTH = (4e-3, 10e-3), 0.4e-6
@@ -19,6 +26,8 @@ VISCOSITY, PRESSURE_VISCOSITY = 0.01, 12e-9
 AMBIENT = 1e5
 C1, C2 = 2.22e9, 1.66
 """Of Dowson and Higginson's density."""
+SIZES = {"small": (10e-3, 7e-3), "large": (300e-3, 210e-3)}
+"""Widths of pad and pocket in m, of the sliders of finite width."""
 SCALE = 6.0 * VISCOSITY * SPEED * LENGTH / EXIT_FILM**2
 """Pa, of z."""
 
@@ -30,11 +39,6 @@ DIFFERENCE = 1e-7
 """Of z, for derivatives."""
 BEGUN = 1e-15
 """Size of z where a film has just torn, or a cavity has just been filled."""
-
-
-def density(at):
-    """rho/rho_0 and its derivative: lubricant.density_law of the study's configurations."""
-    return density_at(at.pressure)
 
 
 def density_at(p):
@@ -104,3 +108,25 @@ def _flow(x, z):
     dragged = sum(0.5 * SPEED * 3.0 * dx / gap**2 * (eta[:-1] + eta[1:]) for gap in halves)
     pressed = 0.5 * (rho[:-1] + rho[1:]) * np.diff(p)
     return (theta * rho[:-1] * dragged - pressed) / sum(resistances)
+
+
+def case(nodes, couette="3B", size=None):
+    """The tables of mgehl's slider; without a `size` nothing varies across the motion."""
+    pad, pocket = SIZES.get(size, (None, None))
+    wide = {"width": pad, "sides": "open", "pocket_width": pocket} if size else {}
+    own = {"wedge": wide, "grid": {"nodes": nodes}, "discretization": BEST | {"couette": couette}}
+    return merged(load_config(FILE).as_toml_tables(), own)
+
+
+def pressures(solution):
+    """x in m and the pressure in Pa on the centre line."""
+    X, P = center_line(solution.mesh, solution.fields)
+    return X * solution.contact.x_scale, P * solution.contact.pressure_scale
+
+
+def difference(solution, answer):
+    """The largest difference to an `Answer` at any node, over its largest pressure."""
+    x, p = pressures(solution)
+    beside = np.interp(x, np.pad(answer.x, 1, constant_values=(0.0, LENGTH)),
+                       np.pad(answer.p, 1, constant_values=AMBIENT))  # fmt: skip
+    return np.abs(p - beside).max() / answer.p.max()
