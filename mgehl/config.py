@@ -21,6 +21,9 @@ from mgehl.kinds import choices, derived, kind_of
 from mgehl.kinds.bodies import BodySection
 from mgehl.kinds.choice import named, value_of
 from mgehl.kinds.derived import overridden
+from mgehl.kinds.friction import FrictionSection
+from mgehl.kinds.heat import HeatSection
+from mgehl.kinds.lubricant import LubricantSection
 from mgehl.kinds.point import CoatingSection, MoesSection
 from mgehl.kinds.surface_kinds import SurfaceSection
 from mgehl.kinds.time import TimeSection
@@ -48,13 +51,13 @@ class Config:
     contact: sections.ContactSection = sections.ContactSection()
     coating: CoatingSection = CoatingSection()
     wedge: WedgeSection = WedgeSection()
-    lubricant: sections.LubricantSection = sections.LubricantSection()
+    lubricant: LubricantSection = LubricantSection()
     motion: sections.MotionSection = sections.MotionSection()
     time: TimeSection = TimeSection()
     body_1: BodySection = BodySection()
     body_2: BodySection = BodySection()
-    friction: sections.FrictionSection = sections.FrictionSection()
-    heat: sections.HeatSection = sections.HeatSection()
+    friction: FrictionSection = FrictionSection()
+    heat: HeatSection = HeatSection()
     surface: SurfaceSection = SurfaceSection()
     second_surface: SurfaceSection = SurfaceSection()
     moes: MoesSection = MoesSection()

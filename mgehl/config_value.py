@@ -34,23 +34,46 @@ LEFT_OUT = ("pandas", "xarray", "dask", "pint_pandas")
 """What pint would import for the sake of its arrays, in two thirds of the time that pint takes."""
 
 
-def key_field(
-    default, help, unit=None, above=None, low=None, high=None, choices=None, kind=float, own=None,
-    own_name=OWN, instead="",
-):  # fmt: skip
-    """A dataclass field that carries its rules as metadata.
+def number(default, help, unit=None, low=None, high=None, above=None, own=None, instead=""):
+    """A key with a number from `low`, or from what is `above`, to `high`: a dataclass field whose metadata
+    are its rules.
 
-    `own` reads a word that is none of the choices, or no number, such as a function of the user's own,
-    whose path counts from a directory; it returns None for what it cannot read. `own_name` is how messages
-    call that. `instead` names the key that takes what people often give here in a unit of another kind.
+    `own` reads a word in its place, such as a function of the user's own, whose path counts from a
+    directory; it returns None for what it cannot read. `instead` names the key that takes what people often
+    give here in a unit of another kind.
     """
-    rules = {
-        "help": help, "unit": unit, "above": above, "low": low, "high": high,
-        "choices": choices, "kind": kind, "own": own, "instead": instead,
-        "words": (*(choices or ()), *([own_name] if own and kind is str else []),
-                  *([AUTO] if kind is tuple else [])),
-    }  # fmt: skip
-    return field(default=default, metadata=rules)
+    return _key(default, help, float, unit, low, high, above=above, own=own, instead=instead)
+
+
+def whole(default, help, low, high=None):
+    """A key with a whole number."""
+    return _key(default, help, int, None, low, high)
+
+
+def word(default, help, choices=None, own=None, own_name=OWN):
+    """A key with one of some words, or with what `own` reads, called `own_name` in messages."""
+    words = (*(choices or ()), *([own_name] if own else []))
+    return _key(default, help, str, choices=choices, own=own, words=words)
+
+
+def switch(default, help):
+    """A key that is true or false."""
+    return _key(default, help, bool)
+
+
+def interval(default, help):
+    """A key with the two ends of a domain, or "auto"."""
+    return _key(default, help, tuple, words=(AUTO,))
+
+
+def _key(
+    default, help, kind, unit=None, low=None, high=None, above=None, choices=None, own=None, instead="",
+    words=(),
+):  # fmt: skip
+    rules = {"help": help, "unit": unit, "above": above, "low": low, "high": high, "choices": choices}
+    return field(
+        default=default, metadata=rules | {"kind": kind, "own": own, "instead": instead, "words": words}
+    )
 
 
 def shown(value):
@@ -64,50 +87,38 @@ def shown(value):
 
 def read_value(key, rules, value):
     """The value that `value`, as read from TOML, stands for. Raises ConfigError."""
-    if rules["kind"] is str:
-        return _word(key, rules, value)
+    kind, choices = rules["kind"], rules["choices"] or ()
+    if kind is str and isinstance(value, str) and value in choices:
+        return value
     if rules["own"] and (own := rules["own"](value)):
         return own
-    if rules["kind"] is tuple:
+    if kind is float or kind is int:
+        return _number(key, rules, value)
+    if kind is tuple:
         return _interval(key, value)
-    if rules["kind"] is bool:
-        if not isinstance(value, bool):
-            raise ConfigError(f"{key} = {shown(value)}: must be true or false")
+    if kind is bool and isinstance(value, bool):
         return value
-    number = _number(key, rules, value)
-    if not _in_range(rules, number):
-        raise ConfigError(f"{key} = {shown(value)}: must be {_describe_range(rules)}")
-    return number
-
-
-def _word(key, rules, value):
-    if isinstance(value, str) and value in (rules["choices"] or ()):
-        return value
-    if rules["own"] and (own := rules["own"](value)):
-        return own
     raise ConfigError(f"{key} = {shown(value)}: must be {describe_rules(rules)}")
 
 
-def read_quantity(name, text, unit, above=0.0):
-    """The SI number that the word of a command line stands for. Raises ConfigError."""
+def read_quantity(name, text, unit):
+    """The SI number above 0 that the word of a command line stands for. Raises ConfigError."""
     try:
         value = float(text)
     except ValueError:
         value = text
-    limits = {"above": above, "low": None, "high": None}
-    return read_value(name, limits | {"choices": None, "kind": float, "unit": unit, "own": None}, value)
+    return read_value(name, number(0.0, "", unit, above=0.0).metadata, value)
 
 
-def _number(key, rules, value):
+def _number(key, rules, given):
+    value = given
     if isinstance(value, str) and rules["unit"] is not None:
-        value = _with_unit(key, rules["unit"], value, rules.get("instead"))
-    if not _is_number(value):
-        raise ConfigError(f"{key} = {shown(value)}: must be {_describe_range(rules)}")
-    if rules["kind"] is int:
-        if value != int(value):
-            raise ConfigError(f"{key} = {shown(value)}: must be {_describe_range(rules)}")
-        return int(value)
-    return float(value)
+        value = _with_unit(key, rules["unit"], value, rules["instead"])
+    is_whole = rules["kind"] is int
+    if not _is_number(value) or (is_whole and value != int(value)) or not _in_range(rules, value):
+        wrong = given if _is_number(value) else value
+        raise ConfigError(f"{key} = {shown(wrong)}: must be {_describe_range(rules)}")
+    return rules["kind"](value)
 
 
 def _is_number(value):

@@ -6,7 +6,7 @@ from mgehl.commands import CONVERGED, add_configuration, add_settings, shown
 from mgehl.config import chosen_config, config_from_tables, left_out, naming_file, read_tables
 from mgehl.errors import UserError
 from mgehl.kinds.cited import cited
-from mgehl.kinds.oil import oil_words
+from mgehl.kinds.lubricant import oil_words
 from mgehl.kinds.plausible import implausible
 from mgehl.model.sources import SOURCES
 from mgehl.saying import columns, folded

@@ -8,7 +8,7 @@ others without a word of theirs.
 from dataclasses import dataclass
 from typing import Any
 
-from mgehl.kinds import bodies, oil
+from mgehl.kinds import bodies, lubricant
 from mgehl.kinds.choice import Choice, word_of
 from mgehl.kinds.derived import word_choices
 from mgehl.kinds.dry import DRY, fluid_choice
@@ -48,7 +48,7 @@ def derived(config):
 
     Raises ConfigError where the words do not fit.
     """
-    return (*bodies.derived(config), *oil.derived(config))
+    return (*bodies.derived(config), *lubricant.derived(config))
 
 
 def kind_choice(kind):

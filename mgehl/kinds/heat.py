@@ -1,11 +1,24 @@
 """[heat] and the lubricant's heating: bodies that conduct, oil that is thinned by the heat of its shear."""
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
-from mgehl.config_value import shown
+from mgehl.config_value import number, shown
 from mgehl.errors import ConfigError
-from mgehl.kinds.oil import thinning_of
+from mgehl.kinds.lubricant import thinning_of
 from mgehl.model.flash import Solid
+
+
+@dataclass(frozen=True)
+class HeatSection:
+    # fmt: off
+    conductivity_1: float | None = number(None, "thermal conductivity of body 1 (steel: 46); all four give "
+        "flash temperatures", "W/m/K", 1e-3, 1e4)
+    conductivity_2: float | None = number(None, "the same of body 2", "W/m/K", 1e-3, 1e4)
+    capacity_1: float | None = number(None, "heat capacity of body 1 per volume (steel: 3.6e6)", "J/m^3/K",
+        1e3, 1e8)
+    capacity_2: float | None = number(None, "the same of body 2", "J/m^3/K", 1e3, 1e8)
+    # fmt: on
+
 
 LEAST = 0.2
 """Part of the film below which the factor means nothing: its formula falls through 0."""

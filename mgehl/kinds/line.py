@@ -5,7 +5,8 @@ from mgehl.kinds.bodies import OF_A_LINE
 from mgehl.kinds.friction import friction_from
 from mgehl.kinds.heat import heated, solids_from
 from mgehl.kinds.kind import Effort
-from mgehl.kinds.loaded import LoadedKind, lubricant_from
+from mgehl.kinds.loaded import LoadedKind
+from mgehl.kinds.lubricant import lubricant_from
 from mgehl.kinds.surface import surface_from
 from mgehl.kinds.time import reference
 from mgehl.model.line import LineContact

@@ -2,19 +2,15 @@
 
 from dataclasses import asdict, replace
 
-from mgehl.config_value import AUTO, FARTHEST, shown
-from mgehl.errors import ConfigError
+from mgehl.config_value import AUTO, FARTHEST
 from mgehl.kinds import loaded_checks, surface, time
 from mgehl.kinds.bodies import roughness
 from mgehl.kinds.friction import check_friction
 from mgehl.kinds.heat import check_factor, check_heat
 from mgehl.kinds.kind import Effort, Kind, kept_together
-from mgehl.kinds.oil import thinning_of
+from mgehl.kinds.lubricant import check_laws, thinning_of
 from mgehl.model.films import formula_of, inlet_heating
-from mgehl.model.lubricant import DENSITY_LAWS, VISCOSITY_LAWS, Lubricant
-from mgehl.model.oils import OILS
-from mgehl.model.own_function import OwnFunction, is_own
-from mgehl.model.own_laws import OwnDensity, OwnViscosity
+from mgehl.model.own_laws import OwnDensity
 from mgehl.model.room import domain_for
 from mgehl.model.starvation import Starvation
 
@@ -246,35 +242,3 @@ def heat_words(config, contact):
 def speed_words(u):
     """A speed in mm/s, from 1 m/s on in m/s."""
     return f"{u:.4g} m/s" if u >= 1.0 - 1e-12 else f"{1e3 * u:.4g} mm/s"
-
-
-def check_laws(config):
-    """Raise ConfigError where a law has no meaning for this viscosity."""
-    if is_own(config.lubricant.viscosity_law):
-        return
-    try:
-        lubricant_from(config)
-    except ValueError as error:
-        viscosity = shown(config.lubricant.viscosity)
-        raise ConfigError(f"lubricant.viscosity = {viscosity}: {error}") from None
-
-
-def lubricant_from(config):
-    """The lubricant, by built-in laws or the user's own. Raises ValueError where the numbers fit no law."""
-    section = config.lubricant
-    ambient = section.viscosity, section.pressure_viscosity
-    if section.oil is not None:
-        # By the numbers of the run that is read, where that was made by other ones.
-        viscosity = replace(
-            OILS[section.oil].law(section.temperature), viscosity=ambient[0], pressure_viscosity=ambient[1]
-        )
-    elif is_own(section.viscosity_law):
-        viscosity = OwnViscosity(*ambient, OwnFunction(section.viscosity_law))
-    else:
-        viscosity = VISCOSITY_LAWS[section.viscosity_law](*ambient)
-    if is_own(section.density_law):
-        density = OwnDensity(OwnFunction(section.density_law))
-    else:
-        density = DENSITY_LAWS[section.density_law]()
-    beta = thinning_of(config) if section.thermoviscosity is None else section.thermoviscosity
-    return Lubricant(viscosity, density, section.conductivity, beta)

@@ -2,7 +2,7 @@
 
 from dataclasses import asdict, dataclass
 
-from mgehl.config_value import key_field
+from mgehl.config_value import number
 from mgehl.discretization.fluid import FOLDING
 from mgehl.discretization.mesh import Mesh
 from mgehl.errors import ConfigError
@@ -11,7 +11,8 @@ from mgehl.kinds.choice import Choice, value_of, word_of
 from mgehl.kinds.friction import friction_from
 from mgehl.kinds.heat import heated, solids_from
 from mgehl.kinds.kind import Effort
-from mgehl.kinds.loaded import LoadedKind, lubricant_from
+from mgehl.kinds.loaded import LoadedKind
+from mgehl.kinds.lubricant import lubricant_from
 from mgehl.kinds.own import compliance_from
 from mgehl.kinds.surface import surface_from
 from mgehl.kinds.time import reference
@@ -32,25 +33,21 @@ MEAN = Effort(500.0, 2e-7, 0.01, 1300.0, "folding means of the mobility took 348
 
 @dataclass(frozen=True)
 class CoatingSection:
-    thickness: float | None = key_field(
-        None, "thickness of the layer on one body, where contact.deformation = coated",
-        "m", low=1e-9, high=1.0,
-    )  # fmt: skip
-    modulus: float | None = key_field(None, "Young's modulus of the layer", "Pa", low=1e6, high=1e13)
-    poisson: float = key_field(0.3, "Poisson's ratio of the layer", low=0.0, high=0.5)
-    substrate_modulus: float | None = key_field(
-        None, "Young's modulus beneath it (unset: half of the compliance 2/E' is that body's)",
-        "Pa", low=1e6, high=1e13,
-    )  # fmt: skip
-    substrate_poisson: float = key_field(0.3, "Poisson's ratio beneath it", low=0.0, high=0.5)
+    # fmt: off
+    thickness: float | None = number(None, "thickness of the layer on one body, where contact.deformation "
+        "= coated", "m", 1e-9, 1.0)
+    modulus: float | None = number(None, "Young's modulus of the layer", "Pa", 1e6, 1e13)
+    poisson: float = number(0.3, "Poisson's ratio of the layer", low=0.0, high=0.5)
+    substrate_modulus: float | None = number(None, "Young's modulus beneath it (unset: half of the "
+        "compliance 2/E' is that body's)", "Pa", 1e6, 1e13)
+    substrate_poisson: float = number(0.3, "Poisson's ratio beneath it", low=0.0, high=0.5)
+    # fmt: on
 
 
 @dataclass(frozen=True)
 class MoesSection:
-    M: float | None = key_field(None, "Moes load number, instead of load and speed", "", low=0.01, high=1e7)
-    L: float | None = key_field(
-        None, "Moes material number, instead of load and speed", "", low=0.1, high=100.0
-    )
+    M: float | None = number(None, "Moes load number, instead of load and speed", "", 0.01, 1e7)
+    L: float | None = number(None, "Moes material number, instead of load and speed", "", 0.1, 100.0)
 
 
 def deformation_choice(tables):

@@ -5,7 +5,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from mgehl.config_value import key_field
+from mgehl.config_value import number, word
 from mgehl.errors import ConfigError
 from mgehl.kinds.choice import Choice, value_of
 from mgehl.kinds.own import own_surface_from
@@ -18,23 +18,18 @@ from mgehl.model.scene import Scene
 
 @dataclass(frozen=True)
 class TimeSection:
-    end: float | None = key_field(
-        None, "time at which a run in time ends (unset: a steady state)", "s", above=0.0, high=1e9
-    )
-    step: float | None = key_field(
-        None, "step in time (unset: by the cells that surfaces go, and by the error)", "s",
-        above=0.0, high=1e9,
-    )  # fmt: skip
-    tolerance: float = key_field(
-        1e-3, "residual that a step may leave, over that with which it begins", above=0.0, high=0.1
-    )
-    save_every: float | None = key_field(
-        None, "time between two fields that are kept (unset: 50 in a run)", "s", above=0.0, high=1e9
-    )
-    until: str = key_field(
-        "end", "when it ends: at time.end, or before when means over passages have settled",
-        choices=("end", "settled"), kind=str,
-    )  # fmt: skip
+    # fmt: off
+    end: float | None = number(None, "time at which a run in time ends (unset: a steady state)", "s",
+        above=0.0, high=1e9)
+    step: float | None = number(None, "step in time (unset: by the cells that surfaces go, and by the "
+        "error)", "s", above=0.0, high=1e9)
+    tolerance: float = number(1e-3, "residual that a step may leave, over that with which it begins",
+        above=0.0, high=0.1)
+    save_every: float | None = number(None, "time between two fields that are kept (unset: 50 in a run)",
+        "s", above=0.0, high=1e9)
+    until: str = word("end", "when it ends: at time.end, or before when means over passages have settled",
+        ("end", "settled"))
+    # fmt: on
 
 
 ONLY_IN_TIME = ("motion.speed", "contact.load", "contact.load_per_length")

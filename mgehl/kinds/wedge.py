@@ -2,13 +2,13 @@
 
 from dataclasses import dataclass
 
-from mgehl.config_value import key_field
+from mgehl.config_value import number, switch, word
 from mgehl.discretization.mesh import Mesh
 from mgehl.errors import ConfigError
 from mgehl.kinds.choice import Choice, value_of, word_of
 from mgehl.kinds.kind import Effort, Kind, kept_together
-from mgehl.kinds.loaded import check_laws, lubricant_from
 from mgehl.kinds.loaded_checks import check_own_laws_up_to
+from mgehl.kinds.lubricant import check_laws, lubricant_from
 from mgehl.model.wedge import PILLARS, Pocket, WedgeBearing
 
 LARGEST_ASPECT = 100.0
@@ -41,51 +41,35 @@ EFFORT = Effort(
 
 @dataclass(frozen=True)
 class WedgeSection:
-    exit: float = key_field(
-        20e-3, "where the pad ends: distance from the line of no gap", "m", low=1e-6, high=10.0
-    )
-    inlet: float = key_field(
-        50e-3, "where the pad begins: distance from the line of no gap", "m", low=1e-6, high=10.0
-    )
-    width: float = key_field(20e-3, "width of the pad", "m", low=1e-6, high=10.0)
-    slope: float = key_field(1e-3, "slope m of the pad", "", low=1e-8, high=STEEPEST)
-    length: float | None = key_field(
-        None, "length of a pad that is described by its films; x then goes from the inlet with the motion",
-        "m", low=1e-6, high=10.0,
-    )  # fmt: skip
-    inlet_film: float | None = key_field(
-        None, "film where the pad begins, beside wedge.length", "m", low=1e-9, high=0.1
-    )
-    exit_film: float | None = key_field(
-        None, "film where it ends, smaller or larger", "m", low=1e-9, high=0.1
-    )
-    sides: str = key_field(
-        "open", "what is at the sides: the surroundings, or walls (one line of nodes where nothing varies "
-        "across)", choices=("open", "closed"), kind=str,
-    )  # fmt: skip
-    ambient_pressure: float = key_field(
-        0.0, "pressure around the pad, above that at which the film tears", "Pa", low=0.0, high=1e9
-    )
-    pressure_laws: bool = key_field(
-        False, "whether viscosity and density follow the pressure, by the laws of lubricant", kind=bool
-    )
-    reversed: bool = key_field(
-        False, "turned by 180 degrees: the plate moves with the differencing", kind=bool
-    )
-    blocked_exit: bool = key_field(False, "no flow at the exit", kind=bool)
-    pillar: str = key_field("none", "rigid pillar between pad and plate", choices=PILLARS, kind=str)
-    pillar_x: float = key_field(35e-3, "centre of the pillar along the motion", "m", low=0.0, high=10.0)
-    pillar_y: float = key_field(0.0, "centre of the pillar across the motion", "m", low=-10.0, high=10.0)
-    pillar_size: float = key_field(8e-3, "side or diameter of the pillar", "m", low=1e-6, high=10.0)
-    pocket_depth: float = key_field(
-        0.0, "depth of a rectangular pocket in the pad, its bottom along the pad (0: no pocket)", "m",
-        low=0.0, high=0.1,
-    )  # fmt: skip
-    pocket_from: float | None = key_field(None, "where the pocket begins along x", "m", low=0.0, high=10.0)
-    pocket_to: float | None = key_field(None, "where it ends along x", "m", low=0.0, high=10.0)
-    pocket_width: float | None = key_field(
-        None, "its width, about the middle of the pad (unset: the pad's)", "m", low=1e-6, high=10.0
-    )
+    # fmt: off
+    exit: float = number(20e-3, "where the pad ends: distance from the line of no gap", "m", 1e-6, 10.0)
+    inlet: float = number(50e-3, "where the pad begins: distance from the line of no gap", "m", 1e-6, 10.0)
+    width: float = number(20e-3, "width of the pad", "m", 1e-6, 10.0)
+    slope: float = number(1e-3, "slope m of the pad", "", 1e-8, STEEPEST)
+    length: float | None = number(None, "length of a pad that is described by its films; x then goes from "
+        "the inlet with the motion", "m", 1e-6, 10.0)
+    inlet_film: float | None = number(None, "film where the pad begins, beside wedge.length", "m", 1e-9,
+        0.1)
+    exit_film: float | None = number(None, "film where it ends, smaller or larger", "m", 1e-9, 0.1)
+    sides: str = word("open", "what is at the sides: the surroundings, or walls (one line of nodes where "
+        "nothing varies across)", ("open", "closed"))
+    ambient_pressure: float = number(0.0, "pressure around the pad, above that at which the film tears",
+        "Pa", 0.0, 1e9)
+    pressure_laws: bool = switch(False, "whether viscosity and density follow the pressure, by the laws of "
+        "lubricant")
+    reversed: bool = switch(False, "turned by 180 degrees: the plate moves with the differencing")
+    blocked_exit: bool = switch(False, "no flow at the exit")
+    pillar: str = word("none", "rigid pillar between pad and plate", PILLARS)
+    pillar_x: float = number(35e-3, "centre of the pillar along the motion", "m", 0.0, 10.0)
+    pillar_y: float = number(0.0, "centre of the pillar across the motion", "m", -10.0, 10.0)
+    pillar_size: float = number(8e-3, "side or diameter of the pillar", "m", 1e-6, 10.0)
+    pocket_depth: float = number(0.0, "depth of a rectangular pocket in the pad, its bottom along the pad "
+        "(0: no pocket)", "m", 0.0, 0.1)
+    pocket_from: float | None = number(None, "where the pocket begins along x", "m", 0.0, 10.0)
+    pocket_to: float | None = number(None, "where it ends along x", "m", 0.0, 10.0)
+    pocket_width: float | None = number(None, "its width, about the middle of the pad (unset: the pad's)",
+        "m", 1e-6, 10.0)
+    # fmt: on
 
     @property
     def by_films(self):
