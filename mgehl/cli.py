@@ -113,9 +113,11 @@ def _flushed(status, is_run):
 
 
 class _Help(argparse.HelpFormatter):
-    """Breaks lines at spaces; those of examples so that a shell takes what is copied."""
+    """Breaks lines at spaces, but in a table; those of examples so that a shell takes what is copied."""
 
     def _fill_text(self, text, width, indent):
+        if "\n\n" in text:
+            return text
         if not text.startswith("example: "):
             return super()._fill_text(text, width, indent)
         lines = [""]
@@ -161,7 +163,14 @@ def parser():
     commands = top.add_subparsers(dest="command", required=True, metavar="COMMAND")
     for name in COMMANDS:
         module = import_module(f"mgehl.commands.{name}")
-        module.add(commands).set_defaults(module=module, parser=top)
+        title, *description, example = module.__doc__.split("\n\n")
+        each = commands.add_parser(
+            name, help=title.removeprefix(f"mgehl {name}: "), description="\n\n".join(description),
+            epilog=example.strip(), allow_abbrev=False,
+        )  # fmt: skip
+        if hasattr(module, "add"):
+            module.add(each)
+        each.set_defaults(module=module, parser=top)
     return top
 
 

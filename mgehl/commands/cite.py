@@ -1,21 +1,18 @@
-"""mgehl cite: the publications whose formulas and data a run used."""
+"""mgehl cite: print the publications that a run rests on
+
+Print the papers, books and standards whose equations, laws, data and film formulas a run used, as BibTeX.
+CITATION.cff is that of this program.
+
+example: mgehl cite runs/try
+"""
 
 from mgehl.commands import CONVERGED
 
 PARALLEL = False
 
 
-def add(commands):
-    """Add the parser."""
-    parser = commands.add_parser(
-        "cite",
-        help="print the publications that a run rests on",
-        description="Print the papers, books and standards whose equations, laws, data and film "
-        "formulas a run used, as BibTeX. CITATION.cff is that of this program.",
-        epilog="example: mgehl cite runs/try",
-    )
+def add(parser):
     parser.add_argument("run", metavar="RUN", help="run directory")
-    return parser
 
 
 def execute(options):

@@ -1,4 +1,9 @@
-"""mgehl collect: one table of several run directories."""
+"""mgehl collect: make one table of several run directories
+
+Print a Markdown table with a row for each run directory.
+
+example: mgehl collect runs/try --columns 'run,motion.speed,central nm' --out runs/try.csv
+"""
 
 from pathlib import Path
 
@@ -8,19 +13,11 @@ from mgehl.errors import OutputError, UserError
 PARALLEL = False
 
 
-def add(commands):
-    """Add the parser."""
-    parser = commands.add_parser(
-        "collect",
-        help="make one table of several run directories",
-        description="Print a Markdown table with a row for each run directory.",
-        epilog="example: mgehl collect runs/try --columns 'run,motion.speed,central nm' --out runs/try.csv",
-    )
+def add(parser):
     parser.add_argument("runs", nargs="+", metavar="RUN", help="run directory")
     parser.add_argument("--out", metavar="FILE", help="write the whole table as CSV, too")
     parser.add_argument("--columns", metavar="A,B", help="print only these columns; any key of "
                         "the configuration may be one")  # fmt: skip
-    return parser
 
 
 def execute(options):

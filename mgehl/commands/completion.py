@@ -1,4 +1,10 @@
-"""mgehl completion: what a shell needs to complete mgehl's words."""
+"""mgehl completion: print a script that completes mgehl's words in a shell
+
+Print a completion script. In bash, for this session or from ~/.bashrc for all: eval "$(mgehl completion
+bash)"
+
+example: mgehl completion bash
+"""
 
 import argparse
 
@@ -36,17 +42,8 @@ COMPLETES = {"CONFIG": "FILE", "FILE": "FILE", "DIR": "DIR", "RUN": "DIR", "KEY=
 """What completes an argument, by its metavar, in all commands."""
 
 
-def add(commands):
-    """Add the parser."""
-    parser = commands.add_parser(
-        "completion",
-        help="print a script that completes mgehl's words in a shell",
-        description="Print a completion script. In bash, for this session or from ~/.bashrc for all: "
-        'eval "$(mgehl completion bash)"',
-        epilog="example: mgehl completion bash",
-    )
+def add(parser):
     parser.add_argument("shell", choices=SHELLS, metavar="SHELL", help=", ".join(SHELLS))
-    return parser
 
 
 def execute(options):

@@ -1,4 +1,9 @@
-"""mgehl info: what runs here, for a report of a bug or a paper."""
+"""mgehl info: print versions, libraries, threads and the machine
+
+Print what a run would run on, and which configuration it would read.
+
+example: mgehl info --json
+"""
 
 import json
 
@@ -16,18 +21,9 @@ VALUE = 25
 """Where the values begin."""
 
 
-def add(commands):
-    """Add the parser."""
-    parser = commands.add_parser(
-        "info",
-        help="print versions, libraries, threads and the machine",
-        allow_abbrev=False,
-        description="Print what a run would run on, and which configuration it would read.",
-        epilog="example: mgehl info --json",
-    )
+def add(parser):
     add_configuration(parser)
     parser.add_argument("--json", action="store_true", help="print as JSON")
-    return parser
 
 
 def execute(options, comm):

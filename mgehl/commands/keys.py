@@ -1,4 +1,9 @@
-"""mgehl keys: every configuration key."""
+"""mgehl keys: list every configuration key
+
+List every configuration key with its meaning, choices, default and unit.
+
+example: mgehl keys
+"""
 
 from dataclasses import fields
 
@@ -10,16 +15,6 @@ PARALLEL = False
 
 NAME = 33
 """Columns of a key's name and the space after it."""
-
-
-def add(commands):
-    """Add the parser."""
-    return commands.add_parser(
-        "keys",
-        help="list every configuration key",
-        description="List every configuration key with its meaning, choices, default and unit.",
-        epilog="example: mgehl keys",
-    )
 
 
 def execute(_options):

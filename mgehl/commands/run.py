@@ -1,4 +1,11 @@
-"""mgehl run: solve one contact."""
+"""mgehl run: solve one contact
+
+Solve one contact and write its directory. A run that was stopped, or killed, goes on with --resume, on
+any number of ranks. SIGTERM, Ctrl-C and --time-limit save it first (exit status 143, 130 and 143).
+
+example: mpiexec -n 2 python -m mgehl run --set grid.nodes=65 --set motion.speed='1 m/s' --set
+    solver.start=film --out runs/film -mgehl_ksp_monitor
+"""
 
 from pathlib import Path
 from shlex import quote
@@ -13,18 +20,7 @@ PARALLEL = True
 NO_ERROR = "solver.error=false"
 
 
-def add(commands):
-    """Add the parser."""
-    parser = commands.add_parser(
-        "run",
-        help="solve one contact",
-        allow_abbrev=False,
-        description="Solve one contact and write its directory. A run that was stopped, or killed, goes on "
-        "with --resume, on any number of ranks. SIGTERM, Ctrl-C and --time-limit save it first "
-        "(exit status 143, 130 and 143).",
-        epilog="example: mpiexec -n 2 python -m mgehl run --set grid.nodes=65 --set motion.speed='1 m/s'"
-        " --set solver.start=film --out runs/film -mgehl_ksp_monitor",
-    )
+def add(parser):
     add_configuration(parser)
     add_settings(parser)
     parser.add_argument("--out", metavar="DIR", help="directory of the results (default: runs/NAME)")
@@ -42,7 +38,6 @@ def add(commands):
     how.add_argument("--quiet", action="store_true", help="print nothing but errors")
     how.add_argument("--json-lines", action="store_true", help="print a JSON object per cycle")
     how.add_argument("--verbose", action="store_true", help="print all of each cycle and of the result")
-    return parser
 
 
 def execute(options, comm):

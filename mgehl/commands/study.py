@@ -1,10 +1,15 @@
-"""mgehl study: solve the cases of a study."""
+"""mgehl study: solve many cases and make tables and pictures of them
 
-from argparse import ArgumentTypeError, RawDescriptionHelpFormatter
+Solve the cases of a study; write its tables and pictures.
+
+example: mpiexec -n 2 python -m mgehl study schemes --nodes 65,129
+"""
+
+from argparse import ArgumentTypeError
 from importlib import import_module
 from pathlib import Path
 
-from mgehl.commands import CONVERGED, NOT_CONVERGED
+from mgehl.commands import CONVERGED, NOT_CONVERGED, add_settings, whole
 from mgehl.config import load_config, read_setting
 from mgehl.errors import ConfigError
 
@@ -44,36 +49,26 @@ GRIDS = dict.fromkeys(("rough", "stribeck", "mixed", "machine", "rollers", "movi
 DRAW = ("error", "gaps", "mixed", "machine", "rollers")
 """Studies whose cases chance draws."""
 
-LARGEST_NUMBER = 2**31
-"""Of --cases and --seed."""
-
 _TAKES = {0: "has grids of its own", 1: "takes one grid", 2: "takes two grids"}
 
 
-def add(commands):
-    """Add the parser."""
-    parser = commands.add_parser(
-        "study",
-        help="solve many cases and make tables and pictures of them",
-        allow_abbrev=False,
-        formatter_class=RawDescriptionHelpFormatter,
-        description="Solve the cases of a study; write its tables and pictures.\n\n"
-        + "\n".join(f"  {name:12}{text}" for name, text in STUDIES.items()),
-        epilog="example: mpiexec -n 2 python -m mgehl study schemes --nodes 65,129",
-    )
+def add(parser):
+    parser.description += "\n\n" + "\n".join(f"  {name:12}{text}" for name, text in STUDIES.items())
     parser.add_argument("study", type=_name, choices=tuple(STUDIES), metavar="NAME", help="of those above")
     parser.add_argument("--nodes", "--grid", metavar="N,N,...", help="grids instead of the study's own")
-    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", dest="settings",
-                        help="a key of all cases, as of mgehl run; may be repeated")  # fmt: skip
+    add_settings(parser, "a key of all cases, as of mgehl run; may be repeated")
     parser.add_argument("--direction", choices=("down", "up", "both"),
                         help="branches of study transition (default: both)")  # fmt: skip
-    parser.add_argument("--cases", metavar="N", help="how many cases chance draws")
-    parser.add_argument("--seed", metavar="N", help="by which they are drawn")
+    parser.add_argument(
+        "--cases", type=whole("--cases", 1, 2**31), metavar="N", help="how many cases chance draws"
+    )
+    parser.add_argument(
+        "--seed", type=whole("--seed", 0, 2**31), metavar="N", help="by which they are drawn"
+    )
     parser.add_argument("--out", metavar="DIR", help="directory of the results (default: runs/study-NAME)")
     parser.add_argument("--force", action="store_true", help="start anew in a directory that exists")
     parser.add_argument("--resume", action="store_true", help="go on with the points that are finished")
     parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
-    return parser
 
 
 def _name(text):
@@ -99,7 +94,7 @@ def execute(options, comm):
     settings = _settings(options.settings)
     record = StudyRecord(
         options.study, _checked_nodes(options), comm.size, versions(), options.direction or "both",
-        tuple(options.settings), _number(options, "cases", 1), _number(options, "seed", 0),
+        tuple(options.settings), options.cases, options.seed,
     )  # fmt: skip
     directory = Path(options.out or Path("runs") / f"study-{options.study}")
     on_first_rank(comm, make_directory, directory, options.force or options.resume)
@@ -154,21 +149,13 @@ def _checked_nodes(options):
         raise ConfigError(f"--nodes {options.nodes}: study {options.study} {_TAKES[most]}")
     if options.direction and options.study != "transition":
         raise ConfigError(f"--direction: study {options.study} does not take it, study transition does")
+    for name in ("cases", "seed"):
+        given = getattr(options, name)
+        if given is not None and options.study not in DRAW:
+            raise ConfigError(f"--{name} {given}: means nothing to study {options.study}")
     if options.force and options.resume:
         raise ConfigError("--force and --resume: one starts anew, the other goes on; give one of them")
     return nodes
-
-
-def _number(options, name, low):
-    """The whole number of an option of studies that `DRAW`, `low` or more; None for the study's own."""
-    text = getattr(options, name)
-    if text is None:
-        return None
-    if options.study not in DRAW:
-        raise ConfigError(f"--{name} {text}: means nothing to study {options.study}")
-    if not (text.isascii() and text.isdecimal() and low <= int(text) <= LARGEST_NUMBER):
-        raise ConfigError(f"--{name} {text}: must be a whole number from {low} to {LARGEST_NUMBER}")
-    return int(text)
 
 
 def _nodes(text):
