@@ -4,17 +4,12 @@ Every mistake is one line that names the key, the value and what is allowed (`Co
 """
 
 import difflib
-import os
-import re
-import sysconfig
-import tomllib
 from collections.abc import Iterable, Mapping
-from contextlib import contextmanager
 from dataclasses import asdict, dataclass, fields, replace
 from pathlib import Path
 
 from mgehl import config_sections as sections
-from mgehl.config_file import text_of
+from mgehl.config_file import default_config, read_setting, read_toml
 from mgehl.config_value import read_value, shown
 from mgehl.errors import ConfigError
 from mgehl.kinds import choices, derived, kind_of
@@ -31,17 +26,6 @@ from mgehl.kinds.wedge import WedgeSection
 
 COARSEST_NODES = 33
 """Nodes along each side of the coarsest grid, which is solved directly."""
-
-ROUGH_BALL, PAPERS_BALL = "rough.toml", "point_contact.toml"
-"""Configurations that come with mgehl: the one it shows, and the one that settings alone change."""
-
-_INSTALLED = Path("share") / "mgehl" / "configs"
-_CONFIG_DIRECTORIES = (
-    Path(__file__).resolve().parent.parent / "configs",
-    Path(sysconfig.get_path("data")) / _INSTALLED,
-    Path(sysconfig.get_path("data", f"{os.name}_user")) / _INSTALLED,
-)
-"""Where configurations live in a checkout, and where an installation puts them."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -176,47 +160,12 @@ def _mean_nothing(key, choices):
     return any(choice.means_nothing(key) for choice in choices)
 
 
-def default_config():
-    """Path of the configuration that settings change when none is named: the paper's ball."""
-    return _shipped(PAPERS_BALL)
-
-
-def chosen_config(path=None, settings=()):
-    """Path of the configuration that a command line means.
-
-    The one it names; without any, the paper's ball where there are settings to change it, and else the
-    rough ball.
-    """
-    if path:
-        return Path(path)
-    return default_config() if settings else _shipped(ROUGH_BALL)
-
-
-def _shipped(name):
-    """Path of a configuration that comes with mgehl."""
-    paths = [directory / name for directory in _CONFIG_DIRECTORIES]
-    return next((path for path in paths if path.exists()), paths[0])
-
-
 def load_config(path=None, settings=()):
     """Read a TOML file (default: the paper's ball) and apply settings, "key=value" or a mapping.
 
     Raises ConfigError for anything that cannot be used.
     """
     return config_from_tables(read_tables(path, settings))
-
-
-@contextmanager
-def naming_file(path, settings=()):
-    """Let what is wrong with a file begin with its name; what is wrong with a setting has its key alone."""
-    set_anew = {setting.partition("=")[0].strip() for setting in settings}
-    try:
-        yield
-    except ConfigError as error:
-        key = re.match(r"[\w.]+", str(error))
-        if str(error).startswith((str(path), "--set")) or (key and key[0] in set_anew):
-            raise
-        raise ConfigError(f"{path}: {error}") from None
 
 
 def left_out(config, tables):
@@ -228,7 +177,7 @@ def left_out(config, tables):
 def read_tables(path=None, settings=()):
     """The nested values, right or wrong, of which `load_config` makes a `Config`. Raises ConfigError."""
     path = Path(path) if path else default_config()
-    tables = _read_toml(path)
+    tables = read_toml(path)
     _anchor(tables, path.parent)
     return _set_anew(tables, settings)
 
@@ -317,31 +266,6 @@ def _check_choice(choice, config, tables):
 def _check_section(name, table):
     if not isinstance(table, dict):
         raise ConfigError(f"{name} = {shown(table)}: is a section, its keys go under [{name}]")
-
-
-def _read_toml(path):
-    try:
-        return tomllib.loads(text_of(path))
-    except OSError as error:
-        raise ConfigError(f"{path}: cannot be read: {error.strerror or error}") from None
-    except (ValueError, RecursionError) as error:  # no TOML or no text, or a number or a nest too long
-        raise ConfigError(f"{path}: not valid TOML: {error}") from None
-
-
-def read_setting(setting):
-    """Name and value of one "section.key=value"; the value is TOML, or else a plain string."""
-    key, equals, text = setting.partition("=")
-    section, dot, name = (part.strip() for part in key.partition("."))
-    if not (equals and dot and section and name):
-        raise ConfigError(
-            f"--set {' '.join(setting.split())}: must be section.key=value, such as grid.nodes=513"
-        )
-    try:
-        parsed = tomllib.loads(f"value = {text}")
-        value = parsed["value"] if len(parsed) == 1 else text.strip()
-    except (ValueError, RecursionError):
-        value = text.strip()
-    return f"{section}.{name}", value
 
 
 def checked_key(option, key):

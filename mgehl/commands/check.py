@@ -9,7 +9,8 @@ example: mgehl check --set grid.nodes=1025 --set motion.speed='7.5 mm/s' --ranks
 from itertools import groupby
 
 from mgehl.commands import CONVERGED, add_configuration, add_settings, shown, whole
-from mgehl.config import chosen_config, config_from_tables, left_out, naming_file, read_tables
+from mgehl.config import config_from_tables, left_out, read_tables
+from mgehl.config_file import chosen_config, naming_file
 from mgehl.kinds.cited import cited
 from mgehl.kinds.lubricant import oil_words
 from mgehl.kinds.plausible import implausible

@@ -8,7 +8,8 @@ example: mgehl info --json
 import json
 
 from mgehl.commands import CONVERGED, add_configuration
-from mgehl.config import chosen_config, load_config
+from mgehl.config import load_config
+from mgehl.config_file import chosen_config
 from mgehl.saying import columns, folded
 
 PARALLEL = True

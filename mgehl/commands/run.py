@@ -11,7 +11,8 @@ from pathlib import Path
 from shlex import quote
 
 from mgehl.commands import CONVERGED, NOT_CONVERGED, add_configuration, add_settings, shown
-from mgehl.config import chosen_config, config_from_tables, left_out, naming_file, read_tables
+from mgehl.config import config_from_tables, left_out, read_tables
+from mgehl.config_file import chosen_config, naming_file
 from mgehl.config_value import read_quantity
 from mgehl.errors import OutputError, UserError
 

@@ -10,7 +10,8 @@ from importlib import import_module
 from pathlib import Path
 
 from mgehl.commands import CONVERGED, NOT_CONVERGED, add_settings, whole
-from mgehl.config import load_config, read_setting
+from mgehl.config import load_config
+from mgehl.config_file import read_setting
 from mgehl.errors import ConfigError
 
 PARALLEL = True

@@ -15,7 +15,8 @@ from pathlib import Path
 from shlex import quote
 
 from mgehl.commands import CONVERGED, NOT_CONVERGED, add_configuration, add_settings
-from mgehl.config import chosen_config, load_config, naming_file
+from mgehl.config import load_config
+from mgehl.config_file import chosen_config, naming_file
 from mgehl.errors import ConfigError, OutputError
 
 PARALLEL = True
