@@ -9,7 +9,7 @@ from math import inf, pi, sqrt
 
 from mgehl.config_value import number, word
 from mgehl.errors import ConfigError
-from mgehl.kinds.derived import Derived
+from mgehl.kinds.choice import Derived
 from mgehl.model.materials import MATERIALS, reduced_modulus
 
 BODIES = "body_1", "body_2"
@@ -60,13 +60,15 @@ def keys(names):
     return tuple(f"{body}.{name}" for body in BODIES for name in names)
 
 
+MOTION = keys((*SPEEDS, "rotation_radius"))
+
 OF_A_LINE = keys(
     [field.name for field in fields(BodySection) if field.name not in ("radius_y", "conformity")]
 )
 """Keys of bodies that know no y."""
 
 
-def derived(config):
+def derived_from_bodies(config):
     """What follows from the bodies: `Derived`, in order. Raises ConfigError where they do not fit."""
     bodies = config.body_1, config.body_2
     if _any(bodies, ELASTICITY):

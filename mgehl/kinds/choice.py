@@ -49,3 +49,13 @@ def word_of(tables, key):
     """As `value_of`, where the value is a word."""
     value = value_of(tables, key)
     return value if isinstance(value, str) else None
+
+
+@dataclass(frozen=True)
+class Derived:
+    """A key that follows from others."""
+
+    key: str
+    value: float
+    how: str
+    """In a few words."""

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from mgehl.config_value import number, switch, word
 from mgehl.errors import ConfigError
-from mgehl.kinds.choice import Choice, value_of
+from mgehl.kinds.choice import Choice
 from mgehl.model.own_function import OwnFunction, absolute, is_own
 from mgehl.model.own_laws import OwnRheology
 from mgehl.model.rheology import Eyring, Friction, Limiting, Newtonian
@@ -34,15 +34,14 @@ TAKES = {"eyring": (STRESS, THINNING), "limiting": PARAMETERS}
 NEEDS = {"eyring": (STRESS,), "limiting": (LIMIT,)}
 
 
-def friction_choice(tables):
-    """The `Choice` of friction.model; None where nothing is said of it, be it that it is unset."""
+def friction_choices(tables):
+    """What friction.model makes of its parameters, where it is given, be it as unset."""
     section = tables.get("friction")
-    if not isinstance(section, dict) or "model" not in section:
-        return None
-    model = value_of(tables, "friction.model")
-    said = "without friction.model" if model is None else f'where friction.model = "{model}"'
-    model = model if isinstance(model, str) else ""
-    return Choice(said, PARAMETERS, TAKES.get(model, ()), NEEDS.get(model, ()))
+    if isinstance(section, dict) and "model" in section:
+        model = section["model"]
+        said = "without friction.model" if model is None else f'where friction.model = "{model}"'
+        model = model if isinstance(model, str) else ""
+        yield Choice(said, PARAMETERS, TAKES.get(model, ()), NEEDS.get(model, ()))
 
 
 def check_friction(config):

@@ -86,7 +86,6 @@ class LoadedKind(Kind):
 
     def size(self, config, contact):
         """The key that the dry contact's size follows from, size and radii in words, and their ratio."""
-        raise NotImplementedError
 
     def effort(self, config):
         """The `Effort` of the relaxation or of Newton's method."""
@@ -98,11 +97,9 @@ class LoadedKind(Kind):
 
     def newton_effort(self, config):
         """The `Effort` of a run by Newton's method."""
-        raise NotImplementedError
 
     def load(self, contact):
         """The load and its unit as people say it."""
-        raise NotImplementedError
 
     def hertz_words(self, hertz):
         """Size of the dry contact."""

@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 from mgehl.config_value import number, shown, word
 from mgehl.errors import ConfigError
-from mgehl.kinds.derived import Derived
+from mgehl.kinds.choice import Derived
 from mgehl.model.lubricant import DENSITY_LAWS, VISCOSITY_LAWS, Lubricant
 from mgehl.model.oils import CELSIUS, OILS, thinning, walther
 from mgehl.model.own_function import OwnFunction, absolute, is_own
@@ -39,7 +39,7 @@ class LubricantSection:
     # fmt: on
 
 
-def derived(config):
+def derived_from_oil(config):
     """What follows from [lubricant]: `Derived`, in order. Raises ConfigError."""
     section = config.lubricant
     if section.oil is not None:

@@ -6,7 +6,7 @@ from mgehl.config_value import number
 from mgehl.discretization.fluid import FOLDING
 from mgehl.discretization.mesh import Mesh
 from mgehl.errors import ConfigError
-from mgehl.kinds.bodies import SPEEDS, keys
+from mgehl.kinds.bodies import MOTION
 from mgehl.kinds.choice import Choice, value_of, word_of
 from mgehl.kinds.friction import friction_from
 from mgehl.kinds.heat import heated, solids_from
@@ -23,7 +23,7 @@ LARGEST_RADIUS_RATIO = 1e3
 """Largest ratio of the two radii: a longer ellipse is a line contact."""
 
 MOES = "moes.M", "moes.L"
-MOES_REPLACES = "contact.load", "motion.speed", "motion.ring_rotation", *keys((*SPEEDS, "rotation_radius"))
+MOES_REPLACES = "contact.load", "motion.speed", "motion.ring_rotation", *MOTION
 """Moes numbers, and the keys that they stand for."""
 
 FILM = Effort(45.0, 2.6e-7, 0.013, 1300.0, "full films on 65 to 2049 nodes took 22 to 106")
@@ -50,21 +50,14 @@ class MoesSection:
     L: float | None = number(None, "Moes material number, instead of load and speed", "", 0.1, 100.0)
 
 
-def deformation_choice(tables):
-    """The `Choice` of contact.deformation: a coating belongs to coated bodies."""
-    deformation = word_of(tables, "contact.deformation")
-    if deformation is None:
-        return None
-    said = f'where contact.deformation = "{deformation}"'
-    if deformation != "coated":
-        return Choice(said, ("coating",))
-    return Choice(said, (), needs=("coating.thickness", "coating.modulus"))
-
-
-def moes_choice(tables):
-    """The `Choice` of Moes numbers, which come as a pair and stand for load and speed; None without any."""
-    given = [key for key in MOES if value_of(tables, key) is not None]
-    return Choice(f"with {given[0]}", MOES_REPLACES, needs=MOES) if given else None
+def point_choices(tables):
+    """A coating belongs to coated bodies; Moes numbers come as a pair and stand for load and speed."""
+    if deformation := word_of(tables, "contact.deformation"):
+        is_coated, said = deformation == "coated", f'where contact.deformation = "{deformation}"'
+        needs = ("coating.thickness", "coating.modulus") if is_coated else ()
+        yield Choice(said, () if is_coated else ("coating",), needs=needs)
+    if given := [key for key in MOES if value_of(tables, key) is not None]:
+        yield Choice(f"with {given[0]}", MOES_REPLACES, needs=MOES)
 
 
 class PointKind(LoadedKind):

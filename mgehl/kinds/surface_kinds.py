@@ -89,21 +89,16 @@ def surface_choices(tables):
     for name in NAMES:
         table = tables.get(name)
         if isinstance(table, dict) and not {"kind", "file"}.isdisjoint(table):
-            yield _choice(name, table.get("file"), word_of(tables, f"{name}.kind"))
-
-
-def _choice(name, file, kind):
-    """What a file, a formula or neither makes of the keys of a surface."""
-    if file is not None:
-        return Choice(f"with {name}.file", (name,), _keys(name, OF_A_FILE))
-    if kind is None:
-        return Choice(f"without {name}.kind or {name}.file", (name,))
-    if kind not in FORMULAS:
-        return None
-    parameters = _parameters(FORMULAS[kind])
-    takes = _keys(name, ("kind", "body", *parameters))
-    needs = _keys(name, (key for key, needed in parameters.items() if needed))
-    return Choice(f'with {name}.kind = "{kind}"', (name,), takes, needs)
+            kind = word_of(tables, f"{name}.kind")
+            if table.get("file") is not None:
+                yield Choice(f"with {name}.file", (name,), _keys(name, OF_A_FILE))
+            elif kind is None:
+                yield Choice(f"without {name}.kind or {name}.file", (name,))
+            elif kind in FORMULAS:
+                parameters = _parameters(FORMULAS[kind])
+                takes = _keys(name, ("kind", "body", *parameters))
+                needs = _keys(name, (key for key, needed in parameters.items() if needed))
+                yield Choice(f'with {name}.kind = "{kind}"', (name,), takes, needs)
 
 
 def _keys(section, names):

@@ -35,14 +35,15 @@ class TimeSection:
 ONLY_IN_TIME = ("motion.speed", "contact.load", "contact.load_per_length")
 """Keys that may be a course of time."""
 
+NEEDED = {"solver.method": "newton-mg", "discretization.contact_model": "lcic"}
+"""What a run in time is made for alone."""
 
-def time_choice(tables):
-    """The `Choice` of a steady state, to which keys of [time] mean nothing; None with a time.end."""
-    if value_of(tables, "time.end") is not None:
-        return None
-    if any(value_of(tables, f"time.{name}") is not None for name in ("step", "save_every")):
-        return Choice("without time.end", ("time.step", "time.save_every"))
-    return None
+
+def time_choices(tables):
+    """To a steady state keys of [time] mean nothing."""
+    given = [name for name in ("end", "step", "save_every") if value_of(tables, f"time.{name}") is not None]
+    if given and "end" not in given:
+        yield Choice("without time.end", ("time.step", "time.save_every"))
 
 
 def is_table(key, value):
@@ -72,38 +73,34 @@ def reference(config, key):
 
 def check_courses(config):
     """Raise ConfigError where a course is none, or where there is no time for it."""
+    step, end = config.time.step, config.time.end
     for key in ONLY_IN_TIME:
         value = config.value(key)
-        if not isinstance(value, str):
-            continue
-        if config.time.end is None:
-            raise ConfigError(f"{key} = {value!r}: changes with time, and time.end is not given")
-        _naming(key, value, lambda v=value: course_of(v).check(config.time.end))
-        least, most = course_of(value).range(config.time.end)
-        if key != "motion.speed" and not least > 0.0:
-            raise ConfigError(f"{key} = {value!r}: falls to {least:g}; must stay above 0")
-        if key == "motion.speed" and least == most == 0.0:
-            raise ConfigError(f"{key} = {value!r}: is 0 throughout; give a number for a dry contact")
-        if key == "motion.speed" and course_of(value).value(0.0) < 0.0:
-            raise ConfigError(f"{key} = {value!r}: begins below 0; turn motion.angle by 180 degrees")
-    step, end = config.time.step, config.time.end
-    if end is not None and step is not None and step > end:
+        if isinstance(value, str) and (wrong := _wrong_with(key, value, end)):
+            raise ConfigError(f"{key} = {value!r}: {wrong}")
+    if end is None:
+        return
+    if step is not None and step > end:
         raise ConfigError(f"time.step = {step:g}: must be at most {end:g}, time.end")
-    if end is not None:
-        _check_method(config)
-
-
-def _check_method(config):
-    """What a run in time is not made for."""
-    asked = {
-        "solver.method": (config.solver.method, "newton-mg"),
-        "discretization.contact_model": (config.discretization.contact_model, "lcic"),
-    }
-    for key, (value, needed) in asked.items():
-        if value != needed:
-            raise ConfigError(f'{key} = "{value}": must be "{needed}" in time (time.end)')
+    for key, needed in NEEDED.items():
+        if config.value(key) != needed:
+            raise ConfigError(f'{key} = "{config.value(key)}": must be "{needed}" in time (time.end)')
     if not config.kind.is_loaded:
         raise ConfigError(f'contact.kind = "{config.contact.kind}": a run in time (time.end) needs a load')
+
+
+def _wrong_with(key, value, end):
+    """What is wrong with a course until `end`; None where nothing is."""
+    if end is None:
+        return "changes with time, and time.end is not given"
+    course = course_of(value)
+    _naming(key, value, lambda: course.check(end))
+    least, most = course.range(end)
+    if key != "motion.speed":
+        return None if least > 0.0 else f"falls to {least:g}; must stay above 0"
+    if least == most == 0.0:
+        return "is 0 throughout; give a number for a dry contact"
+    return "begins below 0; turn motion.angle by 180 degrees" if course.value(0.0) < 0.0 else None
 
 
 def reverses(config):
