@@ -4,6 +4,7 @@ import re
 import sys
 from dataclasses import field
 from functools import cache
+from operator import ge, gt, le
 
 from mgehl.errors import ConfigError
 
@@ -123,9 +124,8 @@ def _number(key, rules, given):
 
 def _is_number(value):
     """A finite number that a double holds."""
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        return False
-    return abs(value) <= sys.float_info.max
+    is_real = isinstance(value, int | float) and not isinstance(value, bool)
+    return is_real and abs(value) <= sys.float_info.max
 
 
 def _with_unit(key, unit, text, instead=""):
@@ -134,9 +134,7 @@ def _with_unit(key, unit, text, instead=""):
     # Only a number and a unit: pint would also evaluate an expression, 9**9**9 for one.
     number, per, units = (_QUANTITY.fullmatch(text.strip()) or _NO_MATCH).groups()
     try:
-        if (
-            unit == "K"
-        ):  # C alone is coulomb to pint; degrees have their zero elsewhere, and do not multiply
+        if unit == "K":  # degrees have their zero elsewhere, and do not multiply; C is coulomb to pint
             units = {"C": "degC", "F": "degF"}.get(units, units)
             return float(_units().Quantity(float(number), units).to(unit).magnitude)
         quantity = float(number) * _units()(f"{'1/' if per else ''}{units or 'dimensionless'}")
@@ -173,33 +171,30 @@ def _pint():
     return pint
 
 
+LIMITS = {"above": ("above", gt), "low": ("at least", ge), "high": ("at most", le)}
+"""How a number stands to each limit of its key."""
+
+
 def _in_range(rules, number):
-    above, low, high = rules["above"], rules["low"], rules["high"]
-    return (
-        (above is None or number > above)
-        and (low is None or number >= low)
-        and (high is None or number <= high)
-    )
+    return all(holds(number, rules[end]) for end, (_, holds) in LIMITS.items() if rules[end] is not None)
+
+
+def _describe_limits(rules):
+    told = (f"{words} {rules[end]:g}" for end, (words, _) in LIMITS.items() if rules[end] is not None)
+    return " and ".join(told)
 
 
 def _describe_range(rules):
     what = "a whole number" if rules["kind"] is int else "a number"
-    if rules["unit"]:
-        what += f" in {rules['unit']} (or a string with a unit)"
-    return f"{what} {_describe_limits(rules)}".strip()
-
-
-def _describe_limits(rules):
-    names = (("above", "above"), ("low", "at least"), ("high", "at most"))
-    return " and ".join(f"{name} {rules[word]:g}" for word, name in names if rules[word] is not None)
+    unit = f" in {rules['unit']} (or a string with a unit)" if rules["unit"] else ""
+    return f"{what}{unit} {_describe_limits(rules)}".strip()
 
 
 def _interval(key, value):
     if value == AUTO:
         return AUTO
-    numbers = isinstance(value, list | tuple) and len(value) == 2
-    numbers = numbers and all(_is_number(end) for end in value)
-    if not numbers or not (-FARTHEST <= value[0] < -1.0 and 1.0 < value[1] <= FARTHEST):
+    is_pair = isinstance(value, list | tuple) and len(value) == 2 and all(map(_is_number, value))
+    if not is_pair or not (-FARTHEST <= value[0] < -1.0 and 1.0 < value[1] <= FARTHEST):
         raise ConfigError(
             f'{key} = {shown(value)}: must be "auto", or two numbers [first < -1, last > 1] '
             f"within {FARTHEST:g}"

@@ -124,14 +124,7 @@ def surface_of(section):
 
 
 def _preparation(section):
-    return Preparation(
-        height_unit=section.height_unit and UNITS[section.height_unit],
-        position_unit=section.position_unit and UNITS[section.position_unit],
-        dx=section.spacing,
-        dy=section.spacing_y,
-        remove=section.remove,
-        shortest_wavelength=section.shortest_wavelength,
-        longest_wavelength=section.longest_wavelength,
-        continuation=section.continuation,
-        holes=section.holes,
-    )
+    same = "remove", "shortest_wavelength", "longest_wavelength", "continuation", "holes"
+    units = {name: UNITS.get(getattr(section, name)) for name in ("height_unit", "position_unit")}
+    values = {name: getattr(section, name) for name in same}
+    return Preparation(dx=section.spacing, dy=section.spacing_y, **units, **values)
