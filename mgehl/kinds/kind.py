@@ -57,6 +57,7 @@ class Kind:
 
     def contact(self, config):
         """The contact, as the model has it."""
+        raise NotImplementedError
 
     def settled(self, config, contact):
         """The `Config` with numbers in the place of "auto"."""
@@ -64,12 +65,14 @@ class Kind:
 
     def mesh(self, config, contact):
         """The finest mesh."""
+        raise NotImplementedError
 
     def check(self, config, contact):
         """Raise ConfigError where values do not fit each other, though each is allowed."""
 
     def effort(self, config):
         """The `Effort` of such a run."""
+        raise NotImplementedError
 
     def nodes(self, mesh, times="x"):
         """The nodes of a mesh in words."""
@@ -77,18 +80,23 @@ class Kind:
 
     def lines(self, config, contact, mesh):
         """Lines of text that tell what was configured."""
+        raise NotImplementedError
 
     def parts(self, solution):
         """The parts of a picture's title."""
+        raise NotImplementedError
 
     def heading(self, solution):
         """The title of a page; numbers and their units stay together."""
+        raise NotImplementedError
 
     def position_labels(self, contact):
         """What the axes along x and y show, with its unit."""
+        raise NotImplementedError
 
     def scalars(self, solution):
         """The numbers that a run results in, {name: (value, unit, meaning)}, named for NetCDF."""
+        raise NotImplementedError
 
 
 def kept_together(text):

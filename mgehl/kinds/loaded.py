@@ -5,10 +5,10 @@ from dataclasses import asdict, replace
 from mgehl.config_value import AUTO, FARTHEST
 from mgehl.kinds import loaded_checks, surface, time
 from mgehl.kinds.bodies import roughness
-from mgehl.kinds.friction import check_friction
-from mgehl.kinds.heat import check_factor, check_heat
+from mgehl.kinds.friction import check_friction, friction_from
+from mgehl.kinds.heat import check_factor, check_heat, heated, solids_from
 from mgehl.kinds.kind import Effort, Kind, kept_together
-from mgehl.kinds.lubricant import check_laws, thinning_of
+from mgehl.kinds.lubricant import check_laws, lubricant_from, thinning_of
 from mgehl.model.films import formula_of, inlet_heating
 from mgehl.model.own_laws import OwnDensity
 from mgehl.model.room import domain_for
@@ -48,6 +48,17 @@ class LoadedKind(Kind):
         check_friction(config)
         check_heat(config)
 
+    def contact(self, config):
+        """The contact, its oil thinned where heat thins its film."""
+        section, friction, solids = config.contact, friction_from(config), solids_from(config)
+        shared = {"lubricant": lubricant_from(config), "surface": surface.surface_from(config)}
+        shared |= {"radius_x": section.radius_x, "reduced_modulus": section.reduced_modulus}
+        return heated(config, self.pressed(config, shared | {"friction": friction, "solids": solids}))
+
+    def pressed(self, config, shared):
+        """The contact, of what all kinds have in common and its own keys."""
+        raise NotImplementedError
+
     def settled(self, config, contact):
         """With numbers where the domain is "auto"."""
         names = [name for name in ("x" if contact.is_plane else "xy") if getattr(config.grid, name) == AUTO]
@@ -86,6 +97,7 @@ class LoadedKind(Kind):
 
     def size(self, config, contact):
         """The key that the dry contact's size follows from, size and radii in words, and their ratio."""
+        raise NotImplementedError
 
     def effort(self, config):
         """The `Effort` of the relaxation or of Newton's method."""
@@ -97,9 +109,11 @@ class LoadedKind(Kind):
 
     def newton_effort(self, config):
         """The `Effort` of a run by Newton's method."""
+        raise NotImplementedError
 
     def load(self, contact):
         """The load and its unit as people say it."""
+        raise NotImplementedError
 
     def hertz_words(self, hertz):
         """Size of the dry contact."""

@@ -8,15 +8,12 @@ from mgehl.discretization.mesh import Mesh
 from mgehl.errors import ConfigError
 from mgehl.kinds.bodies import MOTION
 from mgehl.kinds.choice import Choice, value_of, word_of
-from mgehl.kinds.friction import friction_from
-from mgehl.kinds.heat import heated, solids_from
 from mgehl.kinds.kind import Effort
 from mgehl.kinds.loaded import LoadedKind
-from mgehl.kinds.lubricant import lubricant_from
-from mgehl.kinds.own import compliance_from
-from mgehl.kinds.surface import surface_from
 from mgehl.kinds.time import reference
 from mgehl.model.coating import Coating
+from mgehl.model.own_function import OwnFunction, is_own
+from mgehl.model.own_laws import OwnCompliance
 from mgehl.model.point import PointContact
 
 LARGEST_RADIUS_RATIO = 1e3
@@ -95,17 +92,15 @@ class PointKind(LoadedKind):
             raise ConfigError(f"coating.substrate_modulus = {modulus!r}: {error}") from None
         super().check_keys(config)
 
-    def contact(self, config):
+    def pressed(self, config, shared):
         """A `PointContact`, by load and speed or by Moes numbers."""
-        section, moes, lubricant = config.contact, config.moes, lubricant_from(config)
-        body = (section.radius_x, section.radius_y, section.reduced_modulus)
-        more = {"surface": surface_from(config), "deformation": _deformation_from(config)}
-        more |= {"angle": config.motion.angle, "load_beyond": config.grid.load_beyond}
-        more |= {"friction": friction_from(config), "solids": solids_from(config)}
+        moes = config.moes
+        shared |= {"radius_y": config.contact.radius_y, "deformation": _deformation_from(config)}
+        shared |= {"angle": config.motion.angle, "load_beyond": config.grid.load_beyond}
         if moes.M is not None:
-            return heated(config, PointContact.from_moes(moes.M, moes.L, *body, lubricant, **more))
+            return PointContact.from_moes(moes.M, moes.L, **shared)
         load, speed = reference(config, "contact.load"), reference(config, "motion.speed")
-        return heated(config, PointContact(load, *body, speed, lubricant, **more))
+        return PointContact(load=load, speed=speed, **shared)
 
     def mesh(self, config, contact):
         """A square of nodes over the ellipse."""
@@ -167,7 +162,8 @@ def _deformation_from(config):
     """What the bodies are in depth; None for half-spaces."""
     if config.contact.deformation == "coated":
         return Coating(**asdict(config.coating), reduced_modulus=config.contact.reduced_modulus)
-    return compliance_from(config)
+    name = config.contact.deformation
+    return OwnCompliance(OwnFunction(name)) if is_own(name) else None
 
 
 def _check_radii(section):

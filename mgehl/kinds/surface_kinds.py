@@ -9,6 +9,8 @@ from pathlib import Path
 
 from mgehl.config_value import number, whole, word
 from mgehl.kinds.choice import Choice, word_of
+from mgehl.model.own_function import OwnFunction
+from mgehl.model.own_laws import OwnSurface
 from mgehl.model.surface import Dent, Measured, Preparation, Ridge, SelfAffine, Waviness
 from mgehl.model.surface.map import UNITS
 from mgehl.model.surface.measured import CONTINUATIONS, INTERPOLATE, REFUSE, REMOVED
@@ -110,6 +112,19 @@ def _parameters(formula):
     known = {key.name for key in fields(SurfaceSection)}
     own = (field for field in fields(formula) if field.name in known)
     return {field.name: field.default is MISSING and field.type is float for field in own}
+
+
+def carried(config):
+    """(Key, `Surface`, the body that carries it) of every surface."""
+    for name in NAMES:
+        section = getattr(config, name)
+        if (surface := surface_of(section)) is not None:
+            key = "kind" if section.file is None else "file"
+            yield f"{name}.{key} = {getattr(section, key)!r}", surface, section.body
+    contact = config.contact
+    if contact.surface:
+        own = OwnSurface(OwnFunction(contact.surface))
+        yield f"contact.surface = {contact.surface!r}", own, contact.surface_body
 
 
 def surface_of(section):

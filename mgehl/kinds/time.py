@@ -8,8 +8,7 @@ import numpy as np
 from mgehl.config_value import number, word
 from mgehl.errors import ConfigError
 from mgehl.kinds.choice import Choice, value_of
-from mgehl.kinds.own import own_surface_from
-from mgehl.kinds.surface_kinds import NAMES, share_of, surface_of
+from mgehl.kinds.surface_kinds import carried, share_of
 from mgehl.model.course import CourseError, course_of
 from mgehl.model.frame import direction
 from mgehl.model.own_function import OwnFunctionError, is_own
@@ -132,16 +131,9 @@ def scene_of(config, contact):
     """The `Scene` of a run in time; the `contact` has the largest speed and the first load."""
     load = course_of(config.value(load_key(config)) if config.moes.M is None else contact.load)
     speed = course_of(config.motion.speed if config.moes.M is None else contact.speed)
-    return Scene(contact, speed, load, tuple(_surfaces(config)), config.time.end)
-
-
-def _surfaces(config):
-    for name in NAMES:
-        section = getattr(config, name)
-        if (surface := surface_of(section)) is not None:
-            yield surface, share_of(section.body, config.motion.slide_to_roll)
-    if own := own_surface_from(config):
-        yield own, share_of(config.contact.surface_body, config.motion.slide_to_roll)
+    slip = config.motion.slide_to_roll
+    surfaces = tuple((surface, share_of(body, slip)) for _, surface, body in carried(config))
+    return Scene(contact, speed, load, surfaces, config.time.end)
 
 
 def _naming(key, value, found):
