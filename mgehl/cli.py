@@ -1,14 +1,6 @@
 """The command line.
 
     mpiexec -n 2 python -m mgehl run [CONFIG] [--set key=value ...] [--out DIR] [PETSc options]
-    mpiexec -n 2 python -m mgehl study NAME [--nodes 129,257] [--out DIR] [PETSc options]
-    python -m mgehl collect RUN [RUN ...] [--out FILE.csv]
-    python -m mgehl plot RUN [RUN ...] [--kind lines,film] [--format png,svg,pdf]
-    python -m mgehl report RUN
-    python -m mgehl cite RUN
-    python -m mgehl check CONFIG [--set key=value ...] [--ranks N]
-    python -m mgehl new NAME [--kind point|line|wedge]
-    python -m mgehl keys | info | bench | completion | --version
 
 `mgehl --help` lists all commands; `mgehl.commands` holds them, a module each.
 

@@ -205,37 +205,30 @@ def _set_anew(tables, settings):
 
 def _anchor(tables, directory):
     """Count the paths of a file's own functions and surfaces from where that file is."""
-    for name, section in SECTIONS.items():
-        table = tables.get(name)
-        for key in fields(section) if isinstance(table, dict) else ():
-            own = key.metadata["own"]
-            if own and key.name in table and table[key.name] not in (key.metadata["choices"] or ()):
-                table[key.name] = own(table[key.name], directory) or table[key.name]
+    for key, field in KEYS.items():
+        own, value = field.metadata["own"], value_of(tables, key)
+        if own and value is not None and value not in (field.metadata["choices"] or ()):
+            tables[key.partition(".")[0]][field.name] = own(value, directory) or value
 
 
 def config_from_tables(tables):
     """Validate nested values as read from TOML."""
     sections = {}
-    for name, table in tables.items():
-        if name not in SECTIONS:
-            raise ConfigError(f"{name} = {shown(table)}: unknown section{_closest(name, SECTIONS)}")
-        _check_section(name, table)
-        sections[name] = _section(name, table)
+    for section, table in tables.items():
+        if section not in SECTIONS:
+            raise ConfigError(f"{section} = {shown(table)}: unknown section{_closest(section, SECTIONS)}")
+        _check_section(section, table)
+        for name in table:
+            if (key := f"{section}.{name}") not in KEYS:
+                raise ConfigError(f"{key} = {shown(table[name])}: unknown key{_closest_key(key)}")
+        keys = {name: f"{section}.{name}" for name in table}
+        values = {name: read_value(key, KEYS[key].metadata, table[name]) for name, key in keys.items()}
+        sections[section] = SECTIONS[section](**values)
     config = Config(**sections)
     _check_together(config, tables)
     config = config.with_numbers({each.key: each.value for each in config.derived})
     config.kind.check_keys(config)
     return config
-
-
-def _section(name, table):
-    known = {key.name: key for key in fields(SECTIONS[name])}
-    for key in table:
-        if key not in known:
-            raise ConfigError(f"{name}.{key} = {shown(table[key])}: unknown key{_closest_key(name, key)}")
-    return SECTIONS[name](
-        **{key: read_value(f"{name}.{key}", known[key].metadata, table[key]) for key in table}
-    )
 
 
 def _check_together(config, tables):
@@ -271,7 +264,7 @@ def _check_section(name, table):
 def checked_key(option, key):
     """A "section.key" that an option names. Raises ConfigError where there is none."""
     if key not in KEYS:
-        raise ConfigError(f"{option} {key}: unknown key{_closest_key(*key.rpartition('.')[::2])}")
+        raise ConfigError(f"{option} {key}: unknown key{_closest_key(key)}")
     return key
 
 
@@ -280,8 +273,8 @@ def _closest(name, known):
     return f"; did you mean {close[0]}?" if close else f"; known are {', '.join(known)}"
 
 
-def _closest_key(section, key):
+def _closest_key(key):
     """The nearest known key, of this section if one is near, else of any."""
-    close = difflib.get_close_matches(f"{section}.{key}", KEYS, n=1, cutoff=0.6)
-    same_name = [each for each in KEYS if each.endswith(f".{key}")]
-    return f"; did you mean {(same_name or close)[0]}?" if same_name or close else ""
+    close = difflib.get_close_matches(key, KEYS, n=1, cutoff=0.6)
+    near = [each for each in KEYS if each.endswith(f".{key.rpartition('.')[2]}")] or close
+    return f"; did you mean {near[0]}?" if near else ""

@@ -158,48 +158,43 @@ class LoadedKind(Kind):
         return f"X = x/a, a = {a:.4g} mm", f"Y = y/b, b = {b:.4g} mm"
 
     def scalars(self, solution):
-        """Load, films, pressure and groups."""
+        """Load, films, gaps of rough bodies, pressure and groups; bands where there are any."""
         contact, result, groups = solution.contact, solution.result, solution.contact.groups
-        unit = self.load_unit.replace("/m", " m-1")
-        return {
+        error, mixed = result.error, result.mixed
+        gaps = mixed if mixed and mixed.mean_gap_nm is not None else None
+        gap_error = gaps.error if gaps else None
+        found = {
             "speed": (contact.speed, "m s-1", "entrainment speed"),
-            "normal_load": (contact.load, unit, "normal load"),
-            "central_film": (1e-9 * result.central_film_nm, "m", "film at the centre of the contact"),
-            "minimum_film": (1e-9 * result.minimum_film_nm, "m", "smallest film"),
-            **_bands(result.error),
-            **dict(_gaps(result.mixed)),
-            "maximum_pressure": (1e9 * result.max_pressure_GPa, "Pa", "largest pressure"),
+            "normal_load": (contact.load, self.load_unit.replace("/m", " m-1"), "normal load"),
+            "central_film": _nm(result, "central_film_nm", "film at the centre of the contact"),
+            "minimum_film": _nm(result, "minimum_film_nm", "smallest film"),
+            "central_film_error": _nm(error, "central_nm"),
+            "minimum_film_error": _nm(error, "minimum_nm"),
+            "mean_gap": _nm(gaps, "mean_gap_nm", "mean gap within the Hertz ellipse, contact included"),
+            "loaded_gap": _nm(gaps, "loaded_gap_nm", "mean gap by pressure"),
+            "mean_gap_error": _nm(gap_error, "mean_nm"),
+            "loaded_gap_error": _nm(gap_error, "loaded_nm"),
+            "maximum_pressure_error": _GPa(gap_error, HALF_WIDTH),
+            "maximum_pressure": _GPa(result, "largest pressure"),
             "group_U": (groups.U, "1", "speed parameter U"),
             "group_W": (groups.W, "1", "load parameter W"),
             "group_G": (groups.G, "1", "material parameter G"),
             "moes_M": (groups.M, "1", "load number M of Moes"),
             "moes_L": (groups.L, "1", "material number L of Moes"),
         }
+        return {name: number for name, number in found.items() if number is not None}
 
 
-def _bands(error):
-    """Half-widths of the bands about the films, where there are any."""
-    widths = {"central_film": error.central_nm, "minimum_film": error.minimum_nm}
-    return {
-        f"{film}_error": (1e-9 * width, "m", HALF_WIDTH)
-        for film, width in widths.items()
-        if width is not None
-    }
+def _nm(of, name, meaning=HALF_WIDTH):
+    """The length in nm of a part of the result in m; None where there is none."""
+    value = getattr(of, name) if of else None
+    return None if value is None else (1e-9 * value, "m", meaning)
 
 
-def _gaps(mixed):
-    """Mean gaps of rough bodies, and their bands where there are any."""
-    if not mixed or mixed.mean_gap_nm is None:
-        return
-    yield "mean_gap", (1e-9 * mixed.mean_gap_nm, "m", "mean gap within the Hertz ellipse, contact included")
-    yield "loaded_gap", (1e-9 * mixed.loaded_gap_nm, "m", "mean gap by pressure")
-    error = mixed.error
-    if error and error.mean_nm is not None:
-        yield "mean_gap_error", (1e-9 * error.mean_nm, "m", HALF_WIDTH)
-    if error and error.loaded_nm is not None:
-        yield "loaded_gap_error", (1e-9 * error.loaded_nm, "m", HALF_WIDTH)
-    if error and error.max_pressure_GPa is not None:
-        yield "maximum_pressure_error", (1e9 * error.max_pressure_GPa, "Pa", HALF_WIDTH)
+def _GPa(of, meaning):
+    """The same of its largest pressure."""
+    value = of.max_pressure_GPa if of else None
+    return None if value is None else (1e9 * value, "Pa", meaning)
 
 
 def _with_bands(effort):
