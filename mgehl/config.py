@@ -9,7 +9,7 @@ from dataclasses import asdict, dataclass, fields, replace
 from pathlib import Path
 
 from mgehl import config_sections as sections
-from mgehl.config_file import default_config, read_setting, read_toml
+from mgehl.config_file import default_config, nested, read_toml
 from mgehl.config_value import read_value, shown
 from mgehl.errors import ConfigError
 from mgehl.kinds import choices, derived, kind_of
@@ -184,13 +184,7 @@ def read_tables(path=None, settings=()):
 
 def _set_anew(tables, settings):
     """Nested values with settings laid over them; keys that a setting leaves without a meaning go."""
-    pairs = settings.items() if isinstance(settings, Mapping) else map(read_setting, settings)
-    given = {}
-    for name, value in pairs:
-        section, dot, key = str(name).partition(".")
-        if not (dot and section and key):
-            raise ConfigError(f"{name} = {shown(value)}: must be section.key, such as grid.nodes")
-        given.setdefault(section, {})[key] = value
+    given = nested(settings)
     found = [*choices(given), *overridden(given)]
     for section, table in tables.items():
         if isinstance(table, dict):

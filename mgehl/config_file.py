@@ -6,9 +6,11 @@ import select
 import stat
 import sysconfig
 import tomllib
+from collections.abc import Mapping
 from contextlib import contextmanager
 from pathlib import Path
 
+from mgehl.config_value import shown
 from mgehl.errors import ConfigError
 
 ROUGH_BALL, PAPERS_BALL = "rough.toml", "point_contact.toml"
@@ -61,7 +63,19 @@ def read_toml(path):
         raise ConfigError(f"{path}: not valid TOML: {error}") from None
 
 
-def read_setting(setting):
+def nested(settings):
+    """The nested values of settings, "section.key=value" each or a mapping. Raises ConfigError."""
+    pairs = settings.items() if isinstance(settings, Mapping) else map(_read_setting, settings)
+    tables = {}
+    for name, value in pairs:
+        section, dot, key = str(name).partition(".")
+        if not (dot and section and key):
+            raise ConfigError(f"{name} = {shown(value)}: must be section.key, such as grid.nodes")
+        tables.setdefault(section, {})[key] = value
+    return tables
+
+
+def _read_setting(setting):
     """Name and value of one "section.key=value"; the value is TOML, or else a plain string."""
     key, equals, text = setting.partition("=")
     section, dot, name = (part.strip() for part in key.partition("."))

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from mgehl.commands import CONVERGED, NOT_CONVERGED, add_settings, whole
 from mgehl.config import load_config
-from mgehl.config_file import read_setting
+from mgehl.config_file import nested
 from mgehl.errors import ConfigError
 
 PARALLEL = True
@@ -92,7 +92,9 @@ def execute(options, comm):
     from mgehl.output.surroundings import versions
     from mgehl.saying import complain
 
-    settings = _settings(options.settings)
+    settings = nested(options.settings)
+    if "nodes" in settings.get("grid", ()):
+        raise ConfigError("--set grid.nodes: a study has its grids from --nodes")
     record = StudyRecord(
         options.study, _checked_nodes(options), comm.size, versions(), options.direction or "both",
         tuple(options.settings), options.cases, options.seed,
@@ -124,17 +126,6 @@ def _solve(options, comm, directory, record, settings):
     if study.first and study.speak:
         say(f"results in {directory}")
     return study
-
-
-def _settings(words):
-    """Nested tables of the words of --set."""
-    tables = {}
-    for name, value in map(read_setting, words):
-        section, _, key = name.partition(".")
-        if name == "grid.nodes":
-            raise ConfigError("--set grid.nodes: a study has its grids from --nodes")
-        tables.setdefault(section, {})[key] = value
-    return tables
 
 
 def _checked_nodes(options):
