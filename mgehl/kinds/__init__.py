@@ -14,6 +14,7 @@ from mgehl.kinds.choice import Choice, word_of
 from mgehl.kinds.derived import word_choices
 from mgehl.kinds.dry import DRY, fluid_choices
 from mgehl.kinds.friction import friction_choices
+from mgehl.kinds.heat import heat_choices
 from mgehl.kinds.line import LINE
 from mgehl.kinds.lubricant import derived_from_oil
 from mgehl.kinds.own import naming_keys
@@ -33,8 +34,8 @@ def choices(tables):
     """
     kind = KINDS.get(word_of(tables, "contact.kind"))
     makers = (
-        point_choices, surface_choices, time_choices, friction_choices, fluid_choices, wedge_choices,
-        word_choices,
+        point_choices, surface_choices, time_choices, friction_choices, heat_choices, fluid_choices,
+        wedge_choices, word_choices,
     )  # fmt: skip
     return [*([kind_choice(kind)] if kind else []), *chain(*(maker(tables) for maker in makers))]
 

@@ -13,7 +13,7 @@ class Choice:
 
     said: str
     """The choice at the end of a message, such as 'where contact.kind = "line"'."""
-    about: tuple | None
+    about: tuple | None = ()
     """Keys that it decides about; None for all."""
     takes: tuple = ()
     """Those of them that count. Giving another one is a mistake."""
@@ -43,6 +43,11 @@ def value_of(tables, key):
     section, _, name = key.partition(".")
     table = tables.get(section)
     return table.get(name) if isinstance(table, dict) else None
+
+
+def given(tables, keys):
+    """Those of some keys that nested values give."""
+    return [key for key in keys if value_of(tables, key) is not None]
 
 
 def word_of(tables, key):

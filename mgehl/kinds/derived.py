@@ -7,7 +7,7 @@ they had been given, so that nobody else knows the words.
 from itertools import combinations
 
 from mgehl.kinds.bodies import BODIES, ELASTICITY, GEOMETRY, MOTION, SPEEDS, keys
-from mgehl.kinds.choice import Choice, value_of
+from mgehl.kinds.choice import Choice, given
 
 OILS = "lubricant.oil", "lubricant.kinematic_viscosity", "lubricant.kinematic_viscosity_40"
 OIL_AT_100 = "lubricant.kinematic_viscosity_100"
@@ -48,28 +48,23 @@ HEIGHTS = "contact.surface", "surface.kind", "surface.file", "second_surface.kin
 
 def word_choices(tables):
     """Every `Choice` that the words in nested values make."""
-
-    def given(words):
-        return [word for word in words if value_of(tables, word) is not None]
-
     for one, other in EITHER:
         for word, beside in ((one, other), (other, one)):
-            if given((word,)):
+            if given(tables, [word]):
                 yield Choice(f"with {word}", (beside,))
     for targets, words in FOLLOWS:
-        if found := given(words):
-            yield Choice(f"with {found[0]}", (), gives=targets)
-    if given(("lubricant.oil",)):
+        if found := given(tables, words):
+            yield Choice(f"with {found[0]}", gives=targets)
+    if given(tables, ["lubricant.oil"]):
         yield Choice("with lubricant.oil", ("lubricant.viscosity_law",))
-    for word in given(NEEDS):
-        yield Choice(f"with {word}", (), needs=NEEDS[word])
-    if found := given(HEIGHTS):
+    for word in given(tables, NEEDS):
+        yield Choice(f"with {word}", needs=NEEDS[word])
+    if found := given(tables, HEIGHTS):
         yield Choice(f"with {found[0]}", keys(("roughness", "Ra")))
 
 
 def overridden(tables):
     """A `Choice` for each number in nested values of settings: the words that it stands for are gone."""
     for targets, words in FOLLOWS:
-        for target in targets:
-            if value_of(tables, target) is not None:
-                yield Choice(f"with {target}", words)
+        for target in given(tables, targets):
+            yield Choice(f"with {target}", words)

@@ -38,7 +38,7 @@ def fluid_choices(tables):
     if word_of(tables, "discretization.contact_model") == "dry":
         needed = OF_MOES if value_of(tables, "moes.M") is not None else ()
         idle = tuple(name for name in OF_A_FLUID if name not in needed)
-        yield Choice('where discretization.contact_model = "dry"', (), idle=idle)
+        yield Choice('where discretization.contact_model = "dry"', idle=idle)
 
 
 class DryKind(LoadedKind):

@@ -1,10 +1,10 @@
 """[heat] and the lubricant's heating: bodies that conduct, oil that is thinned by the heat of its shear."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 
 from mgehl.config_value import number, shown
 from mgehl.errors import ConfigError
-from mgehl.kinds.lubricant import thinning_of
+from mgehl.kinds.choice import Choice, given, word_of
 from mgehl.model.flash import Solid
 
 
@@ -23,20 +23,18 @@ class HeatSection:
 LEAST = 0.2
 """Part of the film below which the factor means nothing: its formula falls through 0."""
 
-NEEDED = "lubricant.conductivity", "lubricant.thermoviscosity"
+OF_BODIES = tuple(f"heat.{field.name}" for field in fields(HeatSection))
 
 
-def check_heat(config):
-    """Raise ConfigError where keys are missing that others need."""
-    if config.lubricant.heating == "factor":
-        known = thinning_of(config) is not None
-        for key in NEEDED:
-            if config.value(key) is None and not (known and key == NEEDED[1]):
-                raise ConfigError(f'{key}: must be given where lubricant.heating = "factor"')
-    values = vars(config.heat)
-    if missing := [name for name, value in values.items() if value is None]:
-        if given := [name for name, value in values.items() if value is not None]:
-            raise ConfigError(f"heat.{missing[0]}: must be given beside heat.{given[0]}")
+def heat_choices(tables):
+    """Bodies conduct by all four numbers or by none; a factor of the film needs two numbers of the oil."""
+    if found := given(tables, OF_BODIES):
+        yield Choice(f"beside {found[0]}", needs=OF_BODIES)
+    is_loaded = word_of(tables, "contact.kind") != "wedge"
+    if is_loaded and word_of(tables, "lubricant.heating") == "factor":
+        known = given(tables, ("lubricant.oil", "lubricant.kinematic_viscosity_40"))
+        beta = () if known else ("lubricant.thermoviscosity",)
+        yield Choice('where lubricant.heating = "factor"', needs=("lubricant.conductivity", *beta))
 
 
 def check_factor(config, contact):

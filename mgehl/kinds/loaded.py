@@ -6,7 +6,7 @@ from mgehl.config_value import AUTO, FARTHEST
 from mgehl.kinds import loaded_checks, surface, time
 from mgehl.kinds.bodies import roughness
 from mgehl.kinds.friction import check_friction, friction_from
-from mgehl.kinds.heat import check_factor, check_heat, heated, solids_from
+from mgehl.kinds.heat import check_factor, heated, solids_from
 from mgehl.kinds.kind import Effort, Kind, kept_together
 from mgehl.kinds.lubricant import check_laws, lubricant_from, thinning_of
 from mgehl.model.films import formula_of, inlet_heating
@@ -46,7 +46,6 @@ class LoadedKind(Kind):
         time.check_courses(config)
         check_laws(config)
         check_friction(config)
-        check_heat(config)
 
     def contact(self, config):
         """The contact, its oil thinned where heat thins its film."""

@@ -7,7 +7,7 @@ from mgehl.discretization.fluid import FOLDING
 from mgehl.discretization.mesh import Mesh
 from mgehl.errors import ConfigError
 from mgehl.kinds.bodies import MOTION
-from mgehl.kinds.choice import Choice, value_of, word_of
+from mgehl.kinds.choice import Choice, given, word_of
 from mgehl.kinds.kind import Effort
 from mgehl.kinds.loaded import LoadedKind
 from mgehl.kinds.time import reference
@@ -53,8 +53,8 @@ def point_choices(tables):
         is_coated, said = deformation == "coated", f'where contact.deformation = "{deformation}"'
         needs = ("coating.thickness", "coating.modulus") if is_coated else ()
         yield Choice(said, () if is_coated else ("coating",), needs=needs)
-    if given := [key for key in MOES if value_of(tables, key) is not None]:
-        yield Choice(f"with {given[0]}", MOES_REPLACES, needs=MOES)
+    if found := given(tables, MOES):
+        yield Choice(f"with {found[0]}", MOES_REPLACES, needs=MOES)
 
 
 class PointKind(LoadedKind):

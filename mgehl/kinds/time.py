@@ -7,7 +7,7 @@ import numpy as np
 
 from mgehl.config_value import number, word
 from mgehl.errors import ConfigError
-from mgehl.kinds.choice import Choice, value_of
+from mgehl.kinds.choice import Choice, given
 from mgehl.kinds.surface_kinds import carried, share_of
 from mgehl.model.course import CourseError, course_of
 from mgehl.model.frame import direction
@@ -40,9 +40,9 @@ NEEDED = {"solver.method": "newton-mg", "discretization.contact_model": "lcic"}
 
 def time_choices(tables):
     """To a steady state keys of [time] mean nothing."""
-    given = [name for name in ("end", "step", "save_every") if value_of(tables, f"time.{name}") is not None]
-    if given and "end" not in given:
-        yield Choice("without time.end", ("time.step", "time.save_every"))
+    within = "time.step", "time.save_every"
+    if given(tables, within) and not given(tables, ["time.end"]):
+        yield Choice("without time.end", within)
 
 
 def is_table(key, value):
@@ -92,8 +92,8 @@ def _wrong_with(key, value, end):
     """What is wrong with a course until `end`; None where nothing is."""
     if end is None:
         return "changes with time, and time.end is not given"
+    _naming(key, value, lambda: course_of(value).check(end))
     course = course_of(value)
-    _naming(key, value, lambda: course.check(end))
     least, most = course.range(end)
     if key != "motion.speed":
         return None if least > 0.0 else f"falls to {least:g}; must stay above 0"

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from mgehl.config_value import number, switch, word
 from mgehl.discretization.mesh import Mesh
-from mgehl.kinds.choice import Choice, value_of, word_of
+from mgehl.kinds.choice import Choice, given, value_of, word_of
 from mgehl.kinds.kind import Effort, Kind, kept_together
 from mgehl.kinds.loaded_checks import check_own_laws_up_to
 from mgehl.kinds.lubricant import check_laws, lubricant_from
@@ -89,14 +89,14 @@ def pocket_words(depth):
 def wedge_choices(tables):
     """Every `Choice` that keys of [wedge] make."""
     if word_of(tables, "wedge.pillar") == "none":
-        yield Choice('where wedge.pillar = "none"', (), idle=PILLAR)
-    if films := [key for key in FILMS if value_of(tables, key) is not None]:
+        yield Choice('where wedge.pillar = "none"', idle=PILLAR)
+    if films := given(tables, FILMS):
         yield Choice(f"with {films[0]}", REPLACED, needs=FILMS)
     if word_of(tables, "contact.kind") == "wedge" and not value_of(tables, "wedge.pressure_laws"):
         yield Choice("without wedge.pressure_laws = true", LAWS)
     depth = value_of(tables, "wedge.pocket_depth")
     if depth:
-        yield Choice("beside wedge.pocket_depth", (), needs=POCKET[:2])
+        yield Choice("beside wedge.pocket_depth", needs=POCKET[:2])
     elif depth is not None:
         yield Choice("without wedge.pocket_depth", POCKET)
 
