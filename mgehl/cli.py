@@ -19,7 +19,7 @@ import warnings
 from importlib import import_module
 
 from mgehl.address_space import check_address_space
-from mgehl.commands import COMMANDS, USAGE, execute_on
+from mgehl.commands import COMMANDS, CONVERGED, PARALLEL, USAGE, execute_on
 from mgehl.errors import one_line
 from mgehl.failures import told
 from mgehl.petsc_options import check_options, leave_signals_alone
@@ -44,11 +44,11 @@ def main(arguments=None):
         own, petsc = split_options(sys.argv[1:] if arguments is None else arguments)
         command = read(own, petsc)
         check_address_space()
-        is_alone = not command.module.PARALLEL and _rank() is None
+        is_alone = command.command not in PARALLEL and _rank() is None
         status = command.module.execute(command) if is_alone else _in_parallel(command, petsc)
     except (Exception, KeyboardInterrupt) as error:
         status = _say_before_mpi(error)
-    return _flushed(status, bool(command) and command.module.PARALLEL)
+    return _flushed(status or CONVERGED, bool(command) and command.command in PARALLEL)
 
 
 def _prepare():
@@ -213,7 +213,7 @@ def _on_all_ranks(command, comm):
     """Execute on all ranks; where all fail they leave together, and one of them says why."""
     apart = comm.Dup()  # for errors: on `comm` the other ranks may be at something else
     try:
-        return execute_on(comm, command.module, command)
+        return execute_on(comm, command)
     except (Exception, KeyboardInterrupt) as error:
         together = _meet(apart)
         status = _say(error) if comm.rank == 0 or not together else told(error)[1]

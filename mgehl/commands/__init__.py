@@ -1,8 +1,8 @@
 """The commands of the command line, a module each.
 
 A module's docstring is its help: a line, what it does, an example. `add(parser)` adds its options, if it
-takes any; `execute` returns the exit status. Where `PARALLEL` is true `execute(options, comm)` is called on
-every rank, after PETSc was started; elsewhere `execute(options)`, of several ranks on the first.
+takes any; `execute(options)` returns the exit status, or nothing where all went well. Of several ranks the
+first calls it, but those of `PARALLEL`, after PETSc was started, call `execute(options, comm)` all.
 """
 
 from pathlib import Path
@@ -15,17 +15,20 @@ COMMANDS = (
 )  # fmt: skip
 """In the order of the help."""
 
+PARALLEL = "run", "sweep", "study", "info", "bench"
+"""Those that every rank executes; `info` to be told how many there are."""
+
 CONVERGED, NOT_CONVERGED, USAGE = 0, 1, 2
 """Exit statuses: done; not converged, or failed on the way; a mistake in the input."""
 
 
-def execute_on(comm, module, options):
-    """The exit status of a command's `module`; what needs one rank is done, and said, by the first."""
-    if module.PARALLEL:
-        return module.execute(options, comm)
+def execute_on(comm, options):
+    """The exit status of the command in `options`; what needs one rank is done, and said, by the first."""
+    if options.command in PARALLEL:
+        return options.module.execute(options, comm)
     from mgehl.output.files import from_first_rank
 
-    return comm.bcast(from_first_rank(comm, module.execute, options))
+    return comm.bcast(from_first_rank(comm, options.module.execute, options))
 
 
 def shown(file):

@@ -9,8 +9,6 @@ example: mgehl bench --case wedge-257 --repeat 1 --json now.json
 from mgehl.commands import CONVERGED, NOT_CONVERGED, whole
 from mgehl.errors import UserError
 
-PARALLEL = True
-
 
 def add(parser):
     parser.add_argument("--case", action="append", metavar="NAME", dest="cases",

@@ -8,7 +8,7 @@ example: mgehl check --set grid.nodes=1025 --set motion.speed='7.5 mm/s' --ranks
 
 from itertools import groupby
 
-from mgehl.commands import CONVERGED, add_configuration, add_settings, shown, whole
+from mgehl.commands import add_configuration, add_settings, shown, whole
 from mgehl.config import config_from_tables, left_out, read_tables
 from mgehl.config_file import chosen_config, naming_file
 from mgehl.kinds.cited import cited
@@ -16,8 +16,6 @@ from mgehl.kinds.lubricant import oil_words
 from mgehl.kinds.plausible import implausible
 from mgehl.model.sources import SOURCES
 from mgehl.saying import columns, folded
-
-PARALLEL = False
 
 GiB = 2**30
 
@@ -49,7 +47,6 @@ def execute(options):
     lines += (*_under("sources", [f"{names}; mgehl cite RUN has them in full"]),)
     width = columns()
     print(*(folded(line, " " * NAME, width) for line in lines), sep="\n")
-    return CONVERGED
 
 
 def _given(config, missing):

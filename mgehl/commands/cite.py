@@ -6,10 +6,6 @@ CITATION.cff is that of this program.
 example: mgehl cite runs/try
 """
 
-from mgehl.commands import CONVERGED
-
-PARALLEL = False
-
 
 def add(parser):
     parser.add_argument("run", metavar="RUN", help="run directory")
@@ -24,4 +20,3 @@ def execute(options):
     solution = read_run(options.run)
     keys = cited(solution.config, solution.contact)
     print(*(SOURCES[key].bibtex(key) for key in keys), sep="\n\n")
-    return CONVERGED

@@ -7,10 +7,7 @@ example: mgehl collect runs/try --columns 'run,motion.speed,central nm' --out ru
 
 from pathlib import Path
 
-from mgehl.commands import CONVERGED
 from mgehl.errors import OutputError, UserError
-
-PARALLEL = False
 
 
 def add(parser):
@@ -42,4 +39,3 @@ def execute(options):
         raise UserError(f"--columns {unknown[0]}: known are {', '.join(rows[0])}, and keys (mgehl keys)")
     width = terminal_columns()
     print(drawn(rows, columns, width) if width else markdown(rows, columns))
-    return CONVERGED

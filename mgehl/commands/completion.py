@@ -8,10 +8,7 @@ example: mgehl completion bash
 
 import argparse
 
-from mgehl.commands import CONVERGED
 from mgehl.config import KEYS
-
-PARALLEL = False
 
 SHELLS = ("bash", "zsh", "tcsh")
 
@@ -52,7 +49,6 @@ def execute(options):
 
     _say_what_completes(options.parser, {"FILE": shtab.FILE, "DIR": shtab.DIRECTORY, "KEY": KEY})
     print(shtab.complete(options.parser, options.shell) + (BASH_END if options.shell == "bash" else ""))
-    return CONVERGED
 
 
 def _say_what_completes(parser, kinds):

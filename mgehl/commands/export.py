@@ -7,10 +7,6 @@ instant.
 example: mgehl export runs/try --to vts,nc
 """
 
-from mgehl.commands import CONVERGED
-
-PARALLEL = False
-
 
 def add(parser):
     parser.add_argument("run", metavar="RUN", help="run directory")
@@ -30,4 +26,3 @@ def execute(options):
     export(read_run(options.run), paths, options.force)
     for path in paths.values():
         print(path)
-    return CONVERGED

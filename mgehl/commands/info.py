@@ -7,13 +7,10 @@ example: mgehl info --json
 
 import json
 
-from mgehl.commands import CONVERGED, add_configuration
+from mgehl.commands import add_configuration
 from mgehl.config import load_config
 from mgehl.config_file import chosen_config
 from mgehl.saying import columns, folded
-
-PARALLEL = True
-"""MPI tells how many ranks there are."""
 
 LONG = ("configured",)
 """Keys that only --json prints: PETSc's configure options fill a screen."""
@@ -34,7 +31,6 @@ def execute(options, comm):
     found = {"configuration": _configuration(options.config)} | surroundings(comm)
     if comm.rank == 0:
         print(json.dumps(found, indent=2) if options.json else "\n".join(_lines(found)))
-    return CONVERGED
 
 
 def _configuration(path):

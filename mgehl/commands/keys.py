@@ -7,11 +7,8 @@ example: mgehl keys
 
 from dataclasses import fields
 
-from mgehl.commands import CONVERGED
 from mgehl.config import SECTIONS
 from mgehl.saying import columns, folded
-
-PARALLEL = False
 
 NAME = 33
 """Columns of a key's name and the space after it."""
@@ -21,7 +18,6 @@ def execute(_options):
     """Print the list; on a terminal its lines are broken at spaces."""
     width = columns()
     print(*(folded(line, " " * NAME, width) for line in describe_keys().splitlines()), sep="\n")
-    return CONVERGED
 
 
 def describe_keys():

@@ -7,11 +7,8 @@ example: mgehl new bearing --kind wedge
 
 from pathlib import Path
 
-from mgehl.commands import CONVERGED
 from mgehl.errors import OutputError, UserError, printable
 from mgehl.kinds import KINDS
-
-PARALLEL = False
 
 
 def add(parser):
@@ -35,4 +32,3 @@ def execute(options):
     write_whole(path, template(options.kind, path))
     name = printable(str(path))
     print(f"{name}: change what differs in your case, then: mpiexec -n 2 python -m mgehl run {name}")
-    return CONVERGED

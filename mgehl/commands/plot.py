@@ -10,10 +10,8 @@ example: python -m mgehl plot runs/try --kind lines,film --format png,svg
 
 from pathlib import Path
 
-from mgehl.commands import CONVERGED, several, whole
+from mgehl.commands import several, whole
 from mgehl.errors import OutputError, UserError
-
-PARALLEL = False
 
 KINDS = ("all", "time", "lines", "film", "pressure", "status", "gap", "surface", "history", "compare")
 FORMATS = ("png", "svg", "pdf")
@@ -58,7 +56,6 @@ def execute(options):
                 print(*write(pictures, directory, formats), sep="\n")
             except OSError as error:
                 raise OutputError(f"{directory}: cannot be written: {error}") from None
-    return CONVERGED
 
 
 def _movies(options):
@@ -71,7 +68,6 @@ def _movies(options):
         folder = Path(options.out or Path(run) / "plots")
         with writing(folder):
             print(write_movie(read_run(run), folder))
-    return CONVERGED
 
 
 def _curves(options):

@@ -9,11 +9,8 @@ example: python -m mgehl report runs/try --out try.html
 
 from pathlib import Path
 
-from mgehl.commands import CONVERGED
 from mgehl.commands.study import STUDIES
 from mgehl.errors import OutputError
-
-PARALLEL = False
 
 
 def add(parser):
@@ -35,7 +32,6 @@ def execute(options):
         raise OutputError(f"{path} exists: add --force to replace it, or choose another with --out")
     write_whole(path, _page(directory))
     print(f"report {path}")
-    return CONVERGED
 
 
 def _page(directory):

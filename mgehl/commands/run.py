@@ -16,8 +16,6 @@ from mgehl.config_file import chosen_config, naming_file
 from mgehl.config_value import read_quantity
 from mgehl.errors import OutputError, UserError
 
-PARALLEL = True
-
 NO_ERROR = "solver.error=false"
 
 NOT_WITH_RESUME = {

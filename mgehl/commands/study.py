@@ -14,8 +14,6 @@ from mgehl.config import load_config
 from mgehl.config_file import nested
 from mgehl.errors import ConfigError
 
-PARALLEL = True
-
 STUDIES = {
     "wedge": "the rigid wedge bearing: Figures 7 to 10, exact series, a pocket",
     "grid": "full contact and full film on ever finer grids: Figures 11 to 13",

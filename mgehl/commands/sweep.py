@@ -19,8 +19,6 @@ from mgehl.config import load_config
 from mgehl.config_file import chosen_config, naming_file
 from mgehl.errors import ConfigError, OutputError
 
-PARALLEL = True
-
 
 def add(parser):
     add_configuration(parser)
