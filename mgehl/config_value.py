@@ -36,19 +36,19 @@ LEFT_OUT = ("pandas", "xarray", "dask", "pint_pandas")
 
 
 def number(default, help, unit=None, low=None, high=None, above=None, own=None, instead=""):
-    """A key with a number from `low`, or from what is `above`, to `high`: a dataclass field whose metadata
-    are its rules.
+    """A key with a number from `low`, or `above` another, to `high`: a field whose metadata are its rules.
 
     `own` reads a word in its place, such as a function of the user's own, whose path counts from a
     directory; it returns None for what it cannot read. `instead` names the key that takes what people often
     give here in a unit of another kind.
     """
-    return _key(default, help, float, unit, low, high, above=above, own=own, instead=instead)
+    limits = {"above": above, "low": low, "high": high}
+    return _key(default, help, float, unit=unit, own=own, instead=instead, **limits)
 
 
 def whole(default, help, low, high=None):
     """A key with a whole number."""
-    return _key(default, help, int, None, low, high)
+    return _key(default, help, int, low=low, high=high)
 
 
 def word(default, help, choices=None, own=None, own_name=OWN):
@@ -67,14 +67,11 @@ def interval(default, help):
     return _key(default, help, tuple, words=(AUTO,))
 
 
-def _key(
-    default, help, kind, unit=None, low=None, high=None, above=None, choices=None, own=None, instead="",
-    words=(),
-):  # fmt: skip
-    rules = {"help": help, "unit": unit, "above": above, "low": low, "high": high, "choices": choices}
-    return field(
-        default=default, metadata=rules | {"kind": kind, "own": own, "instead": instead, "words": words}
-    )
+_RULES = dict.fromkeys(("unit", "above", "low", "high", "choices", "own")) | {"instead": "", "words": ()}
+
+
+def _key(default, help, kind, **rules):
+    return field(default=default, metadata=_RULES | {"help": help, "kind": kind} | rules)
 
 
 def shown(value):
@@ -175,8 +172,8 @@ LIMITS = {"above": ("above", gt), "low": ("at least", ge), "high": ("at most", l
 """How a number stands to each limit of its key."""
 
 
-def _in_range(rules, number):
-    return all(holds(number, rules[end]) for end, (_, holds) in LIMITS.items() if rules[end] is not None)
+def _in_range(rules, value):
+    return all(holds(value, rules[end]) for end, (_, holds) in LIMITS.items() if rules[end] is not None)
 
 
 def _describe_limits(rules):

@@ -50,7 +50,7 @@ def add_settings(parser, help="set a key, such as grid.nodes=513; may be repeate
     )
 
 
-def whole(option, low, high=10**6):
+def whole_number(option, low, high=10**6):
     """What reads the whole number of an option, in a range. Raises UserError."""
 
     def read(text):

@@ -6,7 +6,7 @@ timed beside each case; --compare divides by it, so that the load of the machine
 example: mgehl bench --case wedge-257 --repeat 1 --json now.json
 """
 
-from mgehl.commands import CONVERGED, NOT_CONVERGED, whole
+from mgehl.commands import CONVERGED, NOT_CONVERGED, whole_number
 from mgehl.errors import UserError
 
 
@@ -14,7 +14,7 @@ def add(parser):
     parser.add_argument("--case", action="append", metavar="NAME", dest="cases",
                         help="time this case only; may be repeated")  # fmt: skip
     parser.add_argument("--large", action="store_true", help="time cases of 513 and 1025 nodes, too")
-    parser.add_argument("--repeat", type=whole("--repeat", 1), default=2, metavar="N",
+    parser.add_argument("--repeat", type=whole_number("--repeat", 1), default=2, metavar="N",
                         help="times each case is solved; the median counts (default: 2)")  # fmt: skip
     parser.add_argument("--json", metavar="FILE", help="write everything as JSON, too")
     parser.add_argument("--compare", metavar="FILE", help="JSON of another commit: print what has changed")

@@ -8,7 +8,7 @@ example: mgehl check --set grid.nodes=1025 --set motion.speed='7.5 mm/s' --ranks
 
 from itertools import groupby
 
-from mgehl.commands import add_configuration, add_settings, shown, whole
+from mgehl.commands import add_configuration, add_settings, shown, whole_number
 from mgehl.config import config_from_tables, left_out, read_tables
 from mgehl.config_file import chosen_config, naming_file
 from mgehl.kinds.cited import cited
@@ -26,7 +26,7 @@ NAME = 11
 def add(parser):
     add_configuration(parser)
     add_settings(parser)
-    parser.add_argument("--ranks", type=whole("--ranks", 1), default=1, metavar="N",
+    parser.add_argument("--ranks", type=whole_number("--ranks", 1), default=1, metavar="N",
                         help="ranks of the run (default: 1)")  # fmt: skip
 
 

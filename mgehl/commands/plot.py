@@ -10,7 +10,7 @@ example: python -m mgehl plot runs/try --kind lines,film --format png,svg
 
 from pathlib import Path
 
-from mgehl.commands import several, whole
+from mgehl.commands import several, whole_number
 from mgehl.errors import OutputError, UserError
 
 KINDS = ("all", "time", "lines", "film", "pressure", "status", "gap", "surface", "history", "compare")
@@ -34,7 +34,7 @@ def add(parser):
                      "mgehl/output/pictures/mgehl.mplstyle, which says how")  # fmt: skip
     parser.add_argument("--movie", action="store_true", help="of a run in time: movie.mp4, or movie.gif "
                      "where ffmpeg is not there, and no other picture")  # fmt: skip
-    parser.add_argument("--dpi", type=whole("--dpi", 30, 1200), metavar="N",
+    parser.add_argument("--dpi", type=whole_number("--dpi", 30, 1200), metavar="N",
                      help="dots to the inch of bitmaps (default: 150)")  # fmt: skip
 
 

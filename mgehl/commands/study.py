@@ -9,7 +9,7 @@ from argparse import ArgumentTypeError
 from importlib import import_module
 from pathlib import Path
 
-from mgehl.commands import CONVERGED, NOT_CONVERGED, add_settings, whole
+from mgehl.commands import CONVERGED, NOT_CONVERGED, add_settings, whole_number
 from mgehl.config import load_config
 from mgehl.config_file import nested
 from mgehl.errors import ConfigError
@@ -59,10 +59,10 @@ def add(parser):
     parser.add_argument("--direction", choices=("down", "up", "both"),
                         help="branches of study transition (default: both)")  # fmt: skip
     parser.add_argument(
-        "--cases", type=whole("--cases", 1, 2**31), metavar="N", help="how many cases chance draws"
+        "--cases", type=whole_number("--cases", 1, 2**31), metavar="N", help="how many cases chance draws"
     )
     parser.add_argument(
-        "--seed", type=whole("--seed", 0, 2**31), metavar="N", help="by which they are drawn"
+        "--seed", type=whole_number("--seed", 0, 2**31), metavar="N", help="by which they are drawn"
     )
     parser.add_argument("--out", metavar="DIR", help="directory of the results (default: runs/study-NAME)")
     parser.add_argument("--force", action="store_true", help="start anew in a directory that exists")
