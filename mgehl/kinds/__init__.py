@@ -34,8 +34,8 @@ def choices(tables):
     """
     kind = KINDS.get(word_of(tables, "contact.kind"))
     makers = (
-        point_choices, surface_choices, time_choices, friction_choices, heat_choices, fluid_choices,
-        wedge_choices, word_choices,
+        point_choices, surface_choices, time_choices, friction_choices, fluid_choices, wedge_choices,
+        word_choices, heat_choices,
     )  # fmt: skip
     return [*([kind_choice(kind)] if kind else []), *chain(*(maker(tables) for maker in makers))]
 
