@@ -1,14 +1,6 @@
 """The command line.
 
     mpiexec -n 2 python -m mgehl run [CONFIG] [--set key=value ...] [--out DIR] [PETSc options]
-    mpiexec -n 2 python -m mgehl study NAME [--nodes 129,257] [--out DIR] [PETSc options]
-    python -m mgehl collect RUN [RUN ...] [--out FILE.csv]
-    python -m mgehl plot RUN [RUN ...] [--kind lines,film] [--format png,svg,pdf]
-    python -m mgehl report RUN
-    python -m mgehl cite RUN
-    python -m mgehl check CONFIG [--set key=value ...] [--ranks N]
-    python -m mgehl new NAME [--kind point|line|wedge]
-    python -m mgehl keys | info | bench | completion | --version
 
 `mgehl --help` lists all commands; `mgehl.commands` holds them, a module each.
 
@@ -27,7 +19,7 @@ import warnings
 from importlib import import_module
 
 from mgehl.address_space import check_address_space
-from mgehl.commands import COMMANDS, USAGE, execute_on
+from mgehl.commands import COMMANDS, CONVERGED, PARALLEL, USAGE, execute_on
 from mgehl.errors import one_line
 from mgehl.failures import told
 from mgehl.petsc_options import check_options, leave_signals_alone
@@ -52,11 +44,11 @@ def main(arguments=None):
         own, petsc = split_options(sys.argv[1:] if arguments is None else arguments)
         command = read(own, petsc)
         check_address_space()
-        is_alone = not command.module.PARALLEL and _rank() is None
+        is_alone = command.command not in PARALLEL and _rank() is None
         status = command.module.execute(command) if is_alone else _in_parallel(command, petsc)
     except (Exception, KeyboardInterrupt) as error:
         status = _say_before_mpi(error)
-    return _flushed(status, bool(command) and command.module.PARALLEL)
+    return _flushed(status or CONVERGED, bool(command) and command.command in PARALLEL)
 
 
 def _prepare():
@@ -113,9 +105,11 @@ def _flushed(status, is_run):
 
 
 class _Help(argparse.HelpFormatter):
-    """Breaks lines at spaces; those of examples so that a shell takes what is copied."""
+    """Breaks lines at spaces, but in a table; those of examples so that a shell takes what is copied."""
 
     def _fill_text(self, text, width, indent):
+        if "\n\n" in text:
+            return text
         if not text.startswith("example: "):
             return super()._fill_text(text, width, indent)
         lines = [""]
@@ -161,7 +155,14 @@ def parser():
     commands = top.add_subparsers(dest="command", required=True, metavar="COMMAND")
     for name in COMMANDS:
         module = import_module(f"mgehl.commands.{name}")
-        module.add(commands).set_defaults(module=module, parser=top)
+        title, *description, example = module.__doc__.split("\n\n")
+        each = commands.add_parser(
+            name, help=title.removeprefix(f"mgehl {name}: "), description="\n\n".join(description),
+            epilog=example.strip(), allow_abbrev=False,
+        )  # fmt: skip
+        if hasattr(module, "add"):
+            module.add(each)
+        each.set_defaults(module=module, parser=top)
     return top
 
 
@@ -212,7 +213,7 @@ def _on_all_ranks(command, comm):
     """Execute on all ranks; where all fail they leave together, and one of them says why."""
     apart = comm.Dup()  # for errors: on `comm` the other ranks may be at something else
     try:
-        return execute_on(comm, command.module, command)
+        return execute_on(comm, command)
     except (Exception, KeyboardInterrupt) as error:
         together = _meet(apart)
         status = _say(error) if comm.rank == 0 or not together else told(error)[1]

@@ -4,23 +4,21 @@ Every mistake is one line that names the key, the value and what is allowed (`Co
 """
 
 import difflib
-import os
-import re
-import sysconfig
-import tomllib
 from collections.abc import Iterable, Mapping
-from contextlib import contextmanager
 from dataclasses import asdict, dataclass, fields, replace
 from pathlib import Path
 
 from mgehl import config_sections as sections
-from mgehl.config_file import text_of
+from mgehl.config_file import default_config, nested, read_toml
 from mgehl.config_value import read_value, shown
 from mgehl.errors import ConfigError
 from mgehl.kinds import choices, derived, kind_of
 from mgehl.kinds.bodies import BodySection
 from mgehl.kinds.choice import named, value_of
 from mgehl.kinds.derived import overridden
+from mgehl.kinds.friction import FrictionSection
+from mgehl.kinds.heat import HeatSection
+from mgehl.kinds.lubricant import LubricantSection
 from mgehl.kinds.point import CoatingSection, MoesSection
 from mgehl.kinds.surface_kinds import SurfaceSection
 from mgehl.kinds.time import TimeSection
@@ -28,17 +26,6 @@ from mgehl.kinds.wedge import WedgeSection
 
 COARSEST_NODES = 33
 """Nodes along each side of the coarsest grid, which is solved directly."""
-
-ROUGH_BALL, PAPERS_BALL = "rough.toml", "point_contact.toml"
-"""Configurations that come with mgehl: the one it shows, and the one that settings alone change."""
-
-_INSTALLED = Path("share") / "mgehl" / "configs"
-_CONFIG_DIRECTORIES = (
-    Path(__file__).resolve().parent.parent / "configs",
-    Path(sysconfig.get_path("data")) / _INSTALLED,
-    Path(sysconfig.get_path("data", f"{os.name}_user")) / _INSTALLED,
-)
-"""Where configurations live in a checkout, and where an installation puts them."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -48,13 +35,13 @@ class Config:
     contact: sections.ContactSection = sections.ContactSection()
     coating: CoatingSection = CoatingSection()
     wedge: WedgeSection = WedgeSection()
-    lubricant: sections.LubricantSection = sections.LubricantSection()
+    lubricant: LubricantSection = LubricantSection()
     motion: sections.MotionSection = sections.MotionSection()
     time: TimeSection = TimeSection()
     body_1: BodySection = BodySection()
     body_2: BodySection = BodySection()
-    friction: sections.FrictionSection = sections.FrictionSection()
-    heat: sections.HeatSection = sections.HeatSection()
+    friction: FrictionSection = FrictionSection()
+    heat: HeatSection = HeatSection()
     surface: SurfaceSection = SurfaceSection()
     second_surface: SurfaceSection = SurfaceSection()
     moes: MoesSection = MoesSection()
@@ -173,47 +160,12 @@ def _mean_nothing(key, choices):
     return any(choice.means_nothing(key) for choice in choices)
 
 
-def default_config():
-    """Path of the configuration that settings change when none is named: the paper's ball."""
-    return _shipped(PAPERS_BALL)
-
-
-def chosen_config(path=None, settings=()):
-    """Path of the configuration that a command line means.
-
-    The one it names; without any, the paper's ball where there are settings to change it, and else the
-    rough ball.
-    """
-    if path:
-        return Path(path)
-    return default_config() if settings else _shipped(ROUGH_BALL)
-
-
-def _shipped(name):
-    """Path of a configuration that comes with mgehl."""
-    paths = [directory / name for directory in _CONFIG_DIRECTORIES]
-    return next((path for path in paths if path.exists()), paths[0])
-
-
 def load_config(path=None, settings=()):
     """Read a TOML file (default: the paper's ball) and apply settings, "key=value" or a mapping.
 
     Raises ConfigError for anything that cannot be used.
     """
     return config_from_tables(read_tables(path, settings))
-
-
-@contextmanager
-def naming_file(path, settings=()):
-    """Let what is wrong with a file begin with its name; what is wrong with a setting has its key alone."""
-    set_anew = {setting.partition("=")[0].strip() for setting in settings}
-    try:
-        yield
-    except ConfigError as error:
-        key = re.match(r"[\w.]+", str(error))
-        if str(error).startswith((str(path), "--set")) or (key and key[0] in set_anew):
-            raise
-        raise ConfigError(f"{path}: {error}") from None
 
 
 def left_out(config, tables):
@@ -225,20 +177,14 @@ def left_out(config, tables):
 def read_tables(path=None, settings=()):
     """The nested values, right or wrong, of which `load_config` makes a `Config`. Raises ConfigError."""
     path = Path(path) if path else default_config()
-    tables = _read_toml(path)
+    tables = read_toml(path)
     _anchor(tables, path.parent)
     return _set_anew(tables, settings)
 
 
 def _set_anew(tables, settings):
     """Nested values with settings laid over them; keys that a setting leaves without a meaning go."""
-    pairs = settings.items() if isinstance(settings, Mapping) else map(read_setting, settings)
-    given = {}
-    for name, value in pairs:
-        section, dot, key = str(name).partition(".")
-        if not (dot and section and key):
-            raise ConfigError(f"{name} = {shown(value)}: must be section.key, such as grid.nodes")
-        given.setdefault(section, {})[key] = value
+    given = nested(settings)
     found = [*choices(given), *overridden(given)]
     for section, table in tables.items():
         if isinstance(table, dict):
@@ -253,37 +199,30 @@ def _set_anew(tables, settings):
 
 def _anchor(tables, directory):
     """Count the paths of a file's own functions and surfaces from where that file is."""
-    for name, section in SECTIONS.items():
-        table = tables.get(name)
-        for key in fields(section) if isinstance(table, dict) else ():
-            own = key.metadata["own"]
-            if own and key.name in table and table[key.name] not in (key.metadata["choices"] or ()):
-                table[key.name] = own(table[key.name], directory) or table[key.name]
+    for key, field in KEYS.items():
+        own, value = field.metadata["own"], value_of(tables, key)
+        if own and value is not None and value not in (field.metadata["choices"] or ()):
+            tables[key.partition(".")[0]][field.name] = own(value, directory) or value
 
 
 def config_from_tables(tables):
     """Validate nested values as read from TOML."""
     sections = {}
-    for name, table in tables.items():
-        if name not in SECTIONS:
-            raise ConfigError(f"{name} = {shown(table)}: unknown section{_closest(name, SECTIONS)}")
-        _check_section(name, table)
-        sections[name] = _section(name, table)
+    for section, table in tables.items():
+        if section not in SECTIONS:
+            raise ConfigError(f"{section} = {shown(table)}: unknown section{_closest(section, SECTIONS)}")
+        _check_section(section, table)
+        for name in table:
+            if (key := f"{section}.{name}") not in KEYS:
+                raise ConfigError(f"{key} = {shown(table[name])}: unknown key{_closest_key(key)}")
+        keys = {name: f"{section}.{name}" for name in table}
+        values = {name: read_value(key, KEYS[key].metadata, table[name]) for name, key in keys.items()}
+        sections[section] = SECTIONS[section](**values)
     config = Config(**sections)
     _check_together(config, tables)
     config = config.with_numbers({each.key: each.value for each in config.derived})
     config.kind.check_keys(config)
     return config
-
-
-def _section(name, table):
-    known = {key.name: key for key in fields(SECTIONS[name])}
-    for key in table:
-        if key not in known:
-            raise ConfigError(f"{name}.{key} = {shown(table[key])}: unknown key{_closest_key(name, key)}")
-    return SECTIONS[name](
-        **{key: read_value(f"{name}.{key}", known[key].metadata, table[key]) for key in table}
-    )
 
 
 def _check_together(config, tables):
@@ -316,35 +255,10 @@ def _check_section(name, table):
         raise ConfigError(f"{name} = {shown(table)}: is a section, its keys go under [{name}]")
 
 
-def _read_toml(path):
-    try:
-        return tomllib.loads(text_of(path))
-    except OSError as error:
-        raise ConfigError(f"{path}: cannot be read: {error.strerror or error}") from None
-    except (ValueError, RecursionError) as error:  # no TOML or no text, or a number or a nest too long
-        raise ConfigError(f"{path}: not valid TOML: {error}") from None
-
-
-def read_setting(setting):
-    """Name and value of one "section.key=value"; the value is TOML, or else a plain string."""
-    key, equals, text = setting.partition("=")
-    section, dot, name = (part.strip() for part in key.partition("."))
-    if not (equals and dot and section and name):
-        raise ConfigError(
-            f"--set {' '.join(setting.split())}: must be section.key=value, such as grid.nodes=513"
-        )
-    try:
-        parsed = tomllib.loads(f"value = {text}")
-        value = parsed["value"] if len(parsed) == 1 else text.strip()
-    except (ValueError, RecursionError):
-        value = text.strip()
-    return f"{section}.{name}", value
-
-
 def checked_key(option, key):
     """A "section.key" that an option names. Raises ConfigError where there is none."""
     if key not in KEYS:
-        raise ConfigError(f"{option} {key}: unknown key{_closest_key(*key.rpartition('.')[::2])}")
+        raise ConfigError(f"{option} {key}: unknown key{_closest_key(key)}")
     return key
 
 
@@ -353,8 +267,8 @@ def _closest(name, known):
     return f"; did you mean {close[0]}?" if close else f"; known are {', '.join(known)}"
 
 
-def _closest_key(section, key):
+def _closest_key(key):
     """The nearest known key, of this section if one is near, else of any."""
-    close = difflib.get_close_matches(f"{section}.{key}", KEYS, n=1, cutoff=0.6)
-    same_name = [each for each in KEYS if each.endswith(f".{key}")]
-    return f"; did you mean {(same_name or close)[0]}?" if same_name or close else ""
+    close = difflib.get_close_matches(key, KEYS, n=1, cutoff=0.6)
+    near = [each for each in KEYS if each.endswith(f".{key.rpartition('.')[2]}")] or close
+    return f"; did you mean {near[0]}?" if near else ""

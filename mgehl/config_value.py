@@ -4,6 +4,7 @@ import re
 import sys
 from dataclasses import field
 from functools import cache
+from operator import ge, gt, le
 
 from mgehl.errors import ConfigError
 
@@ -34,23 +35,43 @@ LEFT_OUT = ("pandas", "xarray", "dask", "pint_pandas")
 """What pint would import for the sake of its arrays, in two thirds of the time that pint takes."""
 
 
-def key_field(
-    default, help, unit=None, above=None, low=None, high=None, choices=None, kind=float, own=None,
-    own_name=OWN, instead="",
-):  # fmt: skip
-    """A dataclass field that carries its rules as metadata.
+def number(default, help, unit=None, low=None, high=None, above=None, own=None, instead=""):
+    """A key with a number from `low`, or `above` another, to `high`: a field whose metadata are its rules.
 
-    `own` reads a word that is none of the choices, or no number, such as a function of the user's own,
-    whose path counts from a directory; it returns None for what it cannot read. `own_name` is how messages
-    call that. `instead` names the key that takes what people often give here in a unit of another kind.
+    `own` reads a word in its place, such as a function of the user's own, whose path counts from a
+    directory; it returns None for what it cannot read. `instead` names the key that takes what people often
+    give here in a unit of another kind.
     """
-    rules = {
-        "help": help, "unit": unit, "above": above, "low": low, "high": high,
-        "choices": choices, "kind": kind, "own": own, "instead": instead,
-        "words": (*(choices or ()), *([own_name] if own and kind is str else []),
-                  *([AUTO] if kind is tuple else [])),
-    }  # fmt: skip
-    return field(default=default, metadata=rules)
+    limits = {"above": above, "low": low, "high": high}
+    return _key(default, help, float, unit=unit, own=own, instead=instead, **limits)
+
+
+def whole(default, help, low, high=None):
+    """A key with a whole number."""
+    return _key(default, help, int, low=low, high=high)
+
+
+def word(default, help, choices=None, own=None, own_name=OWN):
+    """A key with one of some words, or with what `own` reads, called `own_name` in messages."""
+    words = (*(choices or ()), *([own_name] if own else []))
+    return _key(default, help, str, choices=choices, own=own, words=words)
+
+
+def switch(default, help):
+    """A key that is true or false."""
+    return _key(default, help, bool)
+
+
+def interval(default, help):
+    """A key with the two ends of a domain, or "auto"."""
+    return _key(default, help, tuple, words=(AUTO,))
+
+
+_RULES = dict.fromkeys(("unit", "above", "low", "high", "choices", "own")) | {"instead": "", "words": ()}
+
+
+def _key(default, help, kind, **rules):
+    return field(default=default, metadata=_RULES | {"help": help, "kind": kind} | rules)
 
 
 def shown(value):
@@ -64,57 +85,44 @@ def shown(value):
 
 def read_value(key, rules, value):
     """The value that `value`, as read from TOML, stands for. Raises ConfigError."""
-    if rules["kind"] is str:
-        return _word(key, rules, value)
+    kind, choices = rules["kind"], rules["choices"] or ()
+    if kind is str and isinstance(value, str) and value in choices:
+        return value
     if rules["own"] and (own := rules["own"](value)):
         return own
-    if rules["kind"] is tuple:
+    if kind is float or kind is int:
+        return _number(key, rules, value)
+    if kind is tuple:
         return _interval(key, value)
-    if rules["kind"] is bool:
-        if not isinstance(value, bool):
-            raise ConfigError(f"{key} = {shown(value)}: must be true or false")
+    if kind is bool and isinstance(value, bool):
         return value
-    number = _number(key, rules, value)
-    if not _in_range(rules, number):
-        raise ConfigError(f"{key} = {shown(value)}: must be {_describe_range(rules)}")
-    return number
-
-
-def _word(key, rules, value):
-    if isinstance(value, str) and value in (rules["choices"] or ()):
-        return value
-    if rules["own"] and (own := rules["own"](value)):
-        return own
     raise ConfigError(f"{key} = {shown(value)}: must be {describe_rules(rules)}")
 
 
-def read_quantity(name, text, unit, above=0.0):
-    """The SI number that the word of a command line stands for. Raises ConfigError."""
+def read_quantity(name, text, unit):
+    """The SI number above 0 that the word of a command line stands for. Raises ConfigError."""
     try:
         value = float(text)
     except ValueError:
         value = text
-    limits = {"above": above, "low": None, "high": None}
-    return read_value(name, limits | {"choices": None, "kind": float, "unit": unit, "own": None}, value)
+    return read_value(name, number(0.0, "", unit, above=0.0).metadata, value)
 
 
-def _number(key, rules, value):
+def _number(key, rules, given):
+    value = given
     if isinstance(value, str) and rules["unit"] is not None:
-        value = _with_unit(key, rules["unit"], value, rules.get("instead"))
-    if not _is_number(value):
-        raise ConfigError(f"{key} = {shown(value)}: must be {_describe_range(rules)}")
-    if rules["kind"] is int:
-        if value != int(value):
-            raise ConfigError(f"{key} = {shown(value)}: must be {_describe_range(rules)}")
-        return int(value)
-    return float(value)
+        value = _with_unit(key, rules["unit"], value, rules["instead"])
+    is_whole = rules["kind"] is int
+    if not _is_number(value) or (is_whole and value != int(value)) or not _in_range(rules, value):
+        wrong = given if _is_number(value) else value
+        raise ConfigError(f"{key} = {shown(wrong)}: must be {_describe_range(rules)}")
+    return rules["kind"](value)
 
 
 def _is_number(value):
     """A finite number that a double holds."""
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        return False
-    return abs(value) <= sys.float_info.max
+    is_real = isinstance(value, int | float) and not isinstance(value, bool)
+    return is_real and abs(value) <= sys.float_info.max
 
 
 def _with_unit(key, unit, text, instead=""):
@@ -123,9 +131,7 @@ def _with_unit(key, unit, text, instead=""):
     # Only a number and a unit: pint would also evaluate an expression, 9**9**9 for one.
     number, per, units = (_QUANTITY.fullmatch(text.strip()) or _NO_MATCH).groups()
     try:
-        if (
-            unit == "K"
-        ):  # C alone is coulomb to pint; degrees have their zero elsewhere, and do not multiply
+        if unit == "K":  # degrees have their zero elsewhere, and do not multiply; C is coulomb to pint
             units = {"C": "degC", "F": "degF"}.get(units, units)
             return float(_units().Quantity(float(number), units).to(unit).magnitude)
         quantity = float(number) * _units()(f"{'1/' if per else ''}{units or 'dimensionless'}")
@@ -162,33 +168,30 @@ def _pint():
     return pint
 
 
-def _in_range(rules, number):
-    above, low, high = rules["above"], rules["low"], rules["high"]
-    return (
-        (above is None or number > above)
-        and (low is None or number >= low)
-        and (high is None or number <= high)
-    )
+LIMITS = {"above": ("above", gt), "low": ("at least", ge), "high": ("at most", le)}
+"""How a number stands to each limit of its key."""
+
+
+def _in_range(rules, value):
+    return all(holds(value, rules[end]) for end, (_, holds) in LIMITS.items() if rules[end] is not None)
+
+
+def _describe_limits(rules):
+    told = (f"{words} {rules[end]:g}" for end, (words, _) in LIMITS.items() if rules[end] is not None)
+    return " and ".join(told)
 
 
 def _describe_range(rules):
     what = "a whole number" if rules["kind"] is int else "a number"
-    if rules["unit"]:
-        what += f" in {rules['unit']} (or a string with a unit)"
-    return f"{what} {_describe_limits(rules)}".strip()
-
-
-def _describe_limits(rules):
-    names = (("above", "above"), ("low", "at least"), ("high", "at most"))
-    return " and ".join(f"{name} {rules[word]:g}" for word, name in names if rules[word] is not None)
+    unit = f" in {rules['unit']} (or a string with a unit)" if rules["unit"] else ""
+    return f"{what}{unit} {_describe_limits(rules)}".strip()
 
 
 def _interval(key, value):
     if value == AUTO:
         return AUTO
-    numbers = isinstance(value, list | tuple) and len(value) == 2
-    numbers = numbers and all(_is_number(end) for end in value)
-    if not numbers or not (-FARTHEST <= value[0] < -1.0 and 1.0 < value[1] <= FARTHEST):
+    is_pair = isinstance(value, list | tuple) and len(value) == 2 and all(map(_is_number, value))
+    if not is_pair or not (-FARTHEST <= value[0] < -1.0 and 1.0 < value[1] <= FARTHEST):
         raise ConfigError(
             f'{key} = {shown(value)}: must be "auto", or two numbers [first < -1, last > 1] '
             f"within {FARTHEST:g}"

@@ -11,7 +11,8 @@ from mpi4py import MPI
 from processes import own_environment
 
 from mgehl.cli import main
-from mgehl.config import chosen_config, load_config
+from mgehl.config import load_config
+from mgehl.config_file import chosen_config
 from mgehl.errors import ConfigError, OptionError, OutputError, UserError
 from mgehl.run import solve
 

@@ -10,7 +10,8 @@ import pytest
 import tomli_w
 from processes import own_environment
 
-from mgehl.config import Config, ConfigError, config_from_tables, default_config, load_config
+from mgehl.config import Config, ConfigError, config_from_tables, load_config
+from mgehl.config_file import default_config
 
 CONFIGS = Path(__file__).resolve().parent.parent / "configs"
 

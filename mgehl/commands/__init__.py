@@ -1,11 +1,13 @@
 """The commands of the command line, a module each.
 
-A module has `add(commands)`, which adds its parser and returns it, and `execute`, which returns the exit
-status. Where `PARALLEL` is true, `execute(options, comm)` is called on every rank, after PETSc was started;
-elsewhere `execute(options)`, of several ranks on the first.
+A module's docstring is its help: a line, what it does, an example. `add(parser)` adds its options, if it
+takes any; `execute(options)` returns the exit status, or nothing where all went well. Of several ranks the
+first calls it, but those of `PARALLEL`, after PETSc was started, call `execute(options, comm)` all.
 """
 
 from pathlib import Path
+
+from mgehl.errors import UserError
 
 COMMANDS = (
     "run", "sweep", "study", "collect", "plot", "report", "export", "cite",
@@ -13,17 +15,20 @@ COMMANDS = (
 )  # fmt: skip
 """In the order of the help."""
 
+PARALLEL = "run", "sweep", "study", "info", "bench"
+"""Those that every rank executes; `info` to be told how many there are."""
+
 CONVERGED, NOT_CONVERGED, USAGE = 0, 1, 2
 """Exit statuses: done; not converged, or failed on the way; a mistake in the input."""
 
 
-def execute_on(comm, module, options):
-    """The exit status of a command's `module`; what needs one rank is done, and said, by the first."""
-    if module.PARALLEL:
-        return module.execute(options, comm)
+def execute_on(comm, options):
+    """The exit status of the command in `options`; what needs one rank is done, and said, by the first."""
+    if options.command in PARALLEL:
+        return options.module.execute(options, comm)
     from mgehl.output.files import from_first_rank
 
-    return comm.bcast(from_first_rank(comm, module.execute, options))
+    return comm.bcast(from_first_rank(comm, options.module.execute, options))
 
 
 def shown(file):
@@ -34,15 +39,36 @@ def shown(file):
 
 def add_configuration(parser):
     """Add the words that name a configuration."""
+    words = "TOML file (default: a rough ball, with --set alone the paper's smooth ball)"
+    parser.add_argument("config", nargs="?", metavar="CONFIG", help=words)
+
+
+def add_settings(parser, help="set a key, such as grid.nodes=513; may be repeated"):
+    """Add the option that overrides its keys."""
     parser.add_argument(
-        "config",
-        nargs="?",
-        metavar="CONFIG",
-        help="TOML file (default: a rough ball, with --set alone the paper's smooth ball)",
+        "--set", action="append", default=[], metavar="KEY=VALUE", dest="settings", help=help
     )
 
 
-def add_settings(parser):
-    """Add the option that overrides its keys."""
-    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", dest="settings",
-                        help="set a key, such as grid.nodes=513; may be repeated")  # fmt: skip
+def whole_number(option, low, high=10**6):
+    """What reads the whole number of an option, in a range. Raises UserError."""
+
+    def read(text):
+        if not (text.isascii() and text.isdecimal() and len(text) < 20 and low <= int(text) <= high):
+            raise UserError(f"{option} {text}: must be a whole number from {low} to {high}")
+        return int(text)
+
+    return read
+
+
+def several(option, known):
+    """What reads the words of an option, A,B, all of which are `known`. Raises UserError."""
+
+    def read(text):
+        words = [word.strip() for word in text.split(",")]
+        for word in words:
+            if word not in known:
+                raise UserError(f"{option} {word}: known are {', '.join(known)}")
+        return words
+
+    return read

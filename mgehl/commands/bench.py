@@ -1,30 +1,23 @@
-"""mgehl bench: time fixed cases, to compare two commits on one machine."""
+"""mgehl bench: time fixed cases, part by part
 
-from mgehl.commands import CONVERGED, NOT_CONVERGED
+Solve fixed cases and print their convolutions, memory, and seconds in every part of a run. A fixed FFT is
+timed beside each case; --compare divides by it, so that the load of the machine matters less.
+
+example: mgehl bench --case wedge-257 --repeat 1 --json now.json
+"""
+
+from mgehl.commands import CONVERGED, NOT_CONVERGED, whole_number
 from mgehl.errors import UserError
 
-PARALLEL = True
 
-
-def add(commands):
-    """Add the parser."""
-    parser = commands.add_parser(
-        "bench",
-        help="time fixed cases, part by part",
-        allow_abbrev=False,
-        description="Solve fixed cases and print their convolutions, memory, and seconds in every part of "
-        "a run. A fixed FFT is timed beside each case; --compare divides by it, so that the load of the "
-        "machine matters less.",
-        epilog="example: mgehl bench --case wedge-257 --repeat 1 --json now.json",
-    )
+def add(parser):
     parser.add_argument("--case", action="append", metavar="NAME", dest="cases",
                         help="time this case only; may be repeated")  # fmt: skip
     parser.add_argument("--large", action="store_true", help="time cases of 513 and 1025 nodes, too")
-    parser.add_argument("--repeat", type=int, default=2, metavar="N",
+    parser.add_argument("--repeat", type=whole_number("--repeat", 1), default=2, metavar="N",
                         help="times each case is solved; the median counts (default: 2)")  # fmt: skip
     parser.add_argument("--json", metavar="FILE", help="write everything as JSON, too")
     parser.add_argument("--compare", metavar="FILE", help="JSON of another commit: print what has changed")
-    return parser
 
 
 def execute(options, comm):
@@ -51,8 +44,6 @@ def _names(options):
     """The cases asked for, each once. Raises UserError."""
     from mgehl.studies.benchmark import CASES, LARGE
 
-    if options.repeat < 1:
-        raise UserError(f"--repeat {options.repeat}: must be at least 1")
     known = CASES | LARGE
     for name in options.cases or ():
         if name not in known:

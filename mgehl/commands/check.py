@@ -1,17 +1,21 @@
-"""mgehl check: what a configuration means and what its run will take, without solving anything."""
+"""mgehl check: tell what a configuration means and what its run will take
 
-from itertools import chain, groupby, repeat
+Validate a configuration; print its groups, dry contact, film formulas and how well each grid resolves the
+inlet, and estimate memory and time. Nothing is solved.
 
-from mgehl.commands import CONVERGED, add_configuration, add_settings, shown
-from mgehl.config import chosen_config, config_from_tables, left_out, naming_file, read_tables
-from mgehl.errors import UserError
+example: mgehl check --set grid.nodes=1025 --set motion.speed='7.5 mm/s' --ranks 2
+"""
+
+from itertools import groupby
+
+from mgehl.commands import add_configuration, add_settings, shown, whole_number
+from mgehl.config import config_from_tables, left_out, read_tables
+from mgehl.config_file import chosen_config, naming_file
 from mgehl.kinds.cited import cited
-from mgehl.kinds.oil import oil_words
+from mgehl.kinds.lubricant import oil_words
 from mgehl.kinds.plausible import implausible
 from mgehl.model.sources import SOURCES
 from mgehl.saying import columns, folded
-
-PARALLEL = False
 
 GiB = 2**30
 
@@ -19,27 +23,16 @@ NAME = 11
 """Columns of what a line is about."""
 
 
-def add(commands):
-    """Add the parser."""
-    parser = commands.add_parser(
-        "check",
-        help="tell what a configuration means and what its run will take",
-        allow_abbrev=False,
-        description="Validate a configuration; print its groups, dry contact, film formulas and how well "
-        "each grid resolves the inlet, and estimate memory and time. Nothing is solved.",
-        epilog="example: mgehl check --set grid.nodes=1025 --set motion.speed='7.5 mm/s' --ranks 2",
-    )
+def add(parser):
     add_configuration(parser)
     add_settings(parser)
-    parser.add_argument("--ranks", type=int, default=1, metavar="N", help="ranks of the run (default: 1)")
-    return parser
+    parser.add_argument("--ranks", type=whole_number("--ranks", 1), default=1, metavar="N",
+                        help="ranks of the run (default: 1)")  # fmt: skip
 
 
 def execute(options):
     """Print everything; raises UserError where the run would not begin."""
     file = chosen_config(options.config, options.settings)
-    if options.ranks < 1:
-        raise UserError(f"--ranks {options.ranks}: must be at least 1")
     from mgehl.kinds import checked_case
 
     with naming_file(file, options.settings):
@@ -47,12 +40,13 @@ def execute(options):
         case = checked_case(config_from_tables(tables))
     config, contact, mesh = case.config, case.contact, case.mesh
     print(f"{options.config or shown(file)}: valid, a {config.kind.noun}\n")
-    lines = [*_given(config, left_out(config, tables)), *_odd(config, contact), ""]
-    lines += *_described(config, contact, mesh), *_estimate(config, contact, mesh, options.ranks)
-    lines += *_recipe(config, contact), "", *_sources(config, contact)
+    lines = [*_given(config, left_out(config, tables))]
+    lines += *_under("unusual", implausible(config, contact)), "", *_described(config, contact, mesh)
+    lines += *_estimate(config, contact, mesh, options.ranks), *_recipe(config, contact), ""
+    names = ", ".join(SOURCES[key].short for key in cited(config, contact))
+    lines += (*_under("sources", [f"{names}; mgehl cite RUN has them in full"]),)
     width = columns()
     print(*(folded(line, " " * NAME, width) for line in lines), sep="\n")
-    return CONVERGED
 
 
 def _given(config, missing):
@@ -60,23 +54,17 @@ def _given(config, missing):
     for section, keys in groupby(config.physical, lambda key: key.partition(".")[0]):
         words = (f"{key.partition('.')[2]} {config.said(key)}" for key in keys)
         yield f"{section:{NAME}}{'' if len(section) < NAME else ' '}{'   '.join(words)}"
-    for head, each in zip(chain(["follows"], repeat("")), config.derived, strict=False):
-        yield f"{head:{NAME}}{each.key} = {config.said(each.key)}: {each.how}"
+    yield from _under(
+        "follows", (f"{each.key} = {config.said(each.key)}: {each.how}" for each in config.derived)
+    )
     yield from (f"{'oil':{NAME}}{words}" for words in oil_words(config))
-    for head, key in zip(chain(["not given"], repeat("")), missing, strict=False):
-        yield f"{head:{NAME}}{key}: {config.said(key)} is the paper's"
+    yield from _under("not given", (f"{key}: {config.said(key)} is the paper's" for key in missing))
 
 
-def _odd(config, contact):
-    """Lines that name what is unusual."""
-    for head, words in zip(chain(["unusual"], repeat("")), implausible(config, contact), strict=False):
-        yield f"{head:{NAME}}{words}"
-
-
-def _sources(config, contact):
-    """Lines that name the publications that are used."""
-    names = ", ".join(SOURCES[key].short for key in cited(config, contact))
-    yield f"sources    {names}; mgehl cite RUN has them in full"
+def _under(head, lines):
+    """Lines under a word, which the first of them has at its side."""
+    for number, line in enumerate(lines):
+        yield f"{'' if number else head:{NAME}}{line}"
 
 
 def _described(config, contact, mesh):
@@ -109,9 +97,9 @@ def _inlet(config, contact, mesh):
     if needed > LARGEST_NODES:
         verdict = f"no grid up to {LARGEST_NODES} does; a higher speed or a smaller domain helps"
     lost = resolution.film_lost(contact, mesh)
-    yield f"domain     {resolution.room_words(mesh)}"
-    yield f"           {resolution.domain_words(resolution.domain_verdict(lost), lost)}"
-    yield from (f"           {words}" for words in resolution.peaks_words(contact, mesh))
+    on_domain = resolution.domain_words(resolution.domain_verdict(lost), lost)
+    peaks = resolution.peaks_words(contact, mesh)
+    yield from _under("domain", [resolution.room_words(mesh), on_domain, *peaks])
     beyond = resolution.beyond_words(100.0 * contact.share_beyond(mesh))
     yield from (f"load       {words}" for words in beyond)
     cells = f"with {resolution.RESOLVED_CELLS:.0f} cells in the inlet"
@@ -126,11 +114,8 @@ def _recipe(config, contact):
     from mgehl.solver.recipe import recipe_of
     from mgehl.solver.recipe_words import recipe_words
 
-    words = recipe_words(recipe_of(settings_from(config, contact), contact))
     yield ""
-    yield from (
-        f"{head:{NAME}}{each}" for head, each in zip(chain(["recipe"], repeat("")), words, strict=False)
-    )
+    yield from _under("recipe", recipe_words(recipe_of(settings_from(config, contact), contact)))
 
 
 def _surface(config, contact, mesh):

@@ -1,21 +1,14 @@
-"""mgehl cite: the publications whose formulas and data a run used."""
+"""mgehl cite: print the publications that a run rests on
 
-from mgehl.commands import CONVERGED
+Print the papers, books and standards whose equations, laws, data and film formulas a run used, as BibTeX.
+CITATION.cff is that of this program.
 
-PARALLEL = False
+example: mgehl cite runs/try
+"""
 
 
-def add(commands):
-    """Add the parser."""
-    parser = commands.add_parser(
-        "cite",
-        help="print the publications that a run rests on",
-        description="Print the papers, books and standards whose equations, laws, data and film "
-        "formulas a run used, as BibTeX. CITATION.cff is that of this program.",
-        epilog="example: mgehl cite runs/try",
-    )
+def add(parser):
     parser.add_argument("run", metavar="RUN", help="run directory")
-    return parser
 
 
 def execute(options):
@@ -27,4 +20,3 @@ def execute(options):
     solution = read_run(options.run)
     keys = cited(solution.config, solution.contact)
     print(*(SOURCES[key].bibtex(key) for key in keys), sep="\n\n")
-    return CONVERGED

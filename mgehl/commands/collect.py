@@ -1,26 +1,20 @@
-"""mgehl collect: one table of several run directories."""
+"""mgehl collect: make one table of several run directories
+
+Print a Markdown table with a row for each run directory.
+
+example: mgehl collect runs/try --columns 'run,motion.speed,central nm' --out runs/try.csv
+"""
 
 from pathlib import Path
 
-from mgehl.commands import CONVERGED
 from mgehl.errors import OutputError, UserError
 
-PARALLEL = False
 
-
-def add(commands):
-    """Add the parser."""
-    parser = commands.add_parser(
-        "collect",
-        help="make one table of several run directories",
-        description="Print a Markdown table with a row for each run directory.",
-        epilog="example: mgehl collect runs/try --columns 'run,motion.speed,central nm' --out runs/try.csv",
-    )
+def add(parser):
     parser.add_argument("runs", nargs="+", metavar="RUN", help="run directory")
     parser.add_argument("--out", metavar="FILE", help="write the whole table as CSV, too")
     parser.add_argument("--columns", metavar="A,B", help="print only these columns; any key of "
                         "the configuration may be one")  # fmt: skip
-    return parser
 
 
 def execute(options):
@@ -45,4 +39,3 @@ def execute(options):
         raise UserError(f"--columns {unknown[0]}: known are {', '.join(rows[0])}, and keys (mgehl keys)")
     width = terminal_columns()
     print(drawn(rows, columns, width) if width else markdown(rows, columns))
-    return CONVERGED

@@ -1,11 +1,14 @@
-"""mgehl completion: what a shell needs to complete mgehl's words."""
+"""mgehl completion: print a script that completes mgehl's words in a shell
+
+Print a completion script. In bash, for this session or from ~/.bashrc for all: eval "$(mgehl completion
+bash)"
+
+example: mgehl completion bash
+"""
 
 import argparse
 
-from mgehl.commands import CONVERGED
 from mgehl.config import KEYS
-
-PARALLEL = False
 
 SHELLS = ("bash", "zsh", "tcsh")
 
@@ -36,17 +39,8 @@ COMPLETES = {"CONFIG": "FILE", "FILE": "FILE", "DIR": "DIR", "RUN": "DIR", "KEY=
 """What completes an argument, by its metavar, in all commands."""
 
 
-def add(commands):
-    """Add the parser."""
-    parser = commands.add_parser(
-        "completion",
-        help="print a script that completes mgehl's words in a shell",
-        description="Print a completion script. In bash, for this session or from ~/.bashrc for all: "
-        'eval "$(mgehl completion bash)"',
-        epilog="example: mgehl completion bash",
-    )
+def add(parser):
     parser.add_argument("shell", choices=SHELLS, metavar="SHELL", help=", ".join(SHELLS))
-    return parser
 
 
 def execute(options):
@@ -55,7 +49,6 @@ def execute(options):
 
     _say_what_completes(options.parser, {"FILE": shtab.FILE, "DIR": shtab.DIRECTORY, "KEY": KEY})
     print(shtab.complete(options.parser, options.shell) + (BASH_END if options.shell == "bash" else ""))
-    return CONVERGED
 
 
 def _say_what_completes(parser, kinds):

@@ -1,28 +1,20 @@
-"""mgehl export: a run's fields for ParaView, xarray, NumPy or a spreadsheet."""
+"""mgehl export: write a run's fields for other programs
 
-from mgehl.commands import CONVERGED
+Write pressure, film and status of a finished run in SI units: vts for ParaView, nc (NetCDF-4, CF
+conventions) for xarray, npz for NumPy, csv for anything; pvd is a run in time for ParaView, instant by
+instant.
 
-PARALLEL = False
+example: mgehl export runs/try --to vts,nc
+"""
 
 
-def add(commands):
-    """Add the parser."""
-    parser = commands.add_parser(
-        "export",
-        help="write a run's fields for other programs",
-        allow_abbrev=False,
-        description="Write pressure, film and status of a finished run in SI units: vts for ParaView, nc "
-        "(NetCDF-4, CF conventions) for xarray, npz for NumPy, csv for anything; pvd is a run in time for "
-        "ParaView, instant by instant.",
-        epilog="example: mgehl export runs/try --to vts,nc",
-    )
+def add(parser):
     parser.add_argument("run", metavar="RUN", help="run directory")
     parser.add_argument(
         "--to", required=True, metavar="FORMAT,...", help="vts, nc, npz, csv, pvd or several"
     )
     parser.add_argument("--out", metavar="FILE", help="file, its ending optional (default: RUN/fields)")
     parser.add_argument("--force", action="store_true", help="replace files that exist")
-    return parser
 
 
 def execute(options):
@@ -34,4 +26,3 @@ def execute(options):
     export(read_run(options.run), paths, options.force)
     for path in paths.values():
         print(path)
-    return CONVERGED

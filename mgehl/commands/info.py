@@ -1,13 +1,16 @@
-"""mgehl info: what runs here, for a report of a bug or a paper."""
+"""mgehl info: print versions, libraries, threads and the machine
+
+Print what a run would run on, and which configuration it would read.
+
+example: mgehl info --json
+"""
 
 import json
 
-from mgehl.commands import CONVERGED, add_configuration
-from mgehl.config import chosen_config, load_config
+from mgehl.commands import add_configuration
+from mgehl.config import load_config
+from mgehl.config_file import chosen_config
 from mgehl.saying import columns, folded
-
-PARALLEL = True
-"""MPI tells how many ranks there are."""
 
 LONG = ("configured",)
 """Keys that only --json prints: PETSc's configure options fill a screen."""
@@ -16,18 +19,9 @@ VALUE = 25
 """Where the values begin."""
 
 
-def add(commands):
-    """Add the parser."""
-    parser = commands.add_parser(
-        "info",
-        help="print versions, libraries, threads and the machine",
-        allow_abbrev=False,
-        description="Print what a run would run on, and which configuration it would read.",
-        epilog="example: mgehl info --json",
-    )
+def add(parser):
     add_configuration(parser)
     parser.add_argument("--json", action="store_true", help="print as JSON")
-    return parser
 
 
 def execute(options, comm):
@@ -37,7 +31,6 @@ def execute(options, comm):
     found = {"configuration": _configuration(options.config)} | surroundings(comm)
     if comm.rank == 0:
         print(json.dumps(found, indent=2) if options.json else "\n".join(_lines(found)))
-    return CONVERGED
 
 
 def _configuration(path):

@@ -1,32 +1,23 @@
-"""mgehl keys: every configuration key."""
+"""mgehl keys: list every configuration key
+
+List every configuration key with its meaning, choices, default and unit.
+
+example: mgehl keys
+"""
 
 from dataclasses import fields
 
-from mgehl.commands import CONVERGED
 from mgehl.config import SECTIONS
 from mgehl.saying import columns, folded
 
-PARALLEL = False
-
 NAME = 33
 """Columns of a key's name and the space after it."""
-
-
-def add(commands):
-    """Add the parser."""
-    return commands.add_parser(
-        "keys",
-        help="list every configuration key",
-        description="List every configuration key with its meaning, choices, default and unit.",
-        epilog="example: mgehl keys",
-    )
 
 
 def execute(_options):
     """Print the list; on a terminal its lines are broken at spaces."""
     width = columns()
     print(*(folded(line, " " * NAME, width) for line in describe_keys().splitlines()), sep="\n")
-    return CONVERGED
 
 
 def describe_keys():

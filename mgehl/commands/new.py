@@ -1,29 +1,22 @@
-"""mgehl new: a commented configuration to begin with."""
+"""mgehl new: write a commented configuration
+
+Write NAME.toml: every key with its meaning, unit, range and default, the essential ones live.
+
+example: mgehl new bearing --kind wedge
+"""
 
 from pathlib import Path
 
-from mgehl.commands import CONVERGED
 from mgehl.errors import OutputError, UserError, printable
 from mgehl.kinds import KINDS
 
-PARALLEL = False
 
-
-def add(commands):
-    """Add the parser."""
-    parser = commands.add_parser(
-        "new",
-        help="write a commented configuration",
-        description="Write NAME.toml: every key with its meaning, unit, range and default, the essential "
-        "ones live.",
-        epilog="example: mgehl new bearing --kind wedge",
-    )
+def add(parser):
     parser.add_argument("name", metavar="NAME", help="name of the file, with or without .toml")
     parser.add_argument(
         "--kind", choices=tuple(KINDS), default="point", help="kind of contact (default: point)"
     )
     parser.add_argument("--force", action="store_true", help="replace a file that exists")
-    return parser
 
 
 def execute(options):
@@ -39,4 +32,3 @@ def execute(options):
     write_whole(path, template(options.kind, path))
     name = printable(str(path))
     print(f"{name}: change what differs in your case, then: mpiexec -n 2 python -m mgehl run {name}")
-    return CONVERGED

@@ -1,54 +1,49 @@
-"""mgehl plot: pictures of finished runs, and of several in comparison."""
+"""mgehl plot: draw finished runs, or compare several
+
+Draw finished runs: centre lines against Hertz, maps of film, pressure and status, heights of a rough
+surface, history of the convergence; of several runs one picture of their centre lines and one of their
+histories. Pictures of an earlier time are replaced. A line contact has no maps, a wedge no map of its
+film, which is a plane, a dry contact one of its gap.
+
+example: python -m mgehl plot runs/try --kind lines,film --format png,svg
+"""
 
 from pathlib import Path
 
-from mgehl.commands import CONVERGED
+from mgehl.commands import several, whole_number
 from mgehl.errors import OutputError, UserError
-
-PARALLEL = False
 
 KINDS = ("all", "time", "lines", "film", "pressure", "status", "gap", "surface", "history", "compare")
 FORMATS = ("png", "svg", "pdf")
 DEFAULT_FORMATS = ("png", "pdf")
 
 
-def add(commands):
-    """Add the parser."""
-    parser = commands.add_parser(
-        "plot",
-        help="draw finished runs, or compare several",
-        allow_abbrev=False,
-        description="Draw finished runs: centre lines against Hertz, maps of film, pressure and status, "
-        "heights of a rough surface, history of the convergence; of several runs one picture of their "
-        "centre lines and one of their histories. Pictures of an earlier time are replaced. A line contact "
-        "has no maps, a wedge no map of its film, which is a plane, a dry contact one of its gap.",
-        epilog="example: python -m mgehl plot runs/try --kind lines,film --format png,svg",
-    )
+def add(parser):
     parser.add_argument("runs", nargs="+", metavar="RUN", help="run directory")
-    parser.add_argument("--kind", action="append", metavar="K,K,...", help=f"pictures: {', '.join(KINDS)} "
-                     "(default: all; of several runs compare); may be repeated")  # fmt: skip
+    parser.add_argument(
+        "--kind", action="extend", type=several("--kind", KINDS), metavar="K,K,...",
+        help=f"pictures: {', '.join(KINDS)} (default: all; of several runs compare); may be repeated",
+    )  # fmt: skip
     parser.add_argument("--against", metavar="KEY", help="one picture of films, load on solids, friction "
                      "and pressure of all runs against a key such as motion.speed")  # fmt: skip
     parser.add_argument("--out", metavar="DIR", help="directory of the pictures (default: RUN/plots, of "
                      "comparisons plots); with it each of several runs gets DIR/RUN")  # fmt: skip
-    parser.add_argument("--format", action="append", metavar="F,F,...",
+    parser.add_argument("--format", action="extend", type=several("--format", FORMATS), metavar="F,F,...",
                      help="png, svg, pdf (default: png,pdf); may be repeated")  # fmt: skip
     parser.add_argument("--style", metavar="FILE", help="matplotlib style file laid over mgehl's own, "
                      "mgehl/output/pictures/mgehl.mplstyle, which says how")  # fmt: skip
     parser.add_argument("--movie", action="store_true", help="of a run in time: movie.mp4, or movie.gif "
                      "where ffmpeg is not there, and no other picture")  # fmt: skip
-    parser.add_argument("--dpi", type=int, metavar="N", help="dots to the inch of bitmaps (default: 150)")
-    return parser
+    parser.add_argument("--dpi", type=whole_number("--dpi", 30, 1200), metavar="N",
+                     help="dots to the inch of bitmaps (default: 150)")  # fmt: skip
 
 
 def execute(options):
     """Read all runs, then draw, then write."""
     if options.against and (options.kind or options.movie):
         raise UserError(f"--against {options.against}: is a picture of its own, without --kind and --movie")
-    kinds = _words("--kind", options.kind, KINDS, ("all" if len(options.runs) == 1 else "compare",))
-    formats = _words("--format", options.format, FORMATS, DEFAULT_FORMATS)
-    if options.dpi is not None and not 30 <= options.dpi <= 1200:
-        raise UserError(f"--dpi {options.dpi}: must be between 30 and 1200")
+    kinds = list(dict.fromkeys(options.kind or ["all" if len(options.runs) == 1 else "compare"]))
+    formats = list(dict.fromkeys(options.format or DEFAULT_FORMATS))
     if "compare" in kinds and len(options.runs) == 1:
         raise UserError("--kind compare: needs more than one run")
     if options.movie:
@@ -61,7 +56,6 @@ def execute(options):
                 print(*write(pictures, directory, formats), sep="\n")
             except OSError as error:
                 raise OutputError(f"{directory}: cannot be written: {error}") from None
-    return CONVERGED
 
 
 def _movies(options):
@@ -74,16 +68,6 @@ def _movies(options):
         folder = Path(options.out or Path(run) / "plots")
         with writing(folder):
             print(write_movie(read_run(run), folder))
-    return CONVERGED
-
-
-def _words(option, given, known, default):
-    """The words of an option that takes lists and may be repeated, each once."""
-    words = [word.strip() for text in given or () for word in text.split(",")]
-    for word in words:
-        if word not in known:
-            raise UserError(f"{option} {word}: known are {', '.join(known)}")
-    return tuple(dict.fromkeys(words)) or default
 
 
 def _curves(options):

@@ -1,29 +1,23 @@
-"""mgehl report: one HTML page of a run or a study."""
+"""mgehl report: make one HTML page of a run or a study
+
+Write a run or a study as one HTML page that needs no other file and no network: verdict, films, checks,
+pictures, history, configuration, versions. Without --out the page is report.html in the directory, and
+one that is there is replaced.
+
+example: python -m mgehl report runs/try --out try.html
+"""
 
 from pathlib import Path
 
-from mgehl.commands import CONVERGED
 from mgehl.errors import OutputError
 
-PARALLEL = False
 
-
-def add(commands):
-    """Add the parser."""
-    parser = commands.add_parser(
-        "report",
-        help="make one HTML page of a run or a study",
-        description="Write a run or a study as one HTML page that needs no other file and no network: "
-        "verdict, films, checks, pictures, history, configuration, versions. Without --out the page is "
-        "report.html in the directory, and one that is there is replaced.",
-        epilog="example: python -m mgehl report runs/try --out try.html",
-    )
+def add(parser):
     parser.add_argument("directory", metavar="RUN|STUDY", help="directory of a run or a study")
     parser.add_argument(
         "--out", metavar="FILE.html", help="the page (default: report.html beside the results)"
     )
     parser.add_argument("--force", action="store_true", help="replace the file of --out where it exists")
-    return parser
 
 
 def execute(options):
@@ -37,7 +31,6 @@ def execute(options):
         raise OutputError(f"{path} exists: add --force to replace it, or choose another with --out")
     write_whole(path, _page(directory))
     print(f"report {path}")
-    return CONVERGED
 
 
 def _page(directory):

@@ -1,30 +1,31 @@
-"""mgehl run: solve one contact."""
+"""mgehl run: solve one contact
+
+Solve one contact and write its directory. A run that was stopped, or killed, goes on with --resume, on
+any number of ranks. SIGTERM, Ctrl-C and --time-limit save it first (exit status 143, 130 and 143).
+
+example: mpiexec -n 2 python -m mgehl run --set grid.nodes=65 --set motion.speed='1 m/s' --set
+    solver.start=film --out runs/film -mgehl_ksp_monitor
+"""
 
 from pathlib import Path
 from shlex import quote
 
 from mgehl.commands import CONVERGED, NOT_CONVERGED, add_configuration, add_settings, shown
-from mgehl.config import chosen_config, config_from_tables, left_out, naming_file, read_tables
+from mgehl.config import config_from_tables, left_out, read_tables
+from mgehl.config_file import chosen_config, naming_file
 from mgehl.config_value import read_quantity
 from mgehl.errors import OutputError, UserError
 
-PARALLEL = True
-
 NO_ERROR = "solver.error=false"
 
+NOT_WITH_RESUME = {
+    "config": "CONFIG", "settings": "--set", "out": "--out", "force": "--force",
+    "start_from": "--start-from", "no_error": "--no-error",
+}  # fmt: skip
+"""What a run that goes on has already, as it is typed."""
 
-def add(commands):
-    """Add the parser."""
-    parser = commands.add_parser(
-        "run",
-        help="solve one contact",
-        allow_abbrev=False,
-        description="Solve one contact and write its directory. A run that was stopped, or killed, goes on "
-        "with --resume, on any number of ranks. SIGTERM, Ctrl-C and --time-limit save it first "
-        "(exit status 143, 130 and 143).",
-        epilog="example: mpiexec -n 2 python -m mgehl run --set grid.nodes=65 --set motion.speed='1 m/s'"
-        " --set solver.start=film --out runs/film -mgehl_ksp_monitor",
-    )
+
+def add(parser):
     add_configuration(parser)
     add_settings(parser)
     parser.add_argument("--out", metavar="DIR", help="directory of the results (default: runs/NAME)")
@@ -42,7 +43,6 @@ def add(commands):
     how.add_argument("--quiet", action="store_true", help="print nothing but errors")
     how.add_argument("--json-lines", action="store_true", help="print a JSON object per cycle")
     how.add_argument("--verbose", action="store_true", help="print all of each cycle and of the result")
-    return parser
 
 
 def execute(options, comm):
@@ -81,20 +81,26 @@ def _begin(options, comm, solve):
     with naming_file(file, settings):
         tables = read_tables(file, settings)
         case = enter(config_from_tables(tables), comm)
-    config = case.config
-    on_first_rank(comm, _say_doubts, case)
-    start = _start(options.start_from, config, comm) if options.start_from else None
+    on_first_rank(comm, _complain, _doubts(case))
+    start = _start(options.start_from, case.config, comm) if options.start_from else None
     if start and comm.rank == 0:
-        _say_what_differs(options.start_from, start, config)
+        _complain(_differences(options.start_from, start, case.config))
     directory = Path(options.out or Path("runs") / file.stem)
     if start and directory.resolve() == Path(options.start_from).resolve():
         raise UserError(f"--start-from {directory}: is the run's own directory; choose another with --out")
     on_first_rank(comm, make_directory, directory, options.force)
     with locked(comm, directory):
-        on_first_rank(comm, prepare_directory, directory, law_files(config).values())
+        on_first_rank(comm, prepare_directory, directory, law_files(case.config).values())
         if comm.rank == 0 and not (options.quiet or options.json_lines):
             _say_what(options, file, case, tables)
         return solve(case, directory, start, options.start_from)
+
+
+def _complain(lines):
+    from mgehl.saying import complain
+
+    for line in lines:
+        complain(line)
 
 
 def _say_what(options, file, case, tables):
@@ -102,29 +108,25 @@ def _say_what(options, file, case, tables):
     from mgehl.kinds.plausible import implausible
     from mgehl.saying import columns, folded, say
 
-    changed = ", changed by --set" if options.settings else ""
+    changed, config = ", changed by --set" if options.settings else "", case.config
     which = [] if options.config else [f"no configuration named: solving {shown(file)}{changed}"]
-    config = case.config
     which += [f"not given: {key}: {config.said(key)} is the paper's" for key in left_out(config, tables)]
     which += [f"unusual: {words}" for words in implausible(config, case.contact)]
     for words in which:
         say(folded(f"mgehl: {words}", "    ", columns()))
 
 
-def _say_doubts(case):
-    """Warn of heights that may be errors."""
+def _doubts(case):
+    """Heights that may be errors."""
     from mgehl.output.surface import surface_doubts
-    from mgehl.saying import complain
 
     if case.config.kind.is_loaded:
-        for words in surface_doubts(case.config, case.contact):
-            complain(words)
+        yield from surface_doubts(case.config, case.contact)
 
 
-def _say_what_differs(directory, start, config):
-    """Warn of a start from another contact: it is a first guess, and may be a bad one."""
+def _differences(directory, start, config):
+    """What differs in another contact from which a run starts: a first guess, and maybe a bad one."""
     from mgehl.output.laws import content_of, law_files
-    from mgehl.saying import complain
     from mgehl.solver.restart import differences
 
     keys = list(differences(start, config))
@@ -133,73 +135,7 @@ def _say_what_differs(directory, start, config):
         if theirs.get(Path(file).name, content_of(file)) != content_of(file):
             keys.append(Path(file).name)
     if keys:
-        complain(f"--start-from {directory}: is of another contact ({', '.join(keys)}): a first guess only")
-
-
-def _resume(options, comm, solve):
-    """Go on with a run in its directory, which is locked. Of a run that has finished draw the picture if it
-    has none."""
-    from mgehl.output.files import on_first_rank
-    from mgehl.output.finish import taken_up
-    from mgehl.output.lock import locked
-    from mgehl.output.solution import on_every_rank
-
-    _check_alone(options)
-    directory = Path(options.resume)
-    on_first_rank(comm, _check_run, directory)
-    with locked(comm, directory):
-        config, start, said = on_first_rank(comm, taken_up, directory) or (None, None, ())
-        if not (options.quiet or options.json_lines):
-            _say(said)
-        told, start = comm.bcast(config), on_every_rank(comm, start)
-        if told is None:
-            return comm.bcast(on_first_rank(comm, _finished, directory, options))
-        return solve(told, directory, start, None)
-
-
-def _check_alone(options):
-    """Raise UserError for options that --resume does not allow."""
-    for name, word in _WORDS.items():
-        if getattr(options, name):
-            raise UserError(f"--resume {options.resume}: goes on as it began, without {word}")
-
-
-def _check_run(directory):
-    from mgehl.output.checkpoint import is_begun
-    from mgehl.output.files import FIELDS
-
-    if not ((directory / FIELDS).exists() or is_begun(directory)):
-        raise OutputError(
-            f"--resume {directory}: is no run directory: it has no {FIELDS} and no checkpoint"
-        )
-
-
-def _say(lines):
-    from mgehl.saying import complain
-
-    for line in lines:
-        complain(line)
-
-
-def _finished(directory, options):
-    """The result of a run that has finished; its picture is drawn where there is none."""
-    from mgehl.output.finish import draw_missing
-    from mgehl.saying import say
-
-    result = draw_missing(directory)
-    if not (options.quiet or options.json_lines):
-        say(f"mgehl: {directory} has finished: its results are there")
-    return result
-
-
-_WORDS = {
-    "config": "CONFIG",
-    "settings": "--set",
-    "out": "--out",
-    "force": "--force",
-    "start_from": "--start-from",
-    "no_error": "--no-error",
-}
+        yield f"--start-from {directory}: is of another contact ({', '.join(keys)}): a first guess only"
 
 
 def _start(directory, config, comm):
@@ -215,3 +151,40 @@ def _start(directory, config, comm):
     except UserError as error:
         raise UserError(f"--start-from {directory}: {error}") from None
     return start
+
+
+def _resume(options, comm, solve):
+    """Go on with a run in its directory, which is locked; draw the missing picture of a finished one."""
+    from mgehl.output.files import on_first_rank
+    from mgehl.output.finish import draw_missing, taken_up
+    from mgehl.output.lock import locked
+    from mgehl.output.solution import on_every_rank
+
+    for name, word in NOT_WITH_RESUME.items():
+        if getattr(options, name):
+            raise UserError(f"--resume {options.resume}: goes on as it began, without {word}")
+    directory, speaks = Path(options.resume), not (options.quiet or options.json_lines)
+    on_first_rank(comm, _check_run, directory)
+    with locked(comm, directory):
+        config, start, said = on_first_rank(comm, taken_up, directory) or (None, None, ())
+        if speaks:
+            _complain(said)
+        told, start = comm.bcast(config), on_every_rank(comm, start)
+        if told is not None:
+            return solve(told, directory, start, None)
+        result = on_first_rank(comm, draw_missing, directory)
+        if speaks and comm.rank == 0:
+            from mgehl.saying import say
+
+            say(f"mgehl: {directory} has finished: its results are there")
+        return comm.bcast(result)
+
+
+def _check_run(directory):
+    from mgehl.output.checkpoint import is_begun
+    from mgehl.output.files import FIELDS
+
+    if not ((directory / FIELDS).exists() or is_begun(directory)):
+        raise OutputError(
+            f"--resume {directory}: is no run directory: it has no {FIELDS} and no checkpoint"
+        )

@@ -1,47 +1,41 @@
-"""mgehl study: solve the cases of a study."""
+"""mgehl study: solve many cases and make tables and pictures of them
 
-from argparse import ArgumentTypeError, RawDescriptionHelpFormatter
+Solve the cases of a study; write its tables and pictures.
+
+example: mpiexec -n 2 python -m mgehl study schemes --nodes 65,129
+"""
+
+from argparse import ArgumentTypeError
 from importlib import import_module
 from itertools import pairwise
 from pathlib import Path
 
-from mgehl.commands import CONVERGED, NOT_CONVERGED
-from mgehl.config import load_config, read_setting
+from mgehl.commands import CONVERGED, NOT_CONVERGED, add_settings, whole_number
+from mgehl.config import load_config
+from mgehl.config_file import nested
 from mgehl.errors import ConfigError
 from mgehl.studies.catalogue import REMOVED, STUDIES
-
-PARALLEL = True
-
-LARGEST_NUMBER = 2**31
-"""Of --cases and --seed."""
 
 _TAKES = {0: "has grids of its own", 1: "takes one grid"}
 
 
-def add(commands):
-    """Add the parser."""
-    parser = commands.add_parser(
-        "study",
-        help="solve many cases and make tables and pictures of them",
-        allow_abbrev=False,
-        formatter_class=RawDescriptionHelpFormatter,
-        description="Solve the cases of a study; write its tables and pictures.\n\n"
-        + "\n".join(f"  {name:12}{study.what}" for name, study in STUDIES.items()),
-        epilog="example: mpiexec -n 2 python -m mgehl study schemes --nodes 65,129",
-    )
+def add(parser):
+    parser.description += "\n\n" + "\n".join(f"  {name:12}{study.what}" for name, study in STUDIES.items())
     parser.add_argument("study", type=_name, choices=tuple(STUDIES), metavar="NAME", help="of those above")
     parser.add_argument("--nodes", "--grid", metavar="N,N,...", help="grids instead of the study's own")
-    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", dest="settings",
-                        help="a key of all cases, as of mgehl run; may be repeated")  # fmt: skip
+    add_settings(parser, "a key of all cases, as of mgehl run; may be repeated")
     parser.add_argument("--direction", choices=("down", "up", "both"),
                         help="branches of study transition (default: both)")  # fmt: skip
-    parser.add_argument("--cases", metavar="N", help="how many cases chance draws")
-    parser.add_argument("--seed", metavar="N", help="by which they are drawn")
+    parser.add_argument(
+        "--cases", type=whole_number("--cases", 1, 2**31), metavar="N", help="how many cases chance draws"
+    )
+    parser.add_argument(
+        "--seed", type=whole_number("--seed", 0, 2**31), metavar="N", help="by which they are drawn"
+    )
     parser.add_argument("--out", metavar="DIR", help="directory of the results (default: runs/study-NAME)")
     parser.add_argument("--force", action="store_true", help="start anew in a directory that exists")
     parser.add_argument("--resume", action="store_true", help="go on with the points that are finished")
     parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
-    return parser
 
 
 def _name(text):
@@ -62,10 +56,12 @@ def execute(options, comm):
     from mgehl.saying import complain
     from mgehl.studies.study import begun
 
-    settings, directory = _settings(options.settings), Path(options.out or f"runs/study-{options.study}")
+    settings, directory = nested(options.settings), Path(options.out or f"runs/study-{options.study}")
+    if "nodes" in settings.get("grid", ()):
+        raise ConfigError("--set grid.nodes: a study has its grids from --nodes")
     record = StudyRecord(
         options.study, _checked_nodes(options), comm.size, versions(), options.direction or "both",
-        tuple(options.settings), _number(options, "cases", 1), _number(options, "seed", 0),
+        tuple(options.settings), options.cases, options.seed,
     )  # fmt: skip
     how = not options.quiet, options.resume, options.force
     with begun(directory, comm, record, *how, settings=settings) as study:
@@ -73,17 +69,6 @@ def execute(options, comm):
     if options.quiet and study.failures and comm.rank == 0:
         complain(f"{study.failures} cases of the study did not converge")
     return NOT_CONVERGED if study.failures else CONVERGED
-
-
-def _settings(words):
-    """Nested tables of the words of --set."""
-    tables = {}
-    for name, value in map(read_setting, words):
-        section, _, key = name.partition(".")
-        if name == "grid.nodes":
-            raise ConfigError("--set grid.nodes: a study has its grids from --nodes")
-        tables.setdefault(section, {})[key] = value
-    return tables
 
 
 def _checked_nodes(options):
@@ -99,21 +84,13 @@ def _checked_nodes(options):
         raise ConfigError(f"--nodes {options.nodes}: study {options.study} {_TAKES[entry.grids]}")
     if options.direction and options.study != "transition":
         raise ConfigError(f"--direction: study {options.study} does not take it, study transition does")
+    for name in ("cases", "seed"):
+        given = getattr(options, name)
+        if given is not None and not entry.draws:
+            raise ConfigError(f"--{name} {given}: means nothing to study {options.study}")
     if options.force and options.resume:
         raise ConfigError("--force and --resume: one starts anew, the other goes on; give one of them")
     return nodes
-
-
-def _number(options, name, low):
-    """The whole number of an option of studies by chance, `low` or more; None for the study's own."""
-    text = getattr(options, name)
-    if text is None:
-        return None
-    if not STUDIES[options.study].draws:
-        raise ConfigError(f"--{name} {text}: means nothing to study {options.study}")
-    if not (text.isascii() and text.isdecimal() and low <= int(text) <= LARGEST_NUMBER):
-        raise ConfigError(f"--{name} {text}: must be a whole number from {low} to {LARGEST_NUMBER}")
-    return int(text)
 
 
 def _nodes(text):

@@ -1,31 +1,26 @@
-"""mgehl sweep: a contact at many values of one key, or of several."""
+"""mgehl sweep: solve a contact at many values of a key, each from its neighbour
+
+Solve a contact at many values of one key, or of several, each point from its neighbours; write a run
+directory for each, one table (sweep.csv), the same as arrays (sweep.nc), curves and a page. A point
+without an answer is said and passed. Values are a list, '50,100,200 N', in SI units where it names none,
+or so many in a range, '1e-4..1 m/s:20'. These are of equal ratio where both ends are above 0 and more
+than a decade apart, and else of equal distance; 'log(1..5 m/s:9)' and 'lin(1..50 m/s:9)' choose. The
+first key changes fastest.
+
+example: mgehl sweep --set grid.nodes=65 --set solver.start=film --over motion.speed='0.5,1 m/s' --out
+    runs/speeds
+"""
 
 from pathlib import Path
 from shlex import quote
 
 from mgehl.commands import CONVERGED, NOT_CONVERGED, add_configuration, add_settings
-from mgehl.config import chosen_config, load_config, naming_file
+from mgehl.config import load_config
+from mgehl.config_file import chosen_config, naming_file
 from mgehl.errors import ConfigError, OutputError
 
-PARALLEL = True
 
-
-def add(commands):
-    """Add the parser."""
-    parser = commands.add_parser(
-        "sweep",
-        help="solve a contact at many values of a key, each from its neighbour",
-        allow_abbrev=False,
-        description="Solve a contact at many values of one key, or of several, each point from its "
-        "neighbours; write a run directory for each, one table (sweep.csv), the same as arrays (sweep.nc), "
-        "curves and a page. A point without an answer is said and passed. Values are a list, "
-        "'50,100,200 N', in SI units where it names none, or so many in a range, '1e-4..1 m/s:20'. These "
-        "are of equal ratio where both ends are above 0 and more than a decade apart, and else of equal "
-        "distance; "
-        "'log(1..5 m/s:9)' and 'lin(1..50 m/s:9)' choose. The first key changes fastest.",
-        epilog="example: mgehl sweep --set grid.nodes=65 --set solver.start=film "
-        "--over motion.speed='0.5,1 m/s' --out runs/speeds",
-    )
+def add(parser):
     add_configuration(parser)
     parser.add_argument("--over", action="append", required=True, metavar="KEY=VALUES",
                         help="a key with a number and its values; may be repeated")  # fmt: skip
@@ -36,7 +31,6 @@ def add(commands):
     parser.add_argument("--out", metavar="DIR", help="directory of the results (default: runs/sweep-NAME)")
     parser.add_argument("--resume", action="store_true", help="go on with the points that are finished")
     parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
-    return parser
 
 
 def execute(options, comm):

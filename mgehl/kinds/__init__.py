@@ -6,18 +6,21 @@ others without a word of theirs.
 """
 
 from dataclasses import dataclass
+from itertools import chain
 from typing import Any
 
-from mgehl.kinds import bodies, oil
+from mgehl.kinds.bodies import derived_from_bodies
 from mgehl.kinds.choice import Choice, word_of
 from mgehl.kinds.derived import word_choices
-from mgehl.kinds.dry import DRY, fluid_choice
-from mgehl.kinds.friction import friction_choice
+from mgehl.kinds.dry import DRY, fluid_choices
+from mgehl.kinds.friction import friction_choices
+from mgehl.kinds.heat import heat_choices
 from mgehl.kinds.line import LINE
+from mgehl.kinds.lubricant import derived_from_oil
 from mgehl.kinds.own import naming_keys
-from mgehl.kinds.point import POINT, deformation_choice, moes_choice
+from mgehl.kinds.point import POINT, point_choices
 from mgehl.kinds.surface_kinds import surface_choices
-from mgehl.kinds.time import scene_of, time_choice
+from mgehl.kinds.time import scene_of, time_choices
 from mgehl.kinds.wedge import WEDGE, wedge_choices
 
 KINDS = {kind.name: kind for kind in (POINT, LINE, WEDGE)}
@@ -30,17 +33,16 @@ def choices(tables):
     is chosen by it.
     """
     kind = KINDS.get(word_of(tables, "contact.kind"))
-    smooth = kind and kind_choice(kind), deformation_choice(tables), moes_choice(tables)
-    found = (
-        *smooth,
-        *surface_choices(tables),
-        time_choice(tables),
-        friction_choice(tables),
-        fluid_choice(tables),
-        *wedge_choices(tables),
-        *word_choices(tables),
-    )
-    return [each for each in found if each]
+    makers = (
+        point_choices, surface_choices, time_choices, friction_choices, fluid_choices, wedge_choices,
+        word_choices, heat_choices,
+    )  # fmt: skip
+    return [*([kind_choice(kind)] if kind else []), *chain(*(maker(tables) for maker in makers))]
+
+
+def kind_choice(kind):
+    """The `Choice` of a `Kind`."""
+    return Choice(f'where contact.kind = "{kind.name}"', None, ("contact.kind", *kind.takes))
 
 
 def derived(config):
@@ -48,12 +50,7 @@ def derived(config):
 
     Raises ConfigError where the words do not fit.
     """
-    return (*bodies.derived(config), *oil.derived(config))
-
-
-def kind_choice(kind):
-    """The `Choice` of a `Kind`."""
-    return Choice(f'where contact.kind = "{kind.name}"', None, ("contact.kind", *kind.takes))
+    return (*derived_from_bodies(config), *derived_from_oil(config))
 
 
 def kind_of(config):
@@ -78,21 +75,18 @@ class Case:
         return scene_of(self.config, self.contact)
 
 
-def case_of(config):
+def case_of(config, contact=None):
     """The `Case` of a `Config`, as it is."""
-    return _case(config, contact_from(config))
+    contact = contact or contact_from(config)
+    config = settled(config, contact)
+    return Case(config, contact, mesh_from(config, contact))
 
 
 def checked_case(config):
     """The `Case` of a `Config`. Raises ConfigError where values do not fit each other."""
     contact = contact_from(config)
     check_contact(config, contact)
-    return _case(config, contact)
-
-
-def _case(config, contact):
-    config = settled(config, contact)
-    return Case(config, contact, mesh_from(config, contact))
+    return case_of(config, contact)
 
 
 def contact_from(config):

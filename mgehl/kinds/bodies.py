@@ -7,9 +7,9 @@ speed and the slide-to-roll ratio. A radius along x lies in the plane of the mot
 from dataclasses import dataclass, fields
 from math import inf, pi, sqrt
 
-from mgehl.config_value import key_field
+from mgehl.config_value import number, word
 from mgehl.errors import ConfigError
-from mgehl.kinds.derived import Derived
+from mgehl.kinds.choice import Derived
 from mgehl.model.materials import MATERIALS, reduced_modulus
 
 BODIES = "body_1", "body_2"
@@ -23,44 +23,31 @@ SMALLEST_RADIUS = 1e-7
 
 @dataclass(frozen=True)
 class BodySection:
-    material: str | None = key_field(
-        None, "what it is made of, for Young's modulus and Poisson's ratio",
-        choices=tuple(MATERIALS), kind=str,
-    )  # fmt: skip
-    modulus: float | None = key_field(
-        None, "Young's modulus, where material does not tell it", "Pa", low=1e3, high=1e13
-    )
-    poisson: float | None = key_field(None, "Poisson's ratio, beside modulus", low=0.0, high=0.5)
-    diameter: float | None = key_field(
-        None, "of a ball, or of a roller or ring whose y is told apart; negative: of a ring from within",
-        "m", low=-1e3, high=1e3,
-    )  # fmt: skip
-    radius_x: float | None = key_field(
-        None, "radius along x, negative where it is hollow; unset: flat", "m", low=-1e3, high=1e3
-    )
-    radius_y: float | None = key_field(
-        None, "radius along y, such as minus that of a groove; unset: flat", "m", low=-1e3, high=1e3
-    )
-    conformity: float | None = key_field(
-        None, "radius of its groove along y over the other body's diameter, 0.515 to 0.53 of ball bearings",
-        above=0.5, high=10.0,
-    )  # fmt: skip
-    roughness: float | None = key_field(
-        None, "rms height Rq, for lambda alone: its heights are not solved", "m", low=0.0, high=1e-3
-    )
-    Ra: float | None = key_field(
-        None, "mean height Ra in place of roughness, which is taken for 1.25 of it", "m", low=0.0, high=1e-3
-    )
-    speed: float | None = key_field(
-        None, "speed of its surface as the contact sees it, that of both instead of motion.speed", "m/s",
-        low=-1e3, high=1e3,
-    )  # fmt: skip
-    rotation: float | None = key_field(
-        None, "rotation about an axis at rest instead of its speed", "rad/s", low=-1e6, high=1e6
-    )
-    rotation_radius: float | None = key_field(
-        None, "distance of the contact from that axis (unset: the radius along x)", "m", low=0.0, high=1e3
-    )
+    # fmt: off
+    material: str | None = word(None, "what it is made of, for Young's modulus and Poisson's ratio",
+        tuple(MATERIALS))
+    modulus: float | None = number(None, "Young's modulus, where material does not tell it", "Pa", 1e3,
+        1e13)
+    poisson: float | None = number(None, "Poisson's ratio, beside modulus", low=0.0, high=0.5)
+    diameter: float | None = number(None, "of a ball, or of a roller or ring whose y is told apart; "
+        "negative: of a ring from within", "m", -1e3, 1e3)
+    radius_x: float | None = number(None, "radius along x, negative where it is hollow; unset: flat", "m",
+        -1e3, 1e3)
+    radius_y: float | None = number(None, "radius along y, such as minus that of a groove; unset: flat",
+        "m", -1e3, 1e3)
+    conformity: float | None = number(None, "radius of its groove along y over the other body's diameter, "
+        "0.515 to 0.53 of ball bearings", above=0.5, high=10.0)
+    roughness: float | None = number(None, "rms height Rq, for lambda alone: its heights are not solved",
+        "m", 0.0, 1e-3)
+    Ra: float | None = number(None, "mean height Ra in place of roughness, which is taken for 1.25 of it",
+        "m", 0.0, 1e-3)
+    speed: float | None = number(None, "speed of its surface as the contact sees it, that of both instead "
+        "of motion.speed", "m/s", -1e3, 1e3)
+    rotation: float | None = number(None, "rotation about an axis at rest instead of its speed", "rad/s",
+        -1e6, 1e6)
+    rotation_radius: float | None = number(None, "distance of the contact from that axis (unset: the "
+        "radius along x)", "m", 0.0, 1e3)
+    # fmt: on
 
 
 GEOMETRY = ("diameter", "radius_x", "radius_y", "conformity")
@@ -73,13 +60,15 @@ def keys(names):
     return tuple(f"{body}.{name}" for body in BODIES for name in names)
 
 
+MOTION = keys((*SPEEDS, "rotation_radius"))
+
 OF_A_LINE = keys(
     [field.name for field in fields(BodySection) if field.name not in ("radius_y", "conformity")]
 )
 """Keys of bodies that know no y."""
 
 
-def derived(config):
+def derived_from_bodies(config):
     """What follows from the bodies: `Derived`, in order. Raises ConfigError where they do not fit."""
     bodies = config.body_1, config.body_2
     if _any(bodies, ELASTICITY):

@@ -13,7 +13,7 @@ class Choice:
 
     said: str
     """The choice at the end of a message, such as 'where contact.kind = "line"'."""
-    about: tuple | None
+    about: tuple | None = ()
     """Keys that it decides about; None for all."""
     takes: tuple = ()
     """Those of them that count. Giving another one is a mistake."""
@@ -45,7 +45,22 @@ def value_of(tables, key):
     return table.get(name) if isinstance(table, dict) else None
 
 
+def given(tables, keys):
+    """Those of some keys that nested values give."""
+    return [key for key in keys if value_of(tables, key) is not None]
+
+
 def word_of(tables, key):
     """As `value_of`, where the value is a word."""
     value = value_of(tables, key)
     return value if isinstance(value, str) else None
+
+
+@dataclass(frozen=True)
+class Derived:
+    """A key that follows from others."""
+
+    key: str
+    value: float
+    how: str
+    """In a few words."""

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from mgehl.errors import ConfigError
 from mgehl.kinds import loaded_checks
-from mgehl.kinds.bodies import SPEEDS, keys
+from mgehl.kinds.bodies import MOTION
 from mgehl.kinds.choice import Choice, value_of, word_of
 from mgehl.kinds.kind import Effort
 from mgehl.kinds.line import LineKind
@@ -19,7 +19,7 @@ ROOM = 1.5
 """End of a domain that is "auto", over the reach of the smooth contact."""
 
 OF_A_FLUID = (
-    "lubricant", "motion", "friction", "heat", *keys((*SPEEDS, "rotation_radius")), "relaxation",
+    "lubricant", "motion", "friction", "heat", *MOTION, "relaxation",
     "contact.boundary_film", "grid.load_beyond",
     "discretization.couette", "discretization.face_mobility", "discretization.unified_gap",
     "discretization.couette_at_interface", "discretization.cavitation", "discretization.film_threshold",
@@ -33,13 +33,12 @@ OF_MOES = ("lubricant", "motion")
 """Sections of a fluid that a dry contact uses all the same, to turn Moes numbers into a load."""
 
 
-def fluid_choice(tables):
-    """The `Choice` of a contact without a fluid, which may get one again; None with a fluid."""
-    if word_of(tables, "discretization.contact_model") != "dry":
-        return None
-    needed = OF_MOES if value_of(tables, "moes.M") is not None else ()
-    idle = tuple(name for name in OF_A_FLUID if name not in needed)
-    return Choice('where discretization.contact_model = "dry"', (), idle=idle)
+def fluid_choices(tables):
+    """What a contact without a fluid, which may get one again, makes of the fluid's keys."""
+    if word_of(tables, "discretization.contact_model") == "dry":
+        needed = OF_MOES if value_of(tables, "moes.M") is not None else ()
+        idle = tuple(name for name in OF_A_FLUID if name not in needed)
+        yield Choice('where discretization.contact_model = "dry"', idle=idle)
 
 
 class DryKind(LoadedKind):

@@ -1,10 +1,30 @@
-"""[friction]: which keys a law of the sheared oil takes, and the `Friction` that they make."""
+"""[friction]: its keys, which of them a law of the sheared oil takes, the `Friction` that they make."""
 
+from dataclasses import dataclass
+
+from mgehl.config_value import number, switch, word
 from mgehl.errors import ConfigError
-from mgehl.kinds.choice import Choice, value_of
-from mgehl.model.own_function import OwnFunction, is_own
+from mgehl.kinds.choice import Choice
+from mgehl.model.own_function import OwnFunction, absolute, is_own
 from mgehl.model.own_laws import OwnRheology
 from mgehl.model.rheology import Eyring, Friction, Limiting, Newtonian
+
+
+@dataclass(frozen=True)
+class FrictionSection:
+    # fmt: off
+    model: str | None = word(None, "how the sheared oil resists (unset: newtonian)",
+        ("newtonian", "eyring", "limiting"), own=absolute)
+    eyring_stress: float | None = number(None, "tau_0 of tau = tau_0 asinh(eta gamma'/tau_0), below a "
+        "limit, too", "Pa", 1e3, 1e9)
+    limiting_coefficient: float | None = number(None, "largest shear stress of the oil over its pressure "
+        "(.03 to .06 measured)", above=0.0, high=1.0)
+    boundary_coefficient: float = number(Friction.boundary_coefficient, "shear stress between solids over "
+        "the pressure they carry (.08 to .135 measured)", low=0.0, high=2.0)
+    thinning: bool | None = switch(None, "whether shear thins the film (unset: where there is an Eyring "
+        "stress and surfaces slide)")
+    # fmt: on
+
 
 PARAMETERS = STRESS, LIMIT, THINNING = (
     "friction.eyring_stress", "friction.limiting_coefficient", "friction.thinning",
@@ -14,15 +34,14 @@ TAKES = {"eyring": (STRESS, THINNING), "limiting": PARAMETERS}
 NEEDS = {"eyring": (STRESS,), "limiting": (LIMIT,)}
 
 
-def friction_choice(tables):
-    """The `Choice` of friction.model; None where nothing is said of it, be it that it is unset."""
+def friction_choices(tables):
+    """What friction.model makes of its parameters, where it is given, be it as unset."""
     section = tables.get("friction")
-    if not isinstance(section, dict) or "model" not in section:
-        return None
-    model = value_of(tables, "friction.model")
-    said = "without friction.model" if model is None else f'where friction.model = "{model}"'
-    model = model if isinstance(model, str) else ""
-    return Choice(said, PARAMETERS, TAKES.get(model, ()), NEEDS.get(model, ()))
+    if isinstance(section, dict) and "model" in section:
+        model = section["model"]
+        said = "without friction.model" if model is None else f'where friction.model = "{model}"'
+        model = model if isinstance(model, str) else ""
+        yield Choice(said, PARAMETERS, TAKES.get(model, ()), NEEDS.get(model, ()))
 
 
 def check_friction(config):

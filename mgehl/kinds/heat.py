@@ -1,29 +1,40 @@
 """[heat] and the lubricant's heating: bodies that conduct, oil that is thinned by the heat of its shear."""
 
-from dataclasses import replace
+from dataclasses import dataclass, fields, replace
 
-from mgehl.config_value import shown
+from mgehl.config_value import number, shown
 from mgehl.errors import ConfigError
-from mgehl.kinds.oil import thinning_of
+from mgehl.kinds.choice import Choice, given, word_of
 from mgehl.model.flash import Solid
+
+
+@dataclass(frozen=True)
+class HeatSection:
+    # fmt: off
+    conductivity_1: float | None = number(None, "thermal conductivity of body 1 (steel: 46); all four give "
+        "flash temperatures", "W/m/K", 1e-3, 1e4)
+    conductivity_2: float | None = number(None, "the same of body 2", "W/m/K", 1e-3, 1e4)
+    capacity_1: float | None = number(None, "heat capacity of body 1 per volume (steel: 3.6e6)", "J/m^3/K",
+        1e3, 1e8)
+    capacity_2: float | None = number(None, "the same of body 2", "J/m^3/K", 1e3, 1e8)
+    # fmt: on
+
 
 LEAST = 0.2
 """Part of the film below which the factor means nothing: its formula falls through 0."""
 
-NEEDED = "lubricant.conductivity", "lubricant.thermoviscosity"
+OF_BODIES = tuple(f"heat.{field.name}" for field in fields(HeatSection))
 
 
-def check_heat(config):
-    """Raise ConfigError where keys are missing that others need."""
-    if config.lubricant.heating == "factor":
-        known = thinning_of(config) is not None
-        for key in NEEDED:
-            if config.value(key) is None and not (known and key == NEEDED[1]):
-                raise ConfigError(f'{key}: must be given where lubricant.heating = "factor"')
-    values = vars(config.heat)
-    if missing := [name for name, value in values.items() if value is None]:
-        if given := [name for name, value in values.items() if value is not None]:
-            raise ConfigError(f"heat.{missing[0]}: must be given beside heat.{given[0]}")
+def heat_choices(tables):
+    """Bodies conduct by all four numbers or by none; a factor of the film needs two numbers of the oil."""
+    if found := given(tables, OF_BODIES):
+        yield Choice(f"beside {found[0]}", needs=OF_BODIES)
+    is_loaded = word_of(tables, "contact.kind") != "wedge"
+    if is_loaded and word_of(tables, "lubricant.heating") == "factor":
+        known = given(tables, ("lubricant.oil", "lubricant.kinematic_viscosity_40"))
+        beta = () if known else ("lubricant.thermoviscosity",)
+        yield Choice('where lubricant.heating = "factor"', needs=("lubricant.conductivity", *beta))
 
 
 def check_factor(config, contact):

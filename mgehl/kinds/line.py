@@ -2,11 +2,8 @@
 
 from mgehl.discretization.mesh import Mesh
 from mgehl.kinds.bodies import OF_A_LINE
-from mgehl.kinds.friction import friction_from
-from mgehl.kinds.heat import heated, solids_from
 from mgehl.kinds.kind import Effort
-from mgehl.kinds.loaded import LoadedKind, lubricant_from
-from mgehl.kinds.surface import surface_from
+from mgehl.kinds.loaded import LoadedKind
 from mgehl.kinds.time import reference
 from mgehl.model.line import LineContact
 
@@ -34,14 +31,10 @@ class LineKind(LoadedKind):
     }  # fmt: skip
     short = {"contact.load_per_length": lambda load: f"{1e-3 * load:.4g} N/mm"}
 
-    def contact(self, config):
+    def pressed(self, config, shared):
         """A `LineContact`."""
-        section, speed = config.contact, reference(config, "motion.speed")
-        body = (section.radius_x, section.reduced_modulus)
-        lubricant, surface = lubricant_from(config), surface_from(config)
-        load = reference(config, "contact.load_per_length")
-        more = friction_from(config), solids_from(config)
-        return heated(config, LineContact(load, *body, speed, lubricant, surface, *more))
+        load, speed = reference(config, "contact.load_per_length"), reference(config, "motion.speed")
+        return LineContact(load=load, speed=speed, **shared)
 
     def mesh(self, config, contact):
         """A single line of nodes."""

@@ -2,19 +2,15 @@
 
 from dataclasses import asdict, replace
 
-from mgehl.config_value import AUTO, FARTHEST, shown
-from mgehl.errors import ConfigError
+from mgehl.config_value import AUTO, FARTHEST
 from mgehl.kinds import loaded_checks, surface, time
 from mgehl.kinds.bodies import roughness
-from mgehl.kinds.friction import check_friction
-from mgehl.kinds.heat import check_factor, check_heat
+from mgehl.kinds.friction import check_friction, friction_from
+from mgehl.kinds.heat import check_factor, heated, solids_from
 from mgehl.kinds.kind import Effort, Kind, kept_together
-from mgehl.kinds.oil import thinning_of
+from mgehl.kinds.lubricant import check_laws, lubricant_from, thinning_of
 from mgehl.model.films import formula_of, inlet_heating
-from mgehl.model.lubricant import DENSITY_LAWS, VISCOSITY_LAWS, Lubricant
-from mgehl.model.oils import OILS
-from mgehl.model.own_function import OwnFunction, is_own
-from mgehl.model.own_laws import OwnDensity, OwnViscosity
+from mgehl.model.own_laws import OwnDensity
 from mgehl.model.room import domain_for
 from mgehl.model.starvation import Starvation
 
@@ -50,7 +46,17 @@ class LoadedKind(Kind):
         time.check_courses(config)
         check_laws(config)
         check_friction(config)
-        check_heat(config)
+
+    def contact(self, config):
+        """The contact, its oil thinned where heat thins its film."""
+        section, friction, solids = config.contact, friction_from(config), solids_from(config)
+        shared = {"lubricant": lubricant_from(config), "surface": surface.surface_from(config)}
+        shared |= {"radius_x": section.radius_x, "reduced_modulus": section.reduced_modulus}
+        return heated(config, self.pressed(config, shared | {"friction": friction, "solids": solids}))
+
+    def pressed(self, config, shared):
+        """The contact, of what all kinds have in common and its own keys."""
+        raise NotImplementedError
 
     def settled(self, config, contact):
         """With numbers where the domain is "auto"."""
@@ -151,48 +157,43 @@ class LoadedKind(Kind):
         return f"X = x/a, a = {a:.4g} mm", f"Y = y/b, b = {b:.4g} mm"
 
     def scalars(self, solution):
-        """Load, films, pressure and groups."""
+        """Load, films, gaps of rough bodies, pressure and groups; bands where there are any."""
         contact, result, groups = solution.contact, solution.result, solution.contact.groups
-        unit = self.load_unit.replace("/m", " m-1")
-        return {
+        error, mixed = result.error, result.mixed
+        gaps = mixed if mixed and mixed.mean_gap_nm is not None else None
+        gap_error = gaps.error if gaps else None
+        found = {
             "speed": (contact.speed, "m s-1", "entrainment speed"),
-            "normal_load": (contact.load, unit, "normal load"),
-            "central_film": (1e-9 * result.central_film_nm, "m", "film at the centre of the contact"),
-            "minimum_film": (1e-9 * result.minimum_film_nm, "m", "smallest film"),
-            **_bands(result.error),
-            **dict(_gaps(result.mixed)),
-            "maximum_pressure": (1e9 * result.max_pressure_GPa, "Pa", "largest pressure"),
+            "normal_load": (contact.load, self.load_unit.replace("/m", " m-1"), "normal load"),
+            "central_film": _nm(result, "central_film_nm", "film at the centre of the contact"),
+            "minimum_film": _nm(result, "minimum_film_nm", "smallest film"),
+            "central_film_error": _nm(error, "central_nm"),
+            "minimum_film_error": _nm(error, "minimum_nm"),
+            "mean_gap": _nm(gaps, "mean_gap_nm", "mean gap within the Hertz ellipse, contact included"),
+            "loaded_gap": _nm(gaps, "loaded_gap_nm", "mean gap by pressure"),
+            "mean_gap_error": _nm(gap_error, "mean_nm"),
+            "loaded_gap_error": _nm(gap_error, "loaded_nm"),
+            "maximum_pressure_error": _GPa(gap_error, HALF_WIDTH),
+            "maximum_pressure": _GPa(result, "largest pressure"),
             "group_U": (groups.U, "1", "speed parameter U"),
             "group_W": (groups.W, "1", "load parameter W"),
             "group_G": (groups.G, "1", "material parameter G"),
             "moes_M": (groups.M, "1", "load number M of Moes"),
             "moes_L": (groups.L, "1", "material number L of Moes"),
         }
+        return {name: number for name, number in found.items() if number is not None}
 
 
-def _bands(error):
-    """Half-widths of the bands about the films, where there are any."""
-    widths = {"central_film": error.central_nm, "minimum_film": error.minimum_nm}
-    return {
-        f"{film}_error": (1e-9 * width, "m", HALF_WIDTH)
-        for film, width in widths.items()
-        if width is not None
-    }
+def _nm(of, name, meaning=HALF_WIDTH):
+    """The length in nm of a part of the result in m; None where there is none."""
+    value = getattr(of, name) if of else None
+    return None if value is None else (1e-9 * value, "m", meaning)
 
 
-def _gaps(mixed):
-    """Mean gaps of rough bodies, and their bands where there are any."""
-    if not mixed or mixed.mean_gap_nm is None:
-        return
-    yield "mean_gap", (1e-9 * mixed.mean_gap_nm, "m", "mean gap within the Hertz ellipse, contact included")
-    yield "loaded_gap", (1e-9 * mixed.loaded_gap_nm, "m", "mean gap by pressure")
-    error = mixed.error
-    if error and error.mean_nm is not None:
-        yield "mean_gap_error", (1e-9 * error.mean_nm, "m", HALF_WIDTH)
-    if error and error.loaded_nm is not None:
-        yield "loaded_gap_error", (1e-9 * error.loaded_nm, "m", HALF_WIDTH)
-    if error and error.max_pressure_GPa is not None:
-        yield "maximum_pressure_error", (1e9 * error.max_pressure_GPa, "Pa", HALF_WIDTH)
+def _GPa(of, meaning):
+    """The same of its largest pressure."""
+    value = of.max_pressure_GPa if of else None
+    return None if value is None else (1e9 * value, "Pa", meaning)
 
 
 def _with_bands(effort):
@@ -246,35 +247,3 @@ def heat_words(config, contact):
 def speed_words(u):
     """A speed in mm/s, from 1 m/s on in m/s."""
     return f"{u:.4g} m/s" if u >= 1.0 - 1e-12 else f"{1e3 * u:.4g} mm/s"
-
-
-def check_laws(config):
-    """Raise ConfigError where a law has no meaning for this viscosity."""
-    if is_own(config.lubricant.viscosity_law):
-        return
-    try:
-        lubricant_from(config)
-    except ValueError as error:
-        viscosity = shown(config.lubricant.viscosity)
-        raise ConfigError(f"lubricant.viscosity = {viscosity}: {error}") from None
-
-
-def lubricant_from(config):
-    """The lubricant, by built-in laws or the user's own. Raises ValueError where the numbers fit no law."""
-    section = config.lubricant
-    ambient = section.viscosity, section.pressure_viscosity
-    if section.oil is not None:
-        # By the numbers of the run that is read, where that was made by other ones.
-        viscosity = replace(
-            OILS[section.oil].law(section.temperature), viscosity=ambient[0], pressure_viscosity=ambient[1]
-        )
-    elif is_own(section.viscosity_law):
-        viscosity = OwnViscosity(*ambient, OwnFunction(section.viscosity_law))
-    else:
-        viscosity = VISCOSITY_LAWS[section.viscosity_law](*ambient)
-    if is_own(section.density_law):
-        density = OwnDensity(OwnFunction(section.density_law))
-    else:
-        density = DENSITY_LAWS[section.density_law]()
-    beta = thinning_of(config) if section.thermoviscosity is None else section.thermoviscosity
-    return Lubricant(viscosity, density, section.conductivity, beta)

@@ -72,7 +72,14 @@ def check_domain(grid, contact, way=1.0):
     length = way * contact.inlet_length
     inlets = contact.motion[0] * length, contact.motion[1] * length * contact.k_e
     for (name, ends), inlet in zip(_sides(grid, contact), inlets, strict=False):
-        _check_inlet(f"grid.{name} = {list(ends)!r}", ends, contact.reach, inlet)
+        needed, side = contact.reach + abs(inlet), None
+        if inlet > 0.0 and needed > -ends[0]:
+            side = f"begin before {-needed:.3g}"
+        elif inlet < 0.0 and needed > ends[1]:
+            side = f"end beyond {needed:.3g}"
+        if side:
+            words = f"must {side}, where the inlet that builds the film begins"
+            raise ConfigError(f"grid.{name} = {list(ends)!r}: {words}")
     check_reach(grid, contact)
 
 
@@ -82,24 +89,10 @@ def check_reach(grid, contact):
     who = "contact may on a layer so soft" if reach > 1.0 else "contact of smooth bodies does"
     for name, ends in _sides(grid, contact):
         if min(-ends[0], ends[1]) <= reach:
-            raise ConfigError(
-                f"grid.{name} = {list(ends)!r}: must reach beyond {reach:.3g} on both sides, as far as the "
-                f"{who}"
-            )
+            words = f"must reach beyond {reach:.3g} on both sides, as far as the {who}"
+            raise ConfigError(f"grid.{name} = {list(ends)!r}: {words}")
 
 
 def _sides(grid, contact):
     """Names and ends of the domain's axes."""
     return (("x", grid.x),) if contact.is_plane else (("x", grid.x), ("y", grid.y))
-
-
-def _check_inlet(what, ends, reach, inlet):
-    """Fluid that moves by `inlet` along an axis must get from the edge of the domain to the contact."""
-    needed = reach + abs(inlet)
-    if inlet > 0.0 and needed > -ends[0]:
-        side = f"begin before {-needed:.3g}, where the inlet that builds the film begins"
-    elif inlet < 0.0 and needed > ends[1]:
-        side = f"end beyond {needed:.3g}, where the inlet that builds the film begins"
-    else:
-        return
-    raise ConfigError(f"{what}: must {side}")

@@ -1,22 +1,9 @@
-"""A user's own functions: built from their keys, and the key named where one of them fails."""
+"""A user's own functions: the key is named where one of them fails."""
 
 from contextlib import contextmanager
 
 from mgehl.errors import ConfigError
-from mgehl.model.own_function import OwnFunction, OwnFunctionError, is_own
-from mgehl.model.own_laws import OwnCompliance, OwnSurface
-
-
-def own_surface_from(config):
-    """The user's surface; None without one."""
-    name = config.contact.surface
-    return OwnSurface(OwnFunction(name)) if name else None
-
-
-def compliance_from(config):
-    """The user's deformation; None where it is built in."""
-    name = config.contact.deformation
-    return OwnCompliance(OwnFunction(name)) if is_own(name) else None
+from mgehl.model.own_function import OwnFunctionError
 
 
 @contextmanager

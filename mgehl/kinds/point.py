@@ -2,27 +2,25 @@
 
 from dataclasses import asdict, dataclass
 
-from mgehl.config_value import key_field
+from mgehl.config_value import number
 from mgehl.discretization.fluid import FOLDING
 from mgehl.discretization.mesh import Mesh
 from mgehl.errors import ConfigError
-from mgehl.kinds.bodies import SPEEDS, keys
-from mgehl.kinds.choice import Choice, value_of, word_of
-from mgehl.kinds.friction import friction_from
-from mgehl.kinds.heat import heated, solids_from
+from mgehl.kinds.bodies import MOTION
+from mgehl.kinds.choice import Choice, given, word_of
 from mgehl.kinds.kind import Effort
-from mgehl.kinds.loaded import LoadedKind, lubricant_from
-from mgehl.kinds.own import compliance_from
-from mgehl.kinds.surface import surface_from
+from mgehl.kinds.loaded import LoadedKind
 from mgehl.kinds.time import reference
 from mgehl.model.coating import Coating
+from mgehl.model.own_function import OwnFunction, is_own
+from mgehl.model.own_laws import OwnCompliance
 from mgehl.model.point import PointContact
 
 LARGEST_RADIUS_RATIO = 1e3
 """Largest ratio of the two radii: a longer ellipse is a line contact."""
 
 MOES = "moes.M", "moes.L"
-MOES_REPLACES = "contact.load", "motion.speed", "motion.ring_rotation", *keys((*SPEEDS, "rotation_radius"))
+MOES_REPLACES = "contact.load", "motion.speed", "motion.ring_rotation", *MOTION
 """Moes numbers, and the keys that they stand for."""
 
 FILM = Effort(45.0, 2.6e-7, 0.013, 1300.0, "full films on 65 to 2049 nodes took 22 to 106")
@@ -32,42 +30,31 @@ MEAN = Effort(500.0, 2e-7, 0.01, 1300.0, "folding means of the mobility took 348
 
 @dataclass(frozen=True)
 class CoatingSection:
-    thickness: float | None = key_field(
-        None, "thickness of the layer on one body, where contact.deformation = coated",
-        "m", low=1e-9, high=1.0,
-    )  # fmt: skip
-    modulus: float | None = key_field(None, "Young's modulus of the layer", "Pa", low=1e6, high=1e13)
-    poisson: float = key_field(0.3, "Poisson's ratio of the layer", low=0.0, high=0.5)
-    substrate_modulus: float | None = key_field(
-        None, "Young's modulus beneath it (unset: half of the compliance 2/E' is that body's)",
-        "Pa", low=1e6, high=1e13,
-    )  # fmt: skip
-    substrate_poisson: float = key_field(0.3, "Poisson's ratio beneath it", low=0.0, high=0.5)
+    # fmt: off
+    thickness: float | None = number(None, "thickness of the layer on one body, where contact.deformation "
+        "= coated", "m", 1e-9, 1.0)
+    modulus: float | None = number(None, "Young's modulus of the layer", "Pa", 1e6, 1e13)
+    poisson: float = number(0.3, "Poisson's ratio of the layer", low=0.0, high=0.5)
+    substrate_modulus: float | None = number(None, "Young's modulus beneath it (unset: half of the "
+        "compliance 2/E' is that body's)", "Pa", 1e6, 1e13)
+    substrate_poisson: float = number(0.3, "Poisson's ratio beneath it", low=0.0, high=0.5)
+    # fmt: on
 
 
 @dataclass(frozen=True)
 class MoesSection:
-    M: float | None = key_field(None, "Moes load number, instead of load and speed", "", low=0.01, high=1e7)
-    L: float | None = key_field(
-        None, "Moes material number, instead of load and speed", "", low=0.1, high=100.0
-    )
+    M: float | None = number(None, "Moes load number, instead of load and speed", "", 0.01, 1e7)
+    L: float | None = number(None, "Moes material number, instead of load and speed", "", 0.1, 100.0)
 
 
-def deformation_choice(tables):
-    """The `Choice` of contact.deformation: a coating belongs to coated bodies."""
-    deformation = word_of(tables, "contact.deformation")
-    if deformation is None:
-        return None
-    said = f'where contact.deformation = "{deformation}"'
-    if deformation != "coated":
-        return Choice(said, ("coating",))
-    return Choice(said, (), needs=("coating.thickness", "coating.modulus"))
-
-
-def moes_choice(tables):
-    """The `Choice` of Moes numbers, which come as a pair and stand for load and speed; None without any."""
-    given = [key for key in MOES if value_of(tables, key) is not None]
-    return Choice(f"with {given[0]}", MOES_REPLACES, needs=MOES) if given else None
+def point_choices(tables):
+    """A coating belongs to coated bodies; Moes numbers come as a pair and stand for load and speed."""
+    if deformation := word_of(tables, "contact.deformation"):
+        is_coated, said = deformation == "coated", f'where contact.deformation = "{deformation}"'
+        needs = ("coating.thickness", "coating.modulus") if is_coated else ()
+        yield Choice(said, () if is_coated else ("coating",), needs=needs)
+    if found := given(tables, MOES):
+        yield Choice(f"with {found[0]}", MOES_REPLACES, needs=MOES)
 
 
 class PointKind(LoadedKind):
@@ -105,17 +92,15 @@ class PointKind(LoadedKind):
             raise ConfigError(f"coating.substrate_modulus = {modulus!r}: {error}") from None
         super().check_keys(config)
 
-    def contact(self, config):
+    def pressed(self, config, shared):
         """A `PointContact`, by load and speed or by Moes numbers."""
-        section, moes, lubricant = config.contact, config.moes, lubricant_from(config)
-        body = (section.radius_x, section.radius_y, section.reduced_modulus)
-        more = {"surface": surface_from(config), "deformation": _deformation_from(config)}
-        more |= {"angle": config.motion.angle, "load_beyond": config.grid.load_beyond}
-        more |= {"friction": friction_from(config), "solids": solids_from(config)}
+        moes = config.moes
+        shared |= {"radius_y": config.contact.radius_y, "deformation": _deformation_from(config)}
+        shared |= {"angle": config.motion.angle, "load_beyond": config.grid.load_beyond}
         if moes.M is not None:
-            return heated(config, PointContact.from_moes(moes.M, moes.L, *body, lubricant, **more))
+            return PointContact.from_moes(moes.M, moes.L, **shared)
         load, speed = reference(config, "contact.load"), reference(config, "motion.speed")
-        return heated(config, PointContact(load, *body, speed, lubricant, **more))
+        return PointContact(load=load, speed=speed, **shared)
 
     def mesh(self, config, contact):
         """A square of nodes over the ellipse."""
@@ -177,7 +162,8 @@ def _deformation_from(config):
     """What the bodies are in depth; None for half-spaces."""
     if config.contact.deformation == "coated":
         return Coating(**asdict(config.coating), reduced_modulus=config.contact.reduced_modulus)
-    return compliance_from(config)
+    name = config.contact.deformation
+    return OwnCompliance(OwnFunction(name)) if is_own(name) else None
 
 
 def _check_radii(section):

@@ -8,8 +8,7 @@ from contextlib import contextmanager
 import numpy as np
 
 from mgehl.errors import ConfigError
-from mgehl.kinds.own import own_surface_from
-from mgehl.kinds.surface_kinds import NAMES, share_of, surface_of
+from mgehl.kinds.surface_kinds import NAMES, carried, share_of, surface_of
 from mgehl.kinds.time import ways_of
 from mgehl.model.frame import direction
 from mgehl.model.own_function import OwnFunctionError
@@ -71,13 +70,7 @@ def surface_from(config):
 
 def parts_of(config):
     """(Key, `Surface`) of every surface."""
-    for name in NAMES:
-        section = getattr(config, name)
-        if (surface := surface_of(section)) is not None:
-            key = "kind" if section.file is None else "file"
-            yield f"{name}.{key} = {getattr(section, key)!r}", surface
-    if own := own_surface_from(config):
-        yield f"contact.surface = {config.contact.surface!r}", own
+    return [(key, surface) for key, surface, _ in carried(config)]
 
 
 def check_surfaces(config, contact, mesh):

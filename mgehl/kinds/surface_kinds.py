@@ -7,8 +7,10 @@ of `mgehl.model.surface`, its name in `FORMULAS`, and a key of the section for e
 from dataclasses import MISSING, dataclass, fields
 from pathlib import Path
 
-from mgehl.config_value import key_field
+from mgehl.config_value import number, whole, word
 from mgehl.kinds.choice import Choice, word_of
+from mgehl.model.own_function import OwnFunction
+from mgehl.model.own_laws import OwnSurface
 from mgehl.model.surface import Dent, Measured, Preparation, Ridge, SelfAffine, Waviness
 from mgehl.model.surface.map import UNITS
 from mgehl.model.surface.measured import CONTINUATIONS, INTERPOLATE, REFUSE, REMOVED
@@ -44,73 +46,44 @@ def absolute_path(value, directory="."):
 
 @dataclass(frozen=True)
 class SurfaceSection:
-    kind: str | None = key_field(None, "heights by a formula", choices=tuple(FORMULAS), kind=str)
-    file: str | None = key_field(
-        None, "heights from a file: .npy, .npz, text (matrix or x y z), an instrument's format",
-        kind=str, own=absolute_path, own_name="FILE",
-    )  # fmt: skip
-    body: str = key_field(
-        STILL, "the body that carries it: one that stands still, one that moves at twice motion.speed, or "
-        "body_1, body_2 at speeds by motion.slide_to_roll",
-        choices=BODIES, kind=str,
-    )  # fmt: skip
-    amplitude: float | None = key_field(
-        None, "of waviness half from valley to peak, of a dent its depth, of a ridge its height",
-        "m", low=0.0, high=1e-2,
-    )  # fmt: skip
-    wavelength_x: float | None = key_field(
-        None, "waviness: wavelength along its own x axis (unset: no waves that way)", "m",
-        low=1e-9, high=1.0,
-    )  # fmt: skip
-    wavelength_y: float | None = key_field(
-        None, "the same along its own y axis", "m", low=1e-9, high=1.0
-    )  # fmt: skip
-    width: float | None = key_field(
-        None, "w of a dent or a ridge: A 10^(-10 (r/w)^2) cos(2 pi r/w)", "m", low=1e-9, high=1.0
-    )
-    rms: float | None = key_field(None, "self-affine: rms height", "m", low=0.0, high=1e-2)
-    hurst: float = key_field(0.8, "self-affine: Hurst exponent", low=0.0, high=1.0)
-    seed: int = key_field(0, "self-affine: which of the random surfaces", low=0, high=2**31, kind=int)
-    aspect: float = key_field(
-        1.0, "self-affine: length of features along angle over that across it", low=1.0, high=100.0
-    )
-    shortest_wavelength: float | None = key_field(
-        None, "cut-off: self-affine has no shorter waves, a file is filtered", "m", low=1e-9, high=1.0
-    )
-    longest_wavelength: float | None = key_field(
-        None, "cut-off: self-affine has no longer waves, a file is filtered", "m", low=1e-9, high=1.0
-    )
-    x: float = key_field(
-        0.0, "where the middle of the file, dent or ridge is, a peak of the waves", "m", low=-1.0, high=1.0
-    )
-    y: float = key_field(0.0, "the same along y", "m", low=-1.0, high=1.0)
-    angle: float = key_field(
-        0.0, "direction of its own x axis, from +x towards +y", "deg", low=-360.0, high=360.0
-    )
-    height_unit: str | None = key_field(
-        None, "file: unit of its heights (unset: the file's own)", choices=LENGTHS, kind=str
-    )
-    position_unit: str | None = key_field(
-        None, "file: unit of its x and y (unset: the file's own)", choices=LENGTHS, kind=str
-    )
-    spacing: float | None = key_field(
-        None, "file: distance of its points (unset: the file's own)", "m", low=1e-12, high=1.0
-    )
-    spacing_y: float | None = key_field(
-        None, "file: the same along y (unset: as along x)", "m", low=1e-12, high=1.0
-    )
-    continuation: str = key_field(
-        "none", "file: what is beyond its edge (none: the edge's heights, outside the contact alone)",
-        choices=tuple(CONTINUATIONS), kind=str,
-    )  # fmt: skip
-    remove: str = key_field(
-        "nothing", "file: what is taken off it (curvature: with tilt and mean)",
-        choices=tuple(REMOVED), kind=str,
-    )  # fmt: skip
-    holes: str = key_field(
-        REFUSE, "file: holes, points without a height (interpolate: filled smoothly, up to a quarter)",
-        choices=(REFUSE, INTERPOLATE), kind=str,
-    )  # fmt: skip
+    # fmt: off
+    kind: str | None = word(None, "heights by a formula", tuple(FORMULAS))
+    file: str | None = word(None, "heights from a file: .npy, .npz, text (matrix or x y z), an "
+        "instrument's format", own=absolute_path, own_name="FILE")
+    body: str = word(STILL, "the body that carries it: one that stands still, one that moves at twice "
+        "motion.speed, or body_1, body_2 at speeds by motion.slide_to_roll", BODIES)
+    amplitude: float | None = number(None, "of waviness half from valley to peak, of a dent its depth, of "
+        "a ridge its height", "m", 0.0, 1e-2)
+    wavelength_x: float | None = number(None, "waviness: wavelength along its own x axis (unset: no waves "
+        "that way)", "m", 1e-9, 1.0)
+    wavelength_y: float | None = number(None, "the same along its own y axis", "m", 1e-9, 1.0)
+    width: float | None = number(None, "w of a dent or a ridge: A 10^(-10 (r/w)^2) cos(2 pi r/w)", "m",
+        1e-9, 1.0)
+    rms: float | None = number(None, "self-affine: rms height", "m", 0.0, 1e-2)
+    hurst: float = number(0.8, "self-affine: Hurst exponent", low=0.0, high=1.0)
+    seed: int = whole(0, "self-affine: which of the random surfaces", 0, 2**31)
+    aspect: float = number(1.0, "self-affine: length of features along angle over that across it", low=1.0,
+        high=100.0)
+    shortest_wavelength: float | None = number(None, "cut-off: self-affine has no shorter waves, a file is "
+        "filtered", "m", 1e-9, 1.0)
+    longest_wavelength: float | None = number(None, "cut-off: self-affine has no longer waves, a file is "
+        "filtered", "m", 1e-9, 1.0)
+    x: float = number(0.0, "where the middle of the file, dent or ridge is, a peak of the waves", "m", -1.0,
+        1.0)
+    y: float = number(0.0, "the same along y", "m", -1.0, 1.0)
+    angle: float = number(0.0, "direction of its own x axis, from +x towards +y", "deg", -360.0, 360.0)
+    height_unit: str | None = word(None, "file: unit of its heights (unset: the file's own)", LENGTHS)
+    position_unit: str | None = word(None, "file: unit of its x and y (unset: the file's own)", LENGTHS)
+    spacing: float | None = number(None, "file: distance of its points (unset: the file's own)", "m", 1e-12,
+        1.0)
+    spacing_y: float | None = number(None, "file: the same along y (unset: as along x)", "m", 1e-12, 1.0)
+    continuation: str = word("none", "file: what is beyond its edge (none: the edge's heights, outside the "
+        "contact alone)", tuple(CONTINUATIONS))
+    remove: str = word("nothing", "file: what is taken off it (curvature: with tilt and mean)",
+        tuple(REMOVED))
+    holes: str = word(REFUSE, "file: holes, points without a height (interpolate: filled smoothly, up to a "
+        "quarter)", (REFUSE, INTERPOLATE))
+    # fmt: on
 
 
 def surface_choices(tables):
@@ -118,21 +91,16 @@ def surface_choices(tables):
     for name in NAMES:
         table = tables.get(name)
         if isinstance(table, dict) and not {"kind", "file"}.isdisjoint(table):
-            yield _choice(name, table.get("file"), word_of(tables, f"{name}.kind"))
-
-
-def _choice(name, file, kind):
-    """What a file, a formula or neither makes of the keys of a surface."""
-    if file is not None:
-        return Choice(f"with {name}.file", (name,), _keys(name, OF_A_FILE))
-    if kind is None:
-        return Choice(f"without {name}.kind or {name}.file", (name,))
-    if kind not in FORMULAS:
-        return None
-    parameters = _parameters(FORMULAS[kind])
-    takes = _keys(name, ("kind", "body", *parameters))
-    needs = _keys(name, (key for key, needed in parameters.items() if needed))
-    return Choice(f'with {name}.kind = "{kind}"', (name,), takes, needs)
+            kind = word_of(tables, f"{name}.kind")
+            if table.get("file") is not None:
+                yield Choice(f"with {name}.file", (name,), _keys(name, OF_A_FILE))
+            elif kind is None:
+                yield Choice(f"without {name}.kind or {name}.file", (name,))
+            elif kind in FORMULAS:
+                parameters = _parameters(FORMULAS[kind])
+                takes = _keys(name, ("kind", "body", *parameters))
+                needs = _keys(name, (key for key, needed in parameters.items() if needed))
+                yield Choice(f'with {name}.kind = "{kind}"', (name,), takes, needs)
 
 
 def _keys(section, names):
@@ -144,6 +112,19 @@ def _parameters(formula):
     known = {key.name for key in fields(SurfaceSection)}
     own = (field for field in fields(formula) if field.name in known)
     return {field.name: field.default is MISSING and field.type is float for field in own}
+
+
+def carried(config):
+    """(Key, `Surface`, the body that carries it) of every surface."""
+    for name in NAMES:
+        section = getattr(config, name)
+        if (surface := surface_of(section)) is not None:
+            key = "kind" if section.file is None else "file"
+            yield f"{name}.{key} = {getattr(section, key)!r}", surface, section.body
+    contact = config.contact
+    if contact.surface:
+        own = OwnSurface(OwnFunction(contact.surface))
+        yield f"contact.surface = {contact.surface!r}", own, contact.surface_body
 
 
 def surface_of(section):
@@ -158,14 +139,7 @@ def surface_of(section):
 
 
 def _preparation(section):
-    return Preparation(
-        height_unit=section.height_unit and UNITS[section.height_unit],
-        position_unit=section.position_unit and UNITS[section.position_unit],
-        dx=section.spacing,
-        dy=section.spacing_y,
-        remove=section.remove,
-        shortest_wavelength=section.shortest_wavelength,
-        longest_wavelength=section.longest_wavelength,
-        continuation=section.continuation,
-        holes=section.holes,
-    )
+    same = "remove", "shortest_wavelength", "longest_wavelength", "continuation", "holes"
+    units = {name: UNITS.get(getattr(section, name)) for name in ("height_unit", "position_unit")}
+    values = {name: getattr(section, name) for name in same}
+    return Preparation(dx=section.spacing, dy=section.spacing_y, **units, **values)

@@ -5,11 +5,10 @@ from itertools import pairwise
 
 import numpy as np
 
-from mgehl.config_value import key_field
+from mgehl.config_value import number, word
 from mgehl.errors import ConfigError
-from mgehl.kinds.choice import Choice, value_of
-from mgehl.kinds.own import own_surface_from
-from mgehl.kinds.surface_kinds import NAMES, share_of, surface_of
+from mgehl.kinds.choice import Choice, given
+from mgehl.kinds.surface_kinds import carried, share_of
 from mgehl.model.course import CourseError, course_of
 from mgehl.model.frame import direction
 from mgehl.model.own_function import OwnFunctionError, is_own
@@ -18,36 +17,32 @@ from mgehl.model.scene import Scene
 
 @dataclass(frozen=True)
 class TimeSection:
-    end: float | None = key_field(
-        None, "time at which a run in time ends (unset: a steady state)", "s", above=0.0, high=1e9
-    )
-    step: float | None = key_field(
-        None, "step in time (unset: by the cells that surfaces go, and by the error)", "s",
-        above=0.0, high=1e9,
-    )  # fmt: skip
-    tolerance: float = key_field(
-        1e-3, "residual that a step may leave, over that with which it begins", above=0.0, high=0.1
-    )
-    save_every: float | None = key_field(
-        None, "time between two fields that are kept (unset: 50 in a run)", "s", above=0.0, high=1e9
-    )
-    until: str = key_field(
-        "end", "when it ends: at time.end, or before when means over passages have settled",
-        choices=("end", "settled"), kind=str,
-    )  # fmt: skip
+    # fmt: off
+    end: float | None = number(None, "time at which a run in time ends (unset: a steady state)", "s",
+        above=0.0, high=1e9)
+    step: float | None = number(None, "step in time (unset: by the cells that surfaces go, and by the "
+        "error)", "s", above=0.0, high=1e9)
+    tolerance: float = number(1e-3, "residual that a step may leave, over that with which it begins",
+        above=0.0, high=0.1)
+    save_every: float | None = number(None, "time between two fields that are kept (unset: 50 in a run)",
+        "s", above=0.0, high=1e9)
+    until: str = word("end", "when it ends: at time.end, or before when means over passages have settled",
+        ("end", "settled"))
+    # fmt: on
 
 
 ONLY_IN_TIME = ("motion.speed", "contact.load", "contact.load_per_length")
 """Keys that may be a course of time."""
 
+NEEDED = {"solver.method": "newton-mg", "discretization.contact_model": "lcic"}
+"""What a run in time is made for alone."""
 
-def time_choice(tables):
-    """The `Choice` of a steady state, to which keys of [time] mean nothing; None with a time.end."""
-    if value_of(tables, "time.end") is not None:
-        return None
-    if any(value_of(tables, f"time.{name}") is not None for name in ("step", "save_every")):
-        return Choice("without time.end", ("time.step", "time.save_every"))
-    return None
+
+def time_choices(tables):
+    """To a steady state keys of [time] mean nothing."""
+    within = "time.step", "time.save_every"
+    if given(tables, within) and not given(tables, ["time.end"]):
+        yield Choice("without time.end", within)
 
 
 def is_table(key, value):
@@ -77,38 +72,34 @@ def reference(config, key):
 
 def check_courses(config):
     """Raise ConfigError where a course is none, or where there is no time for it."""
+    step, end = config.time.step, config.time.end
     for key in ONLY_IN_TIME:
         value = config.value(key)
-        if not isinstance(value, str):
-            continue
-        if config.time.end is None:
-            raise ConfigError(f"{key} = {value!r}: changes with time, and time.end is not given")
-        _naming(key, value, lambda v=value: course_of(v).check(config.time.end))
-        least, most = course_of(value).range(config.time.end)
-        if key != "motion.speed" and not least > 0.0:
-            raise ConfigError(f"{key} = {value!r}: falls to {least:g}; must stay above 0")
-        if key == "motion.speed" and least == most == 0.0:
-            raise ConfigError(f"{key} = {value!r}: is 0 throughout; give a number for a dry contact")
-        if key == "motion.speed" and course_of(value).value(0.0) < 0.0:
-            raise ConfigError(f"{key} = {value!r}: begins below 0; turn motion.angle by 180 degrees")
-    step, end = config.time.step, config.time.end
-    if end is not None and step is not None and step > end:
+        if isinstance(value, str) and (wrong := _wrong_with(key, value, end)):
+            raise ConfigError(f"{key} = {value!r}: {wrong}")
+    if end is None:
+        return
+    if step is not None and step > end:
         raise ConfigError(f"time.step = {step:g}: must be at most {end:g}, time.end")
-    if end is not None:
-        _check_method(config)
-
-
-def _check_method(config):
-    """What a run in time is not made for."""
-    asked = {
-        "solver.method": (config.solver.method, "newton-mg"),
-        "discretization.contact_model": (config.discretization.contact_model, "lcic"),
-    }
-    for key, (value, needed) in asked.items():
-        if value != needed:
-            raise ConfigError(f'{key} = "{value}": must be "{needed}" in time (time.end)')
+    for key, needed in NEEDED.items():
+        if config.value(key) != needed:
+            raise ConfigError(f'{key} = "{config.value(key)}": must be "{needed}" in time (time.end)')
     if not config.kind.is_loaded:
         raise ConfigError(f'contact.kind = "{config.contact.kind}": a run in time (time.end) needs a load')
+
+
+def _wrong_with(key, value, end):
+    """What is wrong with a course until `end`; None where nothing is."""
+    if end is None:
+        return "changes with time, and time.end is not given"
+    _naming(key, value, lambda: course_of(value).check(end))
+    course = course_of(value)
+    least, most = course.range(end)
+    if key != "motion.speed":
+        return None if least > 0.0 else f"falls to {least:g}; must stay above 0"
+    if least == most == 0.0:
+        return "is 0 throughout; give a number for a dry contact"
+    return "begins below 0; turn motion.angle by 180 degrees" if course.value(0.0) < 0.0 else None
 
 
 def reverses(config):
@@ -140,16 +131,9 @@ def scene_of(config, contact):
     """The `Scene` of a run in time; the `contact` has the largest speed and the first load."""
     load = course_of(config.value(load_key(config)) if config.moes.M is None else contact.load)
     speed = course_of(config.motion.speed if config.moes.M is None else contact.speed)
-    return Scene(contact, speed, load, tuple(_surfaces(config)), config.time.end)
-
-
-def _surfaces(config):
-    for name in NAMES:
-        section = getattr(config, name)
-        if (surface := surface_of(section)) is not None:
-            yield surface, share_of(section.body, config.motion.slide_to_roll)
-    if own := own_surface_from(config):
-        yield own, share_of(config.contact.surface_body, config.motion.slide_to_roll)
+    slip = config.motion.slide_to_roll
+    surfaces = tuple((surface, share_of(body, slip)) for _, surface, body in carried(config))
+    return Scene(contact, speed, load, surfaces, config.time.end)
 
 
 def _naming(key, value, found):

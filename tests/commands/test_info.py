@@ -8,7 +8,7 @@ import pytest
 from petsc4py import PETSc
 
 from mgehl.cli import main
-from mgehl.config import chosen_config
+from mgehl.config_file import chosen_config
 from mgehl.version import VERSION
 
 

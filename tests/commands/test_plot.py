@@ -59,7 +59,7 @@ def test_several_runs_are_compared(plot, tmp_path):
         ("dry", ["--kind", "films"], "--kind films: known are all, time, lines, film, pressure, status"),
         ("dry", ["--format", "png,gif"], "--format gif: known are png, svg, pdf"),
         ("dry", ["--kind", "compare"], "--kind compare: needs more than one run"),
-        ("dry", ["--dpi", "9"], "--dpi 9: must be between 30 and 1200"),
+        ("dry", ["--dpi", "9"], "--dpi 9: must be a whole number from 30 to 1200"),
         ("dry", ["--style", "none.mplstyle"], "none.mplstyle: cannot be read: No such file or directory"),
         ("wedge", ["--kind", "film"], "no picture 'film' of this contact: it has lines, pressure"),
         ("dry wedge", [], "runs of different kinds of contact have no common picture"),

@@ -6,7 +6,7 @@ import tomllib
 import pytest
 
 from mgehl.cli import main
-from mgehl.config import chosen_config, default_config
+from mgehl.config_file import chosen_config, default_config
 from mgehl.output.stored import read_run
 
 FILM = ["run", "--set", "grid.nodes=65", "--set", "motion.speed=3", "--set", "solver.start=film"]
