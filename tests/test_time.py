@@ -64,6 +64,22 @@ def test_an_oblique_steady_state_stays():
     assert after.fields.H == pytest.approx(steady.fields.H, abs=1e-8)
 
 
+THINNED = {"motion__slide_to_roll": 0.5, "friction__model": "eyring", "friction__eyring_stress": 1e5}
+
+
+def test_a_film_that_shear_thins_stays_thin():
+    thick, thin = solved(), solved(**THINNED)
+    after = solved(**THINNED, time__end=1.0 * UNIT)
+    assert thin.summary.central_film_nm < 0.98 * thick.summary.central_film_nm
+    assert after.fields.H == pytest.approx(thin.fields.H, abs=1e-8)
+
+
+def test_thinning_needs_a_speed_that_stays(course):
+    speed = course((0.0, 0.09), (UNIT, 0.05))
+    with pytest.raises(mgehl.ConfigError, match=r"friction.thinning = True: .*motion.speed"):
+        solved(**THINNED, friction__thinning=True, motion__speed=speed, time__end=UNIT)
+
+
 def test_a_stop_leaves_the_film_shut_in(course):
     speed = course((0.0, 0.09), (0.3 * UNIT, 0.0), (3.0 * UNIT, 0.0))
     stopped = solved(motion__speed=speed, time__end=3.0 * UNIT)

@@ -26,6 +26,7 @@ STUDIES = {
     "machine": Entry("rough contacts of machines by chance: verdicts and gaps", grids=1, draws=True),
     "rollers": Entry("rough line contacts by chance: verdicts and gaps", grids=1, draws=True),
     "stribeck": Entry("friction of a rough ball over speed, three oils", grids=1),
+    "solids": Entry("from which lambda on solids carry load: at rest and moving", grids=1),
     "waviness": Entry("waves in the film of a line contact, beside published numbers", grids=0),
     "moving": Entry("waves and a dimple that pass through full films", grids=1),
     "dry": Entry("dry contacts beside a public code's numbers"),

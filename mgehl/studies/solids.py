@@ -1,0 +1,122 @@
+"""From which lambda on solids carry load: two ground surfaces at rest, and two that roll and slide.
+
+At rest the surfaces stand still while the oil is drawn through; in motion each goes along with its body,
+and means over passages are told. The oil is Newtonian, or thinned by shear.
+"""
+
+import numpy as np
+
+from mgehl.output.pictures.style import COLOURS, subplots
+from mgehl.studies.chance import BALL
+from mgehl.studies.columns import told
+from mgehl.studies.study import merged
+
+NODES, SPEEDS = 65, (0.1, 0.03, 0.015, 0.008, 0.003, 0.001, 0.0003)
+"""Speeds in m/s: lambda 1 to .02."""
+
+SURFACE = {"kind": "self-affine", "rms": 70e-9, "hurst": 0.8, "shortest_wavelength": 30e-6,
+           "longest_wavelength": 200e-6}  # fmt: skip
+
+CASE = merged(
+    BALL,
+    {
+        "contact": {"load": 20.0, "boundary_film": 2e-9},
+        "surface": SURFACE | {"seed": 1},
+        "second_surface": SURFACE | {"seed": 2},
+        "motion": {"slide_to_roll": 0.2},
+        "solver": {"start": "film"},
+    },
+)  # fmt: skip
+
+MOVING = {"surface": {"body": "body_1"}, "second_surface": {"body": "body_2"}}
+
+PASSAGES, HERTZ = 10.0, 0.24e-3
+"""Passages after which a run ends if its means have not settled before, and their length in m."""
+
+EYRING = {"friction": {"model": "eyring", "eyring_stress": 5e6}}
+"""A round number within what is measured of mineral oils."""
+
+OILS = {"Newtonian": {}, "Eyring": EYRING}
+MOTIONS = {"at rest": {}, "moving": MOVING}
+
+CARRIED = 0.01, 0.1, 0.5
+"""Parts of the load for which lambda is told."""
+
+
+def run(study):
+    """Solve all; write the tables `solids` and `solids-begin`, and the picture `solids`."""
+    (nodes,) = study.nodes or (NODES,)
+    asked = [(oil, motion, speed) for motion in MOTIONS for oil in OILS for speed in SPEEDS]
+    cases = {f"{oil}, {motion}, {speed:g} m/s": (oil, motion, speed) for oil, motion, speed in asked}
+    tables = {name: case(nodes, *how) for name, how in cases.items()}
+    results = {cases[name]: solution.result for name, solution in study.solved(tables)}
+    study.write_table("solids", [row(*how, result) for how, result in results.items()])
+    curves = {name: _curve(results, *name) for name in dict.fromkeys(how[:2] for how in asked)}
+    study.write_table("solids-begin", [begin(*name, *curve) for name, curve in curves.items()])
+    study.draw("solids", figure, curves)
+
+
+def case(nodes, oil, motion, speed):
+    """The tables of a case."""
+    tables = merged(
+        CASE, OILS[oil], MOTIONS[motion], {"grid": {"nodes": nodes}, "motion": {"speed": speed}}
+    )
+    if motion == "at rest":
+        return tables
+    return merged(tables, {"time": {"end": PASSAGES * HERTZ / speed, "until": "settled"}})
+
+
+def row(oil, motion, speed, result):
+    """Text of a case."""
+    found = {"oil": oil, "surfaces": motion, "speed mm/s": f"{1e3 * speed:g}", **told(result, "lambda")}
+    for name in ("load_on_solids", "load_on_contact", "mean_gap_nm"):
+        value, band = _mean(result, name)
+        found |= {name.replace("_", " "): f"{value:.4g}", "band of " + name.replace("_", " "): band}
+    return found | told(result, "steps, convolutions, converged")
+
+
+def _mean(result, name):
+    """A mean over passages and its band as text; of surfaces at rest the number itself."""
+    if result.time:
+        mean = result.time.means.get(name)
+        return (mean.value, "" if mean.band is None else f"{mean.band:.2g}") if mean else (np.nan, "")
+    mixed = result.mixed
+    return {
+        "load_on_solids": mixed.solid_load_fraction,
+        "load_on_contact": mixed.contact_load_share,
+        "mean_gap_nm": mixed.mean_gap_nm,
+    }[name], ""
+
+
+def _curve(results, oil, motion):
+    """lambda and load on solids of what has converged, from thin to thick films."""
+    points = sorted(
+        (result.mixed.lambda_ratio, _mean(result, "load_on_solids")[0])
+        for (own, moved, _), result in results.items()
+        if (own, moved) == (oil, motion) and result.converged
+    )
+    return np.array(points).reshape(-1, 2).T
+
+
+def begin(oil, motion, ratio, solids):
+    """From which lambda on solids carry some parts of the load, between two points by logarithms."""
+    found = {"oil": oil, "surfaces": motion}
+    for part in CARRIED:
+        seen = solids.size > 1 and solids[-1] < part < solids[0]
+        log = np.interp(-part, -solids, np.log(ratio)) if seen else np.nan
+        found[f"lambda at {100 * part:g} %"] = f"{np.exp(log):.3g}" if seen else ""
+    return found
+
+
+def figure(curves):
+    """Load on solids against lambda."""
+    figure, axis = subplots(1, size=(6.4, 4.6))
+    strokes = {"at rest": "--o", "moving": "-s"}
+    for (oil, motion), (ratio, solids) in curves.items():
+        colour = COLOURS[list(OILS).index(oil)]
+        axis.plot(ratio, solids, strokes[motion], color=colour, markersize=4, label=f"{oil}, {motion}")
+    axis.set(
+        xscale="log", xlabel="lambda: film of smooth bodies over Sq", ylabel="part of the load on solids"
+    )
+    axis.legend(frameon=False)
+    return figure
