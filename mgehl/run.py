@@ -28,6 +28,7 @@ from mgehl.output.summary import summarise, summarise_dry, summarise_in_time, su
 from mgehl.output.surroundings import versions
 from mgehl.output.users_axes import in_users_axes
 from mgehl.solver.beginning import begin
+from mgehl.solver.closing import close_account
 from mgehl.solver.coarser import CoarserGrids
 from mgehl.solver.dry import guess_on_finest, solve_dry
 from mgehl.solver.from_config import set_up
@@ -139,6 +140,8 @@ def _solve_loaded(case, parts, comm, watch, start):
             method = partial(solve_from, start=start, frame=parts.frame)
         journal = _journal(config, monitor, watch)
         problem, outcome = method(hierarchy, contact, settings, monitor=monitor, journal=journal)
+        if by_newton:
+            outcome = close_account(hierarchy, problem, outcome, settings, monitor, journal)
         work = Work(monitor.convolutions, monitor.steps if by_newton else outcome.cycles[-1].step)
         result = summarise(problem, outcome, tolerance, work, monitor.seconds, versions())
         coarser = CoarserGrids(hierarchy, problem, outcome.state, settings, monitor.beside, journal)

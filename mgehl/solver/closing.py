@@ -1,0 +1,46 @@
+"""A solution that makes oil is solved on.
+
+The tolerance is a part of what the surfaces could carry. Where layers alone let oil through, far less
+flows, and what a small residual makes may be much of it.
+"""
+
+from dataclasses import replace
+from functools import partial
+
+from mgehl.solver.mass import mass_account
+from mgehl.solver.nested import LevelSolve
+from mgehl.solver.on_grid import solve_on
+from mgehl.solver.recipe import A_STATE, recipe_of
+
+AIM = 1e-8
+"""Part of what flows through that nodes may make."""
+
+FINER, ROUNDS, STEPS = 0.01, 3, 10
+"""Of a residual that makes more: what is solved for then; how often, and in how many steps, at the most:
+rounding may not let it fall so far."""
+
+
+def close_account(hierarchy, problem, outcome, settings, monitor, journal):
+    """The `Outcome` of a solved problem on the finest grid, its account of the oil closed as far as it can
+    be (collective); `monitor` and `journal` as of `nested_iteration`.
+
+    Contact that shuts its faces has no flow that its sets depend on: there the residual says all.
+    """
+    contact, grid, level = problem.contact, problem.grid, len(hierarchy.grids) - 1
+    recipe = recipe_of(settings, contact, A_STATE)
+    for _ in range(ROUNDS):
+        if not (outcome.converged and recipe.newton.by_film and _makes_oil(problem, outcome.state)):
+            break
+        finer = replace(recipe.newton, tolerance=FINER * outcome.cycles[-1].residual, max_steps=STEPS)
+        news = "solved on, until no node makes oil"
+        tell = partial(monitor, LevelSolve(grid.mesh.nx, contact.speed, True, news))
+        state, own = outcome.state.copy(), replace(recipe, newton=finer)
+        found = solve_on(hierarchy, level, problem, state, own, tell, journal)
+        if not found.converged:
+            break
+        outcome = found
+    return outcome
+
+
+def _makes_oil(problem, state):
+    return mass_account(problem, state, problem.evaluate(state)).made_share > AIM
