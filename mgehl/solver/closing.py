@@ -15,7 +15,7 @@ from mgehl.solver.recipe import A_STATE, recipe_of
 AIM = 1e-8
 """Part of what flows through that nodes may make."""
 
-FINER, ROUNDS, STEPS = 0.01, 3, 10
+FINER, ROUNDS, STEPS = 0.1, 4, 5
 """Of a residual that makes more: what is solved for then; how often, and in how many steps, at the most:
 rounding may not let it fall so far."""
 
