@@ -142,3 +142,14 @@ def test_what_a_cavity_holds_is_an_unknown_where_it_feeds_a_film(
     state.H = problem.gap(state.P, state.H0)
     assert problem.feeding(state.status).any()
     assert_consistent(problem, state, make_jacobian, make_vec)
+
+
+def test_a_cavity_without_a_gap_carries_nothing(make_problem, rough_state, make_jacobian):
+    """Contact that was torn open where bodies still overlap, before a film."""
+    problem = make_problem(nodes=33)
+    state = rough_state(problem)
+    j, i = problem.grid.mesh.nearest(0.0, 0.0)[::-1]
+    state.P[j, i] = state.p[j, i] = 0.0
+    state.status[j, i], state.filling[j, i], state.H[j, i] = CAVITATED, 0.0, -1e-3
+    lin = make_jacobian(problem, state).linearisation
+    assert list(lin.carried) == [(0, 0)] and not lin.carried[0, 0].any()
