@@ -11,8 +11,8 @@ from mgehl.studies.chance import BALL
 from mgehl.studies.columns import told
 from mgehl.studies.study import merged
 
-NODES, SPEEDS = 65, (0.1, 0.03, 0.015, 0.008, 0.003, 0.001, 0.0003)
-"""Speeds in m/s: lambda 1 to .02."""
+NODES, SPEEDS = 65, (0.1, 0.03, 0.015, 0.008, 0.003, 0.001)
+"""Speeds in m/s: lambda 1 to .04."""
 
 SURFACE = {"kind": "self-affine", "rms": 70e-9, "hurst": 0.8, "shortest_wavelength": 30e-6,
            "longest_wavelength": 200e-6}  # fmt: skip

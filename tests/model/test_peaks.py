@@ -1,13 +1,10 @@
 """How far from the centre peaks of rough bodies may touch."""
 
-from math import exp
-
 import numpy as np
 import pytest
 
 from mgehl.config import config_from_tables
 from mgehl.kinds import contact_from
-from mgehl.model.load_share import aihara, error_function, zhou_hoeprich
 from mgehl.model.peaks import reach_of_peaks
 from mgehl.studies.study import merged
 
@@ -63,17 +60,3 @@ def test_a_peak_outside_of_the_contact_is_found():
     (alone, _), _ = reach(waves(100e-9))
     (both, _), contact = reach(merged(waves(100e-9), {"second_surface": ridge}))
     assert contact.x_scale < 60e-6 < alone * contact.x_scale and both > 1.3 * alone
-
-
-@pytest.mark.parametrize("fit", [aihara, zhou_hoeprich, error_function])
-def test_all_of_the_load_without_a_film_and_less_with_every_bit_of_it(fit):
-    parts = [fit(ratio) for ratio in (0.0, 0.1, 0.5, 1.0, 3.0)]
-    assert parts[0] == 1.0 and parts == sorted(parts, reverse=True) and 0.0 < parts[-1] < 0.01
-
-
-def test_spot_values():
-    assert aihara(1.0) == pytest.approx(exp(-1.8))
-    assert zhou_hoeprich(1.0) == pytest.approx(exp(-2.32))
-    assert error_function(1.0) == pytest.approx(0.157299207, rel=1e-8)  # tables of erfc
-    assert aihara(2.0) == pytest.approx(exp(-1.8 * 2.0**1.2))
-    assert zhou_hoeprich(2.0) == pytest.approx(exp(-2.32 * 2.0**0.97))
