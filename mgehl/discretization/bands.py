@@ -85,7 +85,8 @@ class LineBands:
                 empty_columns(bands[some], contents[some])
                 for (beside, ahead), by_content in lin.carried.items():
                     if beside == 0:
-                        bands[some, :, bands.shape[2] // 2 + ahead] += by_content[some]
+                        here = some, slice(*nodes)  # beyond it there is nothing yet
+                        bands[*here, bands.shape[2] // 2 + ahead] += by_content[here]
             diagonal[some, slice(*nodes)] = bands[some, slice(*nodes), REACH]
             self._factor(bands[some], nodes)
         return diagonal

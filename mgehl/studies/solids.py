@@ -39,7 +39,7 @@ EYRING = {"friction": {"model": "eyring", "eyring_stress": 5e6}}
 OILS = {"Newtonian": {}, "Eyring": EYRING}
 MOTIONS = {"at rest": {}, "moving": MOVING}
 
-CARRIED = 0.01, 0.1, 0.5
+CARRIED = 0.001, 0.01, 0.1
 """Parts of the load for which lambda is told."""
 
 
@@ -89,13 +89,13 @@ def _mean(result, name):
 
 
 def _curve(results, oil, motion):
-    """lambda and load on solids of what has converged, from thin to thick films."""
+    """lambda and load on solids of what has converged and touches, from thin to thick films."""
     points = sorted(
         (result.mixed.lambda_ratio, _mean(result, "load_on_solids")[0])
         for (own, moved, _), result in results.items()
         if (own, moved) == (oil, motion) and result.converged
     )
-    return np.array(points).reshape(-1, 2).T
+    return np.array([each for each in points if each[1] > 0.0]).reshape(-1, 2).T
 
 
 def begin(oil, motion, ratio, solids):
@@ -103,7 +103,7 @@ def begin(oil, motion, ratio, solids):
     found = {"oil": oil, "surfaces": motion}
     for part in CARRIED:
         seen = solids.size > 1 and solids[-1] < part < solids[0]
-        log = np.interp(-part, -solids, np.log(ratio)) if seen else np.nan
+        log = np.interp(-np.log(part), -np.log(solids), np.log(ratio)) if seen else np.nan
         found[f"lambda at {100 * part:g} %"] = f"{np.exp(log):.3g}" if seen else ""
     return found
 
@@ -115,8 +115,7 @@ def figure(curves):
     for (oil, motion), (ratio, solids) in curves.items():
         colour = COLOURS[list(OILS).index(oil)]
         axis.plot(ratio, solids, strokes[motion], color=colour, markersize=4, label=f"{oil}, {motion}")
-    axis.set(
-        xscale="log", xlabel="lambda: film of smooth bodies over Sq", ylabel="part of the load on solids"
-    )
+    axis.set(xscale="log", xlabel="lambda: film of smooth bodies over Sq")
+    axis.set(yscale="log", ylabel="part of the load on solids")
     axis.legend(frameon=False)
     return figure
