@@ -9,8 +9,8 @@ def smoother_of(jacobian, in_valleys=False, finest=False, apart=False):
     """The class of a grid's smoother: a rigid gap has no K, and a single line has nothing beside it.
 
     A film `in_valleys` closes at the peaks of rough surfaces; it has smoothers of its own, another on the
-    `finest` grid. Where the fluid is solved `apart` hardly more than contact is
-    left, which has no direction: lines along X take as many convolutions there, and a tenth less time.
+    `finest` grid. Where the fluid is solved `apart` hardly more than contact is left, which has no
+    direction: lines along X take as many convolutions there, and a tenth less time.
     Cliffs are looked for on the finest grid and on all that hold the film.
     """
     if jacobian.rigid:

@@ -17,7 +17,6 @@ from mgehl.discretization.fluid import FOLDING
 from mgehl.discretization.scheme import Scheme
 from mgehl.multigrid.cycle import CycleSettings
 from mgehl.solver.settings import NewtonSettings
-from mgehl.solver.squeeze import SQUEEZE
 
 NONE, COVERED, NEAR, TOUCHING = "none", "covered", "near", "touching"
 """Peaks: none; below a film of `THICK`; near the other body; reaching through the film that smooth bodies
@@ -146,13 +145,12 @@ def _first_guess(start, law, contact):
 
 def _newton(settings, contact, in_time):
     """Newton's rules; `in_time` steps have a squeeze at the least."""
-    asked, scheme, rough = settings.newton, settings.scheme, contact.roughness > 0.0
-    by_film, squeeze = scheme.contact_law.is_continuous, asked.squeeze
-    squeeze = max(squeeze, SQUEEZE) if in_time else squeeze
-    idle = IDLE_BY_FILM if by_film else IDLE_IN_TIME if scheme.may_fold or squeeze > 0.0 else IDLE
+    scheme, rough = settings.scheme, contact.roughness > 0.0
+    asked = settings.newton.squeezed() if in_time else settings.newton
+    by_film, passes_folds = scheme.contact_law.is_continuous, scheme.may_fold or asked.squeeze > 0.0
+    idle = IDLE_BY_FILM if by_film else IDLE_IN_TIME if passes_folds else IDLE
     return replace(
         asked,
-        squeeze=squeeze,
         idle_steps=asked.idle_steps or idle,
         max_pressure_step=asked.max_pressure_step * (1.0 if rough else _more(contact)),
         over_largest=rough,
