@@ -88,7 +88,7 @@ def _carried(scheme, content):
 
 
 def _mobility(a, b, g, h):
-    """exp(-alpha p) h^3 of a face whose gap is linear from g to h, and its viscosity's inverse from a to b."""
+    """exp(-alpha p) h^3 of faces whose gap is linear from g to h, and the first from a to b."""
     d = np.log(b / a)
     near = np.abs(d) < 1e-4
     d = np.where(near, 1.0, d)
