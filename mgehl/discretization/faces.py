@@ -61,18 +61,15 @@ def _add_carried(flow, terms, table, fluid, stops, axis):
         return
     of_full = Flow(flow.value.shape, flow.by_P, not flow.by_H)
     add_couette(of_full, terms, table, fluid, stops, axis)
-    behind = of_full.value < 0.0  # against the axis: a wedge's plate
-    filling, torn = (
-        np.where(behind, axis.at(part, SHIFT[E]), axis.at(part, SHIFT[W]))
-        for part in (fluid.filling, fluid.torn)
-    )
+    upstream = W if axis.couette >= 0.0 else E  # against the axis: a wedge's plate
+    filling, torn = (axis.at(part, SHIFT[upstream]) for part in (fluid.filling, fluid.torn))
     flow.value += filling * of_full.value
     for node, by_P in of_full.by_P.items():
         flow.by_P[node] += filling * by_P
     for node, by_H in of_full.by_H.items():
         flow.by_H[node] += filling * by_H
-    for node, from_here in ((W, ~behind), (E, behind)) if flow.by_P else ():
-        flow.by_P[node] += of_full.value * (torn & from_here)
+    if flow.by_P:
+        flow.by_P[upstream] += of_full.value * torn
 
 
 def carried(fluid, status, axis, scheme, mobility=None):
