@@ -8,6 +8,7 @@ import sysconfig
 import tomllib
 from collections.abc import Mapping
 from contextlib import contextmanager
+from math import isfinite
 from pathlib import Path
 
 from mgehl.config_value import shown
@@ -94,9 +95,10 @@ def _read_setting(setting):
 def _number_or_text(text):
     """A number such as .045 or 1., which people write and TOML does not know, or the text as it is."""
     try:
-        return float(text)
+        number = float(text)
     except ValueError:
         return text
+    return number if isfinite(number) else text
 
 
 @contextmanager
