@@ -90,6 +90,32 @@ def test_a_stop_leaves_the_film_shut_in(course):
     assert np.all(np.diff(least) < 1e-3)
 
 
+PAPERS = {
+    "grid.nodes": 65, "grid.x": [-2.5, 2.5], "grid.y": [-2.0, 2.0], "solver.start": "film",
+    "solver.error": False, "discretization.face_mobility": "linear-gap", "discretization.couette": "3B",
+}  # fmt: skip
+"""The paper's ball: hard bodies, which part slowly."""
+
+
+def papers_ball(motion, end):
+    return mgehl.solve(mgehl.load(None, PAPERS | {"motion.speed": motion, "time.end": end}))
+
+
+def test_bodies_that_lie_dry_part_as_they_start(course):
+    """Oil that is shut in between them fills gaps as small as rounding: no set settles there."""
+    started = papers_ball(course((0, 0), (0.02, 0.06)), 0.006)
+    assert started.summary.converged and not column(started, "halvings").any()
+    touching = column(started, "contact_nodes")
+    assert touching[-1] < 0.9 * touching[0]
+
+
+def test_a_reversal_makes_no_oil(course):
+    """Where contents turn round, cavities owe nothing to the steady state at the beginning."""
+    turned = papers_ball(course((0, 0.06), (0.005, 0.06), (0.025, -0.06)), 0.02)
+    assert turned.summary.converged
+    assert np.abs(column(turned, "closure")).max() < 1e-8
+
+
 def test_a_course_that_does_not_change_is_no_course(course):
     speed = course((0.0, 0.09), (1.0, 0.09))
     one, other = solved(time__end=UNIT), solved(motion__speed=speed, time__end=UNIT)

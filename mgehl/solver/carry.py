@@ -35,6 +35,8 @@ LEAST_LEFT = 0.5
 """Part of what the surfaces bring to a node that the flow of the step before may take away again: a node
 that it would empty further has the first backward formula."""
 
+ROUNDING = 1e-13
+"""Content of less than nothing that is no debt."""
 
 ROUNDS = 20
 """Rounds in which nodes that would be emptied are found; after them no node looks back."""
@@ -113,16 +115,16 @@ class Transport:
         leg = self._leg(carried, status, dT, shift)
         if reference is None:
             return leg, None
-        lacking, after = self._lacking(reference, carried, leg, shift, way)
-        ends = self._grid.sum(self.into(lacking)[~self._problem.boundary].sum())
-        leg = replace(leg, before=leg.before + self.into(lacking), through_ends=leg.through_ends + ends)
-        return leg, after
+        lacking, after = self._lacking(reference, leg, shift, way)
+        # Where a node holds less than the reference, that much less is lacking.
+        held = np.clip(carried.m / np.maximum(reference.m, 1e-300), 0.0, 1.0)
+        held = np.where(reference.m > 0.0, held, 1.0)
+        _, before = self._kept(lacking, leg.before, held, least_left=0.0)
+        ends = self._grid.sum((before - leg.before)[~self._problem.boundary].sum())
+        return replace(leg, before=before, through_ends=leg.through_ends + ends), after
 
-    def _lacking(self, reference, carried, leg, shift, way):
-        """What more must pass the faces of each axis for a reference to stay, and the reference after it.
-
-        Where a node holds less than the reference, that much less.
-        """
+    def _lacking(self, reference, leg, shift, way):
+        """What must pass the faces of each axis besides for a reference to stay; the reference after it."""
         passed = self._passing(reference.m, shift)
         flows, pressed = (
             [way * each for each in self._faces(*both)]
@@ -136,12 +138,7 @@ class Transport:
                 share * leg.c * old + weight * leg.b * new
                 for share, old, weight, new in zip(leg.w, before, leg.weights, pressed, strict=True)
             ]
-        held = np.clip(carried.m / np.maximum(reference.m, 1e-300), 0.0, 1.0)
-        held = self._between(np.where(reference.m > 0.0, held, 1.0))
-        lacking = [
-            share * (flow - brought - drawn)
-            for share, flow, brought, drawn in zip(held, flows, passed, G, strict=True)
-        ]
+        lacking = [flow - brought - drawn for flow, brought, drawn in zip(flows, passed, G, strict=True)]
         along, *across = (_of_nodes(axis, each) for axis, each in zip("xy", G, strict=False))
         return lacking, replace(reference, G_x=along, G_y=across[0] if across else None)
 
@@ -171,24 +168,26 @@ class Transport:
         ratio = dT / carried.dT
         c, b = ratio**2 / (1.0 + 2.0 * ratio), (1.0 + ratio) / (1.0 + 2.0 * ratio)
         G = [c * each for each in self._moved(carried, shift)]
-        w, before = self._kept(G, brought, self._from_film(status, shift))
+        w, before = self._kept(G, brought, self._from_film(status, shift), LEAST_LEFT)
         known = [share * each for share, each in zip(w, G, strict=True)]
         weights = tuple((share * b + 1.0 - share) / b for share in w)
         return Leg(before, through, known, weights, dT, b, c, w)
 
-    def _kept(self, G, brought, smooth):
+    def _kept(self, G, held, counts, least_left):
         """What counts of `G` at the faces, from 0 to 1, and the contents by it.
 
-        The faces of nodes that are not `smooth` count nothing, nor do those of nodes that it would empty.
+        What `counts` of either node, (lines, nx): nothing of a node that would be left with less than
+        `least_left` times what it `held`.
         """
+        counts = counts.astype(float)
         for _ in range(ROUNDS):
-            w = self._between(smooth)
-            before = brought + self.into([share * each for share, each in zip(w, G, strict=True)])
-            emptied = smooth & (before < LEAST_LEFT * brought)
+            w = self._between(counts)
+            after = held + self.into([share * each for share, each in zip(w, G, strict=True)])
+            emptied = (counts > 0.0) & (after < least_left * held - ROUNDING)
             if not self._grid.count(emptied):
-                return w, before
-            smooth = smooth & ~emptied
-        return [np.zeros(each.shape) for each in G], brought
+                return w, after
+            counts[emptied] = 0.0
+        return [np.zeros(each.shape) for each in G], held
 
     def _brought(self, m, shift):
         """Contents after they went along, and what passed the domain's ends inwards, a number."""
@@ -243,9 +242,9 @@ class Transport:
             found &= moved(film.astype(float), float(np.copysign(cells, shift.along_x))) > 0.5
         return found
 
-    def _between(self, nodes):
-        """1.0 at the faces of each axis that lie between two of these nodes, 0.0 at others."""
-        ghosted = self._grid.halo(nodes.astype(float))
+    def _between(self, values):
+        """The lesser of both nodes' values (lines, nx) at the faces of each axis."""
+        ghosted = self._grid.halo(values)
         return [np.minimum(axis.at(ghosted, 0), axis.at(ghosted, 1)) for axis in self._problem.axes]
 
     def into(self, G):

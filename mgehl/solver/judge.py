@@ -40,6 +40,8 @@ class Limits:
     """Steps in a row that may leave more than `STUCK` of the least residual."""
     spreading_steps: int | None = None
     """Steps in which contact may spread; None: any."""
+    certain: float = 0.0
+    """Residual below which sets may still change."""
 
 
 @dataclass(frozen=True)
@@ -58,7 +60,7 @@ GO_ON = Verdict(ends=False)
 
 def limits_of(settings, tolerance, max_steps):
     """The `Limits` of a solve by `NewtonSettings`."""
-    return Limits(tolerance, max_steps, settings.idle_steps, settings.spreading_steps)
+    return Limits(tolerance, max_steps, settings.idle_steps, settings.spreading_steps, settings.certain)
 
 
 def judge(position, partition, limits):
@@ -66,7 +68,7 @@ def judge(position, partition, limits):
     cycle = position.cycles[-1]
     limit = position.trial.limit if position.trial else limits.max_steps
     small = cycle.residual <= limits.tolerance and abs(cycle.load_error) <= limits.tolerance
-    if small and cycle.changes.total == 0:
+    if small and (cycle.changes.total == 0 or cycle.residual < limits.certain):
         return Verdict(True, True, "residual, load and sets settled")
     if not cycle.residual < DIVERGED:
         return Verdict(True, reason=f"diverged: residual {cycle.residual:.1e} after {cycle.step} steps")

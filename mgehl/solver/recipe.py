@@ -114,9 +114,14 @@ def recipe_of(settings, contact, begins=None):
 
 
 def recipe_in_time(settings, contact):
-    """The `Recipe` of a step in time: what the surfaces carry is known beforehand."""
+    """The `Recipe` of a step in time: what the surfaces carry is known beforehand.
+
+    Where bodies part, oil that is shut in fills gaps as small as rounding: their nodes would be film and
+    contact by turns for ever, with no residual to tell which.
+    """
     recipe = recipe_of(settings, contact, A_STATE)
-    newton = replace(recipe.newton, squeeze=0.0, max_work=10**9, max_steps=MOST_IN_TIME)
+    limits = {"max_work": 10**9, "max_steps": MOST_IN_TIME, "certain": settings.newton.tolerance}
+    newton = replace(recipe.newton, squeeze=0.0, **limits)
     return replace(recipe, scheme=replace(recipe.scheme, motion=(0.0, 0.0)), newton=newton)
 
 

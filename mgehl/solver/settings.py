@@ -38,6 +38,8 @@ class NewtonSettings:
 
     tolerance: float = SolverSection.tolerance
     """For the rms residual and the load error."""
+    certain: float = 0.0
+    """Residual below which sets that still change are no reason to go on."""
     max_steps: int = SolverSection.max_steps
     idle_steps: int | None = SolverSection.idle_steps
     """Steps in a row that may leave the residual as it is; None: as many as the recipe has."""
