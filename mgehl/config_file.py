@@ -8,6 +8,7 @@ import sysconfig
 import tomllib
 from collections.abc import Mapping
 from contextlib import contextmanager
+from math import isfinite
 from pathlib import Path
 
 from mgehl.config_value import shown
@@ -76,7 +77,7 @@ def nested(settings):
 
 
 def _read_setting(setting):
-    """Name and value of one "section.key=value"; the value is TOML, or else a plain string."""
+    """Name and value of one "section.key=value": TOML, a number that TOML does not know, or a string."""
     key, equals, text = setting.partition("=")
     section, dot, name = (part.strip() for part in key.partition("."))
     if not (equals and dot and section and name):
@@ -87,8 +88,17 @@ def _read_setting(setting):
         parsed = tomllib.loads(f"value = {text}")
         value = parsed["value"] if len(parsed) == 1 else text.strip()
     except (ValueError, RecursionError):
-        value = text.strip()
+        value = _number_or_text(text.strip())
     return f"{section}.{name}", value
+
+
+def _number_or_text(text):
+    """A number such as .045 or 1., which people write and TOML does not know, or the text as it is."""
+    try:
+        number = float(text)
+    except ValueError:
+        return text
+    return number if isfinite(number) else text
 
 
 @contextmanager

@@ -102,9 +102,11 @@ def test_units_end_as_SI_floats(setting, value):
         ("lubricant.viscosity_law=roelands", "roelands"),
         ("lubricant.density_law=constant", "constant"),
         ("solver.release_budget=0", 0),
+        ("solver.omega=.9", 0.9),
+        ("contact.load=5.", 5.0),
     ],
 )
-def test_settings_are_toml_or_else_plain_strings(setting, value):
+def test_settings_are_toml_or_numbers_or_else_plain_strings(setting, value):
     section, key = setting.split("=")[0].strip().split(".")
     found = getattr(getattr(with_settings(setting), section), key)
     assert found == value and type(found) is type(value)
