@@ -43,3 +43,25 @@ def test_a_place_is_there(place):
 
 def test_the_page_has_the_whole_algorithm():
     assert len(NAMES) > 40
+
+
+CONTRIBUTING = (Path(__file__).resolve().parent.parent / "CONTRIBUTING.md").read_text()
+
+
+@pytest.mark.parametrize("file", sorted(set(re.findall(r"`([\w/]+\.py)`", CONTRIBUTING))))
+def test_a_file_to_open_is_there(file):
+    package = Path(found("mgehl").__file__).parent
+    assert (package / file).exists() or ("/" not in file and list(package.rglob(file)))
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "model.lubricant.VISCOSITY_LAWS",
+        "model.surface.files.read_map",
+        "discretization.couette.SCHEMES",
+        "multigrid.cycle.IN_THE_CYCLE",
+    ],
+)
+def test_what_to_change_there_has_the_name_that_contributing_tells(name):
+    assert found(f"mgehl.{name}") and f"`{name.rpartition('.')[2]}`" in CONTRIBUTING

@@ -1,4 +1,4 @@
-"""The layers of mgehl import downwards only; mgehl/README.md lists every equation that the code names."""
+"""The layers of mgehl import downwards only."""
 
 import ast
 from graphlib import CycleError, TopologicalSorter

@@ -21,7 +21,14 @@ from mgehl.config import SECTIONS, config_from_tables, load_config
 ROOT = Path(__file__).resolve().parent.parent
 PAGES = {
     name: (ROOT / name).read_text()
-    for name in ("README.md", "configs/README.md", "mgehl/README.md", "runs/README.md", "tests/README.md")
+    for name in (
+        "README.md",
+        "configs/README.md",
+        "mgehl/README.md",
+        "runs/README.md",
+        "tests/README.md",
+        "CONTRIBUTING.md",
+    )
 }
 README, CASES = PAGES["README.md"], PAGES["configs/README.md"]
 (FIRST_CASE,) = re.findall(r"```toml\n(.*?)```", README, flags=re.DOTALL)

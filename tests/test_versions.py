@@ -1,17 +1,32 @@
 """One version, wherever it is told."""
 
 import re
+import tomllib
 from pathlib import Path
 
 from mgehl.version import VERSION
 
 ROOT = Path(__file__).resolve().parent.parent
+CITATION = (ROOT / "CITATION.cff").read_text()
+
+
+def said(key):
+    """What CITATION.cff says under a key, wherever it says it at the left margin."""
+    return re.findall(rf"^{key}: (.+)$", CITATION, re.MULTILINE)
 
 
 def test_citation_names_this_version():
-    assert re.findall(r"^version: (.+)$", (ROOT / "CITATION.cff").read_text(), re.MULTILINE) == [VERSION]
+    assert said("version") == [VERSION]
 
 
-def test_changelog_has_a_heading_for_this_version_beneath_what_is_not_released():
-    headings = re.findall(r"^## (\S+)", (ROOT / "CHANGELOG.md").read_text(), re.MULTILINE)
-    assert headings[0] == "Unreleased" and headings[1] == VERSION
+def test_changelog_begins_with_this_version_and_the_day_that_citation_names():
+    headings = re.findall(r"^## (.+)$", (ROOT / "CHANGELOG.md").read_text(), re.MULTILINE)
+    released = [heading for heading in headings if heading != "Unreleased"]
+    assert headings.index(released[0]) <= 1
+    assert [released[0]] == [f"{VERSION} - {day}" for day in said("date-released")]
+
+
+def test_the_package_takes_its_version_from_one_place():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())
+    assert "version" in project["project"]["dynamic"] and "version" not in project["project"]
+    assert project["tool"]["setuptools"]["dynamic"]["version"] == {"attr": "mgehl.version.VERSION"}

@@ -12,7 +12,7 @@ MOES_DOMAIN = {"x": (-4.5, 1.5), "y": (-3.0, 3.0)}
 
 
 def test_full_film_at_one_metre_per_second(solve, paper_contact):
-    """design.md, section 4."""
+    """The paper's ball on 129 nodes."""
     solution = solve(paper_contact(), 129)
     assert solution.outcome.converged
     assert solution.films == (pytest.approx(407.620, rel=1e-5), pytest.approx(130.083, rel=1e-5))
@@ -37,7 +37,7 @@ MOES = [
 
 @pytest.mark.parametrize("M, couette, nodes, central, minimum", MOES)
 def test_moes_films(solve, moes_contact, M, couette, nodes, central, minimum):
-    """references.md, incompressible full films with L = 10."""
+    """Incompressible full films with L = 10, by another program on the same grid (tests/README.md)."""
     contact = moes_contact(M, 10)
     assert contact.groups.M == pytest.approx(M) and contact.groups.L == pytest.approx(10)
     solution = solve(contact, nodes, couette=couette, **MOES_DOMAIN)
