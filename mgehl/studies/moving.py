@@ -1,9 +1,10 @@
 """Roughness that moves: waves and a dimple that pass through full films, beside published numbers.
 
 Small waves pass through a line contact at s times the mean speed of the surfaces (s = 1 in pure rolling).
-What is told is the amplitude with which the film at the centre swings, over that of the waves. A dimple
-passes through a point contact in pure rolling: measured and set up by Mourier et al., Tribol Int 39 (2006)
-1745, computed by Hansen et al., Tribol Lett 70 (2022) 80.
+What is told is the amplitude with which the film at the centre swings, over that of the waves. Waves along
+and across pass through a point contact in pure rolling, beside the curve of Venner and Lubrecht (2000, eq.
+29). A dimple passes through another: measured and set up by Mourier et al., Tribol Int 39 (2006) 1745,
+computed by Hansen et al., Tribol Lett 70 (2022) 80.
 """
 
 from pathlib import Path
@@ -12,7 +13,7 @@ import numpy as np
 
 from mgehl.studies.columns import told
 from mgehl.studies.study import merged
-from mgehl.studies.waviness import SMALL, line_case
+from mgehl.studies.waviness import ALPHA, FLUIDS, MODULUS, RADIUS, SMALL, VISCOSITY, line_case
 
 NODES = 1025
 """Of a line contact; waves of a half-width have 186 cells."""
@@ -34,6 +35,12 @@ PUBLISHED = {4.0: 0.030, 2.0: 0.073, 1.0: 0.183, 0.5: 0.394}
 FRESH = 1.1
 """Lengths of the domain that film and waves go before the swing is looked at."""
 
+POINT_NODES, POINT, POINT_LENGTHS = 257, (1007.6, 12.05), (1.0, 0.5, 0.25)
+"""Of the point contact with waves: nodes; M and L, at which an amplitude is published; lengths over a."""
+
+COMPUTED = {0.25: 0.739}
+"""Amplitude left by length [Venner and Lubrecht 2000]."""
+
 BALL = {
     "contact": {"load": 15.0, "radius_x": 12.5e-3, "radius_y": 12.5e-3, "reduced_modulus": 110e9},
     "lubricant": {"viscosity": 0.25, "viscosity_law": "roelands", "pressure_viscosity": 22e-9},
@@ -44,7 +51,7 @@ BALL = {
 
 WITH_DIMPLE = {"contact": {"surface": f"{Path(__file__)}:dimple", "surface_body": "body_1"}}
 
-RADIUS, DEPTH, FROM = 15.5e-6, 175e-9, -410.2e-6
+WIDTH, DEPTH, FROM = 15.5e-6, 175e-9, -410.2e-6
 """Of the dimple in m, and where it begins: three radii of the contact before its centre."""
 
 PLACES = {-102.4: (358, 381), -41.6: (354, 385), 19.2: (355, 390), 108.8: (354, 395)}
@@ -54,18 +61,20 @@ PLACES = {-102.4: (358, 381), -41.6: (354, 385), 19.2: (355, 390), 108.8: (354, 
 def dimple(x, y):
     """Heights of the dimple before it moves."""
     s = np.hypot(x - FROM, y)
-    return -DEPTH * np.cos(np.pi * s / (2.4 * RADIUS)) * np.exp(-2.0 * (s / (1.2 * RADIUS)) ** 2)
+    return -DEPTH * np.cos(np.pi * s / (2.4 * WIDTH)) * np.exp(-2.0 * (s / (1.2 * WIDTH)) ** 2)
 
 
 def run(study):
-    """Solve all; write the tables `waves` and `dimple`."""
+    """Solve all; write the tables `waves`, `points` and `dimple`."""
     nodes = study.nodes[0] if study.nodes else NODES
+    on_points = min(nodes, POINT_NODES)
     cases = [(ROELANDS, length, 1.0) for length in (4.0, 2.0)]
     cases += [(line, length, s) for line in (ROELANDS, BARUS) for length in (1.0, 0.5)
               for s in REFERENCE[line[0], length]]  # fmt: skip
-    study.cases = len(cases) + len(PLACES) + 3
+    study.cases = len(cases) + len(POINT_LENGTHS) + len(PLACES) + 4
     smooth = {line: study.solve(f"smooth, M {line[0]:g}", _line(line, nodes)) for line in (ROELANDS, BARUS)}
     study.write_table("waves", [_wave(study, smooth[case[0]], *case, nodes) for case in cases])
+    study.write_table("points", list(_points(study, on_points)))
     study.write_table("dimple", list(_dimple(study)))
 
 
@@ -75,19 +84,8 @@ def _line(line, nodes):
 
 def _wave(study, smooth, line, length, s, nodes):
     """The row of one wave."""
-    contact, mesh = smooth.contact, smooth.mesh
-    amplitude, unit = SMALL * 1e-9 * smooth.result.central_film_nm, contact.x_scale / contact.speed
-    period = length / s
-    end = FRESH * (mesh.x[1] - mesh.x[0]) / min(s, 1.0) + period
-    tables = {
-        "surface": {"kind": "waviness", "amplitude": amplitude, "wavelength_x": length * contact.x_scale,
-                    "body": "body_1"},
-        "motion": {"slide_to_roll": 2.0 * (s - 1.0)},
-        "time": {"end": end * unit},
-    }  # fmt: skip
     title = f"M {line[0]:g}, length {length:g}, s {s:g}"
-    found = study.solve(title, merged(_line(line, nodes), tables))
-    swing = swing_of(found.rows, period * unit) / (1e9 * amplitude)
+    found, swing = passed(study, title, _line(line, nodes), smooth, {"wavelength_x": length}, s)
     published = PUBLISHED.get(length) if line is ROELANDS and s == 1.0 else None
     known = REFERENCE.get((line[0], length), {}).get(s)
     return {
@@ -99,6 +97,55 @@ def _wave(study, smooth, line, length, s, nodes):
         **_steps(found.result.time),
         **told(found.result, "converged"),
     }  # fmt: skip
+
+
+def passed(study, title, case, smooth, lengths, s=1.0):
+    """The run in which small waves pass at s times the mean speed, and the swing of the film over their
+    amplitude. `lengths` are keys of the surface, over the Hertz radius of the `smooth` solution."""
+    contact, mesh = smooth.contact, smooth.mesh
+    amplitude, unit = SMALL * 1e-9 * smooth.result.central_film_nm, contact.x_scale / contact.speed
+    period = lengths["wavelength_x"] / s
+    end = FRESH * (mesh.x[1] - mesh.x[0]) / min(s, 1.0) + period
+    waves = {name: length * contact.x_scale for name, length in lengths.items()}
+    tables = {
+        "surface": {"kind": "waviness", "amplitude": amplitude, "body": "body_1", **waves},
+        "motion": {"slide_to_roll": 2.0 * (s - 1.0)},
+        "time": {"end": end * unit},
+    }
+    found = study.solve(title, merged(case, tables))
+    return found, swing_of(found.rows, period * unit) / (1e9 * amplitude)
+
+
+def point_case(M, L):
+    """The tables of a point contact of these Moes numbers, by Roelands' law."""
+    twice_U = (L / (ALPHA * MODULUS)) ** 4
+    bodies = {"radius_x": RADIUS, "radius_y": RADIUS, "reduced_modulus": MODULUS}
+    return {
+        "contact": {"load": M * twice_U**0.75 * MODULUS * RADIUS**2, **bodies},
+        "lubricant": {"viscosity": VISCOSITY, "pressure_viscosity": ALPHA, **FLUIDS[ROELANDS[2]]},
+        "motion": {"speed": 0.5 * twice_U * MODULUS * RADIUS / VISCOSITY},
+        "grid": {"x": [-2.5, 1.5], "y": [-2.0, 2.0]},
+        "solver": {"start": "film"},
+    }
+
+
+def _points(study, nodes):
+    """Rows of the waves through a point contact."""
+    M, L = POINT
+    case = merged(point_case(M, L), {"grid": {"nodes": nodes}})
+    smooth = study.solve(f"smooth point, M {M:g}", case)
+    for length in POINT_LENGTHS:
+        lengths = {"wavelength_x": length, "wavelength_y": length}
+        found, swing = passed(study, f"point, M {M:g}, length {length:g}", case, smooth, lengths)
+        n = length * (M / L) ** 0.5
+        yield {
+            "M": f"{M:g}", "L": f"{L:g}", "wavelength/a": f"{length:g}", "n": f"{n:.2f}",
+            "swing/A": f"{swing:.3f}",
+            "master curve": f"{1.0 / (1.0 + 0.15 * n + 0.015 * n * n):.3f}",
+            "computed there": f"{COMPUTED[length]:.3f}" if length in COMPUTED else "",
+            **_steps(found.result.time),
+            **told(found.result, "converged"),
+        }  # fmt: skip
 
 
 def _steps(time):
