@@ -1,4 +1,8 @@
-"""A film that is squeezed out between rigid bodies: exact, h = h_i exp(-F t/(6 pi eta R^2)) of a sphere."""
+"""Films that are squeezed out between rigid bodies by a load that stays, exact by Reynolds' equation.
+
+h = h_i exp(-F t/(6 pi eta R^2)) of a sphere; 1/sqrt(h) = 1/sqrt(h_i) + F' t/(6 sqrt2 pi eta R^(3/2)) of a
+cylinder.
+"""
 
 import numpy as np
 import pytest
@@ -10,6 +14,7 @@ from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import LUBRICATED
 from mgehl.grid.hierarchy import Hierarchy
 from mgehl.model.course import Constant
+from mgehl.model.line import LineContact
 from mgehl.model.lubricant import Barus, ConstantDensity, Lubricant
 from mgehl.model.point import PointContact
 from mgehl.model.scene import Scene
@@ -21,32 +26,42 @@ from mgehl.solver.settings import SolverSettings, TimeSettings
 
 R, F, ETA, FILM = 12.5e-3, 1e-3, 0.25, 1e-6
 RATE = F / (6.0 * np.pi * ETA * R**2)
+"""Of a sphere, per s."""
+
+F_LINE = 1.0
+RATE_LINE = F_LINE / (6.0 * np.sqrt(2.0) * np.pi * ETA * R**1.5)
+"""Of a cylinder under this load in N/m: that of 1/sqrt(h)."""
+
+OIL = Lubricant(Barus(ETA, 1e-10), ConstantDensity())
 
 
-def measured(wide, nodes=65, end=0.5):
-    """The rate at which the film falls, by runs in time in which it falls to e^(-end), over the exact one.
+def sphere():
+    """The contact, and the pressure with which its film begins at a distance x in m, over its largest."""
+    return PointContact(F, R, R, 1e12, 1e-3, OIL, load_beyond=False), F / (2.0 * np.pi * R * FILM)
 
-    The domain is `wide` times sqrt(2 R h) on each side.
-    """
-    lubricant = Lubricant(Barus(ETA, 1e-10), ConstantDensity())
-    contact = PointContact(F, R, R, 1e12, 1e-3, lubricant, load_beyond=False)
-    half = wide * np.sqrt(2.0 * R * FILM) / contact.x_scale
-    hierarchy = Hierarchy(
-        Mesh(nodes, nodes, (-half, half), (-half, half)), 33, contact.kernel, MPI.COMM_SELF
-    )
+
+def cylinder():
+    """The same of a cylinder."""
+    return LineContact(F_LINE, R, 1e12, 1e-3, OIL), F_LINE / (0.5 * np.pi * np.sqrt(2.0 * R * FILM))
+
+
+def films(contact, largest, mesh, end):
+    """(time, minimum film) in SI units over a run in time of `end` s."""
+    hierarchy = Hierarchy(mesh, 33, contact.kernel, MPI.COMM_SELF)
     law = BoundaryFilm(1e-11 / contact.film_scale)
     scheme = Scheme(face_mobility="linear-gap", contact_law=law)
     recipe, level = recipe_in_time(SolverSettings(scheme=scheme), contact), len(hierarchy.grids) - 1
     problem = ContactProblem(hierarchy.grids[-1], hierarchy.deflections[-1], contact, recipe.scheme)
-    scene = Scene(contact, Constant(0.0), Constant(F), (), end / RATE)
-    grid, films = problem.grid, []
-    r2 = (grid.X**2 + grid.Y**2) * contact.x_scale**2
-    P = F / (2.0 * np.pi * R * FILM) / (1.0 + r2 / (2.0 * R * FILM)) ** 2 / contact.pressure_scale
+    scene = Scene(contact, Constant(0.0), Constant(contact.load), (), end)
+    grid, found = problem.grid, []
+    r2 = (grid.X**2 + (0.0 if mesh.is_line else grid.Y**2)) * contact.x_scale**2
+    P = largest / contact.pressure_scale / (1.0 + r2 / (2.0 * R * FILM)) ** 2
+    P = np.broadcast_to(P, grid.shape).copy()
     state = problem.state(P, FILM / contact.film_scale, np.full(grid.shape, LUBRICATED))
-    settings = TimeSettings(end / RATE / 40.0, 1e-4, 1e-8)
+    settings = TimeSettings(end / 40.0, 1e-4, 1e-8)
 
     def told(instant, standing, _problem):
-        films.append((instant.t, instant.newton.cycles[-1].minimum))
+        found.append((instant.t, instant.newton.cycles[-1].minimum * contact.film_scale))
         return ""
 
     try:
@@ -55,10 +70,36 @@ def measured(wide, nodes=65, end=0.5):
     finally:
         hierarchy.destroy()
     assert outcome.converged, outcome.reason
-    t, h = np.array(films)[5:].T
+    return np.array(found)[5:].T
+
+
+def half_width(contact, wide):
+    """`wide` times sqrt(2 R h), in units of X."""
+    return wide * np.sqrt(2.0 * R * FILM) / contact.x_scale
+
+
+def rate_of_a_sphere(wide, nodes=65, end=0.5):
+    """At which the film falls, in a run in which it falls to e^(-end), over the exact one."""
+    contact, largest = sphere()
+    half = half_width(contact, wide)
+    mesh = Mesh(nodes, nodes, (-half, half), (-half, half))
+    t, h = films(contact, largest, mesh, end / RATE)
     return -np.polyfit(t, np.log(h), 1)[0] / RATE
+
+
+def rate_of_a_cylinder(wide, nodes=257, end=0.3):
+    """The same, of 1/sqrt(h): it rises by the part `end`."""
+    contact, largest = cylinder()
+    half = half_width(contact, wide)
+    t, h = films(contact, largest, Mesh(nodes, 1, (-half, half), (0.0, 0.0)), end / RATE_LINE / FILM**0.5)
+    return np.polyfit(t, h**-0.5, 1)[0] / RATE_LINE
 
 
 def test_a_sphere():
     """The load beyond the domain falls with the square of its width: what two widths lead to is exact."""
-    assert (4.0 * measured(14.0) - measured(7.0)) / 3.0 == pytest.approx(1.0, abs=1e-3)
+    assert (4.0 * rate_of_a_sphere(14.0) - rate_of_a_sphere(7.0)) / 3.0 == pytest.approx(1.0, abs=1e-3)
+
+
+def test_a_cylinder():
+    """The load beyond the domain falls with the cube of its width."""
+    assert rate_of_a_cylinder(14.0) == pytest.approx(1.0, abs=1e-3)
