@@ -28,14 +28,17 @@ class Film:
         self.boundary = np.zeros((1, n), dtype=bool)
 
 
-def response(cells, Q, C, v, steps_a_cell=1.0, wave=2.0 * np.pi):
-    """Amplitude (complex) of the film by that of the roughness, which moves at v, when all has settled."""
-    film, E = Film(cells), 1.0
-    mobility = 4.0 * (v - 1.0) / (Q * E * wave**2)
-    bulk = np.inf if C == 0.0 else E * wave / (4.0 * C)
-    dT, amplitude = steps_a_cell / cells, 1e-3
-    x = np.arange(cells) / cells
-    k = np.abs(np.fft.fftfreq(cells, 1.0 / cells)) * wave
+E = 1.0
+"""Reduced modulus."""
+
+
+def marched(cells, mobility, bulk, m, roughness, dT, steps):
+    """Film and content over a period after some steps, from contents `m` over a period; and the time.
+
+    `roughness(t)` are the heights over a period, 0 without any.
+    """
+    film = Film(cells)
+    k = np.abs(np.fft.fftfreq(cells, 1.0 / cells)) * WAVE
     softness = np.divide(4.0, k * E, out=np.zeros(cells), where=k > 0.0)
     laplacian = -((2.0 * cells * np.sin(0.5 * k / cells)) ** 2)
     transport, status = Transport(film), np.full((1, TILES * cells), LUBRICATED)
@@ -43,11 +46,11 @@ def response(cells, Q, C, v, steps_a_cell=1.0, wave=2.0 * np.pi):
     def tiled(values):
         return np.tile(values, TILES)[None, :]
 
-    carried, t = Carried(tiled(1.0 + amplitude * np.cos(wave * x))), 0.0
-    for _ in range(int(SETTLED * max(abs(Q), 1.0) / (dT * abs(v - 1.0)))):
+    carried, t = Carried(tiled(m)), 0.0
+    for _ in range(steps):
         t += dT
         leg, _ = transport.leg(carried, status, dT, Shift(dT * cells))
-        rough = amplitude * np.cos(wave * (x - v * t))
+        rough = roughness(t)
         before = np.fft.fft(leg.before[0, 2 * cells : 3 * cells] - 1.0 - rough)
         # softness p + p/B = before + b dT mobility p''
         yielding = softness + 1.0 / bulk - leg.b * dT * mobility * laplacian
@@ -56,8 +59,39 @@ def response(cells, Q, C, v, steps_a_cell=1.0, wave=2.0 * np.pi):
         G = leg.b * dT * tiled(flow)[:, :-1] + (0.0 if leg.G is None else leg.G[0])
         m = 1.0 + rough + np.fft.ifft((softness + 1.0 / bulk) * p).real
         carried = Carried(tiled(m), np.pad(G, ((0, 0), (0, 1))), None, dT)
-        gap = rough + np.fft.ifft(softness * p).real
-    return np.fft.fft(gap)[1] / (0.5 * cells) * np.exp(1j * wave * v * t) / amplitude
+    return rough + np.fft.ifft(softness * p).real, m, t
+
+
+WAVE, AMPLITUDE = 2.0 * np.pi, 1e-3
+
+
+def first_wave(values, way):
+    """Complex amplitude of what has gone a `way`, over `AMPLITUDE`."""
+    return np.fft.fft(values)[1] / (0.5 * len(values)) * np.exp(1j * WAVE * way) / AMPLITUDE
+
+
+def bulk_of(C):
+    return np.inf if C == 0.0 else E * WAVE / (4.0 * C)
+
+
+def response(cells, Q, C, v, steps_a_cell=1.0):
+    """Amplitude (complex) of the film by that of the roughness, which moves at v, when all has settled."""
+    mobility, dT = 4.0 * (v - 1.0) / (Q * E * WAVE**2), steps_a_cell / cells
+    x, steps = np.arange(cells) / cells, int(SETTLED * max(abs(Q), 1.0) / (dT * abs(v - 1.0)))
+
+    def roughness(t):
+        return AMPLITUDE * np.cos(WAVE * (x - v * t))
+
+    gap, _, t = marched(cells, mobility, bulk_of(C), 1.0 + roughness(0.0), roughness, dT, steps)
+    return first_wave(gap, v * t)
+
+
+def film_wave(cells, Q_c, C_c, steps_a_cell=1.0):
+    """What is left (complex) of a wave of the film that has gone its length, over what is left exactly."""
+    mobility, dT = 4.0 / (Q_c * E * WAVE**2), steps_a_cell / cells
+    m = 1.0 + AMPLITUDE * np.cos(WAVE * np.arange(cells) / cells)
+    _, m, t = marched(cells, mobility, bulk_of(C_c), m, lambda t: 0.0, dT, round(1.0 / dT))
+    return first_wave(m, t) / np.exp(-WAVE / (Q_c * (1.0 + C_c)))
 
 
 SETTLED = 2.0
@@ -90,6 +124,14 @@ def test_amplitude_and_phase_to_a_percent(Q, C, v):
 def test_second_order_in_space_and_time(steps):
     errors = [abs(response(cells, 1.0, 0.1, 2.0, steps) - exact(1.0, 0.1)) for cells in (32, 64)]
     assert np.log2(errors[0] / errors[1]) > 1.9
+
+
+@pytest.mark.parametrize("C_c", [0.0, 0.3])
+@pytest.mark.parametrize("Q_c", [3.0, 10.0, 100.0])
+def test_film_waves_fall_as_they_flow_away_to_a_percent(Q_c, C_c):
+    """In steps of a cell. Of the steepest, Q_c = 1, little is left: e^(-2 pi)."""
+    assert film_wave(32, Q_c, C_c) == pytest.approx(1.0, abs=0.01)
+    assert film_wave(64, 1.0, C_c) == pytest.approx(1.0, abs=0.01)
 
 
 def test_film_that_goes_with_the_roughness_is_exact():
