@@ -30,21 +30,6 @@ the sets went in a circle (radii 1:112, 257 nodes). Films that were found before
 
 
 @dataclass(frozen=True)
-class Limits:
-    """When a solve has come to its end."""
-
-    tolerance: float
-    """For the rms residual and the load error."""
-    max_steps: int
-    idle_steps: int
-    """Steps in a row that may leave more than `STUCK` of the least residual."""
-    spreading_steps: int | None = None
-    """Steps in which contact may spread; None: any."""
-    certain: float = 0.0
-    """Residual below which sets may still change."""
-
-
-@dataclass(frozen=True)
 class Verdict:
     """Of a position: go on, settled, or given up."""
 
@@ -58,13 +43,11 @@ class Verdict:
 GO_ON = Verdict(ends=False)
 
 
-def limits_of(settings, tolerance, max_steps):
-    """The `Limits` of a solve by `NewtonSettings`."""
-    return Limits(tolerance, max_steps, settings.idle_steps, settings.spreading_steps, settings.certain)
-
-
 def judge(position, partition, limits):
-    """The `Verdict` on a position whose last cycle has just been measured (collective)."""
+    """The `Verdict` on a position whose last cycle has just been measured (collective).
+
+    `limits` are `NewtonSettings`, patience included.
+    """
     cycle = position.cycles[-1]
     limit = position.trial.limit if position.trial else limits.max_steps
     small = cycle.residual <= limits.tolerance and abs(cycle.load_error) <= limits.tolerance

@@ -18,7 +18,7 @@ from mgehl.multigrid.jacobian import LinearSystem
 from mgehl.solver.arbiter import RELEASE_STEPS, Ruling, rule
 from mgehl.solver.cavitation import relax_cavitation_set
 from mgehl.solver.journal import NOTHING_KEPT
-from mgehl.solver.judge import UNSOLVED, is_stuck, judge, judge_system, judge_work, limits_of
+from mgehl.solver.judge import UNSOLVED, is_stuck, judge, judge_system, judge_work
 from mgehl.solver.layers import FluidInLayers
 from mgehl.solver.outcome import Cycle, Outcome
 from mgehl.solver.partition import Changes, Partition
@@ -114,11 +114,11 @@ class Newton:
         """One solve from top to bottom."""
         position, partition = self._position, self._partition
         _, tolerance, _, max_steps = snes.getTolerances()
+        limits = replace(self._settings, tolerance=tolerance, max_steps=max_steps)
         while True:
             self._journal.step(self._problem.grid, position)
             self._settle()
             self._measure(snes, x)
-            limits = limits_of(self._settings, tolerance, max_steps)
             verdict = judge(position, partition, limits)
             verdict = judge_work(verdict, self._multigrid.work, self._settings.max_work)
             ruling = rule(position, verdict, partition, self._fluid is not None)

@@ -13,7 +13,6 @@ from mgehl.solver.judge import (
     IDLE_STUCK,
     STALLS,
     STUCK,
-    Limits,
     Verdict,
     is_stuck,
     judge,
@@ -29,7 +28,7 @@ from mgehl.solver.recipe import IDLE as IDLE_STEPS
 from mgehl.solver.settings import NewtonSettings
 
 TOLERANCE, MAX_STEPS = 1e-8, 20
-LIMITS = Limits(TOLERANCE, MAX_STEPS, IDLE_STEPS)
+LIMITS = NewtonSettings(TOLERANCE, max_steps=MAX_STEPS, idle_steps=IDLE_STEPS)
 REASONS = PETSc.KSP.ConvergedReason
 
 
