@@ -42,7 +42,7 @@ class NewtonSettings:
     """Residual below which sets that still change are no reason to go on."""
     max_steps: int = SolverSection.max_steps
     idle_steps: int | None = SolverSection.idle_steps
-    """Steps in a row that may leave more than `judge.STUCK` of the least residual; None: as the recipe has."""
+    """Steps in a row that may leave more than `judge.STUCK` of the least residual; None: the recipe's."""
     max_work: int = SolverSection.max_work
     """Convolutions of all solves of a run, in those of the finest grid, after which none goes on."""
     spreading_steps: int | None = None
