@@ -2,7 +2,9 @@
 
 from dataclasses import asdict
 
+from mgehl.model.course import course_of
 from mgehl.model.films import formula_of
+from mgehl.model.frame import direction
 from mgehl.model.lubricant import Roelands
 from mgehl.model.oils import CELSIUS, OILS
 
@@ -54,6 +56,8 @@ def implausible(config, contact):
             "look at viscosity and pressure_viscosity"
         )
     yield from _films(contact)
+    yield from _stands_still(config, contact)
+    yield from _parts_from_rest(config)
     if config.lubricant.oil is not None:
         yield from _range(config.lubricant, contact.hertz.p_h)
 
@@ -88,6 +92,30 @@ def _films(contact):
             f"{1e9 * centers[low]:.3g} nm, {high.replace('_', ' ')} {1e9 * centers[high]:.3g} nm): the "
             "load hardly presses the bodies: look at load, radii and viscosity"
         )
+
+
+def _stands_still(config, contact):
+    """A steady state whose rough body would move."""
+    motion, slide = config.motion, config.inputs.get("motion.slide_to_roll", config.motion.slide_to_roll)
+    moves = slide not in (0.0, 2.0, -2.0) or motion.ring_rotation is not None
+    if config.is_in_time or not moves or contact.surface is None:
+        return
+    if contact.surface.varies_along(direction(motion.angle)):
+        yield (
+            f"motion.slide_to_roll = {slide:.3g}: both bodies move, and roughness that moves changes the "
+            "film with time: here it stands still, and friction alone is of this motion; time.end moves it"
+        )
+
+
+def _parts_from_rest(config):
+    """A start from rest of bodies without layers."""
+    speed = config.motion.speed
+    if not config.is_in_time or config.contact.boundary_film or course_of(speed).value(0.0):
+        return
+    yield (
+        "contact.boundary_film is not given: bodies at rest part on films as thin as rounding; until they "
+        "have parted, load on contact and friction mean nothing; 2 nm is usual"
+    )
 
 
 def _range(section, p_h):

@@ -112,6 +112,10 @@ def _known(value):
     return "-" if value is None or not isfinite(value) else f"{value:.3g}"
 
 
+STRONGEST = 300.0
+"""Largest shear stress in MPa that oils were seen to bear: a tenth of 3 GPa [Arana et al. 2019]."""
+
+
 def friction_lines(friction, verbose):
     """What resists, in words: of sliding surfaces, and `verbose` of rolling ones, too."""
     if not friction or not (verbose or friction.slide_to_roll or friction.model != "newtonian"):
@@ -123,12 +127,19 @@ def friction_lines(friction, verbose):
     if not friction.slide_to_roll:
         yield f"friction 0: the surfaces do not slide; {rolling}"
         return
-    band = "" if friction.coefficient_band is None else f" ± {friction.coefficient_band:.2g}"
+    # What the load on solids makes of it: without solids there is none.
+    has_band = friction.coefficient_band and friction.solid_coefficient
+    band = f" ± {friction.coefficient_band:.2g}" if has_band else ""
     yield (
         f"friction {friction.coefficient:.5f}{band} ({friction.model}): film "
         f"{friction.film_coefficient:.5f}, solids {friction.solid_coefficient:.5f}; {rolling}; "
         f"{friction.power_loss_W:.3g} W{unit}, largest shear {friction.largest_shear_MPa:.4g} MPa"
     )
+    if friction.largest_shear_MPa > STRONGEST:
+        yield (
+            f"no oil bears more than some {STRONGEST:g} MPa: friction.model eyring or limiting knows less "
+            "friction, and less heat"
+        )
     if friction.temperatures:
         yield temperature_words(friction.temperatures)
     if friction.is_the_grids:

@@ -67,7 +67,7 @@ def summarise(problem, outcome, tolerance, work, wall_s, versions):
         mixed=mixed_result(problem, state),
         mass=mass_account(problem, state, evaluation),
         thermal_reduction=contact.thermal_reduction,
-        is_thermally_reduced=contact.lubricant.thinned < 1.0,
+        is_thermally_reduced=bool(contact.lubricant.thinned < 1.0),
     )
     broken = _first_broken(_equations(result, outcome, tolerance))
     conserves = _conserves(problem, result.mass, tolerance)

@@ -82,3 +82,27 @@ def test_every_source_is_used_somewhere_and_is_a_record():
     assert known == set(SOURCES)
     assert SOURCES["nijenbanning1994"].short == "Nijenbanning, Venner, Moes 1994"
     assert SOURCES["chittenden1985"].short == "Chittenden et al. 1985"
+
+
+WAVES = {"surface.kind": "waviness", "surface.amplitude": "50 nm", "surface.wavelength_x": "40 um"}
+
+
+@pytest.mark.parametrize(
+    "settings, is_odd",
+    [
+        ({"motion.slide_to_roll": 0.1}, True),
+        ({"motion.slide_to_roll": 2.0}, False),
+        ({}, False),
+        ({"motion.slide_to_roll": 0.1, "time.end": "1 ms", "surface.body": "body_1"}, False),
+    ],
+)
+def test_roughness_that_would_move_is_named(settings, is_odd):
+    assert any("here it stands still" in line for line in odd(BALL | WAVES | settings)) == is_odd
+
+
+@pytest.mark.parametrize("layers, is_odd", [(0.0, True), ("2 nm", False)])
+def test_a_start_from_rest_wants_layers(tmp_path, layers, is_odd):
+    course = tmp_path / "speed.csv"
+    course.write_text("0,0\n1,1\n")
+    settings = {"motion.speed": str(course), "time.end": 1.0, "contact.boundary_film": layers}
+    assert any("part on films" in line for line in odd(settings)) == is_odd

@@ -63,6 +63,12 @@ def test_the_band_of_the_load_on_solids_is_friction_s(found):
     assert line.startswith("friction 0.06000 ± 0.002 (newtonian): film 0.05000, solids 0.01000; rolling")
 
 
+def test_without_solids_there_is_no_band_and_shear_that_no_oil_bears_is_named(found):
+    result = replace(with_band(found(0.2), mixed(0.02), 0.1), solid_coefficient=0.0, largest_shear_MPa=2e3)
+    first, second = friction_lines(result, verbose=False)
+    assert "±" not in first and second.startswith("no oil bears more than some 300 MPa")
+
+
 def test_where_the_load_on_solids_is_the_grid_s_so_is_friction(found):
     result = with_band(found(0.2), mixed(None), 0.1)
     assert result.coefficient_band is None and result.is_the_grids

@@ -23,12 +23,13 @@ def tables(**sections):
     return common | sections
 
 
-def test_the_factor_thins_the_film_by_as_much():
-    """Through the viscosity: the film follows it by the formula's power, nearly."""
-    plain, heated = (
-        mgehl.solve(config_from_tables(tables(lubricant=OIL | {"heating": heating}))).summary
+def test_the_factor_thins_the_film_by_as_much(tmp_path):
+    """Through the viscosity: the film follows it by the formula's power, nearly. A run's files tell it."""
+    plain, solution = (
+        mgehl.solve(config_from_tables(tables(lubricant=OIL | {"heating": heating})))
         for heating in ("none", "factor")
     )
+    plain, heated = plain.summary, mgehl.read(solution.save(tmp_path / "run")).summary
     assert plain.thermal_reduction == heated.thermal_reduction < 0.95
     ratio = heated.central_film_nm / plain.central_film_nm
     assert ratio == pytest.approx(plain.thermal_reduction, abs=0.01)
