@@ -84,6 +84,12 @@ def test_every_source_is_used_somewhere_and_is_a_record():
     assert SOURCES["chittenden1985"].short == "Chittenden et al. 1985"
 
 
+@pytest.mark.parametrize("radius, is_odd", [("30 mm", False), ("50 mm", True)])
+def test_formulas_are_not_made_for_slender_contacts(radius, is_odd):
+    settings = {"contact.radius_x": radius, "contact.radius_y": "5 mm", "contact.load": "100 N"}
+    assert any("film formulas" in line for line in odd(BALL | settings)) == is_odd
+
+
 WAVES = {"surface.kind": "waviness", "surface.amplitude": "50 nm", "surface.wavelength_x": "40 um"}
 
 
