@@ -7,9 +7,10 @@ from matplotlib import animation
 from matplotlib.colors import LogNorm
 from matplotlib.ticker import LogLocator
 
+from mgehl.discretization.status import CAVITATED
 from mgehl.errors import UserError
 from mgehl.output.pictures import style
-from mgehl.output.pictures.style import FILM, PRESSURE
+from mgehl.output.pictures.style import FILM, PRESSURE, STATUS_MAP, STATUS_NORM
 
 SECOND = 10
 """Frames in a second."""
@@ -51,17 +52,23 @@ def _stage(solution, frames):
     figure, axes = style.subplots(1, 1 + plane, size=(6.0 + 5.0 * plane, 4.6), squeeze=False)
     figure.get_layout_engine().set(w_pad=0.2, h_pad=0.1)
     films = _least_and_most(solution, frames)
-    image = _map(axes[0, 0], solution, frames, films) if plane else None
+    images = _map(axes[0, 0], solution, frames, films) if plane else ()
+    times, speeds = zip(*((row["time_s"], row["speed_mm_s"]) for row in solution.rows), strict=True)
     p, h = _centre_lines(axes[0, -1], solution, frames, films)
 
     def show(t, fields):
-        if image is not None:
-            image.set_data(1e9 * fields["film"])
+        for image, data in zip(images, (1e9 * fields["film"], _no_film(fields)), strict=False):
+            image.set_data(data)
         p.set_ydata(1e-9 * fields["pressure"][middle])
         h.set_ydata(1e9 * fields["film"][middle])
-        figure.suptitle(f"{1e3 * t:.4g} ms")
+        figure.suptitle(f"{1e3 * t:.4g} ms, {np.interp(t, times, speeds):.4g} mm/s")
 
     return figure, show
+
+
+def _no_film(fields):
+    """The status where it is cavity or contact, masked elsewhere."""
+    return np.ma.masked_less(fields["status"], CAVITATED)
 
 
 def _least_and_most(solution, frames):
@@ -74,14 +81,17 @@ def _least_and_most(solution, frames):
 
 
 def _map(axes, solution, frames, films):
+    """Images of the film, and of cavities and contact over it."""
     ends = [1e3 * line[k] for line in (solution.x, solution.y) for k in (0, -1)]
-    options = {"extent": ends, "origin": "lower", "norm": LogNorm(*films)}
-    image = axes.imshow(1e9 * frames[0][1]["film"], **options)
+    place, first = {"extent": ends, "origin": "lower"}, frames[0][1]
+    image = axes.imshow(1e9 * first["film"], norm=LogNorm(*films), **place)
+    status = {"cmap": STATUS_MAP, "norm": STATUS_NORM, "interpolation": "nearest"}
+    cover = axes.imshow(_no_film(first), **status, **place)
     steps = {"ticks": LogLocator(subs=(1.0, 2.0, 5.0)), "format": "%g", "extend": "max"}
     axes.figure.colorbar(image, ax=axes, label="film, nm", **steps).minorticks_off()
     x, y = (SHOWN * 1e3 * scale for scale in (solution.contact.x_scale, solution.contact.y_scale))
-    axes.set(xlabel="x, mm", ylabel="y, mm", xlim=(-x, x), ylim=(-y, y))
-    return image
+    axes.set(xlabel="x, mm (pink: cavity, orange: contact)", ylabel="y, mm", xlim=(-x, x), ylim=(-y, y))
+    return image, cover
 
 
 def _centre_lines(axes, solution, frames, films):
