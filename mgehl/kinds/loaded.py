@@ -143,9 +143,10 @@ class LoadedKind(Kind):
         ]
 
     def parts(self, solution, times="x"):
-        """Speed, load and nodes."""
+        """Speed, of a course the largest one, load and nodes."""
         contact, nodes = solution.contact, self.nodes(solution.mesh, times)
-        return [speed_words(contact.speed), " ".join(self.load(contact)), nodes]
+        up_to = "up to " if isinstance(solution.config.motion.speed, str) else ""
+        return [up_to + speed_words(contact.speed), " ".join(self.load(contact)), nodes]
 
     def heading(self, solution):
         """Kind, speed, load and nodes."""

@@ -139,25 +139,26 @@ FUNCTIONS = {
 def films_of(result):
     """Rows of films: the computed ones with their bands, then those of formulas.
 
-    What did not converge is not compared with formulas.
+    What did not converge, and what an instant has, is not compared with formulas.
     """
+    is_steady = result.converged and not result.time
     own, error = (result.central_film_nm, result.minimum_film_nm), result.error
     shown = [film(nm, band) for nm, band in zip(own, (error.central_nm, error.minimum_nm), strict=True)]
     rows = [("computed", shown[0], "", shown[1], "")]
     formulas = {name.removesuffix("_nm"): nm for name, nm in result.formulas.items()}
     for name in dict.fromkeys(re.sub("_(central|minimum)$", "", name) for name in formulas):
         theirs = formulas.get(f"{name}_central", formulas.get(name)), formulas.get(f"{name}_minimum")
-        cells = (_beside(*each, result.converged) for each in zip(own, theirs, strict=True))
+        cells = (_beside(*each, is_steady) for each in zip(own, theirs, strict=True))
         known = FORMULAS.get(name)
         rows.append((known.label if known else name.replace("_", " "), *chain(*cells)))
     return rows
 
 
-def _beside(own, formula, converged):
+def _beside(own, formula, is_steady):
     """The film of a formula and how much thicker the computed one is."""
     if formula is None:
         return "", ""
-    return film(formula), number(own / formula, 4) if converged and own is not None else ""
+    return film(formula), number(own / formula, 4) if is_steady and own is not None else ""
 
 
 def pictures(solution):
