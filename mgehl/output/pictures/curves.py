@@ -27,6 +27,9 @@ OF_ONE_NODE = "central_film_nm", "minimum_film_nm"
 DECADE = 10.0
 """Largest over smallest value from which on an axis is logarithmic."""
 
+ROOM = 1.05
+"""Top of an axis over the largest value: values that are all alike would lie on the edge."""
+
 NOT_HERE = {"color": "0.4", "marker": "|", "linestyle": "none", "markersize": 10}
 """On the upper edge, where a run has no answer."""
 
@@ -51,7 +54,7 @@ def curves(runs, key, names=()):
     figure, axes = subplots(rows, min(2, len(panels)), size=(10.5, 1.0 + 3.4 * rows), squeeze=False)
     for axis, (label, panel) in zip(axes.flat, panels.items(), strict=False):
         handles = [_draw(axis, runs, x, *each, panel) for each in groups.items()]
-        axis.set(ylabel=label, xlabel=f"{key}, {KEYS[key].metadata['unit'] or '1'}")
+        axis.set(ylabel=_label(label, panel), xlabel=f"{key}, {KEYS[key].metadata['unit'] or '1'}")
         _scale(
             axis, x, [run.number(QUANTITIES[name].path) for run in runs if run.settled for name in panel]
         )
@@ -68,6 +71,13 @@ def curves(runs, key, names=()):
     note = f", {failed} without an answer (ticks above)" if failed else ""
     figure.suptitle(f"{len(runs)} runs against {key}{note}")
     return figure
+
+
+def _label(label, panel):
+    """Of a panel's axis: that of the only quantity, or what all have in common."""
+    if len(panel) > 1:
+        return label
+    return ", ".join([QUANTITIES[panel[0]].meaning, *label.split(", ")[1:]])
 
 
 def _groups(runs, key, names):
@@ -115,4 +125,5 @@ def _scale(axis, x, y):
         if values and min(values) > 0.0 and max(values) >= DECADE * min(values):
             axis.set(**{f"{name}scale": "log"})
         elif name == "y":
-            axis.set_ylim(bottom=min(0.0, *values) if values else None)
+            top = max([axis.get_ylim()[1], *(ROOM * each for each in values)])
+            axis.set_ylim(min([0.0, *values]), top)
