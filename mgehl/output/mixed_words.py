@@ -4,6 +4,9 @@ from math import isfinite
 
 from mgehl.output.digits import with_band
 
+MOLECULE = 0.5
+"""In nm: about the thickness of a molecule of oil. A thinner film is none."""
+
 
 def mixed_lines(mixed):
     """Film and contact of rough bodies: what carries the load, on which area, how wide the gap is and how
@@ -62,6 +65,11 @@ def _mean_gaps(mixed):
         f"gap, contact included: mean {mean} nm within the {mixed.hertz_region}, {loaded} nm by pressure "
         f"(where the load rests)"
     )
+    if mixed.loaded_gap_nm < MOLECULE:
+        yield (
+            "the load rests on gaps thinner than a molecule: real bodies keep a boundary film "
+            "(contact.boundary_film, 2 nm is usual)"
+        )
     if mixed.error:
         yield f"{gap_band_words(mixed.error)}"
 

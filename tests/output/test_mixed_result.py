@@ -184,10 +184,11 @@ def test_a_line_contact_has_areas_of_a_metre_of_it():
     assert found.contact_area_over_hertz == pytest.approx(3 * 0.25 / 2.0)
     assert found.contact_load_share == pytest.approx(0.75 / (np.pi / 2.0))
     assert found.patches == 2 and found.mean_film_nm == pytest.approx(FILM * 1e9 * contact.film_scale)
-    _, area, solids, gap, films = mixed_lines(found)
+    _, area, solids, gap, thin, films = mixed_lines(found)
     assert f"{1e12 * found.contact_area_m2:.4g} um^2 in each metre" in area
     assert f"solids carry {100 * found.solid_load_fraction:.2f} % of the load" in solids
     assert "Hertz width" in gap and "Hertz width" in films
+    assert "thinner than a molecule" in thin  # contact carries all of it, without layers
 
 
 def test_films_hardly_thicker_than_contact_are_told_apart(contact, nodes):
