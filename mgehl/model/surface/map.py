@@ -46,6 +46,8 @@ class Map:
     height_unit: float | None = None
     """In m."""
     position_unit: float | None = None
+    doubt: str = ""
+    """What of the file may be misread, in words."""
 
     def error(self, what):
         """The error that says what is wrong with this file."""

@@ -13,6 +13,13 @@ from mgehl.model.text_table import NUMBER, read_table, unit_words, value_of
 SAME = 1e-4
 """Of the least step: coordinates that differ by less are one."""
 
+APART = 4.0
+"""Times the difference of two rows of heights by which a row of positions differs from the next."""
+
+POSITIONS = (
+    "the first row and column are evenly spaced, as positions are, but are taken for heights: are they?"
+)
+
 _TOLD = {
     "x": re.compile(rf"\b(?:width|breite|x-length)\s*[:=]\s*({NUMBER})\s*([^\s;]*)", re.I),
     "y": re.compile(rf"\b(?:height|höhe|y-length)\s*[:=]\s*({NUMBER})\s*([^\s;]*)", re.I),
@@ -32,7 +39,7 @@ def read_text(path):
     if columns == 2:
         raise SurfaceFileError(path, "is a profile along a line, two columns; must be over a rectangle")
     is_matrix = columns != 3 or not told.keys().isdisjoint(("x", "y", "pixel"))
-    found = Map(path, table.values) if is_matrix else _from_points(path, table)
+    found = _from_matrix(path, table) if is_matrix else _from_points(path, table)
     return _with_heading(found, told)
 
 
@@ -64,6 +71,34 @@ def _told(headings):
                 number, unit = match.groups()
                 told[name] = value_of(number) if number else None, unit
     return told
+
+
+def _from_matrix(path, table):
+    """The `Map` of a matrix: a first row and column that are certainly positions are no heights."""
+    rows = table.values if table.top is None else np.vstack([table.top, table.values])
+    plain = Map(path, table.values)
+    x, y, z = rows[0, 1:], rows[1:, 0], rows[1:, 1:]
+    if min(z.shape) < FEWEST or not (rows[0, 0] == 0.0 or np.isnan(rows[0, 0])):
+        return plain
+    steps = _step(path, x), _step(path, y)
+    if all(steps) and (table.top is not None or _is_apart(rows) and _is_apart(rows.T)):
+        return Map(path, z, *steps)
+    is_even = all(_step(path, values) or _step(path, values[::-1]) for values in (x, y))
+    return plain.told(doubt=POSITIONS) if is_even else plain
+
+
+def _step(path, values):
+    """The step of values that rise evenly; None of others."""
+    try:
+        return step_along(path, "", values, rounding(values)) if np.isfinite(values).all() else None
+    except SurfaceFileError:
+        return None
+
+
+def _is_apart(rows):
+    """Whether the first row differs from the next by far more than this one from the one after it."""
+    first, others = np.abs(rows[0, 1:] - rows[1, 1:]), np.abs(np.diff(rows[1:3, 1:], axis=0))
+    return np.median(first) > APART * np.median(others)
 
 
 def _from_points(path, table):

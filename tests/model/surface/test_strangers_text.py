@@ -140,3 +140,44 @@ def test_units_that_contradict_the_configuration_are_refused(tmp_path):
         found.with_units(UM, None, None, None)
     with pytest.raises(SurfaceFileError, match='position_unit = "mm", but the file itself says "um"'):
         found.with_units(None, 1e-3, None, None)
+
+
+def with_positions(corner, x, y, z):
+    rows = [[corner, *x], *([b, *row] for b, row in zip(y, z, strict=True))]
+    return "\n".join(";".join(map(str, row)) for row in rows)
+
+
+NOISE = np.random.default_rng(3).normal(0.0, 30.0, (6, 9)).round(3)
+RIGHT, DOWN = 2.0 * np.arange(9), 3.0 * np.arange(6)
+RAMP = np.add.outer(DOWN, RIGHT)
+
+
+@pytest.mark.parametrize("corner", ['"x\\y"', "", "0"])
+def test_a_first_row_and_column_of_positions_are_no_heights(tmp_path, corner):
+    text = with_positions(corner, 100.0 * RIGHT, 100.0 * DOWN + 500.0, NOISE)
+    (tmp_path / "z.csv").write_text(text)
+    found = read_map(tmp_path / "z.csv")
+    np.testing.assert_array_equal(found.heights, NOISE)
+    assert (found.dx, found.dy, found.doubt) == (200.0, 300.0, "")
+
+
+DOUBTFUL = {
+    "heights go on as they begin": with_positions(0, RIGHT[1:], DOWN[1:], RAMP[1:, 1:]),
+    "they fall": with_positions("", 100.0 * RIGHT, 100.0 * DOWN[::-1], NOISE),
+}
+
+
+@pytest.mark.parametrize("text", DOUBTFUL.values(), ids=DOUBTFUL)
+def test_where_that_is_not_certain_they_stay_heights_and_it_is_said(tmp_path, text):
+    (tmp_path / "z.csv").write_text(text)
+    found = read_map(tmp_path / "z.csv")
+    assert len(found.heights) == text.count("\n") + 1 and found.dx is None
+    assert found.doubt.startswith("the first row and column are evenly spaced, as positions are")
+
+
+@pytest.mark.parametrize("corner", ["0", "name"])
+def test_rough_heights_below_a_zero_or_a_heading_are_heights(tmp_path, corner):
+    (tmp_path / "z.csv").write_text(with_positions(corner, RIGHT, NOISE[:, 0], NOISE))
+    found = read_map(tmp_path / "z.csv")
+    assert found.heights.shape == (7 if corner == "0" else 6, 10)
+    assert (found.dx, found.doubt) == (None, "")
