@@ -108,13 +108,12 @@ def value_of(word):
 def _heading(above, columns, separator):
     """Words of the last heading that has as many as there are columns."""
     for line in reversed(above):
-        cells = _words(line, separator)
-        while cells and not cells[-1]:
-            cells.pop()
-        if len(cells) != columns and separator is None:
-            cells = re.findall(r"[^\[(]+[\[(][^\])]*[\])]", line)
-        if len(cells) == columns:
-            return cells
+        in_brackets = re.findall(r"[^\[(]+[\[(][^\])]*[\])]", line)
+        for cells in (*(_words(line, each) for each in (separator, ";", "\t", ",")), in_brackets):
+            while cells and not cells[-1]:
+                cells.pop()
+            if len(cells) == columns:
+                return cells
     return None
 
 
@@ -126,8 +125,9 @@ def _top(above, columns, separator):
 
 
 def _is_comment(line):
-    first = re.split(r"[;,\s]", line.strip(), maxsplit=1)[0]
-    return first.startswith(COMMENTS) and not _is_hole(first)
+    """Whether a line is one; #N/A begins none."""
+    line = line.lstrip()
+    return line.startswith(COMMENTS) and not _is_hole(re.split(r"[;,\s]", line, maxsplit=1)[0])
 
 
 def _leading_holes(path, empty, first, separator):
@@ -197,7 +197,11 @@ def _words(line, separator):
     line = re.sub(r"no data", "nodata", line, flags=re.I)
     if separator is None or '"' not in line:
         return [word.strip() for word in line.replace('"', " ").split(separator)]
-    return [word.strip() for word in next(csv.reader([line], delimiter=separator, skipinitialspace=True))]
+    try:
+        cells = next(csv.reader([line], delimiter=separator, skipinitialspace=True))
+    except csv.Error:  # a cell is longer than 131072 characters
+        cells = line.split(separator)
+    return [word.strip() for word in cells]
 
 
 def _is_hole(word):

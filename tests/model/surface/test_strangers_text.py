@@ -45,6 +45,11 @@ def test_holes_are_nan(tmp_path, hole):
     np.testing.assert_array_equal(read_map(tmp_path / "z.csv").heights, expected)
 
 
+def test_a_row_that_begins_with_a_hole_is_no_comment(tmp_path):
+    (tmp_path / "z.csv").write_text("#N/A;1;2;3\n" + matrix(";"))
+    np.testing.assert_array_equal(read_map(tmp_path / "z.csv").heights, np.vstack([[np.nan, 1, 2, 3], Z]))
+
+
 def test_rows_of_holes_before_the_first_heights_are_rows(tmp_path):
     (tmp_path / "z.txt").write_text("z\nBad Bad Bad Bad\n---\nnan nan nan nan\n" + matrix(" "))
     found = read_map(tmp_path / "z.txt").heights
@@ -103,6 +108,12 @@ def test_numbers_that_are_not_understood_are_named_and_none_is_left_out(tmp_path
     with pytest.raises(SurfaceFileError) as caught:
         read_map(tmp_path / "z.csv")
     assert caught.value.what == f"line {2 if above else 1}, column 2: '1,234.56' is no number"
+
+
+def test_a_cell_of_any_length_is_refused_in_a_line(tmp_path):
+    (tmp_path / "z.csv").write_text('"' + 200000 * "a" + ";b\n")
+    with pytest.raises(SurfaceFileError, match="has no row of numbers"):
+        read_map(tmp_path / "z.csv")
 
 
 def test_a_first_row_that_is_not_understood_is_no_heading(tmp_path):
