@@ -35,6 +35,10 @@ LEFT_OUT = ("pandas", "xarray", "dask", "pint_pandas")
 """What pint would import for the sake of its arrays, in two thirds of the time that pint takes."""
 
 
+class WrongUnitError(ConfigError):
+    """A quantity in a unit of another kind."""
+
+
 def number(default, help, unit=None, low=None, high=None, above=None, own=None, instead=""):
     """A key with a number from `low`, or `above` another, to `high`: a field whose metadata are its rules.
 
@@ -142,7 +146,7 @@ def _with_unit(key, unit, text, instead=""):
         raise
     except _pint().DimensionalityError:
         other = f"; {instead}" if instead else ""
-        raise ConfigError(f"{key} = {shown(text)}: wrong unit; must be {example}{other}") from None
+        raise WrongUnitError(f"{key} = {shown(text)}: wrong unit; must be {example}{other}") from None
     except Exception:
         raise ConfigError(f"{key} = {shown(text)}: not understood; must be {example}") from None
 

@@ -1,18 +1,19 @@
 """What changes with time: keys of [time], and the `Scene` that they and the motion make."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
 
-from mgehl.config_value import number, word
+from mgehl.config_value import WrongUnitError, number, read_quantity, word
 from mgehl.errors import ConfigError
 from mgehl.kinds.choice import Choice, given
 from mgehl.kinds.surface_kinds import carried, share_of
-from mgehl.model.course import CourseError, course_of
+from mgehl.model.course import CourseError, Table, course_of
 from mgehl.model.frame import direction
 from mgehl.model.own_function import OwnFunctionError, is_own
 from mgehl.model.scene import Scene
+from mgehl.model.text_table import unit_words
 
 
 @dataclass(frozen=True)
@@ -31,8 +32,8 @@ class TimeSection:
     # fmt: on
 
 
-ONLY_IN_TIME = ("motion.speed", "contact.load", "contact.load_per_length")
-"""Keys that may be a course of time."""
+ONLY_IN_TIME = {"motion.speed": "m/s", "contact.load": "N", "contact.load_per_length": "N/m"}
+"""Keys that may be a course of time, and their units."""
 
 NEEDED = {"solver.method": "newton-mg", "discretization.contact_model": "lcic"}
 """What a run in time is made for alone."""
@@ -50,6 +51,34 @@ def is_table(key, value):
     return key in ONLY_IN_TIME and isinstance(value, str) and not is_own(value)
 
 
+def course(key, value):
+    """The `Course` of a key: of a table by the units in its heading, else in SI units."""
+    found = course_of(value)
+    if not isinstance(found, Table):
+        return found
+    units = zip(found.heading, ("s", ONLY_IN_TIME[key]), strict=False)
+    scale = tuple(_in_si(f"{key} = {value!r}", *each) for each in units)
+    return replace(found, scale=scale) if len(scale) == 2 else found
+
+
+def _in_si(name, heading, unit):
+    """The unit that a column's heading tells, in SI; 1 where it is but a name. Raises ConfigError."""
+    words = unit_words(heading)
+    is_name = heading in words and "/" not in heading
+    for found in words:
+        try:
+            return read_quantity(name, f"1 {found}", unit)
+        except WrongUnitError:
+            is_name = is_name and len(found) == 1  # t is a tonne, too
+        except ConfigError:
+            continue
+    if is_name:
+        return 1.0
+    raise ConfigError(
+        f"{name}: its heading {heading!r} tells no unit of its column; must be such as [{unit}]"
+    )
+
+
 def load_key(config):
     """The key of the load."""
     return "contact.load_per_length" if config.contact.kind == "line" else "contact.load"
@@ -63,10 +92,10 @@ def reference(config, key):
     value = config.value(key)
     if not isinstance(value, str):
         return value
-    least, most = _naming(key, value, lambda: course_of(value).range(config.time.end or 0.0))
+    least, most = _naming(key, value, lambda: course(key, value).range(config.time.end or 0.0))
     if key == "motion.speed":
         return max(abs(least), abs(most))
-    first = course_of(value).value(0.0)
+    first = course(key, value).value(0.0)
     return first if first > 0.0 else most
 
 
@@ -92,14 +121,14 @@ def _wrong_with(key, value, end):
     """What is wrong with a course until `end`; None where nothing is."""
     if end is None:
         return "changes with time, and time.end is not given"
-    _naming(key, value, lambda: course_of(value).check(end))
-    course = course_of(value)
-    least, most = course.range(end)
+    _naming(key, value, lambda: course(key, value).check(end))
+    found = course(key, value)
+    least, most = found.range(end)
     if key != "motion.speed":
         return None if least > 0.0 else f"falls to {least:g}; must stay above 0"
     if least == most == 0.0:
         return "is 0 throughout; give a number for a dry contact"
-    return "begins below 0; turn motion.angle by 180 degrees" if course.value(0.0) < 0.0 else None
+    return "begins below 0; turn motion.angle by 180 degrees" if found.value(0.0) < 0.0 else None
 
 
 def reverses(config):
@@ -107,7 +136,8 @@ def reverses(config):
     value = config.motion.speed
     if config.time.end is None or not isinstance(value, str):
         return False
-    return _naming("motion.speed", value, lambda: course_of(value).range(config.time.end))[0] < 0.0
+    least, _ = _naming("motion.speed", value, lambda: course("motion.speed", value).range(config.time.end))
+    return least < 0.0
 
 
 PARTS = 200
@@ -120,7 +150,7 @@ def ways_of(config, name):
     share = share_of(section.body, config.motion.slide_to_roll)
     if not config.is_in_time or share == 0.0 or config.moes.M is not None:
         return []
-    speed, times = course_of(config.motion.speed), np.linspace(0.0, config.time.end, PARTS + 1)
+    speed, times = course("motion.speed", config.motion.speed), np.linspace(0.0, config.time.end, PARTS + 1)
     parts = [speed.integral(*ends) for ends in pairwise(times)]
     path = share * np.concatenate([[0.0], np.cumsum(parts)])
     c, s = direction(config.motion.angle)
@@ -129,8 +159,9 @@ def ways_of(config, name):
 
 def scene_of(config, contact):
     """The `Scene` of a run in time; the `contact` has the largest speed and the first load."""
-    load = course_of(config.value(load_key(config)) if config.moes.M is None else contact.load)
-    speed = course_of(config.motion.speed if config.moes.M is None else contact.speed)
+    key, by_moes = load_key(config), config.moes.M is not None
+    load = course(key, contact.load if by_moes else config.value(key))
+    speed = course("motion.speed", contact.speed if by_moes else config.motion.speed)
     slip = config.motion.slide_to_roll
     surfaces = tuple((surface, share_of(body, slip)) for _, surface, body in carried(config))
     return Scene(contact, speed, load, surfaces, config.time.end)

@@ -8,6 +8,7 @@ import numpy as np
 
 from mgehl.errors import UserError
 from mgehl.model.own_function import OwnFunction, absolute, is_own
+from mgehl.model.text_table import FileError, read_table
 
 SAMPLES = 1001
 """Times at which a function of the user's own is asked for its largest value."""
@@ -54,30 +55,44 @@ class Constant(Course):
 
 @dataclass(frozen=True)
 class Table(Course):
-    """A file of two columns, times in s that rise and values in SI units: straight lines between them.
+    """A file of two columns, times that rise and values: straight lines between them.
 
-    A first line that is no number is a heading. Raises CourseError where it is none, or ends before `end`.
+    `scale` takes them to s and SI units. Raises CourseError where the file is none, or ends before `end`.
     """
 
     path: str
+    scale: tuple = (1.0, 1.0)
+
+    @cached_property
+    def _file(self):
+        try:
+            return read_table(self.path)
+        except FileError as error:
+            raise CourseError(str(error)) from None
+        except OSError as error:
+            raise CourseError(f"{self.path}: cannot be read: {error}") from None
+
+    @property
+    def heading(self):
+        """Words over the two columns; none where there are none."""
+        return self._file.heading or []
 
     @cached_property
     def _columns(self):
-        try:
-            lines = Path(self.path).read_text("utf-8-sig").replace(";", ",").replace("\t", ",").splitlines()
-        except (OSError, UnicodeDecodeError) as error:
-            raise CourseError(f"{self.path}: cannot be read: {error}") from None
-        rows = [line.split(",") for line in lines if line.strip() and not line.lstrip().startswith("#")]
-        if rows and not _is_number(rows[0][0]):
-            rows = rows[1:]
-        values = np.array([[_number(self.path, cell) for cell in _two(self.path, row)] for row in rows])
-        if len(values) < 2:
-            raise CourseError(f"{self.path}: has {len(values)} rows; a table of time has two or more")
-        times = values[:, 0]
+        values, lines = self._file.values, self._file.lines
+        rows, columns = values.shape
+        if columns != 2:
+            raise CourseError(f"{self.path}: must have two columns, times and values; has {columns}")
+        if rows < 2:
+            raise CourseError(f"{self.path}: has {rows} rows; a table of time has two or more")
+        holes = np.flatnonzero(~np.isfinite(values).all(axis=1))
+        if holes.size:
+            raise CourseError(f"{self.path}: line {lines[holes[0]]} has no two numbers")
+        times, values = (values * self.scale).T
         back = np.flatnonzero(np.diff(times) <= 0.0)
         if back.size:
-            raise CourseError(f"{self.path}: its time does not rise from {times[back[0]]:g} s on")
-        return times, values[:, 1]
+            raise CourseError(f"{self.path}: {_not_rising(times, lines, back[0])}")
+        return times, values
 
     def check(self, end):
         """Raise CourseError unless it has values from 0 to `end`."""
@@ -143,20 +158,9 @@ def absolute_course(value, directory="."):
     return absolute(value, directory)
 
 
-def _two(path, row):
-    if len(row) < 2 or any(not cell.strip() for cell in row[:2]):
-        raise CourseError(f"{path}: a row of it has no two numbers: {','.join(row)[:40]!r}")
-    return row[:2]
-
-
-def _number(path, cell):
-    if not _is_number(cell):
-        raise CourseError(f"{path}: {cell.strip()[:40]!r} is no number")
-    return float(cell)
-
-
-def _is_number(cell):
-    try:
-        return bool(np.isfinite(float(cell)))
-    except ValueError:
-        return False
+def _not_rising(times, lines, i):
+    """What is wrong with the times of two rows, the first of which is `i`."""
+    if times[i + 1] == times[i]:
+        same = f"lines {lines[i]} and {lines[i + 1]} have the same time, {times[i]:g} s"
+        return f"{same}: a jump must take some time"
+    return f"its time does not rise from {times[i]:g} s on, line {lines[i]}"

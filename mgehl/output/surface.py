@@ -11,6 +11,9 @@ RESOLVED_NODES, SEEN_NODES = 8.0, 4.0
 SMOOTHEST = 1e-10
 """Rms in m below which heights are hardly those of a surface: an atom is as large."""
 
+ROUGHEST = 20e-6
+"""Sq in m above which it is doubted, too."""
+
 SMOOTH, RESOLVED, COARSE, GRIDS, UNKNOWN = "smooth", "resolved", "coarse", "grid-determined", "unknown"
 """Verdicts; the last of runs that older versions made."""
 
@@ -74,15 +77,19 @@ def surface_doubts(config, contact):
     for key, part in parts_of(config):
         if isinstance(part, Measured):
             yield from (f"{key}: {words}" for words in _doubts(part.heights))
-    if 0.0 < contact.roughness < SMOOTHEST:
-        yield (
-            f"Sq is {1e9 * contact.roughness:.2g} nm within the Hertz contact, less than any surface has: "
-            "are the units of the heights right?"
-        )
+    rms, than = contact.roughness, None
+    if 0.0 < rms < SMOOTHEST:
+        than = f"{1e9 * rms:.2g} nm within the Hertz contact, less than any surface has"
+    elif rms > ROUGHEST:
+        than = f"{1e6 * rms:.3g} um within the Hertz contact, more than a surface that rolls or slides has"
+    if than:
+        yield f"Sq is {than}: are the units of the heights right?"
 
 
 def _doubts(heights):
     """Doubts about the points of one file."""
+    if heights.doubt:
+        yield heights.doubt
     if heights.filled:
         yield f"{heights.filled} of {heights.points.size} points were holes and are filled smoothly"
     count, point = heights.repeated

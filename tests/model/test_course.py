@@ -24,7 +24,20 @@ def test_a_table_is_straight_between_its_rows(table):
     assert course.kinks() == (0.0, 2.0, 4.0)
 
 
-@pytest.mark.parametrize("text", ["0;1\n1;2\n", "0\t1\n1\t2\n", "\ufeff# a comment\n0,1\n\n1,2\n"])
+TEXTS = {
+    "semicolons": "0;1\n1;2\n",
+    "tabs": "0\t1\n1\t2\n",
+    "commas": "\ufeff# a comment\n0,1\n\n1,2\n",
+    "decimal commas between semicolons": "t;v\n0,0;1,25\n0,5;1,5\n1,0;1,75\n",
+    "decimal commas between tabs": "0,0\t1,25\n0,5\t1,5\n1,0\t1,75\n",
+    "decimal commas between blanks": "0,0 1,25\n1,0 1,75\n",
+    "quoted": '"t","v"\n"0.0","1"\n"1.0","2.0"\n',
+    "quoted with decimal commas": '"0,0";"1,25"\n"1,0";"1,75"\n',
+    "quoted decimal commas between commas": '"0,0","1,25"\n"1,0","1,75"\n',
+}
+
+
+@pytest.mark.parametrize("text", TEXTS.values(), ids=TEXTS)
 def test_tables_as_they_come(table, text):
     assert table(text).value(0.5) == 1.5
 
@@ -34,7 +47,12 @@ def test_tables_as_they_come(table, text):
     [
         ("0,1\n", "two or more"),
         ("0,1\n1,2\n0.5,3\n", "does not rise from 1 s on"),
-        ("0,1\n1,\n2,3\n", "no two numbers"),
+        ("0;20\n0.5;20\n0.5;40\n1;40\n", "lines 2 and 3 have the same time, 0.5 s: a jump"),
+        ("0,1,9\n1,2,9\n", "must have two columns, times and values; has 3"),
+        ("0\n1\n", "two columns, times and values; has 1"),
+        ("0,1\n1,\n2,3\n", "line 2 has no two numbers"),
+        ("0,1\n1,nan\n2,3\n", "line 2 has no two numbers"),
+        ("t;v\nx;y\n", "has no row of numbers: line 1 is 't;v'"),
         ("0,1\n1,x\n", "'x' is no number"),
         ("0,1\n0.5,2\n", "must cover 0 to 1"),
         ("0.1,1\n2,2\n", "must cover 0 to 1"),

@@ -80,6 +80,16 @@ def test_points_that_are_hardly_heights_are_named(tmp_path):
     assert said == ["6 of 4225 points were holes and are filled smoothly"]
     (said,) = doubts(tmp_path, good, height_unit="pm")
     assert said.startswith("Sq is 0.026 nm within the Hertz contact, less than any surface has")
+    (said,) = doubts(tmp_path, good, height_unit="um")
+    assert said.startswith(
+        "Sq is 26.1 um within the Hertz contact, more than a surface that rolls or slides has"
+    )
+
+
+def test_a_first_row_that_may_be_positions_is_named(tmp_path):
+    ramp = np.add.outer(np.arange(65), np.arange(65))
+    np.savetxt(tmp_path / "z.txt", ramp)
+    assert doubts(tmp_path, ramp, file=f"{tmp_path}/z.txt")[0].split(": ", 1)[1].startswith("the first row")
 
 
 def test_where_a_file_ends_is_said(tmp_path):

@@ -15,7 +15,8 @@ from numpy.lib import format as npy
 
 from mgehl.errors import one_line
 from mgehl.model.surface.map import UNITS, Map, SurfaceFileError, step_along
-from mgehl.model.surface.text import NoTableError, read_text
+from mgehl.model.surface.text import read_text
+from mgehl.model.text_table import FileError, NoTableError
 
 MOST_BYTES = 2**31
 """Of an array, unpacked."""
@@ -36,7 +37,7 @@ def read_map(path):
             return _read_numpy(path).checked()
         try:
             return read_text(path).checked()
-        except SurfaceFileError as error:
+        except FileError as error:
             return _read_instrument(path, error).checked()
     except OSError as error:
         raise SurfaceFileError(path, f"cannot be read: {error.strerror or one_line(error)}") from None
@@ -174,7 +175,7 @@ def _read_instrument(path, fault):
     try:
         with redirect_stdout(sys.stderr), open_topography(path) as reader:  # some of its readers print
             if reader.format() in TEXTS:
-                raise fault
+                raise SurfaceFileError(path, fault.what)
             channel = reader.default_channel
             sizes, unit = channel.physical_sizes, channel.unit
             told = {} if sizes else {"physical_sizes": channel.nb_grid_pts}

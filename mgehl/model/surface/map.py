@@ -1,10 +1,11 @@
 """Heights on a rectangle of equally spaced points, as a file has them."""
 
 from dataclasses import dataclass, replace
+from math import isclose
 
 import numpy as np
 
-from mgehl.errors import UserError
+from mgehl.model.text_table import FileError
 
 FEWEST = 4
 """Points along a side: a cubic has four coefficients."""
@@ -26,15 +27,8 @@ UNITS = {
 """Lengths in m, as files and configurations name them."""
 
 
-class SurfaceFileError(UserError):
-    """What is wrong with a file of heights, in one line: it begins with the file's name."""
-
-    def __init__(self, path, what):
-        super().__init__(f"{path}: {what}")
-        self.path, self.what = path, what
-
-    def __reduce__(self):
-        return SurfaceFileError, (self.path, self.what)  # it may go from rank to rank
+class SurfaceFileError(FileError):
+    """What is wrong with a file of heights."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,6 +46,8 @@ class Map:
     height_unit: float | None = None
     """In m."""
     position_unit: float | None = None
+    doubt: str = ""
+    """What of the file may be misread, in words."""
 
     def error(self, what):
         """The error that says what is wrong with this file."""
@@ -74,9 +70,17 @@ class Map:
         return replace(self, **{name: value for name, value in values.items() if value is not None})
 
     def with_units(self, height_unit, position_unit, dx, dy):
-        """Itself with units in m and spacing in m, where they are given."""
+        """Itself with units in m and spacing in m, where they are given: units not against its own."""
+        for name, given in (("height_unit", height_unit), ("position_unit", position_unit)):
+            own = getattr(self, name)
+            if given and own and not isclose(given, own):
+                raise self.error(f'{name} = "{_called(given)}", but the file itself says "{_called(own)}"')
         place = {"dx": dx, "dy": dy or dx, "position_unit": 1.0} if dx else {"position_unit": position_unit}
         return self.told(height_unit=height_unit, **place)
+
+
+def _called(unit):
+    return next((name for name, size in UNITS.items() if isclose(size, unit)), f"{unit:g} m")
 
 
 def step_along(path, axis, values, rounding=0.0):

@@ -54,6 +54,8 @@ class Heights:
     """The same before any filter."""
     filled: int = 0
     """Holes that were filled."""
+    doubt: str = ""
+    """As the `Map`'s."""
 
     @cached_property
     def farthest(self):
@@ -176,7 +178,7 @@ def _prepared(path, preparation, _changed):
         z = z - _low_pass(z, told.longest_wavelength, dx, dy, mode)
     if told.shortest_wavelength is not None:
         z = _low_pass(z, told.shortest_wavelength, dx, dy, mode)
-    return Heights(z, dx, dy, points, holes)
+    return Heights(z, dx, dy, points, holes, found.doubt)
 
 
 def _checked_holes(found, holes):

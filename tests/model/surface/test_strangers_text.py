@@ -4,12 +4,13 @@ import numpy as np
 import pytest
 
 from mgehl.model.surface.files import read_map
+from mgehl.model.surface.map import SurfaceFileError
 
 Z = np.array([[1.5, -2.25, 3.0, 4.0], [0.5, 1e-3, 7.0, 8.0], [9.0, 1.0, 2.0, 3.5], [4.0, 5.0, 6.0, 7.0]])
 
 
-def matrix(separator, comma="."):
-    return "".join(separator.join(f"{z:g}".replace(".", comma) for z in row) + "\n" for row in Z)
+def matrix(separator, comma=".", form="{:g}"):
+    return "".join(separator.join(form.format(z).replace(".", comma) for z in row) + "\n" for row in Z)
 
 
 TEXTS = {
@@ -18,6 +19,9 @@ TEXTS = {
     "decimal commas between semicolons": matrix(";", ","),
     "decimal commas between tabs": matrix("\t", ","),
     "decimal commas between blanks": matrix("  ", ","),
+    "quoted": matrix(";", ",", '"{:g}"'),
+    "quoted decimal commas between commas": matrix(",", ",", '"{:g}"'),
+    "quoted between blanks": '"z"\n' + matrix(" ", ",", '"{:g}"'),
     "separators at the ends": matrix(",").replace("\n", ",\n"),
     "indented by tabs": "\t" + matrix("\t").strip().replace("\n", "\n\t"),
     "a heading of words and numbers": "Operator: N. N.\nDate=2024-02-01 10:11\nz\n" + matrix(";", ","),
@@ -32,13 +36,18 @@ def test_separators_and_encodings(tmp_path, name, encoding):
     np.testing.assert_array_equal(read_map(tmp_path / "z.any").heights, Z)
 
 
-@pytest.mark.parametrize("hole", ["Bad", "nan", "NaN", "No Data", "---", ""])
+@pytest.mark.parametrize("hole", ["Bad", "nan", "NaN", "No Data", "---", "#N/A", ""])
 def test_holes_are_nan(tmp_path, hole):
     text = matrix(";", ",").replace("0,001", hole).replace("1,5", hole)
     (tmp_path / "z.csv").write_text(text)
     expected = Z.copy()
     expected[0, 0] = expected[1, 1] = np.nan
     np.testing.assert_array_equal(read_map(tmp_path / "z.csv").heights, expected)
+
+
+def test_a_row_that_begins_with_a_hole_is_no_comment(tmp_path):
+    (tmp_path / "z.csv").write_text("#N/A;1;2;3\n" + matrix(";"))
+    np.testing.assert_array_equal(read_map(tmp_path / "z.csv").heights, np.vstack([[np.nan, 1, 2, 3], Z]))
 
 
 def test_rows_of_holes_before_the_first_heights_are_rows(tmp_path):
@@ -91,3 +100,95 @@ def test_a_line_that_is_missing_is_no_matter_of_digits(tmp_path):
     (tmp_path / "z.xyz").write_text("\n".join(points))
     with pytest.raises(Exception, match="its spacing along y is not equal: 2 from y = 3 to 5"):
         read_map(tmp_path / "z.xyz")
+
+
+@pytest.mark.parametrize("above", ["", "1;2;3;4\n", "z\n"])
+def test_numbers_that_are_not_understood_are_named_and_none_is_left_out(tmp_path, above):
+    (tmp_path / "z.csv").write_text(above + '1;"1,234.56";3;4\n' * 4)
+    with pytest.raises(SurfaceFileError) as caught:
+        read_map(tmp_path / "z.csv")
+    assert caught.value.what == f"line {2 if above else 1}, column 2: '1,234.56' is no number"
+
+
+def test_a_cell_of_any_length_is_refused_in_a_line(tmp_path):
+    (tmp_path / "z.csv").write_text('"' + 200000 * "a" + ";b\n")
+    with pytest.raises(SurfaceFileError, match="has no row of numbers"):
+        read_map(tmp_path / "z.csv")
+
+
+def test_a_first_row_that_is_not_understood_is_no_heading(tmp_path):
+    (tmp_path / "z.csv").write_text("1;1,234.56;3;4\n" + matrix(";"))
+    with pytest.raises(SurfaceFileError, match="line 1, column 2: '1,234.56' is no number"):
+        read_map(tmp_path / "z.csv")
+
+
+POINTS = "".join(f"{x};{1000 * y};{x + y}\n" for y in range(4) for x in range(5))
+UM, NM = 1e-6, 1e-9
+
+
+@pytest.mark.parametrize(
+    "heading, dy, position, height",
+    [
+        ("x (um);y (nm);z (nm)", 1.0, UM, NM),
+        ("X[mm];Y[mm];Height[um]", 1000.0, 1e-3, UM),
+        ('"x / µm";"y / µm";"z / µm"', 1000.0, UM, UM),
+        ("made on 1 May\n# x um; y um; z pm", 1000.0, UM, 1e-12),
+        ("x;y;z (counts)", 1000.0, None, None),
+    ],
+)
+def test_headings_of_points_tell_units(tmp_path, heading, dy, position, height):
+    (tmp_path / "z.csv").write_text(f"{heading}\n{POINTS}")
+    found = read_map(tmp_path / "z.csv")
+    assert (found.dx, found.dy) == pytest.approx((1.0, dy))
+    assert (found.position_unit, found.height_unit) == (position, height)
+
+
+def test_units_that_contradict_the_configuration_are_refused(tmp_path):
+    (tmp_path / "z.csv").write_text(f"x (um);y (um);z (nm)\n{POINTS}")
+    found = read_map(tmp_path / "z.csv")
+    assert found.with_units(NM, UM, None, None).height_unit == NM
+    with pytest.raises(SurfaceFileError, match='height_unit = "um", but the file itself says "nm"'):
+        found.with_units(UM, None, None, None)
+    with pytest.raises(SurfaceFileError, match='position_unit = "mm", but the file itself says "um"'):
+        found.with_units(None, 1e-3, None, None)
+
+
+def with_positions(corner, x, y, z):
+    rows = [[corner, *x], *([b, *row] for b, row in zip(y, z, strict=True))]
+    return "\n".join(";".join(map(str, row)) for row in rows)
+
+
+NOISE = np.random.default_rng(3).normal(0.0, 30.0, (6, 9)).round(3)
+RIGHT, DOWN = 2.0 * np.arange(9), 3.0 * np.arange(6)
+RAMP = np.add.outer(DOWN, RIGHT)
+
+
+@pytest.mark.parametrize("corner", ['"x\\y"', "", "0"])
+def test_a_first_row_and_column_of_positions_are_no_heights(tmp_path, corner):
+    text = with_positions(corner, 100.0 * RIGHT, 100.0 * DOWN + 500.0, NOISE)
+    (tmp_path / "z.csv").write_text(text)
+    found = read_map(tmp_path / "z.csv")
+    np.testing.assert_array_equal(found.heights, NOISE)
+    assert (found.dx, found.dy, found.doubt) == (200.0, 300.0, "")
+
+
+DOUBTFUL = {
+    "heights go on as they begin": with_positions(0, RIGHT[1:], DOWN[1:], RAMP[1:, 1:]),
+    "they fall": with_positions("", 100.0 * RIGHT, 100.0 * DOWN[::-1], NOISE),
+}
+
+
+@pytest.mark.parametrize("text", DOUBTFUL.values(), ids=DOUBTFUL)
+def test_where_that_is_not_certain_they_stay_heights_and_it_is_said(tmp_path, text):
+    (tmp_path / "z.csv").write_text(text)
+    found = read_map(tmp_path / "z.csv")
+    assert len(found.heights) == text.count("\n") + 1 and found.dx is None
+    assert found.doubt.startswith("the first row and column are evenly spaced, as positions are")
+
+
+@pytest.mark.parametrize("corner", ["0", "name"])
+def test_rough_heights_below_a_zero_or_a_heading_are_heights(tmp_path, corner):
+    (tmp_path / "z.csv").write_text(with_positions(corner, RIGHT, NOISE[:, 0], NOISE))
+    found = read_map(tmp_path / "z.csv")
+    assert found.heights.shape == (7 if corner == "0" else 6, 10)
+    assert (found.dx, found.doubt) == (None, "")

@@ -186,7 +186,7 @@ def text_of(points):
 SQUARE = [(x, y, 1) for x in range(5) for y in range(5)]
 TEXTS = {
     "nothing": ("", "is empty: it must hold heights"),
-    "comments alone": ("# heights\n", "is empty: it must hold heights"),
+    "comments alone": ("# heights\n", "is empty: it must hold numbers"),
     "words": ("1 2 3 4\n1 2 oops 4\n", "line 2, column 3: 'oops' is no number"),
     "a matrix of text": ("a b c d\ne f g h\n", "has no row of numbers: line 1 is 'a b c d'"),
     "an empty cell": ("1,2,3,4\n1,,3,4\n" * 2, "2 of 16 points are holes, the first in row 2, column 2"),

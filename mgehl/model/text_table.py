@@ -1,0 +1,235 @@
+"""Rows of numbers in text, as other programs write them.
+
+Numbers stand between blanks, tabs, commas or semicolons, quoted or not; their decimal comma is read where
+bare commas do not separate them. A line before the first numbers is a heading.
+"""
+
+import csv
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from mgehl.errors import UserError
+
+COMMENTS = ("#", "%", "//")
+
+END = "*"
+"""A line that ends the rows  [ISO 25178-71]."""
+
+HOLES = {"", "nan", "inf", "-inf", "bad", "nodata", "none", "null", "na", "n/a", "-", "--", "---", "***"}
+HOLES |= {"#n/a", "#na", "#nv"}
+"""Words that stand for a number that is not there."""
+
+SEPARATORS = ";", "\t", ",", None
+"""None: blanks."""
+
+NUMBER = r"[-+]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][-+]?\d+)?"
+_LIKE_A_NUMBER = r"[-+]?\d[\d.,' ]*"
+"""Of digits, but maybe no number: 1,234.56."""
+
+
+class FileError(UserError):
+    """What is wrong with a file, in one line: it begins with the file's name."""
+
+    def __init__(self, path, what):
+        super().__init__(f"{path}: {what}")
+        self.path, self.what = path, what
+
+    def __reduce__(self):
+        return type(self), (self.path, self.what)  # it may go from rank to rank
+
+
+class NoTableError(FileError):
+    """A file that has no row of numbers: it may be no table at all."""
+
+
+@dataclass(frozen=True, eq=False)
+class TextTable:
+    """The rows of a text file."""
+
+    values: np.ndarray
+    """(rows, columns); nan is a hole."""
+    lines: list
+    """Of the file, in which each row stands, from 1."""
+    headings: list
+    """Comments, and what stands before the first row."""
+    heading: list | None
+    """Words over each of the columns; None where no heading has as many."""
+    top: list | None
+    """A heading that is all numbers but its first word, for which nan stands."""
+
+
+def read_table(path):
+    """The `TextTable` of a file. Raises OSError, FileError; NoTableError where it has no row of numbers."""
+    rows, lines, separator, empty, headings, above = [], [], None, [], [], []
+    for number, line in enumerate(_text(path).splitlines(), 1):
+        if not line.strip(" ") or _is_comment(line):
+            headings += [line.strip().lstrip("#%/ ")] if line.strip() else []
+            continue
+        if rows and line.strip() == END:
+            break
+        if not rows:
+            separator = _separator(line)
+            if separator is False:
+                empty.append((number, line))
+                headings.append(line)
+                continue
+            above = list(headings)
+            for at, holes in _leading_holes(path, empty, line, separator):
+                rows.append(_row(path, at, holes, separator))
+                lines.append(at)
+        rows.append(_row(path, number, line, separator))
+        lines.append(number)
+    if not rows:
+        raise _no_rows(path, empty)
+    values = _rectangle(path, rows, lines)
+    columns = values.shape[1]
+    return TextTable(
+        values, lines, headings, _heading(above, columns, separator), _top(above, columns, separator)
+    )
+
+
+def unit_words(heading):
+    """What in a column's heading may be its unit, the likeliest first: `t [ms]`, `t / ms`, `t ms`, `ms`."""
+    if found := re.search(r"[\[(]\s*([^\])]*?)\s*[\])]\s*$", heading):
+        return [found[1]]
+    return [heading, *heading.split()[-1:], *map(str.strip, heading.split("/", 1)[1:])]
+
+
+def value_of(word):
+    """A number; None of an empty cell, nan of another hole."""
+    if _is_hole(word):
+        return np.nan if word else None
+    return float(word.replace(",", "."))
+
+
+def _heading(above, columns, separator):
+    """Words of the last heading that has as many as there are columns."""
+    for line in reversed(above):
+        in_brackets = re.findall(r"[^\[(]+[\[(][^\])]*[\])]", line)
+        for cells in (*(_words(line, each) for each in (separator, ";", "\t", ",")), in_brackets):
+            while cells and not cells[-1]:
+                cells.pop()
+            if len(cells) == columns:
+                return cells
+    return None
+
+
+def _top(above, columns, separator):
+    first, *others = _words(above[-1], separator) if above else [""]
+    if len(others) + 1 != columns or not others or not all(map(_is_number, others)):
+        return None
+    return [np.nan, *map(value_of, others)]
+
+
+def _is_comment(line):
+    """Whether a line is one; #N/A begins none."""
+    line = line.lstrip()
+    return line.startswith(COMMENTS) and not _is_hole(re.split(r"[;,\s]", line, maxsplit=1)[0])
+
+
+def _leading_holes(path, empty, first, separator):
+    """Those of the lines before the first row of numbers that are rows of as many holes.
+
+    Raises FileError where one is a row of numbers that are not understood.
+    """
+    columns = len(_words(first, separator))
+    for number, line in empty:
+        words = _words(line, separator)
+        if columns > 1 and len(words) == columns:
+            if column := _odd(words):
+                raise _no_number(path, number, column, words)
+            if all(map(_is_hole, words)):
+                yield number, line
+
+
+def _odd(words):
+    """Column of the first word that is no number where all are of digits; 0 of other words."""
+    known = [_is_number(word) or _is_hole(word) for word in words]
+    like = all(ok or re.fullmatch(_LIKE_A_NUMBER, word) for ok, word in zip(known, words, strict=True))
+    return known.index(False) + 1 if len(words) > 1 and like and not all(known) else 0
+
+
+def _no_rows(path, empty):
+    """Why no line that is no comment is a row of numbers."""
+    for number, line in empty:
+        for words in (_words(line, separator) for separator in SEPARATORS):
+            if column := _odd(words):
+                return _no_number(path, number, column, words)
+    if not empty:
+        return FileError(path, "is empty: it must hold numbers")
+    number, line = empty[0]
+    return NoTableError(path, f"has no row of numbers: line {number} is {' '.join(line.split())[:40]!r}")
+
+
+def _no_number(path, line, column, words):
+    return FileError(path, f"line {line}, column {column}: {words[column - 1][:40]!r} is no number")
+
+
+def _text(path):
+    """The text of a file: UTF-8, UTF-16 by its mark, else Latin 1; binary files raise NoTableError."""
+    content = Path(path).read_bytes()
+    encodings = ("utf-16",) if content.startswith((b"\xff\xfe", b"\xfe\xff")) else ("utf-8-sig", "latin-1")
+    for encoding in encodings:
+        try:
+            text = content.decode(encoding).rstrip("\x1a")  # which ended a text in DOS
+        except UnicodeDecodeError:
+            continue
+        if not re.search(r"[\x00-\x08\x0e-\x1b]", text):
+            return text
+    raise NoTableError(path, "is no text")
+
+
+def _separator(line):
+    """What separates the numbers of a first row; False where the line is none."""
+    for separator in SEPARATORS:
+        if separator is None or separator in line:
+            words = _words(line, separator)
+            if any(map(_is_number, words)) and all(_is_number(w) or _is_hole(w) for w in words):
+                return separator
+    return False
+
+
+def _words(line, separator):
+    """What stands between separators, without quotes."""
+    line = re.sub(r"no data", "nodata", line, flags=re.I)
+    if separator is None or '"' not in line:
+        return [word.strip() for word in line.replace('"', " ").split(separator)]
+    try:
+        cells = next(csv.reader([line], delimiter=separator, skipinitialspace=True))
+    except csv.Error:  # a cell is longer than 131072 characters
+        cells = line.split(separator)
+    return [word.strip() for word in cells]
+
+
+def _is_hole(word):
+    return word.lower() in HOLES
+
+
+def _is_number(word):
+    return re.fullmatch(NUMBER, word) is not None
+
+
+def _row(path, line, text, separator):
+    try:
+        return list(map(float, (text if separator == "," else text.replace(",", ".")).split(separator)))
+    except ValueError:
+        words = _words(text, separator)
+    for column, word in enumerate(words, 1):
+        if not (_is_number(word) or _is_hole(word)):
+            raise _no_number(path, line, column, words)
+    return list(map(value_of, words))
+
+
+def _rectangle(path, rows, lines):
+    """Rows as an array. Empty cells that all rows have before or behind their numbers are none."""
+    for end in (0, -1):
+        while all(len(row) > 1 and row[end] is None for row in rows):
+            for row in rows:
+                del row[end]
+    for row, line in zip(rows, lines, strict=True):
+        if len(row) != len(rows[0]):
+            raise FileError(path, f"line {line} has {len(row)} numbers, line {lines[0]} has {len(rows[0])}")
+    return np.array(rows, dtype=float)

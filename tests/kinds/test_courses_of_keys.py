@@ -1,0 +1,49 @@
+"""Units in the heading of a table of time."""
+
+import pytest
+
+from mgehl.errors import ConfigError
+from mgehl.kinds.time import course
+
+ROWS = "0;100\n1000;300\n"
+
+
+def read(tmp_path, heading, key="motion.speed", rows=ROWS):
+    (tmp_path / "course.csv").write_text(f"{heading}\n{rows}")
+    return course(key, str(tmp_path / "course.csv"))
+
+
+@pytest.mark.parametrize(
+    "heading, end, value",
+    [
+        ("t;v", 1000.0, 300.0),
+        ("s;m/s", 1000.0, 300.0),
+        ("t [ms];v [mm/s]", 1.0, 0.3),
+        ("t / ms;v / mm/s", 1.0, 0.3),
+        ("t/ms;v/(mm/s)", 1.0, 0.3),
+        ("ms;mm/s", 1.0, 0.3),
+        ("time ms;speed km/h", 1.0, 300.0 / 3.6),
+        ("# t (ms); speed", 1.0, 300.0),
+    ],
+)
+def test_a_heading_tells_units(tmp_path, heading, end, value):
+    found = read(tmp_path, heading)
+    assert found.kinks() == pytest.approx((0.0, end))
+    assert found.value(end) == pytest.approx(value)
+
+
+def test_a_heading_may_be_separated_otherwise(tmp_path):
+    assert read(tmp_path, "t (ms), v", rows="0 100\n1000 300\n").kinks() == pytest.approx((0.0, 1.0))
+
+
+def test_each_key_has_its_unit(tmp_path):
+    assert read(tmp_path, "t;F [kN]", "contact.load").value(0.0) == 1e5
+    assert read(tmp_path, "t;F [N/mm]", "contact.load_per_length").value(0.0) == 1e5
+
+
+@pytest.mark.parametrize(
+    "heading", ["t;v [furlong]", "t;v [N]", "t;speed rpm", "t [mm];v", "t;v / x", "t;kN"]
+)
+def test_a_unit_that_is_none_of_the_column_is_refused(tmp_path, heading):
+    with pytest.raises(ConfigError, match="its heading '.*' tells no unit of its column; must be such as"):
+        read(tmp_path, heading)
