@@ -15,7 +15,7 @@ from mgehl.errors import ConfigError
 from mgehl.kinds import choices, derived, kind_of
 from mgehl.kinds.bodies import BodySection
 from mgehl.kinds.choice import named, value_of
-from mgehl.kinds.derived import overridden
+from mgehl.kinds.derived import NUMBERS, orphans, overridden
 from mgehl.kinds.friction import FrictionSection
 from mgehl.kinds.heat import HeatSection
 from mgehl.kinds.lubricant import LubricantSection
@@ -183,18 +183,36 @@ def read_tables(path=None, settings=()):
 
 
 def _set_anew(tables, settings):
-    """Nested values with settings laid over them; keys that a setting leaves without a meaning go."""
+    """Nested values with settings laid over them; keys that a setting leaves without a meaning go.
+
+    What those gave beside it stays, as a number. Raises ConfigError.
+    """
     given = nested(settings)
-    found = [*choices(given), *overridden(given)]
-    for section, table in tables.items():
-        if isinstance(table, dict):
-            keys = (f"{section}.{key}" for key in table)
-            gone = {key for key in keys if key in KEYS and _mean_nothing(key, found)}
-            tables[section] = {key: value for key, value in table.items() if f"{section}.{key}" not in gone}
+    others = {
+        section: {key: value for key, value in table.items() if f"{section}.{key}" not in NUMBERS}
+        for section, table in given.items()
+    }
+    before = _laid(tables, others)
+    if alone := orphans(before, given):
+        found = config_from_tables(before).derived
+        tables = _laid(tables, nested({each.key: each.value for each in found if each.key in alone}))
+    return _laid(tables, given)
+
+
+def _laid(tables, given):
+    """Nested values with others over them, without the keys that mean nothing beside those."""
+    gone = [*choices(given), *overridden(given)]
+    laid = {
+        section: {
+            key: value for key, value in table.items()
+            if (name := f"{section}.{key}") not in KEYS or not _mean_nothing(name, gone)
+        } if isinstance(table, dict) else table
+        for section, table in tables.items()
+    }  # fmt: skip
     for section, table in given.items():
-        _check_section(section, tables.setdefault(section, {}))
-        tables[section] |= table
-    return tables
+        _check_section(section, laid.setdefault(section, {}))
+        laid[section] |= table
+    return laid
 
 
 def _anchor(tables, directory):

@@ -175,7 +175,10 @@ def _surface_speed(name, body):
 
 
 def _bearing(bodies, rotation):
-    """Pure rolling between two rings: u = omega d_m (1 - (d/d_m)^2)/4 at either, d_m the pitch diameter."""
+    """Rolling between two rings: u = omega d_m (1 - (d/d_m)^2)/4 at either, d_m the pitch diameter.
+
+    motion.slide_to_roll, where it is given, is slip at this mean speed.
+    """
     element, race = (_round(body) for body in bodies)
     if element is None or race is None or element <= 0.0 or abs(race) == inf:
         raise ConfigError(
@@ -184,6 +187,5 @@ def _bearing(bodies, rotation):
         )
     pitch = 2.0 * abs(race + element)
     speed = 0.25 * rotation * pitch * (1.0 - (2.0 * element / pitch) ** 2)
-    words = f"pure rolling on a pitch diameter of {1e3 * pitch:.6g} mm: omega d_m (1 - (d/d_m)^2)/4"
+    words = f"rolling on a pitch diameter of {1e3 * pitch:.6g} mm: omega d_m (1 - (d/d_m)^2)/4"
     yield Derived("motion.speed", speed, words)
-    yield Derived("motion.slide_to_roll", 0.0, "pure rolling")

@@ -15,11 +15,14 @@ OIL_AT_100 = "lubricant.kinematic_viscosity_100"
 FOLLOWS = (
     (("contact.reduced_modulus",), keys(ELASTICITY)),
     (("contact.radius_x", "contact.radius_y"), keys(GEOMETRY)),
-    (("motion.speed", "motion.slide_to_roll"), (*MOTION, "motion.ring_rotation")),
+    (("motion.speed", "motion.slide_to_roll"), MOTION),
+    (("motion.speed",), ("motion.ring_rotation",)),
     (("lubricant.viscosity",), (*OILS, OIL_AT_100)),
     (("lubricant.pressure_viscosity",), ("lubricant.oil",)),
 )
 """(Keys, the words that they follow from)."""
+
+NUMBERS = {number for numbers, _ in FOLLOWS for number in numbers}
 
 _EITHER = (
     ("material", "modulus"), ("material", "poisson"), ("diameter", "radius_x"), ("radius_y", "conformity"),
@@ -68,3 +71,16 @@ def overridden(tables):
     for targets, words in FOLLOWS:
         for target in given(tables, targets):
             yield Choice(f"with {target}", words)
+
+
+def orphans(tables, settings):
+    """Numbers that settings leave without words: other words of nested values gave them, too, and go.
+
+    So of the speeds of two bodies the mean stays where motion.slide_to_roll is set.
+    """
+    gone = {
+        word for targets, words in FOLLOWS if given(settings, targets) and not given(settings, words)
+        for word in given(tables, words)
+    }  # fmt: skip
+    numbers = (target for targets, words in FOLLOWS if gone & {*words} for target in targets)
+    return [number for number in dict.fromkeys(numbers) if not given(settings, [number])]

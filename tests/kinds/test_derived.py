@@ -184,6 +184,31 @@ def test_a_setting_takes_the_place_of_what_a_file_says_otherwise():
     assert glass.body_2.material is None
 
 
+def test_a_setting_pushes_out_no_more_than_it_replaces():
+    """One key of motion dropped the speeds of both bodies: a stranger solved at the paper's 5e-6 m/s."""
+    bodies = {"body_1.diameter": "19 mm", "body_1.speed": "1 m/s", "body_2.rotation": "90 rad/s"}
+    bodies |= STEEL | OIL | {"body_2.rotation_radius": "10 mm", "body_2.radius_y": "1 m"}
+    config = of(bodies)
+    slides = config.with_({"motion.slide_to_roll": 0.2})
+    assert slides.motion.speed == config.motion.speed == 0.95 and slides.motion.slide_to_roll == 0.2
+    faster = config.with_({"motion.speed": 2.0})
+    assert faster.motion.slide_to_roll == config.motion.slide_to_roll == pytest.approx(0.1 / 0.95)
+    assert config.with_({"motion.speed": 2.0, "body_1.diameter": "20 mm"}).contact.radius_x == 0.01
+    narrow = config.with_({"contact.radius_x": "5 mm"}).contact
+    assert (narrow.radius_x, narrow.radius_y) == (5e-3, config.contact.radius_y)
+    thin = config.with_({"lubricant.viscosity": 0.01}).lubricant
+    assert (thin.viscosity, thin.pressure_viscosity) == (0.01, config.lubricant.pressure_viscosity)
+
+
+def test_a_bearing_may_slip_and_keeps_its_speed():
+    config = load_config(CONFIGS / "bearing_6206.toml")
+    slips = config.with_({"motion.slide_to_roll": 0.1})
+    assert slips.motion.speed == config.motion.speed and slips.motion.ring_rotation is not None
+    faster = slips.with_({"motion.ring_rotation": "9000 rpm"})
+    assert faster.motion.speed == pytest.approx(1.5 * config.motion.speed)
+    assert faster.motion.slide_to_roll == 0.1
+
+
 def test_a_dry_contact_has_bodies_and_no_motion():
     dry = {"discretization.contact_model": "dry", "body_1.rotation_radius": 0.1, "body_1.rotation": "1 rpm"}
     config = of(STEEL | dry | {"body_2.speed": 0})
