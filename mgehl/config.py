@@ -144,7 +144,7 @@ class Config:
 
 PHYSICAL = (
     "contact", "body_1", "body_2", "coating", "wedge", "lubricant", "motion", "surface", "second_surface",
-    "moes",
+    "moes", "friction", "heat", "time",
 )  # fmt: skip
 """Sections that tell what is solved; the others tell how."""
 

@@ -123,6 +123,11 @@ def reverses(config):
     return config.is_in_time and range_of(config, "motion.speed")[0] < 0.0
 
 
+def begins_at_rest(config):
+    """Whether a run in time begins with surfaces at rest: from the dry contact."""
+    return config.is_in_time and config.moes.M is None and course_of(config.motion.speed).value(0.0) == 0.0
+
+
 PARTS = 200
 """Parts of a run whose ways are added up to find how far a surface gets."""
 
