@@ -15,7 +15,7 @@ from mgehl.errors import ConfigError
 from mgehl.kinds import choices, derived, kind_of
 from mgehl.kinds.bodies import BodySection
 from mgehl.kinds.choice import named, value_of
-from mgehl.kinds.derived import NUMBERS, orphans, overridden
+from mgehl.kinds.derived import NUMBERS, left_over, orphans, overridden
 from mgehl.kinds.friction import FrictionSection
 from mgehl.kinds.heat import HeatSection
 from mgehl.kinds.lubricant import LubricantSection
@@ -192,11 +192,14 @@ def _set_anew(tables, settings):
         section: {key: value for key, value in table.items() if f"{section}.{key}" not in NUMBERS}
         for section, table in given.items()
     }
-    before = _laid(tables, others)
+    before, numbers = _laid(tables, others), {}
     if alone := orphans(before, given):
         found = config_from_tables(before).derived
-        tables = _laid(tables, nested({each.key: each.value for each in found if each.key in alone}))
-    return _laid(tables, given)
+        numbers = {each.key: each.value for each in found if each.key in alone}
+    laid = _laid(_laid(tables, nested(numbers)), given)
+    for section, _, key in (word.partition(".") for word in left_over(tables, laid, given)):
+        laid[section].pop(key, None)
+    return laid
 
 
 def _laid(tables, given):

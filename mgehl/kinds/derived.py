@@ -45,6 +45,14 @@ NEEDS = {
 }
 """{word: what must be given with it}."""
 
+USERS = {
+    "lubricant.temperature": ("lubricant.oil", "lubricant.kinematic_viscosity_40"),
+    "lubricant.density": ("lubricant.kinematic_viscosity", "lubricant.kinematic_viscosity_40"),
+    OIL_AT_100: ("lubricant.kinematic_viscosity_40",),
+    **{f"{body}.rotation_radius": (f"{body}.rotation",) for body in BODIES},
+}
+"""{word: those of which one must be given, or it means nothing}."""
+
 HEIGHTS = "contact.surface", "surface.kind", "surface.file", "second_surface.kind", "second_surface.file"
 """Heights that are solved: lambda is by them, and not by a number."""
 
@@ -62,6 +70,9 @@ def word_choices(tables):
         yield Choice("with lubricant.oil", ("lubricant.viscosity_law",))
     for word in given(tables, NEEDS):
         yield Choice(f"with {word}", needs=NEEDS[word])
+    for word in given(tables, USERS):
+        if not given(tables, USERS[word]):
+            yield Choice(f"without {' or '.join(USERS[word])}", (word,))
     if found := given(tables, HEIGHTS):
         yield Choice(f"with {found[0]}", keys(("roughness", "Ra")))
 
@@ -84,3 +95,11 @@ def orphans(tables, settings):
     }  # fmt: skip
     numbers = (target for targets, words in FOLLOWS if gone & {*words} for target in targets)
     return [number for number in dict.fromkeys(numbers) if not given(settings, [number])]
+
+
+def left_over(tables, laid, settings):
+    """Words of nested values that nothing uses any more when settings are laid over them."""
+    return [
+        word for word, users in USERS.items()
+        if given(tables, users) and not given(laid, users) and not given(settings, [word])
+    ]  # fmt: skip

@@ -152,6 +152,9 @@ def test_what_a_word_needs_is_named(word):
         ({"body_1.diameter": 0}, ["body_1: a radius of 0 m along x: must be at least"]),
         ({"body_2.conformity": 0.52}, ["body_2.conformity: needs"]),
         ({"body_1.rotation": "60 rpm", "body_2.speed": 0}, ["body_1.rotation_radius: must be given"]),
+        ({"lubricant.temperature": "60 degC", "lubricant.viscosity": 0.01},
+         ["temperature = '60 degC': means nothing without lubricant.oil or lubricant.kinematic_visc"]),
+        ({"lubricant.density": 850}, ["density = 850: means nothing without lubricant.kinematic_visc"]),
         ({"body_1.rotation": "100 Hz"}, ["turns or radians", "6000 rpm"]),
         ({"body_1.rotation": "600 1/min"}, ["turns or radians"]),
         ({"motion.ring_rotation": "60 rpm"}, ["ring_rotation: needs diameter or radius_x of body_1"]),
@@ -198,6 +201,18 @@ def test_a_setting_pushes_out_no_more_than_it_replaces():
     assert (narrow.radius_x, narrow.radius_y) == (5e-3, config.contact.radius_y)
     thin = config.with_({"lubricant.viscosity": 0.01}).lubricant
     assert (thin.viscosity, thin.pressure_viscosity) == (0.01, config.lubricant.pressure_viscosity)
+
+
+@pytest.mark.parametrize("setting", ["lubricant.viscosity=.01", "lubricant.oil=M100", "motion.speed=1",
+    "lubricant.kinematic_viscosity=9 cSt", "lubricant.pressure_viscosity=9 1/GPa", "body_1.speed=1",
+    "motion.ring_rotation=9 rpm"])  # fmt: skip
+@pytest.mark.parametrize("oil", [OIL, TWO | {"lubricant.temperature": 330, "lubricant.density": 850}])
+def test_what_nothing_uses_any_more_goes_with_what_a_setting_replaces(setting, oil):
+    balls = {"body_1.diameter": "9 mm", "body_2.diameter": "50 mm", "body_2.speed": 0}
+    config = of(balls | oil | {"body_1.rotation": "9 rpm", "body_1.rotation_radius": "1 mm"})
+    if setting.startswith("lubricant.kin") and oil is OIL:
+        setting = {"lubricant.kinematic_viscosity": 9e-6, "lubricant.density": 850}
+    config.with_(setting if isinstance(setting, dict) else [setting])
 
 
 def test_a_bearing_may_slip_and_keeps_its_speed():
