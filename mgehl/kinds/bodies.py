@@ -4,7 +4,7 @@ Elasticity of both to E', curvatures to the radii of a paraboloid on a flat, spe
 speed and the slide-to-roll ratio. A radius along x lies in the plane of the motion; a hollow is negative.
 """
 
-from dataclasses import dataclass, fields
+from dataclasses import asdict, dataclass, fields
 from math import inf, pi, sqrt
 
 from mgehl.config_value import number, word
@@ -83,11 +83,13 @@ def derived_from_bodies(config):
 
 def roughness(config):
     """Rq of both bodies together in m, by their numbers; 0 without any."""
-    return sqrt(sum(_rq(body) ** 2 for body in (config.body_1, config.body_2)))
+    return roughness_of({name: asdict(getattr(config, name)) for name in BODIES})
 
 
-def _rq(body):
-    return body.roughness or RQ_OF_RA * (body.Ra or 0.0)
+def roughness_of(tables):
+    """The same of nested values in SI units."""
+    bodies = (tables.get(name, {}) for name in BODIES)
+    return sqrt(sum((body.get("roughness") or RQ_OF_RA * (body.get("Ra") or 0.0)) ** 2 for body in bodies))
 
 
 def _any(bodies, names):

@@ -97,6 +97,14 @@ def orphans(tables, settings):
     return [number for number in dict.fromkeys(numbers) if not given(settings, [number])]
 
 
+def beside(key):
+    """The other numbers that follow from the words that a key may follow from, and those words."""
+    groups = [(numbers, words) for numbers, words in FOLLOWS if key in numbers]
+    return [each for numbers, _ in groups for each in numbers if each != key], [
+        word for _, words in groups for word in words
+    ]
+
+
 def left_over(tables, laid, settings):
     """Words of nested values that nothing uses any more when settings are laid over them."""
     return [
