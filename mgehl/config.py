@@ -5,6 +5,7 @@ Every mistake is one line that names the key, the value and what is allowed (`Co
 
 import difflib
 from collections.abc import Iterable, Mapping
+from contextlib import contextmanager
 from dataclasses import asdict, dataclass, fields, replace
 from pathlib import Path
 
@@ -15,7 +16,7 @@ from mgehl.errors import ConfigError
 from mgehl.kinds import choices, derived, kind_of
 from mgehl.kinds.bodies import BodySection
 from mgehl.kinds.choice import named, value_of
-from mgehl.kinds.derived import NUMBERS, left_over, orphans, overridden
+from mgehl.kinds.derived import NUMBERS, left_over, orphans, overridden, words_of
 from mgehl.kinds.friction import FrictionSection
 from mgehl.kinds.heat import HeatSection
 from mgehl.kinds.lubricant import LubricantSection
@@ -241,9 +242,20 @@ def config_from_tables(tables):
         sections[section] = SECTIONS[section](**values)
     config = Config(**sections)
     _check_together(config, tables)
-    config = config.with_numbers({each.key: each.value for each in config.derived})
+    for each in config.derived:
+        with _naming_words(tables, each.key):
+            config = config.with_numbers({each.key: each.value})
     config.kind.check_keys(config)
     return config
+
+
+@contextmanager
+def _naming_words(tables, number):
+    """Let what is wrong with a number begin with the words that it follows from."""
+    try:
+        yield
+    except ConfigError as error:
+        raise ConfigError(f"{', '.join(words_of(tables, number))}: {error}") from None
 
 
 def _check_together(config, tables):

@@ -105,6 +105,11 @@ def beside(key):
     ]
 
 
+def words_of(tables, number):
+    """The words in nested values that a number follows from."""
+    return [word for numbers, words in FOLLOWS if number in numbers for word in given(tables, words)]
+
+
 def left_over(tables, laid, settings):
     """Words of nested values that nothing uses any more when settings are laid over them."""
     return [

@@ -149,6 +149,7 @@ def test_what_a_word_needs_is_named(word):
         ({"body_1.speed": 1, "body_2.speed": -1}, ["1 and -1 m/s", "mean must be positive"]),
         ({"body_1.radius_x": "5 mm"}, ["body_1.radius_y or body_2.radius_y: must be given"]),
         ({"body_1.diameter": "10 mm", "body_2.radius_y": "-4 mm"}, ["along y", "1/5 + 1/-4"]),
+        ({"body_1.diameter": "900 m"}, ["body_1.diameter: contact.radius_x = 450.0: must be"]),
         ({"body_1.diameter": 0}, ["body_1: a radius of 0 m along x: must be at least"]),
         ({"body_2.conformity": 0.52}, ["body_2.conformity: needs"]),
         ({"body_1.rotation": "60 rpm", "body_2.speed": 0}, ["body_1.rotation_radius: must be given"]),
