@@ -11,6 +11,7 @@ from mgehl.config import KEYS, ConfigError, config_from_tables, load_config
 from mgehl.kinds import contact_from
 from mgehl.kinds.derived import EITHER, FOLLOWS, NEEDS
 from mgehl.model.oils import OILS
+from mgehl.output.report.run_report import inputs_of
 
 CONFIGS = Path(__file__).resolve().parents[2] / "configs"
 STEEL = {"body_1.material": "steel", "body_2.material": "steel"}
@@ -214,6 +215,12 @@ def test_what_nothing_uses_any_more_goes_with_what_a_setting_replaces(setting, o
     if setting.startswith("lubricant.kin") and oil is OIL:
         setting = {"lubricant.kinematic_viscosity": 9e-6, "lubricant.density": 850}
     config.with_(setting if isinstance(setting, dict) else [setting])
+
+
+def test_friction_heat_and_time_are_rows_of_the_report():
+    rows = inputs_of(of({"friction.model": "eyring", "friction.eyring_stress": "5 MPa", "time.end": 1}))
+    told = {key: words for (key, _), words, _ in rows}
+    assert told["friction.eyring_stress"] == "5e+06 Pa" and told["time.end"] == "1 s"
 
 
 def test_a_bearing_may_slip_and_keeps_its_speed():
