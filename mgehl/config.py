@@ -5,6 +5,7 @@ Every mistake is one line that names the key, the value and what is allowed (`Co
 
 import difflib
 from collections.abc import Iterable, Mapping
+from contextlib import contextmanager
 from dataclasses import asdict, dataclass, fields, replace
 from pathlib import Path
 
@@ -15,7 +16,7 @@ from mgehl.errors import ConfigError
 from mgehl.kinds import choices, derived, kind_of
 from mgehl.kinds.bodies import BodySection
 from mgehl.kinds.choice import named, value_of
-from mgehl.kinds.derived import overridden
+from mgehl.kinds.derived import NUMBERS, left_over, orphans, overridden, words_of
 from mgehl.kinds.friction import FrictionSection
 from mgehl.kinds.heat import HeatSection
 from mgehl.kinds.lubricant import LubricantSection
@@ -144,7 +145,7 @@ class Config:
 
 PHYSICAL = (
     "contact", "body_1", "body_2", "coating", "wedge", "lubricant", "motion", "surface", "second_surface",
-    "moes",
+    "moes", "friction", "heat", "time",
 )  # fmt: skip
 """Sections that tell what is solved; the others tell how."""
 
@@ -183,18 +184,39 @@ def read_tables(path=None, settings=()):
 
 
 def _set_anew(tables, settings):
-    """Nested values with settings laid over them; keys that a setting leaves without a meaning go."""
+    """Nested values with settings laid over them; keys that a setting leaves without a meaning go.
+
+    What those gave beside it stays, as a number. Raises ConfigError.
+    """
     given = nested(settings)
-    found = [*choices(given), *overridden(given)]
-    for section, table in tables.items():
-        if isinstance(table, dict):
-            keys = (f"{section}.{key}" for key in table)
-            gone = {key for key in keys if key in KEYS and _mean_nothing(key, found)}
-            tables[section] = {key: value for key, value in table.items() if f"{section}.{key}" not in gone}
+    others = {
+        section: {key: value for key, value in table.items() if f"{section}.{key}" not in NUMBERS}
+        for section, table in given.items()
+    }
+    before, numbers = _laid(tables, others), {}
+    if alone := orphans(before, given):
+        found = config_from_tables(before).derived
+        numbers = {each.key: each.value for each in found if each.key in alone}
+    laid = _laid(_laid(tables, nested(numbers)), given)
+    for section, _, key in (word.partition(".") for word in left_over(tables, laid, given)):
+        laid[section].pop(key, None)
+    return laid
+
+
+def _laid(tables, given):
+    """Nested values with others over them, without the keys that mean nothing beside those."""
+    gone = [*choices(given), *overridden(given)]
+    laid = {
+        section: {
+            key: value for key, value in table.items()
+            if (name := f"{section}.{key}") not in KEYS or not _mean_nothing(name, gone)
+        } if isinstance(table, dict) else table
+        for section, table in tables.items()
+    }  # fmt: skip
     for section, table in given.items():
-        _check_section(section, tables.setdefault(section, {}))
-        tables[section] |= table
-    return tables
+        _check_section(section, laid.setdefault(section, {}))
+        laid[section] |= table
+    return laid
 
 
 def _anchor(tables, directory):
@@ -220,9 +242,20 @@ def config_from_tables(tables):
         sections[section] = SECTIONS[section](**values)
     config = Config(**sections)
     _check_together(config, tables)
-    config = config.with_numbers({each.key: each.value for each in config.derived})
+    for each in config.derived:
+        with _naming_words(tables, each.key):
+            config = config.with_numbers({each.key: each.value})
     config.kind.check_keys(config)
     return config
+
+
+@contextmanager
+def _naming_words(tables, number):
+    """Let what is wrong with a number begin with the words that it follows from."""
+    try:
+        yield
+    except ConfigError as error:
+        raise ConfigError(f"{', '.join(words_of(tables, number))}: {error}") from None
 
 
 def _check_together(config, tables):

@@ -14,10 +14,13 @@ from mgehl.config_file import chosen_config, naming_file
 from mgehl.kinds.cited import cited
 from mgehl.kinds.lubricant import oil_words
 from mgehl.kinds.plausible import implausible
+from mgehl.kinds.time import begins_at_rest
 from mgehl.model.sources import SOURCES
 from mgehl.saying import columns, folded
 
 GiB = 2**30
+
+AT_REST = "begins from the dry contact: the surfaces are at rest"
 
 NAME = 11
 """Columns of what a line is about."""
@@ -115,7 +118,10 @@ def _recipe(config, contact):
     from mgehl.solver.recipe_words import recipe_words
 
     yield ""
-    yield from _under("recipe", recipe_words(recipe_of(settings_from(config, contact), contact)))
+    words = recipe_words(recipe_of(settings_from(config, contact), contact))
+    if begins_at_rest(config):
+        words = (AT_REST if each.startswith("begins ") else each for each in words)
+    yield from _under("recipe", words)
 
 
 def _surface(config, contact, mesh):

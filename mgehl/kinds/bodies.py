@@ -4,7 +4,7 @@ Elasticity of both to E', curvatures to the radii of a paraboloid on a flat, spe
 speed and the slide-to-roll ratio. A radius along x lies in the plane of the motion; a hollow is negative.
 """
 
-from dataclasses import dataclass, fields
+from dataclasses import asdict, dataclass, fields
 from math import inf, pi, sqrt
 
 from mgehl.config_value import number, word
@@ -83,11 +83,13 @@ def derived_from_bodies(config):
 
 def roughness(config):
     """Rq of both bodies together in m, by their numbers; 0 without any."""
-    return sqrt(sum(_rq(body) ** 2 for body in (config.body_1, config.body_2)))
+    return roughness_of({name: asdict(getattr(config, name)) for name in BODIES})
 
 
-def _rq(body):
-    return body.roughness or RQ_OF_RA * (body.Ra or 0.0)
+def roughness_of(tables):
+    """The same of nested values in SI units."""
+    bodies = (tables.get(name, {}) for name in BODIES)
+    return sqrt(sum((body.get("roughness") or RQ_OF_RA * (body.get("Ra") or 0.0)) ** 2 for body in bodies))
 
 
 def _any(bodies, names):
@@ -175,7 +177,10 @@ def _surface_speed(name, body):
 
 
 def _bearing(bodies, rotation):
-    """Pure rolling between two rings: u = omega d_m (1 - (d/d_m)^2)/4 at either, d_m the pitch diameter."""
+    """Rolling between two rings: u = omega d_m (1 - (d/d_m)^2)/4 at either, d_m the pitch diameter.
+
+    motion.slide_to_roll, where it is given, is slip at this mean speed.
+    """
     element, race = (_round(body) for body in bodies)
     if element is None or race is None or element <= 0.0 or abs(race) == inf:
         raise ConfigError(
@@ -184,6 +189,5 @@ def _bearing(bodies, rotation):
         )
     pitch = 2.0 * abs(race + element)
     speed = 0.25 * rotation * pitch * (1.0 - (2.0 * element / pitch) ** 2)
-    words = f"pure rolling on a pitch diameter of {1e3 * pitch:.6g} mm: omega d_m (1 - (d/d_m)^2)/4"
+    words = f"rolling on a pitch diameter of {1e3 * pitch:.6g} mm: omega d_m (1 - (d/d_m)^2)/4"
     yield Derived("motion.speed", speed, words)
-    yield Derived("motion.slide_to_roll", 0.0, "pure rolling")

@@ -15,11 +15,14 @@ OIL_AT_100 = "lubricant.kinematic_viscosity_100"
 FOLLOWS = (
     (("contact.reduced_modulus",), keys(ELASTICITY)),
     (("contact.radius_x", "contact.radius_y"), keys(GEOMETRY)),
-    (("motion.speed", "motion.slide_to_roll"), (*MOTION, "motion.ring_rotation")),
+    (("motion.speed", "motion.slide_to_roll"), MOTION),
+    (("motion.speed",), ("motion.ring_rotation",)),
     (("lubricant.viscosity",), (*OILS, OIL_AT_100)),
     (("lubricant.pressure_viscosity",), ("lubricant.oil",)),
 )
 """(Keys, the words that they follow from)."""
+
+NUMBERS = {number for numbers, _ in FOLLOWS for number in numbers}
 
 _EITHER = (
     ("material", "modulus"), ("material", "poisson"), ("diameter", "radius_x"), ("radius_y", "conformity"),
@@ -42,6 +45,14 @@ NEEDS = {
 }
 """{word: what must be given with it}."""
 
+USERS = {
+    "lubricant.temperature": ("lubricant.oil", "lubricant.kinematic_viscosity_40"),
+    "lubricant.density": ("lubricant.kinematic_viscosity", "lubricant.kinematic_viscosity_40"),
+    OIL_AT_100: ("lubricant.kinematic_viscosity_40",),
+    **{f"{body}.rotation_radius": (f"{body}.rotation",) for body in BODIES},
+}
+"""{word: those of which one must be given, or it means nothing}."""
+
 HEIGHTS = "contact.surface", "surface.kind", "surface.file", "second_surface.kind", "second_surface.file"
 """Heights that are solved: lambda is by them, and not by a number."""
 
@@ -59,6 +70,9 @@ def word_choices(tables):
         yield Choice("with lubricant.oil", ("lubricant.viscosity_law",))
     for word in given(tables, NEEDS):
         yield Choice(f"with {word}", needs=NEEDS[word])
+    for word in given(tables, USERS):
+        if not given(tables, USERS[word]):
+            yield Choice(f"without {' or '.join(USERS[word])}", (word,))
     if found := given(tables, HEIGHTS):
         yield Choice(f"with {found[0]}", keys(("roughness", "Ra")))
 
@@ -68,3 +82,37 @@ def overridden(tables):
     for targets, words in FOLLOWS:
         for target in given(tables, targets):
             yield Choice(f"with {target}", words)
+
+
+def orphans(tables, settings):
+    """Numbers that settings leave without words: other words of nested values gave them, too, and go.
+
+    So of the speeds of two bodies the mean stays where motion.slide_to_roll is set.
+    """
+    gone = {
+        word for targets, words in FOLLOWS if given(settings, targets) and not given(settings, words)
+        for word in given(tables, words)
+    }  # fmt: skip
+    numbers = (target for targets, words in FOLLOWS if gone & {*words} for target in targets)
+    return [number for number in dict.fromkeys(numbers) if not given(settings, [number])]
+
+
+def beside(key):
+    """The other numbers that follow from the words that a key may follow from, and those words."""
+    groups = [(numbers, words) for numbers, words in FOLLOWS if key in numbers]
+    return [each for numbers, _ in groups for each in numbers if each != key], [
+        word for _, words in groups for word in words
+    ]
+
+
+def words_of(tables, number):
+    """The words in nested values that a number follows from."""
+    return [word for numbers, words in FOLLOWS if number in numbers for word in given(tables, words)]
+
+
+def left_over(tables, laid, settings):
+    """Words of nested values that nothing uses any more when settings are laid over them."""
+    return [
+        word for word, users in USERS.items()
+        if given(tables, users) and not given(laid, users) and not given(settings, [word])
+    ]  # fmt: skip

@@ -2,6 +2,8 @@
 
 from dataclasses import asdict, replace
 
+import numpy as np
+
 from mgehl.config_value import AUTO, FARTHEST
 from mgehl.kinds import loaded_checks, surface, time
 from mgehl.kinds.bodies import roughness
@@ -11,7 +13,7 @@ from mgehl.kinds.kind import Effort, Kind, kept_together
 from mgehl.kinds.lubricant import check_laws, lubricant_from, thinning_of
 from mgehl.model.films import formula_of, inlet_heating
 from mgehl.model.own_laws import OwnDensity
-from mgehl.model.room import domain_for
+from mgehl.model.room import domain_for, interval_on_nodes
 from mgehl.model.starvation import Starvation
 
 RELAXATION = Effort(
@@ -63,10 +65,20 @@ class LoadedKind(Kind):
         names = [name for name in ("x" if contact.is_plane else "xy") if getattr(config.grid, name) == AUTO]
         if not names:
             return config
-        ends = dict(zip("xy", self.domain(contact, config.grid.nodes), strict=True))
+        ends = dict(zip("xy", self._domain(config, contact), strict=True))
         if time.reverses(config):
             ends = {name: (-max(-end[0], end[1]), max(-end[0], end[1])) for name, end in ends.items()}
         return replace(config, grid=replace(config.grid, **{name: ends[name] for name in names}))
+
+    def _domain(self, config, contact):
+        """The ends along x and y, in semi-axes of the first load, of a domain for every load of a run."""
+        contacts = time.extremes(config, contact)
+        found = [self.domain(each, config.grid.nodes) for each in contacts]
+        if len(found) == 1:
+            return found[0]
+        wide = np.array([each.x_scale / contact.x_scale for each in contacts])
+        farthest = np.minimum(FARTHEST, np.max(wide[:, None, None] * np.abs(found), axis=0))
+        return [interval_on_nodes(*map(float, ends)) if any(ends) else (0.0, 0.0) for ends in farthest]
 
     def domain(self, contact, nodes):
         """The ends along x and y of a domain as small as the film of a formula and the peaks that may touch
@@ -77,7 +89,10 @@ class LoadedKind(Kind):
     def check(self, config, contact):
         """The contact must be small beside the bodies; otherwise as `check_fluid`."""
         loaded_checks.check_deformation(config, contact)
-        loaded_checks.check_size(*self.size(config, contact))
+        heaviest = time.extremes(config, contact)[-1]
+        loaded_checks.check_size(*self.size(config, heaviest))
+        if not config.is_dry:
+            loaded_checks.check_exponent(heaviest)
         if contact.surface is not None:
             surface.check_known(config, contact)
         check_factor(config, contact)
@@ -85,8 +100,9 @@ class LoadedKind(Kind):
         if contact.surface is not None:
             surface.check_surfaces(config, contact, self.mesh(config, contact))
         self.check_fluid(config.grid, contact)
-        if time.reverses(config):
-            loaded_checks.check_domain(config.grid, contact, way=-1.0)
+        ways = [1.0] * (heaviest is not contact) + [-1.0] * time.reverses(config)
+        for way in ways:
+            loaded_checks.check_domain(config.grid, heaviest, way, heaviest.x_scale / contact.x_scale)
 
     def check_fluid(self, grid, contact):
         """Laws must give numbers; the domain must be large enough for contact and inlet."""
@@ -138,8 +154,9 @@ class LoadedKind(Kind):
                 for words in lambda_words(config, contact.expected_film, "a formula's")
             ),
             *(f"heat       {words}" for words in heat_words(config, contact)),
-            f"load       {contact.load:.6g} {self.load_unit}   speed {contact.speed:.6g} m/s, "
-            "the mean of both surfaces' speeds",
+            f"load       {_over_time(config, time.load_key(config), contact.load)} {self.load_unit}   "
+            f"speed {_over_time(config, 'motion.speed', contact.speed)} m/s, the mean of both surfaces' "
+            "speeds",
         ]
 
     def parts(self, solution, times="x"):
@@ -183,6 +200,12 @@ class LoadedKind(Kind):
             "moes_L": (groups.L, "1", "material number L of Moes"),
         }
         return {name: number for name, number in found.items() if number is not None}
+
+
+def _over_time(config, key, value):
+    """A value of a contact, or from where to where it goes in time."""
+    least, most = time.range_of(config, key)
+    return f"{value:.6g}" if least == most or config.moes.M is not None else f"{least:.6g} to {most:.6g}"
 
 
 def _nm(of, name, meaning=HALF_WIDTH):

@@ -64,15 +64,15 @@ def check_exponent(contact):
         )
 
 
-def check_domain(grid, contact, way=1.0):
+def check_domain(grid, contact, way=1.0, wide=1.0):
     """The contact must lie in the domain, and so must the inlet upstream of it.
 
-    `way` is -1 for surfaces that have turned round.
+    `way` is -1 for surfaces that have turned round, `wide` the contact's semi-axes over those of the grid.
     """
     length = way * contact.inlet_length
     inlets = contact.motion[0] * length, contact.motion[1] * length * contact.k_e
     for (name, ends), inlet in zip(_sides(grid, contact), inlets, strict=False):
-        needed, side = contact.reach + abs(inlet), None
+        needed, side = wide * (contact.reach + abs(inlet)), None
         if inlet > 0.0 and needed > -ends[0]:
             side = f"begin before {-needed:.3g}"
         elif inlet < 0.0 and needed > ends[1]:
@@ -80,13 +80,13 @@ def check_domain(grid, contact, way=1.0):
         if side:
             words = f"must {side}, where the inlet that builds the film begins"
             raise ConfigError(f"grid.{name} = {list(ends)!r}: {words}")
-    check_reach(grid, contact)
+    check_reach(grid, contact, wide)
 
 
-def check_reach(grid, contact):
+def check_reach(grid, contact, wide=1.0):
     """The contact must lie in the domain."""
-    reach = contact.reach
-    who = "contact may on a layer so soft" if reach > 1.0 else "contact of smooth bodies does"
+    reach = wide * contact.reach
+    who = "contact may on a layer so soft" if contact.reach > 1.0 else "contact of smooth bodies does"
     for name, ends in _sides(grid, contact):
         if min(-ends[0], ends[1]) <= reach:
             words = f"must reach beyond {reach:.3g} on both sides, as far as the {who}"

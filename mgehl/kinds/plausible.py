@@ -2,7 +2,7 @@
 
 from dataclasses import asdict
 
-from mgehl.model.course import course_of
+from mgehl.kinds.time import begins_at_rest
 from mgehl.model.films import formula_of
 from mgehl.model.frame import direction
 from mgehl.model.lubricant import Roelands
@@ -118,8 +118,7 @@ def _stands_still(config, contact):
 
 def _parts_from_rest(config):
     """A start from rest of bodies without layers."""
-    speed = config.motion.speed
-    if not config.is_in_time or config.contact.boundary_film or course_of(speed).value(0.0):
+    if config.contact.boundary_film or not begins_at_rest(config):
         return
     yield (
         "contact.boundary_film is not given: bodies at rest part on films as thin as rounding; until they "

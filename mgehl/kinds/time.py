@@ -92,7 +92,7 @@ def reference(config, key):
     value = config.value(key)
     if not isinstance(value, str):
         return value
-    least, most = _naming(key, value, lambda: course(key, value).range(config.time.end or 0.0))
+    least, most = range_of(config, key)
     if key == "motion.speed":
         return max(abs(least), abs(most))
     first = course(key, value).value(0.0)
@@ -131,13 +131,32 @@ def _wrong_with(key, value, end):
     return "begins below 0; turn motion.angle by 180 degrees" if found.value(0.0) < 0.0 else None
 
 
+def range_of(config, key):
+    """The least and the largest value of a key that may be a course, until time.end."""
+    value = config.value(key)
+    if not isinstance(value, str):
+        return value, value
+    return _naming(key, value, lambda: course(key, value).range(config.time.end or 0.0))
+
+
+def extremes(config, contact):
+    """The contact at its least and at its largest load until time.end; it alone where that stays."""
+    loads = range_of(config, load_key(config))
+    if config.moes.M is not None or loads[0] == loads[1]:
+        return (contact,)
+    return tuple(replace(contact, load=load) for load in loads)
+
+
 def reverses(config):
     """Whether the surfaces turn round until time.end."""
-    value = config.motion.speed
-    if config.time.end is None or not isinstance(value, str):
+    return config.is_in_time and range_of(config, "motion.speed")[0] < 0.0
+
+
+def begins_at_rest(config):
+    """Whether a run in time begins with surfaces at rest: from the dry contact."""
+    if not config.is_in_time or config.moes.M is not None:
         return False
-    least, _ = _naming("motion.speed", value, lambda: course("motion.speed", value).range(config.time.end))
-    return least < 0.0
+    return course("motion.speed", config.motion.speed).value(0.0) == 0.0
 
 
 PARTS = 200

@@ -6,7 +6,9 @@ from dataclasses import dataclass
 from math import nan
 from typing import NamedTuple
 
+from mgehl.kinds.bodies import roughness_of
 from mgehl.kinds.choice import value_of
+from mgehl.output.files import INPUTS
 from mgehl.output.stored import read_texts
 
 
@@ -56,8 +58,16 @@ class Told:
     """Why it has none."""
 
     def value(self, key):
-        """The value of "section.key"; None without one."""
-        return value_of(self.tables, key)
+        """The value of "section.key", given or derived; None without one."""
+        given = value_of(self.tables, key)
+        return (self.result or {}).get(INPUTS, {}).get(key) if given is None else given
+
+    @property
+    def lambda_ratio(self):
+        """Of heights the smooth film over Sq; of roughness by its numbers the film over Rq; else None."""
+        rms, film = roughness_of(self.tables), told_at(self.result, "central_film_nm")
+        of_heights = told_at(self.result, "mixed.lambda_ratio")
+        return 1e-9 * film / rms if of_heights is None and rms and film else of_heights
 
     def number(self, path):
         """What result.json has under nested names; nan where that is nothing."""

@@ -85,6 +85,8 @@ def _row(directory, keys):
         if path.split(".")[0] in result:
             found = told_at(result, path)
             row[name] = shape(found) if callable(shape) else "" if found is None else format(found, shape)
+    if told.lambda_ratio is not None:
+        row["lambda"] = format(told.lambda_ratio, ".4g")
     history = csv.DictReader(texts["history.csv"].splitlines())
     of_all = nodes if told.value("contact.kind") == "line" else nodes**2
     row |= _work([each for each in history if int(each["grid"]) == nodes], of_all)

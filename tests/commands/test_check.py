@@ -53,6 +53,23 @@ def test_all_physical_input_is_told_and_what_nobody_gave(told, tmp_path, capsys)
     assert lines[first + 4].endswith("motion.speed: 5e-06 m/s is the paper's")
 
 
+def test_friction_heat_and_time_are_told_and_from_where_to_where_speed_and_load_go(told, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("courses")
+    (folder / "load.csv").write_text("0,20\n0.001,40\n")
+    (folder / "speed.csv").write_text("0,0\n0.001,0.3\n")
+    settings = {
+        "motion.speed": folder / "speed.csv", "contact.load": folder / "load.csv", "time.end": "1 ms",
+        "friction.model": "eyring", "friction.eyring_stress": "5 MPa", "motion.slide_to_roll": 0.1,
+        "heat.conductivity_1": 46, "heat.conductivity_2": 46, "heat.capacity_1": 3.6e6,
+        "heat.capacity_2": 3.6e6, "grid.nodes": 65,
+    }  # fmt: skip
+    text = told("ball_bearing.toml", *(f"--set={key}={value}" for key, value in settings.items()))
+    assert "friction   model eyring   eyring_stress 5e+06 Pa" in text
+    assert "heat       conductivity_1 46 W/m/K" in text and "time       end 0.001 s" in text
+    assert "load       20 to 40 N   speed 0 to 0.3 m/s" in text
+    assert "begins from the dry contact: the surfaces are at rest" in text and "a full film" not in text
+
+
 def test_a_bearing_of_a_catalogue_is_told_with_what_follows_from_it(told):
     text = told("bearing_6206.toml")
     assert "material steel   diameter 0.009525 m" in text and "not given" not in text

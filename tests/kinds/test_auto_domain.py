@@ -61,6 +61,22 @@ def test_a_soft_layer_and_waves_have_a_domain():
     assert mesh_from(config, contact).x[1] > contact.reach
 
 
+def test_a_load_that_grows_has_a_domain_for_its_largest(tmp_path):
+    """A domain for the first load ended inside the contact of the last."""
+    (tmp_path / "load.csv").write_text("0,1\n1,1000\n")
+    grows = ["time.end=1", f"contact.load={tmp_path / 'load.csv'}", "motion.speed=0.5"]
+    config, contact = loaded(*grows)
+    _, last = loaded("contact.load=1000", "motion.speed=0.5")
+    first, grid = settled(*loaded("contact.load=1", "motion.speed=0.5")).grid, settled(config, contact).grid
+    assert contact.load == 1.0 and first.x[1] < 10.0 < grid.x[1] and grid.x[0] <= first.x[0]
+    check_contact(config, contact)
+    check_contact(*loaded(*grows, "motion.angle=30"))
+    check_contact(*loaded(*grows, "contact.radius_y=40 mm"))
+    with pytest.raises(ConfigError, match=r"grid.x = .*: must begin before -1\d"):
+        check_contact(*loaded(*grows, "grid.x=[-8, 8]"))
+    assert last.x_scale == pytest.approx(10.0 * contact.x_scale)
+
+
 LIGHT_AND_ROUGH = [
     "contact.radius_x=2.7 mm", "contact.radius_y=2.7 mm", "contact.load=0.12", "motion.speed=0.03",
     "lubricant.viscosity=0.0075", "lubricant.pressure_viscosity=9.5 1/GPa", "grid.nodes=129",

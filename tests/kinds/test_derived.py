@@ -11,6 +11,7 @@ from mgehl.config import KEYS, ConfigError, config_from_tables, load_config
 from mgehl.kinds import contact_from
 from mgehl.kinds.derived import EITHER, FOLLOWS, NEEDS
 from mgehl.model.oils import OILS
+from mgehl.output.report.run_report import inputs_of
 
 CONFIGS = Path(__file__).resolve().parents[2] / "configs"
 STEEL = {"body_1.material": "steel", "body_2.material": "steel"}
@@ -149,9 +150,13 @@ def test_what_a_word_needs_is_named(word):
         ({"body_1.speed": 1, "body_2.speed": -1}, ["1 and -1 m/s", "mean must be positive"]),
         ({"body_1.radius_x": "5 mm"}, ["body_1.radius_y or body_2.radius_y: must be given"]),
         ({"body_1.diameter": "10 mm", "body_2.radius_y": "-4 mm"}, ["along y", "1/5 + 1/-4"]),
+        ({"body_1.diameter": "900 m"}, ["body_1.diameter: contact.radius_x = 450.0: must be"]),
         ({"body_1.diameter": 0}, ["body_1: a radius of 0 m along x: must be at least"]),
         ({"body_2.conformity": 0.52}, ["body_2.conformity: needs"]),
         ({"body_1.rotation": "60 rpm", "body_2.speed": 0}, ["body_1.rotation_radius: must be given"]),
+        ({"lubricant.temperature": "60 degC", "lubricant.viscosity": 0.01},
+         ["temperature = '60 degC': means nothing without lubricant.oil or lubricant.kinematic_visc"]),
+        ({"lubricant.density": 850}, ["density = 850: means nothing without lubricant.kinematic_visc"]),
         ({"body_1.rotation": "100 Hz"}, ["turns or radians", "6000 rpm"]),
         ({"body_1.rotation": "600 1/min"}, ["turns or radians"]),
         ({"motion.ring_rotation": "60 rpm"}, ["ring_rotation: needs diameter or radius_x of body_1"]),
@@ -182,6 +187,49 @@ def test_a_setting_takes_the_place_of_what_a_file_says_otherwise():
     )
     glass = config.with_({"body_2.modulus": "82 GPa", "body_2.poisson": 0.206})
     assert glass.body_2.material is None
+
+
+def test_a_setting_pushes_out_no_more_than_it_replaces():
+    """One key of motion dropped the speeds of both bodies: a stranger solved at the paper's 5e-6 m/s."""
+    bodies = {"body_1.diameter": "19 mm", "body_1.speed": "1 m/s", "body_2.rotation": "90 rad/s"}
+    bodies |= STEEL | OIL | {"body_2.rotation_radius": "10 mm", "body_2.radius_y": "1 m"}
+    config = of(bodies)
+    slides = config.with_({"motion.slide_to_roll": 0.2})
+    assert slides.motion.speed == config.motion.speed == 0.95 and slides.motion.slide_to_roll == 0.2
+    faster = config.with_({"motion.speed": 2.0})
+    assert faster.motion.slide_to_roll == config.motion.slide_to_roll == pytest.approx(0.1 / 0.95)
+    assert config.with_({"motion.speed": 2.0, "body_1.diameter": "20 mm"}).contact.radius_x == 0.01
+    narrow = config.with_({"contact.radius_x": "5 mm"}).contact
+    assert (narrow.radius_x, narrow.radius_y) == (5e-3, config.contact.radius_y)
+    thin = config.with_({"lubricant.viscosity": 0.01}).lubricant
+    assert (thin.viscosity, thin.pressure_viscosity) == (0.01, config.lubricant.pressure_viscosity)
+
+
+@pytest.mark.parametrize("setting", ["lubricant.viscosity=.01", "lubricant.oil=M100", "motion.speed=1",
+    "lubricant.kinematic_viscosity=9 cSt", "lubricant.pressure_viscosity=9 1/GPa", "body_1.speed=1",
+    "motion.ring_rotation=9 rpm"])  # fmt: skip
+@pytest.mark.parametrize("oil", [OIL, TWO | {"lubricant.temperature": 330, "lubricant.density": 850}])
+def test_what_nothing_uses_any_more_goes_with_what_a_setting_replaces(setting, oil):
+    balls = {"body_1.diameter": "9 mm", "body_2.diameter": "50 mm", "body_2.speed": 0}
+    config = of(balls | oil | {"body_1.rotation": "9 rpm", "body_1.rotation_radius": "1 mm"})
+    if setting.startswith("lubricant.kin") and oil is OIL:
+        setting = {"lubricant.kinematic_viscosity": 9e-6, "lubricant.density": 850}
+    config.with_(setting if isinstance(setting, dict) else [setting])
+
+
+def test_friction_heat_and_time_are_rows_of_the_report():
+    rows = inputs_of(of({"friction.model": "eyring", "friction.eyring_stress": "5 MPa", "time.end": 1}))
+    told = {key: words for (key, _), words, _ in rows}
+    assert told["friction.eyring_stress"] == "5e+06 Pa" and told["time.end"] == "1 s"
+
+
+def test_a_bearing_may_slip_and_keeps_its_speed():
+    config = load_config(CONFIGS / "bearing_6206.toml")
+    slips = config.with_({"motion.slide_to_roll": 0.1})
+    assert slips.motion.speed == config.motion.speed and slips.motion.ring_rotation is not None
+    faster = slips.with_({"motion.ring_rotation": "9000 rpm"})
+    assert faster.motion.speed == pytest.approx(1.5 * config.motion.speed)
+    assert faster.motion.slide_to_roll == 0.1
 
 
 def test_a_dry_contact_has_bodies_and_no_motion():

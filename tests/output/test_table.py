@@ -3,6 +3,8 @@
 import pytest
 
 from mgehl.cli import main
+from mgehl.output.pictures.curves import curves
+from mgehl.output.quantities import read_told
 from mgehl.output.table import collect, drawn, with_bands
 
 
@@ -44,3 +46,20 @@ def test_a_row_for_each_run_of_any_kind(runs):
         1.0, abs=0.1
     )
     assert float(rows["wedge"]["load N"]) > 0.0 and rows["line"]["load N"] == ""
+
+
+def test_runs_of_a_bearing_have_the_speed_that_follows_and_their_lambda(tmp_path):
+    """Both columns were empty, and nothing could be drawn against the speed."""
+    ball = [
+        "body_1.diameter=20 mm", "body_2.radius_x=50 mm", "body_1.roughness=30 nm",
+        "body_2.roughness=40 nm", "grid.nodes=65", "solver.error=false", "solver.start=film",
+    ]  # fmt: skip
+    names = [str(tmp_path / name) for name in ("slow", "fast")]
+    for name, turns in zip(names, (600, 1200), strict=True):
+        settings = [f"--set={each}" for each in (*ball, f"motion.ring_rotation={turns} rpm")]
+        assert main(["run", "--quiet", "--out", name, *settings]) == 0
+    slow, fast = collect(names, ["motion.speed", "motion.ring_rotation"])
+    assert float(fast["motion.speed"]) == pytest.approx(2.0 * float(slow["motion.speed"]), rel=1e-9)
+    assert float(slow["lambda"]) == pytest.approx(float(slow["central nm"]) / 50.0, rel=1e-3)
+    figure = curves([read_told(name) for name in names], "motion.speed")
+    assert len(figure.axes[0].lines[0].get_xdata()) == 2

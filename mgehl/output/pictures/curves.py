@@ -7,6 +7,8 @@ import numpy as np
 
 from mgehl.config import KEYS
 from mgehl.errors import UserError
+from mgehl.kinds.choice import value_of
+from mgehl.kinds.derived import beside
 from mgehl.output.pictures.style import COLOURS, MARKS, legend_under_all, subplots
 from mgehl.output.pictures.titles import DOMAIN, differing, key_words
 from mgehl.output.quantities import QUANTITIES
@@ -81,8 +83,17 @@ def _label(label, panel):
 
 
 def _groups(runs, key, names):
-    """{what runs have in common but the key: (their numbers, colour, mark)}, in order."""
-    differ = [each for each in differing([run.tables for run in runs]) if each not in (key, *DOMAIN)]
+    """{what runs have in common but the key: (their numbers, colour, mark)}, in order.
+
+    Of a key that follows from words the other numbers that follow from them are told, and not the words.
+    """
+    numbers, words = beside(key) if any(value_of(run.tables, key) is None for run in runs) else ((), ())
+    differ = [
+        each for each in differing([run.tables for run in runs]) if each not in (key, *words, *DOMAIN)
+    ]
+    differ += [
+        each for each in numbers if each not in differ and len({run.value(each) for run in runs}) > 1
+    ]
     found = defaultdict(list)
     for number, run in enumerate(runs):
         said = [key_words(each, run.value(each)) for each in differ if run.value(each) is not None]
