@@ -100,6 +100,7 @@ GRIDS_moving := --nodes 513
 GRIDS_transition := --nodes 257,513,1025
 SHOWN_courses := *.png
 SHOWN_grid := *.png
+SHOWN_moving := *.png
 SHOWN_solids := *.png
 SHOWN_transition := *.png
 studies: $(STUDIES:%=study-%)

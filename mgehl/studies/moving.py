@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
+from mgehl.output.pictures.style import GUIDE, subplots
 from mgehl.studies.columns import told
 from mgehl.studies.study import merged
 from mgehl.studies.waviness import ALPHA, FLUIDS, MODULUS, RADIUS, SMALL, VISCOSITY, line_case
@@ -65,7 +66,7 @@ def dimple(x, y):
 
 
 def run(study):
-    """Solve all; write the tables `waves`, `points` and `dimple`."""
+    """Solve all; write the tables `waves`, `points` and `dimple`, and the picture `points`."""
     nodes = study.nodes[0] if study.nodes else NODES
     on_points = min(nodes, POINT_NODES)
     cases = [(ROELANDS, length, 1.0) for length in (4.0, 2.0)]
@@ -74,7 +75,9 @@ def run(study):
     study.cases = len(cases) + len(POINT_LENGTHS) + len(PLACES) + 4
     smooth = {line: study.solve(f"smooth, M {line[0]:g}", _line(line, nodes)) for line in (ROELANDS, BARUS)}
     study.write_table("waves", [_wave(study, smooth[case[0]], *case, nodes) for case in cases])
-    study.write_table("points", list(_points(study, on_points)))
+    points = list(_points(study, on_points))
+    study.write_table("points", points)
+    study.draw("points", figure, points)
     study.write_table("dimple", list(_dimple(study)))
 
 
@@ -141,11 +144,28 @@ def _points(study, nodes):
         yield {
             "M": f"{M:g}", "L": f"{L:g}", "wavelength/a": f"{length:g}", "n": f"{n:.2f}",
             "swing/A": f"{swing:.3f}",
-            "master curve": f"{1.0 / (1.0 + 0.15 * n + 0.015 * n * n):.3f}",
+            "master curve": f"{master_curve(n):.3f}",
             "computed there": f"{COMPUTED[length]:.3f}" if length in COMPUTED else "",
             **_steps(found.result.time),
             **told(found.result, "converged"),
         }  # fmt: skip
+
+
+def master_curve(n):
+    """Amplitude that is left of waves in pure rolling  [Venner and Lubrecht 2000, eq. 29]."""
+    return 1.0 / (1.0 + 0.15 * n + 0.015 * n**2)
+
+
+def figure(points):
+    """The rows of a point contact beside the master curve."""
+    drawn, axis = subplots(size=(5.6, 3.8))
+    n = np.geomspace(0.3, 30.0, 200)
+    axis.plot(n, master_curve(n), color=GUIDE, label="Venner and Lubrecht")
+    solved = np.array([[float(row["n"]), float(row["swing/A"])] for row in points]).T
+    axis.plot(*solved, "o", label="solved")
+    axis.set(xscale="log", xlabel="n = (wavelength/a) sqrt(M/L)", ylabel="amplitude left", ylim=(0.0, 1.05))
+    axis.legend(frameon=False)
+    return drawn
 
 
 def _steps(time):
