@@ -122,7 +122,7 @@ def _sort_columns(linearisation, evaluation, rows, leaks):
                 stencil[:, closed] = 0.0
     if torn is not None:
         taken = {offset: _taken(linearisation, torn, offset) for offset in offsets}
-        # A cavity without a gap carries nothing, and has its own column none the less.
+        # Cavities have columns of their own, though none of them carries anything.
         linearisation.carried = {
             offset: each for offset, each in taken.items() if each.any() or offset == (0, 0)
         }

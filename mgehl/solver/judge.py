@@ -51,8 +51,10 @@ def judge(position, partition, limits):
     cycle = position.cycles[-1]
     limit = position.trial.limit if position.trial else limits.max_steps
     small = cycle.residual <= limits.tolerance and abs(cycle.load_error) <= limits.tolerance
-    if small and (cycle.changes.total == 0 or cycle.residual < limits.certain):
+    if small and cycle.changes.total == 0:
         return Verdict(True, True, "residual, load and sets settled")
+    if small and cycle.residual < limits.certain:
+        return Verdict(True, True, "residual and load settled, below what tells the sets apart")
     if not cycle.residual < DIVERGED:
         return Verdict(True, reason=f"diverged: residual {cycle.residual:.1e} after {cycle.step} steps")
     if partition.restless:

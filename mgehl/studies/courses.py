@@ -138,7 +138,7 @@ def _slow(study, nodes):
 
 def off(rows, films, way):
     """The most by which central films are off the steady `films` at the speed that the surfaces had before
-    they went the last `way` in m; of rows after the first two such ways."""
+    they went the last `way` in m; of rows after the first four such ways."""
     if not rows:
         return np.nan
     t, h = (np.array([row[name] for row in rows]) for name in ("time_s", "central_film_nm"))
@@ -147,8 +147,8 @@ def off(rows, films, way):
     path = np.interp(t, fine, gone)
     speed = np.array([swinging(each) for each in np.interp(path - way, gone, fine)])
     steady = np.exp(CubicSpline(np.log(STEADY), np.log(films))(np.log(speed)))
-    settled = path > 4.0 * way
-    return float(np.abs(h / steady - 1.0)[settled].max())
+    later = path > 4.0 * way
+    return float(np.abs(h / steady - 1.0)[later].max())
 
 
 def figure(courses):

@@ -268,3 +268,10 @@ class TestSpreadingContact:
 
     def test_elsewhere_it_may_spread_for_ever(self, spreading):
         assert spreading(list(range(10)), steps=None) is GO_ON
+
+
+def test_a_step_in_time_need_not_wait_for_sets_that_no_residual_tells_apart(partition, make_position):
+    """By the settings of a steady solve the same position goes on."""
+    position = make_position(residual=0.1 * TOLERANCE, changes=Changes(entered=1))
+    assert judge(position, partition, replace(LIMITS, certain=TOLERANCE)).converged
+    assert not judge(position, partition, LIMITS).ends
