@@ -18,7 +18,7 @@ from mgehl.multigrid.jacobian import LinearSystem
 from mgehl.solver.arbiter import RELEASE_STEPS, Ruling, rule
 from mgehl.solver.cavitation import relax_cavitation_set
 from mgehl.solver.journal import NOTHING_KEPT
-from mgehl.solver.judge import UNSOLVED, is_stuck, judge, judge_system, judge_work
+from mgehl.solver.judge import UNSOLVED, goes_in_a_circle, is_stuck, judge, judge_system, judge_work
 from mgehl.solver.layers import FluidInLayers
 from mgehl.solver.outcome import Cycle, Outcome
 from mgehl.solver.partition import Changes, Partition
@@ -138,6 +138,8 @@ class Newton:
     def _settle(self):
         """Bring the fluid, its cavities and their pressures to rest at the present gap."""
         problem, state, changes = self._problem, self._position.state, self._position.changes
+        by_film = self._settings.by_film
+        self._partition.in_turn = goes_in_a_circle(self._position, by_film)
         if self._fluid:
             before = state.status.copy()
             reached = self._position.cycles[-1].residual if self._position.cycles else 1.0
@@ -146,7 +148,7 @@ class Newton:
             changes.cavitated += problem.grid.count(before != state.status)
         else:
             evaluation, moved = problem.evaluate(state), 0
-            if not is_stuck(self._position, self._settings.by_film):
+            if not (self._partition.in_turn or is_stuck(self._position, by_film)):
                 moved = relax_cavitation_set(problem, state, evaluation)
             changes.cavitated += moved
             self._evaluate(None if moved else evaluation)

@@ -4,12 +4,18 @@ cavitated  enters when P < 0, leaves when it would hold more than its gap does
 contact    enters when H <= H_th, leaves when P < 0 (always) or when its P is below the fluid
            pressure beside it [Liu eq. 2] (when the sets have settled, a finite number of times);
            one that leaves its faces open leaves when p > P, and at P < 0
+
+All nodes whose sign is wrong change at once. Where that goes in a circle, neighbours change in turn: in a
+valley one node that is torn or fills takes away what asked the next one to. (Block principal pivoting,
+Judice and Pires 1994, does the same with all nodes of a linear complementarity problem.)
 """
 
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.ndimage import maximum_filter
 
+from mgehl.discretization.axes import own
 from mgehl.discretization.mesh import HALO
 from mgehl.discretization.status import (
     CAVITATED,
@@ -103,6 +109,8 @@ class Partition:
         self._contact_law = problem.scheme.contact_law
         self._budget = release_budget
         self.past = self.nothing_past()
+        self.in_turn = False
+        """Whether neighbours whose signs are wrong change in turn, and not at once."""
 
     def nothing_past(self):
         """The `Past` of nodes before the first step."""
@@ -123,6 +131,8 @@ class Partition:
         """Set negative pressures to zero in place: fluid cavitates, contact is released."""
         P, status = state.P, state.status
         torn, tensile = self.tension(P, status)
+        P[torn] = np.where(self._whose_turn(torn, -P), P, 0.0)[torn]
+        torn &= P < 0.0
         self.past.torn_pressure[tensile] = P[tensile]
         self.past.turns += tensile & self._contact_law.closes_faces
         P[torn | tensile] = 0.0
@@ -177,8 +187,8 @@ class Partition:
 
     def fill(self, state, changes):
         """Cavities whose content is more than the gap holds become film."""
-        filled = overflows(state)
-        filled &= self._contact_law.takes_fluid(state.H)
+        filled = overflows(state) & self._contact_law.takes_fluid(state.H)
+        filled = self._whose_turn(filled, state.filling)
         state.status[filled] = LUBRICATED
         changes.filled += self._grid.count(filled)
 
@@ -186,11 +196,21 @@ class Partition:
         """Contact that leaves its faces open becomes film where the fluid would press harder than it."""
         if self._contact_law.closes_faces:
             return
-        pressed = np.maximum(-self._lifted(state), 0.0)
-        opened = (state.status == CONTACT) & (state.p - state.P > pressed)
+        excess = state.p - state.P - np.maximum(-self._lifted(state), 0.0)
+        opened = self._whose_turn((state.status == CONTACT) & (excess > 0.0), excess)
         state.status[opened] = LUBRICATED
         self.past.just_released |= opened
         changes.released += self._grid.count(opened)
+
+    def _whose_turn(self, asked, excess):
+        """Of the nodes that are `asked` to change those that do so now, all (lines, nx) (collective).
+
+        All of them, or each whose `excess` no neighbour that is asked surpasses.
+        """
+        if not self.in_turn:
+            return asked
+        largest = maximum_filter(self._grid.halo(np.where(asked, excess, 0.0)), size=3)
+        return asked & (excess >= own(largest))
 
     @property
     def restless(self):

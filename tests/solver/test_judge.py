@@ -10,10 +10,12 @@ from petsc4py import PETSc
 from mgehl.discretization.status import BOUNDARY, LUBRICATED
 from mgehl.solver.judge import (
     GO_ON,
+    IDLE_CIRCLE,
     IDLE_STUCK,
     STALLS,
     STUCK,
     Verdict,
+    goes_in_a_circle,
     is_stuck,
     judge,
     judge_system,
@@ -169,6 +171,16 @@ def test_many_steps_that_gain_nothing_are_stuck_though_one_wins_back_what_anothe
         position.cycles[:] = [make_position(each).cycles[0] for each in residuals[:steps]]
         assert not is_stuck(position, True)
         assert is_stuck(position, False) == (steps > IDLE_STUCK)
+
+
+@pytest.mark.parametrize("by_film", [True, False])
+def test_sets_are_taken_for_a_circle_after_some_steps_in_vain(make_position, by_film):
+    """Where contact closes continuously."""
+    position = make_position()
+    for steps in (IDLE_CIRCLE, IDLE_CIRCLE + 1):
+        residuals = [1.0, 12.0, 0.95, 8.0, 6.0, 5.0][:steps]
+        position.cycles[:] = [make_position(each).cycles[0] for each in residuals]
+        assert goes_in_a_circle(position, by_film) == (by_film and steps > IDLE_CIRCLE)
 
 
 class TestWork:

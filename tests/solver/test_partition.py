@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+import mgehl
 from mgehl.discretization.contact_law import BoundaryFilm, InterfaceConditions, UnifiedEquations
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
@@ -293,3 +294,55 @@ def contact_start(paper_contact, make_hierarchy, usual_law):
 def test_a_node_that_its_flow_would_lift_is_not_solved_apart(contact_start):
     outcome, *_ = contact_start(15)
     assert outcome.converged and outcome.cycles[-1].step <= 9
+
+
+class TestTurns:
+    """Neighbours whose signs are wrong: at once, or in turn."""
+
+    WRONG = (4, slice(2, 5)), (2, 7)
+    """Three neighbours, and a node apart."""
+
+    @pytest.fixture(params=[False, True])
+    def in_turn(self, request):
+        return request.param
+
+    @pytest.fixture
+    def partition(self, make_partition, in_turn):
+        partition = make_partition(law=BoundaryFilm(1e-3))
+        partition.in_turn = in_turn
+        return partition
+
+    @staticmethod
+    def is_changed(status, new, in_turn):
+        """Of neighbours the one in the middle alone, which asks most, where they take turns."""
+        assert status[2, 7] == new
+        assert (status[4, 2:5] == new).tolist() == ([False, True, False] if in_turn else 3 * [True])
+
+    def test_torn_film(self, partition, state, in_turn):
+        """What has to wait is a film without pressure."""
+        state.P[4, 2:5], state.P[2, 7] = (-0.1, -0.3, -0.2), -1e-9
+        changed_by(partition.cut_tension, state, cavitated=2 if in_turn else 4)
+        self.is_changed(state.status, CAVITATED, in_turn)
+        assert not state.P[4, 2:5].any() and state.P[2, 7] == 0.0
+
+    def test_overfull_cavities(self, partition, state, in_turn):
+        for where, filling in zip(self.WRONG, ((1.1, 1.3, 1.2), 1.01), strict=True):
+            state.status[where], state.filling[where] = CAVITATED, filling
+        changed_by(partition.fill, state, filled=2 if in_turn else 4)
+        self.is_changed(state.status, LUBRICATED, in_turn)
+
+    def test_contact_that_opens(self, partition, state, in_turn):
+        for where, excess in zip(self.WRONG, ((0.1, 0.3, 0.2), 0.01), strict=True):
+            state.status[where], state.H[where] = CONTACT, 1e-3
+            state.p[where] = state.P[where] + excess
+        changed_by(partition.open_contact, state, released=2 if in_turn else 4)
+        self.is_changed(state.status, LUBRICATED, in_turn)
+
+
+def test_a_ball_whose_sets_went_in_a_circle_is_found():
+    """In a valley that oil hardly leaves, several nodes were torn at once, and filled again, for ever."""
+    asked = {"grid.nodes": 65, "motion.speed": 2.73e-6, "contact.boundary_film": 0.0}
+    limits = {"solver.error": False, "solver.max_work": 1000.0}
+    result = mgehl.solve(mgehl.load("configs/rough.toml", asked | limits)).result
+    assert result.converged
+    assert result.mass.largest_node < 1e-8 * result.mass.enters
