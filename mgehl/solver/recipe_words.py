@@ -60,7 +60,8 @@ def _steps(newton):
     scale = "the largest pressure" if newton.over_largest else "p_h"
     film = f" and {LARGEST_CHANGE:g} of the film" if newton.by_film else ""
     change = f"{newton.max_pressure_step:.2g} of {scale}{film}"
-    return f"{kind}; one changes at most {change}; {newton.idle_steps} in vain end it"
+    end = f"{newton.idle_steps} in vain" if newton.idle_steps < newton.max_steps else f"{newton.max_steps}"
+    return f"{kind}; one changes at most {change}; {end} end it"
 
 
 def plain(recipe):
