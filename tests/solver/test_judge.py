@@ -178,7 +178,7 @@ def test_sets_are_taken_for_a_circle_after_some_steps_in_vain(make_position, by_
     """Where contact closes continuously."""
     position = make_position()
     for steps in (IDLE_CIRCLE, IDLE_CIRCLE + 1):
-        residuals = [1.0, 12.0, 0.95, 8.0, 6.0, 5.0][:steps]
+        residuals = [1.0, 12.0, 0.95, 8.0, 6.0, 5.0, 4.0, 3.0, 2.0][:steps]
         position.cycles[:] = [make_position(each).cycles[0] for each in residuals]
         assert goes_in_a_circle(position, by_film) == (by_film and steps > IDLE_CIRCLE)
 
