@@ -1,7 +1,13 @@
 """A result in words: what a run, a `Solution` and a script print of it."""
 
 from mgehl.output.digits import with_band
-from mgehl.output.mixed_words import filling_words, friction_lines, heating_words, mixed_lines
+from mgehl.output.mixed_words import (
+    filling_words,
+    friction_lines,
+    heating_words,
+    mixed_lines,
+    strength_lines,
+)
 from mgehl.output.resolution import RESOLVED_CELLS, SEEN_CELLS, beyond_words, domain_words
 from mgehl.output.surface import surface_words
 
@@ -243,6 +249,9 @@ def _time_lines(time):
             shown["friction"] = ("friction", 1.0, "of the load")
         parts = [_mean_words(time.means[name], *how) for name, how in shown.items()]
         yield f"over the last passage: {', '.join(parts)}"
+    else:
+        yield "no means: the run ends before its first passage"
+    yield from strength_lines(time.largest_shear_MPa)
     yield "at the end:"
 
 
