@@ -208,6 +208,8 @@ DENT = {"surface.kind": "dent", "surface.amplitude": 1e-7, "surface.width": 1e-5
         ({"contact.load": [(0, 1), (1, 0)], "time.end": 1.0}, "must stay above 0"),
         ({"time.step": 2.0, "time.end": 1.0}, "must be at most 1"),
         ({"time.step": 2.0}, "without time.end"),
+        ({"contact.load": [(0, 1), (1, 2)], "time.end": 1.0, "time.until": "settled"}, 'must be "end"'),
+        ({"time.until": "settled"}, "means nothing without time.end"),
         ({"time.end": 1.0, "solver.method": "relaxation"}, "solver.method"),
         ({"time.end": 1.0, "discretization.contact_model": "unified"}, "discretization.contact_model"),
         (DENT | {"surface.body": "body_1"}, "give time.end"),
