@@ -67,7 +67,8 @@ def _dry_lines(result):
 def _loaded_lines(result, verbose):
     resolution = result.resolution
     if result.time:
-        yield from _time_lines(result.time)
+        yield from time_lines(result.time)
+        yield "at the end:"
     yield f"{films_words(result)}, largest pressure {largest_pressure_words(result)}"
     yield band_words(result.error)
     yield from heating_words(result.thermal_reduction, result.is_thermally_reduced)
@@ -232,7 +233,7 @@ def span(ends):
     return f"{ends[0]}..{ends[1]}" if ends else "none"
 
 
-def _time_lines(time):
+def time_lines(time):
     """What happened in a run in time, and the means over its last passage."""
     yield (
         f"in time: {1e3 * time.end_s:.6g} ms in {time.steps} steps, {time.halved} of them halved, half "
@@ -252,7 +253,6 @@ def _time_lines(time):
     else:
         yield "no means: the run ends before its first passage"
     yield from strength_lines(time.largest_shear_MPa)
-    yield "at the end:"
 
 
 def _mean_words(mean, name, scale, unit):
