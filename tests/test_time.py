@@ -191,6 +191,8 @@ def test_files_of_a_run_in_time(tmp_path):
     with h5netcdf.File(tmp_path / "run" / "frames.nc") as frames:
         assert frames["film"].shape[1:] == (65, 65)
         assert frames["film"][-1] == pytest.approx(solution.film, rel=1e-6)
+        flags = frames["status"].attrs
+        assert dict(zip(flags["flag_values"], flags["flag_meanings"].split(), strict=True))[3] == "contact"
     assert json.loads((tmp_path / "run" / "result.json").read_text())["time"]["steps"] == len(solution.rows)
 
 
