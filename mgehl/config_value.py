@@ -25,6 +25,14 @@ _QUANTITY = re.compile(rf"([-+]?[\d.]+(?:[eE][-+]?\d+)?)\s*((?:1\s*)?/)?\s*({_UN
 _NO_MATCH = re.match("(?P<number>)(?P<per>)(?P<units>)", "")
 """A quantity such as "7.5 mm/s" or "18.2 1/GPa", and one without a number, which no float reads."""
 
+_PRINTED = (
+    (re.compile(r"[·⋅∙]"), lambda _: "*"),
+    (re.compile(r"(⁻?)([¹²³])"), lambda m: f"^{'-' if m[1] else ''}{'¹²³'.index(m[2]) + 1}"),
+    (re.compile(r"/\s*\(([^()/]*)\)"), lambda m: "/" + "/".join(re.split(r"[ *]+", m[1].strip()))),
+    (re.compile(r"\b(m?)Pas\b"), lambda m: f"{m[1]}Pa*s"),
+)
+"""How data sheets print units that pint reads in another form: mPa·s, mm²/s, W/(m K), mPas."""
+
 EXAMPLES = {"K": "60 degC", "rad/s": "6000 rpm"}
 """Values of units that people seldom say in SI."""
 
@@ -133,7 +141,10 @@ def _with_unit(key, unit, text, instead=""):
     """The SI magnitude of a string such as "7.5 mm/s"."""
     example = f'a number in {unit or "no unit"} or a string such as "{EXAMPLES.get(unit, f"1 {unit}")}"'
     # Only a number and a unit: pint would also evaluate an expression, 9**9**9 for one.
-    number, per, units = (_QUANTITY.fullmatch(text.strip()) or _NO_MATCH).groups()
+    plain = text.strip()
+    for printed, typed in _PRINTED:
+        plain = printed.sub(typed, plain)
+    number, per, units = (_QUANTITY.fullmatch(plain) or _NO_MATCH).groups()
     try:
         if unit == "K":  # degrees have their zero elsewhere, and do not multiply; C is coulomb to pint
             units = {"C": "degC", "F": "degF"}.get(units, units)
@@ -145,8 +156,8 @@ def _with_unit(key, unit, text, instead=""):
     except ConfigError:
         raise
     except _pint().DimensionalityError:
-        other = f"; {instead}" if instead else ""
-        raise WrongUnitError(f"{key} = {shown(text)}: wrong unit; must be {example}{other}") from None
+        wrong, other = "wrong unit" if units else "has no unit", f"; {instead}" if instead else ""
+        raise WrongUnitError(f"{key} = {shown(text)}: {wrong}; must be {example}{other}") from None
     except Exception:
         raise ConfigError(f"{key} = {shown(text)}: not understood; must be {example}") from None
 

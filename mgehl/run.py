@@ -169,8 +169,9 @@ def _solve_in_time(case, parts, comm, watch, start):
         how = settings, diary, monitor.beside, _journal(config, monitor, watch)
         problem, outcome = march(scene, hierarchy, *how, start and (start, parts.frame))
         work = Work(monitor.convolutions, len(monitor.rows))
+        rows, limit = monitor.rows, config.solver.tolerance
         result = summarise_in_time(
-            problem, outcome, monitor.rows, config.solver.tolerance, work, monitor.seconds, versions()
+            problem, outcome, rows, scene.passage, limit, work, monitor.seconds, versions()
         )
         result = replace(result, recipe=parts.recipe(start))
         solution = _solution(case, parts, problem, outcome.state, monitor.rows, result)

@@ -191,6 +191,8 @@ def test_files_of_a_run_in_time(tmp_path):
     with h5netcdf.File(tmp_path / "run" / "frames.nc") as frames:
         assert frames["film"].shape[1:] == (65, 65)
         assert frames["film"][-1] == pytest.approx(solution.film, rel=1e-6)
+        flags = frames["status"].attrs
+        assert dict(zip(flags["flag_values"], flags["flag_meanings"].split(), strict=True))[3] == "contact"
     assert json.loads((tmp_path / "run" / "result.json").read_text())["time"]["steps"] == len(solution.rows)
 
 
@@ -208,6 +210,8 @@ DENT = {"surface.kind": "dent", "surface.amplitude": 1e-7, "surface.width": 1e-5
         ({"contact.load": [(0, 1), (1, 0)], "time.end": 1.0}, "must stay above 0"),
         ({"time.step": 2.0, "time.end": 1.0}, "must be at most 1"),
         ({"time.step": 2.0}, "without time.end"),
+        ({"contact.load": [(0, 1), (1, 2)], "time.end": 1.0, "time.until": "settled"}, 'must be "end"'),
+        ({"time.until": "settled"}, "means nothing without time.end"),
         ({"time.end": 1.0, "solver.method": "relaxation"}, "solver.method"),
         ({"time.end": 1.0, "discretization.contact_model": "unified"}, "discretization.contact_model"),
         (DENT | {"surface.body": "body_1"}, "give time.end"),

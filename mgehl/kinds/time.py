@@ -27,7 +27,8 @@ class TimeSection:
         above=0.0, high=0.1)
     save_every: float | None = number(None, "time between two fields that are kept (unset: 50 in a run)",
         "s", above=0.0, high=1e9)
-    until: str = word("end", "when it ends: at time.end, or before when means over passages have settled",
+    until: str = word("end", "when it ends: at time.end, or before when means over passages have settled, "
+        "at a speed and a load that stay",
         ("end", "settled"))
     # fmt: on
 
@@ -106,7 +107,11 @@ def check_courses(config):
         value = config.value(key)
         if isinstance(value, str) and (wrong := _wrong_with(key, value, end)):
             raise ConfigError(f"{key} = {value!r}: {wrong}")
+        if config.time.until == "settled" and len(set(range_of(config, key))) > 1:
+            raise ConfigError(f'time.until = "settled": must be "end" where {key} changes with time')
     if end is None:
+        if config.time.until == "settled":
+            raise ConfigError('time.until = "settled": means nothing without time.end')
         return
     if step is not None and step > end:
         raise ConfigError(f"time.step = {step:g}: must be at most {end:g}, time.end")

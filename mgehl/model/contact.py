@@ -18,6 +18,8 @@ from mgehl.model.surface.surface import JUST, step_of
 
 SAMPLES = 65
 """Heights along each side from which the roughness is reckoned: the same whatever the grid."""
+NEXT_TO_NONE = 1e-18
+"""Roughness in m that is none: a dent far beside the contact leaves a tail in it."""
 SHOWN_CELLS = 4.0
 """Cells of a coarse grid in the shortest wave that it is shown."""
 RESOLVED_CELLS = 4.0
@@ -88,8 +90,19 @@ class LoadedContact:
     @property
     def skewness(self):
         """Ssk of the same heights: positive where there are more peaks than valleys; 0 of smooth bodies."""
-        cubes = float(np.mean(self.heights**3))
-        return cubes / self.roughness**3 if self.roughness else 0.0
+        rms = self.roughness
+        return float(np.mean((self.heights / rms) ** 3)) if rms else 0.0
+
+    @property
+    def is_rough(self):
+        """Whether there are heights, in the contact or beside it: in time they may come into it."""
+        return self.surface is not None
+
+    @property
+    def lambda_ratio(self):
+        """Film of smooth bodies over the roughness; None where there is next to none."""
+        rms = self.roughness
+        return self.expected_film / rms if rms > NEXT_TO_NONE else None
 
     @property
     def mean_height(self):

@@ -73,6 +73,17 @@ class Scene:
         along = self.contact.motion
         return any(share and surface.varies_along(along) for surface, share in self.surfaces)
 
+    @property
+    def passage(self):
+        """Way in m of the mean surface on which all heights that move go the length of the Hertz contact.
+
+        A body that is slower than the mean takes longer: before it has passed, a mean is one of the few
+        heights that were there.
+        """
+        along = self.contact.motion
+        shares = [abs(share) for surface, share in self.surfaces if share and surface.varies_along(along)]
+        return 2.0 * self.framed.x_scale / min([1.0, *shares])
+
     def at(self, path):
         """The contact, in the axes in which it is solved, when the mean surface has gone a `path` in m."""
         if not self.moves or path == 0.0:

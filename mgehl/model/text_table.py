@@ -160,8 +160,18 @@ def _no_rows(path, empty):
                 return _no_number(path, number, column, words)
     if not empty:
         return FileError(path, "is empty: it must hold numbers")
+    number, words = _nearest(empty)
+    if others := [word for word in words if not (_is_number(word) or _is_hole(word))]:
+        return NoTableError(path, f"has no row of numbers: {others[0][:40]!r} in line {number} is none")
     number, line = empty[0]
     return NoTableError(path, f"has no row of numbers: line {number} is {' '.join(line.split())[:40]!r}")
+
+
+def _nearest(lines):
+    """(Number of the line, words) of the line with most numbers; no words where none has two."""
+    split = [(number, _words(line, separator)) for number, line in lines for separator in SEPARATORS]
+    found = max(split, key=lambda each: sum(map(_is_number, each[1])))
+    return found if sum(map(_is_number, found[1])) > 1 else (0, [])
 
 
 def _no_number(path, line, column, words):

@@ -18,7 +18,7 @@ class Diary:
     def __init__(self, case, frame, grid, progress, watch):
         self._config, self._frame, self._grid = case.config, frame, grid
         self._progress, self._watch, self._written = progress, watch, time.monotonic()
-        self._length = 2e6 * case.scene.framed.x_scale
+        self._length = 1e6 * case.scene.passage
         pressure, film = case.contact.pressure_scale, case.contact.in_frame(frame).film_scale
         self._kept = {"pressure": (pressure, "f4"), "film": (film, "f4"), "status": (1, "i1")}
         keys, folder = case.config.time, watch.directory and watch.directory / CHECKPOINT

@@ -158,7 +158,7 @@ def effort_of(config, contact, mesh):
     if not config.is_in_time:
         return steady
     steps = expected_steps(scene_of(config, contact), mesh, config.time.step)
-    each = OF_A_STEP[(contact.roughness > 0.0) + contact.is_mixed]
+    each = OF_A_STEP[contact.is_rough + contact.is_mixed]
     measured = f"{steps} steps of some {each:g} after the steady state"
     return replace(steady, convolutions=steady.convolutions + each * steps, measured=measured)
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import h5netcdf
 import numpy as np
 
-from mgehl.discretization.status import names
+from mgehl.discretization.status import NAMES, names
 from mgehl.output.netcdf import netcdf_file, put
 from mgehl.output.whole_file import whole_file
 from mgehl.version import VERSION
@@ -64,8 +64,11 @@ class StoredFrames:
 FIELDS = {
     "pressure": ("Pa", "fluid or contact pressure"),
     "film": ("m", "film thickness or gap"),
-    "status": ("1", ", ".join(f"{k} {name}" for k, name in enumerate(names(False)))),
+    "status": ("1", "what the node is"),
 }
+
+FLAGS = {"flag_values": np.arange(len(NAMES), dtype="i1"), "flag_meanings": " ".join(names(False))}
+"""Of the status, after CF."""
 
 
 def write_frames(path, frames, x, y, title):
@@ -82,4 +85,5 @@ def write_frames(path, frames, x, y, title):
         packed = {"chunks": (1, len(y), len(x)), "compression": "gzip", "compression_opts": 1}
         for name, (unit, meaning) in FIELDS.items():
             values = np.stack([fields[name] for _, fields in frames])
-            put(file, name, ("time", "y", "x"), values, packed, units=unit, long_name=meaning)
+            told = {"units": unit, "long_name": meaning} | (FLAGS if name == "status" else {})
+            put(file, name, ("time", "y", "x"), values, packed, **told)

@@ -113,7 +113,7 @@ def measured(contact, mesh, nodes, kept=0.0):
         return float(cell * pressure.sum() / contact.load_integral)
 
     return MixedResult(
-        lambda_ratio=contact.expected_film / Sq if Sq else None,
+        lambda_ratio=contact.lambda_ratio,
         Sq_nm=1e9 * Sq,
         contact_load_share=share(nodes.P[solid]),
         film_load_share=share(nodes.P[is_fluid(nodes.status)]),

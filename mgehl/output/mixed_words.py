@@ -143,15 +143,20 @@ def friction_lines(friction, verbose):
         f"{friction.film_coefficient:.5f}, solids {friction.solid_coefficient:.5f}; {rolling}; "
         f"{friction.power_loss_W:.3g} W{unit}, largest shear {friction.largest_shear_MPa:.4g} MPa"
     )
-    if friction.largest_shear_MPa > STRONGEST:
-        yield (
-            f"no oil bears more than some {STRONGEST:g} MPa: friction.model eyring or limiting knows less "
-            "friction, and less heat"
-        )
+    yield from strength_lines(friction.largest_shear_MPa)
     if friction.temperatures:
         yield temperature_words(friction.temperatures)
     if friction.is_the_grids:
         yield "friction is the grid's, as the load on solids is"
+
+
+def strength_lines(shear_MPa):
+    """What to think of a larger shear stress than oils bear; nothing of others, nor of None."""
+    if shear_MPa and shear_MPa > STRONGEST:
+        yield (
+            f"no oil bears more than some {STRONGEST:g} MPa: friction.model eyring or limiting knows less "
+            "friction, and less heat"
+        )
 
 
 def temperature_words(found):

@@ -41,10 +41,35 @@ QUANTITIES = {
 }  # fmt: skip
 
 
+ALSO_AT = {"load_on_contact": "contact.load_fraction"}
+"""Where result.json has a number once more."""
+
+
 def told_at(result, path):
     """What result.json has under nested names; None where that is nothing."""
     for name in path.split("."):
         result = (result or {}).get(name)
+    return result
+
+
+def _put_at(result, path, value):
+    """Put a value under nested names."""
+    *outer, last = path.split(".")
+    for name in outer:
+        result[name] = result.get(name) or {}
+        result = result[name]
+    result[last] = value
+
+
+def with_means(result):
+    """The same result; of a run in time its means over the last passage are where the numbers of its last
+    instant were. A run that has no means keeps those."""
+    for name, mean in (told_at(result, "time.means") or {}).items():
+        found = QUANTITIES[name]
+        _put_at(result, found.path, mean["value"])
+        _put_at(result, found.band, mean["band"])
+        if name in ALSO_AT:
+            _put_at(result, ALSO_AT[name], mean["value"])
     return result
 
 
@@ -86,6 +111,7 @@ class Told:
 
 
 def read_told(directory):
-    """The `Told` of a finished run. Raises OutputError."""
+    """The `Told` of a finished run, in time by its means. Raises OutputError."""
     texts = read_texts(directory)
-    return Told(tomllib.loads(texts["configuration.toml"]), json.loads(texts["result.json"]))
+    result = with_means(json.loads(texts["result.json"]))
+    return Told(tomllib.loads(texts["configuration.toml"]), result)

@@ -152,9 +152,12 @@ class TimeResult:
     convolutions_a_step: float
     """Half of the steps took fewer."""
     passages: float
-    """Lengths of the Hertz contact that the mean surface has gone."""
+    """Lengths of the Hertz contact that the slowest heights have gone that move; of smooth bodies those of
+    the mean surface."""
     means: dict[str, Mean]
-    """Over the last passage."""
+    """Over the last passage; none before the end of the first."""
+    largest_shear_MPa: float = None
+    """Of all steps; None in older results."""
 
 
 @dataclass(frozen=True, kw_only=True)

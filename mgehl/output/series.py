@@ -1,9 +1,9 @@
 """A run in time: what is kept of each step, and series.nc, the same over time after CF.
 
 It is written anew with every checkpoint and at the end. And the means over passages: what an engineer asks
-of roughness that moves. A passage is the time in which the mean surface goes the length of the Hertz
-contact. The band of a mean is what the means of the last two passages differ by; it has settled where that
-is little.
+of roughness that moves. A passage is the time in which all heights that move go the length of the Hertz
+contact, and of smooth bodies the mean surface (`Scene.passage`). The band of a mean is what the means of
+the last two passages differ by; it has settled where that is little.
 """
 
 from copy import copy
@@ -32,6 +32,7 @@ COLUMNS = {
     "load_on_contact": ("1", "part of the load on contact nodes"),
     "load_on_solids": ("1", "part of the load that solids carry"),
     "friction": ("1", "shear of film and solids over the load"),
+    "largest_shear_MPa": ("MPa", "largest shear stress of film and solids"),
     "rolling": ("1", "what drags each body against the motion, over the load"),
     "contact_nodes": ("1", "nodes in contact"),
     "cavitated_nodes": ("1", "nodes of cavities"),
@@ -99,8 +100,11 @@ def _resistance(instant, state, problem):
     contact, there = problem.contact, copy(problem)
     there.contact = replace(contact, speed=abs(instant.speed))
     shear, load = shear_of(there, state), instant.load * contact.load
-    sliding = shear.film_force + shear.solid_force
-    return {"friction": sliding / load, "rolling": shear.rolling_force / load}
+    return {
+        "friction": (shear.film_force + shear.solid_force) / load,
+        "largest_shear_MPa": 1e-6 * problem.grid.max(shear.film + shear.solids),
+        "rolling": shear.rolling_force / load,
+    }
 
 
 def title_of(config):
@@ -161,4 +165,5 @@ def time_result(rows, length, work, largest_node):
         convolutions_a_step=sorted(each)[len(each) // 2] if each else work.convolutions,
         passages=gone / length,
         means=means(rows, length),
+        largest_shear_MPa=max(row["largest_shear_MPa"] for row in rows),
     )

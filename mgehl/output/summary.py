@@ -103,13 +103,13 @@ def summarise_dry(problem, outcome, tolerance, work, wall_s, versions):
     )  # fmt: skip
 
 
-def summarise_in_time(problem, outcome, rows, tolerance, work, wall_s, versions):
-    """The `Result` of a run in time, its last state verified (collective)."""
+def summarise_in_time(problem, outcome, rows, passage, tolerance, work, wall_s, versions):
+    """The `Result` of a run in time, its last state verified (collective); `passage` is its `Scene`'s."""
     result = summarise(problem, outcome, tolerance, work, wall_s, versions)
     if not rows:
         return replace(result, converged=False, settled=False, reason=outcome.reason, mass=None)
     largest_node = _largest_node(problem, outcome.state)
-    time = time_result(rows, 2e6 * problem.contact.x_scale, work, largest_node)
+    time = time_result(rows, 1e6 * passage, work, largest_node)
     off = max(time.largest_closure, largest_node)
     settled, reason = result.settled and off <= CLOSED_IN_TIME, outcome.reason
     if not result.settled:

@@ -1,7 +1,13 @@
 """A result in words: what a run, a `Solution` and a script print of it."""
 
 from mgehl.output.digits import with_band
-from mgehl.output.mixed_words import filling_words, friction_lines, heating_words, mixed_lines
+from mgehl.output.mixed_words import (
+    filling_words,
+    friction_lines,
+    heating_words,
+    mixed_lines,
+    strength_lines,
+)
 from mgehl.output.resolution import RESOLVED_CELLS, SEEN_CELLS, beyond_words, domain_words
 from mgehl.output.surface import surface_words
 
@@ -61,7 +67,8 @@ def _dry_lines(result):
 def _loaded_lines(result, verbose):
     resolution = result.resolution
     if result.time:
-        yield from _time_lines(result.time)
+        yield from time_lines(result.time)
+        yield "at the end:"
     yield f"{films_words(result)}, largest pressure {largest_pressure_words(result)}"
     yield band_words(result.error)
     yield from heating_words(result.thermal_reduction, result.is_thermally_reduced)
@@ -226,7 +233,7 @@ def span(ends):
     return f"{ends[0]}..{ends[1]}" if ends else "none"
 
 
-def _time_lines(time):
+def time_lines(time):
     """What happened in a run in time, and the means over its last passage."""
     yield (
         f"in time: {1e3 * time.end_s:.6g} ms in {time.steps} steps, {time.halved} of them halved, half "
@@ -243,7 +250,9 @@ def _time_lines(time):
             shown["friction"] = ("friction", 1.0, "of the load")
         parts = [_mean_words(time.means[name], *how) for name, how in shown.items()]
         yield f"over the last passage: {', '.join(parts)}"
-    yield "at the end:"
+    else:
+        yield "no means: the run ends before its first passage"
+    yield from strength_lines(time.largest_shear_MPa)
 
 
 def _mean_words(mean, name, scale, unit):

@@ -127,12 +127,11 @@ def recipe_in_time(settings, contact):
 
 
 def _peaks(law, contact):
-    film, rms = contact.expected_film, contact.roughness
-    if rms == 0.0:
+    if not contact.is_rough:
         return NONE
     if law.is_continuous and contact.is_mixed:
         return TOUCHING
-    return NEAR if film < THICK * rms else COVERED
+    return NEAR if contact.expected_film < THICK * contact.roughness else COVERED
 
 
 def _first_guess(start, law, contact):
@@ -151,7 +150,7 @@ def _first_guess(start, law, contact):
 
 def _newton(settings, contact, in_time):
     """Newton's rules; `in_time` steps have a squeeze at the least."""
-    scheme, rough = settings.scheme, contact.roughness > 0.0
+    scheme, rough = settings.scheme, contact.is_rough
     asked = settings.newton.squeezed() if in_time else settings.newton
     by_film, passes_folds = scheme.contact_law.is_continuous, scheme.may_fold or asked.squeeze > 0.0
     idle = asked.max_steps if by_film else IDLE_IN_TIME if passes_folds else IDLE
@@ -179,7 +178,7 @@ def needs_a_walk(settings, contact, mesh):
 
 def couette_scheme_of(contact):
     """The Couette flow's scheme where none is named."""
-    return OF_ROUGH if contact.roughness > 0.0 else OF_SMOOTH
+    return OF_ROUGH if contact.is_rough else OF_SMOOTH
 
 
 def interface_law(contact, layers, threshold, start, in_time):
@@ -191,7 +190,7 @@ def interface_law(contact, layers, threshold, start, in_time):
     after 117 convolutions). Nearly at rest all bodies count as soft, and touch.
     """
     soft_film = contact.is_soft and start == FILM and contact.expected_film > threshold
-    if layers > 0.0 or contact.roughness > 0.0 or soft_film or in_time:
+    if layers > 0.0 or contact.is_rough or soft_film or in_time:
         return BoundaryFilm(max(layers, threshold) / contact.film_scale)
     return InterfaceConditions(threshold / contact.film_scale)
 

@@ -195,7 +195,7 @@ class Study:
 
     def write_table(self, name, rows, shown=()):
         """Write rows (dictionaries of text) as NAME.csv and NAME.md, and print them, or what is to be
-        `shown` of their columns (collective).
+        `shown` of their columns that are not empty (collective).
 
         Columns are those of all rows; nothing is written of no row.
         """
@@ -216,7 +216,7 @@ class Study:
             raise OutputError(f"{self.directory}: cannot be written: {error}") from None
         write_whole(self.directory / f"{name}.md", markdown(rows, heads) + "\n")
         if self.speak:
-            shown = [head for head in shown if head in heads] or heads
+            shown = [head for head in shown if any(row.get(head) for row in rows)] or heads
             say(f"\n{name}\n\n{drawn(rows, shown, columns())}\n")
 
     def _draw(self, name, function, arguments):

@@ -1,11 +1,15 @@
 """What point and line contacts have in common."""
 
+from dataclasses import replace
+from math import isfinite
+
 import pytest
 
 from mgehl.discretization.mesh import Mesh
 from mgehl.model.line import LineContact
 from mgehl.model.lubricant import Barus, DowsonHigginson, Lubricant
 from mgehl.model.point import PointContact
+from mgehl.model.surface.shapes import Dent
 
 LUBRICANT = Lubricant(Barus(0.096, 18.2e-9), DowsonHigginson())
 BODY = {"radius_x": 12.7e-3, "reduced_modulus": 219.78e9, "lubricant": LUBRICANT}
@@ -25,6 +29,17 @@ def test_scales_are_those_of_the_dry_contact(contact):
     assert contact.film_scale == pytest.approx(hertz.a**2 / 12.7e-3, rel=1e-15)
     assert contact.approach * contact.film_scale == pytest.approx(hertz.approach, rel=1e-15)
     assert contact.motion == (1.0, 0.0)
+
+
+@every_contact
+@pytest.mark.parametrize("away", [6.0, 60.0], ids=["a tail", "nothing at all"])
+def test_a_dent_far_beside_the_contact_is_no_roughness(contact, away):
+    """Its tail is 1e-130 m high. In time it may come in: the contact has the schemes of rough bodies."""
+    a = contact.x_scale
+    dented = replace(contact, surface=Dent(1e-6, 1.4 * a, x=-away * a))
+    assert (dented.roughness > 0.0) == (away == 6.0)
+    assert dented.lambda_ratio is None and isfinite(dented.skewness)
+    assert dented.is_rough and not contact.is_rough
 
 
 @every_contact

@@ -53,6 +53,7 @@ def test_tables_as_they_come(table, text):
         ("0,1\n1,\n2,3\n", "line 2 has no two numbers"),
         ("0,1\n1,nan\n2,3\n", "line 2 has no two numbers"),
         ("t;v\nx;y\n", "has no row of numbers: line 1 is 't;v'"),
+        ("t;v;what\n0,0;0,5;start\n1,0;0,5;end\n", "has no row of numbers: 'start' in line 2 is none"),
         ("0,1\n1,x\n", "'x' is no number"),
         ("0,1\n0.5,2\n", "must cover 0 to 1"),
         ("0.1,1\n2,2\n", "must cover 0 to 1"),

@@ -4,7 +4,8 @@ import pytest
 
 from mgehl.cli import main
 from mgehl.output.pictures.curves import curves
-from mgehl.output.quantities import read_told
+from mgehl.output.quantities import QUANTITIES, Told, read_told, with_means
+from mgehl.output.series import MEANS
 from mgehl.output.table import collect, drawn, with_bands
 
 
@@ -63,3 +64,16 @@ def test_runs_of_a_bearing_have_the_speed_that_follows_and_their_lambda(tmp_path
     assert float(slow["lambda"]) == pytest.approx(float(slow["central nm"]) / 50.0, rel=1e-3)
     figure = curves([read_told(name) for name in names], "motion.speed")
     assert len(figure.axes[0].lines[0].get_xdata()) == 2
+
+
+def test_a_run_in_time_is_told_by_its_means():
+    """In the tables was its last instant, without a word: a wave in the contact, or beside it."""
+    means = {name: {"value": float(i), "band": 0.1 * i} for i, name in enumerate(MEANS)}
+    instant = {"central_film_nm": 99.0, "mixed": None, "error": {"reason": "of an instant"}}
+    told = Told({}, with_means(instant | {"time": {"means": means}}))
+    assert [told.number(QUANTITIES[name].path) for name in MEANS] == list(range(len(MEANS)))
+    assert told.number("contact.load_fraction") == told.number("mixed.contact_load_share")
+    assert told.number("friction.coefficient_band") == pytest.approx(0.6)
+    assert told.result["error"]["reason"] == "of an instant"
+    for time in ({}, {"time": None}, {"time": {"means": {}}}):
+        assert with_means(instant | time) == instant | time

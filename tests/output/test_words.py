@@ -8,7 +8,7 @@ from made_solution import make_solution
 from test_files import make_result
 
 from mgehl.output.resolution import Resolution
-from mgehl.output.result import InequalityResult
+from mgehl.output.result import InequalityResult, TimeResult
 from mgehl.output.words import FAILED, UNRESOLVED
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -21,6 +21,21 @@ def test_a_solution_prints_the_words_of_its_result(kind, words):
     solution = make_solution(kind)
     assert str(solution) == str(solution.result)
     assert str(solution).startswith("CONVERGED: ") and words in str(solution)
+
+
+def in_time(**more):
+    told = {"end_s": 1.0, "steps": 9, "halved": 0, "largest_closure": 0.0, "largest_node": 0.0}
+    return TimeResult(**told, convolutions_a_step=1.0, passages=0.5, means={}, **more)
+
+
+def test_a_run_shorter_than_a_passage_says_that_it_has_no_means():
+    assert "\n  no means: the run ends before its first passage\n" in str(make_result(time=in_time()))
+
+
+@pytest.mark.parametrize("shear, is_odd", [(None, False), (299.0, False), (301.0, True)])
+def test_a_shear_in_time_that_no_oil_bears_is_named(shear, is_odd):
+    found = str(make_result(time=in_time(largest_shear_MPa=shear)))
+    assert ("no oil bears more than some 300 MPa" in found) == is_odd
 
 
 class TestWhereToReadOn:

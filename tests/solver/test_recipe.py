@@ -4,6 +4,7 @@ import pytest
 
 from mgehl.discretization.contact_law import BoundaryFilm, InterfaceConditions
 from mgehl.discretization.scheme import Scheme
+from mgehl.model.surface.shapes import Dent
 from mgehl.model.surface.waviness import Waviness
 from mgehl.solver.recipe import (
     A_STATE,
@@ -13,9 +14,12 @@ from mgehl.solver.recipe import (
     IDLE_IN_TIME,
     NEAR,
     NONE,
+    OF_ROUGH,
+    OF_SMOOTH,
     TOUCHING,
     UNDER_FILM,
     UNDER_THIN_FILM,
+    couette_scheme_of,
     recipe_in_time,
     recipe_of,
 )
@@ -87,3 +91,10 @@ def test_from_a_state_and_in_time_nothing_is_guessed(paper_contact):
     made = recipe_of(settings, contact, A_STATE)
     assert made.begins == A_STATE and not made.fluid_apart and made.newton.squeeze == 0.0
     assert recipe_in_time(settings, contact).scheme.motion == (0.0, 0.0)
+
+
+def test_a_surface_that_comes_later_has_the_scheme_of_rough_bodies(paper_contact):
+    dented = paper_contact(1.0, surface=Dent(1e-6, 1e-5, x=-1e-2))
+    assert dented.roughness == 0.0
+    assert couette_scheme_of(dented) == OF_ROUGH and couette_scheme_of(paper_contact(1.0)) == OF_SMOOTH
+    assert recipe_of(SolverSettings(scheme=Scheme(contact_law=CLOSING)), dented).peaks == COVERED

@@ -53,10 +53,11 @@ def curves(runs, key, names=()):
     if not panels:
         raise UserError(f"--against {key}: none of these runs has an answer to draw")
     rows = (len(panels) + 1) // 2
+    told = [each for each in (key, KEYS[key].metadata["unit"]) if each]
     figure, axes = subplots(rows, min(2, len(panels)), size=(10.5, 1.0 + 3.4 * rows), squeeze=False)
     for axis, (label, panel) in zip(axes.flat, panels.items(), strict=False):
         handles = [_draw(axis, runs, x, *each, panel) for each in groups.items()]
-        axis.set(ylabel=_label(label, panel), xlabel=f"{key}, {KEYS[key].metadata['unit'] or '1'}")
+        axis.set(ylabel=_label(label, panel), xlabel=", ".join(told))
         _scale(
             axis, x, [run.number(QUANTITIES[name].path) for run in runs if run.settled for name in panel]
         )

@@ -91,7 +91,8 @@ def _distribution(axes, solution, heights):
     nm -= nm.mean()
     mixed = solution.result.mixed
     rms = mixed.Sq_nm if mixed else solution.result.Sq_nm
-    skewness = np.mean(nm**3) / np.mean(nm**2) ** 1.5 if nm.any() else 0.0
+    spread = nm.std()
+    skewness = np.mean((nm / spread) ** 3) if spread else 0.0
     axes.hist(nm, BINS, density=True, color=BARS)
     handles = [Patch(color=BARS, label="within the Hertz contact")]
     if rms > 0.0:

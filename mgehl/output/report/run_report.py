@@ -25,7 +25,7 @@ from mgehl.output.resolution import RESOLVED_CELLS, STARVED_FROM
 from mgehl.output.summary import COMPLEMENTARITY_TOLERANCE
 from mgehl.output.surface import ADVICE as SURFACE
 from mgehl.output.surface import RESOLVED_NODES
-from mgehl.output.words import advice, band_words, largest_pressure_words, span
+from mgehl.output.words import advice, band_words, largest_pressure_words, span, time_lines
 from mgehl.solver.verification import FEWEST_NODES, LARGEST_EDGE_PRESSURE
 
 HISTORY_NAMES = {
@@ -53,6 +53,7 @@ def report(solution, name):
     page["verdict"] = *verdict(result), result.reason
     heads, last, shown = history_of(rows)
     mark = "" if result.converged else " (in doubt)" if result.settled else " (not converged)"
+    mark = " at the end" + mark if result.time else mark
     with naming_keys(solution.contact):  # some numbers ask the user's own laws again
         return render(
             page, **FUNCTIONS, kind=kind, mark=mark, solution=solution, result=result, config=config,
@@ -130,7 +131,7 @@ FUNCTIONS = {
 } | {
     each.__name__: each for each in (
         number, limited, enough, absent, informing, judged, from_each, advice, band_words, gap_band_words,
-        mean_gaps, mixed_note, span, carried, largest_pressure_words,
+        mean_gaps, mixed_note, span, carried, largest_pressure_words, time_lines, with_band,
     )
 }  # fmt: skip
 """What run.html.j2 calls."""

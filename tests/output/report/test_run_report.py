@@ -13,6 +13,7 @@ from mgehl.output.gap_error import GapError, GridGap
 from mgehl.output.mixed_result import MixedResult
 from mgehl.output.report.page import BAD, DOUBTFUL, GOOD, NO_NUMBER
 from mgehl.output.report.run_report import report, setting, verdict
+from mgehl.output.result import Mean, TimeResult
 
 VOID = {"meta", "img", "br", "hr", "link", "input"}
 CHECKS = "What was checked on the final state"
@@ -178,6 +179,19 @@ class TestLoaded:
         assert {f"{FILMS} ({mark})", f"{CONTACT_TABLE} ({mark})"} <= page.tables.keys()
         assert page.rows(f"{FILMS} ({mark})")["Hamrock and Dowson"][1::2] == ["", ""], "nothing to compare"
         assert "(" not in "".join(quick(film_run).highlights)
+
+
+def test_a_run_in_time_tells_its_means_and_that_other_numbers_are_those_at_its_end(film_run, quick):
+    """Only the record had the means, and an instant stood on top as if it were all."""
+    told = {"end_s": 1.0, "steps": 9, "halved": 0, "largest_closure": 0.0, "largest_node": 0.0}
+    mean = Mean(200.25, 0.5)
+    means = dict.fromkeys(("mean_gap_nm", "max_pressure_GPa", "load_on_solids", "friction"), mean)
+    time = TimeResult(**told, convolutions_a_step=1.0, passages=3.0, means=means)
+    page = quick(film_run, time=time, flux_imbalance=None)
+    assert page.highlights["mean gap over the last passage"] == "200.2 ± 0.5 nm"
+    assert "central film at the end" in page.highlights and "central film" not in page.highlights
+    assert "Over the last passage: mean gap 200.2 ± 0.5 nm" in page.text
+    assert "imbalance of the flux" not in page.rows(CHECKS)
 
 
 class TestRoughBodies:
