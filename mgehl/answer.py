@@ -37,9 +37,9 @@ class Solution(Solved):
         text = f"<h4>{escape(self._heading())}</h4><pre>{escape(self.summary.words(verbose=False))}</pre>"
         if self.fields is None:
             return text
-        from mgehl.output.pictures.picture import drawn
+        from mgehl.output.pictures.figures import run_picture
 
-        image = base64.b64encode(drawn(self)).decode()
+        image = base64.b64encode(run_picture(self)).decode()
         return f'{text}<img alt="{escape(self._heading())}" src="data:image/png;base64,{image}">'
 
     def _heading(self) -> str:

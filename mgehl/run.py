@@ -15,6 +15,7 @@ from mgehl.output import files, progress, terminal
 from mgehl.output.checkpoint import Checkpoint, begin_run
 from mgehl.output.diary import Diary
 from mgehl.output.directory import make_directory, prepare_directory
+from mgehl.output.dry_summary import summarise_dry
 from mgehl.output.film_error import film_error
 from mgehl.output.finish import finish_run
 from mgehl.output.forecast import check_memory
@@ -24,9 +25,10 @@ from mgehl.output.laws import law_files
 from mgehl.output.lock import locked
 from mgehl.output.result import Work
 from mgehl.output.solution import Fields, Solution
-from mgehl.output.summary import summarise, summarise_dry, summarise_in_time, summarise_wedge
+from mgehl.output.summary import summarise, summarise_in_time
 from mgehl.output.surroundings import versions
 from mgehl.output.users_axes import in_users_axes
+from mgehl.output.wedge_summary import summarise_wedge
 from mgehl.solver.beginning import begin
 from mgehl.solver.closing import close_account
 from mgehl.solver.coarser import CoarserGrids

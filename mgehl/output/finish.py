@@ -58,9 +58,9 @@ def _finish(directory, solution, picture):
 def _is_drawn(path, solution, directory):
     """Whether the picture could be drawn. Where that fails, a message says so, and all else goes on."""
     try:
-        from mgehl.output.pictures.picture import drawn  # matplotlib is slow to import
+        from mgehl.output.pictures.figures import run_picture  # matplotlib is slow to import
 
-        content = drawn(solution)
+        content = run_picture(solution)
         with whole_file(path) as part:
             part.write_bytes(content)
         return True

@@ -8,7 +8,6 @@ import numpy as np
 from mgehl.discretization.status import NAMES, names
 from mgehl.output.netcdf import netcdf_file, put
 from mgehl.output.whole_file import whole_file
-from mgehl.version import VERSION
 
 
 @dataclass
@@ -74,8 +73,7 @@ FLAGS = {"flag_values": np.arange(len(NAMES), dtype="i1"), "flag_meanings": " ".
 def write_frames(path, frames, x, y, title):
     """frames.nc of (time, {name: (ny, nx)}) in order, with x and y in m. Raises OSError."""
     frames = list(frames)
-    with whole_file(path) as part, netcdf_file(part) as file:
-        file.attrs.update({"Conventions": "CF-1.8", "title": title, "source": f"mgehl {VERSION}"})
+    with whole_file(path) as part, netcdf_file(part, title) as file:
         file.dimensions = {"time": len(frames), "y": len(y), "x": len(x)}
         put(
             file, "time", ("time",), np.array([t for t, _ in frames]), units="s", long_name="time", axis="T"

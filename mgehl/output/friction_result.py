@@ -1,4 +1,4 @@
-"""What resists the motion, as one record: `friction` of result.json."""
+"""What resists the motion, as one record, `friction` of result.json, and in words."""
 
 from dataclasses import dataclass, replace
 
@@ -59,6 +59,9 @@ class FrictionResult:
     """Whether the load on solids is the grid's, and so is the coefficient."""
 
 
+STRONGEST = 300.0
+"""Largest shear stress in MPa that oils were seen to bear: a tenth of 3 GPa [Arana et al. 2019]."""
+
 TINY = 1e-300
 """No pressure at all: the film has no mean by it."""
 
@@ -112,3 +115,45 @@ def with_band(friction, mixed, boundary_coefficient):
     share = error.solid_load_fraction
     band = None if share is None else boundary_coefficient * share
     return replace(friction, coefficient_band=band, is_the_grids=error.is_the_grids("solid_load_fraction"))
+
+
+def friction_lines(friction, verbose):
+    """What resists, in words: of sliding surfaces, and `verbose` of rolling ones, too."""
+    if not friction or not (verbose or friction.slide_to_roll or friction.model != "newtonian"):
+        return
+    unit = "/m" if friction.per_metre else ""
+    beyond = friction.rolling_beyond
+    more = f" (and {beyond:.2g} beyond the domain, were it flooded)" if beyond else ""
+    rolling = f"rolling takes {friction.rolling_coefficient:.3g} of the load on each body{more}"
+    if not friction.slide_to_roll:
+        yield f"friction 0: the surfaces do not slide; {rolling}"
+        return
+    # What the load on solids makes of it: without solids there is none.
+    has_band = friction.coefficient_band and friction.solid_coefficient
+    band = f" ± {friction.coefficient_band:.2g}" if has_band else ""
+    yield (
+        f"friction {friction.coefficient:.5f}{band} ({friction.model}): film "
+        f"{friction.film_coefficient:.5f}, solids {friction.solid_coefficient:.5f}; {rolling}; "
+        f"{friction.power_loss_W:.3g} W{unit}, largest shear {friction.largest_shear_MPa:.4g} MPa"
+    )
+    yield from strength_lines(friction.largest_shear_MPa)
+    if friction.temperatures:
+        yield _temperature_words(friction.temperatures)
+    if friction.is_the_grids:
+        yield "friction is the grid's, as the load on solids is"
+
+
+def strength_lines(shear_MPa):
+    """What to think of a larger shear stress than oils bear; nothing of others, nor of None."""
+    if shear_MPa and shear_MPa > STRONGEST:
+        yield (
+            f"no oil bears more than some {STRONGEST:g} MPa: friction.model eyring or limiting knows less "
+            "friction, and less heat"
+        )
+
+
+def _temperature_words(found):
+    """How much warmer surfaces and film are than the bodies."""
+    known = found.film is not None
+    film = f", film on average {found.film:.3g} K, at most {found.largest_film:.3g} K" if known else ""
+    return f"flash temperature: body 1 up to {found.largest_1:.3g} K, body 2 {found.largest_2:.3g} K{film}"

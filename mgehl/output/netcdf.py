@@ -5,16 +5,21 @@ from io import BytesIO
 
 import h5netcdf
 
+from mgehl.version import VERSION
+
 
 @contextmanager
-def netcdf_file(path, **options):
-    """An `h5netcdf.File` to write to, whose bytes go to `path` at the end, if nothing failed.
+def netcdf_file(path, title=None, **options):
+    """An `h5netcdf.File` to write to, whose bytes go to `path` at the end, if nothing failed; one with a
+    `title` has the attributes of CF.
 
     HDF5 writes when it closes a file or a data set; where it cannot, the process ends with a
     segmentation fault. A write of plain bytes raises OSError.
     """
     memory = BytesIO()
     with h5netcdf.File(memory, "w", **options) as file:
+        if title:
+            file.attrs.update({"Conventions": "CF-1.8", "title": title, "source": f"mgehl {VERSION}"})
         yield file
     path.write_bytes(memory.getbuffer())
 

@@ -17,7 +17,6 @@ from mgehl.output.netcdf import netcdf_file, put
 from mgehl.output.result import Mean, TimeResult
 from mgehl.output.whole_file import whole_file
 from mgehl.solver.shear import shear_of
-from mgehl.version import VERSION
 
 COLUMNS = {
     "step": ("1", "number of the step"),
@@ -114,8 +113,7 @@ def title_of(config):
 
 def write_series(path, rows, title):
     """series.nc of the rows of a history. Raises OSError."""
-    with whole_file(path) as part, netcdf_file(part) as file:
-        file.attrs.update({"Conventions": "CF-1.8", "title": title, "source": f"mgehl {VERSION}"})
+    with whole_file(path) as part, netcdf_file(part, title) as file:
         file.dimensions = {"time": len(rows)}
         for name, (unit, meaning) in {"time_s": ("s", "time"), **COLUMNS}.items():
             values = np.array([row[name] for row in rows], dtype=float)

@@ -1,5 +1,4 @@
-"""A run read back from its fields.h5, for pictures, reports, exports and new starts; and a `Solution` as
-plain data and arrays, which is what a study keeps of its points.
+"""A run read back from its fields.h5, for pictures, reports, exports and new starts.
 
 fields.h5 holds all of a run. The other files of its directory are copies, and are not read. Each part of
 fields.h5 has a checksum of HDF5's: what is damaged is refused. Nothing that a file holds is ever run.
@@ -16,7 +15,6 @@ import dacite
 import h5py
 import numpy as np
 
-from mgehl.config import config_from_tables
 from mgehl.config_value import AUTO
 from mgehl.discretization.status import NAMES
 from mgehl.errors import OutputError, one_line
@@ -34,7 +32,6 @@ from mgehl.output.files import (
     RESULT,
     SERIES,
     WHOLE,
-    plain_result,
 )  # fmt: skip
 from mgehl.output.files import NAMES as RUN_FILES
 from mgehl.output.frames import StoredFrames
@@ -61,40 +58,6 @@ def result_from(tables):
     """
     # A dry contact of an older mgehl says once that it has converged.
     return dacite.from_dict(Result, {"settled": tables["converged"]} | tables, AS_JSON)
-
-
-def record_of(solution):
-    """(plain data, {name: array}) of a `Solution` with whole fields, or without any."""
-    plain = {
-        "configuration": solution.config.as_toml_tables(),
-        "rows": solution.rows,
-        "result": plain_result(solution.result),
-        "H0": float(solution.H0),
-    }
-    return plain, arrays_of(solution.fields)
-
-
-def solution_from(plain, arrays):
-    """The `Solution` of which `record_of` made these; its fields, if it had any, are whole, and here."""
-    config = config_from_tables(plain["configuration"])
-    contact = contact_from(config)
-    fields, mesh = fields_from(arrays) if arrays else None, mesh_from(config, contact)
-    if fields and fields.P.shape != (mesh.ny, mesh.nx):
-        raise ValueError("its fields are not of its grid")
-    result = result_from(plain["result"])
-    return Solution(config, contact, mesh, fields, plain["rows"], result, plain["H0"], local=fields)
-
-
-def arrays_of(fields):
-    """{name: array} of `Fields`; empty of none."""
-    return fields.named if fields else {}
-
-
-def fields_from(arrays):
-    """The `Fields` of which `arrays_of` made these."""
-    if not arrays["P"].shape == arrays["H"].shape == arrays["status"].shape:
-        raise ValueError("its fields are not of one grid")
-    return Fields(**arrays)
 
 
 def read_run(directory) -> Solution:

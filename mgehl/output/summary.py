@@ -1,18 +1,17 @@
-"""The `Result` of a final state: verified anew, nothing that an iteration said of it is trusted."""
+"""The `Result` of a lubricated contact: verified anew, nothing that an iteration said of it is trusted."""
 
 from dataclasses import asdict, replace
 
 import numpy as np
 
-from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, WALL
+from mgehl.discretization.status import CONTACT
 from mgehl.discretization.storage import content
-from mgehl.output.film_error import OF_AN_INSTANT, no_band
+from mgehl.output.film_error import OF_AN_INSTANT
 from mgehl.output.mixed_result import mixed_result
 from mgehl.output.resolution import resolution
 from mgehl.output.result import (
     ContactResult,
     EdgeResult,
-    HertzResult,
     InequalityResult,
     MoesFilm,
     Overlap,
@@ -21,21 +20,12 @@ from mgehl.output.result import (
 from mgehl.output.series import time_result
 from mgehl.output.words import undecided_words
 from mgehl.solver.inequality import check_interface, check_pressure_inequality, check_under_contact
-from mgehl.solver.mass import CLOSED, account, mass_account
-from mgehl.solver.verification import (
-    LOADED,
-    check_edge,
-    closed_face_flow,
-    complementarity_error,
-    flux_imbalance,
-)  # fmt: skip
+from mgehl.solver.mass import CLOSED, mass_account
+from mgehl.solver.verification import LOADED, check_edge, complementarity_error, flux_imbalance
 
 COMPLEMENTARITY_TOLERANCE = 1e-6
 """Breach of P >= 0, H >= 0 and no inflow (units of P and H) that a converged answer may have,
 however loose the tolerance of the residual."""
-
-PRESSED = 1e-12
-"""Pressure of dry contact over the largest, which a peak may have: more than rounding."""
 
 CLOSED_IN_TIME = 1e-8
 """Part of the stored oil by which the account of a step may be off."""
@@ -50,7 +40,7 @@ def summarise(problem, outcome, tolerance, work, wall_s, versions):
     nm, moes = 1e9 * contact.film_scale, contact.film_scale * contact.moes_scale
     central, minimum = problem.films(state)
     result = Result(
-        **_of_every_load(problem, state, work, wall_s, versions, LOADED),
+        **of_every_load(problem, state, work, wall_s, versions, LOADED),
         central_film_nm=central * nm,
         minimum_film_nm=minimum * nm,
         residual=problem.rms(problem.residual(evaluation, state.status)),
@@ -69,37 +59,13 @@ def summarise(problem, outcome, tolerance, work, wall_s, versions):
         thermal_reduction=contact.thermal_reduction,
         is_thermally_reduced=bool(contact.lubricant.thinned < 1.0),
     )
-    broken = _first_broken(_equations(result, outcome, tolerance))
+    broken = first_broken(_equations(result, outcome, tolerance))
     conserves = _conserves(problem, result.mass, tolerance)
     holds = result.pressure_inequality.violations == 0 and conserves and not result.edge.wrong[0]
-    reason = broken or _first_broken(_more(result, conserves))
+    reason = broken or first_broken(_more(result, conserves))
     return replace(
         result, converged=not broken and holds, settled=not broken,
         reason=reason or "residual, load, sets, complementarity and the pressure inequality hold",
-    )  # fmt: skip
-
-
-def summarise_dry(problem, outcome, tolerance, work, wall_s, versions):
-    """The `Result` of a contact without a film (collective); gap and load are evaluated anew from P and
-    H0."""
-    contact = problem.contact
-    state = outcome.state = problem.state(outcome.state.P, outcome.state.H0, outcome.state.status)
-    nm, hertz = 1e9 * contact.film_scale, contact.hertz
-    result = Result(
-        **_of_every_load(problem, state, work, wall_s, versions, PRESSED),
-        error=no_band("there is no film"),
-        complementarity_error=_dry_complementarity_error(problem.grid, state),
-        approach_um=-1e-3 * nm * state.H0,
-        boundary_nodes=_boundary_nodes(problem, state, tolerance),
-        hertz=HertzResult(1e-9 * hertz.p_h, 1e6 * hertz.approach),
-        Sq_nm=1e9 * contact.roughness,
-    )
-    overlaps = result.overlap.largest_nm > tolerance * nm
-    broken = _first_broken(_dry_equations(result, outcome, tolerance))
-    return replace(
-        result, converged=not broken, settled=not broken,
-        overlap=result.overlap if overlaps else Overlap(0, 0.0),
-        reason=broken or "load, contact and gap hold, and the contact ends within the domain",
     )  # fmt: skip
 
 
@@ -123,42 +89,7 @@ def summarise_in_time(problem, outcome, rows, passage, tolerance, work, wall_s, 
     )  # fmt: skip
 
 
-def summarise_wedge(problem, outcome, wall_s, versions):
-    """The `Result` of a rigid bearing, its final state evaluated (collective)."""
-    grid, bearing, state = problem.grid, problem.contact, outcome.state
-    evaluation = problem.evaluate(state)
-    across = bearing.width / bearing.y_scale if grid.mesh.is_line else 1.0
-    solid, torn = state.status == CONTACT, state.status == CAVITATED
-    load = across * problem.load(np.where(solid, state.P, state.P - bearing.ambient))
-    largest, cavities = grid.max(state.P), grid.count(torn)
-    pad = (evaluation.status != BOUNDARY) & (evaluation.status != WALL)
-    # Half of what the plate would carry along is dragged through a gap.
-    unit = 0.5 * bearing.speed * bearing.film_scale * bearing.y_scale * across
-    return Result(
-        converged=outcome.converged,
-        settled=outcome.converged,
-        reason=outcome.reason,
-        load=load,
-        load_N=load * bearing.pressure_scale * bearing.x_scale * bearing.y_scale,
-        max_P=largest,
-        min_P=grid.min(state.P),
-        max_pressure_MPa=1e-6 * bearing.pressure_scale * largest,
-        residual=problem.rms(problem.residual(evaluation, state.status)),
-        flux_imbalance=flux_imbalance(problem, evaluation),
-        closed_face_flow=closed_face_flow(problem, evaluation),
-        solid_nodes=grid.count(solid),
-        cavitated_nodes=cavities,
-        linear_iterations=sum(step.linear_iterations for step in outcome.cycles),
-        wall_s=wall_s,
-        ranks=grid.comm.size,
-        versions=versions,
-        error=no_band("the gap of a rigid bearing is given"),
-        torn_filling=grid.sum(state.filling[torn].sum()) / cavities if cavities else None,
-        mass=account(problem, state, evaluation, pad, unit),
-    )
-
-
-def _of_every_load(problem, state, work, wall_s, versions, part):
+def of_every_load(problem, state, work, wall_s, versions, part):
     """What a `Result` has of every loaded contact, not judged yet; the loaded zone has at least this `part`
     of the largest pressure (collective)."""
     grid, contact = problem.grid, problem.contact
@@ -174,7 +105,7 @@ def _of_every_load(problem, state, work, wall_s, versions, part):
     }  # fmt: skip
 
 
-def _first_broken(checks):
+def first_broken(checks):
     """The words of the first of pairs (whether it is broken, words); empty where all hold."""
     return next((words for broken, words in checks if broken), "")
 
@@ -185,21 +116,12 @@ def _equations(result, outcome, tolerance):
     found = f"the residual of the final state is {residual:.1e}, above {tolerance:.1e}"
     yield not outcome.converged, outcome.reason
     yield not residual <= tolerance, found
-    yield not abs(result.load_error) <= tolerance, _off(result.load_error, tolerance)
+    yield not abs(result.load_error) <= tolerance, load_off(result.load_error, tolerance)
     yield not broken <= COMPLEMENTARITY_TOLERANCE, f"complementarity is broken by {broken:.1e}"
 
 
-def _dry_equations(result, outcome, tolerance):
-    """What a dry contact must hold."""
-    broken, reached = result.complementarity_error, f"at {result.boundary_nodes} nodes: a larger grid.x or"
-    yield not outcome.converged, outcome.reason
-    yield not abs(result.load_error) <= tolerance, _off(result.load_error, tolerance)
-    yield result.boundary_nodes, f"the contact reaches the domain's boundary {reached} grid.y is needed"
-    yield not broken <= tolerance, f"complementarity is broken by {broken:.1e}"
-    yield result.edge.too_few, result.edge.too_few
-
-
-def _off(load_error, tolerance):
+def load_off(load_error, tolerance):
+    """That the load is not balanced, in words."""
     return f"the load is off by {load_error:.1e}, more than {tolerance:.1e}"
 
 
@@ -282,20 +204,6 @@ def _overlap(grid, state, nm):
 
 def _ends(nodes):
     return (int(nodes[0]), int(nodes[-1])) if len(nodes) else None
-
-
-def _dry_complementarity_error(grid, state):
-    """Largest breach of P >= 0, H >= 0, one of them zero, over all nodes."""
-    pressed = state.P > 0.0
-    breaches = -state.P, np.abs(state.H[pressed]), -state.H[~pressed]
-    return max(grid.max(breach, initial=0.0) for breach in breaches)
-
-
-def _boundary_nodes(problem, state, tolerance):
-    """Pressed nodes beside the boundary, and boundary nodes where the bodies would overlap."""
-    grid = problem.grid
-    pressed = (state.P > 0.0) & np.logical_or(*grid.beside_boundary())
-    return grid.count(pressed | (problem.boundary & (state.H < -tolerance)))
 
 
 def _largest_node(problem, state):

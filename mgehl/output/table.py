@@ -20,9 +20,15 @@ from mgehl.output.words import span
 DEFAULT = "default"
 """Stands for a scheme that the configuration does not name: the run chose it."""
 
+
+def yes(holds):
+    """As tables have it."""
+    return "yes" if holds else "no"
+
+
 COLUMNS = {
     "ranks": ("ranks", "d"),
-    "converged": ("converged", lambda converged: "yes" if converged else "no"),
+    "converged": ("converged", yes),
     "load N": ("load_N", ".6g"),
     "central nm": ("central_film_nm", ".4f"),
     "minimum nm": ("minimum_film_nm", ".4f"),

@@ -1,13 +1,8 @@
 """A result in words: what a run, a `Solution` and a script print of it."""
 
 from mgehl.output.digits import with_band
-from mgehl.output.mixed_words import (
-    filling_words,
-    friction_lines,
-    heating_words,
-    mixed_lines,
-    strength_lines,
-)
+from mgehl.output.friction_result import friction_lines, strength_lines
+from mgehl.output.mixed_words import filling_words, mixed_lines
 from mgehl.output.resolution import RESOLVED_CELLS, SEEN_CELLS, beyond_words, domain_words
 from mgehl.output.surface import surface_words
 
@@ -89,6 +84,18 @@ def _loaded_lines(result, verbose):
     yield _work(result)
     if verbose:
         yield from _nodes(result)
+
+
+def heating_words(reduction, is_thinned):
+    """What the heat of shear in the inlet takes of the film, in a list; nothing below a per cent."""
+    if reduction is None or reduction > 0.99:
+        return []
+    percent = "all of it, by a formula out of range"
+    if reduction > 0.0:
+        percent = f"some {100.0 * (1.0 - reduction):.0f} %"
+    if is_thinned:
+        return [f"shear in the inlet has taken {percent} (lubricant.heating)"]
+    return [f"this is the isothermal film; shear in the inlet would take {percent}"]
 
 
 def _work(result):

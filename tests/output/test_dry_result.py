@@ -6,10 +6,10 @@ import dacite
 import numpy as np
 import pytest
 
+from mgehl.output.dry_summary import summarise_dry
 from mgehl.output.files import finite, plain_result
 from mgehl.output.result import Result, Work
 from mgehl.output.stored import AS_JSON
-from mgehl.output.summary import summarise_dry
 from mgehl.solver.dry import solve_dry
 
 TOLERANCE = 1e-8
@@ -83,15 +83,6 @@ def test_contact_of_too_few_nodes_is_none(settled, grid, across):
     result = judged(*settled(**grid))
     assert not result.converged and result.complementarity_error < 1e-10
     assert across in result.reason and "needs 4: a smaller domain or more nodes" in result.reason
-
-
-def test_bodies_that_overlap_are_told(settled):
-    problem, outcome = settled()
-    beside = (outcome.state.P == 0.0) & ~problem.boundary
-    problem._undeformed = np.where(beside, problem._undeformed - 10.0, problem._undeformed)
-    result = judged(problem, outcome)
-    assert not result.converged
-    assert result.overlap.nodes == np.count_nonzero(beside) and "OVERLAP" in str(result)
 
 
 @pytest.mark.parametrize("ends", [{"x": (-0.8, 1.3)}, {"y": (-1.5, 0.9)}, {"x": (-1.02, 1.3)}])

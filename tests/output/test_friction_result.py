@@ -1,6 +1,5 @@
 """Friction in a result: forces, power, the band of the load on solids, words."""
 
-from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -11,9 +10,8 @@ from mgehl.config import config_from_tables
 from mgehl.discretization.mesh import Mesh
 from mgehl.model.rheology import Friction
 from mgehl.output import friction_result as module
-from mgehl.output.friction_result import friction_result, with_band
+from mgehl.output.friction_result import friction_lines, friction_result, with_band
 from mgehl.output.gap_error import GapError, GridGap
-from mgehl.output.mixed_words import friction_lines
 from mgehl.output.report.run_report import report
 from mgehl.solver.shear import Shear
 
@@ -35,15 +33,6 @@ def found(paper_contact, monkeypatch):
     return make
 
 
-def test_the_faster_body_is_held_back_and_rolling_drags_both(found):
-    result = found(0.2)
-    assert (result.force_1_N, result.force_2_N) == (-48.4, 47.6)
-    assert result.coefficient == pytest.approx(0.06) and result.rolling_coefficient == 0.0005
-    assert result.largest_shear_MPa == 3.0
-    mirrored = found(-0.2)
-    assert (mirrored.force_1_N, mirrored.force_2_N) == (47.6, -48.4)
-
-
 @pytest.mark.parametrize("slide_to_roll", [0.2, -0.2, 2.0, 0.0])
 def test_the_loss_is_what_the_forces_take_from_the_bodies(found, slide_to_roll):
     result = found(slide_to_roll)
@@ -63,26 +52,12 @@ def test_the_band_of_the_load_on_solids_is_friction_s(found):
     assert line.startswith("friction 0.06000 ± 0.002 (newtonian): film 0.05000, solids 0.01000; rolling")
 
 
-def test_without_solids_there_is_no_band_and_shear_that_no_oil_bears_is_named(found):
-    result = replace(with_band(found(0.2), mixed(0.02), 0.1), solid_coefficient=0.0, largest_shear_MPa=2e3)
-    first, second = friction_lines(result, verbose=False)
-    assert "±" not in first and second.startswith("no oil bears more than some 300 MPa")
-
-
 def test_where_the_load_on_solids_is_the_grid_s_so_is_friction(found):
     result = with_band(found(0.2), mixed(None), 0.1)
     assert result.coefficient_band is None and result.is_the_grids
     assert (
         list(friction_lines(result, verbose=False))[1] == "friction is the grid's, as the load on solids is"
     )
-
-
-def test_zero_is_the_answer_of_surfaces_that_do_not_slide(found):
-    result = with_band(found(0.0), mixed(None), 0.1)
-    assert result.coefficient == 0.0 and not result.is_the_grids
-    (line,) = friction_lines(replace(result, model="eyring"), verbose=False)
-    assert line == "friction 0: the surfaces do not slide; rolling takes 0.0005 of the load on each body"
-    assert not list(friction_lines(result, verbose=False)) and not list(friction_lines(None, verbose=True))
 
 
 def test_a_run_that_slides_has_its_shear_in_report_and_files(tmp_path):

@@ -10,17 +10,14 @@ from mgehl.discretization import status
 from mgehl.output.files import FURTHER, further_fields
 from mgehl.output.laws import portable
 from mgehl.output.netcdf import netcdf_file, put
-from mgehl.version import VERSION
 
 
 def write_netcdf(path, solution):
     """Write fields and coordinates, results as scalars, the configuration as an attribute."""
-    with netcdf_file(path) as file:
-        # Those that CF asks for, the verdict, and the configuration as `mgehl run` reads it.
+    title = f"{solution.config.kind.content} {solution.config.kind.noun}"
+    with netcdf_file(path, title) as file:
+        # The verdict, and the configuration as `mgehl run` reads it.
         file.attrs.update({
-            "Conventions": "CF-1.8",
-            "title": f"{solution.config.kind.content} {solution.config.kind.noun}",
-            "source": f"mgehl {VERSION}",
             "history": f"{datetime.now(UTC):%Y-%m-%dT%H:%M:%SZ} mgehl export",
             "converged": "yes" if solution.result.converged else "no",
             "verdict": solution.result.reason,

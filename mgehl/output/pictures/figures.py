@@ -3,7 +3,8 @@
     for picture in figures(read_run("runs/point_contact")):
         print(picture.name, picture.title)
 
-`draw_all` saves them at once. For another look call both under `style.applied("my.mplstyle")`.
+`write` saves them. For another look call both under `style.applied("my.mplstyle")`. `run_picture` is
+the one that a run leaves.
 """
 
 from collections.abc import Sequence
@@ -11,16 +12,16 @@ from os import PathLike
 from pathlib import Path
 from typing import NamedTuple
 
+import numpy as np
 from matplotlib.figure import Figure
 
 from mgehl.errors import UserError
-from mgehl.output.pictures import maps, style, wedge_picture
+from mgehl.output.pictures import lines, maps, style, wedge_picture
 from mgehl.output.pictures.comparison import compare_histories, compare_lines
 from mgehl.output.pictures.history import history
-from mgehl.output.pictures.lines import centre_lines
 from mgehl.output.pictures.over_time import over_time
 from mgehl.output.pictures.surface import heights_of, surface_picture
-from mgehl.output.pictures.titles import labels
+from mgehl.output.pictures.titles import gap_words, labels, title_with_films
 from mgehl.output.solution import Solution
 
 
@@ -33,7 +34,7 @@ class Picture(NamedTuple):
 
 
 _POINT = {
-    "lines": ("pressure and film on the centre lines, against the dry contact", centre_lines),
+    "lines": ("pressure and film on the centre lines, against the dry contact", lines.centre_lines),
     "film": ("film thickness, with contact, and cavities by how full they are", maps.film_map),
     "pressure": ("pressure, with contact outlined", maps.pressure_map),
     "status": ("status of the nodes", maps.status_map),
@@ -41,7 +42,7 @@ _POINT = {
 }
 """Pictures of a point contact, in order: the kind, what it shows, the function that draws it."""
 _GAP = "pressure and gap on the centre lines, against the contact of smooth bodies"
-_DRY = {"lines": (_GAP, centre_lines), "gap": ("gap, with contact", maps.film_map)}
+_DRY = {"lines": (_GAP, lines.centre_lines), "gap": ("gap, with contact", maps.film_map)}
 _SLIDES = {"shear": ("shear stress by sliding, with contact outlined", maps.shear_map)}
 _ROUGH = {"surface": ("heights of the surface with contact, the gap, their distribution", surface_picture)}
 _IN_TIME = {"time": ("films, pressure and shares of the load over time", over_time)}
@@ -108,24 +109,11 @@ def compared(solutions: Sequence[Solution], names: Sequence[str]) -> list[Pictur
     """
     said = labels(solutions, names)
     with style.applied():
-        lines, histories = compare_lines(solutions, said), compare_histories(solutions, said)
+        centre, histories = compare_lines(solutions, said), compare_histories(solutions, said)
     return [
-        Picture("compare-lines", "pressure and film on the centre lines of all runs", lines),
+        Picture("compare-lines", "pressure and film on the centre lines of all runs", centre),
         Picture("compare-history", "how the runs converged", histories),
     ]
-
-
-def draw_all(
-    solution: Solution,
-    directory: str | PathLike,
-    formats: Sequence[str] = ("png", "pdf"),
-    kinds: Sequence[str] | None = None,
-) -> list[Path]:
-    """Write all pictures of a run, or these `kinds`, as directory/KIND.FORMAT; return their paths.
-
-    Raises UserError for a kind that this contact does not have, OSError where a file cannot be written.
-    """
-    return write(figures(solution, kinds), directory, formats)
 
 
 def write(
@@ -139,3 +127,25 @@ def write(
         for picture, path in paths:
             style.save(picture.figure, path)
     return [path for _, path in paths]
+
+
+def run_picture(solution):
+    """The picture of a `Solution`'s whole-grid fields, as the bytes of a PNG file."""
+    with style.applied():
+        figure = _loaded(solution) if solution.contact.is_loaded else wedge_picture.picture(solution)
+        return style.rendered(figure, "png")
+
+
+def _loaded(solution):
+    panels = 1 if solution.mesh.is_line else 3
+    figure = Figure(figsize=(1.5 + 4.1 * panels, 5.2), layout="constrained")
+    above, below = ["p along", "p across"], ["h along", "h across"]
+    axes = figure.subplot_mosaic([[*above, "map"][:panels], [*below, "map"][:panels]])
+    rows = np.array([[axes[name] for name in row if name in axes] for row in (above, below)])
+    handles = lines.draw_lines(rows, solution)
+    if "map" in axes:
+        handles += maps.draw_film(axes["map"], solution, style.SMALL)
+        axes["map"].set_title(gap_words(solution.contact)[0])
+    style.legend_under_all(figure, handles)
+    figure.suptitle(title_with_films(solution))
+    return figure

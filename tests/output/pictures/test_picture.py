@@ -11,10 +11,8 @@ from matplotlib.figure import Figure
 
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
-from mgehl.errors import UserError
 from mgehl.output.pictures import style
-from mgehl.output.pictures.figures import draw_all, figures
-from mgehl.output.pictures.picture import drawn
+from mgehl.output.pictures.figures import figures, run_picture, write
 from mgehl.output.pictures.plane import Blocks
 
 
@@ -22,7 +20,7 @@ def image_of(solution):
     """Its dots, (height, width, 3); without any warning."""
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        return plt.imread(io.BytesIO(drawn(solution)))[..., :3]
+        return plt.imread(io.BytesIO(run_picture(solution)))[..., :3]
 
 
 def share(image, colour):
@@ -61,13 +59,8 @@ def test_a_line_contact_and_a_wedge_have_what_makes_sense(make_line, make_wedge)
     assert [picture.name for picture in figures(make_wedge())] == ["lines", "pressure", "status", "history"]
 
 
-def test_a_kind_that_a_contact_does_not_have(make_line):
-    with pytest.raises(UserError, match="no picture 'film' of this contact: it has lines, history"):
-        figures(make_line(), ["history", "film"])
-
-
-def test_draw_all_writes_every_format(make_line, tmp_path):
-    paths = draw_all(make_line(), tmp_path / "new", ("png", "svg", "pdf"))
+def test_every_format_is_written(make_line, tmp_path):
+    paths = write(figures(make_line()), tmp_path / "new", ("png", "svg", "pdf"))
     names = [f"{name}.{form}" for name in ("lines", "history") for form in ("png", "svg", "pdf")]
     assert [path.name for path in paths] == names
     assert {path.name for path in (tmp_path / "new").iterdir()} == set(names)

@@ -1,0 +1,44 @@
+"""The `Result` of a rigid bearing, its final state evaluated."""
+
+import numpy as np
+
+from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, WALL
+from mgehl.output.film_error import no_band
+from mgehl.output.result import Result
+from mgehl.solver.mass import account
+from mgehl.solver.verification import closed_face_flow, flux_imbalance
+
+
+def summarise_wedge(problem, outcome, wall_s, versions):
+    """The `Result` of a rigid bearing, its final state evaluated (collective)."""
+    grid, bearing, state = problem.grid, problem.contact, outcome.state
+    evaluation = problem.evaluate(state)
+    across = bearing.width / bearing.y_scale if grid.mesh.is_line else 1.0
+    solid, torn = state.status == CONTACT, state.status == CAVITATED
+    load = across * problem.load(np.where(solid, state.P, state.P - bearing.ambient))
+    largest, cavities = grid.max(state.P), grid.count(torn)
+    pad = (evaluation.status != BOUNDARY) & (evaluation.status != WALL)
+    # Half of what the plate would carry along is dragged through a gap.
+    unit = 0.5 * bearing.speed * bearing.film_scale * bearing.y_scale * across
+    return Result(
+        converged=outcome.converged,
+        settled=outcome.converged,
+        reason=outcome.reason,
+        load=load,
+        load_N=load * bearing.pressure_scale * bearing.x_scale * bearing.y_scale,
+        max_P=largest,
+        min_P=grid.min(state.P),
+        max_pressure_MPa=1e-6 * bearing.pressure_scale * largest,
+        residual=problem.rms(problem.residual(evaluation, state.status)),
+        flux_imbalance=flux_imbalance(problem, evaluation),
+        closed_face_flow=closed_face_flow(problem, evaluation),
+        solid_nodes=grid.count(solid),
+        cavitated_nodes=cavities,
+        linear_iterations=sum(step.linear_iterations for step in outcome.cycles),
+        wall_s=wall_s,
+        ranks=grid.comm.size,
+        versions=versions,
+        error=no_band("the gap of a rigid bearing is given"),
+        torn_filling=grid.sum(state.filling[torn].sum()) / cavities if cavities else None,
+        mass=account(problem, state, evaluation, pad, unit),
+    )
