@@ -3,20 +3,19 @@
 Every mistake is one line that names the key, the value and what is allowed (`ConfigError`).
 """
 
-import difflib
 from collections.abc import Iterable, Mapping
-from contextlib import contextmanager
 from dataclasses import asdict, dataclass, fields, replace
 from pathlib import Path
 
 from mgehl import config_sections as sections
 from mgehl.config_file import default_config, nested, read_toml
+from mgehl.config_mistakes import check_section, check_together, closest, closest_key, naming_words
 from mgehl.config_value import read_value, shown
 from mgehl.errors import ConfigError
 from mgehl.kinds import choices, derived, kind_of
 from mgehl.kinds.bodies import BodySection
 from mgehl.kinds.choice import named, value_of
-from mgehl.kinds.derived import NUMBERS, left_over, orphans, overridden, words_of
+from mgehl.kinds.derived import NUMBERS, left_over, orphans, overridden
 from mgehl.kinds.friction import FrictionSection
 from mgehl.kinds.heat import HeatSection
 from mgehl.kinds.lubricant import LubricantSection
@@ -214,7 +213,7 @@ def _laid(tables, given):
         for section, table in tables.items()
     }  # fmt: skip
     for section, table in given.items():
-        _check_section(section, laid.setdefault(section, {}))
+        check_section(section, laid.setdefault(section, {}))
         laid[section] |= table
     return laid
 
@@ -232,76 +231,25 @@ def config_from_tables(tables):
     sections = {}
     for section, table in tables.items():
         if section not in SECTIONS:
-            raise ConfigError(f"{section} = {shown(table)}: unknown section{_closest(section, SECTIONS)}")
-        _check_section(section, table)
+            raise ConfigError(f"{section} = {shown(table)}: unknown section{closest(section, SECTIONS)}")
+        check_section(section, table)
         for name in table:
             if (key := f"{section}.{name}") not in KEYS:
-                raise ConfigError(f"{key} = {shown(table[name])}: unknown key{_closest_key(key)}")
+                raise ConfigError(f"{key} = {shown(table[name])}: unknown key{closest_key(key, KEYS)}")
         keys = {name: f"{section}.{name}" for name in table}
         values = {name: read_value(key, KEYS[key].metadata, table[name]) for name, key in keys.items()}
         sections[section] = SECTIONS[section](**values)
     config = Config(**sections)
-    _check_together(config, tables)
+    check_together(config, tables)
     for each in config.derived:
-        with _naming_words(tables, each.key):
+        with naming_words(tables, each.key):
             config = config.with_numbers({each.key: each.value})
     config.kind.check_keys(config)
     return config
 
 
-@contextmanager
-def _naming_words(tables, number):
-    """Let what is wrong with a number begin with the words that it follows from."""
-    try:
-        yield
-    except ConfigError as error:
-        raise ConfigError(f"{', '.join(words_of(tables, number))}: {error}") from None
-
-
-def _check_together(config, tables):
-    """Rules that concern more than one key."""
-    nodes = config.grid.nodes
-    if (nodes - 1) & (nodes - 2):
-        lower = 2 ** ((nodes - 1).bit_length() - 1) + 1
-        raise ConfigError(f"grid.nodes = {nodes}: must be 2^k + 1, such as {lower} or {2 * lower - 1}")
-    for choice in choices(asdict(config)):
-        _check_choice(choice, config, tables)
-
-
-def _check_choice(choice, config, tables):
-    """Keys that are given must mean something beside a choice; those that it needs must be given."""
-    for section, table in tables.items():
-        for key, value in table.items():
-            if f"{section}.{key}" in choice.gives:
-                raise ConfigError(
-                    f"{section}.{key} = {shown(value)}: follows already {choice.said}: give one of them"
-                )
-            if choice.means_nothing(f"{section}.{key}"):
-                raise ConfigError(f"{section}.{key} = {shown(value)}: means nothing {choice.said}")
-    for key in choice.needs:
-        if config.value(key) is None:
-            raise ConfigError(f"{key}: must be given {choice.said}")
-
-
-def _check_section(name, table):
-    if not isinstance(table, dict):
-        raise ConfigError(f"{name} = {shown(table)}: is a section, its keys go under [{name}]")
-
-
 def checked_key(option, key):
     """A "section.key" that an option names. Raises ConfigError where there is none."""
     if key not in KEYS:
-        raise ConfigError(f"{option} {key}: unknown key{_closest_key(key)}")
+        raise ConfigError(f"{option} {key}: unknown key{closest_key(key, KEYS)}")
     return key
-
-
-def _closest(name, known):
-    close = difflib.get_close_matches(name, known, n=1, cutoff=0.4)
-    return f"; did you mean {close[0]}?" if close else f"; known are {', '.join(known)}"
-
-
-def _closest_key(key):
-    """The nearest known key, of this section if one is near, else of any."""
-    close = difflib.get_close_matches(key, KEYS, n=1, cutoff=0.6)
-    near = [each for each in KEYS if each.endswith(f".{key.rpartition('.')[2]}")] or close
-    return f"; did you mean {near[0]}?" if near else ""

@@ -4,31 +4,20 @@ Inside the code X = x/a, P = p/p_h and H = h R_x/a^2 (the paper divides the gap 
 """
 
 from dataclasses import asdict, dataclass, replace
-from functools import cached_property
 from math import log, sqrt
 
 import numpy as np
 
 from mgehl.model import films
 from mgehl.model.frame import Frame
-from mgehl.model.hertz import edge_gap_coefficient, hertz_pressure
+from mgehl.model.hertz import hertz_pressure
+from mgehl.model.inlet import Inlet
 from mgehl.model.lubricant import DowsonHigginson
+from mgehl.model.on_bodies import NEXT_TO_NONE, OnBodies
 from mgehl.model.rheology import Friction
-from mgehl.model.surface.surface import JUST, step_of
 
-SAMPLES = 65
-"""Heights along each side from which the roughness is reckoned: the same whatever the grid."""
-NEXT_TO_NONE = 1e-18
-"""Roughness in m that is none: a dent far beside the contact leaves a tail in it."""
-SHOWN_CELLS = 4.0
-"""Cells of a coarse grid in the shortest wave that it is shown."""
 RESOLVED_CELLS = 4.0
 """Cells in the inlet from which on the film does not change with the grid."""
-
-SOFTEST = 3.0
-"""Times that the inlet of soft bodies may be longer than the one by which speeds on coarse grids go. By
-that one alone rubber (E' 20 MPa in oil, 257 nodes) begins at 300 m/s and takes 703 convolutions, with this
-limit 112; with 2 one of 92 soft contacts is not found."""
 
 
 @dataclass(frozen=True)
@@ -42,7 +31,7 @@ class Groups:
     L: float
 
 
-class LoadedContact:
+class LoadedContact(OnBodies, Inlet):
     """Scales, film and inlet of a body pressed on a lubricated flat, all values in SI units.
 
     A kind of contact adds `load`, `radius_x`, `reduced_modulus`, `speed`, `lubricant`, the dry
@@ -55,8 +44,6 @@ class LoadedContact:
     """The gap answers to the pressure, whose integral is a load."""
     is_plane = False
     """It has no end across the motion."""
-    hardly_yields = False
-    """The load is so light that the bodies hardly yield: the pressure is not that of Hertz."""
     counted_beyond = 0.0
     """Part of the load carried beyond the domain that the film within is spared, 0 to 1."""
     motion = (1.0, 0.0)
@@ -68,88 +55,16 @@ class LoadedContact:
     """How the surfaces slide over each other."""
     solids = None
     """`flash.Solid` of both bodies; None where it is not known."""
-    surface = None
-    """The `Surface` of the body that stands still: a peak is positive and lowers the gap."""
     deformation = None
     """What the bodies are in depth, where they are not half-spaces."""
     widening = 1.0
     """Width of the dry contact over that of Hertz; where bodies are layered an estimate."""
-
-    def undeformed_gap(self, X, Y):
-        """Gap of the undeformed bodies in units of H, whatever is on their surface."""
-        smooth = self.smooth_gap(X, Y)
-        if self.surface is None:
-            return smooth
-        return smooth - self.surface.height(X * self.x_scale, Y * self.y_scale) / self.film_scale
-
-    @property
-    def roughness(self):
-        """Rms of the heights within the Hertz semi-axes, about their mean, in m; 0 of smooth bodies."""
-        return float(np.sqrt(np.mean(self.heights**2)))
-
-    @property
-    def skewness(self):
-        """Ssk of the same heights: positive where there are more peaks than valleys; 0 of smooth bodies."""
-        rms = self.roughness
-        return float(np.mean((self.heights / rms) ** 3)) if rms else 0.0
-
-    @property
-    def is_rough(self):
-        """Whether there are heights, in the contact or beside it: in time they may come into it."""
-        return self.surface is not None
 
     @property
     def lambda_ratio(self):
         """Film of smooth bodies over the roughness; None where there is next to none."""
         rms = self.roughness
         return self.expected_film / rms if rms > NEXT_TO_NONE else None
-
-    @property
-    def mean_height(self):
-        """Mean of the heights within the Hertz semi-axes, in m; 0 of smooth bodies."""
-        return float(self._samples.mean())
-
-    @property
-    def heights(self):
-        """Samples of the heights within the Hertz semi-axes, about their mean, in m."""
-        return self._samples - self._samples.mean()
-
-    @cached_property
-    def _samples(self):
-        if self.surface is None:
-            return np.zeros(1)
-        side = np.linspace(-1.0, 1.0, SAMPLES)
-        across = np.zeros(1) if self.is_plane else side
-        x, y = side[None, :] * self.x_scale, across[:, None] * self.y_scale
-        return np.broadcast_to(self.surface.height(x, y), (len(across), SAMPLES))
-
-    def shortest_wave(self, mesh):
-        """Shortest wavelength of the surface in m, as seen on a mesh within the Hertz semi-axes."""
-        x, y = self._nodes(mesh)
-        inside = np.abs(x) <= self.x_scale, np.abs(y) <= self.y_scale
-        return self.surface.shortest(x[inside[0]], y[inside[1]])
-
-    def longest_cell(self, mesh):
-        """The longer side of a mesh's cell, in m."""
-        return max(map(step_of, self._nodes(mesh)))
-
-    def seen_by(self, mesh, finest):
-        """The contact as a coarser `mesh` than the `finest` sees it: no waves shorter than `SHOWN_CELLS`.
-
-        A surface that has none is left as it is, to the last bit.
-        """
-        if self.surface is None:
-            return self
-        x, y = self._nodes(finest)
-        cells = [step_of(nodes) for nodes in self._nodes(mesh)]
-        wavelengths = tuple(SHOWN_CELLS * cell for cell in cells)
-        if mesh.nx == finest.nx or self.shortest_wave(finest) >= (1.0 - JUST) * max(wavelengths):
-            return self
-        return replace(self, surface=self.surface.filtered(wavelengths, x, y))
-
-    def _nodes(self, mesh):
-        """Lines of a mesh's nodes along x and along y, in m."""
-        return mesh.X * self.x_scale, mesh.Y * self.y_scale
 
     @property
     def asymptotes(self):
@@ -316,51 +231,3 @@ class LoadedContact:
     def moes_scale(self):
         """H_Moes = (h/R_x)(2U)^(-1/2) per metre of film."""
         return 1.0 / (self.radius_x * sqrt(2.0 * self.groups.U))
-
-    @property
-    def _edge_gap(self):
-        return edge_gap_coefficient(self.hertz, self.reduced_modulus)
-
-    @property
-    def grubin_film(self):
-        """Ertel-Grubin film in metres."""
-        lubricant = self.lubricant
-        return films.grubin(
-            lubricant.pressure_viscosity, lubricant.viscosity, self.speed, self.hertz.a, self._edge_gap
-        )
-
-    @property
-    def inlet_length(self):
-        """Length of the zone that builds the film, in units of a; of layered bodies an estimate.
-
-        Of bodies that hardly yield it is sqrt(2 R h), on which the gap is twice the film.
-        """
-        like = self.likeness
-        if self.hardly_yields:
-            return sqrt(2.0 * like.radius_x * like.flooded_film) / self.x_scale
-        return self._inlet_of(like.flooded_film if self.is_soft else like.grubin_film)
-
-    def _inlet_of(self, film):
-        """s* = (h/C)^(2/3) of a film in metres."""
-        return (film / self._edge_gap) ** (2.0 / 3.0)
-
-    def cell_along_motion(self, mesh):
-        """Length of a mesh's cell in units of a, as the truncation error along the motion has it."""
-        return mesh.dX
-
-    def inlet_cells(self, mesh):
-        """Cells of a mesh that the inlet is long."""
-        return self.inlet_length / self.cell_along_motion(mesh)
-
-    def matched_speed(self, mesh, cells):
-        """Lowest speed not below `speed` that keeps `cells` cells of a mesh along X in the inlet.
-
-        s* grows with the square root of u, so the speed follows in one step. The inlet is that of Ertel and
-        Grubin. Of soft bodies it is too short, and the speed higher than it need be: from there all of 92
-        soft contacts are found, from the speed of their own inlet 86. The inlet of bodies that hardly yield
-        grows with u itself.
-        """
-        if self.hardly_yields:
-            return self.speed * max(1.0, cells * mesh.dX / self.inlet_length)
-        inlet = max(self._inlet_of(self.likeness.grubin_film), self.inlet_length / SOFTEST)
-        return self.speed * max(1.0, (cells * mesh.dX / inlet) ** 2)

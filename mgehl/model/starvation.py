@@ -13,7 +13,7 @@ is not known.
 The side downstream takes nothing: one at 1.2 semi-axes gives the film of one at 3 to 0.1 %.
 
 The constants were fitted to pairs of solutions on a small and a large domain of equal cells. An estimate is
-good to a factor of two, but where a domain cuts into a light film: `study domain` measures it.
+good to a factor of two, but where a domain cuts into a light film.
 """
 
 from dataclasses import dataclass

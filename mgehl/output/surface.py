@@ -3,7 +3,7 @@
 from math import inf, isinf
 
 from mgehl.kinds.surface import parts_of
-from mgehl.model.contact import NEXT_TO_NONE
+from mgehl.model.on_bodies import NEXT_TO_NONE
 from mgehl.model.surface import Measured
 
 RESOLVED_NODES, SEEN_NODES = 8.0, 4.0
