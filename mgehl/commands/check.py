@@ -20,8 +20,6 @@ from mgehl.saying import columns, folded
 
 GiB = 2**30
 
-AT_REST = "begins from the dry contact: the surfaces are at rest"
-
 NAME = 11
 """Columns of what a line is about."""
 
@@ -118,10 +116,8 @@ def _recipe(config, contact):
     from mgehl.solver.recipe_words import recipe_words
 
     yield ""
-    words = recipe_words(recipe_of(settings_from(config, contact), contact))
-    if begins_at_rest(config):
-        words = (AT_REST if each.startswith("begins ") else each for each in words)
-    yield from _under("recipe", words)
+    recipe = recipe_of(settings_from(config, contact), contact)
+    yield from _under("recipe", recipe_words(recipe, begins_at_rest(config)))
 
 
 def _surface(config, contact, mesh):

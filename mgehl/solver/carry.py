@@ -144,16 +144,14 @@ class Transport:
 
     def _passing(self, m, shift):
         """What passes the faces of each axis when contents m go along, as flows are counted."""
-        along = shift.passing_x(m)
-        mesh = self._grid.mesh
+        mesh, (along, across, _) = self._grid.mesh, self._carried(m, shift)
         found = [mesh.dX * along[:, 1:-1]]
         if mesh.is_line:
             return found
-        across = np.zeros(m.shape)
+        behind = np.zeros(m.shape)
         if shift.along_y:
-            whole = self._grid.gather(m + along[:, :-1] - along[:, 1:])
-            across = self._grid.scatter(shift.passing_y(whole)[:-1] if self._grid.comm.rank == 0 else None)
-        return [*found, mesh.dY * self._faces(along, across)[1]]
+            behind = self._grid.scatter(None if across is None else across[:-1])
+        return [*found, mesh.dY * self._faces(along, behind)[1]]
 
     def ended(self, leg, evaluation):
         """The `Carried` after a `Leg`, by the `Evaluation` of its answer; no node owes anything."""
@@ -191,19 +189,25 @@ class Transport:
 
     def _brought(self, m, shift):
         """Contents after they went along, and what passed the domain's ends inwards, a number."""
-        along = shift.passing_x(m)
+        along, across, after = self._carried(m, shift)
         inner = slice(None) if self._grid.mesh.is_line else self._inner_lines
         ends = self._grid.sum((along[inner, 1] - along[inner, -2]).sum())
-        m = m + along[:, :-1] - along[:, 1:]
         if not shift.along_y:
-            return m, ends
-        whole = self._grid.gather(m)
-        passed = 0.0
-        if self._grid.comm.rank == 0:
-            across = shift.passing_y(whole)
-            whole = whole + across[:-1] - across[1:]
-            passed = float((across[1] - across[-2])[1:-1].sum())
+            return after, ends
+        passed = 0.0 if across is None else float((across[1] - across[-2])[1:-1].sum())
+        whole = None if across is None else after + across[:-1] - across[1:]
         return self._grid.scatter(whole), ends + self._grid.comm.bcast(passed)
+
+    def _carried(self, m, shift):
+        """What passes when contents m go along X and then along Y: the faces of own lines, (lines, nx + 1);
+        on rank 0 those across all lines, (ny + 1, nx), else None; the contents between both, which rank 0
+        has of all lines if they go on along Y."""
+        along = shift.passing_x(m)
+        between = m + along[:, :-1] - along[:, 1:]
+        if not shift.along_y:
+            return along, None, between
+        whole = self._grid.gather(between)
+        return along, None if whole is None else shift.passing_y(whole), whole
 
     @property
     def _inner_lines(self):

@@ -33,9 +33,12 @@ BEGINS = {
     A_STATE: "from another solution",
 }
 
+AT_REST = "from the dry contact: the surfaces are at rest"
+"""So begins a run in time whose speed rises from nothing."""
 
-def recipe_words(recipe):
-    """Words for each choice of a `Recipe` and what it follows from."""
+
+def recipe_words(recipe, at_rest=False):
+    """Words for each choice of a `Recipe` and what it follows from; of surfaces that begin `at_rest`."""
     law, newton, cycle = recipe.scheme.contact_law, recipe.newton, recipe.cycle
     yield PEAKS[recipe.peaks]
     limited = ", limited: no film behind a peak is less than none" if recipe.scheme.couette == "3L" else ""
@@ -43,7 +46,7 @@ def recipe_words(recipe):
     yield f"Couette flow by {recipe.scheme.couette}{limited}; {mean}"
     yield f"contact {law.words}"
     grids = "coarse grids first" if recipe.on_coarse_grids else "on the finest grid alone"
-    yield f"begins {BEGINS[recipe.begins]}, {grids}"
+    yield f"begins {AT_REST if at_rest else f'{BEGINS[recipe.begins]}, {grids}'}"
     if recipe.or_from_thick_film:
         yield "where that fails, from a film that covers the peaks, slowed down"
     if recipe.fluid_apart:

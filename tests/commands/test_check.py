@@ -81,14 +81,6 @@ def test_a_bearing_of_a_catalogue_is_told_with_what_follows_from_it(told):
     assert "Hamrock, Dowson 1977" in text and "unusual" not in text
 
 
-def test_an_oil_is_told_with_its_source_its_range_and_what_is_not_known(told):
-    oil = "--set", "lubricant.oil=M100", "--set", "lubricant.temperature=60 degC"
-    text = told("ball_bearing.toml", *oil)
-    assert "mineral oil of ISO VG 100, FVA 3, Arana, Larranaga, Ulacia 2019" in text
-    assert "measured from 40 to 100 C and up to 1 GPa; not known: where the constants were fitted" in text
-    assert "p_h = 1.51 GPa: M100 was measured up to 1 GPa: its law is extended beyond" in text
-
-
 def test_two_ways_in_a_file_are_one_line_with_its_name(tmp_path, capsys):
     path = tmp_path / "both.toml"
     path.write_text('[contact]\nreduced_modulus = "226 GPa"\n[body_1]\nmaterial = "steel"\n')
@@ -98,14 +90,6 @@ def test_two_ways_in_a_file_are_one_line_with_its_name(tmp_path, capsys):
     assert line == f"mgehl: {path}: {follows}"
 
 
-def test_wrong_units_are_named_as_unusual(told):
-    assert "unusual    lubricant.viscosity = 100 Pa s: machines have" in told(
-        "ball_bearing.toml", "--set", "lubricant.viscosity=100 Pa s"
-    )
-    large = told("full_film.toml", "--set", "contact.radius_x=10 m", "--set", "contact.radius_y=10 m")
-    assert "contact.radius_x = 10 m: machines have" in large and "hard bodies mostly have 0.1 to 5" in large
-
-
 def test_each_grid_has_its_cells_and_the_grid_that_resolves_is_recommended(told):
     text = told("full_film.toml")
     cells = [float(each) for each in re.findall(r"grid +\d+ +([\d.]+) cells", text)]
@@ -113,12 +97,6 @@ def test_each_grid_has_its_cells_and_the_grid_that_resolves_is_recommended(told)
     assert "recommended: grid.nodes=2049" in text
     assert "this grid does" in told("full_film.toml", "--set", "grid.nodes=2049")
     assert "no grid up to 16385 does" in told("full_film.toml", "--set", "motion.speed=1e-9")
-
-
-def test_other_kinds_are_described(told):
-    line, wedge = told("line_contact.toml"), told("wedge_square_pillar.toml")
-    assert "valid, a line contact" in line and number(line, r"dowson higginson central ([\d.]+)") > 100.0
-    assert "20 um at the exit, 50 um at the inlet" in wedge and "no convolutions" in wedge
 
 
 @pytest.mark.parametrize(
