@@ -110,8 +110,7 @@ def sweep(
     from mpi4py import MPI
 
     from mgehl.run import Watch
-    from mgehl.studies.axes import axis_of
-    from mgehl.studies.points import points_of
+    from mgehl.studies.points import axis_of, points_of
     from mgehl.studies.sweep import swept
 
     axes = [axis_of(config, key, values) for key, values in over.items()]

@@ -37,8 +37,7 @@ def execute(options, comm):
     """Solve all points on all ranks."""
     from mgehl.run import Watch
     from mgehl.stopping import StopWhenTold
-    from mgehl.studies.axes import axis_of
-    from mgehl.studies.points import points_of
+    from mgehl.studies.points import axis_of, points_of
     from mgehl.studies.sweep import swept
 
     file = chosen_config(options.config, options.settings)

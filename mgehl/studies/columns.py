@@ -1,13 +1,12 @@
-"""Columns that tables of several studies have: where a result has the number, and how it is written."""
+"""Columns that tables of several studies have beside those of `output.table`: where a result has the number
+and how it is written.
+"""
 
 from operator import attrgetter
 
+from mgehl.output import table
+from mgehl.output.table import yes
 from mgehl.output.words import span
-
-
-def yes(holds):
-    """As tables have it."""
-    return "yes" if holds else "no"
 
 
 def broken(inequality):
@@ -15,25 +14,15 @@ def broken(inequality):
     return f"{inequality.violations} of {inequality.checked}"
 
 
-COLUMNS = {
-    "converged": ("converged", yes),
+COLUMNS = table.COLUMNS | {
     "settled": ("settled", yes),
-    "residual": ("residual", ".1e"),
-    "load error": ("load_error", ".1e"),
     "wall s": ("wall_s", ".1f"),
-    "convolutions": ("work.convolutions", ".1f"),
     "steps": ("work.steps", "d"),
-    "central nm": ("central_film_nm", ".4f"),
-    "minimum nm": ("minimum_film_nm", ".4f"),
     "contact nodes": ("contact.nodes", "d"),
     "contact on X": ("contact.x_nodes", span),
-    "on Y": ("contact.y_nodes", span),
-    "contact/Hertz area": ("contact.area_fraction", ".4f"),
-    "load on contact": ("contact.load_fraction", ".4f"),
     "largest gap nm": ("contact.largest_gap_nm", ".1e"),
     "Eq. 2 broken": ("other_inequality", broken),
     "at the interface": ("pressure_inequality", broken),
-    "inlet cells": ("resolution.inlet_cells", ".2f"),
     "grid verdict": ("resolution.verdict", str),
     "lambda": ("mixed.lambda_ratio", ".3g"),
     "made": ("mass.made_share", ".1e"),

@@ -8,8 +8,8 @@ from math import nan
 
 import numpy as np
 
-from mgehl.studies.bands import Band, cells, summary
 from mgehl.studies.columns import told
+from mgehl.studies.limits import Band, cells, summary
 from mgehl.studies.study import BEST, merged
 
 NODES, CASES, SEED = (65, 129, 257), 40, 11

@@ -1,6 +1,12 @@
-"""Orders and limits of numbers on grids that are each twice as fine."""
+"""Orders and limits of numbers on grids that are each twice as fine; whether bands hold the limits."""
 
-from math import log2, nan
+from math import isfinite, log2, nan
+from typing import NamedTuple
+
+import numpy as np
+
+from mgehl.output.digits import with_band
+from mgehl.studies.columns import statistic
 
 PLAUSIBLE_ORDERS = (0.5, 3.0)
 """Orders outside of this range come from values that are too far from their limit to tell it."""
@@ -29,3 +35,62 @@ def limit_said(values, shown):
     limit, order = richardson(values)
     plausible = PLAUSIBLE_ORDERS[0] <= order <= PLAUSIBLE_ORDERS[1]
     return shown.format(limit, order) if plausible else "not to be told yet"
+
+
+class Band(NamedTuple):
+    """A number with the half-width of its band beside its limit, all in one unit; None without a band."""
+
+    value: float
+    half_width: float | None
+    limit: float
+
+    @property
+    def off(self):
+        """The true error."""
+        return abs(self.limit - self.value)
+
+    @property
+    def holds(self):
+        """Whether the limit lies within the band."""
+        return self.off <= self.half_width
+
+    @property
+    def known(self):
+        """Whether there is a band, and a limit to judge it by."""
+        return self.half_width is not None and isfinite(self.limit)
+
+    @property
+    def over_error(self):
+        """Half-width over the true error; marked where the band does not hold the limit."""
+        if not self.known or not self.off > 0.0:
+            return ""
+        return f"{self.half_width / self.off:.2f}{'' if self.holds else ' !'}"
+
+
+def cells(name, band):
+    """Columns of a table."""
+    return {
+        f"{name} nm": with_band(band.value, band.half_width),
+        f"{name} limit nm": f"{band.limit:.4g}",
+        f"{name} band/error": band.over_error,
+    }
+
+
+def summary(bands):
+    """A row for each name of `bands`, {name: [Band]}: how often they hold the limit, how wide they are."""
+    for name, found in bands.items():
+        known = [band for band in found if band.known]
+        held = sum(band.holds for band in known)
+        yield {
+            "of": name,
+            "bands": str(len(known)),
+            "hold the limit": str(held),
+            "in %": f"{100.0 * held / max(len(known), 1):.0f}",
+            "median of half-width/error": _median(b.half_width / b.off for b in known if b.off > 0.0),
+            "median half-width %": _median(100.0 * b.half_width / b.value for b in known),
+            "median error %": _median(100.0 * b.off / b.limit for b in known),
+        }
+
+
+def _median(values):
+    return statistic(np.median, values, "{:.2f}")

@@ -1,7 +1,7 @@
 """Newton with multigrid compared with the paper's relaxation, and the interface conditions with the unified
 equations."""
 
-from mgehl.studies import film_figures
+from mgehl.output.pictures.style import COLOURS, subplots
 from mgehl.studies.columns import broken, told
 from mgehl.studies.study import PAPER, merged, papers_grid
 
@@ -35,7 +35,7 @@ def run(study):
         histories[name] = {method: solution.rows for method, solution in pair.items()}
     study.write_table("methods", rows)
     study.write_table("models", list(_model_rows(study)))
-    study.draw("histories", film_figures.histories, histories)
+    study.draw("histories", figure, histories)
 
 
 def _solve(study, name, case, method):
@@ -88,3 +88,17 @@ def _model_rows(study):
             "Eq. 2 violations": broken(result.other_inequality),
             "verdict": result.reason,
         }
+
+
+def figure(cases):
+    """True residual against convolutions, by both methods."""
+    figure, panels = subplots(1, len(cases), size=(4.2 * len(cases), 3.9), squeeze=False)
+    for panel, (name, methods) in zip(panels[0], cases.items(), strict=True):
+        for (method, rows), colour in zip(methods.items(), COLOURS, strict=False):
+            finest = [row for row in rows if row["grid"] == rows[-1]["grid"]]
+            work = [max(row["convolutions"], 1.0) for row in finest]
+            panel.plot(work, [row["residual"] for row in finest], color=colour, label=method)
+        panel.set(xscale="log", yscale="log", xlabel="fine-grid convolutions", title=name)
+    panels[0, 0].set_ylabel("true residual (rms)")
+    panels[0, 0].legend(frameon=False)
+    return figure

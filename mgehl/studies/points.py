@@ -1,16 +1,100 @@
-"""Points of a sweep over several keys, in an order in which each is beside the one before.
+"""Points of a sweep: keys and the values that they take, "1e-4..1 m/s:20", "50,100,200 N" or a list.
 
 The path is a snake: from one point to the next a single key changes, by one value.
 """
 
+import re
 from dataclasses import dataclass
 from math import prod
 
-from mgehl.config import Config
+import numpy as np
+
+from mgehl.config import KEYS, Config, checked_key
 from mgehl.errors import ConfigError
-from mgehl.studies.axes import MOST_POINTS
+
+MOST_POINTS = 10000
 
 WAYS = "there", "back"
+
+DECADE = 10.0
+"""Last over first value beyond which the values of a range are of equal ratio."""
+
+_NUMBER = r"[-+]?(?:\d+(?:\.\d+)?|\.\d+)(?:[eE][-+]?\d+)?"
+_RANGE = re.compile(rf"(?:(lin|log)\()?\s*({_NUMBER})\.\.({_NUMBER})\s*([^:()]*?)\s*:\s*(\d+)\s*\)?")
+_ITEM = re.compile(rf"\s*({_NUMBER})\s*(.*?)\s*")
+
+
+@dataclass(frozen=True)
+class Axis:
+    """A key and its values in SI units, in the order in which they are taken."""
+
+    key: str
+    values: tuple
+
+    @property
+    def name(self):
+        """Of its dimension."""
+        return self.key.replace(".", "_")
+
+    @property
+    def unit(self):
+        """ "1" where it has none."""
+        return KEYS[self.key].metadata["unit"] or "1"
+
+
+def axis_of(config, key, values):
+    """The `Axis` of a key; values are a list, or a text such as "1e-4..1 m/s:20" or "50,100,200 N".
+
+    Raises ConfigError where the key cannot be swept, or where the values are none that it takes.
+    """
+    checked_key("--over", key)
+    rules = KEYS[key].metadata
+    if rules["kind"] not in (int, float):
+        raise ConfigError(f"--over {key}: cannot be swept: only keys with a number can")
+    if key.startswith("time."):
+        raise ConfigError(f"--over {key}: cannot be swept: [time] tells of one run")
+    found = _values(config, key, values) if isinstance(values, str) else _read(config, key, values)
+    if len(found) < 2:
+        raise ConfigError(f"--over {key}: has fewer than two values")
+    if len({*found}) < len(found):
+        raise ConfigError(f"--over {key}: has the same value twice")
+    return Axis(key, tuple(found))
+
+
+def _values(config, key, text):
+    """The values that a text names."""
+    told = f'--over {key}="{text}"'
+    if ".." not in text:
+        items = [_ITEM.fullmatch(item) for item in text.split(",")]
+        if not all(items):
+            raise ConfigError(f'{told}: must be as "50,100,200 N" or "50..200 N:4"')
+        unit = items[-1][2]
+        return _read(config, key, [_word(item[1], item[2] or unit) for item in items])
+    match = _RANGE.fullmatch(text.strip())
+    if not match:
+        raise ConfigError(f'{told}: must be as "1e-4..1 m/s:20" or "log(1e-4..1 m/s:20)"')
+    how, first, last, unit, count = match.groups()
+    if KEYS[key].metadata["unit"] and not unit:
+        raise ConfigError(f"{told}: needs a unit, such as {KEYS[key].metadata['unit']}")
+    first, last = _read(config, key, [_word(first, unit), _word(last, unit)])
+    if first == last or not 2 <= int(count) <= MOST_POINTS:
+        raise ConfigError(f"{told}: is empty: needs two ends that differ and 2 to {MOST_POINTS} values")
+    positive = first > 0.0 and last > 0.0
+    if how == "log" and not positive:
+        raise ConfigError(f"{told}: log needs ends above 0")
+    by_ratio = how == "log" or (how is None and positive and max(first, last) > DECADE * min(first, last))
+    space = np.geomspace if by_ratio else np.linspace
+    inner = [float(f"{each:.6g}") for each in space(first, last, int(count))[1:-1]]
+    return _read(config, key, [first, *inner, last])
+
+
+def _word(number, unit):
+    return f"{number} {unit}" if unit else float(number)
+
+
+def _read(config, key, values):
+    """Values as the key takes them, in SI units."""
+    return [config.with_({key: value}).value(key) for value in values]
 
 
 @dataclass(frozen=True)

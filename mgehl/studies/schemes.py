@@ -6,7 +6,7 @@ listed, and limits are taken of the film with the saw-tooth averaged out.
 """
 
 from mgehl.discretization.couette import SCHEMES
-from mgehl.studies import film_figures
+from mgehl.output.pictures.style import COLOURS, MARKS, subplots
 from mgehl.studies.columns import told
 from mgehl.studies.limits import limit_said
 from mgehl.studies.study import PAPER, merged, papers_grid
@@ -28,7 +28,7 @@ def run(study):
             if len(solutions) == len(nodes) >= 3:
                 rows.append(_limit_row(couette, films[couette]))
     study.write_table("films", rows)
-    study.draw("films", film_figures.schemes, nodes, films)
+    study.draw("films", figure, nodes, films)
 
 
 def _cases(couette, nodes):
@@ -68,3 +68,18 @@ def _limit_row(couette, films):
     """Richardson's limits from the three finest grids, where their differences show an order."""
     central, minimum = (limit_said(values, "{:.2f} (order {:.1f})") for values in zip(*films, strict=True))
     return {"couette": couette, "nodes": "limit", "central averaged nm": central, "minimum nm": minimum}
+
+
+def figure(nodes, films):
+    """Central and minimum film against the spacing, a line for each scheme."""
+    figure, panels = subplots(1, 2, size=(10.5, 4.2))
+    for panel, which, title in zip(panels, (0, 1), ("central film", "minimum film"), strict=True):
+        for (scheme, values), colour, mark in zip(films.items(), COLOURS, MARKS, strict=False):
+            heights = [value[which] for value in values]
+            spacing = [1.0 / (n - 1) for n in nodes]
+            panel.plot(spacing, heights, mark + "-", color=colour, markersize=4, label=scheme)
+        panel.set(xlabel="spacing over length of the domain", ylabel="film, nm", title=title)
+        panel.set_xlim(left=0.0)
+    panels[1].legend(frameon=False)
+    figure.suptitle("Point contact at 1 m/s by every differential scheme")
+    return figure

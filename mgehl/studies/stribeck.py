@@ -6,9 +6,8 @@ degrees C; their limit and Eyring stress are round numbers within what is measur
 
 from mgehl.model.oils import OILS
 from mgehl.output.pictures.curves import curves
-from mgehl.studies.axes import axis_of
 from mgehl.studies.chance import BALL
-from mgehl.studies.points import points_of
+from mgehl.studies.points import axis_of, points_of
 from mgehl.studies.study import merged
 from mgehl.studies.sweep import fill
 

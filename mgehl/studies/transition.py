@@ -4,9 +4,12 @@ Both branches are followed at the same speeds: where they differ, both are solut
 discrete equations.
 """
 
+import matplotlib
 import numpy as np
 
-from mgehl.studies import transition_figures as figures
+from mgehl.discretization.status import CONTACT
+from mgehl.output.pictures.plane import Blocks
+from mgehl.output.pictures.style import COLOURS, subplots
 from mgehl.studies.branch import Branches
 from mgehl.studies.columns import told
 from mgehl.studies.study import PAPER, merged, papers_grid
@@ -26,6 +29,18 @@ one."""
 PAPER_RADIUS = 19.05e-3
 """The radius that the paper's labels U belong to; its other numbers belong to 12.7 mm."""
 
+PROFILES = 6
+"""Speeds in Figure 14a and b, from the last full film to the first full contact."""
+
+FULL = 0.95
+"""Contact over Hertz area from which on contact is called full."""
+
+INSIDE = 0.9
+"""Part of the ellipse whose films must fit into a picture."""
+
+SMALLEST_AXIS = 1.0
+"""nm."""
+
 
 def run(study):
     """Walk the branches; write the table `transition-NODES` and the pictures of Figure 14."""
@@ -39,8 +54,8 @@ def run(study):
                 way = speeds(n) if direction == "down" else speeds(n)[::-1]
                 points += branches.walk(direction, way, tuple(points))
             study.write_table(f"transition-{n}", [row(branches, point) for point in points])
-            study.draw(f"transition-{n}-films", figures.branches, branches, points)
-            study.draw(f"transition-{n}-figure-14", figures.figure_14, branches, points)
+            study.draw(f"transition-{n}-films", films_and_contact, branches, points)
+            study.draw(f"transition-{n}-figure-14", figure_14, branches, points)
 
 
 def speeds(nodes):
@@ -81,3 +96,86 @@ def row(branches, point):
         "nodes that can be neither": str(len(result.contradictions)),
         **told(result, "inlet cells, grid verdict, convolutions:.0f, wall s"),
     }
+
+
+def films_and_contact(followed, points):
+    """Films and contact ratio against speed, both branches, with the formulas."""
+    figure, (films, ratio) = subplots(1, 2, size=(10.5, 4.6))
+    for branch, colour, mark in zip(("down", "up"), COLOURS, ("v", "^"), strict=False):
+        own = [point for point in points if point.branch == branch and point.result.settled]
+        if not own:
+            continue
+        mm_s = [1e3 * point.speed for point in own]
+        for name, line in (("central", "-"), ("minimum", ":")):
+            film = [getattr(point.result, f"{name}_film_nm") for point in own]
+            label = f"{name}, {branch}"
+            films.plot(mm_s, np.maximum(film, 0.0), mark + line, color=colour, ms=4, label=label)
+        area = [point.result.contact.area_fraction for point in own]
+        ratio.plot(mm_s, area, mark + "-", color=colour, ms=4, label=branch)
+    all_speeds = sorted({point.speed for point in points})
+    formulas = [followed.contact.at_speed(speed).formulas for speed in all_speeds]
+    for name, grey in zip(vars(formulas[0]), ("0.3", "0.55", "0.75", "0.85"), strict=False):
+        heights = [1e9 * getattr(formula, name) for formula in formulas]
+        label = name.replace("_", " ")
+        films.plot([1e3 * speed for speed in all_speeds], heights, "--", color=grey, lw=0.9, label=label)
+    films.set(xscale="log", xlabel="speed, mm/s", ylabel="film, nm (0: contact)")
+    films.set_yscale("symlog", linthresh=1.0)
+    films.set_ylim(bottom=-0.1)
+    ratio.set(xscale="log", xlabel="speed, mm/s", ylabel="contact area over Hertz area")
+    for axes in (films, ratio):
+        axes.legend(frameon=False)
+    directions = " and ".join(dict.fromkeys(point.branch for point in points))
+    figure.suptitle(f"{followed.name}: film and contact, speed going {directions}")
+    return figure
+
+
+def figure_14(followed, points):
+    """(a) film across, (b) pressure before the contact, (c) map of the film; of one branch."""
+    branch = points[0].branch
+    own = [point for point in points if point.branch == branch and point.result.settled]
+    mesh, nm = followed.mesh, 1e9 * followed.contact.film_scale
+    i, j = mesh.nearest(0.0, 0.0)
+    figure, (across, inlet, film) = subplots(1, 3, size=(14.0, 4.4))
+    shown = _between_film_and_contact(own)
+    for point, colour in zip(shown, COLOURS, strict=False):
+        label = f"{1e3 * point.speed:.3g} mm/s"
+        across.plot(mesh.Y, point.fields.H[:, i] * nm, color=colour, lw=1.0, label=label)
+        inlet.plot(mesh.X, point.fields.P[j], color=colour, lw=1.0, label=label)
+    top = max(_top(point, mesh, nm) for point in shown)
+    across.set(xlim=(-1.2, 1.2), ylim=(-0.03 * top, top), xlabel="Y = y/b", ylabel="film, nm")
+    across.set_title("a  film at X = 0")
+    inlet.set(xlim=(-1.3, -0.7), ylim=(-0.02, 0.8), xlabel="X = x/a", ylabel="P = p/p$_h$")
+    inlet.set_title("b  pressure at Y = 0 on the inlet side")
+    inlet.legend(frameon=False)
+    mixed = min(own, key=lambda point: abs(point.result.contact.area_fraction - 0.5))
+    _film_map(figure, film, mesh, mixed, nm)
+    figure.suptitle(f"{followed.name}, {branch}")
+    return figure
+
+
+def _top(point, mesh, nm):
+    """Where an axis of films should end, nm: a little above those inside the Hertz ellipse."""
+    inside = mesh.X**2 + mesh.Y[:, None] ** 2 < INSIDE**2
+    return max(SMALLEST_AXIS, 1.2 * nm * point.fields.H[inside].max())
+
+
+def _film_map(figure, axes, mesh, point, nm):
+    top, blocks = _top(point, mesh, nm), Blocks(mesh.X, mesh.Y)
+    contact = blocks.largest(point.fields.status) == CONTACT
+    H = np.ma.masked_where(contact, blocks.least(point.fields.H * nm))
+    colours = matplotlib.colormaps[matplotlib.rcParams["image.cmap"]].with_extremes(bad="black")
+    image = axes.pcolormesh(blocks.X, blocks.Y, H, cmap=colours, vmin=0.0, vmax=top, rasterized=True)
+    figure.colorbar(image, ax=axes, label="film, nm (black: contact)", extend="max")
+    axes.set(aspect="equal", xlim=(-1.2, 1.2), ylim=(-1.2, 1.2), xlabel="X = x/a", ylabel="Y = y/b")
+    axes.set_title(f"c  film at {1e3 * point.speed:.3g} mm/s")
+
+
+def _between_film_and_contact(points):
+    """Some of a branch's points, from the last without contact to the first in full contact."""
+    points = sorted(points, key=lambda point: -point.speed)
+    area = [point.result.contact.area_fraction for point in points]
+    first = next((k for k, part in enumerate(area) if part > 0.0), len(points))
+    last = next((k for k, part in enumerate(area) if part > FULL), len(points) - 1)
+    span = points[max(0, first - 1) : last + 1]
+    chosen = np.unique(np.linspace(0, len(span) - 1, PROFILES).round().astype(int))
+    return [span[k] for k in chosen]

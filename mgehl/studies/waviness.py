@@ -12,8 +12,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from mgehl.output.table import yes
 from mgehl.studies import venner_laws
-from mgehl.studies.columns import yes
 from mgehl.studies.study import merged
 
 SMALL = 0.01

@@ -12,11 +12,8 @@ import mgehl
 from mgehl.cli import main
 from mgehl.config import load_config
 from mgehl.errors import UserError
-from mgehl.solver.restart import Forecast
 from mgehl.studies import study
-from mgehl.studies.axes import axis_of
-from mgehl.studies.neighbours import start_of
-from mgehl.studies.points import points_of
+from mgehl.studies.points import axis_of, points_of
 
 FILM = ["--set", "grid.nodes=65", "--set", "solver.error=false", "--set", "solver.start=film"]
 SPEEDS = "motion.speed=0.5..2 m/s:3"
@@ -106,21 +103,6 @@ def test_a_point_that_fails_is_said_and_passed(tmp_path, capsys, monkeypatch):
     assert [row["why not"] for row in table(tmp_path / "film")] == ["", "no memory", ""]
 
 
-def test_the_third_of_a_line_is_forecast(film):
-    """By a power of the speed where both solutions before have one."""
-    config = load_config(None, {"motion.speed": 1.0})
-    axes = [axis_of(config, "motion.speed", [0.5, 1.25, 2.0])]
-    points = points_of(config, axes)
-    behind = [(points[k], mgehl.read(film / "runs" / points[k].run)) for k in range(2)]
-    start = start_of(behind, axes, points[2])
-    assert isinstance(start, Forecast) and start.last is behind[1][1]
-    before, last = (each.result.central_film_nm for _, each in behind)
-    assert last + start.factor * (last - before) == pytest.approx(
-        last * (last / before) ** (np.log(2.0 / 1.25) / np.log(1.25 / 0.5))
-    )
-    assert start_of(behind[1:], axes, points[2]) == Forecast(behind[1][1])
-
-
 @pytest.mark.parametrize(
     "text, values",
     [
@@ -179,13 +161,6 @@ def test_bad_input_is_one_line(words, said, tmp_path, capsys):
     (line,) = capsys.readouterr().err.splitlines()
     assert said in line
     assert not (tmp_path / "new").exists()
-
-
-def test_a_directory_that_exists_is_left_alone(tmp_path, capsys):
-    assert main([*SWEEP, str(tmp_path)]) == 2
-    (line,) = capsys.readouterr().err.splitlines()
-    assert "exists: add --resume to go on, or choose another with --out" in line
-    assert not list(tmp_path.iterdir())
 
 
 def test_collect_takes_keys_and_plot_draws_against_one(film, tmp_path, capsys):

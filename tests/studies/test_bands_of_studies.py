@@ -1,13 +1,10 @@
 """Study error: what is drawn, how a band is judged, what is said of all."""
 
 import csv
-from math import nan
 
-import pytest
 from mpi4py import MPI
 
 from mgehl.studies import error
-from mgehl.studies.bands import Band, cells
 from mgehl.studies.study import Study
 
 
@@ -26,14 +23,3 @@ def test_films_of_a_random_contact(tmp_path):
         off = abs(float(row["central limit nm"]) - film)
         assert row["central band/error"].endswith("!") == (off > half_width)
     assert [(row["of"], row["bands"]) for row in bands] == [("central", "2"), ("minimum", "2")]
-
-
-@pytest.mark.parametrize(
-    "band, text",
-    [
-        (Band(10.0, 1.0, 10.5), "2.00"), (Band(10.0, 0.5, 11.0), "0.50 !"),
-        (Band(10.0, None, 11.0), ""), (Band(10.0, 1.0, nan), ""),
-    ],
-)  # fmt: skip
-def test_a_band_that_does_not_hold_is_marked(band, text):
-    assert cells("film", band)["film band/error"] == text

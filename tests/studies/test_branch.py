@@ -57,17 +57,6 @@ class TestBothBranches:
         assert up.result.contact.load_fraction > 0.95
 
 
-class TestJump:
-    def test_a_branch_that_ends_goes_on_from_the_other_start(self, study):
-        """The film cannot be followed to 20 mm/s on 65 nodes: full contact is what there is."""
-        with Branches(study, transition.case(65)) as branches:
-            film, contact = branches.walk("down", [0.3, 0.02])
-        assert film.origin == "start" and film.result.central_film_nm > 140.0
-        assert film.obstacle == "" and contact.obstacle != ""  # why it ended, kept with the point
-        assert contact.origin == "other start" and contact.result.contact.area_fraction > 0.95
-        assert contact.result.settled
-
-
 class TestStudies:
     @pytest.fixture(autouse=True)
     def few(self, monkeypatch):

@@ -91,12 +91,3 @@ class TestMachines:
         assert "±" in found["mean gap nm"]
         assert float(found["Sq nm"]) == pytest.approx(100.0 / 2.0**0.5, abs=1.0)
         assert said(tmp_path / name, name)["with a band about the mean gap"] == "1"
-
-
-@pytest.mark.parametrize(
-    "word", ["--cases=0", "--seed=-1", "--cases=ten", "--seed=1.5", "--seed=9999999999"]
-)
-def test_numbers_that_are_none_are_refused_in_a_line(capsys, tmp_path, word):
-    assert run("mixed", tmp_path / "mixed", word) == 2
-    (line,) = capsys.readouterr().err.splitlines()
-    assert word.replace("=", " ") in line and "must be a whole number from" in line

@@ -6,27 +6,13 @@ import pytest
 from mgehl.config import config_from_tables
 from mgehl.studies.courses import (
     COURSES,
-    LASTS,
-    LOAD,
     MEAN,
     PERIOD,
-    SPEED,
     STEADY,
     SWING,
     case,
-    heavier,
     off,
-    reversal,
-    start,
-    stop,
 )
-
-
-def test_courses_begin_and_end_as_they_are_called():
-    assert (start(0.0), start(LASTS)) == (0.0, SPEED)
-    assert (stop(0.0), stop(LASTS)) == (SPEED, 0.0)
-    assert (reversal(0.0), reversal(LASTS)) == (SPEED, -SPEED)
-    assert (heavier(0.0), heavier(LASTS)) == (LOAD, 1.5 * LOAD)
 
 
 @pytest.mark.parametrize("course", COURSES)

@@ -1,26 +1,17 @@
 """What every study uses: orders, limits, merged tables, files."""
 
-import csv
 from math import isnan
 
 import pytest
 from mpi4py import MPI
 
-from mgehl.config import config_from_tables
 from mgehl.errors import ConfigError, UserError
-from mgehl.kinds import case_of
 from mgehl.run import run
-from mgehl.solver.from_config import set_up
 from mgehl.studies.limits import observed_order, richardson
-from mgehl.studies.study import BEST, Study, merged
+from mgehl.studies.study import Study, merged
 
 FILM = {"motion": {"speed": 1.0}, "grid": {"nodes": 65}}
 SLOWER = {"motion": {"speed": 0.7}}
-
-
-def test_a_case_of_ones_own_is_differenced_by_the_best():
-    scheme = set_up(case_of(config_from_tables(FILM))).settings.scheme
-    assert {"couette": scheme.couette, "face_mobility": scheme.face_mobility} == BEST
 
 
 @pytest.mark.parametrize("order", [0.5, 1, 2, 3])
@@ -49,18 +40,6 @@ def test_without_falling_differences_of_one_sign_there_is_no_limit_to_see(values
 @pytest.fixture
 def study(tmp_path):
     return Study(tmp_path, MPI.COMM_SELF, (65,))
-
-
-ROWS = [{"name": "a", "film nm": "1.5"}, {"name": "b", "film nm": ""}]
-
-
-def test_a_table_is_written_twice_and_printed(study, capsys):
-    study.write_table("films", ROWS)
-    with (study.directory / "films.csv").open() as file:
-        assert list(csv.DictReader(file)) == ROWS
-    text = (study.directory / "films.md").read_text()
-    assert text == "| name | film nm |\n| --- | --- |\n| a | 1.5 |\n| b |  |\n"
-    assert "name   film nm\n──────────────\na          1.5\nb\n" in capsys.readouterr().out
 
 
 def test_named_cases_are_solved_in_their_order_and_one_that_cannot_be_is_passed(study, capsys, monkeypatch):

@@ -31,14 +31,6 @@ def test_by_the_scheme_of_the_reference_it_is_the_reference(tmp_path, line, film
         assert each.converged and each.uniform == pytest.approx(REFERENCE[line[0], length], rel=2e-3)
 
 
-@pytest.mark.parametrize("line", LINES)
-def test_by_the_usual_scheme_within_three_per_cent_of_it(tmp_path, line):
-    """On a quarter of the nodes that are asked for."""
-    _, found = responses(tmp_path, "3B", "linear-gap", 1025, line)
-    for length, each in found.items():
-        assert each.converged and each.uniform == pytest.approx(REFERENCE[line[0], length], rel=0.03)
-
-
 def test_waves_are_flattened_but_for_what_the_density_gives_way(tmp_path):
     """a/A = C/(1 + C), C = h E' k/(4 B), where nothing flows through the wave [Hooke 2006]."""
     _, found = responses(tmp_path, "3B", "linear-gap", 1025, LINES[0])
