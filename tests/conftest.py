@@ -18,7 +18,6 @@ from mgehl.model.point import PointContact
 
 BODY = {"radius_x": 12.7e-3, "radius_y": 12.7e-3, "reduced_modulus": 219.78e9}
 DOMAIN = {"x": (-1.9, 1.3), "y": (-1.5, 1.5)}
-MOES_DOMAIN = {"x": (-4.5, 1.5), "y": (-3.0, 3.0)}
 VISCOSITY = Barus(0.096, 18.2e-9)
 
 LONGEST = (

@@ -125,16 +125,3 @@ class TestOwnSurface:
     )
     def test_it_is_turned_with_the_motion(self, surface, expected, name, angle, back):
         assert_same(solved(FILM, surface(name), at(angle)), expected, back)
-
-
-class TestStart:
-    @pytest.fixture(scope="class")
-    def turned(self):
-        return solved(FILM, {"contact": {"radius_y": 25.4e-3}}, at(110))
-
-    @pytest.mark.parametrize("angle", [110, 80, 20])
-    def test_from_the_fields_of_another_angle(self, turned, angle):
-        ellipse = {"contact": {"radius_y": 25.4e-3}}
-        found, expected = solved(FILM, ellipse, at(angle), start=turned), solved(FILM, ellipse, at(angle))
-        assert found.result.converged
-        np.testing.assert_allclose(found.film, expected.film, rtol=0.0, atol=1e-6 * expected.film.max())

@@ -7,14 +7,10 @@ import subprocess
 import sys
 
 import pytest
-from mpi4py import MPI
 from processes import own_environment
 
 from mgehl.cli import main
-from mgehl.config import load_config
-from mgehl.config_file import chosen_config
 from mgehl.errors import ConfigError, OptionError, OutputError, UserError
-from mgehl.run import solve
 
 FILES = {"configuration.toml", "fields.h5", "history.csv", "picture.png", "result.json"}
 DRY = ["run", "--set", "grid.nodes=65", "--set", "solver.start=contact", "--set", "motion.speed=0.005 mm/s"]
@@ -175,13 +171,6 @@ def test_a_petsc_option_with_a_value_changes_the_run():
     assert "Option left" not in done.stdout + done.stderr
 
 
-def test_a_run_that_cannot_converge_exits_with_1(tmp_path, capsys):
-    assert exit_status([*DRY, "--set", "solver.max_steps=1", "--out", "here"]) == 1
-    assert "NOT CONVERGED" in capsys.readouterr().out
-    assert {path.name for path in (tmp_path / "here").iterdir()} == FILES
-    assert json.loads((tmp_path / "here" / "result.json").read_text())["converged"] is False
-
-
 def test_a_directory_that_exists_is_refused_and_replaced_with_force(tmp_path, capsys):
     here = tmp_path / "here"
     here.mkdir()
@@ -253,41 +242,10 @@ def test_a_solver_type_that_cannot_be_followed_is_one_line(tmp_path):
     assert done.stderr.startswith("mgehl: -mgehl_snes_type") and len(done.stderr.splitlines()) == 1
 
 
-@pytest.mark.parametrize(
-    "arguments, where", [(["keys"], "commands.keys.execute"), ([*DRY, "--quiet"], "run.run")]
-)
-def test_ctrl_c_where_nothing_is_kept_is_one_line(capsys, monkeypatch, arguments, where):
-    def interrupted(*_):
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr(f"mgehl.{where}", interrupted)
-    assert exit_status(arguments) == 130
-    assert_one_line(capsys, "stopped by Ctrl-C")
-
-
 def test_a_looser_option_does_not_loosen_the_verdict(tmp_path):
     done = mgehl(*DRY, "--out", "here", "-mgehl_snes_atol", "1e30")
     assert done.returncode == 1
     assert "NOT CONVERGED: the residual of the final state" in done.stdout
-
-
-THICK_FILM = {
-    "contact.load": 100.0, "motion.speed": "1 m/s", "grid.nodes": 129, "solver.error": False,
-    "surface.kind": "self-affine", "surface.rms": "20 nm", "surface.shortest_wavelength": "60 um",
-    "surface.longest_wavelength": "200 um",
-}  # fmt: skip
-"""By contact that closes its faces a start from contact does not end: it would open everywhere."""
-
-
-def test_either_start_leads_to_the_film():
-    film, contact = (
-        solve(load_config(chosen_config(), THICK_FILM | {"solver.start": start}), MPI.COMM_SELF).result
-        for start in ("film", "contact")
-    )
-    assert film.converged and contact.converged and not contact.contact.nodes
-    assert contact.work.convolutions < 150.0
-    for name in ("central_film_nm", "minimum_film_nm"):
-        assert getattr(contact, name) == pytest.approx(getattr(film, name), rel=1e-6)
 
 
 KINDS = (UserError, ConfigError, OptionError, OutputError)

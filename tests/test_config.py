@@ -3,7 +3,6 @@ import re
 import subprocess
 import sys
 import tomllib
-from dataclasses import asdict, replace
 from pathlib import Path
 
 import pytest
@@ -30,16 +29,6 @@ def error_of(*settings, tables=None):
     return message
 
 
-def assert_same(config, other):
-    """Equal up to the last digit that the conversion of a unit may cost."""
-    for name, section in asdict(config).items():
-        for key, value in section.items():
-            expected = getattr(getattr(other, name), key)
-            if isinstance(expected, float | tuple):
-                expected = pytest.approx(expected, rel=1e-14, abs=0.0)
-            assert value == expected, f"{name}.{key}"
-
-
 def test_default_configuration_is_the_point_contact():
     assert default_config() == CONFIGS / "point_contact.toml"
     config = load_config()
@@ -50,18 +39,6 @@ def test_default_configuration_is_the_point_contact():
     assert config.motion.speed == pytest.approx(5e-6, rel=1e-14)
     assert config.discretization.film_threshold == pytest.approx(0.02e-9, rel=1e-14)
     assert (config.grid.nodes, config.grid.x, config.grid.y) == (257, (-1.9, 1.3), (-1.5, 1.5))
-
-
-def test_defaults_of_the_keys_are_the_default_file_but_for_start_schemes_and_domain():
-    """The file is the paper's contact; the defaults are those of a case of one's own."""
-    paper = load_config()
-    assert paper.solver.start == "contact"
-    assert (paper.discretization.couette, paper.discretization.face_mobility) == ("1B", "arithmetic")
-    settings = {"discretization.face_mobility": "linear-gap", "solver.start": "film"}
-    settings |= {"grid.x": "auto", "grid.y": "auto"}
-    config = load_config(settings=settings)
-    config = replace(config, discretization=replace(config.discretization, couette=None))
-    assert_same(config, Config())
 
 
 @pytest.mark.parametrize(
@@ -195,37 +172,6 @@ def test_file_that_toml_itself_does_not_survive(tmp_path, content):
         load_config(path)
 
 
-@pytest.mark.parametrize("value", [[1], {"a": 1}, 1.5, None])
-@pytest.mark.parametrize("key", ["contact.kind", "wedge.pillar", "solver.method"])
-def test_a_choice_is_a_word(key, value):
-    """A list is not one of a table's keys, nor can it be looked up there."""
-    with pytest.raises(ConfigError, match=re.escape(f"{key} = {value!r}: must be one of ")):
-        load_config(os.devnull, {key: value})
-
-
-@pytest.mark.parametrize(
-    "tables", [{"new\nline": {}}, {"grid": {"new\r\nline": 1}}, {"wedge": {"\x85": 1}}]
-)
-def test_names_with_line_breaks_stay_on_the_line(tables):
-    message = error_of(tables=tables)
-    assert len(message.splitlines()) == 1 and "unknown" in message
-
-
-@pytest.mark.parametrize("tables", [{"grid": 5}, {"motion": "fast"}, {"contact": [1]}])
-def test_section_that_is_a_value(tables):
-    (name,) = tables
-    message = error_of(tables=tables)
-    assert message.startswith(f"{name} = {tables[name]!r}: ") and f"[{name}]" in message
-
-
-@pytest.mark.parametrize("law, viscosity", [("roelands", 1e-5), ("roelands", 6e-5)])
-def test_viscosity_below_what_the_law_allows(law, viscosity):
-    message = error_of(f"lubricant.viscosity_law={law}", f"lubricant.viscosity={viscosity}")
-    assert message.startswith(f"lubricant.viscosity = {viscosity!r}: ")
-    assert "above 6.3e-5 Pa s" in message
-    with_settings(f"lubricant.viscosity={viscosity}")
-
-
 def test_file_that_is_not_there(tmp_path):
     path = tmp_path / "none.toml"
     with pytest.raises(ConfigError, match=re.escape(f"{path}: cannot be read: No such file")):
@@ -243,31 +189,6 @@ def test_file_that_is_not_toml(tmp_path, content):
 
 
 MOES = {"moes": {"M": 200, "L": 10}}
-
-
-@pytest.mark.parametrize("key, missing", [("M", "moes.L"), ("L", "moes.M")])
-def test_moes_numbers_go_together(key, missing):
-    assert error_of(tables={"moes": {key: 20.0}}) == f"{missing}: must be given with moes.{key}"
-
-
-@pytest.mark.parametrize("section, key, value", [("contact", "load", 800.0), ("motion", "speed", "1 m/s")])
-def test_moes_numbers_exclude_load_and_speed(section, key, value):
-    message = error_of(tables={**MOES, section: {key: value}})
-    assert message == f"{section}.{key} = {value!r}: means nothing with moes.M"
-
-
-@pytest.mark.parametrize(
-    "value, allowed", [(0, "at least"), (-1.0, "at least"), (True, "a number"), ("20 N", "wrong unit")]
-)
-def test_moes_numbers_are_positive_and_have_no_unit(value, allowed):
-    message = error_of(tables={"moes": {"M": value, "L": 10.0}})
-    assert message.startswith(f"moes.M = {value!r}: ") and allowed in message
-
-
-@pytest.mark.parametrize("text", ["9**9**9 N", "800 N # x", "8e2 N; 3", "N", "2 * 400 N", "1 N/0"])
-def test_a_quantity_is_a_number_and_a_unit_and_nothing_else(text):
-    with pytest.raises(ConfigError, match="contact.load"):
-        config_from_tables({"contact": {"load": text}})
 
 
 FOREIGN_KEYS = [
@@ -338,12 +259,6 @@ def test_every_kind_round_trips(tables):
     assert again.as_toml_tables() == written
 
 
-@pytest.mark.parametrize("inlet", ["20 mm", "19 mm"])
-def test_a_wedge_opens_towards_its_inlet(inlet):
-    message = error_of("contact.kind=wedge", f"wedge.inlet={inlet}")
-    assert message == f"wedge.inlet = {float(inlet[:2]) / 1e3:g}: must be above wedge.exit = 0.02"
-
-
 BY_FILMS = ("wedge.length=20 mm", "wedge.inlet_film=1.1 um", "wedge.exit_film=1 um")
 POCKET = ("wedge.pocket_depth=0.4 um", "wedge.pocket_from=4 mm", "wedge.pocket_to=10 mm")
 
@@ -389,71 +304,12 @@ def test_a_pad_is_described_in_one_way(key):
     assert config.wedge.by_films and "slope" not in config.as_toml_tables()["wedge"]
 
 
-def test_keys_of_the_discretization_and_the_relaxation():
-    """From the configuration to the records that the solver is given."""
-    from mgehl.discretization.contact_law import InterfaceConditions, UnifiedEquations
-    from mgehl.kinds import contact_from
-    from mgehl.solver.from_config import settings_from
-
-    config = with_settings(
-        "discretization.cavitation=false", "discretization.couette_at_interface=untreated",
-        "discretization.contact_model=unified", "discretization.unified_gap=1 nm",
-        "solver.method=relaxation", "relaxation.omega=0.1", "relaxation.load_every=4",
-        "solver.tolerance=1e-6",
-    )  # fmt: skip
-    contact = contact_from(config)
-    settings = settings_from(config, contact)
-    scheme, relaxation = settings.scheme, settings.relaxation
-    assert (scheme.cavitation, scheme.couette_at_interface, scheme.motion) == (
-        False,
-        "untreated",
-        (1.0, 0.0),
-    )
-    assert isinstance(scheme.contact_law, UnifiedEquations)
-    assert scheme.contact_law.smallest_gap == pytest.approx(1e-9 / contact.film_scale)
-    assert settings.method == "relaxation"
-    assert (relaxation.omega, relaxation.load_every, relaxation.tolerance) == (0.1, 4, 1e-6)
-    law = settings_from(with_settings(), contact).scheme.contact_law
-    assert isinstance(law, InterfaceConditions)
-    assert law.threshold == pytest.approx(0.02e-9 / contact.film_scale)
-
-
 @pytest.mark.parametrize("kind", ["line", "wedge"])
 def test_a_kind_that_is_set_pushes_out_what_the_file_says_of_another(kind):
     """The default file is a point contact's."""
     config = load_config(settings=[f"contact.kind={kind}", "grid.nodes=65"])
     assert config.contact.kind == kind
     assert config.contact.load == Config().contact.load
-
-
-COATED = ("contact.deformation=coated", "coating.thickness=10 um", "coating.modulus=400 GPa")
-
-
-@pytest.mark.parametrize("left", ["thickness", "modulus"])
-def test_a_coating_has_a_thickness_and_a_modulus(left):
-    message = error_of(*(setting for setting in COATED if left not in setting))
-    assert message == f'coating.{left}: must be given where contact.deformation = "coated"'
-
-
-@pytest.mark.parametrize("deformation", ["half-space", "/there/mine.py:layers"])
-def test_a_coating_without_a_coated_contact_is_a_mistake(deformation):
-    message = error_of(f"contact.deformation={deformation}", "coating.poisson=0.2")
-    assert message == f'coating.poisson = 0.2: means nothing where contact.deformation = "{deformation}"'
-
-
-def test_a_deformation_that_is_set_pushes_out_the_coating_of_the_file():
-    assert load_config(CONFIGS / "coated.toml").coating.thickness == pytest.approx(40e-6)
-    config = load_config(CONFIGS / "coated.toml", ["contact.deformation=half-space"])
-    assert config.coating == Config().coating
-    assert "coating.poisson" in config.unused
-    assert "coating.poisson" not in load_config(CONFIGS / "coated.toml").unused
-    assert "coating" not in config.as_toml_tables()
-
-
-def test_a_substrate_softer_than_both_bodies():
-    message = error_of(*COATED, "coating.substrate_modulus=50 GPa")
-    assert message.startswith("coating.substrate_modulus = 50000000000.0: both bodies without the coating")
-    assert message.endswith("so that the substrate's modulus is at least 1e+11 Pa")
 
 
 class TestPipes:

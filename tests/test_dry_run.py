@@ -1,7 +1,6 @@
 """A dry contact as its user meets it: run, stop, resume, pictures, page, table."""
 
 import csv
-import json
 
 import numpy as np
 import pytest
@@ -50,16 +49,6 @@ def test_pictures_and_page_of_a_surface_by_a_formula(tmp_path):
     assert (directory / "plots" / "surface.png").exists()
     assert main(["report", str(directory)]) == 0
     assert "Contact is on the peaks" in (directory / "report.html").read_text()
-
-
-def test_of_a_line(tmp_path):
-    keys = {"contact.kind": "line", "discretization.contact_model": "dry", "grid.nodes": "1025"}
-    words = [word for key, value in keys.items() for word in ("--set", f"{key}={value}")]
-    assert main(["run", *words, "--out", str(tmp_path / "line"), "--quiet"]) == 0
-    assert main(["report", str(tmp_path / "line")]) == 0
-    result = json.loads((tmp_path / "line" / "result.json").read_text())
-    assert result["approach_um"] == pytest.approx(result["hertz"]["approach_um"], rel=1e-4)
-    assert result["max_pressure_GPa"] == pytest.approx(result["hertz"]["max_pressure_GPa"], rel=1e-3)
 
 
 def test_it_stops_and_goes_on(tmp_path, rough):

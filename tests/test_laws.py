@@ -92,28 +92,6 @@ def test_what_cannot_be_used_is_one_line_before_anything_is_written(
     assert not Path("here").exists()
 
 
-FAILS_LATE = """
-calls = 0
-
-def law(at):
-    global calls
-    calls += 1
-    return (1.0, 0.0) if calls < 20 else 1.0
-"""
-
-
-def test_a_law_that_fails_in_the_middle_of_a_run_is_one_line_with_its_key(tmp_path, monkeypatch, capsys):
-    (tmp_path / "late.py").write_text(FAILS_LATE)
-    monkeypatch.chdir(tmp_path)
-    setting = "lubricant.density_law=late.py:law"
-    assert main(["run", "--set", "grid.nodes=65", "--set", setting, "--out", "here", "--quiet"]) == 2
-    err = capsys.readouterr().err
-    assert err.startswith(
-        f"mgehl: lubricant.density_law = '{tmp_path}/late.py:law': must return two arrays"
-    )
-    assert err.count("\n") == 1 and not Path("here/result.json").exists()
-
-
 TURNS = """
 import numpy as np
 calls = 0

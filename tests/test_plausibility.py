@@ -86,30 +86,3 @@ def test_lines_and_wedges_are_checked_too(settings, start, words):
     message = str(caught.value)
     assert message.startswith(start) and "\n" not in message
     assert all(word in message for word in words)
-
-
-@pytest.mark.parametrize(
-    "settings",
-    [[LINE, "motion.speed=0.1"], [WEDGE], [*SQUARE], [WEDGE, "wedge.pillar_x=0.1"]],
-    ids=["line", "wedge", "pillar", "place of no pillar"],
-)
-def test_what_is_fine_passes(settings):
-    config = load_config(os.devnull, settings)
-    check_contact(config, contact_from(config))
-
-
-@pytest.mark.parametrize(
-    "setting, words",
-    [
-        ("wedge.exit=1e-5", ["wedge.exit", "2 cells", "65 nodes"]),
-        ("wedge.width=1e-5", ["wedge.width", "factor of 100"]),
-        ("wedge.pillar_size=1e-5", ["wedge.pillar_size", "2 cells", "65 nodes"]),
-    ],
-)
-def test_a_wedge_that_the_grid_cannot_hold(setting, words):
-    """The node outside an exit of half a cell would lie beyond the line of no gap."""
-    settings = ["contact.kind=wedge", "wedge.pillar=square", "grid.nodes=65", setting]
-    config = load_config(settings=settings)
-    with pytest.raises(ConfigError) as error:
-        check_contact(config, contact_from(config))
-    assert all(word in str(error.value) for word in words)

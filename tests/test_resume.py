@@ -243,16 +243,6 @@ class TestResume:
         assert out == "" and len(err.splitlines()) == 1, err
         return err
 
-    def test_a_run_that_has_finished(self, tmp_path, capsys):
-        assert exit_status(*SMALL, "--out", "here") == 0
-        (tmp_path / "here" / "checkpoint").mkdir()  # a kill at the very end
-        before = (tmp_path / "here" / "fields.h5").stat().st_mtime_ns
-        capsys.readouterr()
-        assert main(["run", "--resume", "here"]) == 0
-        assert "here has finished" in capsys.readouterr().out
-        assert (tmp_path / "here" / "fields.h5").stat().st_mtime_ns == before
-        assert {path.name for path in (tmp_path / "here").iterdir()} == FILES
-
     def test_no_run(self, tmp_path, capsys):
         assert "is no run directory" in self.refused(capsys, "--resume", "nowhere")
         (tmp_path / "empty").mkdir()
@@ -301,16 +291,6 @@ class TestStartFrom:
     def before(self, tmp_path, finished):
         """A copy of it."""
         return Path(shutil.copytree(finished, tmp_path / "before"))
-
-    @pytest.mark.parametrize("change", ["grid.nodes=129", "motion.speed=0.6"])
-    def test_another_grid_and_another_speed(self, before, tmp_path, uninterrupted, change):
-        settings = [*SMALL, "--set", change]
-        assert exit_status(*settings, "--start-from", "before", "--out", "after") == 0
-        read, plain = read_run("after"), uninterrupted(settings)
-        np.testing.assert_array_equal(read.status, plain.status)
-        np.testing.assert_allclose(read.film, plain.film, rtol=0.0, atol=1e-6 * plain.film.max())
-        assert read.result.work.steps < plain.result.work.steps
-        assert {path.name for path in (tmp_path / "after").iterdir()} == FILES
 
     def test_it_goes_on_though_the_other_run_is_gone(self, before, uninterrupted):
         settings = [*SMALL, "--set", "motion.speed=0.6"]

@@ -21,7 +21,7 @@ from mgehl.studies.study import PAPERS_DOMAIN, papers_grid
 CONFIGS = Path(__file__).resolve().parent.parent / "configs"
 FILES = {"configuration.toml", "fields.h5", "history.csv", "picture.png", "result.json"}
 FILM = {"motion": {"speed": "1 m/s"}, "grid": papers_grid(65)}
-DRY = {"motion": {"speed": "0.005 mm/s"}, "grid": papers_grid(65), "solver": {"start": "contact"}}
+
 RESULT_KEYS = {
     "converged", "reason", "central_film_nm", "minimum_film_nm", "max_pressure_GPa", "residual",
     "load_error", "complementarity_error", "flux_imbalance", "contact", "overlap", "pressure_inequality",
@@ -93,21 +93,6 @@ def test_the_configuration_runs_again_to_the_same_films(film, tmp_path):
     again = run(config, tmp_path, MPI.COMM_SELF)
     assert again.central_film_nm == pytest.approx(result.central_film_nm, rel=1e-12)
     assert again.minimum_film_nm == pytest.approx(result.minimum_film_nm, rel=1e-12)
-
-
-def test_contact(tmp_path):
-    result = run_quietly(DRY, tmp_path)
-    assert result.converged
-    assert result.contact.area_fraction == pytest.approx(1.0, abs=0.05)
-    assert result.contact.largest_gap_nm < 1e-3
-    assert result.pressure_inequality.violations == 0
-    with xarray.open_dataset(tmp_path / "fields.h5", engine="h5netcdf") as data:
-        contact = data["status"].values == CONTACT
-    assert np.count_nonzero(contact) == result.contact.nodes
-    line = np.flatnonzero(contact[32]) + 1
-    assert (line[0], line[-1]) == result.contact.x_nodes
-    column = np.flatnonzero(contact[:, np.abs(np.linspace(-1.9, 1.3, 65)).argmin()]) + 1
-    assert (column[0], column[-1]) == result.contact.y_nodes
 
 
 def test_a_run_that_does_not_converge_still_leaves_everything(tmp_path):
@@ -214,24 +199,6 @@ def test_pocket_of_the_repository(tmp_path):
         X = [float(row["X_mm"]) for row in csv.DictReader(file)]
     assert (X[0], X[-1]) == (0.0, 20.0)
     assert load_config(here / "configuration.toml").wedge == load_config(CONFIGS / "pocket.toml").wedge
-
-
-@pytest.mark.parametrize("name", ["line_contact", "line_dry"])
-def test_line_of_the_repository(name, tmp_path):
-    here = tmp_path / "here"
-    assert main(["run", str(CONFIGS / f"{name}.toml"), "--quiet", "--out", str(here)]) == 0
-    assert {path.name for path in here.iterdir()} == FILES
-    read = read_json(here)
-    nodes = load_config(here / "configuration.toml").grid.nodes
-    assert read["converged"] is True and RESULT_KEYS <= read.keys()
-    assert (read["contact"]["nodes"] > 0) == (name == "line_dry")
-    assert read["contact"]["y_nodes"] is None
-    assert set(read["formulas"]) >= {"moes_nm"}
-    with xarray.open_dataset(here / "fields.h5", engine="h5netcdf") as data:
-        assert data["pressure"].shape == (1, nodes)
-        step = float(data["x"][1] - data["x"][0])
-        assert step * float(data["pressure"].sum()) == pytest.approx(1859e3, rel=1e-7)
-        assert 1e-9 * float(data["pressure"].max()) == pytest.approx(read["max_pressure_GPa"])
 
 
 class TestDomainThatCutsTheContact:

@@ -1,7 +1,6 @@
 """One version, wherever it is told."""
 
 import re
-import tomllib
 from pathlib import Path
 
 from mgehl.version import VERSION
@@ -24,9 +23,3 @@ def test_changelog_begins_with_this_version_and_the_day_that_citation_names():
     released = [heading for heading in headings if heading != "Unreleased"]
     assert headings.index(released[0]) <= 1
     assert [released[0]] == [f"{VERSION} - {day}" for day in said("date-released")]
-
-
-def test_the_package_takes_its_version_from_one_place():
-    project = tomllib.loads((ROOT / "pyproject.toml").read_text())
-    assert "version" in project["project"]["dynamic"] and "version" not in project["project"]
-    assert project["tool"]["setuptools"]["dynamic"]["version"] == {"attr": "mgehl.version.VERSION"}

@@ -41,13 +41,6 @@ def test_a_run_has_its_pictures_beside_it_as_bitmaps_and_vectors(plot, runs, cap
     assert set(capsys.readouterr().out.split()) == {str(plots / name) for name in files(plots)}
 
 
-def test_kinds_formats_and_directory(plot, tmp_path):
-    options = ["--kind", "lines,history", "--kind", "lines", "--format", "svg", "--format", "pdf"]
-    assert plot("wedge", *options, "--out", "here") == 0
-    expected = {f"here/{kind}.{form}" for kind in ("lines", "history") for form in ("svg", "pdf")}
-    assert files(tmp_path) == expected
-
-
 def test_several_runs_are_compared(plot, tmp_path):
     assert plot("dry light", "--format", "svg", "--dpi", "80") == 0
     assert files(tmp_path) == {"plots/compare-lines.svg", "plots/compare-history.svg"}
@@ -72,10 +65,3 @@ def test_mistakes_end_in_one_line_and_nothing_is_written(plot, tmp_path, capsys,
     error = capsys.readouterr().err
     assert error.startswith("mgehl: ") and error.count("\n") == 1 and said in error
     assert files(tmp_path) == set()
-
-
-def test_a_directory_that_cannot_be_written(plot, tmp_path, capsys):
-    (tmp_path / "file").write_text("mine")
-    assert plot("wedge", "--kind", "history", "--out", "file") == 2
-    assert "file: cannot be written" in capsys.readouterr().err
-    assert (tmp_path / "file").read_text() == "mine"

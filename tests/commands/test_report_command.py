@@ -79,12 +79,6 @@ def test_a_damaged_run_is_refused_and_writes_nothing(here, capsys, damage):
     assert names(here / "dry") == before
 
 
-def test_a_page_that_cannot_be_written(here, capsys):
-    assert "none/page.html: cannot be written" in refused(["dry", "--out", "none/page.html"], capsys)
-    assert "exists" in refused(["dry", "--out", "dry"], capsys)
-    assert "cannot be written" in refused(["dry", "--out", "dry", "--force"], capsys)
-
-
 def test_a_study(here, capsys):
     (here / "mine").mkdir()
     (here / "mine" / "films.csv").write_text("couette,central nm\nS2B-vi,393.0\n")

@@ -67,15 +67,6 @@ class TestWithoutAConfiguration:
         assert config["contact"]["load"] == 800.0
 
 
-def test_numbers_that_nobody_gave_are_told(run, tmp_path):
-    (tmp_path / "mine.toml").write_text('[contact]\nload = "800 N"\n')
-    *_, words = run(str(tmp_path / "mine.toml"))
-    lines = [line for line in words.splitlines() if line.startswith("mgehl: not given: ")]
-    assert "mgehl: not given: lubricant.viscosity: 0.096 Pa*s is the paper's" in lines
-    assert len(lines) == 5 and not any("contact.load" in line or "motion.speed" in line for line in lines)
-    assert "not given" not in run()[2]
-
-
 def test_the_numbers_that_follow_are_stored_and_read_again(run, tmp_path, capsys):
     steel = [word for body in (1, 2) for word in ("--set", f"body_{body}.material=steel")]
     rough = "--set", "body_1.Ra=40 nm", "--no-error"

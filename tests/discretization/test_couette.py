@@ -49,56 +49,6 @@ def difference(couette_flows):
     return make
 
 
-# Through the face between nodes 1 and 2, by Eqs. 17 and 18 with (rho, H) = (2, 7), (3, 11), (5, 13):
-#   1B 3*11;  2B (3*33 - 14)/2;  2C (33 + 65)/2;  S1B leaving 33 + (3 - 2) 11, entering
-#   33 + (5 - 3) 11;  S2C (33 + 65)/2 - (5 - 3)(13 - 11)/2;  3B (2*65 + 5*33 - 14)/6
-@pytest.mark.parametrize(
-    "scheme, leaves, enters",
-    [
-        ("1B", 33.0, 33.0),
-        ("2B", 42.5, 42.5),
-        ("2C", 49.0, 49.0),
-        ("3B", 281.0 / 6.0, 281.0 / 6.0),
-        ("3L", 281.0 / 6.0, 281.0 / 6.0),
-        ("S1B", 44.0, 55.0),
-        ("S2C", 47.0, 47.0),
-    ],
-)
-def test_flow_through_an_inner_face(couette_flows, scheme, leaves, enters):
-    leaving, entering = couette_flows(scheme)
-    assert leaving.value[1] == pytest.approx(leaves, rel=1e-15)
-    assert entering.value[1] == pytest.approx(enters, rel=1e-15)
-
-
-@pytest.mark.parametrize(
-    "scheme, enters",
-    [("1B", 14.0), ("2B", 23.5), ("2C", 23.5), ("3B", 23.5), ("3L", 21.0), ("S1B", 21.0), ("S2C", 21.5)],
-)
-def test_flow_through_the_first_face_needs_no_node_upstream(couette_flows, scheme, enters):
-    """1B 2*7;  2B, 3B and 2C (14 + 33)/2;  3L 14 and half of it.
-
-    S1B 14 + (3 - 2) 7;  S2C 23.5 - (3 - 2)(11 - 7)/2.
-    """
-    assert couette_flows(scheme)[1].value[0] == enters
-
-
-def test_S2B_v_node_difference_is_option_v(difference):
-    """The other factor is the mean of i - 1 and i + 1; the printed line above Eq. 15."""
-    rho, H = RHO, GAP
-    i = np.array([2])  # the first and the last inner node lack a far one
-    backward = [(3 * q[i] - 4 * q[i - 1] + q[i - 2]) / 2 for q in (rho, H)]
-    option = (H[i + 1] + H[i - 1]) / 2 * backward[0] + (rho[i + 1] + rho[i - 1]) / 2 * backward[1]
-    assert difference("S2B-v")[1:2].tolist() == pytest.approx(option.tolist(), rel=1e-14)
-
-
-def test_S2B_vi_node_difference_is_option_vi(difference):
-    rho, H = RHO, GAP
-    i = np.array([2, 3])
-    backward = [(3 * q[i] - 4 * q[i - 1] + q[i - 2]) / 2 for q in (rho, H)]
-    option = H[i] * backward[0] + rho[i] * backward[1]
-    assert difference("S2B-vi")[1:].tolist() == pytest.approx(option.tolist(), rel=1e-14)
-
-
 @pytest.mark.parametrize(
     "scheme, flow",
     [("2B", 49.0), ("3B", 49.0), ("3L", 49.0), ("S2B-v", 47.0), ("S2B-vi", 47.0), ("S1B", 33.0)],
@@ -135,12 +85,6 @@ def test_3L_differs_from_the_film_of_the_node_upstream_by_half_of_it(couette_flo
     for velocity in (1.0, -2.0):
         flow = couette_flows("3L", **row, velocity=velocity)[0].value[1]
         assert flow == pytest.approx(velocity * by_3L, rel=1e-15)
-
-
-def test_3L_is_limited_beside_contact_too(couette_flows):
-    """There by 2C of W and E, node 0 being solid: (6 + 30)/2 is three times 6."""
-    row = {"rho": np.ones(5), "gap": np.array([0.0, 6.0, 30.0, 0.0, 0.0])}
-    assert couette_flows("3L", **row, status=[CONTACT, *FILM[1:]])[0].value[1] == 9.0
 
 
 @pytest.mark.parametrize("power", [1, 2, 3])

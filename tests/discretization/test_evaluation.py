@@ -66,14 +66,6 @@ def test_net_inflow_of_each_neighbourhood(number, closed, couette, contact):
     assert evaluation.inflow[1, i] == pytest.approx(expected, rel=1e-12, abs=1e-13 * size)
 
 
-@pytest.mark.parametrize("motion", [(1.0, 0.0), (0.6, 0.8)])
-def test_node_with_four_closed_faces_gets_nothing(motion, contact):
-    status = walled(neighbourhood({"west", "east", "south", "north"}))
-    P, H = ghosted(np.linspace(0.1, 0.6, 15).reshape(3, 5)), ghosted(np.full((3, 5), 0.1))
-    mesh = Mesh(5, 9, (-1.6, 1.4), (-1.5, 1.5))
-    assert Evaluation(P, H, status, mesh, contact, Scheme(motion=motion)).inflow[1, 2] == 0.0
-
-
 PATCHES = [(slice(1, 4), slice(2, 6)), (slice(0, 5), slice(1, 7)), (slice(2, 3), slice(3, 4))]
 
 

@@ -11,24 +11,6 @@ from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import BOUNDARY, LUBRICATED
 
 
-def test_one_line_is_a_slice_of_unit_width():
-    line = Mesh(9, 1, (-4.0, 2.0), (0.0, 0.0))
-    assert line.is_line
-    assert (line.dX, line.dY, line.nodes) == (0.75, 1.0, 9)
-    assert line.Y.tolist() == [0.0]
-    assert line.nearest(0.1, 0.0) == (5, 0)
-
-
-@pytest.mark.parametrize("ny, coarse", [(1, 1), (9, 5)])
-def test_coarsened_takes_every_other_node_and_stays_one_line(ny, coarse):
-    mesh = Mesh(17, ny, (-4.0, 2.0), (0.0, 0.0 if ny == 1 else 3.0), 0.7, (-3.9, 1.8))
-    coarsened = mesh.coarsened()
-    assert (coarsened.nx, coarsened.ny) == (9, coarse)
-    assert coarsened.is_line == mesh.is_line
-    assert (coarsened.x, coarsened.y, coarsened.k_e, coarsened.edges) == (mesh.x, mesh.y, 0.7, mesh.edges)
-    np.testing.assert_allclose(coarsened.X, mesh.X[::2], rtol=1e-15)
-
-
 def dirichlet_error(cells, half_cells, edges):
     """Largest error of P at inner nodes of H - (1 + X) P' = const, P = 0 at 0 and 1, by the flows.
 
@@ -61,16 +43,3 @@ def test_pressure_at_an_edge_between_nodes_is_of_second_order(half_cells):
     errors = [dirichlet_error(cells, half_cells, edges=True) for cells in (32, 64, 128)]
     assert errors[0] / errors[1] == pytest.approx(4.0, rel=0.1)
     assert errors[1] / errors[2] == pytest.approx(4.0, rel=0.05)
-
-
-def test_axes_of_a_plane_mesh():
-    """Couette flow k_e rho H and Poiseuille flow k_e^2 eps dP/dY cross a line [Liu eq. 26]."""
-    mesh = Mesh(5, 9, (0.0, 2.0), (0.0, 2.0), k_e=0.5)
-    x, y = axes_of(mesh, (0.6, 0.8))
-    assert (x.number, x.cell, x.distance, x.couette) == (1, 0.5, 0.5, 0.6)
-    assert (y.number, y.cell, y.distance, y.couette) == (0, 0.25, 0.25 / 0.25, 0.4)
-
-
-def test_a_single_line_has_one_axis_and_edges_are_its_distances():
-    (x,) = axes_of(Mesh(3, 1, (0.0, 2.0), (0.0, 0.0), edges=(0.5, 1.75)), (1.0, 0.0))
-    assert x.cell == 1.0 and x.distance.tolist() == [0.5, 0.75]

@@ -24,16 +24,6 @@ AT_AN_ANGLE = (0.6, 0.8)
 along_and_at_an_angle = pytest.mark.parametrize("motion", [(1.0, 0.0), AT_AN_ANGLE])
 
 
-def test_each_kind_of_row(film):
-    """Net inflow, -P/dX and -H/dX, whatever the nodes are."""
-    evaluation = film.evaluation()
-    rows = np.resize([FLOW, PRESSURE, GAP], own(film.P).shape)
-    F, dX = residual(evaluation, rows), film.mesh.dX
-    expected = {FLOW: evaluation.inflow, PRESSURE: -own(film.P) / dX, GAP: -own(film.H) / dX}
-    for kind, values in expected.items():
-        np.testing.assert_array_equal(F[rows == kind], values[rows == kind])
-
-
 def central_differences(function, x, d):
     """Matrix of a function's derivatives by every node of a ghosted array, of which none reaches farther
     than two lines or nodes: so every fifth is moved at once."""

@@ -2,9 +2,8 @@ import numpy as np
 import pytest
 from handmade import walled
 
-from mgehl.discretization.axes import HALO, axes_of, own
+from mgehl.discretization.axes import axes_of, own
 from mgehl.discretization.mesh import Mesh
-from mgehl.discretization.rows import FLOW, GAP, PRESSURE, rows_of
 from mgehl.discretization.status import (
     BOUNDARY,
     CAVITATED,
@@ -12,13 +11,11 @@ from mgehl.discretization.status import (
     LUBRICATED,
     enclosed,
     is_solid,
-    largest_fluid_neighbour,
     open_faces,
 )
 
 MESH = Mesh(5, 3, (0.0, 4.0), (0.0, 2.0))
 ALONG_X, ALONG_Y = axes_of(MESH, (1.0, 0.0))
-X_AND_Y = ALONG_X, ALONG_Y
 
 # Number, label and closed faces of the neighbourhoods of Liu sec. 3.2.2-3.2.5. A label says on
 # which side of the contact the node lies (1-8), or which border is open (11-14).
@@ -104,20 +101,3 @@ def test_a_wall_shuts_nothing_in():
     status = walled(np.array([[LUBRICATED] * 3, [CONTACT] * 3]))
     assert not enclosed(status, axes_of(MESH, (0.0, 1.0))).any()
     assert not enclosed(walled(np.full((1, 3), LUBRICATED)), axes_of(MESH, (0.0, 1.0))).any()
-
-
-def test_largest_fluid_neighbour_of_hand_made_lines():
-    """Contact never counts, boundary and cavitated nodes do, and line ends have three neighbours."""
-    K, F, V, B = CONTACT, LUBRICATED, CAVITATED, BOUNDARY
-    status = walled(np.array([[B, F, K, B], [B, K, K, K], [B, V, K, F]]))
-    P = np.pad([[0.0, 5.0, 9.0, 1.0], [2.0, 7.0, 8.0, 3.0], [0.0, 0.0, 9.0, 4.0]], ((HALO, HALO), (0, 0)))
-    result = largest_fluid_neighbour(P, status, X_AND_Y)
-    assert result[1].tolist() == [0.0, 5.0, -np.inf, 4.0]
-
-
-EVERY = np.array([[BOUNDARY, LUBRICATED, CAVITATED, CONTACT]])
-
-
-@pytest.mark.parametrize("rigid, contact", [(False, GAP), (True, PRESSURE)], ids=["elastic", "rigid"])
-def test_the_status_says_which(rigid, contact):
-    assert rows_of(EVERY, rigid).tolist() == [[PRESSURE, FLOW, PRESSURE, contact]]

@@ -17,37 +17,6 @@ def beyond(ghosted):
     return np.concatenate([ghosted[:HALO], ghosted[-HALO:]])
 
 
-def test_hierarchy_halves_the_grids_down_to_the_coarsest(hierarchy):
-    assert [grid.mesh.nx for grid in hierarchy.grids] == [33, 65, 129]
-    assert [grid.mesh.ny for grid in hierarchy.grids] == [33, 65, 129]
-    assert len(hierarchy.transfers) == 2
-    assert len(hierarchy.deflections) == 3
-
-
-def test_coarse_nodes_are_every_other_fine_node(hierarchy):
-    coarse, fine = hierarchy.grids[0], hierarchy.grids[1]
-    np.testing.assert_allclose(coarse.X, fine.X[:, ::2], atol=1e-14)
-    np.testing.assert_allclose(coarse.Y, fine.Y[::2], atol=1e-14)
-    assert fine.X.shape == (1, 65) and fine.Y.shape == (65, 1)
-
-
-def test_convolutions_are_counted_by_node_ratio(hierarchy):
-    pressures = [np.zeros(grid.shape) for grid in hierarchy.grids]
-    assert hierarchy.convolutions == 0.0
-    hierarchy.deflections[2](pressures[2])
-    assert hierarchy.convolutions == 1.0
-    hierarchy.deflections[0](pressures[0])
-    assert hierarchy.convolutions == pytest.approx(1.0 + (33 / 129) ** 2, rel=1e-14)
-
-
-def test_grids_of_one_line_stay_one_line(make_line):
-    line = make_line(129)
-    assert [(grid.mesh.nx, grid.mesh.ny) for grid in line.grids] == [(33, 1), (65, 1), (129, 1)]
-    assert all(grid.mesh.is_line and grid.shape == (1, grid.mesh.nx) for grid in line.grids)
-    assert [grid.Y.tolist() for grid in line.grids] == [[[0.0]]] * 3
-    np.testing.assert_allclose(line.grids[0].X, line.grids[2].X[:, ::4], atol=1e-14)
-
-
 @pytest.fixture(params=["plane", "line"])
 def any_grid(request, hierarchy, make_line):
     """A grid of 33 lines, and one of a single line."""

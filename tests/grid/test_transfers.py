@@ -20,15 +20,6 @@ def transfer(paper_contact, make_hierarchy):
     return make_hierarchy(paper_contact(), 65).transfers[0]
 
 
-@pytest.mark.parametrize("line, node", [(-1, 0), (1, 0), (0, -1), (0, 1)])
-def test_halfway_to_a_neighbour(transfer, line, node):
-    fine = np.random.default_rng(0).random(transfer.fine.shape)
-    found = transfer.halfway(transfer.fine.halo(fine), (line, node))
-    assert found.shape == transfer.coarse.shape
-    inner = fine[2 + line : -2 + line or None : 2, 2 + node : -2 + node or None : 2]
-    np.testing.assert_array_equal(found[1:-1, 1:-1], inner)
-
-
 def test_bilinear_reproduces_bilinear_functions(transfer):
     def function(grid):
         return 2.0 + 3.0 * grid.X - 1.5 * grid.Y + 0.7 * grid.X * grid.Y
@@ -107,14 +98,6 @@ class TestPartitioned:
         assert np.all(fine[status == kind] > 0.0)
         np.testing.assert_array_equal(fine[status == other], 0.0)
 
-    def test_constant_contact_residual_comes_out_halved(self, partitioned, status, coarse_status):
-        coarse = partitioned.restrict(np.where(status == CONTACT, 4.0, 0.0))
-        np.testing.assert_allclose(coarse[coarse_status == CONTACT], 2.0, rtol=1e-13)
-
-    def test_constant_contact_correction_stays_constant(self, partitioned, status, coarse_status):
-        fine = partitioned.prolong(np.where(coarse_status == CONTACT, 5.0, 0.0))
-        np.testing.assert_allclose(fine[status == CONTACT], 5.0, rtol=1e-13)
-
     def test_frozen_film_has_no_part_in_it(self, transfer, status, coarse_status):
         """Its pressure is given: what it has is neither gathered nor corrected."""
         rows, coarse_rows = (rows_of(each, frozen=each == LUBRICATED) for each in (status, coarse_status))
@@ -133,16 +116,6 @@ class TestOneLine:
     def transfer(self, make_line):
         return make_line(9, coarsest=5).transfers[0]
 
-    def test_full_weighting(self, transfer):
-        """A quarter, a half, a quarter along the line and nothing across; ends are zero."""
-        fine = np.array([[8.0, 4.0, 2.0, 6.0, 10.0, 1.0, 3.0, 5.0, 7.0]])
-        expected = [0.0, (4 + 4 + 6) / 4, (6 + 20 + 1) / 4, (1 + 6 + 5) / 4, 0.0]
-        assert transfer.full_weighting(fine).tolist() == [expected]
-
-    def test_bilinear(self, transfer):
-        coarse = np.array([[1.0, 3.0, 2.0, 6.0, -4.0]])
-        assert transfer.bilinear(coarse).tolist() == [[1.0, 2.0, 3.0, 2.5, 2.0, 4.0, 6.0, 1.0, -4.0]]
-
     def test_full_weighting_is_half_of_the_adjoint_of_bilinear(self, transfer):
         """A coarse node stands for two fine ones, not for four."""
         random = np.random.default_rng(1)
@@ -150,13 +123,3 @@ class TestOneLine:
         coarse[:, 1:-1] = random.standard_normal((1, 3))
         weighted = np.vdot(transfer.full_weighting(fine), coarse)
         assert weighted == pytest.approx(0.5 * np.vdot(fine, transfer.bilinear(coarse)), rel=1e-12)
-
-    def test_partitioned_keeps_constants_of_each_kind(self, transfer):
-        """As on many lines: contact residuals come out halved, corrections as they are."""
-        fine = np.array([[BOUNDARY] + 3 * [LUBRICATED] + 3 * [CONTACT] + [LUBRICATED, BOUNDARY]])
-        coarse = transfer.inject(fine)
-        partitioned = PartitionedTransfer(transfer)
-        partitioned.partition(*kinds(coarse, fine))
-        assert partitioned.restrict(4.0 * (fine == CONTACT)).tolist() == [[0.0, 0.0, 2.0, 2.0, 0.0]]
-        corrected = partitioned.prolong(5.0 * (coarse == CONTACT))
-        np.testing.assert_array_equal(corrected, 5.0 * (fine == CONTACT))

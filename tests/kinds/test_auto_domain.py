@@ -19,34 +19,6 @@ def loaded(*settings):
     return config, contact_from(config)
 
 
-def test_a_case_of_one_s_own_has_a_domain_by_its_film():
-    slow, fast = (settled(*loaded(f"motion.speed={speed}")).grid for speed in (0.1, 3.0))
-    assert fast.x[0] < slow.x[0] < -1.0 and fast.y[1] > slow.y[1] > 1.0
-    assert slow.y[0] == -slow.y[1]
-
-
-def test_what_is_given_stays():
-    config = settled(*loaded("motion.speed=1", "grid.x=[-7, 2]"))
-    assert config.grid.x == (-7.0, 2.0) and config.grid.y[1] > 1.0
-    config, contact = loaded("grid.x=[-7, 2]", "grid.y=[-3, 3]")
-    assert settled(config, contact) is config
-
-
-def test_a_line_contact_has_no_y():
-    config, contact = loaded("contact.kind=line", "motion.speed=1")
-    found = settled(config, contact)
-    assert found.grid.x[0] < -1.0 and "y" not in found.as_toml_tables()["grid"]
-    assert mesh_from(config, contact).x == found.grid.x
-    check_contact(config, contact)
-
-
-@pytest.mark.parametrize("key", ["grid.x", "grid.y"])
-def test_auto_means_nothing_beside_a_wedge(key):
-    with pytest.raises(ConfigError) as caught:
-        load_config(os.devnull, ["contact.kind=wedge", f"{key}=auto"])
-    assert str(caught.value) == f"{key} = 'auto': means nothing where contact.kind = \"wedge\""
-
-
 @pytest.mark.parametrize("angle", [0, 30, 45, 90, 200])
 @pytest.mark.parametrize("speed", ["1e-9", "0.01", "20"])
 def test_auto_holds_contact_and_inlet(angle, speed):

@@ -1,7 +1,6 @@
 """Bodies, motion and oil as engineers give them end as the numbers that are solved."""
 
 import os
-import tomllib
 from math import pi
 from pathlib import Path
 
@@ -10,8 +9,6 @@ import pytest
 from mgehl.config import KEYS, ConfigError, config_from_tables, load_config
 from mgehl.kinds import contact_from
 from mgehl.kinds.derived import EITHER, FOLLOWS, NEEDS
-from mgehl.model.oils import OILS
-from mgehl.output.report.run_report import inputs_of
 
 CONFIGS = Path(__file__).resolve().parents[2] / "configs"
 STEEL = {"body_1.material": "steel", "body_2.material": "steel"}
@@ -55,28 +52,6 @@ def test_numbers_of_a_run_stand_for_those_of_this_version():
     assert config.contact.reduced_modulus == 2e11 and config.contact.load == 800.0
 
 
-def test_two_materials_and_their_moduli():
-    mixed = of({"body_1.material": "silicon nitride", "body_2.modulus": "206 GPa", "body_2.poisson": 0.3})
-    expected = 2.0 / ((1.0 - 0.26**2) / 310e9 + (1.0 - 0.3**2) / 206e9)
-    assert mixed.contact.reduced_modulus == pytest.approx(expected, rel=1e-14)
-
-
-def test_a_ball_on_a_flat_and_a_roller_in_a_ring():
-    ball = of({"body_1.diameter": "20 mm"}).contact
-    assert (ball.radius_x, ball.radius_y) == (pytest.approx(0.01), pytest.approx(0.01))
-    ring = {"contact.kind": "line", "body_1.diameter": "10 mm", "body_2.diameter": "-60 mm"}
-    assert of(ring).contact.radius_x == pytest.approx(1.0 / (1.0 / 5e-3 - 1.0 / 30e-3))
-
-
-def test_speeds_of_both_surfaces_and_rotations_with_their_radius():
-    config = of({"body_1.speed": "3 m/s", "body_2.rotation": "600 rpm", "body_2.rotation_radius": "50 mm"})
-    assert config.motion.speed == pytest.approx(0.5 * (3.0 + 20.0 * pi * 0.05))
-    roller = of({"body_1.diameter": "0.2 m", "body_1.rotation": "60 rpm", "body_2.speed": 0})
-    assert roller.motion.speed == pytest.approx(0.5 * 2.0 * pi * 0.1)
-    if "motion.slide_to_roll" in KEYS:
-        assert roller.value("motion.slide_to_roll") == pytest.approx(2.0)
-
-
 def test_inner_and_outer_ring_of_one_bearing_have_the_same_speed():
     ball = {"body_1.diameter": "10 mm", "motion.ring_rotation": "6000 rpm"}
     inner, outer = (of(ball | {"body_2.diameter": f"{d} mm"}).motion.speed for d in (40, -60))
@@ -92,16 +67,6 @@ def test_viscosity_by_density_and_by_two_temperatures():
     for temperature, nu in (("40 degC", 68.0), ("373.15 K", 8.5), ("100 C", 8.5), ("104 degF", 68.0)):
         config = of(TWO | {"lubricant.temperature": temperature, "lubricant.density": 850})
         assert config.lubricant.viscosity == pytest.approx(1e-6 * nu * 850.0, rel=1e-6)
-
-
-@pytest.mark.parametrize("name, eta, alpha", [("N100", 27, 22.9), ("M100", 31, 19.1), ("PAO100", 37, 13.8)])
-def test_an_oil_by_its_name(name, eta, alpha):
-    config = of(OIL | {"lubricant.oil": name})
-    assert 1e3 * config.lubricant.viscosity == pytest.approx(eta, abs=0.5)
-    assert 1e9 * config.lubricant.pressure_viscosity == pytest.approx(alpha, abs=0.06)
-    law = contact_from(config).lubricant.viscosity_law
-    assert law == OILS[name].law(config.lubricant.temperature)
-    assert "lubricant.viscosity_law" in config.unused
 
 
 def value_for(key):
@@ -217,12 +182,6 @@ def test_what_nothing_uses_any_more_goes_with_what_a_setting_replaces(setting, o
     config.with_(setting if isinstance(setting, dict) else [setting])
 
 
-def test_friction_heat_and_time_are_rows_of_the_report():
-    rows = inputs_of(of({"friction.model": "eyring", "friction.eyring_stress": "5 MPa", "time.end": 1}))
-    told = {key: words for (key, _), words, _ in rows}
-    assert told["friction.eyring_stress"] == "5e+06 Pa" and told["time.end"] == "1 s"
-
-
 def test_a_bearing_may_slip_and_keeps_its_speed():
     config = load_config(CONFIGS / "bearing_6206.toml")
     slips = config.with_({"motion.slide_to_roll": 0.1})
@@ -236,8 +195,3 @@ def test_a_dry_contact_has_bodies_and_no_motion():
     dry = {"discretization.contact_model": "dry", "body_1.rotation_radius": 0.1, "body_1.rotation": "1 rpm"}
     config = of(STEEL | dry | {"body_2.speed": 0})
     assert {"body_1.rotation", "motion.speed"} <= config.unused
-
-
-def test_the_bearing_says_nothing_that_is_worked_out():
-    given = tomllib.loads((CONFIGS / "bearing_6206.toml").read_text())
-    assert set(given["contact"]) == {"load"} and set(given["motion"]) == {"ring_rotation"}

@@ -1,11 +1,10 @@
 """Contacts without a fluid: what they heed, and what they refuse in a line."""
 
-import numpy as np
 import pytest
 
 from mgehl.config import config_from_tables, load_config
 from mgehl.errors import ConfigError
-from mgehl.kinds import check_contact, contact_from, mesh_from, settled
+from mgehl.kinds import check_contact, contact_from
 
 DRY = {"discretization.contact_model": "dry"}
 COATED = {"contact.deformation": "coated", "coating.thickness": 2e-4, "coating.modulus": 2e9}
@@ -53,27 +52,3 @@ def test_the_keys_of_its_fluid_are_kept():
     assert config_from_tables(tables) == config
     del tables["discretization"]["contact_model"]
     assert config_from_tables(tables) == load_config(None, of_fluid)
-
-
-def test_moes_numbers_make_a_load_with_their_lubricant():
-    config = load_config(None, DRY | {"moes.M": 20.0, "moes.L": 10.0, "lubricant.pressure_viscosity": 1e-8})
-    again = config_from_tables(config.as_toml_tables())
-    assert contact_from(again).load == contact_from(config).load != 800.0
-
-
-@pytest.mark.parametrize("kind, axes", [("point", "xy"), ("line", "x")])
-def test_auto_holds_the_contact_and_some_room(kind, axes):
-    config = config_from_tables({"contact": {"kind": kind}, "discretization": {"contact_model": "dry"}})
-    contact = contact_from(config)
-    grid = settled(config, contact).grid
-    assert all(getattr(grid, name) == (-1.5, 1.5) for name in axes)
-    assert mesh_from(config, contact).x == (-1.5, 1.5)
-    check_contact(config, contact)
-
-
-def test_auto_sees_a_soft_layer():
-    config = load_config(None, DRY | COATED | {"grid.x": "auto", "grid.y": "auto"})
-    contact = contact_from(config)
-    ends = np.array(settled(config, contact).grid.x)
-    assert contact.reach > 1.2
-    np.testing.assert_allclose(ends, [-1.5 * contact.reach, 1.5 * contact.reach])

@@ -5,24 +5,11 @@ import pytest
 from mgehl.config import config_from_tables
 from mgehl.errors import ConfigError
 from mgehl.kinds import contact_from
-from mgehl.model.rheology import Eyring, Friction, Limiting, Newtonian
 
 
 def friction(motion=None, **keys):
     config = config_from_tables({"friction": keys, "motion": {"slide_to_roll": 0.2} | (motion or {})})
     return contact_from(config).friction
-
-
-def test_friction_that_is_not_named_is_newtonian():
-    assert contact_from(config_from_tables({})).friction == Friction()
-    assert friction() == Friction(Newtonian(), 0.2)
-
-
-def test_a_limit_may_be_of_either_law():
-    limit = {"model": "limiting", "limiting_coefficient": 0.05}
-    assert friction(**limit).rheology == Limiting(0.05, Newtonian())
-    found = friction(**limit, eyring_stress="5 MPa", boundary_coefficient=0.12)
-    assert found == Friction(Limiting(0.05, Eyring(5e6)), 0.2, 0.12, thins=True)
 
 
 @pytest.mark.parametrize(

@@ -71,19 +71,6 @@ def test_a_run_cites_what_it_used():
     assert cited(wedge, contact_from(wedge)) == ["liu2021"]
 
 
-def test_every_source_is_used_somewhere_and_is_a_record():
-    from mgehl.kinds.cited import LAWS
-    from mgehl.model.films import FORMULAS
-    from mgehl.model.materials import MATERIALS
-    from mgehl.model.oils import OILS
-
-    known = {each.source for table in (FORMULAS, MATERIALS, OILS) for each in table.values()}
-    known |= {*LAWS.values(), "liu2021", "johnson1985", "astmd341", "gupta1992"}
-    assert known == set(SOURCES)
-    assert SOURCES["nijenbanning1994"].short == "Nijenbanning, Venner, Moes 1994"
-    assert SOURCES["chittenden1985"].short == "Chittenden et al. 1985"
-
-
 @pytest.mark.parametrize("radius, is_odd", [("30 mm", False), ("50 mm", True)])
 def test_formulas_are_not_made_for_slender_contacts(radius, is_odd):
     settings = {"contact.radius_x": radius, "contact.radius_y": "5 mm", "contact.load": "100 N"}

@@ -6,7 +6,6 @@ import pytest
 from mgehl.config import config_from_tables, load_config
 from mgehl.errors import ConfigError
 from mgehl.kinds import check_contact, contact_from
-from mgehl.model.surface import Dent, Measured, Ridge, SelfAffine, Waviness
 
 WAVES = {"kind": "waviness", "amplitude": "50 nm", "wavelength_x": "60 um"}
 ROUGH = {
@@ -29,37 +28,11 @@ def refusal(**sections):
     return str(caught.value)
 
 
-BUILT = {
-    "waviness": (WAVES | {"angle": 30}, Waviness(50e-9, 60e-6, None, 30.0)),
-    "self-affine": (
-        ROUGH | {"seed": 7, "hurst": 0.7, "aspect": 2},
-        SelfAffine(1e-7, 20e-6, 200e-6, 0.7, 7, 2.0),
-    ),
-    "dent": (DENT, Dent(1e-6, 100e-6, -50e-6)),
-    "ridge": (RIDGE | {"y": "1 um"}, Ridge(1e-6, 100e-6, y=1e-6)),
-}
-
-
-@pytest.mark.parametrize("table, expected", BUILT.values(), ids=BUILT)
-@pytest.mark.parametrize("kind", ["point", "line"])
-def test_a_formula_by_its_keys(table, expected, kind):
-    contact = contact_from(config_of(contact={"kind": kind}, surface=table))
-    x = np.linspace(-1e-4, 1e-4, 5)
-    np.testing.assert_allclose(contact.surface.height(x, 0.3 * x), expected.height(x, 0.3 * x), rtol=1e-12)
-
-
 def test_a_peak_lowers_the_gap():
     """By its height, of whichever source: the paper's -delta  [Liu eq. 48]."""
     smooth, ridged = contact_from(config_of()), contact_from(config_of(surface=RIDGE))
     lower = smooth.undeformed_gap(0.0, 0.0) - ridged.undeformed_gap(0.0, 0.0)
     assert lower * ridged.film_scale == pytest.approx(1e-6)
-
-
-def test_surfaces_add_up(tmp_path):
-    (tmp_path / "mine.py").write_text("def up(x, y): return 3e-6 + 0 * x * y")
-    both = config_of(surface=RIDGE, second_surface=WAVES, contact={"surface": f"{tmp_path}/mine.py:up"})
-    check_contact(both, contact_from(both))
-    assert contact_from(both).surface.height(0.0, 0.0) == pytest.approx(1e-6 + 50e-9 + 3e-6)
 
 
 REFUSED = {
@@ -110,13 +83,6 @@ class TestFile:
         np.save(tmp_path / "z.npy", np.zeros((65, 65)))
         return {"file": str(tmp_path / "z.npy"), "height_unit": "nm", "spacing": "20 um"}
 
-    def test_by_its_keys(self, file):
-        surface = contact_from(config_of(surface=file | {"angle": 90, "remove": "tilt"})).surface
-        assert isinstance(surface, Measured) and surface.angle == 90.0
-        assert surface.preparation.height_unit == 1e-9
-        assert surface.preparation.dx == pytest.approx(20e-6)
-        assert surface.height(0.0, 0.0) == 0.0
-
     def test_a_file_smaller_than_the_contact_needs_a_continuation(self, file):
         small = file | {"spacing": "10 um"}
         message = refusal(surface=small)
@@ -137,18 +103,6 @@ class TestFile:
         config = config_of(surface=file | {"height_unit": "um"})
         check_contact(config, contact_from(config))
 
-    def test_what_is_wrong_with_the_file_is_told_with_its_key(self, file):
-        np.save(file["file"], np.full((65, 65), np.nan))
-        message = refusal(surface=file)
-        assert message.startswith(
-            f"surface.file = {file['file']!r}: 4225 of 4225 points are holes; at most"
-        )
-        assert message.count(file["file"]) == 1
-
-    def test_units_must_be_given(self, file):
-        assert "give height_unit" in refusal(surface={"file": file["file"], "spacing": "20 um"})
-        assert "give spacing" in refusal(surface={"file": file["file"], "height_unit": "nm"})
-
     def test_its_path_counts_from_the_configuration(self, file, tmp_path):
         (tmp_path / "mine.toml").write_text('[surface]\nfile = "z.npy"\n')
         assert load_config(tmp_path / "mine.toml").surface.file == file["file"]
@@ -159,10 +113,6 @@ class TestSettings:
     def path(self, tmp_path):
         (tmp_path / "mine.toml").write_text('[surface]\nkind = "dent"\namplitude = 1e-6\nwidth = 1e-4\n')
         return tmp_path / "mine.toml"
-
-    def test_another_kind_pushes_the_keys_of_the_first_out(self, path):
-        config = load_config(path, {"surface.kind": "waviness", "surface.wavelength_x": 1e-4})
-        assert config.surface.width is None and config.surface.amplitude == 1e-6
 
     def test_a_file_pushes_the_kind_out(self, path):
         config = load_config(path, {"surface.file": "z.npy"})

@@ -22,16 +22,6 @@ every_contact = pytest.mark.parametrize("contact", CONTACTS.values(), ids=CONTAC
 
 
 @every_contact
-def test_scales_are_those_of_the_dry_contact(contact):
-    """X = x/a, Y = y/b, P = p/p_h, H = h R_x/a^2, and the approach in units of H."""
-    hertz = contact.hertz
-    assert (contact.x_scale, contact.y_scale, contact.pressure_scale) == (hertz.a, hertz.b, hertz.p_h)
-    assert contact.film_scale == pytest.approx(hertz.a**2 / 12.7e-3, rel=1e-15)
-    assert contact.approach * contact.film_scale == pytest.approx(hertz.approach, rel=1e-15)
-    assert contact.motion == (1.0, 0.0)
-
-
-@every_contact
 @pytest.mark.parametrize("away", [6.0, 60.0], ids=["a tail", "nothing at all"])
 def test_a_dent_far_beside_the_contact_is_no_roughness(contact, away):
     """Its tail is 1e-130 m high. In time it may come in: the contact has the schemes of rough bodies."""
@@ -40,13 +30,6 @@ def test_a_dent_far_beside_the_contact_is_no_roughness(contact, away):
     assert (dented.roughness > 0.0) == (away == 6.0)
     assert dented.lambda_ratio is None and isfinite(dented.skewness)
     assert dented.is_rough and not contact.is_rough
-
-
-@every_contact
-def test_reynolds_coefficient(contact):
-    """lambda turns (h^3/12 eta) dp/dx over u h into (H^3/lambda) dP/dX over H."""
-    pressure_flow = contact.film_scale**3 / (12.0 * 0.096) * contact.pressure_scale / contact.x_scale
-    assert 1.0 / contact.lambda_ == pytest.approx(pressure_flow / (7.5e-3 * contact.film_scale), rel=1e-13)
 
 
 def mesh_of(contact, nodes):

@@ -2,7 +2,7 @@
 
 import pytest
 
-from mgehl.model.course import Constant, CourseError, Own, Table, course_of
+from mgehl.model.course import CourseError, Own, Table
 from mgehl.model.own_function import OwnFunction
 
 
@@ -69,8 +69,3 @@ def test_a_function_of_ones_own(tmp_path):
     course = Own(OwnFunction(f"{tmp_path}/mine.py:speed"))
     assert course.value(2.0) == 12.0
     assert course.integral(1.0, 2.0) == pytest.approx(7.0)
-
-
-def test_a_number_stays():
-    assert course_of(4) == Constant(4.0)
-    assert course_of(4).integral(1.0, 3.0) == pytest.approx(8.0)

@@ -9,8 +9,8 @@ from scipy.sparse.linalg import spsolve
 from tools.contacts import moes
 
 from mgehl.config import config_from_tables
-from mgehl.kinds import contact_from, mesh_from
-from mgehl.model.far_field import MOST, _missing_load, missing_share
+from mgehl.kinds import contact_from
+from mgehl.model.far_field import _missing_load, missing_share
 from mgehl.model.frame import Frame
 from mgehl.studies.study import merged
 
@@ -88,22 +88,3 @@ def test_films_do_not_jump_where_it_begins_to_be_counted():
     counted = [contact(M, 5.0).counted_beyond for M in loads]
     assert counted[0] == 1.0 and counted[-1] == 0.0
     assert 0.0 <= min(-np.diff(counted)) and max(-np.diff(counted)) < 0.03
-
-
-def test_the_key_reaches_the_contact_and_the_domain_s_load():
-    tables = merged(moes(3.0, 2.0), {"grid": {"x": X, "y": Y}})
-    found = {}
-    for said in (True, False):
-        config = config_from_tables(merged(tables, {"grid": {"load_beyond": said}}))
-        ball = contact_from(config)
-        found[said] = ball.load_within(mesh_from(config, ball)) / ball.load_integral
-    assert found[False] == 1.0
-    assert found[True] == 1.0 - missing_share(ball, X, Y) < 0.9
-
-
-def test_a_contact_at_rest_has_no_film_that_could_carry():
-    assert replace(contact(), speed=0.0, load_beyond=True).counted_beyond == 0.0
-
-
-def test_a_domain_that_ends_in_the_film_carries_half_all_the_same():
-    assert missing_share(contact(1.0, 3.0), (-1.2, 1.2), (-1.2, 1.2)) == MOST

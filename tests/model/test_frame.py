@@ -5,7 +5,7 @@ from math import cos, radians, sin
 import numpy as np
 import pytest
 
-from mgehl.model.frame import Frame, direction
+from mgehl.model.frame import Frame
 
 DIRECTIONS = range(-360, 361, 5)
 
@@ -37,18 +37,6 @@ def test_in_its_frame_every_motion_goes_towards_X_and_no_more_towards_Y(angle):
     assert 0.0 <= acute <= 45.0
     there = cos(radians(acute)), sin(radians(acute))
     assert frame.users_point(*there) == pytest.approx((cos(radians(angle)), sin(radians(angle))), abs=1e-15)
-
-
-@pytest.mark.parametrize(
-    "angle, parts", {0: (1, 0), 90: (0, 1), 180: (-1, 0), 270: (0, -1), -90: (0, -1), 360: (1, 0)}.items()
-)
-def test_directions_along_the_axes_are_exact(angle, parts):
-    assert direction(angle) == parts
-
-
-@pytest.mark.parametrize("angle", (0, 10, 45, 360, -350))
-def test_up_to_45_degrees_the_axes_are_the_users(angle):
-    assert Frame.of(angle)[0] == Frame()
 
 
 @EACH

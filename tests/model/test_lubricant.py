@@ -1,9 +1,9 @@
-from math import exp, log
+from math import exp
 
 import numpy as np
 import pytest
 
-from mgehl.model.lubricant import DENSITY_LAWS, VISCOSITY_LAWS, Barus, DowsonHigginson, Roelands
+from mgehl.model.lubricant import DENSITY_LAWS, VISCOSITY_LAWS, Roelands
 
 P_H = 0.8e9
 P = np.array([0.0, 0.25, 1.0, 1.7])
@@ -35,22 +35,6 @@ def test_viscosity_law_starts_at_eta0_with_slope_alpha(name):
         assert np.ravel(slope)[0] == pytest.approx(18e-9 * P_H, rel=1e-13)
 
 
-def test_barus_at_one_gigapascal():
-    """ln(eta*) = alpha p: 20 per GPa times 1 GPa."""
-    assert Barus(0.1, 20e-9).log_viscosity(np.array([1.25]), P_H)[0][0] == pytest.approx(20.0, rel=1e-14)
-
-
-def test_roelands_at_a_known_pressure():
-    """p = 1/5.1e-9 Pa doubles the bracket: ln(eta*) = (ln eta0 + 9.67)(2^z - 1)."""
-    law = Roelands(0.04, 20e-9)
-    S = log(0.04) + 9.67
-    z = 20e-9 / (5.1e-9 * S)
-    assert z == pytest.approx(0.6079, abs=1e-4)
-    value, slope = law.log_viscosity(np.array([1.0]), 1.0 / 5.1e-9)
-    assert value[0] == pytest.approx(S * (2.0**z - 1.0), rel=1e-14)
-    assert slope[0] == pytest.approx(S * z * 2.0 ** (z - 1.0), rel=1e-14)
-
-
 def test_roelands_takes_tension_as_ambient_pressure():
     """A Newton step may overshoot below p = 0, where the power has no value."""
     value, slope = Roelands(0.04, 20e-9).log_viscosity(np.array([-5.0, -1e-3]), P_H)
@@ -62,13 +46,3 @@ def test_roelands_takes_tension_as_ambient_pressure():
 def test_roelands_refuses_a_viscosity_without_meaning(viscosity):
     with pytest.raises(ValueError, match="above 6.3e-5 Pa s"):
         Roelands(viscosity, 20e-9)
-
-
-def test_dowson_higginson_at_one_gigapascal():
-    """1 + 0.6/(1 + 1.7) at 1 GPa, with slope 0.6/2.7^2 per GPa; 1 at ambient; at most 1 + 0.6/1.7."""
-    density = DowsonHigginson().density
-    rho, slope = density(np.array([1.25]), P_H)
-    assert rho[0] == pytest.approx(1.0 + 0.6 / 2.7, rel=1e-14)
-    assert slope[0] == pytest.approx(0.6 / 2.7**2 * 0.8, rel=1e-14)
-    assert density(np.zeros(1), P_H)[0][0] == 1.0
-    assert density(np.array([1e12]), P_H)[0][0] == pytest.approx(1.0 + 0.6 / 1.7, rel=1e-9)

@@ -7,8 +7,7 @@ import pytest
 
 from mgehl.model.films import hamrock_dowson_soft, inlet_heating
 from mgehl.model.lubricant import Barus, ConstantDensity, DowsonHigginson, Lubricant
-from mgehl.model.materials import MATERIALS, reduced_modulus
-from mgehl.model.oils import CELSIUS, OILS, OilViscosity, thinning, walther
+from mgehl.model.oils import CELSIUS, OILS, OilViscosity, walther
 from mgehl.model.point import PointContact
 
 
@@ -51,15 +50,6 @@ def test_walther_goes_through_both_points_and_lies_between_where_another_program
 
     assert (found(40.0), found(100.0)) == (pytest.approx(at_40), pytest.approx(at_100))
     assert found(60.0) == pytest.approx(at_60, rel=0.012)
-
-
-def test_thinning_of_an_exponential_is_its_rate():
-    assert thinning(lambda T: np.exp(-0.03 * T), 330.0) == pytest.approx(0.03, rel=1e-12)
-
-
-def test_two_bodies_of_one_material_have_its_plane_strain_modulus():
-    steel = MATERIALS["steel"]
-    assert reduced_modulus(*2 * [(steel.modulus, steel.poisson)]) == pytest.approx(206e9 / 0.91)
 
 
 def ball(density, **changes):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mgehl.errors import UserError
-from mgehl.model.own_function import OwnFunction, OwnFunctionError, absolute, is_own
+from mgehl.model.own_function import OwnFunction, OwnFunctionError
 
 SHAPE = (2, 3)
 WITH_A_DATACLASS = """
@@ -41,30 +41,6 @@ def refusal(function, *arguments):
     start, _, what = str(caught.value).partition("mine.py:law': ")
     assert start.startswith("'/") and caught.value.function is function and "\n" not in what
     return what
-
-
-def test_names():
-    assert is_own("a/b c.py:law") and is_own("/x/a.py:_f2")
-    for value in (
-        "barus",
-        "a.py",
-        "a.py:",
-        ":law",
-        "a.txt:law",
-        "a.py:2f",
-        "a.py:f.g",
-        None,
-        3,
-        ["a.py:f"],
-    ):
-        assert not is_own(value) and absolute(value) is None
-
-
-def test_paths_are_counted_from_a_directory(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    assert absolute("laws.py:f") == f"{tmp_path}/laws.py:f"
-    assert absolute("../laws.py:f", "here") == f"{tmp_path}/laws.py:f"
-    assert absolute("/there/laws.py:f", "here") == "/there/laws.py:f"
 
 
 @pytest.mark.parametrize(

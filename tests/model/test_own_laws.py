@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from mgehl.model.lubricant import Barus, DowsonHigginson
+from mgehl.model.lubricant import Barus
 from mgehl.model.own_function import OwnFunction, OwnFunctionError
-from mgehl.model.own_laws import OwnCompliance, OwnDensity, OwnSurface, OwnViscosity
+from mgehl.model.own_laws import OwnViscosity
 
 P_H = 0.8e9
 P = np.array([[0.0, 0.25, 1.0, 1.7]])
@@ -15,11 +15,6 @@ def law(at):
     p, viscosity, pressure_viscosity = at.pressure, at.viscosity, at.pressure_viscosity
     eta = viscosity * np.exp(pressure_viscosity * p)
     return eta, SLOPE
-"""
-DOWSON = """
-def law(at):
-    p = at.pressure
-    return 1.0 + 0.6e-9 * p / (1.0 + 1.7e-9 * p), SLOPE
 """
 
 
@@ -39,13 +34,6 @@ def viscosity(own):
     )
 
 
-@pytest.fixture
-def density(own):
-    return lambda text, slope="0.6e-9 / (1.0 + 1.7e-9 * p) ** 2": OwnDensity(
-        own(text.replace("SLOPE", slope))
-    )
-
-
 def refusal(check, *arguments):
     with pytest.raises(OwnFunctionError) as caught:
         check(*arguments)
@@ -62,13 +50,6 @@ def test_viscosity_of_one_s_own_is_the_built_in_one(viscosity):
     np.testing.assert_allclose(value, expected, rtol=1e-13, atol=1e-15)
     np.testing.assert_allclose(slope, expected_slope, rtol=1e-13)
     assert (law.viscosity, law.pressure_viscosity) == (0.05, 18e-9)
-
-
-def test_density_of_one_s_own_is_the_built_in_one(density):
-    law = density(DOWSON)
-    law.check(2.0 * P_H)
-    for found, expected in zip(law.density(P, P_H), DowsonHigginson().density(P, P_H), strict=True):
-        np.testing.assert_allclose(found, expected, rtol=1e-14)
 
 
 @pytest.mark.parametrize(
@@ -105,36 +86,3 @@ def test_a_wrong_derivative_is_refused_with_its_place_and_size(viscosity, slope,
 )
 def test_what_is_no_viscosity_is_refused(viscosity, text, words):
     assert words in refusal(viscosity(text).check, 2.0 * P_H)
-
-
-def test_heights_are_those_of_the_nodes(own):
-    surface = OwnSurface(own("def law(x, y): return 2.0 * x + y**2"))
-    x, y = np.array([[1.0, 2.0, 3.0]]), np.array([[0.0], [5.0]])
-    assert surface.height(x, y).tolist() == [[2.0, 4.0, 6.0], [27.0, 29.0, 31.0]]
-    surface.check(x[0], y[:, 0], 31.0)
-
-
-@pytest.mark.parametrize(
-    "text, words",
-    [
-        (
-            "def law(x, y): return x + 0.0 * y",
-            "returns 3 at x = 3 m, y = 0 m; must be a height in m of at most 2.5",
-        ),
-        ("def law(x, y): return x / (y - 5.0) / 1e3 ", "returns inf at x = 1 m, y = 5 m"),
-        ("def law(x, y): return (x, y)", "must return numbers of shape (1, 3)"),
-        ("def law(x): return x", "must take 2 arguments: x, y"),
-    ],
-)
-def test_what_is_no_surface_is_refused(own, text, words):
-    surface = OwnSurface(own(text))
-    assert words in refusal(surface.check, np.array([1.0, 2.0, 3.0]), np.array([0.0, 5.0]), 2.5)
-
-
-def test_a_compliance_is_positive(own):
-    k = np.array([1.0, 10.0, 100.0])
-    good = OwnCompliance(own("def law(k): return 1.0 + 1.0 / k"))
-    good.check(k)
-    assert good.compliance(k).tolist() == [2.0, 1.1, 1.01]
-    bad = OwnCompliance(own("def law(k): return 50.0 - k"))
-    assert refusal(bad.check, k) == "returns -50 at 100 1/m; must be a positive number"

@@ -39,12 +39,6 @@ def test_a_film_keeps_the_bodies_apart():
     assert reach(waves(100e-9), 100e-9 - contact.mean_height)[0] == (0.0, 0.0)
 
 
-def test_smooth_bodies_and_valleys_touch_nowhere_else():
-    assert reach(LIGHT)[0] == (0.0, 0.0)
-    dent = {"surface": {"kind": "dent", "amplitude": 1e-6, "width": 3e-6, "x": 30e-6}}
-    assert max(reach(merged(LIGHT, dent), 200e-9)[0]) == 0.0
-
-
 @pytest.mark.parametrize("across", [False, True])
 def test_a_ridge_reaches_along_itself_alone(across):
     """On a ball under 1 N it touches far out along y, and within the contact along x."""

@@ -63,10 +63,3 @@ def test_a_soft_layer_s_contact_has_room_for_what_is_not_known_of_it():
     x, _ = domain_for(found, NODES, FARTHEST)
     assert found.contact.reach > 1.3 * 1.3
     assert x[1] >= found.contact.reach
-
-
-def test_a_light_load_that_is_counted_beyond_the_domain_needs_no_more_nodes():
-    found = starvation(moes(5.0, 5.0))
-    few, many = (domain_for(found, nodes, FARTHEST) for nodes in (129, 2049))
-    assert few == many and -14.0 < few[0][0] < -6.0
-    assert found.lost(*few) <= ALLOWED

@@ -2,13 +2,12 @@
 
 import numpy as np
 import pytest
-from tools.contacts import line, moes
+from tools.contacts import moes
 
 from mgehl.config import config_from_tables
 from mgehl.kinds import contact_from
 from mgehl.model.frame import Frame
 from mgehl.model.starvation import Starvation
-from mgehl.model.way_in import STEPS, WayIn
 from mgehl.studies.study import merged
 
 WIDE = (-100.0, 100.0)
@@ -57,14 +56,6 @@ def test_a_light_load_that_is_counted_beyond_the_domain_takes_little():
     assert counted < 0.2 < 2.0 < within
 
 
-def test_of_a_line_contact_only_upstream_counts():
-    found = starvation(line(50e3, 1.0))
-    lost = found.lost((-2.0, 3.0), (0.0, 0.0))
-    assert lost > 1.0
-    assert found.lost((-2.0, 1.2), (0.0, 0.0)) == lost
-    assert found.lost((-4.0, 3.0), (0.0, 0.0)) < lost
-
-
 @pytest.mark.parametrize("angle", [30, 90, 135, 180, 200, 270, 315])
 def test_it_is_the_same_in_the_axes_of_the_solver(angle):
     ellipse = {"contact": {"radius_y": 30e-3}, "motion": {"speed": 1.0, "angle": angle}}
@@ -72,20 +63,3 @@ def test_it_is_the_same_in_the_axes_of_the_solver(angle):
     frame, x, y = Frame.of(angle)[0], (-2.0, 1.5), (-1.3, 1.8)
     turned = Starvation(found.contact.in_frame(frame), found.film)
     assert turned.lost(*frame.intervals(x, y)) == pytest.approx(found.lost(x, y), rel=1e-9)
-
-
-@pytest.fixture
-def way_in():
-    """To a wedge: its integral from s to the end is (h + 2 s)/(2 (h + s)^2)."""
-    return WayIn(0.3, STEPS)
-
-
-@pytest.mark.parametrize("way", [0.01, 0.3, 2.0, 50.0])
-def test_what_is_missing_is_the_integral_beyond(way_in, way):
-    part = 0.3 * (0.3 + 2.0 * way) / (0.3 + way) ** 2
-    assert way_in.missing(way) == pytest.approx(-np.log1p(-part), rel=1e-2)
-
-
-def test_the_way_of_what_is_missing(way_in):
-    for way in (0.01, 1.0, 300.0):
-        assert way_in.way(way_in.missing(way)) == pytest.approx(way, rel=1e-9)

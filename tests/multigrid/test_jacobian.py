@@ -69,11 +69,6 @@ def test_motion_at_an_angle(make_problem, rough_state, make_jacobian, make_vec, 
     assert_consistent(problem, rough_state(problem, contact=True), make_jacobian, make_vec)
 
 
-def test_elliptical_contact(paper_contact, make_problem, rough_state, make_jacobian, make_vec):
-    problem = make_problem(paper_contact(radius_y=25.4e-3), nodes=33)
-    assert_consistent(problem, rough_state(problem, contact=True), make_jacobian, make_vec)
-
-
 def assert_consistent(problem, state, make_jacobian, make_vec):
     dP, dH0 = direction(problem)
     dP = unknown(problem, state, dP)

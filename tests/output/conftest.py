@@ -15,7 +15,6 @@ from mgehl.output.pictures import style
 from mgehl.output.result import Overlap
 from mgehl.output.solution import Fields, Solution
 
-WEDGE = ("contact.kind=wedge", "grid.nodes=65", "wedge.pillar=square")
 FILM = 2e-4
 """H of the film in the middle: some nanometres."""
 

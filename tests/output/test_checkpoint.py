@@ -15,7 +15,7 @@ from mgehl.config import config_from_tables
 from mgehl.errors import OutputError, Stopped
 from mgehl.output import checkpoint
 from mgehl.output.archive import save
-from mgehl.output.checkpoint import Checkpoint, load
+from mgehl.output.checkpoint import load
 from mgehl.output.terminal import Silent
 from mgehl.run import Watch, solve
 from mgehl.solver.record import Kept
@@ -23,19 +23,6 @@ from mgehl.solver.record import Kept
 STOPPED = Stopped("told to", 143)
 CONFIG = config_from_tables({})
 TABLES = CONFIG.as_toml_tables()
-
-
-class History:
-    """What a checkpoint needs of a `Progress`."""
-
-    def __init__(self, steps=0):
-        self.steps = steps
-
-    def record(self):
-        return {"steps": self.steps}
-
-    def go_on(self, record):
-        self.steps = record["steps"]
 
 
 @pytest.fixture
@@ -59,17 +46,6 @@ def left(grid):
 
 def standing(kept, grid):
     return kept.standing(grid, Left.from_record)
-
-
-class TestKeeping:
-    def make(self, directory, seconds=inf, stop=lambda: None, steps=0, config=CONFIG):
-        return Checkpoint(directory, config, History(steps), seconds, stop)
-
-    def test_another_configuration_is_refused(self, tmp_path, grid, left):
-        self.make(tmp_path, seconds=0.0).step(grid, left)
-        other = self.make(tmp_path, config=config_from_tables({"motion": {"speed": 2.0}}))
-        with pytest.raises(OutputError, match="another configuration"):
-            standing(other, grid)
 
 
 class TestFile:

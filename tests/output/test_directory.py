@@ -54,7 +54,7 @@ def quick(monkeypatch):
     def drawn(solution):
         return b"picture of %f" % solution.H0
 
-    monkeypatch.setattr("mgehl.output.pictures.picture.drawn", drawn)
+    monkeypatch.setattr("mgehl.output.pictures.figures.run_picture", drawn)
 
 
 def put(directory, H0, force=False):

@@ -1,7 +1,5 @@
 """The verdict on a domain, and its words."""
 
-from math import nan
-
 import pytest
 from tools.contacts import ON_TWICE_THE_DOMAIN, films_on_twice_the_domain
 
@@ -9,8 +7,6 @@ from mgehl.config import config_from_tables, load_config
 from mgehl.discretization.mesh import Mesh
 from mgehl.kinds import contact_from, mesh_from
 from mgehl.output.resolution import (
-    domain_verdict,
-    domain_words,
     film_lost,
     resolution,
     resolving_nodes,
@@ -36,18 +32,6 @@ def test_the_paper_s_domain_starves_a_fast_film_and_auto_does_not():
     enough = resolution(*contact_and_mesh())
     assert (enough.verdict, enough.domain) == ("resolved", "sufficient")
     assert enough.domain_loss_percent < 0.5
-
-
-def test_a_coarse_grid_stays_coarse_whatever_its_domain():
-    contact, mesh = contact_and_mesh(x=[-1.9, 1.3], y=[-1.5, 1.5])
-    slow = resolution(contact.at_speed(1e-6), mesh)
-    assert (slow.verdict, slow.domain) == ("grid-determined", "sufficient")
-    coarse = contact_and_mesh(nodes=65)
-    assert resolution(*coarse).verdict == "coarse"
-
-
-def test_what_an_older_version_did_not_judge():
-    assert "older version" in domain_words(domain_verdict(nan), nan)
 
 
 def test_the_verdicts_on_films_that_were_solved_on_twice_the_domain_are_right():

@@ -6,13 +6,11 @@ import tomllib
 
 import numpy as np
 import pytest
-import xarray
 
 from mgehl.config import config_from_tables
-from mgehl.discretization.mesh import Mesh
 from mgehl.output import files
 from mgehl.output.result import ContactResult, InequalityResult, Overlap, Resolution, Result, Work
-from mgehl.output.solution import Fields, Solution
+from mgehl.output.solution import Solution
 
 
 def make_result(**changes):
@@ -56,43 +54,3 @@ def test_texts_read_back(tables, paper_contact):
     assert "hertz" not in read and read["mixed"] is None
     assert read.keys() == {*files.plain_result(result), "inputs"}
     assert read["inputs"] == config.inputs
-
-
-class TestFields:
-    @pytest.fixture
-    def mesh(self, paper_contact):
-        contact = paper_contact(radius_y=25.4e-3)
-        return Mesh(5, 3, (-1.9, 1.3), (-1.5, 1.5), contact.k_e)
-
-    @pytest.fixture
-    def contact(self, paper_contact):
-        return paper_contact(radius_y=25.4e-3)
-
-    @pytest.fixture
-    def fields(self):
-        P = np.arange(15.0).reshape(3, 5) / 15.0
-        return Fields(P, 1.0 + P, (np.arange(15).reshape(3, 5) % 4).astype(np.int8))
-
-    @pytest.fixture
-    def data(self, tmp_path, mesh, contact, fields):
-        solution = Solution(None, contact, mesh, fields, [], None, H0=-0.5)
-        files.write_fields(tmp_path / "fields.h5", solution, {"history.csv": "a"})
-        with xarray.open_dataset(tmp_path / "fields.h5", engine="h5netcdf") as data:
-            yield data
-
-    def test_every_field_is_there_with_unit_and_name(self, data):
-        assert set(data.variables) == {"x", "y", "X", "Y", "pressure", "film", "P", "H", "status"}
-        assert dict(data.sizes) == {"y": 3, "x": 5}
-        for name, unit in {"x": "m", "y": "m", "pressure": "Pa", "film": "m", "P": "1", "H": "1"}.items():
-            assert data[name].attrs["units"] == unit
-            assert data[name].attrs["long_name"]
-
-    def test_values(self, data, mesh, contact, fields):
-        hertz = contact.hertz
-        np.testing.assert_array_equal(data["P"], fields.P)
-        np.testing.assert_array_equal(data["H"], fields.H)
-        np.testing.assert_array_equal(data["status"], fields.status)
-        np.testing.assert_allclose(data["pressure"], fields.P * hertz.p_h, rtol=1e-15)
-        np.testing.assert_allclose(data["film"], fields.H * hertz.a**2 / 12.7e-3, rtol=1e-12)
-        np.testing.assert_allclose(data["x"], mesh.X * hertz.a, rtol=1e-15)
-        np.testing.assert_allclose(data["y"], mesh.Y * hertz.b, rtol=1e-15)

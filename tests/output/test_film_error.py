@@ -1,18 +1,16 @@
 """Bands about the films of runs: when there are any, and of what."""
 
 from dataclasses import replace
-from math import hypot
 
 import pytest
 from mpi4py import MPI
 from test_files import make_result
 
 from mgehl.config import config_from_tables
-from mgehl.output.film_error import GridFilm, from_grids, why_no_band
+from mgehl.output.film_error import GridFilm, why_no_band
 from mgehl.output.resolution import Resolution
 from mgehl.output.result import ContactResult, Overlap
 from mgehl.run import solve
-from mgehl.solver.richardson import SAFETY, SPREADS_OF_TWO, UNSEEN, UNSEEN_UNLIKE, WIDER
 from mgehl.studies.study import papers_grid
 
 FILM = {"motion": {"speed": 1.0}, "grid": papers_grid(65), "discretization": {"couette": "2B"}}
@@ -23,10 +21,6 @@ class SMOOTH:
     """A contact's surface."""
 
     is_mixed = False
-
-
-class ROUGH(SMOOTH):
-    is_mixed = True
 
 
 def solved(**changes):
@@ -54,12 +48,6 @@ def film():
 
 
 class TestWhetherThereIsOne:
-    def test_of_a_film_there_is(self, film):
-        assert why_no_band(film, SMOOTH) == ""
-
-    def test_on_a_rough_surface_there_is_none(self, film):
-        assert "rough surface says little" in why_no_band(film, ROUGH)
-
     @pytest.mark.parametrize(
         "changes, word",
         [
@@ -75,26 +63,6 @@ class TestWhetherThereIsOne:
     )
     def test_otherwise_it_is_said_why_not(self, film, changes, word):
         assert word in why_no_band(replace(film, **changes), SMOOTH)
-
-    def test_where_the_next_grid_has_no_answer_there_is_none(self, film):
-        error = from_grids(film, grids(10.0, 8.0, settled=False), 2)
-        assert error.central_nm is None and error.minimum_nm is None and "65 nodes" in error.how
-
-
-class TestHowWideItIs:
-    def test_two_grids(self, film):
-        error = from_grids(film, grids(10.0, 7.0), 2)
-        assert error.central_nm == pytest.approx(hypot(1.0, UNSEEN) * 4.0)
-        assert error.minimum_nm == pytest.approx(hypot(1.0 + SAFETY, SPREADS_OF_TWO * 0.3))
-        assert error.central_order is None and error.order == 2 and "65 nodes" in error.how
-
-    def test_contact_on_the_next_grid_makes_it_wider_and_is_said(self, film):
-        error = from_grids(film, grids(10.0, 7.0, contact=4), 2)
-        assert (
-            error.central_nm == pytest.approx(hypot(1.0, UNSEEN_UNLIKE) * 4.0)
-            and "touches at 4" in error.how
-        )
-        assert error.minimum_nm == pytest.approx(hypot(1.0 + SAFETY, WIDER * SPREADS_OF_TWO * 0.3))
 
 
 class TestOfRuns:
@@ -125,7 +93,3 @@ class TestOfRuns:
         }
         error = solved(**line).error
         assert error.central_order == pytest.approx(2.0, abs=0.2)
-
-    def test_a_wedge_has_none(self):
-        config = config_from_tables({"contact": {"kind": "wedge"}, "grid": {"nodes": 65}})
-        assert "given" in solve(config, MPI.COMM_SELF).result.error.how

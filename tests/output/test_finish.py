@@ -8,9 +8,6 @@ from mgehl.cli import main
 from mgehl.output.stored import read_run
 
 DRY = ["run", "--quiet", "--set", "grid.nodes=65", "--set", "solver.start=contact", "--out", "here"]
-LAW = "def waves(x, y):\n    return 1e-9 + 0.0 * x * y\n"
-WAVY = ["--set", "contact.surface=a.py:waves", "--set", "solver.start=film", "--set", "motion.speed=1",
-        "--no-error"]  # fmt: skip
 
 
 @pytest.fixture(autouse=True)
@@ -24,7 +21,7 @@ def test_a_picture_that_cannot_be_drawn_costs_nothing(tmp_path, capsys, monkeypa
         raise RuntimeError("Failed to process string with tex because latex could not be found")
 
     with monkeypatch.context() as change:
-        change.setattr("mgehl.output.pictures.picture.drawn", broken)
+        change.setattr("mgehl.output.pictures.figures.run_picture", broken)
         assert main(DRY) == 0
     (line,) = capsys.readouterr().err.splitlines()
     assert "picture.png: cannot be drawn: Failed to process string" in line
@@ -61,15 +58,3 @@ def test_with_force_the_old_result_stays_until_there_is_another(capsys):
     assert Path("here/fields.h5").read_bytes() == old and read_run("here").config.motion.speed != 1e-5
     assert main(["run", "--resume", "here", "--quiet"]) == 0
     assert read_run("here").config.motion.speed == 1e-5
-
-
-class TestLaws:
-    def test_a_run_goes_on_with_the_law_that_it_began_with(self, tmp_path, capsys):
-        (tmp_path / "a.py").write_text(LAW)
-        assert main([*DRY, *WAVY, "--time-limit", "1e-9"]) == 143
-        (tmp_path / "a.py").write_text("raise SystemExit('another law')\n")
-        capsys.readouterr()
-        assert main(["run", "--resume", "here"]) == 0
-        (line,) = capsys.readouterr().err.splitlines()
-        assert "a.py has changed since the run began, which goes on with its copy of it" in line
-        assert (tmp_path / "here" / "laws" / "a.py").read_text() == LAW

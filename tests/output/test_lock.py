@@ -32,13 +32,6 @@ def holder(tmp_path):
     process.communicate()
 
 
-def test_nothing_stays_of_it(tmp_path):
-    for _ in range(2):
-        with locked(MPI.COMM_SELF, tmp_path):
-            assert [path.name for path in tmp_path.iterdir()] == [NAME]
-        assert not list(tmp_path.iterdir())
-
-
 def test_a_second_writer_is_refused_by_name(tmp_path, holder):
     with pytest.raises(OutputError, match=f"being written by mgehl process {holder.pid} on"):
         with locked(MPI.COMM_SELF, tmp_path):

@@ -2,8 +2,8 @@
 
 import json
 import shutil
-from dataclasses import fields, is_dataclass, replace
-from math import isnan, nan
+from dataclasses import fields, is_dataclass
+from math import nan
 
 import h5py
 import numpy as np
@@ -102,17 +102,6 @@ def plain(value):
     if isinstance(value, dict):
         return {key: plain(each) for key, each in value.items()}
     return [plain(each) for each in value] if isinstance(value, list | tuple) else value
-
-
-def test_numbers_that_were_not_finite_are_nan_and_can_be_told(written, tmp_path):
-    solution, _ = written("point")
-    result = replace(solution.result, converged=False, settled=False, residual=nan, flux_imbalance=nan)
-    begin_run(tmp_path, solution.config)
-    finish_run(MPI.COMM_SELF, tmp_path, replace(solution, result=result))
-    read = read_run(tmp_path)
-    assert isnan(read.result.residual) and isnan(read.result.flux_imbalance)
-    assert read.result.converged is False and read.result.central_film_nm == result.central_film_nm
-    assert "residual nan" in str(read)
 
 
 @pytest.mark.parametrize("what", [b"", b"\x00\x01\xff\n\xfe", b"[1, 2]", None])

@@ -31,13 +31,6 @@ def said(speaker, capsys, **changes):
     return capsys.readouterr()
 
 
-def test_a_line_for_each_cycle_then_the_answer(capsys):
-    out, err = said(Lines(), capsys)
-    lines = out.splitlines()
-    assert lines[0].startswith("4097 nodes  0.005 mm/s  step 60") and lines[1] == "CONVERGED: all holds"
-    assert lines[-1] == "  results in runs/here" and err == "" and "\x1b" not in out
-
-
 @pytest.mark.parametrize("row", [ROW, {"grid": 4097, "step": 60, "residual": 1e-5, "gap_nm": 1.2e-5,
                                        "contact_nodes": 12345, "changed_nodes": 12345}])  # fmt: skip
 def test_a_line_has_eighty_columns_at_the_most_and_a_verbose_one_all(row):

@@ -78,10 +78,6 @@ def _largest(array):
     return {"i": int(i) + 2, "j": int(j) + 2}
 
 
-def test_the_cases_are_of_all_frames():
-    assert len({set_up(case_of(config_at(angle))).frame for angle in ANGLES}) == 8
-
-
 def back(expected, solved, frame, grid):
     return in_users_axes(solved, frame, grid, Case(expected.config, expected.contact, expected.mesh))
 

@@ -50,8 +50,3 @@ def test_after_a_grid_with_contact_or_without_an_answer_there_is_no_other(film):
     assert len(grids) == 2 and not grids[1].is_film
     assert {level.nodes for level, _ in told} == {65}
     assert max(cycle.step for _, cycle in told) <= MAX_STEPS
-
-
-def test_a_grid_next_to_the_coarsest_has_one_other(film):
-    grids, _, _ = film(3.0, nodes=65)
-    assert [each.nodes for each in grids] == [65, 33]

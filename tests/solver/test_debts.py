@@ -31,8 +31,3 @@ def test_a_debt_is_paid_by_the_four_around_it_as_they_hold(tiny_problem):
     assert found[3, 4] == pytest.approx(2.0 - 0.1 * 2.0 / 5.0)
     assert found[2, 3] == found[4, 3] == found[3, 2] == pytest.approx(1.0 - 0.1 / 5.0)
     assert np.count_nonzero(found != m) == 5
-
-
-def test_without_a_debt_nothing_moves(tiny_problem):
-    m = np.random.default_rng(1).random(tiny_problem.grid.shape)
-    assert paid(tiny_problem, m) is m

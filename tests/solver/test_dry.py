@@ -9,12 +9,10 @@ from mgehl.discretization.influence import influence_coefficients
 from mgehl.discretization.status import CONTACT
 from mgehl.model.coating import Coating
 from mgehl.model.line import LineContact
-from mgehl.model.surface import Waviness
 from mgehl.solver.dry import solve_dry
 from mgehl.solver.journal import NOTHING_KEPT, Journal
 from mgehl.solver.record import Record
 from mgehl.studies.dry import REFERENCE
-from mgehl.studies.dry_surfaces import A
 
 TOLERANCE = 1e-8
 
@@ -160,13 +158,3 @@ def test_a_coated_ball_settles(problem, modulus):
     outcome, convolutions = settle(problem)
     assert outcome.converged and convolutions < 25
     assert_complementary(problem, outcome.state)
-
-
-@pytest.mark.parametrize("wavelength_y", [A / 2, None], ids=["waves", "ridges"])
-def test_peaks_of_the_program_s_own_waves_are_pressed(paper_contact, make_problem, wavelength_y):
-    """As the functions that the public code was given: with the other sign p_max would be another."""
-    name = "ridge 200 nm" if wavelength_y is None else "wavy 200 nm"
-    own = paper_contact(surface=Waviness(200e-9, A / 2, wavelength_y))
-    expected, _ = settle(make_problem(paper_contact(surface=surface(name)), nodes=65))
-    outcome, _ = settle(make_problem(own, nodes=65))
-    np.testing.assert_allclose(outcome.state.P, expected.state.P, rtol=0.0, atol=1e-9)

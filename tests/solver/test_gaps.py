@@ -3,39 +3,9 @@
 import numpy as np
 import pytest
 
-from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import BOUNDARY, CONTACT, LUBRICATED
-from mgehl.solver.gaps import differences, gaps, gaps_of, load_differences, loads, within_hertz
-
-MESH = Mesh(5, 5, (-1.0, 1.0), (-1.0, 1.0), 1.0)
-"""dX = dY = 1/2: 13 nodes lie within the circle."""
-
-
-@pytest.fixture
-def planes():
-    """Pressure in two nodes, 3 to 1, one of them outside of the circle; the gap counts the nodes."""
-    P, H = np.zeros((5, 5)), np.arange(25.0).reshape(5, 5)
-    P[2, 2], P[0, 0] = 3.0, 1.0
-    return P, H
-
-
-def test_the_mean_is_that_of_the_nodes_within_the_ellipse(planes):
-    assert within_hertz(MESH).sum() == 13
-    assert gaps_of(MESH, *planes).mean == np.mean(planes[1][within_hertz(MESH)]) == 12.0
-
-
-def test_the_loaded_gap_counts_every_node_by_its_pressure(planes):
-    assert gaps_of(MESH, *planes).loaded == (3.0 * 12.0 + 1.0 * 0.0) / 4.0
-
-
-def test_without_pressure_nothing_is_loaded(planes):
-    assert np.isnan(gaps_of(MESH, 0.0 * planes[0], planes[1]).loaded)
-
-
-def test_of_a_line_the_width_counts():
-    H = np.array([[9.0, 1.0, 2.0, 3.0, 9.0]])
-    assert gaps_of(Mesh(5, 1, (-2.0, 2.0), (-0.5, 0.5)), np.ones((1, 5)), H).mean == 2.0
+from mgehl.solver.gaps import differences, gaps, gaps_of, load_differences, loads
 
 
 def test_of_a_state_and_its_differences_from_a_finer_grid_s(make_problem, paper_contact):

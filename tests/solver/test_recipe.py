@@ -71,11 +71,6 @@ def test_peaks_that_touch_begin_from_their_dry_contact(recipe):
     assert recipe(4e-6, layers=1e-6).begins == DRY
 
 
-def test_contact_that_closes_faces_has_its_fluid_solved_apart(recipe):
-    assert recipe(start="contact").fluid_apart
-    assert not recipe().fluid_apart and not recipe(law=CLOSING, start="contact").fluid_apart
-
-
 def test_patience_is_more_in_time_and_most_where_films_close_continuously(recipe):
     assert recipe().newton.idle_steps == IDLE
     assert recipe(squeeze=3.0).newton.idle_steps == IDLE_IN_TIME > IDLE

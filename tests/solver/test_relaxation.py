@@ -1,7 +1,5 @@
 """The paper's single-loop relaxation: a sweep against the printed equations, runs against Newton."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
@@ -14,18 +12,6 @@ from mgehl.solver.nested import single_loop
 from mgehl.solver.problem import State
 from mgehl.solver.relaxation import RelaxationSettings, relax
 from mgehl.solver.settings import SolverSettings
-
-WHOLE_WAY = RelaxationSettings(omega=1.0, contact_share=1.0, max_sweeps=1, load_every=1000)
-"""One sweep that takes every node all of the way to its new pressure."""
-
-NODE = (4, 4)
-
-
-def one_sweep(problem, state, settings=WHOLE_WAY):
-    """The state after one sweep from `state`, which is not changed."""
-    outcome = relax(problem, state.copy(), settings, lambda sweep: None)
-    assert not outcome.converged
-    return outcome.state
 
 
 @pytest.fixture
@@ -41,13 +27,6 @@ def rough(problem):
     H = 0.15 + 0.1 * rng.random(problem.grid.shape)
     status = np.where(problem.boundary, BOUNDARY, LUBRICATED).astype(np.int8)
     return State(P, 0.0, H, status)
-
-
-def close(state, *nodes):
-    """Overlap at some nodes, which the sweep will take for contact."""
-    for node in nodes:
-        state.H[node] = -0.01
-    return state
 
 
 def influence(problem):
@@ -81,39 +60,6 @@ def printed(problem, state, node):
             beta -= across
             phi -= across * P[other, i]
     return alpha, beta, gamma, phi
-
-
-class TestMove:
-    """P_new = P + omega (P_new - P): the sign of [Liu eq. 53] mended."""
-
-    def test_film_goes_omega_of_the_way_and_contact_its_share_of_that(self, problem):
-        state = close(rough(problem), NODE)
-        whole = one_sweep(problem, state).P - state.P
-        settings = replace(WHOLE_WAY, omega=0.2, contact_share=0.25)
-        part = one_sweep(problem, state, settings).P - state.P
-        factor = np.where(state.H > 0.0, 0.2, 0.05)
-        np.testing.assert_allclose(part, factor * whole, rtol=1e-10, atol=1e-15)
-
-    def test_tension_is_cut_where_the_film_may_tear(self, make_problem):
-        problem = make_problem(nodes=9)
-        state = rough(problem)
-        state.P *= 0.01
-        free = one_sweep(make_problem(nodes=9, scheme=Scheme(cavitation=False)), state).P
-        assert free.min() < 0.0
-        np.testing.assert_allclose(one_sweep(problem, state).P, np.maximum(free, 0.0), atol=1e-15)
-
-
-class TestLoad:
-    @pytest.mark.parametrize("every, sweeps, corrected", [(1, 1, True), (2, 1, False), (2, 2, True)])
-    def test_bodies_approach_while_the_load_is_too_small(self, problem, every, sweeps, corrected):
-        """[Liu eq. 54]: H0 - omega_w (2 pi/3 - sum P dX dY), every few sweeps."""
-        state = rough(problem)
-        settings = replace(WHOLE_WAY, omega=1e-3, load_factor=0.25, load_every=every, max_sweeps=sweeps)
-        new = one_sweep(problem, state, settings)
-        mesh = problem.grid.mesh
-        missing = 2.0 * np.pi / 3.0 - mesh.dX * mesh.dY * new.P.sum()
-        assert missing > 0.0
-        assert new.H0 == pytest.approx(-0.25 * missing if corrected else 0.0, rel=1e-12)
 
 
 class TestRuns:

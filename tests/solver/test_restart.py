@@ -5,15 +5,13 @@ import pytest
 from mpi4py import MPI
 
 from mgehl.config import config_from_tables
-from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
-from mgehl.errors import UserError
 from mgehl.grid.hierarchy import Hierarchy
 from mgehl.kinds import contact_from, mesh_from
 from mgehl.model.frame import Frame
 from mgehl.run import solve
 from mgehl.solver.from_config import settings_from
 from mgehl.solver.problem import ContactProblem
-from mgehl.solver.restart import check_start, interpolated
+from mgehl.solver.restart import interpolated
 from mgehl.studies.study import PAPERS_DOMAIN, papers_grid
 
 FILM = {"motion": {"speed": 0.5}, "grid": papers_grid(65), "solver": {"start": "film"}}
@@ -44,12 +42,6 @@ def film():
     return solved(FILM)
 
 
-@pytest.fixture(scope="module")
-def dry():
-    """Full contact on 65 nodes."""
-    return solved(DRY)
-
-
 @pytest.fixture
 def onto():
     """Function: the fields of a solution on the problem of other tables, and that problem."""
@@ -69,15 +61,6 @@ def onto():
 
 
 class TestInterpolated:
-    def test_onto_its_own_grid_it_is_the_same(self, film, onto):
-        state, _ = onto(film, FILM)
-        np.testing.assert_allclose(state.P, film.fields.P, rtol=0.0, atol=1e-14)
-        np.testing.assert_allclose(state.H, film.fields.H, rtol=0.0, atol=1e-12)
-        assert state.H0 == film.H0
-        fluid = (film.fields.P > 0.0) & (film.fields.status == LUBRICATED)
-        assert (state.status[fluid] == LUBRICATED).all()
-        assert (state.status[film.fields.status == CAVITATED] == CAVITATED).all()
-
     def test_onto_a_finer_grid_the_common_nodes_keep_their_pressure(self, film, onto):
         state, problem = onto(film, FILM, {"grid": papers_grid(129)})
         assert state.P.shape == (129, 129)
@@ -85,19 +68,6 @@ class TestInterpolated:
         between = 0.5 * (film.fields.P[:, 1:] + film.fields.P[:, :-1])
         np.testing.assert_allclose(state.P[::2, 1::2], between, rtol=0.0, atol=1e-13)
         np.testing.assert_allclose(state.H, problem.gap(state.P, film.H0), rtol=0.0, atol=1e-12)
-
-    def test_outside_of_what_was_solved_there_is_no_pressure(self, film, onto):
-        state, problem = onto(film, FILM, {"grid": {"x": [-4.0, 2.0]}})
-        x = problem.grid.mesh.X
-        outside = (x < film.mesh.X[0]) | (x > film.mesh.X[-1])
-        assert outside.sum() > 20 and not state.P[:, outside].any()
-        assert state.P.max() == pytest.approx(film.fields.P.max(), rel=0.05)
-
-    def test_contact_stays_contact(self, dry, onto):
-        state, problem = onto(dry, DRY, {"grid": papers_grid(129)})
-        share = np.count_nonzero(state.status == CONTACT) / np.count_nonzero(dry.fields.status == CONTACT)
-        assert share == pytest.approx(4.0, rel=0.03)
-        assert not (state.status[problem.boundary] == CONTACT).any()
 
 
 class TestSolveFrom:
@@ -134,13 +104,6 @@ class TestSolveFrom:
         assert started.result.converged
         np.testing.assert_allclose(started.fields.H, plain.fields.H, rtol=0.0, atol=1e-6)
         assert started.rows[-1]["speed_mm_s"] == 4000.0
-
-
-class TestOfAnotherKind:
-    @pytest.mark.parametrize("kind", ["line", "wedge"])
-    def test_it_is_refused(self, film, kind):
-        with pytest.raises(UserError, match=f"a point is no start for a {kind}"):
-            check_start(film, kind)
 
 
 def test_what_tells_another_contact_is_named():

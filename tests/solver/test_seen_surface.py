@@ -5,7 +5,7 @@ import pytest
 
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.scheme import Scheme
-from mgehl.model.surface import SelfAffine, Surface, Waviness
+from mgehl.model.surface import Surface, Waviness
 from mgehl.solver.nested import nested_iteration
 from mgehl.solver.settings import NestedSettings, SolverSettings
 
@@ -41,18 +41,6 @@ def test_what_is_not_known_wave_by_wave_is_smoothed(paper_contact):
         heights = contact.seen_by(mesh, FINEST).surface.height(x, y)
         assert heights.shape == (mesh.ny, mesh.nx)
         assert np.abs(heights[4:-4, 4:-4]).max() < left * 2e-8
-
-
-def test_a_turned_contact_sees_the_same(paper_contact):
-    surface = SelfAffine(2e-8, 6.0 * CELL, 60.0 * CELL)
-    along, across = paper_contact(surface=surface), paper_contact(surface=surface, angle=90.0)
-    mesh = MESHES[1]
-    turned, frame = across.in_frame(across.frame), across.frame
-    seen = turned.seen_by(mesh.in_frame(frame), FINEST.in_frame(frame))
-    there = mesh.in_frame(frame)
-    found = frame.users_array(seen.undeformed_gap(there.X[None, :], there.Y[:, None]))
-    expected = along.seen_by(mesh, FINEST).undeformed_gap(mesh.X[None, :], mesh.Y[:, None])
-    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-12)
 
 
 @pytest.mark.parametrize("surface", [Waviness(2e-8, 6.0 * CELL, None), Waves()], ids=["known", "unknown"])

@@ -13,14 +13,6 @@ def test_what_is_not_configured_is_the_default():
     assert set_up(case_of(config)).settings == SolverSettings(scheme=Scheme("3B", "linear-gap"))
 
 
-def test_what_is_configured_is_told():
-    solver = {"tolerance": 1e-6, "start": "contact", "sweeps": 2, "inlet_cells": 3.0, "squeeze": 5.0}
-    settings = set_up(case_of(config_from_tables({"solver": solver}))).settings
-    assert settings.newton.tolerance == settings.relaxation.tolerance == 1e-6
-    assert (settings.nested.start, settings.nested.inlet_cells) == ("contact", 3.0)
-    assert settings.cycle.sweeps == 2 and settings.newton.squeeze == 5.0
-
-
 def test_rough_bodies_are_differenced_by_the_limited_scheme_unless_told_otherwise():
     """However thick the film is, and smooth bodies as ever."""
     rough = {"kind": "self-affine", "rms": 1e-7, "shortest_wavelength": 4e-5, "longest_wavelength": 2e-4}

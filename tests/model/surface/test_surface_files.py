@@ -9,7 +9,6 @@ import pytest
 
 from mgehl.errors import UserError
 from mgehl.model.surface import Measured, Preparation
-from mgehl.model.surface.files import read_map
 from mgehl.model.surface.map import SurfaceFileError
 
 NY, NX = 21, 25
@@ -106,10 +105,6 @@ class TestPlace:
         assert beyond == pytest.approx(HEIGHTS[4, column], abs=1e-16)
         assert surface.reaches(X[-1] + 2.0 * DX, 0.0) == (how != "none")
 
-    def test_its_shortest_wave_is_that_of_its_own_points(self, path):
-        coarse = np.array([0.0, 1.0])
-        assert Measured(path, GIVEN).shortest(coarse, coarse) == pytest.approx(24e-6, rel=0.25)
-
 
 class TestPreparation:
     def of(self, tmp_path, heights, **told):
@@ -133,20 +128,6 @@ class TestPreparation:
         np.testing.assert_allclose(found, 0.0, rtol=0, atol=1e-13)
         kept = self.of(tmp_path, form + 0.0 * self.wave)
         np.testing.assert_array_equal(kept, form + 0.0 * self.wave)
-
-    def test_the_tilt_is_that_of_the_nearest_plane(self, tmp_path):
-        np.save(tmp_path / "z.npy", 3.0 + self.x - 2 * self.y + 0.0 * self.wave)
-        for remove, tilt in (("nothing", 4.0), ("tilt", 0.0)):
-            told = Preparation(height_unit=1.0, dx=1e-6, remove=remove)
-            found = Measured(str(tmp_path / "z.npy"), told).heights.tilt
-            assert found == pytest.approx(tilt, abs=1e-12)
-
-    def test_half_of_a_wave_of_the_cut_off_s_length_is_left(self, tmp_path):
-        told = {"continuation": "periodic"}
-        short = self.of(tmp_path, self.wave, shortest_wavelength=8e-6, **told)
-        np.testing.assert_allclose(short, 0.5 * self.wave, rtol=0, atol=2e-3 * 1e-8)
-        long = self.of(tmp_path, 1.0 + self.wave, longest_wavelength=8e-6, **told)
-        np.testing.assert_allclose(long, 0.5 * self.wave, rtol=0, atol=2e-3 * 1e-8)
 
     def test_a_changed_file_is_read_anew(self, tmp_path):
         assert self.of(tmp_path, self.wave).max() == pytest.approx(1e-8)
@@ -213,47 +194,10 @@ def test_what_is_no_text_of_heights(tmp_path, name):
     assert words in refusal(tmp_path / "z.txt", height_unit=1e-6, position_unit=1e-6, **spacing)
 
 
-UNTOLD = {
-    "no unit of height": ({"dx": 1e-6}, "does not tell the unit of its heights"),
-    "no spacing": ({"height_unit": 1e-6}, "does not tell how far apart its points are"),
-}
-
-
-@pytest.mark.parametrize("told, words", UNTOLD.values(), ids=UNTOLD)
-def test_what_the_file_does_not_tell_must_be_given(tmp_path, told, words):
-    assert words in refusal(npy(tmp_path / "z.npy"), **told)
-
-
 def test_positions_need_a_unit(tmp_path):
     assert "does not tell the unit of its positions" in refusal(
         points(tmp_path / "z.xyz"), height_unit=1e-6
     )
-
-
-NPZ = {
-    "x of another length": ({"x": X[1:], "y": Y}, "has 24 values of x for 25 points along x"),
-    "x alone": ({"x": X}, "tells dx alone"),
-    "unequal": ({"x": X**3, "y": Y}, "its spacing along x is not equal"),
-    "zero size": ({"x": 0.0 * X, "y": Y}, "its size along x is zero"),
-    "zero steps": ({"dx": 0.0, "dy": 1.0}, "dx = 0: its size is zero"),
-    "an unknown unit": ({"unit": "furlong"}, "height_unit = 'furlong': must be one of m, mm"),
-}
-
-
-@pytest.mark.parametrize("more, words", NPZ.values(), ids=NPZ)
-def test_what_is_no_archive_of_heights(tmp_path, more, words):
-    assert words in refusal(npz(tmp_path / "z.npz", **more))
-
-
-@pytest.mark.parametrize("name", ["z.npy", "z.npz"])
-def test_text_is_no_array_whatever_its_name(tmp_path, name):
-    write(tmp_path / name, "no numbers at all")
-    assert "has no row of numbers: line 1 is 'no numbers at all'" in refusal(tmp_path / name)
-
-
-def test_an_archive_without_a_matrix(tmp_path):
-    np.savez(tmp_path / "z.npz", a=X, b=Y)
-    assert "has no array named 'heights'; its arrays are a, b" in refusal(tmp_path / "z.npz")
 
 
 def test_a_file_that_is_not_there(tmp_path):
@@ -301,24 +245,9 @@ class TestInstruments:
         np.testing.assert_array_equal(found.values, HEIGHTS)
         assert (found.dx, found.dy) == pytest.approx((DX, DY))
 
-    def test_keys_overrule_the_file_s_units(self, library, tmp_path):
-        library.Topography(HEIGHTS.T, (1.0, 1.0), unit="m").to_netcdf(str(tmp_path / "z.nc"))
-        found = Measured(str(tmp_path / "z.nc"), Preparation(height_unit=2.0, dx=DX, dy=DY)).heights
-        np.testing.assert_allclose(found.values, 2.0 * HEIGHTS)
-        assert (found.dx, found.dy) == (DX, DY)
-
-    def test_holes_are_told(self, library, tmp_path):
-        made = np.ma.masked_invalid(holed(HEIGHTS)).T
-        library.Topography(made, (1.0, 1.0), unit="um").to_netcdf(str(tmp_path / "z.nc"))
-        assert "2 of 525 points are holes, the first in row 4, column 5" in refusal(tmp_path / "z.nc")
-
     def test_what_it_cannot_read_is_one_line(self, library, tmp_path):
         write(tmp_path / "z.x3p", "no archive")
         assert "'no archive', and no format that SurfaceTopography reads" in refusal(tmp_path / "z.x3p")
-
-    def test_a_file_is_what_its_content_says(self, library, tmp_path):
-        library.Topography(HEIGHTS.T, (1.0, 1.0), unit="m").to_netcdf(str(tmp_path / "z.dat"))
-        np.testing.assert_allclose(Measured(str(tmp_path / "z.dat")).heights.values, HEIGHTS)
 
     def test_what_a_reader_prints_is_not_on_standard_output(self, library, tmp_path, monkeypatch, capsys):
         library.Topography(HEIGHTS.T, (1.0, 1.0), unit="m").to_netcdf(str(tmp_path / "z.nc"))
@@ -331,7 +260,3 @@ class TestInstruments:
         monkeypatch.setattr(reader, "topography", loud)
         _ = Measured(str(tmp_path / "z.nc")).heights
         assert capsys.readouterr() == ("", "loud\n")
-
-
-def test_a_map_knows_its_file(tmp_path):
-    assert read_map(npy(tmp_path / "z.npy")).path == str(tmp_path / "z.npy")

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mgehl.model.surface import Dent, Ridge, SelfAffine, Surface, Waviness, summed
+from mgehl.model.surface import Dent, Ridge, SelfAffine, Surface, Waviness
 
 ROUGH = SelfAffine(1e-7, 10e-6, 200e-6, hurst=0.8, seed=3)
 HEIGHTS = [-4.740181670e-08, 8.682899262e-08, -1.219055291e-07]
@@ -14,41 +14,14 @@ def on_nodes(surface, x, y):
 
 
 class TestWaviness:
-    def test_it_is_the_product_of_cosines_in_its_own_axes(self):
-        waves = Waviness(2e-7, 1e-4, 3e-4, angle=30.0, x=1e-5, y=-2e-5)
-        x, y = np.array([0.0, 3e-5, -8e-5]), np.array([1e-5, 0.0, 2e-4])
-        c, s = np.cos(np.pi / 6), np.sin(np.pi / 6)
-        along, across = c * (x - 1e-5) + s * (y + 2e-5), c * (y + 2e-5) - s * (x - 1e-5)
-        expected = 2e-7 * np.cos(2 * np.pi * along / 1e-4) * np.cos(2 * np.pi * across / 3e-4)
-        np.testing.assert_allclose(waves.height(x, y), expected, rtol=0, atol=1e-21)
-
     def test_without_one_length_nothing_changes_that_way(self):
         ridges = Waviness(2e-7, None, 1e-4)
         assert ridges.height(0.0, 0.0) == 2e-7
         assert ridges.height(5e-5, 5e-5) == pytest.approx(-2e-7)
         assert not ridges.varies_along((1.0, 0.0)) and ridges.varies_along((0.6, 0.8))
 
-    def test_its_shortest_wave_is_known_and_left_out_by_coarse_grids(self):
-        waves, nodes = Waviness(2e-7, 1e-4, 3e-4), np.linspace(0.0, 1.0, 3)
-        assert waves.shortest(nodes, nodes) == pytest.approx(1e-4)
-        assert (waves.filtered((1e-4, 3e-4), nodes, nodes).height(0.0, 0.0)) == 2e-7
-        for cut_off in ((1.01e-4, 0.0), (0.0, 3.01e-4)):
-            assert waves.filtered(cut_off, nodes, nodes).height(0.0, 0.0) == 0.0
-
 
 class TestDentAndRidge:
-    def test_a_dent_is_deepest_in_its_middle_and_has_a_shoulder(self):
-        dent = Dent(1e-6, 1e-4, x=2e-5, y=-1e-5)
-        assert dent.height(2e-5, -1e-5) == -1e-6
-        assert dent.height(6e-5, -1e-5) > 0.0
-        half = -1e-6 * 10.0**-0.4 * np.cos(0.4 * np.pi)
-        assert dent.height(2e-5, 1e-5) == pytest.approx(half)
-
-    def test_a_ridge_is_a_peak_and_the_same_along_itself(self):
-        ridge = Ridge(1e-6, 1e-4, angle=90.0)
-        assert ridge.height(0.3, 0.0) == 1e-6 and ridge.height(0.0, 1e-4) < 1e-15
-        assert not ridge.varies_along((1.0, 0.0)) and ridge.varies_along((0.0, 1.0))
-
     @pytest.mark.parametrize("surface", [Dent(1e-6, 1e-4), Ridge(1e-6, 1e-4, angle=90.0)])
     def test_the_shortest_wave_bends_as_the_middle_does(self, surface):
         h, y = 1e-8, np.array([-1e-8, 0.0, 1e-8])
@@ -71,13 +44,6 @@ class TestSelfAffine:
             on_nodes(ROUGH, coarse, coarse), on_nodes(ROUGH, fine, fine)[::2, ::2], rtol=0, atol=1e-19
         )
 
-    def test_points_and_turned_axes_give_what_a_grid_gives(self):
-        x, y = np.linspace(-1e-4, 1e-4, 9), np.linspace(0.0, 1e-4, 5)
-        expected = on_nodes(ROUGH, x, y)
-        np.testing.assert_allclose(ROUGH.height(*np.meshgrid(x, y)), expected, rtol=0, atol=1e-20)
-        np.testing.assert_array_equal(ROUGH.height(x[:, None], y[None, :]), expected.T)
-        assert ROUGH.height(x[3], y[2]) == pytest.approx(expected[2, 3], abs=1e-20)
-
     def test_heights_are_those_of_this_seed_on_every_machine(self):
         x = np.array([0.0, 1e-4, 2e-4])
         np.testing.assert_allclose(ROUGH.height(x, 0.5 * x), HEIGHTS, rtol=1e-6)
@@ -96,16 +62,6 @@ class TestSelfAffine:
             power[inside] * q[inside] ** 3.6 / power[0, 4] / 4.0**3.6, 1.0, rtol=1e-6
         )
 
-    def test_a_shorter_cut_off_adds_waves_and_changes_none(self):
-        """Phases are drawn from the longest wave on; only the amplitudes share the rms anew."""
-        finer, x = SelfAffine(1e-7, 5e-6, 200e-6, seed=3), np.linspace(-2e-4, 2e-4, 65)
-        # Both axes' waves of this length meet within the circle of those that both surfaces have.
-        cut_off = 2 * (15e-6,)
-        wide, narrow = (on_nodes(each.filtered(cut_off, x, x), x, x) for each in (finer, ROUGH))
-        ratio = wide.std() / narrow.std()
-        assert 0.9 < ratio < 1.0
-        np.testing.assert_allclose(wide, ratio * narrow, rtol=0, atol=1e-16)
-
     def test_filtered_it_has_the_long_waves_alone(self):
         nodes = 256
         line = ROUGH.period / nodes * np.arange(nodes)
@@ -123,21 +79,6 @@ class TestSelfAffine:
         steps = [np.diff(heights, axis=axis).std() for axis in (0, 1)]
         assert heights.std() == pytest.approx(1e-7, rel=1e-12)
         assert steps[across] > 4.0 * steps[along]
-
-
-class TestSums:
-    def test_they_add_up(self):
-        parts = Waviness(2e-7, 1e-4, None), Ridge(1e-6, 2e-4)
-        both = summed(parts)
-        x = np.linspace(-1e-4, 1e-4, 7)
-        np.testing.assert_array_equal(
-            both.height(x, 0.0), parts[0].height(x, 0.0) + parts[1].height(x, 0.0)
-        )
-        assert both.shortest(x, x) == parts[0].shortest(x, x) and both.varies_along((1.0, 0.0))
-        assert not both.varies_along((0.0, 1.0)) and both.function is None
-
-    def test_one_is_itself_and_none_is_none(self):
-        assert summed([ROUGH]) is ROUGH and summed([]) is None
 
 
 class Plain(Surface):
@@ -179,17 +120,6 @@ class TestWhatIsNotKnown:
         assert np.ptp(on_nodes(short, coarse, coarse)) > 1.9
         smooth = short.filtered((4.0 * cell, 4.0 * cell), self.nodes, self.nodes)
         assert np.abs(on_nodes(smooth, coarse, coarse)[:, 2:-2]).max() < 0.01
-
-    def test_half_of_the_cut_off_s_wave_is_left_and_all_of_a_plane(self):
-        coarse = self.nodes[::8]
-        wave = 4.0 * (coarse[1] - coarse[0])
-        plain = Plain(lambda x, y: np.cos(2 * np.pi * x / wave) + 0.0 * y)
-        left = on_nodes(plain.filtered((wave, wave), self.nodes, self.nodes), coarse, coarse)
-        expected = 0.5 * on_nodes(plain, coarse, coarse)
-        np.testing.assert_allclose(left[:, 4:-4], expected[:, 4:-4], rtol=0, atol=2e-3)
-        plane = Plain(lambda x, y: x + 2.0 * y).filtered((wave, wave), self.nodes, self.nodes)
-        found, exact = on_nodes(plane, coarse, coarse), coarse[None, :] + 2.0 * coarse[:, None]
-        np.testing.assert_allclose(found[4:-4, 4:-4], exact[4:-4, 4:-4], rtol=0, atol=1e-15)
 
     def test_parts_of_a_grid_get_what_the_whole_gets(self):
         """Ranks have lines of their own, down to a single one, and axes may be turned."""

@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from full_disk import files_of_at_most
 from made_solution import make_solution
 
 from mgehl.errors import OutputError, UserError
@@ -22,9 +21,6 @@ class TestFormats:
 
 
 class TestTargets:
-    def test_a_directory_gets_the_default_name(self, tmp_path):
-        assert targets(["nc"], "run", str(tmp_path)) == {"nc": tmp_path / "fields.nc"}
-
     @pytest.mark.parametrize("formats", [["vts"], ["nc", "vts"]])
     def test_the_ending_of_another_format_is_refused(self, formats):
         with pytest.raises(UserError, match="--out mine.nc: its ending"):
@@ -47,15 +43,6 @@ class TestExport:
         with pytest.raises(OutputError, match="exists"):
             export(make_solution("point"), {"npz": tmp_path / "a.npz", "csv": tmp_path / "a.csv"})
         assert not (tmp_path / "a.npz").exists()
-
-    @every_format
-    def test_a_full_disk_leaves_what_was_there(self, name, tmp_path):
-        path = tmp_path / f"mine.{name}"
-        path.write_text("mine")
-        with files_of_at_most(1000), pytest.raises(OutputError, match="cannot be written") as caught:
-            export(make_solution("point"), {name: path}, force=True)
-        assert "\n" not in str(caught.value) and str(path) in str(caught.value)
-        assert path.read_text() == "mine" and len(list(tmp_path.iterdir())) == 1
 
     @every_format
     @pytest.mark.parametrize("place", ["a file", "a directory"])

@@ -5,7 +5,6 @@ import pytest
 import xarray
 from made_solution import make_solution
 
-from mgehl.errors import OutputError
 from mgehl.output.export.export import export
 
 
@@ -46,9 +45,3 @@ def test_paraview_has_them(solution, tmp_path):
     content = (tmp_path / "a.vts").read_bytes()
     assert b'Name="fluid_pressure' in content and b'Name="filling' in content
     assert b'Name="heights' in content
-
-
-def test_a_filling_that_is_not_finite_is_not_exported(solution, tmp_path):
-    solution.fields.filling[0, 0] = np.nan
-    with pytest.raises(OutputError, match="filling of this run is not finite at 1 nodes"):
-        export(solution, {"csv": tmp_path / "a.csv"})

@@ -5,7 +5,7 @@ import pytest
 
 from mgehl.errors import UserError
 from mgehl.output.pictures import style
-from mgehl.output.pictures.comparison import compare_histories, compare_lines
+from mgehl.output.pictures.comparison import compare_lines
 
 
 @pytest.fixture
@@ -42,30 +42,7 @@ def test_lines_of_all_runs_in_GPa_and_nm(make_solution, drawn, check_texts):
     )  # fmt: skip
 
 
-def test_wedges(make_wedge, drawn, check_texts):
-    runs = [make_wedge(), make_wedge(settings=["wedge.pillar=none"])]
-    figure = drawn(compare_lines, runs, ["square pillar", "no pillar"])
-    P = line_of(figure.axes[0], "no pillar").get_ydata()
-    np.testing.assert_array_equal(P, runs[1].fields.P[16])
-    assert np.isnan(line_of(figure.axes[0], "square pillar").get_ydata()).any()
-    check_texts(figure, "X, mm", "square pillar", "no pillar")
-
-
 def test_runs_of_different_kinds_are_not_compared(make_solution, make_line, make_wedge, drawn):
     for other in (make_line(), make_wedge()):
         with pytest.raises(UserError, match="different kinds of contact"):
             drawn(compare_lines, [make_solution(), other], "ab")
-
-
-def test_histories_with_a_ring_where_a_grid_begins(make_solution, make_rows, drawn, check_texts):
-    histories = make_rows(grids=(65, 129), cycles=4), make_rows(grids=(65,), cycles=3)
-    figure = drawn(compare_histories, [make_solution(rows=rows) for rows in histories], ["two", "one"])
-    residual, load = figure.axes
-    for label, rows in zip(("two", "one"), histories, strict=True):
-        np.testing.assert_array_equal(
-            line_of(residual, label).get_ydata(), [row["residual"] for row in rows]
-        )
-        errors = [abs(row["load_error"]) for row in rows]
-        np.testing.assert_array_equal(line_of(load, label).get_ydata(), errors)
-    assert [line_of(residual, label).get_markevery() for label in ("two", "one")] == [[0, 4], [0]]
-    check_texts(figure, "residual (rms), dimensionless", "|load error|, dimensionless", "cycle, in order")

@@ -5,10 +5,7 @@ import pytest
 
 from mgehl.errors import OutputError
 from mgehl.output.pictures import style
-from mgehl.output.pictures.history import column, history
-
-OWN_SPEED = ["motion.speed=0.5 m/s"]
-"""That of the last rows of `make_rows`."""
+from mgehl.output.pictures.history import history
 
 
 @pytest.fixture
@@ -37,30 +34,6 @@ def test_residual_load_error_and_sets_against_the_cycles_in_order(make_solution,
     for name, label in (("contact", "in contact"), ("cavitated", "cavitated"), ("changed", "changed")):
         np.testing.assert_array_equal(lines_of(sets)[label], [row[f"{name}_nodes"] for row in rows])
     assert errors.get_yscale() == "log" and sets.get_yscale() == "symlog"
-
-
-def test_grids_have_bands_and_names(make_solution, make_rows, drawn, check_texts):
-    """Every other one is grey, from half a cycle before its first to half a cycle after its last."""
-    rows = make_rows(grids=(65, 129, 257), cycles=4)
-    figure = drawn(make_solution(rows=rows, settings=OWN_SPEED))
-    spans = [(patch.get_xy()[0, 0], patch.get_xy()[2, 0]) for patch in figure.axes[0].patches]
-    assert spans == [(-0.5, 3.5), (7.5, 11.5)]
-    check_texts(figure, "65 nodes, 1 m/s", "129 nodes, 1 m/s", "257 nodes")
-    (above,) = figure.axes[0].child_axes
-    assert above.get_xticks().tolist() == [1.5, 5.5, 9.5]
-
-
-def test_a_wedge_has_the_residuals_of_its_solves(make_wedge, drawn, check_texts):
-    figure = drawn(make_wedge())
-    (errors,) = figure.axes
-    np.testing.assert_array_equal(lines_of(errors)["residual (rms)"], [1.0, 1e-6, 1e-12])
-    check_texts(figure, "linear solve", "error, dimensionless", "33 nodes")
-
-
-@pytest.mark.parametrize("rows", [[{"grid": 1}], [{"residual": "x"}]])
-def test_a_column_that_is_not_there(rows):
-    with pytest.raises(OutputError, match="history.csv has no numbers in its column residual"):
-        column(rows, "residual")
 
 
 def test_no_cycles(make_solution, drawn):

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from matplotlib.colors import to_rgba
 from matplotlib.image import imread
-from matplotlib.patches import Ellipse
 from matplotlib.quiver import Quiver
 
 from mgehl.discretization.status import CAVITATED, CONTACT
@@ -38,36 +37,6 @@ def of_window(solution, values):
     return values[plane.Plane(solution).part]
 
 
-def test_the_film_in_nm_and_grey_where_it_is_thicker_than_any_inside_the_contact(make_solution, drawn):
-    solution = make_solution()
-    axes = drawn(maps.film_map, solution)
-    image, inside = axes.get_images()[0], 1e9 * solution.film.min()
-    film = np.maximum(of_window(solution, 1e9 * solution.film), inside / 1.1)
-    np.testing.assert_allclose(image.get_array(), film)
-    assert image.norm.vmax == pytest.approx(1.1 * inside)
-    assert tuple(image.cmap(np.inf)) == to_rgba(style.HIDDEN)
-    assert shown(axes) == ["film thickness, nm", "cavity:\npart filled"]
-
-
-def test_the_pressure_in_GPa(make_solution, drawn):
-    solution = make_solution()
-    axes = drawn(maps.pressure_map, solution)
-    pressure = of_window(solution, 1e-9 * solution.pressure)
-    np.testing.assert_allclose(axes.get_images()[0].get_array(), pressure)
-    assert "pressure, GPa" in shown(axes)
-
-
-def test_the_status_and_where_the_bodies_overlap(make_solution, drawn):
-    solution = make_solution(contact=0.4)
-    solution.fields.H[3, 5] = -1e-4
-    axes = drawn(maps.status_map, solution)
-    expected = solution.status.copy()
-    expected[3, 5] = plane.OVERLAP
-    (image,) = [each for each in axes.get_images() if each.cmap is style.STATUS_MAP]
-    np.testing.assert_array_equal(image.get_array(), expected)
-    assert {"edge of a cavity", "lubricated", "contact", "overlap"} < set(labels_of(axes))
-
-
 @pytest.mark.parametrize("function", ALL)
 @pytest.mark.parametrize("kept", [True, False])
 def test_a_cavity_is_drawn_by_its_filling(make_solution, drawn, function, kept):
@@ -85,18 +54,6 @@ def test_a_cavity_is_drawn_by_its_filling(make_solution, drawn, function, kept):
     np.testing.assert_array_equal(image.get_array().compressed(), expected)
     assert (image.norm.vmin, image.norm.vmax) == (0.0, 1.0)
     assert "cavity:\npart filled" in shown(axes) and "edge of a cavity" in labels_of(axes)
-
-
-@pytest.mark.parametrize("function", ALL)
-class TestShape:
-    def test_an_ellipse_of_two_to_one_is_true_to_scale(self, make_solution, drawn, function):
-        solution = make_solution(settings=["contact.radius_y=40 mm"])
-        axes = drawn(function, solution)
-        wide, high = np.ptp(axes.get_xlim()), np.ptp(axes.get_ylim())
-        assert axes.get_box_aspect() == pytest.approx(high / wide)
-        assert (axes.get_xlabel(), axes.get_ylabel()) == ("x, mm", "y, mm")
-        (ellipse,) = [each for each in axes.patches if isinstance(each, Ellipse)]
-        assert ellipse.height == pytest.approx(2e3 * solution.contact.y_scale)
 
 
 @pytest.mark.parametrize("function", [maps.film_map, maps.status_map])

@@ -38,12 +38,6 @@ def test_a_line_that_means_nothing_is_an_error_of_one_line(tmp_path, text, named
     assert "\n" not in str(error.value)
 
 
-def test_a_file_that_is_not_there(tmp_path):
-    with pytest.raises(UserError, match="none.mplstyle: cannot be read: No such file"):
-        with style.applied(tmp_path / "none.mplstyle"):
-            pass
-
-
 @pytest.mark.parametrize(
     "ending, begin", [("png", b"\x89PNG\r\n"), ("pdf", b"%PDF-"), ("svg", b"<?xml version=")]
 )

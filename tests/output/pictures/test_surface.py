@@ -48,13 +48,6 @@ def test_a_rough_contact_has_one_picture_more(make_solution, check_texts, contac
     assert "6.3 nodes in its shortest wave: coarse" in pictures[-1].figure._suptitle.get_text()
 
 
-def test_of_a_line_it_is_a_line(make_line, check_texts):
-    (picture,) = figures(shown(make_line(settings=RIDGE)), ["surface"])
-    (line,) = picture.figure.axes[0].lines
-    assert line.get_ydata().max() == pytest.approx(1000.0, rel=0.05)
-    check_texts(picture.figure, "X = x/a, a = 0.2712 mm")
-
-
 @pytest.fixture
 def without_file(make_solution, tmp_path):
     """A solution whose surface's file is gone."""
@@ -77,11 +70,3 @@ def test_plot_says_what_it_leaves_out(without_file, tmp_path, monkeypatch, capsy
     assert said.out == "run/plots/history.svg\n"
     assert said.err.startswith("mgehl: run: no picture of the surface: ") and "gone.npy" in said.err
     assert main(["plot", "run", "--kind", "surface"]) == 2
-
-
-def test_heights_of_the_result_need_no_file(without_file):
-    without_file.fields.heights = np.cos(np.arange(33.0) * np.arange(33.0)[:, None])
-    assert [picture.name for picture in figures(without_file)] == [*KINDS, "surface"]
-    without_file.result.resolution = None  # as of a dry contact
-    (picture,) = figures(without_file, ["surface"])
-    assert "nodes in its shortest wave" in picture.figure._suptitle.get_text()

@@ -5,7 +5,6 @@ from types import SimpleNamespace
 import pytest
 
 from mgehl.config import load_config
-from mgehl.errors import UserError
 from mgehl.output.pictures.titles import labels, run_names
 from mgehl.output.result import Overlap
 
@@ -32,18 +31,8 @@ def test_they_say_the_keys_that_differ(one, other, said):
     assert labels(runs(one, other), ["a", "b"]) == said
 
 
-def test_a_run_that_did_not_converge_says_so():
-    good, bad = *runs(["grid.nodes=65"]), *runs(["grid.nodes=129"], converged=False)
-    assert labels([good, bad], "ab") == ["65 nodes", "129 nodes (NOT converged)"]
-
-
 def test_names_of_runs(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     assert run_names(["x/one", "y/two"]) == ["one", "two"]
     assert run_names(["x/one", "y/one", "y/two"]) == ["x/one", "y/one", "y/two"]
     assert run_names(["x/."]) == ["x"]
-
-
-def test_a_run_given_twice():
-    with pytest.raises(UserError, match="x/one/: is given twice"):
-        run_names(["x/one/", "x/one"])

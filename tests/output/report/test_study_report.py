@@ -59,11 +59,6 @@ def test_a_damaged_table_is_an_error_of_one_line(directory, content, said):
 
 
 class TestRecord:
-    def test_it_is_read_as_written(self, tmp_path):
-        assert read_record(tmp_path) is None
-        write_record(tmp_path, RECORD)
-        assert read_record(tmp_path) == RECORD
-
     @pytest.mark.parametrize("content", ["", "{}", "[1]", '{"name": 3}', "{"])
     def test_a_damaged_one_is_an_error_of_one_line(self, tmp_path, content):
         (tmp_path / "study.json").write_text(content)
