@@ -94,7 +94,7 @@ bench: $(ENVIRONMENT)
 
 # make studies     run all studies and write their tables, and the pictures that pages show, to runs/tables (hours)
 # make study-NAME  one of them. One that was stopped goes on; what did not converge says so in the table.
-STUDIES := wedge grid transition methods schemes error mixed machine rollers solids waviness moving courses dry
+STUDIES := wedge grid transition methods schemes error mixed machine rollers solids stribeck waviness moving courses dry
 GRIDS_grid := --nodes 257,513,1025,2049
 GRIDS_moving := --nodes 513
 GRIDS_transition := --nodes 257,513,1025
@@ -102,6 +102,7 @@ SHOWN_courses := *.png
 SHOWN_grid := *.png
 SHOWN_moving := *.png
 SHOWN_solids := *.png
+SHOWN_stribeck := stribeck.png
 SHOWN_transition := *.png
 studies: $(STUDIES:%=study-%)
 study-%: $(ENVIRONMENT)
