@@ -107,6 +107,9 @@ MISTAKES = [
     ("motion.speed='7.5'", "motion.speed = '7.5': ", "has no unit", '"1 m/s"'),
     ("motion.speed=fast", "motion.speed = 'fast': ", "not understood", '"1 m/s"'),
     ("motion.speed=", "motion.speed = '': ", '"1 m/s"'),
+    ("contact.load=9**9**9 N", "contact.load = '9**9**9 N': ", "not understood"),
+    ("contact.load=800 N # x", "contact.load = '800 N # x': ", "not understood"),
+    ("moes.M=20 N", "moes.M = '20 N': ", "wrong unit"),
     ("grid.nodes=64.5", "grid.nodes = 64.5: ", "a whole number", "at least 65", "at most 16385"),
     ('grid.nodes="257"', "grid.nodes = '257': ", "a whole number"),
     ("grid.nodes=33", "grid.nodes = 33: ", "at least 65"),
@@ -189,6 +192,47 @@ def test_file_that_is_not_toml(tmp_path, content):
 
 
 MOES = {"moes": {"M": 200, "L": 10}}
+
+
+COATED = ("contact.deformation=coated", "coating.thickness=10 um", "coating.modulus=400 GPa")
+
+
+@pytest.mark.parametrize(
+    "settings, message",
+    [
+        (("moes.M=20",), "moes.L: must be given with moes.M"),
+        (("moes.L=10",), "moes.M: must be given with moes.L"),
+        (COATED[:2], 'coating.modulus: must be given where contact.deformation = "coated"'),
+        (COATED[::2], 'coating.thickness: must be given where contact.deformation = "coated"'),
+        (("contact.deformation=half-space", "coating.poisson=0.2"), "coating.poisson = 0.2: means nothing "
+         'where contact.deformation = "half-space"'),
+        ((*COATED, "coating.substrate_modulus=50 GPa"), "coating.substrate_modulus = 50000000000.0: both "
+         "bodies without the coating have a reduced modulus of "),
+        (("lubricant.viscosity_law=roelands", "lubricant.viscosity=6e-5"), "lubricant.viscosity = 6e-05: "
+         "Roelands' law needs a viscosity above 6.3e-5 Pa s"),
+        (("contact.kind=wedge", "wedge.inlet=20 mm"), "wedge.inlet = 0.02: must be above wedge.exit = "),
+    ],
+)  # fmt: skip
+def test_what_is_missing_or_does_not_fit_is_named(settings, message):
+    assert error_of(*settings).startswith(message)
+
+
+@pytest.mark.parametrize(
+    "tables, message",
+    [
+        (MOES | {"contact": {"load": 800.0}}, "contact.load = 800.0: means nothing with moes.M"),
+        (MOES | {"motion": {"speed": 1.0}}, "motion.speed = 1.0: means nothing with moes.M"),
+        ({"grid": 5}, "grid = 5: is a section, its keys go under [grid]"),
+        ({"contact": {"kind": [1]}}, "contact.kind = [1]: must be one of point, line, wedge"),
+    ],
+)
+def test_what_a_file_says_twice_or_in_another_form(tables, message):
+    assert error_of(tables=tables) == message
+
+
+def test_a_deformation_that_is_set_pushes_out_the_coating_of_the_file():
+    config = load_config(CONFIGS / "coated.toml", ["contact.deformation=half-space"])
+    assert config.coating == Config().coating != load_config(CONFIGS / "coated.toml").coating
 
 
 FOREIGN_KEYS = [

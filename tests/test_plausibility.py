@@ -77,6 +77,9 @@ SQUARE = (WEDGE, "wedge.pillar=square")
         ([*SQUARE, "wedge.pillar_y=-7 mm"], "wedge.pillar_y = -0.007: ", ["width of 0.02"]),
         ([*SQUARE, "wedge.pillar_size=20 mm"], "wedge.pillar_y = 0: ", ["pillar of 0.02 m"]),
         ([WEDGE, "wedge.pillar=cylinder", "wedge.pillar_size=40 mm"], "wedge.pillar_x", ["0.04 m"]),
+        ([*SQUARE, "wedge.pillar_size=1e-5"], "wedge.pillar_size = 1e-05: ", ["at least 2 cells"]),
+        ([WEDGE, "grid.nodes=65", "wedge.exit=1e-5"], "wedge.exit = 1e-05: ", ["2 cells", "65 nodes"]),
+        ([WEDGE, "wedge.width=1e-5"], "wedge.width = 1e-05: ", ["within a factor of 100"]),
     ],
 )
 def test_lines_and_wedges_are_checked_too(settings, start, words):
@@ -86,3 +89,8 @@ def test_lines_and_wedges_are_checked_too(settings, start, words):
     message = str(caught.value)
     assert message.startswith(start) and "\n" not in message
     assert all(word in message for word in words)
+
+
+def test_the_place_of_no_pillar_does_not_matter():
+    config = load_config(os.devnull, [WEDGE, "wedge.pillar_x=0.1"])
+    check_contact(config, contact_from(config))

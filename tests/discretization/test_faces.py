@@ -8,7 +8,8 @@ from mgehl.discretization.axes import axes_of
 from mgehl.discretization.contact_law import BoundaryFilm
 from mgehl.discretization.couette import EE, SCHEMES, SHIFT, WW, E, W
 from mgehl.discretization.faces import conductances, flows
-from mgehl.discretization.fluid import Fluid, fluid_state
+from mgehl.discretization.fluid import FACE_MOBILITIES, Fluid, fluid_state
+from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import BOUNDARY, CONTACT, LUBRICATED
 
@@ -35,6 +36,30 @@ def flows_of(row, axis, P, H, rho, eps, scheme, status=None):
 
 def fluid_of(state, scheme):
     return fluid_state(state.P, state.H, state.contact, scheme.contact_law)
+
+
+@along_both
+@pytest.mark.parametrize("mean, eps", [("arithmetic", 5.0), ("geometric", 4.0), ("harmonic", 3.2)])
+def test_poiseuille_flow_through_a_face(along, mean, eps):
+    """-eps (P_E - P_W)/distance with eps of 2 and 8, P of 1 and 4; rho H = 0."""
+    row = Row(along)
+    axis, scheme = row.axis(cell=0.5, distance=0.25), Scheme(face_mobility=mean)
+    leaving, entering = flows_of(row, axis, [1.0, 4.0, 4.0], 0.0, 1.0, [2.0, 8.0, 8.0], scheme)
+    assert leaving.tolist() == entering.tolist() == pytest.approx([-eps * 3.0 / 0.25, 0.0], rel=1e-15)
+
+
+def test_poiseuille_flow_across_the_motion_in_units_of_the_ellipse():
+    """-k_e^2 eps (P_N - P_S)/dY with k_e = 2, dY = 1/4, and no Couette flow."""
+    row, mesh = Row("y"), Mesh(3, 5, (0.0, 1.0), (0.0, 1.0), k_e=2.0)
+    across, _ = flows_of(row, axes_of(mesh, (1.0, 0.0))[1], [1.0, 4.0], 1.0, 1.0, [2.0, 8.0], Scheme())
+    assert across == pytest.approx(-4.0 * 5.0 * 3.0 / 0.25, rel=1e-15)
+
+
+def test_couette_flow_across_the_lines_in_units_of_the_ellipse():
+    """k_e 0.8 rho H of the line before (1B), with k_e = 2."""
+    row, mesh = Row("y"), Mesh(3, 5, (0.0, 1.0), (0.0, 1.0), k_e=2.0)
+    carried, _ = flows_of(row, axes_of(mesh, (0.6, 0.8))[1], [0.0, 0.0], [3.0, 5.0], 1.5, 0.0, Scheme())
+    assert carried == pytest.approx(2.0 * 0.8 * 1.5 * 3.0, rel=1e-15)
 
 
 def arrays_of(flow):
@@ -107,6 +132,23 @@ def test_blocked_flow_recursion(couette, along):
         assert np.abs(leaving).max() < 1e-14
     # ... and the recursion is not empty: pressure climbs towards the block.
     assert (np.diff(P) > 0.1).all()
+
+
+@pytest.mark.parametrize("mean", FACE_MOBILITIES)
+def test_conductances_are_what_a_pressure_drives_through_a_face(mean, mixed):
+    """Flow by a unit of pressure at E over the cell, at a held mobility: the rest of the flow cancels."""
+    scheme = Scheme(face_mobility=mean)
+    fluid = fluid_of(mixed, scheme)
+    for axis in axes_of(mixed.mesh, scheme.motion):
+        still = flows(replace(fluid, P=np.zeros_like(fluid.P)), mixed.status, axis, scheme)[0].value
+        driven = flows(fluid, mixed.status, axis, scheme)[0].value
+        rise = axis.at(fluid.P, 1) - axis.at(fluid.P)
+        expected = (still - driven) / axis.cell
+        conductance = conductances(fluid, mixed.status, axis, scheme)
+        np.testing.assert_allclose(
+            conductance * rise, expected, rtol=1e-10, atol=1e-14 * np.abs(expected).max()
+        )
+        assert (conductance[closed_faces(mixed.status, axis)] == 0.0).all() and conductance.any()
 
 
 @pytest.mark.parametrize("h_b", [1e-2, 1e-3, 1e-4])

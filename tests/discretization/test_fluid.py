@@ -1,4 +1,4 @@
-from math import exp
+from math import exp, log
 
 import numpy as np
 import pytest
@@ -8,6 +8,41 @@ from mgehl.discretization.fluid import FACE_MEANS, face_mobility, fluid_state
 from mgehl.discretization.scheme import Scheme
 
 LCIC = InterfaceConditions()
+ONE, TWO, EIGHT = np.ones(1), np.array([2.0]), np.array([8.0])
+
+
+def test_mobility_is_rho_H3_over_eta_lambda(contact):
+    """eps at one node from numbers only: p = 0.5 p_h, alpha = 3/GPa."""
+    p = 0.5 * contact.hertz.p_h
+    rho = 1.0 + 0.6e-9 * p / (1.0 + 1.7e-9 * p)
+    a, p_h = contact.hertz.a, contact.hertz.p_h
+    reynolds = 12.0 * 0.1 * 0.096 * 12.7e-3**2 / (a**3 * p_h)
+    fluid = fluid_state(np.array([0.5]), np.array([0.1]), contact, LCIC)
+    assert fluid.rho[0] == pytest.approx(rho, rel=1e-14)
+    assert fluid.eps[0] == pytest.approx(rho * 0.1**3 * exp(-3e-9 * p) / reynolds, rel=1e-13)
+
+
+@pytest.mark.parametrize(
+    "mean, value, by_a, by_b",
+    [
+        ("arithmetic", 5.0, 0.5, 0.5),
+        (
+            "logarithmic",
+            6.0 / log(4.0),
+            (3.0 / log(4.0) - 1.0) / log(4.0),
+            (1.0 - 0.75 / log(4.0)) / log(4.0),
+        ),
+        ("geometric", 4.0, 1.0, 0.25),
+        ("harmonic", 3.2, 2.0 * 0.8**2, 2.0 * 0.2**2),
+    ],
+)
+def test_means_of_two_and_eight(mean, value, by_a, by_b):
+    """sqrt(2*8) = 4 with slopes 4/(2*2), 4/(2*8); 2*16/10 = 3.2 with slopes 2 (8/10)^2, 2 (2/10)^2.
+
+    Of the logarithmic mean m they are (m/2 - 1)/ln 4 and (1 - m/8)/ln 4.
+    """
+    result = FACE_MEANS[mean](TWO, EIGHT)
+    assert [np.ravel(part)[0] for part in result] == pytest.approx([value, by_a, by_b], rel=1e-15)
 
 
 @pytest.mark.parametrize("mean", ["logarithmic", "geometric", "harmonic"])
@@ -28,6 +63,23 @@ def test_logarithmic_mean_carries_the_flow_of_the_reduced_pressure(alpha_dP):
     mean, by_W, by_E = (part[0] for part in FACE_MEANS["logarithmic"](np.array([W]), np.array([E])))
     assert mean * alpha_dP == pytest.approx(-np.expm1(-alpha_dP), rel=1e-9)
     assert W * by_W + E * by_E == pytest.approx(mean, rel=1e-12)
+
+
+@pytest.mark.parametrize("mean, value", [("arithmetic", 5.0), ("geometric", 4.6), ("harmonic", 4.28)])
+def test_a_share_of_the_mean_of_two_and_eight(mean, value):
+    """0.4 of 5, 4 or 3.2, and 0.6 of 5."""
+    found = face_mobility(Scheme("1B", mean, 0.4), (TWO, EIGHT), (ONE, ONE), (ONE, ONE))
+    assert found.value[0] == pytest.approx(value, rel=1e-15)
+
+
+@pytest.mark.parametrize("mean, value", [("logarithmic", 3.0 / log(2.0)), ("linear-gap", 6.0 / log(4.0))])
+def test_the_mean_density_multiplies_the_mean_of_the_mobilities_without_theirs(mean, value):
+    """Of 2 and 8 with densities 1 and 2: 3/2 times the mean of 2 and 4, not that of 2 and 8.
+
+    Through gaps 1/2 and 1 that of the linear gap is that of 16 and 4 per cube, 12/ln 4, times 1/3.
+    """
+    found = face_mobility(Scheme("1B", mean), (TWO, EIGHT), (0.5 * ONE, ONE), (ONE, TWO))
+    assert found.value[0] == pytest.approx(value, rel=1e-14)
 
 
 def test_the_linear_gap_s_flow_is_that_of_the_differential_equation():

@@ -4,6 +4,7 @@ from handmade import walled
 
 from mgehl.discretization.axes import axes_of, own
 from mgehl.discretization.mesh import Mesh
+from mgehl.discretization.rows import FLOW, GAP, PRESSURE, rows_of
 from mgehl.discretization.status import (
     BOUNDARY,
     CAVITATED,
@@ -101,3 +102,9 @@ def test_a_wall_shuts_nothing_in():
     status = walled(np.array([[LUBRICATED] * 3, [CONTACT] * 3]))
     assert not enclosed(status, axes_of(MESH, (0.0, 1.0))).any()
     assert not enclosed(walled(np.full((1, 3), LUBRICATED)), axes_of(MESH, (0.0, 1.0))).any()
+
+
+@pytest.mark.parametrize("rigid, contact", [(False, GAP), (True, PRESSURE)], ids=["elastic", "rigid"])
+def test_the_status_says_which_equation_a_node_has(rigid, contact):
+    every = np.array([[BOUNDARY, LUBRICATED, CAVITATED, CONTACT]])
+    assert rows_of(every, rigid).tolist() == [[PRESSURE, FLOW, PRESSURE, contact]]

@@ -9,6 +9,7 @@ import pytest
 from mgehl.config import KEYS, ConfigError, config_from_tables, load_config
 from mgehl.kinds import contact_from
 from mgehl.kinds.derived import EITHER, FOLLOWS, NEEDS
+from mgehl.model.oils import OILS
 
 CONFIGS = Path(__file__).resolve().parents[2] / "configs"
 STEEL = {"body_1.material": "steel", "body_2.material": "steel"}
@@ -67,6 +68,15 @@ def test_viscosity_by_density_and_by_two_temperatures():
     for temperature, nu in (("40 degC", 68.0), ("373.15 K", 8.5), ("100 C", 8.5), ("104 degF", 68.0)):
         config = of(TWO | {"lubricant.temperature": temperature, "lubricant.density": 850})
         assert config.lubricant.viscosity == pytest.approx(1e-6 * nu * 850.0, rel=1e-6)
+
+
+@pytest.mark.parametrize("name, eta, alpha", [("N100", 27, 22.9), ("M100", 31, 19.1), ("PAO100", 37, 13.8)])
+def test_an_oil_by_its_name(name, eta, alpha):
+    config = of(OIL | {"lubricant.oil": name})
+    assert 1e3 * config.lubricant.viscosity == pytest.approx(eta, abs=0.5)
+    assert 1e9 * config.lubricant.pressure_viscosity == pytest.approx(alpha, abs=0.06)
+    law = contact_from(config).lubricant.viscosity_law
+    assert law == OILS[name].law(config.lubricant.temperature)
 
 
 def value_for(key):

@@ -4,10 +4,58 @@ import pytest
 
 from mgehl.model import films
 from mgehl.model.contact import Groups
-from mgehl.model.films import nijenbanning_venner_moes
+from mgehl.model.films import chittenden, grubin, hamrock_dowson, nijenbanning_venner_moes
 
 # The literals below were computed in 30-digit decimal arithmetic from the formulas as printed in
 # the literature, with no line of mgehl.
+
+
+@pytest.mark.parametrize(
+    "ellipticity, central, minimum",
+    [(1.0, 1.765149363430689e-5, 1.002685985506984e-5), (3.0, 2.329406894962160e-5, 1.768013907852289e-5)],
+)
+def test_hamrock_dowson(ellipticity, central, minimum):
+    """U = 1e-11, W = 1e-6, G = 4500; the film scales with the radius."""
+    groups = SimpleNamespace(U=1e-11, W=1e-6, G=4500.0)
+    expected = (0.02 * central, 0.02 * minimum)
+    assert hamrock_dowson(groups, 0.02, ellipticity) == pytest.approx(expected, rel=1e-13)
+
+
+@pytest.mark.parametrize(
+    "across, central, minimum",
+    [
+        (0.02, 3.415349464143568e-7, 2.012014198794409e-7),
+        (0.06, 4.452307761672909e-7, 3.097945192042367e-7),
+        (0.005, 1.863893350052562e-7, 9.620436324916264e-8),
+    ],
+)
+def test_chittenden(across, central, minimum):
+    """U = 1e-11, W = 1e-6, G = 4500, 0.02 m along the motion."""
+    groups = SimpleNamespace(U=1e-11, W=1e-6, G=4500.0)
+    assert chittenden(groups, 0.02, across) == pytest.approx((central, minimum), rel=1e-13)
+
+
+@pytest.mark.parametrize(
+    "M, L, D, H",
+    [
+        (20.0, 10.0, 1.0, 4.708073308),
+        (200.0, 10.0, 1.0, 4.380290978),
+        (200.0, 10.0, 0.25, 5.390596135),
+        (1e4, 40.0, 1.0, 9.028713288),
+        (5.0, 100.0, 1.0, 19.79027532),
+    ],
+)
+def test_nijenbanning_venner_moes(M, L, D, H):
+    """Central film H (h/R_x)(2U)^(-1/2), for U = 2e-12 and R_x = 0.02."""
+    groups = SimpleNamespace(U=2e-12, M=M, L=L)
+    film = nijenbanning_venner_moes(groups, 0.02, 0.02 / D)
+    assert film / 0.02 / 4e-12**0.5 == pytest.approx(H, rel=1e-9)
+
+
+def test_grubin():
+    """(12*0.2687 * 2e-8 * 0.05 * 0.3 * 4e-4)^(3/4)/sqrt(1.6e-5)."""
+    film = grubin(2e-8, 0.05, 0.3, 4e-4, 1.6e-5)
+    assert film == pytest.approx(1.226486091358103e-7, rel=1e-13)
 
 
 @pytest.mark.parametrize(

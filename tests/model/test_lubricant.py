@@ -1,4 +1,4 @@
-from math import exp
+from math import exp, log
 
 import numpy as np
 import pytest
@@ -33,6 +33,17 @@ def test_viscosity_law_starts_at_eta0_with_slope_alpha(name):
         value, slope = VISCOSITY_LAWS[name](eta0, 18e-9).log_viscosity(np.zeros(1), P_H)
         assert value[0] == 0.0
         assert np.ravel(slope)[0] == pytest.approx(18e-9 * P_H, rel=1e-13)
+
+
+def test_roelands_at_a_known_pressure():
+    """p = 1/5.1e-9 Pa doubles the bracket: ln(eta*) = (ln eta0 + 9.67)(2^z - 1)."""
+    law = Roelands(0.04, 20e-9)
+    S = log(0.04) + 9.67
+    z = 20e-9 / (5.1e-9 * S)
+    assert z == pytest.approx(0.6079, abs=1e-4)
+    value, slope = law.log_viscosity(np.array([1.0]), 1.0 / 5.1e-9)
+    assert value[0] == pytest.approx(S * (2.0**z - 1.0), rel=1e-14)
+    assert slope[0] == pytest.approx(S * z * 2.0 ** (z - 1.0), rel=1e-14)
 
 
 def test_roelands_takes_tension_as_ambient_pressure():

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from mgehl.model.lubricant import Barus
+from mgehl.model.lubricant import Barus, DowsonHigginson
 from mgehl.model.own_function import OwnFunction, OwnFunctionError
-from mgehl.model.own_laws import OwnViscosity
+from mgehl.model.own_laws import OwnCompliance, OwnDensity, OwnSurface, OwnViscosity
 
 P_H = 0.8e9
 P = np.array([[0.0, 0.25, 1.0, 1.7]])
@@ -86,3 +86,33 @@ def test_a_wrong_derivative_is_refused_with_its_place_and_size(viscosity, slope,
 )
 def test_what_is_no_viscosity_is_refused(viscosity, text, words):
     assert words in refusal(viscosity(text).check, 2.0 * P_H)
+
+
+DOWSON = """
+def law(at):
+    p = at.pressure
+    return 1.0 + 0.6e-9 * p / (1.0 + 1.7e-9 * p), 0.6e-9 / (1.0 + 1.7e-9 * p) ** 2
+"""
+
+
+def test_density_of_one_s_own_is_the_built_in_one_and_begins_with_1(own):
+    law = OwnDensity(own(DOWSON))
+    law.check(2.0 * P_H)
+    for found, expected in zip(law.density(P, P_H), DowsonHigginson().density(P, P_H), strict=True):
+        np.testing.assert_allclose(found, expected, rtol=1e-14)
+    absolute = OwnDensity(own(DOWSON.replace("1.0 + 0.6e-9 * p", "870.0 + 0.6e-9 * p")))
+    assert "returns 870 at p = 0; must be 1" in refusal(absolute.check, 2.0 * P_H)
+
+
+def test_heights_are_those_of_the_nodes_and_no_higher_than_allowed(own):
+    surface = OwnSurface(own("def law(x, y): return 2.0 * x + y**2"))
+    x, y = np.array([[1.0, 2.0, 3.0]]), np.array([[0.0], [5.0]])
+    assert surface.height(x, y).tolist() == [[2.0, 4.0, 6.0], [27.0, 29.0, 31.0]]
+    surface.check(x[0], y[:, 0], 31.0)
+    words = refusal(surface.check, x[0], y[:, 0], 30.0)
+    assert words == "returns 31 at x = 3 m, y = 5 m; must be a height in m of at most 30"
+
+
+def test_a_compliance_is_positive(own):
+    bad = OwnCompliance(own("def law(k): return 50.0 - k"))
+    assert refusal(bad.check, np.array([1.0, 100.0])) == "returns -50 at 100 1/m; must be a positive number"

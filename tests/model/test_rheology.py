@@ -6,7 +6,7 @@ import pytest
 from mgehl.model.conditions import Conditions
 from mgehl.model.own_function import OwnFunction, OwnFunctionError
 from mgehl.model.own_laws import OwnRheology
-from mgehl.model.rheology import Eyring, Newtonian, effective_mobilities
+from mgehl.model.rheology import Eyring, Limiting, Newtonian, effective_mobilities
 
 P = np.array([0.0, 0.5e9, 1e9])
 
@@ -19,6 +19,12 @@ def test_eyring_is_newtonian_where_it_is_hardly_sheared_and_logarithmic_where_it
     law = Eyring(5e6)
     np.testing.assert_allclose(law.shear_stress(at(1.0)), Newtonian().shear_stress(at(1.0)), rtol=1e-12)
     np.testing.assert_allclose(law.shear_stress(at(1e12)), 5e6 * np.log(2.0 * 2e12 / 5e6), rtol=1e-10)
+
+
+def test_a_limit_is_a_part_of_the_pressure():
+    law = Limiting(0.05, Eyring(5e6))
+    assert law.shear_stress(at(1e12)).tolist() == [0.0, 0.05 * 0.5e9, 0.05 * 1e9]
+    assert law.shear_stress(at(1.0))[1:].tolist() == Eyring(5e6).shear_stress(at(1.0))[1:].tolist()
 
 
 def test_effective_mobilities_are_those_of_a_film_sheared_by_a_small_pressure_gradient():

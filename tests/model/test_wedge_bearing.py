@@ -16,8 +16,34 @@ def coordinates(bearing, nodes):
     return np.linspace(*x, nodes)
 
 
+def test_turned_bearing_is_the_mirror_image():
+    """Nodes, edges and gap; its plate drags the fluid towards +X, again into the narrowing film."""
+    X, turned = coordinates(BEARING, 65), coordinates(TURNED, 65)
+    np.testing.assert_allclose(turned, -X[::-1], rtol=1e-15)
+    assert TURNED.placement(65)[1] == (-8.0, -4.0)
+    np.testing.assert_allclose(TURNED.gap(turned), BEARING.gap(X)[::-1], rtol=1e-15)
+    assert (BEARING.motion, TURNED.motion) == ((-1.0, 0.0), (1.0, 0.0))
+
+
 X, Y = np.linspace(4.0, 8.0, 9)[None, :], np.linspace(-2.0, 2.0, 9)[:, None]
 """Nodes half a millimetre apart."""
+
+
+def solid_nodes(bearing):
+    """The nodes that are solid, (X, Y) in half millimetres."""
+    solid = np.broadcast_to(bearing.solid(X, Y), (Y.size, X.size))
+    return {(int(2 * X[0, i]), int(2 * Y[j, 0])) for j, i in np.argwhere(solid)}
+
+
+SQUARE = {(di, dj) for di in range(-2, 3) for dj in range(-2, 3)}
+CYLINDER = {(di, dj) for di, dj in SQUARE if di**2 + dj**2 <= 4}
+
+
+@pytest.mark.parametrize("shape, offsets", [("square", SQUARE), ("cylinder", CYLINDER)])
+def test_pillar_is_solid_with_its_edge(shape, offsets):
+    """Side and diameter are the size: 2 mm are two nodes to each side of the centre."""
+    bearing = replace(BEARING, pillar=shape, pillar_x=6.5e-3, pillar_y=-0.5e-3, pillar_size=2e-3)
+    assert solid_nodes(bearing) == {(13 + di, -1 + dj) for di, dj in offsets}
 
 
 @pytest.mark.parametrize("bearing, first", [(BEARING, 0), (TURNED, -1)], ids=["as it is", "turned"])
@@ -43,3 +69,23 @@ def test_a_pocket_has_its_volume_wherever_its_edges_lie_between_nodes(shift):
     assert recess.sum() * 0.1 * 0.04 == pytest.approx(4.0 * 2.0, rel=1e-12)
     assert recess.max() == pytest.approx(2.0, rel=1e-14) and recess.min() == 0.0
     assert BEARING.recess(X, Y, 0.1, 0.04) == 0.0
+
+
+PAD = WedgeBearing(
+    exit=-4e-3, inlet=0.0, width=4e-3, slope=0.25e-3, viscosity=0.05, speed=0.3, turned=True, level=3e-6
+)
+"""By its films: from 3 um at x = 0 to 2 um at 4 mm, along the motion."""
+
+
+@pytest.mark.parametrize("bearing, scale", [(BEARING, 1e-6), (PAD, 2e-6)])
+def test_units_turn_reynolds_equation_into_eq_44(bearing, scale):
+    """h^3 dp/dx = 6 eta u h into H^3 dP/dX = 6 H; lengths in units of a pad's smaller film."""
+    assert bearing.film_scale == pytest.approx(scale) and bearing.lambda_ == 6.0
+    flow = scale**3 * bearing.pressure_scale / 1e-3
+    assert flow == pytest.approx(0.05 * 0.3 * scale, rel=1e-14)
+
+
+def test_a_pad_by_its_films():
+    x, edges = PAD.placement(65)
+    assert edges == (0.0, 4.0) and x[0] == 0.0 and x[1] == pytest.approx(4.0 + 0.5 * 4.0 / 63.5)
+    np.testing.assert_allclose(PAD.gap(np.array([0.0, 2.0, 4.0])), [1.5, 1.25, 1.0], rtol=1e-14)

@@ -1,16 +1,19 @@
 """Bands about the films of runs: when there are any, and of what."""
 
 from dataclasses import replace
+from math import hypot
+from types import SimpleNamespace
 
 import pytest
 from mpi4py import MPI
 from test_files import make_result
 
 from mgehl.config import config_from_tables
-from mgehl.output.film_error import GridFilm, why_no_band
+from mgehl.output.film_error import GridFilm, from_grids, why_no_band
 from mgehl.output.resolution import Resolution
 from mgehl.output.result import ContactResult, Overlap
 from mgehl.run import solve
+from mgehl.solver.richardson import SAFETY, SPREADS_OF_TWO, UNSEEN, UNSEEN_UNLIKE, WIDER
 from mgehl.studies.study import papers_grid
 
 FILM = {"motion": {"speed": 1.0}, "grid": papers_grid(65), "discretization": {"couette": "2B"}}
@@ -48,6 +51,10 @@ def film():
 
 
 class TestWhetherThereIsOne:
+    def test_of_a_film_there_is_but_not_on_a_rough_surface(self, film):
+        assert why_no_band(film, SMOOTH) == ""
+        assert "rough surface says little" in why_no_band(film, SimpleNamespace(is_mixed=True))
+
     @pytest.mark.parametrize(
         "changes, word",
         [
@@ -63,6 +70,26 @@ class TestWhetherThereIsOne:
     )
     def test_otherwise_it_is_said_why_not(self, film, changes, word):
         assert word in why_no_band(replace(film, **changes), SMOOTH)
+
+    def test_where_the_next_grid_has_no_answer_there_is_none(self, film):
+        error = from_grids(film, grids(10.0, 8.0, settled=False), 2)
+        assert error.central_nm is None and error.minimum_nm is None and "65 nodes" in error.how
+
+
+class TestHowWideItIs:
+    def test_two_grids(self, film):
+        error = from_grids(film, grids(10.0, 7.0), 2)
+        assert error.central_nm == pytest.approx(hypot(1.0, UNSEEN) * 4.0)
+        assert error.minimum_nm == pytest.approx(hypot(1.0 + SAFETY, SPREADS_OF_TWO * 0.3))
+        assert error.central_order is None and error.order == 2 and "65 nodes" in error.how
+
+    def test_contact_on_the_next_grid_makes_it_wider_and_is_said(self, film):
+        error = from_grids(film, grids(10.0, 7.0, contact=4), 2)
+        assert (
+            error.central_nm == pytest.approx(hypot(1.0, UNSEEN_UNLIKE) * 4.0)
+            and "touches at 4" in error.how
+        )
+        assert error.minimum_nm == pytest.approx(hypot(1.0 + SAFETY, WIDER * SPREADS_OF_TWO * 0.3))
 
 
 class TestOfRuns:

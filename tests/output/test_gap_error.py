@@ -1,10 +1,13 @@
 """Bands about the mean gaps of rough bodies."""
 
+from dataclasses import replace
+from types import SimpleNamespace
+
 import pytest
 from mpi4py import MPI
 
 from mgehl.config import config_from_tables
-from mgehl.output.gap_error import GridGap
+from mgehl.output.gap_error import SPREAD, GridGap, from_grids, half_width, why_no_band
 from mgehl.run import solve
 from mgehl.studies.study import merged
 
@@ -24,6 +27,71 @@ def grid(nodes, settled=True):
         "pressure_crest_GPa": 0.03,
     }  # fmt: skip
     return GridGap(nodes, 10.0, 2.0, 0.25, settled, 0.5, 0.1, **loads)
+
+
+def test_alike_grids_show_the_second_order():
+    """A third of the difference, as Richardson has it, and a part of what differs from node to node."""
+    assert half_width(10.0, 10.3, 0.5) == pytest.approx(0.1 + SPREAD * 0.5)
+
+
+def test_contact_whose_edge_is_known_to_a_cell_the_first():
+    assert half_width(10.0, 10.3, 0.5, touches=True) == pytest.approx(0.3 + SPREAD * 0.5)
+    without = [replace(grid(n), contact_load_share=0.0, mean_nm=nm) for n, nm in ((257, 10.0), (129, 10.3))]
+    assert from_grids(without).mean_nm == pytest.approx(0.1 + SPREAD * 0.5)
+    touching = [without[0], replace(without[1], contact_load_share=0.01)]
+    assert from_grids(touching).mean_nm == pytest.approx(0.3 + SPREAD * 0.5)
+
+
+def test_loads_and_the_largest_pressure_have_bands_of_their_own():
+    coarser = replace(grid(129), max_pressure_GPa=1.97, contact_load_share=0.26, solid_load_apart=0.1)
+    error = from_grids((grid(257), coarser))
+    assert error.max_pressure_GPa == pytest.approx(0.01 + SPREAD * 0.05 + 0.03)
+    assert error.contact_load_share == pytest.approx(0.01)
+    assert error.solid_load_fraction == pytest.approx(SPREAD * 0.1)
+    assert replace(error, grids=(grid(257), coarser)).the_grids == []
+
+
+def test_what_the_two_grids_do_not_share_is_the_grid_s():
+    coarser = replace(
+        grid(129), loaded_nm=3.1, max_pressure_GPa=0.9, contact_load_share=0.6, solid_load_fraction=0.5
+    )
+    error = replace(from_grids((grid(257), coarser)), grids=(grid(257), coarser))
+    assert error.mean_nm is not None
+    assert error.the_grids == [
+        "the gap by pressure", "the largest pressure", "the load on contact", "the load on solids"
+    ]  # fmt: skip
+    none = from_grids((grid(257), grid(129, settled=False)))
+    assert none.the_grids == [] and none.max_pressure_GPa is None
+
+
+def test_where_the_coarser_grid_did_not_settle_there_is_none():
+    error = from_grids((grid(257), grid(129, settled=False)))
+    assert error.mean_nm is error.loaded_nm is None and "on 129 nodes" in error.how
+
+
+def test_where_the_coarser_grid_has_another_gap_there_is_none():
+    error = from_grids((grid(257), replace(grid(129), mean_nm=30.0)))
+    assert error.mean_nm is error.loaded_nm is error.max_pressure_GPa is None
+    assert error.how == "on 129 nodes the mean gap is 30 nm, too far from this"
+
+
+@pytest.mark.parametrize(
+    "settled, closes, edge, surface, words",
+    [
+        (False, False, "", "resolved", "not settled"),
+        (True, True, "", "resolved", "closes its faces"),
+        (True, False, "the domain cuts it", "resolved", "cuts"),
+        (True, False, "", "grid-determined", "fewer than four nodes"),
+        (True, False, "", "coarse", ""),
+    ],
+)
+def test_why_there_may_be_none(settled, closes, edge, surface, words):
+    shown = SimpleNamespace(surface=surface)
+    result = SimpleNamespace(settled=settled, edge=SimpleNamespace(wrong=(edge, "")), resolution=shown)
+    law = SimpleNamespace(closes_faces=closes)
+    problem = SimpleNamespace(scheme=SimpleNamespace(contact_law=law))
+    why = why_no_band(result, problem)
+    assert words in why and bool(why) == bool(words)
 
 
 class TestOfAWavyBall:

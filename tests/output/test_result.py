@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from mgehl.discretization.status import BOUNDARY, CONTACT, LUBRICATED
-from mgehl.output.result import Work
+from mgehl.output.result import EdgeResult, Work
 from mgehl.output.summary import summarise
 from mgehl.solver.outcome import Cycle, Outcome
 from mgehl.solver.partition import Changes
@@ -58,6 +58,13 @@ def touch(state, nodes):
         state.status[j, i], state.P[j, i], state.H[j, i] = CONTACT, 0.5, 0.0
 
 
+def test_what_newton_gave_up_is_not_converged(summary, outcome):
+    outcome.converged, outcome.reason = False, "residual 1.0 after 3 steps"
+    result = summary()
+    assert not result.converged
+    assert result.reason == "residual 1.0 after 3 steps"
+
+
 def test_a_violation_of_eq_2_is_not_converged(summary, outcome):
     """Contact under 0.5 amid fluid of 0.75: with all errors it is 0.734375 at the interface at the most."""
     outcome.state.P[1:-1, 1:-1], outcome.state.H[:] = 0.75, 0.0
@@ -71,9 +78,59 @@ def test_a_violation_of_eq_2_is_not_converged(summary, outcome):
     assert (at_nodes.checked, at_nodes.violations, at_nodes.worst) == (1, 1, 0.25)
 
 
+def test_a_pressure_that_falls_through_the_contact_breaks_eq_2_between_nodes_alone(summary, outcome):
+    outcome.state.P[2:-2, 2:-2] = np.linspace(0.7, 0.3, 5)
+    touch(outcome.state, [(4, 4)])
+    result = summary()
+    assert result.converged and result.pressure_inequality.violations == 0
+    assert (result.other_inequality.violations, result.other_inequality.checked) == (1, 1)
+
+
 def test_broken_complementarity_is_not_converged(summary, outcome):
     outcome.state.P[4, 4] = -1e-3
     result = summary()
     assert not result.converged
     assert "complementarity" in result.reason
     assert result.complementarity_error == pytest.approx(1e-3)
+
+
+def test_contact_is_described_with_nodes_counted_from_one(summary, outcome, tiny_problem):
+    mesh = tiny_problem.grid.mesh
+    i, j = mesh.nearest(0.0, 0.0)
+    assert (i, j) == (5, 4)
+    touch(outcome.state, [(j, i), (j, i - 1), (j - 1, i), (j + 1, i), (j + 2, i)])
+    outcome.state.H[j, i] = -1e-9
+    result = summary()
+    contact = result.contact
+    assert contact.nodes == 5
+    assert contact.x_nodes == (i, i + 1)
+    assert contact.y_nodes == (j, j + 3)
+    assert contact.area_fraction == pytest.approx(5 * mesh.dX * mesh.dY / np.pi)
+    nm = 1e9 * tiny_problem.contact.film_scale
+    assert contact.largest_gap_nm == pytest.approx(1e-9 * nm)
+    assert result.overlap.nodes == 0
+    assert result.max_pressure_GPa == pytest.approx(0.5e-9 * tiny_problem.contact.hertz.p_h)
+
+
+@pytest.mark.parametrize(
+    "edge, doubt, words",
+    [
+        (EdgeResult(0.0, 13, 337.0, 41, 43), "the bodies overlap", "13 nodes of the domain's boundary"),
+        (EdgeResult(0.2, 0, 0.0, 41, 43), "the domain cuts the contact", "is 20 % of the largest"),
+        (EdgeResult(0.0, 0, 0.0, 3, 43), "too few nodes", "3 nodes wide along x"),
+        (EdgeResult(0.0, 0, 0.0, 41, 1), "too few nodes", "1 nodes wide along y"),
+        (EdgeResult(0.0, 0, 0.0, 41, None), "", ""),
+    ],
+)
+def test_what_is_wrong_with_the_domain_is_said(edge, doubt, words):
+    """A solution of the equations in a domain that cuts the contact is no answer."""
+    short, long = edge.wrong
+    assert doubt in short and words in long and bool(short) == bool(doubt)
+
+
+def test_a_domain_that_cuts_the_contact_is_not_converged(summary, outcome):
+    """Pressure at a corner of the inner nodes."""
+    outcome.state.P[2:7, 2:7], outcome.state.P[1, 1] = 0.5, 0.25
+    result = summary()
+    assert result.settled and not result.converged
+    assert "SETTLED, BUT THE DOMAIN CUTS THE CONTACT: the pressure near" in str(result)

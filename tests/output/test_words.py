@@ -7,7 +7,7 @@ import pytest
 from test_files import make_result
 
 from mgehl.output.resolution import Resolution
-from mgehl.output.result import TimeResult
+from mgehl.output.result import InequalityResult, TimeResult
 from mgehl.output.words import FAILED, UNRESOLVED
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -46,3 +46,29 @@ class TestWhereToReadOn:
     @pytest.mark.parametrize("verdict", ["coarse", "grid-determined", "starved"])
     def test_of_a_film_that_is_not_resolved(self, verdict):
         assert str(make_result(resolution=Resolution(0.5, verdict))).splitlines()[-1] == f"  {UNRESOLVED}"
+
+
+class TestOfALoadedContact:
+    def test_what_most_want_to_know_is_shorter_but_keeps_the_warnings(self):
+        few, whole = (make_result().words(verbose) for verbose in (False, True))
+        assert set(few.splitlines()) < {line.split("; nodes")[0] for line in whole.splitlines()}
+        for part in (
+            "CONVERGED",
+            "12.0000 nm",
+            "contact: 3 nodes",
+            "inequality broken at 1 of 8",
+            "5.00 cells",
+        ):
+            assert part in few
+        for part in ("complementarity", "largest gap", "violated at node"):
+            assert part in whole and part not in few
+        none = InequalityResult(8, 0, 0.0, 1.5, [])
+        assert "inequality" not in make_result(pressure_inequality=none).words(verbose=False)
+
+    def test_a_node_that_can_be_neither_is_named_with_both_reasons(self):
+        node = {
+            "i": 7, "j": 9, "film_gap_nm": -0.6, "contact_pressure": -0.014,
+            "neighbours": ["lubricated", "cavitated", "lubricated", "contact"],
+        }  # fmt: skip
+        text = str(make_result(converged=False, settled=False, contradictions=[node]))
+        assert "node (7, 9): as film its gap is -6.00e-01 nm, as contact its pressure -1.40e-02 p_h" in text

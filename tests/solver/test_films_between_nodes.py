@@ -1,10 +1,12 @@
 """Films between the nodes, and of coarser grids."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 from mgehl.discretization.mesh import Mesh
-from mgehl.solver.films import smallest, value_at
+from mgehl.solver.films import Films, films_beside, smallest, value_at
 
 PLANE = Mesh(21, 17, (-1.9, 1.3), (-1.5, 1.4))
 LINE = Mesh(21, 1, (-1.9, 1.3), (0.0, 0.0))
@@ -33,3 +35,35 @@ def test_bottom_of_a_paraboloid_wherever_it_lies_between_the_nodes(X0, twist):
         return 0.25 + x**2 + 2.0 * y**2 + twist * x * y
 
     assert smallest(on(PLANE, bowl)) == pytest.approx(0.25, abs=1e-12)
+
+
+@pytest.mark.parametrize("where", [(0, 3), (4, 0), (2, 6)])
+def test_on_the_boundary_the_lowest_node_is_the_answer(where):
+    H = np.ones((5, 7))
+    H[where] = 0.5
+    assert smallest(H) == 0.5
+
+
+class TestBesideAFinerGrid:
+    """A bowl too narrow for the coarse grid, its bottom between nodes of both grids."""
+
+    def bowl(self, grid):
+        return 0.2 + 30.0 * np.abs(grid.X - 0.17) + (grid.Y - 0.04) ** 2
+
+    def test_the_smallest_gap_differs_by_what_the_gap_does_around_it(self, tiny_problem):
+        grid = tiny_problem.grid
+        of_finer = self.bowl(grid)
+        coarse = of_finer + 0.01 * (1.0 + grid.X)
+        beside = films_beside(tiny_problem, SimpleNamespace(H=coarse), Films(0.5, 0.2), of_finer)
+        _, i = np.unravel_index(np.argmin(of_finer), of_finer.shape)
+        assert beside.minimum == pytest.approx(0.2 + 0.01 * (1.0 + grid.X[0, i]), abs=1e-14)
+        assert beside.spread == pytest.approx(0.01 * grid.mesh.dX * 2.0**0.5, rel=1e-12)
+        assert beside.central == value_at(coarse, grid.mesh, 0.0, 0.0)
+
+    @pytest.mark.parametrize("lowest", [(4, 4), (0, 5), (8, 8)])
+    def test_of_the_same_film_it_is_the_same(self, tiny_problem, lowest):
+        """Also where the lowest node is on the boundary."""
+        H = np.ones(tiny_problem.grid.shape)
+        H[lowest] = 0.3
+        beside = films_beside(tiny_problem, SimpleNamespace(H=H), Films(0.5, 0.2), H)
+        assert (beside.minimum, beside.around, beside.spread) == (0.2, 0.0, 0.0)

@@ -3,9 +3,22 @@
 import numpy as np
 import pytest
 
+from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import BOUNDARY, CONTACT, LUBRICATED
 from mgehl.solver.gaps import differences, gaps, gaps_of, load_differences, loads
+
+
+def test_the_mean_is_that_of_the_nodes_within_the_ellipse_or_a_line_s_width():
+    """13 of 25 nodes, four of them on the ellipse; by pressure every node counts."""
+    distance = np.hypot.outer(np.arange(-2, 3), np.arange(-2, 3))
+    H = np.where(distance < 2.0, 2.0, np.where(distance == 2.0, 15.0, 9.0))
+    P = np.zeros((5, 5))
+    P[2, 2], P[0, 0] = 3.0, 1.0
+    found = gaps_of(Mesh(5, 5, (-1.0, 1.0), (-1.0, 1.0)), P, H)
+    assert (found.mean, found.loaded) == ((9 * 2.0 + 4 * 15.0) / 13, (3.0 * 2.0 + 9.0) / 4.0)
+    line = Mesh(5, 1, (-2.0, 2.0), (-2.0, 2.0))
+    assert gaps_of(line, np.ones((1, 5)), np.array([[9.0, 1.0, 2.0, 3.0, 9.0]])).mean == 2.0
 
 
 def test_of_a_state_and_its_differences_from_a_finer_grid_s(make_problem, paper_contact):

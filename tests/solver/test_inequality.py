@@ -4,7 +4,14 @@ import numpy as np
 import pytest
 
 from mgehl.discretization.status import CONTACT, LUBRICATED
-from mgehl.solver.inequality import SAFETY, Power, check_interface, check_pressure_inequality
+from mgehl.solver.inequality import (
+    SAFETY,
+    Power,
+    Violation,
+    check_interface,
+    check_pressure_inequality,
+    check_under_contact,
+)
 
 NODE = (4, 4)
 
@@ -88,3 +95,20 @@ class TestPressureInequality:
         state.P[NODE] = 0.1
         result = check_pressure_inequality(tiny_problem, state)
         assert (result.checked, result.violations) == (8, [])
+
+    def test_the_largest_of_several_neighbours_counts(self, tiny_problem, state):
+        """Its ratio is infinite where the contact beside it has no pressure."""
+        state.status[NODE], state.P[NODE] = CONTACT, 0.5
+        state.P[4, 3], state.P[4, 5], state.P[5, 4] = 0.6, 0.8, 0.7
+        result = check_pressure_inequality(tiny_problem, state)
+        assert [violation.size for violation in result.violations] == [pytest.approx(0.3)]
+        assert result.largest_ratio == 1.6
+        state.P[NODE] = 0.0
+        assert check_pressure_inequality(tiny_problem, state).largest_ratio == np.inf
+
+
+def test_under_contact_the_fluid_presses_no_harder_than_the_bodies(tiny_problem, state):
+    state.status[4, 3:5], state.P[4, 3:5] = CONTACT, 0.5
+    state.p[4, 3:6] = 0.25, 0.75, 2.0  # the last one is film
+    found = check_under_contact(tiny_problem, state)
+    assert (found.checked, found.violations) == (2, [Violation(5, 5, 0.25)])

@@ -4,20 +4,26 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from petsc4py import PETSc
 
 from mgehl.discretization.status import BOUNDARY, LUBRICATED
 from mgehl.solver.judge import (
+    GO_ON,
     IDLE_CIRCLE,
     IDLE_STUCK,
+    STALLS,
+    Verdict,
     goes_in_a_circle,
     is_stuck,
     judge,
+    judge_system,
+    judge_work,
     steps_since_lowered,
 )
 from mgehl.solver.outcome import Cycle
 from mgehl.solver.partition import RESTLESS, Changes, Partition
-from mgehl.solver.position import Position
-from mgehl.solver.problem import State
+from mgehl.solver.position import Position, Trial
+from mgehl.solver.problem import DIVERGED, State
 from mgehl.solver.recipe import IDLE as IDLE_STEPS
 from mgehl.solver.settings import NewtonSettings
 
@@ -32,21 +38,90 @@ def partition(tiny_problem):
 
 @pytest.fixture
 def make_position(tiny_problem, partition):
-    """Factory of the position of a film whose cycles have these residuals, the last one these changes."""
+    """Factory of the position of a film whose cycles have these residuals, the last one these changes, at a
+    trial of Eq. 2 until a step."""
 
-    def make(*residuals, changes=None):
+    def make(*residuals, changes=None, load=0.0, step=7, until=None, stalls=0):
         status = np.where(tiny_problem.boundary, BOUNDARY, LUBRICATED).astype(np.int8)
         state = State(np.zeros(status.shape), 0.0, np.ones(status.shape), status)
-        cycles = [Cycle(7, each, 0.0, 1.0, 1.0, 0, 0, changes or Changes()) for each in residuals]
-        return Position(state, partition.past, cycles)
+        cycles = [Cycle(step, each, load, 1.0, 1.0, 0, 0, changes or Changes()) for each in residuals]
+        trial = until and Trial(state.copy(), "settled before", 2, 2, until)
+        return Position(state, partition.past, cycles, trial=trial, stalls=stalls)
 
     return make
 
 
-def test_residual_load_and_sets_must_all_be_settled(partition, make_position):
-    assert judge(make_position(TOLERANCE), partition, LIMITS).converged
-    unsettled = make_position(2.0 * TOLERANCE), make_position(0.0, changes=Changes(filled=1))
-    assert not any(judge(each, partition, LIMITS).ends for each in unsettled)
+FILLED = Changes(filled=1)
+IDLE = [1.0, *IDLE_STEPS * [0.95]]
+VERDICTS = {
+    "settled": ([TOLERANCE], {"load": -TOLERANCE}, "residual, load and sets settled"),
+    "settled at the last step": ([TOLERANCE], {"step": 20}, "residual, load and sets settled"),
+    "residual": ([2.0 * TOLERANCE], {}, ""),
+    "load": ([0.0], {"load": -2.0 * TOLERANCE}, ""),
+    "sets": ([0.0], {"changes": FILLED}, ""),
+    "diverged": ([DIVERGED], {}, "diverged: residual "),
+    "no number": ([np.nan], {}, "diverged: residual nan"),
+    "last step": ([1e-3], {"step": 20}, "residual 1.0e-03 after 20 steps"),
+    "last step, sets": ([0.0], {"step": 20, "changes": FILLED}, "sets still change after 20 steps"),
+    "last step of a trial": ([1e-3], {"until": 7}, "residual 1.0e-03 after 7 steps"),
+    "trial": ([1e-3], {"until": 8}, ""),
+    "unsolved": ([1e-3], {"stalls": STALLS}, "3 linear systems in 7 steps could not be solved"),
+    "nearly unsolved": ([1e-3], {"stalls": STALLS - 1}, ""),
+    "idle": (IDLE, {}, f"residual 9.5e-01 after 7 steps: the last {IDLE_STEPS} did not lower it"),
+    "nearly idle": (IDLE[:-1], {}, ""),
+    "falls slowly": ([0.98**k for k in range(40)], {}, ""),
+    "waits for its sets": ((IDLE_STEPS + 3) * [TOLERANCE], {"changes": FILLED}, ""),
+    "idle trial": (IDLE, {"until": 14}, ""),
+}
+
+
+@pytest.mark.parametrize("residuals, given, reason", VERDICTS.values(), ids=VERDICTS)
+def test_the_verdict_on_a_position(partition, make_position, residuals, given, reason):
+    found = judge(make_position(*residuals, **given), partition, LIMITS)
+    assert found.ends == bool(reason) and found.reason.startswith(reason)
+    assert found.converged == reason.endswith("sets settled")
+
+
+@pytest.mark.parametrize("nodes, spreads", [([4, 8, 8, 12, 10], False), ([4, 8, 8, 12, 10, 11], True)])
+def test_contact_that_spreads_in_so_many_steps_ends_it_where_that_is_asked(
+    partition, make_position, nodes, spreads
+):
+    position = make_position(1e-3)
+    position.cycles = [replace(position.cycles[0], contact_nodes=each) for each in nodes]
+    assert judge(position, partition, replace(LIMITS, spreading_steps=3)).ends == spreads
+    assert not judge(position, partition, LIMITS).ends
+
+
+@pytest.mark.parametrize("work, ends", [(99.9, False), (100.0, True)])
+def test_too_many_convolutions_end_what_would_go_on(work, ends):
+    assert judge_work(GO_ON, work, 100).ends == ends
+    settled = Verdict(True, True, "settled")
+    assert judge_work(settled, work, 100) is settled
+
+
+def test_a_linear_system_ends_a_solve_where_it_is_singular_and_a_trial_where_it_is_not_solved(
+    make_position,
+):
+    reasons, found = PETSc.KSP.ConvergedReason, []
+    for until in (None, 15):
+        position = make_position(1e-3, until=until)
+        for reason in (reasons.CONVERGED_RTOL, reasons.DIVERGED_MAX_IT, reasons.DIVERGED_NANORINF):
+            found.append(judge_system(reason, position).ends)
+    assert found == [False, False, True, False, True, True]
+
+
+@pytest.mark.parametrize(
+    "residuals, stuck",
+    [
+        ([1.0, 1.2, 0.95], True),
+        ([1.0, 0.99], False),
+        ([1.0, 0.99, 0.5], False),
+        ([1.0, 0.5, 0.99], False),
+        ([9.0, 1.0, 0.99, 0.9], False),
+    ],
+)
+def test_two_steps_that_gain_nothing_are_stuck(make_position, residuals, stuck):
+    assert is_stuck(make_position(*residuals), True) == stuck
 
 
 def test_sets_that_cycle_name_their_nodes(partition, make_position):
@@ -96,6 +171,8 @@ class TestIdleSteps:
 
 def test_a_step_in_time_need_not_wait_for_sets_that_no_residual_tells_apart(partition, make_position):
     """By the settings of a steady solve the same position goes on."""
+    certain = replace(LIMITS, certain=TOLERANCE)
     position = make_position(0.1 * TOLERANCE, changes=Changes(entered=1))
-    assert judge(position, partition, replace(LIMITS, certain=TOLERANCE)).converged
+    assert judge(position, partition, certain).converged
     assert not judge(position, partition, LIMITS).ends
+    assert not judge(make_position(0.1 * TOLERANCE, load=1.0), partition, certain).ends

@@ -1,11 +1,11 @@
-"""The paper's single-loop relaxation: a sweep against the printed equations, runs against Newton."""
+"""The paper's single-loop relaxation: steps of a sweep, runs against Newton."""
+
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from mgehl.discretization.contact_law import InterfaceConditions
-from mgehl.discretization.fluid import fluid_state
-from mgehl.discretization.influence import influence_coefficients
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import BOUNDARY, LUBRICATED
 from mgehl.solver.nested import single_loop
@@ -29,37 +29,41 @@ def rough(problem):
     return State(P, 0.0, H, status)
 
 
-def influence(problem):
-    """D_k,0 of the paper."""
-    return influence_coefficients(problem.grid.mesh, problem.contact.kernel, 0, 1)[0]
+WHOLE_WAY = RelaxationSettings(omega=1.0, contact_share=1.0, max_sweeps=1, load_every=1000)
+"""One sweep that takes every node all of the way to its new pressure."""
 
 
-def printed(problem, state, node):
-    """(alpha, beta, gamma, phi) of [Liu eqs. 37, 52] at a film node, y flows as in [Liu eq. 35].
+def swept(problem, state, settings=WHOLE_WAY):
+    """The state after the sweeps from `state`, which is not changed."""
+    return relax(problem, state.copy(), settings, lambda sweep: None).state
 
-    Terms of a face beside contact (H <= 0) are left out, whatever flows through it.
-    """
-    (j, i), mesh, D = node, problem.grid.mesh, influence(problem)
-    P, H = state.P, state.H
-    fluid = fluid_state(P, H, problem.contact, problem.scheme.contact_law)
-    rho, west, east = fluid.rho, float(H[j, i - 1] > 0.0), float(H[j, i + 1] > 0.0)
-    dX = mesh.dX
-    eps_west = west * 0.5 * (fluid.eps[j, i - 1] + fluid.eps[j, i])
-    eps_east = east * 0.5 * (fluid.eps[j, i] + fluid.eps[j, i + 1])
-    out, into = east * rho[j, i], west * rho[j, i - 1]
-    alpha = eps_west / dX**2 - (out * D[1] - into * D[0]) / dX
-    beta = -(eps_west + eps_east) / dX**2 - out * D[0] / dX
-    gamma = eps_east / dX**2 - (out * D[1] - into * D[2]) / dX
-    phi = (
-        out * (H[j, i] - D[1] * P[j, i - 1] - D[0] * P[j, i] - D[1] * P[j, i + 1])
-        - into * (H[j, i - 1] - D[0] * P[j, i - 1] - D[2] * P[j, i + 1])
-    ) / dX
-    for other in (j - 1, j + 1) if not mesh.is_line else ():
-        if H[other, i] > 0.0:
-            across = 0.5 * (fluid.eps[j, i] + fluid.eps[other, i]) * (mesh.k_e / mesh.dY) ** 2
-            beta -= across
-            phi -= across * P[other, i]
-    return alpha, beta, gamma, phi
+
+def test_film_goes_omega_of_the_way_and_contact_its_share_of_that(problem):
+    """P_new = P + omega (P_new - P): the sign of [Liu eq. 53] mended."""
+    state = rough(problem)
+    state.H[4, 4] = -0.01  # overlap: the sweep takes it for contact
+    whole = swept(problem, state).P - state.P
+    part = swept(problem, state, replace(WHOLE_WAY, omega=0.2, contact_share=0.25)).P - state.P
+    factor = np.where(state.H > 0.0, 0.2, 0.05)
+    np.testing.assert_allclose(part, factor * whole, rtol=1e-10, atol=1e-15)
+
+
+def test_tension_is_cut_where_the_film_may_tear(problem, make_problem):
+    state = rough(problem)
+    state.P *= 0.01
+    free = swept(problem, state).P
+    assert free.min() < 0.0
+    np.testing.assert_allclose(swept(make_problem(nodes=9), state).P, np.maximum(free, 0.0), atol=1e-15)
+
+
+@pytest.mark.parametrize("every, sweeps, corrected", [(1, 1, True), (2, 1, False), (2, 2, True)])
+def test_bodies_approach_while_the_load_is_too_small(problem, every, sweeps, corrected):
+    """[Liu eq. 54]: H0 - omega_w (2 pi/3 - sum P dX dY), every few sweeps."""
+    settings = replace(WHOLE_WAY, omega=1e-3, load_factor=0.25, load_every=every, max_sweeps=sweeps)
+    new, mesh = swept(problem, rough(problem), settings), problem.grid.mesh
+    missing = 2.0 * np.pi / 3.0 - mesh.dX * mesh.dY * new.P.sum()
+    assert missing > 0.0
+    assert new.H0 == pytest.approx(-0.25 * missing if corrected else 0.0, rel=1e-12)
 
 
 class TestRuns:

@@ -5,13 +5,15 @@ import pytest
 from mpi4py import MPI
 
 from mgehl.config import config_from_tables
+from mgehl.discretization.status import CONTACT
+from mgehl.errors import UserError
 from mgehl.grid.hierarchy import Hierarchy
 from mgehl.kinds import contact_from, mesh_from
 from mgehl.model.frame import Frame
 from mgehl.run import solve
 from mgehl.solver.from_config import settings_from
 from mgehl.solver.problem import ContactProblem
-from mgehl.solver.restart import interpolated
+from mgehl.solver.restart import check_start, interpolated
 from mgehl.studies.study import PAPERS_DOMAIN, papers_grid
 
 FILM = {"motion": {"speed": 0.5}, "grid": papers_grid(65), "solver": {"start": "film"}}
@@ -69,6 +71,20 @@ class TestInterpolated:
         np.testing.assert_allclose(state.P[::2, 1::2], between, rtol=0.0, atol=1e-13)
         np.testing.assert_allclose(state.H, problem.gap(state.P, film.H0), rtol=0.0, atol=1e-12)
 
+    def test_outside_of_what_was_solved_there_is_no_pressure(self, film, onto):
+        state, problem = onto(film, FILM, {"grid": {"x": [-4.0, 2.0]}})
+        x = problem.grid.mesh.X
+        outside = (x < film.mesh.X[0]) | (x > film.mesh.X[-1])
+        assert outside.sum() > 20 and not state.P[:, outside].any()
+        assert state.P.max() == pytest.approx(film.fields.P.max(), rel=0.05)
+
+    def test_contact_stays_contact(self, onto):
+        dry = solved(DRY)
+        state, problem = onto(dry, DRY, {"grid": papers_grid(129)})
+        share = np.count_nonzero(state.status == CONTACT) / np.count_nonzero(dry.fields.status == CONTACT)
+        assert share == pytest.approx(4.0, rel=0.03)
+        assert not (state.status[problem.boundary] == CONTACT).any()
+
 
 class TestSolveFrom:
     """Its answer is that of a start from nothing, found in fewer steps, all on the finest grid."""
@@ -104,6 +120,11 @@ class TestSolveFrom:
         assert started.result.converged
         np.testing.assert_allclose(started.fields.H, plain.fields.H, rtol=0.0, atol=1e-6)
         assert started.rows[-1]["speed_mm_s"] == 4000.0
+
+
+def test_a_contact_of_another_kind_is_no_start(film):
+    with pytest.raises(UserError, match="a point is no start for a line"):
+        check_start(film, "line")
 
 
 def test_what_tells_another_contact_is_named():

@@ -4,9 +4,19 @@ import pytest
 
 from mgehl.solver.richardson import (
     FASTER,
+    IRREGULAR,
     SAFETY,
+    SLOWEST,
+    SMALLEST,
+    SPREADS,
+    UNLIKE,
+    WIDER,
     band,
+    band_beside,
+    band_of_smallest,
+    believed,
     by_chance,
+    observed_order,
 )
 
 
@@ -19,6 +29,8 @@ def values(limit, order, error, grids):
 def test_where_errors_fall_by_the_order_the_error_is_told_and_a_part_added(order):
     films = values(30.0, order, 0.4, 3)
     assert band(films[0], films, 0.0, order).half_width == pytest.approx((1.0 + SAFETY) * 0.4)
+    unlike = band(films[0], films, 0.0, order, unlike=True)
+    assert unlike.half_width == pytest.approx((1.0 + UNLIKE) * 0.4)
 
 
 def test_the_known_answer_of_three_grids():
@@ -33,3 +45,47 @@ def test_a_difference_that_is_small_by_chance_does_not_make_a_small_band():
     expected = 2.01 / 2.0 ** (2 + FASTER) / 3.0
     assert band(10.0, films, 0.0, 2).half_width > expected
     assert by_chance(2, -0.01, 2.01) == pytest.approx(expected - 0.01 / 3.0)
+
+
+def test_slower_convergence_than_the_schemes_is_believed_down_to_a_part():
+    assert believed(2, 1.6) == 1.6
+    assert believed(2, 2.7) == 2
+    assert believed(2, None) == 2
+    assert believed(2, 2 * SLOWEST - 0.01) == 2
+
+
+@pytest.mark.parametrize("order, part", [(1.9, SAFETY), (2.4, SAFETY), (1.4, IRREGULAR)])
+def test_more_is_added_where_three_grids_show_another_order(order, part):
+    films = [10.0, 9.0, 9.0 - 2.0**order]
+    error = 1.0 / (2.0 ** believed(2, order) - 1.0)
+    assert band(10.0, films, 0.0, 2).half_width == pytest.approx((1.0 + part) * error)
+
+
+def test_no_order_is_seen_where_differences_change_their_sign():
+    assert observed_order(1.0, -2.0) is None
+    assert observed_order(1.0) is None
+    assert observed_order(-1.0, -4.0) == 2.0
+
+
+def test_films_that_agree_by_chance_do_not_make_a_band_of_nothing():
+    assert band(10.0, [10.0, 10.0, 10.0], 0.0, 2).half_width == pytest.approx(SMALLEST * 10.0)
+
+
+class TestTheSmallestGap:
+    """Errors of 0.4, of second order, that differ by 0.3 from node to node."""
+
+    @pytest.mark.parametrize("unlike, wider", [(False, 1.0), (True, WIDER)])
+    def test_its_safety_is_the_spread_of_the_difference(self, unlike, wider):
+        films = values(30.0, 2, 0.4, 3)
+        told = band_of_smallest(films[0], films, 0.9, 2, unlike)
+        assert told.half_width == pytest.approx(0.4 + wider * SPREADS * 0.3)
+        assert told.observed_order == pytest.approx(2.0)
+
+    def test_it_is_never_nothing(self):
+        assert band_of_smallest(10.0, [10.0, 10.0], 0.0, 2).half_width == pytest.approx(SMALLEST * 10.0)
+
+
+def test_films_by_a_better_scheme_tell_the_limit_and_how_far_that_is_from_them():
+    """Of second order, with errors of 0.3 and 1.2: the limit is 30, and 0.5 from the film."""
+    assert band_beside(30.5, [30.3, 31.2], 2).half_width == pytest.approx(0.5 + 0.3)
+    assert band_beside(30.5, [30.3], 2).half_width == pytest.approx(0.2)

@@ -15,14 +15,15 @@ from scipy.integrate import quad
 
 import mgehl
 from mgehl.config import config_from_tables
+from mgehl.discretization.contact_law import BoundaryFilm
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.scheme import Scheme
-from mgehl.discretization.status import BOUNDARY, LUBRICATED
+from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
 from mgehl.grid.grid import single_grid
 from mgehl.model.hertz import hertz_pressure
 from mgehl.model.rheology import Eyring, Friction, Limiting
 from mgehl.solver.problem import ContactProblem, Problem, State
-from mgehl.solver.shear import rolling_force, shear_of
+from mgehl.solver.shear import film_shear, rolling_force, shear_of, solid_shear
 
 SPEED, FILM, STRESS = 0.5, 100e-9, 5e6
 SLIDING = 0.1
@@ -94,6 +95,26 @@ def test_a_rigid_slider_without_pressure_is_exact(paper_contact, make_problem):
     found = shear_of(problem, state)
     assert found.film_force == pytest.approx(0.096 * SLIDING / FILM * area, rel=1e-13)
     assert found.rolling_force == 0.0
+
+
+def test_a_cavity_resists_as_far_as_it_is_filled(paper_contact, make_problem):
+    problem = make_problem(sliding(paper_contact, Friction()))
+    state = uniform_film(problem)
+    state.status[30, 30], state.p[30, 30], state.filling[30, 30] = CAVITATED, 0.0, 0.25
+    assert film_shear(problem, state)[30, 30] == pytest.approx(0.25 * 0.096 * SLIDING / FILM)
+
+
+@pytest.mark.parametrize("law, carried", [(CLOSING.contact_law, 0.8), (BoundaryFilm(1e-6), 0.3)])
+def test_solids_resist_by_what_they_carry(paper_contact, make_problem, law, carried):
+    """P where contact closes its faces, P - p where the fluid in it has a pressure of its own."""
+    problem = make_problem(
+        sliding(paper_contact, Friction(boundary_coefficient=0.1)), 65, Scheme(contact_law=law)
+    )
+    state = uniform_film(problem)
+    state.status[30, 30], state.P[30, 30], state.p[30, 30], state.H[30, 30] = CONTACT, 0.8, 0.5, 0.0
+    stress = solid_shear(problem, state)
+    assert stress[30, 30] == pytest.approx(0.1 * carried * problem.contact.hertz.p_h)
+    assert np.count_nonzero(stress) == 1 and film_shear(problem, state)[30, 30] == 0.0
 
 
 def test_rolling_of_a_full_film_is_the_load_upstream_of_the_centre(paper_contact, make_hierarchy):

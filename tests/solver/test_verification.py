@@ -3,14 +3,19 @@
 import numpy as np
 import pytest
 
+from mgehl.discretization.contact_law import BoundaryFilm
+from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
 from mgehl.solver.problem import State
 from mgehl.solver.verification import (
     NEAR,
     check_edge,
+    closed_face_flow,
     complementarity_error,
     flux_imbalance,
 )
+
+NODE = (4, 4)
 
 
 class TestEdge:
@@ -49,6 +54,29 @@ class TestEdge:
         assert (edge.overlapping, edge.largest_overlap) == (1, 0.125)
 
 
+class TestClosedFaceFlow:
+    """What an untreated Couette flow leaks: 1B carries rho H of the node on the left."""
+
+    @pytest.fixture
+    def leaky_problem(self, make_problem):
+        return make_problem(nodes=9, scheme=Scheme(couette_at_interface="untreated"))
+
+    def test_without_contact_no_face_is_closed(self, leaky_problem, state):
+        assert closed_face_flow(leaky_problem, leaky_problem.evaluate(state)) == 0.0
+
+    def test_the_largest_flow_through_a_closed_face_counts(self, tiny_problem, leaky_problem, state):
+        state.status[NODE] = CONTACT
+        state.H[4, 3], state.H[NODE], state.H[4, 6] = 1.5, 0.25, 3.0
+        assert (
+            closed_face_flow(leaky_problem, leaky_problem.evaluate(state)) == 1.5
+        )  # through the west face, not 3 farther on
+        state.H[4, 3] = 0.125
+        assert (
+            closed_face_flow(leaky_problem, leaky_problem.evaluate(state)) == 0.25
+        )  # through the east face, of the solid itself
+        assert closed_face_flow(tiny_problem, tiny_problem.evaluate(state)) == 0.0
+
+
 class TestComplementarity:
     @pytest.fixture
     def balanced(self, state):
@@ -65,11 +93,71 @@ class TestComplementarity:
             tiny_problem, balanced, tiny_problem.evaluate(balanced)
         ) == pytest.approx(0.25)
 
-    def test_flow_into_the_cavity(self, tiny_problem, balanced):
-        balanced.H[4, 6] = 0.7  # receives 1, passes 0.7 on
+    def test_pressure_in_the_cavity(self, tiny_problem, balanced):
+        balanced.P[4, 6] = 1e-9
+        assert complementarity_error(tiny_problem, balanced, tiny_problem.evaluate(balanced)) >= 1e-9
+
+    def test_a_cavity_that_holds_more_than_its_gap(self, tiny_problem, balanced):
+        """What flows in flows out: 1.25 from the film before, and from each cavity."""
+        balanced.H[:, 4], balanced.filling[1:-1, 5:-1] = 1.25, 1.25
+        error = complementarity_error(tiny_problem, balanced, tiny_problem.evaluate(balanced))
+        assert error == pytest.approx(0.25, rel=1e-12)
+
+    def test_contact_that_presses_less_than_the_fluid_in_its_layers(self, make_problem, state):
+        """Of one pressure everywhere, with no fluid above the layers: nothing flows."""
+        problem = make_problem(nodes=9, scheme=Scheme(contact_law=BoundaryFilm(0.5)))
+        state.P[:] = state.p[:] = state.H[:] = 0.5
+        state.status[NODE], state.P[NODE] = CONTACT, 0.25
+        assert complementarity_error(problem, state, problem.evaluate(state)) == pytest.approx(0.25)
+
+    @pytest.mark.parametrize("node, gap", [(6, 0.7), (7, 1.3)])
+    def test_flow_into_the_cavity_or_out_of_it(self, tiny_problem, balanced, node, gap):
+        balanced.H[4, node] = gap  # receives 1, passes its gap on
         assert complementarity_error(
             tiny_problem, balanced, tiny_problem.evaluate(balanced)
         ) == pytest.approx(0.3, rel=1e-12)
+
+    @pytest.mark.parametrize("gap", [0.125, -0.125])
+    def test_contact_with_a_gap_or_an_overlap(self, tiny_problem, balanced, gap):
+        balanced.status[4, 2], balanced.H[4, 2] = CONTACT, gap
+        assert complementarity_error(
+            tiny_problem, balanced, tiny_problem.evaluate(balanced)
+        ) == pytest.approx(0.125)
+
+    def test_film_where_the_bodies_overlap(self, tiny_problem, balanced):
+        balanced.H[4, 2] = -0.125
+        assert complementarity_error(
+            tiny_problem, balanced, tiny_problem.evaluate(balanced)
+        ) == pytest.approx(0.125)
+
+    def test_fluid_shut_in(self, tiny_problem, balanced):
+        balanced.status[4, 1] = balanced.status[4, 3] = CONTACT
+        balanced.H[4, 1] = balanced.H[4, 3] = 0.0
+        assert complementarity_error(tiny_problem, balanced, tiny_problem.evaluate(balanced)) >= 1.0
+
+
+class TestFluxImbalance:
+    """Without pressure a face passes the gap of its upstream node (1B)."""
+
+    @pytest.fixture
+    def widening(self, state):
+        state.H[:] = 1.0 + 0.1 * np.arange(9)
+        return state
+
+    def test_film_up_to_the_edges_of_the_domain(self, tiny_problem, widening):
+        # In through the first face 1.0, out through the last 1.7.
+        assert flux_imbalance(tiny_problem, tiny_problem.evaluate(widening)) == pytest.approx(0.7)
+
+    def test_film_that_ends_at_a_cavity(self, tiny_problem, widening):
+        widening.status[1:-1, 5:-1] = CAVITATED
+        assert flux_imbalance(tiny_problem, tiny_problem.evaluate(widening)) == pytest.approx(0.4)
+
+    def test_contact_lets_nothing_through(self, tiny_problem, widening):
+        widening.status[1:-1, 5] = CONTACT
+        # Film before the contact takes in 1.0; film behind it passes 1.7 on without any supply.
+        assert flux_imbalance(tiny_problem, tiny_problem.evaluate(widening)) == pytest.approx(0.7)
+        widening.status[1:-1, 5:-1] = CONTACT
+        assert flux_imbalance(tiny_problem, tiny_problem.evaluate(widening)) == pytest.approx(1.0)
 
 
 @pytest.mark.parametrize("couette", ["1B", "2B", "2C", "S2C"])

@@ -14,6 +14,14 @@ def on_nodes(surface, x, y):
 
 
 class TestWaviness:
+    def test_it_is_the_product_of_cosines_in_its_own_axes(self):
+        waves = Waviness(2e-7, 1e-4, 3e-4, angle=30.0, x=1e-5, y=-2e-5)
+        x, y = np.array([0.0, 3e-5, -8e-5]), np.array([1e-5, 0.0, 2e-4])
+        c, s = np.cos(np.pi / 6), np.sin(np.pi / 6)
+        along, across = c * (x - 1e-5) + s * (y + 2e-5), c * (y + 2e-5) - s * (x - 1e-5)
+        expected = 2e-7 * np.cos(2 * np.pi * along / 1e-4) * np.cos(2 * np.pi * across / 3e-4)
+        np.testing.assert_allclose(waves.height(x, y), expected, rtol=0, atol=1e-21)
+
     def test_without_one_length_nothing_changes_that_way(self):
         ridges = Waviness(2e-7, None, 1e-4)
         assert ridges.height(0.0, 0.0) == 2e-7
@@ -22,6 +30,18 @@ class TestWaviness:
 
 
 class TestDentAndRidge:
+    def test_a_dent_is_deepest_in_its_middle_and_has_a_shoulder(self):
+        dent = Dent(1e-6, 1e-4, x=2e-5, y=-1e-5)
+        assert dent.height(2e-5, -1e-5) == -1e-6
+        assert dent.height(6e-5, -1e-5) > 0.0
+        half = -1e-6 * 10.0**-0.4 * np.cos(0.4 * np.pi)
+        assert dent.height(2e-5, 1e-5) == pytest.approx(half)
+
+    def test_a_ridge_is_a_peak_and_the_same_along_itself(self):
+        ridge, c, s = Ridge(1e-6, 1e-4, angle=30.0), np.cos(np.pi / 6), 0.5
+        assert ridge.height(-s, c) == pytest.approx(1e-6) and abs(ridge.height(c * 1e-4, s * 1e-4)) < 1e-15
+        assert not ridge.varies_along((-s, c)) and ridge.varies_along((c, s))
+
     @pytest.mark.parametrize("surface", [Dent(1e-6, 1e-4), Ridge(1e-6, 1e-4, angle=90.0)])
     def test_the_shortest_wave_bends_as_the_middle_does(self, surface):
         h, y = 1e-8, np.array([-1e-8, 0.0, 1e-8])

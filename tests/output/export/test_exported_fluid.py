@@ -1,10 +1,13 @@
 """The fluid's own pressure, the filling of cavities and heights in every format; none of older results."""
 
+import json
+
 import numpy as np
 import pytest
 import xarray
 from made_solution import make_solution
 
+from mgehl.errors import OutputError
 from mgehl.output.export.export import export
 
 
@@ -38,6 +41,27 @@ def test_they_read_back_to_the_bit(solution, tmp_path, form, units):
     np.testing.assert_array_equal(found[f"fluid_pressure{units[0]}"].ravel(), pressure.ravel())
     np.testing.assert_array_equal(found["filling"].ravel(), solution.fields.filling.ravel())
     np.testing.assert_array_equal(found[f"heights{units[1]}"].ravel(), solution.heights.ravel())
+    for name, unit in (("pressure", units[0]), ("film", units[1])):
+        np.testing.assert_array_equal(found[f"{name}{unit}"].ravel(), getattr(solution, name).ravel())
+
+
+def test_a_table_has_a_row_for_each_node_and_an_archive_the_units_of_X_and_the_result(solution, tmp_path):
+    """What of the result is no number is null: valid JSON."""
+    object.__setattr__(solution.result, "residual", np.nan)
+    export(solution, {form: tmp_path / f"a.{form}" for form in ("csv", "npz")})
+    table, archive = (read(tmp_path / f"a.{form}") for form in ("csv", "npz"))
+    x, y = np.meshgrid(solution.x, solution.y)
+    np.testing.assert_array_equal([table["x_m"], table["y_m"]], [x.ravel(), y.ravel()])
+    for name in ("P", "H", "status"):
+        np.testing.assert_array_equal(archive[name], getattr(solution.fields, name))
+    assert archive["status_names"][archive["status"]].ravel().tolist() == table["status"].tolist()
+    assert json.loads(str(archive["result"]), parse_constant=pytest.fail)["residual"] is None
+
+
+def test_a_filling_that_is_not_finite_is_not_exported(solution, tmp_path):
+    solution.fields.filling[0, 0] = np.nan
+    with pytest.raises(OutputError, match="filling of this run is not finite at 1 nodes"):
+        export(solution, {"csv": tmp_path / "a.csv"})
 
 
 def test_paraview_has_them(solution, tmp_path):
