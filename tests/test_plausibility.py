@@ -15,7 +15,7 @@ from mgehl.kinds import check_contact, contact_from
         (["contact.radius_y=100", "contact.radius_x=0.001"], "contact.radius_y"),
         (["contact.load=1e9"], "contact.load"),
         (["contact.reduced_modulus=1e6"], "contact.load"),
-        (["lubricant.pressure_viscosity=1e-6"], "lubricant.pressure_viscosity"),
+        (["lubricant.pressure_viscosity=1e-7"], "lubricant.pressure_viscosity"),
         (["grid.x=[-1.000001, 1.000001]"], "grid.x"),
         (["motion.speed=1000"], "grid.x"),
         (["moes.M=1e7", "moes.L=100"], "moes.M"),
@@ -63,6 +63,7 @@ class TestTheInletLiesUpstream:
 
 LINE, WEDGE = "contact.kind=line", "contact.kind=wedge"
 SQUARE = (WEDGE, "wedge.pillar=square")
+POCKET = ("wedge.pocket_depth=1 um", "wedge.pocket_from=30 mm", "wedge.pocket_to=30.1 mm")
 
 
 @pytest.mark.parametrize(
@@ -80,6 +81,7 @@ SQUARE = (WEDGE, "wedge.pillar=square")
         ([*SQUARE, "wedge.pillar_size=1e-5"], "wedge.pillar_size = 1e-05: ", ["at least 2 cells"]),
         ([WEDGE, "grid.nodes=65", "wedge.exit=1e-5"], "wedge.exit = 1e-05: ", ["2 cells", "65 nodes"]),
         ([WEDGE, "wedge.width=1e-5"], "wedge.width = 1e-05: ", ["within a factor of 100"]),
+        ([WEDGE, "grid.nodes=65", *POCKET], "wedge.pocket_to = 0.0301: ", ["at least 2 cells", "65 nodes"]),
     ],
 )
 def test_lines_and_wedges_are_checked_too(settings, start, words):

@@ -11,7 +11,7 @@ from test_files import make_result
 from mgehl.config import config_from_tables
 from mgehl.output.film_error import GridFilm, from_grids, why_no_band
 from mgehl.output.resolution import Resolution
-from mgehl.output.result import ContactResult, Overlap
+from mgehl.output.result import ContactResult, EdgeResult, Overlap
 from mgehl.run import solve
 from mgehl.solver.richardson import SAFETY, SPREADS_OF_TWO, UNSEEN, UNSEEN_UNLIKE, WIDER
 from mgehl.studies.study import papers_grid
@@ -61,6 +61,7 @@ class TestWhetherThereIsOne:
             ({"settled": False}, "not settled"),
             ({"contact": replace(NO_CONTACT, nodes=3)}, "solid contact"),
             ({"overlap": Overlap(2, 0.1)}, "overlap"),
+            ({"edge": EdgeResult(0.2, 0, 0.0, 41, 43)}, "the domain cuts the contact"),
             ({"resolution": Resolution(0.7, "grid-determined")}, "less than a cell"),
             (
                 {"resolution": Resolution(5.0, "resolved", surface="grid-determined", surface_nodes=2.5)},
@@ -90,6 +91,11 @@ class TestHowWideItIs:
             and "touches at 4" in error.how
         )
         assert error.minimum_nm == pytest.approx(hypot(1.0 + SAFETY, WIDER * SPREADS_OF_TWO * 0.3))
+
+    def test_so_does_an_inlet_that_has_less_than_a_cell_there(self, film):
+        coarse = replace(film, resolution=Resolution(1.5, "coarse"))
+        assert "on 65 nodes the inlet has less than a cell" in from_grids(coarse, grids(10.0, 7.0), 2).how
+        assert "wider" not in from_grids(film, grids(10.0, 7.0), 2).how
 
 
 class TestOfRuns:

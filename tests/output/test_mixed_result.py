@@ -104,6 +104,7 @@ def test_solids_carry_what_the_fluid_under_them_does_not(contact, nodes):
     nodes.P[4, 7] = nodes.p[4, 7] = 0.25
     found = measured(contact, MESH, nodes)
     assert found.solid_load_fraction == pytest.approx(1.5 * 0.125 / contact.load_integral)
+    assert found.contact_load_share == pytest.approx(2.0 * 0.125 / contact.load_integral)
 
 
 def test_the_filling_is_that_of_cavities_within_the_ellipse(contact, nodes):

@@ -37,7 +37,7 @@ def test_bottom_of_a_paraboloid_wherever_it_lies_between_the_nodes(X0, twist):
     assert smallest(on(PLANE, bowl)) == pytest.approx(0.25, abs=1e-12)
 
 
-@pytest.mark.parametrize("where", [(0, 3), (4, 0), (2, 6)])
+@pytest.mark.parametrize("where", [(0, 3), (2, 0), (2, 6)])
 def test_on_the_boundary_the_lowest_node_is_the_answer(where):
     H = np.ones((5, 7))
     H[where] = 0.5

@@ -5,7 +5,7 @@ import pytest
 from mpi4py import MPI
 
 from mgehl.config import config_from_tables
-from mgehl.discretization.status import CONTACT
+from mgehl.discretization.status import CAVITATED, CONTACT
 from mgehl.errors import UserError
 from mgehl.grid.hierarchy import Hierarchy
 from mgehl.kinds import contact_from, mesh_from
@@ -70,12 +70,15 @@ class TestInterpolated:
         between = 0.5 * (film.fields.P[:, 1:] + film.fields.P[:, :-1])
         np.testing.assert_allclose(state.P[::2, 1::2], between, rtol=0.0, atol=1e-13)
         np.testing.assert_allclose(state.H, problem.gap(state.P, film.H0), rtol=0.0, atol=1e-12)
+        torn = film.fields.status == CAVITATED
+        assert torn.any() and (state.status[::2, ::2][torn] == CAVITATED).all()
 
     def test_outside_of_what_was_solved_there_is_no_pressure(self, film, onto):
         state, problem = onto(film, FILM, {"grid": {"x": [-4.0, 2.0]}})
         x = problem.grid.mesh.X
         outside = (x < film.mesh.X[0]) | (x > film.mesh.X[-1])
         assert outside.sum() > 20 and not state.P[:, outside].any()
+        assert (state.filling[:, outside] == 1.0).all()
         assert state.P.max() == pytest.approx(film.fields.P.max(), rel=0.05)
 
     def test_contact_stays_contact(self, onto):

@@ -15,7 +15,7 @@ from scipy.integrate import quad
 
 import mgehl
 from mgehl.config import config_from_tables
-from mgehl.discretization.contact_law import BoundaryFilm
+from mgehl.discretization.contact_law import BoundaryFilm, UnifiedEquations
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
@@ -115,6 +115,16 @@ def test_solids_resist_by_what_they_carry(paper_contact, make_problem, law, carr
     stress = solid_shear(problem, state)
     assert stress[30, 30] == pytest.approx(0.1 * carried * problem.contact.hertz.p_h)
     assert np.count_nonzero(stress) == 1 and film_shear(problem, state)[30, 30] == 0.0
+
+
+def test_bodies_that_overlap_resist_as_solids(paper_contact, make_problem):
+    law = UnifiedEquations()
+    problem = make_problem(sliding(paper_contact, Friction()), 65, Scheme(contact_law=law))
+    state = uniform_film(problem)
+    state.H[30, 30] = -0.1
+    stress = solid_shear(problem, state)
+    assert stress[30, 30] == pytest.approx(0.1 * state.P[30, 30] * problem.contact.hertz.p_h)
+    assert np.count_nonzero(stress) == 1
 
 
 def test_rolling_of_a_full_film_is_the_load_upstream_of_the_centre(paper_contact, make_hierarchy):
