@@ -98,6 +98,14 @@ class TestPartitioned:
         assert np.all(fine[status == kind] > 0.0)
         np.testing.assert_array_equal(fine[status == other], 0.0)
 
+    def test_constant_contact_residual_comes_out_halved(self, partitioned, status, coarse_status):
+        coarse = partitioned.restrict(np.where(status == CONTACT, 4.0, 0.0))
+        np.testing.assert_allclose(coarse[coarse_status == CONTACT], 2.0, rtol=1e-13)
+
+    def test_constant_contact_correction_stays_constant(self, partitioned, status, coarse_status):
+        fine = partitioned.prolong(np.where(coarse_status == CONTACT, 5.0, 0.0))
+        np.testing.assert_allclose(fine[status == CONTACT], 5.0, rtol=1e-13)
+
     def test_frozen_film_has_no_part_in_it(self, transfer, status, coarse_status):
         """Its pressure is given: what it has is neither gathered nor corrected."""
         rows, coarse_rows = (rows_of(each, frozen=each == LUBRICATED) for each in (status, coarse_status))

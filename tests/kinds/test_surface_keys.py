@@ -35,6 +35,17 @@ def test_a_peak_lowers_the_gap():
     assert lower * ridged.film_scale == pytest.approx(1e-6)
 
 
+def test_surfaces_add_up(tmp_path):
+    (tmp_path / "mine.py").write_text("def up(x, y): return 3e-6 + 0 * x * y")
+    both = config_of(surface=RIDGE, second_surface=WAVES, contact={"surface": f"{tmp_path}/mine.py:up"})
+    assert contact_from(both).surface.height(0.0, 0.0) == pytest.approx(1e-6 + 50e-9 + 3e-6)
+
+
+def test_waves_may_be_along_y_alone():
+    waves = {"kind": "waviness", "amplitude": 5e-8, "wavelength_y": 6e-5}
+    assert contact_from(config_of(surface=waves)).surface.height(1e-5, 3e-5) == pytest.approx(-5e-8)
+
+
 REFUSED = {
     "no source": ({"hurst": 0.5}, "surface.hurst = 0.5: means nothing without surface.kind or"),
     "two sources": (DENT | {"file": "z.npy"}, "surface.kind = 'dent': means nothing with surface.file"),
@@ -82,6 +93,13 @@ class TestFile:
     def file(self, tmp_path):
         np.save(tmp_path / "z.npy", np.zeros((65, 65)))
         return {"file": str(tmp_path / "z.npy"), "height_unit": "nm", "spacing": "20 um"}
+
+    def test_by_its_keys(self, file):
+        place = {"x": "1 um", "y": "2 um", "angle": 90}
+        surface = contact_from(config_of(surface=file | place | {"spacing_y": "30 um"})).surface
+        assert (surface.x, surface.y, surface.angle) == pytest.approx((1e-6, 2e-6, 90.0))
+        assert (surface.preparation.dx, surface.preparation.dy) == pytest.approx((20e-6, 30e-6))
+        assert surface.preparation.height_unit == 1e-9
 
     def test_a_file_smaller_than_the_contact_needs_a_continuation(self, file):
         small = file | {"spacing": "10 um"}

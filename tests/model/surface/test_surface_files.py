@@ -129,6 +129,20 @@ class TestPreparation:
         kept = self.of(tmp_path, form + 0.0 * self.wave)
         np.testing.assert_array_equal(kept, form + 0.0 * self.wave)
 
+    def test_the_tilt_is_that_of_the_nearest_plane(self, tmp_path):
+        np.save(tmp_path / "z.npy", 3.0 + self.x - 2 * self.y + 0.0 * self.wave)
+        for remove, tilt in (("nothing", 4.0), ("tilt", 0.0)):
+            told = Preparation(height_unit=1.0, dx=1e-6, remove=remove)
+            found = Measured(str(tmp_path / "z.npy"), told).heights.tilt
+            assert found == pytest.approx(tilt, abs=1e-12)
+
+    def test_half_of_a_wave_of_the_cut_off_s_length_is_left(self, tmp_path):
+        told = {"continuation": "periodic"}
+        short = self.of(tmp_path, self.wave, shortest_wavelength=8e-6, **told)
+        np.testing.assert_allclose(short, 0.5 * self.wave, rtol=0, atol=2e-3 * 1e-8)
+        long = self.of(tmp_path, 1.0 + self.wave, longest_wavelength=8e-6, **told)
+        np.testing.assert_allclose(long, 0.5 * self.wave, rtol=0, atol=2e-3 * 1e-8)
+
     def test_a_changed_file_is_read_anew(self, tmp_path):
         assert self.of(tmp_path, self.wave).max() == pytest.approx(1e-8)
         np.save(tmp_path / "z.npy", 2.0 * self.wave)
@@ -194,10 +208,41 @@ def test_what_is_no_text_of_heights(tmp_path, name):
     assert words in refusal(tmp_path / "z.txt", height_unit=1e-6, position_unit=1e-6, **spacing)
 
 
+UNTOLD = {
+    "no unit of height": ({"dx": 1e-6}, "does not tell the unit of its heights"),
+    "no spacing": ({"height_unit": 1e-6}, "does not tell how far apart its points are"),
+}
+
+
+@pytest.mark.parametrize("told, words", UNTOLD.values(), ids=UNTOLD)
+def test_what_the_file_does_not_tell_must_be_given(tmp_path, told, words):
+    assert words in refusal(npy(tmp_path / "z.npy"), **told)
+
+
 def test_positions_need_a_unit(tmp_path):
     assert "does not tell the unit of its positions" in refusal(
         points(tmp_path / "z.xyz"), height_unit=1e-6
     )
+
+
+NPZ = {
+    "x of another length": ({"x": X[1:], "y": Y}, "has 24 values of x for 25 points along x"),
+    "x alone": ({"x": X}, "tells dx alone"),
+    "unequal": ({"x": X**3, "y": Y}, "its spacing along x is not equal"),
+    "zero size": ({"x": 0.0 * X, "y": Y}, "its size along x is zero"),
+    "zero steps": ({"dx": 0.0, "dy": 1.0}, "dx = 0: its size is zero"),
+    "an unknown unit": ({"unit": "furlong"}, "height_unit = 'furlong': must be one of m, mm"),
+}
+
+
+@pytest.mark.parametrize("more, words", NPZ.values(), ids=NPZ)
+def test_what_is_no_archive_of_heights(tmp_path, more, words):
+    assert words in refusal(npz(tmp_path / "z.npz", **more))
+
+
+def test_an_archive_without_a_matrix(tmp_path):
+    np.savez(tmp_path / "z.npz", a=X, b=Y)
+    assert "has no array named 'heights'; its arrays are a, b" in refusal(tmp_path / "z.npz")
 
 
 def test_a_file_that_is_not_there(tmp_path):

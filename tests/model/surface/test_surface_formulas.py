@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mgehl.model.surface import Dent, Ridge, SelfAffine, Surface, Waviness
+from mgehl.model.surface import Dent, Ridge, SelfAffine, Surface, Waviness, summed
 
 ROUGH = SelfAffine(1e-7, 10e-6, 200e-6, hurst=0.8, seed=3)
 HEIGHTS = [-4.740181670e-08, 8.682899262e-08, -1.219055291e-07]
@@ -99,6 +99,16 @@ class TestSelfAffine:
         steps = [np.diff(heights, axis=axis).std() for axis in (0, 1)]
         assert heights.std() == pytest.approx(1e-7, rel=1e-12)
         assert steps[across] > 4.0 * steps[along]
+
+
+def test_surfaces_add_up():
+    parts = Waviness(2e-7, 1e-4, None), Ridge(1e-6, 2e-4)
+    both, x = summed(parts), np.linspace(-1e-4, 1e-4, 7)
+    np.testing.assert_array_equal(both.height(x, 0.0), parts[0].height(x, 0.0) + parts[1].height(x, 0.0))
+    assert both.shortest(x, x) == parts[0].shortest(x, x) < parts[1].shortest(x, x)
+    turned = summed((parts[0], Ridge(1e-6, 2e-4, angle=90.0)))
+    assert turned.varies_along((0.0, 1.0)) and not both.varies_along((0.0, 1.0))
+    assert summed([ROUGH]) is ROUGH and summed([]) is None
 
 
 class Plain(Surface):
