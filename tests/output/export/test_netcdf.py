@@ -8,6 +8,7 @@ import xarray
 from made_solution import SHAPES, make_solution
 
 from mgehl.config import load_config
+from mgehl.discretization.status import NAMES
 from mgehl.output.export.netcdf import write_netcdf
 from mgehl.version import VERSION
 
@@ -62,6 +63,26 @@ def test_fields_and_coordinates_to_the_bit(kind, opened):
         assert data[name].dtype == values.dtype
     assert (data.film.dims, data.film.shape) == (("y", "x"), SHAPES[kind])
     assert (data.x.attrs["axis"], data.y.attrs["axis"]) == ("X", "Y")
+
+
+def test_the_status_has_flags(opened):
+    _, data = opened("point")
+    flags = data.status.attrs
+    assert flags["flag_values"].dtype == data.status.dtype
+    meanings = dict(zip(flags["flag_values"].tolist(), flags["flag_meanings"].split(), strict=True))
+    assert meanings == dict(enumerate(NAMES))
+
+
+@pytest.mark.parametrize("kind", ["point", "line"])
+def test_scalars_of_a_loaded_contact(kind, opened):
+    solution, data = opened(kind)
+    contact, result = solution.contact, solution.result
+    assert float(data.speed) == contact.speed and float(data.normal_load) == contact.load
+    assert float(data.central_film) == 1e-9 * result.central_film_nm
+    assert float(data.minimum_film) == 1e-9 * result.minimum_film_nm
+    assert float(data.maximum_pressure) == 1e9 * result.max_pressure_GPa
+    for name in ("group_U", "group_W", "group_G", "moes_M", "moes_L"):
+        assert float(data[name]) == getattr(contact.groups, name[-1])
 
 
 @every_kind
