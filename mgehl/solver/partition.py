@@ -131,17 +131,16 @@ class Partition:
         """Set negative pressures to zero in place: fluid cavitates, contact is released."""
         P, status = state.P, state.status
         torn, tensile = self.tension(P, status)
-        P[torn] = np.where(self._whose_turn(torn, -P), P, 0.0)[torn]
-        torn &= P < 0.0
+        opened = self._whose_turn(torn, -P)
         self.past.torn_pressure[tensile] = P[tensile]
         self.past.turns += tensile & self._contact_law.closes_faces
         P[torn | tensile] = 0.0
         # Bodies that are torn apart leave an empty gap: a cavity, until fluid flows in.
-        status[torn | tensile] = CAVITATED
-        state.filling[torn], state.filling[tensile] = 1.0, 0.0
+        status[opened | tensile] = CAVITATED
+        state.filling[opened], state.filling[tensile] = 1.0, 0.0
         self.past.just_released = tensile
         self.past.was_released |= tensile
-        changes.cavitated += self._grid.count(torn)
+        changes.cavitated += self._grid.count(opened)
         changes.released += self._grid.count(tensile)
 
     def enter_contact(self, state, changes):

@@ -14,6 +14,7 @@ from mpi4py import MPI
 from pocket_reference import case as pocket_case
 
 from mgehl.config import config_from_tables
+from mgehl.discretization.contact_law import BoundaryFilm
 from mgehl.discretization.residual import Linearisation
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
@@ -24,6 +25,7 @@ from mgehl.run import Watch
 from mgehl.run import solve as solve_config
 from mgehl.solver.inequality import check_pressure_inequality
 from mgehl.solver.nested import single_loop
+from mgehl.solver.partition import Changes, Partition
 from mgehl.solver.problem import ContactProblem, State
 from mgehl.solver.relaxation import RelaxationSettings
 from mgehl.solver.settings import NestedSettings, SolverSettings
@@ -178,6 +180,22 @@ class TestSolutions:
         assert sorted((v.i, v.j, v.size) for v in serial.violations) == sorted(
             (v.i, v.j, v.size) for v in result.violations
         )
+
+    def test_neighbours_on_two_ranks_change_in_turn(self, pair, paper_contact):
+        """Film that is torn everywhere, somewhere by more than around it."""
+        found = []
+        for problem in (problem_of(each, paper_contact()) for each in pair(nodes=65)):
+            grid, scheme = problem.grid, replace(problem.scheme, contact_law=BoundaryFilm(1e-3))
+            problem.scheme, partition = scheme, Partition(problem, 0)
+            partition.in_turn = True
+            torn = -np.abs(random(grid))
+            status = np.where(problem.boundary, BOUNDARY, LUBRICATED).astype(np.int8)
+            state = State(lines(grid, torn), 0.0, np.ones(grid.shape), status)
+            partition.cut_tension(state, changes := Changes())
+            found.append((whole(grid, state.status), changes.total))
+        (status, total), (serial, expected) = found
+        np.testing.assert_array_equal(status, serial)
+        assert 100 < total == expected < 63**2 // 4
 
 
 class TestRelaxation:
