@@ -103,17 +103,21 @@ class TestKill:
         study = ("study", "transition", "--grid", "65", "--out", str(directory))
         return [sys.executable, "-c", self.SCRIPT, *study, *more]
 
+    def finished(self, study):
+        """Their fields.h5; a run that is published has finished when its checkpoint has gone."""
+        there = (study / "runs").glob("*/fields.h5")
+        return [path for path in there if not (path.parent / "checkpoint").exists()]
+
     def test_what_was_finished_is_not_lost(self, tmp_path):
         """Killed with some points done, gone on with: the table of a study that was left alone."""
         killed, alone = tmp_path / "killed", tmp_path / "alone"
         child = subprocess.Popen(self.command(killed), start_new_session=True, stdout=subprocess.DEVNULL)
-        points = killed / "runs"
         deadline = time.monotonic() + 300.0
-        while time.monotonic() < deadline and len(list(points.glob("*/fields.h5"))) < 2:
+        while time.monotonic() < deadline and len(self.finished(killed)) < 2:
             time.sleep(0.02)
         os.killpg(child.pid, signal.SIGKILL)
         child.wait()
-        done = {path: path.stat().st_mtime_ns for path in points.glob("*/fields.h5")}
+        done = {path: path.stat().st_mtime_ns for path in self.finished(killed)}
         assert 2 <= len(done) < 6 and not (killed / "transition-65.csv").exists()
         subprocess.run(self.command(killed, "--resume"), check=True, stdout=subprocess.DEVNULL)
         subprocess.run(self.command(alone), check=True, stdout=subprocess.DEVNULL)
