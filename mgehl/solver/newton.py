@@ -18,7 +18,15 @@ from mgehl.multigrid.jacobian import LinearSystem
 from mgehl.solver.arbiter import RELEASE_STEPS, Ruling, rule
 from mgehl.solver.cavitation import relax_cavitation_set
 from mgehl.solver.journal import NOTHING_KEPT
-from mgehl.solver.judge import UNSOLVED, goes_in_a_circle, is_stuck, judge, judge_system, judge_work
+from mgehl.solver.judge import (
+    IN_TURN_TOLERANCE,
+    UNSOLVED,
+    SetsChange,
+    how_sets_change,
+    judge,
+    judge_system,
+    judge_work,
+)
 from mgehl.solver.layers import FluidInLayers
 from mgehl.solver.outcome import Cycle, Outcome
 from mgehl.solver.partition import Changes, Partition
@@ -52,6 +60,7 @@ class Newton:
         self._snes.setTolerances(atol=settings.tolerance, rtol=0.0, max_it=settings.max_steps)
         multigrid.configure(self._snes.getKSP(), settings.linear_tolerance)
         self._snes.setFromOptions()
+        self._linear_tolerance = self._snes.getKSP().getTolerances()[0]  # PETSc's options may give another
         if self._snes.getType() != PETSc.SNES.Type.PYTHON:
             self.free()
             raise OptionError(f"-{options_prefix}snes_type: the solver is the SNES type python, no other")
@@ -138,8 +147,8 @@ class Newton:
     def _settle(self):
         """Bring the fluid, its cavities and their pressures to rest at the present gap."""
         problem, state, changes = self._problem, self._position.state, self._position.changes
-        by_film = self._settings.by_film
-        self._partition.in_turn = goes_in_a_circle(self._position, by_film)
+        how = how_sets_change(self._position, self._settings.by_film)
+        self._partition.in_turn = how is SetsChange.IN_TURN
         if self._fluid:
             before = state.status.copy()
             reached = self._position.cycles[-1].residual if self._position.cycles else 1.0
@@ -148,7 +157,7 @@ class Newton:
             changes.cavitated += problem.grid.count(before != state.status)
         else:
             evaluation, moved = problem.evaluate(state), 0
-            if not (self._partition.in_turn or is_stuck(self._position, by_film)):
+            if how is SetsChange.AT_REST:
                 moved = relax_cavitation_set(problem, state, evaluation)
             changes.cavitated += moved
             self._evaluate(None if moved else evaluation)
@@ -213,6 +222,8 @@ class Newton:
         self._system = LinearSystem(rows, rates)
         snes.computeJacobian(x, *ksp.getOperators())
         self._leave_out_the_layers(F)
+        finely = min(self._linear_tolerance, IN_TURN_TOLERANCE)
+        ksp.setTolerances(rtol=finely if self._partition.in_turn else self._linear_tolerance)
         with linear_solve():
             ksp.solve(self._rhs, self._correction)
         self._multigrid.forget()

@@ -12,9 +12,9 @@ from mgehl.solver.judge import (
     IDLE_CIRCLE,
     IDLE_STUCK,
     STALLS,
+    SetsChange,
     Verdict,
-    goes_in_a_circle,
-    is_stuck,
+    how_sets_change,
     judge,
     judge_system,
     judge_work,
@@ -121,7 +121,8 @@ def test_a_linear_system_ends_a_solve_where_it_is_singular_and_a_trial_where_it_
     ],
 )
 def test_two_steps_that_gain_nothing_are_stuck(make_position, residuals, stuck):
-    assert is_stuck(make_position(*residuals), True) == stuck
+    found = how_sets_change(make_position(*residuals), True)
+    assert found is (SetsChange.AT_ONCE if stuck else SetsChange.AT_REST)
 
 
 def test_sets_that_cycle_name_their_nodes(partition, make_position):
@@ -136,8 +137,9 @@ def test_many_steps_that_gain_nothing_are_stuck_though_one_wins_back_what_anothe
     residuals = [1.0, 12.0, 10.0, 8.0, 6.0, 5.0]
     for steps in (IDLE_STUCK, IDLE_STUCK + 1):
         position = make_position(*residuals[:steps])
-        assert not is_stuck(position, True)
-        assert is_stuck(position, False) == (steps > IDLE_STUCK)
+        assert how_sets_change(position, True) is SetsChange.AT_REST
+        of_a_film = SetsChange.AT_ONCE if steps > IDLE_STUCK else SetsChange.AT_REST
+        assert how_sets_change(position, False) is of_a_film
 
 
 @pytest.mark.parametrize("by_film", [True, False])
@@ -147,7 +149,8 @@ def test_sets_are_taken_for_a_circle_after_some_steps_in_vain(make_position, by_
     for steps in (IDLE_CIRCLE, IDLE_CIRCLE + 1):
         residuals = [1.0, 12.0, 0.95, 8.0, 6.0, 5.0, 4.0, 3.0, 2.0][:steps]
         position.cycles[:] = [make_position(each).cycles[0] for each in residuals]
-        assert goes_in_a_circle(position, by_film) == (by_film and steps > IDLE_CIRCLE)
+        in_turn = how_sets_change(position, by_film) is SetsChange.IN_TURN
+        assert in_turn == (by_film and steps > IDLE_CIRCLE)
 
 
 class TestIdleSteps:
