@@ -8,6 +8,7 @@ import pytest
 
 from mgehl.discretization.status import CAVITATED, LUBRICATED
 from mgehl.model.lubricant import Barus
+from mgehl.solver.judge import IN_TURN_TOLERANCE, SetsChange
 from mgehl.solver.nested import first_guess
 from mgehl.solver.newton import Newton
 
@@ -100,6 +101,25 @@ class TestItAsksSnes:
         cycles = newton.run(first_guess(problem, "film")).cycles
         told = [(cycle.step, cycle.residual) for cycle in cycles]
         assert seen == [*told, told[-1]]
+
+
+@pytest.mark.parametrize("asked", [0.1, 1e-4])
+@pytest.mark.parametrize("how", SetsChange)
+def test_linear_systems_are_solved_finely_where_neighbours_change_in_turn(
+    make_newton, monkeypatch, how, asked
+):
+    """And never more coarsely than was asked."""
+    found = []
+
+    class Watched(Newton):
+        def solve(self, snes, b, x):
+            super().solve(snes, b, x)
+            found.append(snes.getKSP().getTolerances()[0])
+
+    monkeypatch.setattr("mgehl.solver.newton.how_sets_change", lambda position, by_film: how)
+    problem, newton = make_newton(kind=Watched, max_steps=2, linear_tolerance=asked)
+    newton.run(first_guess(problem, "film"))
+    assert found == [min(asked, IN_TURN_TOLERANCE) if how is SetsChange.IN_TURN else asked]
 
 
 RAISES_INSIDE = """
