@@ -58,6 +58,8 @@ def test_default_configuration_is_the_point_contact():
         ("lubricant.pressure_viscosity=18.2 GPa⁻¹", 18.2e-9),
         ("lubricant.conductivity=0.14 W/(m K)", 0.14),
         ("lubricant.conductivity=0.14 W/(m·K)", 0.14),
+        ("lubricant.conductivity=0.14 W/mK", 0.14),
+        ("lubricant.conductivity=0.14 W/m K", 0.14),
         ("contact.reduced_modulus=226e3 N/mm²", 226e9),
         ("discretization.film_threshold=0.2 angstrom", 0.02e-9),
         ("discretization.film_threshold=0", 0.0),
