@@ -32,7 +32,7 @@ _PRINTED = (
     (re.compile(r"\b(m?)Pas\b"), lambda m: f"{m[1]}Pa*s"),
     (re.compile(r"\b([WJ]) */ *(m|kg)[ *]*K\b"), lambda m: f"{m[1]}/{m[2]}/K"),
 )
-"""How data sheets print units that pint reads in another form: mPa·s, mm²/s, W/(m K), mPas, W/mK, J/kg K."""
+"""How data sheets print units that pint reads in another form: mPa·s, mm²/s, W/(m K), mPas, W/mK."""
 
 EXAMPLES = {"K": "60 degC", "rad/s": "6000 rpm"}
 """Values of units that people seldom say in SI."""

@@ -7,7 +7,7 @@ from mgehl.kinds import settled
 from mgehl.kinds.loaded import heat_words, lambda_words
 from mgehl.output import surface
 from mgehl.output.resolution import RESOLVED_CELLS
-from mgehl.solver.beginning import NOR_FROM_A_FILM
+from mgehl.solver.beginning import NOR
 
 MOST = 3
 """Most pieces of advice that are given."""
@@ -51,7 +51,7 @@ def _tries(solution):
             f"{RESOLVED_CELLS:g}; mgehl check says how many nodes that takes"
         )
     yield OTHER[config.solver.start]
-    if NOR_FROM_A_FILM not in result.reason:
+    if NOR not in result.reason:
         yield "--start-from RUN: from a run at a higher speed that converged; so step by step down"
     yield f"solver.max_steps: more than {config.solver.max_steps}, where the residual still falls"
 

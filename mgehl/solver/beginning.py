@@ -1,18 +1,19 @@
 """The way to a solution where there is none to begin with."""
 
 from dataclasses import replace
+from functools import partial
 
 from mgehl.solver.continuation import SPEED_RATIO, Continuation
 from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.nested import nested_iteration
-from mgehl.solver.recipe import TOUCHING, needs_a_walk, recipe_of
+from mgehl.solver.recipe import DRY, TOUCHING, needs_a_walk, recipe_of
 
 COVERED = 1.5
 """Film of smooth bodies over the roughness from which on a walk down in speed may begin: more than 1, or
 its first solve would begin from the dry contact, too. Other values were not tried."""
 
-NOR_FROM_A_FILM = "nor from a thick film"
-"""What the reason of a failure says where both ways were tried."""
+NOR = "; nor from"
+"""Begins, in the reason of a failure, what is said of every other way that was tried."""
 
 
 def begin(hierarchy, contact, settings, monitor, journal=NOTHING_KEPT):
@@ -27,19 +28,36 @@ def begin(hierarchy, contact, settings, monitor, journal=NOTHING_KEPT):
 
 
 def _begin_touching(hierarchy, contact, settings, monitor, journal):
-    """The same where peaks touch: from the dry contact, and where that fails from a thick film."""
+    """The same where peaks touch: where one way fails, another.
+
+    Of 8 contacts that no film led to (5 rollers, 3 slow balls) 3 are found from the dry contact.
+    """
     problem, outcome = nested_iteration(hierarchy, contact, settings, monitor, journal)
-    if outcome.converged or not recipe_of(settings, contact).or_from_thick_film:
+    recipe = recipe_of(settings, contact)
+    if outcome.converged or not recipe.or_otherwise:
         return problem, outcome
-    news = f"not found from the dry contact: {outcome.reason}; now from a thick film"
+    others = {"the dry contact without oil": begin_dry, "a thick film": begin_thick}
+    reason = outcome.reason
+    for where, way in others.items():
+        if way is begin_dry and recipe.begins == DRY:
+            continue
+        news = f"not found: {reason}; now from {where}"
+        tell = partial(_with_news, monitor, news)
+        found, last = way(hierarchy, contact, settings, tell, journal)
+        if last.converged:
+            return found, last
+        reason += f"{NOR} {where}: {last.reason}"
+    return problem, replace(outcome, reason=reason)
 
-    def tell(level, cycle):
-        monitor(replace(level, news=news), cycle)
 
-    slowed, last = begin_thick(hierarchy, contact, settings, tell, journal)
-    if last.converged:
-        return slowed, last
-    return problem, replace(outcome, reason=f"{outcome.reason}; {NOR_FROM_A_FILM}: {last.reason}")
+def _with_news(monitor, news, level, cycle):
+    monitor(replace(level, news=news), cycle)
+
+
+def begin_dry(hierarchy, contact, settings, monitor, journal=NOTHING_KEPT):
+    """Solve from the dry contact, its valleys empty: near to where solids carry nearly all."""
+    settings = replace(settings, nested=replace(settings.nested, start=DRY))
+    return nested_iteration(hierarchy, contact, settings, monitor, journal)
 
 
 def begin_thick(hierarchy, contact, settings, monitor, journal=NOTHING_KEPT):

@@ -148,7 +148,7 @@ class Newton:
         """Bring the fluid, its cavities and their pressures to rest at the present gap."""
         problem, state, changes = self._problem, self._position.state, self._position.changes
         how = how_sets_change(self._position, self._settings.by_film)
-        self._partition.in_turn = how is SetsChange.IN_TURN
+        self._in_turn = how is SetsChange.IN_TURN
         if self._fluid:
             before = state.status.copy()
             reached = self._position.cycles[-1].residual if self._position.cycles else 1.0
@@ -161,9 +161,7 @@ class Newton:
                 moved = relax_cavitation_set(problem, state, evaluation)
             changes.cavitated += moved
             self._evaluate(None if moved else evaluation)
-        filled = changes.filled
-        self._partition.fill(state, changes)
-        if changes.filled > filled:
+        if self._partition.fill(state, changes, self._in_turn):
             self._partition.fit(state)
             self._evaluation = problem.evaluate(state)
 
@@ -223,7 +221,7 @@ class Newton:
         snes.computeJacobian(x, *ksp.getOperators())
         self._leave_out_the_layers(F)
         finely = min(self._linear_tolerance, IN_TURN_TOLERANCE)
-        ksp.setTolerances(rtol=finely if self._partition.in_turn else self._linear_tolerance)
+        ksp.setTolerances(rtol=finely if self._in_turn else self._linear_tolerance)
         with linear_solve():
             ksp.solve(self._rhs, self._correction)
         self._multigrid.forget()
@@ -254,12 +252,9 @@ class Newton:
         state.P -= length * dP
         state.H0 -= length * dH0
         state.filling -= length * (c - dP)
-        self._partition.cut_tension(state, changes)
+        self._partition.cut_tension(state, changes, self._in_turn)
         state.H = problem.gap(state.P, state.H0) if H is None else H
-        self._partition.enter_contact(state, changes)
-        self._partition.open_contact(state, changes)
-        self._partition.fill(state, changes)
-        self._partition.fit(state)
+        self._partition.follow_gap(state, changes, self._in_turn)
         position.step = replace(position.step, length=length)
 
     def _conclude(self, snes, x, verdict, ruling):

@@ -102,15 +102,16 @@ class Past(Kept):
 
 
 class Partition:
-    """Moves nodes of a state between the sets; `past`, which may be replaced, is what they went through."""
+    """Moves nodes of a state between the sets; `past`, which may be replaced, is what they went through.
+
+    With `in_turn` neighbours whose signs are wrong change in turn, and not at once.
+    """
 
     def __init__(self, problem, release_budget):
         self._problem, self._grid = problem, problem.grid
         self._contact_law = problem.scheme.contact_law
         self._budget = release_budget
         self.past = self.nothing_past()
-        self.in_turn = False
-        """Whether neighbours whose signs are wrong change in turn, and not at once."""
 
     def nothing_past(self):
         """The `Past` of nodes before the first step."""
@@ -127,11 +128,18 @@ class Partition:
         torn = negative & (status == LUBRICATED) & self._problem.scheme.cavitation
         return torn, negative & (status == CONTACT)
 
-    def cut_tension(self, state, changes):
+    def follow_gap(self, state, changes, in_turn):
+        """After a step moved the gap: gaps close, contact that its fluid lifts opens, cavities fill."""
+        self.enter_contact(state, changes)
+        self.open_contact(state, changes, in_turn)
+        self.fill(state, changes, in_turn)
+        self.fit(state)
+
+    def cut_tension(self, state, changes, in_turn=False):
         """Set negative pressures to zero in place: fluid cavitates, contact is released."""
         P, status = state.P, state.status
         torn, tensile = self.tension(P, status)
-        opened = self._whose_turn(torn, -P)
+        opened = self._that_change(torn, -P, in_turn)
         self.past.torn_pressure[tensile] = P[tensile]
         self.past.turns += tensile & self._contact_law.closes_faces
         P[torn | tensile] = 0.0
@@ -184,29 +192,31 @@ class Partition:
         contact = (state.status == CONTACT) & (not self.asks_eq_2)
         state.p = np.where(contact, np.maximum(state.p, 0.0), state.P)
 
-    def fill(self, state, changes):
-        """Cavities whose content is more than the gap holds become film."""
+    def fill(self, state, changes, in_turn=False):
+        """Cavities whose content is more than the gap holds become film; return how many."""
         filled = overflows(state) & self._contact_law.takes_fluid(state.H)
-        filled = self._whose_turn(filled, state.filling)
+        filled = self._that_change(filled, state.filling, in_turn)
         state.status[filled] = LUBRICATED
-        changes.filled += self._grid.count(filled)
+        count = self._grid.count(filled)
+        changes.filled += count
+        return count
 
-    def open_contact(self, state, changes):
+    def open_contact(self, state, changes, in_turn=False):
         """Contact that leaves its faces open becomes film where the fluid would press harder than it."""
         if self._contact_law.closes_faces:
             return
         excess = state.p - state.P - np.maximum(-self._lifted(state), 0.0)
-        opened = self._whose_turn((state.status == CONTACT) & (excess > 0.0), excess)
+        opened = self._that_change((state.status == CONTACT) & (excess > 0.0), excess, in_turn)
         state.status[opened] = LUBRICATED
         self.past.just_released |= opened
         changes.released += self._grid.count(opened)
 
-    def _whose_turn(self, asked, excess):
+    def _that_change(self, asked, excess, in_turn):
         """Of the nodes that are `asked` to change those that do so now, all (lines, nx) (collective).
 
         All of them, or each whose `excess` no neighbour that is asked surpasses.
         """
-        if not self.in_turn:
+        if not in_turn:
             return asked
         largest = maximum_filter(self._grid.halo(np.where(asked, excess, 0.0)), size=3)
         return asked & (excess >= own(largest))

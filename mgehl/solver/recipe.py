@@ -85,8 +85,9 @@ class Recipe:
     """Its first guess."""
     on_coarse_grids: bool
     """Whether it begins on coarse grids, at speeds that they resolve."""
-    or_from_thick_film: bool
-    """Whether it begins anew at a speed whose film covers the peaks, where the first way fails."""
+    or_otherwise: bool
+    """Whether it begins anew where the first way fails: from the dry contact, then at a speed whose film
+    covers the peaks."""
     fluid_apart: bool
     """Whether fluid beside contact is solved at each gap by itself."""
     newton: NewtonSettings
@@ -107,7 +108,7 @@ def recipe_of(settings, contact, begins=None):
         # that of any film. From the dry contact a film twice as thick as the roughness takes twice the
         # work, and one three times as thick is not found (random balls, 257 nodes).
         on_coarse_grids=start == FILM and not touching and settings.method != "relaxation",
-        or_from_thick_film=start == FILM and touching,
+        or_otherwise=start == FILM and touching,
         fluid_apart=closed and law.closes_faces,
         newton=_newton(settings, contact, in_time=closed or touching),
         cycle=replace(settings.cycle, rough=rough, in_valleys=peaks in (NEAR, TOUCHING)),
@@ -141,7 +142,7 @@ def _first_guess(start, law, contact):
     would open and close for ever (a ball of 100 nm rms at 0.1 m/s: 60 steps without an end, 14 from the
     thin film). Where the film is thin beside the layers, solids carry nearly all.
     """
-    if start == A_STATE:
+    if start in (A_STATE, DRY):
         return start
     if contact.expected_film / contact.film_scale < BESIDE_LAYERS * law.contact_gap:
         return DRY

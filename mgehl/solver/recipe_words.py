@@ -47,8 +47,8 @@ def recipe_words(recipe, at_rest=False):
     yield f"contact {law.words}"
     grids = "coarse grids first" if recipe.on_coarse_grids else "on the finest grid alone"
     yield f"begins {AT_REST if at_rest else f'{BEGINS[recipe.begins]}, {grids}'}"
-    if recipe.or_from_thick_film:
-        yield "where that fails, from a film that covers the peaks, slowed down"
+    if recipe.or_otherwise:
+        yield "where that fails, from the dry contact, then from a film that covers the peaks, slowed down"
     if recipe.fluid_apart:
         yield "fluid beside contact is solved at each gap, apart from the linear systems"
     yield _steps(newton)
@@ -77,7 +77,7 @@ def plain(recipe):
         "contact": recipe.scheme.contact_law.words,
         "begins": recipe.begins,
         "on_coarse_grids": recipe.on_coarse_grids,
-        "or_from_thick_film": recipe.or_from_thick_film,
+        "or_otherwise": recipe.or_otherwise,
         "fluid_apart": recipe.fluid_apart,
         **newton,
         "smoother": "in valleys" if recipe.cycle.in_valleys else "by lines",

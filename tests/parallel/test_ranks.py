@@ -187,11 +187,10 @@ class TestSolutions:
         for problem in (problem_of(each, paper_contact()) for each in pair(nodes=65)):
             grid, scheme = problem.grid, replace(problem.scheme, contact_law=BoundaryFilm(1e-3))
             problem.scheme, partition = scheme, Partition(problem, 0)
-            partition.in_turn = True
             torn = -np.abs(random(grid))
             status = np.where(problem.boundary, BOUNDARY, LUBRICATED).astype(np.int8)
             state = State(lines(grid, torn), 0.0, np.ones(grid.shape), status)
-            partition.cut_tension(state, changes := Changes())
+            partition.cut_tension(state, changes := Changes(), in_turn=True)
             found.append((whole(grid, state.status), changes.total))
         (status, total), (serial, expected) = found
         np.testing.assert_array_equal(status, serial)

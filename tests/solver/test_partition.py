@@ -1,5 +1,7 @@
 """The rules of the partition, on 9 x 9 nodes."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 
@@ -307,10 +309,8 @@ class TestTurns:
         return request.param
 
     @pytest.fixture
-    def partition(self, make_partition, in_turn):
-        partition = make_partition(law=BoundaryFilm(1e-3))
-        partition.in_turn = in_turn
-        return partition
+    def partition(self, make_partition):
+        return make_partition(law=BoundaryFilm(1e-3))
 
     @staticmethod
     def is_changed(status, new, in_turn):
@@ -321,21 +321,21 @@ class TestTurns:
     def test_torn_film(self, partition, state, in_turn):
         """What has to wait is a film without pressure."""
         state.P[4, 2:5], state.P[2, 7] = (-0.1, -0.3, -0.2), -1e-9
-        changed_by(partition.cut_tension, state, cavitated=2 if in_turn else 4)
+        changed_by(partial(partition.cut_tension, in_turn=in_turn), state, cavitated=2 if in_turn else 4)
         self.is_changed(state.status, CAVITATED, in_turn)
         assert not state.P[4, 2:5].any() and state.P[2, 7] == 0.0
 
     def test_overfull_cavities(self, partition, state, in_turn):
         for where, filling in zip(self.WRONG, ((1.1, 1.3, 1.2), 1.01), strict=True):
             state.status[where], state.filling[where] = CAVITATED, filling
-        changed_by(partition.fill, state, filled=2 if in_turn else 4)
+        changed_by(partial(partition.fill, in_turn=in_turn), state, filled=2 if in_turn else 4)
         self.is_changed(state.status, LUBRICATED, in_turn)
 
     def test_contact_that_opens(self, partition, state, in_turn):
         for where, excess in zip(self.WRONG, ((0.1, 0.3, 0.2), 0.01), strict=True):
             state.status[where], state.H[where] = CONTACT, 1e-3
             state.p[where] = state.P[where] + excess
-        changed_by(partition.open_contact, state, released=2 if in_turn else 4)
+        changed_by(partial(partition.open_contact, in_turn=in_turn), state, released=2 if in_turn else 4)
         self.is_changed(state.status, LUBRICATED, in_turn)
 
 

@@ -61,7 +61,7 @@ def test_peaks_decide_grids_and_smoother(recipe, amplitude, law, peaks, in_valle
     assert made.peaks == peaks
     assert (made.cycle.rough, made.cycle.in_valleys) == (peaks != NONE, in_valleys)
     assert made.on_coarse_grids == on_coarse_grids
-    assert made.or_from_thick_film == (peaks == TOUCHING)
+    assert made.or_otherwise == (peaks == TOUCHING)
     assert made.newton.over_largest == (peaks != NONE)
 
 

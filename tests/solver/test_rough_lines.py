@@ -10,7 +10,7 @@ from mgehl.config import config_from_tables
 from mgehl.kinds import case_of, contact_from
 from mgehl.multigrid import cycle
 from mgehl.run import solve
-from mgehl.solver.beginning import COVERED, NOR_FROM_A_FILM, begin, begin_thick
+from mgehl.solver.beginning import COVERED, NOR, begin, begin_dry, begin_thick
 from mgehl.solver.from_config import set_up
 from mgehl.solver.gaps import gaps
 from mgehl.studies.study import merged
@@ -73,17 +73,18 @@ class TestFromAThickFilm:
         assert thickest >= COVERED * contact.roughness > contact.expected_film
         assert np.all(np.diff(told) <= 0.0)
 
-    def test_it_is_the_same_answer_as_from_the_dry_contact(self, parts):
+    def test_all_ways_lead_to_the_same_answer(self, parts):
         contact, hierarchy, settings = parts
-        found = [
-            way(hierarchy, contact, settings, lambda level, cycle: None) for way in (begin_thick, begin)
-        ]
-        one, other = (gaps(problem, outcome.state).mean for problem, outcome in found)
-        assert one == pytest.approx(other, rel=1e-6)
+        ways = begin_thick, begin_dry, begin
+        found = [way(hierarchy, contact, settings, lambda level, cycle: None) for way in ways]
+        assert [gaps(problem, outcome.state).mean for problem, outcome in found] == pytest.approx(
+            [gaps(found[0][0], found[0][1].state).mean] * 3, rel=1e-6
+        )
 
     def test_where_both_fail_the_state_is_of_the_contact_s_own_speed(self, parts):
         contact, hierarchy, settings = parts
         settings = replace(settings, newton=replace(settings.newton, max_steps=2))
         problem, outcome = begin(hierarchy, contact, settings, lambda level, cycle: None)
         assert not outcome.converged and problem.contact.speed == contact.speed
-        assert f"after 2 steps; {NOR_FROM_A_FILM}: a stage on the way" in outcome.reason
+        assert f"after 2 steps{NOR} the dry contact without oil: " in outcome.reason
+        assert f"after 2 steps{NOR} a thick film: a stage on the way" in outcome.reason
