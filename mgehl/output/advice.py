@@ -53,7 +53,8 @@ def _tries(solution):
     yield OTHER[config.solver.start]
     if NOR not in result.reason:
         yield "--start-from RUN: from a run at a higher speed that converged; so step by step down"
-    yield f"solver.max_steps: more than {config.solver.max_steps}, where the residual still falls"
+    steps, work = config.solver.max_steps, config.solver.max_work
+    yield f"solver.max_steps, solver.max_work: more than {steps}, {work}, where the residual still falls"
 
 
 def _of_domain(solution):

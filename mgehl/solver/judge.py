@@ -130,7 +130,7 @@ def judge_work(verdict, work, most):
     """The same `Verdict`, unless it goes on and the run has made too many convolutions."""
     if verdict.ends or work < most:
         return verdict
-    return Verdict(True, reason=f"{work:.0f} convolutions led to no answer (solver.max_work = {most})")
+    return Verdict(True, reason=f"{work:.0f} convolutions led to no answer")
 
 
 def judge_system(reason, position):
