@@ -15,6 +15,7 @@ from math import log, nan
 import numpy as np
 
 from mgehl.config import KEYS
+from mgehl.errors import OutputError
 from mgehl.output.files import on_first_rank
 from mgehl.output.laws import portable
 from mgehl.output.netcdf import netcdf_file, put
@@ -43,7 +44,7 @@ def swept(directory, comm, axes, points, watch, speak=True, asked=()):
     """Solve all points in a directory, or read what is there; write table, arrays, curves and a page.
 
     Collective; returns the `Study`. `asked` are the words of a command line. Raises OutputError where a run
-    that is there is of another configuration.
+    that is there is of another configuration, or of none of the points.
     """
     record = StudyRecord("sweep", (points[0].config.grid.nodes,), comm.size, versions(), settings=asked)
     with begun(directory, comm, record, speak, watch=watch) as study:
@@ -57,6 +58,7 @@ def fill(study, directory, axes, points, name="sweep"):
     from mgehl.output.pictures.curves import curves  # matplotlib is slow to import
 
     folder, behind, runs = directory / RUNS, [], []
+    on_first_rank(study.comm, _refuse_others, folder, points)
     called = "" if name == "sweep" else f"{name}, "
     study.cases = max(study.cases, len(points))
     for point in points:
@@ -74,6 +76,13 @@ def fill(study, directory, axes, points, name="sweep"):
     on_first_rank(study.comm, write_arrays, study.directory / f"{name}.nc", axes, points, runs)
     study.draw(name, curves, runs, axes[0].key, [WAYS[p.way] for p in points if points[-1].way])
     return runs
+
+
+def _refuse_others(folder, points):
+    """Raise OutputError where a folder has runs of other points besides: no table would tell of them."""
+    there = {path.name for path in folder.iterdir()} if folder.is_dir() else set()
+    if others := sorted(there - {point.run for point in points}):
+        raise OutputError(f"--resume: {folder / others[0]} is of a longer sweep; choose another with --out")
 
 
 def _title(axes, point):

@@ -79,10 +79,12 @@ def test_killed_and_resumed_it_has_the_same_table(film, tmp_path, monkeypatch):
 def test_what_is_there_is_not_solved_again_nor_taken_for_another(film, capsys, monkeypatch):
     monkeypatch.setattr(study, "run", None)
     assert main([*SWEEP, str(film), "--resume"]) == 0
-    words = [word.replace("0.5..", "0.6..") for word in SWEEP]
-    assert main([*words, str(film), "--resume"]) == 2
-    (line,) = capsys.readouterr().err.splitlines()
-    assert "001 is of another configuration" in line
+    others = {"0.6..2 m/s:3": "001 is of another configuration", "0.5,1.25 m/s": "003 is of a longer sweep"}
+    for speeds, why in others.items():
+        words = [f"motion.speed={speeds}" if word == SPEEDS else word for word in SWEEP]
+        assert main([*words, str(film), "--resume"]) == 2
+        (line,) = capsys.readouterr().err.splitlines()
+        assert why in line
 
 
 def test_a_point_that_fails_is_said_and_passed(tmp_path, capsys, monkeypatch):
