@@ -19,7 +19,7 @@ from mgehl.output.dry_summary import summarise_dry
 from mgehl.output.film_error import film_error
 from mgehl.output.finish import finish_run
 from mgehl.output.forecast import check_memory
-from mgehl.output.friction_result import friction_result, with_band
+from mgehl.output.friction_result import friction_result, with_band, with_unthinned
 from mgehl.output.gap_error import gap_error
 from mgehl.output.laws import law_files
 from mgehl.output.lock import locked
@@ -39,6 +39,7 @@ from mgehl.solver.journal import Journal, told_to_stop
 from mgehl.solver.nested import LevelSolve, single_loop
 from mgehl.solver.problem import ContactProblem
 from mgehl.solver.restart import interpolated, solve_from
+from mgehl.solver.unthinned import unthinned
 from mgehl.solver.wedge import solve_wedge
 
 
@@ -151,6 +152,9 @@ def _solve_loaded(case, parts, comm, watch, start):
         bands = {"mixed": mixed, "error": film_error(result, coarser, monitor)}
         friction, maps = friction_result(problem, outcome.state)
         friction = with_band(friction, mixed, contact.friction.boundary_coefficient)
+        if friction and contact.friction.thins and settings.error:
+            how = hierarchy, problem, outcome.state, settings, monitor.beside, journal
+            friction = with_unthinned(friction, result, partial(unthinned, *how))
         told = bands | {"friction": friction, "recipe": parts.recipe(start)}
         result = replace(result, **told, wall_s=monitor.seconds)
         return _solution(case, parts, problem, outcome.state, monitor.rows, result, maps)

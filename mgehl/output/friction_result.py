@@ -5,6 +5,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mgehl.discretization.status import is_fluid
+from mgehl.solver.films import films_between_nodes
+from mgehl.solver.gaps import gaps
 from mgehl.solver.heat import has_temperatures, rise_of
 from mgehl.solver.shear import shear_of
 
@@ -57,6 +59,9 @@ class FrictionResult:
     """Half-width by the band of the load on solids; None without one."""
     is_the_grids: bool = False
     """Whether the load on solids is the grid's, and so is the coefficient."""
+    unthinned_film_nm: float | None = None
+    """The central film if shear did not thin it, of rough bodies the mean gap; None where it does not, or
+    where nobody asked (`solver.error`)."""
 
 
 STRONGEST = 300.0
@@ -117,6 +122,24 @@ def with_band(friction, mixed, boundary_coefficient):
     return replace(friction, coefficient_band=band, is_the_grids=error.is_the_grids("solid_load_fraction"))
 
 
+def with_unthinned(friction, result, solve):
+    """A `FrictionResult` with the film that there would be if shear did not thin it (collective).
+
+    `solve()` returns that contact's problem and its `Outcome`.
+    """
+    if not result.converged:
+        return friction
+    problem, outcome = solve()
+    if not outcome.converged:
+        return friction
+    of_rough, of_smooth = (
+        gaps(problem, outcome.state).mean,
+        films_between_nodes(problem, outcome.state).central,
+    )
+    film = of_rough if result.mixed else of_smooth
+    return replace(friction, unthinned_film_nm=1e9 * problem.contact.film_scale * film)
+
+
 def friction_lines(friction, verbose):
     """What resists, in words: of sliding surfaces, and `verbose` of rolling ones, too."""
     if not friction or not (verbose or friction.slide_to_roll or friction.model != "newtonian"):
@@ -136,6 +159,8 @@ def friction_lines(friction, verbose):
         f"{friction.film_coefficient:.5f}, solids {friction.solid_coefficient:.5f}; {rolling}; "
         f"{friction.power_loss_W:.3g} W{unit}, largest shear {friction.largest_shear_MPa:.4g} MPa"
     )
+    if friction.unthinned_film_nm:
+        yield f"shear thins the oil: without that the film would be {friction.unthinned_film_nm:.4g} nm"
     yield from strength_lines(friction.largest_shear_MPa)
     if friction.temperatures:
         yield _temperature_words(friction.temperatures)

@@ -76,3 +76,20 @@ def test_a_run_that_slides_has_its_shear_in_report_and_files(tmp_path):
     assert read.summary.friction == solution.summary.friction and read.fields.heights is None
     page = report(read, "here")
     assert "Sliding takes" in page and "hear stress by sliding" in page
+
+
+@pytest.mark.parametrize("surface", [None, {"kind": "waviness", "amplitude": 1e-7, "wavelength_x": 2e-4}])
+def test_the_film_without_thinning_is_told_beside_the_thinned_one(surface):
+    """Of rough bodies the mean gap."""
+    tables = {
+        "grid": {"nodes": 65},
+        "motion": {"speed": 2.0, "slide_to_roll": 0.3},
+        "friction": {"model": "eyring", "eyring_stress": 5e6},
+        "solver": {"start": "film"},
+    } | ({"surface": surface} if surface else {})
+    config = config_from_tables(tables)
+    thinned, thick = (mgehl.solve(config.with_(own)).result for own in ({}, {"friction.thinning": False}))
+    film = thick.mixed.mean_gap_nm if surface else thick.central_film_nm
+    assert thinned.converged and thinned.friction.unthinned_film_nm == pytest.approx(film, rel=1e-5)
+    assert thick.friction.unthinned_film_nm is None
+    assert any("without that the film would be" in line for line in friction_lines(thinned.friction, False))
