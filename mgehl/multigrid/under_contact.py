@@ -9,11 +9,16 @@ system of the other unknowns:
 """
 
 import numpy as np
+from scipy.sparse import diags
 from scipy.sparse.linalg import splu
 
 from mgehl.discretization.mesh import HALO
 from mgehl.grid.events import NEARBY, event
 from mgehl.grid.node_set import NodeSet
+
+
+ROUNDING = 1e-12
+"""Part of its diagonal that a singular L leaks besides."""
 
 
 class UnderContact:
@@ -35,8 +40,7 @@ class UnderContact:
         self._columns = self._columns_of(leak.into, offsets)
         rows = self._gathered(leak.A)
         if self._nodes.here:
-            L = self._nodes.matrix_within(rows.T, offsets)
-            self._lu = splu(L.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0)
+            self._lu = factored(self._nodes.matrix_within(rows.T, offsets))
 
     def _columns_of(self, into, offsets):
         """(places of own rows, numbers of contact nodes, derivatives) of C."""
@@ -78,3 +82,16 @@ class UnderContact:
         """out - C L^-1 R of changes around contact, in place."""
         if self.some:
             self.feed(out, -self.solve(self.inflow(answers, dH, dH0)))
+
+
+def factored(L):
+    """LU of the balance L of nodes under contact.
+
+    Several p_h make oil by Barus so stiff that 1e-30 of the flow beside gets through. Nodes that such oil
+    shuts in may keep to rounding what they have, and L is singular: there p may be anything.
+    """
+    how = {"permc_spec": "MMD_AT_PLUS_A", "diag_pivot_thresh": 0.0}
+    try:
+        return splu(L.tocsc(), **how)
+    except RuntimeError:
+        return splu((L + diags(ROUNDING * L.diagonal())).tocsc(), **how)
