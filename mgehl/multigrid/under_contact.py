@@ -16,7 +16,6 @@ from mgehl.discretization.mesh import HALO
 from mgehl.grid.events import NEARBY, event
 from mgehl.grid.node_set import NodeSet
 
-
 ROUNDING = 1e-12
 """Part of its diagonal that a singular L leaks besides."""
 
