@@ -123,6 +123,6 @@ def key_words(name, value):
     """A key and its value, in a few words with the unit."""
     if name in _SHORT:
         return _SHORT[name](value)
-    unit = KEYS[name].metadata["unit"] or ""
-    text = f"{value:.6g}" if isinstance(value, float) else str(value).lower()
+    unit, is_switch = KEYS[name].metadata["unit"] or "", isinstance(value, bool)
+    text = f"{value:.6g}" if isinstance(value, float) else str(value).lower() if is_switch else value
     return f"{name} {text} {unit}".rstrip()
