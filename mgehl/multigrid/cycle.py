@@ -138,6 +138,9 @@ class MultigridSolver:
             smoother.free()
         for jacobian in (*self.jacobians, self.jacobian):
             jacobian.mat.destroy()
+            jacobian.witness = (
+                None  # it refers to the jacobian: arrays would wait for the garbage collector
+            )
 
     @property
     def work(self):

@@ -1,5 +1,8 @@
 """The cycle as a solver and as the preconditioner of flexible GMRES."""
 
+import gc
+import weakref
+
 import numpy as np
 import pytest
 from mpi4py import MPI
@@ -8,6 +11,7 @@ from petsc4py import PETSc
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import LUBRICATED
 from mgehl.multigrid.coarse import dense_influence
+from mgehl.multigrid.cycle import CycleSettings, MultigridSolver
 from mgehl.multigrid.stencil_matrix import stencil_rows
 from mgehl.solver.problem import ContactProblem
 
@@ -153,3 +157,19 @@ class TestCycleOfAnotherScheme:
         state = solution.outcome.state
         multigrid = make_multigrid(solution.hierarchy, solution.problem, state, couette="1B")
         assert solve_linear(multigrid, make_ksp(multigrid), make_vec, kind, state) <= 12
+
+
+def test_what_is_freed_leaves_no_jacobian_to_the_garbage_collector(make_hierarchy, paper_contact):
+    """A study of rough balls held the arrays of twenty solves that had ended."""
+    settings = CycleSettings(rough=True, in_valleys=True)
+    contact = paper_contact()
+    hierarchy = make_hierarchy(contact, 33, coarsest=17)
+    multigrid = MultigridSolver(hierarchy, 1, contact, Scheme(), settings)
+    jacobian = weakref.ref(multigrid.jacobian)
+    gc.disable()
+    try:
+        multigrid.free()
+        del multigrid
+        assert jacobian() is None
+    finally:
+        gc.enable()
