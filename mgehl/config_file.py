@@ -125,7 +125,7 @@ def _text_of(path):
     content = _out_of_pipe(path) if stat.S_ISFIFO(kind) else _beginning(path)
     if len(content) > LARGEST_FILE:
         raise OSError(f"has more than {LARGEST_FILE} bytes")
-    return content.decode()
+    return content.decode("utf-8-sig")  # some editors begin a file with a mark
 
 
 def _beginning(path):

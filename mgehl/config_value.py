@@ -4,6 +4,7 @@ import re
 import sys
 from dataclasses import field
 from functools import cache
+from numbers import Real
 from operator import ge, gt, le
 
 from mgehl.errors import ConfigError
@@ -133,8 +134,8 @@ def _number(key, rules, given):
 
 
 def _is_number(value):
-    """A finite number that a double holds."""
-    is_real = isinstance(value, int | float) and not isinstance(value, bool)
+    """A finite number that a double holds, numpy's included."""
+    is_real = isinstance(value, Real) and not isinstance(value, bool)
     return is_real and abs(value) <= sys.float_info.max
 
 

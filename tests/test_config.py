@@ -5,6 +5,7 @@ import sys
 import tomllib
 from pathlib import Path
 
+import numpy as np
 import pytest
 import tomli_w
 from processes import own_environment
@@ -387,3 +388,13 @@ class TestPipes:
     def test_one_without_end(self, tmp_path):
         done = self.check(tmp_path, "exec cat /dev/zero")
         assert done.returncode == 2 and "has more than" in done.stderr
+
+
+def test_a_file_may_begin_with_the_mark_of_windows_editors(tmp_path):
+    (tmp_path / "my.toml").write_bytes(b"\xef\xbb\xbf[grid]\nnodes = 129\n")
+    assert load_config(tmp_path / "my.toml").grid.nodes == 129
+
+
+def test_numbers_of_numpy_are_numbers():
+    config = load_config(None, {"grid.nodes": np.int64(129), "motion.speed": np.float32(0.5)})
+    assert (config.grid.nodes, type(config.grid.nodes), config.motion.speed) == (129, int, 0.5)

@@ -22,6 +22,8 @@ def cited(config, contact):
             found.append(OILS[section.oil].source)
         if section.kinematic_viscosity_40 is not None:
             found.append("astmd341")
+        if section.heating == "factor":
+            found.append("gupta1992")
         laws = "viscosity_law", "density_law"
         laws = [name for name in laws if f"lubricant.{name}" not in config.unused]
         found += [LAWS[law] for law in (getattr(section, name) for name in laws) if law in LAWS]

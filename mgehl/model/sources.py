@@ -23,6 +23,7 @@ class Source:
     def short(self):
         """Family names and year."""
         names = [name.partition(",")[0] for name in self.authors.split(" and ")]
+        names = [name.strip("{}") for name in names]  # of an institution, which BibTeX is not to take apart
         return f"{', '.join(names) if len(names) < 4 else names[0] + ' et al.'} {self.year}"
 
     def bibtex(self, key):

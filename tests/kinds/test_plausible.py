@@ -99,3 +99,18 @@ def test_a_start_from_rest_wants_layers(tmp_path, layers, is_odd):
     course.write_text("0,0\n1,1\n")
     settings = {"motion.speed": str(course), "time.end": 1.0, "contact.boundary_film": layers}
     assert any("part on films" in line for line in odd(settings)) == is_odd
+
+
+@pytest.mark.parametrize("step, is_odd", [("20 us", False), ("100 us", True)])
+def test_a_step_in_time_that_leaps_over_waves_is_named(step, is_odd):
+    """Such a run converges, to a film that is not there."""
+    waves = {"surface.kind": "waviness", "surface.amplitude": 4e-8, "surface.wavelength_x": 8e-5}
+    motion = {"motion.slide_to_roll": 0.5, "surface.body": "body_1", "motion.speed": 0.5}
+    found = odd(waves | motion | {"time.end": 6e-4, "time.step": step, "grid.nodes": 65})
+    assert any("cells in a step" in line for line in found) == is_odd
+
+
+def test_a_film_thinned_by_heat_cites_its_factor():
+    heat = {"lubricant.heating": "factor", "lubricant.conductivity": 0.14}
+    config = load_config(os.devnull, OIL | heat)
+    assert "gupta1992" in cited(config, contact_from(config))
