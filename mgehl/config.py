@@ -231,6 +231,8 @@ def config_from_tables(tables):
     sections = {}
     for section, table in tables.items():
         if section not in SECTIONS:
+            if not isinstance(table, dict):
+                raise ConfigError(f"{section} = {shown(table)}: must stand in a section, such as [contact]")
             raise ConfigError(f"{section} = {shown(table)}: unknown section{closest(section, SECTIONS)}")
         check_section(section, table)
         for name in table:

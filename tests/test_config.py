@@ -398,3 +398,11 @@ def test_a_file_may_begin_with_the_mark_of_windows_editors(tmp_path):
 def test_numbers_of_numpy_are_numbers():
     config = load_config(None, {"grid.nodes": np.int64(129), "motion.speed": np.float32(0.5)})
     assert (config.grid.nodes, type(config.grid.nodes), config.motion.speed) == (129, int, 0.5)
+
+
+def test_a_key_before_any_section_is_told_so(tmp_path):
+    (tmp_path / "my.toml").write_text("load = 5\n")
+    with pytest.raises(
+        ConfigError, match=re.escape("load = 5: must stand in a section, such as [contact]")
+    ):
+        load_config(tmp_path / "my.toml")

@@ -160,10 +160,11 @@ class LoadedKind(Kind):
         ]
 
     def parts(self, solution, times="x"):
-        """Speed, of a course the largest one, load and nodes."""
-        contact, nodes = solution.contact, self.nodes(solution.mesh, times)
-        up_to = "up to " if isinstance(solution.config.motion.speed, str) else ""
-        return [up_to + speed_words(contact.speed), " ".join(self.load(contact)), nodes]
+        """Speed, of a course the largest one, load, of a course the least and the largest, and nodes."""
+        config, contact, nodes = solution.config, solution.contact, self.nodes(solution.mesh, times)
+        up_to = "up to " if isinstance(config.motion.speed, str) else ""
+        load = " to ".join(" ".join(self.load(each)) for each in time.extremes(config, contact))
+        return [up_to + speed_words(contact.speed), load, nodes]
 
     def heading(self, solution):
         """Kind, speed, load and nodes."""

@@ -2,11 +2,12 @@
 
 import os
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
 from mgehl.config import load_config
-from mgehl.kinds import contact_from
+from mgehl.kinds import contact_from, mesh_from
 from mgehl.kinds.cited import cited
 from mgehl.kinds.plausible import implausible
 from mgehl.model.sources import SOURCES
@@ -114,3 +115,14 @@ def test_a_film_thinned_by_heat_cites_its_factor():
     heat = {"lubricant.heating": "factor", "lubricant.conductivity": 0.14}
     config = load_config(os.devnull, OIL | heat)
     assert "gupta1992" in cited(config, contact_from(config))
+
+
+def test_a_load_that_changes_is_told_by_its_ends(tmp_path):
+    (tmp_path / "load.csv").write_text("t [s], load [N]\n0, 50\n0.001, 100\n")
+    load = {"contact.load": str(tmp_path / "load.csv"), "time.end": 1e-3, "grid.nodes": 65}
+    config = load_config(os.devnull, BALL | load)
+    contact = contact_from(config)
+    told = config.kind.heading(
+        SimpleNamespace(config=config, contact=contact, mesh=mesh_from(config, contact))
+    )
+    assert "1 m/s, 50 N to 100 N, 65" in told.replace("\u00a0", " ")
