@@ -187,11 +187,15 @@ def _set_anew(tables, settings):
 
     What those gave beside it stays, as a number. Raises ConfigError.
     """
-    given = nested(settings)
+    given, found = nested(settings), choices(tables)
+    # A law beside a viscosity means something when the oil has gone, and not yet.
     others = {
-        section: {key: value for key, value in table.items() if f"{section}.{key}" not in NUMBERS}
+        section: {
+            key: value for key, value in table.items()
+            if (name := f"{section}.{key}") not in NUMBERS and not _mean_nothing(name, found)
+        }
         for section, table in given.items()
-    }
+    }  # fmt: skip
     before, numbers = _laid(tables, others), {}
     if alone := orphans(before, given):
         found = config_from_tables(before).derived

@@ -1,6 +1,7 @@
 """Bodies, motion and oil as engineers give them end as the numbers that are solved."""
 
 import os
+from dataclasses import replace
 from math import pi
 from pathlib import Path
 
@@ -178,6 +179,8 @@ def test_a_setting_pushes_out_no_more_than_it_replaces():
     assert (narrow.radius_x, narrow.radius_y) == (5e-3, config.contact.radius_y)
     thin = config.with_({"lubricant.viscosity": 0.01}).lubricant
     assert (thin.viscosity, thin.pressure_viscosity) == (0.01, config.lubricant.pressure_viscosity)
+    law = {"lubricant.viscosity": 0.01, "lubricant.viscosity_law": "roelands"}
+    assert config.with_(law).lubricant == replace(thin, viscosity_law="roelands")
 
 
 @pytest.mark.parametrize("setting", ["lubricant.viscosity=.01", "lubricant.oil=M100", "motion.speed=1",
