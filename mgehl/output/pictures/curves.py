@@ -4,6 +4,7 @@ from collections import defaultdict
 from math import isfinite
 
 import numpy as np
+from matplotlib.ticker import LogFormatter
 
 from mgehl.config import KEYS
 from mgehl.errors import UserError
@@ -28,6 +29,9 @@ OF_ONE_NODE = "central_film_nm", "minimum_film_nm"
 
 DECADE = 10.0
 """Largest over smallest value from which on an axis is logarithmic."""
+
+FEW = 100.0
+"""Largest over smallest value up to which a logarithmic axis has numbers between the powers of ten."""
 
 ROOM = 1.05
 """Top of an axis over the largest value: values that are all alike would lie on the edge."""
@@ -136,6 +140,10 @@ def _scale(axis, x, y):
         values = [each for each in values if isfinite(each)]
         if values and min(values) > 0.0 and max(values) >= DECADE * min(values):
             axis.set(**{f"{name}scale": "log"})
+            if max(values) < FEW * min(values):
+                ticks = getattr(axis, f"{name}axis")
+                ticks.set_major_formatter(LogFormatter())
+                ticks.set_minor_formatter(LogFormatter(minor_thresholds=(2.0, 1.0)))
         elif name == "y":
             top = max([axis.get_ylim()[1], *(ROOM * each for each in values)])
             axis.set_ylim(min([0.0, *values]), top)
