@@ -1,5 +1,6 @@
 """Checks of a loaded contact: whether values that are allowed one by one fit each other."""
 
+from mgehl.config_value import FARTHEST
 from mgehl.errors import ConfigError
 from mgehl.model.images import wave_numbers
 from mgehl.model.own_laws import OwnCompliance, OwnDensity, OwnRheology, OwnViscosity
@@ -77,6 +78,11 @@ def check_domain(grid, contact, way=1.0, wide=1.0):
             side = f"begin before {-needed:.3g}"
         elif inlet < 0.0 and needed > ends[1]:
             side = f"end beyond {needed:.3g}"
+        if side and needed > FARTHEST:
+            raise ConfigError(
+                f"grid.{name}: the inlet that builds the film is {needed:.3g} semi-axes long, no domain "
+                f"goes beyond {FARTHEST:g}: the load is too light, or the speed too high"
+            )
         if side:
             words = f"must {side}, where the inlet that builds the film begins"
             raise ConfigError(f"grid.{name} = {list(ends)!r}: {words}")

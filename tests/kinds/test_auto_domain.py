@@ -80,3 +80,9 @@ class Unreadable(Surface):
 
     def height(self, x, y):
         raise AssertionError("was asked")
+
+
+def test_a_load_too_light_for_any_domain_is_told_so():
+    with pytest.raises(ConfigError, match=r"grid.x: the inlet .* no domain goes beyond 1000"):
+        config, contact = loaded("contact.load=1 mN", "motion.speed=0.5")
+        check_contact(settled(config, contact), contact)
