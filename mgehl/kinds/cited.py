@@ -28,5 +28,8 @@ def cited(config, contact):
         laws = [name for name in laws if f"lubricant.{name}" not in config.unused]
         found += [LAWS[law] for law in (getattr(section, name) for name in laws) if law in LAWS]
     if contact.is_loaded and not config.is_dry:
+        found += ["eyring1936"] if config.friction.eyring_stress is not None else []
+        found += ["ehret1998"] if contact.friction.thins else []
+        found += ["carslaw1959"] if config.heat.conductivity_1 is not None else []
         found += [films.formula_of(name).source for name in contact.shown_formulas]
     return list(dict.fromkeys(found))

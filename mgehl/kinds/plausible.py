@@ -17,6 +17,8 @@ USUAL = {
     "motion.speed": (0.0, 200.0, "m/s"),
     "body_1.roughness": (0.0, 2e-5, "m"),
     "body_2.roughness": (0.0, 2e-5, "m"),
+    "body_1.Ra": (0.0, 2e-5, "m"),
+    "body_2.Ra": (0.0, 2e-5, "m"),
 }
 """{key: smallest and largest value of machines, from gels to diamond and from petrol to gear oil, unit}."""
 

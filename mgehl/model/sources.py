@@ -103,6 +103,20 @@ SOURCES = {
         "Viscoelastic effects in MIL-L-7808-type lubricant, part I: analytical formulation",
         "Tribology Transactions 35, 269-274", "10.1080/10402009208982117",
     ),
+    "eyring1936": Source(
+        "article", "Eyring, H.", 1936,
+        "Viscosity, plasticity, and diffusion as examples of absolute reaction rates",
+        "Journal of Chemical Physics 4, 283-291", "10.1063/1.1749836",
+    ),
+    "ehret1998": Source(
+        "article", "Ehret, P. and Dowson, D. and Taylor, C. M.", 1998,
+        "On lubricant transport conditions in elastohydrodynamic conjunctions",
+        "Proceedings of the Royal Society A 454, 763-787",
+    ),
+    "carslaw1959": Source(
+        "book", "Carslaw, H. S. and Jaeger, J. C.", 1959, "Conduction of heat in solids",
+        "Oxford University Press",
+    ),
     "arana2019": Source(
         "article", "Arana, A. and Larranaga, J. and Ulacia, I.", 2019,
         "Partial EHL friction coefficient model to predict power losses in cylindrical gears",

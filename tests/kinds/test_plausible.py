@@ -14,6 +14,7 @@ from mgehl.model.sources import SOURCES
 
 CONFIGS = Path(__file__).resolve().parents[2] / "configs"
 BALL = {"motion.speed": "1 m/s"}
+STEEL = {"conductivity": 46.0, "capacity": 3.6e6}
 OIL = BALL | {"lubricant.oil": "PAO100", "lubricant.temperature": "60 degC"}
 
 
@@ -38,6 +39,7 @@ def test_gels_and_rubber_are_machines_too():
     [
         ({"lubricant.viscosity": "100 Pa s"}, "lubricant.viscosity = 100 Pa s: machines have 0.0002 to 5"),
         ({"lubricant.viscosity": "17.1 Pa s"}, "lubricant.viscosity = 17.1 Pa s"),
+        ({"body_1.Ra": "30 um"}, "body_1.Ra = 3e-05 m: machines have 0 to 2e-05"),
         ({"contact.radius_x": "10 m", "contact.radius_y": "10 m"}, "contact.radius_x = 10 m"),
         ({"contact.radius_x": "10 m", "contact.radius_y": "10 m"}, "GPa: hard bodies mostly have 0.1 to 5"),
         ({"contact.reduced_modulus": "2 kPa", "contact.load": "1 uN"}, "contact.reduced_modulus = 2000 Pa"),
@@ -111,10 +113,15 @@ def test_a_step_in_time_that_leaps_over_waves_is_named(step, is_odd):
     assert any("cells in a step" in line for line in found) == is_odd
 
 
-def test_a_film_thinned_by_heat_cites_its_factor():
+def test_friction_and_heat_cite_their_formulas():
     heat = {"lubricant.heating": "factor", "lubricant.conductivity": 0.14}
-    config = load_config(os.devnull, OIL | heat)
-    assert "gupta1992" in cited(config, contact_from(config))
+    eyring = {"friction.model": "eyring", "friction.eyring_stress": 5e6, "motion.slide_to_roll": 0.2}
+    steel = {f"heat.{key}_{body}": value for body in (1, 2) for key, value in STEEL.items()}
+    config = load_config(os.devnull, OIL | heat | eyring | steel)
+    added = ["gupta1992", "eyring1936", "ehret1998", "carslaw1959"]
+    assert {*added} <= {*cited(config, contact_from(config))} <= {*SOURCES}
+    plain = load_config(os.devnull, OIL)
+    assert not {*added} & {*cited(plain, contact_from(plain))}
 
 
 def test_a_load_that_changes_is_told_by_its_ends(tmp_path):
