@@ -49,7 +49,8 @@ def test_it_leaves_runs_a_table_an_array_curves_and_a_page(film):
     with h5netcdf.File(film / "sweep.nc", "r") as file:
         assert file["motion_speed"].attrs["units"] == "m/s"
         assert file["central_film_nm"].dimensions == ("motion_speed",)
-    assert "Study sweep" in (film / "report.html").read_text()
+    page = (film / "report.html").read_text()
+    assert "Study sweep" in page and "branches" not in page
 
 
 def test_a_point_from_its_neighbours_is_the_one_from_nothing(film):

@@ -82,7 +82,8 @@ def _picture(path):
 def _origin(record):
     """Rows of what was asked for and of the software."""
     asked = {
-        "grids": ", ".join(map(str, record.nodes)) or "the study's own", "branches": record.branch,
+        "grids": ", ".join(map(str, record.nodes)) or "the study's own",
+        "branches": record.branch if record.name == "transition" else None,
         "settings": ", ".join(record.settings) or None,
         "cases": record.cases, "seed": record.seed, "ranks": record.ranks,
     }  # fmt: skip
