@@ -38,6 +38,8 @@ def _bearing_lines(result):
         f"load {result.load:.6f} mm ({result.load_N:.4g} N), P from {result.min_P:.6f} to "
         f"{result.max_P:.6f} /mm (at most {result.max_pressure_MPa:.4g} MPa)"
     )
+    if result.min_P < 0.0:
+        yield "the film pulls where P is below 0; discretization.cavitation = true lets it tear there"
     yield (
         f"residual {result.residual:.1e}, flux imbalance {result.flux_imbalance:.1e}, "
         f"flow through closed faces {result.closed_face_flow:.1e}"

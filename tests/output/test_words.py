@@ -4,8 +4,10 @@ import re
 from pathlib import Path
 
 import pytest
+from mpi4py import MPI
 from test_files import make_result
 
+import mgehl
 from mgehl.output.resolution import Resolution
 from mgehl.output.result import InequalityResult, TimeResult
 from mgehl.output.words import FAILED, UNRESOLVED
@@ -72,3 +74,11 @@ class TestOfALoadedContact:
         }  # fmt: skip
         text = str(make_result(converged=False, settled=False, contradictions=[node]))
         assert "node (7, 9): as film its gap is -6.00e-01 nm, as contact its pressure -1.40e-02 p_h" in text
+
+
+@pytest.mark.parametrize("cavitation", [False, True])
+def test_a_bearing_that_sucks_names_what_would_let_its_film_tear(cavitation):
+    opens = {"wedge.length": 0.05, "wedge.inlet_film": 6e-5, "wedge.exit_film": 9e-5, "grid.nodes": 65}
+    kind = {"contact.kind": "wedge", "discretization.cavitation": cavitation, "motion.speed": 2.0}
+    found = str(mgehl.solve(mgehl.load(None, kind | opens), MPI.COMM_SELF).result)
+    assert ("the film pulls where P is below 0; discretization.cavitation" in found) == (not cavitation)
