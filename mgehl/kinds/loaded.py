@@ -136,7 +136,7 @@ class LoadedKind(Kind):
 
     def lines(self, config, contact, mesh):
         """Groups, dry contact, films of formulas with what they assume, load and speed."""
-        hertz = contact.hertz
+        hertz, first = contact.hertz, time.of_first_load(config)
         groups = "   ".join(f"{name} {value:.4g}" for name, value in asdict(contact.groups).items())
         compared = contact.compared
         unit, scale = ("um", 1e6) if max(compared.values()) >= LONG_FILM else ("nm", 1e9)
@@ -146,7 +146,7 @@ class LoadedKind(Kind):
         return [
             f"groups     {groups}",
             f"regime     {contact.regime} (Moes)",
-            f"Hertz      {self.hertz_words(hertz)}   p_h {1e-9 * hertz.p_h:.4g} GPa",
+            f"Hertz      {self.hertz_words(hertz)}   p_h {1e-9 * hertz.p_h:.4g} GPa{first}",
             f"films, {unit}  {shown}",
             *(f"           {words}" for words in assumptions(contact)),
             *(

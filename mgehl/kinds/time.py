@@ -85,6 +85,11 @@ def load_key(config):
     return "contact.load_per_length" if config.contact.kind == "line" else "contact.load"
 
 
+def of_first_load(config):
+    """Words after what is that of the first load, where the load is a course; else empty."""
+    return ", of the first load" if isinstance(config.value(load_key(config)), str) else ""
+
+
 def reference(config, key):
     """A number for the value of a key that may be a course: its largest size until time.end.
 

@@ -129,7 +129,7 @@ def test_a_load_that_changes_is_told_by_its_ends(tmp_path):
     load = {"contact.load": str(tmp_path / "load.csv"), "time.end": 1e-3, "grid.nodes": 65}
     config = load_config(os.devnull, BALL | load)
     contact = contact_from(config)
-    told = config.kind.heading(
-        SimpleNamespace(config=config, contact=contact, mesh=mesh_from(config, contact))
-    )
+    mesh = mesh_from(config, contact)
+    told = config.kind.heading(SimpleNamespace(config=config, contact=contact, mesh=mesh))
+    assert "GPa, of the first load" in "".join(config.kind.lines(config, contact, mesh))
     assert "1 m/s, 50 N to 100 N, 65" in told.replace("\u00a0", " ")

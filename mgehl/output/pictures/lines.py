@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mgehl.discretization.status import CAVITATED, CONTACT
+from mgehl.kinds.time import of_first_load
 from mgehl.model.hertz import hertz_pressure
 from mgehl.output.pictures import style
 from mgehl.output.pictures.plane import DECADES, LINEAR, filling_of
@@ -71,7 +72,7 @@ def draw_lines(axes, solution):
     axes[1, 0].set_ylabel(gap_words(solution.contact)[1])
     handles = []
     for (pressures, films), line, title, label in zip(axes.T, lines, called, labels, strict=False):
-        handles += _draw(pressures, films, line, solution.contact)
+        handles += _draw(pressures, films, line, solution)
         pressures.set_title(title)
         films.set_xlabel(label)
     return handles
@@ -106,9 +107,10 @@ def set_axes(axes, lines):
             below.set_ylim(min(0.0, 1.1 * least), room * top)
 
 
-def _draw(pressures, films, line, contact):
+def _draw(pressures, films, line, solution):
     """One line and its dry contact; the handles."""
-    dry = f"dry contact (Hertz{'' if contact.deformation is None else ', uncoated'})"
+    contact, first = solution.contact, of_first_load(solution.config)
+    dry = f"dry contact (Hertz{'' if contact.deformation is None else ', uncoated'}{first})"
     dotted = {"color": style.HERTZ, "linewidth": 1, "linestyle": ":", "label": dry}
     handles = pressures.plot(line.X, line.P, color=style.PRESSURE, label="pressure")
     solid, cavity = line.status == CONTACT, line.status == CAVITATED
