@@ -6,6 +6,7 @@ other approximation than the cells: fast and slow bodies, at rest, too.
 """
 
 from dataclasses import dataclass
+from inspect import signature
 from math import inf, pi, sqrt
 
 import numpy as np
@@ -21,6 +22,9 @@ GONE = 6.0
 """Widths behind the last node at which nothing is felt of heat any more."""
 OLDEST = 1e8
 """Oldest heat, in times that it takes to spread over the map; still older heat is felt evenly."""
+RELATIVE = "rtol" if "rtol" in signature(gmres).parameters else "tol"
+"""What SciPy calls the relative tolerance: it has had both names, and has one."""
+
 TOLERANCE = 1e-6
 """Relative, of the parts of the heat."""
 
@@ -129,6 +133,6 @@ def shared(heat, first, second, resistance):
     n = int(here.sum())
     right = 0.5 * (resistance * heat)[here] + second.rise(heat)[here]
     of_first, _ = gmres(LinearOperator((n, n), parted, dtype=float), right, 0.5 * heat[here], atol=0.0,
-                        tol=TOLERANCE, maxiter=200)  # fmt: skip
+                        maxiter=200, **{RELATIVE: TOLERANCE})  # fmt: skip
     mine = whole(of_first)
     return first.rise(mine), second.rise(heat - mine)
