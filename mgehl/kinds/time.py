@@ -9,7 +9,7 @@ from mgehl.config_value import WrongUnitError, number, read_quantity, word
 from mgehl.errors import ConfigError
 from mgehl.kinds.choice import Choice, given
 from mgehl.kinds.surface_kinds import carried, share_of
-from mgehl.model.course import CourseError, Table, course_of
+from mgehl.model.course import SAMPLES, CourseError, Recorded, Table, course_of
 from mgehl.model.frame import direction
 from mgehl.model.own_function import OwnFunctionError, is_own
 from mgehl.model.scene import Scene
@@ -60,6 +60,28 @@ def course(key, value):
     units = zip(found.heading, ("s", ONLY_IN_TIME[key]), strict=False)
     scale = tuple(_in_si(f"{key} = {value!r}", *each) for each in units)
     return replace(found, scale=scale) if len(scale) == 2 else found
+
+
+def own_courses(config):
+    """{key: values at even times until time.end} of keys whose course is a function of the user's own."""
+    found = {key: course(key, config.value(key)) for key in ONLY_IN_TIME if is_own(config.value(key))}
+    times = np.linspace(0.0, config.time.end or 0.0, SAMPLES)
+    return {key: np.array([each.value(t) for t in times]) for key, each in found.items()}
+
+
+def with_recorded(tables, courses):
+    """Nested tables with what own courses gave, as `own_courses` has it, in the place of their functions.
+
+    Raises ValueError where one is not known.
+    """
+    laid = {section: dict(table) for section, table in tables.items()}
+    for section, _, name in (key.partition(".") for key in ONLY_IN_TIME):
+        if not is_own(value := laid.get(section, {}).get(name)):
+            continue
+        if (key := f"{section}.{name}") not in courses:
+            raise ValueError(f"{key}: an older mgehl did not keep what the function gave")
+        laid[section][name] = Recorded.of(value, laid["time"]["end"], courses[key])
+    return laid
 
 
 def _in_si(name, heading, unit):

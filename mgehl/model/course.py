@@ -124,6 +124,36 @@ class Table(Course):
         return tuple(self._columns[0])
 
 
+class Recorded(str):
+    """The name of a user's own function where results are read: its file may be anybody's, and is not run.
+
+    `course` is what it gave, `Samples`.
+    """
+
+    course: "Samples | None" = None
+
+    @classmethod
+    def of(cls, name, end, values):
+        """That of a function that gave `values` at even times until `end`."""
+        found = cls(name)
+        found.course = Samples(end, tuple(values))
+        return found
+
+
+@dataclass(frozen=True)
+class Samples(Course):
+    """Values at even times until `end`, straight lines between them."""
+
+    end: float
+    values: tuple
+
+    def check(self, end):
+        """The function was asked when its run began."""
+
+    def value(self, t):
+        return float(np.interp(t, np.linspace(0.0, self.end, len(self.values)), self.values))
+
+
 @dataclass(frozen=True)
 class Own(Course):
     """value = FUNCTION(t) of the user's own."""
@@ -146,6 +176,8 @@ def course_of(value):
     """The `Course` that a key's value stands for: a number, a file's path, or FILE.py:FUNCTION."""
     if not isinstance(value, str):
         return Constant(float(value))
+    if isinstance(value, Recorded):
+        return value.course
     return Own(OwnFunction(value)) if is_own(value) else Table(value)
 
 
@@ -153,6 +185,8 @@ def absolute_course(value, directory="."):
     """A table's path or a function's name, counted from `directory`; None of what names neither."""
     if not isinstance(value, str):
         return None
+    if isinstance(value, Recorded):
+        return value
     if value.lower().endswith((".csv", ".txt")):
         return str((Path(directory) / value).resolve())
     return absolute(value, directory)

@@ -22,6 +22,7 @@ GONE = 6.0
 """Widths behind the last node at which nothing is felt of heat any more."""
 OLDEST = 1e8
 """Oldest heat, in times that it takes to spread over the map; still older heat is felt evenly."""
+
 RELATIVE = "rtol" if "rtol" in signature(gmres).parameters else "tol"
 """What SciPy calls the relative tolerance: it has had both names, and has one."""
 

@@ -138,9 +138,8 @@ class MultigridSolver:
             smoother.free()
         for jacobian in (*self.jacobians, self.jacobian):
             jacobian.mat.destroy()
-            jacobian.witness = (
-                None  # it refers to the jacobian: arrays would wait for the garbage collector
-            )
+            # It refers to the jacobian, whose arrays would wait for the garbage collector.
+            jacobian.witness = None
 
     @property
     def work(self):

@@ -13,6 +13,7 @@ import tomli_w
 from mgehl.discretization import status
 from mgehl.errors import one_line
 from mgehl.grid.events import FILES, event
+from mgehl.kinds.time import ONLY_IN_TIME, own_courses
 from mgehl.output.center_line import center_line
 from mgehl.output.laws import portable
 from mgehl.output.netcdf import netcdf_file, put
@@ -38,6 +39,10 @@ INPUTS = "inputs"
 
 WHOLE = "run/texts"
 """Data set of fields.h5: its run's texts by their names, as JSON in bytes."""
+
+
+COURSES = "courses"
+"""Group of fields.h5: what functions of the user's own gave for speed and load, which are not run again."""
 
 
 @event(FILES)
@@ -159,6 +164,12 @@ def write_fields(path, solution, texts):
             write(axis.upper(), (axis,), getattr(mesh, axis.upper()), "1", meaning)
         for name, values in planes.items():
             write(name, ("y", "x"), values, *meanings[name])
+        if courses := own_courses(solution.config):
+            inner = file.create_group(COURSES)
+            inner.dimensions = {"instants": len(next(iter(courses.values())))}
+            for key, values in courses.items():
+                meaning = f"{key} at even times until time.end"
+                write(key, ("instants",), values, ONLY_IN_TIME[key], meaning, inner)
         group, name = WHOLE.split("/")
         content, inner = np.frombuffer(json.dumps(texts).encode(), np.uint8), file.create_group(group)
         inner.dimensions = {"bytes": content.size}

@@ -132,11 +132,8 @@ def with_unthinned(friction, result, solve):
     problem, outcome = solve()
     if not outcome.converged:
         return friction
-    of_rough, of_smooth = (
-        gaps(problem, outcome.state).mean,
-        films_between_nodes(problem, outcome.state).central,
-    )
-    film = of_rough if result.mixed else of_smooth
+    here = problem, outcome.state
+    film = gaps(*here).mean if result.mixed else films_between_nodes(*here).central
     return replace(friction, unthinned_film_nm=1e9 * problem.contact.film_scale * film)
 
 

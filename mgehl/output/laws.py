@@ -6,7 +6,7 @@ from contextlib import suppress
 from pathlib import Path
 
 from mgehl.config import config_from_tables
-from mgehl.kinds.time import is_table
+from mgehl.kinds.time import is_table, with_recorded
 from mgehl.model.own_function import file_and_function
 from mgehl.output.whole_file import is_plain, whole_file
 
@@ -35,9 +35,13 @@ def portable(config):
     return _moved(config.as_toml_tables(), law_files(config))
 
 
-def placed(tables, places):
-    """The `Config` of such tables; `places` are the files that its laws are now, by their names."""
-    return config_from_tables(_moved(tables, places))
+def placed(tables, places, courses=None):
+    """The `Config` of such tables; `places` are the files that its laws are now, by their names.
+
+    With `courses`, as `own_courses` has them, no function is run.
+    """
+    tables = _moved(tables, places)
+    return config_from_tables(tables if courses is None else with_recorded(tables, courses))
 
 
 def laws_in(tables):

@@ -23,6 +23,7 @@ from mgehl.model.own_function import without_running
 from mgehl.output.checkpoint import is_begun
 from mgehl.output.files import (
     CONFIGURATION,
+    COURSES,
     FIELDS,
     FRAMES,
     FURTHER,
@@ -115,8 +116,9 @@ def _texts(file, directory):
 def _solution(file, directory):
     texts = _texts(file, directory)
     tables, record = tomllib.loads(texts[CONFIGURATION]), json.loads(texts[RESULT])
-    config = placed(tables, {name: str((directory / name).resolve()) for name in laws_in(tables)})
-    config = config.with_numbers(record.get(INPUTS, {}))
+    places = {name: str((directory / name).resolve()) for name in laws_in(tables)}
+    courses = {key: each[()] for key, each in file.get(COURSES, {}).items()}
+    config = placed(tables, places, courses).with_numbers(record.get(INPUTS, {}))
     named = config.as_toml_tables()["grid"]
     if config.kind.is_loaded and AUTO in (named.get("x"), named.get("y")):
         raise ValueError("it has no domain in numbers, as a finished run has")

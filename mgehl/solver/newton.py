@@ -50,6 +50,7 @@ class Newton:
         self._fluid, self._monitor = fluid, monitor or (lambda cycle: None)
         self._space, self._load_scale = multigrid.space, multigrid.jacobian.load_scale
         self._partition = Partition(problem, settings.release_budget)
+        self._in_turn = False
         self._snes = PETSc.SNES().create(problem.grid.comm)
         self._snes.setOptionsPrefix(options_prefix)
         self._snes.setType(PETSc.SNES.Type.PYTHON)

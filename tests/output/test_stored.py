@@ -18,7 +18,7 @@ from mgehl.output.files import WHOLE
 from mgehl.output.finish import finish_run
 from mgehl.output.report.run_report import report
 from mgehl.output.stored import read_run
-from mgehl.run import run, solve
+from mgehl.run import run, save, solve
 from mgehl.studies.study import PAPERS_DOMAIN, papers_grid
 
 KINDS = {
@@ -194,6 +194,19 @@ class TestOwnLaws:
         export(solution, {each: laid / f"out.{each}" for each in ("nc", "npz", "csv")})
         with pytest.raises(UserError, match="is not run where results are read"):
             _ = solution.contact.roughness
+
+    def test_nor_is_a_course_of_time_which_keeps_its_values(self, tmp_path):
+        """A report is made, too, of a run that ends before its first passage."""
+        (tmp_path / "a.py").write_text("def load(t):\n    return 50.0 + 5e4 * t\n")
+        own = {"contact": {"load": f"{tmp_path / 'a.py'}:load"}, "motion": {"speed": 0.5}}
+        time = {"time": {"end": 2e-4, "step": 2e-5}, "grid": {"nodes": 65}}
+        run(config_from_tables(own | time), self.made(tmp_path), MPI.COMM_SELF)
+        (tmp_path / "run" / "laws" / "a.py").write_text(self.TRAP)
+        solution = read_run(tmp_path / "run")
+        assert "50 N to 60 N" in report(solution, "run").replace("\u00a0", " ")
+        assert solution.config.contact.load.course.value(1e-4) == pytest.approx(55.0)
+        save(solution, tmp_path / "again")
+        assert read_run(tmp_path / "again").contact.load == pytest.approx(50.0)
 
     def test_the_directory_knows_no_machine(self, laid, tmp_path):
         for path in laid.rglob("*"):
