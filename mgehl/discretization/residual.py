@@ -147,8 +147,8 @@ def _leak(linearisation, contact, nodes):
 
 
 def shifted(ghosted, offset):
-    """What a ghosted array has at an `offset` (lines, nodes) from each node, (lines, nx); lines end as they
-    are."""
+    """What a ghosted array has at an `offset` (lines, nodes) from each node, (lines, nx); nothing
+    beyond the ends of lines."""
     line, node = offset
     lines, nx = own(ghosted).shape
     here = ghosted[HALO + line : HALO + line + lines]

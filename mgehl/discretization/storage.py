@@ -1,4 +1,4 @@
-"""What a control volume stores: the squeeze flow d(rho H)/dt of an implicit time step."""
+"""What a control volume stores: the squeeze flow of an implicit time step, of oil above the layers."""
 
 from dataclasses import dataclass
 
@@ -9,7 +9,7 @@ from mgehl.discretization.axes import own
 
 @dataclass(frozen=True)
 class Storage:
-    """The term -rate (rho H - before) of the film's rows, by backward Euler; arrays (lines, nx).
+    """The term -rate (content - before) of the rows of flow; arrays (lines, nx).
 
     The smaller the time step 1/rate, the less the gap of a film can change in it.
     """
@@ -17,7 +17,7 @@ class Storage:
     rate: float | np.ndarray
     """1/time step, in units in which the Couette flow of a full film is 1."""
     before: np.ndarray
-    """rho H at the beginning of the step."""
+    """The content that the step begins with, carried to where the surfaces are at its end."""
     weights: tuple | None = None
     """What the Poiseuille flow counts of faces along X, (lines, nx - 1), and along Y, (lines + 1, nx); None
     where all count as they are."""

@@ -62,13 +62,16 @@ def friction_from(config):
     """The `Friction` of a `Config`."""
     section = config.friction
     return Friction(
-        _rheology(section), config.motion.slide_to_roll, section.boundary_coefficient, _thins(config)
+        _rheology(section, config.lubricant.temperature),
+        config.motion.slide_to_roll,
+        section.boundary_coefficient,
+        _thins(config),
     )
 
 
-def _rheology(section):
+def _rheology(section, temperature):
     if is_own(section.model):
-        return OwnRheology(OwnFunction(section.model))
+        return OwnRheology(OwnFunction(section.model), temperature)
     below = Newtonian() if section.eyring_stress is None else Eyring(section.eyring_stress)
     return Limiting(section.limiting_coefficient, below) if section.model == "limiting" else below
 

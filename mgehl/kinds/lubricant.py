@@ -111,11 +111,11 @@ def lubricant_from(config):
             OILS[section.oil].law(section.temperature), viscosity=ambient[0], pressure_viscosity=ambient[1]
         )
     elif is_own(section.viscosity_law):
-        viscosity = OwnViscosity(*ambient, OwnFunction(section.viscosity_law))
+        viscosity = OwnViscosity(*ambient, OwnFunction(section.viscosity_law), section.temperature)
     else:
         viscosity = VISCOSITY_LAWS[section.viscosity_law](*ambient)
     if is_own(section.density_law):
-        density = OwnDensity(OwnFunction(section.density_law))
+        density = OwnDensity(OwnFunction(section.density_law), section.temperature)
     else:
         density = DENSITY_LAWS[section.density_law]()
     beta = thinning_of(config) if section.thermoviscosity is None else section.thermoviscosity

@@ -10,7 +10,7 @@
 centre, k in 1/m. `check` asks for values before a run does.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -44,6 +44,8 @@ class OwnViscosity:
     viscosity: float
     pressure_viscosity: float
     function: OwnFunction
+    temperature: float | None = None
+    """Of the oil in K, which the function is told; None where the configuration names none."""
 
     def log_viscosity(self, P, p_h):
         """Return ln(eta*) and d ln(eta*)/dP, shapes as P."""
@@ -74,7 +76,10 @@ class OwnViscosity:
             return np.log(eta / self.viscosity), slope / eta
 
     def _law(self, p):
-        return self.function.pair(np.shape(p), Conditions(p, self.viscosity, self.pressure_viscosity))
+        return self.function.pair(np.shape(p), self._at(p))
+
+    def _at(self, p):
+        return Conditions(p, self.viscosity, self.pressure_viscosity, temperature=self.temperature)
 
 
 @dataclass(frozen=True)
@@ -82,6 +87,8 @@ class OwnDensity:
     """A density law. Below p = 0, where the function is not asked, the density goes on as a line."""
 
     function: OwnFunction
+    temperature: float | None = None
+    """Of the oil in K, which the function is told; None where the configuration names none."""
 
     def density(self, P, p_h):
         """Return rho* and d rho*/dP, shapes as P."""
@@ -99,7 +106,7 @@ class OwnDensity:
         _check_slope(self.function, _as_nodes(self._law), p, "d rho/dp")
 
     def _law(self, p):
-        return self.function.pair(np.shape(p), Conditions(p))
+        return self.function.pair(np.shape(p), Conditions(p, temperature=self.temperature))
 
 
 @dataclass(frozen=True)
@@ -107,12 +114,15 @@ class OwnRheology:
     """A law of the shear stress, which may be no law of the film: that is thinned by Eyring's alone."""
 
     function: OwnFunction
+    temperature: float | None = None
+    """Of the oil in K, which the function is told; None where the configuration names none."""
 
     name = "own"
     eyring_stress = None
 
     def shear_stress(self, at):
         """In Pa, at `Conditions`."""
+        at = replace(at, temperature=self.temperature)
         found = self.function.array(np.shape(at.pressure), at)
         wrong = ~((found >= 0.0) & np.isfinite(found))
         if wrong.any():

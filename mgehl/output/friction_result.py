@@ -157,7 +157,10 @@ def friction_lines(friction, verbose):
         f"{friction.power_loss_W:.3g} W{unit}, largest shear {friction.largest_shear_MPa:.4g} MPa"
     )
     if friction.unthinned_film_nm:
-        yield f"shear thins the oil: without that the film would be {friction.unthinned_film_nm:.4g} nm"
+        yield (
+            "shear thins the oil: without that the film (of rough bodies the mean gap) would be "
+            f"{friction.unthinned_film_nm:.4g} nm"
+        )
     yield from strength_lines(friction.largest_shear_MPa)
     if friction.temperatures:
         yield _temperature_words(friction.temperatures)

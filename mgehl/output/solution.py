@@ -66,7 +66,7 @@ class Solution:
     local: Fields | None = None
     first_line: int = 0
     frames: Any = None
-    """Of a run in time: what has its fields at some instants, on rank 0 (`series.Frames`)."""
+    """Of a run in time: what has its fields at some instants, on rank 0 (`frames.Frames`)."""
 
     @property
     def is_dry(self) -> bool:

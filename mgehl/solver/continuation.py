@@ -17,11 +17,6 @@ and 129 nodes."""
 BEYOND = 8.0
 """Factor between the wanted speed and one at which a start is far from the end of its branch."""
 
-FIRST_SHARE = 0.25
-"""Share of another mean than the arithmetic that is taken first on the way from there. Films took 348
-(geometric) and 761 (harmonic) convolutions; with 0.1 398 and 806, with 0.5 290 and 748, but by the harmonic
-mean to another answer."""
-
 SPEED_RATIO = 2.0
 """Ratio of speeds that one step may try where nothing says less. A film by the harmonic mean takes 761
 convolutions, with 1.3 1068, from 3 on 691; by the geometric mean it makes no difference at 0.5 m/s."""
@@ -75,11 +70,6 @@ class Continuation:
     def follow(self, state, first_speed, last_speed):
         """Carry the `state` at one speed to another, in steps of equal ratio."""
         return self._asked(last_speed, *self._follow(state, first_speed, last_speed))
-
-    def turn(self, speed, state):
-        """Turn the `state` that solves the arithmetic mean's equations at `speed` to the scheme's mean."""
-        found = carry(lambda t, state: self.at(speed, state, t), state, FIRST_SHARE)
-        return self._asked(speed, *found)
 
     def slow_down(self, problem, outcome):
         """From the solution of a faster contact to that of its own speed, as far as there is one."""

@@ -3,6 +3,9 @@
 import numpy as np
 import pytest
 
+from mgehl.config import config_from_tables
+from mgehl.kinds import contact_from
+from mgehl.model.conditions import Conditions
 from mgehl.model.lubricant import Barus, DowsonHigginson
 from mgehl.model.own_function import OwnFunction, OwnFunctionError
 from mgehl.model.own_laws import OwnCompliance, OwnDensity, OwnSurface, OwnViscosity
@@ -116,3 +119,26 @@ def test_heights_are_those_of_the_nodes_and_no_higher_than_allowed(own):
 def test_a_compliance_is_positive(own):
     bad = OwnCompliance(own("def law(k): return 50.0 - k"))
     assert refusal(bad.check, np.array([1.0, 100.0])) == "returns -50 at 100 1/m; must be a positive number"
+
+
+def test_laws_are_told_the_temperature_of_the_oil(tmp_path):
+    """They were promised it, and told None."""
+    (tmp_path / "warm.py").write_text(
+        "import numpy as np\n"
+        "def eta(at):\n"
+        "    eta = at.viscosity * np.exp(at.temperature / 333.15 * 2e-8 * at.pressure)\n"
+        "    return eta, at.temperature / 333.15 * 2e-8 * eta\n"
+        "def rho(at):\n"
+        "    return 1.0 + 0.0 * at.pressure * at.temperature, 0.0 * at.pressure\n"
+        "def tau(at):\n"
+        "    return at.temperature + 0.0 * at.pressure\n"
+    )
+    own = {name: f"{tmp_path / 'warm.py'}:{name}" for name in ("eta", "rho", "tau")}
+    walther = {"kinematic_viscosity_40": 1e-4, "kinematic_viscosity_100": 1e-5, "density": 850.0}
+    oil = walther | {"temperature": 333.15, "viscosity_law": own["eta"], "density_law": own["rho"]}
+    tables = {"lubricant": oil, "friction": {"model": own["tau"]}, "motion": {"speed": 1.0}}
+    contact = contact_from(config_from_tables(tables))
+    told = contact.lubricant.viscosity_law.log_viscosity(np.array([1.0]), 1e9)
+    assert told[0] == pytest.approx(20.0) and told[1] == pytest.approx(20.0)
+    assert contact.lubricant.density_law.density(np.array([1.0]), 1e9)[0] == pytest.approx(1.0)
+    assert contact.friction.rheology.shear_stress(Conditions(np.ones(1))) == pytest.approx(333.15)

@@ -92,4 +92,7 @@ def test_the_film_without_thinning_is_told_beside_the_thinned_one(surface):
     film = thick.mixed.mean_gap_nm if surface else thick.central_film_nm
     assert thinned.converged and thinned.friction.unthinned_film_nm == pytest.approx(film, rel=1e-5)
     assert thick.friction.unthinned_film_nm is None
-    assert any("without that the film would be" in line for line in friction_lines(thinned.friction, False))
+    assert any(
+        "without that the film (of rough bodies the mean gap) would be" in line
+        for line in friction_lines(thinned.friction, False)
+    )

@@ -130,8 +130,3 @@ def _turns(m, n, seed):
     turns = np.empty(len(order))
     turns[order] = np.random.Generator(np.random.PCG64(seed)).random(len(order))
     return turns.reshape(len(n), len(m))
-
-
-def span(shortest, longest, aspect):
-    """What `LARGEST_SPAN` limits."""
-    return aspect * longest / shortest
