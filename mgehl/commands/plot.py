@@ -1,7 +1,7 @@
 """mgehl plot: draw finished runs, or compare several
 
 Draw finished runs: centre lines against Hertz, maps of film, pressure and status, heights of a rough
-surface, history of the convergence; of several runs one picture of their centre lines and one of their
+surface, history of the convergence, shear stress and flash temperatures; of several runs one picture of their centre lines and one of their
 histories. Pictures of an earlier time are replaced. A line contact has no maps, a wedge no map of its
 film, which is a plane, a dry contact one of its gap.
 
@@ -13,7 +13,10 @@ from pathlib import Path
 from mgehl.commands import several, whole_number
 from mgehl.errors import OutputError, UserError
 
-KINDS = ("all", "time", "lines", "film", "pressure", "status", "gap", "surface", "history", "compare")
+KINDS = (
+    "all", "time", "lines", "film", "pressure", "status", "gap", "surface", "history", "shear", "flash_1",
+    "flash_2", "compare",
+)  # fmt: skip
 FORMATS = ("png", "svg", "pdf")
 DEFAULT_FORMATS = ("png", "pdf")
 

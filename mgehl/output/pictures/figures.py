@@ -8,6 +8,7 @@ the one that a run leaves.
 """
 
 from collections.abc import Sequence
+from functools import partial
 from os import PathLike
 from pathlib import Path
 from typing import NamedTuple
@@ -43,7 +44,12 @@ _POINT = {
 """Pictures of a point contact, in order: the kind, what it shows, the function that draws it."""
 _GAP = "pressure and gap on the centre lines, against the contact of smooth bodies"
 _DRY = {"lines": (_GAP, lines.centre_lines), "gap": ("gap, with contact", maps.film_map)}
-_SLIDES = {"shear": ("shear stress by sliding, with contact outlined", maps.shear_map)}
+_OF_FRICTION = {
+    "shear": ("shear stress by sliding, with contact outlined", maps.shear_map),
+    "flash_1": ("flash temperature of body 1", partial(maps.flash_map, 1)),
+    "flash_2": ("flash temperature of body 2", partial(maps.flash_map, 2)),
+}
+"""Pictures of fields that a run may have, by the field."""
 _ROUGH = {"surface": ("heights of the surface with contact, the gap, their distribution", surface_picture)}
 _IN_TIME = {"time": ("films, pressure and shares of the load over time", over_time)}
 _BEARING = {
@@ -52,7 +58,7 @@ _BEARING = {
     "status": _POINT["status"],
     "history": _POINT["history"],
 }
-_FLAT = {"film", "gap", "pressure", "status", "shear"}
+_FLAT = {"film", "gap", "pressure", "status", *_OF_FRICTION}
 """Maps, which a single line has not."""
 
 
@@ -84,7 +90,7 @@ def _possible(solution):
         drawn = _DRY | {kind: drawn[kind] for kind in drawn if kind not in ("lines", "film")}
     if solution.config.is_in_time:
         drawn = _IN_TIME | {kind: each for kind, each in drawn.items() if kind != "history"}
-    drawn = drawn | (_SLIDES if solution.fields.shear is not None else {})
+    drawn = drawn | {kind: each for kind, each in _OF_FRICTION.items() if kind in solution.fields.named}
     return {kind: each for kind, each in drawn.items() if not (solution.mesh.is_line and kind in _FLAT)}
 
 

@@ -33,19 +33,30 @@ def film_map(solution):
 
 def pressure_map(solution):
     """Figure of the pressure in GPa; of contact the outline."""
-    draw = partial(_draw_smooth, "pressure", "pressure, GPa")
-    return _map(draw, f"pressure, {title(solution)}", solution)
+    return _smooth_map(1e-9 * solution.pressure, "pressure", "GPa", solution)
 
 
 def shear_map(solution):
     """Figure of the shear stress by sliding in MPa; of contact the outline."""
-    draw = partial(_draw_smooth, "shear", "shear stress, MPa")
-    return _map(draw, f"shear stress, {title(solution)}", solution)
+    return _smooth_map(1e-6 * solution.fields.shear, "shear stress", "MPa", solution)
+
+
+def flash_map(body, solution):
+    """Figure of the flash temperature of body 1 or 2 in K above it, beside cavities, too; of contact the
+    outline."""
+    rise = getattr(solution.fields, f"flash_{body}")
+    return _smooth_map(rise, f"flash temperature of body {body}", "K", solution, fluids=False)
 
 
 def status_map(solution):
     """Figure of what each node is, on the whole grid."""
     return _map(draw_status, f"status of the nodes, {title(solution)}", solution)
+
+
+def _smooth_map(values, name, unit, solution, fluids=True):
+    """Figure of a field, (ny, nx), of the fluid's or else of a body's, which no cavity hides."""
+    draw = partial(_draw_smooth, values, f"{name}, {unit}", fluids)
+    return _map(draw, f"{name}, {title(solution)}", solution)
 
 
 def _map(draw, said, solution):
@@ -74,11 +85,15 @@ def draw_film(axes, solution, most=MOST):
     return [*draw_cavities(axes, plane), *draw_sets(axes, plane), *finish(axes, solution, plane)]
 
 
-def _draw_smooth(name, label, axes, solution):
-    """As `draw_film`, of another field of the plane."""
+def _draw_smooth(values, label, fluids, axes, solution):
+    """As `draw_film`, of another field, (ny, nx)."""
     plane = Plane(solution)
-    colour_bar(axes, plane, draw_image(axes, plane, getattr(plane, name), "bilinear"), label)
-    handles = draw_cavities(axes, plane)
+    image = draw_image(axes, plane, plane.largest(values), "bilinear")
+    if fluids:
+        colour_bar(axes, plane, image, label)
+    else:
+        bar(axes, plane, image, (0.0, 1.0), label=label)
+    handles = draw_cavities(axes, plane) if fluids else []
     if (plane.status == CONTACT).any():
         _contour(axes, plane, plane.status == CONTACT, (0.5,), colors=style.CONTACT_COLOUR, linewidths=1.2)
         handles.append(Patch(facecolor="none", edgecolor=style.CONTACT_COLOUR, label="contact"))

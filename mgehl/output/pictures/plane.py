@@ -63,9 +63,9 @@ class Blocks:
 class Plane:
     """A part of a run's plane in `blocks`, in mm; fields are (len(blocks.Y), len(blocks.X)).
 
-    It is what carries load and Hertz's ellipse, with room, or the `whole` domain. `film` is in nm,
-    `pressure` in GPa, `shear` in MPa or None, `filling` from 0 to 1; `distance` is that from the middle of
-    what carries load, 1 on its edge. `part` are the slices of the nodes (y, x).
+    It is what carries load and Hertz's ellipse, with room, within the boundary, or the `whole` domain. `film` is in nm,
+    `filling` from 0 to 1; `distance` is that from the middle of what carries load, 1 on its
+    edge. `part` are the slices of the nodes (y, x).
     """
 
     def __init__(self, solution, most=MOST, whole=False):
@@ -78,10 +78,12 @@ class Plane:
         overlap = (fields.H < 0.0) & (fields.status != CONTACT)
         self.status = self.blocks.largest(np.where(overlap, OVERLAP, fields.status)[part])
         self.film = self.blocks.least(1e9 * contact.film_scale * fields.H[part])
-        self.pressure = self.blocks.largest(1e-9 * contact.pressure_scale * fields.P[part])
         self.filling = self.blocks.least(filling_of(fields)[part])
-        self.shear = None if fields.shear is None else self.blocks.largest(1e-6 * fields.shear[part])
         self.distance = np.hypot((self.blocks.X - x) / wide, (self.blocks.Y[:, None] - y) / high)
+
+    def largest(self, values):
+        """The largest of a field of the run, (ny, nx), in each block."""
+        return self.blocks.largest(values[self.part])
 
 
 def filling_of(fields):
@@ -95,7 +97,8 @@ def _place(line, hertz, loaded, whole):
     middle, half = ends.mean(), 0.5 * np.ptp(ends)
     room = MARGIN * half
     first, last = np.searchsorted(line, (min(ends[0], -hertz) - room, max(ends[1], hertz) + room))
-    part = slice(None) if whole else slice(max(int(first) - 1, 0), int(last) + 1)
+    rim = int(len(line) > 2)  # the boundary's nodes: neither film nor cavity
+    part = slice(None) if whole else slice(max(int(first) - 1, rim), min(int(last) + 1, len(line) - rim))
     return line[part], middle, half, part
 
 

@@ -6,8 +6,10 @@ from matplotlib.colors import to_rgba
 from matplotlib.image import imread
 from matplotlib.quiver import Quiver
 
-from mgehl.discretization.status import CAVITATED, CONTACT
+from mgehl.commands.plot import KINDS
+from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT
 from mgehl.output.pictures import maps, plane, style
+from mgehl.output.pictures.figures import drawn_by
 
 ALL = [maps.film_map, maps.pressure_map, maps.status_map]
 
@@ -66,6 +68,24 @@ def test_a_single_node_in_contact_is_seen_on_the_map_of_a_large_grid(make_soluti
     pixels = imread(tmp_path / "map.png")
     wide = pixels[: int(0.85 * len(pixels))]  # without the legend
     assert (np.abs(wide - to_rgba(style.CONTACT_COLOUR)).max(axis=-1) < 0.01).any()
+
+
+def test_flash_temperatures_are_drawn_where_they_were_found(make_solution, drawn):
+    """Of each body a map, which no cavity hides, as `mgehl plot` and reports know it."""
+    solution = make_solution()
+    assert not {"flash_1", "flash_2"} & drawn_by(solution).keys()
+    solution.fields.flash_2 = np.linspace(0.0, 3.0, solution.status.size).reshape(solution.status.shape)
+    pictures = drawn_by(solution)
+    assert {"flash_2"} == {"flash_1", "flash_2"} & pictures.keys() and "flash_2" in KINDS
+    (image,) = drawn(pictures["flash_2"][1], solution).get_images()
+    np.testing.assert_array_equal(image.get_array(), of_window(solution, solution.fields.flash_2))
+
+
+def test_maps_end_within_the_boundary_but_those_of_the_whole_grid(make_solution):
+    solution = make_solution(settings=["grid.x=[-1.2, 1.2]", "grid.y=[-1.2, 1.2]"])
+    solution.fields.status[[0, -1]] = solution.fields.status[:, [0, -1]] = BOUNDARY
+    assert not (plane.Plane(solution).status == BOUNDARY).any()
+    assert (plane.Plane(solution, whole=True).status == BOUNDARY).any()
 
 
 class TestMotion:
