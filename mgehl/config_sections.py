@@ -68,8 +68,8 @@ class DiscretizationSection:
     # fmt: off
     couette: str | None = word(None, "differential scheme of the Couette flow (unset: 3B, and 3L of rough "
         "bodies)", tuple(SCHEMES))
-    face_mobility: str = word("linear-gap", "mean of two nodes' mobilities at the face between them",
-        FACE_MOBILITIES)
+    face_mobility: str = word("linear-gap", "mean of two nodes' mobilities at the face between them; by "
+        "arithmetic, the paper's, contact of smooth bodies shuts its faces", FACE_MOBILITIES)
     contact_model: str = word("lcic", "interface conditions, the unified equations that have none, or "
         "contact without a fluid", ("lcic", "unified", "dry"))
     unified_gap: float = number(0.0, "smallest gap of the unified Poiseuille flow", "m", 0.0)

@@ -91,8 +91,8 @@ def _inlet(config, contact, mesh):
     needed = resolution.resolving_nodes(contact, mesh)
     cells, start = grids[-1].cells, config.solver.start
     yield ""
-    begins_closed = start == "contact" and scheme_from(config, contact).contact_law.closes_faces
-    expected = resolution.expectation(cells, begins_closed, contact.is_mixed)
+    shuts = scheme_from(config, contact).contact_law.closes_faces
+    expected = resolution.expectation(cells, start, contact.is_mixed, shuts)
     yield f"expected   from a {start} start, {expected}"
     verdict = "this grid does" if needed <= config.grid.nodes else f"recommended: grid.nodes={needed}"
     if needed > LARGEST_NODES:

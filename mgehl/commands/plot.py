@@ -1,9 +1,9 @@
 """mgehl plot: draw finished runs, or compare several
 
-Draw finished runs: centre lines against Hertz, maps of film, pressure and status, heights of a rough
-surface, history of the convergence, shear stress and flash temperatures; of several runs one picture of their centre lines and one of their
-histories. Pictures of an earlier time are replaced. A line contact has no maps, a wedge no map of its
-film, which is a plane, a dry contact one of its gap.
+Draw finished runs: centre lines against Hertz, maps of film, pressure and status, of shear stress and
+flash temperatures where there are any, heights of a rough surface, history of the convergence; of several
+runs one picture of their centre lines and one of their histories. Pictures of an earlier time are replaced.
+A line contact has no maps, a wedge no map of its film, which is a plane, a dry contact one of its gap.
 
 example: python -m mgehl plot runs/try --kind lines,film --format png,svg
 """

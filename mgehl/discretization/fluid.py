@@ -140,8 +140,11 @@ def _share(part, whole):
     return np.divide(part, whole, out=np.zeros(np.broadcast(part, whole).shape), where=whole > 0.0)
 
 
+ARITHMETIC = "arithmetic"
+"""The paper's, the one mean that does not vanish with either side."""
+
 FACE_MEANS = {
-    "arithmetic": arithmetic_mean,
+    ARITHMETIC: arithmetic_mean,
     "logarithmic": logarithmic_mean,
     "geometric": geometric_mean,
     "harmonic": harmonic_mean,
@@ -155,7 +158,7 @@ mean it rises with the difference of the pressures, however large."""
 LINEAR_GAP = "linear-gap"
 """Not a mean of the mobility alone: it asks for the gap, too."""
 
-FACE_MOBILITIES = ("arithmetic", "logarithmic", LINEAR_GAP, "geometric", "harmonic")
+FACE_MOBILITIES = (ARITHMETIC, "logarithmic", LINEAR_GAP, "geometric", "harmonic")
 
 
 @dataclass(frozen=True)

@@ -18,8 +18,12 @@ SEEN_CELLS = 1.0
 """Cells in the inlet below which the contact set is the grid's, not the problem's."""
 
 FILM_TOUCHES, CONTACT_OPENS = 1.5, 0.75
-"""Cells in the inlet below which a film start has had contact, and above which a contact start has lost
-full contact: `study onset` on 129 to 513 nodes, arithmetic mean."""
+"""Cells in the inlet below which a film start has had contact whose faces are shut, and above which a
+contact start has lost full contact: 129 to 513 nodes, arithmetic mean."""
+
+FILM_IS_THE_GRIDS = 0.5
+"""Cells below which films of contact that closes continuously touch by the grid: on 257 nodes, not yet on
+129 and 65."""
 
 
 STARVED_FROM = 1.0
@@ -67,18 +71,20 @@ def resolving_nodes(contact, mesh):
     return nodes
 
 
-def expectation(cells, begins_closed, is_mixed=False):
-    """What a run finds with so many cells in its inlet.
+def expectation(cells, start, is_mixed, shuts):
+    """What a run finds with so many cells in its inlet from a `start`.
 
-    `begins_closed`: from contact whose faces are closed. `is_mixed`: peaks reach through the film.
+    `is_mixed`: peaks reach through the film. `shuts`: contact shuts its faces.
     """
     if is_mixed:
         return "a film that the highest peaks may reach through: the run tells how much they carry"
     if cells >= RESOLVED_CELLS:
         return "a film that the grid resolves"
-    if cells >= FILM_TOUCHES:
+    if cells >= (FILM_TOUCHES if shuts else FILM_IS_THE_GRIDS):
         return "a film that changes with the grid"
-    if begins_closed and cells < CONTACT_OPENS:
+    if not shuts:
+        return "a film that the grid does not see, thin enough to touch where the grid decides"
+    if start == "contact" and cells < CONTACT_OPENS:
         return "full contact, whose inlet the grid does not see"
     return "film and contact side by side; where they meet is decided by the grid"
 

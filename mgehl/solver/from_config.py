@@ -60,8 +60,9 @@ def scheme_from(config, contact):
 
 
 def _interface_conditions(config, contact):
-    layers, threshold = config.contact.boundary_film, config.discretization.film_threshold
-    return interface_law(contact, layers, threshold, config.solver.start, config.is_in_time)
+    section = config.discretization
+    layers, threshold, mean = config.contact.boundary_film, section.film_threshold, section.face_mobility
+    return interface_law(contact, layers, threshold, mean, config.is_in_time)
 
 
 def _unified_equations(config, contact):

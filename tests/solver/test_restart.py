@@ -14,7 +14,7 @@ from mgehl.run import solve
 from mgehl.solver.from_config import settings_from
 from mgehl.solver.problem import ContactProblem
 from mgehl.solver.restart import check_start, interpolated
-from mgehl.studies.study import PAPERS_DOMAIN, papers_grid
+from mgehl.studies.study import PAPER, PAPERS_DOMAIN, papers_grid
 
 FILM = {"motion": {"speed": 0.5}, "grid": papers_grid(65), "solver": {"start": "film"}}
 LINE = {
@@ -22,7 +22,7 @@ LINE = {
     "motion": {"speed": 0.3},
     "grid": {"nodes": 129, "x": PAPERS_DOMAIN["x"]},
 }
-DRY = {"motion": {"speed": 5e-6}, "grid": papers_grid(65), "solver": {"start": "contact"}}
+DRY = PAPER | {"motion": {"speed": 5e-6}, "grid": papers_grid(65), "solver": {"start": "contact"}}
 
 
 def solved(*tables, start=None):

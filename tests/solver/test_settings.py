@@ -1,7 +1,7 @@
 """The solver's settings and the configuration's keys have the same defaults."""
 
 from mgehl.config import config_from_tables
-from mgehl.discretization.contact_law import UnifiedEquations
+from mgehl.discretization.contact_law import BoundaryFilm, UnifiedEquations
 from mgehl.discretization.scheme import Scheme
 from mgehl.kinds import case_of
 from mgehl.solver.from_config import set_up
@@ -11,7 +11,8 @@ from mgehl.solver.settings import SolverSettings
 def test_what_is_not_configured_is_the_default():
     """All but the schemes, and the film threshold: a length there and a part of the gap's unit here."""
     config = config_from_tables({"discretization": {"film_threshold": 0.0}})
-    assert set_up(case_of(config)).settings == SolverSettings(scheme=Scheme("3B", "linear-gap"))
+    scheme = Scheme("3B", "linear-gap", contact_law=BoundaryFilm(0.0))
+    assert set_up(case_of(config)).settings == SolverSettings(scheme=scheme)
 
 
 def test_rough_bodies_are_differenced_by_the_limited_scheme_unless_told_otherwise():

@@ -63,9 +63,9 @@ class Blocks:
 class Plane:
     """A part of a run's plane in `blocks`, in mm; fields are (len(blocks.Y), len(blocks.X)).
 
-    It is what carries load and Hertz's ellipse, with room, within the boundary, or the `whole` domain. `film` is in nm,
-    `filling` from 0 to 1; `distance` is that from the middle of what carries load, 1 on its
-    edge. `part` are the slices of the nodes (y, x).
+    It is what carries load and Hertz's ellipse, with room, within the boundary, or the `whole` domain.
+    `film` is in nm, `filling` from 0 to 1; `distance` is that from the middle of what carries load, 1 on
+    its edge. `part` are the slices of the nodes (y, x).
     """
 
     def __init__(self, solution, most=MOST, whole=False):

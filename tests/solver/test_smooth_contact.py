@@ -1,0 +1,36 @@
+"""Smooth bodies whose film the grid hardly sees: contact closes continuously but by the paper's mean."""
+
+import pytest
+
+import mgehl
+from mgehl.config import config_from_tables
+from mgehl.discretization.contact_law import BoundaryFilm, InterfaceConditions
+from mgehl.kinds import case_of
+from mgehl.solver.from_config import set_up
+
+
+def law(**tables):
+    return set_up(case_of(config_from_tables(tables))).settings.scheme.contact_law
+
+
+def test_the_paper_s_mean_alone_shuts_the_faces_of_contact():
+    """It lets half of a node's flow through to a closed neighbour; that of every other mean vanishes."""
+    arithmetic = {"face_mobility": "arithmetic"}
+    assert isinstance(law(discretization=arithmetic), InterfaceConditions)
+    assert isinstance(law(discretization=arithmetic, contact={"boundary_film": 1e-9}), BoundaryFilm)
+    assert isinstance(law(discretization=arithmetic, time={"end": 1e-3}), BoundaryFilm)
+    for mean in ("linear-gap", "logarithmic", "geometric", "harmonic"):
+        assert isinstance(law(discretization={"face_mobility": mean}), BoundaryFilm)
+
+
+@pytest.mark.parametrize("speed", [15e-3, 1e-3])
+def test_both_starts_find_one_film_that_conserves_oil(speed):
+    """0.3 and 0.06 cells in the inlet on 65 nodes. By shut faces neither start converges."""
+    tables = {"motion": {"speed": speed}, "grid": {"nodes": 65}}
+    films = []
+    for start in ("film", "contact"):
+        solver = {"start": start, "error": False}
+        result = mgehl.solve(config_from_tables(tables | {"solver": solver})).result
+        assert result.converged and result.mass.made_share < 1e-7
+        films.append((result.central_film_nm, result.minimum_film_nm))
+    assert films[0] == pytest.approx(films[1], rel=1e-5)
