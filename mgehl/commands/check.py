@@ -11,6 +11,7 @@ from itertools import groupby
 from mgehl.commands import add_configuration, add_settings, shown, whole_number
 from mgehl.config import config_from_tables, left_out, read_tables
 from mgehl.config_file import chosen_config, naming_file
+from mgehl.kinds.choice import given
 from mgehl.kinds.cited import cited
 from mgehl.kinds.lubricant import oil_words
 from mgehl.kinds.plausible import implausible
@@ -41,7 +42,7 @@ def execute(options):
         case = checked_case(config_from_tables(tables))
     config, contact, mesh = case.config, case.contact, case.mesh
     print(f"{options.config or shown(file)}: valid, a {config.kind.noun}\n")
-    lines = [*_given(config, left_out(config, tables))]
+    lines = [*_given(config, left_out(config, tables)), *_idle(config, tables)]
     lines += *_under("unusual", implausible(config, contact)), "", *_described(config, contact, mesh)
     lines += *_estimate(config, contact, mesh, options.ranks), *_recipe(config, contact), ""
     names = ", ".join(SOURCES[key].short for key in cited(config, contact))
@@ -60,6 +61,12 @@ def _given(config, missing):
     )
     yield from (f"{'oil':{NAME}}{words}" for words in oil_words(config))
     yield from _under("not given", (f"{key}: {config.said(key)} is the paper's" for key in missing))
+
+
+def _idle(config, tables):
+    """A line with the keys of `tables` that do nothing for this contact."""
+    if idle := given(tables, sorted(config.unused)):
+        yield f"{'not used':{NAME}}{', '.join(idle)}: nothing to a {config.kind.noun}"
 
 
 def _under(head, lines):

@@ -147,7 +147,7 @@ class LoadedKind(Kind):
             f"groups     {groups}",
             f"regime     {contact.regime} (Moes)",
             f"Hertz      {self.hertz_words(hertz)}   p_h {1e-9 * hertz.p_h:.4g} GPa{first}",
-            f"films, {unit}  {shown}",
+            f"films, {unit}  {shown}{time.of_formulas(config)}",
             *(f"           {words}" for words in assumptions(contact)),
             *(
                 f"lambda     {words}"

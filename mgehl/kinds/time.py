@@ -112,6 +112,12 @@ def of_first_load(config):
     return ", of the first load" if isinstance(config.value(load_key(config)), str) else ""
 
 
+def of_formulas(config):
+    """Words after what formulas tell of a contact whose load or speed is a course; else empty."""
+    fastest = ", at the largest speed" if isinstance(config.motion.speed, str) else ""
+    return f"{of_first_load(config)}{fastest}"
+
+
 def reference(config, key):
     """A number for the value of a key that may be a course: its largest size until time.end.
 

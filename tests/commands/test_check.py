@@ -37,6 +37,14 @@ def test_a_point_contact_is_described(told):
     assert "on 2 ranks" in text and "timed just now" in text
 
 
+def test_keys_that_do_nothing_are_named(told):
+    """A dry contact keeps those of a fluid for another day."""
+    words = "--set", "discretization.contact_model=dry", "--set", "friction.boundary_coefficient=0.12"
+    (line,) = [line for line in told("full_film.toml", *words).splitlines() if line.startswith("not used")]
+    assert "friction.boundary_coefficient" in line and "motion.speed" in line
+    assert "not used" not in told("full_film.toml")
+
+
 def test_all_physical_input_is_told_and_what_nobody_gave(told, tmp_path, capsys):
     text = told("full_film.toml")
     assert "viscosity 0.096 Pa*s" in text and "reduced_modulus 2.1978e+11 Pa" in text

@@ -4,6 +4,8 @@ import os
 from pathlib import Path
 from types import SimpleNamespace
 
+import re
+
 import pytest
 
 from mgehl.config import load_config
@@ -131,5 +133,7 @@ def test_a_load_that_changes_is_told_by_its_ends(tmp_path):
     contact = contact_from(config)
     mesh = mesh_from(config, contact)
     told = config.kind.heading(SimpleNamespace(config=config, contact=contact, mesh=mesh))
-    assert "GPa, of the first load" in "".join(config.kind.lines(config, contact, mesh))
+    lines = "\n".join(config.kind.lines(config, contact, mesh))
+    assert re.search("GPa, of the first load$", lines, re.M)
+    assert re.search("^films, .*, of the first load$", lines, re.M)
     assert "1 m/s, 50 N to 100 N, 65" in told.replace("\u00a0", " ")

@@ -11,6 +11,7 @@ from mgehl.kinds.cited import cited
 from mgehl.kinds.loaded import assumptions
 from mgehl.kinds.own import naming_keys
 from mgehl.kinds.plausible import implausible
+from mgehl.kinds.time import of_formulas
 from mgehl.model.films import FORMULAS
 from mgehl.model.own_function import file_and_function
 from mgehl.model.sources import SOURCES
@@ -58,7 +59,7 @@ def report(solution, name):
         return render(
             page, **FUNCTIONS, kind=kind, mark=mark, solution=solution, result=result, config=config,
             contact=solution.contact, mesh=solution.mesh, line=solution.mesh.is_line,
-            tolerance=config.solver.tolerance, films=films_of(result) if kind == "loaded" else None,
+            tolerance=config.solver.tolerance, films=films_of(result, of_formulas(config)) if kind == "loaded" else None,
             pictures=list(pictures(solution)), keys=list(keys_of(config)),
             inputs=list(inputs_of(config)), notes=list(notes_on(solution)),
             odd=list(implausible(config, solution.contact)), sources=list(sources_of(solution)),
@@ -137,8 +138,8 @@ FUNCTIONS = {
 """What run.html.j2 calls."""
 
 
-def films_of(result):
-    """Rows of films: the computed ones with their bands, then those of formulas.
+def films_of(result, of_what=""):
+    """Rows of films: the computed ones with their bands, then those of formulas, `of_what` in words.
 
     What did not converge, and what an instant has, is not compared with formulas.
     """
@@ -151,7 +152,8 @@ def films_of(result):
         theirs = formulas.get(f"{name}_central", formulas.get(name)), formulas.get(f"{name}_minimum")
         cells = (_beside(*each, is_steady) for each in zip(own, theirs, strict=True))
         known = FORMULAS.get(name)
-        rows.append((known.label if known else name.replace("_", " "), *chain(*cells)))
+        label = known.label if known else name.replace("_", " ")
+        rows.append((f"{label}{of_what}", *chain(*cells)))
     return rows
 
 
