@@ -31,13 +31,13 @@ def compare_lines(solutions, labels):
     called = {names(solution.contact) for solution in solutions}
     called = called.pop() if len(called) == 1 else ANYWHERE
     lines = [[line_of(each, across) for each in solutions] for across in range(panels)]
-    set_axes(axes, sum(lines, []))
+    set_axes(axes, lines)
     for (above, below), own, title, x in zip(axes.T, lines, called, common_labels(solutions), strict=False):
         for line, label, style in zip(own, labels, _styles(), strict=False):
             above.plot(line.X, line.P, label=label, **style)
             below.plot(line.X, line.film, label=label, **style)
         for line in {line.hertz.max(): line for line in own}.values():
-            above.plot(line.X, line.hertz, ":", color=HERTZ, linewidth=1, label="Hertz")
+            above.plot(line.fine, line.hertz, ":", color=HERTZ, linewidth=1, label="Hertz")
         above.set_title(title)
         below.set_xlabel(x)
     units = dict.fromkeys(gap_words(solution.contact)[1] for solution in solutions)

@@ -14,6 +14,10 @@ from mgehl.output.pictures.titles import gap_words, position_labels, title_with_
 INSIDE = {0.8: 3.0, 1.25: 1.0}
 """Parts of the dry contact whose films make the axis of films, the second where the first is all contact;
 and its upper end over the largest of them, of a logarithmic axis the square."""
+SHOWN, PRESSED = 2.0, 0.01
+"""Semi-axes from the centre that are shown at the least, and part of the largest pressure that is."""
+FINE = 801
+"""Places at which the dry contact is drawn: nodes may be few."""
 BARE = 1e-6
 """Part of the largest pressure by which the fluid's own must differ to be drawn."""
 ALONG, ACROSS = "Y = 0, along the motion (left to right)", "X = 0, across the motion"
@@ -22,17 +26,18 @@ ANYWHERE = "Y = 0, along x", "X = 0, along y"
 
 
 class Line(NamedTuple):
-    """A centre line: place in semi-axes; total pressure, the fluid's own and Hertz's in GPa; gap, its oil
-    and the dry contact's gap in nm; status."""
+    """A centre line: place in semi-axes; total pressure and the fluid's own in GPa; gap and its oil in nm;
+    status. Of the dry contact places of its own, pressure and gap."""
 
     X: np.ndarray
     P: np.ndarray
     p: np.ndarray
-    hertz: np.ndarray
     film: np.ndarray
     oil: np.ndarray
-    dry: np.ndarray
     status: np.ndarray
+    fine: np.ndarray
+    hertz: np.ndarray
+    dry: np.ndarray
 
 
 def line_of(solution, across):
@@ -43,10 +48,12 @@ def line_of(solution, across):
     GPa, nm = 1e-9 * contact.pressure_scale, 1e9 * contact.film_scale
     layers = 1e9 * solution.config.contact.boundary_film
     P, film = GPa * fields.P[part], nm * fields.H[part]
-    dry = contact.dry_gap(0.0 * X, X) if across else contact.dry_gap(X, 0.0 * X)
+    fine = np.linspace(X[0], X[-1], FINE)
+    dry = contact.dry_gap(0.0 * fine, fine) if across else contact.dry_gap(fine, 0.0 * fine)
     return Line(
-        X, P, P if fields.p is None else GPa * fields.p[part], GPa * hertz_pressure(X, 0.0), film,
-        layers + filling_of(fields)[part] * (film - layers), nm * dry, fields.status[part],
+        X, P, P if fields.p is None else GPa * fields.p[part], film,
+        layers + filling_of(fields)[part] * (film - layers), fields.status[part],
+        fine, GPa * hertz_pressure(fine, 0.0), nm * dry,
     )  # fmt: skip
 
 
@@ -66,7 +73,7 @@ def centre_lines(solution):
 def draw_lines(axes, solution):
     """Pressures on the first row of axes, films on the second, along x and along y; their handles."""
     lines = [line_of(solution, across) for across in range(len(axes[0]))]
-    set_axes(axes, lines)
+    set_axes(axes, [[line] for line in lines])
     called, labels = names(solution.contact), position_labels(solution)
     axes[0, 0].set_ylabel("pressure, GPa")
     axes[1, 0].set_ylabel(gap_words(solution.contact)[1])
@@ -85,8 +92,10 @@ def names(contact):
 
 
 def set_axes(axes, lines):
-    """Limits for some `Line`s: films inside the dry contact can be read, on a logarithmic axis where they
-    differ much. It begins below 0 only where bodies overlap."""
+    """Limits for some `Line`s, of each column of axes: what is loaded is shown, and films inside the dry
+    contact can be read, on a logarithmic axis where they differ much. It begins below 0 only where bodies
+    overlap."""
+    lines, columns = [line for column in lines for line in column], lines
     for inside in INSIDE:
         films = [line.film[(np.abs(line.X) < inside) & (line.status != CONTACT)] for line in lines]
         films, room = np.concatenate(films), INSIDE[inside]
@@ -94,17 +103,23 @@ def set_axes(axes, lines):
             break
     least, top = min(line.film.min() for line in lines), films.max(initial=1e-3)
     low = max(films[films > 0.0].min(initial=top), top / DECADES)
-    for pressures, below in axes.T:
+    for (pressures, below), column in zip(axes.T, columns, strict=True):
         pressures.set_ylim(0.0, 1.1 * max(line.P.max() for line in lines))
         pressures.sharex(below)
         pressures.tick_params(labelbottom=False)
-        pressures.margins(x=0.0)
-        below.margins(x=0.0)
+        below.set_xlim(*_loaded(column))
         if top > LINEAR * low and least > -low:
             below.set(yscale="log", ylim=(low / 2.0, room**2 * top))
             below.yaxis.set_major_formatter("{x:g}")
         else:
             below.set_ylim(min(0.0, 1.1 * least), room * top)
+
+
+def _loaded(lines):
+    """Ends of what carries load, in semi-axes, with room about it, as far as there are nodes."""
+    pressed = np.concatenate([line.X[line.P > PRESSED * line.P.max()] for line in lines])
+    low, high = SHOWN * min(pressed.min(initial=-1.0), -1.0), SHOWN * max(pressed.max(initial=1.0), 1.0)
+    return max(low, min(line.X[0] for line in lines)), min(high, max(line.X[-1] for line in lines))
 
 
 def _draw(pressures, films, line, solution):
@@ -134,5 +149,5 @@ def _draw(pressures, films, line, solution):
             handles += films.plot(
                 line.X[where], seen, ".", color=colour, label=label, clip_on=where is cavity
             )
-    pressures.plot(line.X, line.hertz, **dotted)
-    return handles + films.plot(line.X, line.dry, **dotted)
+    pressures.plot(line.fine, line.hertz, **dotted)
+    return handles + films.plot(line.fine, line.dry, **dotted)

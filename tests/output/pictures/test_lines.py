@@ -37,6 +37,16 @@ def test_both_axes_show_the_fields_in_GPa_and_nm(make_solution, drawn):
         assert above.get_xlim() == below.get_xlim() == pytest.approx(tuple(position[[0, -1]]))
 
 
+def test_what_carries_load_is_shown_beside_a_smooth_dry_contact(make_solution, drawn):
+    """Of a domain of 60 semi-axes a side; and Hertz's pressure is no polygon of few nodes."""
+    solution = make_solution(settings=["grid.x=[-60,60]"])
+    above = drawn(solution)[0]
+    left, right = above.get_xlim()
+    assert -15.0 < left < -1.5 and 1.5 < right < 15.0
+    (hertz,) = [line for label, line in lines_of(above).items() if label.startswith("dry contact")]
+    assert len(hertz.get_xdata()) > 10 * solution.mesh.nx
+
+
 class TestRough:
     """A contact with layers of 2 nm whose fluid carries half of the pressure."""
 
