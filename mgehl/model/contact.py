@@ -3,7 +3,7 @@
 Inside the code X = x/a, P = p/p_h and H = h R_x/a^2 (the paper divides the gap by a).
 """
 
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from math import log, sqrt
 
 import numpy as np
@@ -73,9 +73,14 @@ class LoadedContact(OnBodies, Inlet):
         raise NotImplementedError
 
     @property
+    def formulas(self):
+        """{name: film in m} by every formula."""
+        raise NotImplementedError
+
+    @property
     def shown_formulas(self):
-        """Names of the films of `formulas` that are made for such bodies."""
-        return [name for name in asdict(self.formulas) if films.applies(name, self.regime)]
+        """{name: film in m} of the `formulas` that are made for such bodies."""
+        return {name: film for name, film in self.formulas.items() if films.applies(name, self.regime)}
 
     @property
     def density_ratio(self):
@@ -91,13 +96,13 @@ class LoadedContact(OnBodies, Inlet):
         bodies that are pressed flat is the formula's, by the density at p_h that it assumes over the oil's.
         """
         if "elastic" not in self.regime:
-            return {name: getattr(self.formulas, name) for name in self.shown_formulas}
+            return self.shown_formulas
         own, theirs = self.density_ratio, self._density_ratio(DowsonHigginson())
         found = {}
-        for name in self.shown_formulas:
+        for name, film in self.shown_formulas.items():
             assumed = 1.0 if films.formula_of(name).incompressible else theirs
             ratio = 1.0 if name.endswith("_minimum") else assumed / own
-            found[name] = getattr(self.formulas, name) * ratio
+            found[name] = film * ratio
         return found
 
     @property

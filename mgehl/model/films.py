@@ -55,6 +55,11 @@ def formula_of(name):
     return FORMULAS[name.removesuffix("_central").removesuffix("_minimum")]
 
 
+def both(name, found):
+    """{film: metres} of a formula that tells the central and the minimum one."""
+    return dict(zip((f"{name}_central", f"{name}_minimum"), found, strict=True))
+
+
 def applies(name, regime):
     """Whether a film's formula is made for bodies of a `regime`."""
     made_for = formula_of(name).bodies

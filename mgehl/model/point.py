@@ -39,26 +39,6 @@ def radii_along(angle, radius_x, radius_y):
 
 
 @dataclass(frozen=True)
-class PointFormulas:
-    """Film thicknesses in metres that formulas predict."""
-
-    hamrock_dowson_central: float
-    hamrock_dowson_minimum: float
-    nijenbanning_venner_moes: float
-    grubin: float
-    hamrock_dowson_soft_central: float
-    hamrock_dowson_soft_minimum: float
-
-
-@dataclass(frozen=True)
-class ObliqueFormulas(PointFormulas):
-    """The same, and the formula made for motion along neither axis."""
-
-    chittenden_central: float
-    chittenden_minimum: float
-
-
-@dataclass(frozen=True)
 class PointContact(LoadedContact):
     """A paraboloid pressed on a lubricated flat; load in N."""
 
@@ -227,15 +207,16 @@ class PointContact(LoadedContact):
 
     @property
     def formulas(self):
-        """What the film formulas say of this contact."""
-        like = self.aligned
-        central, minimum = films.hamrock_dowson(self.groups, like.radius_x, 1.0 / like.k_e)
-        moes = films.nijenbanning_venner_moes(self.groups, like.radius_x, like.radius_y)
-        soft = films.hamrock_dowson_soft(self.groups, like.radius_x, 1.0 / like.k_e)
-        found = central, minimum, moes, like.grubin_film, *soft
-        if 0.0 in self.motion:
-            return PointFormulas(*found)
-        return ObliqueFormulas(*found, *films.chittenden(self.groups, like.radius_x, like.radius_y))
+        """As of any contact; along neither axis that made for it, too."""
+        like, groups = self.aligned, self.groups
+        radii, ellipse = (like.radius_x, like.radius_y), (like.radius_x, 1.0 / like.k_e)
+        return {
+            **films.both("hamrock_dowson", films.hamrock_dowson(groups, *ellipse)),
+            "nijenbanning_venner_moes": films.nijenbanning_venner_moes(groups, *radii),
+            "grubin": like.grubin_film,
+            **films.both("hamrock_dowson_soft", films.hamrock_dowson_soft(groups, *ellipse)),
+            **({} if 0.0 in self.motion else films.both("chittenden", films.chittenden(groups, *radii))),
+        }
 
     @property
     def moes_scale(self):
@@ -250,9 +231,11 @@ class PointContact(LoadedContact):
 
     @property
     def _piezoviscous_film(self):
-        return self.likeness.formulas.hamrock_dowson_central
+        like = self.likeness
+        return films.hamrock_dowson(like.groups, like.radius_x, 1.0 / like.k_e)[0]
 
     @property
     def flooded_film(self):
         """Central film in metres that a formula for every regime predicts."""
-        return self.likeness.formulas.nijenbanning_venner_moes
+        like = self.likeness
+        return films.nijenbanning_venner_moes(like.groups, like.radius_x, like.radius_y)

@@ -115,8 +115,8 @@ def films_and_contact(points):
         ratio.plot(mm_s, area, mark + "-", color=colour, ms=4, label=branch)
     own = sorted((each for each in points if each.branch == points[0].branch), key=lambda each: each.speed)
     formulas = [point.solution.contact.formulas for point in own]
-    for name, grey in zip(vars(formulas[0]), GREYS, strict=False):
-        heights, label = [1e9 * getattr(formula, name) for formula in formulas], name.replace("_", " ")
+    for name, grey in zip(formulas[0], GREYS, strict=False):
+        heights, label = [1e9 * formula[name] for formula in formulas], name.replace("_", " ")
         films.plot([1e3 * each.speed for each in own], heights, "--", color=grey, lw=0.9, label=label)
     films.set(xscale="log", xlabel="speed, mm/s", ylabel="film, nm (0: contact)")
     films.set_yscale("symlog", linthresh=1.0)
