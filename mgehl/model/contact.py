@@ -14,7 +14,6 @@ from mgehl.model.hertz import hertz_pressure
 from mgehl.model.inlet import Inlet
 from mgehl.model.lubricant import DowsonHigginson
 from mgehl.model.on_bodies import NEXT_TO_NONE, OnBodies
-from mgehl.model.rheology import Friction
 
 RESOLVED_CELLS = 4.0
 """Cells in the inlet from which on the film does not change with the grid."""
@@ -34,9 +33,9 @@ class Groups:
 class LoadedContact(OnBodies, Inlet):
     """Scales, film and inlet of a body pressed on a lubricated flat, all values in SI units.
 
-    A kind of contact adds `load`, `radius_x`, `reduced_modulus`, `speed`, `lubricant`, the dry
-    `hertz` contact, `groups`, `smooth_gap`, `dry_gap`, the `kernel` of the deformation, the
-    `load_integral` of P and the `contact_area` in units of X and Y. `speed` is u of the Couette flow
+    A kind of contact adds `load`, `radius_x`, `reduced_modulus`, `speed`, `lubricant`, `friction` and
+    `solids`, the dry `hertz` contact, `groups`, `smooth_gap`, `dry_gap`, the `kernel` of the deformation,
+    the `load_integral` of P and the `contact_area` in units of X and Y. `speed` is u of the Couette flow
     rho u h.
     """
 
@@ -51,10 +50,6 @@ class LoadedContact(OnBodies, Inlet):
 
     frame = Frame()
     """The axes in which it is solved."""
-    friction = Friction()
-    """How the surfaces slide over each other."""
-    solids = None
-    """`flash.Solid` of both bodies; None where it is not known."""
     deformation = None
     """What the bodies are in depth, where they are not half-spaces."""
     widening = 1.0

@@ -25,6 +25,7 @@ class LineContact(LoadedContact):
     lubricant: Lubricant
     surface: Surface | None = None
     friction: Friction = Friction()
+    """How the surfaces slide over each other."""
     solids: tuple[Solid, Solid] | None = None
     """What both bodies make of heat; None where it is not known."""
 

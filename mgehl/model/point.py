@@ -56,6 +56,7 @@ class PointContact(LoadedContact):
     load_beyond: bool | None = None
     """Whether the load that is carried beyond the domain is counted; None: where the film answers to it."""
     friction: Friction = Friction()
+    """How the surfaces slide over each other."""
     solids: tuple[Solid, Solid] | None = None
     """What both bodies make of heat; None where it is not known."""
 
