@@ -197,16 +197,20 @@ class LoadedContact(OnBodies, Inlet):
 
     @property
     def thermal_reduction(self):
-        """Phi_T: the part of the film that the heat of shear in the inlet leaves; None without oil's data.
-
-        [Gupta, Cheng, Zhu, Forster, Schrand 1992], of the oil that is not thinned yet.
-        """
+        """As `heated_film`; None without oil's data."""
         oil = self.lubricant
         if oil.conductivity is None or oil.thermoviscosity is None or self.is_at_rest:
             return None
-        viscosity = oil.viscosity_law.viscosity
+        return self.heated_film(oil.thermoviscosity, oil.conductivity)
+
+    def heated_film(self, beta, conductivity):
+        """Phi_T: the part of the film that the heat of shear in the inlet leaves, of the oil that is not
+        thinned yet, with beta = -d ln(eta)/dT in 1/K and its conductivity in W/(m K).
+
+        [Gupta, Cheng, Zhu, Forster, Schrand 1992]
+        """
+        loading = self.lubricant.viscosity_law.viscosity * beta * self.speed**2 / conductivity
         slip = self.friction.slide_to_roll
-        loading = viscosity * oil.thermoviscosity * self.speed**2 / oil.conductivity
         return films.inlet_heating(self.hertz.p_h / self.reduced_modulus, loading, slip)
 
     @property
