@@ -72,10 +72,8 @@ class OwnViscosity:
             return np.log(eta / self.viscosity), slope / eta
 
     def _law(self, p):
-        return self.function.pair(np.shape(p), self._at(p))
-
-    def _at(self, p):
-        return Conditions(p, self.viscosity, self.pressure_viscosity, temperature=self.temperature)
+        at = Conditions(p, self.viscosity, self.pressure_viscosity, temperature=self.temperature)
+        return self.function.pair(np.shape(p), at)
 
 
 @dataclass(frozen=True)

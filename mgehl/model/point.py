@@ -134,16 +134,12 @@ class PointContact(LoadedContact):
         return self._images.widening(1.0 / sqrt(self.k_e))
 
     @cached_property
-    def _likeness(self):
-        """The contact of half-spaces that is as wide: what formulas can say of layered bodies."""
-        if self.deformation is None:
-            return self
-        return replace(self, reduced_modulus=self.reduced_modulus / self.widening**3, deformation=None)
-
-    @property
     def likeness(self):
         """The half-spaces with axes along and across the motion that formulas know, in contact as wide."""
-        return self.aligned._likeness
+        like = self.aligned
+        if like.deformation is None:
+            return like
+        return replace(like, reduced_modulus=like.reduced_modulus / like.widening**3, deformation=None)
 
     @property
     def hardly_yields(self):
