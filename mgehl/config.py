@@ -12,10 +12,11 @@ from mgehl.config_file import default_config, nested, read_toml
 from mgehl.config_mistakes import check_section, check_together, closest, closest_key, naming_words
 from mgehl.config_value import read_value, shown
 from mgehl.errors import ConfigError
-from mgehl.kinds import choices, derived, kind_of
+from mgehl.kinds import KINDS, choices, derived
 from mgehl.kinds.bodies import BodySection
 from mgehl.kinds.choice import named, value_of
 from mgehl.kinds.derived import NUMBERS, left_over, orphans, overridden
+from mgehl.kinds.dry import DRY
 from mgehl.kinds.friction import FrictionSection
 from mgehl.kinds.heat import HeatSection
 from mgehl.kinds.lubricant import LubricantSection
@@ -52,8 +53,8 @@ class Config:
 
     @property
     def kind(self):
-        """The `Kind` of contact."""
-        return kind_of(self)
+        """The `Kind` of contact, with a fluid or without."""
+        return (DRY if self.is_dry else KINDS)[self.contact.kind]
 
     @property
     def is_dry(self):

@@ -1,6 +1,7 @@
 """One run from a configuration to its directory."""
 
 import time
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -129,15 +130,26 @@ def _find(case, comm, watch, start):
         return find(case, set_up(case), comm, watch)
 
 
+@contextmanager
+def _followed(parts, comm, kind, tolerance, watch):
+    """The grids of a solve, which are freed at its end, and the `Progress` that makes such rows of it."""
+    hierarchy = parts.hierarchy(comm)
+    try:
+        yield (
+            hierarchy,
+            progress.Progress(kind, parts.contact.film_scale, hierarchy, tolerance, watch.speaker),
+        )
+    finally:
+        hierarchy.destroy()
+
+
 def _solve_loaded(case, parts, comm, watch, start):
     """A loaded contact, by either method."""
     config, contact, settings = case.config, parts.contact, parts.settings
     by_newton = settings.method == "newton-mg"
     tolerance = config.solver.tolerance
-    hierarchy = parts.hierarchy(comm)
-    try:
-        kind = progress.newton_row if by_newton else progress.sweep_row
-        monitor = progress.Progress(kind, contact.film_scale, hierarchy, tolerance, watch.speaker)
+    kind = progress.newton_row if by_newton else progress.sweep_row
+    with _followed(parts, comm, kind, tolerance, watch) as (hierarchy, monitor):
         method = begin if by_newton else single_loop
         if start:
             method = partial(solve_from, start=start, frame=parts.frame)
@@ -158,19 +170,13 @@ def _solve_loaded(case, parts, comm, watch, start):
         told = bands | {"friction": friction, "recipe": parts.recipe(start)}
         result = replace(result, **told, wall_s=monitor.seconds)
         return _solution(case, parts, problem, outcome.state, monitor.rows, result, maps)
-    finally:
-        hierarchy.destroy()
 
 
 def _solve_in_time(case, parts, comm, watch, start):
     """A loaded contact in time."""
-    config, settings = case.config, parts.settings
-    hierarchy, scene = parts.hierarchy(comm), case.scene
-    try:
-        tolerance = settings.newton.tolerance
-        monitor = progress.Progress(
-            progress.newton_row, parts.contact.film_scale, hierarchy, tolerance, watch.speaker
-        )
+    config, settings, scene = case.config, parts.settings, case.scene
+    tolerance = settings.newton.tolerance
+    with _followed(parts, comm, progress.newton_row, tolerance, watch) as (hierarchy, monitor):
         diary = Diary(case, parts.frame, hierarchy.grids[-1], monitor, watch)
         how = settings, diary, monitor.beside, _journal(config, monitor, watch)
         problem, outcome = march(scene, hierarchy, *how, start and (start, parts.frame))
@@ -182,18 +188,12 @@ def _solve_in_time(case, parts, comm, watch, start):
         result = replace(result, recipe=parts.recipe(start))
         solution = _solution(case, parts, problem, outcome.state, monitor.rows, result)
         return replace(solution, frames=diary.frames)
-    finally:
-        hierarchy.destroy()
 
 
 def _solve_dry(case, parts, comm, watch, start):
     """A loaded contact without a fluid."""
     contact, limits = parts.contact, parts.settings.newton
-    hierarchy = parts.hierarchy(comm)
-    try:
-        monitor = progress.Progress(
-            progress.dry_row, contact.film_scale, hierarchy, limits.tolerance, watch.speaker
-        )
+    with _followed(parts, comm, progress.dry_row, limits.tolerance, watch) as (hierarchy, monitor):
         grid, scheme = hierarchy.grids[-1], parts.settings.scheme
         problem = ContactProblem(grid, hierarchy.deflections[-1], contact, scheme)
         if start:
@@ -206,8 +206,6 @@ def _solve_dry(case, parts, comm, watch, start):
         work = Work(monitor.convolutions, monitor.steps)
         result = summarise_dry(problem, outcome, limits.tolerance, work, monitor.seconds, versions())
         return _solution(case, parts, problem, outcome.state, monitor.rows, result)
-    finally:
-        hierarchy.destroy()
 
 
 class _Asked(Journal):
@@ -234,16 +232,12 @@ def _solve_bearing(case, parts, comm, watch):
     started = time.perf_counter()
     bearing, settings = parts.contact, parts.settings
     limits = settings.newton.tolerance, settings.newton.max_steps
-
-    def stop_if_told():
-        """Nothing is kept of a bearing: it is solved in seconds."""
-        if stopped := told_to_stop(comm, watch.stop):
-            raise stopped
-
     grid = single_grid(parts.mesh, comm)
     try:
         prefix = settings.cycle.options_prefix
-        problem, outcome = solve_wedge(grid, bearing, settings.scheme, prefix, *limits, stop_if_told)
+        # Nothing is kept of a bearing: it is solved in seconds.
+        stop = partial(_Asked(watch.stop).step, grid, None)
+        problem, outcome = solve_wedge(grid, bearing, settings.scheme, prefix, *limits, stop)
         result = summarise_wedge(problem, outcome, time.perf_counter() - started, versions())
         rows = progress.wedge_rows(parts.mesh.nx, outcome.cycles)
         for row in rows:

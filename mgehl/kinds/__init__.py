@@ -12,7 +12,7 @@ from typing import Any
 from mgehl.kinds.bodies import derived_from_bodies
 from mgehl.kinds.choice import Choice, word_of
 from mgehl.kinds.derived import word_choices
-from mgehl.kinds.dry import DRY, fluid_choices
+from mgehl.kinds.dry import fluid_choices
 from mgehl.kinds.friction import friction_choices
 from mgehl.kinds.heat import heat_choices
 from mgehl.kinds.line import LINE
@@ -51,12 +51,6 @@ def derived(config):
     Raises ConfigError where the words do not fit.
     """
     return (*derived_from_bodies(config), *derived_from_oil(config))
-
-
-def kind_of(config):
-    """The `Kind` of a `Config`, with a fluid or without."""
-    kinds = DRY if config.discretization.contact_model == "dry" else KINDS
-    return kinds[config.contact.kind]
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ from mgehl.kinds.friction import check_friction, friction_from
 from mgehl.kinds.heat import check_factor, heated, solids_from
 from mgehl.kinds.kind import Effort, Kind, kept_together
 from mgehl.kinds.lubricant import check_laws, lubricant_from, thinning_of
-from mgehl.model.films import formula_of, inlet_heating
+from mgehl.model.films import formula_of
 from mgehl.model.own_laws import OwnDensity
 from mgehl.model.room import domain_for, interval_on_nodes
 from mgehl.model.starvation import Starvation
@@ -257,9 +257,7 @@ def heat_words(config, contact):
         return  # the run itself tells it, by the oil's own data
     known = thinning_of(config)
     beta = THINNING if known is None else known
-    Q = contact.lubricant.viscosity * beta * contact.speed**2 / CONDUCTIVITY
-    slip = config.motion.slide_to_roll
-    factor = inlet_heating(contact.hertz.p_h / contact.reduced_modulus, Q, slip)
+    factor, slip = contact.heated_film(beta, CONDUCTIVITY), contact.friction.slide_to_roll
     if factor < WARM and "piezoviscous" in contact.regime:
         left = f"some {100.0 * factor:.2g} %" if factor > LEAST_LEFT else "less than half"
         usual = f"beta {beta:.2g} 1/K{'' if known else ' and'}"

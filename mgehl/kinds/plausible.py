@@ -1,7 +1,5 @@
 """Input that is allowed, and yet unusual: most often a wrong unit. Each is named; none is refused."""
 
-from dataclasses import asdict
-
 from mgehl.kinds.time import begins_at_rest, range_of, scene_of
 from mgehl.model.films import formula_of
 from mgehl.model.frame import direction
@@ -106,7 +104,7 @@ def _films(contact):
             "the contact is far longer along the motion than it is wide: film formulas, lambda and the "
             "regime are made for others, and off by half"
         )
-    known = asdict(contact.formulas)
+    known = contact.formulas
     film = next(film for name, film in known.items() if formula_of(name).bodies == "any")
     if film > THICKEST["piezoviscous" in contact.regime]:
         yield f"film of {1e6 * film:.3g} um by a formula: look at viscosity, speed and radii"

@@ -9,11 +9,11 @@ from mgehl.config_value import WrongUnitError, number, read_quantity, word
 from mgehl.errors import ConfigError
 from mgehl.kinds.choice import Choice, given
 from mgehl.kinds.surface_kinds import carried, share_of
-from mgehl.model.course import SAMPLES, CourseError, Recorded, Table, course_of
+from mgehl.model.course import SAMPLES, Recorded, Table, course_of
 from mgehl.model.frame import direction
 from mgehl.model.own_function import OwnFunctionError, is_own
 from mgehl.model.scene import Scene
-from mgehl.model.text_table import unit_words
+from mgehl.model.text_table import FileError, unit_words
 
 
 @dataclass(frozen=True)
@@ -228,7 +228,7 @@ def _naming(key, value, found):
     """What `found()` is; what is wrong with a course becomes a ConfigError with its key."""
     try:
         return found()
-    except CourseError as error:
-        raise ConfigError(f"{key} = {value!r}: {str(error).removeprefix(f'{value}: ')}") from None
+    except FileError as error:
+        raise ConfigError(f"{key} = {value!r}: {error.what}") from None
     except OwnFunctionError as error:
         raise ConfigError(f"{key} = {error}") from None

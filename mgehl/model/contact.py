@@ -3,7 +3,7 @@
 Inside the code X = x/a, P = p/p_h and H = h R_x/a^2 (the paper divides the gap by a).
 """
 
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from math import log, sqrt
 
 import numpy as np
@@ -14,7 +14,6 @@ from mgehl.model.hertz import hertz_pressure
 from mgehl.model.inlet import Inlet
 from mgehl.model.lubricant import DowsonHigginson
 from mgehl.model.on_bodies import NEXT_TO_NONE, OnBodies
-from mgehl.model.rheology import Friction
 
 RESOLVED_CELLS = 4.0
 """Cells in the inlet from which on the film does not change with the grid."""
@@ -34,9 +33,9 @@ class Groups:
 class LoadedContact(OnBodies, Inlet):
     """Scales, film and inlet of a body pressed on a lubricated flat, all values in SI units.
 
-    A kind of contact adds `load`, `radius_x`, `reduced_modulus`, `speed`, `lubricant`, the dry
-    `hertz` contact, `groups`, `smooth_gap`, `dry_gap`, the `kernel` of the deformation, the
-    `load_integral` of P and the `contact_area` in units of X and Y. `speed` is u of the Couette flow
+    A kind of contact adds `load`, `radius_x`, `reduced_modulus`, `speed`, `lubricant`, `friction` and
+    `solids`, the dry `hertz` contact, `groups`, `smooth_gap`, `dry_gap`, the `kernel` of the deformation,
+    the `load_integral` of P and the `contact_area` in units of X and Y. `speed` is u of the Couette flow
     rho u h.
     """
 
@@ -51,10 +50,6 @@ class LoadedContact(OnBodies, Inlet):
 
     frame = Frame()
     """The axes in which it is solved."""
-    friction = Friction()
-    """How the surfaces slide over each other."""
-    solids = None
-    """`flash.Solid` of both bodies; None where it is not known."""
     deformation = None
     """What the bodies are in depth, where they are not half-spaces."""
     widening = 1.0
@@ -73,9 +68,14 @@ class LoadedContact(OnBodies, Inlet):
         raise NotImplementedError
 
     @property
+    def formulas(self):
+        """{name: film in m} by every formula."""
+        raise NotImplementedError
+
+    @property
     def shown_formulas(self):
-        """Names of the films of `formulas` that are made for such bodies."""
-        return [name for name in asdict(self.formulas) if films.applies(name, self.regime)]
+        """{name: film in m} of the `formulas` that are made for such bodies."""
+        return {name: film for name, film in self.formulas.items() if films.applies(name, self.regime)}
 
     @property
     def density_ratio(self):
@@ -91,13 +91,13 @@ class LoadedContact(OnBodies, Inlet):
         bodies that are pressed flat is the formula's, by the density at p_h that it assumes over the oil's.
         """
         if "elastic" not in self.regime:
-            return {name: getattr(self.formulas, name) for name in self.shown_formulas}
+            return self.shown_formulas
         own, theirs = self.density_ratio, self._density_ratio(DowsonHigginson())
         found = {}
-        for name in self.shown_formulas:
+        for name, film in self.shown_formulas.items():
             assumed = 1.0 if films.formula_of(name).incompressible else theirs
             ratio = 1.0 if name.endswith("_minimum") else assumed / own
-            found[name] = getattr(self.formulas, name) * ratio
+            found[name] = film * ratio
         return found
 
     @property
@@ -197,16 +197,20 @@ class LoadedContact(OnBodies, Inlet):
 
     @property
     def thermal_reduction(self):
-        """Phi_T: the part of the film that the heat of shear in the inlet leaves; None without oil's data.
-
-        [Gupta, Cheng, Zhu, Forster, Schrand 1992], of the oil that is not thinned yet.
-        """
+        """As `heated_film`; None without oil's data."""
         oil = self.lubricant
         if oil.conductivity is None or oil.thermoviscosity is None or self.is_at_rest:
             return None
-        viscosity = oil.viscosity_law.viscosity
+        return self.heated_film(oil.thermoviscosity, oil.conductivity)
+
+    def heated_film(self, beta, conductivity):
+        """Phi_T: the part of the film that the heat of shear in the inlet leaves, of the oil that is not
+        thinned yet, with beta = -d ln(eta)/dT in 1/K and its conductivity in W/(m K).
+
+        [Gupta, Cheng, Zhu, Forster, Schrand 1992]
+        """
+        loading = self.lubricant.viscosity_law.viscosity * beta * self.speed**2 / conductivity
         slip = self.friction.slide_to_roll
-        loading = viscosity * oil.thermoviscosity * self.speed**2 / oil.conductivity
         return films.inlet_heating(self.hertz.p_h / self.reduced_modulus, loading, slip)
 
     @property

@@ -6,7 +6,6 @@ from pathlib import Path
 
 import numpy as np
 
-from mgehl.errors import UserError
 from mgehl.model.own_function import OwnFunction, absolute, is_own
 from mgehl.model.text_table import FileError, read_table
 
@@ -14,10 +13,6 @@ SAMPLES = 1001
 """Times at which a function of the user's own is asked for its largest value."""
 
 GAUSS = np.polynomial.legendre.leggauss(5)
-
-
-class CourseError(UserError):
-    """What is wrong with a table of time, in one line."""
 
 
 class Course:
@@ -57,7 +52,7 @@ class Constant(Course):
 class Table(Course):
     """A file of two columns, times that rise and values: straight lines between them.
 
-    `scale` takes them to s and SI units. Raises CourseError where the file is none, or ends before `end`.
+    `scale` takes them to s and SI units. Raises FileError where the file is none, or ends before `end`.
     """
 
     path: str
@@ -67,10 +62,8 @@ class Table(Course):
     def _file(self):
         try:
             return read_table(self.path)
-        except FileError as error:
-            raise CourseError(str(error)) from None
         except OSError as error:
-            raise CourseError(f"{self.path}: cannot be read: {error}") from None
+            raise FileError(self.path, f"cannot be read: {error}") from None
 
     @property
     def heading(self):
@@ -82,25 +75,24 @@ class Table(Course):
         values, lines = self._file.values, self._file.lines
         rows, columns = values.shape
         if columns != 2:
-            raise CourseError(f"{self.path}: must have two columns, times and values; has {columns}")
+            raise FileError(self.path, f"must have two columns, times and values; has {columns}")
         if rows < 2:
-            raise CourseError(f"{self.path}: has {rows} rows; a table of time has two or more")
+            raise FileError(self.path, f"has {rows} rows; a table of time has two or more")
         holes = np.flatnonzero(~np.isfinite(values).all(axis=1))
         if holes.size:
-            raise CourseError(f"{self.path}: line {lines[holes[0]]} has no two numbers")
+            raise FileError(self.path, f"line {lines[holes[0]]} has no two numbers")
         times, values = (values * self.scale).T
         back = np.flatnonzero(np.diff(times) <= 0.0)
         if back.size:
-            raise CourseError(f"{self.path}: {_not_rising(times, lines, back[0])}")
+            raise FileError(self.path, _not_rising(times, lines, back[0]))
         return times, values
 
     def check(self, end):
-        """Raise CourseError unless it has values from 0 to `end`."""
+        """Raise FileError unless it has values from 0 to `end`."""
         times, _ = self._columns
         if times[0] > 0.0 or times[-1] < end * (1.0 - 1e-9):
-            raise CourseError(
-                f"{self.path}: goes from {times[0]:g} to {times[-1]:g} s; must cover 0 to {end:g}"
-            )
+            ends = f"goes from {times[0]:g} to {times[-1]:g} s"
+            raise FileError(self.path, f"{ends}; must cover 0 to {end:g}")
 
     def value(self, t):
         return float(np.interp(t, *self._columns))

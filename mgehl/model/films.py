@@ -55,6 +55,11 @@ def formula_of(name):
     return FORMULAS[name.removesuffix("_central").removesuffix("_minimum")]
 
 
+def both(name, found):
+    """{film: metres} of a formula that tells the central and the minimum one."""
+    return dict(zip((f"{name}_central", f"{name}_minimum"), found, strict=True))
+
+
 def applies(name, regime):
     """Whether a film's formula is made for bodies of a `regime`."""
     made_for = formula_of(name).bodies
@@ -158,7 +163,7 @@ def grubin(pressure_viscosity, viscosity, speed, a, gap_coefficient):
     return (12.0 * 0.2687 * pressure_viscosity * viscosity * speed * a) ** 0.75 / sqrt(gap_coefficient)
 
 
-def inlet_heating(pressure, Q, slide_to_roll=0.0):
+def inlet_heating(pressure, Q, slide_to_roll):
     """Film with heat by shear in the inlet over the isothermal one, of Gupta and others (1992).
 
     `pressure` is p_h/E', Q = eta0 beta u^2/k with the oil's thinning beta in 1/K and conductivity k.

@@ -15,16 +15,6 @@ from mgehl.model.surface import Surface
 
 
 @dataclass(frozen=True)
-class LineFormulas:
-    """Film thicknesses in metres that formulas predict."""
-
-    dowson_higginson_central: float
-    dowson_higginson_minimum: float
-    moes: float
-    grubin: float
-
-
-@dataclass(frozen=True)
 class LineContact(LoadedContact):
     """A cylinder pressed on a lubricated flat; load in N per metre of length."""
 
@@ -35,6 +25,7 @@ class LineContact(LoadedContact):
     lubricant: Lubricant
     surface: Surface | None = None
     friction: Friction = Friction()
+    """How the surfaces slide over each other."""
     solids: tuple[Solid, Solid] | None = None
     """What both bodies make of heat; None where it is not known."""
 
@@ -79,9 +70,9 @@ class LineContact(LoadedContact):
 
     @property
     def formulas(self):
-        """What the film formulas say of this contact."""
-        central, minimum = films.dowson_higginson(self.groups, self.radius_x)
-        return LineFormulas(central, minimum, self.flooded_film, self.grubin_film)
+        """As of any contact."""
+        pair = films.both("dowson_higginson", films.dowson_higginson(self.groups, self.radius_x))
+        return pair | {"moes": self.flooded_film, "grubin": self.grubin_film}
 
     @property
     def regime(self):
@@ -95,7 +86,7 @@ class LineContact(LoadedContact):
 
     @property
     def _piezoviscous_film(self):
-        return self.formulas.dowson_higginson_central
+        return films.dowson_higginson(self.groups, self.radius_x)[0]
 
     @property
     def flooded_film(self):

@@ -12,22 +12,20 @@ class Material:
     poisson: float
     source: str
     """A key of `mgehl.model.sources.SOURCES`."""
-    spread: str
-    """How far makers and grades differ, in words."""
 
 
 MATERIALS = {
-    "steel": Material(206e9, 0.30, "iso6336", "200 to 210 GPa"),
-    "cast iron": Material(118e9, 0.30, "iso6336", "grey iron; 90 to 130 GPa"),
-    "bronze": Material(113e9, 0.30, "iso6336", "tin bronze; 100 to 120 GPa"),
-    "aluminium": Material(70e9, 0.33, "handbook", "alloys 68 to 75 GPa"),
-    "silicon nitride": Material(310e9, 0.26, "astmf2094", "of bearing grade; 270 to 330 GPa"),
-    "tungsten carbide": Material(630e9, 0.22, "handbook", "with 6 % cobalt; 550 to 650 GPa"),
-    "sapphire": Material(403e9, 0.235, "goto1989", "mean over directions, which differ by some 10 %"),
-    "glass": Material(82e9, 0.206, "schott", "N-BK7; float glass 70 to 74 GPa"),
-    "PEEK": Material(4.0e9, 0.40, "victrex", "unfilled, 23 C; 3.5 to 4.2 GPa, less when warm"),
+    "steel": Material(206e9, 0.30, "iso6336"),  # 200 to 210 GPa
+    "cast iron": Material(118e9, 0.30, "iso6336"),  # grey iron; 90 to 130 GPa
+    "bronze": Material(113e9, 0.30, "iso6336"),  # tin bronze; 100 to 120 GPa
+    "aluminium": Material(70e9, 0.33, "handbook"),  # alloys 68 to 75 GPa
+    "silicon nitride": Material(310e9, 0.26, "astmf2094"),  # of bearing grade; 270 to 330 GPa
+    "tungsten carbide": Material(630e9, 0.22, "handbook"),  # with 6 % cobalt; 550 to 650 GPa
+    "sapphire": Material(403e9, 0.235, "goto1989"),  # mean over directions, which differ by some 10 %
+    "glass": Material(82e9, 0.206, "schott"),  # N-BK7; float glass 70 to 74 GPa
+    "PEEK": Material(4.0e9, 0.40, "victrex"),  # unfilled, 23 C; 3.5 to 4.2 GPa, less when warm
 }
-"""By their names."""
+"""By their names; beside them how far makers and grades differ."""
 
 
 def reduced_modulus(first, second):

@@ -11,7 +11,7 @@ from types import ModuleType
 
 import numpy as np
 
-from mgehl.errors import UserError
+from mgehl.errors import UserError, one_line
 
 _NAME = re.compile(r"(?P<file>[^\0\n]+\.py):(?P<function>[^\W\d]\w*)")
 
@@ -117,7 +117,7 @@ class OwnFunction:
         if isinstance(error, SyntaxError):
             lines = [error.lineno]
         where = f" (line {lines[-1]})" if lines else ""
-        return f"{type(error).__name__}: {' '.join(str(error).split())[:200]}{where}"
+        return f"{type(error).__name__}: {one_line(error, 200)}{where}"
 
 
 @dataclass(frozen=True)

@@ -59,12 +59,8 @@ class OwnViscosity:
 
         `ambient` says in the message what the viscosity at p = 0 must be.
         """
-        self.function.check_arguments("conditions")
-        p = np.linspace(0.0, p_max, CHECKED_PRESSURES)
-        eta = _as_nodes(self._law)(p)[0]
-        _check_positive(self.function, eta, p, "Pa")
-        _check_ambient(self.function, eta[0], self.viscosity, ambient)
-        _check_slope(self.function, _as_nodes(self._log_law), p, "d ln(eta)/dp")
+        p = _check_values(self.function, self._law, p_max, self.viscosity, ambient)
+        _check_slope(self.function, self._log_law, p, "d ln(eta)/dp")
 
     def _log_law(self, p):
         """ln(eta*) and d ln(eta*)/dp at `p` in Pa."""
@@ -76,10 +72,8 @@ class OwnViscosity:
             return np.log(eta / self.viscosity), slope / eta
 
     def _law(self, p):
-        return self.function.pair(np.shape(p), self._at(p))
-
-    def _at(self, p):
-        return Conditions(p, self.viscosity, self.pressure_viscosity, temperature=self.temperature)
+        at = Conditions(p, self.viscosity, self.pressure_viscosity, temperature=self.temperature)
+        return self.function.pair(np.shape(p), at)
 
 
 @dataclass(frozen=True)
@@ -98,12 +92,8 @@ class OwnDensity:
 
     def check(self, p_max):
         """Raise OwnFunctionError unless it is a law with its derivative from 0 to `p_max` in Pa."""
-        self.function.check_arguments("conditions")
-        p = np.linspace(0.0, p_max, CHECKED_PRESSURES)
-        rho = _as_nodes(self._law)(p)[0]
-        _check_positive(self.function, rho, p, "Pa")
-        _check_ambient(self.function, rho[0], 1.0, "the density over that at p = 0")
-        _check_slope(self.function, _as_nodes(self._law), p, "d rho/dp")
+        p = _check_values(self.function, self._law, p_max, 1.0, "the density over that at p = 0")
+        _check_slope(self.function, self._law, p, "d rho/dp")
 
     def _law(self, p):
         return self.function.pair(np.shape(p), Conditions(p, temperature=self.temperature))
@@ -197,11 +187,6 @@ class OwnCompliance:
         self.compliance(k)
 
 
-def _as_nodes(law):
-    """The law of an array (n,), asked as nodes are: (n, 1)."""
-    return lambda p: [each[:, 0] for each in law(p[:, None])]
-
-
 def _numbers(function, values, slopes, p, highest):
     """Values and derivatives of a law at `p` in Pa, positive and finite up to `highest`.
 
@@ -231,16 +216,27 @@ def _check_positive(function, values, at, unit):
         raise function.error(f"returns {values[i]:.3g} at {at[i]:.3g} {unit}; must be a positive number")
 
 
-def _check_ambient(function, found, expected, meaning):
-    if not abs(found - expected) <= AMBIENT_TOLERANCE * expected:
-        raise function.error(f"returns {found:.4g} at p = 0; must be {expected:.4g}, {meaning}")
+def _as_nodes(law, p):
+    """Value and derivative of a `law` at `p` (n,), asked as nodes are: (n, 1)."""
+    return [each[:, 0] for each in law(p[:, None])]
+
+
+def _check_values(function, law, p_max, expected, meaning):
+    """Values from 0 to `p_max` in Pa must be positive, the first one as `expected`; the pressures."""
+    function.check_arguments("conditions")
+    p = np.linspace(0.0, p_max, CHECKED_PRESSURES)
+    values = _as_nodes(law, p)[0]
+    _check_positive(function, values, p, "Pa")
+    if not abs(values[0] - expected) <= AMBIENT_TOLERANCE * expected:
+        raise function.error(f"returns {values[0]:.4g} at p = 0; must be {expected:.4g}, {meaning}")
+    return p
 
 
 def _check_slope(function, law, p, name):
     """The derivative of a `law` must be that of its value, to within a small part of the largest."""
     step = SLOPE_STEP * p[-1]
-    given, inner = law(p)[1], p[1:]
-    change = (law(inner + step)[0] - law(inner - step)[0]) / (2.0 * step)
+    given, inner = _as_nodes(law, p)[1], p[1:]
+    change = (_as_nodes(law, inner + step)[0] - _as_nodes(law, inner - step)[0]) / (2.0 * step)
     # At p = 0 there is nothing below to compare to.
     change = np.append(np.where(np.isfinite(given[0]), given[0], 0.0), change)
     allowed = SLOPE_TOLERANCE * np.abs(change[1:]).max() + NO_SLOPE / p[-1]

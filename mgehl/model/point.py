@@ -39,26 +39,6 @@ def radii_along(angle, radius_x, radius_y):
 
 
 @dataclass(frozen=True)
-class PointFormulas:
-    """Film thicknesses in metres that formulas predict."""
-
-    hamrock_dowson_central: float
-    hamrock_dowson_minimum: float
-    nijenbanning_venner_moes: float
-    grubin: float
-    hamrock_dowson_soft_central: float
-    hamrock_dowson_soft_minimum: float
-
-
-@dataclass(frozen=True)
-class ObliqueFormulas(PointFormulas):
-    """The same, and the formula made for motion along neither axis."""
-
-    chittenden_central: float
-    chittenden_minimum: float
-
-
-@dataclass(frozen=True)
 class PointContact(LoadedContact):
     """A paraboloid pressed on a lubricated flat; load in N."""
 
@@ -76,6 +56,7 @@ class PointContact(LoadedContact):
     load_beyond: bool | None = None
     """Whether the load that is carried beyond the domain is counted; None: where the film answers to it."""
     friction: Friction = Friction()
+    """How the surfaces slide over each other."""
     solids: tuple[Solid, Solid] | None = None
     """What both bodies make of heat; None where it is not known."""
 
@@ -153,16 +134,12 @@ class PointContact(LoadedContact):
         return self._images.widening(1.0 / sqrt(self.k_e))
 
     @cached_property
-    def _likeness(self):
-        """The contact of half-spaces that is as wide: what formulas can say of layered bodies."""
-        if self.deformation is None:
-            return self
-        return replace(self, reduced_modulus=self.reduced_modulus / self.widening**3, deformation=None)
-
-    @property
     def likeness(self):
         """The half-spaces with axes along and across the motion that formulas know, in contact as wide."""
-        return self.aligned._likeness
+        like = self.aligned
+        if like.deformation is None:
+            return like
+        return replace(like, reduced_modulus=like.reduced_modulus / like.widening**3, deformation=None)
 
     @property
     def hardly_yields(self):
@@ -227,15 +204,16 @@ class PointContact(LoadedContact):
 
     @property
     def formulas(self):
-        """What the film formulas say of this contact."""
-        like = self.aligned
-        central, minimum = films.hamrock_dowson(self.groups, like.radius_x, 1.0 / like.k_e)
-        moes = films.nijenbanning_venner_moes(self.groups, like.radius_x, like.radius_y)
-        soft = films.hamrock_dowson_soft(self.groups, like.radius_x, 1.0 / like.k_e)
-        found = central, minimum, moes, like.grubin_film, *soft
-        if 0.0 in self.motion:
-            return PointFormulas(*found)
-        return ObliqueFormulas(*found, *films.chittenden(self.groups, like.radius_x, like.radius_y))
+        """As of any contact; along neither axis that made for it, too."""
+        like, groups = self.aligned, self.groups
+        radii, ellipse = (like.radius_x, like.radius_y), (like.radius_x, 1.0 / like.k_e)
+        return {
+            **films.both("hamrock_dowson", films.hamrock_dowson(groups, *ellipse)),
+            "nijenbanning_venner_moes": films.nijenbanning_venner_moes(groups, *radii),
+            "grubin": like.grubin_film,
+            **films.both("hamrock_dowson_soft", films.hamrock_dowson_soft(groups, *ellipse)),
+            **({} if 0.0 in self.motion else films.both("chittenden", films.chittenden(groups, *radii))),
+        }
 
     @property
     def moes_scale(self):
@@ -250,9 +228,11 @@ class PointContact(LoadedContact):
 
     @property
     def _piezoviscous_film(self):
-        return self.likeness.formulas.hamrock_dowson_central
+        like = self.likeness
+        return films.hamrock_dowson(like.groups, like.radius_x, 1.0 / like.k_e)[0]
 
     @property
     def flooded_film(self):
         """Central film in metres that a formula for every regime predicts."""
-        return self.likeness.formulas.nijenbanning_venner_moes
+        like = self.likeness
+        return films.nijenbanning_venner_moes(like.groups, like.radius_x, like.radius_y)

@@ -145,8 +145,3 @@ def struve_difference(z):
         D += part
         slope -= part * sine
     return D, slope
-
-
-def one_dimensional(X, inlet):
-    """P of the infinitely wide bearing with a blocked exit, X^3 dP/dX + 6 X = 0."""
-    return 6.0 * (1.0 / X - 1.0 / inlet)

@@ -26,7 +26,7 @@ RUNS = "runs"
 """Folder of run directories."""
 
 POINT = "point.json"
-"""In a run directory what a study knows of it besides."""
+"""In a run directory of an older study what that knew of it besides."""
 
 _RUN = re.compile(r"\d{3,}|.*-[0-9a-f]{16}")
 """Names of run directories that sweeps and studies make."""

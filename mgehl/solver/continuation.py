@@ -14,9 +14,6 @@ SMALLEST_STEP = 0.25
 """A step that failed is halved, down to this part of the first step. From 0.05 to 1 the same steps on 65
 and 129 nodes."""
 
-BEYOND = 8.0
-"""Factor between the wanted speed and one at which a start is far from the end of its branch."""
-
 SPEED_RATIO = 2.0
 """Ratio of speeds that one step may try where nothing says less. A film by the harmonic mean takes 761
 convolutions, with 1.3 1068, from 3 on 691; by the geometric mean it makes no difference at 0.5 m/s."""
@@ -44,14 +41,6 @@ class Continuation:
         if start == "contact" or settings.scheme.face_mobility == "arithmetic":
             return nested_iteration(self._hierarchy, contact, settings, self._monitor, self._journal)
         return self._asked(speed, *self._begin_with_mean(contact, settings))
-
-    def begin_beyond(self, speed, start):
-        """As `begin`, but first at a speed where such a start settles, and from there to `speed`."""
-        first = speed * (BEYOND if start == "film" else 1.0 / BEYOND)
-        problem, outcome = self.begin(first, start)
-        if outcome.converged:
-            problem, outcome = self._follow(outcome.state, first, speed)
-        return self._asked(speed, problem, outcome)
 
     def at(self, speed, state, share=1.0, **limits):
         """Solve at `speed` from `state`, with own limits of Newton's where some are given; return the

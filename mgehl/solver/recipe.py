@@ -171,7 +171,7 @@ def _more(contact):
 
 
 def needs_a_walk(settings, contact, mesh):
-    """Whether a mean of the mobility is found from the arithmetic one, or from a higher speed."""
+    """Whether a mean of the mobility is found from the logarithmic one, or from a higher speed."""
     mean = settings.scheme.face_mobility
     resolved = contact.matched_speed(mesh, settings.nested.inlet_cells) == contact.speed
     return mean in FOLDING or (mean != ARITHMETIC and not resolved)

@@ -17,7 +17,7 @@ import dacite
 import numpy as np
 
 from mgehl.config import config_from_tables
-from mgehl.errors import OutputError
+from mgehl.errors import OutputError, one_line
 from mgehl.grid.events import seconds_by_part, start_logging
 from mgehl.output.surroundings import versions
 from mgehl.output.whole_file import write_whole
@@ -218,4 +218,4 @@ def read_benchmark(path):
     except OSError as error:
         raise OutputError(f"{path}: cannot be read: {error.strerror}") from None
     except (ValueError, TypeError, dacite.DaciteError) as error:
-        raise OutputError(f"{path}: no benchmark of mgehl: {' '.join(str(error).split())[:120]}") from None
+        raise OutputError(f"{path}: no benchmark of mgehl: {one_line(error)}") from None

@@ -1,4 +1,4 @@
-"""A contact followed in speed on one grid, every point on disk before the next begins.
+"""A contact followed in speed on one grid: each point is a run that starts from the one before.
 
     down  from the fastest speed and a full film
     up    from the slowest speed and full contact
@@ -7,34 +7,23 @@ A branch ends where no state near the last one solves the equations at the next 
 taken from the other branch, or from the other start, and says so.
 """
 
-import json
-import time
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mgehl.kinds import case_of
-from mgehl.output.directory import make_directory
-from mgehl.output.files import on_first_rank
-from mgehl.output.progress import newton_row
 from mgehl.output.result import Work
-from mgehl.output.solution import Fields, Solution
-from mgehl.output.study_directory import POINT
-from mgehl.output.summary import summarise
-from mgehl.output.surroundings import versions
-from mgehl.output.whole_file import write_whole
-from mgehl.run import save
-from mgehl.solver.continuation import Continuation
-from mgehl.solver.from_config import set_up
-from mgehl.solver.problem import State
-from mgehl.solver.relaxation import RelaxationSettings, relax
+from mgehl.output.solution import Solution
 
 STARTS = {"down": "film", "up": "contact"}
-OTHER = {"down": "up", "up": "down"}
 
 STEPS_OF_START = 2
 """Factor by which such a point may take more steps than others: there is no nearer one to try it from (513
 nodes at 7.5 mm/s: 40)."""
+
+BEYOND = 8.0
+"""Factor between the wanted speed and one at which the other start is far from the end of its branch."""
+
+ONE_SWEEP = {"solver.method": "relaxation", "relaxation.max_sweeps": 1}
 
 
 @dataclass
@@ -44,6 +33,7 @@ class Point:
     speed: float
     branch: str
     solution: Solution
+    """With the work of all that was tried."""
     origin: str
     """Of "start", "continued", "other branch", "other start"; "none" if unsolved."""
     sweep: list
@@ -61,137 +51,74 @@ class Point:
         return self.solution.fields
 
 
-class Branches:
-    """Both branches of one configuration's contact; a context manager, which frees the grids."""
+class Branch:
+    """A branch of the contact of nested tables: "down" or "up".
 
-    def __init__(self, study, tables):
-        case = case_of(study.config(tables))
-        self._study, self._config = study, case.config
-        self._parts = set_up(case)
-        self.contact, self.mesh = self._parts.contact, self._parts.mesh
-        self._settings = self._parts.settings
-        self._hierarchy = None
-        self.name = f"{self.mesh.nx} nodes, {self._parts.settings.scheme.face_mobility} mean"
-        """As a title has it."""
+    `beside` holds points of the other branch, from which this one goes on where it ends.
+    """
 
-    def __enter__(self):
-        return self
+    def __init__(self, study, tables, name, beside=()):
+        self._study, self._config, self._name = study, study.config(tables), name
+        self._beside = [point for point in beside if point.result.settled]
+        self._way = []
 
-    def __exit__(self, *_):
-        if self._hierarchy:
-            self._hierarchy.destroy()
-
-    def walk(self, branch, speeds, beside=()):
-        """The points of a branch; `speeds` fast to slow for "down", slow to fast for "up".
-
-        `beside` holds points of the other branch, from which this one goes on where it ends.
-        """
+    def walk(self, speeds):
+        """Its points; `speeds` fast to slow for "down", slow to fast for "up"."""
         points = []
-        for count in range(1, len(speeds) + 1):
+        for speed in map(float, speeds):
+            self._way.append(speed)
             settled = [point for point in points if point.result.settled]
-            points.append(self._point(branch, speeds[:count], settled[-1] if settled else None, beside))
+            points.append(self._point(speed, settled[-1] if settled else None))
         return points
 
-    def _point(self, branch, way, last, beside):
-        """The point at the last speed of the `way` along a branch, from disk or from point `last`."""
-        study, speed = self._study, way[-1]
-        title = f"{self.mesh.nx} nodes, {branch}, {1e3 * speed:.4g} mm/s"
-        path, config = study.path_of(title, self._all(branch, way, beside)), self._at(speed)
-        if not study.has(path, config):
-            found, told = self._find(config, self._ways(branch, speed, last, beside))
-            on_first_rank(study.comm, _keep, path, found, told)
-        told = study.comm.bcast(on_first_rank(study.comm, _told, path))
-        point = Point(speed, branch, study.read(path), **told)
-        study.tell(title, point.result)
-        return point
-
-    def _all(self, branch, way, beside):
-        """Everything on which the answer at the end of the `way` depends."""
-        tables = {name: table for name, table in self._config.as_toml_tables().items() if name != "motion"}
-        return [tables, branch, [float(speed) for speed in way], len(beside)]
-
-    def _at(self, speed):
-        return self._config.with_({"motion.speed": float(speed)})
-
-    def _find(self, config, ways):
-        """Solve one point by whatever of the `ways` leads to it: its `Solution`, and what else is told."""
-        started, before = time.perf_counter(), self._grids.convolutions
-        tried = []
-        for origin, solve in ways:
-            tried.append((origin, *solve()))
-            if tried[-1][-1].converged:
+    def _point(self, speed, last):
+        """The point at a speed, from point `last` if there is one, or by whatever way leads to it."""
+        runs, first = {}, None
+        for origin, solve in self._ways(speed, last):
+            runs[origin] = solve()
+            found, first = runs[origin][-1], first or runs[origin][-1]
+            if found.result.settled:
                 break
-        origin, problem, outcome = tried[-1]
-        if not outcome.converged:
-            _, problem, outcome = tried[0]
-            origin = "none"
-        # Why the branch could not be followed belongs to the point.
-        first = tried[0][-1]
-        outcome.contradictions = first.contradictions
-        obstacle = "" if first.converged else first.reason
-        work = Work(self._grids.convolutions - before, len(outcome.cycles) - 1)
-        result, errors = self._judged(problem, outcome, work, time.perf_counter() - started)
-        solution = self._solution(config, problem, outcome, result)
-        return solution, {"origin": origin, "sweep": errors, "obstacle": obstacle}
-
-    def _solution(self, config, problem, outcome, result):
-        """With whole fields on rank 0 (collective)."""
-        state, nm = outcome.state, 1e9 * problem.contact.film_scale
-        whole = Fields(state.P, state.H, state.status, state.p, state.filling).gathered(problem.grid)
-        rows = [{"grid": self.mesh.nx} | newton_row(cycle, nm) for cycle in outcome.cycles]
-        return Solution(config, problem.contact, self.mesh, whole, rows, result, state.H0)
-
-    def _ways(self, branch, speed, last, beside):
-        """(Name, function) of what may lead to a point, the best first."""
-        if last:
-            yield "continued", lambda: self._follow(last, speed)
         else:
-            yield "start", lambda: self._continuation(STEPS_OF_START).begin(speed, STARTS[branch])
-        near = [point for point in beside if point.result.settled]
-        if near:
-            nearest = min(near, key=lambda point: abs(np.log(point.speed / speed)))
-            yield "other branch", lambda: self._follow(nearest, speed)
-        yield "other start", lambda: self._continuation().begin_beyond(speed, STARTS[OTHER[branch]])
+            origin, found = "none", first
+        row = self._run("sweep", speed, found, ONE_SWEEP).rows[0]
+        solved = [each.result for way in runs.values() for each in way]
+        work = Work(sum(each.work.convolutions for each in solved), found.rows[-1]["step"])
+        # Why the branch could not be followed belongs to the point.
+        result = replace(
+            found.result, work=work, wall_s=sum(each.wall_s for each in solved),
+            contradictions=first.result.contradictions,
+        )  # fmt: skip
+        self._study.tell(self._title(speed), result)
+        sweep = [row[name] for name in ("e_p", "e_p_lubr", "e_p_solid")]
+        obstacle = "" if first.result.settled else first.result.reason
+        return Point(speed, self._name, replace(found, result=result), origin, sweep, obstacle)
 
-    def _follow(self, point, speed):
-        if point.speed == speed:
-            return self._continuation().at(speed, self._state(point))
-        return self._continuation().follow(self._state(point), point.speed, speed)
+    def _ways(self, speed, last):
+        """(Name, function that returns runs, the last one of this speed) of what may lead to a point, the
+        best first."""
+        if last:
+            yield "continued", lambda: [self._run("continued", speed, last.solution)]
+        else:
+            steps = STEPS_OF_START * self._config.solver.max_steps
+            keys = {"solver.start": STARTS[self._name], "solver.max_steps": steps}
+            yield "start", lambda: [self._run("start", speed, keys=keys)]
+        if self._beside:
+            nearest = min(self._beside, key=lambda point: abs(np.log(point.speed / speed)))
+            yield "other branch", lambda: [self._run("other branch", speed, nearest.solution)]
+        yield "other start", lambda: self._from_beyond(speed)
 
-    def _judged(self, problem, outcome, work, wall):
-        """The point that was found, with what a sweep of the paper's relaxation would change in it."""
-        newton = self._settings.newton
-        result = summarise(problem, outcome, newton.tolerance, work, wall, versions())
-        once = RelaxationSettings(max_sweeps=0)
-        sweep = relax(problem, outcome.state.copy(), once, lambda cycle: None).cycles[-1]
-        return result, (sweep.e_p, sweep.e_p_fluid, sweep.e_p_solid)
+    def _from_beyond(self, speed):
+        """Runs from the other start: at a speed where that settles, and from there."""
+        beyond, start = (speed / BEYOND, "contact") if self._name == "down" else (speed * BEYOND, "film")
+        first = self._run("beyond", beyond, keys={"solver.start": start})
+        return [first, self._run("other start", speed, first)] if first.result.settled else [first]
 
-    def _state(self, point):
-        """The local part of a point's state."""
-        grid, fields = self._grids.grids[-1], point.fields
-        whole = list(fields.named.values()) if fields else 5 * [None]
-        P, H, *others = map(grid.scatter, whole)
-        return State(P, point.solution.H0, H, *others)
+    def _run(self, how, speed, before=None, keys=()):
+        """The `Solution` at a speed, from the one `before` if there is one, with some keys set anew."""
+        config = self._config.with_({"motion.speed": speed} | dict(keys))
+        depends = [config.as_toml_tables(), self._name, self._way, len(self._beside), how]
+        return self._study.run(self._study.path_of(f"{self._title(speed)}, {how}", depends), config, before)
 
-    @property
-    def _grids(self):
-        if self._hierarchy is None:
-            self._hierarchy = self._parts.hierarchy(self._study.comm)
-        return self._hierarchy
-
-    def _continuation(self, patience=1):
-        """With `patience` times the steps that the settings allow."""
-        newton = self._settings.newton
-        newton = replace(newton, max_steps=patience * newton.max_steps)
-        return Continuation(self._grids, self.contact, replace(self._settings, newton=newton))
-
-
-def _keep(path, solution, told):
-    """Leave the run directory of a point; a kill leaves none that has finished without what is `told`."""
-    make_directory(path, True)
-    write_whole(path / POINT, json.dumps(told) + "\n")
-    save(solution, path, picture=False)
-
-
-def _told(path):
-    return json.loads((path / POINT).read_text())
+    def _title(self, speed):
+        return f"{self._config.grid.nodes} nodes, {self._name}, {1e3 * speed:.4g} mm/s"

@@ -15,11 +15,10 @@ SEED = 2030
 """No constant of the solver was chosen on the contacts that it draws."""
 
 BALL = {
-    "contact": {"radius_x": 12.7e-3, "radius_y": 12.7e-3, "reduced_modulus": 219.78e9},
     "surface": {"kind": "self-affine", "longest_wavelength": 200e-6},
     "grid": {"x": [-2.0, 1.5], "y": [-1.75, 1.75]},
 }
-"""Steel on a ground disc (nested tables of a configuration)."""
+"""The paper's steel ball on a ground disc (nested tables of a configuration)."""
 
 
 @dataclass(frozen=True)

@@ -22,12 +22,11 @@ NODES, SPEED, TIME = 129, 0.3, 1.37e-3
 LOAD = 800.0
 
 PAPERS_BALL = {
-    "contact": {"load": LOAD, "radius_x": 12.7e-3, "radius_y": 12.7e-3, "reduced_modulus": 219.78e9},
-    "lubricant": {"viscosity": 0.096, "pressure_viscosity": 18.2e-9},
+    "contact": {"load": LOAD},
     "motion": {"speed": SPEED},
     "grid": {"x": [-2.5, 2.5], "y": [-2.0, 2.0]},
-    "solver": {"start": "film"},
-}  # fmt: skip
+}
+"""What is not told is the paper's in every configuration."""
 
 BEGINS, LASTS = TIME, 8.0 * TIME
 """When a course begins to change, and when a run ends."""

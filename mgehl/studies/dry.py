@@ -9,15 +9,8 @@ from mgehl.studies.study import merged, papers_grid
 
 NODES = (129, 257)
 
-BASE = {
-    "contact": {
-        "load": dry_surfaces.LOAD,
-        "radius_x": dry_surfaces.RADIUS,
-        "radius_y": dry_surfaces.RADIUS,
-        "reduced_modulus": dry_surfaces.MODULUS,
-    },
-    "discretization": {"contact_model": "dry"},
-}
+BASE = {"discretization": {"contact_model": "dry"}}
+"""Of the paper's ball."""
 
 SURFACES = {
     "smooth": None,
@@ -66,10 +59,9 @@ pressure on rectangles around nodes, no periods."""
 
 def run(study):
     """Solve all; write the table `dry`."""
-    cases = {(surface, n): tables_of(surface, n) for surface in SURFACES for n in study.nodes or NODES}
-    named = {f"{surface}, {n} nodes": (surface, n) for surface, n in cases}
-    tables = {name: cases[case] for name, case in named.items()}
-    study.write_table("dry", [_row(*named[name], each.result) for name, each in study.solved(tables)])
+    cases = {f"{surface}, {n} nodes": (surface, n) for surface in SURFACES for n in study.nodes or NODES}
+    tables = {name: tables_of(*case) for name, case in cases.items()}
+    study.write_table("dry", [_row(*cases[name], each.result) for name, each in study.solved(tables)])
 
 
 def tables_of(surface, nodes):

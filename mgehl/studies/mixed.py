@@ -18,7 +18,7 @@ RMS, HURST = (20e-9, 400e-9), (0.5, 0.9)
 LOAD, SPEED = (20.0, 800.0), (1e-5, 1.0)
 """From, to: N, m/s."""
 
-COMMON = {"surface": {"shortest_wavelength": 30e-6}, "solver": {"start": "film", "error": False}}
+COMMON = {"surface": {"shortest_wavelength": 30e-6}, "solver": {"error": False}}
 """What all cases have besides; there is no boundary film."""
 
 

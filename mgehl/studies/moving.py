@@ -14,12 +14,12 @@ import numpy as np
 from mgehl.output.pictures.style import GUIDE, subplots
 from mgehl.studies.columns import told
 from mgehl.studies.study import merged
-from mgehl.studies.waviness import ALPHA, FLUIDS, MODULUS, RADIUS, SMALL, VISCOSITY, line_case
+from mgehl.studies.waviness import ALPHA, FLUIDS, LINES, MODULUS, RADIUS, SMALL, VISCOSITY, line_case
 
 NODES = 1025
 """Of a line contact; waves of a half-width have 186 cells."""
 
-ROELANDS, BARUS = (100.0, 11.0, "Roelands, compressible"), (200.0, 10.0, "Barus, incompressible")
+ROELANDS, BARUS = LINES
 
 REFERENCE = {
     (100.0, 1.0): {0.5: 0.1307, 0.75: 0.1574, 1.0: 0.1807, 1.25: 0.1928, 1.5: 0.2133, 2.0: 0.2485},
@@ -47,8 +47,7 @@ BALL = {
     "lubricant": {"viscosity": 0.25, "viscosity_law": "roelands", "pressure_viscosity": 22e-9},
     "motion": {"speed": 0.09},
     "grid": {"nodes": 257, "x": [-3.0, 3.0], "y": [-3.0, 3.0]},
-    "solver": {"start": "film"},
-}  # fmt: skip
+}
 
 WITH_DIMPLE = {"contact": {"surface": f"{Path(__file__)}:dimple", "surface_body": "body_1"}}
 
@@ -97,8 +96,7 @@ def _wave(study, smooth, line, length, s, nodes):
         "reference": "" if known is None else f"{known:.4f}",
         "apart %": "" if known is None else f"{100.0 * (swing / known - 1.0):+.1f}",
         "published": "" if published is None else f"{published:.3f}",
-        **_steps(found.result.time),
-        **told(found.result, "converged"),
+        **_ended(found.result),
     }  # fmt: skip
 
 
@@ -121,14 +119,11 @@ def passed(study, title, case, smooth, lengths, s=1.0):
 
 def point_case(M, L):
     """The tables of a point contact of these Moes numbers, by Roelands' law."""
-    twice_U = (L / (ALPHA * MODULUS)) ** 4
-    bodies = {"radius_x": RADIUS, "radius_y": RADIUS, "reduced_modulus": MODULUS}
     return {
-        "contact": {"load": M * twice_U**0.75 * MODULUS * RADIUS**2, **bodies},
+        "moes": {"M": M, "L": L},
+        "contact": {"radius_x": RADIUS, "radius_y": RADIUS, "reduced_modulus": MODULUS},
         "lubricant": {"viscosity": VISCOSITY, "pressure_viscosity": ALPHA, **FLUIDS[ROELANDS[2]]},
-        "motion": {"speed": 0.5 * twice_U * MODULUS * RADIUS / VISCOSITY},
         "grid": {"x": [-2.5, 1.5], "y": [-2.0, 2.0]},
-        "solver": {"start": "film"},
     }
 
 
@@ -146,8 +141,7 @@ def _points(study, nodes):
             "swing/A": f"{swing:.3f}",
             "master curve": f"{master_curve(n):.3f}",
             "computed there": f"{COMPUTED[length]:.3f}" if length in COMPUTED else "",
-            **_steps(found.result.time),
-            **told(found.result, "converged"),
+            **_ended(found.result),
         }  # fmt: skip
 
 
@@ -168,11 +162,12 @@ def figure(points):
     return drawn
 
 
-def _steps(time):
-    """What the steps in time took; nothing where the first state was not found."""
-    if not time:
-        return {}
-    return {"steps": str(time.steps), "convolutions a step": f"{time.convolutions_a_step:.1f}"}
+def _ended(result):
+    """What the steps in time took, where the first state was found, and whether it converged."""
+    steps, time = {}, result.time
+    if time:
+        steps = {"steps": str(time.steps), "convolutions a step": f"{time.convolutions_a_step:.1f}"}
+    return steps | told(result, "converged")
 
 
 def swing_of(rows, period):
@@ -196,8 +191,7 @@ def _dimple(study):
             "largest pressure MPa": f"{1e3 * found.result.max_pressure_GPa:.0f}",
             "published MPa": f"{pressure}",
             "smooth film nm": f"{smooth.result.central_film_nm:.1f}",
-            **_steps(found.result.time),
-            **told(found.result, "converged"),
+            **_ended(found.result),
         }  # fmt: skip
 
 

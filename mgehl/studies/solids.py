@@ -24,7 +24,6 @@ CASE = merged(
         "surface": SURFACE | {"seed": 1},
         "second_surface": SURFACE | {"seed": 2},
         "motion": {"slide_to_roll": 0.2},
-        "solver": {"start": "film"},
     },
 )  # fmt: skip
 

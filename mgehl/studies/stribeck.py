@@ -22,7 +22,7 @@ CASE = merged(
         "motion": {"slide_to_roll": 0.2},
         "friction": {"model": "limiting", "limiting_coefficient": 0.05, "eyring_stress": 5e6,
                      "boundary_coefficient": 0.1},
-        "solver": {"start": "film", "error": True},
+        "solver": {"error": True},
     },
 )  # fmt: skip
 

@@ -164,24 +164,17 @@ class Study:
         return self.comm.bcast(directory_of(self.home / RUNS, title, description) if self.first else None)
 
     def run(self, path, config, start=None):
-        """The `Solution` of a configuration, from its run directory where it has finished.
+        """The `Solution` of a configuration, with its fields on rank 0, from its run directory where it has
+        finished.
 
         Else it goes on there, or is solved from the `start` that a run takes (collective). Raises
         OutputError where the run that is there is of another configuration.
         """
         case = enter(config, self.comm)
-        if not self.has(path, case.config):
+        if not self.comm.bcast(on_first_rank(self.comm, _has_finished, path, case.config)):
             on_first_rank(self.comm, make_directory, path, True)
             with locked(self.comm, path):
                 run(case, path, self.comm, self.watch, start if case.contact.is_loaded else None)
-        return self.read(path)
-
-    def has(self, path, config):
-        """Whether the run of a configuration has finished (collective)."""
-        return self.comm.bcast(on_first_rank(self.comm, _has_finished, path, config))
-
-    def read(self, path):
-        """The `Solution` of a run directory, with its fields on rank 0 (collective)."""
         return on_every_rank(self.comm, on_first_rank(self.comm, read_run, path))
 
     def tell(self, title, result, must_converge=True):

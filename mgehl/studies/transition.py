@@ -10,7 +10,7 @@ import numpy as np
 from mgehl.discretization.status import CONTACT
 from mgehl.output.pictures.plane import Blocks
 from mgehl.output.pictures.style import COLOURS, subplots
-from mgehl.studies.branch import Branches
+from mgehl.studies.branch import Branch
 from mgehl.studies.columns import told
 from mgehl.studies.study import PAPER, merged, papers_grid
 
@@ -22,9 +22,9 @@ COARSE = 257
 
 FASTEST_ON_COARSE = 0.1
 
-STEPS = {"max_steps": 30}
+STEPS = {"max_steps": 30, "squeeze": 3.0}
 """Most Newton steps: a point that is found takes 10 to 20, one that is not is tried again from a nearer
-one."""
+one. From a film as from one speed to the next there is squeeze."""
 
 PAPER_RADIUS = 19.05e-3
 """The radius that the paper's labels U belong to; its other numbers belong to 12.7 mm."""
@@ -41,6 +41,9 @@ INSIDE = 0.9
 SMALLEST_AXIS = 1.0
 """nm."""
 
+GREYS = "0.3", "0.55", "0.75", "0.85"
+"""Of formulas."""
+
 
 def run(study):
     """Walk the branches; write the table `transition-NODES` and the pictures of Figure 14."""
@@ -48,14 +51,13 @@ def run(study):
     directions = ("down", "up") if study.branch == "both" else (study.branch,)
     study.cases = len(nodes) * len(directions) * COUNT
     for n in nodes:
-        with Branches(study, case(n)) as branches:
-            points = []
-            for direction in directions:
-                way = speeds(n) if direction == "down" else speeds(n)[::-1]
-                points += branches.walk(direction, way, tuple(points))
-            study.write_table(f"transition-{n}", [row(branches, point) for point in points])
-            study.draw(f"transition-{n}-films", films_and_contact, branches, points)
-            study.draw(f"transition-{n}-figure-14", figure_14, branches, points)
+        points = []
+        for direction in directions:
+            way = speeds(n) if direction == "down" else speeds(n)[::-1]
+            points += Branch(study, case(n), direction, points).walk(way)
+        study.write_table(f"transition-{n}", map(row, points))
+        study.draw(f"transition-{n}-films", films_and_contact, points)
+        study.draw(f"transition-{n}-figure-14", figure_14, points)
 
 
 def speeds(nodes):
@@ -69,17 +71,16 @@ def case(nodes):
     return merged(PAPER, {"grid": papers_grid(nodes), "solver": STEPS})
 
 
-def row(branches, point):
+def row(point):
     """Text of one point: the columns of the paper's Table 1, and ours."""
-    result, contact = point.result, point.result.contact
-    U = branches.contact.at_speed(point.speed).groups.U
+    result, U = point.result, point.result.groups.U
     errors = zip(("e^p", "e^p lubr.", "e^p solid"), point.sweep, strict=True)
     return {
-        "grid": str(branches.mesh.nx),
+        "grid": str(point.solution.mesh.nx),
         "branch": point.branch,
         "from": point.origin,
         "speed mm/s": f"{1e3 * point.speed:.4g}",
-        "U of the paper": f"{U * branches.contact.radius_x / PAPER_RADIUS:.3e}",
+        "U of the paper": f"{U * point.solution.contact.radius_x / PAPER_RADIUS:.3e}",
         "U": f"{U:.3e}",
         "iterations": str(result.work.steps),
         **{name: f"{error:.1e}" for name, error in errors},
@@ -87,7 +88,7 @@ def row(branches, point):
             result,
             "load error, settled, residual, central nm, minimum nm, contact/Hertz area, load on contact",
         ),
-        "load on fluid": f"{1.0 - contact.load_fraction:.4f}",
+        "load on fluid": f"{1.0 - result.contact.load_fraction:.4f}",
         **told(result, "Eq. 2 broken"),
         "by at most p_h": f"{result.other_inequality.worst:.1e}",
         **told(result, "at the interface"),
@@ -98,7 +99,7 @@ def row(branches, point):
     }
 
 
-def films_and_contact(followed, points):
+def films_and_contact(points):
     """Films and contact ratio against speed, both branches, with the formulas."""
     figure, (films, ratio) = subplots(1, 2, size=(10.5, 4.6))
     for branch, colour, mark in zip(("down", "up"), COLOURS, ("v", "^"), strict=False):
@@ -112,12 +113,11 @@ def films_and_contact(followed, points):
             films.plot(mm_s, np.maximum(film, 0.0), mark + line, color=colour, ms=4, label=label)
         area = [point.result.contact.area_fraction for point in own]
         ratio.plot(mm_s, area, mark + "-", color=colour, ms=4, label=branch)
-    all_speeds = sorted({point.speed for point in points})
-    formulas = [followed.contact.at_speed(speed).formulas for speed in all_speeds]
-    for name, grey in zip(vars(formulas[0]), ("0.3", "0.55", "0.75", "0.85"), strict=False):
-        heights = [1e9 * getattr(formula, name) for formula in formulas]
-        label = name.replace("_", " ")
-        films.plot([1e3 * speed for speed in all_speeds], heights, "--", color=grey, lw=0.9, label=label)
+    own = sorted((each for each in points if each.branch == points[0].branch), key=lambda each: each.speed)
+    formulas = [point.solution.contact.formulas for point in own]
+    for name, grey in zip(formulas[0], GREYS, strict=False):
+        heights, label = [1e9 * formula[name] for formula in formulas], name.replace("_", " ")
+        films.plot([1e3 * each.speed for each in own], heights, "--", color=grey, lw=0.9, label=label)
     films.set(xscale="log", xlabel="speed, mm/s", ylabel="film, nm (0: contact)")
     films.set_yscale("symlog", linthresh=1.0)
     films.set_ylim(bottom=-0.1)
@@ -125,15 +125,15 @@ def films_and_contact(followed, points):
     for axes in (films, ratio):
         axes.legend(frameon=False)
     directions = " and ".join(dict.fromkeys(point.branch for point in points))
-    figure.suptitle(f"{followed.name}: film and contact, speed going {directions}")
+    figure.suptitle(f"{_name(points)}: film and contact, speed going {directions}")
     return figure
 
 
-def figure_14(followed, points):
+def figure_14(points):
     """(a) film across, (b) pressure before the contact, (c) map of the film; of one branch."""
     branch = points[0].branch
     own = [point for point in points if point.branch == branch and point.result.settled]
-    mesh, nm = followed.mesh, 1e9 * followed.contact.film_scale
+    mesh, nm = own[0].solution.mesh, 1e9 * own[0].solution.contact.film_scale
     i, j = mesh.nearest(0.0, 0.0)
     figure, (across, inlet, film) = subplots(1, 3, size=(14.0, 4.4))
     shown = _between_film_and_contact(own)
@@ -149,8 +149,14 @@ def figure_14(followed, points):
     inlet.legend(frameon=False)
     mixed = min(own, key=lambda point: abs(point.result.contact.area_fraction - 0.5))
     _film_map(figure, film, mesh, mixed, nm)
-    figure.suptitle(f"{followed.name}, {branch}")
+    figure.suptitle(f"{_name(points)}, {branch}")
     return figure
+
+
+def _name(points):
+    """Of a grid, in a title."""
+    config = points[0].solution.config
+    return f"{config.grid.nodes} nodes, {config.discretization.face_mobility} mean"
 
 
 def _top(point, mesh, nm):

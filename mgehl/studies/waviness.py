@@ -74,7 +74,6 @@ def line_case(M, L, fluid):
         "lubricant": {"viscosity": VISCOSITY, "pressure_viscosity": ALPHA, **FLUIDS[fluid]},
         "motion": {"speed": 0.5 * twice_U * MODULUS * RADIUS / VISCOSITY},
         "grid": {"x": [-4.0, 1.5]},
-        "solver": {"start": "film"},
     }  # fmt: skip
 
 

@@ -13,7 +13,6 @@ from mgehl.studies.study import merged
 
 BASE = {
     "contact": {"kind": "wedge"},
-    "wedge": {"exit": 20e-3, "inlet": 50e-3, "width": 20e-3},
     "motion": {"speed": 1.0},
     "discretization": {"cavitation": False},
     "solver": {"tolerance": 1e-10},

@@ -2,8 +2,9 @@
 
 import pytest
 
-from mgehl.model.course import CourseError, Own, Table
+from mgehl.model.course import Own, Table
 from mgehl.model.own_function import OwnFunction
+from mgehl.model.text_table import FileError
 
 
 @pytest.fixture
@@ -60,7 +61,7 @@ def test_tables_as_they_come(table, text):
     ],
 )
 def test_what_is_wrong_with_a_table(table, text, what):
-    with pytest.raises(CourseError, match=what):
+    with pytest.raises(FileError, match=what):
         table(text).check(1.0)
 
 

@@ -67,7 +67,7 @@ def test_central_films_of_formulas_are_those_of_this_oil_s_density():
         ("nijenbanning_venner_moes", ratio), ("grubin", ratio),
     ):  # fmt: skip
         assert incompressible.compared[name] == pytest.approx(factor * compressed.compared[name], rel=1e-13)
-    assert compressed.compared["hamrock_dowson_central"] == compressed.formulas.hamrock_dowson_central
+    assert compressed.compared["hamrock_dowson_central"] == compressed.formulas["hamrock_dowson_central"]
 
 
 def test_formulas_of_hard_bodies_are_not_shown_for_soft_or_rigid_ones():

@@ -95,7 +95,7 @@ def test_valleys_are_deeper_than_sq_below_the_mean(contact, nodes):
     found = measured(contact, MESH, nodes)
     assert found.valley_film_nm == pytest.approx(1.0 * 1e9 * contact.film_scale)
     assert found.Sq_nm == pytest.approx(1e9 * Sq)
-    assert found.lambda_ratio == pytest.approx(contact.formulas.hamrock_dowson_central / Sq)
+    assert found.lambda_ratio == pytest.approx(contact.formulas["hamrock_dowson_central"] / Sq)
 
 
 def test_solids_carry_what_the_fluid_under_them_does_not(contact, nodes):

@@ -30,7 +30,7 @@ from mgehl.solver.problem import ContactProblem, State
 from mgehl.solver.relaxation import RelaxationSettings
 from mgehl.solver.settings import NestedSettings, SolverSettings
 from mgehl.solver.verification import complementarity_error, flux_imbalance
-from mgehl.studies.branch import Branches
+from mgehl.studies.branch import Branch
 from mgehl.studies.study import PAPER, Study, merged, papers_grid
 from mgehl.studies.wedge import case as wedge_case
 
@@ -351,8 +351,9 @@ class TestBranches:
             directory.mkdir(exist_ok=True)
         comm.barrier()
         study = Study(directory, comm, (65,), speak=False)
-        with Branches(study, merged(PAPER, {"grid": papers_grid(65)})) as branches:
-            return branches.walk("down", [1.0, 0.7]) + branches.walk("up", [0.005, 0.007])
+        tables = merged(PAPER, {"grid": papers_grid(65)})
+        ways = {"down": [1.0, 0.7], "up": [0.005, 0.007]}
+        return [point for name, way in ways.items() for point in Branch(study, tables, name).walk(way)]
 
 
 class TestCheckpoints:

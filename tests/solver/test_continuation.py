@@ -5,7 +5,7 @@ import pytest
 
 import mgehl
 from mgehl.discretization.scheme import Scheme
-from mgehl.solver.continuation import BEYOND, Continuation
+from mgehl.solver.continuation import Continuation
 from mgehl.solver.settings import SolverSettings
 
 
@@ -56,15 +56,6 @@ def test_a_film_followed_to_another_speed_is_the_film_of_that_speed(make, solve,
     np.testing.assert_array_equal(first.state.P, before.P)
     np.testing.assert_array_equal(first.state.status, before.status)
     assert np.abs(first.state.P - expected.P).max() > 1e-2
-
-
-def test_a_start_from_beyond_is_followed_back(make):
-    """Contact is begun at 0.005 mm/s for 0.04 mm/s."""
-    followed = make()
-    problem, outcome = followed.continuation.begin_beyond(4e-5, "contact")
-    assert followed.speeds == pytest.approx([4e-5 / BEYOND, 4e-5], rel=1e-15)
-    assert outcome.converged and problem.contact.speed == 4e-5
-    assert true_residual(problem, outcome.state) <= 1e-8
 
 
 def test_a_grid_too_coarse_for_the_logarithmic_mean_is_led_to_it_from_a_higher_speed(make):

@@ -12,7 +12,7 @@ from mpi4py import MPI
 
 from mgehl.cli import main
 from mgehl.studies import transition
-from mgehl.studies.branch import Branches
+from mgehl.studies.branch import Branch
 from mgehl.studies.study import Study
 
 
@@ -26,11 +26,6 @@ def run(directory, *words):
     return main(["study", *words, "--quiet", "--out", str(directory)])
 
 
-@pytest.fixture
-def study(tmp_path):
-    return Study(tmp_path, MPI.COMM_SELF, (129,), speak=False)
-
-
 class TestBothBranches:
     SPEED = 0.03
 
@@ -38,9 +33,8 @@ class TestBothBranches:
     def points(self, tmp_path_factory):
         """129 nodes at 30 mm/s, where the grid has two solutions."""
         study = Study(tmp_path_factory.mktemp("branches"), MPI.COMM_SELF, (129,), speak=False)
-        with Branches(study, transition.case(129)) as branches:
-            down = branches.walk("down", [0.1, 0.055, self.SPEED])
-            up = branches.walk("up", [0.005, 0.01, 0.02, self.SPEED])
+        down = Branch(study, transition.case(129), "down").walk([0.1, 0.055, self.SPEED])
+        up = Branch(study, transition.case(129), "up").walk([0.005, 0.01, 0.02, self.SPEED])
         return down[-1], up[-1]
 
     def test_both_are_solutions(self, points):
