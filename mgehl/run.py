@@ -36,7 +36,8 @@ from mgehl.solver.dry import guess_on_finest, solve_dry
 from mgehl.solver.from_config import set_up
 from mgehl.solver.in_time import march
 from mgehl.solver.journal import Journal, told_to_stop
-from mgehl.solver.nested import LevelSolve, single_loop
+from mgehl.solver.nested import single_loop
+from mgehl.solver.on_grid import LevelSolve
 from mgehl.solver.problem import ContactProblem
 from mgehl.solver.restart import interpolated, solve_from
 from mgehl.solver.unthinned import unthinned

@@ -1,14 +1,12 @@
 """Continuation: a solution is followed in speed, or from one mean of the mobility to another."""
 
 from dataclasses import replace
-from functools import partial
 
 from mgehl.discretization.fluid import FOLDING
 from mgehl.solver.journal import NOTHING_KEPT
-from mgehl.solver.nested import LevelSolve, nested_iteration
-from mgehl.solver.on_grid import solve_on
+from mgehl.solver.nested import nested_iteration
+from mgehl.solver.on_grid import solve_near
 from mgehl.solver.problem import ContactProblem
-from mgehl.solver.recipe import A_STATE, recipe_of
 
 SMALLEST_STEP = 0.25
 """A step that failed is halved, down to this part of the first step. From 0.05 to 1 the same steps on 65
@@ -57,15 +55,11 @@ class Continuation:
         """Solve at `speed` from `state`, with own limits of Newton's where some are given; return the
         problem and the `Outcome`."""
         hierarchy, settings = self._hierarchy, self._settings
-        scheme = replace(settings.scheme, mobility_share=share)
-        level, contact = len(hierarchy.grids) - 1, self._contact.at_speed(speed)
-        grid = hierarchy.grids[level]
-        problem = ContactProblem(grid, hierarchy.deflections[level], contact, scheme)
+        scheme, contact = replace(settings.scheme, mobility_share=share), self._contact.at_speed(speed)
+        problem = ContactProblem(hierarchy.grids[-1], hierarchy.deflections[-1], contact, scheme)
         state = problem.state(state.P, state.H0, state.status, state.p, state.filling)
-        recipe = recipe_of(replace(settings, scheme=scheme), contact, A_STATE)
-        recipe = replace(recipe, newton=replace(recipe.newton, **limits))
-        tell = partial(self._monitor, LevelSolve(grid.mesh.nx, speed, True))
-        return problem, solve_on(hierarchy, level, problem, state, recipe, tell, self._journal)
+        how = settings, self._monitor, self._journal
+        return problem, solve_near(hierarchy, problem, state, *how, **limits)
 
     def follow(self, state, first_speed, last_speed):
         """Carry the `state` at one speed to another, in steps of equal ratio."""

@@ -1,6 +1,5 @@
 """Nested iteration: from a coarse grid to the finest, at speeds that each grid can resolve."""
 
-from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
@@ -9,7 +8,7 @@ from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
 from mgehl.solver.dry import dry_pressure, guess_on_finest
 from mgehl.solver.fluid_guess import guess_fluid
 from mgehl.solver.journal import NOTHING_KEPT
-from mgehl.solver.on_grid import solve_on
+from mgehl.solver.on_grid import LevelSolve, solve_on
 from mgehl.solver.problem import DIVERGED, ContactProblem
 from mgehl.solver.recipe import DRY, UNDER_FILM, UNDER_THIN_FILM, recipe_of
 from mgehl.solver.relaxation import relax
@@ -18,18 +17,6 @@ FLAT = 0.1
 """Largest gap, and largest overlap, that the dry guess may leave, over the formula's film that is laid on
 it. A larger overlap would make contact where there is none (a ball of 188 nm rms at 0.04 mm/s: 2234
 nodes)."""
-
-
-@dataclass(frozen=True)
-class LevelSolve:
-    """What is being solved: the grid's nodes along X and the speed in m/s."""
-
-    nodes: int
-    speed: float | None
-    """None where there is no fluid."""
-    finest: bool
-    news: str = ""
-    """What its user should know of the way here; empty where all goes as planned."""
 
 
 def nested_iteration(hierarchy, contact, settings, monitor, journal=NOTHING_KEPT):

@@ -1,10 +1,39 @@
 """A contact on one grid, from a state: the problem's solver is made here, used, and freed."""
 
 from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from functools import partial
 
 from mgehl.multigrid.cycle import MultigridSolver
 from mgehl.solver.newton import Newton
+from mgehl.solver.recipe import A_STATE, recipe_of
 from mgehl.solver.rigid_gap import RigidGapFluid
+
+
+@dataclass(frozen=True)
+class LevelSolve:
+    """What is being solved: the grid's nodes along X and the speed in m/s."""
+
+    nodes: int
+    speed: float | None
+    """None where there is no fluid."""
+    finest: bool
+    news: str = ""
+    """What its user should know of the way here; empty where all goes as planned."""
+
+
+def solve_near(hierarchy, problem, state, settings, monitor, journal, news="", **limits):
+    """Solve a `ContactProblem` on its grid from a `state` near its own; return the `Outcome`.
+
+    The `state` is the solve's own from now on. `limits` overrule those that the recipe has of Newton's
+    method; `monitor` and `journal` as of `nested.nested_iteration`, `news` as of a `LevelSolve`.
+    """
+    contact, grids = problem.contact, hierarchy.grids
+    recipe = recipe_of(replace(settings, scheme=problem.scheme), contact, A_STATE)
+    recipe = replace(recipe, newton=replace(recipe.newton, **limits))
+    solve = LevelSolve(problem.grid.mesh.nx, contact.speed, problem.grid is grids[-1], news)
+    level, tell = grids.index(problem.grid), partial(monitor, solve)
+    return solve_on(hierarchy, level, problem, state, recipe, tell, journal)
 
 
 def solve_on(hierarchy, level, problem, state, recipe, tell, journal):

@@ -11,7 +11,7 @@ from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
 from mgehl.errors import UserError
 from mgehl.model.own_function import file_and_function
 from mgehl.solver.continuation import Continuation
-from mgehl.solver.nested import LevelSolve
+from mgehl.solver.on_grid import LevelSolve
 from mgehl.solver.problem import ContactProblem
 from mgehl.solver.relaxation import relax
 
