@@ -243,8 +243,7 @@ def _solve_bearing(case, parts, comm, watch):
 
     grid = single_grid(parts.mesh, comm)
     try:
-        prefix = settings.cycle.options_prefix
-        problem, outcome = solve_wedge(grid, bearing, settings.scheme, prefix, *limits, stop_if_told)
+        problem, outcome = solve_wedge(grid, bearing, settings.scheme, *limits, stop_if_told)
         result = summarise_wedge(problem, outcome, time.perf_counter() - started, versions())
         rows = progress.wedge_rows(parts.mesh.nx, outcome.cycles)
         for row in rows:

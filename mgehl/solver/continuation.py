@@ -137,13 +137,13 @@ def _stage(scheme, speed):
     return f"a stage on the way ({scheme.face_mobility} mean{share}, {1e3 * speed:.4g} mm/s)"
 
 
-def carry(solve, state, step=1.0):
+def carry(solve, state):
     """Carry `state` from t = 0 to 1 with `solve(t, state)`, which returns a problem and an `Outcome`.
 
     A step that does not converge is halved and tried again from the last state that did. Returns
     the last solution: at t = 1, or of the smallest step that failed.
     """
-    reached, smallest = 0.0, SMALLEST_STEP * step
+    reached, step = 0.0, 1.0
     while True:
         t = min(1.0, reached + step)
         problem, outcome = solve(t, state)
@@ -151,5 +151,5 @@ def carry(solve, state, step=1.0):
             reached, state, step = t, outcome.state, 2.0 * step
         else:
             step = 0.5 * (t - reached)
-        if reached == 1.0 or step < smallest:
+        if reached == 1.0 or step < SMALLEST_STEP:
             return problem, outcome

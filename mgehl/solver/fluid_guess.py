@@ -6,8 +6,10 @@ them. On 1025 nodes it takes 14 steps from a pressure of zero, and 4 from the co
 
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
 from mgehl.multigrid.cycle import MultigridSolver
+from mgehl.multigrid.options import OF_ITS_FLUID
 from mgehl.solver.problem import ContactProblem, State
 from mgehl.solver.rigid_gap import RigidGapFluid
+from mgehl.solver.settings import COARSE_TOLERANCE
 
 
 def guess_fluid(hierarchy, level, problem, state, settings):
@@ -42,8 +44,8 @@ def _solve(hierarchy, level, problem, state, settings):
     """The fluid of a coarse grid, as well as any solution there is needed."""
     how = (problem.contact, problem.scheme, settings.cycle)
     multigrid = MultigridSolver(hierarchy, level, *how, rigid=True)
-    fluid = RigidGapFluid(problem, multigrid, settings.cycle.options_prefix + "fluid_")
+    fluid = RigidGapFluid(problem, multigrid, OF_ITS_FLUID)
     try:
-        fluid.solve(state, settings.nested.coarse_tolerance, to_rest=False)
+        fluid.solve(state, COARSE_TOLERANCE, to_rest=False)
     finally:
         fluid.free()

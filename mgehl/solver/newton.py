@@ -15,6 +15,7 @@ from mgehl.discretization.status import CONTACT, LUBRICATED
 from mgehl.errors import OptionError
 from mgehl.grid.events import linear_solve
 from mgehl.multigrid.jacobian import LinearSystem
+from mgehl.multigrid.options import OF_A_RUN
 from mgehl.solver.arbiter import RELEASE_STEPS, Ruling, rule
 from mgehl.solver.cavitation import relax_cavitation_set
 from mgehl.solver.journal import NOTHING_KEPT
@@ -45,14 +46,14 @@ class Newton:
     `monitor` is called with every `Cycle`. PETSc objects are freed by `free`.
     """
 
-    def __init__(self, problem, multigrid, settings, fluid=None, options_prefix="mgehl_", monitor=None):
+    def __init__(self, problem, multigrid, settings, fluid=None, monitor=None):
         self._problem, self._multigrid, self._settings = problem, multigrid, settings
         self._fluid, self._monitor = fluid, monitor or (lambda cycle: None)
         self._space, self._load_scale = multigrid.space, multigrid.jacobian.load_scale
         self._partition = Partition(problem, settings.release_budget)
         self._in_turn = False
         self._snes = PETSc.SNES().create(problem.grid.comm)
-        self._snes.setOptionsPrefix(options_prefix)
+        self._snes.setOptionsPrefix(OF_A_RUN)
         self._snes.setType(PETSc.SNES.Type.PYTHON)
         self._snes.setPythonContext(self)
         self._unknown, self._f, self._rhs, self._correction = (self._space.create_vec() for _ in range(4))
@@ -64,7 +65,7 @@ class Newton:
         self._linear_tolerance = self._snes.getKSP().getTolerances()[0]  # PETSc's options may give another
         if self._snes.getType() != PETSc.SNES.Type.PYTHON:
             self.free()
-            raise OptionError(f"-{options_prefix}snes_type: the solver is the SNES type python, no other")
+            raise OptionError(f"-{OF_A_RUN}snes_type: the solver is the SNES type python, no other")
 
     def free(self):
         """Destroy the PETSc objects, the multigrid solver's too: the KSP refers to them.

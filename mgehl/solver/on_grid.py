@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 from mgehl.multigrid.cycle import MultigridSolver
+from mgehl.multigrid.options import OF_ITS_FLUID
 from mgehl.solver.newton import Newton
 from mgehl.solver.recipe import A_STATE, recipe_of
 from mgehl.solver.rigid_gap import RigidGapFluid
@@ -48,13 +49,12 @@ def solve_on(hierarchy, level, problem, state, recipe, tell, journal):
 @contextmanager
 def newton_on(hierarchy, level, problem, recipe, tell=None):
     """A `Newton` for a problem on grid `level`, with its linear solvers (collective)."""
-    prefix, fluid = recipe.cycle.options_prefix, None
-    how = hierarchy, level, problem.contact, problem.scheme, recipe.cycle
+    fluid, how = None, (hierarchy, level, problem.contact, problem.scheme, recipe.cycle)
     try:
         if recipe.fluid_apart:
-            fluid = RigidGapFluid(problem, MultigridSolver(*how, rigid=True), prefix + "fluid_")
+            fluid = RigidGapFluid(problem, MultigridSolver(*how, rigid=True), OF_ITS_FLUID)
         multigrid = MultigridSolver(*how, apart=recipe.fluid_apart)
-        newton = Newton(problem, multigrid, recipe.newton, fluid, prefix, tell)
+        newton = Newton(problem, multigrid, recipe.newton, fluid, tell)
         try:
             yield newton
         finally:

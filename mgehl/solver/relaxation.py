@@ -31,26 +31,18 @@ from mgehl.solver.outcome import Line, Outcome
 from mgehl.solver.problem import DIVERGED, State
 from mgehl.solver.record import Kept, Record
 
+REPORT_EVERY = 100
+"""Sweeps from one row of the history to the next."""
+
 
 @dataclass(frozen=True)
-class RelaxationSettings:
-    """Factors and limits of the relaxation."""
+class RelaxationSettings(RelaxationSection):
+    """The keys of the section, and what ends it.
 
-    fluid_update: str = RelaxationSection.fluid_update
-    """"line" [Liu eq. 37], or "point" [Liu eq. 36]."""
-    contact_update: str = RelaxationSection.contact_update
-    """"line" [Liu eq. 41], or "point" [Liu eq. 42]."""
-    omega: float = RelaxationSection.omega
-    contact_share: float = RelaxationSection.contact_share
-    """Part of omega that contact nodes get."""
-    stability: float = RelaxationSection.stability
-    """C_c of [Liu eqs. 40-42]."""
-    load_factor: float = RelaxationSection.load_factor
-    """omega_w of [Liu eq. 54]."""
-    load_every: int = RelaxationSection.load_every
-    max_sweeps: int = RelaxationSection.max_sweeps
-    report_every: int = 100
-    """Sweeps from one row of the history to the next."""
+    Updates by lines are [Liu eqs. 37, 41], by points [Liu eqs. 36, 42]; `stability` is C_c of
+    [Liu eqs. 40-42], `load_factor` omega_w of [Liu eq. 54].
+    """
+
     tolerance: float = SolverSection.tolerance
 
 
@@ -89,7 +81,7 @@ class Standing(Kept):
 def relax(problem, state, settings, monitor, journal=NOTHING_KEPT):
     """Relax `state` in place until its true residual and load hold; return the `Outcome`.
 
-    One convolution a sweep. `monitor` is called with a `Sweep` every `report_every` sweeps. The
+    One convolution a sweep. `monitor` is called with a `Sweep` every `REPORT_EVERY` sweeps. The
     `journal` is told of every sweep, and may know this solve or its first part already.
     """
     grid = problem.grid
@@ -113,7 +105,7 @@ def _relax(problem, standing, settings, monitor, journal):
         evaluation = problem.evaluate_full(state)
         relaxation.mark_cavities(state, evaluation)
         change = relaxation.change(state, evaluation)
-        if step == settings.max_sweeps or step % settings.report_every == 0:
+        if step == settings.max_sweeps or step % REPORT_EVERY == 0:
             sweep = relaxation.sweep(step, state, evaluation, change)
             standing.cycles.append(sweep)
             monitor(sweep)
