@@ -93,15 +93,19 @@ class Evaluation:
     @cached_property
     def flows(self):
         """(leaving W, entering E) along each axis."""
-        return list(self._of_axes(flows))
+        return self._flows()
 
     def linearised_flows(self, rigid=False):
         """The same with their derivatives by P and, unless the gap is `rigid`, by H."""
-        return list(self._of_axes(flows, linearised=True, rigid=rigid))
+        return self._flows(linearised=True, rigid=rigid)
 
-    def _of_axes(self, function, **how):
-        for axis, mobility in zip(self.axes, self.mobilities, strict=True):
-            yield function(self.fluid, self.status, axis, self.scheme, mobility=mobility, **how)
+    def _flows(self, **how):
+        state = self.fluid, self.status
+        return [flows(*state, axis, self.scheme, mobility, **how) for axis, mobility in self._along()]
+
+    def _along(self):
+        """Each axis with the `FaceMobility` along it."""
+        return zip(self.axes, self.mobilities, strict=True)
 
     def carried_by_full_gaps(self):
         """What the surfaces carry through the faces along X and Y where all cavities are full, per cell.
@@ -110,8 +114,8 @@ class Evaluation:
         """
         lines, nx = own(self.P).shape
         found = np.zeros((lines, nx - 1)), np.zeros((lines + 1, nx))
-        for rate, axis, flow in zip(found, self.axes, self._of_axes(carried), strict=False):
-            rate[:] = flow / axis.cell
+        for rate, axis in zip(found, self.axes, strict=False):
+            rate[:] = carried(self.fluid, self.status, axis, self.scheme) / axis.cell
         return found
 
     @cached_property
@@ -132,7 +136,7 @@ class Evaluation:
     @cached_property
     def conductances(self):
         """Of the faces along X, (lines, nx - 1), and Y, (lines + 1, nx); these zero on a single line."""
-        found = list(self._of_axes(conductances))
+        found = [conductances(self.status, axis, self.scheme, mobility) for axis, mobility in self._along()]
         if self.mesh.is_line:
             lines, nx = own(self.P).shape
             found.append(np.zeros((lines + 1, nx)))
