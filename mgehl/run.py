@@ -156,7 +156,7 @@ def _solve_loaded(case, parts, comm, watch, start):
         if friction and contact.friction.thins and settings.error:
             how = hierarchy, problem, outcome.state, settings, monitor.beside, journal
             friction = with_unthinned(friction, result, partial(unthinned, *how))
-        told = bands | {"friction": friction, "recipe": parts.recipe(start)}
+        told = bands | {"friction": friction, "recipe": parts.recipe(start, outcome.begins)}
         result = replace(result, **told, wall_s=monitor.seconds)
         return _solution(case, parts, problem, outcome.state, monitor.rows, result, maps)
     finally:
@@ -180,7 +180,7 @@ def _solve_in_time(case, parts, comm, watch, start):
         result = summarise_in_time(
             problem, outcome, rows, scene.passage, limit, work, monitor.seconds, versions()
         )
-        result = replace(result, recipe=parts.recipe(start))
+        result = replace(result, recipe=parts.recipe(start, outcome.begins))
         solution = _solution(case, parts, problem, outcome.state, monitor.rows, result)
         return replace(solution, frames=diary.frames)
     finally:

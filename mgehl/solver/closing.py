@@ -4,6 +4,8 @@ The tolerance is a part of what the surfaces could carry. Where layers alone let
 flows, and what a small residual makes may be much of it.
 """
 
+from dataclasses import replace
+
 from mgehl.solver.mass import mass_account
 from mgehl.solver.on_grid import solve_near
 
@@ -30,7 +32,7 @@ def close_account(hierarchy, problem, outcome, settings, monitor, journal):
         found = solve_near(hierarchy, problem, *how, tolerance=tolerance, max_steps=STEPS)
         if not found.converged:
             break
-        outcome = found
+        outcome = replace(found, begins=outcome.begins)
     return outcome
 
 

@@ -45,6 +45,8 @@ class Outcome(Kept):
     cycles: list = field(default_factory=list)
     contradictions: list = field(default_factory=list)
     """Nodes that kept turning between film and contact."""
+    begins: str | None = None
+    """The way that led to it, as `recipe.Recipe.begins`, where that is another than its recipe's."""
 
     def record(self):
         return Record.of(

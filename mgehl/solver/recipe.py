@@ -34,9 +34,10 @@ grid one that is 6 to 15 % too thick, and of a short wave twice as thick (`tests
 
 FILM, CONTACT, A_STATE = "film", "contact", "a state"
 UNDER_FILM, UNDER_THIN_FILM = "dry contact under a film", "dry contact under a thin film"
-DRY = "dry contact"
+DRY, THICK_FILM = "dry contact", "thick film, slowed down"
 """First guesses: a film of the formula's thickness, or contact, under the pressure of smooth bodies;
-another solution; the dry contact of the peaks with such a film, with nearly none, without a fluid."""
+another solution; the dry contact of the peaks with such a film, with nearly none, without a fluid; and a
+film that covers the peaks, from which on the surfaces slow down."""
 
 BESIDE_LAYERS = 1.0
 """The formula's film over the layers below which a start takes the dry contact as it is. A ball of 100 nm
