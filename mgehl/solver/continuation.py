@@ -7,6 +7,7 @@ from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.nested import nested_iteration
 from mgehl.solver.on_grid import solve_near
 from mgehl.solver.problem import ContactProblem
+from mgehl.solver.recipe import FULL_FILM, IN_CONTACT
 
 SMALLEST_STEP = 0.25
 """A step that failed is halved, down to this part of the first step. From 0.05 to 1 the same steps on 65
@@ -39,13 +40,13 @@ class Continuation:
         nested = replace(self._settings.nested, start=start)
         contact = self._contact.at_speed(speed)
         settings = replace(self._settings, nested=nested)
-        if start == "contact" or settings.scheme.face_mobility == "arithmetic":
+        if start == IN_CONTACT or settings.scheme.face_mobility == "arithmetic":
             return nested_iteration(self._hierarchy, contact, settings, self._monitor, self._journal)
         return self._asked(speed, *self._begin_with_mean(contact, settings))
 
     def begin_beyond(self, speed, start):
         """As `begin`, but first at a speed where such a start settles, and from there to `speed`."""
-        first = speed * (BEYOND if start == "film" else 1.0 / BEYOND)
+        first = speed * (BEYOND if start == FULL_FILM else 1.0 / BEYOND)
         problem, outcome = self.begin(first, start)
         if outcome.converged:
             problem, outcome = self._follow(outcome.state, first, speed)
@@ -74,7 +75,7 @@ class Continuation:
         def solve(t, state):
             return self.at(first_speed ** (1.0 - t) * last_speed**t, state)
 
-        return carry(solve, state)
+        return in_steps(solve, state)
 
     def _begin_with_mean(self, contact, settings):
         """Solve by another mean than the arithmetic one, first at a speed at which the grid resolves the
@@ -95,7 +96,7 @@ class Continuation:
         )
         if outcome.converged and scheme != goal[1]:
             walk = self._walk(speed == contact.speed)
-            problem, outcome = carry(lambda t, state: walk.at(speed, state, t), outcome.state)
+            problem, outcome = in_steps(lambda t, state: walk.at(speed, state, t), outcome.state)
         return self._slow_down(problem, outcome, contact.speed, exactly=False)
 
     def _slow_down(self, problem, outcome, goal, exactly):
@@ -137,8 +138,8 @@ def _stage(scheme, speed):
     return f"a stage on the way ({scheme.face_mobility} mean{share}, {1e3 * speed:.4g} mm/s)"
 
 
-def carry(solve, state):
-    """Carry `state` from t = 0 to 1 with `solve(t, state)`, which returns a problem and an `Outcome`.
+def in_steps(solve, state):
+    """Lead `state` from t = 0 to 1 with `solve(t, state)`, which returns a problem and an `Outcome`.
 
     A step that does not converge is halved and tried again from the last state that did. Returns
     the last solution: at t = 1, or of the smallest step that failed.

@@ -92,7 +92,8 @@ def solve_dry(problem, P, tolerance, max_steps, monitor, journal=NOTHING_KEPT):
     grid = problem.grid
     outcome = journal.recall(grid, partial(Outcome.from_record, line=DryStep))
     if outcome is None:
-        standing = journal.standing(grid, DryStanding.from_record) or DryStanding(carried(problem, P))
+        standing = journal.standing(grid, DryStanding.from_record)
+        standing = standing or DryStanding(carrying_pressure(problem, P))
         state, reason = _settle(problem, standing, tolerance, max_steps, monitor, journal)
         outcome = Outcome(state, not reason, reason or "the set of pressed nodes settled", standing.cycles)
         journal.finish(grid, outcome)
@@ -117,7 +118,7 @@ def dry_pressure(problem, P, largest_gap=GUESS_GAP):
 
     Bodies are up to `largest_gap` apart where they press, and overlap by no more, in units of H.
     """
-    P, limit = carried(problem, P), min(GUESS * problem.K00, largest_gap)
+    P, limit = carrying_pressure(problem, P), min(GUESS * problem.K00, largest_gap)
     for _ in range(SolverSection.max_steps):
         pressed = PressedNodes(problem, P)
         pressed.balance(limit)
@@ -125,10 +126,10 @@ def dry_pressure(problem, P, largest_gap=GUESS_GAP):
         apart = max(pressed.largest_gap, pressed.largest_overlap)
         if apart <= limit and pressed.largest_pull <= GUESS:
             break
-    return carried(problem, pressed.P)
+    return carrying_pressure(problem, pressed.P)
 
 
-def carried(problem, P):
+def carrying_pressure(problem, P):
     """A guess made a pressure: none at the boundary, nowhere a pull, and it carries the load."""
     P = np.where(problem.boundary, 0.0, np.maximum(P, 0.0))
     return problem.carrying(P)
@@ -240,7 +241,7 @@ class PressedNodes:
 
         It carries the load.
         """
-        return carried(self._problem, np.where(self._overlapping, TRACE, self.P))
+        return carrying_pressure(self._problem, np.where(self._overlapping, TRACE, self.P))
 
     def told(self, step, iterations):
         """The `DryStep` of it."""

@@ -10,7 +10,7 @@ from mgehl.solver.fluid_guess import guess_fluid
 from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.on_grid import LevelSolve, solve_on
 from mgehl.solver.problem import DIVERGED, ContactProblem
-from mgehl.solver.recipe import DRY, UNDER_FILM, UNDER_THIN_FILM, recipe_of
+from mgehl.solver.recipe import DRY, FULL_FILM, IN_CONTACT, UNDER_FILM, UNDER_THIN_FILM, recipe_of
 from mgehl.solver.relaxation import relax
 
 FLAT = 0.1
@@ -63,11 +63,11 @@ def first_guess(problem, begins, P=None):
     if begins in (UNDER_FILM, UNDER_THIN_FILM, DRY):
         return _first_guess_of_peaks(problem, begins, dry_pressure(problem, P, FLAT * film), film)
     pressed = grid.X**2 + grid.Y**2 <= contact.widening**2
-    if contact.deformation is not None or (begins == "contact" and not contact.is_hertzian):
+    if contact.deformation is not None or (begins == IN_CONTACT and not contact.is_hertzian):
         P = dry_pressure(problem, P)
         pressed = P > 0.0
     H0 = problem.touching(P)
-    if begins == "film":
+    if begins == FULL_FILM:
         return problem.state(P, film + H0, np.full(grid.shape, LUBRICATED))
     pressed = pressed & problem.scheme.contact_law.has_contact
     return problem.state(P, H0, np.where(pressed, CONTACT, LUBRICATED))

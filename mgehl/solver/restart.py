@@ -52,7 +52,7 @@ OF_A_CASE = ("contact.load", "contact.load_per_length")
 one."""
 
 
-def differences(start, config):
+def differing_keys(start, config):
     """Keys in which the `Config` of a start describes another contact than `config`."""
     ours, theirs = config.as_toml_tables(), start.config.as_toml_tables()
     no_matter = {*OF_A_CASE, *config.unused}
