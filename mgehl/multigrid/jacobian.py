@@ -7,8 +7,6 @@ K is the full convolution and is never truncated or assembled. A bordered vector
 rank's lines of P and, on the last rank, one entry more for H0 (or for the load row).
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 from petsc4py import PETSc
 
@@ -21,14 +19,6 @@ from mgehl.discretization.storage import Storage
 from mgehl.grid.events import ASSEMBLY, event
 from mgehl.model.contact import RESOLVED_CELLS
 from mgehl.multigrid.under_contact import UnderContact
-
-
-@dataclass(frozen=True)
-class LinearSystem:
-    """How the Jacobian is posed: the kind of row of each node and 1/time step, all (lines, nx)."""
-
-    rows: np.ndarray
-    rates: np.ndarray | float = 0.0
 
 
 class BorderedSpace:
