@@ -29,7 +29,7 @@ from mgehl.discretization.status import (
 from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.outcome import Line, Outcome
 from mgehl.solver.problem import DIVERGED, State
-from mgehl.solver.record import Kept, Record
+from mgehl.solver.record import Kept
 
 REPORT_EVERY = 100
 """Sweeps from one row of the history to the next."""
@@ -60,22 +60,14 @@ class Sweep(Line):
 class Standing(Kept):
     """Where the relaxation stands before a sweep."""
 
+    PARTS = {"state": State}
+    ROWS = {"cycles": ("history", Sweep)}
+
     state: State
     cycles: list = field(default_factory=list)
     """The history, a `Sweep` every so many."""
-    step: int = 0
-    """Number of the next sweep."""
-
-    def record(self):
-        return Record.of(state=self.state, history=Record.table(self.cycles), next_sweep=self.step)
-
-    @classmethod
-    def from_record(cls, record):
-        return cls(
-            State.from_record(record.part("state")),
-            [Sweep.from_record(each) for each in record.part("history").rows()],
-            record.values["next_sweep"],
-        )
+    next_sweep: int = 0
+    """Its number."""
 
 
 def relax(problem, state, settings, monitor, journal=NOTHING_KEPT):
@@ -97,8 +89,8 @@ def relax(problem, state, settings, monitor, journal=NOTHING_KEPT):
 def _relax(problem, standing, settings, monitor, journal):
     """The sweeps from `standing` on; whether they converged, and why they ended."""
     relaxation, state = _Relaxation(problem, settings), standing.state
-    for step in count(standing.step):
-        standing.step = step
+    for step in count(standing.next_sweep):
+        standing.next_sweep = step
         journal.step(problem.grid, standing)
         relaxation.mark_contact(state)
         state.p[:] = state.P
