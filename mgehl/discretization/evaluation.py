@@ -11,6 +11,9 @@ from mgehl.discretization.fluid import fluid_state
 from mgehl.discretization.kernels import flow_sources
 from mgehl.discretization.status import CAVITATED, CONTACT
 
+PARTS = "P", "H", "status", "mesh", "contact", "scheme", "fluid", "filling", "storage"
+"""What an `Evaluation` is made of."""
+
 
 class Evaluation:
     """What the pressure, gap and status of a state mean for the flow; the three are ghosted.
@@ -36,8 +39,7 @@ class Evaluation:
         """The same state and fluid, differenced by another scheme of the same contact law."""
         if scheme == self.scheme:
             return self
-        parts = self.P, self.H, self.status, self.mesh, self.contact
-        other = Evaluation(*parts, scheme, self.fluid, self.filling, self.storage)
+        other = self._but(scheme=scheme)
         if scheme.mean == self.scheme.mean:
             other.mobilities = self.mobilities
         return other
@@ -47,8 +49,7 @@ class Evaluation:
         torn = None if filling is None else self.status == CAVITATED
         contents = (torn, np.where(torn, filling, 1.0)) if torn is not None and torn.any() else (None, None)
         fluid = replace(self.fluid, torn=contents[0], filling=contents[1])
-        parts = self.P, self.H, self.status, self.mesh, self.contact, self.scheme
-        other = Evaluation(*parts, fluid, filling, self.storage)
+        other = self._but(fluid=fluid, filling=filling)
         other.mobilities = self.mobilities
         return other
 
@@ -63,9 +64,11 @@ class Evaluation:
 
     def with_mobility(self, eps):
         """The same state with another ghosted mobility, which neither pressure nor gap moves."""
-        fluid = self.fluid.with_mobility(eps)
-        parts = self.P, self.H, self.status, self.mesh, self.contact, self.scheme
-        return Evaluation(*parts, fluid, self.filling, self.storage)
+        return self._but(fluid=self.fluid.with_mobility(eps))
+
+    def _but(self, **other):
+        """The same but for some `other` parts."""
+        return Evaluation(**{name: getattr(self, name) for name in PARTS} | other)
 
     def forget(self):
         """Drop what was found of the faces; it is found again when it is asked for."""

@@ -5,10 +5,8 @@ them. On 1025 nodes it takes 14 steps from a pressure of zero, and 4 from the co
 """
 
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
-from mgehl.multigrid.cycle import MultigridSolver
-from mgehl.multigrid.options import OF_ITS_FLUID
+from mgehl.solver.on_grid import fluid_on
 from mgehl.solver.problem import ContactProblem, State
-from mgehl.solver.rigid_gap import RigidGapFluid
 from mgehl.solver.settings import COARSE_TOLERANCE
 
 
@@ -30,7 +28,8 @@ def guess_fluid(hierarchy, level, problem, state, settings):
     )
     coarse = State(P, state.H0, H, status, P.copy(), filling)
     guess_fluid(hierarchy, level - 1, coarse_problem, coarse, settings)
-    _solve(hierarchy, level - 1, coarse_problem, coarse, settings)
+    with fluid_on(hierarchy, level - 1, coarse_problem, settings.cycle) as fluid:
+        fluid.solve(coarse, COARSE_TOLERANCE, to_rest=False)
     beside_contact, empty = (
         transfer.bilinear((coarse.status == kind).astype(float)) > 0.0 for kind in (CONTACT, CAVITATED)
     )
@@ -38,14 +37,3 @@ def guess_fluid(hierarchy, level, problem, state, settings):
     state.P[film] = transfer.bilinear(coarse.P)[film]
     state.p[film] = state.P[film]
     state.status[film & empty & (state.P == 0.0)] = CAVITATED
-
-
-def _solve(hierarchy, level, problem, state, settings):
-    """The fluid of a coarse grid, as well as any solution there is needed."""
-    how = (problem.contact, problem.scheme, settings.cycle)
-    multigrid = MultigridSolver(hierarchy, level, *how, rigid=True)
-    fluid = RigidGapFluid(problem, multigrid, OF_ITS_FLUID)
-    try:
-        fluid.solve(state, COARSE_TOLERANCE, to_rest=False)
-    finally:
-        fluid.free()

@@ -1,6 +1,6 @@
 """A contact on one grid, from a state: the problem's solver is made here, used, and freed."""
 
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -47,18 +47,25 @@ def solve_on(hierarchy, level, problem, state, recipe, tell, journal):
 
 
 @contextmanager
+def fluid_on(hierarchy, level, problem, settings):
+    """A `RigidGapFluid` for a problem on grid `level`, with its linear solver by `CycleSettings`
+    (collective)."""
+    how = hierarchy, level, problem.contact, problem.scheme, settings
+    fluid = RigidGapFluid(problem, MultigridSolver(*how, rigid=True), OF_ITS_FLUID)
+    try:
+        yield fluid
+    finally:
+        fluid.free()
+
+
+@contextmanager
 def newton_on(hierarchy, level, problem, recipe, tell=None):
     """A `Newton` for a problem on grid `level`, with its linear solvers (collective)."""
-    fluid, how = None, (hierarchy, level, problem.contact, problem.scheme, recipe.cycle)
-    try:
-        if recipe.fluid_apart:
-            fluid = RigidGapFluid(problem, MultigridSolver(*how, rigid=True), OF_ITS_FLUID)
-        multigrid = MultigridSolver(*how, apart=recipe.fluid_apart)
+    grid, apart = (hierarchy, level), recipe.fluid_apart
+    with fluid_on(*grid, problem, recipe.cycle) if apart else nullcontext() as fluid:
+        multigrid = MultigridSolver(*grid, problem.contact, problem.scheme, recipe.cycle, apart=apart)
         newton = Newton(problem, multigrid, recipe.newton, fluid, tell)
         try:
             yield newton
         finally:
             newton.free()
-    finally:
-        if fluid:
-            fluid.free()
