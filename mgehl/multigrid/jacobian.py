@@ -40,10 +40,6 @@ class BorderedSpace:
         P, border = self.read_own(vec)
         return P, _sent_from_last(self.grid.comm, border)
 
-    def read_in_team(self, vec):
-        """As `read` where only ranks with lines ask for the border; 0 on the others."""
-        return self.parts_in_team(vec.getArray(readonly=True))
-
     def border_in_team(self, border):
         """The last rank's border entry on every rank with lines."""
         return _sent_from_last(self.grid.team, border) if self.grid.has_lines else border
@@ -173,7 +169,7 @@ class Jacobian:
 
     def mult(self, _mat, x, y):
         """y = J x; one convolution unless the gap is rigid."""
-        dP, dH0 = self.space.read_in_team(x)
+        dP, dH0 = self.space.parts_in_team(x.getArray(readonly=True))
         if self.rigid:
             self.space.write(y, self.product(dP, None, dH0), dH0)
         else:
