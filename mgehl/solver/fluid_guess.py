@@ -10,25 +10,24 @@ from mgehl.solver.problem import ContactProblem, State
 from mgehl.solver.settings import COARSE_TOLERANCE
 
 
-def guess_fluid(hierarchy, level, problem, state, settings):
-    """Set the fluid of `state` on grid `level`, in place, to that of the coarser grids in its gap.
+def guess_fluid(hierarchy, problem, state, settings):
+    """Set the fluid of `state`, in place, to that of the coarser grids in its gap.
 
     The gap is injected, so no convolution is made; `settings` are a `SolverSettings`. Fluid that is
     beside contact on the coarse grid is left as it is: pressures jump there.
     """
-    coarse_grid = hierarchy.grids[level - 1] if level > 0 else None
-    fewest = settings.nested.first_nodes
-    if coarse_grid is None or coarse_grid.mesh.nx < fewest or not problem.scheme.cavitation:
+    level = hierarchy.grids.index(problem.grid) - 1
+    grid, fewest = hierarchy.grids[level], settings.nested.first_nodes
+    if level < 0 or grid.mesh.nx < fewest or not problem.scheme.cavitation:
         return
-    transfer = hierarchy.transfers[level - 1]
-    deflection = hierarchy.deflections[level - 1]
-    coarse_problem = ContactProblem(coarse_grid, deflection, problem.contact, problem.scheme)
+    transfer, deflection = hierarchy.transfers[level], hierarchy.deflections[level]
+    coarse_problem = ContactProblem(grid, deflection, problem.contact, problem.scheme)
     P, H, status, filling = (
         transfer.inject(array) for array in (state.P, state.H, state.status, state.filling)
     )
     coarse = State(P, state.H0, H, status, P.copy(), filling)
-    guess_fluid(hierarchy, level - 1, coarse_problem, coarse, settings)
-    with fluid_on(hierarchy, level - 1, coarse_problem, settings.cycle) as fluid:
+    guess_fluid(hierarchy, coarse_problem, coarse, settings)
+    with fluid_on(hierarchy, coarse_problem, settings.cycle) as fluid:
         fluid.solve(coarse, COARSE_TOLERANCE, to_rest=False)
     beside_contact, empty = (
         transfer.bilinear((coarse.status == kind).astype(float)) > 0.0 for kind in (CONTACT, CAVITATED)

@@ -37,7 +37,7 @@ def march(scene, hierarchy, settings, told, monitor, journal=NOTHING_KEPT, start
         state, begins = first.state, first.begins
         if beginning is _steady and not scene.moves:
             reference = Reference.of(steady, state)
-    with newton_on(hierarchy, len(hierarchy.grids) - 1, problem, recipe) as newton:
+    with newton_on(hierarchy, problem, recipe) as newton:
         outcome = March(scene, problem, newton, settings.time, told).run(state, reference, journal)
     return problem, replace(outcome, begins=begins)
 

@@ -36,8 +36,8 @@ def nested_iteration(hierarchy, contact, settings, monitor, journal=NOTHING_KEPT
         else:
             state = interpolate(hierarchy.transfers[level - 1], problem, outcome.state)
         if recipe.fluid_apart:
-            guess_fluid(hierarchy, level, problem, state, settings)
-        outcome = solve_on(hierarchy, level, problem, state, recipe, partial(monitor, solve), journal)
+            guess_fluid(hierarchy, problem, state, settings)
+        outcome = solve_on(hierarchy, problem, state, recipe, partial(monitor, solve), journal)
         if not outcome.cycles[-1].residual < DIVERGED:
             break  # nothing to start the next grid from; the outcome says why
     return problem, outcome

@@ -29,43 +29,45 @@ def solve_near(hierarchy, problem, state, settings, monitor, journal, news="", *
     The `state` is the solve's own from now on. `limits` overrule those that the recipe has of Newton's
     method; `monitor` and `journal` as of `nested.nested_iteration`, `news` as of a `LevelSolve`.
     """
-    contact, grids = problem.contact, hierarchy.grids
+    contact, grid = problem.contact, problem.grid
     recipe = recipe_of(replace(settings, scheme=problem.scheme), contact, A_STATE)
     recipe = replace(recipe, newton=replace(recipe.newton, **limits))
-    solve = LevelSolve(problem.grid.mesh.nx, contact.speed, problem.grid is grids[-1], news)
-    level, tell = grids.index(problem.grid), partial(monitor, solve)
-    return solve_on(hierarchy, level, problem, state, recipe, tell, journal)
+    solve = LevelSolve(grid.mesh.nx, contact.speed, grid is hierarchy.grids[-1], news)
+    return solve_on(hierarchy, problem, state, recipe, partial(monitor, solve), journal)
 
 
-def solve_on(hierarchy, level, problem, state, recipe, tell, journal):
-    """Solve a `ContactProblem` on grid `level` from a `state`, as its `Recipe` says; return the `Outcome`.
+def solve_on(hierarchy, problem, state, recipe, tell, journal):
+    """Solve a `ContactProblem` on its grid from a `state`, as its `Recipe` says; return the `Outcome`.
 
     `tell(cycle)` is called with every `Cycle`.
     """
-    with newton_on(hierarchy, level, problem, recipe, tell) as newton:
+    with newton_on(hierarchy, problem, recipe, tell) as newton:
         return newton.run(state, journal)
 
 
 @contextmanager
-def fluid_on(hierarchy, level, problem, settings):
-    """A `RigidGapFluid` for a problem on grid `level`, with its linear solver by `CycleSettings`
-    (collective)."""
-    how = hierarchy, level, problem.contact, problem.scheme, settings
-    fluid = RigidGapFluid(problem, MultigridSolver(*how, rigid=True), OF_ITS_FLUID)
+def newton_on(hierarchy, problem, recipe, tell=None):
+    """A `Newton` for a problem, with its linear solvers (collective)."""
+    apart = recipe.fluid_apart
+    with fluid_on(hierarchy, problem, recipe.cycle) if apart else nullcontext() as fluid:
+        multigrid = _multigrid(hierarchy, problem, recipe.cycle, apart=apart)
+        newton = Newton(problem, multigrid, recipe.newton, fluid, tell)
+        try:
+            yield newton
+        finally:
+            newton.free()
+
+
+@contextmanager
+def fluid_on(hierarchy, problem, settings):
+    """A `RigidGapFluid` for a problem, with its linear solver by `CycleSettings` (collective)."""
+    fluid = RigidGapFluid(problem, _multigrid(hierarchy, problem, settings, rigid=True), OF_ITS_FLUID)
     try:
         yield fluid
     finally:
         fluid.free()
 
 
-@contextmanager
-def newton_on(hierarchy, level, problem, recipe, tell=None):
-    """A `Newton` for a problem on grid `level`, with its linear solvers (collective)."""
-    grid, apart = (hierarchy, level), recipe.fluid_apart
-    with fluid_on(*grid, problem, recipe.cycle) if apart else nullcontext() as fluid:
-        multigrid = MultigridSolver(*grid, problem.contact, problem.scheme, recipe.cycle, apart=apart)
-        newton = Newton(problem, multigrid, recipe.newton, fluid, tell)
-        try:
-            yield newton
-        finally:
-            newton.free()
+def _multigrid(hierarchy, problem, settings, **how):
+    level = hierarchy.grids.index(problem.grid)
+    return MultigridSolver(hierarchy, level, problem.contact, problem.scheme, settings, **how)
