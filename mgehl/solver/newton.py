@@ -29,7 +29,7 @@ from mgehl.solver.outcome import Cycle, Outcome
 from mgehl.solver.partition import Changes, Partition
 from mgehl.solver.position import Position, Step, Trial
 from mgehl.solver.remembered import remembered
-from mgehl.solver.rigid_gap import ahead_of
+from mgehl.solver.rigid_gap import FLUID_AHEAD
 from mgehl.solver.snes import PythonSnes
 from mgehl.solver.squeeze import squeeze_rates
 from mgehl.solver.step_length import step_length
@@ -118,7 +118,7 @@ class Newton(PythonSnes):
         if self._fluid:
             before = state.status.copy()
             reached = self._position.cycles[-1].residual if self._position.cycles else 1.0
-            tolerance = ahead_of(max(reached, self._settings.tolerance))
+            tolerance = FLUID_AHEAD * max(reached, self._settings.tolerance)
             self._evaluation = self._fluid.solve(state, tolerance, to_rest=False).evaluation
             changes.cavitated += problem.grid.count(before != state.status)
         else:
