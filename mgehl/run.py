@@ -37,7 +37,8 @@ from mgehl.solver.dry import guess_on_finest, solve_dry
 from mgehl.solver.from_config import set_up
 from mgehl.solver.in_time import march
 from mgehl.solver.journal import Journal, told_to_stop
-from mgehl.solver.nested import LevelSolve, single_loop
+from mgehl.solver.nested import single_loop
+from mgehl.solver.on_grid import LevelSolve
 from mgehl.solver.problem import ContactProblem
 from mgehl.solver.restart import interpolated, solve_from
 from mgehl.solver.unthinned import unthinned
@@ -167,7 +168,7 @@ def _solve_loaded(case, parts, comm, watch, start):
         if friction and contact.friction.thins and settings.error:
             how = hierarchy, problem, outcome.state, settings, monitor.beside, journal
             friction = with_unthinned(friction, result, partial(unthinned, *how))
-        told = bands | {"friction": friction, "recipe": parts.recipe(start)}
+        told = bands | {"friction": friction, "recipe": parts.recipe(start, outcome.begins)}
         result = replace(result, **told, wall_s=monitor.seconds)
         return _solution(case, parts, problem, outcome.state, monitor.rows, result, maps)
 
@@ -185,7 +186,7 @@ def _solve_in_time(case, parts, comm, watch, start):
         result = summarise_in_time(
             problem, outcome, rows, scene.passage, limit, work, monitor.seconds, versions()
         )
-        result = replace(result, recipe=parts.recipe(start))
+        result = replace(result, recipe=parts.recipe(start, outcome.begins))
         solution = _solution(case, parts, problem, outcome.state, monitor.rows, result)
         return replace(solution, frames=diary.frames)
 
@@ -234,10 +235,9 @@ def _solve_bearing(case, parts, comm, watch):
     limits = settings.newton.tolerance, settings.newton.max_steps
     grid = single_grid(parts.mesh, comm)
     try:
-        prefix = settings.cycle.options_prefix
         # Nothing is kept of a bearing: it is solved in seconds.
         stop = partial(_Asked(watch.stop).step, grid, None)
-        problem, outcome = solve_wedge(grid, bearing, settings.scheme, prefix, *limits, stop)
+        problem, outcome = solve_wedge(grid, bearing, settings.scheme, *limits, stop)
         result = summarise_wedge(problem, outcome, time.perf_counter() - started, versions())
         rows = progress.wedge_rows(parts.mesh.nx, outcome.cycles)
         for row in rows:

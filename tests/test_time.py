@@ -105,6 +105,7 @@ def test_bodies_that_lie_dry_part_as_they_start(course):
     """Oil that is shut in between them fills gaps as small as rounding: no set settles there."""
     started = papers_ball(course((0, 0), (0.02, 0.06)), 0.006)
     assert started.summary.converged and not column(started, "halvings").any()
+    assert started.result.recipe["begins"] == "dry contact"
     touching = column(started, "contact_nodes")
     assert touching[-1] < 0.9 * touching[0]
 

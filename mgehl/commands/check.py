@@ -124,7 +124,7 @@ def _recipe(config, contact):
 
     yield ""
     recipe = recipe_of(settings_from(config, contact), contact)
-    yield from _under("recipe", recipe_words(recipe, begins_at_rest(config)))
+    yield from _under("recipe", recipe_words(recipe, contact.is_plane, begins_at_rest(config)))
 
 
 def _surface(config, contact, mesh):

@@ -127,9 +127,9 @@ def _doubts(case):
 def _differences(directory, start, config):
     """What differs in another contact from which a run starts: a first guess, and maybe a bad one."""
     from mgehl.output.laws import content_of, law_files
-    from mgehl.solver.restart import differences
+    from mgehl.solver.restart import differing_keys
 
-    keys = list(differences(start, config))
+    keys = list(differing_keys(start, config))
     theirs = {Path(file).name: content_of(file) for file in law_files(start.config)}
     for file in law_files(config):
         if theirs.get(Path(file).name, content_of(file)) != content_of(file):

@@ -31,6 +31,9 @@ class CouetteScheme:
 
     leaving: tuple
     entering: tuple
+    order: int
+    """Of the difference that it makes of d(rho H)/dx away from walls: exact for the products x^m of rho and
+    x^n of H up to m + n = order."""
     near: tuple = ()
     limit: float = inf
     """By how much of 1B's flow the flow may differ from that."""
@@ -62,14 +65,14 @@ _S1B_ENTERING = ((1.0, E, W),)
 _S2C = ((0.5, W, E), (0.5, E, W))
 
 
-def _apart(centre, sides, upstream):
+def _apart(centre, sides):
     """2B of rho and of H apart: H_m rho_f + rho_m H_f - rho_i H_i at node i = `centre`.
 
-    f is the 2B value at the face, (3 q_i - q_i-1)/2 with i = `upstream[0]`; m the mean over
-    `sides`. Flow that leaves less flow that enters is options (v) and (vi) of [Liu sec. 3.1]; the
-    last product, in both, makes each of them a flow: where rho = 1 it is the 2B face value of H.
+    f is the 2B value at the face, (3 q_W - q_WW)/2; m the mean over `sides`. Flow that leaves less flow
+    that enters is options (v) and (vi) of [Liu sec. 3.1]; the last product, in both, makes each of them a
+    flow: where rho = 1 it is the 2B face value of H.
     """
-    face = ((1.5, upstream[0]), (-0.5, upstream[1]))
+    face = ((1.5, W), (-0.5, WW))
     share = 1.0 / len(sides)
     terms = [(share * c, f, m) for c, f in face for m in sides]
     terms += [(share * c, m, f) for c, f in face for m in sides]
@@ -80,15 +83,15 @@ def _apart(centre, sides, upstream):
 # node then sees exactly the 1B difference. The same for rho and H apart gives S2C. Put into 3B it gives
 # 2C, too.
 SCHEMES = {
-    "1B": CouetteScheme(_1B, _1B),
-    "2B": CouetteScheme(_2B, _2B, near=_2C),
-    "2C": CouetteScheme(_2C, _2C),
-    "3B": CouetteScheme(_3B, _3B, near=_2C),
-    "3L": CouetteScheme(_3B, _3B, near=_2C, limit=_HALF),
-    "S1B": CouetteScheme(_S1B_LEAVING, _S1B_ENTERING, near=_1B),
-    "S2C": CouetteScheme(_S2C, _S2C),
-    "S2B-v": CouetteScheme(_apart(W, (WW, E), (W, WW)), _apart(E, (W, EE), (W, WW)), near=_S2C),
-    "S2B-vi": CouetteScheme(_apart(W, (W,), (W, WW)), _apart(E, (E,), (W, WW)), near=_S2C),
+    "1B": CouetteScheme(_1B, _1B, 1),
+    "2B": CouetteScheme(_2B, _2B, 2, near=_2C),
+    "2C": CouetteScheme(_2C, _2C, 2),
+    "3B": CouetteScheme(_3B, _3B, 3, near=_2C),
+    "3L": CouetteScheme(_3B, _3B, 3, near=_2C, limit=_HALF),
+    "S1B": CouetteScheme(_S1B_LEAVING, _S1B_ENTERING, 1, near=_1B),
+    "S2C": CouetteScheme(_S2C, _S2C, 2),
+    "S2B-v": CouetteScheme(_apart(W, (WW, E)), _apart(E, (W, EE)), 2, near=_S2C),
+    "S2B-vi": CouetteScheme(_apart(W, (W,)), _apart(E, (E,)), 2, near=_S2C),
 }
 """S2B-v and S2B-vi: rho and H apart with 2B, their other factor the mean of i - 1 and i + 1, or at i."""
 
@@ -106,7 +109,7 @@ def couette_scheme(name, coarsenings=0):
     share = 0.5**coarsenings
     near = _blended(scheme.near or scheme.leaving, _2C, share)
     leaving, entering = _blended(scheme.leaving, _3B, share), _blended(scheme.entering, _3B, share)
-    return CouetteScheme(leaving, entering, near, scheme.limit)
+    return replace(scheme, leaving=leaving, entering=entering, near=near)
 
 
 def _blended(terms, others, share):

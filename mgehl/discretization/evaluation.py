@@ -11,6 +11,9 @@ from mgehl.discretization.fluid import fluid_state
 from mgehl.discretization.kernels import flow_sources
 from mgehl.discretization.status import CAVITATED, CONTACT
 
+PARTS = "P", "H", "status", "mesh", "contact", "scheme", "fluid", "filling", "storage"
+"""What an `Evaluation` is made of."""
+
 
 class Evaluation:
     """What the pressure, gap and status of a state mean for the flow; the three are ghosted.
@@ -36,8 +39,7 @@ class Evaluation:
         """The same state and fluid, differenced by another scheme of the same contact law."""
         if scheme == self.scheme:
             return self
-        parts = self.P, self.H, self.status, self.mesh, self.contact
-        other = Evaluation(*parts, scheme, self.fluid, self.filling, self.storage)
+        other = self._but(scheme=scheme)
         if scheme.mean == self.scheme.mean:
             other.mobilities = self.mobilities
         return other
@@ -47,8 +49,7 @@ class Evaluation:
         torn = None if filling is None else self.status == CAVITATED
         contents = (torn, np.where(torn, filling, 1.0)) if torn is not None and torn.any() else (None, None)
         fluid = replace(self.fluid, torn=contents[0], filling=contents[1])
-        parts = self.P, self.H, self.status, self.mesh, self.contact, self.scheme
-        other = Evaluation(*parts, fluid, filling, self.storage)
+        other = self._but(fluid=fluid, filling=filling)
         other.mobilities = self.mobilities
         return other
 
@@ -63,9 +64,11 @@ class Evaluation:
 
     def with_mobility(self, eps):
         """The same state with another ghosted mobility, which neither pressure nor gap moves."""
-        fluid = self.fluid.with_mobility(eps)
-        parts = self.P, self.H, self.status, self.mesh, self.contact, self.scheme
-        return Evaluation(*parts, fluid, self.filling, self.storage)
+        return self._but(fluid=self.fluid.with_mobility(eps))
+
+    def _but(self, **other):
+        """The same but for some `other` parts."""
+        return Evaluation(**{name: getattr(self, name) for name in PARTS} | other)
 
     def forget(self):
         """Drop what was found of the faces; it is found again when it is asked for."""
@@ -93,15 +96,19 @@ class Evaluation:
     @cached_property
     def flows(self):
         """(leaving W, entering E) along each axis."""
-        return list(self._of_axes(flows))
+        return self._flows()
 
     def linearised_flows(self, rigid=False):
         """The same with their derivatives by P and, unless the gap is `rigid`, by H."""
-        return list(self._of_axes(flows, linearised=True, rigid=rigid))
+        return self._flows(linearised=True, rigid=rigid)
 
-    def _of_axes(self, function, **how):
-        for axis, mobility in zip(self.axes, self.mobilities, strict=True):
-            yield function(self.fluid, self.status, axis, self.scheme, mobility=mobility, **how)
+    def _flows(self, **how):
+        state = self.fluid, self.status
+        return [flows(*state, axis, self.scheme, mobility, **how) for axis, mobility in self._along()]
+
+    def _along(self):
+        """Each axis with the `FaceMobility` along it."""
+        return zip(self.axes, self.mobilities, strict=True)
 
     def carried_by_full_gaps(self):
         """What the surfaces carry through the faces along X and Y where all cavities are full, per cell.
@@ -110,8 +117,8 @@ class Evaluation:
         """
         lines, nx = own(self.P).shape
         found = np.zeros((lines, nx - 1)), np.zeros((lines + 1, nx))
-        for rate, axis, flow in zip(found, self.axes, self._of_axes(carried), strict=False):
-            rate[:] = flow / axis.cell
+        for rate, axis in zip(found, self.axes, strict=False):
+            rate[:] = carried(self.fluid, self.status, axis, self.scheme) / axis.cell
         return found
 
     @cached_property
@@ -132,7 +139,7 @@ class Evaluation:
     @cached_property
     def conductances(self):
         """Of the faces along X, (lines, nx - 1), and Y, (lines + 1, nx); these zero on a single line."""
-        found = list(self._of_axes(conductances))
+        found = [conductances(self.status, axis, self.scheme, mobility) for axis, mobility in self._along()]
         if self.mesh.is_line:
             lines, nx = own(self.P).shape
             found.append(np.zeros((lines + 1, nx)))

@@ -15,13 +15,12 @@ from mgehl.discretization.kernels import add_poiseuille, add_poiseuille_slopes
 from mgehl.discretization.status import WALL, is_solid, open_faces
 
 
-def flows(fluid, status, axis, scheme, linearised=False, rigid=False, mobility=None):
+def flows(fluid, status, axis, scheme, mobility, linearised=False, rigid=False):
     """Flows (leaving W, entering E) through the faces along an axis: couette rho H - eps dP/distance.
 
-    `fluid` and `status` are ghosted; the two are one object for a conservative scheme. Derivatives only
-    if they are to be `linearised`, by H unless `rigid`. `mobility` is that of the faces, where it is known.
+    `fluid` and `status` are ghosted, `mobility` is the `FaceMobility`; the two are one object for a
+    conservative scheme. Derivatives only if they are to be `linearised`, by H unless `rigid`.
     """
-    mobility = mobility_of_faces(fluid, axis, scheme) if mobility is None else mobility
     table = scheme.couette_flow
 
     def flow(terms):
@@ -72,14 +71,14 @@ def _add_carried(flow, terms, table, fluid, stops, axis):
         flow.by_P[upstream] += of_full.value * torn
 
 
-def carried(fluid, status, axis, scheme, mobility=None):
+def carried(fluid, status, axis, scheme):
     """What leaves W through the faces along an axis with the surfaces, were all cavities full.
 
     `fluid` and `status` are ghosted; the mobility does not matter.
     """
     whole = replace(fluid, torn=None, filling=None, P=np.zeros(fluid.P.shape))
     still = FaceMobility(np.zeros(axis.of_whole(status)), (0.0, 0.0))
-    return flows(whole, status, axis, scheme, mobility=still)[0].value
+    return flows(whole, status, axis, scheme, still)[0].value
 
 
 def nodes_of_flows(axis, scheme):
@@ -127,12 +126,11 @@ def mobility_of_faces(fluid, axis, scheme):
     return replace(mobility, by_gap=by_H)
 
 
-def conductances(fluid, status, axis, scheme, mobility=None):
+def conductances(status, axis, scheme, mobility):
     """Mobility of the faces along an axis over cell times distance, zero where closed.
 
     With them the Poiseuille flow into a node is a sum over its faces of conductance times pressure
-    difference. `fluid` and `status` are ghosted; `mobility` as of `flows`.
+    difference. `status` is ghosted, `mobility` the `FaceMobility`.
     """
-    mobility = mobility_of_faces(fluid, axis, scheme) if mobility is None else mobility
     solid = is_solid(status, scheme.contact_law.closes_faces)
     return mobility.value * open_faces(solid, axis) / (axis.distance * axis.cell)

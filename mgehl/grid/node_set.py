@@ -12,7 +12,8 @@ class NodeSet:
         self._grid, self._numbers = grid, numbers
         self._first = grid.first * grid.mesh.nx
         ends = self._first, grid.last * grid.mesh.nx
-        self._mine = slice(*np.searchsorted(numbers, ends))
+        self.mine = slice(*np.searchsorted(numbers, ends))
+        """Places of this rank's nodes."""
         self.here = grid.team.rank == 0
 
     @classmethod
@@ -37,42 +38,30 @@ class NodeSet:
 
     def add(self, array, values):
         """Add `values` of the nodes, known where they are `here`, to an array (lines, nx), in place."""
-        array.ravel()[self._own] += self._grid.team.bcast(values)[self._mine]
+        array.ravel()[self._own] += self._grid.team.bcast(values)[self.mine]
 
     def neighbours(self, others, offsets):
-        """Which of `others` lie at `offsets`, (nodes, offsets), and a mask: False, and the first one, where
-        that is outside the domain."""
+        """Which of `others` lie at `offsets`, (nodes, offsets), and a mask: False, and any one, where none
+        does."""
         numbers, inside = self._places(offsets)
-        return np.searchsorted(others._numbers, np.where(inside, numbers, others._numbers[0])), inside
+        there = np.minimum(others.places(np.where(inside, numbers, -1)), len(others) - 1)
+        return there, inside & (others._numbers[there] == numbers)
 
     def matrix(self, stencil, columns, offsets):
-        """The sparse matrix of a `stencil` (nodes, offsets); all nodes at the offsets are `columns`."""
+        """The sparse matrix of a `stencil` (nodes, offsets); what is beside the `columns` is dropped."""
         there, inside = self.neighbours(columns, offsets)
         rows = np.broadcast_to(np.arange(len(self))[:, None], there.shape)
         entries = stencil[inside], (rows[inside], there[inside])
         return csr_matrix(entries, shape=(len(self), len(columns)))
-
-    def matrix_within(self, stencil, offsets):
-        """The sparse matrix of a `stencil` (nodes, offsets) between these nodes; others have no column."""
-        numbers, inside = self._places(offsets)
-        inside &= np.isin(numbers, self._numbers)
-        rows = np.broadcast_to(np.arange(len(self))[:, None], numbers.shape)
-        entries = stencil[inside], (rows[inside], self.places(numbers[inside]))
-        return csr_matrix(entries, shape=(len(self), len(self)))
 
     def places(self, numbers):
         """Places of nodes of the set by their numbers."""
         return np.searchsorted(self._numbers, numbers)
 
     @property
-    def mine(self):
-        """Places of this rank's nodes, a slice."""
-        return self._mine
-
-    @property
     def _own(self):
         """Places of this rank's nodes in its own lines."""
-        return self._numbers[self._mine] - self._first
+        return self._numbers[self.mine] - self._first
 
     def _places(self, offsets):
         """Numbers (nodes, offsets) of the nodes at `offsets` from each, and which are in the domain."""

@@ -9,6 +9,7 @@ from petsc4py import PETSc
 
 from mgehl.discretization.residual import linearise
 from mgehl.grid.events import ASSEMBLY, event
+from mgehl.multigrid.cycle import MOST_ITERATIONS
 from mgehl.multigrid.jacobian import BorderedSpace
 from mgehl.multigrid.stencil_matrix import stencil_rows
 
@@ -19,10 +20,9 @@ class AssembledSolver:
     BoomerAMG where PETSc has hypre, else PETSc's own GAMG; PETSc options may change it.
     """
 
-    def __init__(self, grid, max_iterations):
+    def __init__(self, grid):
         self.space = BorderedSpace(grid)
         self._grid = grid
-        self._max_iterations = max_iterations
         self._ksp, self._mat = None, None
 
     def free(self):
@@ -35,7 +35,7 @@ class AssembledSolver:
         self._ksp = ksp
         ksp.setType(PETSc.KSP.Type.GMRES)
         ksp.setPCSide(PETSc.PC.Side.RIGHT)
-        ksp.setTolerances(rtol=rtol, atol=0.0, max_it=self._max_iterations)
+        ksp.setTolerances(rtol=rtol, atol=0.0, max_it=MOST_ITERATIONS)
         hypre = PETSc.Sys.hasExternalPackage("hypre")
         ksp.getPC().setType(PETSc.PC.Type.HYPRE if hypre else PETSc.PC.Type.GAMG)
         ksp.setFromOptions()

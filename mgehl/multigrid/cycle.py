@@ -50,6 +50,10 @@ DIRECT = 4097
 through the peaks beside it, and coarse grids do not see them: of 40 such contacts (513 to 2049 nodes) by
 the cycle 14 were not found, most of them in linear systems that were never solved."""
 
+MOST_ITERATIONS = 100
+"""Of GMRES, which is not restarted: thin films on coarse grids take 100, and with a restart after 30 they
+never end."""
+
 RESTART_OF_LARGE = 6
 """Iterations after which GMRES is restarted on a large grid: it keeps two vectors for each, and PETSc
 allocates ten at a time (4097 nodes a side: 2.4 GiB from the fourth iteration on)."""
@@ -57,7 +61,7 @@ allocates ten at a time (4097 nodes a side: 2.4 GiB from the fourth iteration on
 
 @dataclass(frozen=True)
 class CycleSettings:
-    """The linear solver: relaxations after the coarse grids, and GMRES limits."""
+    """The linear solver: what its cycle is made of."""
 
     sweeps: int = SolverSection.sweeps
     """Line relaxations after the coarse grids: each but the first takes a convolution on every grid."""
@@ -66,11 +70,6 @@ class CycleSettings:
     work, one film and mixed lubrication with 0.7 an eighth and a fifth less."""
     couette: str = SolverSection.cycle_couette
     """Couette scheme of the cycle's operators; "same" is the one that is solved."""
-    max_iterations: int = 100
-    """Most iterations of GMRES, which is not restarted: thin films on coarse grids take 100, and with a
-    restart after 30 they never end."""
-    options_prefix: str = "mgehl_"
-    """Under which PETSc options reach the solvers of a run."""
     rough: bool = False
     """Whether peaks are as small as a coarse grid's cells: then corrections are remembered, and lines are
     solved directly."""
@@ -217,7 +216,7 @@ class MultigridSolver:
         """
         ksp.setType(PETSc.KSP.Type.FGMRES)
         ksp.setOperators(self.jacobian.mat, self.jacobians[-1].mat)
-        ksp.setTolerances(rtol=rtol, atol=0.0, max_it=self._settings.max_iterations)
+        ksp.setTolerances(rtol=rtol, atol=0.0, max_it=MOST_ITERATIONS)
         ksp.setGMRESRestart(self._restart)
         ksp.getPC().setType(PETSc.PC.Type.PYTHON)
         ksp.getPC().setPythonContext(self._preconditioner)
@@ -228,7 +227,7 @@ class MultigridSolver:
     @property
     def _restart(self):
         """Iterations that GMRES remembers: all, unless the grid is so large that memory is short."""
-        return RESTART_OF_LARGE if self._memory_is_short else self._settings.max_iterations
+        return RESTART_OF_LARGE if self._memory_is_short else MOST_ITERATIONS
 
     @property
     def _memory_is_short(self):

@@ -7,8 +7,6 @@ K is the full convolution and is never truncated or assembled. A bordered vector
 rank's lines of P and, on the last rank, one entry more for H0 (or for the load row).
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 from petsc4py import PETSc
 
@@ -21,14 +19,6 @@ from mgehl.discretization.storage import Storage
 from mgehl.grid.events import ASSEMBLY, event
 from mgehl.model.contact import RESOLVED_CELLS
 from mgehl.multigrid.under_contact import UnderContact
-
-
-@dataclass(frozen=True)
-class LinearSystem:
-    """How the Jacobian is posed: the kind of row of each node and 1/time step, all (lines, nx)."""
-
-    rows: np.ndarray
-    rates: np.ndarray | float = 0.0
 
 
 class BorderedSpace:
@@ -49,10 +39,6 @@ class BorderedSpace:
         """Return the pressure part, a view (lines, nx), and the border entry on every rank."""
         P, border = self.read_own(vec)
         return P, _sent_from_last(self.grid.comm, border)
-
-    def read_in_team(self, vec):
-        """As `read` where only ranks with lines ask for the border; 0 on the others."""
-        return self.parts_in_team(vec.getArray(readonly=True))
 
     def border_in_team(self, border):
         """The last rank's border entry on every rank with lines."""
@@ -183,7 +169,7 @@ class Jacobian:
 
     def mult(self, _mat, x, y):
         """y = J x; one convolution unless the gap is rigid."""
-        dP, dH0 = self.space.read_in_team(x)
+        dP, dH0 = self.space.parts_in_team(x.getArray(readonly=True))
         if self.rigid:
             self.space.write(y, self.product(dP, None, dH0), dH0)
         else:

@@ -11,7 +11,7 @@ from petsc4py import PETSc
 
 from mgehl.discretization.mesh import HALO
 from mgehl.grid.events import NEARBY, event
-from mgehl.multigrid.options import by_default
+from mgehl.multigrid.options import OF_NEARBY_NODES, by_default
 from mgehl.multigrid.stencil_matrix import StencilMatrix
 
 NEAR = np.array([(line, node) for line in (-1, 0, 1) for node in (-1, 0, 1)])
@@ -21,9 +21,6 @@ time."""
 
 CENTRE = 4
 """Place of the node itself among them."""
-
-PREFIX = "mgehl_nearby_"
-"""Of PETSc's options."""
 
 PACKAGES = "mumps", "superlu_dist"
 """Direct solvers on several ranks, the best one first; without them each rank solves the whole."""
@@ -65,7 +62,7 @@ class NearbySolve:
         if self._ksp is None:
             self._ksp = _direct_solver(self._within)
             self._vecs = self._within.createVecs()
-        with by_default(PREFIX, mat_mumps_icntl_6=0):
+        with by_default(OF_NEARBY_NODES, mat_mumps_icntl_6=0):
             self._ksp.setUp()
 
     @event(NEARBY)
@@ -141,7 +138,7 @@ def _beside(ghosted):
 def _direct_solver(matrix):
     """A KSP that is the best direct solver that PETSc has for a matrix; options may change it."""
     ksp = PETSc.KSP().create(matrix.comm)
-    ksp.setOptionsPrefix(PREFIX)
+    ksp.setOptionsPrefix(OF_NEARBY_NODES)
     ksp.setType(PETSc.KSP.Type.PREONLY)
     ksp.setOperators(matrix)
     packages = [name for name in PACKAGES if PETSc.Sys.hasExternalPackage(name)]

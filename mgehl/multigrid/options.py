@@ -1,8 +1,12 @@
-"""Defaults of PETSc options that a user's own options overrule."""
+"""PETSc's options: how they are called, and defaults that a user's own overrule."""
 
 from contextlib import contextmanager
 
 from petsc4py import PETSc
+
+OF_A_RUN, OF_ITS_FLUID, OF_NEARBY_NODES = "mgehl_", "mgehl_fluid_", "mgehl_nearby_"
+"""Prefixes of the options of a run's solvers, of its fluid solved apart, of its nearby nodes solved at
+once."""
 
 
 @contextmanager

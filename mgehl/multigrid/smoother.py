@@ -16,12 +16,8 @@ from mgehl.discretization.kernels import distribute
 from mgehl.grid.events import LINES, event
 
 
-class LineSmoother:
-    """Relaxation c = omega Q T^-1 r, T the x-lines' part of J Q.
-
-    Without the distribution Q the relaxation diverges: K is long-ranged, and a band of it
-    overshoots on smooth corrections; K Q decays fast enough for a band.
-    """
+class XLines:
+    """What all smoothers have: the bands of the x-lines, each node coupled to `reach` on each side."""
 
     relaxations = 1
     """Of one sweep."""
@@ -30,36 +26,54 @@ class LineSmoother:
     way = ""
     """Which of several ways it takes; there is but one."""
 
-    def __init__(self, jacobian, omega):
-        self._jacobian, self._omega = jacobian, omega
-        grid = jacobian.grid
-        self._near = influence_nearby(jacobian)
-        self._share = 0.5 if grid.mesh.is_line else 0.25
-        self._K00, self._kappa = self._near[0, 0], influence_of_columns(self._near, self._share)
-        self._bands = LineBands(*grid.shape, before=grid.first)
+    def __init__(self, jacobian, omega, reach):
+        self._jacobian, self._omega, grid = jacobian, omega, jacobian.grid
+        self._bands = LineBands(*grid.shape, reach, grid.first)
         self._w = np.zeros(grid.shape)
-        self._ghosted_w = np.zeros(grid.ghosted_shape)
 
     def free(self):
         """Free what PETSc does not free."""
 
-    @event(LINES)
     def partition(self, rows):
-        """Choose the distributive nodes of the present linearisation; `rows` (lines, nx)."""
-        grid, eps = self._jacobian.grid, self._jacobian.linearisation.eps
-        self._distributive = grid.halo(distributive_nodes(eps, rows, grid.mesh.dX, self._K00))
+        """Take note of the kinds of `rows` (lines, nx) of the present linearisation."""
 
     def forget(self):
         """Free the memory of the factors."""
         self._bands.forget()
 
+    def factor_alone(self):
+        """Factor what one rank factors for all: of lines nothing."""
+
+    def _solve_lines(self, r):
+        """Solve the lines for the residual `r`, into `_w`."""
+        self._bands.solve(r, self._w)
+
+
+class LineSmoother(XLines):
+    """Relaxation c = omega Q T^-1 r, T the x-lines' part of J Q.
+
+    Without the distribution Q the relaxation diverges: K is long-ranged, and a band of it
+    overshoots on smooth corrections; K Q decays fast enough for a band.
+    """
+
+    def __init__(self, jacobian, omega):
+        super().__init__(jacobian, omega, REACH)
+        grid = jacobian.grid
+        self._near = influence_nearby(jacobian)
+        self._share = 0.5 if grid.mesh.is_line else 0.25
+        self._K00, self._kappa = self._near[0, 0], influence_of_columns(self._near, self._share)
+        self._ghosted_w = np.zeros(grid.ghosted_shape)
+
+    @event(LINES)
+    def partition(self, rows):
+        """Choose the distributive nodes."""
+        grid, eps = self._jacobian.grid, self._jacobian.linearisation.eps
+        self._distributive = grid.halo(distributive_nodes(eps, rows, grid.mesh.dX, self._K00))
+
     @event(LINES)
     def factor(self):
         """Factor the bands of the present linearisation."""
         self._factor_x_lines()
-
-    def factor_alone(self):
-        """Factor what one rank factors for all: of lines nothing."""
 
     def _factor_x_lines(self):
         """Factor the bands of the x-lines; return their diagonal before that, (lines, nx)."""
@@ -86,51 +100,30 @@ class LineSmoother:
             self._w[jacobian.contents] = omega * of_contents if along_x else 0.0
         return self._w
 
-    def _solve_lines(self, r):
-        """Solve the lines for the residual `r`, into `_w`."""
-        self._bands.solve(r, self._w)
-
     def view(self, viewer):
         viewer.printfASCII(f"  distributive x-line Jacobi, omega {self._omega}, {REACH} neighbours\n")
 
 
-class RigidLineSmoother:
+class RigidLineSmoother(XLines):
     """The same of a rigid gap, c = omega T^-1 r: without K there is nothing to distribute."""
 
     relaxations = 2
-    sees_cliffs = False
-    way = ""
 
     def __init__(self, jacobian, omega):
-        self._jacobian, self._omega, grid = jacobian, omega, jacobian.grid
-        self._bands = LineBands(*grid.shape, REACH_OF_STENCIL, grid.first)
-        self._out = np.zeros(grid.shape)
-
-    def free(self):
-        """Nothing is held that PETSc does not free."""
-
-    def partition(self, _rows):
-        """Nothing depends on the kinds of rows."""
-
-    def forget(self):
-        """Free the memory of the factors."""
-        self._bands.forget()
+        super().__init__(jacobian, omega, REACH_OF_STENCIL)
 
     @event(LINES)
     def factor(self):
         """Factor the lines of the present linearisation."""
         self._bands.factor_stencil(self._jacobian.linearisation, self._jacobian.given)
 
-    def factor_alone(self):
-        """Of lines one rank factors nothing for all."""
-
     @event(LINES)
     def relax(self, r):
         """Correction for the residual `r`, both (lines, nx); the next call overwrites it."""
-        self._bands.solve(r, self._out)
-        self._out *= self._omega
-        self._out[self._jacobian.given] = 0.0
-        return self._out
+        self._solve_lines(r)
+        self._w *= self._omega
+        self._w[self._jacobian.given] = 0.0
+        return self._w
 
     def view(self, viewer):
         viewer.printfASCII(f"  x-line Jacobi of a rigid gap, omega {self._omega}\n")

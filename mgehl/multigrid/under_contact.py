@@ -39,7 +39,7 @@ class UnderContact:
         self._columns = self._columns_of(leak.into, offsets)
         rows = self._gathered(leak.A)
         if self._nodes.here:
-            self._lu = factored(self._nodes.matrix_within(rows.T, offsets))
+            self._lu = factored(self._nodes.matrix(rows.T, self._nodes, offsets))
 
     def _columns_of(self, into, offsets):
         """(places of own rows, numbers of contact nodes, derivatives) of C."""

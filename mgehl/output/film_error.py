@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, replace
 
-from mgehl.discretization.order import couette_order
+from mgehl.discretization.couette import SCHEMES
 from mgehl.output.resolution import SEEN_CELLS
 from mgehl.output.surface import GRIDS
 from mgehl.solver.richardson import band, band_beside, band_of_smallest
@@ -106,7 +106,7 @@ def film_error(result, coarser, progress):
 
 def _order(scheme):
     """Power of the spacing with which a film's error falls by a `Scheme`."""
-    return min(couette_order(scheme.couette), POISEUILLE_ORDER)
+    return min(SCHEMES[scheme.couette].order, POISEUILLE_ORDER)
 
 
 def from_grids(result, grids, order, other=None):

@@ -6,7 +6,7 @@ from functools import partial
 from mgehl.solver.continuation import SPEED_RATIO, Continuation
 from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.nested import nested_iteration
-from mgehl.solver.recipe import DRY, TOUCHING, needs_a_walk, recipe_of
+from mgehl.solver.recipe import DRY, THICK_FILM, TOUCHING, needs_a_walk, recipe_of
 
 COVERED = 1.5
 """Film of smooth bodies over the roughness from which on a walk down in speed may begin: more than 1, or
@@ -45,14 +45,14 @@ def _begin_touching(hierarchy, contact, settings, monitor, journal):
     )
     if outcome.converged:
         return problem, outcome
-    reason, others = outcome.reason, [("a thick film", begin_thick)]
+    reason, others = outcome.reason, [("a thick film", THICK_FILM, begin_thick)]
     if recipe.begins != DRY:
-        others.insert(0, ("the dry contact without oil", begin_dry))
-    for where, way in others:
+        others.insert(0, ("the dry contact without oil", DRY, begin_dry))
+    for where, begins, way in others:
         tell = partial(_with_news, monitor, f"not found: {reason}; now from {where}")
         found, last = way(hierarchy, contact, settings, tell, journal)
         if last.converged:
-            return found, last
+            return found, replace(last, begins=begins)
         reason += f"{NOR} {where}: {last.reason}"
     return problem, replace(outcome, reason=reason)
 

@@ -108,10 +108,10 @@ def cavities_rest(problem, state):
     return problem.grid.count(pulls | overflows(state)) == 0
 
 
-def weakly_coupled(problem, evaluation, status, multiple):
+def weakly_coupled(problem, evaluation, status):
     """Fluid nodes whose gap hardly answers to their pressure; all (lines, nx)."""
     mobility = own(evaluation.fluid.eps)
-    return is_fluid(status) & (mobility > multiple * problem.K00 * problem.grid.mesh.dX)
+    return is_fluid(status) & (mobility > WEAKLY_COUPLED * problem.K00 * problem.grid.mesh.dX)
 
 
 def driven(problem, evaluation):
@@ -123,7 +123,7 @@ def driven(problem, evaluation):
 
 def _relaxable(problem, evaluation, state):
     """Nodes of low pressure, where neither their own pressure nor long waves of it move the gap much."""
-    movable = weakly_coupled(problem, evaluation, state.status, WEAKLY_COUPLED)
+    movable = weakly_coupled(problem, evaluation, state.status)
     if problem.grid.mesh.is_line:
         movable &= own(evaluation.fluid.eps) > LONG_WAVES * part_of_the_line(is_fluid(state.status)) ** 2
     movable &= state.P <= LOW * problem.grid.max(state.P, initial=0.0)

@@ -5,12 +5,9 @@ flows, and what a small residual makes may be much of it.
 """
 
 from dataclasses import replace
-from functools import partial
 
 from mgehl.solver.mass import mass_account
-from mgehl.solver.nested import LevelSolve
-from mgehl.solver.on_grid import solve_on
-from mgehl.solver.recipe import A_STATE, recipe_of
+from mgehl.solver.on_grid import solve_near
 
 AIM = 1e-8
 """Part of what flows through that nodes may make."""
@@ -26,19 +23,16 @@ def close_account(hierarchy, problem, outcome, settings, monitor, journal):
 
     Contact that shuts its faces has no flow that its sets depend on: there the residual says all.
     """
-    contact, grid, level = problem.contact, problem.grid, len(hierarchy.grids) - 1
-    recipe = recipe_of(settings, contact, A_STATE)
+    news, continuous = "solved on, until no node makes oil", problem.scheme.contact_law.is_continuous
     for _ in range(ROUNDS):
-        if not (outcome.converged and recipe.newton.by_film and _makes_oil(problem, outcome.state)):
+        if not (outcome.converged and continuous and _makes_oil(problem, outcome.state)):
             break
-        finer = replace(recipe.newton, tolerance=FINER * outcome.cycles[-1].residual, max_steps=STEPS)
-        news = "solved on, until no node makes oil"
-        tell = partial(monitor, LevelSolve(grid.mesh.nx, contact.speed, True, news))
-        state, own = outcome.state.copy(), replace(recipe, newton=finer)
-        found = solve_on(hierarchy, level, problem, state, own, tell, journal)
+        how = outcome.state.copy(), settings, monitor, journal, news
+        tolerance = FINER * outcome.cycles[-1].residual
+        found = solve_near(hierarchy, problem, *how, tolerance=tolerance, max_steps=STEPS)
         if not found.converged:
             break
-        outcome = found
+        outcome = replace(found, begins=outcome.begins)
     return outcome
 
 

@@ -8,17 +8,14 @@ surface as it is, for else it would have another contact.
 """
 
 from dataclasses import dataclass, replace
-from functools import partial
 
 import numpy as np
 
 from mgehl.solver.films import Films, films_beside, films_between_nodes
 from mgehl.solver.gaps import Gaps, Loads, differences, gaps, load_differences, loads
 from mgehl.solver.journal import NOTHING_KEPT
-from mgehl.solver.nested import LevelSolve
-from mgehl.solver.on_grid import solve_on
+from mgehl.solver.on_grid import solve_near
 from mgehl.solver.problem import ContactProblem
-from mgehl.solver.recipe import A_STATE, recipe_of
 
 COARSER = 2
 """Grids besides the finest: two differences show whether the error falls as the scheme's does."""
@@ -130,12 +127,13 @@ class CoarserGrids:
 
         With these limits of Newton's; Eq. 2 lets nothing go.
         """
-        tolerance = max(TOLERANCE, self.settings.newton.tolerance)
-        newton = replace(self.settings.newton, tolerance=tolerance, release_budget=0, **limits)
-        recipe = recipe_of(replace(self.settings, scheme=scheme, newton=newton), contact, A_STATE)
-        problem, state = _injected(self._hierarchy, level, contact, state, scheme)
-        tell = partial(self._monitor, LevelSolve(problem.grid.mesh.nx, contact.speed, False))
-        return problem, solve_on(self._hierarchy, level, problem, state, recipe, tell, self._journal)
+        hierarchy, newton = self._hierarchy, self.settings.newton
+        limits |= {"tolerance": max(TOLERANCE, newton.tolerance), "release_budget": 0}
+        settings = replace(self.settings, newton=replace(newton, **limits))
+        problem = ContactProblem(hierarchy.grids[level], hierarchy.deflections[level], contact, scheme)
+        _, P, p, filling, status = _at_nodes(hierarchy.transfers[level], state)
+        state = problem.state(P, state.H0, status, p, filling)
+        return problem, solve_near(hierarchy, problem, state, settings, self._monitor, self._journal)
 
 
 def _is_of(problem, grid, contact, scheme):
@@ -150,13 +148,6 @@ def _grid_gaps(problem, state, settled, *apart):
 def _grid_films(problem, state, films, settled):
     contact_nodes, _ = problem.counts(state.status)
     return GridFilms(problem.grid.mesh.nx, films, contact_nodes, settled)
-
-
-def _injected(hierarchy, level, contact, state, scheme):
-    """The problem of a contact on a coarser grid, and the finer state at its nodes."""
-    coarser = ContactProblem(hierarchy.grids[level], hierarchy.deflections[level], contact, scheme)
-    _, P, p, filling, status = _at_nodes(hierarchy.transfers[level], state)
-    return coarser, coarser.state(P, state.H0, status, p, filling)
 
 
 def _at_nodes(transfer, state):

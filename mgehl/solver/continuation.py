@@ -1,14 +1,13 @@
 """Continuation: a solution is followed in speed, or from one mean of the mobility to another."""
 
 from dataclasses import replace
-from functools import partial
 
 from mgehl.discretization.fluid import FOLDING
 from mgehl.solver.journal import NOTHING_KEPT
-from mgehl.solver.nested import LevelSolve, nested_iteration
-from mgehl.solver.on_grid import solve_on
+from mgehl.solver.nested import nested_iteration
+from mgehl.solver.on_grid import solve_near
 from mgehl.solver.problem import ContactProblem
-from mgehl.solver.recipe import A_STATE, recipe_of
+from mgehl.solver.recipe import IN_CONTACT
 
 SMALLEST_STEP = 0.25
 """A step that failed is halved, down to this part of the first step. From 0.05 to 1 the same steps on 65
@@ -38,7 +37,7 @@ class Continuation:
         nested = replace(self._settings.nested, start=start)
         contact = self._contact.at_speed(speed)
         settings = replace(self._settings, nested=nested)
-        if start == "contact" or settings.scheme.face_mobility == "arithmetic":
+        if start == IN_CONTACT or settings.scheme.face_mobility == "arithmetic":
             return nested_iteration(self._hierarchy, contact, settings, self._monitor, self._journal)
         return self._asked(speed, *self._begin_with_mean(contact, settings))
 
@@ -46,15 +45,11 @@ class Continuation:
         """Solve at `speed` from `state`, with own limits of Newton's where some are given; return the
         problem and the `Outcome`."""
         hierarchy, settings = self._hierarchy, self._settings
-        scheme = replace(settings.scheme, mobility_share=share)
-        level, contact = len(hierarchy.grids) - 1, self._contact.at_speed(speed)
-        grid = hierarchy.grids[level]
-        problem = ContactProblem(grid, hierarchy.deflections[level], contact, scheme)
+        scheme, contact = replace(settings.scheme, mobility_share=share), self._contact.at_speed(speed)
+        problem = ContactProblem(hierarchy.grids[-1], hierarchy.deflections[-1], contact, scheme)
         state = problem.state(state.P, state.H0, state.status, state.p, state.filling)
-        recipe = recipe_of(replace(settings, scheme=scheme), contact, A_STATE)
-        recipe = replace(recipe, newton=replace(recipe.newton, **limits))
-        tell = partial(self._monitor, LevelSolve(grid.mesh.nx, speed, True))
-        return problem, solve_on(hierarchy, level, problem, state, recipe, tell, self._journal)
+        how = settings, self._monitor, self._journal
+        return problem, solve_near(hierarchy, problem, state, *how, **limits)
 
     def follow(self, state, first_speed, last_speed):
         """Carry the `state` at one speed to another, in steps of equal ratio."""
@@ -69,7 +64,7 @@ class Continuation:
         def solve(t, state):
             return self.at(first_speed ** (1.0 - t) * last_speed**t, state)
 
-        return carry(solve, state)
+        return in_steps(solve, state)
 
     def _begin_with_mean(self, contact, settings):
         """Solve by another mean than the arithmetic one, first at a speed at which the grid resolves the
@@ -90,7 +85,7 @@ class Continuation:
         )
         if outcome.converged and scheme != goal[1]:
             walk = self._walk(speed == contact.speed)
-            problem, outcome = carry(lambda t, state: walk.at(speed, state, t), outcome.state)
+            problem, outcome = in_steps(lambda t, state: walk.at(speed, state, t), outcome.state)
         return self._slow_down(problem, outcome, contact.speed, exactly=False)
 
     def _slow_down(self, problem, outcome, goal, exactly):
@@ -132,13 +127,13 @@ def _stage(scheme, speed):
     return f"a stage on the way ({scheme.face_mobility} mean{share}, {1e3 * speed:.4g} mm/s)"
 
 
-def carry(solve, state, step=1.0):
-    """Carry `state` from t = 0 to 1 with `solve(t, state)`, which returns a problem and an `Outcome`.
+def in_steps(solve, state):
+    """Lead `state` from t = 0 to 1 with `solve(t, state)`, which returns a problem and an `Outcome`.
 
     A step that does not converge is halved and tried again from the last state that did. Returns
     the last solution: at t = 1, or of the smallest step that failed.
     """
-    reached, smallest = 0.0, SMALLEST_STEP * step
+    reached, step = 0.0, 1.0
     while True:
         t = min(1.0, reached + step)
         problem, outcome = solve(t, state)
@@ -146,5 +141,5 @@ def carry(solve, state, step=1.0):
             reached, state, step = t, outcome.state, 2.0 * step
         else:
             step = 0.5 * (t - reached)
-        if reached == 1.0 or step < smallest:
+        if reached == 1.0 or step < SMALLEST_STEP:
             return problem, outcome

@@ -92,7 +92,8 @@ def solve_dry(problem, P, tolerance, max_steps, monitor, journal=NOTHING_KEPT):
     grid = problem.grid
     outcome = journal.recall(grid, partial(Outcome.from_record, line=DryStep))
     if outcome is None:
-        standing = journal.standing(grid, DryStanding.from_record) or DryStanding(carried(problem, P))
+        standing = journal.standing(grid, DryStanding.from_record)
+        standing = standing or DryStanding(carrying_pressure(problem, P))
         state, reason = _settle(problem, standing, tolerance, max_steps, monitor, journal)
         outcome = Outcome(state, not reason, reason or "the set of pressed nodes settled", standing.cycles)
         journal.finish(grid, outcome)
@@ -117,18 +118,18 @@ def dry_pressure(problem, P, largest_gap=GUESS_GAP):
 
     Bodies are up to `largest_gap` apart where they press, and overlap by no more, in units of H.
     """
-    P, limit = carried(problem, P), min(GUESS * problem.K00, largest_gap)
+    P, limit = carrying_pressure(problem, P), min(GUESS * problem.K00, largest_gap)
     for _ in range(SolverSection.max_steps):
         pressed = PressedNodes(problem, P)
-        pressed.balance(limit, REDUCTION)
+        pressed.balance(limit)
         P = pressed.without_pull()
         apart = max(pressed.largest_gap, pressed.largest_overlap)
         if apart <= limit and pressed.largest_pull <= GUESS:
             break
-    return carried(problem, pressed.P)
+    return carrying_pressure(problem, pressed.P)
 
 
-def carried(problem, P):
+def carrying_pressure(problem, P):
     """A guess made a pressure: none at the boundary, nowhere a pull, and it carries the load."""
     P = np.where(problem.boundary, 0.0, np.maximum(P, 0.0))
     return problem.carrying(P)
@@ -140,7 +141,7 @@ def _settle(problem, standing, tolerance, max_steps, monitor, journal):
     for step in count(len(standing.cycles) + 1):
         journal.step(problem.grid, standing)
         pressed = PressedNodes(problem, standing.P)
-        iterations = pressed.balance(limit, REDUCTION)
+        iterations = pressed.balance(limit)
         standing.cycles.append(pressed.told(step, iterations))
         monitor(standing.cycles[-1])
         why_not = _why_not(standing.cycles[-1], pressed.largest_gap, limit)
@@ -179,17 +180,17 @@ class PressedNodes:
         self._left = np.where(self.pressed, gap - self.approach, 0.0)
         self.largest_gap = self._grid.max(np.abs(self._left))
 
-    def balance(self, limit, reduction):
+    def balance(self, limit):
         """Conjugate gradients until the gap on the set is within `limit`; return how many.
 
-        They end before that where the error has fallen by `reduction` and the set is not the right one.
+        They end before that where `REDUCTION` of the error is left and the set is not the right one.
         """
         direction, energy = self._preconditioned()
         first = energy
         for iteration in range(MOST_ITERATIONS):
             if self.largest_gap <= limit or not energy > 0.0:
                 return iteration
-            if energy <= reduction**2 * first and self.misplaced:
+            if energy <= REDUCTION**2 * first and self.misplaced:
                 return iteration
             response = self._problem.deflection(direction)
             length = energy / self._sum(direction, response)
@@ -240,7 +241,7 @@ class PressedNodes:
 
         It carries the load.
         """
-        return carried(self._problem, np.where(self._overlapping, TRACE, self.P))
+        return carrying_pressure(self._problem, np.where(self._overlapping, TRACE, self.P))
 
     def told(self, step, iterations):
         """The `DryStep` of it."""

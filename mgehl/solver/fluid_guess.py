@@ -5,30 +5,30 @@ them. On 1025 nodes it takes 14 steps from a pressure of zero, and 4 from the co
 """
 
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
-from mgehl.multigrid.cycle import MultigridSolver
+from mgehl.solver.on_grid import fluid_on
 from mgehl.solver.problem import ContactProblem, State
-from mgehl.solver.rigid_gap import RigidGapFluid
+from mgehl.solver.settings import COARSE_TOLERANCE
 
 
-def guess_fluid(hierarchy, level, problem, state, settings):
-    """Set the fluid of `state` on grid `level`, in place, to that of the coarser grids in its gap.
+def guess_fluid(hierarchy, problem, state, settings):
+    """Set the fluid of `state`, in place, to that of the coarser grids in its gap.
 
     The gap is injected, so no convolution is made; `settings` are a `SolverSettings`. Fluid that is
     beside contact on the coarse grid is left as it is: pressures jump there.
     """
-    coarse_grid = hierarchy.grids[level - 1] if level > 0 else None
-    fewest = settings.nested.first_nodes
-    if coarse_grid is None or coarse_grid.mesh.nx < fewest or not problem.scheme.cavitation:
+    level = hierarchy.grids.index(problem.grid) - 1
+    grid, fewest = hierarchy.grids[level], settings.nested.first_nodes
+    if level < 0 or grid.mesh.nx < fewest or not problem.scheme.cavitation:
         return
-    transfer = hierarchy.transfers[level - 1]
-    deflection = hierarchy.deflections[level - 1]
-    coarse_problem = ContactProblem(coarse_grid, deflection, problem.contact, problem.scheme)
+    transfer, deflection = hierarchy.transfers[level], hierarchy.deflections[level]
+    coarse_problem = ContactProblem(grid, deflection, problem.contact, problem.scheme)
     P, H, status, filling = (
         transfer.inject(array) for array in (state.P, state.H, state.status, state.filling)
     )
     coarse = State(P, state.H0, H, status, P.copy(), filling)
-    guess_fluid(hierarchy, level - 1, coarse_problem, coarse, settings)
-    _solve(hierarchy, level - 1, coarse_problem, coarse, settings)
+    guess_fluid(hierarchy, coarse_problem, coarse, settings)
+    with fluid_on(hierarchy, coarse_problem, settings.cycle) as fluid:
+        fluid.solve(coarse, COARSE_TOLERANCE, to_rest=False)
     beside_contact, empty = (
         transfer.bilinear((coarse.status == kind).astype(float)) > 0.0 for kind in (CONTACT, CAVITATED)
     )
@@ -36,14 +36,3 @@ def guess_fluid(hierarchy, level, problem, state, settings):
     state.P[film] = transfer.bilinear(coarse.P)[film]
     state.p[film] = state.P[film]
     state.status[film & empty & (state.P == 0.0)] = CAVITATED
-
-
-def _solve(hierarchy, level, problem, state, settings):
-    """The fluid of a coarse grid, as well as any solution there is needed."""
-    how = (problem.contact, problem.scheme, settings.cycle)
-    multigrid = MultigridSolver(hierarchy, level, *how, rigid=True)
-    fluid = RigidGapFluid(problem, multigrid, settings.cycle.options_prefix + "fluid_")
-    try:
-        fluid.solve(state, settings.nested.coarse_tolerance, to_rest=False)
-    finally:
-        fluid.free()

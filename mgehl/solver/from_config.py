@@ -1,6 +1,6 @@
 """From a configuration to the objects of a solve."""
 
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 
 from mgehl.config import COARSEST_NODES
 from mgehl.discretization.contact_law import UnifiedEquations
@@ -27,9 +27,13 @@ class SetUp:
     frame: Frame
     """Those axes, beside the user's."""
 
-    def recipe(self, start=None):
-        """{choice: value} of the `Recipe` of a loaded contact with a fluid, maybe from a `start`."""
-        return plain(recipe_of(self.settings, self.contact, start and A_STATE))
+    def recipe(self, start=None, begins=None):
+        """{choice: value} of the `Recipe` of a loaded contact with a fluid, maybe from a `start`.
+
+        It `begins` in the way that led to the answer, where that is another.
+        """
+        recipe = recipe_of(self.settings, self.contact, start and A_STATE)
+        return plain(replace(recipe, begins=begins or recipe.begins))
 
     def hierarchy(self, comm):
         """The grids of a loaded contact on `comm` (collective); the caller destroys them."""

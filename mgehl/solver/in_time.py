@@ -1,5 +1,7 @@
 """From a scene to its march: the state that it begins with, and the parts of its solver."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from mgehl.discretization.status import CONTACT, LUBRICATED
@@ -10,7 +12,7 @@ from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.march import March
 from mgehl.solver.on_grid import newton_on
 from mgehl.solver.problem import ContactProblem
-from mgehl.solver.recipe import recipe_in_time
+from mgehl.solver.recipe import DRY, recipe_in_time
 from mgehl.solver.restart import interpolated
 
 
@@ -20,7 +22,7 @@ def march(scene, hierarchy, settings, told, monitor, journal=NOTHING_KEPT, start
     From `start`, a `Solution` and the `Frame` here, or from the steady state of its beginning. `told` is
     called after each step, as `March` says, `monitor` for each cycle on the way to the beginning.
     """
-    reference = None
+    reference = begins = None
     contact, grid, deflection = scene.framed, hierarchy.grids[-1], hierarchy.deflections[-1]
     recipe = recipe_in_time(settings, contact)
     problem = ContactProblem(grid, deflection, contact, recipe.scheme)
@@ -32,11 +34,12 @@ def march(scene, hierarchy, settings, told, monitor, journal=NOTHING_KEPT, start
         if not first.converged:
             first.reason = f"the steady state that time begins with: {first.reason}"
             return problem, first
-        state = first.state
+        state, begins = first.state, first.begins
         if beginning is _steady and not scene.moves:
             reference = Reference.of(steady, state)
-    with newton_on(hierarchy, len(hierarchy.grids) - 1, problem, recipe) as newton:
-        return problem, March(scene, problem, newton, settings.time, told).run(state, reference, journal)
+    with newton_on(hierarchy, problem, recipe) as newton:
+        outcome = March(scene, problem, newton, settings.time, told).run(state, reference, journal)
+    return problem, replace(outcome, begins=begins)
 
 
 def _steady(scene, hierarchy, settings, monitor, journal):
@@ -56,4 +59,4 @@ def _at_rest(scene, hierarchy, settings, monitor, journal):
     P, layers = outcome.state.P, scheme.contact_law.contact_gap
     status = np.where(P > 0.0, CONTACT, LUBRICATED)
     outcome.state = problem.state(P, outcome.state.H0 + layers, status, np.zeros(P.shape))
-    return problem, outcome
+    return problem, replace(outcome, begins=DRY)

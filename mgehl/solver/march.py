@@ -42,6 +42,8 @@ LOOKS_BACK = 3
 class Standing(Kept):
     """Where a run in time stands: all that the way from here depends on."""
 
+    PARTS = {"state": State, "carried": Carried, "reference": Reference, "memory": Record}
+
     state: State
     carried: Carried
     t: float
@@ -59,16 +61,6 @@ class Standing(Kept):
     """The steady state at the beginning, where no heights move."""
     memory: Kept | Record | None = None
     """Of the linear systems before: what the linear solver has, or what was kept of it."""
-
-    @classmethod
-    def from_record(cls, record):
-        parts = {"state": State, "carried": Carried, "reference": Reference}
-        made = {name: kind.from_record(part) for name, kind in parts.items() if (part := record.part(name))}
-        made["memory"] = record.part("memory") or None
-        rest = record
-        for name in made:
-            rest = rest.without(name)
-        return cls(**made, **rest.values, **rest.arrays)
 
 
 @dataclass

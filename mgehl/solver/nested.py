@@ -1,6 +1,5 @@
 """Nested iteration: from a coarse grid to the finest, at speeds that each grid can resolve."""
 
-from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
@@ -9,27 +8,15 @@ from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
 from mgehl.solver.dry import dry_pressure, guess_on_finest
 from mgehl.solver.fluid_guess import guess_fluid
 from mgehl.solver.journal import NOTHING_KEPT
-from mgehl.solver.on_grid import solve_on
+from mgehl.solver.on_grid import LevelSolve, solve_on
 from mgehl.solver.problem import DIVERGED, ContactProblem
-from mgehl.solver.recipe import DRY, UNDER_FILM, UNDER_THIN_FILM, recipe_of
+from mgehl.solver.recipe import DRY, FULL_FILM, IN_CONTACT, UNDER_FILM, UNDER_THIN_FILM, recipe_of
 from mgehl.solver.relaxation import relax
 
 FLAT = 0.1
 """Largest gap, and largest overlap, that the dry guess may leave, over the formula's film that is laid on
 it. A larger overlap would make contact where there is none (a ball of 188 nm rms at 0.04 mm/s: 2234
 nodes)."""
-
-
-@dataclass(frozen=True)
-class LevelSolve:
-    """What is being solved: the grid's nodes along X and the speed in m/s."""
-
-    nodes: int
-    speed: float | None
-    """None where there is no fluid."""
-    finest: bool
-    news: str = ""
-    """What its user should know of the way here; empty where all goes as planned."""
 
 
 def nested_iteration(hierarchy, contact, settings, monitor, journal=NOTHING_KEPT):
@@ -49,8 +36,8 @@ def nested_iteration(hierarchy, contact, settings, monitor, journal=NOTHING_KEPT
         else:
             state = interpolate(hierarchy.transfers[level - 1], problem, outcome.state)
         if recipe.fluid_apart:
-            guess_fluid(hierarchy, level, problem, state, settings)
-        outcome = solve_on(hierarchy, level, problem, state, recipe, partial(monitor, solve), journal)
+            guess_fluid(hierarchy, problem, state, settings)
+        outcome = solve_on(hierarchy, problem, state, recipe, partial(monitor, solve), journal)
         if not outcome.cycles[-1].residual < DIVERGED:
             break  # nothing to start the next grid from; the outcome says why
     return problem, outcome
@@ -76,11 +63,11 @@ def first_guess(problem, begins, P=None):
     if begins in (UNDER_FILM, UNDER_THIN_FILM, DRY):
         return _first_guess_of_peaks(problem, begins, dry_pressure(problem, P, FLAT * film), film)
     pressed = grid.X**2 + grid.Y**2 <= contact.widening**2
-    if contact.deformation is not None or (begins == "contact" and not contact.is_hertzian):
+    if contact.deformation is not None or (begins == IN_CONTACT and not contact.is_hertzian):
         P = dry_pressure(problem, P)
         pressed = P > 0.0
     H0 = problem.touching(P)
-    if begins == "film":
+    if begins == FULL_FILM:
         return problem.state(P, film + H0, np.full(grid.shape, LUBRICATED))
     pressed = pressed & problem.scheme.contact_law.has_contact
     return problem.state(P, H0, np.where(pressed, CONTACT, LUBRICATED))

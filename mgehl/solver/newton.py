@@ -1,8 +1,7 @@
 """Newton's method for one grid, the sets re-partitioned between its steps.
 
-A python-type SNES. Residual and Jacobian of the present partition are SNES's own function and
-Jacobian, and the iteration asks SNES for them: PETSc's options, monitors and viewers of SNES, KSP and
-PC see what is solved.
+Residual and Jacobian of the present partition are SNES's own function and Jacobian, and the iteration asks
+SNES for them.
 """
 
 from dataclasses import replace
@@ -12,9 +11,7 @@ import numpy as np
 from petsc4py import PETSc
 
 from mgehl.discretization.status import CONTACT, LUBRICATED
-from mgehl.errors import OptionError
 from mgehl.grid.events import linear_solve
-from mgehl.multigrid.jacobian import LinearSystem
 from mgehl.solver.arbiter import RELEASE_STEPS, Ruling, rule
 from mgehl.solver.cavitation import relax_cavitation_set
 from mgehl.solver.journal import NOTHING_KEPT
@@ -32,48 +29,27 @@ from mgehl.solver.outcome import Cycle, Outcome
 from mgehl.solver.partition import Changes, Partition
 from mgehl.solver.position import Position, Step, Trial
 from mgehl.solver.remembered import remembered
-from mgehl.solver.rigid_gap import ahead_of
+from mgehl.solver.rigid_gap import FLUID_AHEAD
+from mgehl.solver.snes import PythonSnes
 from mgehl.solver.squeeze import squeeze_rates
 from mgehl.solver.step_length import step_length
 
 
-class Newton:
+class Newton(PythonSnes):
     """Solves one `ContactProblem` with a `MultigridSolver`; the only one who changes its `Position`.
 
     With a `fluid` solver (`RigidGapFluid`) the separable fluid is solved at each new gap, without
     convolutions, and left out of the linear systems: right where solid contact carries the load.
-    `monitor` is called with every `Cycle`. PETSc objects are freed by `free`.
+    `monitor` is called with every `Cycle`.
     """
 
-    def __init__(self, problem, multigrid, settings, fluid=None, options_prefix="mgehl_", monitor=None):
-        self._problem, self._multigrid, self._settings = problem, multigrid, settings
-        self._fluid, self._monitor = fluid, monitor or (lambda cycle: None)
-        self._space, self._load_scale = multigrid.space, multigrid.jacobian.load_scale
+    def __init__(self, problem, multigrid, settings, fluid=None, monitor=None):
+        super().__init__(multigrid, settings)
+        self._problem, self._settings, self._fluid = problem, settings, fluid
+        self._monitor = monitor or (lambda cycle: None)
+        self._load_scale = multigrid.jacobian.load_scale
         self._partition = Partition(problem, settings.release_budget)
         self._in_turn = False
-        self._snes = PETSc.SNES().create(problem.grid.comm)
-        self._snes.setOptionsPrefix(options_prefix)
-        self._snes.setType(PETSc.SNES.Type.PYTHON)
-        self._snes.setPythonContext(self)
-        self._unknown, self._f, self._rhs, self._correction = (self._space.create_vec() for _ in range(4))
-        self._snes.setFunction(self._form_function, self._f)
-        self._snes.setJacobian(self._form_jacobian, multigrid.jacobian.mat, multigrid.jacobians[-1].mat)
-        self._snes.setTolerances(atol=settings.tolerance, rtol=0.0, max_it=settings.max_steps)
-        multigrid.configure(self._snes.getKSP(), settings.linear_tolerance)
-        self._snes.setFromOptions()
-        self._linear_tolerance = self._snes.getKSP().getTolerances()[0]  # PETSc's options may give another
-        if self._snes.getType() != PETSc.SNES.Type.PYTHON:
-            self.free()
-            raise OptionError(f"-{options_prefix}snes_type: the solver is the SNES type python, no other")
-
-    def free(self):
-        """Destroy the PETSc objects, the multigrid solver's too: the KSP refers to them.
-
-        (Not called `destroy`: PETSc calls a context's method of that name.)
-        """
-        for each in (self._snes, self._unknown, self._f, self._rhs, self._correction):
-            each.destroy()
-        self._multigrid.free()
 
     def run(self, state, journal=NOTHING_KEPT, tolerance=None):
         """Solve from `state`, which is the solve's own from now on; return the `Outcome`.
@@ -98,11 +74,8 @@ class Newton:
     def _go_on(self, position):
         """Let SNES solve from a position; return the `Outcome`."""
         self._position, self._partition.past = position, position.past
-        self._outcome, self._stopped = None, None
         position.memory = self.remembered(position.memory)
-        self._snes.solve(None, self._unknown)
-        if self._stopped:
-            raise self._stopped
+        self._let_it_solve()
         return self._outcome
 
     def _beginning(self, state):
@@ -112,38 +85,30 @@ class Newton:
         self._partition.enter_contact(state, position.changes)
         return position
 
-    def solve(self, snes, _b, x):
-        """Called by PETSc, which could not free objects if an exception passed: `run` raises it later."""
-        try:
-            self._iterate(snes, x)
-        except Exception as stopped:
-            self._stopped = _first_cause(stopped)
-            snes.setConvergedReason(PETSc.SNES.ConvergedReason.DIVERGED_INNER)
-
-    def _iterate(self, snes, x):
+    def _iterate(self):
         """One solve from top to bottom."""
         position, partition = self._position, self._partition
-        _, tolerance, _, max_steps = snes.getTolerances()
+        _, tolerance, _, max_steps = self._snes.getTolerances()
         limits = replace(self._settings, tolerance=tolerance, max_steps=max_steps)
         while True:
             self._journal.step(self._problem.grid, position)
             self._settle()
-            self._measure(snes, x)
+            self._measure()
             verdict = judge(position, partition, limits)
             verdict = judge_work(verdict, self._multigrid.work, self._settings.max_work)
             ruling = rule(position, verdict, partition, self._fluid is not None)
             if ruling.ends:
                 break
             if ruling is not Ruling.GO_ON:
-                self._release(ruling, verdict, max_steps)
+                self._release(ruling, verdict.reason, max_steps)
                 self._settle()
-                self._compute_function(snes, x)
-            verdict = judge_system(self._correct(snes, x), position)
+                self._compute_function()
+            verdict = judge_system(self._correct(), position)
             if verdict.ends:
                 ruling = Ruling.KEEP if position.trial else Ruling.GIVE_UP
                 break
             self._step()
-        self._conclude(snes, x, verdict, ruling)
+        self._conclude(verdict, ruling)
 
     def _settle(self):
         """Bring the fluid, its cavities and their pressures to rest at the present gap."""
@@ -153,7 +118,7 @@ class Newton:
         if self._fluid:
             before = state.status.copy()
             reached = self._position.cycles[-1].residual if self._position.cycles else 1.0
-            tolerance = ahead_of(max(reached, self._settings.tolerance))
+            tolerance = FLUID_AHEAD * max(reached, self._settings.tolerance)
             self._evaluation = self._fluid.solve(state, tolerance, to_rest=False).evaluation
             changes.cavitated += problem.grid.count(before != state.status)
         else:
@@ -166,15 +131,15 @@ class Newton:
             self._partition.fit(state)
             self._evaluation = problem.evaluate(state)
 
-    def _measure(self, snes, x):
+    def _measure(self):
         """Evaluate the residual of the present state; add a row to the history."""
         position, tolerance = self._position, self._settings.tolerance
-        F, load = self._compute_function(snes, x)
+        F, load = self._compute_function()
         if self._fluid and position.changes.total == 0 and self._problem.rms(F) <= tolerance:
             # The fluid was solved at the gap before: what counts is F at its own.
             self._take_own_gap()
             self._evaluation = self._problem.evaluate(position.state)
-            F, load = self._compute_function(snes, x)
+            F, load = self._compute_function()
         self._tell(F, load)
         if position.trial:
             position.trial.entered += position.changes.entered
@@ -190,37 +155,27 @@ class Newton:
         state = self._position.state
         state.H = self._problem.gap(state.P, state.H0)
 
-    def _release(self, ruling, verdict, max_steps):
+    def _release(self, ruling, reason, max_steps):
         """Release contact that breaks Eq. 2; keep the state that settled as a possible answer."""
         position, partition = self._position, self._partition
         state = position.state
         if ruling is Ruling.TRY_RELEASE:
             counts = partition.count_violations(state), partition.count_releasable(state)
             limit = min(max_steps, position.cycles[-1].step + RELEASE_STEPS)
-            position.trial = Trial(state.copy(), verdict.reason, *counts, limit)
+            position.trial = Trial(state.copy(), reason, *counts, limit)
         else:
             position.early_rounds += 1
         partition.release_violations(state, position.changes)
         self._take_own_gap()
 
-    def _correct(self, snes, x):
+    def _correct(self):
         """Solve the linearised bordered system; return the `KSP.ConvergedReason`."""
-        position, problem, ksp = self._position, self._problem, snes.getKSP()
-        status = position.state.status
+        position, ksp = self._position, self._snes.getKSP()
         self._f.copy(self._rhs)
-        F = self._space.read_pressure(self._f).copy()
-        frozen = None
-        if self._fluid:
-            frozen = (status == LUBRICATED) & self._fluid.separable(self._evaluation, status)
-            F = np.where(frozen, 0.0, F)
-            self._space.write_pressure(self._rhs, F)
-        rows = problem.rows(status, frozen)
-        rates = squeeze_rates(problem, self._evaluation, rows, F, self._settings)
-        if problem.storage is not None:
-            rates = rates + problem.storage.rate
-        self._system = LinearSystem(rows, rates)
-        snes.computeJacobian(x, *ksp.getOperators())
+        F = self._pose()
+        self._snes.computeJacobian(self._unknown, *ksp.getOperators())
         self._leave_out_the_layers(F)
+        self._space.write_pressure(self._rhs, F)
         finely = min(self._linear_tolerance, IN_TURN_TOLERANCE)
         ksp.setTolerances(rtol=finely if self._in_turn else self._linear_tolerance)
         with linear_solve():
@@ -232,13 +187,27 @@ class Newton:
             position.stalls += ksp.getResidualNorm() > UNSOLVED * self._rhs.norm()
         return reason
 
+    def _pose(self):
+        """Pose the linear system: the kind of row of each node, 1/time step; return its right-hand side,
+        (lines, nx)."""
+        problem, status = self._problem, self._position.state.status
+        F, frozen = self._space.read_pressure(self._f).copy(), None
+        if self._fluid:
+            frozen = (status == LUBRICATED) & self._fluid.separable(self._evaluation, status)
+            F[frozen] = 0.0
+        rows = problem.rows(status, frozen)
+        rates = squeeze_rates(problem, self._evaluation, rows, F, self._settings)
+        if problem.storage is not None:
+            rates = rates + problem.storage.rate
+        self._posed = rows, rates
+        return F
+
     def _leave_out_the_layers(self, F):
         """Take the fluid's pressure under contact out of the system, whose right-hand side is `F`."""
         eliminated, self._layers = self._multigrid.jacobian.under_contact, None
         if eliminated is not None and eliminated.some:
             self._layers = FluidInLayers(self._problem, self._evaluation, eliminated)
             self._layers.leave(F)
-            self._space.write_pressure(self._rhs, F)
 
     def _step(self):
         """Take the step, cut tension, let gaps close."""
@@ -258,26 +227,26 @@ class Newton:
         self._partition.follow_gap(state, changes, self._in_turn)
         position.step = replace(position.step, length=length)
 
-    def _conclude(self, snes, x, verdict, ruling):
+    def _conclude(self, verdict, ruling):
         """The `Outcome`, and what SNES is told of it."""
         position, reasons = self._position, PETSc.SNES.ConvergedReason
         if ruling is Ruling.KEEP:
-            self._take_up(position.trial.answer, snes, x)
+            self._take_up(position.trial.answer)
             outcome = Outcome(position.state, True, position.trial.reason, position.cycles)
         else:
             how = ruling is Ruling.ACCEPT, verdict.reason, position.cycles, list(verdict.contradictions)
             outcome = Outcome(position.state, *how)
         self._outcome = outcome
-        snes.setConvergedReason(
+        self._snes.setConvergedReason(
             reasons.CONVERGED_FNORM_ABS if outcome.converged else reasons.DIVERGED_MAX_IT
         )
 
-    def _take_up(self, state, snes, x):
+    def _take_up(self, state):
         """Make a state that was kept the present one, and the last of the history."""
         position = self._position
         position.state, position.changes, position.step = state, Changes(), Step()
         self._evaluate()
-        self._tell(*self._compute_function(snes, x))
+        self._tell(*self._compute_function())
         position.changes = Changes()
 
     def _tell(self, F, load):
@@ -296,11 +265,11 @@ class Newton:
         contact = self._position.state.status == CONTACT
         return np.hypot(F, np.where(contact, self._evaluation.inflow, 0.0))
 
-    def _compute_function(self, snes, x):
+    def _compute_function(self):
         """Residual (lines, nx) and load deficit of the present state, from SNES's function."""
         state = self._position.state
-        self._space.write(x, self._unknowns(state), state.H0)
-        snes.computeFunction(x, self._f)
+        self._space.write(self._unknown, self._unknowns(state), state.H0)
+        self._snes.computeFunction(self._unknown, self._f)
         F, load = self._space.read(self._f)
         return F, load / self._load_scale
 
@@ -313,8 +282,8 @@ class Newton:
         self._space.write(f, F, load * self._load_scale)
 
     def _form_jacobian(self, _snes, x, _J, _preconditioner):
-        """Linearise at x as the present linear system is posed."""
-        self._multigrid.linearise(self._evaluated(x), self._system.rows, self._system.rates)
+        """Linearise at x, for the linear system that is posed."""
+        self._multigrid.linearise(self._evaluated(x), *self._posed)
 
     def _evaluated(self, x):
         """The `Evaluation` at x: of the present state it is known, anything else takes a convolution."""
@@ -329,10 +298,3 @@ class Newton:
     def _unknowns(self, state):
         """What SNES has of a state: pressures, and the fillings of cavities that feed a film."""
         return np.where(self._problem.feeding(state.status), state.filling, state.P)
-
-
-def _first_cause(error):
-    """The exception that a callback raised: newer PETSc wraps it in an error of its own."""
-    while isinstance(error, PETSc.Error) and error.__cause__:
-        error = error.__cause__
-    return error

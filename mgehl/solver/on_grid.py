@@ -1,35 +1,73 @@
 """A contact on one grid, from a state: the problem's solver is made here, used, and freed."""
 
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
+from dataclasses import dataclass, replace
+from functools import partial
 
 from mgehl.multigrid.cycle import MultigridSolver
+from mgehl.multigrid.options import OF_ITS_FLUID
 from mgehl.solver.newton import Newton
+from mgehl.solver.recipe import A_STATE, recipe_of
 from mgehl.solver.rigid_gap import RigidGapFluid
 
 
-def solve_on(hierarchy, level, problem, state, recipe, tell, journal):
-    """Solve a `ContactProblem` on grid `level` from a `state`, as its `Recipe` says; return the `Outcome`.
+@dataclass(frozen=True)
+class LevelSolve:
+    """What is being solved: the grid's nodes along X and the speed in m/s."""
+
+    nodes: int
+    speed: float | None
+    """None where there is no fluid."""
+    finest: bool
+    news: str = ""
+    """What its user should know of the way here; empty where all goes as planned."""
+
+
+def solve_near(hierarchy, problem, state, settings, monitor, journal, news="", **limits):
+    """Solve a `ContactProblem` on its grid from a `state` near its own; return the `Outcome`.
+
+    The `state` is the solve's own from now on. `limits` overrule those that the recipe has of Newton's
+    method; `monitor` and `journal` as of `nested.nested_iteration`, `news` as of a `LevelSolve`.
+    """
+    contact, grid = problem.contact, problem.grid
+    recipe = recipe_of(replace(settings, scheme=problem.scheme), contact, A_STATE)
+    recipe = replace(recipe, newton=replace(recipe.newton, **limits))
+    solve = LevelSolve(grid.mesh.nx, contact.speed, grid is hierarchy.grids[-1], news)
+    return solve_on(hierarchy, problem, state, recipe, partial(monitor, solve), journal)
+
+
+def solve_on(hierarchy, problem, state, recipe, tell, journal):
+    """Solve a `ContactProblem` on its grid from a `state`, as its `Recipe` says; return the `Outcome`.
 
     `tell(cycle)` is called with every `Cycle`.
     """
-    with newton_on(hierarchy, level, problem, recipe, tell) as newton:
+    with newton_on(hierarchy, problem, recipe, tell) as newton:
         return newton.run(state, journal)
 
 
 @contextmanager
-def newton_on(hierarchy, level, problem, recipe, tell=None):
-    """A `Newton` for a problem on grid `level`, with its linear solvers (collective)."""
-    prefix, fluid = recipe.cycle.options_prefix, None
-    how = hierarchy, level, problem.contact, problem.scheme, recipe.cycle
-    try:
-        if recipe.fluid_apart:
-            fluid = RigidGapFluid(problem, MultigridSolver(*how, rigid=True), prefix + "fluid_")
-        multigrid = MultigridSolver(*how, apart=recipe.fluid_apart)
-        newton = Newton(problem, multigrid, recipe.newton, fluid, prefix, tell)
+def newton_on(hierarchy, problem, recipe, tell=None):
+    """A `Newton` for a problem, with its linear solvers (collective)."""
+    apart = recipe.fluid_apart
+    with fluid_on(hierarchy, problem, recipe.cycle) if apart else nullcontext() as fluid:
+        multigrid = _multigrid(hierarchy, problem, recipe.cycle, apart=apart)
+        newton = Newton(problem, multigrid, recipe.newton, fluid, tell)
         try:
             yield newton
         finally:
             newton.free()
+
+
+@contextmanager
+def fluid_on(hierarchy, problem, settings):
+    """A `RigidGapFluid` for a problem, with its linear solver by `CycleSettings` (collective)."""
+    fluid = RigidGapFluid(problem, _multigrid(hierarchy, problem, settings, rigid=True), OF_ITS_FLUID)
+    try:
+        yield fluid
     finally:
-        if fluid:
-            fluid.free()
+        fluid.free()
+
+
+def _multigrid(hierarchy, problem, settings, **how):
+    level = hierarchy.grids.index(problem.grid)
+    return MultigridSolver(hierarchy, level, problem.contact, problem.scheme, settings, **how)

@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 
 from mgehl.solver.partition import Changes, Contradiction
 from mgehl.solver.problem import State
-from mgehl.solver.record import Kept, Record
+from mgehl.solver.record import Kept
 
 
 @dataclass
@@ -25,19 +25,19 @@ class Line(Kept):
 class Cycle(Line):
     """The state before a Newton step and what led to it."""
 
+    PARTS = {"changes": Changes}
+
     changes: Changes
     linear_iterations: int = 0
     step_length: float = 1.0
-
-    @classmethod
-    def from_record(cls, record):
-        changes = Changes.from_record(record.part("changes"))
-        return cls(**record.without("changes").values, changes=changes)
 
 
 @dataclass
 class Outcome(Kept):
     """How a solve ended."""
+
+    PARTS = {"state": State}
+    ROWS = {"cycles": ("history", Cycle), "contradictions": ("contradictions", Contradiction)}
 
     state: State
     converged: bool
@@ -45,23 +45,12 @@ class Outcome(Kept):
     cycles: list = field(default_factory=list)
     contradictions: list = field(default_factory=list)
     """Nodes that kept turning between film and contact."""
-
-    def record(self):
-        return Record.of(
-            state=self.state,
-            converged=self.converged,
-            reason=self.reason,
-            history=Record.table(self.cycles),
-            contradictions=Record.table(self.contradictions),
-        )
+    begins: str | None = None
+    """The way that led to it, as `recipe.Recipe.begins`, where that is another than its recipe's."""
 
     @classmethod
-    def from_record(cls, record, line):
+    def from_record(cls, record, line=Cycle):
         """As `Kept.from_record`; `line` is the class of a row of its history."""
-        return cls(
-            State.from_record(record.part("state")),
-            record.values["converged"],
-            record.values["reason"],
-            [line.from_record(each) for each in record.part("history").rows()],
-            [Contradiction.from_record(each) for each in record.part("contradictions").rows()],
-        )
+        found = super().from_record(record.without("history"))
+        found.cycles = [line.from_record(row) for row in record.part("history").rows()]
+        return found

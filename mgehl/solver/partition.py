@@ -152,7 +152,7 @@ class Partition:
         changes.released += self._grid.count(tensile)
 
     def enter_contact(self, state, changes):
-        """Nodes whose gap is closed, and fluid shut in from west and east, become contact.
+        """Nodes whose gap is closed, and fluid shut in along the motion, become contact.
 
         One pass is enough: shut-in fluid had contact on both sides already, so it shuts in no other.
         Contact with open faces (`BoundaryFilm`) shuts in nothing, and may close and open any number of

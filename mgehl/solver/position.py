@@ -22,6 +22,8 @@ class Trial(Kept):
     """A trial whether Eq. 2 can hold: contact of a settled state was released, and the sets must settle
     again."""
 
+    PARTS = {"answer": State}
+
     answer: State
     """The state that settled, kept."""
     reason: str
@@ -33,15 +35,20 @@ class Trial(Kept):
     entered: int = 0
     """Nodes that came into contact since."""
 
-    @classmethod
-    def from_record(cls, record):
-        answer = State.from_record(record.part("answer"))
-        return cls(answer, **record.without("answer").values)
-
 
 @dataclass
 class Position(Kept):
     """The present state and what is remembered of the way; written by `Newton` alone."""
+
+    PARTS = {
+        "state": State,
+        "past": Past,
+        "changes": Changes,
+        "step": Step,
+        "trial": Trial,
+        "memory": Record,
+    }
+    ROWS = {"cycles": ("history", Cycle)}
 
     state: State
     past: Past
@@ -63,31 +70,3 @@ class Position(Kept):
         state, step = self.state, self.step
         measured = problem.rms(F), load, *problem.films(state), *problem.counts(state.status)
         return Cycle(len(self.cycles), *measured, self.changes, step.linear_iterations, step.length)
-
-    def record(self):
-        return Record.of(
-            state=self.state,
-            past=self.past,
-            history=Record.table(self.cycles),
-            changes=self.changes,
-            step=self.step,
-            trial=self.trial,
-            early_rounds=self.early_rounds,
-            stalls=self.stalls,
-            memory=self.memory,
-        )
-
-    @classmethod
-    def from_record(cls, record):
-        trial = record.part("trial")
-        return cls(
-            State.from_record(record.part("state")),
-            Past.from_record(record.part("past")),
-            [Cycle.from_record(each) for each in record.part("history").rows()],
-            Changes.from_record(record.part("changes")),
-            Step.from_record(record.part("step")),
-            Trial.from_record(trial) if trial else None,
-            record.values["early_rounds"],
-            record.values["stalls"],
-            record.part("memory") or None,
-        )

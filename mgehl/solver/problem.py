@@ -124,9 +124,8 @@ class Problem:
         grid = self.grid
         if not self._along_y or grid.comm.size == 1:
             return function(*arguments)
-        whole = (grid.gather(each) if isinstance(each, np.ndarray) else each for each in arguments)
-        found = function(*whole) if grid.comm.rank == 0 else (list(whole), None)[1]
-        return grid.scatter(found)
+        whole = [grid.gather(each) if isinstance(each, np.ndarray) else each for each in arguments]
+        return grid.scatter(function(*whole) if grid.comm.rank == 0 else None)
 
     def ghosted(self, state):
         """P, H and status of a state with the neighbours' lines."""
@@ -175,10 +174,8 @@ class ContactProblem(Problem):
     def turn_to(self, contact, load):
         """Take the surfaces of a `contact` as they are at another time, and `load` times its load."""
         if contact.surface is not self._surface:
-            self._undeformed, self._surface = (
-                contact.undeformed_gap(self.grid.X, self.grid.Y),
-                contact.surface,
-            )
+            self._undeformed = contact.undeformed_gap(self.grid.X, self.grid.Y)
+            self._surface = contact.surface
         self._load_within = load * contact.load_within(self.grid.mesh)
 
     def gap(self, P, H0):

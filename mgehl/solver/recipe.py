@@ -1,10 +1,10 @@
 """The recipe of a contact: every choice of its solve, and why. Nobody else decides.
 
-    peaks       Couette flow   begins from        on              smoother              remembers
-    none        3B             a full film        coarse grids    lines along X, cliffs nothing
-    covered     3L             a full film        coarse grids    lines along X, cliffs corrections
-    near        3L             a full film        coarse grids    lines in valleys      corrections
-    touching    3L             the dry contact    the finest      lines in valleys      corrections
+    peaks       Couette flow   begins from        on              smoother                remembers
+    none        3B             a full film        coarse grids    crossed lines, cliffs   nothing
+    covered     3L             a full film        coarse grids    crossed lines, cliffs   corrections
+    near        3L             a full film        coarse grids    lines in valleys        corrections
+    touching    3L             the dry contact    the finest      lines in valleys        corrections
 
 Keys of the configuration overrule it. A contact at another speed, or as a coarser grid sees it, has a
 recipe of its own.
@@ -32,11 +32,12 @@ OF_SMOOTH, OF_ROUGH = "3B", "3L"
 one node to the next; without limits it might be less than none. By 1B it stays a film, too, but on a usual
 grid one that is 6 to 15 % too thick, and of a short wave twice as thick (`tests/solver/test_rough.py`)."""
 
-FILM, CONTACT, A_STATE = "film", "contact", "a state"
+FULL_FILM, IN_CONTACT, A_STATE = "film", "contact", "a state"
 UNDER_FILM, UNDER_THIN_FILM = "dry contact under a film", "dry contact under a thin film"
-DRY = "dry contact"
+DRY, THICK_FILM = "dry contact", "thick film, slowed down"
 """First guesses: a film of the formula's thickness, or contact, under the pressure of smooth bodies;
-another solution; the dry contact of the peaks with such a film, with nearly none, without a fluid."""
+another solution; the dry contact of the peaks with such a film, with nearly none, without a fluid; and a
+film that covers the peaks, from which on the surfaces slow down."""
 
 BESIDE_LAYERS = 1.0
 """The formula's film over the layers below which a start takes the dry contact as it is. A ball of 100 nm
@@ -98,7 +99,7 @@ def recipe_of(settings, contact, begins=None):
     """The `Recipe` of a loaded contact by what `SolverSettings` ask; `begins` may be `A_STATE`."""
     law, peaks = settings.scheme.contact_law, _peaks(settings.scheme.contact_law, contact)
     start = begins or settings.nested.start
-    closed = start == CONTACT and law.has_contact
+    closed = start == IN_CONTACT and law.has_contact
     touching, rough = peaks == TOUCHING, peaks != NONE
     return Recipe(
         scheme=settings.scheme,
@@ -107,8 +108,8 @@ def recipe_of(settings, contact, begins=None):
         # Coarse grids do not see the peaks, and the dry contact's pressure is nearer to the answer than
         # that of any film. From the dry contact a film twice as thick as the roughness takes twice the
         # work, and one three times as thick is not found (random balls, 257 nodes).
-        on_coarse_grids=start == FILM and not touching and settings.method != "relaxation",
-        or_otherwise=start == FILM and touching,
+        on_coarse_grids=start == FULL_FILM and not touching and settings.method != "relaxation",
+        or_otherwise=start == FULL_FILM and touching,
         fluid_apart=closed and law.closes_faces,
         newton=_newton(settings, contact, in_time=closed or touching),
         cycle=replace(settings.cycle, rough=rough, in_valleys=peaks in (NEAR, TOUCHING)),
@@ -146,7 +147,7 @@ def _first_guess(start, law, contact):
         return start
     if contact.expected_film / contact.film_scale < BESIDE_LAYERS * law.contact_gap:
         return DRY
-    return UNDER_THIN_FILM if start == CONTACT else UNDER_FILM
+    return UNDER_THIN_FILM if start == IN_CONTACT else UNDER_FILM
 
 
 def _newton(settings, contact, in_time):

@@ -2,12 +2,13 @@
 
 from dataclasses import asdict
 
+from mgehl.multigrid.cycle import DIRECT
 from mgehl.solver.recipe import (
     A_STATE,
-    CONTACT,
     COVERED,
     DRY,
-    FILM,
+    FULL_FILM,
+    IN_CONTACT,
     NEAR,
     NONE,
     THICK,
@@ -25,8 +26,8 @@ PEAKS = {
 }
 
 BEGINS = {
-    FILM: "from a full film",
-    CONTACT: "from the dry contact, in contact",
+    FULL_FILM: "from a full film",
+    IN_CONTACT: "from the dry contact, in contact",
     UNDER_FILM: "from the dry contact of the peaks, a film laid on it",
     UNDER_THIN_FILM: "from the dry contact of the peaks, nearly no film on it",
     DRY: "from the dry contact of the peaks alone: the film is thinner than the layers",
@@ -37,9 +38,10 @@ AT_REST = "from the dry contact: the surfaces are at rest"
 """So begins a run in time whose speed rises from nothing."""
 
 
-def recipe_words(recipe, at_rest=False):
-    """Words for each choice of a `Recipe` and what it follows from; of surfaces that begin `at_rest`."""
-    law, newton, cycle = recipe.scheme.contact_law, recipe.newton, recipe.cycle
+def recipe_words(recipe, is_line, at_rest=False):
+    """Words for each choice of a `Recipe` and what it follows from; of a single line of nodes, of surfaces
+    that begin `at_rest`."""
+    law, newton = recipe.scheme.contact_law, recipe.newton
     yield PEAKS[recipe.peaks]
     limited = ", limited: no film behind a peak is less than none" if recipe.scheme.couette == "3L" else ""
     mean = f"{recipe.scheme.face_mobility} mean of mobilities"
@@ -52,9 +54,19 @@ def recipe_words(recipe, at_rest=False):
     if recipe.fluid_apart:
         yield "fluid beside contact is solved at each gap, apart from the linear systems"
     yield _steps(newton)
-    lines = "lines along x and y, nearby nodes at once" if cycle.in_valleys else "lines along x"
-    memory = "; corrections of one system are remembered for the next" if cycle.rough else ""
-    yield f"smoother: {lines}{memory}"
+    memory = "; corrections of one system are remembered for the next" if recipe.cycle.rough else ""
+    yield f"smoother: {_smoother(recipe, is_line)}{memory}"
+
+
+def _smoother(recipe, is_line):
+    """That of the finest grid, as `multigrid.smoother_choice.smoother_of` has it."""
+    if is_line and recipe.cycle.rough:
+        return f"none, up to {DIRECT} nodes of a line are solved directly"
+    if recipe.cycle.in_valleys:
+        return "lines along x, in valleys along y, too, nearby nodes at once where that takes long"
+    if is_line or recipe.fluid_apart:
+        return "lines along x"
+    return "lines along x and y, nodes at cliffs of the mobility at once"
 
 
 def _steps(newton):

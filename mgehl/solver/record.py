@@ -126,19 +126,40 @@ class Record:
             {key: each for key, each in self.arrays.items() if not key.startswith(start)},
         )
 
+    @classmethod
+    def from_record(cls, record):
+        """The `record` itself, where it is a part that its owner makes something of."""
+        return record
+
     def __bool__(self):
         """Whether anything is kept."""
         return bool(self.values or self.arrays)
 
 
 class Kept:
-    """A dataclass of values and arrays: what it keeps has the names of its fields."""
+    """A dataclass of values, arrays and others of its kind: what it keeps has the names of its fields."""
+
+    PARTS = {}
+    """{field: class} of those that are `Kept` themselves, or a `Record`."""
+    ROWS = {}
+    """{field: (its name in records, class)} of lists of such."""
 
     def record(self):
         """The `Record` of it, whose arrays are its own and no copies."""
-        return Record.of(**vars(self))
+        named = dict(vars(self))
+        for own, (name, _) in self.ROWS.items():
+            named[name] = Record.table(named.pop(own))
+        return Record.of(**named)
 
     @classmethod
     def from_record(cls, record):
         """The one that a `Record` was made of. KeyError or TypeError where it is another's."""
-        return cls(**record.values, **record.arrays)
+        made = {}
+        for own, kind in cls.PARTS.items():
+            part, record = record.part(own), record.without(own)
+            if part:
+                made[own] = kind.from_record(part)
+        for own, (name, kind) in cls.ROWS.items():
+            made[own] = [kind.from_record(row) for row in record.part(name).rows()]
+            record = record.without(name)
+        return cls(**made, **record.values, **record.arrays)

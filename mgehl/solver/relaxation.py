@@ -29,28 +29,20 @@ from mgehl.discretization.status import (
 from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.outcome import Line, Outcome
 from mgehl.solver.problem import DIVERGED, State
-from mgehl.solver.record import Kept, Record
+from mgehl.solver.record import Kept
+
+REPORT_EVERY = 100
+"""Sweeps from one row of the history to the next."""
 
 
 @dataclass(frozen=True)
-class RelaxationSettings:
-    """Factors and limits of the relaxation."""
+class RelaxationSettings(RelaxationSection):
+    """The keys of the section, and what ends it.
 
-    fluid_update: str = RelaxationSection.fluid_update
-    """"line" [Liu eq. 37], or "point" [Liu eq. 36]."""
-    contact_update: str = RelaxationSection.contact_update
-    """"line" [Liu eq. 41], or "point" [Liu eq. 42]."""
-    omega: float = RelaxationSection.omega
-    contact_share: float = RelaxationSection.contact_share
-    """Part of omega that contact nodes get."""
-    stability: float = RelaxationSection.stability
-    """C_c of [Liu eqs. 40-42]."""
-    load_factor: float = RelaxationSection.load_factor
-    """omega_w of [Liu eq. 54]."""
-    load_every: int = RelaxationSection.load_every
-    max_sweeps: int = RelaxationSection.max_sweeps
-    report_every: int = 100
-    """Sweeps from one row of the history to the next."""
+    Updates by lines are [Liu eqs. 37, 41], by points [Liu eqs. 36, 42]; `stability` is C_c of
+    [Liu eqs. 40-42], `load_factor` omega_w of [Liu eq. 54].
+    """
+
     tolerance: float = SolverSection.tolerance
 
 
@@ -68,28 +60,20 @@ class Sweep(Line):
 class Standing(Kept):
     """Where the relaxation stands before a sweep."""
 
+    PARTS = {"state": State}
+    ROWS = {"cycles": ("history", Sweep)}
+
     state: State
     cycles: list = field(default_factory=list)
     """The history, a `Sweep` every so many."""
-    step: int = 0
-    """Number of the next sweep."""
-
-    def record(self):
-        return Record.of(state=self.state, history=Record.table(self.cycles), next_sweep=self.step)
-
-    @classmethod
-    def from_record(cls, record):
-        return cls(
-            State.from_record(record.part("state")),
-            [Sweep.from_record(each) for each in record.part("history").rows()],
-            record.values["next_sweep"],
-        )
+    next_sweep: int = 0
+    """Its number."""
 
 
 def relax(problem, state, settings, monitor, journal=NOTHING_KEPT):
     """Relax `state` in place until its true residual and load hold; return the `Outcome`.
 
-    One convolution a sweep. `monitor` is called with a `Sweep` every `report_every` sweeps. The
+    One convolution a sweep. `monitor` is called with a `Sweep` every `REPORT_EVERY` sweeps. The
     `journal` is told of every sweep, and may know this solve or its first part already.
     """
     grid = problem.grid
@@ -105,15 +89,15 @@ def relax(problem, state, settings, monitor, journal=NOTHING_KEPT):
 def _relax(problem, standing, settings, monitor, journal):
     """The sweeps from `standing` on; whether they converged, and why they ended."""
     relaxation, state = _Relaxation(problem, settings), standing.state
-    for step in count(standing.step):
-        standing.step = step
+    for step in count(standing.next_sweep):
+        standing.next_sweep = step
         journal.step(problem.grid, standing)
         relaxation.mark_contact(state)
         state.p[:] = state.P
         evaluation = problem.evaluate_full(state)
         relaxation.mark_cavities(state, evaluation)
         change = relaxation.change(state, evaluation)
-        if step == settings.max_sweeps or step % settings.report_every == 0:
+        if step == settings.max_sweeps or step % REPORT_EVERY == 0:
             sweep = relaxation.sweep(step, state, evaluation, change)
             standing.cycles.append(sweep)
             monitor(sweep)

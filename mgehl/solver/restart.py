@@ -11,7 +11,7 @@ from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
 from mgehl.errors import UserError
 from mgehl.model.own_function import file_and_function
 from mgehl.solver.continuation import Continuation
-from mgehl.solver.nested import LevelSolve
+from mgehl.solver.on_grid import LevelSolve
 from mgehl.solver.problem import ContactProblem
 from mgehl.solver.relaxation import relax
 
@@ -52,7 +52,7 @@ OF_A_CASE = ("contact.load", "contact.load_per_length")
 one."""
 
 
-def differences(start, config):
+def differing_keys(start, config):
     """Keys in which the `Config` of a start describes another contact than `config`."""
     ours, theirs = config.as_toml_tables(), start.config.as_toml_tables()
     no_matter = {*OF_A_CASE, *config.unused}

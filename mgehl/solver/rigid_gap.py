@@ -137,8 +137,3 @@ class RigidGapFluid:
         state.filling[feeding] = np.maximum(state.filling[feeding] + step[feeding], 0.0)
         step = step[solved]
         state.P[solved] += np.clip(step, -LARGEST_STEP, LARGEST_STEP) if self._problem.is_elastic else step
-
-
-def ahead_of(residual):
-    """Tolerance of the fluid beside that `residual` of the rest, whose next step moves the gap anyway."""
-    return FLUID_AHEAD * residual

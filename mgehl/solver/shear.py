@@ -5,7 +5,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from mgehl.discretization.axes import own
-from mgehl.discretization.couette import SHIFT, E, W
 from mgehl.discretization.status import CAVITATED, CONTACT, is_fluid, is_solid, open_faces
 from mgehl.model.conditions import Conditions
 
@@ -82,8 +81,8 @@ def rolling_force(problem, state):
     for axis, part, scale in zip(
         problem.axes, contact.motion, (1.0 / contact.x_scale, 1.0 / contact.y_scale), strict=False
     ):
-        mean = 0.5 * (axis.at(gap, SHIFT[W]) + axis.at(gap, SHIFT[E]))
-        rise = axis.at(P, SHIFT[E]) - axis.at(P, SHIFT[W])
+        mean = 0.5 * (axis.at(gap, 0) + axis.at(gap, 1))
+        rise = axis.at(P, 1) - axis.at(P, 0)
         drag = np.where(open_faces(solid, axis), mean * rise, 0.0)
         # Along Y a face belongs to the line behind it: no two ranks count it.
         total += part * scale / axis.cell * float((drag if axis.number else drag[: len(own(P))]).sum())

@@ -1,12 +1,9 @@
 """The film that there would be if shear did not thin it: the same contact once more, from the answer."""
 
 from dataclasses import replace
-from functools import partial
 
-from mgehl.solver.nested import LevelSolve
-from mgehl.solver.on_grid import solve_on
+from mgehl.solver.on_grid import solve_near
 from mgehl.solver.problem import ContactProblem
-from mgehl.solver.recipe import A_STATE, recipe_of
 
 
 def unthinned(hierarchy, problem, state, settings, monitor, journal):
@@ -14,9 +11,6 @@ def unthinned(hierarchy, problem, state, settings, monitor, journal):
     one (collective); `monitor` and `journal` as of `nested_iteration`."""
     contact = problem.contact
     contact = replace(contact, friction=replace(contact.friction, thins=False))
-    level, grid = len(hierarchy.grids) - 1, problem.grid
-    thicker = ContactProblem(grid, hierarchy.deflections[level], contact, problem.scheme)
-    begun = thicker.state(state.P, state.H0, state.status.copy(), state.p.copy(), state.filling.copy())
-    tell = partial(monitor, LevelSolve(grid.mesh.nx, contact.speed, True))
-    recipe = recipe_of(settings, contact, A_STATE)
-    return thicker, solve_on(hierarchy, level, thicker, begun, recipe, tell, journal)
+    thicker = ContactProblem(problem.grid, problem.deflection, contact, problem.scheme)
+    begun = thicker.state(state.P, state.H0, state.status, state.p, state.filling)
+    return thicker, solve_near(hierarchy, thicker, begun, settings, monitor, journal)

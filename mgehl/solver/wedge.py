@@ -4,7 +4,7 @@ import numpy as np
 
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
 from mgehl.multigrid.assembled import AssembledSolver
-from mgehl.multigrid.cycle import CycleSettings
+from mgehl.multigrid.options import OF_A_RUN
 from mgehl.solver.outcome import Outcome
 from mgehl.solver.problem import Problem, State
 from mgehl.solver.rigid_gap import RigidGapFluid
@@ -37,15 +37,15 @@ class WedgeProblem(Problem):
         return F + np.where(status == BOUNDARY, self.contact.ambient / self.grid.mesh.dX, 0.0)
 
 
-def solve_wedge(grid, bearing, scheme, options_prefix, tolerance, max_steps, before_step=lambda: None):
+def solve_wedge(grid, bearing, scheme, tolerance, max_steps, before_step=lambda: None):
     """Solve on `grid`; return the `WedgeProblem` and an `Outcome` of `FluidStep`s.
 
     `tolerance` is for the rms residual, in which the Couette term of a full film is 1.
     `before_step` is called before each linear solve and may raise what ends the run.
     """
     problem = WedgeProblem(grid, bearing, scheme)
-    multigrid = AssembledSolver(grid, CycleSettings.max_iterations)
-    fluid = RigidGapFluid(problem, multigrid, options_prefix, LINEAR_TOLERANCE)
+    multigrid = AssembledSolver(grid)
+    fluid = RigidGapFluid(problem, multigrid, OF_A_RUN, LINEAR_TOLERANCE)
     state = problem.first_guess()
     try:
         steps = fluid.solve(state, tolerance, max_steps, before_step).steps

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from mgehl.discretization import faces
 from mgehl.discretization.axes import HALO, Axis
 from mgehl.discretization.status import WALL
 
@@ -16,6 +17,18 @@ def ghosted(lines, beyond=0.0):
 def walled(status):
     """The same of statuses."""
     return ghosted(status, WALL)
+
+
+def flows(fluid, status, axis, scheme, **how):
+    """`faces.flows` at the mobility of the fluid."""
+    mobility = faces.mobility_of_faces(fluid, axis, scheme)
+    return faces.flows(fluid, status, axis, scheme, mobility, **how)
+
+
+def conductances(fluid, status, axis, scheme):
+    """`faces.conductances` at the mobility of the fluid."""
+    mobility = faces.mobility_of_faces(fluid, axis, scheme)
+    return faces.conductances(status, axis, scheme, mobility)
 
 
 class Row:

@@ -1,10 +1,9 @@
 import numpy as np
 import pytest
-from handmade import ghosted, walled
+from handmade import flows, ghosted, walled
 
 from mgehl.discretization.axes import axes_of
 from mgehl.discretization.couette import E, W
-from mgehl.discretization.faces import flows
 from mgehl.discretization.fluid import Fluid
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.scheme import Scheme

@@ -1,10 +1,9 @@
 """Unusual input is named; what some machine has is not."""
 
 import os
+import re
 from pathlib import Path
 from types import SimpleNamespace
-
-import re
 
 import pytest
 

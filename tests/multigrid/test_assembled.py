@@ -20,7 +20,7 @@ def assembled(make_problem, rough_state):
     """A solver linearised about a state with a contact, the KSP it made, problem and state."""
     problem = make_problem(nodes=33)
     state = rough_state(problem, contact=True)
-    solver = AssembledSolver(problem.grid, 100)
+    solver = AssembledSolver(problem.grid)
     ksp = PETSc.KSP().create(problem.grid.comm)
     solver.configure(ksp, 1e-10)
     solver.linearise(problem.evaluate(state), rows_of(state.status, rigid=True))
@@ -47,7 +47,7 @@ def test_few_iterations_solve_a_wedge(make_vec):
     grid = single_grid(Mesh(65, 65, x_range, (-10.0, 10.0), edges=edges), MPI.COMM_SELF)
     problem = WedgeProblem(grid, bearing, Scheme(motion=(-1.0, 0.0)))
     state = problem.first_guess()
-    solver, ksp = AssembledSolver(grid, 100), PETSc.KSP().create(MPI.COMM_SELF)
+    solver, ksp = AssembledSolver(grid), PETSc.KSP().create(MPI.COMM_SELF)
     solver.configure(ksp, 1e-10)
     solver.linearise(problem.evaluate(state), problem.rows(state.status))
     film = state.status == LUBRICATED

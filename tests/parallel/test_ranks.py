@@ -209,7 +209,7 @@ class TestRelaxation:
             method="relaxation",
             nested=NestedSettings(start=start),
             relaxation=RelaxationSettings(
-                fluid_update=update, contact_update=update, omega=0.2, max_sweeps=6, report_every=3
+                fluid_update=update, contact_update=update, omega=0.2, max_sweeps=6
             ),
         )
         told = ([], [])

@@ -17,13 +17,13 @@ def make_newton(make_hierarchy, paper_contact):
     """Factory of (problem, Newton) on 65 nodes, for the film at 1 m/s; freed after the test."""
     made = []
 
-    def make(monitor=None, options_prefix="test_", kind=Newton, contact=None, scheme=None, **limits):
+    def make(monitor=None, kind=Newton, contact=None, scheme=None, **limits):
         contact, scheme = contact or paper_contact(), scheme or Scheme()
         hierarchy = make_hierarchy(contact, 65)
         problem = ContactProblem(hierarchy.grids[-1], hierarchy.deflections[-1], contact, scheme)
         recipe = recipe_of(SolverSettings(scheme=scheme, newton=NewtonSettings(**limits)), contact)
         multigrid = MultigridSolver(hierarchy, 1, contact, scheme, recipe.cycle)
-        made.append(kind(problem, multigrid, recipe.newton, None, options_prefix, monitor))
+        made.append(kind(problem, multigrid, recipe.newton, None, monitor))
         return problem, made[-1]
 
     yield make

@@ -7,7 +7,6 @@ from mgehl.discretization.axes import HALO
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
 from mgehl.solver.cavitation import (
     LOW,
-    WEAKLY_COUPLED,
     part_of_the_line,
     relax_cavitation_set,
     weakly_coupled,
@@ -22,7 +21,7 @@ def film(solve, paper_contact):
 
 def movable(problem, state):
     low = state.P <= LOW * state.P.max()
-    return low & weakly_coupled(problem, problem.evaluate_full(state), state.status, WEAKLY_COUPLED)
+    return low & weakly_coupled(problem, problem.evaluate_full(state), state.status)
 
 
 def relax(problem, state):

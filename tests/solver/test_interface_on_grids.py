@@ -9,7 +9,7 @@ import pytest
 
 from mgehl.discretization.status import BOUNDARY, CONTACT, LUBRICATED
 from mgehl.model.surface.waviness import Waviness
-from mgehl.solver.dry import carried, solve_dry
+from mgehl.solver.dry import carrying_pressure, solve_dry
 from mgehl.solver.inequality import check_interface, check_pressure_inequality
 from mgehl.solver.problem import State
 
@@ -25,7 +25,7 @@ def dry(make_problem, paper_contact):
     def solved(nodes, is_wavy=False):
         waves = Waviness(5e-7, 2e-4, 2e-4) if is_wavy else None
         problem = make_problem(paper_contact(speed=0.0, surface=waves), nodes=nodes)
-        guess = carried(problem, problem.contact.guessed_pressure(problem.grid.X, problem.grid.Y))
+        guess = carrying_pressure(problem, problem.contact.guessed_pressure(problem.grid.X, problem.grid.Y))
         outcome = solve_dry(problem, guess, 1e-8, 60, lambda step: None)
         assert outcome.converged
         return problem, outcome.state

@@ -133,12 +133,12 @@ def test_a_contact_of_another_kind_is_no_start(film):
 def test_what_tells_another_contact_is_named():
     """Loads, speeds and grids are what a start is for."""
     import mgehl
-    from mgehl.solver.restart import differences
+    from mgehl.solver.restart import differing_keys
 
     class Start:
         config = mgehl.load(None, {"grid.nodes": 65})
 
     same = mgehl.load(None, {"grid.nodes": 129, "motion.speed": 1.0, "contact.load": 100.0})
-    assert list(differences(Start, same)) == []
+    assert list(differing_keys(Start, same)) == []
     other = mgehl.load(None, {"contact.radius_y": 0.02, "lubricant.viscosity_law": "roelands"})
-    assert list(differences(Start, other)) == ["contact.radius_y", "lubricant.viscosity_law"]
+    assert list(differing_keys(Start, other)) == ["contact.radius_y", "lubricant.viscosity_law"]

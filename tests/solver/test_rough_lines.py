@@ -10,9 +10,12 @@ from mgehl.config import config_from_tables
 from mgehl.kinds import case_of, contact_from
 from mgehl.multigrid import cycle
 from mgehl.run import solve
+from mgehl.solver import beginning
 from mgehl.solver.beginning import COVERED, NOR, begin, begin_dry, begin_thick
 from mgehl.solver.from_config import set_up
 from mgehl.solver.gaps import gaps
+from mgehl.solver.outcome import Outcome
+from mgehl.solver.recipe import DRY, THICK_FILM, UNDER_FILM
 from mgehl.studies.study import merged
 
 ROLLER = {
@@ -51,6 +54,16 @@ def test_above_the_largest_direct_solve_the_grids_of_the_cycle_lead_to_the_same(
     result, rows = solved()
     assert result.converged and max(row["linear_iterations"] for row in rows) > 1
     assert result.mixed.mean_gap_nm == pytest.approx(at_once.mixed.mean_gap_nm, rel=1e-5)
+
+
+def test_the_recipe_begins_in_the_way_that_led_to_the_answer(monkeypatch):
+    """The first way, or one of those that are tried where it fails."""
+    ways = [solved()[0].recipe["begins"]]
+    monkeypatch.setattr(beginning, "FIRST_WAY", 0.0)
+    ways.append(solved()[0].recipe["begins"])
+    monkeypatch.setattr(beginning, "begin_dry", lambda *how: (None, Outcome(None, False, "not tried")))
+    ways.append(solved()[0].recipe["begins"])
+    assert ways == [UNDER_FILM, DRY, THICK_FILM]
 
 
 class TestFromAThickFilm:

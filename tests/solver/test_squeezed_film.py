@@ -50,7 +50,7 @@ def films(contact, largest, mesh, end):
     hierarchy = Hierarchy(mesh, 33, contact.kernel, MPI.COMM_SELF)
     law = BoundaryFilm(1e-11 / contact.film_scale)
     scheme = Scheme(face_mobility="linear-gap", contact_law=law)
-    recipe, level = recipe_in_time(SolverSettings(scheme=scheme), contact), len(hierarchy.grids) - 1
+    recipe = recipe_in_time(SolverSettings(scheme=scheme), contact)
     problem = ContactProblem(hierarchy.grids[-1], hierarchy.deflections[-1], contact, recipe.scheme)
     scene = Scene(contact, Constant(0.0), Constant(contact.load), (), end)
     grid, found = problem.grid, []
@@ -65,7 +65,7 @@ def films(contact, largest, mesh, end):
         return ""
 
     try:
-        with newton_on(hierarchy, level, problem, recipe) as newton:
+        with newton_on(hierarchy, problem, recipe) as newton:
             outcome = March(scene, problem, newton, settings, told).run(state)
     finally:
         hierarchy.destroy()

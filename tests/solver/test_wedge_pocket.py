@@ -143,7 +143,7 @@ def test_walls_at_the_sides_make_all_lines_alike():
     line = solution(65)
     half = 0.5 * bearing.width / bearing.y_scale * 64.0 / 65.0
     grid = single_grid(replace(line.mesh, ny=65, y=(-half, half)), MPI.COMM_SELF)
-    problem, outcome = solve_wedge(grid, bearing, scheme_from(config, bearing), "mgehl_", 1e-10, 60)
+    problem, outcome = solve_wedge(grid, bearing, scheme_from(config, bearing), 1e-10, 60)
     assert outcome.converged
     P = outcome.state.P
     np.testing.assert_allclose(P, np.broadcast_to(line.fields.P, P.shape), rtol=0.0, atol=1e-11)

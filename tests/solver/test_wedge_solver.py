@@ -50,7 +50,7 @@ def solve_tables():
         bearing = contact_from(config)
         made.append(single_grid(mesh_from(config, bearing), MPI.COMM_SELF))
         scheme = scheme_from(config, bearing)
-        return solve_wedge(made[-1], bearing, scheme, "mgehl_", 1e-10, 60)
+        return solve_wedge(made[-1], bearing, scheme, 1e-10, 60)
 
     yield run
     for grid in made:
@@ -177,6 +177,6 @@ def test_too_few_steps_are_not_converged():
     bearing = contact_from(config)
     grid = single_grid(mesh_from(config, bearing), MPI.COMM_SELF)
     scheme = scheme_from(config, bearing)
-    _, outcome = solve_wedge(grid, bearing, scheme, "mgehl_", 1e-18, 1)
+    _, outcome = solve_wedge(grid, bearing, scheme, 1e-18, 1)
     grid.destroy()
     assert not outcome.converged and "residual" in outcome.reason

@@ -59,7 +59,8 @@ def report(solution, name):
         return render(
             page, **FUNCTIONS, kind=kind, mark=mark, solution=solution, result=result, config=config,
             contact=solution.contact, mesh=solution.mesh, line=solution.mesh.is_line,
-            tolerance=config.solver.tolerance, films=films_of(result, of_formulas(config)) if kind == "loaded" else None,
+            tolerance=config.solver.tolerance,
+            films=films_of(result, of_formulas(config)) if kind == "loaded" else None,
             pictures=list(pictures(solution)), keys=list(keys_of(config)),
             inputs=list(inputs_of(config)), notes=list(notes_on(solution)),
             odd=list(implausible(config, solution.contact)), sources=list(sources_of(solution)),
