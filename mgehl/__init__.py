@@ -10,7 +10,7 @@ The layers, lowest first; none imports a higher one (``tests/test_layers.py`` as
 ``model``           what is computed: SI parameters in, dimensionless groups out
 ``discretization``  finite volumes on one grid: face flows, residual, influence, line bands
 ``kinds``           point, line, wedge: the keys they take, what is built of them, their words
-``grid``            grids and their lines on the ranks, transfers between them, distributed convolution
+``grid``            PETSc DMDA hierarchy, transfers between grids, distributed convolution
 ``multigrid``       line smoothers, coarse solve, F-cycle for the bordered Jacobian
 ``solver``          Newton, contact and cavitation partition, nested iteration, verification
 ``output``          files, pictures, tables, progress

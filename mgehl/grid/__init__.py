@@ -1,1 +1,1 @@
-"""Grids on the ranks: x-lines stay whole on a rank, so line solves are local."""
+"""Grids on PETSc DMDAs: x-lines stay whole on a rank, so line solves are local."""

@@ -1,7 +1,8 @@
-"""One grid of the hierarchy: a mesh whose lines are dealt out to the ranks."""
+"""One grid of the hierarchy: a mesh whose lines are dealt out to the ranks by a DMDA."""
 
 import numpy as np
 from mpi4py import MPI
+from petsc4py import PETSc
 
 from mgehl.discretization.mesh import HALO
 from mgehl.discretization.status import WALL
@@ -28,6 +29,8 @@ class Grid:
         self._all_are_active = len(active) == comm.size
         self.team = self._split()
         self.team_starts = np.append(self.starts[active], mesh.ny)
+        if self.has_lines:
+            self._create_dm()
 
     def _split(self):
         """The communicator of the ranks with lines; MPI's null on the others."""
@@ -35,10 +38,30 @@ class Grid:
             return self.comm
         return self.comm.Split(0 if self.has_lines else MPI.UNDEFINED, self.comm.rank)
 
+    def _create_dm(self):
+        """PETSc's objects for the exchange of lines, on the team."""
+        nx, ny = self.mesh.nx, self.mesh.ny
+        self._dm = PETSc.DMDA().create(
+            dim=2,
+            dof=1,
+            sizes=(nx, ny),
+            proc_sizes=(1, self.team.size),
+            ownership_ranges=((nx,), tuple(np.diff(self.team_starts))),
+            boundary_type=(PETSc.DM.BoundaryType.NONE, PETSc.DM.BoundaryType.GHOSTED),
+            stencil_type=PETSc.DMDA.StencilType.STAR,
+            stencil_width=HALO,
+            comm=self.team,
+        )
+        self._global = self._dm.createGlobalVec()
+        self._local = self._dm.createLocalVec()
+
     def destroy(self):
-        """Free the communicator of the team."""
-        if self.has_lines and not self._all_are_active:
-            self.team.Free()
+        """Free the PETSc and MPI objects (cyclic garbage collection can deadlock in parallel)."""
+        if self.has_lines:
+            for thing in (self._global, self._local, self._dm):
+                thing.destroy()
+            if not self._all_are_active:
+                self.team.Free()
 
     @property
     def X(self):
@@ -50,19 +73,45 @@ class Grid:
         """Coordinates of the local lines, shape (lines, 1)."""
         return self.mesh.Y[self.first : self.last, None]
 
-    def halo(self, array, count=HALO, out=None):
-        """Copy of `array` with `count` lines of either neighbour around it; outside the domain zero.
+    def halo(self, array, out=None):
+        """Copy of `array` with the neighbours' lines around it; outside the domain zero.
 
-        `array` is (lines, nx) of any type, the result (lines + 2 count, nx) of the same, or `out`. The
-        team's: a rank without lines is sent nothing, and may be elsewhere. Each that has some must have as
-        many: at most `ownership.MIN_LINES`.
+        `array` is (lines, nx) of any type that a double holds, the result (lines + 2 HALO, nx). The
+        team's: a rank without lines is sent nothing, and may be elsewhere.
         """
+        if self.comm.size == 1:
+            return self._with_nothing_around(array, out)
+        ghosted = np.zeros(self.ghosted_shape) if out is None else out
+        if self.has_lines:
+            values = np.ascontiguousarray(array, dtype=float)
+            self._global.placeArray(values.ravel())
+            self._local.placeArray(ghosted.ravel())
+            self._dm.globalToLocal(self._global, self._local)
+            self._local.resetArray()
+            self._global.resetArray()
+        return ghosted if ghosted.dtype == array.dtype or out is not None else ghosted.astype(array.dtype)
+
+    def _with_nothing_around(self, array, out):
+        """The halo of a rank that is alone: a copy, without PETSc's two more."""
         if out is None:
-            out = np.empty((len(array) + 2 * count, *array.shape[1:]), array.dtype)
-            out[:count] = out[-count:] = 0
-        out[count:-count] = array
-        self.refresh(out, count)
+            out = np.empty(self.ghosted_shape, array.dtype)
+            out[:HALO] = out[-HALO:] = 0
+        out[HALO:-HALO] = array
         return out
+
+    def lines_around(self, array, count):
+        """As `halo`, the team's too, with `count` lines of each neighbour; (lines + 2 count, nx).
+
+        Each must have as many: at most `ownership.MIN_LINES`.
+        """
+        lines, team = len(array), self.team
+        around = np.zeros((lines + 2 * count, *array.shape[1:]), array.dtype)
+        around[count : count + lines] = array
+        before = team.rank - 1 if team.rank else MPI.PROC_NULL
+        behind = team.rank + 1 if team.rank + 1 < team.size else MPI.PROC_NULL
+        team.Sendrecv(around[count : 2 * count], before, recvbuf=around[count + lines :], source=behind)
+        team.Sendrecv(around[lines : count + lines], behind, recvbuf=around[:count], source=before)
+        return around
 
     def halo_status(self, status):
         """As `halo` for node statuses: what is outside the domain is WALL."""
@@ -73,15 +122,12 @@ class Grid:
             ghosted[-HALO:] = WALL
         return ghosted
 
-    def refresh(self, ghosted, count=HALO):
-        """Fetch the neighbours' lines into an array that has them around its own, in place (the team's)."""
-        team = self.team
-        if not self.has_lines or team.size == 1:
-            return
-        before = team.rank - 1 if team.rank else MPI.PROC_NULL
-        behind = team.rank + 1 if team.rank + 1 < team.size else MPI.PROC_NULL
-        team.Sendrecv(ghosted[count : 2 * count], before, recvbuf=ghosted[-count:], source=behind)
-        team.Sendrecv(ghosted[-2 * count : -count], behind, recvbuf=ghosted[:count], source=before)
+    def refresh(self, ghosted):
+        """Fetch the neighbours' lines into a ghosted array of doubles, in place (the team's)."""
+        if self.has_lines and self.comm.size > 1:
+            self._local.placeArray(ghosted.ravel())
+            self._dm.localToLocal(self._local, self._local)
+            self._local.resetArray()
 
     def boundary(self):
         """True on the outermost nodes of the domain: (lines, nx)."""

@@ -50,7 +50,7 @@ class YBands:
         spans = self._spans_of_all(given)
         self._follow(spans)
         bands, _ = self._planes = self._planes or self._new_planes()
-        around = grid.halo(distributive, REACH)
+        around = grid.lines_around(distributive, REACH)
         lines = bands.whole_lines.reshape(len(given), WIDTH, -1)
         mine = spans[grid.first : grid.last]
         build_y_bands(lin.offsets, lin.A, lin.B, around, self._kappa, self._share, mine, lines)
@@ -73,7 +73,7 @@ class YBands:
 
     def _set_contents(self, lines, contents, carried):
         """Leave of the columns and rows of `contents` what they have of themselves."""
-        around = self._grid.halo(contents, REACH)
+        around = self._grid.lines_around(contents, REACH)
         for k in range(WIDTH):
             lines[:, k, : contents.shape[1]][around[k : k + len(contents)] | contents] = 0.0
         j, i = np.nonzero(contents)
