@@ -187,6 +187,13 @@ class Result:
             return "oil is made"
         return self.edge.wrong[0] or "Eq. 2 is broken"
 
+    @property
+    def verdict(self):
+        """Whether it is an answer, in a few words: as titles have it."""
+        if self.converged:
+            return "converged"
+        return f"settled, but {self.doubt}" if self.settled else "not converged"
+
     def words(self, verbose=True):
         """The answer and whether it can be trusted: everything, or only what most want to know."""
         return result_words(self, verbose)

@@ -15,15 +15,12 @@ UNRESOLVED = 'how to do better: configs/README.md, "Choosing the domain and the 
 
 def result_words(result, verbose=True):
     """The answer, and whether and why it can be trusted; `verbose` ones have all numbers."""
-    verdict = "CONVERGED" if result.converged else "NOT CONVERGED"
-    if result.settled and not result.converged:
-        verdict = f"SETTLED, BUT {result.doubt.upper()}"
     if result.load is not None:
         lines = _bearing_lines(result)
     else:
         lines = _dry_lines(result) if result.hertz else _loaded_lines(result, verbose)
     lines = *lines, *where_to_read(result)
-    return "\n".join([f"{verdict}: {result.reason}", *(f"  {line}" for line in lines)])
+    return "\n".join([f"{result.verdict.upper()}: {result.reason}", *(f"  {line}" for line in lines)])
 
 
 def where_to_read(result):
