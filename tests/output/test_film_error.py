@@ -9,10 +9,11 @@ from mpi4py import MPI
 from test_files import make_result
 
 from mgehl.config import config_from_tables
-from mgehl.output.film_error import GridFilm, from_grids, why_no_band
+from mgehl.output.film_error import from_grids, why_no_band
 from mgehl.output.resolution import Resolution
 from mgehl.output.result import ContactResult, Overlap
 from mgehl.run import solve
+from mgehl.solver.films import GridFilm
 from mgehl.solver.richardson import SAFETY, SPREADS_OF_TWO, UNSEEN, UNSEEN_UNLIKE, WIDER
 from mgehl.solver.verification import Edge
 from mgehl.studies.study import papers_grid
