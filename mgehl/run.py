@@ -25,7 +25,7 @@ from mgehl.output.gap_error import gap_error
 from mgehl.output.laws import law_files
 from mgehl.output.lock import locked
 from mgehl.output.result import Work
-from mgehl.output.solution import Fields, Solution
+from mgehl.output.solution import Fields, Solution, on_every_rank
 from mgehl.output.summary import summarise, summarise_in_time
 from mgehl.output.surroundings import versions
 from mgehl.output.users_axes import in_users_axes
@@ -107,9 +107,7 @@ def solve(case, comm, watch=Watch(), start=None):
     watch = watch if comm.rank == 0 else replace(watch, speaker=terminal.SILENT)
     if not case.mesh.is_line:
         return _find(case, comm, watch, start)
-    alone = files.from_first_rank(comm, _find, case, MPI.COMM_SELF, watch, start)
-    told = comm.bcast(alone and alone.shared())
-    return alone or told
+    return on_every_rank(comm, files.from_first_rank(comm, _find, case, MPI.COMM_SELF, watch, start))
 
 
 def _entered(case, comm):

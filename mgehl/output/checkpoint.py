@@ -4,6 +4,7 @@ RUN/checkpoint/
     begun.npz             what is solved: configuration, own laws, the run that this one was started from
     solve-0000.npz, ...   finished solves, in order: a grid of the nested iteration each, or a step in speed
     under-way.npz         where the next one stands, saved every so many seconds
+    frame-000000.npz, ... fields of instants that are kept of a run in time
     finished/             the files of the finished run, until they are published
 
 Every file is whole, and knows again each bit of it (`archive`). Its record has
@@ -41,7 +42,7 @@ BEGUN, UNDER_WAY = "begun.npz", "under-way.npz"
 START = "start"
 """In begun.npz the bytes of the fields.h5 of the run that this one was started from."""
 
-FORMAT = 9
+FORMAT = 10
 """Version of the files. It goes up with every change of the layout or of a name; files of another version
 are not read."""
 

@@ -17,7 +17,7 @@ def is_number(text):
     return True
 
 
-def with_band(value, half_width):
+def with_band(value, half_width=None):
     """A film and the half-width of its band, both of one unit, with one digit, or two that begin with a 1.
 
     Without a band four digits stand after the point; of a diverged run four in all.

@@ -19,7 +19,7 @@ from mgehl.output.checkpoint import BEGUN, read_begun
 from mgehl.output.files import CHECKPOINT, FIELDS, NAMES, REPORT, SERIES, STUDY
 from mgehl.output.laws import FOLDER as LAWS
 from mgehl.output.stored import files_of
-from mgehl.output.whole_file import clear_parts, is_folder, is_plain, writing
+from mgehl.output.whole_file import clear_parts, is_folder, is_plain, remove_plain, writing
 
 FINISHED = "finished"
 """Folder of the checkpoint in which a run is put together."""
@@ -84,9 +84,7 @@ def clear_checkpoint(directory):
     with suppress(OSError):  # what stays is not read
         clear_parts(folder)
         clear_parts(stage)
-        for path in (*own, folder / BEGUN):  # last the one that says that they are mgehl's
-            if is_plain(path):
-                path.unlink()
+        remove_plain((*own, folder / BEGUN))  # last the one that says that they are mgehl's
     for each in (stage / LAWS, stage, folder / LAWS, folder):
         with suppress(OSError):  # not there, or somebody else's, too
             each.rmdir()
@@ -104,9 +102,7 @@ def publish(directory, stage, names):
     (stage / FIELDS).replace(directory / FIELDS)
     for name in sorted({*names} - {FIELDS}):
         (stage / name).replace(directory / name)
-    for name in old - {*names}:
-        if is_plain(directory / name):
-            (directory / name).unlink()
+    remove_plain(directory / name for name in old - {*names})
     with suppress(OSError):  # in use, or not there
         (directory / LAWS).rmdir()
     page = directory / REPORT

@@ -16,7 +16,7 @@ from mgehl.grid.events import FILES, event
 from mgehl.kinds.time import ONLY_IN_TIME, own_courses
 from mgehl.output.center_line import center_line
 from mgehl.output.laws import portable
-from mgehl.output.netcdf import netcdf_file, put
+from mgehl.output.netcdf import PLANES, netcdf_file, put
 from mgehl.version import VERSION
 
 NAMES = CONFIGURATION, RESULT, HISTORY, FIELDS, PICTURE, CENTER_LINE, SERIES, FRAMES = (
@@ -140,9 +140,9 @@ def write_fields(path, solution, texts):
     mesh, contact = solution.mesh, solution.contact
     unit = f"maximum Hertz pressure, or eta u/(m^2 mm): {contact.pressure_scale:.6g} Pa"
     names = ", ".join(f"{k} {name}" for k, name in enumerate(status.names(solution.is_dry)))
-    meanings = FURTHER | {
-        "pressure": ("Pa", "fluid or contact pressure"),
-        "film": ("m", "film thickness or gap"),
+    meanings = {
+        **PLANES,
+        **FURTHER,
         "P": ("1", f"pressure over its unit, {unit}"),
         "H": ("1", f"gap over its unit, a^2/R_x, or m mm: {contact.film_scale:.6g} m"),
         "status": ("1", names),

@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 from mgehl.discretization.couette import SCHEMES
 from mgehl.output.resolution import SEEN_CELLS
 from mgehl.output.surface import GRIDS
+from mgehl.solver.films import GridFilm
 from mgehl.solver.richardson import band, band_beside, band_of_smallest
 
 FILMS = ("central", "minimum")
@@ -14,24 +15,6 @@ BETTER = {"couette": "3B", "face_mobility": "logarithmic"}
 
 POISEUILLE_ORDER = 2
 """Order of the Poiseuille flow by any mean of the mobility: no film converges faster."""
-
-
-@dataclass(frozen=True)
-class GridFilm:
-    """Films of a grid at the run's speed, in nm, between the nodes where need be.
-
-    On a coarser grid the minimum is that of the finer one, less what differs at their common nodes around.
-    """
-
-    nodes: int
-    central_nm: float
-    minimum_nm: float
-    contact_nodes: int
-    settled: bool
-    around_nm: float = 0.0
-    """Difference from the finer grid around the centre, a root mean square."""
-    spread_nm: float = 0.0
-    """By how much the difference varies around the smallest gap, a standard deviation."""
 
 
 @dataclass(frozen=True)
@@ -89,19 +72,15 @@ def film_error(result, coarser, progress):
 
     `progress` counts their convolutions.
     """
-    settings, contact = coarser.settings, coarser.problem.contact
-    why_not = why_no_band(result, contact)
+    settings = coarser.settings
+    why_not = why_no_band(result, coarser.problem.contact)
     if why_not or not settings.error:
         return no_band(why_not) if why_not else NOT_ASKED
     before, scheme = progress.convolutions, settings.scheme
     other = replace(scheme, **BETTER) if _order(scheme) == 1 else None
-    nm, grids = 1e9 * contact.film_scale, []
-    for grid in coarser.films(other or scheme):
-        films, known = grid.films, (grid.contact_nodes, grid.settled)
-        central, minimum = nm * films.central, nm * films.minimum
-        grids.append(GridFilm(grid.nodes, central, minimum, *known, nm * films.around, nm * films.spread))
-    told = from_grids(result, tuple(grids), _order(other or scheme), other)
-    return replace(told, grids=tuple(grids), convolutions=progress.convolutions - before)
+    grids = coarser.films(other or scheme)
+    told = from_grids(result, grids, _order(other or scheme), other)
+    return replace(told, grids=grids, convolutions=progress.convolutions - before)
 
 
 def _order(scheme):

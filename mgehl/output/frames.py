@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import h5netcdf
 import numpy as np
 
-from mgehl.discretization.status import NAMES, names
-from mgehl.output.netcdf import netcdf_file, put
+from mgehl.output.archive import save, unpacked
+from mgehl.output.netcdf import PLANES, flags, netcdf_file, put
 from mgehl.output.whole_file import whole_file
 
 
@@ -30,12 +30,11 @@ class Frames:
         return int(t / self.every * (1.0 + 1e-9))
 
     def take(self, t, fields):
-        """Keep {name: (ny, nx)}."""
+        """Keep {name: (ny, nx)}. Raises OutputError."""
         if self.folder is None:
             self._kept[self._number(t)] = (t, fields)
             return
-        with whole_file(self.folder / f"frame-{self._number(t):06d}.npz") as part:
-            np.savez(part, t=t, **fields)
+        save(self.folder / f"frame-{self._number(t):06d}.npz", {"t": float(t)}, fields)
 
     def all(self):
         """(Time, {name: array}) of the instants, in order."""
@@ -43,8 +42,8 @@ class Frames:
             yield from (self._kept[number] for number in sorted(self._kept))
             return
         for path in sorted(self.folder.glob("frame-*.npz")):
-            with np.load(path) as file:
-                yield float(file["t"]), {name: file[name] for name in file.files if name != "t"}
+            record, fields = unpacked(path)
+            yield record["t"], fields
 
 
 @dataclass
@@ -57,17 +56,7 @@ class StoredFrames:
         """(Time, {name: array}) of the instants, in order."""
         with h5netcdf.File(self.path, "r") as file:
             for number, t in enumerate(file["time"][:]):
-                yield float(t), {name: file[name][number] for name in FIELDS}
-
-
-FIELDS = {
-    "pressure": ("Pa", "fluid or contact pressure"),
-    "film": ("m", "film thickness or gap"),
-    "status": ("1", "what the node is"),
-}
-
-FLAGS = {"flag_values": np.arange(len(NAMES), dtype="i1"), "flag_meanings": " ".join(names(False))}
-"""Of the status, after CF."""
+                yield float(t), {name: file[name][number] for name in PLANES}
 
 
 def write_frames(path, frames, x, y, title):
@@ -81,7 +70,7 @@ def write_frames(path, frames, x, y, title):
         put(file, "x", ("x",), x, units="m", long_name="distance along x", axis="X")
         put(file, "y", ("y",), y, units="m", long_name="distance along y", axis="Y")
         packed = {"chunks": (1, len(y), len(x)), "compression": "gzip", "compression_opts": 1}
-        for name, (unit, meaning) in FIELDS.items():
+        for name, (unit, meaning) in PLANES.items():
             values = np.stack([fields[name] for _, fields in frames])
-            told = {"units": unit, "long_name": meaning} | (FLAGS if name == "status" else {})
-            put(file, name, ("time", "y", "x"), values, packed, **told)
+            told = flags(is_dry=False) if name == "status" else {}
+            put(file, name, ("time", "y", "x"), values, packed, units=unit, long_name=meaning, **told)

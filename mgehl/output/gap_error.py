@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 
 from mgehl.output.film_error import NOT_ASKED
 from mgehl.output.surface import GRIDS
+from mgehl.solver.gaps import GridGap
 
 OF_SECOND_ORDER, OF_FIRST_ORDER = 1.0 / 3.0, 1.0
 """How many times the difference to the next coarser grid an error is, by Richardson. It is of first order
@@ -30,31 +31,6 @@ WIDEST_SHARE = 0.25
 
 SMALLEST = 1e-4
 """Half-width at the least, over the gap or pressure, or in parts of the load."""
-
-
-@dataclass(frozen=True)
-class GridGap:
-    """Mean gaps of a grid in nm, and what carries its load."""
-
-    nodes: int
-    mean_nm: float
-    loaded_nm: float
-    contact_load_share: float
-    settled: bool
-    mean_apart_nm: float = 0.0
-    """Mean size of the differences from the finer grid, node by node: of all nodes within the ellipse."""
-    loaded_apart_nm: float = 0.0
-    """The same of all nodes by their pressure."""
-    max_pressure_GPa: float | None = None
-    """None in older results."""
-    solid_load_fraction: float | None = None
-    pressure_apart_GPa: float = 0.0
-    """Mean size of the pressure's differences from the finer grid, by pressure."""
-    contact_load_apart: float = 0.0
-    """Sum of the sizes of the same differences of what contact carries, in parts of the load."""
-    solid_load_apart: float = 0.0
-    pressure_crest_GPa: float = 0.0
-    """By how much the pressure may be larger between the nodes."""
 
 
 SHOWN = {
@@ -119,26 +95,8 @@ def gap_error(result, coarser, progress):
     why_not = why_no_band(result, problem)
     if why_not or not coarser.settings.error:
         return no_band(why_not or NOT_ASKED.how)
-    before, contact = progress.convolutions, problem.contact
-    units = 1e9 * contact.film_scale, 1e-9 * contact.hertz.p_h
-    grids = tuple(_in_units(each, *units) for each in coarser.gaps())
+    before, grids = progress.convolutions, coarser.gaps()
     return replace(from_grids(grids), grids=grids, convolutions=progress.convolutions - before)
-
-
-def _in_units(grid, nm, GPa):
-    gaps, loads, apart = grid.gaps, grid.loads, {}
-    if grid.differences is not None:
-        of_gaps, of_loads = grid.differences, grid.load_differences
-        apart = {
-            "mean_apart_nm": nm * of_gaps.mean, "loaded_apart_nm": nm * of_gaps.loaded,
-            "pressure_apart_GPa": GPa * of_loads.largest, "contact_load_apart": of_loads.contact,
-            "solid_load_apart": of_loads.solids,
-        }  # fmt: skip
-    return GridGap(
-        grid.nodes, nm * gaps.mean, nm * gaps.loaded, loads.contact, grid.settled,
-        max_pressure_GPa=GPa * loads.largest, pressure_crest_GPa=GPa * loads.crest,
-        solid_load_fraction=loads.solids, **apart,
-    )  # fmt: skip
 
 
 def from_grids(grids):

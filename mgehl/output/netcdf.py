@@ -4,8 +4,23 @@ from contextlib import contextmanager
 from io import BytesIO
 
 import h5netcdf
+import numpy as np
 
+from mgehl.discretization import status
 from mgehl.version import VERSION
+
+PLANES = {
+    "pressure": ("Pa", "fluid or contact pressure"),
+    "film": ("m", "film thickness or gap"),
+    "status": ("1", "what the node is"),
+}
+"""Unit and meaning of the fields that every run has."""
+
+
+def flags(is_dry):
+    """Attributes that say, after CF, what the numbers of a status mean."""
+    values = np.arange(len(status.NAMES), dtype=np.int8)
+    return {"flag_values": values, "flag_meanings": " ".join(status.names(is_dry))}
 
 
 @contextmanager

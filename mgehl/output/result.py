@@ -8,9 +8,9 @@ from mgehl.output.friction_result import FrictionResult
 from mgehl.output.mixed_result import MixedResult
 from mgehl.output.resolution import Resolution
 from mgehl.output.words import result_words
-from mgehl.solver.inequality import Power
+from mgehl.solver.inequality import Inequality
 from mgehl.solver.mass import CLOSED, Mass
-from mgehl.solver.verification import FEWEST_NODES, LARGEST_EDGE_PRESSURE
+from mgehl.solver.verification import NOT_SEEN, Edge
 
 
 @dataclass(frozen=True)
@@ -38,23 +38,6 @@ class Overlap:
 
 
 @dataclass(frozen=True)
-class InequalityResult:
-    """Check of [Liu eq. 2]: interface nodes checked, number and size (p_h) of violations."""
-
-    checked: int
-    violations: int
-    worst: float
-    largest_ratio: float
-    """Largest fluid pressure over the contact pressure beside it; only of nodes compared."""
-    nodes: list
-    compared: str = "at the nodes"
-    """Where: "at the nodes" on both sides of the interface, "at the interface" between them, or at each
-    node "under contact"."""
-    power: Power = Power()
-    """How many faces the check at the interface could decide."""
-
-
-@dataclass(frozen=True)
 class MoesFilm:
     """Central and minimum film as (h/R_x)(2U)^(-1/2)."""
 
@@ -77,56 +60,6 @@ class HertzResult:
     max_pressure_GPa: float
     approach_um: float
     """Of a line contact with the constant of a deflection that counts -ln|x/a|, as the computed one."""
-
-
-@dataclass(frozen=True)
-class EdgeResult:
-    """Whether the domain holds the contact and the grid shows it: see `solver.verification.check_edge`."""
-
-    pressure_ratio: float
-    """Largest pressure near the domain's boundary over the largest of all."""
-    overlapping: int
-    """Nodes of the boundary where the bodies overlap."""
-    largest_nm: float
-    nodes_along_x: int
-    """Nodes that the loaded zone is wide."""
-    nodes_along_y: int | None
-    """None of a line contact."""
-
-    @property
-    def cuts(self):
-        """Whether the domain cuts the contact."""
-        return self.overlapping > 0 or self.pressure_ratio > LARGEST_EDGE_PRESSURE
-
-    @property
-    def too_few(self):
-        """What is wrong with the number of nodes, in a sentence; empty where nothing is."""
-        for axis, nodes in (("x", self.nodes_along_x), ("y", self.nodes_along_y)):
-            if nodes is not None and nodes < FEWEST_NODES:
-                return (
-                    f"the contact is {nodes} nodes wide along {axis}, and needs {FEWEST_NODES}: "
-                    "a smaller domain or more nodes"
-                )
-        return ""
-
-    @property
-    def wrong(self):
-        """What is wrong, in a few words and in a sentence; both empty where nothing is."""
-        if self.overlapping:
-            return "the bodies overlap on the boundary", (
-                f"the bodies overlap at {self.overlapping} nodes of the domain's boundary by up to "
-                f"{self.largest_nm:.3g} nm: the domain cuts the contact"
-            )
-        if self.cuts:
-            return "the domain cuts the contact", (
-                f"the pressure near the domain's boundary is {100 * self.pressure_ratio:.2g} % of the "
-                f"largest, more than {100 * LARGEST_EDGE_PRESSURE:g} %: the domain cuts the contact"
-            )
-        return ("the contact has too few nodes", self.too_few) if self.too_few else ("", "")
-
-
-NOT_SEEN = EdgeResult(0.0, 0, 0.0, FEWEST_NODES, None)
-"""Of a bearing, whose gap is given, and of results made by hand."""
 
 
 @dataclass(frozen=True)
@@ -187,7 +120,7 @@ class Result:
     ranks: int
     versions: dict
     error: FilmError = NOT_ASKED
-    edge: EdgeResult = NOT_SEEN
+    edge: Edge = NOT_SEEN
 
     # With a fluid; a bearing has not all of these.
     central_film_nm: float = None
@@ -197,9 +130,9 @@ class Result:
     cavitated_nodes: int = None
     mass: Mass | None = None
     """The account of the oil; None in older results."""
-    pressure_inequality: InequalityResult | None = None
+    pressure_inequality: Inequality | None = None
     """Compared at the interface, as the paper states it: `converged` asks for this."""
-    other_inequality: InequalityResult | None = None
+    other_inequality: Inequality | None = None
     """Compared between nodes on both sides of it, a cell apart: `converged` does not ask for this."""
     contradictions: list | None = None
     """Nodes that can be neither film nor contact, of an iteration whose sets cycle."""
@@ -253,6 +186,13 @@ class Result:
         if self.mass and self.mass.made_share > CLOSED:
             return "oil is made"
         return self.edge.wrong[0] or "Eq. 2 is broken"
+
+    @property
+    def verdict(self):
+        """Whether it is an answer, in a few words: as titles have it."""
+        if self.converged:
+            return "converged"
+        return f"settled, but {self.doubt}" if self.settled else "not converged"
 
     def words(self, verbose=True):
         """The answer and whether it can be trusted: everything, or only what most want to know."""

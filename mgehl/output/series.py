@@ -16,6 +16,7 @@ from mgehl.discretization.status import CONTACT
 from mgehl.output.netcdf import netcdf_file, put
 from mgehl.output.result import Mean, TimeResult
 from mgehl.output.whole_file import whole_file
+from mgehl.solver.gaps import within_hertz
 from mgehl.solver.shear import shear_of
 
 COLUMNS = {
@@ -65,7 +66,7 @@ def row_of(instant, standing, problem, convolutions, seconds):
     nm, last = 1e9 * contact.film_scale, instant.newton.cycles[-1]
     touching = state.status == CONTACT
     carried = contact.load_integral * instant.load
-    inside = np.broadcast_to(grid.X**2 + (0.0 if grid.mesh.is_line else grid.Y**2) <= 1.0, grid.shape)
+    inside = within_hertz(grid.mesh)[grid.first : grid.last]
     return {
         "time_s": instant.t,
         "step": instant.number,

@@ -17,7 +17,7 @@ from mgehl.output.files import FIELDS
 from mgehl.output.files import STUDY as NAME
 from mgehl.output.laws import FOLDER as LAWS
 from mgehl.output.stored import files_of
-from mgehl.output.whole_file import clear_parts, is_folder, is_plain, write_whole, writing
+from mgehl.output.whole_file import clear_parts, is_folder, is_plain, remove_plain, write_whole, writing
 
 UNFINISHED = "unfinished"
 """Folder of tables and pictures until all are there."""
@@ -91,8 +91,7 @@ def begin_study(directory, record, resume):
     with writing(stage):
         stage.mkdir(exist_ok=True)
         clear_parts(stage)
-        for path in _drawn(stage):
-            path.unlink()
+        remove_plain(_drawn(stage))
     write_record(stage, record)
     return stage
 
@@ -109,9 +108,7 @@ def clear_runs(directory):
 
 def _clear_run(path):
     clear_checkpoint(path)
-    for name in (*files_of(path), POINT):
-        if is_plain(path / name):
-            (path / name).unlink()
+    remove_plain(path / name for name in (*files_of(path), POINT))
     for folder in (path / LAWS, path):
         with suppress(OSError):  # not there, or somebody else's, too
             folder.rmdir()
@@ -155,9 +152,7 @@ def _publish(directory, stage):
         if os.path.lexists(there) and not (name in known and is_plain(there)):
             raise OutputError(f"{there}: is not this study's: it is left alone; move it away")
     with writing(directory):
-        for name in known - {*new.files, NAME}:
-            if is_plain(directory / name):
-                (directory / name).unlink()
+        remove_plain(directory / name for name in known - {*new.files, NAME})
         for name in moved:
             (stage / name).replace(directory / name)
     with suppress(OSError):  # somebody else's, too

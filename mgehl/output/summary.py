@@ -1,6 +1,6 @@
 """The `Result` of a lubricated contact: verified anew, nothing that an iteration said of it is trusted."""
 
-from dataclasses import asdict, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -11,8 +11,6 @@ from mgehl.output.mixed_result import mixed_result
 from mgehl.output.resolution import resolution
 from mgehl.output.result import (
     ContactResult,
-    EdgeResult,
-    InequalityResult,
     MoesFilm,
     Overlap,
     Result,
@@ -47,7 +45,7 @@ def summarise(problem, outcome, tolerance, work, wall_s, versions):
         complementarity_error=complementarity_error(problem, state, evaluation),
         flux_imbalance=flux_imbalance(problem, evaluation),
         pressure_inequality=_eq_2(problem, state),
-        other_inequality=_inequality(check_pressure_inequality(problem, state), "at the nodes"),
+        other_inequality=check_pressure_inequality(problem, state),
         contradictions=[_contradiction(each, nm) for each in outcome.contradictions],
         cavitated_nodes=problem.counts(state.status)[1],
         resolution=resolution(contact, problem.grid.mesh),
@@ -93,14 +91,14 @@ def of_every_load(problem, state, work, wall_s, versions, part):
     """What a `Result` has of every loaded contact, not judged yet; the loaded zone has at least this `part`
     of the largest pressure (collective)."""
     grid, contact = problem.grid, problem.contact
-    nm, edge = 1e9 * contact.film_scale, check_edge(problem, state, part)
+    nm = 1e9 * contact.film_scale
     return {
         "converged": False, "settled": False, "reason": "",
         "max_pressure_GPa": 1e-9 * contact.hertz.p_h * grid.max(state.P),
         "load_error": problem.load_deficit(state.P),
         "contact": _contact(problem, state, nm),
         "overlap": _overlap(grid, state, nm),
-        "edge": EdgeResult(edge.pressure, edge.overlapping, nm * edge.largest_overlap, *edge.across),
+        "edge": check_edge(problem, state, part),
         "work": work, "wall_s": wall_s, "ranks": grid.comm.size, "versions": versions,
     }  # fmt: skip
 
@@ -157,8 +155,8 @@ def _conserves(problem, mass, tolerance):
 def _eq_2(problem, state):
     """What the verdict asks of Eq. 2: p <= P under contact where the fluid has a pressure there."""
     if problem.scheme.contact_law.closes_faces:
-        return _inequality(check_interface(problem, state), "at the interface")
-    return _inequality(check_under_contact(problem, state), "under contact")
+        return check_interface(problem, state)
+    return check_under_contact(problem, state)
 
 
 def _contradiction(node, nm):
@@ -188,12 +186,6 @@ def _contact(problem, state, nm):
     ends = _ends(x_nodes), across
     kept = nm * problem.scheme.contact_law.contact_gap
     return ContactResult(nodes, nodes * cell / contact_area, carried, *ends, largest_gap, kept)
-
-
-def _inequality(inequality, compared):
-    nodes = [asdict(violation) for violation in inequality.violations]
-    found = inequality.checked, len(nodes), inequality.worst, inequality.largest_ratio
-    return InequalityResult(*found, nodes, compared, inequality.power)
 
 
 def _overlap(grid, state, nm):

@@ -64,6 +64,12 @@ def write_whole(path, text):
         part.write_bytes(text.encode("utf-8", "backslashreplace"))
 
 
+def remove_plain(paths):
+    """Remove those of some paths that are plain files. Raises OSError."""
+    for path in filter(is_plain, paths):
+        path.unlink()
+
+
 def clear_parts(folder, name=None):
     """Remove unfinished parts of a file, or of all files of a folder, whose processes have ended."""
     with suppress(OSError):

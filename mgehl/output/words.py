@@ -15,15 +15,12 @@ UNRESOLVED = 'how to do better: configs/README.md, "Choosing the domain and the 
 
 def result_words(result, verbose=True):
     """The answer, and whether and why it can be trusted; `verbose` ones have all numbers."""
-    verdict = "CONVERGED" if result.converged else "NOT CONVERGED"
-    if result.settled and not result.converged:
-        verdict = f"SETTLED, BUT {result.doubt.upper()}"
     if result.load is not None:
         lines = _bearing_lines(result)
     else:
         lines = _dry_lines(result) if result.hertz else _loaded_lines(result, verbose)
     lines = *lines, *where_to_read(result)
-    return "\n".join([f"{verdict}: {result.reason}", *(f"  {line}" for line in lines)])
+    return "\n".join([f"{result.verdict.upper()}: {result.reason}", *(f"  {line}" for line in lines)])
 
 
 def where_to_read(result):
@@ -54,7 +51,7 @@ def _dry_lines(result):
     contact, hertz = result.contact, result.hertz
     largest, theirs = pressure_words(result.max_pressure_GPa), pressure_words(hertz.max_pressure_GPa)
     yield f"largest pressure {largest}, that of Hertz {theirs}"
-    yield f"approach {_number(result.approach_um)} um, that of Hertz {_number(hertz.approach_um)}"
+    yield f"approach {with_band(result.approach_um)} um, that of Hertz {with_band(hertz.approach_um)}"
     yield f"contact: {_size(contact)}; {_where(contact)}; largest gap {contact.largest_gap_nm:.1e} nm"
     yield f"load error {result.load_error:.1e}, complementarity {result.complementarity_error:.1e}"
     yield _work(result)
@@ -227,14 +224,9 @@ def largest_pressure_words(result):
 def pressure_words(GPa, half_width=None):
     """A pressure, with its band if there is one; that of a soft or light contact in MPa or kPa."""
     factor, unit = (1e6, "kPa") if GPa < 1e-4 else (1e3, "MPa") if GPa < 0.1 else (1.0, "GPa")
-    if half_width is not None:
-        return f"{with_band(factor * GPa, factor * half_width)} {unit}"
-    return f"{_number(GPa) if factor == 1.0 else format(factor * GPa, '.4g')} {unit}"
-
-
-def _number(value):
-    """Four digits after the point; of a diverged run four in all."""
-    return f"{value + 0.0:.4f}" if abs(value) < 1e7 else f"{value:.3e}"
+    if half_width is None and factor > 1.0:
+        return f"{factor * GPa:.4g} {unit}"
+    return f"{with_band(factor * GPa, half_width and factor * half_width)} {unit}"
 
 
 def span(ends):

@@ -7,12 +7,12 @@ per cent of the finest grid's work. For the gaps of rough bodies one coarser gri
 surface as it is, for else it would have another contact.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
-from mgehl.solver.films import Films, films_beside, films_between_nodes
-from mgehl.solver.gaps import Gaps, Loads, differences, gaps, load_differences, loads
+from mgehl.solver.films import GridFilm, films_beside, films_between_nodes
+from mgehl.solver.gaps import grid_gap
 from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.on_grid import solve_near
 from mgehl.solver.problem import ContactProblem
@@ -34,35 +34,6 @@ SPREADING_STEPS = 3
 and none of these settled. Eight settled with contact on the way: it spread in two steps at the most."""
 
 
-@dataclass(frozen=True)
-class GridFilms:
-    """A grid's answer at the wanted speed."""
-
-    nodes: int
-    films: Films
-    contact_nodes: int
-    settled: bool
-
-    @property
-    def is_film(self):
-        """Whether the whole contact has a film there."""
-        return self.settled and not self.contact_nodes
-
-
-@dataclass(frozen=True)
-class GridGaps:
-    """A grid's answer of rough bodies."""
-
-    nodes: int
-    gaps: Gaps
-    loads: Loads
-    settled: bool
-    differences: Gaps | None = None
-    """Of a coarser grid: the mean sizes by which its gaps differ from the finer one's."""
-    load_differences: Loads | None = None
-    """The same of its pressures."""
-
-
 class CoarserGrids:
     """What the coarser grids say of a run's answer, the `state` of its `problem`.
 
@@ -79,36 +50,32 @@ class CoarserGrids:
         """Problem and `Outcome` by which `gaps` were told."""
 
     def films(self, scheme):
-        """`GridFilms` of the finest grid and of the next coarser ones (collective).
+        """A tuple of `GridFilm`, of the finest grid and of the next coarser ones (collective).
 
-        Those are solved by a `Scheme` that may be another. The list ends with the first grid that has
+        Those are solved by a `Scheme` that may be another. It ends with the first grid that has
         contact, or no answer.
         """
         problem, state, grids = self.problem, self._state, self._hierarchy.grids
         films = films_between_nodes(problem, state)
-        found, last = [_grid_films(problem, state, films, True)], len(grids) - 1
+        found, last = [_grid_film(problem, state, films, True)], len(grids) - 1
         for level in range(last - 1, max(last - 1 - COARSER, -1), -1):
             H = self._hierarchy.transfers[level].inject(state.H)
             seen = self.problem.contact.seen_by(grids[level].mesh, grids[-1].mesh)
             problem, outcome = self._film(level, seen, state, scheme)
             state, films = outcome.state, films_beside(problem, outcome.state, films, H)
-            found.append(_grid_films(problem, state, films, outcome.converged))
+            found.append(_grid_film(problem, state, films, outcome.converged))
             if not found[-1].is_film:
                 break
-        return found
+        return tuple(found)
 
     def gaps(self):
-        """`GridGaps` of the finest grid and of the next coarser one, if there is one (collective)."""
-        found, level = [_grid_gaps(self.problem, self._state, True)], len(self._hierarchy.grids) - 2
-        if level >= 0:
-            H, P, p, _, status = _at_nodes(self._hierarchy.transfers[level], self._state)
-            self._of_gaps = problem, outcome = self._whole(level)
-            apart = (
-                differences(problem, outcome.state, H),
-                load_differences(problem, outcome.state, P, p, status),
-            )
-            found.append(_grid_gaps(problem, outcome.state, outcome.converged, *apart))
-        return found
+        """A tuple of `GridGap`, of the finest grid and of the next coarser one, if any (collective)."""
+        finest, level = grid_gap(self.problem, self._state, True), len(self._hierarchy.grids) - 2
+        if level < 0:
+            return (finest,)
+        H, P, p, _, status = _at_nodes(self._hierarchy.transfers[level], self._state)
+        self._of_gaps = problem, outcome = self._whole(level)
+        return finest, grid_gap(problem, outcome.state, outcome.converged, (H, P, p, status))
 
     def _whole(self, level):
         """Problem and `Outcome` of the contact with all of its surface, by the scheme of the run."""
@@ -141,13 +108,13 @@ def _is_of(problem, grid, contact, scheme):
     return problem.grid is grid and problem.contact is contact and problem.scheme == scheme
 
 
-def _grid_gaps(problem, state, settled, *apart):
-    return GridGaps(problem.grid.mesh.nx, gaps(problem, state), loads(problem, state), settled, *apart)
-
-
-def _grid_films(problem, state, films, settled):
-    contact_nodes, _ = problem.counts(state.status)
-    return GridFilms(problem.grid.mesh.nx, films, contact_nodes, settled)
+def _grid_film(problem, state, films, settled):
+    """The `GridFilm` of a state that has these `Films`."""
+    nm, (contact_nodes, _) = 1e9 * problem.contact.film_scale, problem.counts(state.status)
+    return GridFilm(
+        problem.grid.mesh.nx, nm * films.central, nm * films.minimum, contact_nodes, settled,
+        nm * films.around, nm * films.spread,
+    )  # fmt: skip
 
 
 def _at_nodes(transfer, state):

@@ -9,8 +9,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mgehl.solver.record import Kept
-
 _OFFSETS = np.array([-1.0, 0.0, 1.0])
 _WEIGHTS = np.array([0.5, 1.0, 0.5])
 """Of the nodes in the fit of a paraboloid: those in the corners count least."""
@@ -26,7 +24,7 @@ nodes that count alike half the bands of the minimum film are a tenth wider."""
 
 
 @dataclass(frozen=True)
-class Films(Kept):
+class Films:
     """Central and minimum film in units of H."""
 
     central: float
@@ -35,6 +33,29 @@ class Films(Kept):
     """Of a coarser grid: its difference from the finer one around the centre, a root mean square."""
     spread: float = 0.0
     """The same around the smallest gap, a standard deviation."""
+
+
+@dataclass(frozen=True)
+class GridFilm:
+    """Films of a grid's answer at the run's speed, in nm, between the nodes where need be.
+
+    On a coarser grid the minimum is that of the finer one, less what differs at their common nodes around.
+    """
+
+    nodes: int
+    central_nm: float
+    minimum_nm: float
+    contact_nodes: int
+    settled: bool
+    around_nm: float = 0.0
+    """Difference from the finer grid around the centre, a root mean square."""
+    spread_nm: float = 0.0
+    """By how much the difference varies around the smallest gap, a standard deviation."""
+
+    @property
+    def is_film(self):
+        """Whether the whole contact has a film there."""
+        return self.settled and not self.contact_nodes
 
 
 def films_between_nodes(problem, state):

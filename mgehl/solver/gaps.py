@@ -11,11 +11,10 @@ import numpy as np
 
 from mgehl.discretization.status import CONTACT
 from mgehl.solver.inequality import bend_of_a_cell
-from mgehl.solver.record import Kept
 
 
 @dataclass(frozen=True)
-class Gaps(Kept):
+class Gaps:
     """Two mean gaps in units of H."""
 
     mean: float
@@ -36,6 +35,31 @@ class Loads:
     """Part of the load that solids carry: P - p of contact nodes."""
     crest: float = 0.0
     """By how much the pressure between the nodes may exceed that of nodes: by parabolas through three."""
+
+
+@dataclass(frozen=True)
+class GridGap:
+    """Mean gaps of a grid in nm, and what carries its load."""
+
+    nodes: int
+    mean_nm: float
+    loaded_nm: float
+    contact_load_share: float
+    settled: bool
+    mean_apart_nm: float = 0.0
+    """Mean size of the differences from the finer grid, node by node: of all nodes within the ellipse."""
+    loaded_apart_nm: float = 0.0
+    """The same of all nodes by their pressure."""
+    max_pressure_GPa: float | None = None
+    """None in older results."""
+    solid_load_fraction: float | None = None
+    pressure_apart_GPa: float = 0.0
+    """Mean size of the pressure's differences from the finer grid, by pressure."""
+    contact_load_apart: float = 0.0
+    """Sum of the sizes of the same differences of what contact carries, in parts of the load."""
+    solid_load_apart: float = 0.0
+    pressure_crest_GPa: float = 0.0
+    """By how much the pressure may be larger between the nodes."""
 
 
 def within_hertz(mesh):
@@ -87,6 +111,26 @@ def load_differences(problem, state, P, p, status):
     return Loads(
         mean, *(problem.share_of_load(np.abs(each), everywhere) for each in (of_contact, of_solids))
     )
+
+
+def grid_gap(problem, state, settled, finer=()):
+    """The `GridGap` of a state; of a coarser grid `finer` are the finer one's H, P, p and status at its
+    nodes, each (lines, nx) (collective)."""
+    nm, GPa, apart = 1e9 * problem.contact.film_scale, 1e-9 * problem.contact.hertz.p_h, {}
+    found, carried = gaps(problem, state), loads(problem, state)
+    if finer:
+        H, *pressed = finer
+        of_gaps, of_loads = differences(problem, state, H), load_differences(problem, state, *pressed)
+        apart = {
+            "mean_apart_nm": nm * of_gaps.mean, "loaded_apart_nm": nm * of_gaps.loaded,
+            "pressure_apart_GPa": GPa * of_loads.largest, "contact_load_apart": of_loads.contact,
+            "solid_load_apart": of_loads.solids,
+        }  # fmt: skip
+    return GridGap(
+        problem.grid.mesh.nx, nm * found.mean, nm * found.loaded, carried.contact, settled,
+        max_pressure_GPa=GPa * carried.largest, pressure_crest_GPa=GPa * carried.crest,
+        solid_load_fraction=carried.solids, **apart,
+    )  # fmt: skip
 
 
 def _loaded(P, H):

@@ -1,7 +1,7 @@
 """Eq. 2 of an answer, contact pressure not below the fluid's beside it, checked in two ways: at the
 interface, where the paper states it, and between the nodes on both sides."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -40,30 +40,24 @@ class Power:
 
 
 @dataclass(frozen=True)
-class Violation:
-    """A contact node whose pressure is below the fluid pressure beside it; sizes in p_h."""
-
-    i: int
-    j: int
-    size: float
-
-
-@dataclass(frozen=True)
-class PressureInequality:
-    """Result of checking [Liu eq. 2] on all four sides of every contact node."""
+class Inequality:
+    """Check of [Liu eq. 2]: contact nodes checked, number and size (p_h) of violations."""
 
     checked: int
     """Contact nodes with fluid on at least one side."""
-    violations: list = field(default_factory=list)
-    largest_ratio: float = 0.0
-    """Largest fluid pressure over the contact pressure beside it; infinite beside P = 0."""
+    violations: int
+    worst: float
+    """Largest violation, 0 without any."""
+    largest_ratio: float
+    """Largest fluid pressure over the contact pressure beside it, infinite beside P = 0; only of nodes
+    compared."""
+    nodes: list
+    """{"i", "j", "size"} of each violation: the contact node, counted from 1, and by how much (p_h)."""
+    compared: str = "at the nodes"
+    """Where: "at the nodes" on both sides of the interface, "at the interface" between them, or at each
+    node "under contact"."""
     power: Power = Power()
-    """Of the check at the interface; the others compare without a tolerance."""
-
-    @property
-    def worst(self):
-        """Largest violation in units of p_h, 0 without any."""
-        return max((violation.size for violation in self.violations), default=0.0)
+    """How many faces the check at the interface could decide; the others compare without a tolerance."""
 
 
 def check_pressure_inequality(problem, state):
@@ -76,24 +70,25 @@ def check_pressure_inequality(problem, state):
     ratios = np.divide(
         beside, P[interface], out=np.where(beside > 0.0, np.inf, 0.0), where=P[interface] > 0.0
     )
-    return _inequality(grid, interface, excess, grid.max(ratios, initial=0.0))
+    return _inequality(grid, interface, excess, "at the nodes", grid.max(ratios, initial=0.0))
 
 
-def _inequality(grid, checked, excess, largest_ratio=0.0, power=Power()):
-    """The `PressureInequality` of `checked` nodes, broken where the `excess` is positive (collective)."""
+def _inequality(grid, checked, excess, compared, largest_ratio=0.0, power=Power()):
+    """The `Inequality` of `checked` nodes, broken where the `excess` is positive (collective)."""
     local = [
-        Violation(int(i) + 1, int(j) + grid.first + 1, float(excess[j, i]))
+        {"i": int(i) + 1, "j": int(j) + grid.first + 1, "size": float(excess[j, i])}
         for j, i in np.argwhere(excess > 0.0)
     ]
-    violations = [violation for part in grid.comm.allgather(local) for violation in part]
-    return PressureInequality(grid.count(checked), violations, largest_ratio, power)
+    nodes = [node for part in grid.comm.allgather(local) for node in part]
+    worst = max((node["size"] for node in nodes), default=0.0)
+    return Inequality(grid.count(checked), len(nodes), worst, largest_ratio, nodes, compared, power)
 
 
 def check_under_contact(problem, state):
     """Check p <= P at every contact node that has a fluid's pressure of its own  [Liu eq. 2]."""
     grid, contact = problem.grid, state.status == CONTACT
     excess = np.where(contact, state.p - state.P, 0.0)
-    return _inequality(grid, contact, np.where(excess > ROUNDING, excess, 0.0))
+    return _inequality(grid, contact, np.where(excess > ROUNDING, excess, 0.0), "under contact")
 
 
 def check_interface(problem, state):
@@ -122,7 +117,7 @@ def check_interface(problem, state):
     contact, solid = state.status == CONTACT, is_solid(status)
     checked, excess = np.zeros(grid.shape, dtype=bool), np.zeros(grid.shape)
     if not grid.count(contact):
-        return _inequality(grid, checked, excess)
+        return _inequality(grid, checked, excess, "at the interface")
     faces, hidden = 0, [np.zeros(0)]
     for axis in problem.axes:
         ends = [contact & ~_beside(axis, solid, side) for side in (-1, 1)]
@@ -137,7 +132,7 @@ def check_interface(problem, state):
         hidden += [unseen[end & (unseen > 0.0)] for end, (_, unseen) in zip(ends, asked, strict=True)]
     hidden = np.concatenate(hidden)
     power = Power(faces, grid.count(hidden > 0.0), grid.max(hidden, initial=0.0))
-    return _inequality(grid, checked, excess, power=power)
+    return _inequality(grid, checked, excess, "at the interface", power=power)
 
 
 def _jump(problem, axis, state, ghosted, side):

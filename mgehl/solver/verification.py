@@ -36,14 +36,51 @@ LOADED = 0.1
 class Edge:
     """How a solution stands in its domain and on its grid."""
 
-    pressure: float
-    """Largest pressure near the boundary over the largest of all; 0 without pressure."""
+    pressure_ratio: float
+    """Largest pressure near the domain's boundary over the largest of all; 0 without pressure."""
     overlapping: int
-    """Nodes of the boundary where the gap is negative."""
-    largest_overlap: float
-    """The largest overlap there, in units of H."""
-    across: tuple
-    """Nodes along X and along Y that the loaded zone is wide; of a line contact None along Y."""
+    """Nodes of the boundary where the bodies overlap."""
+    largest_nm: float
+    """The largest overlap there."""
+    nodes_along_x: int
+    """Nodes that the loaded zone is wide."""
+    nodes_along_y: int | None
+    """None of a line contact."""
+
+    @property
+    def cuts(self):
+        """Whether the domain cuts the contact."""
+        return self.overlapping > 0 or self.pressure_ratio > LARGEST_EDGE_PRESSURE
+
+    @property
+    def too_few(self):
+        """What is wrong with the number of nodes, in a sentence; empty where nothing is."""
+        for axis, nodes in (("x", self.nodes_along_x), ("y", self.nodes_along_y)):
+            if nodes is not None and nodes < FEWEST_NODES:
+                return (
+                    f"the contact is {nodes} nodes wide along {axis}, and needs {FEWEST_NODES}: "
+                    "a smaller domain or more nodes"
+                )
+        return ""
+
+    @property
+    def wrong(self):
+        """What is wrong, in a few words and in a sentence; both empty where nothing is."""
+        if self.overlapping:
+            return "the bodies overlap on the boundary", (
+                f"the bodies overlap at {self.overlapping} nodes of the domain's boundary by up to "
+                f"{self.largest_nm:.3g} nm: the domain cuts the contact"
+            )
+        if self.cuts:
+            return "the domain cuts the contact", (
+                f"the pressure near the domain's boundary is {100 * self.pressure_ratio:.2g} % of the "
+                f"largest, more than {100 * LARGEST_EDGE_PRESSURE:g} %: the domain cuts the contact"
+            )
+        return ("the contact has too few nodes", self.too_few) if self.too_few else ("", "")
+
+
+NOT_SEEN = Edge(0.0, 0, 0.0, FEWEST_NODES, None)
+"""Of a bearing, whose gap is given, and of results made by hand."""
 
 
 def check_edge(problem, state, part=LOADED):
@@ -58,10 +95,11 @@ def check_edge(problem, state, part=LOADED):
     columns = np.logical_or.reduce(grid.comm.allgather(loaded.any(axis=0)))
     across = None if grid.mesh.is_line else grid.count(loaded.any(axis=1))
     return Edge(
-        pressure=near / largest if largest > 0.0 else 0.0,
+        pressure_ratio=near / largest if largest > 0.0 else 0.0,
         overlapping=grid.count(overlap > 0.0),
-        largest_overlap=grid.max(overlap, initial=0.0),
-        across=(int(np.count_nonzero(columns)), across),
+        largest_nm=1e9 * problem.contact.film_scale * grid.max(overlap, initial=0.0),
+        nodes_along_x=int(np.count_nonzero(columns)),
+        nodes_along_y=across,
     )
 
 

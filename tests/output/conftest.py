@@ -1,7 +1,6 @@
 """Solutions made by hand, for pictures; and what a finished figure says and where."""
 
 from itertools import combinations
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,9 +9,8 @@ from mgehl.config import load_config
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
 from mgehl.kinds import contact_from
-from mgehl.output.film_error import NOT_ASKED
 from mgehl.output.pictures import style
-from mgehl.output.result import Overlap
+from mgehl.output.result import Result
 from mgehl.output.solution import Fields, Solution
 
 FILM = 2e-4
@@ -45,6 +43,12 @@ def make_rows():
     return newton_rows
 
 
+def bare_result(converged=True, **more):
+    """A `Result` of which pictures ask only whether it converged."""
+    known = {"reason": "", "wall_s": 0.0, "ranks": 1, "versions": {}}
+    return Result(converged=converged, settled=converged, **known, **more)
+
+
 @pytest.fixture
 def make_solution():
     """Factory of `Solution`s of a point contact with a dry pressure over a film, or a disc of contact."""
@@ -57,9 +61,7 @@ def make_solution():
         status = status_of(mesh, contact)
         P = np.sqrt(np.maximum(1.0 - X**2 - Y**2, 0.0))
         H = np.where(status == CONTACT, 0.0, FILM + np.maximum(X**2 + Y**2 - 1.0, 0.0))
-        result = SimpleNamespace(
-            converged=converged, settled=converged, overlap=Overlap(0, 0.0), error=NOT_ASKED, mixed=None
-        )
+        result = bare_result(converged)
         rows = newton_rows() if rows is None else rows
         return Solution(config, body, mesh, Fields(P, H, status), rows, result)
 
@@ -77,9 +79,7 @@ def make_line():
         P = np.sqrt(np.maximum(1.0 - mesh.X**2, 0.0))[None, :]
         status = np.full((1, nodes), LUBRICATED)
         status[0, [0, -1]] = BOUNDARY
-        result = SimpleNamespace(
-            converged=True, settled=True, overlap=Overlap(0, 0.0), error=NOT_ASKED, mixed=None
-        )
+        result = bare_result()
         return Solution(config, body, mesh, Fields(P, FILM + 0.0 * P, status), newton_rows(), result)
 
     return make
@@ -103,7 +103,7 @@ def make_wedge():
             {"grid": nodes, "step": k, "residual": 10.0 ** (-6 * k), "linear_iterations": 3}
             for k in range(3)
         ]
-        result = SimpleNamespace(converged=True, settled=True, overlap=Overlap(0, 0.0), cavitated_nodes=0)
+        result = bare_result(cavitated_nodes=0)
         return Solution(config, body, mesh, Fields(P, body.gap(X) + 0.0 * Y, status), rows, result)
 
     return make

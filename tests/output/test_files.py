@@ -9,8 +9,9 @@ import pytest
 
 from mgehl.config import config_from_tables
 from mgehl.output import files
-from mgehl.output.result import ContactResult, InequalityResult, Overlap, Resolution, Result, Work
+from mgehl.output.result import ContactResult, Overlap, Resolution, Result, Work
 from mgehl.output.solution import Solution
+from mgehl.solver.inequality import Inequality
 
 
 def make_result(**changes):
@@ -20,8 +21,8 @@ def make_result(**changes):
         "settled": True, "contradictions": [], "flux_imbalance": 1e-11,
         "contact": ContactResult(3, 0.01, 0.02, (4, 6), None, 0.0),
         "overlap": Overlap(0, 0.0),
-        "pressure_inequality": InequalityResult(8, 1, 0.25, 1.5, [{"i": 6, "j": 3, "size": 0.25}]),
-        "other_inequality": InequalityResult(8, 0, 0.0, 0.0, [], "at the interface"),
+        "pressure_inequality": Inequality(8, 1, 0.25, 1.5, [{"i": 6, "j": 3, "size": 0.25}]),
+        "other_inequality": Inequality(8, 0, 0.0, 0.0, [], "at the interface"),
         "cavitated_nodes": 100, "groups": {"U": 1e-12},
         "resolution": Resolution(5.0, "resolved", "sufficient", 0.1),
         "moes_film": {"central": 4.0}, "formulas": {"grubin_nm": 10.0}, "work": Work(80.5, 14),

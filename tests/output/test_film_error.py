@@ -9,11 +9,13 @@ from mpi4py import MPI
 from test_files import make_result
 
 from mgehl.config import config_from_tables
-from mgehl.output.film_error import GridFilm, from_grids, why_no_band
+from mgehl.output.film_error import from_grids, why_no_band
 from mgehl.output.resolution import Resolution
-from mgehl.output.result import ContactResult, EdgeResult, Overlap
+from mgehl.output.result import ContactResult, Overlap
 from mgehl.run import solve
+from mgehl.solver.films import GridFilm
 from mgehl.solver.richardson import SAFETY, SPREADS_OF_TWO, UNSEEN, UNSEEN_UNLIKE, WIDER
+from mgehl.solver.verification import Edge
 from mgehl.studies.study import papers_grid
 
 FILM = {"motion": {"speed": 1.0}, "grid": papers_grid(65), "discretization": {"couette": "2B"}}
@@ -61,7 +63,7 @@ class TestWhetherThereIsOne:
             ({"settled": False}, "not settled"),
             ({"contact": replace(NO_CONTACT, nodes=3)}, "solid contact"),
             ({"overlap": Overlap(2, 0.1)}, "overlap"),
-            ({"edge": EdgeResult(0.2, 0, 0.0, 41, 43)}, "the domain cuts the contact"),
+            ({"edge": Edge(0.2, 0, 0.0, 41, 43)}, "the domain cuts the contact"),
             ({"resolution": Resolution(0.7, "grid-determined")}, "less than a cell"),
             (
                 {"resolution": Resolution(5.0, "resolved", surface="grid-determined", surface_nodes=2.5)},

@@ -7,8 +7,9 @@ import pytest
 from mpi4py import MPI
 
 from mgehl.config import config_from_tables
-from mgehl.output.gap_error import SPREAD, GridGap, from_grids, half_width, why_no_band
+from mgehl.output.gap_error import SPREAD, from_grids, half_width, why_no_band
 from mgehl.run import solve
+from mgehl.solver.gaps import GridGap
 from mgehl.studies.study import merged
 
 WAVY = {

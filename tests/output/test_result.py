@@ -4,11 +4,12 @@ import numpy as np
 import pytest
 
 from mgehl.discretization.status import BOUNDARY, CONTACT, LUBRICATED
-from mgehl.output.result import EdgeResult, Work
+from mgehl.output.result import Work
 from mgehl.output.summary import summarise
 from mgehl.solver.outcome import Cycle, Outcome
 from mgehl.solver.partition import Changes
 from mgehl.solver.problem import State
+from mgehl.solver.verification import Edge
 
 
 @pytest.fixture
@@ -115,11 +116,11 @@ def test_contact_is_described_with_nodes_counted_from_one(summary, outcome, tiny
 @pytest.mark.parametrize(
     "edge, doubt, words",
     [
-        (EdgeResult(0.0, 13, 337.0, 41, 43), "the bodies overlap", "13 nodes of the domain's boundary"),
-        (EdgeResult(0.2, 0, 0.0, 41, 43), "the domain cuts the contact", "is 20 % of the largest"),
-        (EdgeResult(0.0, 0, 0.0, 3, 43), "too few nodes", "3 nodes wide along x"),
-        (EdgeResult(0.0, 0, 0.0, 41, 1), "too few nodes", "1 nodes wide along y"),
-        (EdgeResult(0.0, 0, 0.0, 41, None), "", ""),
+        (Edge(0.0, 13, 337.0, 41, 43), "the bodies overlap", "13 nodes of the domain's boundary"),
+        (Edge(0.2, 0, 0.0, 41, 43), "the domain cuts the contact", "is 20 % of the largest"),
+        (Edge(0.0, 0, 0.0, 3, 43), "too few nodes", "3 nodes wide along x"),
+        (Edge(0.0, 0, 0.0, 41, 1), "too few nodes", "1 nodes wide along y"),
+        (Edge(0.0, 0, 0.0, 41, None), "", ""),
     ],
 )
 def test_what_is_wrong_with_the_domain_is_said(edge, doubt, words):

@@ -11,10 +11,12 @@ from mgehl.config import config_from_tables
 from mgehl.grid.grid import single_grid
 from mgehl.kinds import Case, case_of, contact_from, mesh_from
 from mgehl.model.frame import Frame
-from mgehl.output.result import NOT_SEEN, ContactResult, InequalityResult
+from mgehl.output.result import ContactResult
 from mgehl.output.solution import Fields, Solution
 from mgehl.output.users_axes import in_users_axes
 from mgehl.solver.from_config import set_up
+from mgehl.solver.inequality import Inequality
+from mgehl.solver.verification import NOT_SEEN
 
 ANGLES = (20.0, 70.0, 110.0, 160.0, 200.0, 250.0, 290.0, 340.0)
 """One for each frame."""
@@ -64,7 +66,7 @@ def _result(fields):
     ends = [tuple(int(n) + 1 for n in np.flatnonzero(solid.sum(axis=axis) > 0)[[0, -1]]) for axis in (0, 1)]
     return make_result(
         contact=ContactResult(6, 0.1, 0.2, *ends, 0.0),
-        pressure_inequality=InequalityResult(8, 1, 0.25, 1.5, [of_P | {"size": 0.25}]),
+        pressure_inequality=Inequality(8, 1, 0.25, 1.5, [of_P | {"size": 0.25}]),
         edge=replace(
             NOT_SEEN, nodes_along_x=solid.any(axis=0).sum(), nodes_along_y=solid.any(axis=1).sum()
         ),

@@ -9,8 +9,9 @@ from test_files import make_result
 
 import mgehl
 from mgehl.output.resolution import Resolution
-from mgehl.output.result import InequalityResult, TimeResult
+from mgehl.output.result import TimeResult
 from mgehl.output.words import FAILED, UNRESOLVED
+from mgehl.solver.inequality import Inequality
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -64,7 +65,7 @@ class TestOfALoadedContact:
             assert part in few
         for part in ("complementarity", "largest gap", "violated at node"):
             assert part in whole and part not in few
-        none = InequalityResult(8, 0, 0.0, 1.5, [])
+        none = Inequality(8, 0, 0.0, 1.5, [])
         assert "inequality" not in make_result(pressure_inequality=none).words(verbose=False)
 
     def test_a_node_that_can_be_neither_is_named_with_both_reasons(self):

@@ -48,7 +48,7 @@ def test_a_ball_inside_fluid_of_one_pressure_breaks_nothing(dry, nodes, is_wavy)
     for pressure in PRESSURES:
         whole = in_fluid(problem, state, pressure, pressure)
         found = check_interface(problem, whole)
-        assert found.checked > nodes / 2 and found.violations == []
+        assert found.checked > nodes / 2 and found.violations == 0
 
 
 def held_closed(dry, p0):
@@ -57,7 +57,7 @@ def held_closed(dry, p0):
         problem, state = dry(nodes)
         found = check_interface(problem, in_fluid(problem, state, p0, 0.0))
         assert found.worst <= p0
-        yield len(found.violations) / found.checked
+        yield found.violations / found.checked
 
 
 @pytest.mark.parametrize("p0, least", [(0.5, 0.7), (2.0, 1.0)])
@@ -82,5 +82,5 @@ def test_a_pressure_that_falls_through_a_contact_breaks_nothing(dry, nodes):
     falling = 0.4 * np.broadcast_to(1.0 / (1.0 + np.exp(4.0 * problem.grid.X)), state.P.shape)
     status = in_fluid(problem, state, 0.0, 0.0).status
     falls = State(falling, state.H0, state.H, status)
-    assert check_interface(problem, falls).violations == []
+    assert check_interface(problem, falls).violations == 0
     assert check_pressure_inequality(problem, falls).violations

@@ -84,7 +84,7 @@ class TestBlockedInlet:
         """[Liu eq. 25]: p_f <= p_d on both sides of the interface."""
         problem, state = blocked
         inequality = check_pressure_inequality(problem, state)
-        assert inequality.violations == [] and inequality.checked == 2
+        assert inequality.violations == 0 and inequality.checked == 2
         i = int(np.flatnonzero(state.status[0] == CONTACT)[0])
         p_f, p_d = state.P[0, i - 1], state.P[0, i]
         assert 0.0 < p_f <= p_d

@@ -9,6 +9,7 @@ from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
 from mgehl.solver.problem import State
 from mgehl.solver.verification import (
     NEAR,
+    Edge,
     check_edge,
     closed_face_flow,
     complementarity_error,
@@ -29,13 +30,13 @@ class TestEdge:
 
     def test_a_contact_inside_holds(self, tiny_problem, dome):
         edge = check_edge(tiny_problem, dome)
-        assert (edge.pressure, edge.overlapping, edge.largest_overlap, edge.across) == (0.0, 0, 0.0, (5, 5))
+        assert edge == Edge(0.0, 0, 0.0, 5, 5)
 
     @pytest.mark.parametrize("node", [(1, 4), (7, 4), (4, 1), (4, 7), (1, 1), (7, 7)])
     def test_the_pressure_beside_each_side_is_seen(self, tiny_problem, dome, node):
         dome.P[node], mesh = 0.25, tiny_problem.grid.mesh
         cell = min(cell for cell, k in zip((mesh.dY, mesh.dX), node, strict=True) if k in (1, 7))
-        assert check_edge(tiny_problem, dome).pressure == pytest.approx(0.25 * NEAR / cell, rel=1e-14)
+        assert check_edge(tiny_problem, dome).pressure_ratio == pytest.approx(0.25 * NEAR / cell, rel=1e-14)
 
     @pytest.mark.parametrize("nodes", [9, 17, 33])
     def test_it_does_not_depend_on_the_cells(self, make_problem, nodes):
@@ -45,13 +46,13 @@ class TestEdge:
         from_x, from_y = (np.minimum(at - at[0], at[-1] - at) for at in (mesh.X, mesh.Y))
         P = np.minimum(from_x[None, :], from_y[:, None])
         edge = check_edge(problem, State(P, 0.0, np.ones(P.shape), np.ones(P.shape, np.int8)))
-        assert edge.pressure == pytest.approx(NEAR / 1.5, rel=1e-12)
+        assert edge.pressure_ratio == pytest.approx(NEAR / 1.5, rel=1e-12)
 
     @pytest.mark.parametrize("node", [(0, 4), (8, 4), (4, 0), (4, 8), (0, 0)])
     def test_bodies_that_overlap_on_the_boundary_are_seen(self, tiny_problem, dome, node):
         dome.H[node] = -0.125
         edge = check_edge(tiny_problem, dome)
-        assert (edge.overlapping, edge.largest_overlap) == (1, 0.125)
+        assert (edge.overlapping, edge.largest_nm) == (1, 0.125e9 * tiny_problem.contact.film_scale)
 
 
 class TestClosedFaceFlow:

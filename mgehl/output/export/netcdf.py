@@ -6,10 +6,9 @@ from functools import partial
 import numpy as np
 import tomli_w
 
-from mgehl.discretization import status
 from mgehl.output.files import FURTHER, further_fields
 from mgehl.output.laws import portable
-from mgehl.output.netcdf import netcdf_file, put
+from mgehl.output.netcdf import PLANES, flags, netcdf_file, put
 
 
 def write_netcdf(path, solution):
@@ -44,18 +43,14 @@ def _write_coordinates(write, solution):
 def _write_fields(write, solution):
     contact, fields = solution.contact, solution.fields
     planes = {
-        "pressure": (solution.pressure, "Pa", "fluid or contact pressure"),
-        "film": (solution.film, "m", "film thickness or gap"),
+        "pressure": (solution.pressure, *PLANES["pressure"]),
+        "film": (solution.film, *PLANES["film"]),
         **{name: (values, *FURTHER[name]) for name, values in further_fields(solution).items()},
         "P": (fields.P, "1", f"pressure over {contact.pressure_scale:.9g} Pa"),
         "H": (fields.H, "1", f"film over {contact.film_scale:.9g} m"),
-        "status": (fields.status, "1", "what the node is"),
-    }
-    flags = {
-        "flag_values": np.arange(len(status.NAMES), dtype=fields.status.dtype),
-        "flag_meanings": " ".join(status.names(solution.is_dry)),
+        "status": (fields.status, *PLANES["status"]),
     }
     for name, (values, unit, meaning) in planes.items():
-        told = {"units": unit, "long_name": meaning} | (flags if name == "status" else {})
-        packed = {"compression": "gzip", "compression_opts": 1}
-        write(name, ("y", "x"), values, packed, coordinates="x_scaled y_scaled", **told)
+        told = {"coordinates": "x_scaled y_scaled", "units": unit, "long_name": meaning}
+        told |= flags(solution.is_dry) if name == "status" else {}
+        write(name, ("y", "x"), values, {"compression": "gzip", "compression_opts": 1}, **told)

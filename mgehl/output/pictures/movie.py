@@ -11,6 +11,7 @@ from mgehl.discretization.status import CAVITATED
 from mgehl.errors import UserError
 from mgehl.output.pictures import style
 from mgehl.output.pictures.style import FILM, PRESSURE, STATUS_MAP, STATUS_NORM
+from mgehl.solver.gaps import within_hertz
 
 SECOND = 10
 """Frames in a second."""
@@ -73,9 +74,7 @@ def _no_film(fields):
 
 def _least_and_most(solution, frames):
     """Of all films within the Hertz contact, in nm."""
-    contact, nodes = solution.contact, (solution.mesh.ny, solution.mesh.nx)
-    across = 0.0 if solution.mesh.is_line else solution.y[:, None] / contact.y_scale
-    inside = np.broadcast_to(np.hypot(solution.x / contact.x_scale, across) <= 1.0, nodes)
+    inside = within_hertz(solution.mesh)
     films = [1e9 * fields["film"][inside] for _, fields in frames]
     return max(min(film.min() for film in films), THINNEST), max(film.max() for film in films)
 

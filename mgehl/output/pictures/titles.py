@@ -46,10 +46,7 @@ def common_title(solutions):
 
 def verdict(result):
     """Whether a run converged, in a word or two."""
-    if result.converged:
-        said = "converged"
-    else:
-        said = f"settled, but {result.doubt}" if result.settled else "NOT converged"
+    said = result.verdict if result.settled else "NOT converged"
     return said + (", THE BODIES OVERLAP" if result.overlap.nodes else "")
 
 

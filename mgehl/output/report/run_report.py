@@ -73,9 +73,10 @@ def report(solution, name):
 
 def verdict(result):
     """The judgement of a result of any kind of contact: its kind and words."""
-    if not result.converged:
-        return (DOUBTFUL, f"Settled, but {result.doubt}") if result.settled else (BAD, "Not converged")
-    return (DOUBTFUL, "Converged, but the bodies overlap") if result.overlap.nodes else (GOOD, "Converged")
+    if result.converged and result.overlap.nodes:
+        return DOUBTFUL, "Converged, but the bodies overlap"
+    kind = GOOD if result.converged else DOUBTFUL if result.settled else BAD
+    return kind, result.verdict[0].upper() + result.verdict[1:]
 
 
 def limited(name, value, limit):

@@ -17,10 +17,8 @@ RIDGE = ["surface.kind=ridge", "surface.amplitude=1e-6", "surface.width=2e-4", "
 
 def shown(solution):
     """With a verdict on its surface."""
-    result = SimpleNamespace(**vars(solution.result))
-    result.resolution = SimpleNamespace(surface="coarse", surface_nodes=6.3)
-    result.Sq_nm = 56.78
-    return replace(solution, result=result)
+    resolution = SimpleNamespace(surface="coarse", surface_nodes=6.3)
+    return replace(solution, result=replace(solution.result, resolution=resolution, Sq_nm=56.78))
 
 
 def test_heights_are_the_surface_s_at_the_nodes(make_solution):

@@ -3,14 +3,14 @@
 from types import SimpleNamespace
 
 import pytest
+from test_files import make_result
 
 from mgehl.config import load_config
 from mgehl.output.pictures.titles import labels, run_names
-from mgehl.output.result import Overlap
 
 
 def runs(*settings, converged=True):
-    result = SimpleNamespace(converged=converged, settled=converged, overlap=Overlap(0, 0.0))
+    result = make_result(converged=converged, settled=converged)
     return [SimpleNamespace(config=load_config(settings=each), result=result) for each in settings]
 
 
