@@ -119,93 +119,84 @@ def _entered(case, comm):
 
 def _find(case, comm, watch, start):
     """The `Solution` of a `Case` (collective)."""
-    find = _solve_bearing
-    if case.contact.is_loaded:
-        solvers = {case.config.is_dry: _solve_dry, case.config.is_in_time: _solve_in_time}
-        find = partial(solvers.get(True, _solve_loaded), start=start)
     with naming_keys(case.contact), np.errstate(all="ignore"):  # what diverges says so itself
-        return find(case, set_up(case), comm, watch)
+        parts = set_up(case)
+        if not case.contact.is_loaded:
+            return _solve_bearing(case, parts, comm, watch)
+        hierarchy = parts.hierarchy(comm)
+        try:
+            return _find_on(hierarchy, case, parts, watch, start)
+        finally:
+            hierarchy.destroy()
 
 
-def _solve_loaded(case, parts, comm, watch, start):
+def _find_on(hierarchy, case, parts, watch, start):
+    """The `Solution` of a loaded contact on these grids (collective)."""
+    config, tolerance = case.config, parts.settings.newton.tolerance
+    kind, solve = progress.newton_row, _solve_in_time if config.is_in_time else _solve_loaded
+    if config.is_dry:
+        kind, solve = progress.dry_row, _solve_dry
+    elif parts.settings.method != "newton-mg":
+        kind = progress.sweep_row
+    monitor = progress.Progress(kind, parts.contact.film_scale, hierarchy, tolerance, watch.speaker)
+    return solve(case, parts, hierarchy, monitor, watch, start)
+
+
+def _solve_loaded(case, parts, hierarchy, monitor, watch, start):
     """A loaded contact, by either method."""
     config, contact, settings = case.config, parts.contact, parts.settings
     by_newton = settings.method == "newton-mg"
-    tolerance = config.solver.tolerance
-    hierarchy = parts.hierarchy(comm)
-    try:
-        kind = progress.newton_row if by_newton else progress.sweep_row
-        monitor = progress.Progress(kind, contact.film_scale, hierarchy, tolerance, watch.speaker)
-        method = begin if by_newton else single_loop
-        if start:
-            method = partial(solve_from, start=start, frame=parts.frame)
-        journal = _journal(config, monitor, watch)
-        problem, outcome = method(hierarchy, contact, settings, monitor=monitor, journal=journal)
-        if by_newton:
-            outcome = close_account(hierarchy, problem, outcome, settings, monitor, journal)
-        work = Work(monitor.convolutions, monitor.steps if by_newton else outcome.cycles[-1].step)
-        result = summarise(problem, outcome, tolerance, work, monitor.seconds, versions())
-        coarser = CoarserGrids(hierarchy, problem, outcome.state, settings, monitor.beside, journal)
-        mixed = result.mixed and replace(result.mixed, error=gap_error(result, coarser, monitor))
-        bands = {"mixed": mixed, "error": film_error(result, coarser, monitor)}
-        friction, maps = friction_result(problem, outcome.state)
-        friction = with_band(friction, mixed, contact.friction.boundary_coefficient)
-        if friction and contact.friction.thins and settings.error:
-            how = hierarchy, problem, outcome.state, settings, monitor.beside, journal
-            friction = with_unthinned(friction, result, partial(unthinned, *how))
-        told = bands | {"friction": friction, "recipe": parts.recipe(start)}
-        result = replace(result, **told, wall_s=monitor.seconds)
-        return _solution(case, parts, problem, outcome.state, monitor.rows, result, maps)
-    finally:
-        hierarchy.destroy()
+    method = begin if by_newton else single_loop
+    if start:
+        method = partial(solve_from, start=start, frame=parts.frame)
+    journal = _journal(config, monitor, watch)
+    problem, outcome = method(hierarchy, contact, settings, monitor=monitor, journal=journal)
+    if by_newton:
+        outcome = close_account(hierarchy, problem, outcome, settings, monitor, journal)
+    work = Work(monitor.convolutions, monitor.steps if by_newton else outcome.cycles[-1].step)
+    result = summarise(problem, outcome, config.solver.tolerance, work, monitor.seconds, versions())
+    coarser = CoarserGrids(hierarchy, problem, outcome.state, settings, monitor.beside, journal)
+    mixed = result.mixed and replace(result.mixed, error=gap_error(result, coarser, monitor))
+    bands = {"mixed": mixed, "error": film_error(result, coarser, monitor)}
+    friction, maps = friction_result(problem, outcome.state)
+    friction = with_band(friction, mixed, contact.friction.boundary_coefficient)
+    if friction and contact.friction.thins and settings.error:
+        how = hierarchy, problem, outcome.state, settings, monitor.beside, journal
+        friction = with_unthinned(friction, result, partial(unthinned, *how))
+    told = bands | {"friction": friction, "recipe": parts.recipe(start)}
+    result = replace(result, **told, wall_s=monitor.seconds)
+    return _solution(case, parts, problem, outcome.state, monitor.rows, result, maps)
 
 
-def _solve_in_time(case, parts, comm, watch, start):
+def _solve_in_time(case, parts, hierarchy, monitor, watch, start):
     """A loaded contact in time."""
-    config, settings = case.config, parts.settings
-    hierarchy, scene = parts.hierarchy(comm), case.scene
-    try:
-        tolerance = settings.newton.tolerance
-        monitor = progress.Progress(
-            progress.newton_row, parts.contact.film_scale, hierarchy, tolerance, watch.speaker
-        )
-        diary = Diary(case, parts.frame, hierarchy.grids[-1], monitor, watch)
-        how = settings, diary, monitor.beside, _journal(config, monitor, watch)
-        problem, outcome = march(scene, hierarchy, *how, start and (start, parts.frame))
-        work = Work(monitor.convolutions, len(monitor.rows))
-        rows, limit = monitor.rows, config.solver.tolerance
-        result = summarise_in_time(
-            problem, outcome, rows, scene.passage, limit, work, monitor.seconds, versions()
-        )
-        result = replace(result, recipe=parts.recipe(start))
-        solution = _solution(case, parts, problem, outcome.state, monitor.rows, result)
-        return replace(solution, frames=diary.frames)
-    finally:
-        hierarchy.destroy()
+    config, scene = case.config, case.scene
+    diary = Diary(case, parts.frame, hierarchy.grids[-1], monitor, watch)
+    how = parts.settings, diary, monitor.beside, _journal(config, monitor, watch)
+    problem, outcome = march(scene, hierarchy, *how, start and (start, parts.frame))
+    work, limit = Work(monitor.convolutions, len(monitor.rows)), config.solver.tolerance
+    result = summarise_in_time(
+        problem, outcome, monitor.rows, scene.passage, limit, work, monitor.seconds, versions()
+    )
+    result = replace(result, recipe=parts.recipe(start))
+    solution = _solution(case, parts, problem, outcome.state, monitor.rows, result)
+    return replace(solution, frames=diary.frames)
 
 
-def _solve_dry(case, parts, comm, watch, start):
+def _solve_dry(case, parts, hierarchy, monitor, watch, start):
     """A loaded contact without a fluid."""
-    contact, limits = parts.contact, parts.settings.newton
-    hierarchy = parts.hierarchy(comm)
-    try:
-        monitor = progress.Progress(
-            progress.dry_row, contact.film_scale, hierarchy, limits.tolerance, watch.speaker
-        )
-        grid, scheme = hierarchy.grids[-1], parts.settings.scheme
-        problem = ContactProblem(grid, hierarchy.deflections[-1], contact, scheme)
-        if start:
-            guess = interpolated(problem, start, parts.frame).P
-        else:
-            guess = guess_on_finest(hierarchy, contact, scheme)
-        journal = _journal(case.config, monitor, watch)
-        tell = partial(monitor, LevelSolve(parts.mesh.nx, None, True))
-        outcome = solve_dry(problem, guess, limits.tolerance, limits.max_steps, tell, journal)
-        work = Work(monitor.convolutions, monitor.steps)
-        result = summarise_dry(problem, outcome, limits.tolerance, work, monitor.seconds, versions())
-        return _solution(case, parts, problem, outcome.state, monitor.rows, result)
-    finally:
-        hierarchy.destroy()
+    limits, scheme, finest = parts.settings.newton, parts.settings.scheme, hierarchy.grids[-1]
+    problem = ContactProblem(finest, hierarchy.deflections[-1], parts.contact, scheme)
+    if start:
+        guess = interpolated(problem, start, parts.frame).P
+    else:
+        guess = guess_on_finest(hierarchy, parts.contact, scheme)
+    journal = _journal(case.config, monitor, watch)
+    tell = partial(monitor, LevelSolve(parts.mesh.nx, None, True))
+    outcome = solve_dry(problem, guess, limits.tolerance, limits.max_steps, tell, journal)
+    work = Work(monitor.convolutions, monitor.steps)
+    result = summarise_dry(problem, outcome, limits.tolerance, work, monitor.seconds, versions())
+    return _solution(case, parts, problem, outcome.state, monitor.rows, result)
 
 
 class _Asked(Journal):
@@ -232,15 +223,11 @@ def _solve_bearing(case, parts, comm, watch):
     started = time.perf_counter()
     bearing, settings = parts.contact, parts.settings
     limits = settings.newton.tolerance, settings.newton.max_steps
-
-    def stop_if_told():
-        """Nothing is kept of a bearing: it is solved in seconds."""
-        if stopped := told_to_stop(comm, watch.stop):
-            raise stopped
-
     grid = single_grid(parts.mesh, comm)
     try:
         prefix = settings.cycle.options_prefix
+        # Nothing is kept of a bearing: it is solved in seconds.
+        stop_if_told = partial(_Asked(watch.stop).step, grid, None)
         problem, outcome = solve_wedge(grid, bearing, settings.scheme, prefix, *limits, stop_if_told)
         result = summarise_wedge(problem, outcome, time.perf_counter() - started, versions())
         rows = progress.wedge_rows(parts.mesh.nx, outcome.cycles)
