@@ -1,7 +1,6 @@
 """One run from a configuration to its directory."""
 
 import time
-from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -121,90 +120,84 @@ def _entered(case, comm):
 
 def _find(case, comm, watch, start):
     """The `Solution` of a `Case` (collective)."""
-    find = _solve_bearing
-    if case.contact.is_loaded:
-        solvers = {case.config.is_dry: _solve_dry, case.config.is_in_time: _solve_in_time}
-        find = partial(solvers.get(True, _solve_loaded), start=start)
     with naming_keys(case.contact), np.errstate(all="ignore"):  # what diverges says so itself
-        return find(case, set_up(case), comm, watch)
+        parts = set_up(case)
+        if not case.contact.is_loaded:
+            return _solve_bearing(case, parts, comm, watch)
+        hierarchy = parts.hierarchy(comm)
+        try:
+            return _find_on(hierarchy, case, parts, watch, start)
+        finally:
+            hierarchy.destroy()
 
 
-@contextmanager
-def _followed(parts, comm, kind, tolerance, watch):
-    """The grids of a solve, which are freed at its end, and the `Progress` that makes such rows of it."""
-    hierarchy = parts.hierarchy(comm)
-    try:
-        yield (
-            hierarchy,
-            progress.Progress(kind, parts.contact.film_scale, hierarchy, tolerance, watch.speaker),
-        )
-    finally:
-        hierarchy.destroy()
+def _find_on(hierarchy, case, parts, watch, start):
+    """The `Solution` of a loaded contact on these grids (collective)."""
+    config, tolerance = case.config, parts.settings.newton.tolerance
+    kind, solve = progress.newton_row, _solve_in_time if config.is_in_time else _solve_loaded
+    if config.is_dry:
+        kind, solve = progress.dry_row, _solve_dry
+    elif parts.settings.method != "newton-mg":
+        kind = progress.sweep_row
+    monitor = progress.Progress(kind, parts.contact.film_scale, hierarchy, tolerance, watch.speaker)
+    return solve(case, parts, hierarchy, monitor, watch, start)
 
 
-def _solve_loaded(case, parts, comm, watch, start):
+def _solve_loaded(case, parts, hierarchy, monitor, watch, start):
     """A loaded contact, by either method."""
     config, contact, settings = case.config, parts.contact, parts.settings
     by_newton = settings.method == "newton-mg"
-    tolerance = config.solver.tolerance
-    kind = progress.newton_row if by_newton else progress.sweep_row
-    with _followed(parts, comm, kind, tolerance, watch) as (hierarchy, monitor):
-        method = begin if by_newton else single_loop
-        if start:
-            method = partial(solve_from, start=start, frame=parts.frame)
-        journal = _journal(config, monitor, watch)
-        problem, outcome = method(hierarchy, contact, settings, monitor=monitor, journal=journal)
-        if by_newton:
-            outcome = close_account(hierarchy, problem, outcome, settings, monitor, journal)
-        work = Work(monitor.convolutions, monitor.steps if by_newton else outcome.cycles[-1].step)
-        result = summarise(problem, outcome, tolerance, work, monitor.seconds, versions())
-        coarser = CoarserGrids(hierarchy, problem, outcome.state, settings, monitor.beside, journal)
-        mixed = result.mixed and replace(result.mixed, error=gap_error(result, coarser, monitor))
-        bands = {"mixed": mixed, "error": film_error(result, coarser, monitor)}
-        friction, maps = friction_result(problem, outcome.state)
-        friction = with_band(friction, mixed, contact.friction.boundary_coefficient)
-        if friction and contact.friction.thins and settings.error:
-            how = hierarchy, problem, outcome.state, settings, monitor.beside, journal
-            friction = with_unthinned(friction, result, partial(unthinned, *how))
-        told = bands | {"friction": friction, "recipe": parts.recipe(start, outcome.begins)}
-        result = replace(result, **told, wall_s=monitor.seconds)
-        return _solution(case, parts, problem, outcome.state, monitor.rows, result, maps)
+    method = begin if by_newton else single_loop
+    if start:
+        method = partial(solve_from, start=start, frame=parts.frame)
+    journal = _journal(config, monitor, watch)
+    problem, outcome = method(hierarchy, contact, settings, monitor=monitor, journal=journal)
+    if by_newton:
+        outcome = close_account(hierarchy, problem, outcome, settings, monitor, journal)
+    work = Work(monitor.convolutions, monitor.steps if by_newton else outcome.cycles[-1].step)
+    result = summarise(problem, outcome, config.solver.tolerance, work, monitor.seconds, versions())
+    coarser = CoarserGrids(hierarchy, problem, outcome.state, settings, monitor.beside, journal)
+    mixed = result.mixed and replace(result.mixed, error=gap_error(result, coarser, monitor))
+    bands = {"mixed": mixed, "error": film_error(result, coarser, monitor)}
+    friction, maps = friction_result(problem, outcome.state)
+    friction = with_band(friction, mixed, contact.friction.boundary_coefficient)
+    if friction and contact.friction.thins and settings.error:
+        how = hierarchy, problem, outcome.state, settings, monitor.beside, journal
+        friction = with_unthinned(friction, result, partial(unthinned, *how))
+    told = bands | {"friction": friction, "recipe": parts.recipe(start, outcome.begins)}
+    result = replace(result, **told, wall_s=monitor.seconds)
+    return _solution(case, parts, problem, outcome.state, monitor.rows, result, maps)
 
 
-def _solve_in_time(case, parts, comm, watch, start):
+def _solve_in_time(case, parts, hierarchy, monitor, watch, start):
     """A loaded contact in time."""
-    config, settings, scene = case.config, parts.settings, case.scene
-    tolerance = settings.newton.tolerance
-    with _followed(parts, comm, progress.newton_row, tolerance, watch) as (hierarchy, monitor):
-        diary = Diary(case, parts.frame, hierarchy.grids[-1], monitor, watch)
-        how = settings, diary, monitor.beside, _journal(config, monitor, watch)
-        problem, outcome = march(scene, hierarchy, *how, start and (start, parts.frame))
-        work = Work(monitor.convolutions, len(monitor.rows))
-        rows, limit = monitor.rows, config.solver.tolerance
-        result = summarise_in_time(
-            problem, outcome, rows, scene.passage, limit, work, monitor.seconds, versions()
-        )
-        result = replace(result, recipe=parts.recipe(start, outcome.begins))
-        solution = _solution(case, parts, problem, outcome.state, monitor.rows, result)
-        return replace(solution, frames=diary.frames)
+    config, scene = case.config, case.scene
+    diary = Diary(case, parts.frame, hierarchy.grids[-1], monitor, watch)
+    how = parts.settings, diary, monitor.beside, _journal(config, monitor, watch)
+    problem, outcome = march(scene, hierarchy, *how, start and (start, parts.frame))
+    work, limit = Work(monitor.convolutions, len(monitor.rows)), config.solver.tolerance
+    result = summarise_in_time(
+        problem, outcome, monitor.rows, scene.passage, limit, work, monitor.seconds, versions()
+    )
+    result = replace(result, recipe=parts.recipe(start, outcome.begins))
+    solution = _solution(case, parts, problem, outcome.state, monitor.rows, result)
+    return replace(solution, frames=diary.frames)
 
 
-def _solve_dry(case, parts, comm, watch, start):
+def _solve_dry(case, parts, hierarchy, monitor, watch, start):
     """A loaded contact without a fluid."""
-    contact, limits = parts.contact, parts.settings.newton
-    with _followed(parts, comm, progress.dry_row, limits.tolerance, watch) as (hierarchy, monitor):
-        grid, scheme = hierarchy.grids[-1], parts.settings.scheme
-        problem = ContactProblem(grid, hierarchy.deflections[-1], contact, scheme)
-        if start:
-            guess = interpolated(problem, start, parts.frame).P
-        else:
-            guess = guess_on_finest(hierarchy, contact, scheme)
-        journal = _journal(case.config, monitor, watch)
-        tell = partial(monitor, LevelSolve(parts.mesh.nx, None, True))
-        outcome = solve_dry(problem, guess, limits.tolerance, limits.max_steps, tell, journal)
-        work = Work(monitor.convolutions, monitor.steps)
-        result = summarise_dry(problem, outcome, limits.tolerance, work, monitor.seconds, versions())
-        return _solution(case, parts, problem, outcome.state, monitor.rows, result)
+    limits, scheme, finest = parts.settings.newton, parts.settings.scheme, hierarchy.grids[-1]
+    problem = ContactProblem(finest, hierarchy.deflections[-1], parts.contact, scheme)
+    if start:
+        guess = interpolated(problem, start, parts.frame).P
+    else:
+        guess = guess_on_finest(hierarchy, parts.contact, scheme)
+    journal = _journal(case.config, monitor, watch)
+    tell = partial(monitor, LevelSolve(parts.mesh.nx, None, True))
+    outcome = solve_dry(problem, guess, limits.tolerance, limits.max_steps, tell, journal)
+    work = Work(monitor.convolutions, monitor.steps)
+    result = summarise_dry(problem, outcome, limits.tolerance, work, monitor.seconds, versions())
+    return _solution(case, parts, problem, outcome.state, monitor.rows, result)
 
 
 class _Asked(Journal):
