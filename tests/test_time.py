@@ -192,12 +192,26 @@ def test_files_of_a_run_in_time(tmp_path):
     with h5netcdf.File(tmp_path / "run" / "frames.nc") as frames:
         assert frames["film"].shape[1:] == (65, 65)
         assert frames["film"][-1] == pytest.approx(solution.film, rel=1e-6)
+        assert frames["filling"][-1] == pytest.approx(solution.fields.filling, rel=1e-6)
         flags = frames["status"].attrs
         assert dict(zip(flags["flag_values"], flags["flag_meanings"].split(), strict=True))[3] == "contact"
     assert json.loads((tmp_path / "run" / "result.json").read_text())["time"]["steps"] == len(solution.rows)
 
 
 DENT = {"surface.kind": "dent", "surface.amplitude": 1e-7, "surface.width": 1e-5}
+
+
+def test_frames_have_the_heights_where_they_are_and_what_cavities_hold():
+    """A dent goes along with its body, a cell of 6 um a step."""
+    dent = {"surface.kind": "dent", "surface.amplitude": 5e-8, "surface.width": 6e-5, "surface.x": -1e-4}
+    solution = solved(**dent, surface__body="body_1", time__end=0.5 * UNIT, time__save_every=0.1 * UNIT)
+    frames = list(solution.frames.all())
+    for t, fields in frames:
+        middle = fields["heights"][32]
+        place = (middle * solution.x).sum() / middle.sum()
+        assert place == pytest.approx(-1e-4 + 0.09 * t, abs=3e-6)
+        assert (fields["filling"][fields["status"] != 2] == 1.0).all()
+    assert len(frames) > 3 and frames[-1][1]["heights"] == pytest.approx(solution.heights, abs=1e-12)
 
 
 @pytest.mark.parametrize(

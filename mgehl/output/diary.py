@@ -19,8 +19,7 @@ class Diary:
         self._config, self._frame, self._grid = case.config, frame, grid
         self._progress, self._watch, self._written = progress, watch, time.monotonic()
         self._length = 1e6 * case.scene.passage
-        pressure, film = case.contact.pressure_scale, case.contact.in_frame(frame).film_scale
-        self._kept = {"pressure": (pressure, "f4"), "film": (film, "f4"), "status": (1, "i1")}
+        self._units = case.contact.pressure_scale, case.contact.in_frame(frame).film_scale
         keys, folder = case.config.time, watch.directory and watch.directory / CHECKPOINT
         self.frames = Frames(keys.save_every or keys.end / FRAMES_OF_A_RUN, folder)
         """Of the instants that are kept, in the user's axes."""
@@ -31,19 +30,22 @@ class Diary:
         row = row_of(instant, standing, problem, progress.convolutions, progress.seconds)
         progress.take(row, progress.seconds * (keys.end - instant.t) / instant.t)
         if self.frames.is_due(instant.t, instant.step):
-            self._take_frame(instant.t, standing.state)
+            self._take_frame(instant.t, standing.state, problem.heights)
         self._write_series()
         settled = keys.until == "settled" and have_settled(progress.rows, self._length)
         return "means over passages have settled" if settled else ""
 
-    def _take_frame(self, t, state):
-        """Keep the fields of an instant in the user's axes and units."""
-        fields = dict(zip(self._kept, (state.P, state.H, state.status), strict=True))
-        whole = {name: self._grid.gather(each) for name, each in fields.items()}
+    def _take_frame(self, t, state, heights):
+        """Keep the fields of an instant in the user's axes and units; `heights` in m, or None."""
+        Pa, m = self._units
+        fields = {"pressure": Pa * state.P, "film": m * state.H, "fluid_pressure": Pa * state.p,
+                  "filling": state.filling, "heights": heights, "status": state.status}  # fmt: skip
+        whole = {name: self._grid.gather(each) for name, each in fields.items() if each is not None}
         if whole["film"] is not None:
+            kinds = {"status": "i1"}
             self.frames.take(t, {
-                name: self._frame.users_array(scale * whole[name]).astype(kind)
-                for name, (scale, kind) in self._kept.items()
+                name: self._frame.users_array(each).astype(kinds.get(name, "f4"))
+                for name, each in whole.items()
             })  # fmt: skip
 
     def _write_series(self):

@@ -6,8 +6,13 @@ import h5netcdf
 import numpy as np
 
 from mgehl.output.archive import save, unpacked
+from mgehl.output.files import FURTHER
 from mgehl.output.netcdf import PLANES, flags, netcdf_file, put
 from mgehl.output.whole_file import whole_file
+
+
+MEANINGS = PLANES | FURTHER
+"""Unit and meaning of what a frame may have; what older runs and smooth bodies do not have is left out."""
 
 
 @dataclass
@@ -56,7 +61,7 @@ class StoredFrames:
         """(Time, {name: array}) of the instants, in order."""
         with h5netcdf.File(self.path, "r") as file:
             for number, t in enumerate(file["time"][:]):
-                yield float(t), {name: file[name][number] for name in PLANES}
+                yield float(t), {name: file[name][number] for name in MEANINGS if name in file}
 
 
 def write_frames(path, frames, x, y, title):
@@ -70,7 +75,7 @@ def write_frames(path, frames, x, y, title):
         put(file, "x", ("x",), x, units="m", long_name="distance along x", axis="X")
         put(file, "y", ("y",), y, units="m", long_name="distance along y", axis="Y")
         packed = {"chunks": (1, len(y), len(x)), "compression": "gzip", "compression_opts": 1}
-        for name, (unit, meaning) in PLANES.items():
-            values = np.stack([fields[name] for _, fields in frames])
+        for name in frames[0][1] if frames else ():
+            values, (unit, meaning) = np.stack([fields[name] for _, fields in frames]), MEANINGS[name]
             told = flags(is_dry=False) if name == "status" else {}
             put(file, name, ("time", "y", "x"), values, packed, units=unit, long_name=meaning, **told)

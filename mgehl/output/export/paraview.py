@@ -62,9 +62,15 @@ def write_pvd(path, solution):
     collection = ElementTree.SubElement(root, "Collection")
     for number, (t, fields) in enumerate(solution.frames.all()):
         name = f"frame-{number:04d}.vts"
-        P, H = fields["pressure"] / contact.pressure_scale, fields["film"] / contact.film_scale
         with whole_file(folder / name) as part:
-            write_vts(part, replace(solution, fields=Fields(P, H, fields["status"])))
+            write_vts(part, replace(solution, fields=_of_instant(fields, contact)))
         ElementTree.SubElement(collection, "DataSet", timestep=repr(t), file=f"{folder.name}/{name}")
     with whole_file(path) as part:
         ElementTree.ElementTree(root).write(part, "utf-8", xml_declaration=True)
+
+
+def _of_instant(fields, contact):
+    """The `Fields` of a frame."""
+    P, H = fields["pressure"] / contact.pressure_scale, fields["film"] / contact.film_scale
+    p = fields["fluid_pressure"] / contact.pressure_scale if "fluid_pressure" in fields else None
+    return Fields(P, H, fields["status"], p, fields.get("filling"), fields.get("heights"))
