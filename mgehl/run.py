@@ -138,7 +138,7 @@ def _find_on(hierarchy, case, parts, watch, start):
     if config.is_dry:
         kind, solve = progress.dry_row, _solve_dry
     elif parts.settings.method != "newton-mg":
-        kind = progress.sweep_row
+        kind, tolerance = progress.sweep_row, parts.settings.relaxation.tolerance
     monitor = progress.Progress(kind, parts.contact.film_scale, hierarchy, tolerance, watch.speaker)
     return solve(case, parts, hierarchy, monitor, watch, start)
 
