@@ -19,6 +19,7 @@ from mgehl.output.checkpoint import load
 from mgehl.output.terminal import Silent
 from mgehl.run import Watch, solve
 from mgehl.solver.record import Kept
+from mgehl.studies.study import PAPER
 
 STOPPED = Stopped("told to", 143)
 CONFIG = config_from_tables({})
@@ -115,9 +116,9 @@ FILM = {"motion": {"speed": 0.5}, "solver": {"start": "film"}}
 CASES = {
     "film": FILM,
     "film on two grids": FILM | {"grid": {"nodes": 129}},
-    "film that Eq. 2 is tried on": {"motion": {"speed": 0.12}, "solver": {"start": "film"}},
-    "contact": {"motion": {"speed": 5e-6}, "solver": {"start": "contact"}},
-    "contact and film": {"motion": {"speed": 5e-4}, "solver": {"start": "contact"}},
+    "film that Eq. 2 is tried on": PAPER | {"motion": {"speed": 0.12}, "solver": {"start": "film"}},
+    "contact": PAPER | {"motion": {"speed": 5e-6}, "solver": {"start": "contact"}},
+    "contact and film": PAPER | {"motion": {"speed": 5e-4}, "solver": {"start": "contact"}},
     # Five solves: a film by the logarithmic mean, the turn to the geometric one, a step in speed that fails
     # within twelve Newton steps, and twice a half of it.
     "geometric mean": {

@@ -19,11 +19,11 @@ from mgehl.output.finish import finish_run
 from mgehl.output.report.run_report import report
 from mgehl.output.stored import read_run
 from mgehl.run import run, save, solve
-from mgehl.studies.study import PAPERS_DOMAIN, papers_grid
+from mgehl.studies.study import PAPER, PAPERS_DOMAIN, papers_grid
 
 KINDS = {
     "point": {"motion": {"speed": 0.5}, "grid": papers_grid(65), "solver": {"start": "film"}},
-    "contact": {"motion": {"speed": 5e-6}, "grid": papers_grid(65), "solver": {"start": "contact"}},
+    "contact": PAPER | {"motion": {"speed": 5e-6}, "grid": papers_grid(65), "solver": {"start": "contact"}},
     "line": {
         "contact": {"kind": "line"},
         "motion": {"speed": 0.3},

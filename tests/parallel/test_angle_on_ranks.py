@@ -6,7 +6,7 @@ from mpi4py import MPI
 
 from mgehl.config import config_from_tables
 from mgehl.run import solve
-from mgehl.studies.study import papers_grid
+from mgehl.studies.study import PAPER, papers_grid
 
 pytestmark = pytest.mark.parallel
 
@@ -14,7 +14,8 @@ COMM = MPI.COMM_WORLD
 WIDE = {"nodes": 65, "x": [-1.9, 1.7], "y": [-1.8, 1.9]}
 CASES = {
     "film": {"contact": {"radius_y": 25.4e-3}, "motion": {"speed": 1.0}, "grid": WIDE},
-    "contact": {"motion": {"speed": 5e-6}, "grid": papers_grid(129), "solver": {"start": "contact"}},
+    "contact": PAPER
+    | {"motion": {"speed": 5e-6}, "grid": papers_grid(129), "solver": {"start": "contact"}},
 }
 ANGLES = (30.0, 110.0)
 """In the user's axes, and in others."""

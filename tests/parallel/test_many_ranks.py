@@ -14,13 +14,14 @@ from processes import own_environment
 
 from mgehl.config import config_from_tables
 from mgehl.run import solve
-from mgehl.studies.study import papers_grid
+from mgehl.studies.study import PAPER, papers_grid
 
 RANKS = 9
 CASES = {
     "film": {"motion": {"speed": 3.0}, "grid": papers_grid(65)},
     "film on coarse grids, too": {"motion": {"speed": 8.0}, "grid": papers_grid(129)},
-    "contact": {"motion": {"speed": 5e-6}, "grid": papers_grid(129), "solver": {"start": "contact"}},
+    "contact": PAPER
+    | {"motion": {"speed": 5e-6}, "grid": papers_grid(129), "solver": {"start": "contact"}},
     "wedge": {"contact": {"kind": "wedge"}, "wedge": {"pillar": "square"}, "grid": {"nodes": 65}},
 }
 SOLVE_ALL = """
