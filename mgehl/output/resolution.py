@@ -83,7 +83,7 @@ def expectation(cells, start, is_mixed, shuts):
     if cells >= (FILM_TOUCHES if shuts else FILM_IS_THE_GRIDS):
         return "a film that changes with the grid"
     if not shuts:
-        return "a film that the grid does not see, thin enough to touch where the grid decides"
+        return "a film that the grid does not see: it and any contact are the grid's"
     if start == "contact" and cells < CONTACT_OPENS:
         return "full contact, whose inlet the grid does not see"
     return "film and contact side by side; where they meet is decided by the grid"
