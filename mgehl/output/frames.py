@@ -10,7 +10,6 @@ from mgehl.output.files import FURTHER
 from mgehl.output.netcdf import PLANES, flags, netcdf_file, put
 from mgehl.output.whole_file import whole_file
 
-
 MEANINGS = PLANES | FURTHER
 """Unit and meaning of what a frame may have; what older runs and smooth bodies do not have is left out."""
 
