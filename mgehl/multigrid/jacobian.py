@@ -154,7 +154,7 @@ class Jacobian:
         if self.contents is None:
             self.linearisation.carried = None
         self.under_contact = None
-        if self.linearisation.leak is not None:
+        if self.linearisation.leak is not None and self.grid.has_lines:
             self.under_contact = UnderContact(self.grid, self.linearisation)
             self._in_contact = evaluation.status == CONTACT
         self.mat.stateIncrease()
