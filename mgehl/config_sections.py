@@ -31,6 +31,8 @@ class ContactSection:
         ("half-space", "coated"), own=absolute)
     boundary_film: float = number(0.0, "film that adsorbed layers keep between solids; contact is where it "
         "would be thinner", "m", 0.0, 1e-6)
+    ambient_pressure: float = number(0.0, "pressure of the oil around the contact, above that at which the "
+        "film tears; pressures of a run are above it", "Pa", 0.0, 1e9)
     surface: str | None = word(None, "heights, a peak positive, by a function of one's own", own=absolute)
     surface_body: str = word(STILL, "the body that carries contact.surface: as surface.body", BODIES)
     # fmt: on

@@ -68,8 +68,8 @@ def fluid_state(P, H, contact, contact_law, touching=None, torn=None, filling=No
     if touching is not None and not contact_law.closes_faces:
         H, follows = np.where(touching, contact_law.contact_gap, H), ~touching
     lubricant, p_h = contact.lubricant, contact.pressure_scale
-    rho, drho_dP = lubricant.density_law.density(P, p_h)
-    log_eta, dlog_eta_dP = lubricant.viscosity_law.log_viscosity(P, p_h)
+    rho, drho_dP = lubricant.density(P, p_h)
+    log_eta, dlog_eta_dP = lubricant.log_viscosity(P, p_h)
     by_H3 = rho * np.exp(-log_eta) / contact.lambda_
     gap, dgap_dH = contact_law.flow_gap(H)
     by_H2 = by_H3 * gap * gap

@@ -14,7 +14,7 @@ from mgehl.discretization.couette import SHIFT
 from mgehl.discretization.faces import nodes_of_flows
 from mgehl.discretization.mesh import HALO
 from mgehl.discretization.rows import FLOW, GAP, PRESSURE
-from mgehl.discretization.status import CONTACT
+from mgehl.discretization.status import CAVITATED, CONTACT
 
 
 @dataclass
@@ -69,6 +69,8 @@ def residual(evaluation, rows):
     """The row of the nonlinear residual that each node has, (lines, nx) as `rows`."""
     dX = evaluation.mesh.dX
     F = np.where(rows == FLOW, evaluation.inflow, -own(evaluation.P) / dX)
+    if tears_at := evaluation.contact.tears_at:
+        F[(rows == PRESSURE) & (own(evaluation.status) == CAVITATED)] += tears_at / dX
     closed = rows == GAP
     F[closed] = (evaluation.scheme.contact_law.contact_gap - own(evaluation.H)[closed]) / dX
     return F

@@ -20,7 +20,7 @@ ROOM = 1.5
 
 OF_A_FLUID = (
     "lubricant", "motion", "friction", "heat", *MOTION, "relaxation",
-    "contact.boundary_film", "grid.load_beyond",
+    "contact.boundary_film", "contact.ambient_pressure", "grid.load_beyond",
     "discretization.couette", "discretization.face_mobility", "discretization.unified_gap",
     "discretization.couette_at_interface", "discretization.cavitation", "discretization.film_threshold",
     "solver.method", "solver.start", "solver.linear_tolerance", "solver.sweeps", "solver.omega",

@@ -18,7 +18,8 @@ class LineKind(LoadedKind):
     load_unit = "N/m"
     takes = (
         "contact.load_per_length", "contact.radius_x", "contact.reduced_modulus", "contact.boundary_film",
-        "contact.surface", "contact.surface_body", "surface", "second_surface", *OF_A_LINE,
+        "contact.ambient_pressure", "contact.surface", "contact.surface_body",
+        "surface", "second_surface", *OF_A_LINE,
         "lubricant", "motion.speed", "motion.slide_to_roll", "motion.ring_rotation", "time",
         "friction", "heat",
         "grid.nodes", "grid.x", "discretization", "solver", "relaxation",

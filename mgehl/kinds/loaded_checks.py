@@ -39,7 +39,8 @@ def check_size(key, size, radii, part):
 
 def check_own_laws(contact):
     """The derivatives of a user's own laws must be those of their values, shear stresses must be some."""
-    highest, rheology = CHECKED_PRESSURE * contact.hertz.p_h, contact.friction.rheology
+    rheology, around = contact.friction.rheology, contact.lubricant.ambient_pressure
+    highest = around + CHECKED_PRESSURE * contact.hertz.p_h
     check_own_laws_up_to(contact.lubricant, highest)
     if isinstance(rheology, OwnRheology):
         rheology.check(highest, contact.lubricant.viscosity, CHECKED_SHEAR_RATE)

@@ -15,7 +15,7 @@ from mgehl.model.sources import SOURCES
 @dataclass(frozen=True)
 class LubricantSection:
     # fmt: off
-    viscosity: float = number(0.096, "viscosity at ambient pressure", "Pa*s", 1e-6, 1e4,
+    viscosity: float = number(0.096, "viscosity where p = 0", "Pa*s", 1e-6, 1e4,
         instead="lubricant.kinematic_viscosity takes cSt, beside lubricant.density")
     viscosity_law: str = word("barus", "viscosity-pressure law", tuple(VISCOSITY_LAWS), own=absolute)
     pressure_viscosity: float = number(18.2e-9, "pressure-viscosity coefficient", "1/Pa", 1e-10, 1e-6)
@@ -104,19 +104,20 @@ def check_laws(config):
 def lubricant_from(config):
     """The lubricant, by built-in laws or the user's own. Raises ValueError where the numbers fit no law."""
     section = config.lubricant
-    ambient = section.viscosity, section.pressure_viscosity
+    at_rest = section.viscosity, section.pressure_viscosity
     if section.oil is not None:
         # By the numbers of the run that is read, where that was made by other ones.
         viscosity = replace(
-            OILS[section.oil].law(section.temperature), viscosity=ambient[0], pressure_viscosity=ambient[1]
+            OILS[section.oil].law(section.temperature), viscosity=at_rest[0], pressure_viscosity=at_rest[1]
         )
     elif is_own(section.viscosity_law):
-        viscosity = OwnViscosity(*ambient, OwnFunction(section.viscosity_law), section.temperature)
+        viscosity = OwnViscosity(*at_rest, OwnFunction(section.viscosity_law), section.temperature)
     else:
-        viscosity = VISCOSITY_LAWS[section.viscosity_law](*ambient)
+        viscosity = VISCOSITY_LAWS[section.viscosity_law](*at_rest)
     if is_own(section.density_law):
         density = OwnDensity(OwnFunction(section.density_law), section.temperature)
     else:
         density = DENSITY_LAWS[section.density_law]()
     beta = thinning_of(config) if section.thermoviscosity is None else section.thermoviscosity
-    return Lubricant(viscosity, density, section.conductivity, beta)
+    known = section.conductivity, beta
+    return Lubricant(viscosity, density, *known, ambient_pressure=config.contact.ambient_pressure)

@@ -65,7 +65,8 @@ class PointKind(LoadedKind):
     load_unit = "N"
     takes = (
         "contact.load", "contact.radius_x", "contact.radius_y", "contact.reduced_modulus",
-        "contact.deformation", "contact.boundary_film", "contact.surface", "contact.surface_body",
+        "contact.deformation", "contact.boundary_film", "contact.ambient_pressure",
+        "contact.surface", "contact.surface_body",
         "body_1", "body_2",
         "surface", "second_surface",
         "coating", "lubricant", "motion", "time", "friction", "heat", "moes",

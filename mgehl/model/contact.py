@@ -80,10 +80,10 @@ class LoadedContact(OnBodies, Inlet):
     @property
     def density_ratio(self):
         """Density of the oil at p_h over that at rest."""
-        return self._density_ratio(self.lubricant.density_law)
+        return self._density_ratio(self.lubricant)
 
-    def _density_ratio(self, law):
-        return float(law.density(np.ones((1, 1)), self.hertz.p_h)[0][0, 0])
+    def _density_ratio(self, oil):
+        return float(oil.density(np.ones((1, 1)), self.hertz.p_h)[0][0, 0])
 
     @property
     def compared(self):
@@ -92,7 +92,8 @@ class LoadedContact(OnBodies, Inlet):
         """
         if "elastic" not in self.regime:
             return self.shown_formulas
-        own, theirs = self.density_ratio, self._density_ratio(DowsonHigginson())
+        assumed_oil = replace(self.lubricant, density_law=DowsonHigginson())
+        own, theirs = self.density_ratio, self._density_ratio(assumed_oil)
         found = {}
         for name, film in self.shown_formulas.items():
             assumed = 1.0 if films.formula_of(name).incompressible else theirs
@@ -185,6 +186,11 @@ class LoadedContact(OnBodies, Inlet):
         return self.hertz.p_h
 
     @property
+    def tears_at(self):
+        """P at which the film tears: nothing, or as far below the ambient pressure."""
+        return 0.0 - self.lubricant.ambient_pressure / self.pressure_scale
+
+    @property
     def film_scale(self):
         """Metres per unit of H: a^2/R_x."""
         return self.hertz.a**2 / self.radius_x
@@ -209,7 +215,7 @@ class LoadedContact(OnBodies, Inlet):
 
         [Gupta, Cheng, Zhu, Forster, Schrand 1992]
         """
-        loading = self.lubricant.viscosity_law.viscosity * beta * self.speed**2 / conductivity
+        loading = self.lubricant.cold_viscosity * beta * self.speed**2 / conductivity
         slip = self.friction.slide_to_roll
         return films.inlet_heating(self.hertz.p_h / self.reduced_modulus, loading, slip)
 

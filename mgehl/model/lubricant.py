@@ -5,6 +5,7 @@ residual and its linearisation cannot drift apart.
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 from math import log
 
 import numpy as np
@@ -111,13 +112,52 @@ class Lubricant:
     """beta of eta ~ exp(-beta T), in 1/K; None where it is not known."""
     thinned: float = 1.0
     """Part of the viscosity that the heat of shear leaves in the inlet."""
+    ambient_pressure: float = 0.0
+    """Pressure around the contact in Pa, above that at which the oil tears. P is what comes on top, and
+    values are over those there."""
 
     @property
     def viscosity(self):
         """eta0 in Pa s, as the inlet has it."""
-        return self.thinned * self.viscosity_law.viscosity
+        return self.thinned * self.cold_viscosity
+
+    @property
+    def cold_viscosity(self):
+        """The same before the heat of shear thins it."""
+        return self.viscosity_law.viscosity * float(np.exp(self._ambient_log_viscosity[0]))
 
     @property
     def pressure_viscosity(self):
-        """alpha in 1/Pa."""
-        return self.viscosity_law.pressure_viscosity
+        """alpha in 1/Pa, the slope at the ambient pressure."""
+        return self._ambient_log_viscosity[1]
+
+    def log_viscosity(self, P, p_h):
+        """Return ln(eta/eta0) and its derivative by P, p_h P above the ambient pressure; shapes as P."""
+        if not self.ambient_pressure:
+            return self.viscosity_law.log_viscosity(P, p_h)
+        value, slope = self.viscosity_law.log_viscosity(P + self.ambient_pressure / p_h, p_h)
+        return value - self._ambient_log_viscosity[0], slope
+
+    def density(self, P, p_h):
+        """Return the density over that at the ambient pressure and its derivative by P, as before."""
+        if not self.ambient_pressure:
+            return self.density_law.density(P, p_h)
+        found = self.density_law.density(P + self.ambient_pressure / p_h, p_h)
+        return tuple(each / self._ambient_density for each in found)
+
+    @cached_property
+    def _ambient_log_viscosity(self):
+        """ln(eta/eta where p = 0) and its slope in 1/Pa at the ambient pressure."""
+        if not self.ambient_pressure:
+            return 0.0, self.viscosity_law.pressure_viscosity
+        return _at(self.viscosity_law.log_viscosity, self.ambient_pressure)
+
+    @cached_property
+    def _ambient_density(self):
+        return _at(self.density_law.density, self.ambient_pressure)[0]
+
+
+def _at(law, p):
+    """What a law of the pressure gives at `p` in Pa, and its derivative in 1/Pa."""
+    found = (np.broadcast_to(each, (1, 1)) for each in law(np.full((1, 1), p), 1.0))
+    return tuple(float(each[0, 0]) for each in found)

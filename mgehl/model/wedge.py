@@ -96,6 +96,8 @@ class WedgeBearing:
     roughness = 0.0
     """The gap is given."""
     thinning = None
+    tears_at = 0.0
+    """Its P counts from there, and is the ambient one around the pad."""
     lambda_ = 6.0
     """Reynolds coefficient of d(H^3 dP/dX)/dX = 6 dH/dX."""
     x_scale = y_scale = MM

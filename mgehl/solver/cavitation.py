@@ -70,7 +70,8 @@ def relax_cavitation_set(problem, state, evaluation=None):
     movable = _relaxable(problem, evaluation, state)
     cavity = state.status == CAVITATED
     film, empty = ~cavity, np.maximum(1.0 - state.filling, 0.0)
-    w = grid.halo(np.where(cavity, -empty, own(evaluation.P)))
+    tears_at = problem.contact.tears_at
+    w = grid.halo(np.where(cavity, -empty, own(evaluation.P) - tears_at))
     carried = evaluation.carried_by_full_gaps()
     if not problem.scheme.contact_law.has_contact:  # bodies may overlap: cavities count as full
         carried = tuple(np.zeros(each.shape) for each in carried)
@@ -83,7 +84,7 @@ def relax_cavitation_set(problem, state, evaluation=None):
             grid.refresh(w)
         sweeps, quiet = sweeps + 1, 0 if grid.sum(changes) else quiet + 1
     moved = grid.count(film == cavity)
-    P = np.where(movable, np.maximum(own(w), 0.0), state.P)
+    P = np.where(movable, np.maximum(own(w), 0.0) + tears_at, state.P)
     may_shift = SHIFTED[bool(problem.contact.roughness)] * grid.sum(state.P.sum())
     if not moved or abs(grid.sum((P - state.P).sum())) > may_shift:
         return 0
@@ -104,7 +105,7 @@ def cavities_rest(problem, state):
     Where the gap moves, too, the relaxation knows more: it finds what the pressure will ask for (M = 20,
     L = 10 by 2B on 513 nodes: 39 convolutions for 43).
     """
-    pulls = (state.status == LUBRICATED) & (state.P <= 0.0)
+    pulls = (state.status == LUBRICATED) & (state.P <= problem.contact.tears_at)
     return problem.grid.count(pulls | overflows(state)) == 0
 
 

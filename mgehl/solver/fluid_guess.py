@@ -35,4 +35,4 @@ def guess_fluid(hierarchy, problem, state, settings):
     film = (state.status == LUBRICATED) & ~beside_contact
     state.P[film] = transfer.bilinear(coarse.P)[film]
     state.p[film] = state.P[film]
-    state.status[film & empty & (state.P == 0.0)] = CAVITATED
+    state.status[film & empty & (state.P == problem.contact.tears_at)] = CAVITATED

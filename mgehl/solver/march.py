@@ -204,8 +204,9 @@ class March:
         P, H0 = last.P, last.H0
         if not halvings and not problem.grid.count(last.status == CONTACT):
             weights = _continued(standing.times, t)
-            P = np.maximum(np.tensordot(weights, standing.P, 1), 0.0)
-            P, H0 = np.where(last.P > 0.0, P, 0.0), float(np.dot(weights, standing.H0))
+            tears_at = problem.contact.tears_at
+            P = np.maximum(np.tensordot(weights, standing.P, 1), tears_at)
+            P, H0 = np.where(last.P > tears_at, P, tears_at), float(np.dot(weights, standing.H0))
         status = np.where(last.status == BOUNDARY, BOUNDARY, last.status)
         return problem.state(P, H0, status, last.p.copy(), last.filling.copy())
 

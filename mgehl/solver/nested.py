@@ -96,7 +96,7 @@ def interpolate(transfer, problem, coarse):
     """
     P = transfer.cubic(coarse.P)
     in_contact = transfer.bilinear((coarse.status == CONTACT).astype(float)) > 0.5
-    film = (P > 0.0) | (not problem.scheme.cavitation)
+    film = (P > problem.contact.tears_at) | (not problem.scheme.cavitation)
     status = np.where(in_contact, CONTACT, np.where(film, LUBRICATED, CAVITATED))
     return problem.state(P, coarse.H0, status, transfer.bilinear(coarse.p))
 

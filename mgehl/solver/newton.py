@@ -277,7 +277,8 @@ class Newton(PythonSnes):
         """f = bordered residual at x for the present partition."""
         status = self._position.state.status
         evaluation = self._evaluated(x)
-        P = np.where(self._problem.feeding(status), 0.0, self._space.read_pressure(x))
+        tears_at = self._problem.contact.tears_at
+        P = np.where(self._problem.feeding(status), tears_at, self._space.read_pressure(x))
         F, load = self._problem.residual(evaluation, status), self._problem.load_deficit(P)
         self._space.write(f, F, load * self._load_scale)
 
@@ -292,7 +293,7 @@ class Newton(PythonSnes):
         if H0 == state.H0 and problem.grid.count(z != self._unknowns(state)) == 0:
             return self._evaluation
         feeds = problem.feeding(state.status)
-        P, filling = np.where(feeds, 0.0, z), np.where(feeds, z, state.filling)
+        P, filling = np.where(feeds, problem.contact.tears_at, z), np.where(feeds, z, state.filling)
         return problem.evaluate(problem.state(P, H0, state.status, state.p, filling))
 
     def _unknowns(self, state):

@@ -109,7 +109,7 @@ class Partition:
 
     def __init__(self, problem, release_budget):
         self._problem, self._grid = problem, problem.grid
-        self._contact_law = problem.scheme.contact_law
+        self._contact_law, self._tears_at = problem.scheme.contact_law, problem.contact.tears_at
         self._budget = release_budget
         self.past = self.nothing_past()
 
@@ -124,7 +124,7 @@ class Partition:
 
     def tension(self, P, status):
         """Where fluid would be torn, and where contact, by negative pressures: two arrays (lines, nx)."""
-        negative = P < 0.0
+        negative = P < self._tears_at
         torn = negative & (status == LUBRICATED) & self._problem.scheme.cavitation
         return torn, negative & (status == CONTACT)
 
@@ -136,13 +136,13 @@ class Partition:
         self.fit(state)
 
     def cut_tension(self, state, changes, in_turn=False):
-        """Set negative pressures to zero in place: fluid cavitates, contact is released."""
+        """Set pressures below that of torn film to it in place: fluid cavitates, contact is released."""
         P, status = state.P, state.status
         torn, tensile = self.tension(P, status)
-        opened = self._that_change(torn, -P, in_turn)
-        self.past.torn_pressure[tensile] = P[tensile]
+        opened = self._that_change(torn, self._tears_at - P, in_turn)
+        self.past.torn_pressure[tensile] = P[tensile] - self._tears_at
         self.past.turns += tensile & self._contact_law.closes_faces
-        P[torn | tensile] = 0.0
+        P[torn | tensile] = self._tears_at
         # Bodies that are torn apart leave an empty gap: a cavity, until fluid flows in.
         status[opened | tensile] = CAVITATED
         state.filling[opened], state.filling[tensile] = 1.0, 0.0
@@ -190,7 +190,7 @@ class Partition:
         """Contents from nothing to what the gap holds, and p as P where there are no solids; in place."""
         state.filling = np.clip(state.filling, 0.0, 1.0)
         contact = (state.status == CONTACT) & (not self.asks_eq_2)
-        state.p = np.where(contact, np.maximum(state.p, 0.0), state.P)
+        state.p = np.where(contact, np.maximum(state.p, self._tears_at), state.P)
 
     def fill(self, state, changes, in_turn=False):
         """Cavities whose content is more than the gap holds become film; return how many."""

@@ -197,7 +197,7 @@ class ContactProblem(Problem):
         P = np.where(self.boundary, 0.0, P)
         status = np.where(self.boundary, BOUNDARY, status).astype(np.int8)
         H = self.gap(P, H0)
-        p = P.copy() if p is None else np.where(status == CONTACT, np.clip(p, 0.0, P), P)
+        p = P.copy() if p is None else np.where(status == CONTACT, np.clip(p, self.contact.tears_at, P), P)
         filling = np.ones(P.shape) if filling is None else np.clip(filling, 0.0, 1.0)
         return State(P, H0, H, status, p, filling)
 

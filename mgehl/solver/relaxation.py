@@ -146,7 +146,11 @@ class _Relaxation:
         (Cutting negative pressures alone settles with a residual beside the cavity: a line's new
         pressures there answer to those that are cut.)
         """
-        empty = (state.status == LUBRICATED) & (state.P <= 0.0) & (evaluation.inflow <= 0.0)
+        empty = (
+            (state.status == LUBRICATED)
+            & (state.P <= self._problem.contact.tears_at)
+            & (evaluation.inflow <= 0.0)
+        )
         state.status[empty & self._problem.scheme.cavitation] = CAVITATED
 
     def change(self, state, evaluation):
@@ -171,7 +175,7 @@ class _Relaxation:
         factor = np.where(state.status == CONTACT, settings.contact_share, 1.0) * settings.omega
         state.P += factor * change
         if problem.scheme.cavitation:
-            np.maximum(state.P, 0.0, out=state.P)
+            np.maximum(state.P, problem.contact.tears_at, out=state.P)
         if (step + 1) % settings.load_every == 0:
             state.H0 += settings.load_factor * problem.load_deficit(state.P)
         state.H = problem.gap(state.P, state.H0)

@@ -105,8 +105,9 @@ def forecast_state(problem, last, forecast, frame):
     before = interpolated(problem, forecast.before, frame)
 
     def on(newer, older):
-        more = newer + forecast.factor * (newer - older)
-        return np.where(last.P > 0.0, np.maximum(more, LEAST_LEFT * newer), 0.0)
+        more, torn = newer + forecast.factor * (newer - older), problem.contact.tears_at
+        least = torn + LEAST_LEFT * (newer - torn)
+        return np.where(last.P > torn, np.maximum(more, least), torn)
 
     P = on(last.P, before.P)
     p = np.minimum(on(last.p, before.p), P)
@@ -129,7 +130,9 @@ def interpolated(problem, start, frame):
         fluid = start.fields.P if start.fields.p is None else start.fields.p
         p = _onto(mesh, old, frame.array(fluid))
         filling = 1.0 - _onto(mesh, old, 1.0 - frame.array(_filling(start.fields)))  # full outside
-        film = np.where((P > 0.0) | (not problem.scheme.cavitation), LUBRICATED, CAVITATED)
+        film = np.where(
+            (P > problem.contact.tears_at) | (not problem.scheme.cavitation), LUBRICATED, CAVITATED
+        )
         touching = (_onto(mesh, old, in_contact) > 0.5) & problem.scheme.contact_law.has_contact
         status = np.where(touching, CONTACT, film).astype(np.int8)
     scale = start.contact.film_scale / start.contact.in_frame(frame).film_scale

@@ -101,8 +101,9 @@ class RigidGapFluid:
             self._correct(state, evaluation, residual, separable)
             steps.append(FluidStep(rms, self._ksp.getIterationNumber()))
             if problem.scheme.cavitation:
-                torn = (state.P < 0.0) & separable & (state.status == LUBRICATED)
-                state.P[torn] = 0.0
+                tears_at = problem.contact.tears_at
+                torn = (state.P < tears_at) & separable & (state.status == LUBRICATED)
+                state.P[torn] = tears_at
                 state.status[torn] = CAVITATED
                 state.filling[torn] = 1.0
             evaluation = self._evaluated(state)

@@ -45,10 +45,13 @@ def film_shear(problem, state):
     here = is_fluid(state.status) & (gap > 0.0)
     if speed == 0.0 or not here.any():
         return tau
-    p_h, law = contact.pressure_scale, contact.lubricant.viscosity_law
-    P = np.maximum(state.p[here], 0.0)
-    eta = law.viscosity * np.exp(np.broadcast_to(law.log_viscosity(P[None], p_h)[0], (1, P.size))[0])
-    at = Conditions(p_h * P, eta, shear_rate=speed / (contact.film_scale * gap[here]))
+    p_h, oil = contact.pressure_scale, contact.lubricant
+    P = np.maximum(state.p[here], contact.tears_at)
+    thicker = np.broadcast_to(oil.log_viscosity(P[None], p_h)[0], (1, P.size))[0]
+    eta = oil.cold_viscosity * np.exp(thicker)
+    at = Conditions(
+        oil.ambient_pressure + p_h * P, eta, shear_rate=speed / (contact.film_scale * gap[here])
+    )
     tau[here] = contact.friction.rheology.shear_stress(at)
     return np.where(state.status == CAVITATED, state.filling, 1.0) * tau
 

@@ -28,7 +28,7 @@ def step_length(problem, partition, evaluation, state, dP, dH0, settings):
     if not settings.by_film:
         return length, None, None
     P = state.P - length * dP
-    P[np.logical_or(*partition.tension(P, state.status))] = 0.0
+    P[np.logical_or(*partition.tension(P, state.status))] = problem.contact.tears_at
     H = problem.gap(P, state.H0 - length * dH0)
     allowed = LARGEST_CHANGE / max(mean_change(problem, evaluation, state, H), SMALLEST)
     dH = (state.H - H) / length

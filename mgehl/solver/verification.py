@@ -126,9 +126,10 @@ def complementarity_error(problem, state, evaluation):
     law = scheme.contact_law
     cavity, contact = status == CAVITATED, status == CONTACT
     tension = contact | (status == LUBRICATED) if scheme.cavitation else contact
+    tears_at = problem.contact.tears_at
     breaches = [
-        -state.P[tension],
-        np.abs(state.P[cavity]),
+        tears_at - state.P[tension],
+        np.abs(state.P[cavity] - tears_at),
         _out_of_balance(evaluation.inflow[cavity], law) * grid.mesh.dX,
         (state.filling[cavity] - 1.0) * state.H[cavity],
         np.abs(state.H[contact] - law.contact_gap),
@@ -137,7 +138,7 @@ def complementarity_error(problem, state, evaluation):
         breaches.append(enclosed(grid.halo_status(status), problem.axes).astype(float))
     else:
         breaches.append(np.abs(evaluation.inflow[contact]) * grid.mesh.dX)
-        breaches += [-state.p[contact], state.p[contact] - state.P[contact]]
+        breaches += [tears_at - state.p[contact], state.p[contact] - state.P[contact]]
     if law.has_contact:
         breaches.append(law.contact_gap - state.H[is_fluid(status)])
     return max(grid.max(breach, initial=0.0) for breach in breaches)

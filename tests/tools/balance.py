@@ -56,7 +56,7 @@ def flows(run):
             file[name][:]
             for name in ("pressure", "P", "p", "film", "filling", "status", "x", "y", "X", "Y")
         )
-    fluid = p * (pressure.max() / P.max())
+    fluid = p * (pressure.max() / P.max()) + config["contact"].get("ambient_pressure", 0.0)
     dx, dy = (x[-1] - x[0]) / (len(x) - 1), (y[-1] - y[0]) / (len(y) - 1)
     layers = max(config["contact"]["boundary_film"], config["discretization"]["film_threshold"])
     oil = config["lubricant"]

@@ -1,0 +1,77 @@
+"""Oil that has a pressure all around the contact: P is what comes on top, and film tears below it."""
+
+import numpy as np
+import pytest
+from mpi4py import MPI
+
+from mgehl.config import load_config
+from mgehl.discretization.status import CAVITATED
+from mgehl.errors import ConfigError
+from mgehl.run import solve
+
+AROUND = 5e7
+BALL = {
+    "contact.load": 20.0, "lubricant.viscosity": 0.096, "lubricant.pressure_viscosity": 18.2e-9,
+    "grid.nodes": 65, "grid.x": [-2.5, 2.0], "grid.y": [-2.0, 2.0], "solver.error": False,
+}  # fmt: skip
+
+
+def solved(**settings):
+    return solve(load_config(None).with_(BALL | settings), MPI.COMM_SELF)
+
+
+def at_rest(speed, ambient):
+    return solved(**{
+        "motion.speed": speed, "contact.boundary_film": 2e-9, "solver.start": "contact",
+        "contact.ambient_pressure": ambient,
+    })  # fmt: skip
+
+
+def test_oil_under_a_ball_at_rest_has_the_pressure_around_it():
+    """What presses is that of the dry contact, and the oil in the layers is at the ambient pressure: what
+    the motion adds vanishes with it."""
+    bare, *slower = at_rest(1e-9, 0.0), at_rest(1e-9, AROUND), at_rest(1e-10, AROUND)
+    added = []
+    for solution in slower:
+        fields, result = solution.fields, solution.result
+        assert result.converged and result.pressure_inequality.violations == 0
+        assert result.contact.load_fraction == pytest.approx(1.0, abs=1e-6)
+        np.testing.assert_allclose(fields.P, bare.fields.P, atol=1e-6)
+        added.append(np.abs(fields.p).max())
+    assert added[1] == pytest.approx(0.1 * added[0], rel=1e-3) and added[1] < 1e-6
+
+
+def test_without_tearing_a_pressure_around_is_a_thicker_oil():
+    """Barus's law from p0 on is that of the viscosity at p0."""
+    film = {"motion.speed": 0.5, "solver.start": "film", "lubricant.density_law": "constant"}
+    film["discretization.cavitation"] = False
+    thicker = float(BALL["lubricant.viscosity"] * np.exp(BALL["lubricant.pressure_viscosity"] * AROUND))
+    one = solved(**film, **{"contact.ambient_pressure": AROUND})
+    other = solved(**film, **{"lubricant.viscosity": thicker})
+    np.testing.assert_allclose(one.fields.P, other.fields.P, atol=1e-8)
+    assert one.result.central_film_nm == pytest.approx(other.result.central_film_nm, rel=1e-9)
+    assert one.contact.shown_formulas == pytest.approx(other.contact.shown_formulas)
+
+
+def test_the_film_tears_where_nothing_is_left_of_the_pressure_around():
+    """Behind the contact P falls below zero: as far as that, or, under much pressure, not so far."""
+    little, much = (
+        solved(**{"motion.speed": 0.5, "solver.start": "film", "contact.ambient_pressure": ambient})
+        for ambient in (0.2 * AROUND, AROUND)
+    )
+    assert little.result.converged and much.result.converged
+    torn = little.fields.status == CAVITATED
+    assert torn.any() and np.all(little.fields.P[torn] == little.contact.tears_at)
+    assert little.fields.P.min() == little.contact.tears_at < 0.0
+    assert not np.any(much.fields.status == CAVITATED)
+    assert much.contact.tears_at < much.fields.P.min() < little.fields.P.min()
+
+
+@pytest.mark.parametrize("kind", ["wedge", "dry"])
+def test_who_has_no_use_for_it_says_so(kind):
+    if kind == "wedge":
+        with pytest.raises(ConfigError, match=r"contact\.ambient_pressure.*wedge"):
+            load_config(None, ['contact.kind="wedge"', "contact.ambient_pressure=1e5"])
+    else:
+        found = load_config(None, ['discretization.contact_model="dry"', "contact.ambient_pressure=1e5"])
+        assert "contact.ambient_pressure" in found.unused
