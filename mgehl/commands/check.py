@@ -44,7 +44,7 @@ def execute(options):
     print(f"{options.config or shown(file)}: valid, a {config.kind.noun}\n")
     lines = [*_given(config, left_out(config, tables)), *_idle(config, tables)]
     lines += *_under("unusual", implausible(config, contact)), "", *_described(config, contact, mesh)
-    lines += *_estimate(config, contact, mesh, options.ranks), *_recipe(config, contact), ""
+    lines += *_estimate(config, contact, mesh, options.ranks), *_recipe(config, contact, mesh), ""
     names = ", ".join(SOURCES[key].short for key in cited(config, contact))
     lines += (*_under("sources", [f"{names}; mgehl cite RUN has them in full"]),)
     width = columns()
@@ -114,16 +114,17 @@ def _inlet(config, contact, mesh):
     yield f"resolved   {cells}, from {needed} nodes on: {verdict}"
 
 
-def _recipe(config, contact):
+def _recipe(config, contact, mesh):
     """Lines with all that is chosen for the solve of a loaded contact with a fluid."""
     if not contact.is_loaded or config.is_dry:
         return
     from mgehl.solver.from_config import settings_from
-    from mgehl.solver.recipe import recipe_of
+    from mgehl.solver.recipe import on_mesh, recipe_of
     from mgehl.solver.recipe_words import recipe_words
 
     yield ""
-    recipe = recipe_of(settings_from(config, contact), contact)
+    settings = on_mesh(settings_from(config, contact), contact, mesh)
+    recipe = recipe_of(settings, contact)
     yield from _under("recipe", recipe_words(recipe, contact.is_plane, begins_at_rest(config)))
 
 

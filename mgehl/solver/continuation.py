@@ -37,7 +37,7 @@ class Continuation:
         nested = replace(self._settings.nested, start=start)
         contact = self._contact.at_speed(speed)
         settings = replace(self._settings, nested=nested)
-        if start == IN_CONTACT or settings.scheme.face_mobility == "arithmetic":
+        if start == IN_CONTACT or settings.scheme.face_mobility not in FOLDING:
             return nested_iteration(self._hierarchy, contact, settings, self._monitor, self._journal)
         return self._asked(speed, *self._begin_with_mean(contact, settings))
 
@@ -67,23 +67,17 @@ class Continuation:
         return in_steps(solve, state)
 
     def _begin_with_mean(self, contact, settings):
-        """Solve by another mean than the arithmetic one, first at a speed at which the grid resolves the
-        inlet.
+        """Solve by a mean whose flow has a fold, first at a speed at which the grid resolves the inlet.
 
-        Nested iteration finds the solution from the formula's film, unless the flow by this mean has a
-        fold. Then it finds that of the logarithmic mean, and the wanted mean is approached from there. At
-        last the wanted speed is approached. Solutions on the way need not be exact.
+        Nested iteration finds the solution of the logarithmic mean from the formula's film. The wanted mean
+        is approached from there, then the wanted speed. Solutions on the way need not be exact.
         """
         speed = contact.matched_speed(self._hierarchy.grids[-1].mesh, settings.nested.inlet_cells)
-        scheme = settings.scheme
-        if scheme.face_mobility in FOLDING:
-            scheme = replace(scheme, face_mobility="logarithmic")
-        goal, settings = (contact.speed, settings.scheme), replace(settings, scheme=scheme)
-        first = settings if (speed, scheme) == goal else settings.roughly()
+        first = replace(settings, scheme=replace(settings.scheme, face_mobility="logarithmic")).roughly()
         problem, outcome = nested_iteration(
             self._hierarchy, contact.at_speed(speed), first, self._monitor, self._journal
         )
-        if outcome.converged and scheme != goal[1]:
+        if outcome.converged:
             walk = self._walk(speed == contact.speed)
             problem, outcome = in_steps(lambda t, state: walk.at(speed, state, t), outcome.state)
         return self._slow_down(problem, outcome, contact.speed, exactly=False)

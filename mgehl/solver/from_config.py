@@ -11,7 +11,14 @@ from mgehl.model.contact import LoadedContact
 from mgehl.model.frame import Frame
 from mgehl.model.wedge import WedgeBearing
 from mgehl.multigrid.cycle import CycleSettings
-from mgehl.solver.recipe import A_STATE, couette_scheme_of, interface_law, recipe_of, share_of_the_flow
+from mgehl.solver.recipe import (
+    A_STATE,
+    couette_scheme_of,
+    interface_law,
+    on_mesh,
+    recipe_of,
+    share_of_the_flow,
+)
 from mgehl.solver.recipe_words import plain
 from mgehl.solver.relaxation import RelaxationSettings
 from mgehl.solver.settings import NestedSettings, NewtonSettings, SolverSettings, TimeSettings
@@ -32,7 +39,8 @@ class SetUp:
 
         It `begins` in the way that led to the answer, where that is another.
         """
-        recipe = recipe_of(self.settings, self.contact, start and A_STATE)
+        settings = on_mesh(self.settings, self.contact, self.mesh)
+        recipe = recipe_of(settings, self.contact, start and A_STATE)
         return plain(replace(recipe, begins=begins or recipe.begins))
 
     def hierarchy(self, comm):

@@ -15,6 +15,7 @@ from mgehl.solver.recipe import (
     TOUCHING,
     UNDER_FILM,
     UNDER_THIN_FILM,
+    UNSEEN_FILM,
 )
 from mgehl.solver.step_length import LARGEST_CHANGE
 
@@ -27,6 +28,7 @@ PEAKS = {
 
 BEGINS = {
     FULL_FILM: "from a full film",
+    UNSEEN_FILM: "from a thicker film: the grid hardly sees its own",
     IN_CONTACT: "from the dry contact, in contact",
     UNDER_FILM: "from the dry contact of the peaks, a film laid on it",
     UNDER_THIN_FILM: "from the dry contact of the peaks, nearly no film on it",

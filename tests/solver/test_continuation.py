@@ -58,15 +58,6 @@ def test_a_film_followed_to_another_speed_is_the_film_of_that_speed(make, solve,
     assert np.abs(first.state.P - expected.P).max() > 1e-2
 
 
-def test_a_grid_too_coarse_for_the_logarithmic_mean_is_led_to_it_from_a_higher_speed(make):
-    """What lies on the way is solved as roughly as on coarse grids, the end to its tolerance."""
-    followed = make(face_mobility="logarithmic")
-    problem, outcome = followed.continuation.begin(1.0, "film")
-    assert outcome.converged and problem.contact.speed == 1.0 and problem.scheme == followed.scheme
-    assert true_residual(problem, outcome.state) <= 1e-8
-    assert followed.speeds == [problem.contact.at_speed(1.0).matched_speed(problem.grid.mesh, 2.0), 1.0]
-
-
 def test_another_mean_is_found_from_the_logarithmic(make, solve, paper_contact):
     """65 nodes have not two cells in the inlet at 1 m/s: it is begun at a speed that has."""
     followed = make(face_mobility="geometric")

@@ -3,6 +3,7 @@
 import pytest
 
 from mgehl.discretization.contact_law import BoundaryFilm, InterfaceConditions
+from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.scheme import Scheme
 from mgehl.model.surface.shapes import Dent
 from mgehl.model.surface.waviness import Waviness
@@ -10,8 +11,10 @@ from mgehl.solver.recipe import (
     A_STATE,
     COVERED,
     DRY,
+    FULL_FILM,
     IDLE,
     IDLE_IN_TIME,
+    IN_CONTACT,
     NEAR,
     NONE,
     OF_ROUGH,
@@ -19,7 +22,9 @@ from mgehl.solver.recipe import (
     TOUCHING,
     UNDER_FILM,
     UNDER_THIN_FILM,
+    UNSEEN_FILM,
     couette_scheme_of,
+    on_mesh,
     recipe_in_time,
     recipe_of,
 )
@@ -93,3 +98,29 @@ def test_a_surface_that_comes_later_has_the_scheme_of_rough_bodies(paper_contact
     assert dented.roughness == 0.0
     assert couette_scheme_of(dented) == OF_ROUGH and couette_scheme_of(paper_contact(1.0)) == OF_SMOOTH
     assert recipe_of(SolverSettings(scheme=Scheme(contact_law=CLOSING)), dented).peaks == COVERED
+
+
+@pytest.mark.parametrize(
+    "speed, rest, begins",
+    [
+        (1.0, {}, FULL_FILM),
+        (1e-2, {}, UNSEEN_FILM),
+        (1e-2, {"mean": "logarithmic"}, UNSEEN_FILM),
+        (1e-2, {"mean": "geometric"}, FULL_FILM),
+        (1e-2, {"law": CLOSED}, FULL_FILM),
+        (1e-2, {"start": IN_CONTACT}, IN_CONTACT),
+        (1e-2, {"amplitude": 4e-6}, UNDER_FILM),
+    ],
+)
+def test_a_grid_that_hardly_sees_a_film_begins_alone_from_a_thicker_one(paper_contact, speed, rest, begins):
+    """The paper's ball on 257 nodes: 5.3 and .5 cells in the inlet."""
+    asked = {"amplitude": 0.0, "mean": "linear-gap", "law": CLOSING, "start": FULL_FILM} | rest
+    surface = Waviness(asked["amplitude"], 2e-4, 2e-4) if asked["amplitude"] else None
+    contact = paper_contact(speed, surface=surface)
+    scheme = Scheme(face_mobility=asked["mean"], contact_law=asked["law"])
+    settings = SolverSettings(scheme=scheme, nested=NestedSettings(start=asked["start"]))
+    mesh = Mesh(257, 257, (-1.9, 1.3), (-1.5, 1.5))
+    made = recipe_of(on_mesh(settings, contact, mesh), contact)
+    assert made.begins == begins
+    assert made.on_coarse_grids == (begins == FULL_FILM)
+    assert (made.newton.squeeze > 0.0) == (begins != FULL_FILM)
