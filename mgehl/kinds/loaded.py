@@ -136,24 +136,21 @@ class LoadedKind(Kind):
 
     def lines(self, config, contact, mesh):
         """Groups, dry contact, films of formulas with what they assume, load and speed."""
-        hertz, first = contact.hertz, time.of_first_load(config)
-        groups = "   ".join(f"{name} {value:.4g}" for name, value in asdict(contact.groups).items())
-        compared = contact.compared
+        hertz, first, own = contact.hertz, time.of_first_load(config), contact.unheated
+        groups = "   ".join(f"{name} {value:.4g}" for name, value in asdict(own.groups).items())
+        compared = own.compared
         unit, scale = ("um", 1e6) if max(compared.values()) >= LONG_FILM else ("nm", 1e9)
         shown = "   ".join(
             f"{name.replace('_', ' ')} {scale * film:.4g}" for name, film in compared.items()
         )
         return [
             f"groups     {groups}",
-            f"regime     {contact.regime} (Moes)",
+            f"regime     {own.regime} (Moes)",
             f"Hertz      {self.hertz_words(hertz)}   p_h {1e-9 * hertz.p_h:.4g} GPa{first}",
             f"films, {unit}  {shown}{time.of_formulas(config)}",
             *(f"           {words}" for words in assumptions(contact)),
-            *(
-                f"lambda     {words}"
-                for words in lambda_words(config, contact.expected_film, "a formula's")
-            ),
-            *(f"heat       {words}" for words in heat_words(config, contact)),
+            *(f"lambda     {words}" for words in lambda_words(config, own.expected_film, "a formula's")),
+            *(f"heat       {words}" for words in (*factor_words(contact), *heat_words(config, contact))),
             f"load       {_over_time(config, time.load_key(config), contact.load)} {self.load_unit}   "
             f"speed {_over_time(config, 'motion.speed', contact.speed)} m/s, the mean of both surfaces' "
             "speeds",
@@ -177,7 +174,7 @@ class LoadedKind(Kind):
 
     def scalars(self, solution):
         """Load, films, gaps of rough bodies, pressure and groups; bands where there are any."""
-        contact, result, groups = solution.contact, solution.result, solution.contact.groups
+        contact, result, groups = solution.contact, solution.result, solution.contact.unheated.groups
         error, mixed = result.error, result.mixed
         gaps = mixed if mixed and mixed.mean_gap_nm is not None else None
         gap_error = gaps.error if gaps else None
@@ -228,7 +225,8 @@ def _with_bands(effort):
 
 
 def assumptions(contact):
-    """What the formulas of a contact assume, a few words each."""
+    """What the formulas of a contact assume, a few words each; they know the oil's own viscosity."""
+    contact = contact.unheated
     yield "all: smooth bodies, flooded, isothermal, Newtonian oil"
     told = {formula.label: formula for formula in map(formula_of, contact.shown_formulas)}
     yield from (f"{label}: {formula.assumes}" for label, formula in told.items())
@@ -249,6 +247,14 @@ def lambda_words(config, film, whose):
             f"{film / rms:.3g}: {whose} central film over {1e9 * rms:.4g} nm rms, whose heights are not "
             "solved"
         )
+
+
+def factor_words(contact):
+    """What Gupta's factor leaves of the films of formulas, of an oil with the data for it."""
+    if contact.thermal_reduction is not None:
+        left = f"some {100.0 * max(contact.thermal_reduction, 0.0):.2g} %"
+        does = f"leaves {left}" if contact.lubricant.thinned < 1.0 else f"would leave {left}"
+        yield f'isothermal films: lubricant.heating = "factor" {does} of them (Gupta 1992)'
 
 
 def heat_words(config, contact):
