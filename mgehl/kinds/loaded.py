@@ -275,4 +275,4 @@ def heat_words(config, contact):
 
 def speed_words(u):
     """A speed in mm/s, from 1 m/s on in m/s."""
-    return f"{u:.4g} m/s" if u >= 1.0 - 1e-12 else f"{1e3 * u:.4g} mm/s"
+    return f"{u:.4g} m/s" if abs(u) >= 1.0 - 1e-12 else f"{1e3 * u:.4g} mm/s"

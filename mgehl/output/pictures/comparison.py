@@ -28,7 +28,7 @@ def compare_lines(solutions, labels):
         return _compare_bearings(solutions, labels)
     panels = 1 if solutions[0].mesh.is_line else 2
     figure, axes = subplots(2, panels, size=(1.2 + 4.9 * panels, 7.2), squeeze=False)
-    called = {names(solution.contact) for solution in solutions}
+    called = {names(solution) for solution in solutions}
     called = called.pop() if len(called) == 1 else ANYWHERE
     lines = [[line_of(each, across) for each in solutions] for across in range(panels)]
     set_axes(axes, lines)
@@ -43,7 +43,8 @@ def compare_lines(solutions, labels):
     units = dict.fromkeys(gap_words(solution.contact)[1] for solution in solutions)
     axes[0, 0].set_ylabel("pressure, GPa")
     axes[1, 0].set_ylabel(" or ".join(units))
-    return _finished(figure, axes[0, 0], "centre lines", solutions)
+    end = " at the end" if any(each.last for each in solutions) else ""
+    return _finished(figure, axes[0, 0], f"centre lines{end}", solutions)
 
 
 def compare_histories(solutions, labels):

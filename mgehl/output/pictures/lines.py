@@ -20,9 +20,10 @@ FINE = 801
 """Places at which the dry contact is drawn: nodes may be few."""
 BARE = 1e-6
 """Part of the largest pressure by which the fluid's own must differ to be drawn."""
-ALONG, ACROSS = "Y = 0, along the motion (left to right)", "X = 0, across the motion"
+ALONG = {1.0: "left to right", -1.0: "right to left"}
+"""The motion by its part along x, where it has no other."""
 ANYWHERE = "Y = 0, along x", "X = 0, along y"
-"""Where the motion is not along x."""
+"""Where the motion is not along x, or there is none."""
 
 
 class Line(NamedTuple):
@@ -74,7 +75,7 @@ def draw_lines(axes, solution):
     """Pressures on the first row of axes, films on the second, along x and along y; their handles."""
     lines = [line_of(solution, across) for across in range(len(axes[0]))]
     set_axes(axes, [[line] for line in lines])
-    called, labels = names(solution.contact), position_labels(solution)
+    called, labels = names(solution), position_labels(solution)
     axes[0, 0].set_ylabel("pressure, GPa")
     axes[1, 0].set_ylabel(gap_words(solution.contact)[1])
     handles = []
@@ -85,10 +86,10 @@ def draw_lines(axes, solution):
     return handles
 
 
-def names(contact):
+def names(solution):
     """What the two lines are called, by the direction of the motion, if there is one."""
-    along_x = contact.motion == (1.0, 0.0) and not contact.is_at_rest
-    return (ALONG, ACROSS) if along_x else ANYWHERE
+    way = ALONG.get(solution.motion[0])
+    return (f"Y = 0, along the motion ({way})", "X = 0, across the motion") if way else ANYWHERE
 
 
 def set_axes(axes, lines):

@@ -4,7 +4,7 @@ import numpy as np
 
 from mgehl.output.pictures.history import column
 from mgehl.output.pictures.style import COLOURS, CONTACT_COLOUR, FILM, PRESSURE, subplots
-from mgehl.output.pictures.titles import title
+from mgehl.output.pictures.titles import title_of_all
 
 PANELS = (
     ("film, nm", {"central_film_nm": ("central", FILM), "mean_gap_nm": ("mean within Hertz", COLOURS[4]),
@@ -41,9 +41,9 @@ def over_time(solution):
             panel.plot(t, values / largest, color=colour, label=said)
         panel.set_ylabel(label)
         if len(columns) > 1 or columns is driven:
-            panel.legend()
+            panel.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
     axes[-1].set_xlabel(f"time, {unit}")
-    figure.suptitle(title(solution))
+    figure.suptitle(title_of_all(solution))
     return figure
 
 
