@@ -222,11 +222,17 @@ def largest_pressure_words(result):
 
 
 def pressure_words(GPa, half_width=None):
-    """A pressure, with its band if there is one; that of a soft or light contact in MPa or kPa."""
-    factor, unit = (1e6, "kPa") if GPa < 1e-4 else (1e3, "MPa") if GPa < 0.1 else (1.0, "GPa")
+    """A pressure, with its band if there is one."""
+    factor, unit = pressure_unit(GPa)
     if half_width is None and factor > 1.0:
         return f"{factor * GPa:.4g} {unit}"
     return f"{with_band(factor * GPa, half_width and factor * half_width)} {unit}"
+
+
+def pressure_unit(GPa):
+    """What turns a pressure, and all beside it, into its unit, and the unit: of a soft or light contact MPa
+    or kPa."""
+    return (1e6, "kPa") if GPa < 1e-4 else (1e3, "MPa") if GPa < 0.1 else (1.0, "GPa")
 
 
 def span(ends):

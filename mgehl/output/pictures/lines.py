@@ -10,6 +10,7 @@ from mgehl.model.hertz import hertz_pressure
 from mgehl.output.pictures import style
 from mgehl.output.pictures.plane import DECADES, LINEAR, filling_of
 from mgehl.output.pictures.titles import gap_words, position_labels, title_with_films
+from mgehl.output.words import pressure_unit
 
 INSIDE = {0.8: 3.0, 1.25: 1.0}
 """Parts of the dry contact whose films make the axis of films, the second where the first is all contact;
@@ -27,7 +28,7 @@ ANYWHERE = "Y = 0, along x", "X = 0, along y"
 
 
 class Line(NamedTuple):
-    """A centre line: place in semi-axes; total pressure and the fluid's own in GPa; gap and its oil in nm;
+    """A centre line: place in semi-axes; total pressure and the fluid's own; gap and its oil in nm;
     status. Of the dry contact places of its own, pressure and gap."""
 
     X: np.ndarray
@@ -41,12 +42,12 @@ class Line(NamedTuple):
     dry: np.ndarray
 
 
-def line_of(solution, across):
-    """The `Line` of a loaded contact along x on Y = 0, or along y on X = 0."""
+def line_of(solution, across, GPa=1.0):
+    """The `Line` of a loaded contact along x on Y = 0, or along y on X = 0; a GPa counts as so many."""
     mesh, fields, contact = solution.mesh, solution.fields, solution.contact
     i, j = mesh.nearest(0.0, 0.0)
     part, X = ((slice(None), i), mesh.Y) if across else ((j, slice(None)), mesh.X)
-    GPa, nm = 1e-9 * contact.pressure_scale, 1e9 * contact.film_scale
+    GPa, nm = GPa * 1e-9 * contact.pressure_scale, 1e9 * contact.film_scale
     layers = 1e9 * solution.config.contact.boundary_film
     P, film = GPa * fields.P[part], nm * fields.H[part]
     fine = np.linspace(X[0], X[-1], FINE)
@@ -73,10 +74,11 @@ def centre_lines(solution):
 
 def draw_lines(axes, solution):
     """Pressures on the first row of axes, films on the second, along x and along y; their handles."""
-    lines = [line_of(solution, across) for across in range(len(axes[0]))]
+    factor, unit = unit_of([solution])
+    lines = [line_of(solution, across, factor) for across in range(len(axes[0]))]
     set_axes(axes, [[line] for line in lines])
     called, labels = names(solution), position_labels(solution)
-    axes[0, 0].set_ylabel("pressure, GPa")
+    axes[0, 0].set_ylabel(f"pressure, {unit}")
     axes[1, 0].set_ylabel(gap_words(solution.contact)[1])
     handles = []
     for (pressures, films), line, title, label in zip(axes.T, lines, called, labels, strict=False):
@@ -84,6 +86,11 @@ def draw_lines(axes, solution):
         pressures.set_title(title)
         films.set_xlabel(label)
     return handles
+
+
+def unit_of(solutions):
+    """`pressure_unit` of the largest pressure of runs."""
+    return pressure_unit(1e-9 * max(each.pressure.max() for each in solutions))
 
 
 def names(solution):

@@ -15,6 +15,7 @@ from mgehl.kinds.time import of_first_load
 from mgehl.output.pictures import style
 from mgehl.output.pictures.plane import INSIDE, MOST, OVERLAP, Plane, film_norm
 from mgehl.output.pictures.titles import gap_words, map_labels, title, title_with_films
+from mgehl.output.words import pressure_unit
 
 SIZE = 7.0, 6.0
 """Inches of a map with all that is around it."""
@@ -33,8 +34,9 @@ def film_map(solution):
 
 
 def pressure_map(solution):
-    """Figure of the pressure in GPa; of contact the outline."""
-    return _smooth_map(1e-9 * solution.pressure, "pressure", "GPa", solution)
+    """Figure of the pressure; of contact the outline."""
+    factor, unit = pressure_unit(1e-9 * solution.pressure.max())
+    return _smooth_map(factor * 1e-9 * solution.pressure, "pressure", unit, solution)
 
 
 def shear_map(solution):

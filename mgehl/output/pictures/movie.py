@@ -12,6 +12,7 @@ from mgehl.errors import UserError
 from mgehl.output.pictures import style
 from mgehl.output.pictures.plane import LOADED
 from mgehl.output.pictures.style import FILM, PRESSURE, STATUS_MAP, STATUS_NORM
+from mgehl.output.words import pressure_unit
 
 SECOND = 10
 """Frames in a second."""
@@ -50,17 +51,21 @@ def write_movie(solution, folder):
 def _stage(solution, frames):
     """The figure, and a function that makes it that of a frame."""
     plane, middle = not solution.mesh.is_line, solution.mesh.nearest(0.0, 0.0)[1]
+    largest = 1e-9 * max(fields["pressure"].max() for _, fields in frames)
+    factor, unit = pressure_unit(largest)
     figure, axes = style.subplots(1, 1 + plane, size=(6.0 + 5.0 * plane, 4.6), squeeze=False)
     figure.get_layout_engine().set(w_pad=0.2, h_pad=0.1)
     films = _least_and_most(frames)
     images = _map(axes[0, 0], solution, frames, films) if plane else ()
     times, speeds = zip(*((row["time_s"], row["speed_mm_s"]) for row in solution.rows), strict=True)
-    p, h = _centre_lines(axes[0, -1], solution, frames, films)
+    p, h = _centre_lines(axes[0, -1], solution, films)
+    axes[0, -1].set(ylabel=f"pressure, {unit}", ylim=(0.0, 1.05 * factor * largest))
+    axes[0, -1].set_xlim(*(side * next(halves(solution, frames)) for side in (-1.0, 1.0)))
 
     def show(t, fields):
         for image, data in zip(images, (1e9 * fields["film"], _no_film(fields)), strict=False):
             image.set_data(data)
-        p.set_ydata(1e-9 * fields["pressure"][middle])
+        p.set_ydata(factor * 1e-9 * fields["pressure"][middle])
         h.set_ydata(1e9 * fields["film"][middle])
         figure.suptitle(f"{1e3 * t:.4g} ms, {np.interp(t, times, speeds):.4g} mm/s")
 
@@ -106,13 +111,11 @@ def _map(axes, solution, frames, films):
     return image, cover
 
 
-def _centre_lines(axes, solution, frames, films):
+def _centre_lines(axes, solution, films):
     beside, x = axes.twinx(), 1e3 * solution.x
     (p,) = axes.plot(x, np.zeros(x.size), color=PRESSURE)
     (h,) = beside.plot(x, np.ones(x.size), color=FILM)
-    largest = max(fields["pressure"].max() for _, fields in frames)
-    half = next(halves(solution, frames))
-    axes.set(xlabel="x, mm", ylabel="pressure, GPa", xlim=(-half, half), ylim=(0.0, 1.05e-9 * largest))
+    axes.set_xlabel("x, mm")
     beside.set(ylabel="film, nm", yscale="log", ylim=(0.7 * films[0], WIDEST * films[1]))
     beside.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
     beside.yaxis.set_major_formatter("{x:g}")

@@ -33,6 +33,8 @@ from mgehl.output.words import (
     heating_words,
     largest_pressure_words,
     mean_words,
+    pressure_unit,
+    pressure_words,
     span,
     time_lines,
 )
@@ -144,7 +146,7 @@ FUNCTIONS = {
     each.__name__: each for each in (
         number, limited, enough, absent, informing, judged, from_each, advice, band_words, gap_band_words,
         mean_gaps, mixed_note, span, carried, largest_pressure_words, time_lines, mean_words, heating_words,
-        friction_lines, coefficient_words,
+        friction_lines, coefficient_words, pressure_words, pressure_unit,
     )
 }  # fmt: skip
 """What run.html.j2 calls."""
