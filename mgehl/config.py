@@ -5,6 +5,7 @@ Every mistake is one line that names the key, the value and what is allowed (`Co
 
 from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass, fields, replace
+from os import PathLike
 from pathlib import Path
 
 from mgehl import config_sections as sections
@@ -177,6 +178,10 @@ def left_out(config, tables):
 
 def read_tables(path=None, settings=()):
     """The nested values, right or wrong, of which `load_config` makes a `Config`. Raises ConfigError."""
+    if not isinstance(path, str | PathLike | None):
+        raise ConfigError(
+            f"{shown(path)}: must be the path of a configuration; keys are for mgehl.load(settings=...)"
+        )
     path = Path(path) if path else default_config()
     tables = read_toml(path)
     _anchor(tables, path.parent)
