@@ -16,7 +16,7 @@ from mgehl.errors import ConfigError
 from mgehl.kinds import KINDS, choices, derived
 from mgehl.kinds.bodies import BodySection
 from mgehl.kinds.choice import named, value_of
-from mgehl.kinds.derived import NUMBERS, left_over, orphans, overridden
+from mgehl.kinds.derived import NUMBERS, check_arms, left_over, orphans, overridden
 from mgehl.kinds.dry import DRY
 from mgehl.kinds.friction import FrictionSection
 from mgehl.kinds.heat import HeatSection
@@ -209,6 +209,7 @@ def _set_anew(tables, settings):
     laid = _laid(_laid(tables, nested(numbers)), given)
     for section, _, key in (word.partition(".") for word in left_over(tables, laid, given)):
         laid[section].pop(key, None)
+    check_arms(tables, laid, given)
     return laid
 
 
