@@ -100,14 +100,17 @@ def orphans(tables, settings):
 
 
 def check_arms(tables, laid, settings):
-    """Raise ConfigError where a radius of settings pushes out the arm of a body's rotation."""
-    for body in BODIES:
+    """Raise ConfigError where a radius of settings pushes out the arm by which a rotation is a speed."""
+    radii = given(settings, ("contact.radius_x", "contact.radius_y"))
+    for rotation, body, instead in (
+        *((f"{body}.rotation", body, f"{body}.rotation_radius") for body in BODIES),
+        ("motion.ring_rotation", BODIES[0], "motion.speed"),
+    ):
         arms = [f"{body}.{name}" for name in ("rotation_radius", "radius_x", "diameter")]
-        radii = given(settings, ("contact.radius_x", "contact.radius_y"))
-        if radii and given(tables, arms) and given(laid, [f"{body}.rotation"]) and not given(laid, arms):
+        if radii and given(tables, arms) and given(laid, [rotation]) and not given(laid, arms):
             radius, arm = f"{radii[0]} = {shown(value_of(settings, radii[0]))}", given(tables, arms)[0]
-            why = f"takes the place of {arm}, by which {body}.rotation is a speed"
-            raise ConfigError(f"{radius}: {why}: set {body}.rotation_radius, too")
+            why = f"takes the place of {arm}, by which {rotation} is a speed"
+            raise ConfigError(f"{radius}: {why}: set {instead}, too")
 
 
 def beside(key):

@@ -9,7 +9,7 @@ from mgehl.kinds import loaded_checks, surface, time
 from mgehl.kinds.bodies import roughness
 from mgehl.kinds.friction import check_friction, friction_from
 from mgehl.kinds.heat import check_factor, heated, solids_from
-from mgehl.kinds.kind import Effort, Kind, kept_together
+from mgehl.kinds.kind import Effort, Kind, kept_together, pressure_unit
 from mgehl.kinds.lubricant import check_laws, lubricant_from, thinning_of
 from mgehl.model.films import formula_of
 from mgehl.model.own_laws import OwnDensity
@@ -146,7 +146,7 @@ class LoadedKind(Kind):
         return [
             f"groups     {groups}",
             f"regime     {own.regime} (Moes)",
-            f"Hertz      {self.hertz_words(hertz)}   p_h {1e-9 * hertz.p_h:.4g} GPa{first}",
+            f"Hertz      {self.hertz_words(hertz)}   {p_h_words(hertz)}{first}",
             f"films, {unit}  {shown}{time.of_formulas(config)}",
             *(f"           {words}" for words in assumptions(contact)),
             *(f"lambda     {words}" for words in lambda_words(config, own.expected_film, "a formula's")),
@@ -271,6 +271,12 @@ def heat_words(config, contact):
             f"isothermal films: heat by shear in the inlet would leave {left} of them (Gupta 1992; "
             f"slide-to-roll {slip:g}, {usual}{',' if known else ''} k {CONDUCTIVITY:g} W/(m K) as is usual)"
         )
+
+
+def p_h_words(hertz):
+    """The largest pressure of the dry contact."""
+    factor, unit = pressure_unit(1e-9 * hertz.p_h)
+    return f"p_h {1e-9 * factor * hertz.p_h:.4g} {unit}"
 
 
 def speed_words(u):

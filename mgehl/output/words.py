@@ -1,5 +1,6 @@
 """A result in words: what a run, a `Solution` and a script print of it."""
 
+from mgehl.kinds.kind import pressure_unit
 from mgehl.output.digits import with_band
 from mgehl.output.friction_result import friction_lines, strength_lines
 from mgehl.output.mixed_words import filling_words, mixed_lines
@@ -227,12 +228,6 @@ def pressure_words(GPa, half_width=None):
     if half_width is None and factor > 1.0:
         return f"{factor * GPa:.4g} {unit}"
     return f"{with_band(factor * GPa, half_width and factor * half_width)} {unit}"
-
-
-def pressure_unit(GPa):
-    """What turns a pressure, and all beside it, into its unit, and the unit: of a soft or light contact MPa
-    or kPa."""
-    return (1e6, "kPa") if GPa < 1e-4 else (1e3, "MPa") if GPa < 0.1 else (1.0, "GPa")
 
 
 def span(ends):

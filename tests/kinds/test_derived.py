@@ -196,6 +196,9 @@ def test_a_radius_that_takes_the_arm_of_a_rotation_says_so():
     )
     with pytest.raises(ConfigError, match=words):
         of(roller).with_({"contact.radius_x": "5 mm"})
+    bearing = load_config(CONFIGS / "bearing_6206.toml")
+    with pytest.raises(ConfigError, match="motion.ring_rotation is a speed: set motion.speed, too"):
+        bearing.with_({"contact.radius_y": "50 mm"})
     arm = {"contact.radius_x": "5 mm", "body_1.rotation_radius": "9 mm"}
     assert of(roller).with_(arm).motion.speed == of(roller).motion.speed
 

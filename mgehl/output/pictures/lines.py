@@ -5,12 +5,12 @@ from typing import NamedTuple
 import numpy as np
 
 from mgehl.discretization.status import CAVITATED, CONTACT
+from mgehl.kinds.kind import pressure_unit
 from mgehl.kinds.time import of_first_load
 from mgehl.model.hertz import hertz_pressure
 from mgehl.output.pictures import style
 from mgehl.output.pictures.plane import DECADES, LINEAR, filling_of
 from mgehl.output.pictures.titles import gap_words, position_labels, title_with_films
-from mgehl.output.words import pressure_unit
 
 INSIDE = {0.8: 3.0, 1.25: 1.0}
 """Parts of the dry contact whose films make the axis of films, the second where the first is all contact;

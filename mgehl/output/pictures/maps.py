@@ -11,11 +11,11 @@ from matplotlib.patheffects import withStroke
 from matplotlib.ticker import LogLocator, MaxNLocator
 
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED, NAMES, names
+from mgehl.kinds.kind import pressure_unit
 from mgehl.kinds.time import of_first_load
 from mgehl.output.pictures import style
 from mgehl.output.pictures.plane import INSIDE, MOST, OVERLAP, Plane, film_norm
 from mgehl.output.pictures.titles import gap_words, map_labels, title, title_with_films
-from mgehl.output.words import pressure_unit
 
 SIZE = 7.0, 6.0
 """Inches of a map with all that is around it."""

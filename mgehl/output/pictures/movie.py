@@ -9,10 +9,10 @@ from matplotlib.ticker import LogLocator
 
 from mgehl.discretization.status import CAVITATED, CONTACT
 from mgehl.errors import UserError
+from mgehl.kinds.kind import pressure_unit
 from mgehl.output.pictures import style
 from mgehl.output.pictures.plane import LOADED
 from mgehl.output.pictures.style import FILM, PRESSURE, STATUS_MAP, STATUS_NORM
-from mgehl.output.words import pressure_unit
 
 SECOND = 10
 """Frames in a second."""

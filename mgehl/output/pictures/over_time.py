@@ -2,10 +2,10 @@
 
 import numpy as np
 
+from mgehl.kinds.kind import pressure_unit
 from mgehl.output.pictures.history import column
 from mgehl.output.pictures.style import COLOURS, CONTACT_COLOUR, FILM, PRESSURE, subplots
 from mgehl.output.pictures.titles import title_of_all
-from mgehl.output.words import pressure_unit
 
 PANELS = (
     ("film, nm", {"central_film_nm": ("central", FILM), "mean_gap_nm": ("mean within Hertz", COLOURS[4]),

@@ -138,7 +138,9 @@ def _flat(tables):
 
 
 def key_words(name, value):
-    """A key and its value, in a few words with the unit."""
+    """A key and its value, in a few words with the unit; of a course of time its name."""
+    if KEYS[name].metadata["kind"] is float and isinstance(value, str):
+        return f"{name} {Path(value).name}"
     if name in _SHORT:
         return _SHORT[name](value)
     unit, is_switch = KEYS[name].metadata["unit"] or "", isinstance(value, bool)

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from mgehl.config import SECTIONS
 from mgehl.kinds.cited import cited
+from mgehl.kinds.kind import pressure_unit
 from mgehl.kinds.loaded import assumptions
 from mgehl.kinds.own import naming_keys
 from mgehl.kinds.plausible import implausible
@@ -33,7 +34,6 @@ from mgehl.output.words import (
     heating_words,
     largest_pressure_words,
     mean_words,
-    pressure_unit,
     pressure_words,
     span,
     time_lines,

@@ -33,6 +33,14 @@ def test_they_say_the_keys_that_differ(one, other, said):
     assert labels(runs(one, other), ["a", "b"]) == said
 
 
+def test_a_course_of_time_is_told_by_its_name(tmp_path):
+    """Pictures of several runs in time ended in an error."""
+    for name in ("one", "two"):
+        (tmp_path / f"{name}.csv").write_text("0,1\n1,2\n")
+    settings = ([f"motion.speed={tmp_path / name}.csv", "time.end=1"] for name in ("one", "two"))
+    assert labels(runs(*settings), ["a", "b"]) == ["motion.speed one.csv", "motion.speed two.csv"]
+
+
 def test_names_of_runs(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     assert run_names(["x/one", "y/two"]) == ["one", "two"]
