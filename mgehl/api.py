@@ -59,22 +59,25 @@ def solve(
     config: Config | str | PathLike[str],
     comm: "MPI.Comm | None" = None,
     *,
-    start: "Solution | None" = None,
+    start: "Solution | str | PathLike[str] | None" = None,
     speak: bool = False,
 ) -> "Solution":
     """Solve a configuration, or that of a file, on the ranks of `comm` (default: all); collective.
 
     Returns the `Solution`, whether or not it converged: ask `.summary.converged`. `start` is another
-    `Solution` to start from, of any grid and speed, with its fields on rank 0. With `speak`, rank 0 prints
-    a line for each cycle. Ctrl-C ends it before the next step, with KeyboardInterrupt; a second one ends it
-    at once. Raises `mgehl.ConfigError` where the values make no contact that can be solved, and
-    `mgehl.UserError` where `start` is another kind of contact.
+    `Solution` to start from, of any grid and speed, with its fields on rank 0, or its run directory. With
+    `speak`, rank 0 prints a line for each cycle. Ctrl-C ends it before the next step, with
+    KeyboardInterrupt; a second one ends it at once. Raises `mgehl.ConfigError` where the values make no
+    contact that can be solved, and `mgehl.UserError` where `start` is another kind of contact.
     """
     config = config if isinstance(config, Config) else load_config(config)
     leave_signals_alone()
     from mpi4py import MPI
 
     from mgehl.answer import Solution
+    from mgehl.output.files import on_first_rank
+    from mgehl.output.solution import on_every_rank
+    from mgehl.output.stored import read_run
     from mgehl.output.terminal import SILENT, Lines
     from mgehl.run import Watch, enter
     from mgehl.run import solve as solve_case
@@ -83,12 +86,14 @@ def solve(
 
     comm = MPI.COMM_WORLD if comm is None else comm
     case = enter(config, comm)
-    if start:
-        check_start(start, config.contact.kind)
+    is_path = isinstance(start, str | PathLike)
+    begin = on_every_rank(comm, on_first_rank(comm, read_run, start)) if is_path else start
+    if begin is not None:
+        check_start(begin, config.contact.kind)
     try:
         with StopOnCtrlC() as stop:
             watch = Watch(Lines() if speak else SILENT, stop=stop)
-            return Solution.of(solve_case(case, comm, watch, start))
+            return Solution.of(solve_case(case, comm, watch, begin))
     except Stopped as stopped:
         told = str(stopped)
     # Not from within: its traceback would keep PETSc's objects until PETSc has ended, and crash then.
@@ -96,7 +101,7 @@ def solve(
 
 
 def sweep(
-    config: Config,
+    config: Config | str | PathLike[str],
     over: Mapping[str, str | Iterable[object]],
     directory: str | PathLike[str],
     comm: "MPI.Comm | None" = None,
@@ -114,6 +119,7 @@ def sweep(
     from mgehl.studies.points import axis_of, points_of
     from mgehl.studies.sweep import swept
 
+    config = config if isinstance(config, Config) else load_config(config)
     axes = [axis_of(config, key, values) for key, values in over.items()]
     swept(directory, comm or MPI.COMM_WORLD, axes, points_of(config, axes), Watch(), speak=False)
     return xarray.load_dataset(Path(directory) / "sweep.nc", engine="h5netcdf")

@@ -104,6 +104,10 @@ def _flushed(status, is_run):
     return status
 
 
+PETSC_OPTION = re.compile(r"-(?![-\d.])")
+"""How the first of PETSc's words begins."""
+
+
 class _Help(argparse.HelpFormatter):
     """Breaks lines at spaces, but in a table; those of examples so that a shell takes what is copied."""
 
@@ -190,9 +194,9 @@ def _check_word(top, name, values):
 
 
 def split_options(arguments):
-    """Split the words of a command line into mgehl's own and PETSc's."""
+    """Split the words of a command line into mgehl's own and PETSc's: a number below 0 is no option."""
     for position, word in enumerate(arguments):
-        if word.startswith("-") and not word.startswith("--") and word != "-h":
+        if PETSC_OPTION.match(word) and word != "-h":
             return arguments[:position], arguments[position:]
     return arguments, []
 

@@ -5,6 +5,7 @@ Every mistake is one line that names the key, the value and what is allowed (`Co
 
 from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass, fields, replace
+from os import PathLike
 from pathlib import Path
 
 from mgehl import config_sections as sections
@@ -15,7 +16,7 @@ from mgehl.errors import ConfigError
 from mgehl.kinds import KINDS, choices, derived
 from mgehl.kinds.bodies import BodySection
 from mgehl.kinds.choice import named, value_of
-from mgehl.kinds.derived import NUMBERS, left_over, orphans, overridden
+from mgehl.kinds.derived import NUMBERS, check_arms, left_over, orphans, overridden
 from mgehl.kinds.dry import DRY
 from mgehl.kinds.friction import FrictionSection
 from mgehl.kinds.heat import HeatSection
@@ -177,6 +178,10 @@ def left_out(config, tables):
 
 def read_tables(path=None, settings=()):
     """The nested values, right or wrong, of which `load_config` makes a `Config`. Raises ConfigError."""
+    if not isinstance(path, str | PathLike | None):
+        raise ConfigError(
+            f"{shown(path)}: must be the path of a configuration; keys are for mgehl.load(settings=...)"
+        )
     path = Path(path) if path else default_config()
     tables = read_toml(path)
     _anchor(tables, path.parent)
@@ -204,6 +209,7 @@ def _set_anew(tables, settings):
     laid = _laid(_laid(tables, nested(numbers)), given)
     for section, _, key in (word.partition(".") for word in left_over(tables, laid, given)):
         laid[section].pop(key, None)
+    check_arms(tables, laid, given)
     return laid
 
 

@@ -205,6 +205,7 @@ def _describe_range(rules):
 
 
 def _interval(key, value):
+    value = value.tolist() if hasattr(value, "tolist") else value  # numpy's
     if value == AUTO:
         return AUTO
     is_pair = isinstance(value, list | tuple) and len(value) == 2 and all(map(_is_number, value))

@@ -38,6 +38,11 @@ class TestWith:
         assert slower == mgehl.load(None, FILM | {"motion.speed": "400 mm/s", "grid.nodes": 129})
         assert config.with_({}) == config
 
+    @pytest.mark.filterwarnings("error")
+    def test_an_array_is_a_sequence(self):
+        config = mgehl.load(None, FILM)
+        assert config.with_({"grid.x": np.array([-3.0, 2.0])}) == config.with_({"grid.x": (-3.0, 2.0)})
+
     @pytest.mark.parametrize(
         "settings, words",
         [
@@ -133,6 +138,34 @@ class TestSolution:
         assert 1e-9 * film.pressure.max() == pytest.approx(film.summary.max_pressure_GPa, rel=1e-12)
         assert film.film.shape == film.pressure.shape == film.status.shape == (65, 65)
         assert (len(film.y), len(film.x)) == (65, 65)
+
+    def test_a_run_directory_is_a_start(self, film, tmp_path):
+        config = film.config.with_({"motion.speed": "0.9 m/s"})
+        by_path, by_itself = (
+            mgehl.solve(config, MPI.COMM_SELF, start=start)
+            for start in (str(film.save(tmp_path / "film")), film)
+        )
+        np.testing.assert_array_equal(by_path.film, by_itself.film)
+
+    @pytest.mark.parametrize(
+        "call, words",
+        [
+            (
+                lambda film: mgehl.solve({"grid.nodes": 65}),
+                "must be the path of a configuration; keys are for mgehl.load",
+            ),
+            (
+                lambda film: mgehl.solve(film.config, start=3),
+                "start: is of type int; must be a Solution or a run",
+            ),
+            (lambda film: mgehl.solve(film.config, start="nowhere"), "nowhere: is no run directory"),
+            (lambda film: mgehl.sweep(film.config, {}, "d"), "names no key"),
+        ],
+    )
+    def test_what_it_does_not_take_is_one_line(self, film, call, words):
+        with pytest.raises(mgehl.UserError, match=words) as caught:
+            call(film)
+        assert "\n" not in str(caught.value)
 
     def test_a_solution_is_a_start_for_another_speed(self, film):
         slower = mgehl.load(None, FILM | {"motion.speed": "0.8 m/s"})

@@ -99,6 +99,13 @@ def test_words_that_are_nothing_are_one_line(tmp_path, capsys, arguments):
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.parametrize("value, said", [("-1", "-1.0"), ("-1 s", "'-1 s'"), ("-.5", "-0.5")])
+def test_a_number_below_0_is_the_options_own_and_not_petscs(capsys, value, said):
+    """Of --save-every -1 --out d the --out was blamed."""
+    assert exit_status(["run", "--save-every", value, "--out", "d"]) == 2
+    assert_one_line(capsys, f"--save-every = {said}: must be a number in s")
+
+
 class TestFailures:
     """Whatever a command raises is one line with a status; `mgehl.failures` has them all."""
 

@@ -11,6 +11,7 @@ example: mgehl sweep --set grid.nodes=65 --set solver.start=film --over motion.s
     runs/speeds
 """
 
+import re
 from pathlib import Path
 from shlex import quote
 
@@ -61,4 +62,5 @@ def _split(word):
         raise ConfigError(
             f"--over {word}: must be section.key=VALUES, such as motion.speed='1e-4..1 m/s:20'"
         )
-    return key, values
+    quoted = re.fullmatch(r"([\"'])(.*)\1", values)
+    return key, quoted[2] if quoted else values

@@ -6,8 +6,10 @@ they had been given, so that nobody else knows the words.
 
 from itertools import combinations
 
+from mgehl.config_value import shown
+from mgehl.errors import ConfigError
 from mgehl.kinds.bodies import BODIES, ELASTICITY, GEOMETRY, MOTION, SPEEDS, keys
-from mgehl.kinds.choice import Choice, given
+from mgehl.kinds.choice import Choice, given, value_of
 
 OILS = "lubricant.oil", "lubricant.kinematic_viscosity", "lubricant.kinematic_viscosity_40"
 OIL_AT_100 = "lubricant.kinematic_viscosity_100"
@@ -95,6 +97,20 @@ def orphans(tables, settings):
     }  # fmt: skip
     numbers = (target for targets, words in FOLLOWS if gone & {*words} for target in targets)
     return [number for number in dict.fromkeys(numbers) if not given(settings, [number])]
+
+
+def check_arms(tables, laid, settings):
+    """Raise ConfigError where a radius of settings pushes out the arm by which a rotation is a speed."""
+    radii = given(settings, ("contact.radius_x", "contact.radius_y"))
+    for rotation, body, instead in (
+        *((f"{body}.rotation", body, f"{body}.rotation_radius") for body in BODIES),
+        ("motion.ring_rotation", BODIES[0], "motion.speed"),
+    ):
+        arms = [f"{body}.{name}" for name in ("rotation_radius", "radius_x", "diameter")]
+        if radii and given(tables, arms) and given(laid, [rotation]) and not given(laid, arms):
+            radius, arm = f"{radii[0]} = {shown(value_of(settings, radii[0]))}", given(tables, arms)[0]
+            why = f"takes the place of {arm}, by which {rotation} is a speed"
+            raise ConfigError(f"{radius}: {why}: set {instead}, too")
 
 
 def beside(key):

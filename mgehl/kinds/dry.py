@@ -8,7 +8,7 @@ from mgehl.kinds.bodies import MOTION
 from mgehl.kinds.choice import Choice, value_of, word_of
 from mgehl.kinds.kind import Effort
 from mgehl.kinds.line import LineKind
-from mgehl.kinds.loaded import LoadedKind
+from mgehl.kinds.loaded import LoadedKind, p_h_words
 from mgehl.kinds.point import PointKind
 from mgehl.model.peaks import reach_of_peaks
 from mgehl.model.room import end_beyond
@@ -77,7 +77,7 @@ class DryKind(LoadedKind):
         hertz = contact.hertz
         return [
             "solved     the dry contact: bodies pressed together without a fluid; no speed, no lubricant",
-            f"Hertz      {self.hertz_words(hertz)}   p_h {1e-9 * hertz.p_h:.4g} GPa, of smooth half-spaces",
+            f"Hertz      {self.hertz_words(hertz)}   {p_h_words(hertz)}, of smooth half-spaces",
             f"load       {contact.load:.6g} {self.load_unit}",
             f"roughness  {1e9 * contact.roughness:.4g} nm rms within the semi-axes",
             f"cells      {1e6 * mesh.dX * contact.x_scale:.4g} um along x",

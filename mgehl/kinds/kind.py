@@ -99,6 +99,12 @@ class Kind:
         raise NotImplementedError
 
 
+def pressure_unit(GPa):
+    """What turns a pressure, and all beside it, into its unit, and the unit: of a soft or light contact MPa
+    or kPa."""
+    return (1e6, "kPa") if GPa < 1e-4 else (1e3, "MPa") if GPa < 0.1 else (1.0, "GPa")
+
+
 def kept_together(text):
     """The text with spaces at which no line is broken."""
     return text.replace(" ", "\u00a0")

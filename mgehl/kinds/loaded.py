@@ -9,7 +9,7 @@ from mgehl.kinds import loaded_checks, surface, time
 from mgehl.kinds.bodies import roughness
 from mgehl.kinds.friction import check_friction, friction_from
 from mgehl.kinds.heat import check_factor, heated, solids_from
-from mgehl.kinds.kind import Effort, Kind, kept_together
+from mgehl.kinds.kind import Effort, Kind, kept_together, pressure_unit
 from mgehl.kinds.lubricant import check_laws, lubricant_from, thinning_of
 from mgehl.model.films import formula_of
 from mgehl.model.own_laws import OwnDensity
@@ -136,24 +136,21 @@ class LoadedKind(Kind):
 
     def lines(self, config, contact, mesh):
         """Groups, dry contact, films of formulas with what they assume, load and speed."""
-        hertz, first = contact.hertz, time.of_first_load(config)
-        groups = "   ".join(f"{name} {value:.4g}" for name, value in asdict(contact.groups).items())
-        compared = contact.compared
+        hertz, first, own = contact.hertz, time.of_first_load(config), contact.unheated
+        groups = "   ".join(f"{name} {value:.4g}" for name, value in asdict(own.groups).items())
+        compared = own.compared
         unit, scale = ("um", 1e6) if max(compared.values()) >= LONG_FILM else ("nm", 1e9)
         shown = "   ".join(
             f"{name.replace('_', ' ')} {scale * film:.4g}" for name, film in compared.items()
         )
         return [
             f"groups     {groups}",
-            f"regime     {contact.regime} (Moes)",
-            f"Hertz      {self.hertz_words(hertz)}   p_h {1e-9 * hertz.p_h:.4g} GPa{first}",
+            f"regime     {own.regime} (Moes)",
+            f"Hertz      {self.hertz_words(hertz)}   {p_h_words(hertz)}{first}",
             f"films, {unit}  {shown}{time.of_formulas(config)}",
             *(f"           {words}" for words in assumptions(contact)),
-            *(
-                f"lambda     {words}"
-                for words in lambda_words(config, contact.expected_film, "a formula's")
-            ),
-            *(f"heat       {words}" for words in heat_words(config, contact)),
+            *(f"lambda     {words}" for words in lambda_words(config, own.expected_film, "a formula's")),
+            *(f"heat       {words}" for words in (*factor_words(contact), *heat_words(config, contact))),
             f"load       {_over_time(config, time.load_key(config), contact.load)} {self.load_unit}   "
             f"speed {_over_time(config, 'motion.speed', contact.speed)} m/s, the mean of both surfaces' "
             "speeds",
@@ -177,7 +174,7 @@ class LoadedKind(Kind):
 
     def scalars(self, solution):
         """Load, films, gaps of rough bodies, pressure and groups; bands where there are any."""
-        contact, result, groups = solution.contact, solution.result, solution.contact.groups
+        contact, result, groups = solution.contact, solution.result, solution.contact.unheated.groups
         error, mixed = result.error, result.mixed
         gaps = mixed if mixed and mixed.mean_gap_nm is not None else None
         gap_error = gaps.error if gaps else None
@@ -228,7 +225,8 @@ def _with_bands(effort):
 
 
 def assumptions(contact):
-    """What the formulas of a contact assume, a few words each."""
+    """What the formulas of a contact assume, a few words each; they know the oil's own viscosity."""
+    contact = contact.unheated
     yield "all: smooth bodies, flooded, isothermal, Newtonian oil"
     told = {formula.label: formula for formula in map(formula_of, contact.shown_formulas)}
     yield from (f"{label}: {formula.assumes}" for label, formula in told.items())
@@ -251,6 +249,14 @@ def lambda_words(config, film, whose):
         )
 
 
+def factor_words(contact):
+    """What Gupta's factor leaves of the films of formulas, of an oil with the data for it."""
+    if contact.thermal_reduction is not None:
+        left = f"some {100.0 * max(contact.thermal_reduction, 0.0):.2g} %"
+        does = f"leaves {left}" if contact.lubricant.thinned < 1.0 else f"would leave {left}"
+        yield f'isothermal films: lubricant.heating = "factor" {does} of them (Gupta 1992)'
+
+
 def heat_words(config, contact):
     """What shear in the inlet leaves of the film, for an oil known over the temperature or a usual one."""
     if contact.thermal_reduction is not None:
@@ -267,6 +273,12 @@ def heat_words(config, contact):
         )
 
 
+def p_h_words(hertz):
+    """The largest pressure of the dry contact."""
+    factor, unit = pressure_unit(1e-9 * hertz.p_h)
+    return f"p_h {1e-9 * factor * hertz.p_h:.4g} {unit}"
+
+
 def speed_words(u):
     """A speed in mm/s, from 1 m/s on in m/s."""
-    return f"{u:.4g} m/s" if u >= 1.0 - 1e-12 else f"{1e3 * u:.4g} mm/s"
+    return f"{u:.4g} m/s" if abs(u) >= 1.0 - 1e-12 else f"{1e3 * u:.4g} mm/s"

@@ -202,6 +202,11 @@ class LoadedContact(OnBodies, Inlet):
         return 12.0 * self.speed * self.lubricant.viscosity * self.radius_x**2 / (hertz.a**3 * hertz.p_h)
 
     @property
+    def unheated(self):
+        """The same contact with the oil's own viscosity, which no heat of shear has thinned."""
+        return replace(self, lubricant=replace(self.lubricant, thinned=1.0))
+
+    @property
     def thermal_reduction(self):
         """As `heated_film`; None without oil's data."""
         oil = self.lubricant

@@ -148,11 +148,8 @@ def friction_lines(friction, verbose):
     if not friction.slide_to_roll:
         yield f"friction 0: the surfaces do not slide; {rolling}"
         return
-    # What the load on solids makes of it: without solids there is none.
-    has_band = friction.coefficient_band and friction.solid_coefficient
-    band = f" ± {friction.coefficient_band:.2g}" if has_band else ""
     yield (
-        f"friction {friction.coefficient:.5f}{band} ({friction.model}): film "
+        f"friction {coefficient_words(friction)} ({friction.model}): film "
         f"{friction.film_coefficient:.5f}, solids {friction.solid_coefficient:.5f}; {rolling}; "
         f"{friction.power_loss_W:.3g} W{unit}, largest shear {friction.largest_shear_MPa:.4g} MPa"
     )
@@ -166,6 +163,13 @@ def friction_lines(friction, verbose):
         yield _temperature_words(friction.temperatures)
     if friction.is_the_grids:
         yield "friction is the grid's, as the load on solids is"
+
+
+def coefficient_words(friction):
+    """The coefficient with its band: what the load on solids makes of it, without solids none."""
+    has_band = friction.coefficient_band and friction.solid_coefficient
+    band = f" ± {friction.coefficient_band:.2g}" if has_band else ""
+    return f"{friction.coefficient:.5f}{band}"
 
 
 def strength_lines(shear_MPa):

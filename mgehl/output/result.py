@@ -138,6 +138,7 @@ class Result:
     """Nodes that can be neither film nor contact, of an iteration whose sets cycle."""
     resolution: Resolution | None = None
     groups: Groups | None = None
+    """By the oil's own viscosity, as `moes_film` and `formulas`: no heat of shear has thinned it."""
     moes_film: MoesFilm | None = None
     formulas: dict | None = None
     """Films that formulas predict, by name in nm: those made for such bodies, of oil with this density."""

@@ -74,6 +74,18 @@ class Solution:
         return self.contact.is_at_rest
 
     @property
+    def last(self) -> dict[str, float] | None:
+        """The last row of a run in time, whose instant the fields are of; None of a steady state."""
+        return self.rows[-1] if self.config.is_in_time and self.rows else None
+
+    @property
+    def motion(self) -> tuple[float, float]:
+        """Direction in which the surfaces of a loaded contact move, of a run in time at its end: a unit
+        vector along x and y; (0, 0) of those at rest."""
+        sign = np.sign(self.last["speed_mm_s"]) if self.last else 1.0 - self.is_dry
+        return sign * self.contact.motion[0], sign * self.contact.motion[1]
+
+    @property
     def film(self) -> Reals | None:
         """Film thickness or gap h in m, (ny, nx); on rank 0."""
         return None if self.fields is None else self.fields.H * self.contact.film_scale

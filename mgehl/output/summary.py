@@ -32,10 +32,10 @@ CLOSED_IN_TIME = 1e-8
 def summarise(problem, outcome, tolerance, work, wall_s, versions):
     """The `Result` of a loaded contact with a film (collective); gap, residual and load are evaluated anew
     from P, H0 and the partition."""
-    contact, found = problem.contact, outcome.state
+    contact, found, own = problem.contact, outcome.state, problem.contact.unheated
     state = outcome.state = problem.state(found.P, found.H0, found.status, found.p, found.filling)
     evaluation = problem.evaluate(state)
-    nm, moes = 1e9 * contact.film_scale, contact.film_scale * contact.moes_scale
+    nm, moes = 1e9 * contact.film_scale, contact.film_scale * own.moes_scale
     central, minimum = problem.films(state)
     result = Result(
         **of_every_load(problem, state, work, wall_s, versions, LOADED),
@@ -49,9 +49,9 @@ def summarise(problem, outcome, tolerance, work, wall_s, versions):
         contradictions=[_contradiction(each, nm) for each in outcome.contradictions],
         cavitated_nodes=problem.counts(state.status)[1],
         resolution=resolution(contact, problem.grid.mesh),
-        groups=contact.groups,
+        groups=own.groups,
         moes_film=MoesFilm(central * moes, minimum * moes),
-        formulas={f"{name}_nm": 1e9 * film for name, film in contact.compared.items()},
+        formulas={f"{name}_nm": 1e9 * film for name, film in own.compared.items()},
         mixed=mixed_result(problem, state),
         mass=mass_account(problem, state, evaluation),
         thermal_reduction=contact.thermal_reduction,

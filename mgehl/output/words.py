@@ -1,5 +1,6 @@
 """A result in words: what a run, a `Solution` and a script print of it."""
 
+from mgehl.kinds.kind import pressure_unit
 from mgehl.output.digits import with_band
 from mgehl.output.friction_result import friction_lines, strength_lines
 from mgehl.output.mixed_words import filling_words, mixed_lines
@@ -222,8 +223,8 @@ def largest_pressure_words(result):
 
 
 def pressure_words(GPa, half_width=None):
-    """A pressure, with its band if there is one; that of a soft or light contact in MPa or kPa."""
-    factor, unit = (1e6, "kPa") if GPa < 1e-4 else (1e3, "MPa") if GPa < 0.1 else (1.0, "GPa")
+    """A pressure, with its band if there is one."""
+    factor, unit = pressure_unit(GPa)
     if half_width is None and factor > 1.0:
         return f"{factor * GPa:.4g} {unit}"
     return f"{with_band(factor * GPa, half_width and factor * half_width)} {unit}"
@@ -242,20 +243,18 @@ def time_lines(time):
     )
     yield f"oil: storage and flow close to {time.largest_closure:.1e} of what is stored in every step"
     if time.means:
-        shown = {
-            "mean_gap_nm": ("mean gap", 1.0, "nm"),
-            "max_pressure_GPa": ("largest pressure", 1.0, "GPa"),
-            "load_on_solids": ("load on solids", 100.0, "%"),
-        }
-        if time.means["friction"].value:
-            shown["friction"] = ("friction", 1.0, "of the load")
-        parts = [_mean_words(time.means[name], *how) for name, how in shown.items()]
-        yield f"over the last passage: {', '.join(parts)}"
+        pressure, friction = time.means["max_pressure_GPa"], time.means["friction"]
+        yield (
+            f"over the last passage: mean gap {mean_words(time.means['mean_gap_nm'])} nm, largest pressure "
+            f"{pressure_words(pressure.value, pressure.band or None)}, load on solids "
+            f"{mean_words(time.means['load_on_solids'], 100.0)} %"
+            + (f", friction {mean_words(friction)} of the load" if friction.value else "")
+        )
     else:
         yield "no means: the run ends before its first passage"
     yield from strength_lines(time.largest_shear_MPa)
 
 
-def _mean_words(mean, name, scale, unit):
-    band = "" if mean.band is None else f" ± {scale * mean.band:.2g}"
-    return f"{name} {scale * mean.value:.4g}{band} {unit}"
+def mean_words(mean, scale=1.0):
+    """A `Mean` times `scale`, with its band; with four digits where it has none, or no width."""
+    return with_band(scale * mean.value, scale * mean.band) if mean.band else f"{scale * mean.value:.4g}"

@@ -37,7 +37,9 @@ class Forecast:
 
 
 def check_start(start, kind):
-    """Raise UserError where a `Solution` cannot start a contact of this kind."""
+    """Raise UserError where a `Solution` cannot start a contact of this kind, or is none."""
+    if not hasattr(start, "config"):
+        raise UserError(f"start: is of type {type(start).__name__}; must be a Solution or a run directory")
     other = start.config.contact.kind
     if other != kind or not start.contact.is_loaded:
         raise UserError(f"a {other} is no start for a {kind}")

@@ -115,6 +115,8 @@ class Point:
 def points_of(config, axes, both_ways=False):
     """The `Point`s of a sweep in order. Raises ConfigError where one cannot be used."""
     keys = [axis.key for axis in axes]
+    if not keys:
+        raise ConfigError("--over: names no key; must be as motion.speed='1e-4..1 m/s:20'")
     if len({*keys}) < len(keys):
         raise ConfigError(f"--over {max(keys, key=keys.count)}: is given twice")
     if prod(len(axis.values) for axis in axes) > MOST_POINTS:

@@ -20,17 +20,19 @@ from mpi4py import MPI
 
 from mgehl.config import config_from_tables
 from mgehl.errors import OutputError, UserError, one_line
+from mgehl.kinds.choice import value_of
 from mgehl.output.checkpoint import is_begun
 from mgehl.output.directory import make_directory
 from mgehl.output.files import CONFIGURATION, FIELDS, REPORT, on_first_rank
 from mgehl.output.laws import portable
 from mgehl.output.lock import locked
+from mgehl.output.pictures.titles import differing
 from mgehl.output.report.page import render
 from mgehl.output.report.study_report import study_report
 from mgehl.output.solution import on_every_rank
 from mgehl.output.stored import read_run, read_texts
 from mgehl.output.study_directory import RUNS, begin_study, clear_runs, finish_study
-from mgehl.output.table import drawn, markdown, write_csv
+from mgehl.output.table import drawn, markdown, said, write_csv
 from mgehl.output.whole_file import write_whole
 from mgehl.run import Watch, enter, run
 from mgehl.saying import columns, complain, say
@@ -230,8 +232,13 @@ def _has_finished(path, config):
     """Whether the run of this configuration is there."""
     if is_begun(path) or not (path / FIELDS).exists():
         return False
-    if tomllib.loads(read_texts(path)[CONFIGURATION]) != tomllib.loads(tomli_w.dumps(portable(config))):
-        raise OutputError(f"--resume: {path} is of another configuration; choose another with --out")
+    there, here = (
+        tomllib.loads(text) for text in (read_texts(path)[CONFIGURATION], tomli_w.dumps(portable(config)))
+    )
+    if keys := differing([there, here]):
+        old, new = (said(value_of(tables, keys[0])) or "unset" for tables in (there, here))
+        other = f"is of another configuration, {keys[0]} = {old} and not {new}"
+        raise OutputError(f"--resume: {path} {other}; choose another with --out")
     return True
 
 

@@ -37,6 +37,19 @@ def test_a_point_contact_is_described(told):
     assert "on 2 ranks" in text and "timed just now" in text
 
 
+def test_formulas_are_isothermal_and_heat_is_told_beside_them(told):
+    """With heating = "factor" groups and films had the heated viscosity and were called isothermal."""
+    oil = "lubricant.conductivity=0.14", "lubricant.thermoviscosity=0.04", "motion.speed=2 m/s"
+    text, heated = (
+        told("full_film.toml", *(word for each in (*oil, *more) for word in ("--set", each)))
+        for more in ([], ["lubricant.heating=factor"])
+    )
+    begin, end = (re.search(rf"^{head} .*$", text, re.M)[0] for head in ("groups", "films, nm"))
+    assert begin in heated and end in heated
+    left = number(text, r'heat +isothermal films: lubricant.heating = "factor" would leave some (\d+) %')
+    assert number(heated, r'"factor" leaves some (\d+) %') == left < 98
+
+
 def test_keys_that_do_nothing_are_named(told):
     """A dry contact keeps those of a fluid for another day."""
     words = "--set", "discretization.contact_model=dry", "--set", "friction.boundary_coefficient=0.12"

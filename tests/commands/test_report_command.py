@@ -79,6 +79,12 @@ def test_a_damaged_run_is_refused_and_writes_nothing(here, capsys, damage):
     assert names(here / "dry") == before
 
 
+def test_somebodys_tables_are_no_study(here, capsys):
+    """They were a study whose table was cut off."""
+    (here / "race.csv").write_text("x [um];y [um];z [nm]\n0,0;0,0;-87,6\n")
+    assert ".: is no run directory: it has no fields.h5" in refused(["."], capsys)
+
+
 def test_a_study(here, capsys):
     (here / "mine").mkdir()
     (here / "mine" / "films.csv").write_text("couette,central nm\nS2B-vi,393.0\n")

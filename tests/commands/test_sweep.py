@@ -10,6 +10,7 @@ from mpi4py import MPI
 
 import mgehl
 from mgehl.cli import main
+from mgehl.commands.sweep import _split
 from mgehl.config import load_config
 from mgehl.errors import UserError
 from mgehl.studies import study
@@ -80,7 +81,10 @@ def test_killed_and_resumed_it_has_the_same_table(film, tmp_path, monkeypatch):
 def test_what_is_there_is_not_solved_again_nor_taken_for_another(film, capsys, monkeypatch):
     monkeypatch.setattr(study, "run", None)
     assert main([*SWEEP, str(film), "--resume"]) == 0
-    others = {"0.6..2 m/s:3": "001 is of another configuration", "0.5,1.25 m/s": "003 is of a longer sweep"}
+    others = {
+        "0.6..2 m/s:3": "001 is of another configuration, motion.speed = 0.5 and not 0.6",
+        "0.5,1.25 m/s": "003 is of a longer sweep",
+    }
     for speeds, why in others.items():
         words = [f"motion.speed={speeds}" if word == SPEEDS else word for word in SWEEP]
         assert main([*words, str(film), "--resume"]) == 2
@@ -120,6 +124,11 @@ def test_a_point_that_fails_is_said_and_passed(tmp_path, capsys, monkeypatch):
 )
 def test_ranges_and_lists(text, values):
     assert axis_of(load_config(), "motion.speed", text).values == pytest.approx(values)
+
+
+@pytest.mark.parametrize("values", ["1,2 m/s", '"1,2 m/s"', "'1,2 m/s'"])
+def test_values_may_stand_in_quotes_as_those_of_set_do(values):
+    assert _split(f"motion.speed={values}") == ("motion.speed", "1,2 m/s")
 
 
 def test_several_keys_are_a_snake_there_and_back():

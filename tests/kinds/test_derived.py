@@ -183,6 +183,26 @@ def test_a_setting_pushes_out_no_more_than_it_replaces():
     assert config.with_(law).lubricant == replace(thin, viscosity_law="roelands")
 
 
+def test_a_radius_that_takes_the_arm_of_a_rotation_says_so():
+    """body_1.rotation was said to be that of a flat body."""
+    roller = {
+        "body_1.radius_x": "9 mm",
+        "body_1.rotation": "3000 rpm",
+        "body_2.speed": 0,
+        "contact.kind": "line",
+    }
+    words = (
+        "contact.radius_x = '5 mm': takes the place of body_1.radius_x, by which body_1.rotation is a speed"
+    )
+    with pytest.raises(ConfigError, match=words):
+        of(roller).with_({"contact.radius_x": "5 mm"})
+    bearing = load_config(CONFIGS / "bearing_6206.toml")
+    with pytest.raises(ConfigError, match="motion.ring_rotation is a speed: set motion.speed, too"):
+        bearing.with_({"contact.radius_y": "50 mm"})
+    arm = {"contact.radius_x": "5 mm", "body_1.rotation_radius": "9 mm"}
+    assert of(roller).with_(arm).motion.speed == of(roller).motion.speed
+
+
 @pytest.mark.parametrize("setting", ["lubricant.viscosity=.01", "lubricant.oil=M100", "motion.speed=1",
     "lubricant.kinematic_viscosity=9 cSt", "lubricant.pressure_viscosity=9 1/GPa", "body_1.speed=1",
     "motion.ring_rotation=9 rpm"])  # fmt: skip

@@ -9,8 +9,8 @@ from test_files import make_result
 
 import mgehl
 from mgehl.output.resolution import Resolution
-from mgehl.output.result import TimeResult
-from mgehl.output.words import FAILED, UNRESOLVED
+from mgehl.output.result import Mean, TimeResult
+from mgehl.output.words import FAILED, UNRESOLVED, mean_words
 from mgehl.solver.inequality import Inequality
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -29,6 +29,15 @@ def test_a_run_shorter_than_a_passage_says_that_it_has_no_means():
 def test_a_shear_in_time_that_no_oil_bears_is_named(shear, is_odd):
     found = str(make_result(time=in_time(largest_shear_MPa=shear)))
     assert ("no oil bears more than some 300 MPa" in found) == is_odd
+
+
+@pytest.mark.parametrize(
+    "mean, said",
+    [(Mean(148.9, 21.0), "150 ± 30"), (Mean(0.25, 0.0), "0.25"), (Mean(148.93, None), "148.9")],
+)
+def test_a_mean_is_rounded_as_its_band_is(mean, said):
+    """A report had 150 ± 30 on top and 148.9 ± 21 below."""
+    assert mean_words(mean) == said
 
 
 class TestWhereToReadOn:

@@ -30,6 +30,7 @@ def test_the_factor_thins_the_film_by_as_much(tmp_path):
     assert plain.thermal_reduction == heated.thermal_reduction < 0.95
     ratio = heated.central_film_nm / plain.central_film_nm
     assert ratio == pytest.approx(plain.thermal_reduction, abs=0.01)
+    assert (plain.groups, plain.formulas) == (heated.groups, heated.formulas)  # the oil's own
     assert "isothermal film; shear in the inlet would take some" in plain.words()
     assert "shear in the inlet has taken some" in heated.words()
 

@@ -10,6 +10,7 @@ from mgehl.config import KEYS
 from mgehl.errors import UserError
 from mgehl.kinds.choice import value_of
 from mgehl.kinds.derived import beside
+from mgehl.kinds.kind import pressure_unit
 from mgehl.output.pictures.style import COLOURS, MARKS, legend_under_all, subplots
 from mgehl.output.pictures.titles import DOMAIN, differing, key_words
 from mgehl.output.quantities import QUANTITIES
@@ -60,11 +61,11 @@ def curves(runs, key, names=()):
     told = [each for each in (key, KEYS[key].metadata["unit"]) if each]
     figure, axes = subplots(rows, min(2, len(panels)), size=(10.5, 1.0 + 3.4 * rows), squeeze=False)
     for axis, (label, panel) in zip(axes.flat, panels.items(), strict=False):
-        handles = [_draw(axis, runs, x, *each, panel) for each in groups.items()]
-        axis.set(ylabel=_label(label, panel), xlabel=", ".join(told))
-        _scale(
-            axis, x, [run.number(QUANTITIES[name].path) for run in runs if run.settled for name in panel]
-        )
+        y = [run.number(QUANTITIES[name].path) for run in runs if run.settled for name in panel]
+        factor, unit = pressure_unit(max(filter(isfinite, y))) if label.endswith("GPa") else (1.0, "")
+        handles = [_draw(axis, runs, x, *each, panel, factor) for each in groups.items()]
+        axis.set(ylabel=_label(label.replace("GPa", unit), panel), xlabel=", ".join(told))
+        _scale(axis, x, [factor * each for each in y])
         failed = [each for each, run in zip(x, runs, strict=True) if not run.settled]
         axis.plot(failed, len(failed) * [0.98], transform=axis.get_xaxis_transform(), **NOT_HERE)
         if len(panel) > 1:
@@ -114,16 +115,16 @@ def _there(runs, panel):
     return [name for name in found if name not in OF_ONE_NODE or "mean_gap_nm" not in found]
 
 
-def _draw(axis, runs, x, name, look, panel):
-    """The curves of one group; their handles."""
+def _draw(axis, runs, x, name, look, panel, factor):
+    """The curves of one group, by their numbers times a factor; their handles."""
     numbers, colour, mark = look
     numbers = sorted((number for number in numbers if runs[number].settled), key=lambda n: x[n])
     handles = []
     for quantity, stroke in zip(panel, STROKES, strict=False):
         path, _, meaning, band = QUANTITIES[quantity]
         at = np.array([x[number] for number in numbers])
-        y = np.array([runs[number].number(path) for number in numbers])
-        width = np.array([runs[number].number(band or "none") for number in numbers])
+        y = factor * np.array([runs[number].number(path) for number in numbers])
+        width = factor * np.array([runs[number].number(band or "none") for number in numbers])
         (line,) = axis.plot(at, y, stroke, color=colour, label=meaning)
         handles.append(line)
         bare = np.isnan(width) & np.isfinite(width).any()

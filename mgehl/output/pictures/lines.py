@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mgehl.discretization.status import CAVITATED, CONTACT
+from mgehl.kinds.kind import pressure_unit
 from mgehl.kinds.time import of_first_load
 from mgehl.model.hertz import hertz_pressure
 from mgehl.output.pictures import style
@@ -20,13 +21,14 @@ FINE = 801
 """Places at which the dry contact is drawn: nodes may be few."""
 BARE = 1e-6
 """Part of the largest pressure by which the fluid's own must differ to be drawn."""
-ALONG, ACROSS = "Y = 0, along the motion (left to right)", "X = 0, across the motion"
+ALONG = {1.0: "left to right", -1.0: "right to left"}
+"""The motion by its part along x, where it has no other."""
 ANYWHERE = "Y = 0, along x", "X = 0, along y"
-"""Where the motion is not along x."""
+"""Where the motion is not along x, or there is none."""
 
 
 class Line(NamedTuple):
-    """A centre line: place in semi-axes; total pressure and the fluid's own in GPa; gap and its oil in nm;
+    """A centre line: place in semi-axes; total pressure and the fluid's own; gap and its oil in nm;
     status. Of the dry contact places of its own, pressure and gap."""
 
     X: np.ndarray
@@ -40,12 +42,12 @@ class Line(NamedTuple):
     dry: np.ndarray
 
 
-def line_of(solution, across):
-    """The `Line` of a loaded contact along x on Y = 0, or along y on X = 0."""
+def line_of(solution, across, GPa=1.0):
+    """The `Line` of a loaded contact along x on Y = 0, or along y on X = 0; a GPa counts as so many."""
     mesh, fields, contact = solution.mesh, solution.fields, solution.contact
     i, j = mesh.nearest(0.0, 0.0)
     part, X = ((slice(None), i), mesh.Y) if across else ((j, slice(None)), mesh.X)
-    GPa, nm = 1e-9 * contact.pressure_scale, 1e9 * contact.film_scale
+    GPa, nm = GPa * 1e-9 * contact.pressure_scale, 1e9 * contact.film_scale
     layers = 1e9 * solution.config.contact.boundary_film
     P, film = GPa * fields.P[part], nm * fields.H[part]
     fine = np.linspace(X[0], X[-1], FINE)
@@ -72,10 +74,11 @@ def centre_lines(solution):
 
 def draw_lines(axes, solution):
     """Pressures on the first row of axes, films on the second, along x and along y; their handles."""
-    lines = [line_of(solution, across) for across in range(len(axes[0]))]
+    factor, unit = unit_of([solution])
+    lines = [line_of(solution, across, factor) for across in range(len(axes[0]))]
     set_axes(axes, [[line] for line in lines])
-    called, labels = names(solution.contact), position_labels(solution)
-    axes[0, 0].set_ylabel("pressure, GPa")
+    called, labels = names(solution), position_labels(solution)
+    axes[0, 0].set_ylabel(f"pressure, {unit}")
     axes[1, 0].set_ylabel(gap_words(solution.contact)[1])
     handles = []
     for (pressures, films), line, title, label in zip(axes.T, lines, called, labels, strict=False):
@@ -85,10 +88,15 @@ def draw_lines(axes, solution):
     return handles
 
 
-def names(contact):
+def unit_of(solutions):
+    """`pressure_unit` of the largest pressure of runs."""
+    return pressure_unit(1e-9 * max(each.pressure.max() for each in solutions))
+
+
+def names(solution):
     """What the two lines are called, by the direction of the motion, if there is one."""
-    along_x = contact.motion == (1.0, 0.0) and not contact.is_at_rest
-    return (ALONG, ACROSS) if along_x else ANYWHERE
+    way = ALONG.get(solution.motion[0])
+    return (f"Y = 0, along the motion ({way})", "X = 0, across the motion") if way else ANYWHERE
 
 
 def set_axes(axes, lines):

@@ -11,6 +11,8 @@ from matplotlib.patheffects import withStroke
 from matplotlib.ticker import LogLocator, MaxNLocator
 
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED, NAMES, names
+from mgehl.kinds.kind import pressure_unit
+from mgehl.kinds.time import of_first_load
 from mgehl.output.pictures import style
 from mgehl.output.pictures.plane import INSIDE, MOST, OVERLAP, Plane, film_norm
 from mgehl.output.pictures.titles import gap_words, map_labels, title, title_with_films
@@ -32,8 +34,9 @@ def film_map(solution):
 
 
 def pressure_map(solution):
-    """Figure of the pressure in GPa; of contact the outline."""
-    return _smooth_map(1e-9 * solution.pressure, "pressure", "GPa", solution)
+    """Figure of the pressure; of contact the outline."""
+    factor, unit = pressure_unit(1e-9 * solution.pressure.max())
+    return _smooth_map(factor * 1e-9 * solution.pressure, "pressure", unit, solution)
 
 
 def shear_map(solution):
@@ -156,17 +159,17 @@ def finish(axes, solution, plane):
     axes.set_box_aspect(1.0 / drawn)
     if not contact.is_loaded:
         return []
-    if not contact.is_at_rest:
+    if any(solution.motion):
         corner = left + 0.18 * (right - left), bottom + 0.1 * (top - bottom)
-        scale = {"angles": "xy", "scale_units": "inches", "scale": np.hypot(*contact.motion) / ARROW}
+        scale = {"angles": "xy", "scale_units": "inches", "scale": 1.0 / ARROW}
         look = {"units": "inches", "width": 0.03, "pivot": "middle", "path_effects": _EDGE, "zorder": 5}
-        axes.quiver(*corner, *contact.motion, **scale, **look)
+        axes.quiver(*corner, *solution.motion, **scale, **look)
     a, b = 1e3 * contact.x_scale, 1e3 * contact.y_scale
     line = {"color": "black", "linestyle": ":", "linewidth": 1.3}
     axes.add_patch(Ellipse((0.0, 0.0), 2.0 * a, 2.0 * b, fill=False, path_effects=_EDGE, **line))
     size = f"a = b = {a:.3g} mm" if f"{a:.3g}" == f"{b:.3g}" else f"a = {a:.3g} mm, b = {b:.3g} mm"
     coated = "" if contact.deformation is None else ", uncoated"
-    return [Line2D([], [], label=f"Hertz{coated}: {size}", **line)]
+    return [Line2D([], [], label=f"Hertz{coated}{of_first_load(solution.config)}: {size}", **line)]
 
 
 def _ratios(plane):

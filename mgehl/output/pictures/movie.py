@@ -7,11 +7,12 @@ from matplotlib import animation
 from matplotlib.colors import LogNorm
 from matplotlib.ticker import LogLocator
 
-from mgehl.discretization.status import CAVITATED
+from mgehl.discretization.status import CAVITATED, CONTACT
 from mgehl.errors import UserError
+from mgehl.kinds.kind import pressure_unit
 from mgehl.output.pictures import style
+from mgehl.output.pictures.plane import LOADED
 from mgehl.output.pictures.style import FILM, PRESSURE, STATUS_MAP, STATUS_NORM
-from mgehl.solver.gaps import within_hertz
 
 SECOND = 10
 """Frames in a second."""
@@ -23,7 +24,7 @@ THINNEST, WIDEST = 1.0, 3.0
 """Film in nm at which the colours begin at the least; the largest on the axis over the largest inside."""
 
 SHOWN = 1.7
-"""Semi-axes from the centre that are shown."""
+"""What is shown over the farthest from the centre that carries load in some frame, or Hertz's semi-axis."""
 
 
 def write_movie(solution, folder):
@@ -50,17 +51,21 @@ def write_movie(solution, folder):
 def _stage(solution, frames):
     """The figure, and a function that makes it that of a frame."""
     plane, middle = not solution.mesh.is_line, solution.mesh.nearest(0.0, 0.0)[1]
+    largest = 1e-9 * max(fields["pressure"].max() for _, fields in frames)
+    factor, unit = pressure_unit(largest)
     figure, axes = style.subplots(1, 1 + plane, size=(6.0 + 5.0 * plane, 4.6), squeeze=False)
     figure.get_layout_engine().set(w_pad=0.2, h_pad=0.1)
-    films = _least_and_most(solution, frames)
+    films = _least_and_most(frames)
     images = _map(axes[0, 0], solution, frames, films) if plane else ()
     times, speeds = zip(*((row["time_s"], row["speed_mm_s"]) for row in solution.rows), strict=True)
-    p, h = _centre_lines(axes[0, -1], solution, frames, films)
+    p, h = _centre_lines(axes[0, -1], solution, films)
+    axes[0, -1].set(ylabel=f"pressure, {unit}", ylim=(0.0, 1.05 * factor * largest))
+    axes[0, -1].set_xlim(*(side * next(halves(solution, frames)) for side in (-1.0, 1.0)))
 
     def show(t, fields):
         for image, data in zip(images, (1e9 * fields["film"], _no_film(fields)), strict=False):
             image.set_data(data)
-        p.set_ydata(1e-9 * fields["pressure"][middle])
+        p.set_ydata(factor * 1e-9 * fields["pressure"][middle])
         h.set_ydata(1e9 * fields["film"][middle])
         figure.suptitle(f"{1e3 * t:.4g} ms, {np.interp(t, times, speeds):.4g} mm/s")
 
@@ -72,10 +77,23 @@ def _no_film(fields):
     return np.ma.masked_less(fields["status"], CAVITATED)
 
 
-def _least_and_most(solution, frames):
-    """Of all films within the Hertz contact, in nm."""
-    inside = within_hertz(solution.mesh)
-    films = [1e9 * fields["film"][inside] for _, fields in frames]
+def _carries(fields):
+    """The nodes that carry load."""
+    return (fields["pressure"] > LOADED * fields["pressure"].max()) | (fields["status"] == CONTACT)
+
+
+def halves(solution, frames):
+    """Half of what is shown along x and y in mm."""
+    loaded = np.any([_carries(fields) for _, fields in frames], axis=0)
+    for axis, (line, hertz) in enumerate(
+        ((solution.x, solution.contact.x_scale), (solution.y, solution.contact.y_scale))
+    ):
+        yield 1e3 * SHOWN * np.abs(line[loaded.any(axis=axis)]).max(initial=hertz)
+
+
+def _least_and_most(frames):
+    """Of all films that carry load, in nm."""
+    films = [1e9 * fields["film"][_carries(fields)] for _, fields in frames]
     return max(min(film.min() for film in films), THINNEST), max(film.max() for film in films)
 
 
@@ -88,18 +106,16 @@ def _map(axes, solution, frames, films):
     cover = axes.imshow(_no_film(first), **status, **place)
     steps = {"ticks": LogLocator(subs=(1.0, 2.0, 5.0)), "format": "%g", "extend": "max"}
     axes.figure.colorbar(image, ax=axes, label="film, nm", **steps).minorticks_off()
-    x, y = (SHOWN * 1e3 * scale for scale in (solution.contact.x_scale, solution.contact.y_scale))
+    x, y = halves(solution, frames)
     axes.set(xlabel="x, mm (pink: cavity, orange: contact)", ylabel="y, mm", xlim=(-x, x), ylim=(-y, y))
     return image, cover
 
 
-def _centre_lines(axes, solution, frames, films):
+def _centre_lines(axes, solution, films):
     beside, x = axes.twinx(), 1e3 * solution.x
     (p,) = axes.plot(x, np.zeros(x.size), color=PRESSURE)
     (h,) = beside.plot(x, np.ones(x.size), color=FILM)
-    largest = max(fields["pressure"].max() for _, fields in frames)
-    half = SHOWN * 1e3 * solution.contact.x_scale
-    axes.set(xlabel="x, mm", ylabel="pressure, GPa", xlim=(-half, half), ylim=(0.0, 1.05e-9 * largest))
+    axes.set_xlabel("x, mm")
     beside.set(ylabel="film, nm", yscale="log", ylim=(0.7 * films[0], WIDEST * films[1]))
     beside.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
     beside.yaxis.set_major_formatter("{x:g}")

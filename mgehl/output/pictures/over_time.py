@@ -2,14 +2,15 @@
 
 import numpy as np
 
+from mgehl.kinds.kind import pressure_unit
 from mgehl.output.pictures.history import column
 from mgehl.output.pictures.style import COLOURS, CONTACT_COLOUR, FILM, PRESSURE, subplots
-from mgehl.output.pictures.titles import title
+from mgehl.output.pictures.titles import title_of_all
 
 PANELS = (
     ("film, nm", {"central_film_nm": ("central", FILM), "mean_gap_nm": ("mean within Hertz", COLOURS[4]),
                   "minimum_film_nm": ("minimum", COLOURS[3])}),
-    ("largest pressure, GPa", {"max_pressure_GPa": ("largest pressure", PRESSURE)}),
+    ("largest pressure", {"max_pressure_GPa": ("largest pressure", PRESSURE)}),
     ("part of the load", {"load_on_contact": ("on contact", CONTACT_COLOUR),
                           "load_on_solids": ("on solids", COLOURS[6])}),
     ("friction", {"friction": ("over the load", COLOURS[1])}),
@@ -25,8 +26,8 @@ def over_time(solution):
     where they change."""
     rows = solution.rows
     t, units = column(rows, "time_s"), {"s": 1.0, "ms": 1e3, "us": 1e6}
-    unit = next((unit for unit, factor in units.items() if t[-1] * factor >= 1.0), "us")
-    t = t * units[unit]
+    in_s = next((unit for unit, factor in units.items() if t[-1] * factor >= 1.0), "us")
+    t = t * units[in_s]
     panels = [(label, _there(rows, columns)) for label, columns in PANELS]
     panels = [(label, columns) for label, columns in panels if columns]
     driven = {name: how for name, how in DRIVEN.items() if np.ptp(column(rows, name)) > 0.0}
@@ -37,13 +38,16 @@ def over_time(solution):
     for panel, (label, columns) in zip(axes, panels, strict=True):
         for name, (said, colour) in columns.items():
             values = column(rows, name)
-            largest = np.abs(values).max() if columns is driven else 1.0
-            panel.plot(t, values / largest, color=colour, label=said)
+            over = np.abs(values).max() if columns is driven else 1.0
+            if name == "max_pressure_GPa":
+                factor, unit = pressure_unit(values.max())
+                label, over = f"{label}, {unit}", 1.0 / factor
+            panel.plot(t, values / over, color=colour, label=said)
         panel.set_ylabel(label)
         if len(columns) > 1 or columns is driven:
-            panel.legend()
-    axes[-1].set_xlabel(f"time, {unit}")
-    figure.suptitle(title(solution))
+            panel.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
+    axes[-1].set_xlabel(f"time, {in_s}")
+    figure.suptitle(title_of_all(solution))
     return figure
 
 

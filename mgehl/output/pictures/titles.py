@@ -1,11 +1,13 @@
 """What a picture is of, what its axes show, and what tells runs apart that are shown together."""
 
+from dataclasses import replace
 from pathlib import Path
 
 from mgehl.config import KEYS
 from mgehl.errors import UserError
 from mgehl.kinds import KINDS
 from mgehl.kinds.loaded import speed_words
+from mgehl.kinds.time import of_first_load
 from mgehl.output.laws import portable
 from mgehl.output.mixed_words import mixed_note
 from mgehl.output.words import films_words
@@ -26,12 +28,31 @@ _SHORT = {
 
 
 def title(solution):
+    """As `title_of_all`; of a run in time with a second line for the instant that is shown."""
+    return "\n".join([title_of_all(solution), *_instant(solution)])
+
+
+def title_of_all(solution):
     """Speed, load, nodes and verdict; of a wedge what stands in its film."""
     return f"{', '.join(solution.config.kind.parts(solution))}: {verdict(solution.result)}"
 
 
+def _instant(solution):
+    """Line with the time of the fields of a run in time, and speed and load then where these change."""
+    if not (last := solution.last):
+        return []
+    config, contact = solution.config, solution.contact
+    there = [f"at {1e3 * last['time_s']:.6g} ms"]
+    if isinstance(config.motion.speed, str):
+        there.append(speed_words(1e-3 * last["speed_mm_s"]))
+    if of_first_load(config):
+        now = replace(contact, load=last["load_share"] * contact.load)
+        there.append(" ".join(config.kind.load(now)))
+    return [", ".join(there)]
+
+
 def title_with_films(solution):
-    """As `title`, with a second line for films that have bands and for film and contact of rough bodies."""
+    """As `title`, with a line for films that have bands and one for film and contact of rough bodies."""
     result = solution.result
     films = "" if result.error.central_nm is None else films_words(result)
     return "\n".join(filter(None, (title(solution), films, mixed_note(result.mixed))))
@@ -117,7 +138,9 @@ def _flat(tables):
 
 
 def key_words(name, value):
-    """A key and its value, in a few words with the unit."""
+    """A key and its value, in a few words with the unit; of a course of time its name."""
+    if KEYS[name].metadata["kind"] is float and isinstance(value, str):
+        return f"{name} {Path(value).name}"
     if name in _SHORT:
         return _SHORT[name](value)
     unit, is_switch = KEYS[name].metadata["unit"] or "", isinstance(value, bool)

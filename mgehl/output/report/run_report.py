@@ -8,6 +8,7 @@ from pathlib import Path
 
 from mgehl.config import SECTIONS
 from mgehl.kinds.cited import cited
+from mgehl.kinds.kind import pressure_unit
 from mgehl.kinds.loaded import assumptions
 from mgehl.kinds.own import naming_keys
 from mgehl.kinds.plausible import implausible
@@ -18,6 +19,7 @@ from mgehl.model.sources import SOURCES
 from mgehl.output.advice import beside_bands
 from mgehl.output.digits import with_band
 from mgehl.output.files import plain_result
+from mgehl.output.friction_result import coefficient_words, friction_lines
 from mgehl.output.mixed_words import gap_band_words, mean_gaps, mixed_note
 from mgehl.output.pictures import style
 from mgehl.output.pictures.figures import drawn_by, figures
@@ -26,7 +28,16 @@ from mgehl.output.resolution import RESOLVED_CELLS, STARVED_FROM
 from mgehl.output.summary import COMPLEMENTARITY_TOLERANCE
 from mgehl.output.surface import ADVICE as SURFACE
 from mgehl.output.surface import RESOLVED_NODES
-from mgehl.output.words import advice, band_words, largest_pressure_words, span, time_lines
+from mgehl.output.words import (
+    advice,
+    band_words,
+    heating_words,
+    largest_pressure_words,
+    mean_words,
+    pressure_words,
+    span,
+    time_lines,
+)
 from mgehl.solver.verification import FEWEST_NODES, LARGEST_EDGE_PRESSURE
 
 HISTORY_NAMES = {
@@ -134,7 +145,8 @@ FUNCTIONS = {
 } | {
     each.__name__: each for each in (
         number, limited, enough, absent, informing, judged, from_each, advice, band_words, gap_band_words,
-        mean_gaps, mixed_note, span, carried, largest_pressure_words, time_lines, with_band,
+        mean_gaps, mixed_note, span, carried, largest_pressure_words, time_lines, mean_words, heating_words,
+        friction_lines, coefficient_words, pressure_words, pressure_unit,
     )
 }  # fmt: skip
 """What run.html.j2 calls."""

@@ -6,7 +6,7 @@ import struct
 from pathlib import Path
 
 from mgehl.errors import OutputError
-from mgehl.output.files import NAMES
+from mgehl.output.files import NAMES, STUDY
 from mgehl.output.report.page import picture, table
 from mgehl.output.study_directory import read_record
 
@@ -14,10 +14,15 @@ DPI = 150
 """Of pictures of studies."""
 
 
-def is_study(directory):
-    """True of a directory with tables and no file of a run, whose history is a table, too."""
+def is_study(directory, studies):
+    """True of a directory with a study's record, or tables that one of `studies` left before there were
+    records, and no file of a run, whose history is a table, too."""
     directory = Path(directory)
-    return any(directory.glob("*.csv")) and not any((directory / name).exists() for name in NAMES)
+    if any((directory / name).exists() for name in NAMES):
+        return False
+    return (directory / STUDY).exists() or bool(
+        any(directory.glob("*.csv")) and _named_by_files(directory, studies)
+    )
 
 
 def study_report(directory, studies):

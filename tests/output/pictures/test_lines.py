@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from mgehl.discretization.status import CAVITATED, CONTACT
-from mgehl.output.pictures import style
+from mgehl.output.pictures import maps, style
 from mgehl.output.pictures.lines import centre_lines
 
 
@@ -35,6 +35,13 @@ def test_both_axes_show_the_fields_in_GPa_and_nm(make_solution, drawn):
         np.testing.assert_allclose(lines_of(above)["pressure"].get_xydata().T, [position, GPa[line]])
         np.testing.assert_allclose(lines_of(below)["film"].get_xydata().T, [position, nm[line]])
         assert above.get_xlim() == below.get_xlim() == pytest.approx(tuple(position[[0, -1]]))
+
+
+def test_a_soft_contact_is_drawn_in_kPa_as_it_is_told(make_solution, drawn):
+    solution = make_solution(settings=["contact.reduced_modulus=100 kPa", "contact.load=1 mN"])
+    above, axes = drawn(solution)[0], maps.pressure_map(solution).axes
+    assert above.get_ylabel() == "pressure, kPa" and axes[0].child_axes[0].get_ylabel() == "pressure, kPa"
+    assert lines_of(above)["pressure"].get_ydata().max() == pytest.approx(1e-3 * solution.pressure.max())
 
 
 def test_what_carries_load_is_shown_beside_a_smooth_dry_contact(make_solution, drawn):

@@ -9,9 +9,10 @@ from mpi4py import MPI
 
 import mgehl
 from mgehl.output.files import plain_result
+from mgehl.output.friction_result import FrictionResult, Temperatures
 from mgehl.output.gap_error import GapError, GridGap
 from mgehl.output.mixed_result import MixedResult
-from mgehl.output.report.page import NO_NUMBER
+from mgehl.output.report.page import NO_NUMBER, picture
 from mgehl.output.report.run_report import report, setting, verdict
 from mgehl.output.result import Mean, TimeResult
 
@@ -170,6 +171,39 @@ def test_a_run_in_time_tells_its_means_and_that_other_numbers_are_those_at_its_e
     assert "central film at the end" in page.highlights and "central film" not in page.highlights
     assert "Over the last passage: mean gap 200.2 ± 0.5 nm" in page.text
     assert "imbalance of the flux" not in page.rows(CHECKS)
+
+
+@pytest.mark.parametrize("doubt, mark", [({}, ""), ({"converged": False}, ", in doubt")])
+def test_what_pictures_say_in_words_of_a_run_in_time(film_run, monkeypatch, doubt, mark):
+    """That of the steps began "T the en: "."""
+    drawn = [picture(f"{name}.", "", b"", "image/png", (1, 1), name) for name in ("time", "film")]
+    monkeypatch.setattr("mgehl.output.report.run_report.pictures", lambda solution: drawn)
+    time = TimeResult(1.0, 9, 0, 0.0, 0.0, 1.0, 3.0, {})
+    page = Reader(report(changed(film_run, time=time, **doubt), "my-run"))
+    took, film = [value for _, name, value in page.attributes if name == "alt"]
+    assert took == f"time. It took {len(film_run.rows)} steps."
+    assert film.startswith(f"film. At the end{mark}: The film is ")
+
+
+def test_what_resists_and_what_heat_takes_are_in_the_words_of_the_terminal(film_run, quick):
+    """Only the record had them."""
+    rise = Temperatures(50.0, 60.0, 20.0, 90.0)
+    told = (0.5, 0.25, 0.125, 0.125, 0.0, 0.03125, 0.0, -12.5, 7.5, -2.5, 4.0, 40.0)
+    result = changed(
+        film_run, friction=FrictionResult("eyring", *told, rise), thermal_reduction=0.75, flux_imbalance=0.0
+    )
+    page = quick(result)
+    words = str(result.result).splitlines()
+    for each in ("friction 0.1", "flash temp", "this is the isothermal film; shear"):
+        (line,) = [line.strip() for line in words if each in line]
+        assert f"{line[0].upper()}{line[1:]}." in page.text
+    assert page.highlights["friction coefficient"] == "0.12500"
+    forces = page.tables["Forces on the bodies, positive along the motion"]
+    assert forces == [
+        ["on body 1", "-12.5", "N"],
+        ["on body 2", "7.5", "N"],
+        ["of each by rolling", "-2.5", "N"],
+    ]
 
 
 class TestRoughBodies:
