@@ -56,7 +56,8 @@ class FrictionResult:
     per_metre: bool = False
     """Whether forces and power are those of a metre: of a line contact."""
     coefficient_band: float | None = None
-    """Half-width by the band of the load on solids; None without one."""
+    """Half-width of the band about it, of rough bodies: by the next coarser grid, and what the band of the
+    load on solids makes of it at the least. None without one."""
     is_the_grids: bool = False
     """Whether the load on solids is the grid's, and so is the coefficient."""
     unthinned_film_nm: float | None = None
@@ -113,12 +114,12 @@ def _temperatures(problem, state, rise):
 
 
 def with_band(friction, mixed, boundary_coefficient):
-    """A `FrictionResult` with the band that the load on solids of a `MixedResult` gives it."""
+    """A `FrictionResult` with the band that the grids of a `MixedResult` give it."""
     error = mixed and mixed.error
     if not (friction and friction.slide_to_roll and error):
         return friction
     share = error.solid_load_fraction
-    band = None if share is None else boundary_coefficient * share
+    band = None if share is None else max(boundary_coefficient * share, error.friction or 0.0)
     return replace(friction, coefficient_band=band, is_the_grids=error.is_the_grids("solid_load_fraction"))
 
 
@@ -166,9 +167,8 @@ def friction_lines(friction, verbose):
 
 
 def coefficient_words(friction):
-    """The coefficient with its band: what the load on solids makes of it, without solids none."""
-    has_band = friction.coefficient_band and friction.solid_coefficient
-    band = f" ± {friction.coefficient_band:.2g}" if has_band else ""
+    """The coefficient with its band."""
+    band = f" ± {friction.coefficient_band:.2g}" if friction.coefficient_band else ""
     return f"{friction.coefficient:.5f}{band}"
 
 

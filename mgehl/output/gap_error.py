@@ -58,6 +58,8 @@ class GapError:
     max_pressure_GPa: float | None = None
     contact_load_share: float | None = None
     solid_load_fraction: float | None = None
+    friction: float | None = None
+    """Of the coefficient; None of bodies that do not slide."""
 
     def is_the_grids(self, name):
         """Whether a number of `SHOWN` has no band though the mean gap has one; not of older results."""
@@ -117,6 +119,7 @@ def from_grids(grids):
     contact = finest.contact_load_share, coarser.contact_load_share, coarser.contact_load_apart
     solids = finest.solid_load_fraction, coarser.solid_load_fraction, coarser.solid_load_apart
     pressure = finest.pressure_crest_GPa + half_width(*pressures)
+    slides = finest.friction is not None and coarser.friction is not None
     return GapError(
         mean,
         _unless_wider(loaded, WIDEST * finest.loaded_nm),
@@ -124,6 +127,9 @@ def from_grids(grids):
         max_pressure_GPa=_unless_wider(pressure, WIDEST * finest.max_pressure_GPa),
         contact_load_share=share_half_width(*contact),
         solid_load_fraction=share_half_width(*solids),
+        friction=half_width(finest.friction, coarser.friction, coarser.friction_apart, True)
+        if slides
+        else None,
     )
 
 

@@ -15,7 +15,7 @@ from mgehl.solver.films import GridFilm, films_beside, films_between_nodes
 from mgehl.solver.gaps import grid_gap
 from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.on_grid import solve_near
-from mgehl.solver.problem import ContactProblem
+from mgehl.solver.problem import ContactProblem, State
 
 COARSER = 2
 """Grids besides the finest: two differences show whether the error falls as the scheme's does."""
@@ -73,9 +73,9 @@ class CoarserGrids:
         finest, level = grid_gap(self.problem, self._state, True), len(self._hierarchy.grids) - 2
         if level < 0:
             return (finest,)
-        H, P, p, _, status = _at_nodes(self._hierarchy.transfers[level], self._state)
+        there = _at_nodes(self._hierarchy.transfers[level], self._state)
         self._of_gaps = problem, outcome = self._whole(level)
-        return finest, grid_gap(problem, outcome.state, outcome.converged, (H, P, p, status))
+        return finest, grid_gap(problem, outcome.state, outcome.converged, there)
 
     def _whole(self, level):
         """Problem and `Outcome` of the contact with all of its surface, by the scheme of the run."""
@@ -98,8 +98,8 @@ class CoarserGrids:
         limits |= {"tolerance": max(TOLERANCE, newton.tolerance), "release_budget": 0}
         settings = replace(self.settings, newton=replace(newton, **limits))
         problem = ContactProblem(hierarchy.grids[level], hierarchy.deflections[level], contact, scheme)
-        _, P, p, filling, status = _at_nodes(hierarchy.transfers[level], state)
-        state = problem.state(P, state.H0, status, p, filling)
+        there = _at_nodes(hierarchy.transfers[level], state)
+        state = problem.state(there.P, there.H0, there.status, there.p, there.filling)
         return problem, solve_near(hierarchy, problem, state, settings, self._monitor, self._journal)
 
 
@@ -118,9 +118,9 @@ def _grid_film(problem, state, films, settled):
 
 
 def _at_nodes(transfer, state):
-    """H, P, p, filling and status of a finer state at the nodes of the coarser grid of a transfer."""
-    *fields, status = (
+    """A finer state at the nodes of the coarser grid of a transfer."""
+    P, H, status, p, filling = (
         transfer.inject(each.astype(float))
-        for each in (state.H, state.P, state.p, state.filling, state.status)
+        for each in (state.P, state.H, state.status, state.p, state.filling)
     )
-    return *fields, status.astype(np.int8)
+    return State(P, state.H0, H, status.astype(np.int8), p, filling)

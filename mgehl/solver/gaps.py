@@ -11,6 +11,7 @@ import numpy as np
 
 from mgehl.discretization.status import CONTACT
 from mgehl.solver.inequality import bend_of_a_cell
+from mgehl.solver.shear import coefficient, friction_difference
 
 
 @dataclass(frozen=True)
@@ -60,6 +61,10 @@ class GridGap:
     solid_load_apart: float = 0.0
     pressure_crest_GPa: float = 0.0
     """By how much the pressure may be larger between the nodes."""
+    friction: float | None = None
+    """Shear of film and solids over the load; None of bodies that do not slide, and in older results."""
+    friction_apart: float = 0.0
+    """Sum of the sizes of the shear's differences from the finer grid, over the load."""
 
 
 def within_hertz(mesh):
@@ -113,23 +118,23 @@ def load_differences(problem, state, P, p, status):
     )
 
 
-def grid_gap(problem, state, settled, finer=()):
-    """The `GridGap` of a state; of a coarser grid `finer` are the finer one's H, P, p and status at its
-    nodes, each (lines, nx) (collective)."""
+def grid_gap(problem, state, settled, finer=None):
+    """The `GridGap` of a state; of a coarser grid `finer` is the finer one's at its nodes (collective)."""
     nm, GPa, apart = 1e9 * problem.contact.film_scale, 1e-9 * problem.contact.hertz.p_h, {}
     found, carried = gaps(problem, state), loads(problem, state)
     if finer:
-        H, *pressed = finer
-        of_gaps, of_loads = differences(problem, state, H), load_differences(problem, state, *pressed)
+        of_gaps = differences(problem, state, finer.H)
+        of_loads = load_differences(problem, state, finer.P, finer.p, finer.status)
         apart = {
             "mean_apart_nm": nm * of_gaps.mean, "loaded_apart_nm": nm * of_gaps.loaded,
             "pressure_apart_GPa": GPa * of_loads.largest, "contact_load_apart": of_loads.contact,
             "solid_load_apart": of_loads.solids,
+            "friction_apart": friction_difference(problem, state, finer),
         }  # fmt: skip
     return GridGap(
         problem.grid.mesh.nx, nm * found.mean, nm * found.loaded, carried.contact, settled,
         max_pressure_GPa=GPa * carried.largest, pressure_crest_GPa=GPa * carried.crest,
-        solid_load_fraction=carried.solids, **apart,
+        solid_load_fraction=carried.solids, friction=coefficient(problem, state), **apart,
     )  # fmt: skip
 
 

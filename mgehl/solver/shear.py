@@ -31,6 +31,23 @@ def shear_of(problem, state):
     return Shear(film, solids, *forces, rolling_force(problem, state))
 
 
+def coefficient(problem, state):
+    """Shear of film and solids over the load; None where the surfaces do not slide (collective)."""
+    if problem.contact.friction.slide_to_roll == 0.0:
+        return None
+    shear = shear_of(problem, state)
+    return (shear.film_force + shear.solid_force) / problem.contact.load
+
+
+def friction_difference(problem, one, other):
+    """Sum of the sizes by which the shear of two states differs from node to node, over the load
+    (collective)."""
+    if problem.contact.friction.slide_to_roll == 0.0:
+        return 0.0
+    apart = sum(shear(problem, one) - shear(problem, other) for shear in (film_shear, solid_shear))
+    return square_metres(problem) * problem.grid.sum(np.abs(apart).sum()) / problem.contact.load
+
+
 def square_metres(problem):
     """Area of a cell; of a line contact that of a metre of its length."""
     mesh, contact = problem.grid.mesh, problem.contact

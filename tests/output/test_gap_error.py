@@ -142,3 +142,26 @@ class TestOfAThickFilm:
         assert coarse.lambda_ratio > 2.0 and solved[0].converged and solved[1].converged
         assert abs(fine.mean_gap_nm - coarse.mean_gap_nm) < coarse.error.mean_nm < 0.1 * fine.mean_gap_nm
         assert abs(fine.loaded_gap_nm - coarse.loaded_gap_nm) < coarse.error.loaded_nm
+
+
+def test_friction_has_the_band_of_its_difference_to_the_coarser_grid():
+    """Of first order, with a part of what shear differs by from node to node; none without sliding."""
+    fine, coarse = (
+        replace(grid(257), friction=0.05),
+        replace(grid(129), friction=0.052, friction_apart=0.01),
+    )
+    assert from_grids((fine, coarse)).friction == pytest.approx(0.002 + SPREAD * 0.01)
+    assert from_grids((grid(257), grid(129))).friction is None
+
+
+def test_the_band_of_a_films_friction_holds_the_next_finer_grids():
+    """Solids carry nothing here: the band was that of their load alone, a ten thousandth."""
+    sliding = {"motion": {"speed": 0.02, "slide_to_roll": 0.2}}
+    sliding |= {"friction": {"model": "eyring", "eyring_stress": 5e6}}
+    coarse, fine = (
+        solve(config_from_tables(merged(WAVY, sliding, {"grid": {"nodes": nodes}})), MPI.COMM_SELF).result
+        for nodes in (65, 129)
+    )
+    assert coarse.mixed.solid_load_fraction == 0.0
+    off = abs(coarse.friction.coefficient - fine.friction.coefficient)
+    assert 1e-6 < off < coarse.friction.coefficient_band < 0.1 * coarse.friction.coefficient
