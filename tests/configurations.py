@@ -25,20 +25,16 @@ SMALLEST, LARGEST = 1e-30, 1e30
 """Of numbers whose key has no limit."""
 
 JUNK = st.one_of(
-    st.none(),
-    st.booleans(),
-    st.text(max_size=20),
-    st.floats(),
-    st.integers(),
+    st.none(), st.booleans(), st.text(max_size=20), st.floats(), st.integers(),
     st.sampled_from([10**400, -(10**400), 1e308, 5e-324, -0.0, float("nan"), float("inf")]),
-    st.lists(st.floats(), max_size=3),
-    st.dictionaries(st.text(max_size=5), st.integers(), max_size=2),
+    st.lists(st.floats(), max_size=3), st.dictionaries(st.text(max_size=5), st.integers(), max_size=2),
     st.dates(),
     st.sampled_from(
+
         ["1 kg", "2 furlong", "9**9**9", "nan m", "inf Pa", "1e999 m/s", "1 m/s/s", "1/s", "1 m^-9", "- m"]
         + ["1 °", "1 m m m m", "1e-400 N", "0x10 m", "1_0 m", "", " ", "m", "1 degC", "1 dB", "1 bit"]
     ),
-)
+)  # fmt: skip
 """What no key asks for."""
 
 NAMES = st.text(min_size=1, max_size=12) | st.sampled_from(["Contact", "loads", "grid.nodes", "[grid]"])

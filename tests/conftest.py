@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import pytest
 
 from mgehl.discretization.mesh import Mesh
-from mgehl.model.lubricant import Barus, ConstantDensity, DowsonHigginson, Lubricant
+from mgehl.model.lubricant import Barus, DowsonHigginson, Lubricant
 from mgehl.model.point import PointContact
 
 BODY = {"radius_x": 12.7e-3, "radius_y": 12.7e-3, "reduced_modulus": 219.78e9}
@@ -50,20 +50,11 @@ def pytest_collection_modifyitems(items):
 
 @pytest.fixture
 def paper_contact():
-    """Factory of the paper's ball on a flat; keywords replace parameters."""
-
     def make(speed=1.0, **changes):
         parameters = {"load": 800.0, **BODY, "lubricant": Lubricant(VISCOSITY, DowsonHigginson())}
         return PointContact(speed=speed, **(parameters | changes))
 
     return make
-
-
-@pytest.fixture
-def moes_contact():
-    """Factory of circular contacts with Moes numbers M and L and constant density."""
-    lubricant = Lubricant(VISCOSITY, ConstantDensity())
-    return lambda M, L: PointContact.from_moes(M, L, **BODY, lubricant=lubricant)
 
 
 @pytest.fixture
@@ -90,7 +81,6 @@ def make_hierarchy():
 
 @pytest.fixture
 def make_problem(paper_contact, make_hierarchy):
-    """Factory of a `ContactProblem` on the finest grid of a new hierarchy."""
     from mgehl.discretization.scheme import Scheme
     from mgehl.solver.problem import ContactProblem
 
@@ -117,6 +107,31 @@ def usual_law():
     return lambda contact: InterfaceConditions(0.02e-9 / contact.film_scale)
 
 
+@pytest.fixture
+def empty_directory(tmp_path, monkeypatch):
+    """The working directory of a test."""
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.fixture
+def refused(capsys):
+    """Function: the one line with which a command line is refused, and nothing else is said."""
+    from mgehl.cli import main
+
+    def line(*words):
+        try:
+            status = main(list(words))
+        except SystemExit as stop:
+            status = stop.code
+        out, err = capsys.readouterr()
+        assert (status, out, err.count("\n")) == (2, "", 1) and err.startswith("mgehl: "), err
+        assert err[:-1].isprintable()
+        return err[:-1]
+
+    return line
+
+
 @dataclass
 class Solution:
     """A nested iteration that was run, with what it told its monitor."""
@@ -128,19 +143,16 @@ class Solution:
 
     @property
     def films(self):
-        """Central and minimum film in nm."""
         nm = 1e9 * self.problem.contact.film_scale
         return tuple(film * nm for film in self.problem.films(self.outcome.state))
 
     @property
     def finest_steps(self):
-        """Newton steps on the finest grid."""
         return self.outcome.cycles[-1].step
 
 
 @pytest.fixture
 def solve(make_hierarchy, usual_law):
-    """Function that solves a contact by nested iteration and returns a `Solution`."""
     from mgehl.discretization.scheme import Scheme
     from mgehl.solver.nested import nested_iteration
     from mgehl.solver.settings import NestedSettings, NewtonSettings, SolverSettings

@@ -1,12 +1,8 @@
-"""Entrainment at an angle: runs that must be the same contact, turned, mirrored or exchanged."""
-
 import numpy as np
 import pytest
-from mpi4py import MPI
+from contacts import solved
 
-from mgehl.config import config_from_tables
-from mgehl.run import solve
-from mgehl.studies.study import PAPER, merged, papers_grid
+from mgehl.studies.study import PAPER, papers_grid
 
 EXACT = 1e-10
 ON_A_SQUARE = {"x": [-1.9, 1.9], "y": [-1.9, 1.9]}
@@ -16,10 +12,6 @@ CONTACT_CASE = PAPER | {
     "grid": papers_grid(129),
     "solver": {"start": "contact"},
 }
-
-
-def solved(*tables, start=None):
-    return solve(config_from_tables(merged(*tables)), MPI.COMM_SELF, start=start)
 
 
 def at(angle):

@@ -59,7 +59,6 @@ class TestTheIndependentTest:
 
 
 def changed(solution, **fields):
-    """A copy with other fields."""
     found = deepcopy(solution)
     for name, values in fields.items():
         setattr(found.fields, name, values)

@@ -1,5 +1,3 @@
-"""The command line: exit statuses, one-line errors, PETSc options."""
-
 import json
 import pickle
 import shlex
@@ -16,11 +14,7 @@ FILES = {"configuration.toml", "fields.h5", "history.csv", "picture.png", "resul
 DRY = ["run", "--set", "grid.nodes=65", "--set", "solver.start=contact", "--set", "motion.speed=0.005 mm/s"]
 
 
-@pytest.fixture(autouse=True)
-def empty_directory(tmp_path, monkeypatch):
-    """Every test starts in an empty directory."""
-    monkeypatch.chdir(tmp_path)
-    return tmp_path
+pytestmark = pytest.mark.usefixtures("empty_directory")
 
 
 def mgehl(*arguments):
@@ -34,7 +28,6 @@ def mgehl(*arguments):
 
 
 def exit_status(arguments):
-    """What `main` returns or exits with."""
     try:
         return main(arguments)
     except SystemExit as stop:
@@ -58,14 +51,11 @@ def piped(command, tmp_path):
     return done.returncode, done.stdout, "".join(err)
 
 
-class TestWordsThatNobodyHears:
-    """What is said is for whoever listens; what is solved is for the disk."""
-
-    @pytest.mark.parametrize("where", ["| head -n 1", "> /dev/full", ">&-", "2>&-", "<&- >&- 2>&-"])
-    def test_a_run_goes_on(self, tmp_path, where):
-        status, _, err = piped(f"{shlex.join(['mgehl', *DRY])} --out here {where}", tmp_path)
-        assert (status, err) == (0, "")
-        assert {path.name for path in (tmp_path / "here").iterdir()} == FILES
+@pytest.mark.parametrize("where", ["| head -n 1", "> /dev/full", ">&-", "2>&-", "<&- >&- 2>&-"])
+def test_a_run_whose_words_nobody_hears_goes_on(tmp_path, where):
+    status, _, err = piped(f"{shlex.join(['mgehl', *DRY])} --out here {where}", tmp_path)
+    assert (status, err) == (0, "")
+    assert {path.name for path in (tmp_path / "here").iterdir()} == FILES
 
 
 @pytest.mark.parametrize("words", [["--version"], ["--help"], ["run", "--help"], ["run", "--nonsense"], []])
@@ -93,17 +83,17 @@ NOTHING = [
 
 
 @pytest.mark.parametrize("arguments", NOTHING, ids=[" ".join(map(repr, words)) for words in NOTHING])
-def test_words_that_are_nothing_are_one_line(tmp_path, capsys, arguments):
-    assert exit_status(arguments) == 2
-    assert_one_line(capsys)
+def test_words_that_are_nothing_are_one_line(tmp_path, refused, arguments):
+    refused(*arguments)
     assert not list(tmp_path.iterdir())
 
 
 @pytest.mark.parametrize("value, said", [("-1", "-1.0"), ("-1 s", "'-1 s'"), ("-.5", "-0.5")])
-def test_a_number_below_0_is_the_options_own_and_not_petscs(capsys, value, said):
+def test_a_number_below_0_is_the_options_own_and_not_petscs(refused, value, said):
     """Of --save-every -1 --out d the --out was blamed."""
-    assert exit_status(["run", "--save-every", value, "--out", "d"]) == 2
-    assert_one_line(capsys, f"--save-every = {said}: must be a number in s")
+    assert f"--save-every = {said}: must be a number in s" in refused(
+        "run", "--save-every", value, "--out", "d"
+    )
 
 
 class TestFailures:
@@ -112,11 +102,8 @@ class TestFailures:
     @pytest.mark.parametrize(
         "error, status, line",
         [
-            (
-                ZeroDivisionError("a\nb \x1b[31mred"),
-                1,
-                "an error of mgehl's own: ZeroDivisionError: a b \\x1b[31mred",
-            ),
+            (ZeroDivisionError("a\nb \x1b[31mred"), 1,
+             "an error of mgehl's own: ZeroDivisionError: a b \\x1b[31mred"),
             (MemoryError(), 1, "out of memory: fewer nodes"),
             (RecursionError("deep"), 1, "an error of mgehl's own"),
             (OSError(28, "No space left on device", "here/file"), 2, "here/file: No space left on device"),
@@ -125,7 +112,7 @@ class TestFailures:
             (KeyboardInterrupt(), 130, "stopped by Ctrl-C"),
             (BrokenPipeError(32, "Broken pipe"), 141, None),
         ],
-    )
+    )  # fmt: skip
     @pytest.mark.parametrize("command", [["keys"], ["info"]], ids=["alone", "in parallel"])
     def test_is_one_line(self, capsys, monkeypatch, command, error, status, line):
         def fail(*_):
@@ -133,18 +120,16 @@ class TestFailures:
 
         monkeypatch.setattr(f"mgehl.commands.{command[0]}.execute", fail)
         assert exit_status(command) == status
-        if line:
-            assert_one_line(capsys, line)
-        else:
-            assert capsys.readouterr() == ("", "")
+        out, err = capsys.readouterr()
+        assert (out, err.count("\n")) == ("", 1 if line else 0)
+        assert not line or (err.startswith("mgehl: ") and line in err)
 
-    def test_a_working_directory_that_is_gone(self, tmp_path, capsys, monkeypatch):
+    def test_a_working_directory_that_is_gone(self, tmp_path, refused, monkeypatch):
         gone = tmp_path / "gone"
         gone.mkdir()
         monkeypatch.chdir(gone)
         gone.rmdir()
-        assert exit_status(["run"]) == 2
-        assert_one_line(capsys, "the working directory is gone")
+        assert "the working directory is gone" in refused("run")
 
     @pytest.mark.parametrize("missing", ["numba", "numpy", "petsc4py"])
     @pytest.mark.parametrize("words", [[], ["run"]])
@@ -178,43 +163,26 @@ def test_a_petsc_option_with_a_value_changes_the_run():
     assert "Option left" not in done.stdout + done.stderr
 
 
-def test_a_directory_that_exists_is_refused_and_replaced_with_force(tmp_path, capsys):
+def test_a_directory_that_exists_is_refused_and_replaced_with_force(tmp_path, refused):
     here = tmp_path / "here"
     here.mkdir()
     (here / "result.json").write_text("old")
-    assert exit_status([*DRY, "--out", "here"]) == 2
-    assert_one_line(capsys, "here", "--force")
-    assert exit_status([*DRY, "--out", "here", "--force"]) == 2
-    assert_one_line(capsys, "here/result.json", "is left alone")
+    assert "here exists: add --force" in refused(*DRY, "--out", "here")
+    line = refused(*DRY, "--out", "here", "--force")
+    assert "here/result.json" in line and "is left alone" in line
     assert (here / "result.json").read_text() == "old"
     assert [path.name for path in here.iterdir()] == ["result.json"]
     (here / "result.json").unlink()
     for _ in range(2):
         assert exit_status([*DRY, "--out", "here", "--force", "--quiet"]) == 0
-    assert exit_status([*DRY, "--out", "here", "--force", "--quiet"]) == 0
     assert json.loads((here / "result.json").read_text())["converged"] is True
     assert {path.name for path in here.iterdir()} == FILES
-
-
-def assert_one_line(capsys, *parts):
-    """Nothing on stdout; one line without traceback on stderr that holds all parts."""
-    out, err = capsys.readouterr()
-    assert out == ""
-    lines = err.strip().splitlines()
-    assert len(lines) == 1, err
-    assert lines[0].startswith("mgehl: ")
-    for part in parts:
-        assert part in lines[0]
 
 
 BAD = [
     (["run", "missing.toml"], ["missing.toml", "cannot be read"]),
     (["run", "broken.toml"], ["broken.toml", "TOML"]),
     (["run", "--set", "grid.nodes=66"], ["grid.nodes = 66", "65 or 129"]),
-    (["run", "--set", "contact.load=-1"], ["contact.load = -1", "at least"]),
-    (["run", "--set", "motion.speed=3 kg"], ["motion.speed", "wrong unit", "m/s"]),
-    (["run", "--set", "motion.sped=1"], ["motion.sped", "did you mean motion.speed"]),
-    (["run", "--set", "moes.M=20"], ["moes.L"]),
     (["run", "--nonsense"], ["--nonsense"]),
     (["run", "one.toml", "two.toml"], ["two.toml"]),
     (["run", "--set"], ["--set"]),
@@ -236,10 +204,10 @@ BAD = [
 
 
 @pytest.mark.parametrize("arguments, parts", BAD, ids=[" ".join(words) for words, _ in BAD])
-def test_bad_input_is_one_line_and_writes_nothing(tmp_path, capsys, arguments, parts):
+def test_bad_input_is_one_line_and_writes_nothing(tmp_path, refused, arguments, parts):
     (tmp_path / "broken.toml").write_text("[grid\n")
-    assert exit_status(arguments) == 2
-    assert_one_line(capsys, *parts)
+    line = refused(*arguments)
+    assert all(part in line for part in parts)
     assert [path.name for path in tmp_path.iterdir()] == ["broken.toml"]
 
 

@@ -1,9 +1,6 @@
-"""A dry contact as its user meets it: run, stop, resume, pictures, page, table."""
-
-import csv
-
 import numpy as np
 import pytest
+from told import rows_of
 
 from mgehl.cli import main
 from mgehl.output.stored import read_run
@@ -15,7 +12,6 @@ PAPER = {"grid.nodes": "65", "grid.x": "[-1.9, 1.3]", "grid.y": "[-1.5, 1.5]"}
 
 
 def run(directory, *more, **settings):
-    """Exit status of `mgehl run` of the paper's ball, dry."""
     keys = {"discretization.contact_model": "dry"} | PAPER | settings
     words = [word for key, value in keys.items() for word in ("--set", f"{key}={value}")]
     return main(["run", *words, "--out", str(directory), "--quiet", *more])
@@ -78,8 +74,7 @@ def test_one_that_did_not_converge_says_so(tmp_path, capsys):
 
 def test_study(tmp_path):
     assert main(["study", "dry", "--nodes", "65,129", "--quiet", "--out", str(tmp_path / "study")]) == 0
-    with (tmp_path / "study" / "dry.csv").open() as file:
-        rows = list(csv.DictReader(file))
+    rows = rows_of(tmp_path / "study" / "dry.csv")
     assert len(rows) == 16 and all(row["converged"] == "yes" for row in rows)
     for row in rows:
         assert (row["contact nodes"] == row["public code's"]) == (row["nodes"] == "129")

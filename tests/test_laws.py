@@ -1,5 +1,3 @@
-"""Runs with a user's own functions and with layered bodies, from configuration to result."""
-
 import os
 from math import pi
 from pathlib import Path
@@ -50,7 +48,6 @@ def jump(k):
 
 @pytest.fixture
 def laws(tmp_path):
-    """Path of a file of functions."""
     path = tmp_path / "laws.py"
     path.write_text(LAWS)
     return path

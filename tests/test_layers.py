@@ -1,5 +1,3 @@
-"""The layers of mgehl import downwards only."""
-
 import ast
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
@@ -8,16 +6,8 @@ import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
 LAYERS = (
-    "model",
-    "discretization",
-    "kinds",
-    "grid",
-    "multigrid",
-    "solver",
-    "output",
-    "studies",
-    "commands",
-)
+    "model", "discretization", "kinds", "grid", "multigrid", "solver", "output", "studies", "commands",
+)  # fmt: skip
 """Lowest first. The modules beside them in mgehl (config, run, cli) stand above the layers."""
 BENEATH = {"mgehl.errors", "mgehl.saying", "mgehl.version"}
 """What every layer may use; they use nothing but each other."""
@@ -73,10 +63,8 @@ def test_a_layer_imports_only_lower_layers_and_itself(name):
         beside = beside | {"mgehl.config"}
     if layer(name) == "commands":
         beside = {each for each in MODULES if layer(each) is None} - {
-            "mgehl",
-            "mgehl.cli",
-            "mgehl.__main__",
-        }
+            "mgehl", "mgehl.cli", "mgehl.__main__",
+        }  # fmt: skip
     for imported in imports(name) - beside:
         if imported.startswith("mgehl."):
             assert layer(imported) in allowed, f"{name} imports {imported}"

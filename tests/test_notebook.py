@@ -1,5 +1,3 @@
-"""The notebook of first steps does what it says."""
-
 import json
 import re
 import shutil

@@ -30,7 +30,6 @@ def tables(passage):
 
 
 def numbers(path):
-    """Every number of a table, as it is written there."""
     with path.open() as file:
         return {text for row in csv.reader(file) for cell in row for text in re.findall(NUMBER, cell)}
 

@@ -1,5 +1,3 @@
-"""What the pages show is what the code and the runs' files say."""
-
 import re
 import shlex
 import shutil
@@ -22,14 +20,10 @@ ROOT = Path(__file__).resolve().parent.parent
 PAGES = {
     name: (ROOT / name).read_text()
     for name in (
-        "README.md",
-        "configs/README.md",
-        "mgehl/README.md",
-        "runs/README.md",
-        "tests/README.md",
+        "README.md", "configs/README.md", "mgehl/README.md", "runs/README.md", "tests/README.md",
         "CONTRIBUTING.md",
     )
-}
+}  # fmt: skip
 README, CASES = PAGES["README.md"], PAGES["configs/README.md"]
 (FIRST_CASE,) = re.findall(r"```toml\n(.*?)```", README, flags=re.DOTALL)
 SURFACE, OWN_LAWS, FRICTION = re.findall(r"```toml\n(.*?)```", CASES, flags=re.DOTALL)
@@ -140,7 +134,6 @@ def place(tmp_path_factory):
 
 
 def small(line):
-    """The command on 65 nodes."""
     line = re.sub(r"grid\.nodes=\d+", "grid.nodes=65", line)
     if " run " in line and "--resume" not in line and "grid.nodes" not in line:
         line = re.sub(r"(run \S+)", r"\1 --set grid.nodes=65", line)
@@ -152,13 +145,9 @@ def test_commands_run_in_their_order(place):
     assert len(RUN) >= 8
     for line in RUN:
         done = subprocess.run(
-            shlex.split(small(line)),
-            cwd=place,
-            env=own_environment(),
-            capture_output=True,
-            text=True,
+            shlex.split(small(line)), cwd=place, env=own_environment(), capture_output=True, text=True,
             timeout=120,
-        )
+        )  # fmt: skip
         assert done.returncode == 0, f"{small(line)}\n{done.stdout}{done.stderr}"
 
 

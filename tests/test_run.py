@@ -1,6 +1,3 @@
-"""One run from a configuration to its directory."""
-
-import csv
 import json
 from dataclasses import asdict
 from pathlib import Path
@@ -9,6 +6,7 @@ import numpy as np
 import pytest
 import xarray
 from mpi4py import MPI
+from told import rows_of
 
 from mgehl.cli import main
 from mgehl.config import config_from_tables, load_config
@@ -40,7 +38,6 @@ def read_json(directory):
 
 @pytest.fixture(scope="module")
 def film(tmp_path_factory):
-    """Directory and result of a film at 1 m/s."""
     directory = tmp_path_factory.mktemp("film")
     return directory, run_quietly(FILM, directory)
 
@@ -66,8 +63,7 @@ def test_the_result_file_is_the_result(film):
 
 def test_the_history_ends_with_the_result(film):
     directory, result = film
-    with (directory / "history.csv").open() as file:
-        rows = list(csv.DictReader(file))
+    rows = rows_of(directory / "history.csv")
     last = rows[-1]
     assert float(last["residual"]) == result.residual
     assert float(last["central_film_nm"]) == result.central_film_nm
@@ -161,8 +157,7 @@ def test_wedge_of_the_repository(name, tmp_path):
         cell = float(data["X"][1] - data["X"][0]) * float(data["Y"][1] - data["Y"][0])
         assert cell * float(data["P"].sum()) == pytest.approx(read["load"], rel=1e-12)
         middle = data["P"].sel(y=0.0, method="nearest").values
-    with (here / "centerline.csv").open() as file:
-        rows = list(csv.DictReader(file))
+    rows = rows_of(here / "centerline.csv")
     X, P = ([float(row[key]) for row in rows] for key in ("X_mm", "P"))
     # From edge to edge of the pad; the node outside of a blocked exit is no part of it.
     blocked = name == "wedge_blocked_exit"
@@ -172,8 +167,7 @@ def test_wedge_of_the_repository(name, tmp_path):
     assert solid.any() == ("pillar" in name)
     np.testing.assert_array_equal(np.array(P)[~solid], middle[int(blocked) :][~solid])
     assert not middle[int(blocked) :][solid].any()
-    with (here / "history.csv").open() as file:
-        iterations = sum(int(row["linear_iterations"]) for row in csv.DictReader(file))
+    iterations = sum(int(row["linear_iterations"]) for row in rows_of(here / "history.csv"))
     assert iterations == read["linear_iterations"] > 0
     assert load_config(here / "configuration.toml") == load_config(CONFIGS / f"{name}.toml")
 
@@ -195,29 +189,23 @@ def test_pocket_of_the_repository(tmp_path):
         load = 10e-3 * float(x[1] - x[0]) * (pressure - 1e5).sum()
         assert load == pytest.approx(read["load_N"], rel=1e-12)
         assert float(data["filling"].max()) == 1.0 and float(data["filling"].min()) > 0.7
-    with (here / "centerline.csv").open() as file:
-        X = [float(row["X_mm"]) for row in csv.DictReader(file)]
+    X = [float(row["X_mm"]) for row in rows_of(here / "centerline.csv")]
     assert (X[0], X[-1]) == (0.0, 20.0)
     assert load_config(here / "configuration.toml").wedge == load_config(CONFIGS / "pocket.toml").wedge
 
 
-class TestDomainThatCutsTheContact:
-    """The equations hold in it, and what they hold for is no contact."""
-
-    @pytest.mark.parametrize(
-        "grid, start, said",
-        [
-            ({"x": [-20, 1.01], "y": [-1.5, 1.5]}, "contact", "the bodies overlap at 13 nodes"),
-            ({"x": [-1.9, 1.3], "y": [-1.01, 30]}, "contact", "the bodies overlap at 15 nodes"),
-            ({"x": [-1.9, 1.3], "y": [-1.01, 1.5]}, "film", "near the domain's boundary is 4.6 %"),
-            ({"x": [-60, 60], "y": [-1.5, 1.5]}, "contact", "1 nodes wide along x"),
-            ({"x": [-20, 20], "y": [-20, 20]}, "contact", "3 nodes wide along x"),
-        ],
-    )
-    def test_is_not_converged(self, grid, start, said):
-        speed = 1.0 if start == "film" else 5e-6
-        tables = {"grid": {"nodes": 65} | grid, "motion": {"speed": speed}}
-        tables["solver"] = {"start": start, "error": False}
-        result = solve(config_from_tables(tables), MPI.COMM_SELF).result
-        assert result.settled and not result.converged
-        assert said in result.reason
+@pytest.mark.parametrize(
+    "grid, start, said",
+    [({"x": [-20, 1.01], "y": [-1.5, 1.5]}, "contact", "the bodies overlap at 13 nodes"),
+     ({"x": [-1.9, 1.3], "y": [-1.01, 30]}, "contact", "the bodies overlap at 15 nodes"),
+     ({"x": [-1.9, 1.3], "y": [-1.01, 1.5]}, "film", "near the domain's boundary is 4.6 %"),
+     ({"x": [-60, 60], "y": [-1.5, 1.5]}, "contact", "1 nodes wide along x"),
+     ({"x": [-20, 20], "y": [-20, 20]}, "contact", "3 nodes wide along x")],
+)  # fmt: skip
+def test_in_a_domain_that_cuts_the_contact_it_is_not_converged(grid, start, said):
+    speed = 1.0 if start == "film" else 5e-6
+    tables = {"grid": {"nodes": 65} | grid, "motion": {"speed": speed}}
+    tables["solver"] = {"start": start, "error": False}
+    result = solve(config_from_tables(tables), MPI.COMM_SELF).result
+    assert result.settled and not result.converged
+    assert said in result.reason

@@ -1,5 +1,3 @@
-"""Runs in time: what stays, what closes, what is exact, what is kept, and what is refused."""
-
 import json
 
 import h5netcdf

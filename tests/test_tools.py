@@ -1,5 +1,3 @@
-"""Format, lint and the types of the Python interface: what pre-commit asks, too."""
-
 import subprocess
 import sys
 from pathlib import Path

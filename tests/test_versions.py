@@ -1,5 +1,3 @@
-"""One version, wherever it is told."""
-
 import re
 from pathlib import Path
 

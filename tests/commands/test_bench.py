@@ -1,17 +1,10 @@
-"""mgehl bench: what it prints, writes and refuses."""
-
 import json
 
 import pytest
 
 from mgehl.cli import main
 
-
-@pytest.fixture(autouse=True)
-def empty_directory(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-
-
+pytestmark = pytest.mark.usefixtures("empty_directory")
 WEDGE = ["bench", "--case", "wedge-257", "--repeat", "1"]
 
 
@@ -32,17 +25,21 @@ def test_a_benchmark_is_printed_written_and_compared(capsys, tmp_path):
 
 @pytest.mark.parametrize(
     "arguments, parts",
-    [
-        (["--case", "frobnicate"], ["--case frobnicate", "film-257"]),
-        (["--repeat", "0"], ["--repeat 0"]),
-        (["--compare", "missing.json"], ["missing.json", "cannot be read"]),
-        (["--compare", "/dev/zero"], ["/dev/zero", "is no file"]),
-        (["--compare", "two.json"], ["two.json", "2 ranks"]),
-    ],
-)
-def test_mistakes_are_one_line_before_anything_is_timed(capsys, tmp_path, arguments, parts):
+    [(["--case", "frobnicate"], ["--case frobnicate", "film-257"]), (["--repeat", "0"], ["--repeat 0"]),
+     (["--compare", "missing.json"], ["missing.json", "cannot be read"]),
+     (["--compare", "/dev/zero"], ["/dev/zero", "is no file"]),
+     (["--compare", "two.json"], ["two.json", "2 ranks"]),
+     (["--compare", "empty.json"], ["empty.json: no benchmark"]),
+     (["--compare", "other.json"], ["other.json: no benchmark"]),
+     (["--compare", "old.json"], ["old.json: no benchmark"])],
+)  # fmt: skip
+def test_mistakes_are_one_line_before_anything_is_timed(refused, tmp_path, arguments, parts):
     (tmp_path / "two.json").write_text('{"ranks": 2, "versions": {}, "timings": []}')
-    assert main(["bench", *arguments]) == 2
-    out, err = capsys.readouterr()
-    assert out == "" and len(err.splitlines()) == 1
-    assert all(part in err for part in parts)
+    for name, text in {
+        "empty": "",
+        "other": "{}",
+        "old": '{"ranks": 1, "timings": [{"case": "a"}]}',
+    }.items():
+        (tmp_path / f"{name}.json").write_text(text)
+    line = refused("bench", *arguments)
+    assert all(part in line for part in parts)

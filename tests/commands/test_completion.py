@@ -1,5 +1,3 @@
-"""mgehl completion: shells read the scripts, and bash completes with one."""
-
 import shutil
 import subprocess
 
@@ -25,8 +23,6 @@ FILENAMES = ("-o", "filenames")
 
 @pytest.fixture
 def script(capsys):
-    """Function that returns the script for a shell."""
-
     def write(shell):
         assert main(["completion", shell]) == 0
         return capsys.readouterr().out

@@ -1,5 +1,3 @@
-"""Every command's help ends with an example, and every example runs."""
-
 import os
 import shlex
 import subprocess

@@ -1,5 +1,3 @@
-"""mgehl report: where the page goes, what is replaced, what is refused in one line."""
-
 import pytest
 
 from mgehl.cli import main
@@ -11,7 +9,6 @@ RUN = ["run", "--set", "grid.nodes=65", "--set", "solver.start=contact", "--quie
 
 @pytest.fixture(scope="module")
 def finished(tmp_path_factory):
-    """A directory with one finished run, "dry"."""
     directory = tmp_path_factory.mktemp("report")
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(directory)
@@ -27,20 +24,11 @@ def quick(monkeypatch):
 
 @pytest.fixture
 def here(finished, tmp_path, monkeypatch):
-    """A copy to work in, the working directory."""
     (tmp_path / "dry").mkdir()
     for path in (finished / "dry").iterdir():
         (tmp_path / "dry" / path.name).write_bytes(path.read_bytes())
     monkeypatch.chdir(tmp_path)
     return tmp_path
-
-
-def refused(arguments, capsys):
-    """The one line with which the command refuses."""
-    assert main(["report", *arguments]) == 2
-    out, err = capsys.readouterr()
-    assert out == "" and err.startswith("mgehl: ") and err.count("\n") == 1
-    return err
 
 
 def names(directory):
@@ -57,10 +45,10 @@ def test_beside_the_results(here, capsys):
     assert html.startswith("<!DOCTYPE html>") and "Run dry" in html and "Converged" in html
 
 
-def test_another_file_is_replaced_only_with_force(here, capsys):
+def test_another_file_is_replaced_only_with_force(here, refused):
     page = here / "page.html"
     page.write_text("mine")
-    assert "page.html exists: add --force" in refused(["dry", "--out", "page.html"], capsys)
+    assert "page.html exists: add --force" in refused("report", "dry", "--out", "page.html")
     assert page.read_text() == "mine"
     assert main(["report", "dry", "--out", "page.html", "--force"]) == 0
     assert page.read_text(encoding="utf-8").startswith("<!DOCTYPE html>")
@@ -68,24 +56,24 @@ def test_another_file_is_replaced_only_with_force(here, capsys):
 
 
 @pytest.mark.parametrize("damage", ["missing", "cut off"])
-def test_a_damaged_run_is_refused_and_writes_nothing(here, capsys, damage):
+def test_a_damaged_run_is_refused_and_writes_nothing(here, refused, damage):
     path = here / "dry" / "fields.h5"
     if damage == "missing":
         path.unlink()
     else:
         path.write_bytes(path.read_bytes()[:-40])
     before = names(here / "dry")
-    refused(["dry"], capsys)
+    refused("report", "dry")
     assert names(here / "dry") == before
 
 
-def test_somebodys_tables_are_no_study(here, capsys):
+def test_somebodys_tables_are_no_study(here, refused):
     """They were a study whose table was cut off."""
     (here / "race.csv").write_text("x [um];y [um];z [nm]\n0,0;0,0;-87,6\n")
-    assert ".: is no run directory: it has no fields.h5" in refused(["."], capsys)
+    assert ".: is no run directory: it has no fields.h5" in refused("report", ".")
 
 
-def test_a_study(here, capsys):
+def test_a_study(here):
     (here / "mine").mkdir()
     (here / "mine" / "films.csv").write_text("couette,central nm\nS2B-vi,393.0\n")
     write_record(here / "mine", StudyRecord("schemes", (65,), 1, {"petsc": "3.18.5"}))

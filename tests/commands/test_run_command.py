@@ -1,5 +1,3 @@
-"""Options of `mgehl run` that change what is solved."""
-
 import json
 import tomllib
 
@@ -44,8 +42,7 @@ def test_no_error_saves_it(run):
 
 class TestWithoutAConfiguration:
     @pytest.fixture(autouse=True)
-    def empty_directory(self, tmp_path, monkeypatch):
-        monkeypatch.chdir(tmp_path)
+    def unbroken(self, empty_directory, monkeypatch):
         monkeypatch.delenv("COLUMNS", raising=False)
 
     def test_the_rough_ball_converges_with_contact_in_its_film(self, tmp_path, capsys):

@@ -1,9 +1,8 @@
-"""Directories of studies: one study each, whole or unfinished, and never read when they are not whole."""
-
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from told import counting
 
 from mgehl.cli import main
 from mgehl.output.study_directory import StudyRecord, begin_study, finish_study, read_record, write_record
@@ -13,37 +12,28 @@ DRY = ["study", "dry", "--nodes", "65", "--quiet", "--out"]
 
 
 @pytest.fixture(autouse=True)
-def empty_directory(tmp_path, monkeypatch):
-    """And a study of a smooth contact alone."""
+def small(empty_directory, monkeypatch):
+    """A study of a smooth contact alone."""
     monkeypatch.setattr(dry, "SURFACES", {"smooth": None})
-    monkeypatch.chdir(tmp_path)
-    return tmp_path
 
 
 @pytest.fixture
 def study(tmp_path, capsys):
-    """A study that has finished."""
     assert main([*DRY, "here"]) == 0
     assert capsys.readouterr() == ("", "")
     return tmp_path / "here"
 
 
-def refused(capsys, *words):
-    assert main(list(words)) == 2
-    (line,) = capsys.readouterr().err.splitlines()
-    return line
-
-
-def test_one_that_is_not_whole_is_not_reported(study, capsys):
+def test_one_that_is_not_whole_is_not_reported(study, refused):
     (study / "unfinished").mkdir()
     (study / "unfinished" / "study.json").write_bytes((study / "study.json").read_bytes())
-    assert "here: has not finished" in refused(capsys, "report", "here")
+    assert "here: has not finished" in refused("report", "here")
 
 
-def test_a_table_of_somebody_else_is_left_alone(tmp_path, capsys):
+def test_a_table_of_somebody_else_is_left_alone(tmp_path, refused):
     (tmp_path / "here").mkdir()
     (tmp_path / "here" / "dry.csv").write_text("mine")
-    assert "here/dry.csv: is not this study's" in refused(capsys, *DRY, "here", "--force")
+    assert "here/dry.csv: is not this study's" in refused(*DRY, "here", "--force")
     assert (tmp_path / "here" / "dry.csv").read_text() == "mine"
 
 
@@ -59,18 +49,9 @@ def test_an_end_in_between_is_made_good(tmp_path, moved, monkeypatch):
             finish_study(tmp_path, stage, False)
     write_record(stage, replace(new, files=("b.csv", "c.csv")))
     steps = iter(range(moved))
-
-    def counting(function):
-        def call(*arguments, **named):
-            if next(steps, None) is None:
-                raise KeyboardInterrupt
-            return function(*arguments, **named)
-
-        return call
-
     with monkeypatch.context() as change:
         for name in ("replace", "unlink"):
-            change.setattr(f"pathlib.Path.{name}", counting(getattr(Path, name)))
+            change.setattr(f"pathlib.Path.{name}", counting(getattr(Path, name), steps))
         with pytest.raises(KeyboardInterrupt):
             begin_study(tmp_path, new, True)
     begin_study(tmp_path, new, True)
@@ -90,17 +71,15 @@ def test_by_force_its_runs_are_solved_anew_and_what_is_not_its_own_stays(study):
     assert {path.name for path in run.iterdir()} == {"notes.txt"}
 
 
-def test_it_goes_on_in_its_own_directory_alone(study, capsys):
+def test_it_goes_on_in_its_own_directory_alone(study, refused):
     assert main([*DRY, "here", "--resume"]) == 0
-    line = refused(capsys, "study", "wedge", "--out", "here", "--resume")
+    line = refused("study", "wedge", "--out", "here", "--resume")
     assert "here is of study dry, not of study wedge" in line
-    assert main(["run", "--set", "grid.nodes=65", "--out", "here", "--force"]) == 2
-    assert "is the directory of a study" in capsys.readouterr().err
+    line = refused("run", "--set", "grid.nodes=65", "--out", "here", "--force")
+    assert "is the directory of a study" in line
 
 
 @pytest.mark.parametrize("name, said", [("onset", "study onset is no longer part of mgehl"), ("x", "x: ")])
-def test_a_study_that_is_none_is_one_line(capsys, name, said):
-    with pytest.raises(SystemExit, match="2"):
-        main(["study", name])
-    (line,) = capsys.readouterr().err.splitlines()
+def test_a_study_that_is_none_is_one_line(refused, name, said):
+    line = refused("study", name)
     assert said in line and ("runs/README.md" in line or "wedge, grid" in line)

@@ -1,12 +1,10 @@
-"""mgehl sweep: points on disk, each from its neighbours; one table, one array, curves."""
-
-import csv
 import json
 
 import h5netcdf
 import numpy as np
 import pytest
 from mpi4py import MPI
+from told import counting, rows_of
 
 import mgehl
 from mgehl.cli import main
@@ -23,14 +21,13 @@ SWEEP = ["sweep", *FILM, "--quiet", "--over", SPEEDS, "--out"]
 
 @pytest.fixture(scope="module")
 def film(tmp_path_factory):
-    """Directory of a sweep of a smooth film over three speeds."""
     directory = tmp_path_factory.mktemp("sweeps") / "film"
     assert main([*SWEEP, str(directory)]) == 0
     return directory
 
 
 def table(directory):
-    return list(csv.DictReader((directory / "sweep.csv").open()))
+    return rows_of(directory / "sweep.csv")
 
 
 def array(directory, name):
@@ -62,14 +59,8 @@ def test_a_point_from_its_neighbours_is_the_one_from_nothing(film):
 
 
 def test_killed_and_resumed_it_has_the_same_table(film, tmp_path, monkeypatch):
-    run, count = study.run, iter(range(2))
-
-    def killed(*arguments):
-        if next(count, None) is None:
-            raise KeyboardInterrupt
-        return run(*arguments)
-
-    monkeypatch.setattr(study, "run", killed)
+    run = study.run
+    monkeypatch.setattr(study, "run", counting(run, iter(range(2))))
     assert main([*SWEEP, str(tmp_path / "film")]) != 0
     assert not (tmp_path / "film" / "sweep.csv").exists()
     monkeypatch.setattr(study, "run", run)
@@ -78,7 +69,7 @@ def test_killed_and_resumed_it_has_the_same_table(film, tmp_path, monkeypatch):
         assert (tmp_path / "film" / name).read_bytes() == (film / name).read_bytes()
 
 
-def test_what_is_there_is_not_solved_again_nor_taken_for_another(film, capsys, monkeypatch):
+def test_what_is_there_is_not_solved_again_nor_taken_for_another(film, refused, monkeypatch):
     monkeypatch.setattr(study, "run", None)
     assert main([*SWEEP, str(film), "--resume"]) == 0
     others = {
@@ -87,9 +78,7 @@ def test_what_is_there_is_not_solved_again_nor_taken_for_another(film, capsys, m
     }
     for speeds, why in others.items():
         words = [f"motion.speed={speeds}" if word == SPEEDS else word for word in SWEEP]
-        assert main([*words, str(film), "--resume"]) == 2
-        (line,) = capsys.readouterr().err.splitlines()
-        assert why in line
+        assert why in refused(*words, str(film), "--resume")
 
 
 def test_a_point_that_fails_is_said_and_passed(tmp_path, capsys, monkeypatch):
@@ -112,16 +101,11 @@ def test_a_point_that_fails_is_said_and_passed(tmp_path, capsys, monkeypatch):
 
 @pytest.mark.parametrize(
     "text, values",
-    [
-        ("1..5 mm/s:3", [0.001, 0.003, 0.005]),
-        ("1e-4..1 m/s:5", [1e-4, 1e-3, 1e-2, 0.1, 1.0]),
-        ("1..0.01 m/s:3", [1.0, 0.1, 0.01]),
-        ("log(1..4 m/s:3)", [1.0, 2.0, 4.0]),
-        ("lin(1..101 m/s:3)", [1.0, 51.0, 101.0]),
-        ("50,100,200 mm/s", [0.05, 0.1, 0.2]),
-        ("1,2 mm/s,3", [1.0, 0.002, 3.0]),
-    ],
-)
+    [("1..5 mm/s:3", [0.001, 0.003, 0.005]), ("1e-4..1 m/s:5", [1e-4, 1e-3, 1e-2, 0.1, 1.0]),
+     ("1..0.01 m/s:3", [1.0, 0.1, 0.01]), ("log(1..4 m/s:3)", [1.0, 2.0, 4.0]),
+     ("lin(1..101 m/s:3)", [1.0, 51.0, 101.0]), ("50,100,200 mm/s", [0.05, 0.1, 0.2]),
+     ("1,2 mm/s,3", [1.0, 0.002, 3.0])],
+)  # fmt: skip
 def test_ranges_and_lists(text, values):
     assert axis_of(load_config(), "motion.speed", text).values == pytest.approx(values)
 
@@ -167,15 +151,13 @@ def test_several_keys_are_a_snake_there_and_back():
         (["motion.speed=1..2 m/s:200", "contact.load=1..2 N:200"], "more than 10000 points"),
     ],
 )  # fmt: skip
-def test_bad_input_is_one_line(words, said, tmp_path, capsys):
+def test_bad_input_is_one_line(words, said, tmp_path, refused):
     over = [part for word in words for part in ("--over", word)]
-    assert main(["sweep", *over, "--out", str(tmp_path / "new")]) == 2
-    (line,) = capsys.readouterr().err.splitlines()
-    assert said in line
+    assert said in refused("sweep", *over, "--out", str(tmp_path / "new"))
     assert not (tmp_path / "new").exists()
 
 
-def test_collect_takes_keys_and_plot_draws_against_one(film, tmp_path, capsys):
+def test_collect_takes_keys_and_plot_draws_against_one(film, tmp_path, capsys, refused):
     runs = sorted(map(str, (film / "runs").iterdir()))
     assert main(["collect", *runs, "--columns", "run,motion.speed,contact.load,central nm"]) == 0
     assert "| 001 | 0.5 | 800 |" in capsys.readouterr().out
@@ -188,9 +170,7 @@ def test_collect_takes_keys_and_plot_draws_against_one(film, tmp_path, capsys):
         "motion.angle": "is 0 in all", "contact.kind": "has no number",
         "motion.sped": "did you mean motion.speed",
     }.items():  # fmt: skip
-        assert main(["plot", *runs, "--against", key, "--out", str(tmp_path)]) == 2
-        (line,) = capsys.readouterr().err.splitlines()
-        assert said in line
+        assert said in refused("plot", *runs, "--against", key, "--out", str(tmp_path))
 
 
 def test_from_python(film):

@@ -37,7 +37,6 @@ class State:
         return Evaluation(P, H, self.status, self.mesh, self.contact, scheme or Scheme(), **how)
 
     def rows(self, rigid=False):
-        """The kind of row of the rank's own nodes."""
         return rows_of(own(self.status), rigid)
 
 

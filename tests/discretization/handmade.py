@@ -15,7 +15,6 @@ def ghosted(lines, beyond=0.0):
 
 
 def walled(status):
-    """The same of statuses."""
     return ghosted(status, WALL)
 
 

@@ -1,5 +1,3 @@
-"""Compiled functions, kept where that can be done."""
-
 import os
 import subprocess
 import sys

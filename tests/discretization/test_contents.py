@@ -1,5 +1,3 @@
-"""What cavities hold, carried on from node to node."""
-
 import numpy as np
 import pytest
 

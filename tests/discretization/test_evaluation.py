@@ -1,5 +1,3 @@
-"""One evaluated state: its inflow against the printed equations, balances, and what x and y share."""
-
 import numpy as np
 import pytest
 from handmade import ghosted, walled

@@ -214,11 +214,9 @@ def test_motion_turns_the_couette_flow_round_and_nothing_else(couette, mixed):
     axes = zip(axes_of(mixed.mesh, forth.motion), axes_of(mixed.mesh, back.motion), strict=True)
     for ahead, behind in axes:
         every = (
-            flows(fluid, mixed.status, ahead, forth),
-            flows(fluid, mixed.status, behind, back),
-            flows(immobile, mixed.status, ahead, forth),
-            flows(still, mixed.status, ahead, forth),
-        )
+            flows(fluid, mixed.status, ahead, forth), flows(fluid, mixed.status, behind, back),
+            flows(immobile, mixed.status, ahead, forth), flows(still, mixed.status, ahead, forth),
+        )  # fmt: skip
         for one, other, carried, driven in zip(*every, strict=True):
             np.testing.assert_allclose(one.value + other.value, 2.0 * driven.value, rtol=1e-13, atol=1e-15)
             np.testing.assert_allclose(one.value - other.value, 2.0 * carried.value, rtol=1e-13, atol=1e-15)

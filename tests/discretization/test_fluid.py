@@ -24,18 +24,10 @@ def test_mobility_is_rho_H3_over_eta_lambda(contact):
 
 @pytest.mark.parametrize(
     "mean, value, by_a, by_b",
-    [
-        ("arithmetic", 5.0, 0.5, 0.5),
-        (
-            "logarithmic",
-            6.0 / log(4.0),
-            (3.0 / log(4.0) - 1.0) / log(4.0),
-            (1.0 - 0.75 / log(4.0)) / log(4.0),
-        ),
-        ("geometric", 4.0, 1.0, 0.25),
-        ("harmonic", 3.2, 2.0 * 0.8**2, 2.0 * 0.2**2),
-    ],
-)
+    [("arithmetic", 5.0, 0.5, 0.5),
+     ("logarithmic", 6.0 / log(4.0), (3.0 / log(4.0) - 1.0) / log(4.0), (1.0 - 0.75 / log(4.0)) / log(4.0)),
+     ("geometric", 4.0, 1.0, 0.25), ("harmonic", 3.2, 2.0 * 0.8**2, 2.0 * 0.2**2)],
+)  # fmt: skip
 def test_means_of_two_and_eight(mean, value, by_a, by_b):
     """sqrt(2*8) = 4 with slopes 4/(2*2), 4/(2*8); 2*16/10 = 3.2 with slopes 2 (8/10)^2, 2 (2/10)^2.
 
@@ -65,20 +57,17 @@ def test_logarithmic_mean_carries_the_flow_of_the_reduced_pressure(alpha_dP):
     assert W * by_W + E * by_E == pytest.approx(mean, rel=1e-12)
 
 
-@pytest.mark.parametrize("mean, value", [("arithmetic", 5.0), ("geometric", 4.6), ("harmonic", 4.28)])
-def test_a_share_of_the_mean_of_two_and_eight(mean, value):
-    """0.4 of 5, 4 or 3.2, and 0.6 of 5."""
-    found = face_mobility(Scheme("1B", mean, 0.4), (TWO, EIGHT), (ONE, ONE), (ONE, ONE))
-    assert found.value[0] == pytest.approx(value, rel=1e-15)
-
-
-@pytest.mark.parametrize("mean, value", [("logarithmic", 3.0 / log(2.0)), ("linear-gap", 6.0 / log(4.0))])
-def test_the_mean_density_multiplies_the_mean_of_the_mobilities_without_theirs(mean, value):
-    """Of 2 and 8 with densities 1 and 2: 3/2 times the mean of 2 and 4, not that of 2 and 8.
+@pytest.mark.parametrize(
+    "mean, share, rho, value",
+    [("arithmetic", 0.4, ONE, 5.0), ("geometric", 0.4, ONE, 4.6), ("harmonic", 0.4, ONE, 4.28),
+     ("logarithmic", 1.0, TWO, 3.0 / log(2.0)), ("linear-gap", 1.0, TWO, 6.0 / log(4.0))],
+)  # fmt: skip
+def test_the_mobility_of_a_face_between_two_and_eight(mean, share, rho, value):
+    """0.4 of 5, 4 or 3.2, and 0.6 of 5. With densities 1 and 2 it is 3/2 times the mean of 2 and 4.
 
     Through gaps 1/2 and 1 that of the linear gap is that of 16 and 4 per cube, 12/ln 4, times 1/3.
     """
-    found = face_mobility(Scheme("1B", mean), (TWO, EIGHT), (0.5 * ONE, ONE), (ONE, TWO))
+    found = face_mobility(Scheme("1B", mean, share), (TWO, EIGHT), (0.5 * ONE, ONE), (ONE, rho))
     assert found.value[0] == pytest.approx(value, rel=1e-14)
 
 

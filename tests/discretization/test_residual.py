@@ -1,5 +1,3 @@
-"""The rows of the residual, and their linearisation against differences."""
-
 from dataclasses import replace
 
 import numpy as np
@@ -53,11 +51,6 @@ def assert_linearised(state, scheme, rigid=False, storage=None):
         np.testing.assert_allclose(found, measured, rtol=1e-6, atol=1e-8 * scale)
 
 
-@every_scheme
-def test_linearisation_in_a_film_matches_central_differences(couette, film):
-    assert_linearised(film, Scheme(couette))
-
-
 @along_and_at_an_angle
 @every_mean
 @every_scheme
@@ -76,17 +69,13 @@ def test_linearisation_of_oil_that_shear_thins_matches_central_differences(mean,
     assert 0.05 < ratio.min() < ratio.max() < 0.9
 
 
-@every_scheme
-@along_and_at_an_angle
-def test_linearisation_of_a_rigid_gap_matches_central_differences(motion, couette, mixed):
-    assert_linearised(mixed, Scheme(couette, motion=motion), rigid=True)
-
-
 OPTIONS = {
     "untreated": {"couette_at_interface": "untreated", "motion": AT_AN_ANGLE},
     "against": {"motion": (-1.0, 0.0)},
     "across": {"motion": (0.0, 1.0)},
     "unified": {"motion": (-0.6, -0.8), "contact_law": UnifiedEquations(0.1)},
+    "rigid": {"rigid": True},
+    "rigid, at an angle": {"rigid": True, "motion": AT_AN_ANGLE},
     "geometric share": {"face_mobility": "geometric", "mobility_share": 0.4},
     "harmonic share": {"face_mobility": "harmonic", "mobility_share": 0.4},
 }
@@ -95,13 +84,20 @@ OPTIONS = {
 @pytest.mark.parametrize("options", OPTIONS.values(), ids=OPTIONS)
 @every_scheme
 def test_linearisation_of_options_matches_central_differences(couette, options, mixed):
-    assert_linearised(mixed, Scheme(couette, **options))
+    options = dict(options)
+    rigid = options.pop("rigid", False)
+    assert_linearised(mixed, Scheme(couette, **options), rigid)
 
 
-@pytest.mark.parametrize("mean", ["geometric", "linear-gap"])
+LAYERS = {"motion": AT_AN_ANGLE, "contact_law": BoundaryFilm(0.1)}
+
+
+@pytest.mark.parametrize("mean", ["arithmetic", "geometric", "linear-gap"])
 @every_scheme
-def test_linearisation_beside_boundary_layers_matches_central_differences(couette, mean, film):
-    assert_linearised(film, Scheme(couette, mean, motion=AT_AN_ANGLE, contact_law=BoundaryFilm(0.1)))
+def test_linearisation_in_a_film_and_beside_boundary_layers_matches_central_differences(
+    couette, mean, film
+):
+    assert_linearised(film, Scheme(couette, mean, **({} if mean == "arithmetic" else LAYERS)))
 
 
 @along_and_at_an_angle
@@ -159,21 +155,20 @@ def test_a_few_lines_at_a_time_give_what_all_at_once_do(motion, mean, rigid, mix
         np.testing.assert_array_equal(parts.B, whole.B)
 
 
-class TestStorage:
-    """A time step: the residual and its linearisation agree."""
+@pytest.fixture(params=[0.3, 40.0, "each its own"])
+def rate(request, state):
+    if request.param != "each its own":
+        return request.param
+    shape = own(state.P).shape
+    return np.arange(1.0, 1.0 + np.prod(shape)).reshape(shape)
 
-    @pytest.fixture(params=[0.3, 40.0, "each its own"])
-    def rate(self, request, state):
-        if request.param != "each its own":
-            return request.param
-        shape = own(state.P).shape
-        return np.arange(1.0, 1.0 + np.prod(shape)).reshape(shape)
 
-    @pytest.fixture
-    def storage(self, state, rate):
-        """Of a step that began elsewhere."""
-        return Storage.begun(state.evaluation(P=0.9 * state.P, H=1.1 * state.H).fluid, rate)
+@pytest.fixture
+def storage(state, rate):
+    """Of a step that began elsewhere."""
+    return Storage.begun(state.evaluation(P=0.9 * state.P, H=1.1 * state.H).fluid, rate)
 
-    @rigid_or_not
-    def test_linearisation_matches_central_differences(self, state, storage, rigid):
-        assert_linearised(state, Scheme("2B", motion=AT_AN_ANGLE), rigid, storage)
+
+@rigid_or_not
+def test_linearisation_of_a_time_step_matches_central_differences(state, storage, rigid):
+    assert_linearised(state, Scheme("2B", motion=AT_AN_ANGLE), rigid, storage)

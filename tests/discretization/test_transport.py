@@ -1,5 +1,3 @@
-"""What the surfaces carry along: exact by whole cells, conserving, never negative, of high order."""
-
 import numpy as np
 import pytest
 

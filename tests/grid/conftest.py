@@ -12,7 +12,6 @@ def line_contact():
 
 @pytest.fixture
 def make_line(line_contact, make_hierarchy):
-    """Factory of hierarchies of single lines."""
     return lambda nodes, coarsest=33: make_hierarchy(
         line_contact, nodes, coarsest, x=(-4.0, 2.0), y=(0.0, 0.0), ny=1
     )

@@ -1,5 +1,3 @@
-"""Transfers between a grid and the one of every other node."""
-
 import numpy as np
 import pytest
 
@@ -86,23 +84,18 @@ class TestPartitioned:
         return partitioned
 
     @pytest.mark.parametrize("kind, other", [(LUBRICATED, CONTACT), (CONTACT, LUBRICATED)])
-    def test_restriction_keeps_the_kinds_apart(self, partitioned, status, coarse_status, kind, other):
-        fine = np.where(status == kind, 1.0, 0.0)
-        coarse = partitioned.restrict(fine)
-        assert np.all(coarse[coarse_status == kind] > 0.0)
-        np.testing.assert_array_equal(coarse[coarse_status == other], 0.0)
-
-    @pytest.mark.parametrize("kind, other", [(LUBRICATED, CONTACT), (CONTACT, LUBRICATED)])
-    def test_prolongation_keeps_the_kinds_apart(self, partitioned, status, coarse_status, kind, other):
+    def test_the_kinds_are_kept_apart(self, partitioned, status, coarse_status, kind, other):
+        coarse = partitioned.restrict(np.where(status == kind, 1.0, 0.0))
         fine = partitioned.prolong(np.where(coarse_status == kind, 1.0, 0.0))
-        assert np.all(fine[status == kind] > 0.0)
-        np.testing.assert_array_equal(fine[status == other], 0.0)
+        for found, kinds in ((coarse, coarse_status), (fine, status)):
+            assert np.all(found[kinds == kind] > 0.0)
+            np.testing.assert_array_equal(found[kinds == other], 0.0)
 
-    def test_constant_contact_residual_comes_out_halved(self, partitioned, status, coarse_status):
+    def test_a_constant_residual_of_contact_is_halved_and_its_correction_stays(
+        self, partitioned, status, coarse_status
+    ):
         coarse = partitioned.restrict(np.where(status == CONTACT, 4.0, 0.0))
         np.testing.assert_allclose(coarse[coarse_status == CONTACT], 2.0, rtol=1e-13)
-
-    def test_constant_contact_correction_stays_constant(self, partitioned, status, coarse_status):
         fine = partitioned.prolong(np.where(coarse_status == CONTACT, 5.0, 0.0))
         np.testing.assert_allclose(fine[status == CONTACT], 5.0, rtol=1e-13)
 
@@ -117,17 +110,11 @@ class TestPartitioned:
         assert (partitioned.prolong(coarse_ones)[status == CONTACT] > 0.0).all()
 
 
-class TestOneLine:
-    """Nine fine and five coarse nodes, by hand."""
-
-    @pytest.fixture
-    def transfer(self, make_line):
-        return make_line(9, coarsest=5).transfers[0]
-
-    def test_full_weighting_is_half_of_the_adjoint_of_bilinear(self, transfer):
-        """A coarse node stands for two fine ones, not for four."""
-        random = np.random.default_rng(1)
-        fine, coarse = random.standard_normal((1, 9)), np.zeros((1, 5))
-        coarse[:, 1:-1] = random.standard_normal((1, 3))
-        weighted = np.vdot(transfer.full_weighting(fine), coarse)
-        assert weighted == pytest.approx(0.5 * np.vdot(fine, transfer.bilinear(coarse)), rel=1e-12)
+def test_on_one_line_full_weighting_is_half_of_the_adjoint_of_bilinear(make_line):
+    """A coarse node stands for two fine ones, not for four."""
+    transfer = make_line(9, coarsest=5).transfers[0]
+    random = np.random.default_rng(1)
+    fine, coarse = random.standard_normal((1, 9)), np.zeros((1, 5))
+    coarse[:, 1:-1] = random.standard_normal((1, 3))
+    weighted = np.vdot(transfer.full_weighting(fine), coarse)
+    assert weighted == pytest.approx(0.5 * np.vdot(fine, transfer.bilinear(coarse)), rel=1e-12)

@@ -1,5 +1,3 @@
-"""Which domain a case has that names none, or "auto"."""
-
 import os
 from dataclasses import replace
 
@@ -76,8 +74,6 @@ def test_a_domain_in_numbers_does_not_ask_for_heights():
 
 
 class Unreadable(Surface):
-    """A surface without heights."""
-
     def height(self, x, y):
         raise AssertionError("was asked")
 

@@ -1,5 +1,3 @@
-"""Units in the heading of a table of time."""
-
 import pytest
 
 from mgehl.errors import ConfigError
@@ -15,17 +13,10 @@ def read(tmp_path, heading, key="motion.speed", rows=ROWS):
 
 @pytest.mark.parametrize(
     "heading, end, value",
-    [
-        ("t;v", 1000.0, 300.0),
-        ("s;m/s", 1000.0, 300.0),
-        ("t [ms];v [mm/s]", 1.0, 0.3),
-        ("t / ms;v / mm/s", 1.0, 0.3),
-        ("t/ms;v/(mm/s)", 1.0, 0.3),
-        ("ms;mm/s", 1.0, 0.3),
-        ("time ms;speed km/h", 1.0, 300.0 / 3.6),
-        ("# t (ms); speed", 1.0, 300.0),
-    ],
-)
+    [("t;v", 1000.0, 300.0), ("s;m/s", 1000.0, 300.0), ("t [ms];v [mm/s]", 1.0, 0.3),
+     ("t / ms;v / mm/s", 1.0, 0.3), ("t/ms;v/(mm/s)", 1.0, 0.3), ("ms;mm/s", 1.0, 0.3),
+     ("time ms;speed km/h", 1.0, 300.0 / 3.6), ("# t (ms); speed", 1.0, 300.0)],
+)  # fmt: skip
 def test_a_heading_tells_units(tmp_path, heading, end, value):
     found = read(tmp_path, heading)
     assert found.kinks() == pytest.approx((0.0, end))

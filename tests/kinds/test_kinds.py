@@ -1,5 +1,3 @@
-"""Kinds of contact: what they take, and that a new one is known everywhere from its own words."""
-
 import pytest
 
 from mgehl.config import KEYS, SECTIONS, config_from_tables

@@ -1,5 +1,3 @@
-"""Unusual input is named; what some machine has is not."""
-
 import os
 import re
 from pathlib import Path
@@ -37,27 +35,21 @@ def test_gels_and_rubber_are_machines_too():
 
 @pytest.mark.parametrize(
     "settings, words",
-    [
-        ({"lubricant.viscosity": "100 Pa s"}, "lubricant.viscosity = 100 Pa s: machines have 0.0002 to 5"),
-        ({"lubricant.viscosity": "17.1 Pa s"}, "lubricant.viscosity = 17.1 Pa s"),
-        ({"body_1.Ra": "30 um"}, "body_1.Ra = 3e-05 m: machines have 0 to 2e-05"),
-        ({"contact.radius_x": "10 m", "contact.radius_y": "10 m"}, "contact.radius_x = 10 m"),
-        ({"contact.radius_x": "10 m", "contact.radius_y": "10 m"}, "GPa: hard bodies mostly have 0.1 to 5"),
-        ({"contact.reduced_modulus": "2 kPa", "contact.load": "1 uN"}, "contact.reduced_modulus = 2000 Pa"),
-        ({"contact.reduced_modulus": "20 MPa", "contact.load": "80 N"}, "strains are not small"),
-        ({"contact.load": "10 kN"}, "p_h = 5.25 GPa: above 5 GPa all steels yield"),
-        ({"motion.speed": "300 m/s"}, "motion.speed = 300 m/s"),
-        ({"body_1.roughness": "50 um"}, "body_1.roughness"),
-        ({"motion.speed": "100 m/s"}, "um by a formula"),
-        (
-            {"lubricant.viscosity_law": "roelands", "lubricant.pressure_viscosity": "45 1/GPa"},
-            "its z is 1.2",
-        ),
-        (OIL | {"lubricant.temperature": "0 degC"}, "PAO100 was measured from 40 to 100 C"),
-        (OIL, "p_h = 2.26 GPa: PAO100 was measured up to 1 GPa: its law is extended beyond"),
-        ({"contact.load": "1 mN", "lubricant.viscosity": "1 Pa s"}, "fold apart"),
-    ],
-)
+    [({"lubricant.viscosity": "100 Pa s"}, "lubricant.viscosity = 100 Pa s: machines have 0.0002 to 5"),
+     ({"lubricant.viscosity": "17.1 Pa s"}, "lubricant.viscosity = 17.1 Pa s"),
+     ({"body_1.Ra": "30 um"}, "body_1.Ra = 3e-05 m: machines have 0 to 2e-05"),
+     ({"contact.radius_x": "10 m", "contact.radius_y": "10 m"}, "contact.radius_x = 10 m"),
+     ({"contact.radius_x": "10 m", "contact.radius_y": "10 m"}, "GPa: hard bodies mostly have 0.1 to 5"),
+     ({"contact.reduced_modulus": "2 kPa", "contact.load": "1 uN"}, "contact.reduced_modulus = 2000 Pa"),
+     ({"contact.reduced_modulus": "20 MPa", "contact.load": "80 N"}, "strains are not small"),
+     ({"contact.load": "10 kN"}, "p_h = 5.25 GPa: above 5 GPa all steels yield"),
+     ({"motion.speed": "300 m/s"}, "motion.speed = 300 m/s"),
+     ({"body_1.roughness": "50 um"}, "body_1.roughness"), ({"motion.speed": "100 m/s"}, "um by a formula"),
+     ({"lubricant.viscosity_law": "roelands", "lubricant.pressure_viscosity": "45 1/GPa"}, "its z is 1.2"),
+     (OIL | {"lubricant.temperature": "0 degC"}, "PAO100 was measured from 40 to 100 C"),
+     (OIL, "p_h = 2.26 GPa: PAO100 was measured up to 1 GPa: its law is extended beyond"),
+     ({"contact.load": "1 mN", "lubricant.viscosity": "1 Pa s"}, "fold apart")],
+)  # fmt: skip
 def test_what_is_unusual_is_named(settings, words):
     found = odd(BALL | settings)
     assert any(words in line for line in found), found
@@ -86,13 +78,9 @@ WAVES = {"surface.kind": "waviness", "surface.amplitude": "50 nm", "surface.wave
 
 @pytest.mark.parametrize(
     "settings, is_odd",
-    [
-        ({"motion.slide_to_roll": 0.1}, True),
-        ({"motion.slide_to_roll": 2.0}, False),
-        ({}, False),
-        ({"motion.slide_to_roll": 0.1, "time.end": "1 ms", "surface.body": "body_1"}, False),
-    ],
-)
+    [({"motion.slide_to_roll": 0.1}, True), ({"motion.slide_to_roll": 2.0}, False), ({}, False),
+     ({"motion.slide_to_roll": 0.1, "time.end": "1 ms", "surface.body": "body_1"}, False)],
+)  # fmt: skip
 def test_roughness_that_would_move_is_named(settings, is_odd):
     assert any("here it stands still" in line for line in odd(BALL | WAVES | settings)) == is_odd
 

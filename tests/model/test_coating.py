@@ -1,5 +1,3 @@
-"""The layered compliance against an elastic layer solved anew, and against its limits."""
-
 import numpy as np
 import pytest
 

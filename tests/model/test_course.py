@@ -1,5 +1,3 @@
-"""Values over time: tables, functions of the user's own, and what is wrong with them."""
-
 import pytest
 
 from mgehl.model.course import Own, Table
@@ -45,21 +43,16 @@ def test_tables_as_they_come(table, text):
 
 @pytest.mark.parametrize(
     "text, what",
-    [
-        ("0,1\n", "two or more"),
-        ("0,1\n1,2\n0.5,3\n", "does not rise from 1 s on"),
-        ("0;20\n0.5;20\n0.5;40\n1;40\n", "lines 2 and 3 have the same time, 0.5 s: a jump"),
-        ("0,1,9\n1,2,9\n", "must have two columns, times and values; has 3"),
-        ("0\n1\n", "two columns, times and values; has 1"),
-        ("0,1\n1,\n2,3\n", "line 2 has no two numbers"),
-        ("0,1\n1,nan\n2,3\n", "line 2 has no two numbers"),
-        ("t;v\nx;y\n", "has no row of numbers: line 1 is 't;v'"),
-        ("t;v;what\n0,0;0,5;start\n1,0;0,5;end\n", "has no row of numbers: 'start' in line 2 is none"),
-        ("0,1\n1,x\n", "'x' is no number"),
-        ("0,1\n0.5,2\n", "must cover 0 to 1"),
-        ("0.1,1\n2,2\n", "must cover 0 to 1"),
-    ],
-)
+    [("0,1\n", "two or more"), ("0,1\n1,2\n0.5,3\n", "does not rise from 1 s on"),
+     ("0;20\n0.5;20\n0.5;40\n1;40\n", "lines 2 and 3 have the same time, 0.5 s: a jump"),
+     ("0,1,9\n1,2,9\n", "must have two columns, times and values; has 3"),
+     ("0\n1\n", "two columns, times and values; has 1"), ("0,1\n1,\n2,3\n", "line 2 has no two numbers"),
+     ("0,1\n1,nan\n2,3\n", "line 2 has no two numbers"),
+     ("t;v\nx;y\n", "has no row of numbers: line 1 is 't;v'"),
+     ("t;v;what\n0,0;0,5;start\n1,0;0,5;end\n", "has no row of numbers: 'start' in line 2 is none"),
+     ("0,1\n1,x\n", "'x' is no number"), ("0,1\n0.5,2\n", "must cover 0 to 1"),
+     ("0.1,1\n2,2\n", "must cover 0 to 1")],
+)  # fmt: skip
 def test_what_is_wrong_with_a_table(table, text, what):
     with pytest.raises(FileError, match=what):
         table(text).check(1.0)

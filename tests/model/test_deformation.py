@@ -1,5 +1,3 @@
-"""Deflection of layered bodies: exact integrals of images, and the coating against a Hankel integral."""
-
 import numpy as np
 import pytest
 from scipy.integrate import dblquad, quad

@@ -1,18 +1,13 @@
-"""The load that a rigid film carries beyond a domain, and what the domain's sides take away within."""
-
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from contacts import contact_of, moes
 from scipy.sparse import diags
 from scipy.sparse.linalg import spsolve
-from tools.contacts import moes
 
-from mgehl.config import config_from_tables
-from mgehl.kinds import contact_from
 from mgehl.model.far_field import _missing_load, missing_share
 from mgehl.model.frame import Frame
-from mgehl.studies.study import merged
 
 X, Y = (-20.0, 2.0), (-12.0, 12.0)
 WHOLE = 0.3513
@@ -23,7 +18,7 @@ ELLIPSE = {"radius_x": 10e-3, "radius_y": 40e-3}
 
 
 def contact(M=3.0, L=2.0, angle=0.0, **bodies):
-    return contact_from(config_from_tables(merged(moes(M, L, **bodies), {"motion": {"angle": angle}})))
+    return contact_of(moes(M, L, **bodies), {"motion": {"angle": angle}})
 
 
 def relaxed_load(x, y, cells):

@@ -1,5 +1,3 @@
-"""Flash temperatures against their limits: Blok's band, the circles of Tian and Kennedy."""
-
 from math import pi, sqrt
 
 import numpy as np

@@ -1,5 +1,3 @@
-"""The axes in which a contact is solved: nothing that is turned and mirrored gets lost."""
-
 from math import cos, radians, sin
 
 import numpy as np

@@ -1,5 +1,3 @@
-"""Oils over temperature and pressure, and the formulas of film compared on equal terms."""
-
 from dataclasses import replace
 
 import numpy as np

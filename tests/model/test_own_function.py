@@ -1,5 +1,3 @@
-"""A user's file: how it is named, what goes wrong with it."""
-
 import pickle
 
 import numpy as np
@@ -24,8 +22,6 @@ def law(p):
 
 @pytest.fixture
 def own(tmp_path):
-    """Function that writes a file and names its function `law`."""
-
     def make(text, name="law"):
         (tmp_path / "mine.py").write_text(text)
         return OwnFunction(f"{tmp_path}/mine.py:{name}")
@@ -49,23 +45,19 @@ def refusal(function, *arguments):
         ("x = 1", "the file has no function law"),
         ("law = 1", "the file has no function law"),
         ("def law(p:\n", "the file cannot be run: SyntaxError: "),
-        (
-            "\nimport no_such_module_at_all",
-            "ModuleNotFoundError: No module named 'no_such_module_at_all' (line 2)",
-        ),
+        ("\nimport no_such_module_at_all",
+         "ModuleNotFoundError: No module named 'no_such_module_at_all' (line 2)"),
         ("import sys\nsys.exit('over')", "the file cannot be run: SystemExit: over (line 2)"),
         ("def law(): return 1, 2", "must take 1 arguments: p"),
         ("def law(p, q): return 1, 2", "must take 1 arguments: p"),
         ("def law(p):\n  q = 0\n  return 1 / q, 0", "raises ZeroDivisionError: division by zero (line 3)"),
         ("def law(p): return p", "must return two arrays, the value and its derivative"),
         ("def law(p): return p, p, p", "must return two arrays, the value and its derivative"),
-        (
-            "def law(p): return p, p[0, :2]",
-            "must return numbers of shape (2, 3), returns ndarray of shape (2,)",
-        ),
+        ("def law(p): return p, p[0, :2]",
+         "must return numbers of shape (2, 3), returns ndarray of shape (2,)"),
         ("def law(p): return p, 'x'", "must return numbers of shape (2, 3), returns str of shape ()"),
     ],
-)
+)  # fmt: skip
 def test_what_goes_wrong_is_one_line(own, text, words):
     assert words in refusal(own(text), "p")
 

@@ -1,10 +1,7 @@
-"""How far from the centre peaks of rough bodies may touch."""
-
 import numpy as np
 import pytest
+from contacts import contact_of
 
-from mgehl.config import config_from_tables
-from mgehl.kinds import contact_from
 from mgehl.model.peaks import reach_of_peaks
 from mgehl.studies.study import merged
 
@@ -13,8 +10,7 @@ LIGHT = {"contact": {"load": 1.0}, "motion": {"speed": 0.01}}
 
 
 def reach(tables, film=0.0):
-    """That of a contact, and the contact."""
-    contact = contact_from(config_from_tables(tables))
+    contact = contact_of(tables)
     return reach_of_peaks(contact, film), contact
 
 

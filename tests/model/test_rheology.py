@@ -1,5 +1,3 @@
-"""Laws of the sheared oil: their limits, and what own ones may return."""
-
 import numpy as np
 import pytest
 

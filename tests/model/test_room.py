@@ -1,12 +1,7 @@
-"""The domain that "auto" stands for: large enough, and not larger."""
-
 import pytest
-from tools.contacts import line, moes
+from contacts import line, moes, starvation
 
-from mgehl.config import config_from_tables
-from mgehl.kinds import contact_from
 from mgehl.model.room import ALLOWED, NEAREST, PARTS, domain_for
-from mgehl.model.starvation import Starvation
 
 NODES, FARTHEST = 257, 1000.0
 
@@ -15,11 +10,6 @@ CASES = [
     moes(100.0, 8.0, radius_y=80e-3), line(50e3, 1.0), line(1e3, 0.5),
     {"contact": {"radius_y": 30e-3}, "motion": {"speed": 1.0, "angle": 30}},
 ]  # fmt: skip
-
-
-def starvation(tables):
-    contact = contact_from(config_from_tables(tables))
-    return Starvation(contact, contact.flooded_film)
 
 
 def domain(tables):

@@ -1,5 +1,3 @@
-"""Where surfaces are in time, and what counts as a passage."""
-
 import pytest
 
 from mgehl.config import load_config

@@ -1,11 +1,7 @@
-"""What a domain takes of a film: beside solutions on larger domains, and the same from every side."""
-
 import numpy as np
 import pytest
-from tools.contacts import moes
+from contacts import moes, starvation
 
-from mgehl.config import config_from_tables
-from mgehl.kinds import contact_from
 from mgehl.model.frame import Frame
 from mgehl.model.starvation import Starvation
 from mgehl.studies.study import merged
@@ -13,11 +9,6 @@ from mgehl.studies.study import merged
 WIDE = (-100.0, 100.0)
 WITHIN = merged(moes(5.0, 5.0), {"grid": {"load_beyond": False}})
 """A light load that the film in the domain carries alone."""
-
-
-def starvation(tables, film=None):
-    contact = contact_from(config_from_tables(tables))
-    return Starvation(contact, contact.flooded_film if film is None else film)
 
 
 def taken(found, x, y):

@@ -1,5 +1,3 @@
-"""The assembled rigid-gap solver against the matrix-free Jacobian and the geometric multigrid."""
-
 import numpy as np
 import pytest
 from mpi4py import MPI

@@ -1,11 +1,6 @@
-"""Cliffs of the mobility, and the direct solve of the nodes around them."""
-
 import numpy as np
 import pytest
 
-from mgehl.discretization.bands import distributive_nodes
-from mgehl.discretization.rows import PRESSURE, rows_of
-from mgehl.discretization.scheme import Scheme
 from mgehl.multigrid.cliffs import BESIDE, CliffZone
 from mgehl.multigrid.nearby import NearbySolve
 from mgehl.multigrid.smoother import influence_nearby
@@ -13,59 +8,43 @@ from mgehl.multigrid.smoother import influence_nearby
 SHARE, NODES = 0.25, 17
 
 
-class TestZone:
-    @pytest.fixture(params=["1B", "2B"])
-    def jacobian(self, request, make_problem, rough_state, make_jacobian):
-        """Of a state with contact, film and a cavity."""
-        problem = make_problem(nodes=NODES, coarsest=NODES, scheme=Scheme(couette=request.param))
-        state = rough_state(problem, contact=True)
-        jacobian = make_jacobian(problem, state)
-        jacobian.rows = rows_of(state.status)
-        return jacobian
+@pytest.fixture
+def matrix(jacobian, masks):
+    """The near part of J Q, as the solve of all nearby nodes has it."""
+    everywhere = np.ones(jacobian.grid.shape, dtype=bool)
+    nearby = NearbySolve(jacobian, influence_nearby(jacobian), SHARE, everywhere)
+    yield nearby.matrix(*(jacobian.grid.halo(mask) for mask in masks))[:, :]
+    nearby.free()
 
-    @pytest.fixture
-    def masks(self, jacobian):
-        """Of distributive nodes and of those whose pressure is not given."""
-        distributive = distributive_nodes(
-            jacobian.linearisation.eps, jacobian.rows, jacobian.grid.mesh.dX, 0.4
-        )
-        assert 0.1 < distributive.mean() < 0.9
-        return distributive, jacobian.rows != PRESSURE
 
-    @pytest.fixture
-    def matrix(self, jacobian, masks):
-        """The near part of J Q, as the solve of all nearby nodes has it."""
-        everywhere = np.ones(jacobian.grid.shape, dtype=bool)
-        nearby = NearbySolve(jacobian, influence_nearby(jacobian), SHARE, everywhere)
-        yield nearby.matrix(*(jacobian.grid.halo(mask) for mask in masks))[:, :]
-        nearby.free()
+@pytest.fixture
+def solved(jacobian, masks):
+    """Function: w after the solve of the zone around some nodes, the weighted residual and w before."""
 
-    @pytest.fixture
-    def solved(self, jacobian, masks):
-        """Function: w after the solve of the zone around some nodes, the weighted residual and w before."""
+    def solve(found):
+        zone = CliffZone(jacobian.grid, influence_nearby(jacobian), SHARE)
+        zone.gather(found, jacobian.linearisation, *masks)
+        zone.factor()
+        r, before = np.random.default_rng(3).standard_normal((2, NODES, NODES))
+        w = before.copy()
+        zone.solve(r, w, 1.5)
+        return w, 1.5 * r, before
 
-        def solve(found):
-            zone = CliffZone(jacobian.grid, influence_nearby(jacobian), SHARE)
-            zone.gather(found, jacobian.linearisation, *masks)
-            zone.factor()
-            r, before = np.random.default_rng(3).standard_normal((2, NODES, NODES))
-            w = before.copy()
-            zone.solve(r, w, 1.5)
-            return w, 1.5 * r, before
+    return solve
 
-        return solve
 
-    def test_rows_around_cliffs_hold_and_the_rest_is_left_alone(self, solved, matrix):
-        found, zone = np.zeros((2, NODES, NODES), dtype=bool)
-        for j, i in ((8, 9), (0, 4), (12, NODES - 1)):
-            found[j, i] = True
-            zone[max(j - BESIDE, 0) : j + BESIDE + 1, max(i - BESIDE, 0) : i + BESIDE + 1] = True
-        w, r, before = solved(found)
-        np.testing.assert_array_equal(w[~zone], before[~zone])
-        left = (r.ravel() - matrix @ w.ravel()).reshape(r.shape)
-        assert np.abs(left[zone]).max() < 1e-9 < np.abs(left[~zone]).max()
+def test_rows_around_cliffs_hold_and_the_rest_is_left_alone(solved, matrix):
+    found, zone = np.zeros((2, NODES, NODES), dtype=bool)
+    for j, i in ((8, 9), (0, 4), (12, NODES - 1)):
+        found[j, i] = True
+        zone[max(j - BESIDE, 0) : j + BESIDE + 1, max(i - BESIDE, 0) : i + BESIDE + 1] = True
+    w, r, before = solved(found)
+    np.testing.assert_array_equal(w[~zone], before[~zone])
+    left = (r.ravel() - matrix @ w.ravel()).reshape(r.shape)
+    assert np.abs(left[zone]).max() < 1e-9 < np.abs(left[~zone]).max()
 
-    def test_a_singular_zone_is_left_to_the_lines(self, jacobian, masks, solved):
-        jacobian.linearisation.A[:] = jacobian.linearisation.B[:] = 0.0
-        w, _, before = solved(np.ones((NODES, NODES), dtype=bool))
-        np.testing.assert_array_equal(w, before)
+
+def test_a_singular_zone_is_left_to_the_lines(jacobian, masks, solved):
+    jacobian.linearisation.A[:] = jacobian.linearisation.B[:] = 0.0
+    w, _, before = solved(np.ones((NODES, NODES), dtype=bool))
+    np.testing.assert_array_equal(w, before)

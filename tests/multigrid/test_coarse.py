@@ -1,5 +1,3 @@
-"""The direct solve on the coarsest grid."""
-
 import numpy as np
 import pytest
 

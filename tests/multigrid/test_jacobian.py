@@ -1,5 +1,3 @@
-"""The bordered Jacobian against differences of the nonlinear residual."""
-
 import numpy as np
 import pytest
 
@@ -56,17 +54,17 @@ def assert_close(result, expected):
     assert np.max(np.abs(result - expected)) < 1e-6 * np.max(np.abs(expected))
 
 
-@pytest.mark.parametrize("contact", [False, True], ids=["film", "contact"])
-@pytest.mark.parametrize("couette", ["1B", "2B", "2C", "S1B", "S2C"])
-def test_schemes(make_problem, rough_state, make_jacobian, make_vec, couette, contact):
-    problem = make_problem(nodes=33, scheme=Scheme(couette))
-    assert_consistent(problem, rough_state(problem, contact), make_jacobian, make_vec)
+ALONG = [
+    (couette, (1.0, 0.0), contact) for couette in ("1B", "2B", "2C", "S1B", "S2C") for contact in (0, 1)
+]
 
 
-@pytest.mark.parametrize("couette", ["1B", "2B", "S2B-v"])
-def test_motion_at_an_angle(make_problem, rough_state, make_jacobian, make_vec, couette):
-    problem = make_problem(nodes=33, scheme=Scheme(couette, motion=(0.6, 0.8)))
-    assert_consistent(problem, rough_state(problem, contact=True), make_jacobian, make_vec)
+@pytest.mark.parametrize(
+    "couette, motion, contact", [*ALONG, *((c, (0.6, 0.8), 1) for c in ("1B", "2B", "S2B-v"))]
+)
+def test_schemes(make_problem, rough_state, make_jacobian, make_vec, couette, motion, contact):
+    problem = make_problem(nodes=33, scheme=Scheme(couette, motion=motion))
+    assert_consistent(problem, rough_state(problem, bool(contact)), make_jacobian, make_vec)
 
 
 def assert_consistent(problem, state, make_jacobian, make_vec):

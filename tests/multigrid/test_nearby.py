@@ -1,29 +1,14 @@
-"""The direct solve of what couples nearby nodes."""
-
 import numpy as np
 import pytest
 
-from mgehl.discretization.bands import distributive_nodes
 from mgehl.discretization.influence import influence_coefficients
 from mgehl.discretization.kernels import distribute
 from mgehl.discretization.mesh import HALO
-from mgehl.discretization.rows import PRESSURE, rows_of
-from mgehl.discretization.scheme import Scheme
 from mgehl.multigrid.nearby import NearbySolve
 
 SHARE = 0.25
 REACH = 1
 """Nodes on each side whose deflection is in the matrix."""
-
-
-@pytest.fixture(params=["1B", "2B"])
-def jacobian(request, make_problem, rough_state, make_jacobian):
-    """Of a state with contact, film and a cavity."""
-    problem = make_problem(nodes=17, coarsest=17, scheme=Scheme(couette=request.param))
-    state = rough_state(problem, contact=True)
-    jacobian = make_jacobian(problem, state)
-    jacobian.rows = rows_of(state.status)
-    return jacobian
 
 
 @pytest.fixture
@@ -34,12 +19,9 @@ def influence(jacobian):
 
 
 @pytest.fixture
-def masks(jacobian):
-    """The ghosted masks of distributive nodes and of those whose pressure is not given."""
-    grid, eps = jacobian.grid, jacobian.linearisation.eps
-    distributive = distributive_nodes(eps, jacobian.rows, grid.mesh.dX, 0.4)
-    assert 0.1 < distributive.mean() < 0.9
-    return grid.halo(distributive), grid.halo(jacobian.rows != PRESSURE)
+def masks(jacobian, masks):
+    """With their ghost lines."""
+    return [jacobian.grid.halo(mask) for mask in masks]
 
 
 @pytest.fixture(params=["everywhere", "in the middle"])

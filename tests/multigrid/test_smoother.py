@@ -1,5 +1,3 @@
-"""The distributive line smoother as an iteration of its own."""
-
 import numpy as np
 import pytest
 
@@ -14,7 +12,6 @@ NODES = 65
 
 @pytest.fixture
 def film(solve, paper_contact):
-    """The solved full film at 1 m/s."""
     return solve(paper_contact(), NODES)
 
 

@@ -1,5 +1,3 @@
-"""The balance of nodes under contact."""
-
 import numpy as np
 import pytest
 from scipy.sparse import csr_matrix

@@ -1,5 +1,3 @@
-"""Banded systems of y-lines on one rank; several are tested in tests/parallel."""
-
 import numpy as np
 import pytest
 from mpi4py import MPI

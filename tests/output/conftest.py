@@ -1,5 +1,3 @@
-"""Solutions made by hand, for pictures; and what a finished figure says and where."""
-
 from itertools import combinations
 
 import numpy as np
@@ -39,8 +37,18 @@ def status_of(mesh, contact):
 
 @pytest.fixture
 def make_rows():
-    """Factory of histories of Newton's method."""
     return newton_rows
+
+
+@pytest.fixture
+def drawn():
+    """Function: what a function draws of something, in the style of all pictures."""
+
+    def draw(function, *what):
+        with style.applied():
+            return function(*what)
+
+    return draw
 
 
 def bare_result(converged=True, **more):
@@ -51,8 +59,6 @@ def bare_result(converged=True, **more):
 
 @pytest.fixture
 def make_solution():
-    """Factory of `Solution`s of a point contact with a dry pressure over a film, or a disc of contact."""
-
     def make(nodes=33, contact=0.0, settings=(), rows=None, converged=True):
         config = load_config(settings=["grid.nodes=65", *settings])
         body = contact_from(config)
@@ -70,8 +76,6 @@ def make_solution():
 
 @pytest.fixture
 def make_line():
-    """Factory of `Solution`s of a line contact."""
-
     def make(nodes=65, settings=()):
         config = load_config(settings=["contact.kind=line", "grid.nodes=65", *settings])
         body = contact_from(config)
@@ -87,8 +91,6 @@ def make_line():
 
 @pytest.fixture
 def make_wedge():
-    """Factory of `Solution`s of a wedge with a square pillar."""
-
     def make(nodes=33, settings=()):
         config = load_config(
             settings=["contact.kind=wedge", "grid.nodes=65", "wedge.pillar=square", *settings]

@@ -1,5 +1,3 @@
-"""What to try after a run that did not converge."""
-
 from dataclasses import replace
 
 import pytest

@@ -1,5 +1,3 @@
-"""A run's way on disk: what is kept comes back, what is damaged is refused, nothing is lost on the way."""
-
 import os
 from dataclasses import dataclass, replace
 from functools import partial
@@ -10,6 +8,7 @@ from zipfile import ZipFile
 import numpy as np
 import pytest
 from mpi4py import MPI
+from told import refusal
 
 from mgehl.config import config_from_tables
 from mgehl.errors import OutputError, Stopped
@@ -62,10 +61,8 @@ class TestFile:
         return path
 
     def refused(self, path):
-        with pytest.raises(OutputError) as error:
-            load(path, TABLES)
-        text = str(error.value)
-        assert text.startswith(f"{path}: ") and "\n" not in text
+        text = refusal(load, path, TABLES, error=OutputError)
+        assert text.startswith(f"{path}: ")
         return text
 
     def test_cut_off_anywhere(self, path):

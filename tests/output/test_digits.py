@@ -1,5 +1,3 @@
-"""Films with no more digits than they have."""
-
 from math import nan
 
 import pytest

@@ -1,5 +1,3 @@
-"""A run directory: a reader finds the old run or the new one; what is replaced, and what never is."""
-
 import json
 import os
 import subprocess
@@ -11,6 +9,7 @@ import numpy as np
 import pytest
 from mpi4py import MPI
 from test_files import make_result
+from told import counting
 
 from mgehl.config import config_from_tables
 from mgehl.errors import OutputError
@@ -81,14 +80,13 @@ def timeless(directory):
     return {name: each for name, each in content(directory).items() if name != "fields.h5"}
 
 
-class TestMaking:
-    @pytest.mark.parametrize("force", [False, True])
-    def test_a_file_in_its_place_is_refused(self, tmp_path, force):
-        (tmp_path / "file").write_text("mine")
-        for path in (tmp_path / "file", tmp_path / "file" / "deep"):
-            with pytest.raises(OutputError):
-                make_directory(path, force)
-        assert (tmp_path / "file").read_text() == "mine"
+@pytest.mark.parametrize("force", [False, True])
+def test_a_file_in_its_place_is_refused(tmp_path, force):
+    (tmp_path / "file").write_text("mine")
+    for path in (tmp_path / "file", tmp_path / "file" / "deep"):
+        with pytest.raises(OutputError):
+            make_directory(path, force)
+    assert (tmp_path / "file").read_text() == "mine"
 
 
 class TestForeign:
@@ -238,17 +236,6 @@ class TestPublishing:
             del file["run"]
         assert read_run(here).H0 == -0.5
         assert read_run(put(here, -0.25, force=True)).H0 == -0.25
-
-
-def counting(function, steps):
-    """A function that ends the process, as it were, after so many calls of some."""
-
-    def call(*arguments, **named):
-        if next(steps, None) is None:
-            raise KeyboardInterrupt
-        return function(*arguments, **named)
-
-    return call
 
 
 def test_one_that_has_not_finished_says_how_to_go_on(tmp_path):

@@ -1,5 +1,3 @@
-"""The verdict on a domain, and its words."""
-
 from math import nan
 
 import pytest
@@ -40,12 +38,10 @@ def test_the_paper_s_domain_starves_a_fast_film_and_auto_does_not():
 
 @pytest.mark.parametrize(
     "lost, verdict, words",
-    [
-        (0.4, "sufficient", "sufficient: twice the size would change the film by some 0.4 %"),
-        (1.0, "starved", "starved: twice the size would change the film by some 1 %"),
-        (nan, "unknown", "not judged: made by an older version"),
-    ],
-)
+    [(0.4, "sufficient", "sufficient: twice the size would change the film by some 0.4 %"),
+     (1.0, "starved", "starved: twice the size would change the film by some 1 %"),
+     (nan, "unknown", "not judged: made by an older version")],
+)  # fmt: skip
 def test_what_is_said_of_a_domain(lost, verdict, words):
     assert domain_verdict(lost) == verdict and domain_words(verdict, lost).startswith(words)
 

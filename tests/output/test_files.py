@@ -1,5 +1,3 @@
-"""The files of a run directory."""
-
 import csv
 import json
 import tomllib
@@ -33,11 +31,9 @@ def make_result(**changes):
 
 @pytest.mark.parametrize(
     "tables",
-    [
-        {"grid": {"nodes": 129, "x": [-2.0, 1.5]}, "motion": {"speed": "7.5 mm/s"}},
-        {"moes": {"M": 20, "L": 10}, "lubricant": {"density_law": "constant"}},
-    ],
-)
+    [{"grid": {"nodes": 129, "x": [-2.0, 1.5]}, "motion": {"speed": "7.5 mm/s"}},
+     {"moes": {"M": 20, "L": 10}, "lubricant": {"density_law": "constant"}}],
+)  # fmt: skip
 def test_texts_read_back(tables, paper_contact):
     config, result = config_from_tables(tables), make_result(residual=np.nan, flux_imbalance=np.inf)
     rows = [{"grid": 65, "step": 0, "residual": 0.1}, {"grid": 65, "step": 1, "residual": 1.25e-9}]

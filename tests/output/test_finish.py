@@ -1,5 +1,3 @@
-"""The result first, the picture after; a law that changed is said."""
-
 from pathlib import Path
 
 import pytest
@@ -10,10 +8,7 @@ from mgehl.output.stored import read_run
 DRY = ["run", "--quiet", "--set", "grid.nodes=65", "--set", "solver.start=contact", "--out", "here"]
 
 
-@pytest.fixture(autouse=True)
-def empty_directory(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    return tmp_path
+pytestmark = pytest.mark.usefixtures("empty_directory")
 
 
 def test_a_picture_that_cannot_be_drawn_costs_nothing(tmp_path, capsys, monkeypatch):

@@ -42,14 +42,10 @@ def test_speeds_are_those_that_the_nested_iteration_solves_at():
 
 @pytest.mark.parametrize(
     "name, settings",
-    [
-        ("full_film", {"grid.nodes": 129, "motion.speed": 0.5}),
-        ("point_contact", {"grid.nodes": 129}),
-        ("rough", {}),
-        ("rough", {"discretization.contact_model": "dry"}),
-    ],
+    [("full_film", {"grid.nodes": 129, "motion.speed": 0.5}), ("point_contact", {"grid.nodes": 129}),
+     ("rough", {}), ("rough", {"discretization.contact_model": "dry"})],
     ids=["full film", "contact", "rough", "dry"],
-)
+)  # fmt: skip
 def test_runs_take_half_to_twice_the_convolutions(one_second, name, settings):
     config = load_config(CONFIGS / f"{name}.toml", settings)
     result = solve(config, MPI.COMM_SELF).result

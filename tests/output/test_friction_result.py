@@ -1,12 +1,10 @@
-"""Friction in a result: forces, power, the band of the load on solids, words."""
-
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from contacts import solved
 
 import mgehl
-from mgehl.config import config_from_tables
 from mgehl.discretization.mesh import Mesh
 from mgehl.model.rheology import Friction
 from mgehl.output import friction_result as module
@@ -62,14 +60,11 @@ def test_where_the_load_on_solids_is_the_grid_s_so_is_friction(found):
 
 def test_a_run_that_slides_has_its_shear_in_report_and_files(tmp_path):
     """Maps by their names, read back as they were."""
-    tables = {
-        "contact": {"load": 100.0},
-        "motion": {"speed": 0.5, "slide_to_roll": 0.2},
+    solution = solved({
+        "contact": {"load": 100.0}, "motion": {"speed": 0.5, "slide_to_roll": 0.2}, "grid": {"nodes": 65},
         "friction": {"model": "limiting", "limiting_coefficient": 0.05},
-        "grid": {"nodes": 65},
         "solver": {"start": "film", "error": False},
-    }
-    solution = mgehl.solve(config_from_tables(tables))
+    })  # fmt: skip
     solution.save(tmp_path / "here")
     read = mgehl.read(tmp_path / "here")
     np.testing.assert_array_equal(read.fields.shear, solution.fields.shear)
@@ -82,13 +77,10 @@ def test_a_run_that_slides_has_its_shear_in_report_and_files(tmp_path):
 def test_the_film_without_thinning_is_told_beside_the_thinned_one(surface):
     """Of rough bodies the mean gap."""
     tables = {
-        "grid": {"nodes": 65},
-        "motion": {"speed": 2.0, "slide_to_roll": 0.3},
-        "friction": {"model": "eyring", "eyring_stress": 5e6},
-        "solver": {"start": "film"},
-    } | ({"surface": surface} if surface else {})
-    config = config_from_tables(tables)
-    thinned, thick = (mgehl.solve(config.with_(own)).result for own in ({}, {"friction.thinning": False}))
+        "grid": {"nodes": 65}, "motion": {"speed": 2.0, "slide_to_roll": 0.3},
+        "friction": {"model": "eyring", "eyring_stress": 5e6}, "solver": {"start": "film"},
+    } | ({"surface": surface} if surface else {})  # fmt: skip
+    thinned, thick = (solved(tables, {"friction": own}).result for own in ({}, {"thinning": False}))
     film = thick.mixed.mean_gap_nm if surface else thick.central_film_nm
     assert thinned.converged and thinned.friction.unthinned_film_nm == pytest.approx(film, rel=1e-5)
     assert thick.friction.unthinned_film_nm is None

@@ -1,16 +1,11 @@
-"""Bands about the mean gaps of rough bodies."""
-
 from dataclasses import replace
 from types import SimpleNamespace
 
 import pytest
-from mpi4py import MPI
+from contacts import solved
 
-from mgehl.config import config_from_tables
 from mgehl.output.gap_error import SPREAD, from_grids, half_width, why_no_band
-from mgehl.run import solve
 from mgehl.solver.gaps import GridGap
-from mgehl.studies.study import merged
 
 WAVY = {
     "contact": {"load": 20.0, "boundary_film": 2e-9},
@@ -78,14 +73,10 @@ def test_where_the_coarser_grid_has_another_gap_there_is_none():
 
 @pytest.mark.parametrize(
     "settled, closes, edge, surface, words",
-    [
-        (False, False, "", "resolved", "not settled"),
-        (True, True, "", "resolved", "closes its faces"),
-        (True, False, "the domain cuts it", "resolved", "cuts"),
-        (True, False, "", "grid-determined", "fewer than four nodes"),
-        (True, False, "", "coarse", ""),
-    ],
-)
+    [(False, False, "", "resolved", "not settled"), (True, True, "", "resolved", "closes its faces"),
+     (True, False, "the domain cuts it", "resolved", "cuts"),
+     (True, False, "", "grid-determined", "fewer than four nodes"), (True, False, "", "coarse", "")],
+)  # fmt: skip
 def test_why_there_may_be_none(settled, closes, edge, surface, words):
     shown = SimpleNamespace(surface=surface)
     result = SimpleNamespace(settled=settled, edge=SimpleNamespace(wrong=(edge, "")), resolution=shown)
@@ -95,53 +86,28 @@ def test_why_there_may_be_none(settled, closes, edge, surface, words):
     assert words in why and bool(why) == bool(words)
 
 
-class TestOfAWavyBall:
-    @pytest.fixture(scope="class")
-    def solved(self):
-        """Function: the `Result` on so many nodes."""
-        found = {}
-
-        def result(nodes, **solver):
-            key = nodes, *solver
-            if key not in found:
-                tables = merged(WAVY, {"grid": {"nodes": nodes}, "solver": solver})
-                found[key] = solve(config_from_tables(tables), MPI.COMM_SELF).result
-            return found[key]
-
-        return result
-
-    def test_the_bands_hold_the_gaps_of_a_grid_four_times_as_fine(self, solved):
-        coarse, fine = solved(65), solved(257)
-        assert coarse.converged and fine.converged and fine.mixed.contact_load_share > 0.0
-        for gap in ("mean", "loaded"):
-            values = [getattr(each.mixed, f"{gap}_gap_nm") for each in (coarse, fine)]
-            width = getattr(coarse.mixed.error, f"{gap}_nm")
-            assert 0.0 < abs(values[1] - values[0]) < width < 0.4 * values[0]
-
-    def test_so_do_those_of_the_loads_and_the_largest_pressure(self, solved):
-        coarse, fine = solved(65), solved(257)
-        off = abs(fine.max_pressure_GPa - coarse.max_pressure_GPa)
-        assert 0.0 < off < coarse.mixed.error.max_pressure_GPa < 0.2 * fine.max_pressure_GPa
-        for name in ("contact_load_share", "solid_load_fraction"):
-            off = abs(getattr(fine.mixed, name) - getattr(coarse.mixed, name))
-            assert 0.0 < off < getattr(coarse.mixed.error, name) < 0.25
+THICK = {"motion": {"speed": 0.1}, "surface": {"amplitude": 3e-8}}
+"""Ridges of 30 nm under a film of 60."""
 
 
-class TestOfAThickFilm:
-    """Ridges of 30 nm under a film of 60."""
-
-    @pytest.fixture(scope="class")
-    def solved(self):
-        """Results on 65 and 257 nodes."""
-        thick = {"motion": {"speed": 0.1}, "surface": {"amplitude": 3e-8}}
-        tables = [merged(WAVY, thick, {"grid": {"nodes": nodes}}) for nodes in (65, 257)]
-        return [solve(config_from_tables(each), MPI.COMM_SELF).result for each in tables]
-
-    def test_the_bands_hold_the_gaps_of_a_grid_four_times_as_fine(self, solved):
-        coarse, fine = (each.mixed for each in solved)
-        assert coarse.lambda_ratio > 2.0 and solved[0].converged and solved[1].converged
-        assert abs(fine.mean_gap_nm - coarse.mean_gap_nm) < coarse.error.mean_nm < 0.1 * fine.mean_gap_nm
-        assert abs(fine.loaded_gap_nm - coarse.loaded_gap_nm) < coarse.error.loaded_nm
+@pytest.mark.parametrize("more, part", [({}, 0.4), (THICK, 0.1)], ids=["in contact", "thick film"])
+def test_the_bands_hold_what_a_grid_four_times_as_fine_has(more, part):
+    coarse, fine = (solved(WAVY, more, {"grid": {"nodes": nodes}}).result for nodes in (65, 257))
+    assert coarse.converged and fine.converged
+    for gap in ("mean", "loaded"):
+        values = [getattr(each.mixed, f"{gap}_gap_nm") for each in (coarse, fine)]
+        assert (
+            0.0 < abs(values[1] - values[0]) < getattr(coarse.mixed.error, f"{gap}_nm") < part * values[0]
+        )
+    if more:
+        assert coarse.mixed.lambda_ratio > 2.0
+        return
+    assert fine.mixed.contact_load_share > 0.0
+    off = abs(fine.max_pressure_GPa - coarse.max_pressure_GPa)
+    assert 0.0 < off < coarse.mixed.error.max_pressure_GPa < 0.2 * fine.max_pressure_GPa
+    for name in ("contact_load_share", "solid_load_fraction"):
+        off = abs(getattr(fine.mixed, name) - getattr(coarse.mixed, name))
+        assert 0.0 < off < getattr(coarse.mixed.error, name) < 0.25
 
 
 def test_friction_has_the_band_of_its_difference_to_the_coarser_grid():
@@ -158,10 +124,7 @@ def test_the_band_of_a_films_friction_holds_the_next_finer_grids():
     """Solids carry nothing here: the band was that of their load alone, a ten thousandth."""
     sliding = {"motion": {"speed": 0.02, "slide_to_roll": 0.2}}
     sliding |= {"friction": {"model": "eyring", "eyring_stress": 5e6}}
-    coarse, fine = (
-        solve(config_from_tables(merged(WAVY, sliding, {"grid": {"nodes": nodes}})), MPI.COMM_SELF).result
-        for nodes in (65, 129)
-    )
+    coarse, fine = (solved(WAVY, sliding, {"grid": {"nodes": nodes}}).result for nodes in (65, 129))
     assert coarse.mixed.solid_load_fraction == 0.0
     off = abs(coarse.friction.coefficient - fine.friction.coefficient)
     assert 1e-6 < off < coarse.friction.coefficient_band < 0.1 * coarse.friction.coefficient

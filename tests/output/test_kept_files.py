@@ -1,5 +1,3 @@
-"""Files of heights that a run was solved with: the run keeps a copy, and knows it again."""
-
 import shutil
 from pathlib import Path
 

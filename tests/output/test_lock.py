@@ -1,5 +1,3 @@
-"""One writer a directory."""
-
 import os
 import signal
 import subprocess
@@ -23,7 +21,6 @@ HOLDER = (
 
 @pytest.fixture
 def holder(tmp_path):
-    """A process that holds the directory."""
     words = [sys.executable, "-c", HOLDER, str(tmp_path)]
     process = subprocess.Popen(words, stdout=subprocess.PIPE, text=True, env=dict(os.environ))
     assert process.stdout.readline() == "held\n"

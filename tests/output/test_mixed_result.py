@@ -1,5 +1,3 @@
-"""How film and contact share, of states made by hand: patches, areas, shares, films."""
-
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -42,14 +40,9 @@ def touch(nodes, *places, P=1.0):
 
 @pytest.mark.parametrize(
     "drawing, sizes",
-    [
-        (["..", ".."], []),
-        (["#.#", "...", "#.."], [1, 1, 1]),
-        (["#..", ".#.", "..#"], [3]),
-        (["##.#", "...#"], [2, 2]),
-        (["#.##.#"], [1, 2, 1]),
-    ],
-)
+    [(["..", ".."], []), (["#.#", "...", "#.."], [1, 1, 1]), (["#..", ".#.", "..#"], [3]),
+     (["##.#", "...#"], [2, 2]), (["#.##.#"], [1, 2, 1])],
+)  # fmt: skip
 def test_patches_hang_together_by_sides_and_by_corners(drawing, sizes):
     solid = np.array([[letter == "#" for letter in line] for line in drawing])
     assert patch_sizes(solid) == sizes
@@ -65,14 +58,18 @@ def test_areas_and_the_largest_patch_are_in_square_metres(contact, nodes):
     assert found.contact_area_over_hertz == pytest.approx(3 * cell / np.pi)
 
 
-def test_each_carries_the_load_of_its_pressure(contact, nodes):
+def test_each_carries_the_load_of_its_pressure_and_solids_what_the_fluid_under_them_does_not(
+    contact, nodes
+):
     touch(nodes, (4, 8), P=2.0)
     nodes.P[4, 7], nodes.P[4, 9] = 0.5, 0.25
     nodes.P[0, 0] = 9.0  # of the boundary
+    nodes.p[4, 8], nodes.p[4, 7] = 0.5, 0.5
     found = measured(contact, MESH, nodes)
     whole = 0.125 / contact.load_integral
     assert found.contact_load_share == pytest.approx(2.0 * whole)
     assert found.film_load_share == pytest.approx(0.75 * whole)
+    assert found.solid_load_fraction == pytest.approx(1.5 * whole)
 
 
 def test_films_are_of_the_film_within_the_ellipse_alone(contact, nodes):
@@ -96,15 +93,6 @@ def test_valleys_are_deeper_than_sq_below_the_mean(contact, nodes):
     assert found.valley_film_nm == pytest.approx(1.0 * 1e9 * contact.film_scale)
     assert found.Sq_nm == pytest.approx(1e9 * Sq)
     assert found.lambda_ratio == pytest.approx(contact.formulas["hamrock_dowson_central"] / Sq)
-
-
-def test_solids_carry_what_the_fluid_under_them_does_not(contact, nodes):
-    touch(nodes, (4, 8), P=2.0)
-    nodes.p[4, 8] = 0.5
-    nodes.P[4, 7] = nodes.p[4, 7] = 0.25
-    found = measured(contact, MESH, nodes)
-    assert found.solid_load_fraction == pytest.approx(1.5 * 0.125 / contact.load_integral)
-    assert found.contact_load_share == pytest.approx(2.0 * 0.125 / contact.load_integral)
 
 
 def test_the_filling_is_that_of_cavities_within_the_ellipse(contact, nodes):
@@ -186,13 +174,3 @@ def test_films_hardly_thicker_than_contact_are_told_apart(contact, nodes):
     assert "contact carries {} of the load, films at most a tenth thicker {}, other films {}".format(
         *percent
     ) in "\n".join(mixed_lines(found))
-
-
-def test_the_mean_gaps_count_contact_and_torn_film_too(contact, nodes):
-    touch(nodes, (4, 8), P=3.0)
-    nodes.status[4, 6], nodes.P[4, 10] = CAVITATED, 1.0
-    found, nm = measured(contact, MESH, nodes), 1e9 * contact.film_scale
-    inside = within_hertz(MESH).sum()
-    assert found.mean_gap_nm == pytest.approx(nm * FILM * (inside - 1) / inside)
-    assert found.loaded_gap_nm == pytest.approx(nm * FILM / 4.0)
-    assert found.mean_film_nm == pytest.approx(nm * FILM)

@@ -1,5 +1,3 @@
-"""How well a grid shows a surface: the verdict, its words, and what `mgehl check` prints."""
-
 import numpy as np
 import pytest
 
@@ -21,12 +19,10 @@ def case(settings):
 
 @pytest.mark.parametrize(
     "nodes, verdict, words",
-    [
-        (8.01, "resolved", "8.0 nodes in its shortest wave: resolved"),
-        (7.9, "coarse", "7.9 nodes in its shortest wave: coarse (below 8)"),
-        (3.9, "grid-determined", "3.9 nodes in its shortest wave: THE SURFACE IS THE GRID'S (below 4)"),
-    ],
-)
+    [(8.01, "resolved", "8.0 nodes in its shortest wave: resolved"),
+     (7.9, "coarse", "7.9 nodes in its shortest wave: coarse (below 8)"),
+     (3.9, "grid-determined", "3.9 nodes in its shortest wave: THE SURFACE IS THE GRID'S (below 4)")],
+)  # fmt: skip
 def test_the_verdict_follows_from_the_nodes_in_the_shortest_wave(nodes, verdict, words):
     _, contact, mesh = case(WAVES | {"surface.wavelength_x": nodes * CELL})
     found = resolution(contact, mesh)

@@ -1,5 +1,3 @@
-"""Tables as files and terminals have them; the one of runs, with bands."""
-
 import pytest
 
 from mgehl.cli import main
@@ -24,7 +22,6 @@ def test_bands_are_shown_beside_no_more_digits_than_there_are():
 
 @pytest.fixture(scope="module")
 def runs(tmp_path_factory):
-    """Directories of four small runs, a kind each."""
     directory = tmp_path_factory.mktemp("runs")
     film = ["motion.speed=1 m/s", "solver.start=film", "solver.error=false", "grid.nodes=65"]
     for name, settings in {

@@ -1,5 +1,3 @@
-"""Where the words of a run go."""
-
 import fcntl
 import io
 import json

@@ -1,5 +1,3 @@
-"""What was solved in axes of its own comes back in the user's."""
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,5 +1,3 @@
-"""Files that are there whole, or not at all."""
-
 import os
 import signal
 import subprocess

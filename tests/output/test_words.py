@@ -1,5 +1,3 @@
-"""What is said of a result."""
-
 import re
 from pathlib import Path
 
@@ -64,14 +62,8 @@ class TestOfALoadedContact:
     def test_what_most_want_to_know_is_shorter_but_keeps_the_warnings(self):
         few, whole = (make_result().words(verbose) for verbose in (False, True))
         assert set(few.splitlines()) < {line.split("; nodes")[0] for line in whole.splitlines()}
-        for part in (
-            "CONVERGED",
-            "12.0000 nm",
-            "contact: 3 nodes",
-            "inequality broken at 1 of 8",
-            "5.00 cells",
-        ):
-            assert part in few
+        parts = "CONVERGED", "12.0000 nm", "contact: 3 nodes", "inequality broken at 1 of 8", "5.00 cells"
+        assert all(part in few for part in parts)
         for part in ("complementarity", "largest gap", "violated at node"):
             assert part in whole and part not in few
         none = Inequality(8, 0, 0.0, 1.5, [])

@@ -45,18 +45,12 @@ def kind(request, monkeypatch):
 
 
 @pytest.fixture
-def grid():
-    made = single_grid(Mesh(NX, NY, (-1.9, 1.3), (-1.5, 1.5)), COMM)
+def grids():
+    """A grid on one rank, and on all."""
+    made = [single_grid(Mesh(NX, NY, (-1.9, 1.3), (-1.5, 1.5)), comm) for comm in (MPI.COMM_SELF, COMM)]
     yield made
-    made.destroy()
-
-
-@pytest.fixture
-def alone():
-    """The same grid on one rank."""
-    made = single_grid(Mesh(NX, NY, (-1.9, 1.3), (-1.5, 1.5)), MPI.COMM_SELF)
-    yield made
-    made.destroy()
+    for grid in made:
+        grid.destroy()
 
 
 def solved_y_lines(grid, moving):
@@ -82,12 +76,12 @@ def solved_y_lines(grid, moving):
 
 
 @pytest.mark.parametrize("columns", [NX, NX // 3], ids=["everywhere", "in the first third of the plane"])
-def test_y_lines_are_solved_as_by_one_rank(kind, grid, alone, columns):
+def test_y_lines_are_solved_as_by_one_rank(kind, grids, columns):
     """To the last bit; where something moves on few of them each rank has its share of those."""
     moving = np.zeros((NY, NX), bool)
     moving[1:-1, 1:columns] = True
     moving[:4] &= np.arange(NX) < NX // 4
-    (expected, _), (found, shares) = (solved_y_lines(each, moving) for each in (alone, grid))
+    (expected, _), (found, shares) = (solved_y_lines(each, moving) for each in grids)
     np.testing.assert_array_equal(found, expected)
     assert found.any() and sum(shares) == NX
     assert COMM.size == 1 or columns == NX or shares[-1] > 2 * NX // 3

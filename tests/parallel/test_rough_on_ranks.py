@@ -1,29 +1,20 @@
-"""What a rough contact is asked for is the same on any number of ranks."""
-
 from dataclasses import asdict
 
 import pytest
-from mpi4py import MPI
+from both import COMM, both
 
-from mgehl.config import config_from_tables
 from mgehl.multigrid import valleys
-from mgehl.run import solve
 from mgehl.studies.chance import BALL
 from mgehl.studies.study import merged
 
 pytestmark = pytest.mark.parallel
 
-COMM = MPI.COMM_WORLD
-
 LONG_WAVES = merged(
     BALL,
-    {
-        "contact": {"load": 100.0, "boundary_film": 10e-9},
-        "surface": {"rms": 20e-9, "hurst": 0.8, "shortest_wavelength": 90e-6, "seed": 1},
-        "grid": {"nodes": 65},
-        "motion": {"speed": 0.007},
-    },
-)
+    {"contact": {"load": 100.0, "boundary_film": 10e-9},
+     "surface": {"rms": 20e-9, "hurst": 0.8, "shortest_wavelength": 90e-6, "seed": 1},
+     "grid": {"nodes": 65}, "motion": {"speed": 0.007}},
+)  # fmt: skip
 
 
 def numbers(mixed):
@@ -34,9 +25,7 @@ def numbers(mixed):
 @pytest.mark.parametrize("angle", [0.0, 90.0])
 def test_film_and_contact_are_those_of_one_rank(angle):
     tables = merged(LONG_WAVES, {"solver": {"start": "contact"}, "motion": {"angle": angle}})
-    config = config_from_tables(merged(tables, {"solver": {"error": True}}))
-    together, alone = solve(config, COMM).result, solve(config, MPI.COMM_SELF).result
-    assert together.converged and alone.converged
+    together, alone = (each.result for each in both(tables, {"solver": {"error": True}}))
     assert together.mixed.patches == alone.mixed.patches > 1
     assert numbers(together.mixed) == pytest.approx(numbers(alone.mixed), rel=1e-6)
     bands, expected = together.mixed.error, alone.mixed.error
@@ -52,9 +41,7 @@ def test_film_and_contact_are_those_of_one_rank(angle):
 def test_so_are_they_where_nearby_nodes_are_solved_at_once(monkeypatch):
     """From the first relaxation on, on all grids but the coarsest."""
     monkeypatch.setattr(valleys, "PATIENCE", 0)
-    tables = merged(LONG_WAVES, {"solver": {"start": "film", "error": False}})
-    found = [solve(config_from_tables(tables), comm).result for comm in (COMM, MPI.COMM_SELF)]
-    together, alone = found
-    assert together.converged and alone.converged
+    found = both(LONG_WAVES, {"solver": {"start": "film", "error": False}})
+    together, alone = (each.result for each in found)
     assert together.central_film_nm == pytest.approx(alone.central_film_nm, rel=1e-6)
     assert numbers(together.mixed) == pytest.approx(numbers(alone.mixed), rel=1e-6)

@@ -1,5 +1,3 @@
-"""Fixtures that tests of the solver share."""
-
 import numpy as np
 import pytest
 

@@ -1,5 +1,3 @@
-"""Eq. 2 as the arbiter between settled partitions."""
-
 import numpy as np
 import pytest
 
@@ -17,7 +15,6 @@ class TestInASolve:
         return solve(paper_contact(0.12), 65, newton={"release_budget": 0})
 
     def broken(self, solution):
-        """How many contact nodes violate Eq. 2."""
         state = solution.outcome.state
         return check_pressure_inequality(solution.problem, state).violations
 

@@ -12,7 +12,6 @@ ROUGH = Path(__file__).parents[2] / "configs" / "rough.toml"
 
 
 def run_of(path, **sections):
-    """A run directory of the rough ball on 65 nodes with other values."""
     config = mgehl.load(ROUGH, {"grid.nodes": 65, "solver.error": False, **sections})
     solution = mgehl.solve(config)
     assert solution.result.converged
@@ -24,15 +23,8 @@ def run_of(path, **sections):
     ("layers", "seed", "speed"), [("2 nm", 60501, 0.01), ("2 nm", 60502, 1e-6), (0.0, 60503, 0.01)]
 )
 def test_no_node_of_a_rough_run_makes_oil(tmp_path, couette, layers, seed, speed):
-    run = run_of(
-        tmp_path / "run",
-        **{
-            "discretization.couette": couette,
-            "contact.boundary_film": layers,
-            "surface.seed": seed,
-            "motion.speed": speed,
-        },
-    )
+    more = {"discretization.couette": couette, "contact.boundary_film": layers, "surface.seed": seed}
+    run = run_of(tmp_path / "run", **more, **{"motion.speed": speed})
     found = balance(run)
     assert found.pop("leaves") == pytest.approx(1.0, abs=1e-8)
     assert all(abs(made) < 1e-8 for made in found.values()), found

@@ -1,5 +1,3 @@
-"""The cavities at a gap that is held fixed."""
-
 import numpy as np
 import pytest
 
@@ -15,7 +13,6 @@ from mgehl.solver.cavitation import (
 
 @pytest.fixture
 def film(solve, paper_contact):
-    """The solved full film at 1 m/s on 65 nodes."""
     return solve(paper_contact(), 65)
 
 

@@ -1,5 +1,3 @@
-"""A solution followed in speed and from mean to mean, beside solutions made from nothing."""
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,6 @@
-"""The dry contact: exact answers, a public code's numbers, and how many convolutions they take."""
-
 import numpy as np
 import pytest
+from journals import Kept, Standing
 from scipy.optimize import nnls
 from tools.dry_surfaces import surface
 
@@ -10,8 +9,7 @@ from mgehl.discretization.status import CONTACT
 from mgehl.model.coating import Coating
 from mgehl.model.line import LineContact
 from mgehl.solver.dry import solve_dry
-from mgehl.solver.journal import NOTHING_KEPT, Journal
-from mgehl.solver.record import Record
+from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.studies.dry import REFERENCE
 
 TOLERANCE = 1e-8
@@ -117,20 +115,9 @@ class TestWay:
 
     def test_it_goes_on_where_it_stood(self, rough):
         """From the third step of a run that was stopped: the same steps, to the last bit."""
-
-        class Kept(Journal):
-            def step(self, grid, position):
-                if len(position.cycles) == 2:
-                    record = position.record()
-                    self.record = Record(dict(record.values), {"state.P": position.P.copy()})
-
-        class Standing(Journal):
-            def standing(self, grid, made):
-                return made(kept.record)
-
         kept = Kept()
         whole, _ = settle(rough, journal=kept)
-        rest, _ = settle(rough, journal=Standing())
+        rest, _ = settle(rough, journal=Standing(kept.records[2]))
         assert rest.cycles == whole.cycles
         np.testing.assert_array_equal(rest.state.P, whole.state.P)
 
@@ -142,8 +129,6 @@ def coating(contact, modulus, thickness):
 
 @pytest.fixture
 def problem(paper_contact, make_problem):
-    """Function: the paper's ball with a coating."""
-
     def make(modulus, thickness):
         bare = paper_contact()
         contact = paper_contact(deformation=coating(bare, modulus, thickness))

@@ -1,5 +1,3 @@
-"""Films between the nodes, and of coarser grids."""
-
 from types import SimpleNamespace
 
 import numpy as np

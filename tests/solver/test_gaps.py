@@ -1,5 +1,3 @@
-"""Mean gaps, film and contact alike."""
-
 import numpy as np
 import pytest
 
@@ -47,11 +45,7 @@ def test_loads_and_their_differences_from_a_finer_grid_s(make_problem, paper_con
     cell = mesh.dX * mesh.dY / contact.load_integral
     found = loads(problem, state)
     assert found.crest == 0.125 * 2 * (8.0 - 2 * 1.0)
-    assert (found.largest, found.contact, found.solids) == (
-        4.0,
-        pytest.approx(5 * cell),
-        pytest.approx(2.5 * cell),
-    )
+    assert (found.largest, found.contact, found.solids) == pytest.approx((4.0, 5 * cell, 2.5 * cell))
     apart = load_differences(problem, state, P + 0.25, np.where(finer == CONTACT, 0.5 * P, P), finer)
     assert apart.largest == pytest.approx(0.25)
     assert apart.contact == pytest.approx((0.25 + 1.0 + 1.25) * cell)

@@ -1,31 +1,23 @@
-"""Temperatures of a contact, and the film that the heat of shear in the inlet leaves."""
-
 import pytest
+from contacts import solved
 
 import mgehl
-from mgehl.config import config_from_tables
 
 OIL = {"conductivity": 0.14, "thermoviscosity": 0.04}
 STEEL = {"conductivity_1": 46.0, "conductivity_2": 46.0, "capacity_1": 3.6e6, "capacity_2": 3.6e6}
 
 
-def tables(**sections):
-    common = {
-        "contact": {"load": 100.0},
-        "motion": {"speed": 2.0, "slide_to_roll": 0.2},
-        "friction": {"model": "limiting", "limiting_coefficient": 0.05},
-        "grid": {"nodes": 65},
-        "solver": {"start": "film", "error": False},
-    }
-    return common | sections
+SLIDES = {
+    "contact": {"load": 100.0}, "motion": {"speed": 2.0, "slide_to_roll": 0.2}, "grid": {"nodes": 65},
+    "friction": {"model": "limiting", "limiting_coefficient": 0.05},
+    "solver": {"start": "film", "error": False},
+}  # fmt: skip
 
 
 def test_the_factor_thins_the_film_by_as_much(tmp_path):
     """Through the viscosity: the film follows it by the formula's power, nearly. A run's files tell it."""
-    plain, solution = (
-        mgehl.solve(config_from_tables(tables(lubricant=OIL | {"heating": heating})))
-        for heating in ("none", "factor")
-    )
+    heatings = "none", "factor"
+    plain, solution = (solved(SLIDES, {"lubricant": OIL | {"heating": each}}) for each in heatings)
     plain, heated = plain.summary, mgehl.read(solution.save(tmp_path / "run")).summary
     assert plain.thermal_reduction == heated.thermal_reduction < 0.95
     ratio = heated.central_film_nm / plain.central_film_nm
@@ -37,7 +29,7 @@ def test_the_factor_thins_the_film_by_as_much(tmp_path):
 
 def test_temperatures_of_a_solved_contact():
     """Both bodies are alike and nearly as fast: nearly as warm; the faster one is the cooler."""
-    solution = mgehl.solve(config_from_tables(tables(lubricant=OIL, heat=STEEL)))
+    solution = solved(SLIDES, {"lubricant": OIL, "heat": STEEL})
     found = solution.summary.friction.temperatures
     assert found.largest_1 == pytest.approx(solution.fields.flash_1.max())
     assert 0.9 < found.largest_1 / found.largest_2 < 1.0

@@ -1,5 +1,3 @@
-"""Eq. 2 at the interface and at the nodes, on states made by hand."""
-
 import numpy as np
 import pytest
 

@@ -1,5 +1,3 @@
-"""When a solve ends, and why."""
-
 from dataclasses import replace
 
 import numpy as np
@@ -9,12 +7,8 @@ from petsc4py import PETSc
 from mgehl.discretization.status import BOUNDARY, LUBRICATED
 from mgehl.solver.judge import (
     GO_ON,
-    IDLE_CIRCLE,
-    IDLE_STUCK,
     STALLS,
-    SetsChange,
     Verdict,
-    how_sets_change,
     judge,
     judge_system,
     judge_work,
@@ -110,47 +104,11 @@ def test_a_linear_system_ends_a_solve_where_it_is_singular_and_a_trial_where_it_
     assert found == [False, False, True, False, True, True]
 
 
-@pytest.mark.parametrize(
-    "residuals, stuck",
-    [
-        ([1.0, 1.2, 0.95], True),
-        ([1.0, 0.99], False),
-        ([1.0, 0.99, 0.5], False),
-        ([1.0, 0.5, 0.99], False),
-        ([9.0, 1.0, 0.99, 0.9], False),
-    ],
-)
-def test_two_steps_that_gain_nothing_are_stuck(make_position, residuals, stuck):
-    found = how_sets_change(make_position(*residuals), True)
-    assert found is (SetsChange.AT_ONCE if stuck else SetsChange.AT_REST)
-
-
 def test_sets_that_cycle_name_their_nodes(partition, make_position):
     partition.past.turns[4, 4], partition.past.torn_pressure[4, 4] = RESTLESS, -0.2
     found = judge(make_position(1e-3), partition, LIMITS)
     assert found.ends and not found.converged and "the sets cycle after 7 steps" in found.reason
     assert [(each.i, each.j, each.pressure) for each in found.contradictions] == [(5, 5, -0.2)]
-
-
-def test_many_steps_that_gain_nothing_are_stuck_though_one_wins_back_what_another_lost(make_position):
-    """Of a film; where contact closes continuously they are usual."""
-    residuals = [1.0, 12.0, 10.0, 8.0, 6.0, 5.0]
-    for steps in (IDLE_STUCK, IDLE_STUCK + 1):
-        position = make_position(*residuals[:steps])
-        assert how_sets_change(position, True) is SetsChange.AT_REST
-        of_a_film = SetsChange.AT_ONCE if steps > IDLE_STUCK else SetsChange.AT_REST
-        assert how_sets_change(position, False) is of_a_film
-
-
-@pytest.mark.parametrize("by_film", [True, False])
-def test_sets_are_taken_for_a_circle_after_some_steps_in_vain(make_position, by_film):
-    """Where contact closes continuously."""
-    position = make_position()
-    for steps in (IDLE_CIRCLE, IDLE_CIRCLE + 1):
-        residuals = [1.0, 12.0, 0.95, 8.0, 6.0, 5.0, 4.0, 3.0, 2.0][:steps]
-        position.cycles[:] = [make_position(each).cycles[0] for each in residuals]
-        in_turn = how_sets_change(position, by_film) is SetsChange.IN_TURN
-        assert in_turn == (by_film and steps > IDLE_CIRCLE)
 
 
 class TestIdleSteps:

@@ -1,10 +1,8 @@
 """A light load on oil: its film is the same on domains of any size, for what is carried beyond counts."""
 
 import pytest
-from tools.contacts import moes
+from contacts import moes, solved
 
-import mgehl
-from mgehl.config import config_from_tables
 from mgehl.model.room import interval_on_nodes
 from mgehl.studies.study import merged
 
@@ -16,7 +14,7 @@ def central_film():
     def found(end, **grid):
         x, y = interval_on_nodes(end, end / 8.0), (-end / 2.0, end / 2.0)
         tables = {"grid": {"nodes": int(4 * end) + 1, "x": x, "y": y, **grid}, "solver": {"error": False}}
-        solution = mgehl.solve(config_from_tables(merged(moes(3.0, 2.0), tables)))
+        solution = solved(moes(3.0, 2.0), tables)
         assert solution.result.converged
         return solution.result.central_film_nm
 
@@ -39,7 +37,7 @@ def test_a_domain_that_carries_all_of_the_load_has_less_film_the_smaller_it_is(c
 
 def test_the_answer_says_how_much_is_carried_beyond():
     tables = merged(moes(3.0, 2.0), {"grid": {"nodes": 65}, "solver": {"error": False}})
-    result = mgehl.solve(config_from_tables(tables)).result
+    result = solved(tables).result
     assert 10.0 < result.resolution.load_beyond_percent < 30.0
     part = f"{result.resolution.load_beyond_percent:.1f} %"
     assert f"load: {part} of it is carried beyond the domain" in str(result)
@@ -49,7 +47,7 @@ def test_the_answer_says_how_much_is_carried_beyond():
 def test_a_contact_thirty_times_as_wide_as_long_ends_within_its_domain(nodes):
     """Its pressure near the sides is below a hundredth of the largest."""
     wide = moes(10.0, 5.0, radius_x=5e-3, radius_y=0.15)
-    result = mgehl.solve(config_from_tables(merged(wide, {"grid": {"nodes": nodes}}))).result
+    result = solved(wide, {"grid": {"nodes": nodes}}).result
     assert result.converged and result.edge.pressure_ratio < 0.01
 
 
@@ -68,6 +66,6 @@ def test_light_films_are_those_of_another_code_on_a_domain_that_loses_nothing(M,
 
     From rigid to elastic bodies, from thin oil to stiff.
     """
-    result = mgehl.solve(config_from_tables(merged(moes(M, L), {"grid": {"nodes": nodes}}))).result
+    result = solved(moes(M, L), {"grid": {"nodes": nodes}}).result
     assert result.converged and result.resolution.verdict == "resolved" and result.error.central_nm
     assert result.moes_film.central == pytest.approx(film, rel=0.01)

@@ -1,19 +1,15 @@
-"""The lubricated line contact, solved: films, the dry limit, the blocked inlet."""
-
 from functools import cache
 
 import numpy as np
 import pytest
-from mpi4py import MPI
+from contacts import solved
 
-from mgehl.config import config_from_tables
 from mgehl.discretization.axes import own
 from mgehl.discretization.couette import SCHEMES
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
 from mgehl.model.hertz import hertz_pressure
 from mgehl.model.line import LineContact
 from mgehl.model.lubricant import Barus, DowsonHigginson, Lubricant
-from mgehl.run import solve as solve_config
 from mgehl.solver.inequality import check_pressure_inequality
 from mgehl.solver.verification import closed_face_flow, complementarity_error
 
@@ -29,11 +25,10 @@ def film(nodes, couette="1B"):
         "grid": {"nodes": nodes, "x": [-2.5, 1.5]},
         "discretization": {"couette": couette, "face_mobility": "arithmetic"},
     }
-    return solve_config(config_from_tables(tables), MPI.COMM_SELF)
+    return solved(tables)
 
 
 def line_contact(speed):
-    """The same at another speed."""
     lubricant = Lubricant(Barus(0.096, 18.2e-9), DowsonHigginson())
     return LineContact(1859e3, 12.7e-3, 219.78e9, speed, lubricant)
 

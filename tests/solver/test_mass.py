@@ -1,5 +1,3 @@
-"""The account of the oil, by states that make none and by states that were spoiled."""
-
 from dataclasses import replace
 from pathlib import Path
 

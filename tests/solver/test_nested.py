@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from contacts import contact_of, moes
 
 from mgehl.discretization.status import CONTACT
 from mgehl.model.hertz import hertz_pressure
@@ -36,9 +37,9 @@ MOES = [
 
 
 @pytest.mark.parametrize("M, couette, nodes, central, minimum", MOES)
-def test_moes_films(solve, moes_contact, M, couette, nodes, central, minimum):
+def test_moes_films(solve, M, couette, nodes, central, minimum):
     """Incompressible full films with L = 10, by another program on the same grid (tests/README.md)."""
-    contact = moes_contact(M, 10)
+    contact = contact_of(moes(M, 10.0))
     assert contact.groups.M == pytest.approx(M) and contact.groups.L == pytest.approx(10)
     solution = solve(contact, nodes, couette=couette, **MOES_DOMAIN)
     assert solution.outcome.converged

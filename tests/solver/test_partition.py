@@ -1,5 +1,3 @@
-"""The rules of the partition, on 9 x 9 nodes."""
-
 from functools import partial
 
 import numpy as np
@@ -22,8 +20,6 @@ BESIDE = {"W": (4, 3), "E": (4, 5), "S": (3, 4), "N": (5, 4)}
 
 @pytest.fixture
 def make_partition(make_problem):
-    """Factory of partitions on 9 x 9 nodes, by another contact law or motion if asked for."""
-
     def make(budget=2, law=LAW, **scheme):
         return Partition(make_problem(nodes=9, scheme=Scheme(contact_law=law, **scheme)), budget)
 
@@ -78,13 +74,9 @@ class TestEnteringContact:
 
     @pytest.mark.parametrize(
         "motion, sides, enters",
-        [
-            ((1.0, 0.0), "WE", True),
-            ((1.0, 0.0), "SN", False),
-            ((0.6, 0.8), "WE", False),
-            ((0.6, 0.8), "WESN", True),
-        ],
-    )
+        [((1.0, 0.0), "WE", True), ((1.0, 0.0), "SN", False), ((0.6, 0.8), "WE", False),
+         ((0.6, 0.8), "WESN", True)],
+    )  # fmt: skip
     def test_fluid_shut_in_along_the_motion_enters(self, make_partition, state, motion, sides, enters):
         for side in sides:
             state.status[BESIDE[side]] = CONTACT
@@ -111,16 +103,11 @@ class TestEnteringContact:
 
 @pytest.mark.parametrize(
     "law, status, H, filling, fills",
-    [
-        (LAW, CAVITATED, 1.0, 1.01, True),
-        (LAW, CAVITATED, 1.0, 1.0, False),
-        (LAW, LUBRICATED, 1.0, 2.0, False),
-        (LAW, CONTACT, 1.0, 2.0, False),
-        (LAW, CAVITATED, 0.0, 2.0, False),
-        (BoundaryFilm(THRESHOLD), CAVITATED, 0.0, 2.0, False),
-        (UnifiedEquations(), CAVITATED, -0.1, 2.0, True),
-    ],
-)
+    [(LAW, CAVITATED, 1.0, 1.01, True), (LAW, CAVITATED, 1.0, 1.0, False),
+     (LAW, LUBRICATED, 1.0, 2.0, False), (LAW, CONTACT, 1.0, 2.0, False),
+     (LAW, CAVITATED, 0.0, 2.0, False), (BoundaryFilm(THRESHOLD), CAVITATED, 0.0, 2.0, False),
+     (UnifiedEquations(), CAVITATED, -0.1, 2.0, True)],
+)  # fmt: skip
 def test_a_cavity_that_holds_more_than_its_gap_fills(make_partition, state, law, status, H, filling, fills):
     state.status[NODE], state.H[NODE], state.filling[NODE] = status, H, filling
     changed_by(make_partition(law=law).fill, state, filled=int(fills))
@@ -241,11 +228,8 @@ class TestContinuousContact:
         pressed.p[NODE] = pressed.P[NODE] + more
         changed_by(partition.open_contact, pressed, released=int(opens))
         assert pressed.status[4, 3:7].tolist() == [
-            CONTACT,
-            LUBRICATED if opens else CONTACT,
-            CONTACT,
-            CONTACT,
-        ]
+            CONTACT, LUBRICATED if opens else CONTACT, CONTACT, CONTACT,
+        ]  # fmt: skip
 
     @pytest.mark.parametrize("part, opens", [(0.9, True), (1.1, False)])
     def test_what_overlaps_opens_where_the_fluid_lifts_it_far_enough(
@@ -279,8 +263,6 @@ class TestContinuousContact:
 
 @pytest.fixture
 def contact_start(paper_contact, make_hierarchy, usual_law):
-    """Function: outcome, hierarchy, contact and settings of full contact at 0.005 mm/s."""
-
     def start(max_steps):
         contact = paper_contact(5e-6)
         scheme = Scheme(face_mobility="geometric", contact_law=usual_law(contact))
@@ -298,45 +280,31 @@ def test_a_node_that_its_flow_would_lift_is_not_solved_apart(contact_start):
     assert outcome.converged and outcome.cycles[-1].step <= 9
 
 
-class TestTurns:
-    """Neighbours whose signs are wrong: at once, or in turn."""
+@pytest.mark.parametrize("in_turn", [False, True])
+@pytest.mark.parametrize(
+    "rule, told, new",
+    [("cut_tension", "cavitated", CAVITATED), ("fill", "filled", LUBRICATED),
+     ("open_contact", "released", LUBRICATED)],
+)  # fmt: skip
+def test_neighbours_whose_signs_are_wrong_change_at_once_or_in_turn(
+    make_partition, state, rule, told, new, in_turn
+):
+    """Three neighbours, of which in turn the middle one alone changes, which asks most; and one apart.
 
-    WRONG = (4, slice(2, 5)), (2, 7)
-    """Three neighbours, and a node apart."""
-
-    @pytest.fixture(params=[False, True])
-    def in_turn(self, request):
-        return request.param
-
-    @pytest.fixture
-    def partition(self, make_partition):
-        return make_partition(law=BoundaryFilm(1e-3))
-
-    @staticmethod
-    def is_changed(status, new, in_turn):
-        """Of neighbours the one in the middle alone, which asks most, where they take turns."""
-        assert status[2, 7] == new
-        assert (status[4, 2:5] == new).tolist() == ([False, True, False] if in_turn else 3 * [True])
-
-    def test_torn_film(self, partition, state, in_turn):
-        """What has to wait is a film without pressure."""
-        state.P[4, 2:5], state.P[2, 7] = (-0.1, -0.3, -0.2), -1e-9
-        changed_by(partial(partition.cut_tension, in_turn=in_turn), state, cavitated=2 if in_turn else 4)
-        self.is_changed(state.status, CAVITATED, in_turn)
-        assert not state.P[4, 2:5].any() and state.P[2, 7] == 0.0
-
-    def test_overfull_cavities(self, partition, state, in_turn):
-        for where, filling in zip(self.WRONG, ((1.1, 1.3, 1.2), 1.01), strict=True):
-            state.status[where], state.filling[where] = CAVITATED, filling
-        changed_by(partial(partition.fill, in_turn=in_turn), state, filled=2 if in_turn else 4)
-        self.is_changed(state.status, LUBRICATED, in_turn)
-
-    def test_contact_that_opens(self, partition, state, in_turn):
-        for where, excess in zip(self.WRONG, ((0.1, 0.3, 0.2), 0.01), strict=True):
-            state.status[where], state.H[where] = CONTACT, 1e-3
-            state.p[where] = state.P[where] + excess
-        changed_by(partial(partition.open_contact, in_turn=in_turn), state, released=2 if in_turn else 4)
-        self.is_changed(state.status, LUBRICATED, in_turn)
+    What has to wait of a torn film has no pressure.
+    """
+    partition = make_partition(law=BoundaryFilm(1e-3))
+    for where, size in (((4, slice(2, 5)), np.array([0.1, 0.3, 0.2])), ((2, 7), 0.01)):
+        if rule == "cut_tension":
+            state.P[where] = -size
+        elif rule == "fill":
+            state.status[where], state.filling[where] = CAVITATED, 1.0 + size
+        else:
+            state.status[where], state.H[where], state.p[where] = CONTACT, 1e-3, state.P[where] + size
+    changed_by(partial(getattr(partition, rule), in_turn=in_turn), state, **{told: 2 if in_turn else 4})
+    assert state.status[2, 7] == new
+    assert (state.status[4, 2:5] == new).tolist() == ([False, True, False] if in_turn else 3 * [True])
+    assert rule != "cut_tension" or not state.P[4, 2:5].any() and state.P[2, 7] == 0.0
 
 
 def test_a_ball_whose_sets_went_in_a_circle_is_found():

@@ -1,5 +1,3 @@
-"""The paper's single-loop relaxation: steps of a sweep, runs against Newton."""
-
 from dataclasses import replace
 
 import numpy as np

@@ -5,10 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from mpi4py import MPI
-
-from mgehl.config import config_from_tables
-from mgehl.run import solve
+from contacts import solved
 
 ROUGH = Path(__file__).parents[2] / "configs" / "rough.toml"
 SPEEDS = (2e-4, 1e-5, 1e-7, 1e-9)
@@ -16,7 +13,6 @@ SPEEDS = (2e-4, 1e-5, 1e-7, 1e-9)
 
 
 def tables(speed):
-    """Of the rough ball on 65 nodes."""
     found = tomllib.loads(ROUGH.read_text())
     found["grid"]["nodes"] = 65
     found["motion"]["speed"] = speed
@@ -30,13 +26,13 @@ def dry():
     bare = tables(0.0)
     del bare["lubricant"], bare["motion"], bare["solver"], bare["contact"]["boundary_film"]
     bare["discretization"] = {"contact_model": "dry"}
-    return solve(config_from_tables(bare), MPI.COMM_SELF).fields.P
+    return solved(bare).fields.P
 
 
 @pytest.fixture(scope="module")
 def slower():
     """Solutions at ever lower speeds, each for itself."""
-    return [solve(config_from_tables(tables(speed)), MPI.COMM_SELF) for speed in SPEEDS]
+    return [solved(tables(speed)) for speed in SPEEDS]
 
 
 def test_the_slower_the_nearer_to_the_dry_contact(dry, slower):

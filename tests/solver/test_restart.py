@@ -1,20 +1,21 @@
-"""A start from the fields of another run."""
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from contacts import solved
 from mpi4py import MPI
 
+import mgehl
 from mgehl.config import config_from_tables
 from mgehl.discretization.status import CAVITATED, CONTACT
 from mgehl.errors import UserError
 from mgehl.grid.hierarchy import Hierarchy
 from mgehl.kinds import contact_from, mesh_from
 from mgehl.model.frame import Frame
-from mgehl.run import solve
 from mgehl.solver.from_config import settings_from
 from mgehl.solver.problem import ContactProblem
-from mgehl.solver.restart import check_start, interpolated
-from mgehl.studies.study import PAPER, PAPERS_DOMAIN, papers_grid
+from mgehl.solver.restart import check_start, differing_keys, interpolated
+from mgehl.studies.study import PAPER, PAPERS_DOMAIN, merged, papers_grid
 
 FILM = {"motion": {"speed": 0.5}, "grid": papers_grid(65), "solver": {"start": "film"}}
 LINE = {
@@ -25,22 +26,8 @@ LINE = {
 DRY = PAPER | {"motion": {"speed": 5e-6}, "grid": papers_grid(65), "solver": {"start": "contact"}}
 
 
-def solved(*tables, start=None):
-    """The `Solution` of tables laid over each other."""
-    return solve(config_of(*tables), MPI.COMM_SELF, start=start)
-
-
-def config_of(*tables):
-    merged = {}
-    for table in tables:
-        for section, keys in table.items():
-            merged[section] = merged.get(section, {}) | keys
-    return config_from_tables(merged)
-
-
 @pytest.fixture(scope="module")
 def film():
-    """0.5 m/s on 65 nodes."""
     return solved(FILM)
 
 
@@ -50,7 +37,7 @@ def onto():
     made = []
 
     def make(start, *tables):
-        config = config_of(*tables)
+        config = config_from_tables(merged(*tables))
         contact = contact_from(config)
         made.append(Hierarchy(mesh_from(config, contact), 33, contact.kernel, MPI.COMM_SELF))
         grid, deflection = made[-1].grids[-1], made[-1].deflections[-1]
@@ -95,15 +82,13 @@ class TestSolveFrom:
     CASES = {
         "itself": (FILM, {}),
         "a coarser grid": (FILM, {"grid": papers_grid(129)}),
-        "another domain": (
-            FILM | {"motion": {"speed": 1.0}},
-            {"grid": {"x": [-2.2, 1.4], "y": [-1.7, 1.7]}},
-        ),
+        "another domain": (FILM | {"motion": {"speed": 1.0}},
+                           {"grid": {"x": [-2.2, 1.4], "y": [-1.7, 1.7]}}),
         "another speed": (FILM, {"motion": {"speed": 0.6}}),
         "a line": (LINE, {}),
         "a line of a coarser grid": (LINE, {"grid": {"nodes": 257}}),
         "contact": (DRY, {}),
-    }
+    }  # fmt: skip
 
     @pytest.mark.parametrize("name", CASES)
     def test_from(self, name):
@@ -132,13 +117,8 @@ def test_a_contact_of_another_kind_is_no_start(film):
 
 def test_what_tells_another_contact_is_named():
     """Loads, speeds and grids are what a start is for."""
-    import mgehl
-    from mgehl.solver.restart import differing_keys
-
-    class Start:
-        config = mgehl.load(None, {"grid.nodes": 65})
-
+    start = SimpleNamespace(config=mgehl.load(None, {"grid.nodes": 65}))
     same = mgehl.load(None, {"grid.nodes": 129, "motion.speed": 1.0, "contact.load": 100.0})
-    assert list(differing_keys(Start, same)) == []
+    assert list(differing_keys(start, same)) == []
     other = mgehl.load(None, {"contact.radius_y": 0.02, "lubricant.viscosity_law": "roelands"})
-    assert list(differing_keys(Start, other)) == ["contact.radius_y", "lubricant.viscosity_law"]
+    assert list(differing_keys(start, other)) == ["contact.radius_y", "lubricant.viscosity_law"]

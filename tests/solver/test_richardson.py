@@ -1,12 +1,8 @@
-"""Bands from the films of grids."""
-
 import pytest
 
 from mgehl.solver.richardson import (
     FASTER,
-    IRREGULAR,
     SAFETY,
-    SLOWEST,
     SMALLEST,
     SPREADS,
     UNLIKE,
@@ -14,7 +10,6 @@ from mgehl.solver.richardson import (
     band,
     band_beside,
     band_of_smallest,
-    believed,
     by_chance,
     observed_order,
 )
@@ -45,20 +40,6 @@ def test_a_difference_that_is_small_by_chance_does_not_make_a_small_band():
     expected = 2.01 / 2.0 ** (2 + FASTER) / 3.0
     assert band(10.0, films, 0.0, 2).half_width > expected
     assert by_chance(2, -0.01, 2.01) == pytest.approx(expected - 0.01 / 3.0)
-
-
-def test_slower_convergence_than_the_schemes_is_believed_down_to_a_part():
-    assert believed(2, 1.6) == 1.6
-    assert believed(2, 2.7) == 2
-    assert believed(2, None) == 2
-    assert believed(2, 2 * SLOWEST - 0.01) == 2
-
-
-@pytest.mark.parametrize("order, part", [(1.9, SAFETY), (2.4, SAFETY), (1.4, IRREGULAR)])
-def test_more_is_added_where_three_grids_show_another_order(order, part):
-    films = [10.0, 9.0, 9.0 - 2.0**order]
-    error = 1.0 / (2.0 ** believed(2, order) - 1.0)
-    assert band(10.0, films, 0.0, 2).half_width == pytest.approx((1.0 + part) * error)
 
 
 def test_no_order_is_seen_where_differences_change_their_sign():

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from journals import Kept, Standing
 
 from mgehl.discretization.contact_law import BoundaryFilm
 from mgehl.discretization.scheme import Scheme
@@ -9,9 +10,8 @@ from mgehl.discretization.status import CONTACT, LUBRICATED
 from mgehl.model.surface import Surface
 from mgehl.multigrid import valleys
 from mgehl.solver.inequality import check_interface
-from mgehl.solver.journal import NOTHING_KEPT, Journal
+from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.nested import nested_iteration
-from mgehl.solver.record import Record
 from mgehl.solver.settings import NestedSettings, NewtonSettings, SolverSettings
 from mgehl.solver.verification import complementarity_error
 
@@ -118,48 +118,19 @@ def test_contact_carries_much_of_the_load(solve_rough, start, speed, steps, shar
     assert check_interface(problem, state).violations == 0
 
 
-class Kept(Journal):
-    """What a checkpoint would have before every step on 65 nodes."""
-
-    def __init__(self):
-        self.records = []
-
-    def step(self, grid, position):
-        if grid.mesh.nx == 65:
-            record = position.record()
-            self.records.append(
-                Record(dict(record.values), {name: each.copy() for name, each in record.arrays.items()})
-            )
-
-
-class Standing(Journal):
-    """Of a run that was stopped there."""
-
-    def __init__(self, record):
-        self.record = record
-
-    def standing(self, grid, made):
-        return made(self.record) if grid.mesh.nx == 65 else None
-
-
-class TestNearbyNodesAtOnce:
+def test_nearby_nodes_at_once_settle_and_a_run_that_was_stopped_on_the_way_goes_on_the_same(
+    solve_rough, monkeypatch
+):
     """Waves of 200 nm at a smooth film of .5 nm; a linear system may take but 5 iterations by lines.
 
     It takes 18 steps. By lines alone it takes 69. (At a tenth of the film neither settles.)
     """
-
-    @pytest.fixture
-    def solve(self, solve_rough):
-        """Function: the outcome."""
-        return lambda journal=NOTHING_KEPT: solve_rough(2e-7, 4e-5, journal=journal)[1]
-
-    def test_it_settles_and_a_run_that_was_stopped_on_the_way_goes_on_the_same(self, solve, monkeypatch):
-        monkeypatch.setattr(valleys, "PATIENCE", 5)
-        kept = Kept()
-        whole = solve(kept)
-        assert whole.converged and len(whole.cycles) < 25
-        assert len(kept.records) > 15
-        for record in kept.records[5::5]:
-            rest = solve(Standing(record))
-            assert rest.cycles == whole.cycles
-            np.testing.assert_array_equal(rest.state.P, whole.state.P)
+    monkeypatch.setattr(valleys, "PATIENCE", 5)
+    kept = Kept()
+    _, whole = solve_rough(2e-7, 4e-5, journal=kept)
+    assert whole.converged and len(whole.cycles) < 25
+    assert len(kept.records) > 15
+    for record in kept.records[5::5]:
+        _, rest = solve_rough(2e-7, 4e-5, journal=Standing(record))
+        assert rest.cycles == whole.cycles
+        np.testing.assert_array_equal(rest.state.P, whole.state.P)

@@ -4,72 +4,61 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from contacts import solved
 from mpi4py import MPI
 
 from mgehl.config import config_from_tables
 from mgehl.kinds import case_of, contact_from
 from mgehl.multigrid import cycle
-from mgehl.run import solve
 from mgehl.solver import beginning
 from mgehl.solver.beginning import COVERED, NOR, begin, begin_dry, begin_thick
 from mgehl.solver.from_config import set_up
 from mgehl.solver.gaps import gaps
 from mgehl.solver.outcome import Outcome
 from mgehl.solver.recipe import DRY, THICK_FILM, UNDER_FILM
-from mgehl.studies.study import merged
 
 ROLLER = {
-    "contact": {
-        "kind": "line",
-        "radius_x": 18.5e-3,
-        "reduced_modulus": 226e9,
-        "load_per_length": 847e3,
-        "boundary_film": 5e-9,
-    },
+    "contact": {"kind": "line", "radius_x": 18.5e-3, "reduced_modulus": 226e9, "load_per_length": 847e3,
+                "boundary_film": 5e-9},
     "lubricant": {"viscosity": 0.0236, "pressure_viscosity": 16.7e-9},
     "motion": {"speed": 0.05},
     "surface": {"kind": "waviness", "amplitude": 200e-9, "wavelength_x": 44e-6},
     "grid": {"nodes": 257, "x": [-2.0, 1.5]},
     "solver": {"error": False},
-}
+}  # fmt: skip
 """Ridges across the motion, 1.3 GPa, lambda 0.3."""
 
 
-def solved(**changes):
-    """Result and history of the roller."""
-    solution = solve(config_from_tables(merged(ROLLER, changes)), MPI.COMM_SELF)
-    return solution.result, solution.rows
-
-
 def test_each_linear_system_is_solved_at_once():
-    result, rows = solved()
+    solution = solved(ROLLER)
+    result, rows = solution.result, solution.rows
     assert result.converged and result.work.steps < 60
     assert {row["linear_iterations"] for row in rows[1:]} <= {1, 2}, "2 where a filling is unknown"
     assert {row["speed_mm_s"] for row in rows} == {50.0}, "from the dry contact, without a walk"
 
 
 def test_above_the_largest_direct_solve_the_grids_of_the_cycle_lead_to_the_same(monkeypatch):
-    at_once, _ = solved()
+    at_once = solved(ROLLER).result
     monkeypatch.setattr(cycle, "DIRECT", 65)
-    result, rows = solved()
+    solution = solved(ROLLER)
+    result, rows = solution.result, solution.rows
     assert result.converged and max(row["linear_iterations"] for row in rows) > 1
     assert result.mixed.mean_gap_nm == pytest.approx(at_once.mixed.mean_gap_nm, rel=1e-5)
 
 
 def test_the_recipe_begins_in_the_way_that_led_to_the_answer(monkeypatch):
     """The first way, or one of those that are tried where it fails."""
-    ways = [solved()[0].recipe["begins"]]
+    ways = [solved(ROLLER).result.recipe["begins"]]
     monkeypatch.setattr(beginning, "FIRST_WAY", 0.0)
-    ways.append(solved()[0].recipe["begins"])
+    ways.append(solved(ROLLER).result.recipe["begins"])
     monkeypatch.setattr(beginning, "begin_dry", lambda *how: (None, Outcome(None, False, "not tried")))
-    ways.append(solved()[0].recipe["begins"])
+    ways.append(solved(ROLLER).result.recipe["begins"])
     assert ways == [UNDER_FILM, DRY, THICK_FILM]
 
 
 class TestFromAThickFilm:
     @pytest.fixture
     def parts(self):
-        """Contact, hierarchy, settings."""
         config = config_from_tables(ROLLER)
         parts = set_up(case_of(config))
         hierarchy = parts.hierarchy(MPI.COMM_SELF)

@@ -1,38 +1,24 @@
 """Rough contacts of machines, of sorts that were not found once."""
 
 import pytest
-from mpi4py import MPI
-
-from mgehl.config import config_from_tables
-from mgehl.run import solve
+from contacts import solved
 
 STEEL = {
     "contact": {"radius_x": 3.8e-3, "radius_y": 19e-3, "reduced_modulus": 226e9, "load": 10.0},
     "lubricant": {"viscosity": 0.15, "pressure_viscosity": 16e-9},
     "motion": {"speed": 3.2e-3},
-    "surface": {
-        "kind": "self-affine",
-        "rms": 52e-9,
-        "hurst": 0.58,
-        "seed": 29,
-        "shortest_wavelength": 9.5e-6,
-        "longest_wavelength": 27e-6,
-    },
-}
+    "surface": {"kind": "self-affine", "rms": 52e-9, "hurst": 0.58, "seed": 29,
+                "shortest_wavelength": 9.5e-6, "longest_wavelength": 27e-6},
+}  # fmt: skip
 """A wide contact, lambda 0.2."""
 
 POLYMER = {
-    "contact": {
-        "radius_x": 38.6e-3,
-        "radius_y": 19.8e-3,
-        "reduced_modulus": 4e9,
-        "load": 291.0,
-        "boundary_film": 5e-9,
-    },
+    "contact": {"radius_x": 38.6e-3, "radius_y": 19.8e-3, "reduced_modulus": 4e9, "load": 291.0,
+                "boundary_film": 5e-9},
     "lubricant": {"viscosity": 0.0168, "pressure_viscosity": 14.7e-9},
     "motion": {"speed": 1.7, "angle": 62.3},
     "surface": {"kind": "waviness", "amplitude": 1.4e-6, "wavelength_x": 189e-6},
-}
+}  # fmt: skip
 """Waves at an angle to the motion, lambda 0.6."""
 
 RIDGES = {
@@ -50,7 +36,7 @@ CASES = [(STEEL, 24.21, 600.0), (POLYMER, 579.97, 330.0), (RIDGES, 58.16, 130.0)
 def test_they_are_found_and_no_node_makes_oil(case, mean_gap, most):
     """They carry no load on contact. What enters the domain leaves it."""
     tables = case | {"grid": {"nodes": 129}, "solver": {"error": False}}
-    result = solve(config_from_tables(tables), MPI.COMM_SELF).result
+    result = solved(tables).result
     assert result.converged and result.contact.nodes == 0
     assert result.work.convolutions < most
     assert result.mixed.mean_gap_nm == pytest.approx(mean_gap, rel=1e-3)

@@ -10,11 +10,10 @@ from math import exp, pi
 
 import numpy as np
 import pytest
+from contacts import moes, solved
 from mpi4py import MPI
 from scipy.integrate import quad
 
-import mgehl
-from mgehl.config import config_from_tables
 from mgehl.discretization.contact_law import BoundaryFilm, UnifiedEquations
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.scheme import Scheme
@@ -141,13 +140,8 @@ def test_rolling_of_a_full_film_is_the_load_upstream_of_the_centre(paper_contact
 
 
 def film_of(speed, **changes):
-    tables = {
-        "contact": {"load": 100.0},
-        "motion": {"speed": speed} | changes.pop("motion", {}),
-        "grid": {"nodes": 65},
-        "solver": {"start": "film", "error": False},
-    }
-    return mgehl.solve(config_from_tables(tables | changes)).summary
+    tables = {"contact": {"load": 100.0}, "motion": {"speed": speed}, "grid": {"nodes": 65}}
+    return solved(tables, {"solver": {"start": "film", "error": False}}, changes).summary
 
 
 def test_shear_thins_a_film_by_newton_s_own_steps():
@@ -175,13 +169,7 @@ def test_rolling_within_and_beyond_the_domain_does_not_depend_on_the_domain():
     found = []
     for end, nodes in ((5.0, 65), (10.0, 129)):
         grid = {"nodes": nodes, "x": [-end, 2.0], "y": [-end, end]}
-        tables = {
-            "moes": {"M": 8.0, "L": 8.0},
-            "lubricant": {"density_law": "constant"},
-            "grid": grid,
-            "solver": {"error": False},
-        }
-        found.append(mgehl.solve(config_from_tables(tables)).summary.friction)
+        found.append(solved(moes(8.0, 8.0), {"grid": grid, "solver": {"error": False}}).summary.friction)
     near, far = found
     assert far.rolling_coefficient > 1.4 * near.rolling_coefficient
     both = [each.rolling_coefficient + each.rolling_beyond for each in found]

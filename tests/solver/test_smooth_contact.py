@@ -1,8 +1,8 @@
 """Smooth bodies whose film the grid hardly sees: contact closes continuously but by the paper's mean."""
 
 import pytest
+from contacts import solved
 
-import mgehl
 from mgehl.config import config_from_tables
 from mgehl.discretization.contact_law import BoundaryFilm, InterfaceConditions
 from mgehl.kinds import case_of
@@ -30,7 +30,7 @@ def test_both_starts_find_one_film_that_conserves_oil(speed):
     films = []
     for start in ("film", "contact"):
         solver = {"start": start, "error": False}
-        result = mgehl.solve(config_from_tables(tables | {"solver": solver})).result
+        result = solved(tables | {"solver": solver}).result
         assert result.converged and result.mass.made_share < 1e-7
         films.append((result.central_film_nm, result.minimum_film_nm))
     assert films[0] == pytest.approx(films[1], rel=1e-5)

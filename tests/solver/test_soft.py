@@ -1,35 +1,20 @@
 """Films of bodies that yield to pressures which hardly stiffen the oil."""
 
 import pytest
-from mpi4py import MPI
-from tools.contacts import soft
+from contacts import soft, solved
 
-from mgehl.config import config_from_tables
-from mgehl.run import solve
-
-
-def solved(kind, M, L, ratio=1.0):
-    """The solution of a soft contact by Moes' numbers."""
-    tables = soft(kind, M, L, ratio)
-    return solve(config_from_tables(tables | {"solver": {"error": False}}), MPI.COMM_SELF)
+NO_ERROR = {"solver": {"error": False}}
+LINES = [("line", M, L, 1.0) for M in (5.0, 30.0, 100.0) for L in (0.3, 0.8)]
+POINTS = [("point", 50.0, 0.5, 1.0), ("point", 200.0, 0.8, 4.0)]
 
 
-@pytest.mark.parametrize("L", [0.3, 0.8])
-@pytest.mark.parametrize("M", [5.0, 30.0, 100.0])
-def test_lines_converge_to_moes_film(M, L):
-    """One of six did, by steps that closed the film and a relaxation that took the load away."""
-    solution = solved("line", M, L)
+@pytest.mark.parametrize("kind, M, L, ratio", [*LINES, *POINTS])
+def test_they_converge_to_moes_film(kind, M, L, ratio):
+    """One of six lines did, by steps that closed the film and a relaxation that took the load away."""
+    solution, within = solved(soft(kind, M, L, ratio), NO_ERROR), {"line": 0.15, "point": 0.25}[kind]
     result = solution.result
     assert result.converged and result.work.convolutions < 110.0
-    assert 1e-9 * result.central_film_nm == pytest.approx(solution.contact.flooded_film, rel=0.15)
-
-
-@pytest.mark.parametrize("M, L, ratio", [(50.0, 0.5, 1.0), (200.0, 0.8, 4.0)])
-def test_points_converge_to_moes_film(M, L, ratio):
-    solution = solved("point", M, L, ratio)
-    result = solution.result
-    assert result.converged and result.work.convolutions < 110.0
-    assert 1e-9 * result.central_film_nm == pytest.approx(solution.contact.flooded_film, rel=0.25)
+    assert 1e-9 * result.central_film_nm == pytest.approx(solution.contact.flooded_film, rel=within)
 
 
 WIDE = {
@@ -42,7 +27,7 @@ WIDE = {
 
 def test_a_wide_contact_has_a_film():
     """By contact that closes its faces there was none: what had closed on the way stayed closed."""
-    result = solve(config_from_tables(WIDE | {"solver": {"error": False}}), MPI.COMM_SELF).result
+    result = solved(WIDE, NO_ERROR).result
     assert result.converged and result.contact.nodes == 0 and result.work.convolutions < 140.0
     assert result.central_film_nm == pytest.approx(387.0, rel=0.01)
 
@@ -55,8 +40,7 @@ def test_ridges_along_the_motion_on_a_soft_ball():
         "motion": {"speed": 0.048},
         "surface": {"kind": "waviness", "amplitude": 0.33e-6, "wavelength_y": 31e-6},
         "grid": {"nodes": 129},
-        "solver": {"error": False},
     }
-    result = solve(config_from_tables(tables), MPI.COMM_SELF).result
+    result = solved(tables, NO_ERROR).result
     assert result.converged and result.work.convolutions < 800.0
     assert result.mixed.lambda_ratio < 0.5

@@ -4,12 +4,10 @@ from functools import cache
 
 import numpy as np
 import pytest
-from mpi4py import MPI
+from contacts import solved
 
-from mgehl.config import config_from_tables
 from mgehl.discretization.status import CONTACT
-from mgehl.run import solve as solve_config
-from mgehl.studies.study import PAPER, merged, papers_grid
+from mgehl.studies.study import PAPER, papers_grid
 
 
 @cache
@@ -21,7 +19,7 @@ def solution(speed, nodes, model="unified", start="film", gap="0 m", tolerance=1
         "discretization": PAPER["discretization"] | section,
     }
     solver = {"solver": {"start": start, "tolerance": tolerance}}
-    return solve_config(config_from_tables(merged(tables, solver)), MPI.COMM_SELF)
+    return solved(tables, solver)
 
 
 @pytest.mark.parametrize("nodes", [65, 129])
@@ -36,10 +34,10 @@ def test_full_film_is_that_of_the_interface_conditions(nodes):
 
 def test_where_the_film_is_too_thin_for_the_grid_the_bodies_overlap():
     """20 mm/s: the equations hold, and the reason says at what price."""
-    solved = solution(0.02, 129)
-    result, H = solved.result, solved.fields.H
+    found = solution(0.02, 129)
+    result, H = found.result, found.fields.H
     assert result.converged and result.residual <= 1e-8
-    nm = 1e9 * solved.contact.film_scale
+    nm = 1e9 * found.contact.film_scale
     assert result.overlap.nodes == np.count_nonzero(H < 0.0) > 10
     assert result.overlap.largest_nm == pytest.approx(-H.min() * nm, rel=1e-12)
     assert result.overlap.largest_nm > 1.0
@@ -52,10 +50,10 @@ def test_no_node_is_ever_in_contact():
 
     (Whether that chaotic iteration ends with overlapping bodies or does not end, rounding decides.)
     """
-    for solved in (solution(0.02, 129), solution(5e-6, 65, start="contact")):
-        assert all(row["contact_nodes"] == 0 for row in solved.rows)
-        assert not np.any(solved.fields.status == CONTACT)
-        assert solved.result.pressure_inequality.checked == 0
+    for found in (solution(0.02, 129), solution(5e-6, 65, start="contact")):
+        assert all(row["contact_nodes"] == 0 for row in found.rows)
+        assert not np.any(found.fields.status == CONTACT)
+        assert found.result.pressure_inequality.checked == 0
     crept = solution(5e-6, 65, start="contact").result
     assert not crept.converged or (crept.overlap.nodes > 1000 and "overlap" in crept.reason)
 

@@ -1,5 +1,3 @@
-"""What must hold of an answer, on states made by hand."""
-
 import numpy as np
 import pytest
 
@@ -55,110 +53,86 @@ class TestEdge:
         assert (edge.overlapping, edge.largest_nm) == (1, 0.125e9 * tiny_problem.contact.film_scale)
 
 
-class TestClosedFaceFlow:
-    """What an untreated Couette flow leaks: 1B carries rho H of the node on the left."""
+def test_of_an_untreated_couette_flow_the_largest_through_a_closed_face_counts(
+    tiny_problem, make_problem, state
+):
+    """1B carries rho H of the node on the left."""
+    leaky = make_problem(nodes=9, scheme=Scheme(couette_at_interface="untreated"))
 
-    @pytest.fixture
-    def leaky_problem(self, make_problem):
-        return make_problem(nodes=9, scheme=Scheme(couette_at_interface="untreated"))
+    def leak(problem):
+        return closed_face_flow(problem, problem.evaluate(state))
 
-    def test_without_contact_no_face_is_closed(self, leaky_problem, state):
-        assert closed_face_flow(leaky_problem, leaky_problem.evaluate(state)) == 0.0
-
-    def test_the_largest_flow_through_a_closed_face_counts(self, tiny_problem, leaky_problem, state):
-        state.status[NODE] = CONTACT
-        state.H[4, 3], state.H[NODE], state.H[4, 6] = 1.5, 0.25, 3.0
-        assert (
-            closed_face_flow(leaky_problem, leaky_problem.evaluate(state)) == 1.5
-        )  # through the west face, not 3 farther on
-        state.H[4, 3] = 0.125
-        assert (
-            closed_face_flow(leaky_problem, leaky_problem.evaluate(state)) == 0.25
-        )  # through the east face, of the solid itself
-        assert closed_face_flow(tiny_problem, tiny_problem.evaluate(state)) == 0.0
+    assert leak(leaky) == 0.0  # without contact no face is closed
+    state.status[NODE] = CONTACT
+    state.H[4, 3], state.H[NODE], state.H[4, 6] = 1.5, 0.25, 3.0
+    assert leak(leaky) == 1.5  # through the west face, not 3 farther on
+    state.H[4, 3] = 0.125
+    assert leak(leaky) == 0.25  # through the east face, of the solid itself
+    assert leak(tiny_problem) == 0.0
 
 
-class TestComplementarity:
-    @pytest.fixture
-    def balanced(self, state):
-        """No pressure, and a gap that narrows nowhere: nothing flows into any node."""
-        state.status[1:-1, 5:-1] = CAVITATED
-        return state
-
-    @pytest.mark.parametrize("status", [LUBRICATED, CONTACT])
-    def test_tension(self, tiny_problem, balanced, status):
-        balanced.status[4, 2], balanced.P[4, 2] = status, -0.25
-        balanced.H[4, 2] = 0.0 if status == CONTACT else 1.0
-        # Contact also blocks the flow: the cavity is far from it.
-        assert complementarity_error(
-            tiny_problem, balanced, tiny_problem.evaluate(balanced)
-        ) == pytest.approx(0.25)
-
-    def test_pressure_in_the_cavity(self, tiny_problem, balanced):
-        balanced.P[4, 6] = 1e-9
-        assert complementarity_error(tiny_problem, balanced, tiny_problem.evaluate(balanced)) >= 1e-9
-
-    def test_a_cavity_that_holds_more_than_its_gap(self, tiny_problem, balanced):
-        """What flows in flows out: 1.25 from the film before, and from each cavity."""
-        balanced.H[:, 4], balanced.filling[1:-1, 5:-1] = 1.25, 1.25
-        error = complementarity_error(tiny_problem, balanced, tiny_problem.evaluate(balanced))
-        assert error == pytest.approx(0.25, rel=1e-12)
-
-    def test_contact_that_presses_less_than_the_fluid_in_its_layers(self, make_problem, state):
-        """Of one pressure everywhere, with no fluid above the layers: nothing flows."""
-        problem = make_problem(nodes=9, scheme=Scheme(contact_law=BoundaryFilm(0.5)))
-        state.P[:] = state.p[:] = state.H[:] = 0.5
-        state.status[NODE], state.P[NODE] = CONTACT, 0.25
-        assert complementarity_error(problem, state, problem.evaluate(state)) == pytest.approx(0.25)
-
-    @pytest.mark.parametrize("node, gap", [(6, 0.7), (7, 1.3)])
-    def test_flow_into_the_cavity_or_out_of_it(self, tiny_problem, balanced, node, gap):
-        balanced.H[4, node] = gap  # receives 1, passes its gap on
-        assert complementarity_error(
-            tiny_problem, balanced, tiny_problem.evaluate(balanced)
-        ) == pytest.approx(0.3, rel=1e-12)
-
-    @pytest.mark.parametrize("gap", [0.125, -0.125])
-    def test_contact_with_a_gap_or_an_overlap(self, tiny_problem, balanced, gap):
-        balanced.status[4, 2], balanced.H[4, 2] = CONTACT, gap
-        assert complementarity_error(
-            tiny_problem, balanced, tiny_problem.evaluate(balanced)
-        ) == pytest.approx(0.125)
-
-    def test_film_where_the_bodies_overlap(self, tiny_problem, balanced):
-        balanced.H[4, 2] = -0.125
-        assert complementarity_error(
-            tiny_problem, balanced, tiny_problem.evaluate(balanced)
-        ) == pytest.approx(0.125)
-
-    def test_fluid_shut_in(self, tiny_problem, balanced):
-        balanced.status[4, 1] = balanced.status[4, 3] = CONTACT
-        balanced.H[4, 1] = balanced.H[4, 3] = 0.0
-        assert complementarity_error(tiny_problem, balanced, tiny_problem.evaluate(balanced)) >= 1.0
+@pytest.fixture
+def balanced(state):
+    """No pressure, and a gap that narrows nowhere: nothing flows into any node."""
+    state.status[1:-1, 5:-1] = CAVITATED
+    return state
 
 
-class TestFluxImbalance:
+# Changes of the balanced state, (status, P, H) of nodes; what is broken, and by how much.
+BROKEN = {
+    "tension in a film": ({(4, 2): (LUBRICATED, -0.25, 1.0)}, 0.25),
+    "tension in contact": (
+        {(4, 2): (CONTACT, -0.25, 0.0)},
+        0.25,
+    ),  # far from the cavity: it blocks the flow
+    "flow into the cavity": ({(4, 6): (CAVITATED, 0.0, 0.7)}, 0.3),  # receives 1, passes its gap on
+    "flow out of it": ({(4, 7): (CAVITATED, 0.0, 1.3)}, 0.3),
+    "contact with a gap": ({(4, 2): (CONTACT, 0.0, 0.125)}, 0.125),
+    "contact that overlaps": ({(4, 2): (CONTACT, 0.0, -0.125)}, 0.125),
+    "film where bodies overlap": ({(4, 2): (LUBRICATED, 0.0, -0.125)}, 0.125),
+    "pressure in the cavity": ({(4, 6): (CAVITATED, 1e-9, 1.0)}, None),
+    "fluid shut in": ({(4, 1): (CONTACT, 0.0, 0.0), (4, 3): (CONTACT, 0.0, 0.0)}, None),
+}
+
+
+@pytest.mark.parametrize("nodes, size", BROKEN.values(), ids=BROKEN)
+def test_what_breaks_complementarity_is_found_with_its_size(tiny_problem, balanced, nodes, size):
+    for node, values in nodes.items():
+        balanced.status[node], balanced.P[node], balanced.H[node] = values
+    error = complementarity_error(tiny_problem, balanced, tiny_problem.evaluate(balanced))
+    assert error >= (1.0 if len(nodes) > 1 else 1e-9)
+    assert size is None or error == pytest.approx(size, rel=1e-12)
+
+
+def test_a_cavity_that_holds_more_than_its_gap(tiny_problem, balanced):
+    """What flows in flows out: 1.25 from the film before, and from each cavity."""
+    balanced.H[:, 4], balanced.filling[1:-1, 5:-1] = 1.25, 1.25
+    error = complementarity_error(tiny_problem, balanced, tiny_problem.evaluate(balanced))
+    assert error == pytest.approx(0.25, rel=1e-12)
+
+
+def test_contact_that_presses_less_than_the_fluid_in_its_layers(make_problem, state):
+    """Of one pressure everywhere, with no fluid above the layers: nothing flows."""
+    problem = make_problem(nodes=9, scheme=Scheme(contact_law=BoundaryFilm(0.5)))
+    state.P[:] = state.p[:] = state.H[:] = 0.5
+    state.status[NODE], state.P[NODE] = CONTACT, 0.25
+    assert complementarity_error(problem, state, problem.evaluate(state)) == pytest.approx(0.25)
+
+
+@pytest.mark.parametrize(
+    "kind, first, last, imbalance",
+    [
+        (LUBRICATED, 1, 8, 0.7),  # in through the first face 1.0, out through the last 1.7
+        (CAVITATED, 5, 8, 0.4),
+        (CONTACT, 5, 6, 0.7),  # takes in 1.0; film behind it passes 1.7 on without any supply
+        (CONTACT, 5, 8, 1.0),
+    ],
+)
+def test_flux_imbalance_of_a_film_that_widens(tiny_problem, state, kind, first, last, imbalance):
     """Without pressure a face passes the gap of its upstream node (1B)."""
-
-    @pytest.fixture
-    def widening(self, state):
-        state.H[:] = 1.0 + 0.1 * np.arange(9)
-        return state
-
-    def test_film_up_to_the_edges_of_the_domain(self, tiny_problem, widening):
-        # In through the first face 1.0, out through the last 1.7.
-        assert flux_imbalance(tiny_problem, tiny_problem.evaluate(widening)) == pytest.approx(0.7)
-
-    def test_film_that_ends_at_a_cavity(self, tiny_problem, widening):
-        widening.status[1:-1, 5:-1] = CAVITATED
-        assert flux_imbalance(tiny_problem, tiny_problem.evaluate(widening)) == pytest.approx(0.4)
-
-    def test_contact_lets_nothing_through(self, tiny_problem, widening):
-        widening.status[1:-1, 5] = CONTACT
-        # Film before the contact takes in 1.0; film behind it passes 1.7 on without any supply.
-        assert flux_imbalance(tiny_problem, tiny_problem.evaluate(widening)) == pytest.approx(0.7)
-        widening.status[1:-1, 5:-1] = CONTACT
-        assert flux_imbalance(tiny_problem, tiny_problem.evaluate(widening)) == pytest.approx(1.0)
+    state.H[:] = 1.0 + 0.1 * np.arange(9)
+    state.status[1:-1, first:last] = kind
+    assert flux_imbalance(tiny_problem, tiny_problem.evaluate(state)) == pytest.approx(imbalance)
 
 
 @pytest.mark.parametrize("couette", ["1B", "2B", "2C", "S2C"])

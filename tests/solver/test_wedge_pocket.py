@@ -1,11 +1,10 @@
-"""Pads with pockets and walls, described by their films: rupture, reformation, the account of the oil."""
-
 from dataclasses import replace
 from functools import cache
 
 import numpy as np
 import pocket_reference as reference
 import pytest
+from contacts import solved
 from mpi4py import MPI
 from pocket_reference import SIZES, case, difference, pressures
 from scipy.integrate import solve_ivp
@@ -15,7 +14,6 @@ from mgehl.config import config_from_tables
 from mgehl.discretization.status import CAVITATED
 from mgehl.grid.grid import single_grid
 from mgehl.kinds import contact_from
-from mgehl.run import solve
 from mgehl.solver.from_config import scheme_from
 from mgehl.solver.mass import CLOSED
 from mgehl.solver.wedge import solve_wedge
@@ -25,9 +23,8 @@ from mgehl.studies.study import merged
 
 @cache
 def solution(nodes=513, couette="3B", size=None, **wedge):
-    """A solved case of the study, with other keys of the pad."""
     tables = merged(case(nodes, couette, size), {"wedge": wedge})
-    return solve(config_from_tables(tables), MPI.COMM_SELF)
+    return solved(tables)
 
 
 @cache
@@ -90,15 +87,11 @@ def test_rupture_and_reformation_are_the_reference_s(couette, bound):
 
 @pytest.mark.parametrize(
     "wedge, size",
-    [
-        ({}, None),
-        ({"inlet_film": 1e-6, "exit_film": 2e-6}, None),
-        ({"inlet_film": 1e-6, "exit_film": 1e-6}, None),
-        ({}, "small"),
-        ({"pillar": "square", "pillar_x": 15e-3, "pillar_y": 1e-3, "pillar_size": 1e-3}, "small"),
-    ],
+    [({}, None), ({"inlet_film": 1e-6, "exit_film": 2e-6}, None),
+     ({"inlet_film": 1e-6, "exit_film": 1e-6}, None), ({}, "small"),
+     ({"pillar": "square", "pillar_x": 15e-3, "pillar_y": 1e-3, "pillar_size": 1e-3}, "small")],
     ids=["pocket", "diverging", "parallel", "small", "pillar"],
-)
+)  # fmt: skip
 @pytest.mark.parametrize("couette", ["1B", "3B"])
 def test_no_node_makes_oil(wedge, size, couette):
     found = solution(65 if size else 513, couette, size, **wedge)
@@ -127,7 +120,7 @@ def test_what_is_filled_behind_the_rupture_of_a_diverging_film_stays():
     tables = merged(case(513, "1B"), {"wedge": {"inlet_film": 1e-6, "exit_film": 2e-6}})
     for key in ("pocket_depth", "pocket_from", "pocket_to"):
         del tables["wedge"][key]
-    found = solve(config_from_tables(tables), MPI.COMM_SELF)
+    found = solved(tables)
     torn = found.fields.status[0] == CAVITATED
     assert torn.sum() > 300 and found.result.converged
     content = (found.fields.filling * found.film)[0, torn]

@@ -1,9 +1,8 @@
-"""The rigid wedge bearing, solved: against the series where there is one, against section 4.2 elsewhere."""
-
 from functools import cache
 
 import numpy as np
 import pytest
+from contacts import solved
 from mpi4py import MPI
 
 from mgehl.config import config_from_tables
@@ -12,7 +11,6 @@ from mgehl.grid.grid import single_grid
 from mgehl.kinds import contact_from, mesh_from
 from mgehl.model.wedge_series import WedgeSeries
 from mgehl.output.center_line import center_line
-from mgehl.run import solve as solve_config
 from mgehl.solver.from_config import scheme_from
 from mgehl.solver.verification import complementarity_error, flux_imbalance
 from mgehl.solver.wedge import solve_wedge
@@ -34,23 +32,21 @@ def film_on_center_line(solved):
 
 @cache
 def solution(shape, nodes=65, couette="1B", interface="closed", turned=False, pillar_y=0.0):
-    """A solved case of the study."""
     tables = case(shape, nodes, couette, interface, turned)
     moved = {"wedge": {"pillar_y": pillar_y}} if pillar_y else {}
-    return solve_config(config_from_tables(merged(tables, moved)), MPI.COMM_SELF)
+    return solved(tables, moved)
 
 
 @pytest.fixture
 def solve_tables():
-    """Function that solves nested tables and returns the `WedgeProblem` and its `Outcome`."""
     made = []
 
-    def run(tables):
+    def run(tables, tolerance=1e-10, max_steps=60):
         config = config_from_tables(tables)
         bearing = contact_from(config)
         made.append(single_grid(mesh_from(config, bearing), MPI.COMM_SELF))
         scheme = scheme_from(config, bearing)
-        return solve_wedge(made[-1], bearing, scheme, 1e-10, 60)
+        return solve_wedge(made[-1], bearing, scheme, tolerance, max_steps)
 
     yield run
     for grid in made:
@@ -75,15 +71,9 @@ def errors_and_orders(shape, couette, turned=False):
 # Measured on 129 nodes: 0.45 % by 1B at the blocked exit, 0.02 % by the others, 0.1 % at the open one.
 @pytest.mark.parametrize(
     "shape, couette, largest, order",
-    [
-        ("blocked exit", "1B", 5e-3, 1),
-        ("blocked exit", "2B", 2.5e-4, 2),
-        ("blocked exit", "2C", 2.5e-4, 2),
-        ("no blockage", "1B", 1e-3, 2),
-        ("no blockage", "2B", 1e-3, 2),
-        ("no blockage", "2C", 1e-3, 2),
-    ],
-)
+    [("blocked exit", "1B", 5e-3, 1), ("blocked exit", "2B", 2.5e-4, 2), ("blocked exit", "2C", 2.5e-4, 2),
+     ("no blockage", "1B", 1e-3, 2), ("no blockage", "2B", 1e-3, 2), ("no blockage", "2C", 1e-3, 2)],
+)  # fmt: skip
 def test_convergence_to_the_series(shape, couette, largest, order):
     """1B takes the gap of a face half a cell upstream: first order at a wall. Between open ends the
     gap is linear, so that the mistake is a constant flow and drops out: second order."""
@@ -171,12 +161,7 @@ def test_pillar_off_the_centre(shape):
     np.testing.assert_allclose(turned.fields.P, central.fields.P[::-1, ::-1], rtol=0.0, atol=1e-14)
 
 
-def test_too_few_steps_are_not_converged():
+def test_too_few_steps_are_not_converged(solve_tables):
     """What is asked for is beyond rounding."""
-    config = config_from_tables(case("blocked exit"))
-    bearing = contact_from(config)
-    grid = single_grid(mesh_from(config, bearing), MPI.COMM_SELF)
-    scheme = scheme_from(config, bearing)
-    _, outcome = solve_wedge(grid, bearing, scheme, 1e-18, 1)
-    grid.destroy()
+    _, outcome = solve_tables(case("blocked exit"), 1e-18, 1)
     assert not outcome.converged and "residual" in outcome.reason

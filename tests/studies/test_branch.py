@@ -1,6 +1,3 @@
-"""Both branches at one speed, studies of the transition on small grids, and what a kill leaves."""
-
-import csv
 import os
 import signal
 import subprocess
@@ -9,6 +6,7 @@ import time
 
 import pytest
 from mpi4py import MPI
+from told import rows_of
 
 from mgehl.cli import main
 from mgehl.studies import transition
@@ -16,13 +14,7 @@ from mgehl.studies.branch import Branch
 from mgehl.studies.study import Study
 
 
-def read(path):
-    with path.open() as file:
-        return list(csv.DictReader(file))
-
-
 def run(directory, *words):
-    """A study by the command line; its exit status."""
     return main(["study", *words, "--quiet", "--out", str(directory)])
 
 
@@ -60,7 +52,7 @@ class TestStudies:
     def test_transition(self, tmp_path):
         assert run(tmp_path / "t", "transition", "--grid", "65") == 0
         for nodes in (65,):
-            rows = read(tmp_path / "t" / f"transition-{nodes}.csv")
+            rows = rows_of(tmp_path / "t" / f"transition-{nodes}.csv")
             assert [row["branch"] for row in rows] == ["down"] * 4 + ["up"] * 4
             assert all(row["settled"] == "yes" for row in rows)
             for row in rows:
@@ -79,11 +71,11 @@ class TestStudies:
 
     def test_grid(self, tmp_path):
         assert run(tmp_path / "g", "grid", "--nodes", "65,129") == 0
-        rows = read(tmp_path / "g" / "contact.csv")
+        rows = rows_of(tmp_path / "g" / "contact.csv")
         assert all(row["settled"] == "yes" and row["Eq. 2 broken"].startswith("0 ") for row in rows)
         assert float(rows[1]["order"]) > 1.0
-        assert len(read(tmp_path / "g" / "film.csv")) == 2
-        assert {row["central: limit, order"] for row in read(tmp_path / "g" / "film.csv")} == {""}
+        assert len(rows_of(tmp_path / "g" / "film.csv")) == 2
+        assert {row["central: limit, order"] for row in rows_of(tmp_path / "g" / "film.csv")} == {""}
         assert {"figures-11-12.png", "figure-13.png"} <= {path.name for path in (tmp_path / "g").iterdir()}
 
 
@@ -116,7 +108,7 @@ class TestKill:
         subprocess.run(self.command(killed, "--resume"), check=True, stdout=subprocess.DEVNULL)
         subprocess.run(self.command(alone), check=True, stdout=subprocess.DEVNULL)
         assert all(path.stat().st_mtime_ns == when for path, when in done.items())
-        resumed, whole = (read(path / "transition-65.csv") for path in (killed, alone))
+        resumed, whole = (rows_of(path / "transition-65.csv") for path in (killed, alone))
         assert len(resumed) == 6
         for one, other in zip(resumed, whole, strict=True):
             assert one["branch"] == other["branch"] and one["from"] == other["from"]

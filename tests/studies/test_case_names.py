@@ -1,5 +1,3 @@
-"""Names of the run directories of cases: other words, another name; other code, another name."""
-
 import pytest
 
 from mgehl.studies import case_names

@@ -1,9 +1,6 @@
-"""Studies mixed, machine and rollers on tiny grids: what is drawn, what is kept, what is said of all."""
-
-import csv
-
 import numpy as np
 import pytest
+from told import rows_of
 
 from mgehl.cli import main
 from mgehl.studies import machine, mixed, rollers, study
@@ -17,13 +14,8 @@ def run(name, directory, *words):
     return main(["study", name, "--nodes", GRIDS[name], "--quiet", "--out", str(directory), *words])
 
 
-def read(path):
-    with path.open() as file:
-        return list(csv.DictReader(file))
-
-
 def said(directory, name):
-    (row,) = read(directory / f"{name}-summary.csv")
+    (row,) = rows_of(directory / f"{name}-summary.csv")
     return row
 
 
@@ -40,7 +32,7 @@ class TestBalls:
     def test_two_cases(self, tmp_path, long_waves, monkeypatch):
         here = tmp_path / "mixed"
         assert run("mixed", here, "--cases", "2", "--seed", "3") == 0
-        rows, whole = read(here / "mixed.csv"), said(here, "mixed")
+        rows, whole = rows_of(here / "mixed.csv"), said(here, "mixed")
         for case, found in zip(mixed.draw(2, 3), rows, strict=True):
             assert float(found["rms nm"]) == pytest.approx(1e9 * case.tables["surface"]["rms"], abs=0.05)
             assert found["verdict"] == "converged" and float(found["lambda"]) > 0.0
@@ -54,27 +46,23 @@ class TestBalls:
         assert len(list((here / "runs").iterdir())) == 2
         monkeypatch.setattr(study, "run", None)  # nothing is solved again
         assert run("mixed", here, "--cases", "2", "--seed", "3", "--resume") == 0
-        assert read(here / "mixed.csv") == rows
+        assert rows_of(here / "mixed.csv") == rows
 
     def test_a_case_that_fails_is_told_by_the_exit_status(self, tmp_path, long_waves):
         here = tmp_path / "mixed"
         assert run("mixed", here, "--cases", "1", "--set", "solver.max_steps=1") == 1
-        (found,) = read(here / "mixed.csv")
+        (found,) = rows_of(here / "mixed.csv")
         assert found["verdict"].startswith("NOT CONVERGED: ")
         assert said(here, "mixed")["converged"] == "0" and said(here, "mixed")["not settled"] == "1"
 
 
 STEEL = {"reduced_modulus": 226e9, "boundary_film": 2e-9}
 ONE = {
-    "machine": {
-        "contact": {"radius_x": 0.01, "radius_y": 0.01, "load": 50.0, **STEEL},
-        "motion": {"speed": 0.01, "angle": 0.0},
-    },
-    "rollers": {
-        "contact": {"kind": "line", "radius_x": 0.01, "load_per_length": 2e5, **STEEL},
-        "motion": {"speed": 0.03},
-    },
-}
+    "machine": {"contact": {"radius_x": 0.01, "radius_y": 0.01, "load": 50.0, **STEEL},
+                "motion": {"speed": 0.01, "angle": 0.0}},
+    "rollers": {"contact": {"kind": "line", "radius_x": 0.01, "load_per_length": 2e5, **STEEL},
+                "motion": {"speed": 0.03}},
+}  # fmt: skip
 """A steel ball and a steel roller with long waves, which the grids show."""
 
 
@@ -85,7 +73,7 @@ class TestMachines:
         own = ONE[name] | {"surface": waves, "solver": {"error": True}}
         monkeypatch.setattr(module, "draw", lambda *_: [Drawn(1, "steel", own)])
         assert run(name, tmp_path / name) == 0
-        (found,) = read(tmp_path / name / f"{name}.csv")
+        (found,) = rows_of(tmp_path / name / f"{name}.csv")
         assert (found["E' GPa"], found["layers nm"], found["verdict"]) == ("226", "2", "converged")
         assert found.get("surface", found.get("profile")).startswith("waves")
         assert "±" in found["mean gap nm"]

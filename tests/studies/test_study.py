@@ -1,5 +1,3 @@
-"""What every study uses: orders, limits, merged tables, files."""
-
 from math import isnan
 
 import pytest

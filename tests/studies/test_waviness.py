@@ -1,10 +1,9 @@
 """Study waviness: small waves at rest in full films, beside an independent linear calculation."""
 
-import csv
-
 import numpy as np
 import pytest
 from mpi4py import MPI
+from told import rows_of
 
 from mgehl.cli import main
 from mgehl.model.conditions import Conditions
@@ -47,8 +46,7 @@ def test_the_table(tmp_path, monkeypatch):
     """On a tiny grid."""
     monkeypatch.setattr(waviness, "GRIDS", (("2B", "arithmetic", 257),))
     assert main(["study", "waviness", "--quiet", "--out", str(tmp_path / "here")]) == 0
-    with (tmp_path / "here" / "line.csv").open() as file:
-        rows = list(csv.DictReader(file))
+    rows = rows_of(tmp_path / "here" / "line.csv")
     assert [row["wavelength/b"] for row in rows] == ["1", "0.5"] * 2
     for row in rows:
         apart = float(row["change of film/A"]) / float(row["reference"]) - 1.0

@@ -4,6 +4,10 @@ domain."""
 import csv
 from pathlib import Path
 
+import mgehl
+from mgehl.config import config_from_tables
+from mgehl.kinds import contact_from
+from mgehl.model.starvation import Starvation
 from mgehl.studies.study import BEST, merged
 
 CONSTANT = {"lubricant": {"density_law": "constant"}}
@@ -17,6 +21,22 @@ ELLIPSE = {"contact": {"load": 300.0, "radius_x": 10e-3, "radius_y": 83e-3}, "mo
 
 MODULUS, RADIUS, VISCOSITY, PRESSURE_VISCOSITY = 8e9, 10e-3, 0.05, 12e-9
 """Of polymer on steel in a thin oil; SI."""
+
+
+def solved(*tables, start=None):
+    """The `Solution` of nested tables, later ones first in authority."""
+    return mgehl.solve(config_from_tables(merged(*tables)), start=start)
+
+
+def contact_of(*tables):
+    """Their contact."""
+    return contact_from(config_from_tables(merged(*tables)))
+
+
+def starvation(*tables):
+    """What a domain takes of their film."""
+    contact = contact_of(*tables)
+    return Starvation(contact, contact.flooded_film)
 
 
 def moes(M, L, **contact):

@@ -1,5 +1,3 @@
-"""Points that are no heights: holes and how they are filled, outliers, values for missing ones."""
-
 import zipfile
 
 import numpy as np

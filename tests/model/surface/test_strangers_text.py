@@ -1,7 +1,6 @@
-"""Text as other programs write it: separators, decimal commas, encodings, headings, digits."""
-
 import numpy as np
 import pytest
+from told import refusal
 
 from mgehl.model.surface.files import read_map
 from mgehl.model.surface.map import SurfaceFileError
@@ -78,12 +77,6 @@ def test_headings_tell_sizes_and_units(tmp_path, heading, dx, dy, position, heig
     np.testing.assert_array_equal(found.heights, Z)
 
 
-def test_with_a_size_three_columns_are_heights(tmp_path):
-    with pytest.raises(Exception, match="has 4 rows and 3 columns; must be at least 4 of each"):
-        (tmp_path / "z.txt").write_text("# Width: 1 um\n# Height: 1 um\n1 2 3\n4 5 6\n1 2 3\n4 5 6\n")
-        read_map(tmp_path / "z.txt")
-
-
 @pytest.mark.parametrize("form", ["{:.5g}", "{:.4e}"])
 def test_coordinates_of_five_digits_are_a_grid(tmp_path, form):
     """320 by 240 points .49261 um apart: of the largest coordinates steps are .49 or .5."""
@@ -95,31 +88,26 @@ def test_coordinates_of_five_digits_are_a_grid(tmp_path, form):
     assert (found.dx, found.dy) == pytest.approx((0.49261, 0.49261), rel=1e-4)
 
 
-def test_a_line_that_is_missing_is_no_matter_of_digits(tmp_path):
-    points = (f"{a} {b} 1" for b in (0, 1, 2, 3, 5) for a in range(5))
-    (tmp_path / "z.xyz").write_text("\n".join(points))
-    with pytest.raises(Exception, match="its spacing along y is not equal: 2 from y = 3 to 5"):
-        read_map(tmp_path / "z.xyz")
+THOUSANDS = '1;"1,234.56";3;4\n' * 4
+REFUSED = {
+    "thousands": (THOUSANDS, "line 1, column 2: '1,234.56' is no number"),
+    "thousands below a row": ("1;2;3;4\n" + THOUSANDS, "line 2, column 2: '1,234.56' is no number"),
+    "thousands below a heading": ("z\n" + THOUSANDS, "line 2, column 2: '1,234.56' is no number"),
+    "thousands in the first row alone": ("1;1,234.56;3;4\n" + matrix(";"), "line 1, column 2: '1,234.56' "),
+    "a cell of any length": ('"' + 200000 * "a" + ";b\n", "has no row of numbers"),
+    "three columns that are heights, with a size": (
+        "# Width: 1 um\n# Height: 1 um\n1 2 3\n4 5 6\n1 2 3\n4 5 6\n", "has 4 rows and 3 columns; must be"),
+    "a line that is missing": (
+        "\n".join(f"{a} {b} 1" for b in (0, 1, 2, 3, 5) for a in range(5)),
+        "its spacing along y is not equal: 2 from y = 3 to 5"),
+}  # fmt: skip
+"""Numbers that are not understood are named, and none is left out."""
 
 
-@pytest.mark.parametrize("above", ["", "1;2;3;4\n", "z\n"])
-def test_numbers_that_are_not_understood_are_named_and_none_is_left_out(tmp_path, above):
-    (tmp_path / "z.csv").write_text(above + '1;"1,234.56";3;4\n' * 4)
-    with pytest.raises(SurfaceFileError) as caught:
-        read_map(tmp_path / "z.csv")
-    assert caught.value.what == f"line {2 if above else 1}, column 2: '1,234.56' is no number"
-
-
-def test_a_cell_of_any_length_is_refused_in_a_line(tmp_path):
-    (tmp_path / "z.csv").write_text('"' + 200000 * "a" + ";b\n")
-    with pytest.raises(SurfaceFileError, match="has no row of numbers"):
-        read_map(tmp_path / "z.csv")
-
-
-def test_a_first_row_that_is_not_understood_is_no_heading(tmp_path):
-    (tmp_path / "z.csv").write_text("1;1,234.56;3;4\n" + matrix(";"))
-    with pytest.raises(SurfaceFileError, match="line 1, column 2: '1,234.56' is no number"):
-        read_map(tmp_path / "z.csv")
+@pytest.mark.parametrize("text, words", REFUSED.values(), ids=REFUSED)
+def test_what_is_refused(tmp_path, text, words):
+    (tmp_path / "z.csv").write_text(text)
+    assert words in refusal(read_map, tmp_path / "z.csv", error=SurfaceFileError)
 
 
 POINTS = "".join(f"{x};{1000 * y};{x + y}\n" for y in range(4) for x in range(5))
@@ -128,14 +116,10 @@ UM, NM = 1e-6, 1e-9
 
 @pytest.mark.parametrize(
     "heading, dy, position, height",
-    [
-        ("x (um);y (nm);z (nm)", 1.0, UM, NM),
-        ("X[mm];Y[mm];Height[um]", 1000.0, 1e-3, UM),
-        ('"x / µm";"y / µm";"z / µm"', 1000.0, UM, UM),
-        ("made on 1 May\n# x um; y um; z pm", 1000.0, UM, 1e-12),
-        ("x;y;z (counts)", 1000.0, None, None),
-    ],
-)
+    [("x (um);y (nm);z (nm)", 1.0, UM, NM), ("X[mm];Y[mm];Height[um]", 1000.0, 1e-3, UM),
+     ('"x / µm";"y / µm";"z / µm"', 1000.0, UM, UM),
+     ("made on 1 May\n# x um; y um; z pm", 1000.0, UM, 1e-12), ("x;y;z (counts)", 1000.0, None, None)],
+)  # fmt: skip
 def test_headings_of_points_tell_units(tmp_path, heading, dy, position, height):
     (tmp_path / "z.csv").write_text(f"{heading}\n{POINTS}")
     found = read_map(tmp_path / "z.csv")

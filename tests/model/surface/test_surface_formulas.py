@@ -1,5 +1,3 @@
-"""Surfaces by formulas: exact heights, the same on every grid, a peak positive."""
-
 import numpy as np
 import pytest
 

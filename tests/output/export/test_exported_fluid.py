@@ -1,5 +1,3 @@
-"""The fluid's own pressure, the filling of cavities and heights in every format; none of older results."""
-
 import json
 
 import numpy as np

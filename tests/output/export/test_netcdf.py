@@ -1,5 +1,3 @@
-"""NetCDF for xarray: names, units, coordinates, flags and values."""
-
 from datetime import UTC, datetime, timedelta
 
 import numpy as np

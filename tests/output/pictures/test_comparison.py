@@ -1,22 +1,8 @@
-"""Several runs in one picture."""
-
 import numpy as np
 import pytest
 
 from mgehl.errors import UserError
-from mgehl.output.pictures import style
 from mgehl.output.pictures.comparison import compare_lines
-
-
-@pytest.fixture
-def drawn():
-    """Function that compares runs with one of the functions of `comparison`."""
-
-    def draw(function, solutions, labels):
-        with style.applied():
-            return function(solutions, labels)
-
-    return draw
 
 
 def line_of(axes, label):

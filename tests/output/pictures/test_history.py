@@ -1,22 +1,8 @@
-"""The picture of how a run converged."""
-
 import numpy as np
 import pytest
 
 from mgehl.errors import OutputError
-from mgehl.output.pictures import style
 from mgehl.output.pictures.history import history
-
-
-@pytest.fixture
-def drawn():
-    """Function that draws a run's history and returns its figure."""
-
-    def draw(solution):
-        with style.applied():
-            return history(solution)
-
-    return draw
 
 
 def lines_of(axes):
@@ -25,7 +11,7 @@ def lines_of(axes):
 
 def test_residual_load_error_and_sets_against_the_cycles_in_order(make_solution, make_rows, drawn):
     rows = make_rows(grids=(65, 129), cycles=4)
-    errors, sets = drawn(make_solution(rows=rows)).axes
+    errors, sets = drawn(history, make_solution(rows=rows)).axes
     np.testing.assert_array_equal(errors.get_lines()[0].get_xdata(), np.arange(8))
     np.testing.assert_array_equal(lines_of(errors)["residual (rms)"], [row["residual"] for row in rows])
     np.testing.assert_array_equal(
@@ -38,4 +24,4 @@ def test_residual_load_error_and_sets_against_the_cycles_in_order(make_solution,
 
 def test_no_cycles(make_solution, drawn):
     with pytest.raises(OutputError, match="history.csv has no cycles"):
-        drawn(make_solution(rows=[]))
+        drawn(history, make_solution(rows=[]))

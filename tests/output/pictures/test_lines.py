@@ -1,22 +1,9 @@
-"""Centre lines of a run."""
-
 import numpy as np
 import pytest
 
 from mgehl.discretization.status import CAVITATED, CONTACT
-from mgehl.output.pictures import maps, style
+from mgehl.output.pictures import maps
 from mgehl.output.pictures.lines import centre_lines
-
-
-@pytest.fixture
-def drawn():
-    """Function that draws a run's centre lines; its axes: pressure along x and y, films along x and y."""
-
-    def draw(solution):
-        with style.applied():
-            return centre_lines(solution).axes
-
-    return draw
 
 
 def lines_of(axes):
@@ -27,7 +14,7 @@ def lines_of(axes):
 def test_both_axes_show_the_fields_in_GPa_and_nm(make_solution, drawn):
     solution = make_solution()
     i, j = solution.mesh.nearest(0.0, 0.0)
-    axes, (GPa, nm) = drawn(solution), (1e-9 * solution.pressure, 1e9 * solution.film)
+    axes, (GPa, nm) = drawn(centre_lines, solution).axes, (1e-9 * solution.pressure, 1e9 * solution.film)
     for above, below, line, position in (
         (*axes[::2], (j, slice(None)), solution.mesh.X),
         (*axes[1::2], (slice(None), i), solution.mesh.Y),
@@ -39,7 +26,7 @@ def test_both_axes_show_the_fields_in_GPa_and_nm(make_solution, drawn):
 
 def test_a_soft_contact_is_drawn_in_kPa_as_it_is_told(make_solution, drawn):
     solution = make_solution(settings=["contact.reduced_modulus=100 kPa", "contact.load=1 mN"])
-    above, axes = drawn(solution)[0], maps.pressure_map(solution).axes
+    above, axes = drawn(centre_lines, solution).axes[0], drawn(maps.pressure_map, solution).axes
     assert above.get_ylabel() == "pressure, kPa" and axes[0].child_axes[0].get_ylabel() == "pressure, kPa"
     assert lines_of(above)["pressure"].get_ydata().max() == pytest.approx(1e-3 * solution.pressure.max())
 
@@ -47,37 +34,33 @@ def test_a_soft_contact_is_drawn_in_kPa_as_it_is_told(make_solution, drawn):
 def test_what_carries_load_is_shown_beside_a_smooth_dry_contact(make_solution, drawn):
     """Of a domain of 60 semi-axes a side; and Hertz's pressure is no polygon of few nodes."""
     solution = make_solution(settings=["grid.x=[-60,60]"])
-    above = drawn(solution)[0]
+    above = drawn(centre_lines, solution).axes[0]
     left, right = above.get_xlim()
     assert -15.0 < left < -1.5 and 1.5 < right < 15.0
     (hertz,) = [line for label, line in lines_of(above).items() if label.startswith("dry contact")]
     assert len(hertz.get_xdata()) > 10 * solution.mesh.nx
 
 
-class TestRough:
-    """A contact with layers of 2 nm whose fluid carries half of the pressure."""
-
-    @pytest.fixture
-    def solution(self, make_solution):
-        solution = make_solution(65, contact=0.3, settings=["contact.boundary_film=2 nm"])
-        fields, nm = solution.fields, 1e9 * solution.contact.film_scale
-        fields.H[:] = (2.0 + 300.0 * np.abs(solution.mesh.X)) / nm
-        fields.H[fields.status == CONTACT] = 2.0 / nm
-        fields.p = np.where(fields.status == CONTACT, 0.5, 1.0) * fields.P
-        fields.filling = np.where(fields.status == CAVITATED, 0.1, 1.0)
-        return solution
-
-    def test_its_fluid_has_a_line_of_its_own_and_solids_carry_the_rest(self, solution, drawn, check_texts):
-        pressure = drawn(solution)[0]
-        own = lines_of(pressure)["pressure of the fluid in contact"].get_ydata()
-        np.testing.assert_allclose(own, 1e-9 * solution.contact.pressure_scale * solution.fields.p[32])
-        (solids,) = pressure.collections
-        assert solids.get_label() == "carried by solids"
-        check_texts(pressure.figure, "carried by solids", "oil in a cavity", "contact")
+def test_the_fluid_in_layers_has_a_line_of_its_own_and_solids_carry_the_rest(
+    make_solution, drawn, check_texts
+):
+    """Layers of 2 nm, in which the fluid carries half of the pressure."""
+    solution = make_solution(65, contact=0.3, settings=["contact.boundary_film=2 nm"])
+    fields, nm = solution.fields, 1e9 * solution.contact.film_scale
+    fields.H[:] = (2.0 + 300.0 * np.abs(solution.mesh.X)) / nm
+    fields.H[fields.status == CONTACT] = 2.0 / nm
+    fields.p = np.where(fields.status == CONTACT, 0.5, 1.0) * fields.P
+    fields.filling = np.where(fields.status == CAVITATED, 0.1, 1.0)
+    pressure = drawn(centre_lines, solution).axes[0]
+    own = lines_of(pressure)["pressure of the fluid in contact"].get_ydata()
+    np.testing.assert_allclose(own, 1e-9 * solution.contact.pressure_scale * solution.fields.p[32])
+    (solids,) = pressure.collections
+    assert solids.get_label() == "carried by solids"
+    check_texts(pressure.figure, "carried by solids", "oil in a cavity", "contact")
 
 
 @pytest.mark.parametrize("contact, reach", [(0.9, 1.9), (1.05, 1.9), (0.0, 60.0)])
 def test_it_is_drawn_where_no_film_or_no_node_is_inside(make_solution, drawn, contact, reach):
-    film = drawn(make_solution(contact=contact, settings=[f"grid.x=[-{reach},{reach}]"]))[2]
-    low, high = film.get_ylim()
+    solution = make_solution(contact=contact, settings=[f"grid.x=[-{reach},{reach}]"])
+    low, high = drawn(centre_lines, solution).axes[2].get_ylim()
     assert 0.0 <= low < high

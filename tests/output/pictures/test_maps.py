@@ -1,5 +1,3 @@
-"""Maps of film, pressure and status."""
-
 import numpy as np
 import pytest
 from matplotlib.colors import to_rgba
@@ -14,27 +12,6 @@ from mgehl.output.pictures.figures import drawn_by
 ALL = [maps.film_map, maps.pressure_map, maps.status_map]
 
 
-@pytest.fixture
-def drawn():
-    """Function that draws a run with one of the functions of `maps`; its axes."""
-
-    def draw(function, solution):
-        with style.applied():
-            return function(solution).axes[0]
-
-    return draw
-
-
-def shown(axes):
-    """What an axes has beside it: the labels of its colour bars."""
-    return [bar.get_ylabel() for bar in axes.child_axes]
-
-
-def labels_of(axes):
-    """What the legend says."""
-    return [text.get_text() for text in axes.get_legend().get_texts()]
-
-
 def of_window(solution, values):
     return values[plane.Plane(solution).part]
 
@@ -47,7 +24,7 @@ def test_a_cavity_is_drawn_by_its_filling(make_solution, drawn, function, kept):
     filling = np.linspace(0.0, 1.0, solution.status.size).reshape(solution.status.shape)
     if kept:
         solution.fields.filling = filling
-    axes = drawn(function, solution)
+    axes = drawn(function, solution).axes[0]
     (image,) = [each for each in axes.get_images() if each.cmap is style.FILLING_MAP]
     status = solution.status if function is maps.status_map else of_window(solution, solution.status)
     filling = filling if function is maps.status_map else of_window(solution, filling)
@@ -55,7 +32,8 @@ def test_a_cavity_is_drawn_by_its_filling(make_solution, drawn, function, kept):
     expected = filling[status == CAVITATED] if kept else 1.0
     np.testing.assert_array_equal(image.get_array().compressed(), expected)
     assert (image.norm.vmin, image.norm.vmax) == (0.0, 1.0)
-    assert "cavity:\npart filled" in shown(axes) and "edge of a cavity" in labels_of(axes)
+    assert "cavity:\npart filled" in [bar.get_ylabel() for bar in axes.child_axes]
+    assert "edge of a cavity" in [text.get_text() for text in axes.get_legend().get_texts()]
 
 
 @pytest.mark.parametrize("function", [maps.film_map, maps.status_map])
@@ -77,7 +55,7 @@ def test_flash_temperatures_are_drawn_where_they_were_found(make_solution, drawn
     solution.fields.flash_2 = np.linspace(0.0, 3.0, solution.status.size).reshape(solution.status.shape)
     pictures = drawn_by(solution)
     assert {"flash_2"} == {"flash_1", "flash_2"} & pictures.keys() and "flash_2" in KINDS
-    (image,) = drawn(pictures["flash_2"][1], solution).get_images()
+    (image,) = drawn(pictures["flash_2"][1], solution).axes[0].get_images()
     np.testing.assert_array_equal(image.get_array(), of_window(solution, solution.fields.flash_2))
 
 
@@ -88,15 +66,13 @@ def test_maps_end_within_the_boundary_but_those_of_the_whole_grid(make_solution)
     assert (plane.Plane(solution, whole=True).status == BOUNDARY).any()
 
 
-class TestMotion:
-    """An arrow shows where the surfaces move to."""
-
-    @pytest.mark.parametrize("function", ALL)
-    @pytest.mark.parametrize("angle", [0, 30, 90, 200])
-    def test_every_map_has_one(self, make_solution, drawn, function, angle):
-        axes = drawn(function, make_solution(settings=[f"motion.angle={angle}", "contact.radius_y=40 mm"]))
-        (arrow,) = [each for each in axes.collections if isinstance(each, Quiver)]
-        assert np.cos(np.arctan2(*arrow.V, *arrow.U) - np.radians(angle)) == pytest.approx(1.0)
-        assert arrow.angles == "xy"  # as on the map, which may be stretched
-        (left, right), (bottom, top) = axes.get_xlim(), axes.get_ylim()
-        assert left < arrow.X[0] < right and bottom < arrow.Y[0] < top
+@pytest.mark.parametrize("function", ALL)
+@pytest.mark.parametrize("angle", [0, 30, 90, 200])
+def test_an_arrow_on_every_map_shows_where_the_surfaces_move_to(make_solution, drawn, function, angle):
+    solution = make_solution(settings=[f"motion.angle={angle}", "contact.radius_y=40 mm"])
+    axes = drawn(function, solution).axes[0]
+    (arrow,) = [each for each in axes.collections if isinstance(each, Quiver)]
+    assert np.cos(np.arctan2(*arrow.V, *arrow.U) - np.radians(angle)) == pytest.approx(1.0)
+    assert arrow.angles == "xy"  # as on the map, which may be stretched
+    (left, right), (bottom, top) = axes.get_xlim(), axes.get_ylim()
+    assert left < arrow.X[0] < right and bottom < arrow.Y[0] < top

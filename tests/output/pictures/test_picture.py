@@ -1,5 +1,3 @@
-"""The picture that a run leaves."""
-
 import io
 import warnings
 
@@ -10,7 +8,7 @@ from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
 from mgehl.discretization.mesh import Mesh
-from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
+from mgehl.discretization.status import CONTACT, LUBRICATED
 from mgehl.output.pictures import style
 from mgehl.output.pictures.figures import figures, run_picture, write
 from mgehl.output.pictures.plane import Blocks
@@ -77,20 +75,3 @@ def test_blocks_of_three_by_three_and_what_is_left():
     np.testing.assert_allclose(each.Y, [mesh.Y[1], 0.5 * (mesh.Y[3] + mesh.Y[4])], atol=1e-15)
     cell = 2.0 / 6
     assert each.extent[:2] == pytest.approx((-1.0 - cell / 2, -1.0 - cell / 2 + 9 * cell))
-
-
-def test_single_nodes_and_thin_lines_of_contact_stay():
-    """Contact wins over a cavity, and that over the film, wherever it is in its block."""
-    status = np.full((64, 64), LUBRICATED)
-    status[40:] = CAVITATED
-    nodes = [(5, 6), (50, 61), (63, 0)]
-    for node in nodes:
-        status[node] = CONTACT
-    status[:, 33] = CONTACT
-    drawn = Blocks(np.arange(64.0), np.arange(64.0), 10).largest(status)
-    expected = np.full((10, 10), LUBRICATED)
-    expected[5:] = CAVITATED  # lines 35 to 41 and after
-    expected[:, 33 // 7] = CONTACT
-    for j, i in nodes:
-        expected[j // 7, i // 7] = CONTACT
-    np.testing.assert_array_equal(drawn, expected)

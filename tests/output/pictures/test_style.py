@@ -1,5 +1,3 @@
-"""The style file, what is laid over it, and saving."""
-
 import matplotlib
 import pytest
 

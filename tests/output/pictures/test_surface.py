@@ -1,5 +1,3 @@
-"""The picture of a surface: heights with the contact on them, the gap, the distribution."""
-
 from dataclasses import replace
 from types import SimpleNamespace
 

@@ -1,5 +1,3 @@
-"""Titles of pictures, and labels that tell runs apart."""
-
 from types import SimpleNamespace
 
 import pytest

@@ -1,5 +1,3 @@
-"""Pages: numbers, columns of numbers, HTML that is whole and escaped."""
-
 from mgehl.output.report.page import BAD, picture, render, table
 
 

@@ -1,5 +1,3 @@
-"""Pages in a real browser: nothing sticks out, nothing overlaps, all pictures are there, no errors."""
-
 import json
 import re
 import shutil

@@ -1,5 +1,3 @@
-"""The page of a run: everything that the run says is on it, whatever its kind."""
-
 import re
 from dataclasses import replace
 from html.parser import HTMLParser
@@ -148,16 +146,13 @@ class TestEveryKind:
         assert [float(row[0]) for row in page.tables["Every cycle"]] == [row["grid"] for row in run.rows]
 
 
-class TestLoaded:
-    @pytest.mark.parametrize("mark, settled", [("not converged", False), ("in doubt", True)])
-    def test_after_a_failure_every_number_says_so(self, film_run, quick, mark, settled):
-        page = quick(film_run, converged=False, settled=settled)
-        assert [name for name in page.highlights if not name.endswith(f" ({mark})")] == [
-            "cells in the inlet"
-        ]
-        assert {f"{FILMS} ({mark})", f"{CONTACT_TABLE} ({mark})"} <= page.tables.keys()
-        assert page.rows(f"{FILMS} ({mark})")["Hamrock and Dowson"][1::2] == ["", ""], "nothing to compare"
-        assert "(" not in "".join(quick(film_run).highlights)
+@pytest.mark.parametrize("mark, settled", [("not converged", False), ("in doubt", True)])
+def test_after_a_failure_every_number_says_so(film_run, quick, mark, settled):
+    page = quick(film_run, converged=False, settled=settled)
+    assert [name for name in page.highlights if not name.endswith(f" ({mark})")] == ["cells in the inlet"]
+    assert {f"{FILMS} ({mark})", f"{CONTACT_TABLE} ({mark})"} <= page.tables.keys()
+    assert page.rows(f"{FILMS} ({mark})")["Hamrock and Dowson"][1::2] == ["", ""], "nothing to compare"
+    assert "(" not in "".join(quick(film_run).highlights)
 
 
 def test_a_run_in_time_tells_its_means_and_that_other_numbers_are_those_at_its_end(film_run, quick):
