@@ -132,6 +132,28 @@ def test_twice_the_load_in_an_instant(course):
     assert column(after, "max_pressure_GPa")[-1] > 1.2 * column(after, "max_pressure_GPa")[0]
 
 
+def test_the_end_is_told_by_the_load_of_the_end(course):
+    """Shares, area and mean gap are those that the history has of its last instant."""
+    load = course((0.0, 5.0), (0.05 * UNIT, 10.0))
+    wide = {"grid__x": [-2.5, 2.0], "grid__y": [-2.0, 2.0], "grid__nodes": 65}
+    waves = {"surface__kind": "waviness", "surface__amplitude": 3e-8, "surface__wavelength_y": 6e-5}
+    slow = {"motion__speed": 1e-4, "contact__boundary_film": 2e-9}
+    after = solved(contact__load=load, time__end=0.05 * UNIT, **wide, **waves, **slow)
+    result, last = after.summary, after.rows[-1]
+    assert result.contact.load_fraction == pytest.approx(last["load_on_contact"], abs=1e-6)
+    assert result.contact.load_fraction > 0.5
+    mixed = result.mixed
+    assert mixed.contact_load_share + mixed.film_load_share == pytest.approx(1.0, abs=1e-4)
+    assert mixed.mean_gap_nm == pytest.approx(last["mean_gap_nm"], rel=1e-6)
+    hertz = after.at_the_end
+    assert hertz.x_scale == pytest.approx(2.0 ** (1.0 / 3.0) * after.contact.x_scale)
+    inside = np.hypot(after.x[None, :], after.y[:, None]) <= hertz.x_scale
+    assert mixed.mean_gap_nm == pytest.approx(1e9 * after.film[inside].mean())
+    assert mixed.contact_area_m2 == pytest.approx(
+        mixed.contact_area_over_hertz * np.pi * hertz.x_scale * hertz.y_scale
+    )
+
+
 @pytest.fixture(scope="module")
 def rough():
     return solved(**{key.replace(".", "__"): value for key, value in ROUGH.items()}, time__end=0.4 * UNIT)

@@ -172,7 +172,7 @@ def _contradiction(node, nm):
 
 def _contact(problem, state, nm):
     """The `ContactResult` of a state; `nm` is nanometres in a unit of H (collective)."""
-    grid, contact_area = problem.grid, problem.contact.contact_area
+    grid, hertz_area = problem.grid, problem.hertz.area
     contact = state.status == CONTACT
     carried = problem.share_of_load(state.P, contact)
     largest_gap = nm * grid.max(np.abs(state.H[contact]), initial=0.0)
@@ -185,7 +185,7 @@ def _contact(problem, state, nm):
     across = None if grid.mesh.is_line else _ends(y_nodes)
     ends = _ends(x_nodes), across
     kept = nm * problem.scheme.contact_law.contact_gap
-    return ContactResult(nodes, nodes * cell / contact_area, carried, *ends, largest_gap, kept)
+    return ContactResult(nodes, nodes * cell / hertz_area, carried, *ends, largest_gap, kept)
 
 
 def _overlap(grid, state, nm):

@@ -161,7 +161,8 @@ def finish(axes, solution, plane):
         scale = {"angles": "xy", "scale_units": "inches", "scale": np.hypot(*contact.motion) / ARROW}
         look = {"units": "inches", "width": 0.03, "pivot": "middle", "path_effects": _EDGE, "zorder": 5}
         axes.quiver(*corner, *contact.motion, **scale, **look)
-    a, b = 1e3 * contact.x_scale, 1e3 * contact.y_scale
+    ends = solution.at_the_end
+    a, b = 1e3 * ends.x_scale, 1e3 * ends.y_scale
     line = {"color": "black", "linestyle": ":", "linewidth": 1.3}
     axes.add_patch(Ellipse((0.0, 0.0), 2.0 * a, 2.0 * b, fill=False, path_effects=_EDGE, **line))
     size = f"a = b = {a:.3g} mm" if f"{a:.3g}" == f"{b:.3g}" else f"a = {a:.3g} mm, b = {b:.3g} mm"

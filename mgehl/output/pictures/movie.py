@@ -73,10 +73,16 @@ def _no_film(fields):
 
 
 def _least_and_most(solution, frames):
-    """Of all films within the Hertz contact, in nm."""
-    inside = within_hertz(solution.mesh)
-    films = [1e9 * fields["film"][inside] for _, fields in frames]
+    """Of all films within the Hertz contact of each frame's load, in nm."""
+    films = [1e9 * fields["film"][_inside(solution, t)] for t, fields in frames]
     return max(min(film.min() for film in films), THINNEST), max(film.max() for film in films)
+
+
+def _inside(solution, t):
+    """Nodes within the Hertz contact at a time."""
+    times, loads = zip(*((row["time_s"], row["load_share"]) for row in solution.rows), strict=True)
+    hertz = solution.contact.hertz_under(float(np.interp(t, times, loads)))
+    return within_hertz(solution.mesh, hertz.reach)
 
 
 def _map(axes, solution, frames, films):

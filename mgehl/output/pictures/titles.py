@@ -6,6 +6,7 @@ from mgehl.config import KEYS
 from mgehl.errors import UserError
 from mgehl.kinds import KINDS
 from mgehl.kinds.loaded import speed_words
+from mgehl.kinds.time import of_first_load
 from mgehl.output.laws import portable
 from mgehl.output.mixed_words import mixed_note
 from mgehl.output.words import films_words
@@ -57,7 +58,9 @@ def gap_words(contact):
 
 def position_labels(solution):
     """What the axes along x and y show, with its unit."""
-    return solution.config.kind.position_labels(solution.contact)
+    first = of_first_load(solution.config) if solution.contact.is_loaded else ""
+    labels = solution.config.kind.position_labels(solution.contact)
+    return tuple(f"{label}{first}" for label in labels)
 
 
 def map_labels(solution):

@@ -53,6 +53,7 @@ def report(solution, name):
     page = {"title": config.kind.heading(solution), "subtitle": f"Run {name}"}
     page["verdict"] = *verdict(result), result.reason
     heads, last, shown = history_of(rows)
+    of_what = of_formulas(config) if kind == "loaded" else ""
     mark = "" if result.converged else " (in doubt)" if result.settled else " (not converged)"
     mark = " at the end" + mark if result.time else mark
     with naming_keys(solution.contact):  # some numbers ask the user's own laws again
@@ -60,7 +61,7 @@ def report(solution, name):
             page, **FUNCTIONS, kind=kind, mark=mark, solution=solution, result=result, config=config,
             contact=solution.contact, mesh=solution.mesh, line=solution.mesh.is_line,
             tolerance=config.solver.tolerance,
-            films=films_of(result, of_formulas(config)) if kind == "loaded" else None,
+            of_what=of_what, films=films_of(result, of_what) if kind == "loaded" else None,
             pictures=list(pictures(solution)), keys=list(keys_of(config)),
             inputs=list(inputs_of(config)), notes=list(notes_on(solution)),
             odd=list(implausible(config, solution.contact)), sources=list(sources_of(solution)),
