@@ -8,7 +8,9 @@ import pytest
 from mpi4py import MPI
 
 import mgehl
+from mgehl.discretization.mesh import Mesh
 from mgehl.errors import ConfigError, Stopped
+from mgehl.kinds import contact_from
 from mgehl.run import Watch, enter, run
 
 BALL = {
@@ -152,6 +154,21 @@ def test_the_end_is_told_by_the_load_of_the_end(course):
     assert mixed.contact_area_m2 == pytest.approx(
         mixed.contact_area_over_hertz * np.pi * hertz.x_scale * hertz.y_scale
     )
+
+
+def test_the_inlet_is_that_of_the_slowest_motion_and_heat_that_of_the_end(course):
+    """As many cells as at that speed in a steady state; heat at the end takes what it takes there."""
+    speed = course((0.0, 0.09), (0.02 * UNIT, 0.03), (0.04 * UNIT, 0.06))
+    oil = {"lubricant__conductivity": 0.14, "lubricant__thermoviscosity": 0.04}
+    domain = {"grid__x": [-2.5, 1.5], "grid__y": [-2.0, 2.0]}
+    after = solved(motion__speed=speed, time__end=0.04 * UNIT, **oil, **domain).summary
+    slow, end = (contact_from(mgehl.load(None, BALL | {"motion.speed": u})) for u in (0.03, 0.06))
+    mesh = Mesh(65, 65, (-2.5, 1.5), (-2.0, 2.0))
+    found = after.resolution
+    assert found.inlet_cells == pytest.approx(slow.inlet_cells(mesh))
+    assert found.inlet_speed == pytest.approx(0.03) and not found.rests
+    assert f"{found.inlet_cells:.2f} cells at the slowest, 30 mm/s, " in str(after)
+    assert after.thermal_reduction == pytest.approx(end.heated_film(0.04, 0.14))
 
 
 @pytest.fixture(scope="module")

@@ -3,7 +3,7 @@
 from mgehl.output.digits import with_band
 from mgehl.output.friction_result import friction_lines, strength_lines
 from mgehl.output.mixed_words import filling_words, mixed_lines
-from mgehl.output.resolution import RESOLVED_CELLS, SEEN_CELLS, beyond_words, domain_words
+from mgehl.output.resolution import RESOLVED_CELLS, SEEN_CELLS, beyond_words, domain_words, inlet_words
 from mgehl.output.surface import surface_words
 
 HARDLY = 2e-3
@@ -73,7 +73,7 @@ def _loaded_lines(result, verbose):
         yield from _errors(result)
     yield from _overlap(result.overlap)
     yield from _contact(result, verbose)
-    yield f"inlet: {resolution.inlet_cells:.2f} cells, {advice(result)[resolution.verdict]}"
+    yield f"inlet: {inlet_words(resolution, advice(result))}"
     room = domain_words(resolution.domain, resolution.domain_loss_percent)
     # Nothing is known of the film of a domain that cuts the contact.
     yield f"domain: {'too small: it cuts the contact' if result.edge.cuts else room}"

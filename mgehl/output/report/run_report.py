@@ -22,7 +22,7 @@ from mgehl.output.mixed_words import gap_band_words, mean_gaps, mixed_note
 from mgehl.output.pictures import style
 from mgehl.output.pictures.figures import drawn_by, figures
 from mgehl.output.report.page import BAD, DOUBTFUL, GOOD, NO_NUMBER, number, picture, render
-from mgehl.output.resolution import RESOLVED_CELLS, STARVED_FROM
+from mgehl.output.resolution import RESOLVED_CELLS, STARVED_FROM, near_rest, of_inlet
 from mgehl.output.summary import COMPLEMENTARITY_TOLERANCE
 from mgehl.output.surface import ADVICE as SURFACE
 from mgehl.output.surface import RESOLVED_NODES
@@ -135,7 +135,8 @@ FUNCTIONS = {
 } | {
     each.__name__: each for each in (
         number, limited, enough, absent, informing, judged, from_each, advice, band_words, gap_band_words,
-        mean_gaps, mixed_note, span, carried, largest_pressure_words, time_lines, with_band,
+        mean_gaps, mixed_note, near_rest, of_inlet, span, carried, largest_pressure_words, time_lines,
+        with_band,
     )
 }  # fmt: skip
 """What run.html.j2 calls."""
