@@ -46,11 +46,16 @@ class MotionSection:
         instead="body_1.rotation and motion.ring_rotation take rpm")
     angle: float = number(0.0, "direction in which both surfaces move, from +x towards +y", "deg", -360.0,
         360.0)
-    slide_to_roll: float = number(0.0, "2 (u_1 - u_2)/(u_1 + u_2) of both surfaces' speeds; 2: body 2 "
-        "stands still", low=-100.0, high=100.0)
+    slide_to_roll: float | None = number(None, "2 (u_1 - u_2)/(u_1 + u_2) of both surfaces' speeds; 2: "
+        "body 2 stands still (unset: 0, nothing slides)", low=-100.0, high=100.0)
     ring_rotation: float | None = number(None, "of one ring of a rolling bearing against the other; body_1 "
         "is the ball, body_2 the raceway", "rad/s", 1e-9, 1e6)
     # fmt: on
+
+    @property
+    def slip(self):
+        """The slide-to-roll ratio; 0 where none is given."""
+        return self.slide_to_roll or 0.0
 
 
 @dataclass(frozen=True)

@@ -177,7 +177,7 @@ def _solve_in_time(case, parts, hierarchy, monitor, watch, start):
     problem, outcome = march(scene, hierarchy, *how, start and (start, parts.frame))
     work, limit = Work(monitor.convolutions, len(monitor.rows)), config.solver.tolerance
     result = summarise_in_time(
-        problem, outcome, monitor.rows, scene.passage, limit, work, monitor.seconds, versions()
+        problem, outcome, monitor.rows, scene, limit, work, monitor.seconds, versions()
     )
     result = replace(result, recipe=parts.recipe(start, outcome.begins))
     solution = _solution(case, parts, problem, outcome.state, monitor.rows, result)

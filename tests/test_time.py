@@ -6,7 +6,9 @@ import pytest
 from mpi4py import MPI
 
 import mgehl
+from mgehl.discretization.mesh import Mesh
 from mgehl.errors import ConfigError, Stopped
+from mgehl.kinds import contact_from
 from mgehl.run import Watch, enter, run
 
 BALL = {
@@ -128,6 +130,43 @@ def test_twice_the_load_in_an_instant(course):
     assert after.summary.converged
     assert column(after, "load_share")[-1] == 2.0
     assert column(after, "max_pressure_GPa")[-1] > 1.2 * column(after, "max_pressure_GPa")[0]
+
+
+def test_the_end_is_told_by_the_load_of_the_end(course):
+    """Shares, area and mean gap are those that the history has of its last instant."""
+    load = course((0.0, 5.0), (0.05 * UNIT, 10.0))
+    wide = {"grid__x": [-2.5, 2.0], "grid__y": [-2.0, 2.0], "grid__nodes": 65}
+    waves = {"surface__kind": "waviness", "surface__amplitude": 3e-8, "surface__wavelength_y": 6e-5}
+    slow = {"motion__speed": 1e-4, "contact__boundary_film": 2e-9}
+    after = solved(contact__load=load, time__end=0.05 * UNIT, **wide, **waves, **slow)
+    result, last = after.summary, after.rows[-1]
+    assert result.contact.load_fraction == pytest.approx(last["load_on_contact"], abs=1e-6)
+    assert result.contact.load_fraction > 0.5
+    mixed = result.mixed
+    assert mixed.contact_load_share + mixed.film_load_share == pytest.approx(1.0, abs=1e-4)
+    assert mixed.mean_gap_nm == pytest.approx(last["mean_gap_nm"], rel=1e-6)
+    hertz = after.at_the_end
+    assert hertz.x_scale == pytest.approx(2.0 ** (1.0 / 3.0) * after.contact.x_scale)
+    inside = np.hypot(after.x[None, :], after.y[:, None]) <= hertz.x_scale
+    assert mixed.mean_gap_nm == pytest.approx(1e9 * after.film[inside].mean())
+    assert mixed.contact_area_m2 == pytest.approx(
+        mixed.contact_area_over_hertz * np.pi * hertz.x_scale * hertz.y_scale
+    )
+
+
+def test_the_inlet_is_that_of_the_slowest_motion_and_heat_that_of_the_end(course):
+    """As many cells as at that speed in a steady state; heat at the end takes what it takes there."""
+    speed = course((0.0, 0.09), (0.02 * UNIT, 0.03), (0.04 * UNIT, 0.06))
+    oil = {"lubricant__conductivity": 0.14, "lubricant__thermoviscosity": 0.04}
+    domain = {"grid__x": [-2.5, 1.5], "grid__y": [-2.0, 2.0]}
+    after = solved(motion__speed=speed, time__end=0.04 * UNIT, **oil, **domain).summary
+    slow, end = (contact_from(mgehl.load(None, BALL | {"motion.speed": u})) for u in (0.03, 0.06))
+    mesh = Mesh(65, 65, (-2.5, 1.5), (-2.0, 2.0))
+    found = after.resolution
+    assert found.inlet_cells == pytest.approx(slow.inlet_cells(mesh))
+    assert found.inlet_speed == pytest.approx(0.03) and not found.rests
+    assert f"{found.inlet_cells:.2f} cells at the slowest, 30 mm/s, " in str(after)
+    assert after.thermal_reduction == pytest.approx(end.heated_film(0.04, 0.14))
 
 
 @pytest.fixture(scope="module")

@@ -15,7 +15,7 @@ from mgehl.kinds.choice import given
 from mgehl.kinds.cited import cited
 from mgehl.kinds.lubricant import oil_words
 from mgehl.kinds.plausible import implausible
-from mgehl.kinds.time import begins_at_rest
+from mgehl.kinds.time import begins_at_rest, scene_of
 from mgehl.model.sources import SOURCES
 from mgehl.saying import columns, folded
 
@@ -91,11 +91,15 @@ def _inlet(config, contact, mesh):
     from mgehl.output.forecast import LARGEST_NODES, inlet_grids
     from mgehl.solver.from_config import scheme_from
 
+    scene = scene_of(config, contact) if config.is_in_time else None
+    found = resolution.resolution(contact, mesh, scene)
+    if words := resolution.inlet_speed_words(found):
+        yield f"inlet      {words}{resolution.near_rest(found)}"
     grids = inlet_grids(config, contact)
     for grid in grids:
         at = "" if grid.speed is None else f"   solved at {speed_words(grid.speed)}"
         yield f"grid {grid.nodes:5d}   {grid.cells:8.2f} cells in the inlet{at}"
-    needed = resolution.resolving_nodes(contact, mesh)
+    needed = resolution.resolving_nodes(contact, mesh, scene)
     cells, start = grids[-1].cells, config.solver.start
     yield ""
     shuts = scheme_from(config, contact).contact_law.closes_faces

@@ -63,7 +63,7 @@ def friction_from(config):
     section = config.friction
     return Friction(
         _rheology(section, config.lubricant.temperature),
-        config.motion.slide_to_roll,
+        config.motion.slip,
         section.boundary_coefficient,
         _thins(config),
     )
@@ -77,6 +77,6 @@ def _rheology(section, temperature):
 
 
 def _thins(config):
-    section, slides = config.friction, config.motion.slide_to_roll != 0.0
+    section, slides = config.friction, config.motion.slip != 0.0
     is_asked = section.eyring_stress is not None and section.thinning is not False
     return is_asked and slides and not isinstance(config.motion.speed, str)

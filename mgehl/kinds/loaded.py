@@ -180,7 +180,7 @@ class LoadedKind(Kind):
         gap_error = gaps.error if gaps else None
         found = {
             "speed": (contact.speed, "m s-1", "entrainment speed"),
-            "normal_load": (contact.load, self.load_unit.replace("/m", " m-1"), "normal load"),
+            "normal_load": (solution.at_the_end.load, self.load_unit.replace("/m", " m-1"), "normal load"),
             "central_film": _nm(result, "central_film_nm", "film at the centre of the contact"),
             "minimum_film": _nm(result, "minimum_film_nm", "smallest film"),
             "central_film_error": _nm(error, "central_nm"),

@@ -125,13 +125,14 @@ def _films(contact):
 def _stands_still(config, contact):
     """A steady state whose rough body would move."""
     motion, slide = config.motion, config.inputs.get("motion.slide_to_roll", config.motion.slide_to_roll)
-    moves = slide not in (0.0, 2.0, -2.0) or motion.ring_rotation is not None
+    moves = slide not in (None, 2.0, -2.0) or motion.ring_rotation is not None
     if config.is_in_time or not moves or contact.surface is None:
         return
     if contact.surface.varies_along(direction(motion.angle)):
         yield (
-            f"motion.slide_to_roll = {slide:.3g}: both bodies move, and roughness that moves changes the "
-            "film with time: here it stands still, and friction alone is of this motion; time.end moves it"
+            f"motion.slide_to_roll = {slide or 0.0:.3g}: both bodies move, and roughness that moves "
+            "changes the film with time: here it stands still, and friction alone is of this motion; "
+            "time.end moves it"
         )
 
 

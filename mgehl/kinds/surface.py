@@ -53,7 +53,7 @@ def _check_cut_offs(name, section):
 
 def _check_motion(name, section, motion):
     """The heights of a body that moves must be the same all along the motion."""
-    moves = share_of(section.body, motion.slide_to_roll) != 0.0
+    moves = share_of(section.body, motion.slip) != 0.0
     if not moves or (surface := surface_of(section)) is None:
         return
     if surface.varies_along(direction(motion.angle)):

@@ -204,7 +204,7 @@ PARTS = 200
 def ways_of(config, name):
     """The farthest ways (x, y) in m that the surface of a section goes in time; none of one that rests."""
     section = getattr(config, name)
-    share = share_of(section.body, config.motion.slide_to_roll)
+    share = share_of(section.body, config.motion.slip)
     if not config.is_in_time or share == 0.0 or config.moes.M is not None:
         return []
     speed, times = course("motion.speed", config.motion.speed), np.linspace(0.0, config.time.end, PARTS + 1)
@@ -219,7 +219,7 @@ def scene_of(config, contact):
     key, by_moes = load_key(config), config.moes.M is not None
     load = course(key, contact.load if by_moes else config.value(key))
     speed = course("motion.speed", contact.speed if by_moes else config.motion.speed)
-    slip = config.motion.slide_to_roll
+    slip = config.motion.slip
     surfaces = tuple((surface, share_of(body, slip)) for _, surface, body in carried(config))
     return Scene(contact, speed, load, surfaces, config.time.end)
 

@@ -30,6 +30,20 @@ class Groups:
     L: float
 
 
+@dataclass(frozen=True)
+class HertzUnder:
+    """The Hertz contact of a load, in the units of P, X and Y that another load gives."""
+
+    contact: "LoadedContact"
+    """The contact under that load."""
+    reach: float
+    """Its semi-axes in units of X and Y."""
+    integral: float
+    """Its load: the integral of P over X and Y."""
+    area: float
+    """In units of X and Y; of a line contact its width."""
+
+
 class LoadedContact(OnBodies, Inlet):
     """Scales, film and inlet of a body pressed on a lubricated flat, all values in SI units.
 
@@ -165,6 +179,17 @@ class LoadedContact(OnBodies, Inlet):
     def in_frame(self, frame):
         """The same contact, described in a `Frame`."""
         return self
+
+    def under(self, share):
+        """The same contact under `share` times its load."""
+        return self if share == 1.0 else replace(self, load=share * self.load)
+
+    def hertz_under(self, share):
+        """The `HertzUnder` of `share` times the load, in this contact's units."""
+        contact = self.under(share)
+        reach = contact.x_scale / self.x_scale
+        area = self.contact_area * (reach if self.is_plane else reach**2)
+        return HertzUnder(contact, reach, share * self.load_integral, area)
 
     def at_speed(self, speed):
         """The same contact at another entrainment speed (m/s)."""

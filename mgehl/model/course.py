@@ -37,6 +37,10 @@ class Course:
         """Times at which its slope changes: a step in time ends there."""
         return ()
 
+    def times(self, end):
+        """Times from 0 to `end` between which it does not turn, as far as it is known."""
+        return tuple(map(float, np.linspace(0.0, end, SAMPLES)))
+
 
 @dataclass(frozen=True)
 class Constant(Course):
@@ -46,6 +50,9 @@ class Constant(Course):
 
     def value(self, t):
         return self.constant
+
+    def times(self, end):
+        return 0.0, end
 
 
 @dataclass(frozen=True)
@@ -114,6 +121,9 @@ class Table(Course):
 
     def kinks(self):
         return tuple(self._columns[0])
+
+    def times(self, end):
+        return 0.0, *(float(t) for t in self._columns[0] if 0.0 < t < end), end
 
 
 class Recorded(str):

@@ -7,6 +7,8 @@ moves at speed (1 + S/2), body 2 at speed (1 - S/2), S the slide-to-roll ratio.
 from dataclasses import dataclass, replace
 from functools import cached_property
 
+import numpy as np
+
 from mgehl.model.course import Course
 from mgehl.model.surface.surface import Surface, summed
 
@@ -38,6 +40,10 @@ class Moved(Surface):
     def varies_along(self, direction):
         """As where it was."""
         return self.surface.varies_along(direction)
+
+
+AT_REST = 1e-3
+"""Part of the largest speed below which surfaces count as at rest."""
 
 
 def cells_a_step(shares):
@@ -105,6 +111,44 @@ class Scene:
         """Cells along X that count for the length of a step by a `path`."""
         shares = [share for _, share in self.surfaces] if self.moves else []
         return abs(self.cells(path, mesh)[0]) * cells_a_step(shares)
+
+    def instant(self, contact, t):
+        """The `contact` of a time of 0, in any axes, under the load and at the speed of another time."""
+        speed, there = abs(self.speed.value(t)), contact.under(self.load_share(t))
+        return there if speed == contact.speed else there.at_speed(speed)
+
+    @cached_property
+    def _speeds(self):
+        """Times, and the speed at each, between which neither speed nor load turns."""
+        times = sorted({*self.speed.times(self.end), *self.load.times(self.end)})
+        return times, [self.speed.value(t) for t in times]
+
+    @property
+    def is_steady(self):
+        """Whether the speed stays."""
+        _, speeds = self._speeds
+        return min(speeds) == max(speeds)
+
+    @property
+    def rests(self):
+        """Whether the surfaces come to rest, if only to turn round."""
+        _, speeds = self._speeds
+        return min(speeds) < AT_REST * self.contact.speed
+
+    @property
+    def slowest(self):
+        """Time of the slowest motion: where the speed turns or stays, of equal ones the heaviest load.
+
+        Of a speed that only comes from rest and goes to it the time of the largest.
+        """
+        times, speeds = self._speeds
+        before, after = [speeds[0], *speeds], [*speeds[1:], speeds[-1]]
+        found = [
+            (abs(u), -self.load.value(t), t)
+            for t, u, *beside in zip(times, speeds, before, after, strict=False)
+            if abs(u) > AT_REST * self.contact.speed and all(abs(u) <= v * (u / abs(u)) for v in beside)
+        ]
+        return min(found)[2] if found else times[int(np.argmax(np.abs(speeds)))]
 
     def load_share(self, t):
         """The load over that of the contact."""

@@ -26,7 +26,7 @@ from mgehl.kinds.kind import Effort
 from mgehl.kinds.time import scene_of
 from mgehl.model.deformation import HalfPlane, HalfSpace
 from mgehl.multigrid.cycle import DIRECT
-from mgehl.output.resolution import CONTACT_OPENS, FILM_TOUCHES
+from mgehl.output.resolution import CONTACT_OPENS, FILM_TOUCHES, inlet_cells
 from mgehl.output.surroundings import cores_allowed
 from mgehl.solver.from_config import scheme_from, settings_from
 from mgehl.solver.nested import planned_solves
@@ -114,7 +114,8 @@ def inlet_grids(config, contact):
     settings = on_mesh(settings_from(config, contact), contact, meshes[-1])
     solves = planned_solves(meshes, contact, settings)
     speeds = {solve.nodes: solve.speed for _, solve in solves}
-    return [InletGrid(mesh.nx, contact.inlet_cells(mesh), speeds.get(mesh.nx)) for mesh in meshes]
+    scene = scene_of(config, contact) if config.is_in_time else None
+    return [InletGrid(mesh.nx, inlet_cells(contact, mesh, scene), speeds.get(mesh.nx)) for mesh in meshes]
 
 
 def forecast(config, contact, mesh, ranks):

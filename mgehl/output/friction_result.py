@@ -5,7 +5,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mgehl.discretization.status import is_fluid
-from mgehl.solver.films import films_between_nodes
 from mgehl.solver.gaps import gaps
 from mgehl.solver.heat import has_temperatures, rise_of
 from mgehl.solver.shear import shear_of
@@ -63,6 +62,8 @@ class FrictionResult:
     unthinned_film_nm: float | None = None
     """The central film if shear did not thin it, of rough bodies the mean gap; None where it does not, or
     where nobody asked (`solver.error`)."""
+    unthinned_minimum_nm: float | None = None
+    """The minimum film then; None in older results, too."""
 
 
 STRONGEST = 300.0
@@ -124,7 +125,7 @@ def with_band(friction, mixed, boundary_coefficient):
 
 
 def with_unthinned(friction, result, solve):
-    """A `FrictionResult` with the film that there would be if shear did not thin it (collective).
+    """A `FrictionResult` with the films that there would be if shear did not thin it (collective).
 
     `solve()` returns that contact's problem and its `Outcome`.
     """
@@ -133,9 +134,9 @@ def with_unthinned(friction, result, solve):
     problem, outcome = solve()
     if not outcome.converged:
         return friction
-    here = problem, outcome.state
-    film = gaps(*here).mean if result.mixed else films_between_nodes(*here).central
-    return replace(friction, unthinned_film_nm=1e9 * problem.contact.film_scale * film)
+    nm, (central, minimum) = 1e9 * problem.contact.film_scale, problem.films(outcome.state)
+    film = gaps(problem, outcome.state).mean if result.mixed else central
+    return replace(friction, unthinned_film_nm=nm * film, unthinned_minimum_nm=nm * minimum)
 
 
 def friction_lines(friction, verbose):
@@ -154,11 +155,6 @@ def friction_lines(friction, verbose):
         f"{friction.film_coefficient:.5f}, solids {friction.solid_coefficient:.5f}; {rolling}; "
         f"{friction.power_loss_W:.3g} W{unit}, largest shear {friction.largest_shear_MPa:.4g} MPa"
     )
-    if friction.unthinned_film_nm:
-        yield (
-            "shear thins the oil: without that the film (of rough bodies the mean gap) would be "
-            f"{friction.unthinned_film_nm:.4g} nm"
-        )
     yield from strength_lines(friction.largest_shear_MPa)
     if friction.temperatures:
         yield _temperature_words(friction.temperatures)

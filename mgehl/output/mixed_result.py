@@ -91,34 +91,39 @@ def mixed_result(problem, state):
     grid, contact = problem.grid, problem.contact
     if contact.surface is None:
         return None
-    heights = problem.heights - contact.mean_height
+    heights = problem.heights - problem.hertz.contact.mean_height
     parts = state.P, state.H, state.status, heights, state.p, state.filling
     whole = [grid.gather(each) for each in parts]
     kept = problem.scheme.contact_law.contact_gap
-    return grid.comm.bcast(None if whole[0] is None else measured(contact, grid.mesh, Nodes(*whole), kept))
+    load = problem.load_share
+    return grid.comm.bcast(
+        None if whole[0] is None else measured(contact, grid.mesh, Nodes(*whole), kept, load)
+    )
 
 
-def measured(contact, mesh, nodes, kept=0.0):
-    """The `MixedResult` of all `Nodes` of a `mesh`; contact keeps a gap of `kept`, in units of H."""
-    solid, inside, Sq = nodes.status == CONTACT, within_hertz(mesh), contact.roughness
+def measured(contact, mesh, nodes, kept=0.0, load_share=1.0):
+    """The `MixedResult` of all `Nodes` of a `mesh` under `load_share` times the contact's load; contact
+    keeps a gap of `kept`, in units of H."""
+    hertz, solid = contact.hertz_under(load_share), nodes.status == CONTACT
+    inside, Sq = within_hertz(mesh, hertz.reach), hertz.contact.roughness
     film = inside & (nodes.status == LUBRICATED)
     cell = mesh.dX * mesh.dY
     square_metres = mesh.dX * contact.x_scale * (1.0 if mesh.is_line else mesh.dY * contact.y_scale)
     unit_nm = 1e9 * contact.film_scale
-    nm, sizes, gaps = unit_nm * nodes.H, patch_sizes(solid), gaps_of(mesh, nodes.P, nodes.H)
+    nm, sizes, gaps = unit_nm * nodes.H, patch_sizes(solid), gaps_of(mesh, nodes.P, nodes.H, hertz.reach)
     near = (nodes.status == LUBRICATED) & (nodes.H <= NEAR * kept)
     torn, sealed = inside & (nodes.status == CAVITATED), _sealed(solid)
 
     def share(pressure):
-        return float(cell * pressure.sum() / contact.load_integral)
+        return float(cell * pressure.sum() / hertz.integral)
 
     return MixedResult(
-        lambda_ratio=contact.lambda_ratio,
+        lambda_ratio=hertz.contact.lambda_ratio,
         Sq_nm=1e9 * Sq,
         contact_load_share=share(nodes.P[solid]),
         film_load_share=share(nodes.P[is_fluid(nodes.status)]),
         contact_area_m2=float(solid.sum() * square_metres),
-        contact_area_over_hertz=float(solid.sum() * cell / contact.contact_area),
+        contact_area_over_hertz=float(solid.sum() * cell / hertz.area),
         patches=len(sizes),
         largest_patch_m2=float(max(sizes, default=0) * square_metres),
         mean_film_nm=_of_some(np.mean, nm[film]),

@@ -5,10 +5,11 @@ The verdict follows from the contact, the grid and the film of a formula alone: 
 say the same.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import isfinite, isnan, nan
 
 from mgehl.config import COARSEST_NODES
+from mgehl.kinds.loaded import speed_words
 from mgehl.model.contact import RESOLVED_CELLS
 from mgehl.model.peaks import reach_of_peaks
 from mgehl.model.starvation import Starvation
@@ -49,24 +50,65 @@ class Resolution:
     """Nodes in the shortest wave of the surface; None without waves."""
     load_beyond_percent: float = 0.0
     """Of the load, what the film in the domain need not carry: of a light one more than nothing."""
+    inlet_speed: float | None = None
+    """In m/s, that of the inlet where the speed changes with time; None elsewhere."""
+    rests: bool = False
+    """Whether the surfaces come to rest, where no grid resolves the inlet."""
 
 
-def resolution(contact, mesh):
-    """The `Resolution` of a loaded contact's inlet and surface by a mesh, and of its film by the domain."""
-    cells, lost = contact.inlet_cells(mesh), film_lost(contact, mesh)
+def inlet_cells(contact, mesh, scene=None):
+    """Cells of a mesh in the inlet of a loaded contact; of a `Scene` in that of its slowest motion."""
+    if scene is None:
+        return contact.inlet_cells(mesh)
+    slow = scene.instant(contact, scene.slowest)
+    return slow.inlet_cells(mesh) * (slow.x_scale / contact.x_scale)
+
+
+def resolution(contact, mesh, scene=None):
+    """The `Resolution` of a loaded contact's inlet and surface by a mesh, and of its film by the domain.
+
+    Of a `Scene` the contact is that at a time of 0, and the inlet that of the slowest motion.
+    """
+    cells, lost = inlet_cells(contact, mesh, scene), film_lost(contact, mesh)
     domain, nodes = domain_verdict(lost), surface.wave_nodes(contact, mesh)
     verdict = "coarse" if cells >= SEEN_CELLS else "grid-determined"
     if cells >= RESOLVED_CELLS:
         verdict = "resolved" if domain == SUFFICIENT else domain
     shown, waves = surface.surface_verdict(contact, nodes), nodes if isfinite(nodes) else None
     beyond = 100.0 * contact.share_beyond(mesh)
-    return Resolution(cells, verdict, domain, lost, shown, waves, beyond)
+    found = Resolution(cells, verdict, domain, lost, shown, waves, beyond)
+    if scene is None or scene.is_steady:
+        return found
+    return replace(found, inlet_speed=abs(scene.speed.value(scene.slowest)), rests=scene.rests)
 
 
-def resolving_nodes(contact, mesh):
+def inlet_speed_words(resolution):
+    """Of which speed the inlet is; empty where the speed stays."""
+    if resolution.inlet_speed is None:
+        return ""
+    return f"at {'' if resolution.rests else 'the slowest, '}{speed_words(resolution.inlet_speed)}"
+
+
+def of_inlet(resolution):
+    """The same after another word."""
+    return f" {inlet_speed_words(resolution)}".rstrip()
+
+
+def near_rest(resolution):
+    """What else to think of an inlet whose surfaces come to rest."""
+    return "; near rest no grid resolves it" if resolution.rests else ""
+
+
+def inlet_words(resolution, advice):
+    """Cells in the inlet, of which speed they are, and what to think of them."""
+    cells = f"{resolution.inlet_cells:.2f} cells{of_inlet(resolution)}"
+    return f"{cells}, {advice[resolution.verdict]}{near_rest(resolution)}"
+
+
+def resolving_nodes(contact, mesh, scene=None):
     """Nodes along each side, 2^k + 1, that give the inlet `RESOLVED_CELLS` on the domain of a mesh."""
     nodes = COARSEST_NODES
-    while contact.inlet_cells(mesh) * (nodes - 1) / (mesh.nx - 1) < RESOLVED_CELLS:
+    while inlet_cells(contact, mesh, scene) * (nodes - 1) / (mesh.nx - 1) < RESOLVED_CELLS:
         nodes = 2 * nodes - 1
     return nodes
 

@@ -27,7 +27,7 @@ COLUMNS = {
     "path_um": ("um", "way that the mean surface has gone"),
     "central_film_nm": ("nm", "film at the centre of the contact"),
     "minimum_film_nm": ("nm", "smallest film"),
-    "mean_gap_nm": ("nm", "mean gap within the Hertz ellipse"),
+    "mean_gap_nm": ("nm", "mean gap within the Hertz ellipse of the load"),
     "max_pressure_GPa": ("GPa", "largest pressure"),
     "load_on_contact": ("1", "part of the load on contact nodes"),
     "load_on_solids": ("1", "part of the load that solids carry"),
@@ -65,8 +65,7 @@ def row_of(instant, standing, problem, convolutions, seconds):
     state, contact, grid = standing.state, problem.contact, problem.grid
     nm, last = 1e9 * contact.film_scale, instant.newton.cycles[-1]
     touching = state.status == CONTACT
-    carried = contact.load_integral * instant.load
-    inside = within_hertz(grid.mesh)[grid.first : grid.last]
+    inside = within_hertz(grid.mesh, problem.hertz.reach)[grid.first : grid.last]
     return {
         "time_s": instant.t,
         "step": instant.number,
@@ -79,8 +78,8 @@ def row_of(instant, standing, problem, convolutions, seconds):
         "minimum_film_nm": last.minimum * nm,
         "mean_gap_nm": problem.mean(state.H, inside) * nm,
         "max_pressure_GPa": 1e-9 * contact.pressure_scale * grid.max(state.P),
-        "load_on_contact": problem.load(np.where(touching, state.P, 0.0)) / carried,
-        "load_on_solids": problem.load(np.where(touching, state.P - state.p, 0.0)) / carried,
+        "load_on_contact": problem.share_of_load(state.P, touching),
+        "load_on_solids": problem.share_of_load(state.P - state.p, touching),
         **_resistance(instant, state, problem),
         "contact_nodes": last.contact_nodes,
         "cavitated_nodes": last.cavitated_nodes,

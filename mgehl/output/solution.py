@@ -86,6 +86,18 @@ class Solution:
         return sign * self.contact.motion[0], sign * self.contact.motion[1]
 
     @property
+    def load_share(self) -> float:
+        """Load of the fields over that of the contact: of a run in time that of its last instant."""
+        return self.last.get("load_share", 1.0) if self.last else 1.0
+
+    @property
+    def at_the_end(self) -> LoadedContact | WedgeBearing:
+        """The contact under the load of the fields, whose Hertz contact pictures show beside them."""
+        if isinstance(self.contact, WedgeBearing):
+            return self.contact
+        return self.contact.under(self.load_share)
+
+    @property
     def film(self) -> Reals | None:
         """Film thickness or gap h in m, (ny, nx); on rank 0."""
         return None if self.fields is None else self.fields.H * self.contact.film_scale

@@ -67,13 +67,15 @@ def summarise(problem, outcome, tolerance, work, wall_s, versions):
     )  # fmt: skip
 
 
-def summarise_in_time(problem, outcome, rows, passage, tolerance, work, wall_s, versions):
-    """The `Result` of a run in time, its last state verified (collective); `passage` is its `Scene`'s."""
+def summarise_in_time(problem, outcome, rows, scene, tolerance, work, wall_s, versions):
+    """The `Result` of a run of a `Scene` in time, its last state verified (collective)."""
     result = summarise(problem, outcome, tolerance, work, wall_s, versions)
+    result = replace(result, resolution=resolution(problem.contact, problem.grid.mesh, scene))
     if not rows:
         return replace(result, converged=False, settled=False, reason=outcome.reason, mass=None)
     largest_node = _largest_node(problem, outcome.state)
-    time = time_result(rows, 1e6 * passage, work, largest_node)
+    end = scene.instant(problem.contact, rows[-1]["time_s"])
+    time = time_result(rows, 1e6 * scene.passage, work, largest_node)
     off = max(time.largest_closure, largest_node)
     settled, reason = result.settled and off <= CLOSED_IN_TIME, outcome.reason
     if not result.settled:
@@ -84,6 +86,7 @@ def summarise_in_time(problem, outcome, rows, passage, tolerance, work, wall_s, 
     return replace(
         result, converged=settled and not cut, settled=settled, reason=(settled and why) or reason,
         mass=None, flux_imbalance=None, error=OF_AN_INSTANT, time=time,
+        thermal_reduction=end.thermal_reduction,
     )  # fmt: skip
 
 
@@ -172,7 +175,7 @@ def _contradiction(node, nm):
 
 def _contact(problem, state, nm):
     """The `ContactResult` of a state; `nm` is nanometres in a unit of H (collective)."""
-    grid, contact_area = problem.grid, problem.contact.contact_area
+    grid, hertz_area = problem.grid, problem.hertz.area
     contact = state.status == CONTACT
     carried = problem.share_of_load(state.P, contact)
     largest_gap = nm * grid.max(np.abs(state.H[contact]), initial=0.0)
@@ -185,7 +188,7 @@ def _contact(problem, state, nm):
     across = None if grid.mesh.is_line else _ends(y_nodes)
     ends = _ends(x_nodes), across
     kept = nm * problem.scheme.contact_law.contact_gap
-    return ContactResult(nodes, nodes * cell / contact_area, carried, *ends, largest_gap, kept)
+    return ContactResult(nodes, nodes * cell / hertz_area, carried, *ends, largest_gap, kept)
 
 
 def _overlap(grid, state, nm):

@@ -4,8 +4,11 @@ from mgehl.kinds.kind import pressure_unit
 from mgehl.output.digits import with_band
 from mgehl.output.friction_result import friction_lines, strength_lines
 from mgehl.output.mixed_words import filling_words, mixed_lines
-from mgehl.output.resolution import RESOLVED_CELLS, SEEN_CELLS, beyond_words, domain_words
+from mgehl.output.resolution import RESOLVED_CELLS, SEEN_CELLS, beyond_words, domain_words, inlet_words
 from mgehl.output.surface import surface_words
+
+HARDLY = 2e-3
+"""Part of a film by which shear must thin it to be told."""
 
 LISTED = 20
 """Most nodes that are named one by one."""
@@ -71,7 +74,7 @@ def _loaded_lines(result, verbose):
         yield from _errors(result)
     yield from _overlap(result.overlap)
     yield from _contact(result, verbose)
-    yield f"inlet: {resolution.inlet_cells:.2f} cells, {advice(result)[resolution.verdict]}"
+    yield f"inlet: {inlet_words(resolution, advice(result))}"
     room = domain_words(resolution.domain, resolution.domain_loss_percent)
     # Nothing is known of the film of a domain that cuts the contact.
     yield f"domain: {'too small: it cuts the contact' if result.edge.cuts else room}"
@@ -81,6 +84,7 @@ def _loaded_lines(result, verbose):
     if result.mixed:
         yield from mixed_lines(result.mixed)
     yield from friction_lines(result.friction, verbose)
+    yield from thinning_words(result)
     yield _work(result)
     if verbose:
         yield from _nodes(result)
@@ -96,6 +100,25 @@ def heating_words(reduction, is_thinned):
     if is_thinned:
         return [f"shear in the inlet has taken {percent} (lubricant.heating)"]
     return [f"this is the isothermal film; shear in the inlet would take {percent}"]
+
+
+def thinning_words(result):
+    """The film that there would be if shear did not thin it, the minimum where the central one would hardly
+    be thicker; nothing where nobody asked."""
+    friction, mixed = result.friction, result.mixed
+    if not friction or friction.unthinned_film_nm is None:
+        return
+    films = {
+        "central film": (result.central_film_nm, friction.unthinned_film_nm),
+        "minimum film": (result.minimum_film_nm, friction.unthinned_minimum_nm),
+    }
+    if mixed:
+        films = {"mean gap": (mixed.mean_gap_nm, friction.unthinned_film_nm)}
+    for name, (own, thick) in films.items():
+        if thick is not None and thick > (1.0 + HARDLY) * own:
+            yield f"shear thins the oil: without that the {name} would be {thick:.4g} nm"
+            return
+    yield "shear thins the oil, the film hardly"
 
 
 def _work(result):

@@ -67,30 +67,33 @@ class GridGap:
     """Sum of the sizes of the shear's differences from the finer grid, over the load."""
 
 
-def within_hertz(mesh):
-    """Nodes within the Hertz ellipse, or a line contact's width: (ny, nx)."""
+def within_hertz(mesh, reach=1.0):
+    """Nodes within the Hertz ellipse, or a line contact's width: (ny, nx).
+
+    `reach` are its semi-axes in units of X and Y: of a load in time not 1.
+    """
     across = np.zeros(1) if mesh.is_line else mesh.Y
-    return mesh.X[None, :] ** 2 + across[:, None] ** 2 <= 1.0
+    return mesh.X[None, :] ** 2 + across[:, None] ** 2 <= reach**2
 
 
-def gaps_of(mesh, P, H):
-    """`Gaps` of the whole grid's pressure and gap, each (ny, nx)."""
-    return Gaps(float(np.mean(H[within_hertz(mesh)])), _loaded(P, H))
+def gaps_of(mesh, P, H, reach=1.0):
+    """`Gaps` of the whole grid's pressure and gap, each (ny, nx), in a Hertz ellipse as `within_hertz`."""
+    return Gaps(float(np.mean(H[within_hertz(mesh, reach)])), _loaded(P, H))
 
 
 def gaps(problem, state):
     """`Gaps` of a state (collective): rank 0 tells the others, so they do not depend on their number."""
     grid = problem.grid
-    P, H = grid.gather(state.P), grid.gather(state.H)
-    return grid.comm.bcast(None if P is None else gaps_of(grid.mesh, P, H))
+    P, H, reach = grid.gather(state.P), grid.gather(state.H), problem.hertz.reach
+    return grid.comm.bcast(None if P is None else gaps_of(grid.mesh, P, H, reach))
 
 
 def differences(problem, state, H):
     """Means of the sizes by which the gaps of a state's nodes differ from a finer grid's `H` there,
     (lines, nx): `Gaps`, too (collective)."""
     grid = problem.grid
-    P, size = grid.gather(state.P), grid.gather(np.abs(state.H - H))
-    return grid.comm.bcast(None if P is None else gaps_of(grid.mesh, P, size))
+    P, size, reach = grid.gather(state.P), grid.gather(np.abs(state.H - H)), problem.hertz.reach
+    return grid.comm.bcast(None if P is None else gaps_of(grid.mesh, P, size, reach))
 
 
 def loads(problem, state):

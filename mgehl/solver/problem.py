@@ -154,6 +154,8 @@ class ContactProblem(Problem):
     """Gap, residual and load balance of a loaded contact on one grid."""
 
     is_elastic = True
+    load_share = 1.0
+    """Load of the instant, over that of the contact."""
 
     def __init__(self, grid, deflection, contact, scheme):
         super().__init__(grid, contact, scheme)
@@ -176,7 +178,13 @@ class ContactProblem(Problem):
         if contact.surface is not self._surface:
             self._undeformed = contact.undeformed_gap(self.grid.X, self.grid.Y)
             self._surface = contact.surface
+        self.load_share = load
         self._load_within = load * contact.load_within(self.grid.mesh)
+
+    @property
+    def hertz(self):
+        """The `HertzUnder` of the load as it is now."""
+        return self.contact.hertz_under(self.load_share)
 
     def gap(self, P, H0):
         """H of [Liu eq. 48] under the pressure P; one convolution."""
@@ -206,8 +214,8 @@ class ContactProblem(Problem):
         return self.load(P) - self._load_within
 
     def share_of_load(self, P, nodes):
-        """Part of the load that some nodes carry, a mask (lines, nx)."""
-        return self.load(np.where(nodes, P, 0.0)) / self.contact.load_integral
+        """Part of the load as it is now that some nodes carry, a mask (lines, nx)."""
+        return self.load(np.where(nodes, P, 0.0)) / self.hertz.integral
 
     def carrying(self, P):
         """The pressure times what makes it carry the domain's load."""

@@ -124,3 +124,21 @@ def test_each_grid_has_its_cells_and_the_grid_that_resolves_is_recommended(told)
 def test_what_would_not_run_is_one_line_and_status_2(words, parts, refused):
     line = refused("check", *words)
     assert all(part in line for part in parts)
+
+
+def test_a_course_of_the_speed_is_resolved_where_its_slowest_motion_is(capsys, tmp_path):
+    """By as many nodes as that speed takes in a steady state."""
+    found = {}
+    (tmp_path / "speed.csv").write_text("0,2\n0.001,0.2\n0.002,0.3\n")
+    for name, more in {
+        "course": {"motion.speed": tmp_path / "speed.csv", "time.end": 0.002},
+        "steady": {"motion.speed": 0.2},
+    }.items():
+        more |= {"grid.x": [-3, 1.5], "grid.y": [-2, 2], "grid.nodes": 257}
+        words = [word for key, value in more.items() for word in ("--set", f"{key}={value}")]
+        assert main(["check", str(ROOT / "configs" / "full_film.toml"), *words]) == 0
+        found[name] = capsys.readouterr().out
+    cells, nodes = r"grid +257 +([\d.]+) cells", r"from (\d+) nodes on"
+    for each in (cells, nodes):
+        assert number(found["course"], each) == number(found["steady"], each)
+    assert "inlet      at the slowest, 200 mm/s" in found["course"] and "slowest" not in found["steady"]

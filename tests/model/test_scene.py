@@ -32,3 +32,30 @@ def test_ridges_along_the_motion_do_not_pass():
     ridges = {"surface.kind": "waviness", "surface.amplitude": 1e-8, "surface.wavelength_y": 1e-4}
     found = scene(ridges | {"surface.body": "body_2", "motion.slide_to_roll": 1.0})
     assert found.passage == pytest.approx(2.0 * found.framed.x_scale)
+
+
+@pytest.mark.parametrize(
+    "rows, slowest, rests",
+    [
+        ("0,8\n0.4,0.3\n1,0.3\n", 0.4, False),
+        ("0,0.3\n1,8\n", 0.0, False),
+        ("0,0\n0.5,4\n1,8\n", 1.0, True),
+        ("0,0\n0.2,8\n0.6,0.3\n1,0.3\n", 0.6, True),
+        ("0,8\n0.5,-8\n1,-2\n", 1.0, True),
+        ("0,8\n0.5,1e-9\n1,4\n", 0.0, True),
+    ],
+)
+def test_the_slowest_motion_is_where_the_speed_turns_or_stays(tmp_path, rows, slowest, rests):
+    """On the way to rest and from it every speed is passed: there the largest counts."""
+    (tmp_path / "speed.csv").write_text(rows)
+    found = scene({"motion.speed": str(tmp_path / "speed.csv")})
+    assert (found.slowest, found.rests) == (slowest, rests)
+
+
+def test_of_equal_speeds_the_heaviest_load_is_the_slowest(tmp_path):
+    (tmp_path / "load.csv").write_text("0,10\n0.25,80\n1,20\n")
+    found = scene({"contact.load": str(tmp_path / "load.csv")})
+    assert (found.slowest, found.rests, found.is_steady) == (0.25, False, True)
+    there = found.instant(found.contact, 0.25)
+    assert (there.load, there.speed) == (80.0, 0.1)
+    assert found.instant(found.contact, 0.0) is found.contact

@@ -1,3 +1,4 @@
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -11,6 +12,7 @@ from mgehl.output import friction_result as module
 from mgehl.output.friction_result import friction_lines, friction_result, with_band
 from mgehl.output.gap_error import GapError, GridGap
 from mgehl.output.report.run_report import report
+from mgehl.output.words import thinning_words
 from mgehl.solver.shear import Shear
 
 MESH = Mesh(65, 65, (-40.0, 40.0), (-40.0, 40.0))
@@ -84,7 +86,23 @@ def test_the_film_without_thinning_is_told_beside_the_thinned_one(surface):
     film = thick.mixed.mean_gap_nm if surface else thick.central_film_nm
     assert thinned.converged and thinned.friction.unthinned_film_nm == pytest.approx(film, rel=1e-5)
     assert thick.friction.unthinned_film_nm is None
-    assert any(
-        "without that the film (of rough bodies the mean gap) would be" in line
-        for line in friction_lines(thinned.friction, False)
-    )
+    name, minimum = "mean gap" if surface else "central film", thick.minimum_film_nm
+    assert f"without that the {name} would be {thinned.friction.unthinned_film_nm:.4g} nm" in str(thinned)
+    assert thinned.friction.unthinned_minimum_nm == pytest.approx(minimum, rel=1e-5)
+
+
+@pytest.mark.parametrize(
+    "unthinned, words",
+    [
+        ((13.0, 6.5), "shear thins the oil: without that the central film would be 13 nm"),
+        ((11.9, 6.5), "shear thins the oil: without that the minimum film would be 6.5 nm"),
+        ((11.9, 6.001), "shear thins the oil, the film hardly"),
+        ((11.9, None), "shear thins the oil, the film hardly"),
+        ((None, None), None),
+    ],
+)
+def test_no_film_is_told_that_would_be_as_thick(found, unthinned, words):
+    """Of films of 12 and 6 nm; an older result has no minimum."""
+    friction = replace(found(0.2), unthinned_film_nm=unthinned[0], unthinned_minimum_nm=unthinned[1])
+    result = SimpleNamespace(friction=friction, mixed=None, central_film_nm=12.0, minimum_film_nm=6.0)
+    assert list(thinning_words(result)) == ([words] if words else [])

@@ -84,3 +84,18 @@ def test_a_bearing_that_sucks_names_what_would_let_its_film_tear(cavitation):
     kind = {"contact.kind": "wedge", "discretization.cavitation": cavitation, "motion.speed": 2.0}
     found = str(mgehl.solve(mgehl.load(None, kind | opens), MPI.COMM_SELF).result)
     assert ("the film pulls where P is below 0; discretization.cavitation" in found) == (not cavitation)
+
+
+@pytest.mark.parametrize(
+    "more, words",
+    [
+        ({}, "5.00 cells, resolved"),
+        ({"inlet_speed": 0.3}, "5.00 cells at the slowest, 300 mm/s, resolved"),
+        (
+            {"inlet_speed": 8.0, "rests": True},
+            "5.00 cells at 8 m/s, resolved; near rest no grid resolves it",
+        ),
+    ],
+)
+def test_the_inlet_of_a_run_in_time_is_that_of_a_speed(more, words):
+    assert f"  inlet: {words}" in str(make_result(resolution=Resolution(5.0, "resolved", **more)))

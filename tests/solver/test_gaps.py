@@ -4,6 +4,8 @@ import pytest
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import BOUNDARY, CONTACT, LUBRICATED
+from mgehl.model.line import LineContact
+from mgehl.model.lubricant import Barus, ConstantDensity, Lubricant
 from mgehl.solver.gaps import differences, gaps, gaps_of, load_differences, loads
 
 
@@ -17,6 +19,29 @@ def test_the_mean_is_that_of_the_nodes_within_the_ellipse_or_a_line_s_width():
     assert (found.mean, found.loaded) == ((9 * 2.0 + 4 * 15.0) / 13, (3.0 * 2.0 + 9.0) / 4.0)
     line = Mesh(5, 1, (-2.0, 2.0), (-2.0, 2.0))
     assert gaps_of(line, np.ones((1, 5)), np.array([[9.0, 1.0, 2.0, 3.0, 9.0]])).mean == 2.0
+
+
+@pytest.mark.parametrize("share, reach", [(1.0, 1.0), (8.0, 2.0), (0.125, 0.5)])
+def test_an_instant_has_the_load_and_the_ellipse_of_its_own(make_problem, paper_contact, share, reach):
+    """Of another load than the contact's: axes grow with its third root, a part of it is of that load."""
+    problem = make_problem(paper_contact(1.0), nodes=65, scheme=Scheme())
+    mesh, contact = problem.grid.mesh, problem.contact
+    problem.turn_to(contact, share)
+    P = np.where(problem.boundary, 0.0, 1.0)
+    state = problem.state(P, 0.5, np.where(problem.boundary, BOUNDARY, CONTACT))
+    assert loads(problem, state).contact == pytest.approx(problem.load(P) / (share * contact.load_integral))
+    hertz = problem.hertz
+    assert (hertz.reach, hertz.area) == pytest.approx((reach, reach**2 * contact.contact_area))
+    inside = np.hypot(mesh.X[None, :], mesh.Y[:, None]) <= hertz.reach
+    assert gaps(problem, state).mean == pytest.approx(state.H[inside].mean(), rel=1e-12)
+
+
+def test_a_line_grows_with_the_root_of_its_load():
+    lubricant = Lubricant(Barus(0.1, 2e-8), ConstantDensity())
+    contact = LineContact(1e5, 0.01, 2e11, 1.0, lubricant)
+    hertz = contact.hertz_under(4.0)
+    assert (hertz.reach, hertz.area, hertz.integral) == pytest.approx((2.0, 4.0, 2.0 * np.pi))
+    assert contact.hertz_under(1.0).contact is contact
 
 
 def test_of_a_state_and_its_differences_from_a_finer_grid_s(make_problem, paper_contact):

@@ -6,7 +6,6 @@ import numpy as np
 
 from mgehl.discretization.status import CAVITATED, CONTACT
 from mgehl.kinds.kind import pressure_unit
-from mgehl.kinds.time import of_first_load
 from mgehl.model.hertz import hertz_pressure
 from mgehl.output.pictures import style
 from mgehl.output.pictures.plane import DECADES, LINEAR, filling_of
@@ -50,12 +49,13 @@ def line_of(solution, across, GPa=1.0):
     GPa, nm = GPa * 1e-9 * contact.pressure_scale, 1e9 * contact.film_scale
     layers = 1e9 * solution.config.contact.boundary_film
     P, film = GPa * fields.P[part], nm * fields.H[part]
-    fine = np.linspace(X[0], X[-1], FINE)
-    dry = contact.dry_gap(0.0 * fine, fine) if across else contact.dry_gap(fine, 0.0 * fine)
+    fine, hertz = np.linspace(X[0], X[-1], FINE), contact.hertz_under(solution.load_share)
+    ends, near = hertz.contact, fine / hertz.reach
+    dry = ends.dry_gap(0.0 * near, near) if across else ends.dry_gap(near, 0.0 * near)
     return Line(
         X, P, P if fields.p is None else GPa * fields.p[part], film,
         layers + filling_of(fields)[part] * (film - layers), fields.status[part],
-        fine, GPa * hertz_pressure(fine, 0.0), nm * dry,
+        fine, 1e-9 * ends.pressure_scale * hertz_pressure(near, 0.0), 1e9 * ends.film_scale * dry,
     )  # fmt: skip
 
 
@@ -132,8 +132,8 @@ def _loaded(lines):
 
 def _draw(pressures, films, line, solution):
     """One line and its dry contact; the handles."""
-    contact, first = solution.contact, of_first_load(solution.config)
-    dry = f"dry contact (Hertz{'' if contact.deformation is None else ', uncoated'}{first})"
+    contact = solution.contact
+    dry = f"dry contact (Hertz{'' if contact.deformation is None else ', uncoated'})"
     dotted = {"color": style.HERTZ, "linewidth": 1, "linestyle": ":", "label": dry}
     handles = pressures.plot(line.X, line.P, color=style.PRESSURE, label="pressure")
     solid, cavity = line.status == CONTACT, line.status == CAVITATED

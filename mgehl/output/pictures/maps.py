@@ -12,7 +12,6 @@ from matplotlib.ticker import LogLocator, MaxNLocator
 
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED, NAMES, names
 from mgehl.kinds.kind import pressure_unit
-from mgehl.kinds.time import of_first_load
 from mgehl.output.pictures import style
 from mgehl.output.pictures.plane import INSIDE, MOST, OVERLAP, Plane, film_norm
 from mgehl.output.pictures.titles import gap_words, map_labels, title, title_with_films
@@ -164,12 +163,13 @@ def finish(axes, solution, plane):
         scale = {"angles": "xy", "scale_units": "inches", "scale": 1.0 / ARROW}
         look = {"units": "inches", "width": 0.03, "pivot": "middle", "path_effects": _EDGE, "zorder": 5}
         axes.quiver(*corner, *solution.motion, **scale, **look)
-    a, b = 1e3 * contact.x_scale, 1e3 * contact.y_scale
+    ends = solution.at_the_end
+    a, b = 1e3 * ends.x_scale, 1e3 * ends.y_scale
     line = {"color": "black", "linestyle": ":", "linewidth": 1.3}
     axes.add_patch(Ellipse((0.0, 0.0), 2.0 * a, 2.0 * b, fill=False, path_effects=_EDGE, **line))
     size = f"a = b = {a:.3g} mm" if f"{a:.3g}" == f"{b:.3g}" else f"a = {a:.3g} mm, b = {b:.3g} mm"
     coated = "" if contact.deformation is None else ", uncoated"
-    return [Line2D([], [], label=f"Hertz{coated}{of_first_load(solution.config)}: {size}", **line)]
+    return [Line2D([], [], label=f"Hertz{coated}: {size}", **line)]
 
 
 def _ratios(plane):

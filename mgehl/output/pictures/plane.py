@@ -69,10 +69,10 @@ class Plane:
     """
 
     def __init__(self, solution, most=MOST, whole=False):
-        contact, fields = solution.contact, solution.fields
+        contact, fields, ends = solution.contact, solution.fields, solution.at_the_end
         loaded = (fields.P > LOADED * fields.P.max()) | (fields.status == CONTACT)
-        Y, y, high, rows = _place(1e3 * solution.y, 1e3 * contact.y_scale, loaded.any(axis=1), whole)
-        X, x, wide, columns = _place(1e3 * solution.x, 1e3 * contact.x_scale, loaded.any(axis=0), whole)
+        Y, y, high, rows = _place(1e3 * solution.y, 1e3 * ends.y_scale, loaded.any(axis=1), whole)
+        X, x, wide, columns = _place(1e3 * solution.x, 1e3 * ends.x_scale, loaded.any(axis=0), whole)
         self.part = part = rows, columns
         self.blocks = Blocks(X, Y, most)
         overlap = (fields.H < 0.0) & (fields.status != CONTACT)

@@ -52,7 +52,8 @@ def heights_of(solution):
 
 def _inside(solution, heights):
     """Those of the nodes within the Hertz semi-axes."""
-    return heights[np.ix_(np.abs(solution.mesh.Y) <= 1.0, np.abs(solution.mesh.X) <= 1.0)]
+    mesh, reach = solution.mesh, solution.contact.hertz_under(solution.load_share).reach
+    return heights[np.ix_(np.abs(mesh.Y) <= reach, np.abs(mesh.X) <= reach)]
 
 
 def _seen(solution, heights):

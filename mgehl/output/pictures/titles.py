@@ -1,6 +1,5 @@
 """What a picture is of, what its axes show, and what tells runs apart that are shown together."""
 
-from dataclasses import replace
 from pathlib import Path
 
 from mgehl.config import KEYS
@@ -41,13 +40,12 @@ def _instant(solution):
     """Line with the time of the fields of a run in time, and speed and load then where these change."""
     if not (last := solution.last):
         return []
-    config, contact = solution.config, solution.contact
+    config = solution.config
     there = [f"at {1e3 * last['time_s']:.6g} ms"]
     if isinstance(config.motion.speed, str):
         there.append(speed_words(1e-3 * last["speed_mm_s"]))
     if of_first_load(config):
-        now = replace(contact, load=last["load_share"] * contact.load)
-        there.append(" ".join(config.kind.load(now)))
+        there.append(" ".join(config.kind.load(solution.at_the_end)))
     return [", ".join(there)]
 
 
@@ -78,7 +76,9 @@ def gap_words(contact):
 
 def position_labels(solution):
     """What the axes along x and y show, with its unit."""
-    return solution.config.kind.position_labels(solution.contact)
+    first = of_first_load(solution.config) if solution.contact.is_loaded else ""
+    labels = solution.config.kind.position_labels(solution.contact)
+    return tuple(f"{label}{first}" for label in labels)
 
 
 def map_labels(solution):

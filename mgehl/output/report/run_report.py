@@ -24,7 +24,7 @@ from mgehl.output.mixed_words import gap_band_words, mean_gaps, mixed_note
 from mgehl.output.pictures import style
 from mgehl.output.pictures.figures import drawn_by, figures
 from mgehl.output.report.page import BAD, DOUBTFUL, GOOD, NO_NUMBER, number, picture, render
-from mgehl.output.resolution import RESOLVED_CELLS, STARVED_FROM
+from mgehl.output.resolution import RESOLVED_CELLS, STARVED_FROM, near_rest, of_inlet
 from mgehl.output.summary import COMPLEMENTARITY_TOLERANCE
 from mgehl.output.surface import ADVICE as SURFACE
 from mgehl.output.surface import RESOLVED_NODES
@@ -64,6 +64,7 @@ def report(solution, name):
     page = {"title": config.kind.heading(solution), "subtitle": f"Run {name}"}
     page["verdict"] = *verdict(result), result.reason
     heads, last, shown = history_of(rows)
+    of_what = of_formulas(config) if kind == "loaded" else ""
     mark = "" if result.converged else " (in doubt)" if result.settled else " (not converged)"
     mark = " at the end" + mark if result.time else mark
     with naming_keys(solution.contact):  # some numbers ask the user's own laws again
@@ -71,7 +72,7 @@ def report(solution, name):
             page, **FUNCTIONS, kind=kind, mark=mark, solution=solution, result=result, config=config,
             contact=solution.contact, mesh=solution.mesh, line=solution.mesh.is_line,
             tolerance=config.solver.tolerance,
-            films=films_of(result, of_formulas(config)) if kind == "loaded" else None,
+            of_what=of_what, films=films_of(result, of_what) if kind == "loaded" else None,
             pictures=list(pictures(solution)), keys=list(keys_of(config)),
             inputs=list(inputs_of(config)), notes=list(notes_on(solution)),
             odd=list(implausible(config, solution.contact)), sources=list(sources_of(solution)),
@@ -145,8 +146,8 @@ FUNCTIONS = {
 } | {
     each.__name__: each for each in (
         number, limited, enough, absent, informing, judged, from_each, advice, band_words, gap_band_words,
-        mean_gaps, mixed_note, span, carried, largest_pressure_words, time_lines, mean_words, heating_words,
-        friction_lines, coefficient_words, pressure_words, pressure_unit,
+        mean_gaps, mixed_note, near_rest, of_inlet, span, carried, largest_pressure_words, time_lines,
+        mean_words, heating_words, friction_lines, coefficient_words, pressure_words, pressure_unit,
     )
 }  # fmt: skip
 """What run.html.j2 calls."""

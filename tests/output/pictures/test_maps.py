@@ -2,14 +2,38 @@ import numpy as np
 import pytest
 from matplotlib.colors import to_rgba
 from matplotlib.image import imread
+from matplotlib.patches import Ellipse
 from matplotlib.quiver import Quiver
 
 from mgehl.commands.plot import KINDS
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT
 from mgehl.output.pictures import maps, plane, style
 from mgehl.output.pictures.figures import drawn_by
+from mgehl.output.pictures.lines import line_of
 
 ALL = [maps.film_map, maps.pressure_map, maps.status_map]
+
+
+@pytest.fixture
+def under_a_course(make_solution, tmp_path):
+    """A solution of a run in time that ends under eight times its first load."""
+    (tmp_path / "load.csv").write_text("0,10\n1,80\n")
+    settings = [f"contact.load={tmp_path / 'load.csv'}", "time.end=1", "grid.x=[-3, 3]"]
+    rows = [{"time_s": t, "speed_mm_s": 1.0, "load_share": share} for t, share in ((0.0, 1.0), (1.0, 8.0))]
+    return make_solution(settings=settings, rows=rows)
+
+
+def test_the_dry_contact_is_that_of_the_load_at_the_end(under_a_course, drawn):
+    """Its axes are twice those of the first load, its pressure, too."""
+    a = 1e3 * under_a_course.contact.hertz.a
+    axes = drawn(maps.film_map, under_a_course).axes[0]
+    (ellipse,) = [each for each in axes.patches if isinstance(each, Ellipse)]
+    assert ellipse.width == pytest.approx(4.0 * a)
+    assert f"Hertz: a = b = {2.0 * a:.3g} mm" in [text.get_text() for text in axes.get_legend().get_texts()]
+    line, first = line_of(under_a_course, across=False), under_a_course.contact
+    assert line.hertz.max() == pytest.approx(2e-9 * first.hertz.p_h)
+    assert np.abs(line.fine[line.hertz > 0.0]).max() == pytest.approx(2.0, abs=0.02)
+    assert line.dry[np.abs(line.fine) < 1.99] == pytest.approx(0.0, abs=1e-9)
 
 
 def of_window(solution, values):
