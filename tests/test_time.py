@@ -169,6 +169,22 @@ def test_the_inlet_is_that_of_the_slowest_motion_and_heat_that_of_the_end(course
     assert after.thermal_reduction == pytest.approx(end.heated_film(0.04, 0.14))
 
 
+def test_heat_thins_the_film_by_the_speed_of_the_instant(course):
+    """From 8 to 2 m/s: what the film loses at the end is what it loses at 2 m/s, on finer grids nearer."""
+    line = {
+        "contact.kind": "line", "contact.load_per_length": 2e5, "contact.radius_x": 0.012,
+        "contact.reduced_modulus": 226e9, "lubricant.viscosity": 0.05, "grid.x": [-6.0, 2.0],
+        "grid.nodes": 129, "lubricant.conductivity": 0.14, "lubricant.thermoviscosity": 0.045,
+        "motion.speed": course((0.0, 8.0), (1e-4, 2.0), (6e-4, 2.0)), "time.end": 6e-4,
+        "motion.slide_to_roll": 0.5,
+    }  # fmt: skip
+    configs = (mgehl.load(None, line | {"lubricant.heating": how}) for how in ("none", "factor"))
+    plain, heated = (mgehl.solve(config).summary for config in configs)
+    assert heated.converged and plain.thermal_reduction == pytest.approx(heated.thermal_reduction)
+    ratio = heated.central_film_nm / plain.central_film_nm
+    assert ratio == pytest.approx(plain.thermal_reduction, abs=0.015) and ratio < 0.93
+
+
 @pytest.fixture(scope="module")
 def rough():
     return solved(**{key.replace(".", "__"): value for key, value in ROUGH.items()}, time__end=0.4 * UNIT)

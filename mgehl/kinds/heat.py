@@ -1,10 +1,11 @@
 """[heat] and the lubricant's heating: bodies that conduct, oil that is thinned by the heat of its shear."""
 
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, fields
 
 from mgehl.config_value import number, shown
 from mgehl.errors import ConfigError
 from mgehl.kinds.choice import Choice, given, word_of
+from mgehl.model.contact import LEAST_HEATED
 from mgehl.model.flash import Solid
 
 
@@ -19,9 +20,6 @@ class HeatSection:
     capacity_2: float | None = number(None, "the same of body 2", "J/m^3/K", 1e3, 1e8)
     # fmt: on
 
-
-LEAST = 0.2
-"""Part of the film below which the factor means nothing: its formula falls through 0."""
 
 OF_BODIES = tuple(f"heat.{field.name}" for field in fields(HeatSection))
 
@@ -41,10 +39,10 @@ def check_factor(config, contact):
     """Raise ConfigError where the factor means nothing."""
     if contact.is_at_rest or config.lubricant.heating != "factor":
         return
-    if contact.thermal_reduction < LEAST:
+    if contact.thermal_reduction < LEAST_HEATED:
         raise ConfigError(
             f"motion.speed = {shown(config.motion.speed)}: by the formula of lubricant.heating shear would "
-            f"leave {contact.thermal_reduction:.2g} of the film; it must be at least {LEAST:g}"
+            f"leave {contact.thermal_reduction:.2g} of the film; it must be at least {LEAST_HEATED:g}"
         )
 
 
@@ -60,5 +58,4 @@ def heated(config, contact):
     """The contact with so much less viscous oil that its film is thinner by Phi_T, where it is asked."""
     if config.lubricant.heating != "factor" or contact.is_at_rest:
         return contact
-    part = max(contact.thermal_reduction, LEAST) ** (1.0 / contact.film_exponent)
-    return replace(contact, lubricant=replace(contact.lubricant, thinned=part))
+    return contact.heated()

@@ -95,7 +95,7 @@ class LoadedKind(Kind):
             loaded_checks.check_exponent(heaviest)
         if contact.surface is not None:
             surface.check_known(config, contact)
-        check_factor(config, contact)
+        check_factor(config, heaviest)
         config = self.settled(config, contact)
         if contact.surface is not None:
             surface.check_surfaces(config, contact, self.mesh(config, contact))

@@ -19,6 +19,10 @@ RESOLVED_CELLS = 4.0
 """Cells in the inlet from which on the film does not change with the grid."""
 
 
+LEAST_HEATED = 0.2
+"""Part of the film below which the factor of heat means nothing: its formula falls through 0."""
+
+
 @dataclass(frozen=True)
 class Groups:
     """Dimensionless groups from the dimensional values; M and L are those of Moes."""
@@ -248,6 +252,14 @@ class LoadedContact(OnBodies, Inlet):
         loading = self.lubricant.cold_viscosity * beta * self.speed**2 / conductivity
         slip = self.friction.slide_to_roll
         return films.inlet_heating(self.hertz.p_h / self.reduced_modulus, loading, slip)
+
+    def heated(self):
+        """The same contact with oil so much thinner that the film is thinner by Phi_T; cold at rest."""
+        cold = replace(self, lubricant=replace(self.lubricant, thinned=1.0))
+        if self.is_at_rest:
+            return cold
+        part = max(cold.thermal_reduction, LEAST_HEATED) ** (1.0 / cold.film_exponent)
+        return replace(cold, lubricant=replace(cold.lubricant, thinned=part))
 
     @property
     def film_exponent(self):

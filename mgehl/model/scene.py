@@ -113,9 +113,13 @@ class Scene:
         return abs(self.cells(path, mesh)[0]) * cells_a_step(shares)
 
     def instant(self, contact, t):
-        """The `contact` of a time of 0, in any axes, under the load and at the speed of another time."""
+        """The `contact` of a time of 0, in any axes, under the load and at the speed of another time.
+
+        Where heat thins its oil, it thins that of the instant by as much as there.
+        """
         speed, there = abs(self.speed.value(t)), contact.under(self.load_share(t))
-        return there if speed == contact.speed else there.at_speed(speed)
+        there = there if speed == contact.speed else there.at_speed(speed)
+        return there.heated() if contact.lubricant.thinned < 1.0 and there is not contact else there
 
     @cached_property
     def _speeds(self):

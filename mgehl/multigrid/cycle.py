@@ -186,7 +186,7 @@ class MultigridSolver:
             status, coarse_rows = coarse[-1], inject(rows)
             rate = inject(rate) if np.ndim(rate) else rate
             filling = None if filling is None else inject(filling)
-            found = _evaluate(jacobian, *coarse, filling)
+            found = _evaluate(jacobian, evaluation.contact, *coarse, filling)
             if self._in_valleys:
                 eps = transfer.averaged(eps)
                 found = found.with_mobility(jacobian.grid.halo(eps))
@@ -240,9 +240,9 @@ def _scheme_of_cycle(asked, solved, better):
     return solved if couette == solved.couette else replace(solved, couette=couette)
 
 
-def _evaluate(jacobian, P, H, status, filling):
-    """The state of a coarse grid, evaluated as its Jacobian's scheme asks."""
+def _evaluate(jacobian, contact, P, H, status, filling):
+    """The state of a coarse grid, evaluated as its Jacobian's scheme asks, of a contact with its oil."""
     grid = jacobian.grid
     ghosted = grid.halo(P), grid.halo(H), grid.halo_status(status)
     filling = None if filling is None else grid.halo(filling)
-    return Evaluation(*ghosted, grid.mesh, jacobian.contact, jacobian.scheme, filling=filling)
+    return Evaluation(*ghosted, grid.mesh, contact, jacobian.scheme, filling=filling)

@@ -44,7 +44,7 @@ def march(scene, hierarchy, settings, told, monitor, journal=NOTHING_KEPT, start
 
 def _steady(scene, hierarchy, settings, monitor, journal):
     """The steady problem at the beginning and its `Outcome`."""
-    contact = scene.framed.at_speed(abs(scene.speed.value(0.0)))
+    contact = scene.instant(scene.framed, 0.0)
     return begin(hierarchy, contact, settings, monitor, journal)
 
 

@@ -1,6 +1,6 @@
 """The discrete problem on one grid and its state."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -59,6 +59,8 @@ class Problem:
 
     def __init__(self, grid, contact, scheme):
         self.grid, self.contact, self.scheme = grid, contact, scheme
+        self.flowing = contact
+        """The contact with its oil as it is now: what flows is evaluated by it."""
         self.axes = axes_of(grid.mesh, scheme.motion)
         self.boundary = grid.boundary()
 
@@ -69,7 +71,7 @@ class Problem:
         p, H, status = grid.halo(state.p), grid.halo(state.H), grid.halo_status(state.status)
         filling = grid.halo(state.filling) if self.scheme.contact_law.has_contact else None
         how = {"filling": filling, "storage": self.storage}
-        evaluation = Evaluation(p, H, status, grid.mesh, self.contact, self.scheme, **how)
+        evaluation = Evaluation(p, H, status, grid.mesh, self.flowing, self.scheme, **how)
         _ = evaluation.inflow
         return evaluation
 
@@ -173,8 +175,11 @@ class ContactProblem(Problem):
         found = self._surface.height(grid.X * contact.x_scale, grid.Y * contact.y_scale)
         return np.array(np.broadcast_to(found, grid.shape))
 
-    def turn_to(self, contact, load):
-        """Take the surfaces of a `contact` as they are at another time, and `load` times its load."""
+    def turn_to(self, contact, load, oil=None):
+        """Take the surfaces of a `contact` as they are at another time, `load` times its load, and another
+        `oil`, if there is one."""
+        if oil is not None and oil is not self.flowing.lubricant:
+            self.flowing = replace(self.contact, lubricant=oil)
         if contact.surface is not self._surface:
             self._undeformed = contact.undeformed_gap(self.grid.X, self.grid.Y)
             self._surface = contact.surface

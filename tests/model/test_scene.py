@@ -59,3 +59,16 @@ def test_of_equal_speeds_the_heaviest_load_is_the_slowest(tmp_path):
     there = found.instant(found.contact, 0.25)
     assert (there.load, there.speed) == (80.0, 0.1)
     assert found.instant(found.contact, 0.0) is found.contact
+
+
+def test_heat_thins_the_oil_by_the_speed_and_the_load_of_the_instant(tmp_path):
+    """As in a steady state there, and not at all at rest."""
+    oil = {"lubricant.conductivity": 0.14, "lubricant.thermoviscosity": 0.04, "lubricant.heating": "factor"}
+    (tmp_path / "speed.csv").write_text("0,4\n0.5,1\n1,0\n")
+    (tmp_path / "load.csv").write_text("0,10\n1,30\n")
+    courses = {"motion.speed": str(tmp_path / "speed.csv"), "contact.load": str(tmp_path / "load.csv")}
+    found = scene(oil | courses)
+    steady = contact_from(load_config(settings=oil | {"motion.speed": 1.0, "contact.load": 20.0}))
+    thinned = [found.instant(found.contact, t).lubricant.thinned for t in (0.0, 0.5, 1.0)]
+    assert thinned[1:] == [pytest.approx(steady.lubricant.thinned), 1.0]
+    assert thinned[0] == found.contact.lubricant.thinned < thinned[1] < 1.0
