@@ -1,7 +1,6 @@
 """The way to a solution where there is none to begin with."""
 
 from dataclasses import replace
-from functools import partial
 
 from mgehl.discretization.fluid import FOLDING
 from mgehl.solver.continuation import SPEED_RATIO, Continuation
@@ -51,7 +50,7 @@ def _begin_touching(hierarchy, contact, settings, monitor, journal):
     if recipe.begins != DRY:
         others.insert(0, ("the dry contact without oil", DRY, begin_dry))
     for where, begins, way in others:
-        tell = partial(_with_news, monitor, f"not found: {reason}; now from {where}")
+        tell = with_news(monitor, f"not found: {reason}; now from {where}")
         found, last = way(hierarchy, contact, settings, tell, journal)
         if last.converged:
             return found, replace(last, begins=begins)
@@ -59,8 +58,9 @@ def _begin_touching(hierarchy, contact, settings, monitor, journal):
     return problem, replace(outcome, reason=reason)
 
 
-def _with_news(monitor, news, level, cycle):
-    monitor(replace(level, news=news), cycle)
+def with_news(monitor, news):
+    """A monitor that tells news with each level."""
+    return lambda level, cycle: monitor(replace(level, news=news), cycle)
 
 
 def begin_dry(hierarchy, contact, settings, monitor, journal=NOTHING_KEPT):

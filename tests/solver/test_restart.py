@@ -109,6 +109,15 @@ class TestSolveFrom:
         np.testing.assert_allclose(started.fields.H, plain.fields.H, rtol=0.0, atol=1e-6)
         assert started.rows[-1]["speed_mm_s"] == 4000.0
 
+    def test_what_no_start_leads_to_in_its_work_is_found_from_nothing(self):
+        """A fiftieth of the speed, with so little work that the way there is given up."""
+        film = {"solver.start": "film", "solver.error": False, "discretization.face_mobility": "linear-gap"}
+        ball = mgehl.load().with_(film | {"motion.speed": 0.5, "grid.nodes": 65})
+        slow = ball.with_({"motion.speed": 0.01, "solver.max_work": 120})
+        far, plain = mgehl.solve(slow, start=mgehl.solve(ball)), mgehl.solve(slow)
+        assert far.result.converged and far.result.recipe["begins"] == plain.result.recipe["begins"]
+        np.testing.assert_array_equal(far.fields.H, plain.fields.H)
+
 
 def test_a_contact_of_another_kind_is_no_start(film):
     with pytest.raises(UserError, match="a point is no start for a line"):
