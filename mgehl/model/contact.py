@@ -255,7 +255,7 @@ class LoadedContact(OnBodies, Inlet):
 
     def heated(self):
         """The same contact with oil so much thinner that the film is thinner by Phi_T; cold at rest."""
-        cold = replace(self, lubricant=replace(self.lubricant, thinned=1.0))
+        cold = self.unheated
         if self.is_at_rest:
             return cold
         part = max(cold.thermal_reduction, LEAST_HEATED) ** (1.0 / cold.film_exponent)

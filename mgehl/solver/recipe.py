@@ -6,8 +6,9 @@
     near        3L             a full film        coarse grids    lines in valleys        corrections
     touching    3L             the dry contact    the finest      lines in valleys        corrections
 
-Keys of the configuration overrule it. A contact at another speed, or as a coarser grid sees it, has a
-recipe of its own.
+A film that the finest grid hardly sees begins there alone, from a thicker one (`on_mesh`). Keys of the
+configuration overrule it. A contact at another speed, or as a coarser grid sees it, has a recipe of its
+own.
 """
 
 from dataclasses import dataclass, replace
