@@ -182,7 +182,7 @@ def on_mesh(settings, contact, mesh):
     law, nested = settings.scheme.contact_law, settings.nested
     seen = contact.matched_speed(mesh, nested.inlet_cells) == contact.speed
     otherwise = settings.scheme.face_mobility in FOLDING or settings.method == "relaxation"
-    otherwise |= (law.has_contact and law.closes_faces) or _peaks(law, contact) == TOUCHING
+    otherwise |= not law.is_continuous or _peaks(law, contact) == TOUCHING
     if nested.start != FULL_FILM or seen or otherwise:
         return settings
     return replace(settings, nested=replace(nested, start=UNSEEN_FILM))
