@@ -12,6 +12,7 @@ from mgehl.errors import UserError
 from mgehl.grid.hierarchy import Hierarchy
 from mgehl.kinds import contact_from, mesh_from
 from mgehl.model.frame import Frame
+from mgehl.solver import restart
 from mgehl.solver.from_config import settings_from
 from mgehl.solver.problem import ContactProblem
 from mgehl.solver.restart import check_start, differing_keys, interpolated
@@ -109,11 +110,12 @@ class TestSolveFrom:
         np.testing.assert_allclose(started.fields.H, plain.fields.H, rtol=0.0, atol=1e-6)
         assert started.rows[-1]["speed_mm_s"] == 4000.0
 
-    def test_what_no_start_leads_to_in_its_work_is_found_from_nothing(self):
+    def test_what_no_start_leads_to_in_its_work_is_found_from_nothing(self, monkeypatch):
         """A fiftieth of the speed, with so little work that the way there is given up."""
+        monkeypatch.setattr(restart, "OF_A_START", 0.005)
         film = {"solver.start": "film", "solver.error": False, "discretization.face_mobility": "linear-gap"}
         ball = mgehl.load().with_(film | {"motion.speed": 0.5, "grid.nodes": 65})
-        slow = ball.with_({"motion.speed": 0.01, "solver.max_work": 120})
+        slow = ball.with_({"motion.speed": 0.01})
         far, plain = mgehl.solve(slow, start=mgehl.solve(ball)), mgehl.solve(slow)
         assert far.result.converged and far.result.recipe["begins"] == plain.result.recipe["begins"]
         np.testing.assert_array_equal(far.fields.H, plain.fields.H)
