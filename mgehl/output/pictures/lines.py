@@ -46,16 +46,17 @@ def line_of(solution, across, GPa=1.0):
     mesh, fields, contact = solution.mesh, solution.fields, solution.contact
     i, j = mesh.nearest(0.0, 0.0)
     part, X = ((slice(None), i), mesh.Y) if across else ((j, slice(None)), mesh.X)
-    GPa, nm = GPa * 1e-9 * contact.pressure_scale, 1e9 * contact.film_scale
+    Pa, nm = 1e-9 * GPa, 1e9 * contact.film_scale
+    unit = Pa * contact.pressure_scale
     layers = 1e9 * solution.config.contact.boundary_film
-    P, film = GPa * fields.P[part], nm * fields.H[part]
+    P, film = unit * fields.P[part], nm * fields.H[part]
     fine, hertz = np.linspace(X[0], X[-1], FINE), contact.hertz_under(solution.load_share)
     ends, near = hertz.contact, fine / hertz.reach
     dry = ends.dry_gap(0.0 * near, near) if across else ends.dry_gap(near, 0.0 * near)
     return Line(
-        X, P, P if fields.p is None else GPa * fields.p[part], film,
+        X, P, P if fields.p is None else unit * fields.p[part], film,
         layers + filling_of(fields)[part] * (film - layers), fields.status[part],
-        fine, 1e-9 * ends.pressure_scale * hertz_pressure(near, 0.0), 1e9 * ends.film_scale * dry,
+        fine, Pa * ends.pressure_scale * hertz_pressure(near, 0.0), 1e9 * ends.film_scale * dry,
     )  # fmt: skip
 
 
@@ -112,7 +113,8 @@ def set_axes(axes, lines):
     least, top = min(line.film.min() for line in lines), films.max(initial=1e-3)
     low = max(films[films > 0.0].min(initial=top), top / DECADES)
     for (pressures, below), column in zip(axes.T, columns, strict=True):
-        pressures.set_ylim(0.0, 1.1 * max(line.P.max() for line in lines))
+        least = 1.1 * min(line.P.min() for line in lines)  # below 0 under an ambient pressure
+        pressures.set_ylim(least, 1.1 * max(line.P.max() for line in lines))
         pressures.sharex(below)
         pressures.tick_params(labelbottom=False)
         below.set_xlim(*_loaded(column))

@@ -28,7 +28,18 @@ def test_a_soft_contact_is_drawn_in_kPa_as_it_is_told(make_solution, drawn):
     solution = make_solution(settings=["contact.reduced_modulus=100 kPa", "contact.load=1 mN"])
     above, axes = drawn(centre_lines, solution).axes[0], drawn(maps.pressure_map, solution).axes
     assert above.get_ylabel() == "pressure, kPa" and axes[0].child_axes[0].get_ylabel() == "pressure, kPa"
-    assert lines_of(above)["pressure"].get_ydata().max() == pytest.approx(1e-3 * solution.pressure.max())
+    drawn_lines = lines_of(above)
+    assert drawn_lines["pressure"].get_ydata().max() == pytest.approx(1e-3 * solution.pressure.max())
+    (hertz,) = [line for label, line in drawn_lines.items() if label.startswith("dry contact")]
+    assert hertz.get_ydata().max() == pytest.approx(1e-3 * solution.contact.hertz.p_h, rel=1e-3)
+
+
+def test_suction_behind_a_contact_under_pressure_is_seen(make_solution, drawn):
+    solution = make_solution()
+    i, j = solution.mesh.nearest(0.0, 0.0)
+    solution.fields.P[j, i + 3] = -0.2
+    low, _ = drawn(centre_lines, solution).axes[0].get_ylim()
+    assert low < 1e-9 * solution.pressure.min() < 0.0
 
 
 def test_what_carries_load_is_shown_beside_a_smooth_dry_contact(make_solution, drawn):
