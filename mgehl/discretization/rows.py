@@ -1,7 +1,7 @@
 """Which equation each node has at the moment: the kinds of rows of the nonlinear residual.
 
     FLOW      net inflow/(dX dY) = 0   film, cavity that feeds it     [Liu eq. 35]
-    PRESSURE  -P/dX = 0                boundary, other cavity: P is given
+    PRESSURE  (P_given - P)/dX = 0     boundary, other cavity
     GAP       (h_b - H)/dX = 0         contact; h_b is the gap that its law keeps, mostly zero
 
 Mostly the status says which. But fluid that is settled apart from the gap is *frozen* in the linear

@@ -275,11 +275,10 @@ class Newton(PythonSnes):
 
     def _form_function(self, _snes, x, f):
         """f = bordered residual at x for the present partition."""
-        status = self._position.state.status
+        problem, status = self._problem, self._position.state.status
         evaluation = self._evaluated(x)
-        tears_at = self._problem.contact.tears_at
-        P = np.where(self._problem.feeding(status), tears_at, self._space.read_pressure(x))
-        F, load = self._problem.residual(evaluation, status), self._problem.load_deficit(P)
+        P = np.where(problem.feeding(status), problem.contact.tears_at, self._space.read_pressure(x))
+        F, load = problem.residual(evaluation, status), problem.load_deficit(P)
         self._space.write(f, F, load * self._load_scale)
 
     def _form_jacobian(self, _snes, x, _J, _preconditioner):

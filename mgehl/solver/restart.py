@@ -84,8 +84,9 @@ def solve_from(hierarchy, contact, settings, start, frame, monitor, journal):
     """Solve on the finest grid from another run's fields; otherwise as `nested_iteration`.
 
     `start` is a `Solution` whose whole fields rank 0 has, or a `Forecast`; the contact is one in a `Frame`.
-    From another speed it is carried here, in smaller steps where one is too large. Where contact closes
-    continuously, what no start led to is looked for as if there were none: both ends at one film.
+    From another speed it is carried here, in smaller steps where one is too large. What no start leads to
+    is looked for from nothing. Contact that shuts its faces is not: there two states may be answers, and
+    a start names the one that is meant.
     """
     if settings.method != "newton-mg" or not settings.scheme.contact_law.is_continuous:
         return _carried(hierarchy, contact, settings, start, frame, monitor, journal)

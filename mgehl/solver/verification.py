@@ -116,11 +116,12 @@ def _pressure_near_boundary(grid, P):
 def complementarity_error(problem, state, evaluation):
     """Largest breach of the conditions that define the partition, in units of P and H.
 
-    Lubricated: P >= 0 (if the film cavitates) and H >= 0 (where bodies may touch). Cavitated: P = 0,
-    H >= 0, no more fluid than the gap holds, and as much flows in as out. Contact: P >= 0 and H = 0, or the
-    boundary film, 0 <= p <= P, and as much flows in as out. Fluid shut in along the motion counts as 1. A
-    film node whose gap falls below H_th becomes contact. A node that contact has released stays film until
-    the bodies would overlap, so its gap may lie between 0 and H_th.
+    With p_t where film tears: lubricated P >= p_t (if the film cavitates) and H >= 0 (where bodies may
+    touch). Cavitated: P = p_t, H >= 0, no more fluid than the gap holds, and as much flows in as out.
+    Contact: P >= p_t and H = 0, or the boundary film, p_t <= p <= P, and as much flows in as out. Fluid
+    shut in along the motion counts as 1. A film node whose gap falls below H_th becomes contact. A node
+    that contact has released stays film until the bodies would overlap, so its gap may lie between 0 and
+    H_th.
     """
     grid, status, scheme = problem.grid, state.status, problem.scheme
     law = scheme.contact_law
