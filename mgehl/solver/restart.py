@@ -26,6 +26,12 @@ OF_A_START = 0.5
 sweeps take 30 to 360 convolutions, near rest without layers up to 1900; a ground ball at 0.35 m/s, from 0.6
 m/s, took 4000 in vain."""
 
+THINNER = 0.5
+"""A formula's film over that of a solution below which nothing is the better start. Smooth balls on 129
+nodes at 1/8 of the speed (film .25): 111, 55 and 319 convolutions, from nothing 32, 55 and 58; at half of
+it (.63) 33, 30 and 43 for 36, 67 and 56. Rough ones without layers at a tenth (.21): 799, 339, 930 and
+twice over 2800 for 281, 306, 888, 813 and 926. To thicker films a solution leads as well as nothing."""
+
 LEAST_LEFT = 0.2
 """Part of a pressure that a forecast leaves at the least."""
 
@@ -41,6 +47,17 @@ class Forecast:
     before: object = None
     factor: float = 0.0
     """Change that is expected, over that from `before` to `last`."""
+
+    def leads_to(self, contact, frame):
+        """Whether a contact in a `Frame` is sooner found from here than from nothing.
+
+        Rough peaks must lie where they lay in units of a: a rough ball that nothing leads to in 94 to 269
+        convolutions takes 250 to 2200 from 1.2 times to half of its load, wherever its pressure is laid.
+        """
+        last = self.last.contact.in_frame(frame)
+        lies = np.allclose((contact.x_scale, contact.y_scale), (last.x_scale, last.y_scale), rtol=1e-9)
+        near = contact.expected_film > THINNER * last.expected_film
+        return bool(near and (lies or not contact.is_rough))
 
 
 def check_start(start, kind):
@@ -85,22 +102,40 @@ def solve_from(hierarchy, contact, settings, start, frame, monitor, journal):
 
     `start` is a `Solution` whose whole fields rank 0 has, or a `Forecast`; the contact is one in a `Frame`.
     From another speed it is carried here, in smaller steps where one is too large. What no start leads to
-    is looked for from nothing. Contact that shuts its faces is not: there two states may be answers, and
-    a start names the one that is meant.
+    is looked for from nothing, and what a `Forecast` hardly leads to is so at first. Contact that shuts its
+    faces is not: there two states may be answers, and a start names the one that is meant.
     """
     if settings.method != "newton-mg" or not settings.scheme.contact_law.is_continuous:
         return _carried(hierarchy, contact, settings, start, frame, monitor, journal)
     part = replace(settings.newton, max_work=OF_A_START * settings.newton.max_work)
     near = replace(settings, newton=part)
-    problem, outcome = _carried(hierarchy, contact, near, start, frame, monitor, journal)
+
+    def from_start(monitor):
+        return _carried(hierarchy, contact, near, start, frame, monitor, journal)
+
+    def from_nothing(monitor):
+        return _from_nothing(hierarchy, contact, settings, monitor, journal)
+
+    ways = [("that start", from_start), ("nothing", from_nothing)]
+    if isinstance(start, Forecast) and not start.leads_to(contact, frame):
+        ways.reverse()
+    (name, way), (other, other_way) = ways
+    problem, outcome = way(monitor)
     if outcome.converged:
         return problem, outcome
-    tell = with_news(monitor, f"not found from that start: {outcome.reason}; now from nothing")
-    found, last = begin(hierarchy, contact, settings, tell, journal)
-    begins = last.begins or recipe_of(on_mesh(settings, contact, problem.grid.mesh), contact).begins
+    found, last = other_way(
+        with_news(monitor, f"not found from {name}: {outcome.reason}; now from {other}")
+    )
     if last.converged:
-        return found, replace(last, begins=begins)
-    return problem, replace(outcome, reason=f"{outcome.reason}{NOR} nothing: {last.reason}")
+        return found, last
+    return problem, replace(outcome, reason=f"{outcome.reason}{NOR} {other}: {last.reason}")
+
+
+def _from_nothing(hierarchy, contact, settings, monitor, journal):
+    """Problem and `Outcome` of a contact without another run's fields."""
+    problem, outcome = begin(hierarchy, contact, settings, monitor, journal)
+    seen = on_mesh(settings, contact, problem.grid.mesh)
+    return problem, replace(outcome, begins=outcome.begins or recipe_of(seen, contact).begins)
 
 
 def _carried(hierarchy, contact, settings, start, frame, monitor, journal):
@@ -163,8 +198,10 @@ def interpolated(problem, start, frame):
         )
         touching = (_onto(mesh, old, in_contact) > 0.5) & problem.scheme.contact_law.has_contact
         status = np.where(touching, CONTACT, film).astype(np.int8)
-    scale = start.contact.film_scale / start.contact.in_frame(frame).film_scale
-    H0 = scale * grid.comm.bcast(start.H0)
+    before, contact = start.contact, problem.contact
+    # Of H0 the dry approach is the new contact's; what lies between the bodies is as thick as before, in m.
+    between = grid.comm.bcast(start.H0) + before.approach
+    H0 = between * before.film_scale / contact.film_scale - contact.approach
     P, p, filling, status = (grid.scatter(each) for each in (P, p, filling, status))
     return problem.state(P, H0, status, p, filling)
 

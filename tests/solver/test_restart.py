@@ -6,6 +6,7 @@ from contacts import solved
 from mpi4py import MPI
 
 import mgehl
+from mgehl import run
 from mgehl.config import config_from_tables
 from mgehl.discretization.status import CAVITATED, CONTACT
 from mgehl.errors import UserError
@@ -15,7 +16,7 @@ from mgehl.model.frame import Frame
 from mgehl.solver import restart
 from mgehl.solver.from_config import settings_from
 from mgehl.solver.problem import ContactProblem
-from mgehl.solver.restart import check_start, differing_keys, interpolated
+from mgehl.solver.restart import Forecast, check_start, differing_keys, interpolated
 from mgehl.studies.study import PAPER, PAPERS_DOMAIN, merged, papers_grid
 
 FILM = {"motion": {"speed": 0.5}, "grid": papers_grid(65), "solver": {"start": "film"}}
@@ -76,6 +77,35 @@ class TestInterpolated:
         assert share == pytest.approx(4.0, rel=0.03)
         assert not (state.status[problem.boundary] == CONTACT).any()
 
+    def test_under_another_load_the_film_is_as_thick(self, film, onto):
+        """The bodies come as much closer as the dry ones do."""
+        state, problem = onto(film, FILM, {"contact": {"load": 2.0 * film.contact.load}})
+        before, now = (c.film_scale * (H0 + c.approach) for c, H0 in
+                       ((film.contact, film.H0), (problem.contact, state.H0)))  # fmt: skip
+        assert now == pytest.approx(before, rel=1e-9)
+
+
+ROUGH = {"surface.kind": "waviness", "surface.amplitude": "100 nm", "surface.wavelength_x": "40 um"}
+
+
+@pytest.mark.parametrize(
+    ("surface", "change", "leads"),
+    [
+        ({}, {"motion.speed": 0.4}, True),
+        ({}, {"motion.speed": 5.0}, True),
+        ({}, {"motion.speed": 0.1}, False),
+        ({}, {"contact.load": 100.0}, True),
+        (ROUGH, {"motion.speed": 0.4}, True),
+        (ROUGH, {"grid.nodes": 129}, True),
+        (ROUGH, {"contact.load": 100.0}, False),
+    ],
+)
+def test_a_forecast_leads_to_films_that_are_near_and_peaks_that_stay(surface, change, leads):
+    config = mgehl.load(None, {"motion.speed": 0.5, "contact.load": 80.0, "solver.start": "film"} | surface)
+    before = SimpleNamespace(contact=contact_from(config))
+    contact = contact_from(config.with_(change))
+    assert Forecast(before).leads_to(contact, Frame()) is leads
+
 
 class TestSolveFrom:
     """Its answer is that of a start from nothing, found in fewer steps, all on the finest grid."""
@@ -119,6 +149,14 @@ class TestSolveFrom:
         far, plain = mgehl.solve(slow, start=mgehl.solve(ball)), mgehl.solve(slow)
         assert far.result.converged and far.result.recipe["begins"] == plain.result.recipe["begins"]
         np.testing.assert_array_equal(far.fields.H, plain.fields.H)
+
+    def test_a_forecast_from_afar_begins_from_nothing(self):
+        """A twentieth of the speed: by the same steps as without a neighbour."""
+        slow = {"motion": {"speed": 0.025}, "discretization": {"face_mobility": "linear-gap"}}
+        case = run.enter(config_from_tables(merged(FILM, slow)), MPI.COMM_SELF)
+        far, plain = run.solve(case, MPI.COMM_SELF, run.Watch(), Forecast(solved(FILM))), solved(FILM, slow)
+        assert far.result.work == plain.result.work
+        assert far.result.recipe["begins"] == plain.result.recipe["begins"]
 
 
 def test_a_contact_of_another_kind_is_no_start(film):
