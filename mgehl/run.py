@@ -240,8 +240,7 @@ def _solve_bearing(case, parts, comm, watch):
 
 def _solution(case, parts, problem, state, rows, result, maps=None):
     """The `Solution` of a final state (collective)."""
-    grid = problem.grid
-    local = Fields(state.P, state.H, state.status, state.p, state.filling, problem.heights, **(maps or {}))
-    whole = local.gathered(grid)
-    found = (whole, rows, result, state.H0, local, grid.first)
-    return in_users_axes(Solution(case.config, parts.contact, grid.mesh, *found), parts.frame, grid, case)
+    fields = state.P, state.H, state.status, state.p, state.filling, problem.heights
+    whole = Fields(*fields, **(maps or {})).gathered(problem.grid)
+    found = Solution(case.config, parts.contact, problem.grid.mesh, whole, rows, result, state.H0)
+    return in_users_axes(found, parts.frame, case)

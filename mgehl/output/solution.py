@@ -51,8 +51,7 @@ class Fields:
 class Solution:
     """A solved contact; `rows` is the history, a dictionary per cycle.
 
-    Whole-grid fields live on rank 0 and are None on the others; every rank has its own lines in
-    `local`, which begin with line `first_line`.
+    Whole-grid fields live on rank 0 and are None on the others.
     """
 
     config: Config
@@ -63,8 +62,6 @@ class Solution:
     result: Result
     H0: float = 0.0
     """Constant part of the gap in units of H  [Liu eq. 48], less the closer the bodies; 0 for a wedge."""
-    local: Fields | None = None
-    first_line: int = 0
     frames: Any = None
     """Of a run in time: what has its fields at some instants, on rank 0 (`frames.Frames`)."""
 
@@ -134,7 +131,7 @@ class Solution:
 
     def shared(self) -> "Solution":
         """What every rank knows."""
-        return replace(self, fields=None, local=None)
+        return replace(self, fields=None)
 
     def __str__(self) -> str:
         return str(self.result)
