@@ -39,6 +39,7 @@ from mgehl.solver.journal import Journal, told_to_stop
 from mgehl.solver.nested import single_loop
 from mgehl.solver.on_grid import LevelSolve
 from mgehl.solver.problem import ContactProblem
+from mgehl.solver.recipe_words import plain
 from mgehl.solver.restart import interpolated, solve_from
 from mgehl.solver.unthinned import unthinned
 from mgehl.solver.wedge import solve_wedge
@@ -164,7 +165,7 @@ def _solve_loaded(case, parts, hierarchy, monitor, watch, start):
     if friction and contact.friction.thins and settings.error:
         how = hierarchy, problem, outcome.state, settings, monitor.beside, journal
         friction = with_unthinned(friction, result, partial(unthinned, *how))
-    told = bands | {"friction": friction, "recipe": parts.recipe(start, outcome.begins)}
+    told = bands | {"friction": friction, "recipe": plain(parts.recipe(start, outcome.begins))}
     result = replace(result, **told, wall_s=monitor.seconds)
     return _solution(case, parts, problem, outcome.state, monitor.rows, result, maps)
 
@@ -179,7 +180,7 @@ def _solve_in_time(case, parts, hierarchy, monitor, watch, start):
     result = summarise_in_time(
         problem, outcome, monitor.rows, scene, limit, work, monitor.seconds, versions()
     )
-    result = replace(result, recipe=parts.recipe(start, outcome.begins))
+    result = replace(result, recipe=plain(parts.recipe(start, outcome.begins)))
     solution = _solution(case, parts, problem, outcome.state, monitor.rows, result)
     return replace(solution, frames=diary.frames)
 
