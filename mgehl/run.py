@@ -30,8 +30,8 @@ from mgehl.output.surroundings import versions
 from mgehl.output.users_axes import in_users_axes
 from mgehl.output.wedge_summary import summarise_wedge
 from mgehl.solver.beginning import begin
+from mgehl.solver.beside import Beside
 from mgehl.solver.closing import close_account
-from mgehl.solver.coarser import CoarserGrids
 from mgehl.solver.dry import guess_on_finest, solve_dry
 from mgehl.solver.from_config import set_up
 from mgehl.solver.in_time import march
@@ -41,7 +41,6 @@ from mgehl.solver.on_grid import LevelSolve
 from mgehl.solver.problem import ContactProblem
 from mgehl.solver.recipe_words import plain
 from mgehl.solver.restart import interpolated, solve_from
-from mgehl.solver.unthinned import unthinned
 from mgehl.solver.wedge import solve_wedge
 
 
@@ -157,14 +156,13 @@ def _solve_loaded(case, parts, hierarchy, monitor, watch, start):
         outcome = close_account(hierarchy, problem, outcome, settings, monitor, journal)
     work = Work(monitor.convolutions, monitor.steps if by_newton else outcome.cycles[-1].step)
     result = summarise(problem, outcome, config.solver.tolerance, work, monitor.seconds, versions())
-    coarser = CoarserGrids(hierarchy, problem, outcome.state, settings, monitor.beside, journal)
-    mixed = result.mixed and replace(result.mixed, error=gap_error(result, coarser, monitor))
-    bands = {"mixed": mixed, "error": film_error(result, coarser, monitor)}
+    beside = Beside(hierarchy, problem, outcome.state, settings, monitor.beside, journal)
+    mixed = result.mixed and replace(result.mixed, error=gap_error(result, beside, monitor))
+    bands = {"mixed": mixed, "error": film_error(result, beside, monitor)}
     friction, maps = friction_result(problem, outcome.state)
     friction = with_band(friction, mixed, contact.friction.boundary_coefficient)
     if friction and contact.friction.thins and settings.error:
-        how = hierarchy, problem, outcome.state, settings, monitor.beside, journal
-        friction = with_unthinned(friction, result, partial(unthinned, *how))
+        friction = with_unthinned(friction, result, beside.unthinned)
     told = bands | {"friction": friction, "recipe": plain(parts.recipe(start, outcome.begins))}
     result = replace(result, **told, wall_s=monitor.seconds)
     return _solution(case, parts, problem, outcome.state, monitor.rows, result, maps)
