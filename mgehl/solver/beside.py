@@ -80,12 +80,10 @@ class Beside:
     def unthinned(self):
         """The `ContactProblem` whose oil shear does not thin, and its `Outcome`, on the finest grid
         (collective)."""
-        answer, state = self.problem, self._state
-        contact = replace(answer.contact, friction=replace(answer.contact.friction, thins=False))
-        problem = ContactProblem(answer.grid, answer.deflection, contact, answer.scheme)
-        state = problem.state(state.P, state.H0, state.status, state.p, state.filling)
-        how = self.settings, self._monitor, self._journal
-        return problem, solve_near(self._hierarchy, problem, state, *how)
+        thinned, friction = self.problem, self.problem.contact.friction
+        contact = replace(thinned.contact, friction=replace(friction, thins=False))
+        problem = ContactProblem(thinned.grid, thinned.deflection, contact, thinned.scheme)
+        return problem, self._solve_near(problem, self._state, self.settings)
 
     def _whole(self, level):
         """Problem and `Outcome` of the contact with all of its surface, by the scheme of the run."""
@@ -108,9 +106,11 @@ class Beside:
         limits |= {"tolerance": max(TOLERANCE, newton.tolerance), "release_budget": 0}
         settings = replace(self.settings, newton=replace(newton, **limits))
         problem = ContactProblem(hierarchy.grids[level], hierarchy.deflections[level], contact, scheme)
-        there = _at_nodes(hierarchy.transfers[level], state)
-        state = problem.state(there.P, there.H0, there.status, there.p, there.filling)
-        return problem, solve_near(hierarchy, problem, state, settings, self._monitor, self._journal)
+        return problem, self._solve_near(problem, _at_nodes(hierarchy.transfers[level], state), settings)
+
+    def _solve_near(self, problem, state, settings):
+        state, how = problem.with_own_gap(state), (settings, self._monitor, self._journal)
+        return solve_near(self._hierarchy, problem, state, *how)
 
 
 def _is_of(problem, grid, contact, scheme):

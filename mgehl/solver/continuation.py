@@ -54,8 +54,7 @@ class Continuation:
         hierarchy, settings = self._hierarchy, self._settings
         scheme, contact = replace(settings.scheme, mobility_share=share), self._contact.at_speed(speed)
         problem = ContactProblem(hierarchy.grids[-1], hierarchy.deflections[-1], contact, scheme)
-        state = problem.state(state.P, state.H0, state.status, state.p, state.filling)
-        how = settings, self._monitor, self._journal
+        state, how = problem.with_own_gap(state), (settings, self._monitor, self._journal)
         return problem, solve_near(hierarchy, problem, state, *how, **limits)
 
     def follow(self, state, first_speed, last_speed):

@@ -40,7 +40,7 @@ def make(make_hierarchy, paper_contact, usual_law):
 
 
 def true_residual(problem, state):
-    state = problem.state(state.P, state.H0, state.status, state.p, state.filling)
+    state = problem.with_own_gap(state)
     return problem.rms(problem.residual(problem.evaluate(state), state.status))
 
 
