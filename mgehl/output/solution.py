@@ -37,6 +37,16 @@ class Fields:
     flash_2: Reals | None = None
 
     @property
+    def fluid_pressure(self) -> Reals:
+        """That of the fluid; `P` where it was not kept."""
+        return self.P if self.p is None else self.p
+
+    @property
+    def full_part(self) -> Reals:
+        """How full of oil the gap is; 1 in older results, whose cavities carry all of it."""
+        return np.ones_like(self.H) if self.filling is None else self.filling
+
+    @property
     def named(self) -> dict[str, NDArray[Any]]:
         """All that there are, by name, in their order."""
         return {name: each for name, each in vars(self).items() if each is not None}

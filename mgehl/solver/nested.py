@@ -56,11 +56,13 @@ def nested_iteration(hierarchy, contact, settings, monitor, journal=NOTHING_KEPT
     return problem, outcome
 
 
-def single_loop(hierarchy, contact, settings, monitor, journal=NOTHING_KEPT):
-    """Solve by the paper's relaxation, on the finest grid alone; otherwise as `nested_iteration`."""
+def single_loop(hierarchy, contact, settings, monitor, journal=NOTHING_KEPT, state=None):
+    """Solve by the paper's relaxation, on the finest grid alone, maybe from a `state`; otherwise as
+    `nested_iteration`."""
     grid = hierarchy.grids[-1]
     problem = ContactProblem(grid, hierarchy.deflections[-1], contact, settings.scheme)
-    state = first_guess(problem, recipe_of(settings, contact).begins)
+    if state is None:
+        state = first_guess(problem, recipe_of(settings, contact).begins)
     tell = partial(monitor, LevelSolve(grid.mesh.nx, contact.speed, True))
     return problem, relax(problem, state, settings.relaxation, tell, journal)
 
