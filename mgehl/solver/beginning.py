@@ -28,7 +28,7 @@ def begin(hierarchy, contact, settings, monitor, journal=NOTHING_KEPT):
     if settings.scheme.face_mobility not in FOLDING:
         settings = on_mesh(settings, contact, hierarchy.grids[-1].mesh)
         return nested_iteration(hierarchy, contact, settings, monitor, journal)
-    if settings.nested.start == IN_CONTACT:
+    if settings.start == IN_CONTACT:
         settings = replace(settings, newton=settings.newton.squeezed())
         return nested_iteration(hierarchy, contact, settings, monitor, journal)
     return Continuation(hierarchy, contact, settings, monitor, journal).begin()
@@ -67,8 +67,7 @@ def with_news(monitor, news):
 
 def begin_dry(hierarchy, contact, settings, monitor, journal=NOTHING_KEPT):
     """Solve from the dry contact, its valleys empty: near to where solids carry nearly all."""
-    settings = replace(settings, nested=replace(settings.nested, start=DRY))
-    return nested_iteration(hierarchy, contact, settings, monitor, journal)
+    return nested_iteration(hierarchy, contact, replace(settings, start=DRY), monitor, journal)
 
 
 def begin_thick(hierarchy, contact, settings, monitor, journal=NOTHING_KEPT):

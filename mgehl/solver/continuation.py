@@ -38,7 +38,7 @@ class Continuation:
         speed. Solutions on the way need not be exact.
         """
         contact, settings = self._contact, self._settings
-        speed = contact.matched_speed(self._hierarchy.grids[-1].mesh, settings.nested.inlet_cells)
+        speed = contact.matched_speed(self._hierarchy.grids[-1].mesh, settings.inlet_cells)
         first = replace(settings, scheme=replace(settings.scheme, face_mobility="logarithmic")).roughly()
         problem, outcome = nested_iteration(
             self._hierarchy, contact.at_speed(speed), first, self._monitor, self._journal

@@ -17,7 +17,7 @@ def guess_fluid(hierarchy, problem, state, settings):
     beside contact on the coarse grid is left as it is: pressures jump there.
     """
     level = hierarchy.grids.index(problem.grid) - 1
-    grid, fewest = hierarchy.grids[level], settings.nested.first_nodes
+    grid, fewest = hierarchy.grids[level], settings.first_nodes
     if level < 0 or grid.mesh.nx < fewest or not problem.scheme.cavitation:
         return
     transfer, deflection = hierarchy.transfers[level], hierarchy.deflections[level]

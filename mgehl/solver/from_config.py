@@ -20,7 +20,7 @@ from mgehl.solver.recipe import (
     share_of_the_flow,
 )
 from mgehl.solver.relaxation import RelaxationSettings
-from mgehl.solver.settings import NestedSettings, NewtonSettings, SolverSettings, TimeSettings
+from mgehl.solver.settings import NewtonSettings, SolverSettings, TimeSettings
 
 
 @dataclass(frozen=True)
@@ -90,7 +90,9 @@ def settings_from(config, contact):
     return SolverSettings(
         method=solver.method,
         scheme=scheme,
-        nested=NestedSettings(solver.start, solver.first_nodes, solver.inlet_cells),
+        start=solver.start,
+        first_nodes=solver.first_nodes,
+        inlet_cells=solver.inlet_cells,
         newton=NewtonSettings(
             tolerance=share_of_the_flow(contact, scheme) * solver.tolerance,
             max_steps=solver.max_steps,

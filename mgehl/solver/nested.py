@@ -124,12 +124,11 @@ def planned_solves(meshes, contact, settings):
     A film begins on the coarse grids, at speeds that they resolve and that do not lift the bodies off each
     other.
     """
-    finest, nested = len(meshes) - 1, settings.nested
-    on_coarse_grids = recipe_of(settings, contact).on_coarse_grids
+    finest, on_coarse_grids = len(meshes) - 1, recipe_of(settings, contact).on_coarse_grids
     for level, mesh in enumerate(meshes):
         if level == finest:
             yield level, LevelSolve(mesh.nx, contact.speed, True)
-        elif mesh.nx >= nested.first_nodes and on_coarse_grids:
-            speed = contact.matched_speed(mesh, nested.inlet_cells)
+        elif mesh.nx >= settings.first_nodes and on_coarse_grids:
+            speed = contact.matched_speed(mesh, settings.inlet_cells)
             if not contact.at_speed(speed).hardly_yields:
                 yield level, LevelSolve(mesh.nx, speed, False)

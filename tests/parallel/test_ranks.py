@@ -28,7 +28,7 @@ from mgehl.solver.nested import single_loop
 from mgehl.solver.partition import Changes, Partition
 from mgehl.solver.problem import ContactProblem, State
 from mgehl.solver.relaxation import RelaxationSettings
-from mgehl.solver.settings import NestedSettings, SolverSettings
+from mgehl.solver.settings import SolverSettings
 from mgehl.solver.verification import complementarity_error, flux_imbalance
 from mgehl.studies.branch import Branch
 from mgehl.studies.study import PAPER, Study, merged, papers_grid
@@ -196,7 +196,7 @@ class TestRelaxation:
         speed, start = CASES[case]
         contact = paper_contact(speed)
         settings = SolverSettings(
-            method="relaxation", nested=NestedSettings(start=start),
+            method="relaxation", start=start,
             relaxation=RelaxationSettings(fluid_update=update, contact_update=update, omega=0.2,
                                           max_sweeps=6),
         )  # fmt: skip
