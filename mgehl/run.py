@@ -30,8 +30,8 @@ from mgehl.output.surroundings import versions
 from mgehl.output.users_axes import in_users_axes
 from mgehl.output.wedge_summary import summarise_wedge
 from mgehl.solver.beginning import begin
+from mgehl.solver.beside import Beside
 from mgehl.solver.closing import close_account
-from mgehl.solver.coarser import CoarserGrids
 from mgehl.solver.dry import guess_on_finest, solve_dry
 from mgehl.solver.from_config import set_up
 from mgehl.solver.in_time import march
@@ -39,8 +39,8 @@ from mgehl.solver.journal import Journal, told_to_stop
 from mgehl.solver.nested import single_loop
 from mgehl.solver.on_grid import LevelSolve
 from mgehl.solver.problem import ContactProblem
+from mgehl.solver.recipe_words import plain
 from mgehl.solver.restart import interpolated, solve_from
-from mgehl.solver.unthinned import unthinned
 from mgehl.solver.wedge import solve_wedge
 
 
@@ -156,15 +156,14 @@ def _solve_loaded(case, parts, hierarchy, monitor, watch, start):
         outcome = close_account(hierarchy, problem, outcome, settings, monitor, journal)
     work = Work(monitor.convolutions, monitor.steps if by_newton else outcome.cycles[-1].step)
     result = summarise(problem, outcome, config.solver.tolerance, work, monitor.seconds, versions())
-    coarser = CoarserGrids(hierarchy, problem, outcome.state, settings, monitor.beside, journal)
-    mixed = result.mixed and replace(result.mixed, error=gap_error(result, coarser, monitor))
-    bands = {"mixed": mixed, "error": film_error(result, coarser, monitor)}
+    beside = Beside(hierarchy, problem, outcome.state, settings, monitor.beside, journal)
+    mixed = result.mixed and replace(result.mixed, error=gap_error(result, beside, monitor))
+    bands = {"mixed": mixed, "error": film_error(result, beside, monitor)}
     friction, maps = friction_result(problem, outcome.state)
     friction = with_band(friction, mixed, contact.friction.boundary_coefficient)
     if friction and contact.friction.thins and settings.error:
-        how = hierarchy, problem, outcome.state, settings, monitor.beside, journal
-        friction = with_unthinned(friction, result, partial(unthinned, *how))
-    told = bands | {"friction": friction, "recipe": parts.recipe(start, outcome.begins)}
+        friction = with_unthinned(friction, result, beside.unthinned)
+    told = bands | {"friction": friction, "recipe": plain(parts.recipe(start, outcome.begins))}
     result = replace(result, **told, wall_s=monitor.seconds)
     return _solution(case, parts, problem, outcome.state, monitor.rows, result, maps)
 
@@ -179,7 +178,7 @@ def _solve_in_time(case, parts, hierarchy, monitor, watch, start):
     result = summarise_in_time(
         problem, outcome, monitor.rows, scene, limit, work, monitor.seconds, versions()
     )
-    result = replace(result, recipe=parts.recipe(start, outcome.begins))
+    result = replace(result, recipe=plain(parts.recipe(start, outcome.begins)))
     solution = _solution(case, parts, problem, outcome.state, monitor.rows, result)
     return replace(solution, frames=diary.frames)
 
@@ -240,8 +239,7 @@ def _solve_bearing(case, parts, comm, watch):
 
 def _solution(case, parts, problem, state, rows, result, maps=None):
     """The `Solution` of a final state (collective)."""
-    grid = problem.grid
-    local = Fields(state.P, state.H, state.status, state.p, state.filling, problem.heights, **(maps or {}))
-    whole = local.gathered(grid)
-    found = (whole, rows, result, state.H0, local, grid.first)
-    return in_users_axes(Solution(case.config, parts.contact, grid.mesh, *found), parts.frame, grid, case)
+    fields = state.P, state.H, state.status, state.p, state.filling, problem.heights
+    whole = Fields(*fields, **(maps or {})).gathered(problem.grid)
+    found = Solution(case.config, parts.contact, problem.grid.mesh, whole, rows, result, state.H0)
+    return in_users_axes(found, parts.frame, case)

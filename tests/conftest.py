@@ -155,12 +155,12 @@ class Solution:
 def solve(make_hierarchy, usual_law):
     from mgehl.discretization.scheme import Scheme
     from mgehl.solver.nested import nested_iteration
-    from mgehl.solver.settings import NestedSettings, NewtonSettings, SolverSettings
+    from mgehl.solver.settings import NewtonSettings, SolverSettings
 
     def run(contact, nodes, start="film", couette="1B", newton=None, **grid):
         settings = SolverSettings(
             scheme=Scheme(couette, contact_law=usual_law(contact)),
-            nested=NestedSettings(start=start),
+            start=start,
             newton=NewtonSettings(**(newton or {})),
         )
         hierarchy, told = make_hierarchy(contact, nodes, **grid), []

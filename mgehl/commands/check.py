@@ -15,7 +15,7 @@ from mgehl.kinds.choice import given
 from mgehl.kinds.cited import cited
 from mgehl.kinds.lubricant import oil_words
 from mgehl.kinds.plausible import implausible
-from mgehl.kinds.time import begins_at_rest, scene_of
+from mgehl.kinds.time import begins_at_rest
 from mgehl.model.sources import SOURCES
 from mgehl.saying import columns, folded
 
@@ -43,8 +43,8 @@ def execute(options):
     config, contact, mesh = case.config, case.contact, case.mesh
     print(f"{options.config or shown(file)}: valid, a {config.kind.noun}\n")
     lines = [*_given(config, left_out(config, tables)), *_idle(config, tables)]
-    lines += *_under("unusual", implausible(config, contact)), "", *_described(config, contact, mesh)
-    lines += *_estimate(config, contact, mesh, options.ranks), *_recipe(config, contact, mesh), ""
+    lines += *_under("unusual", implausible(config, contact)), "", *_described(case)
+    lines += *_estimate(config, contact, mesh, options.ranks), *_recipe(case), ""
     names = ", ".join(SOURCES[key].short for key in cited(config, contact))
     lines += (*_under("sources", [f"{names}; mgehl cite RUN has them in full"]),)
     width = columns()
@@ -75,27 +75,29 @@ def _under(head, lines):
         yield f"{'' if number else head:{NAME}}{line}"
 
 
-def _described(config, contact, mesh):
+def _described(case):
     """Lines about the contact and, of a loaded one, about its inlet."""
+    config, contact, mesh = case.config, case.contact, case.mesh
     yield from config.kind.lines(config, contact, mesh)
     if contact.is_loaded and not config.is_dry:
         yield ""
-        yield from _inlet(config, contact, mesh)
+        yield from _inlet(case)
         yield from _surface(config, contact, mesh)
 
 
-def _inlet(config, contact, mesh):
+def _inlet(case):
     """Lines about the inlet on every grid."""
     from mgehl.kinds.loaded import speed_words
     from mgehl.output import resolution
     from mgehl.output.forecast import LARGEST_NODES, inlet_grids
     from mgehl.solver.from_config import scheme_from
 
-    scene = scene_of(config, contact) if config.is_in_time else None
+    config, contact, mesh = case.config, case.contact, case.mesh
+    scene = case.scene if config.is_in_time else None
     found = resolution.resolution(contact, mesh, scene)
     if words := resolution.inlet_speed_words(found):
         yield f"inlet      {words}{resolution.near_rest(found)}"
-    grids = inlet_grids(config, contact)
+    grids = inlet_grids(case)
     for grid in grids:
         at = "" if grid.speed is None else f"   solved at {speed_words(grid.speed)}"
         yield f"grid {grid.nodes:5d}   {grid.cells:8.2f} cells in the inlet{at}"
@@ -118,18 +120,16 @@ def _inlet(config, contact, mesh):
     yield f"resolved   {cells}, from {needed} nodes on: {verdict}"
 
 
-def _recipe(config, contact, mesh):
+def _recipe(case):
     """Lines with all that is chosen for the solve of a loaded contact with a fluid."""
-    if not contact.is_loaded or config.is_dry:
+    if not case.contact.is_loaded or case.config.is_dry:
         return
-    from mgehl.solver.from_config import settings_from
-    from mgehl.solver.recipe import on_mesh, recipe_of
+    from mgehl.solver.from_config import set_up
     from mgehl.solver.recipe_words import recipe_words
 
     yield ""
-    settings = on_mesh(settings_from(config, contact), contact, mesh)
-    recipe = recipe_of(settings, contact)
-    yield from _under("recipe", recipe_words(recipe, contact.is_plane, begins_at_rest(config)))
+    words = recipe_words(set_up(case).recipe(), case.contact.is_plane, begins_at_rest(case.config))
+    yield from _under("recipe", words)
 
 
 def _surface(config, contact, mesh):

@@ -124,17 +124,6 @@ def harmonic_mean(a, b):
     return 2.0 * a * of_b, 2.0 * of_b**2, 2.0 * of_a**2
 
 
-def logarithmic_mean(a, b):
-    """(a - b)/ln(a/b) and its two derivatives: vanishes with either side.
-
-    Between nodes of one gap and Barus's law it is exact: their flow is that of the reduced pressure
-    q = (1 - e^(-alpha p))/alpha.
-    """
-    parts = np.empty((3, *np.shape(a)))
-    logarithmic_means(np.atleast_2d(a), np.atleast_2d(b), *(np.atleast_2d(part) for part in parts))
-    return tuple(parts)
-
-
 def _share(part, whole):
     """part/whole, zero where there is nothing (a closed gap's mobility may be negative)."""
     return np.divide(part, whole, out=np.zeros(np.broadcast(part, whole).shape), where=whole > 0.0)
@@ -145,10 +134,10 @@ ARITHMETIC = "arithmetic"
 
 FACE_MEANS = {
     ARITHMETIC: arithmetic_mean,
-    "logarithmic": logarithmic_mean,
     "geometric": geometric_mean,
     "harmonic": harmonic_mean,
 }
+"""Means of two mobilities with their slopes by both; the others are `MONOTONE`."""
 
 FOLDING = ("geometric", "harmonic")
 """Means by which the flow through a face falls again where its nodes differ by much. By the logarithmic
@@ -219,7 +208,14 @@ def _by_mean_density(mean, eps, gaps, rho):
 
 
 def _logarithmic_mobility(eps, _gaps):
-    value, *by_eps = logarithmic_mean(*eps)
+    """(a - b)/ln(a/b) of the mobilities a and b: vanishes with either side.
+
+    Between nodes of one gap and Barus's law it is exact: their flow is that of the reduced pressure
+    q = (1 - e^(-alpha p))/alpha.
+    """
+    parts = np.empty((3, *np.shape(eps[0])))
+    logarithmic_means(*(np.atleast_2d(each) for each in (*eps, *parts)))
+    value, *by_eps = parts
     return FaceMobility(value, tuple(by_eps))
 
 

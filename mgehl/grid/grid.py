@@ -181,20 +181,20 @@ class Grid:
         whole = np.empty((*several, *size), array.dtype) if self.comm.rank == 0 else None
         for each in np.ndindex(several):
             target = None if whole is None else whole[each]
-            self.comm.Gatherv(np.ascontiguousarray(array[each]), self._parts_of(target))
+            self.comm.Gatherv(np.ascontiguousarray(array[each]), self._parts(target, self.starts))
         return whole
 
     def to_last(self, array):
         """The whole (ny, nx) array on the team's last rank, None on the others: for a coarsest grid."""
         last = self.team.size - 1
         whole = np.empty((self.mesh.ny, self.mesh.nx), array.dtype) if self.team.rank == last else None
-        self.team.Gatherv(np.ascontiguousarray(array), self._parts_in_team(whole), root=last)
+        self.team.Gatherv(np.ascontiguousarray(array), self._parts(whole, self.team_starts), root=last)
         return whole
 
     def from_last(self, whole):
         """The local lines, (lines, nx), of a whole array of doubles that the team's last rank has."""
         local = np.empty(self.shape)
-        self.team.Scatterv(self._parts_in_team(whole), local, root=self.team.size - 1)
+        self.team.Scatterv(self._parts(whole, self.team_starts), local, root=self.team.size - 1)
         return local
 
     def scatter(self, whole):
@@ -202,18 +202,12 @@ class Grid:
         several, dtype = self.comm.bcast(None if whole is None else (whole.shape[:-2], whole.dtype))
         local = np.empty((*several, *self.shape), dtype)
         for each in np.ndindex(several):
-            self.comm.Scatterv(self._parts_of(None if whole is None else whole[each]), local[each])
+            source = None if whole is None else whole[each]
+            self.comm.Scatterv(self._parts(source, self.starts), local[each])
         return local
 
-    def _parts_of(self, whole):
-        """What MPI takes for the whole array that rank 0 has, dealt out in lines."""
-        return self._parts(whole, self.starts)
-
-    def _parts_in_team(self, whole):
-        """The same for the whole array that the team's last rank has."""
-        return self._parts(whole, self.team_starts)
-
     def _parts(self, whole, starts):
+        """What MPI takes for a whole array, (ny, nx), dealt out in lines; None of ranks that have none."""
         return None if whole is None else (np.ascontiguousarray(whole), np.diff(starts) * self.mesh.nx)
 
 

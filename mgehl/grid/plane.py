@@ -14,18 +14,11 @@ from mpi4py.util.dtlib import from_numpy_dtype
 from mgehl.grid.shared_memory import shared_array
 
 
-def plane_of(comm, line_starts, widths, dtype):
-    """A plane of zeros; every rank of `comm` has lines, from `line_starts` on, and calls this.
-
-    `widths` are the numbers of columns of each rank.
-    """
-    return planes_of(comm, line_starts, widths, dtype, (1,))[0]
-
-
-def planes_of(comm, line_starts, widths, dtype, numbers):
+def planes_of(comm, line_starts, widths, dtype, numbers=(1,)):
     """Planes of zeros in which each line has so many `numbers` of lines.
 
-    All are of one kind: a rank's columns are at the same places in each.
+    Every rank of `comm` has lines, from `line_starts` on, and calls this. `widths` are the numbers of
+    columns of each rank. All planes are of one kind: a rank's columns are at the same places in each.
     """
     starts, width = [each * line_starts for each in numbers], _odd(sum(widths))
     wholes = [_room(comm, (int(each[-1]), width), dtype) for each in starts]
@@ -56,11 +49,6 @@ def shares_of_work(work, ranks):
     cuts = np.maximum.accumulate(np.maximum(cuts - inner, 0)) + inner
     cuts = np.minimum(cuts, len(work) - ranks + inner).tolist()
     return list(zip([0, *cuts], [*cuts, len(work)], strict=True))
-
-
-def even_widths(columns, ranks):
-    """How many columns each rank has of these shares."""
-    return [end - first for first, end in even_shares(columns, ranks)]
 
 
 def _odd(width):

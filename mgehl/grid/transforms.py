@@ -7,7 +7,7 @@ padded plane is ever held: a convolution takes two thirds of the time and less t
 import numpy as np
 import pyfftw
 
-from mgehl.grid.plane import even_widths, plane_of
+from mgehl.grid.plane import even_shares, planes_of
 
 THREADS = 1
 """Of an FFT: the ranks share the work."""
@@ -33,7 +33,8 @@ class PlaneTransforms:
     def __init__(self, grid, period_x, period_y):
         """`period_x` is even; nodes that a period has no room for are those of the domain's boundary."""
         lines, modes = grid.shape[0], period_x // 2 + 1
-        self._modes = plane_of(grid.team, grid.team_starts, even_widths(modes, grid.team.size), complex)
+        widths = [end - first for first, end in even_shares(modes, grid.team.size)]
+        (self._modes,) = planes_of(grid.team, grid.team_starts, widths, complex)
         self._along_x = _AlongX(period_x, lines)
         self._along_y = _AlongY(period_y, self._modes.columns.shape[1])
         self.scale = period_x * period_y

@@ -15,7 +15,7 @@ class LineKind(LoadedKind):
 
     name, noun, model = "line", "line contact", LineContact
     about = "A lubricated line contact: a cylinder on a flat, per length."
-    load_unit = "N/m"
+    load_key, load_unit = "contact.load_per_length", "N/m"
     takes = (
         "contact.load_per_length", "contact.radius_x", "contact.reduced_modulus", "contact.boundary_film",
         "contact.ambient_pressure", "contact.surface", "contact.surface_body",
@@ -34,7 +34,7 @@ class LineKind(LoadedKind):
 
     def pressed(self, config, shared):
         """A `LineContact`."""
-        load, speed = reference(config, "contact.load_per_length"), reference(config, "motion.speed")
+        load, speed = reference(config, self.load_key), reference(config, "motion.speed")
         return LineContact(load=load, speed=speed, **shared)
 
     def mesh(self, config, contact):
@@ -45,7 +45,7 @@ class LineKind(LoadedKind):
     def size(self, config, contact):
         """The half-width."""
         a, radius = contact.hertz.a, config.contact.radius_x
-        return "contact.load_per_length", f"{a:.2g} m", f"{radius:g} m", a / radius
+        return self.load_key, f"{a:.2g} m", f"{radius:g} m", a / radius
 
     def newton_effort(self, config):
         """The same from every start."""

@@ -39,8 +39,10 @@ BANDS, BANDS_WORDS = 10.0, "bands 2 to 23 more"
 class LoadedKind(Kind):
     """A contact whose film and pressure answer to a load."""
 
+    load_key: str
+    """The key of the load."""
     load_unit: str
-    """SI unit of the load."""
+    """Its SI unit."""
 
     def check_keys(self, config):
         """Neither the laws of the lubricant nor the surfaces may contradict themselves."""
@@ -151,7 +153,7 @@ class LoadedKind(Kind):
             *(f"           {words}" for words in assumptions(contact)),
             *(f"lambda     {words}" for words in lambda_words(config, own.expected_film, "a formula's")),
             *(f"heat       {words}" for words in (*factor_words(contact), *heat_words(config, contact))),
-            f"load       {_over_time(config, time.load_key(config), contact.load)} {self.load_unit}   "
+            f"load       {_over_time(config, self.load_key, contact.load)} {self.load_unit}   "
             f"speed {_over_time(config, 'motion.speed', contact.speed)} m/s, the mean of both surfaces' "
             "speeds",
         ]

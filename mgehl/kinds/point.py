@@ -62,7 +62,7 @@ class PointKind(LoadedKind):
 
     name, noun, model = "point", "point contact", PointContact
     about = "A lubricated point contact: a ball or an ellipsoid on a flat."
-    load_unit = "N"
+    load_key, load_unit = "contact.load", "N"
     takes = (
         "contact.load", "contact.radius_x", "contact.radius_y", "contact.reduced_modulus",
         "contact.deformation", "contact.boundary_film", "contact.ambient_pressure",
@@ -100,7 +100,7 @@ class PointKind(LoadedKind):
         shared |= {"angle": config.motion.angle, "load_beyond": config.grid.load_beyond}
         if moes.M is not None:
             return PointContact.from_moes(moes.M, moes.L, **shared)
-        load, speed = reference(config, "contact.load"), reference(config, "motion.speed")
+        load, speed = reference(config, self.load_key), reference(config, "motion.speed")
         return PointContact(load=load, speed=speed, **shared)
 
     def mesh(self, config, contact):
@@ -116,7 +116,7 @@ class PointKind(LoadedKind):
     def size(self, config, contact):
         """The size of the ellipse, as wide as a soft layer makes it."""
         section, hertz, wide = config.contact, contact.hertz, contact.widening
-        key = "moes.M" if config.moes.M is not None else "contact.load"
+        key = "moes.M" if config.moes.M is not None else self.load_key
         size = f"{wide * hertz.a:.2g} m by {wide * hertz.b:.2g} m"
         radii = f"{section.radius_x:g} m and {section.radius_y:g} m"
         return key, size, radii, wide * max(hertz.a / section.radius_x, hertz.b / section.radius_y)

@@ -102,14 +102,9 @@ def _in_si(name, heading, unit):
     )
 
 
-def load_key(config):
-    """The key of the load."""
-    return "contact.load_per_length" if config.contact.kind == "line" else "contact.load"
-
-
 def of_first_load(config):
     """Words after what is that of the first load, where the load is a course; else empty."""
-    return ", of the first load" if isinstance(config.value(load_key(config)), str) else ""
+    return ", of the first load" if isinstance(config.value(config.kind.load_key), str) else ""
 
 
 def of_formulas(config):
@@ -179,7 +174,7 @@ def range_of(config, key):
 
 def extremes(config, contact):
     """The contact at its least and at its largest load until time.end; it alone where that stays."""
-    loads = range_of(config, load_key(config))
+    loads = range_of(config, config.kind.load_key)
     if config.moes.M is not None or loads[0] == loads[1]:
         return (contact,)
     return tuple(replace(contact, load=load) for load in loads)
@@ -216,7 +211,7 @@ def ways_of(config, name):
 
 def scene_of(config, contact):
     """The `Scene` of a run in time; the `contact` has the largest speed and the first load."""
-    key, by_moes = load_key(config), config.moes.M is not None
+    key, by_moes = config.kind.load_key, config.moes.M is not None
     load = course(key, contact.load if by_moes else config.value(key))
     speed = course("motion.speed", contact.speed if by_moes else config.motion.speed)
     slip = config.motion.slip

@@ -209,6 +209,10 @@ class LoadedContact(OnBodies, Inlet):
         """Metres per unit of Y: b."""
         return self.hertz.b
 
+    def cell_area(self, mesh):
+        """Area of a cell of a mesh in m^2; of a line contact that of a metre of its length."""
+        return mesh.dX * self.x_scale * (1.0 if mesh.is_line else mesh.dY * self.y_scale)
+
     @property
     def pressure_scale(self):
         """Pascals per unit of P: p_h."""

@@ -86,11 +86,6 @@ class SurfaceInFrame:
         """Height in m at `x` and `y` in m of the frame."""
         return self.surface.height(*self.frame.users_point(x, y))
 
-    @property
-    def function(self):
-        """The user's, to be named where it fails."""
-        return self.surface.function
-
     def shortest(self, x, y):
         """Shortest wavelength in m, seen on nodes x (nx,) and y (ny,) of the frame."""
         return self.surface.shortest(*self._users_lines(x, y))

@@ -20,11 +20,6 @@ class Moved(Surface):
     surface: Surface
     way: tuple
 
-    @property
-    def function(self):
-        """That of the surface itself."""
-        return self.surface.function
-
     def height(self, x, y):
         """Height at x and y."""
         return self.surface.height(x - self.way[0], y - self.way[1])
@@ -36,10 +31,6 @@ class Moved(Surface):
     def reaches(self, x, y):
         """Of one from a file whether points lie within it, where it is now."""
         return self.surface.reaches(x - self.way[0], y - self.way[1])
-
-    def varies_along(self, direction):
-        """As where it was."""
-        return self.surface.varies_along(direction)
 
 
 AT_REST = 1e-3

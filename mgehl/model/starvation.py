@@ -18,14 +18,13 @@ good to a factor of two, but where a domain cuts into a light film.
 
 from dataclasses import dataclass
 from functools import cached_property
-from math import exp, inf, pi, sqrt
+from math import exp, inf, log, pi, sqrt
 from typing import NamedTuple
 
 import numpy as np
 
 from mgehl.model.contact import LoadedContact
 from mgehl.model.drag import kapitza_factor
-from mgehl.model.way_in import STEPS, WayIn
 
 UPSTREAM, BESIDE = (0.66, 0.53), (0.08, 0.15)
 """Powers of the part of the reduced pressure that is left with which the central and the minimum film fall
@@ -52,6 +51,36 @@ the sides take away within (`far_field`)."""
 
 NO_FILM = 1e-12
 """Least film, in units of H: a contact at rest has an inlet without length."""
+
+STEPS = np.geomspace(1e-6, 1e5, 500)
+"""Lengths of the way, in semi-axes of the contact, at which the integral is known."""
+
+
+@dataclass(frozen=True)
+class WayIn:
+    """A straight way to the edge of a contact, by Grubin's integral."""
+
+    film: float
+    """In the contact; not 0."""
+    gap: np.ndarray
+    """Of the dry contact at `STEPS` from its edge, in the unit of the film."""
+
+    @cached_property
+    def _missing(self):
+        """ln of what `missing` returns at `STEPS`."""
+        grows = self.gap / (self.film + self.gap) ** 3
+        pieces = 0.5 * (grows[1:] + grows[:-1]) * np.diff(STEPS)
+        last = grows[-1] * STEPS[-1] / 3.0  # the gap is a parabola there
+        beyond = np.append(np.cumsum(pieces[::-1])[::-1], 0.0) + last
+        return np.log(-np.log1p(-beyond / (beyond[0] * (1.0 + 1e-6))))
+
+    def missing(self, way):
+        """-ln of the part of the reduced pressure that is built up on a way of this length."""
+        return exp(np.interp(log(max(way, STEPS[0])), np.log(STEPS), self._missing))
+
+    def way(self, missing):
+        """The length of the way on which that much is missing."""
+        return exp(np.interp(-log(missing), -self._missing, np.log(STEPS)))
 
 
 class Side(NamedTuple):

@@ -19,6 +19,8 @@ films on 257 to 1025 nodes take up to a quarter less work than with 1, a few of 
 class LinesBothWays(LineSmoother):
     """A smoother that has the bands of lines along both axes."""
 
+    words = "lines along x and y"
+
     def __init__(self, jacobian, omega):
         super().__init__(jacobian, omega)
         grid = jacobian.grid
@@ -87,6 +89,7 @@ class CliffSmoother(CrossedLineSmoother):
     takes 38 convolutions; by V-cycles it took 42, by lines alone 376.
     """
 
+    words = f"{LinesBothWays.words}, nodes at cliffs of the mobility at once"
     sees_cliffs = True
 
     def __init__(self, jacobian, omega):

@@ -34,6 +34,7 @@ from mgehl.multigrid.film_ends import end_halfway
 from mgehl.multigrid.jacobian import Jacobian
 from mgehl.multigrid.memory import Memory
 from mgehl.multigrid.options import by_default
+from mgehl.multigrid.smoother import RigidLineSmoother
 from mgehl.multigrid.smoother_choice import smoother_of
 
 IN_THE_CYCLE = {"2C": "3B", "S2C": "3B"}
@@ -108,10 +109,7 @@ class MultigridSolver:
             self.jacobian = Jacobian(grids[-1], deflections[-1], contact, scheme)
         self._transfers = hierarchy.transfers[first:level]
         self._partitioned = [PartitionedTransfer(transfer) for transfer in self._transfers]
-        self._smoothers = [
-            smoother_of(each, self._in_valleys, each is self.jacobians[-1], apart)(each, settings.omega)
-            for each in self.jacobians[1:]
-        ]
+        self._smoothers = [self._smoother(each, apart)(each, settings.omega) for each in self.jacobians[1:]]
         self._coarse = CoarseSolve(self.jacobians[0])
         cycle = FCycle(self.jacobians, self._partitioned, self._smoothers, self._coarse, settings.sweeps)
         self.memory = Memory(self.jacobian, cycle) if self._rough and self._smoothers else None
@@ -130,6 +128,13 @@ class MultigridSolver:
             return self._scheme
         coarse = replace(self._scheme, face_mobility="arithmetic")
         return replace(coarse, coarsenings=coarsenings) if self._oblique else coarse
+
+    def _smoother(self, jacobian, apart):
+        """The class of the smoother of a grid: a rigid gap has no K."""
+        if jacobian.rigid:
+            return RigidLineSmoother
+        grid = jacobian.grid.mesh.is_line, jacobian.holds_film
+        return smoother_of(*grid, self._in_valleys, jacobian is self.jacobians[-1], apart)
 
     def free(self):
         """Destroy Mats and MPI datatypes; the KSP that uses them must be destroyed before."""

@@ -56,6 +56,9 @@ class LineSmoother(XLines):
     overshoots on smooth corrections; K Q decays fast enough for a band.
     """
 
+    words = "lines along x"
+    """Of a recipe."""
+
     def __init__(self, jacobian, omega):
         super().__init__(jacobian, omega, REACH)
         grid = jacobian.grid

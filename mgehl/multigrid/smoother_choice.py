@@ -1,24 +1,22 @@
 """Which smoother a grid of the cycle has."""
 
 from mgehl.multigrid.crossed_lines import CliffSmoother, CrossedLineSmoother
-from mgehl.multigrid.smoother import LineSmoother, RigidLineSmoother
+from mgehl.multigrid.smoother import LineSmoother
 from mgehl.multigrid.valleys import RoughLineSmoother, ValleySmoother
 
 
-def smoother_of(jacobian, in_valleys=False, finest=False, apart=False):
-    """The class of a grid's smoother: a rigid gap has no K, and a single line has nothing beside it.
+def smoother_of(is_line, holds_film=False, in_valleys=False, finest=False, apart=False):
+    """The class of a grid's smoother, but for a rigid gap's: a single line has nothing beside it.
 
     A film `in_valleys` closes at the peaks of rough surfaces; it has smoothers of its own, another on the
     `finest` grid. Where the fluid is solved `apart` hardly more than contact is left, which has no
     direction: lines along X take as many convolutions there, and a tenth less time.
     Cliffs are looked for on the finest grid and on all that hold the film.
     """
-    if jacobian.rigid:
-        return RigidLineSmoother
-    if jacobian.grid.mesh.is_line:
+    if is_line:
         return LineSmoother
     if in_valleys:
         return ValleySmoother if finest else RoughLineSmoother
     if apart:
         return LineSmoother
-    return CliffSmoother if finest or jacobian.holds_film else CrossedLineSmoother
+    return CliffSmoother if finest or holds_film else CrossedLineSmoother

@@ -51,6 +51,8 @@ class RoughLineSmoother(LinesBothWays):
     1 mm/s takes 17 iterations for 39).
     """
 
+    words = "lines along x, in valleys along y, too"
+
     def __init__(self, jacobian, omega):
         super().__init__(jacobian, omega)
         grid = jacobian.grid
@@ -110,6 +112,8 @@ class ValleySmoother(RoughLineSmoother):
     than `MOST_AT_ONCE` relaxations all later ones are left to the lines again: in soft bodies what a valley
     couples to is not near.
     """
+
+    words = f"{RoughLineSmoother.words}, nearby nodes at once where that takes long"
 
     def __init__(self, jacobian, omega):
         super().__init__(jacobian, omega)

@@ -67,18 +67,18 @@ def why_no_band(result, contact):
     return ""
 
 
-def film_error(result, coarser, progress):
-    """The `FilmError` of a `Result`, from its `CoarserGrids` (collective).
+def film_error(result, beside, progress):
+    """The `FilmError` of a `Result`, by what is solved `Beside` it (collective).
 
-    `progress` counts their convolutions.
+    `progress` counts the convolutions.
     """
-    settings = coarser.settings
-    why_not = why_no_band(result, coarser.problem.contact)
+    settings = beside.settings
+    why_not = why_no_band(result, beside.problem.contact)
     if why_not or not settings.error:
         return no_band(why_not) if why_not else NOT_ASKED
     before, scheme = progress.convolutions, settings.scheme
     other = replace(scheme, **BETTER) if _order(scheme) == 1 else None
-    grids = coarser.films(other or scheme)
+    grids = beside.films(other or scheme)
     told = from_grids(result, grids, _order(other or scheme), other)
     return replace(told, grids=grids, convolutions=progress.convolutions - before)
 

@@ -21,14 +21,13 @@ from mgehl.errors import UserError
 from mgehl.grid.convolution import Deflection
 from mgehl.grid.freed_memory import is_large
 from mgehl.grid.grid import single_grid
-from mgehl.kinds import mesh_from
 from mgehl.kinds.kind import Effort
 from mgehl.kinds.time import scene_of
 from mgehl.model.deformation import HalfPlane, HalfSpace
 from mgehl.multigrid.cycle import DIRECT
 from mgehl.output.resolution import CONTACT_OPENS, FILM_TOUCHES, inlet_cells
 from mgehl.output.surroundings import cores_allowed
-from mgehl.solver.from_config import scheme_from, settings_from
+from mgehl.solver.from_config import scheme_from, set_up
 from mgehl.solver.nested import planned_solves
 from mgehl.solver.pace import expected_steps
 from mgehl.solver.recipe import on_mesh
@@ -106,16 +105,25 @@ class Forecast:
     measured: str
 
 
-def inlet_grids(config, contact):
-    """An `InletGrid` for each grid of the hierarchy, coarsest first; of a loaded contact."""
-    meshes = [mesh_from(config, contact)]
+def inlet_grids(case):
+    """An `InletGrid` for each grid of the hierarchy of a loaded contact's `Case`, coarsest first."""
+    parts, scene = set_up(case), case.scene if case.config.is_in_time else None
+    # In the axes of the solve, whose X may be the user's y: other cells, other speeds.
+    settings = on_mesh(parts.settings, parts.contact, parts.mesh)
+    solves = planned_solves(_with_coarser(parts.mesh), parts.contact, settings)
+    speeds = {level: solve.speed for level, solve in solves}
+    return [
+        InletGrid(mesh.nx, inlet_cells(case.contact, mesh, scene), speeds.get(level))
+        for level, mesh in enumerate(_with_coarser(case.mesh))
+    ]
+
+
+def _with_coarser(mesh):
+    """The meshes of a hierarchy, coarsest first."""
+    meshes = [mesh]
     while meshes[0].nx > COARSEST_NODES:
         meshes.insert(0, meshes[0].coarsened())
-    settings = on_mesh(settings_from(config, contact), contact, meshes[-1])
-    solves = planned_solves(meshes, contact, settings)
-    speeds = {solve.nodes: solve.speed for _, solve in solves}
-    scene = scene_of(config, contact) if config.is_in_time else None
-    return [InletGrid(mesh.nx, inlet_cells(contact, mesh, scene), speeds.get(mesh.nx)) for mesh in meshes]
+    return meshes
 
 
 def forecast(config, contact, mesh, ranks):

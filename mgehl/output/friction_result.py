@@ -78,8 +78,8 @@ def friction_result(problem, state):
     flash temperatures, as far as there are any (collective)."""
     contact, friction = problem.contact, problem.contact.friction
     shear, slides = shear_of(problem, state), friction.slide_to_roll
-    speed, total = contact.speed, shear.film_force + shear.solid_force
-    stress, dragged = shear.film + shear.solids, total if slides > 0.0 else -total
+    speed, total, stress = contact.speed, shear.sliding_force, shear.stress
+    dragged = total if slides > 0.0 else -total
     sliding = friction.sliding_speed(speed)
     rise = rise_of(problem, state, stress) if has_temperatures(contact) else None
     result = FrictionResult(

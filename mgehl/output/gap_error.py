@@ -88,16 +88,16 @@ def why_no_band(result, problem):
     return result.edge.wrong[0]
 
 
-def gap_error(result, coarser, progress):
+def gap_error(result, beside, progress):
     """The `GapError` of a `Result`; None of smooth bodies (collective). Otherwise as
     `film_error.film_error`."""
-    problem = coarser.problem
+    problem = beside.problem
     if not problem.contact.roughness:
         return None
     why_not = why_no_band(result, problem)
-    if why_not or not coarser.settings.error:
+    if why_not or not beside.settings.error:
         return no_band(why_not or NOT_ASKED.how)
-    before, grids = progress.convolutions, coarser.gaps()
+    before, grids = progress.convolutions, beside.gaps()
     return replace(from_grids(grids), grids=grids, convolutions=progress.convolutions - before)
 
 

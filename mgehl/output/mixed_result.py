@@ -107,8 +107,7 @@ def measured(contact, mesh, nodes, kept=0.0, load_share=1.0):
     hertz, solid = contact.hertz_under(load_share), nodes.status == CONTACT
     inside, Sq = within_hertz(mesh, hertz.reach), hertz.contact.roughness
     film = inside & (nodes.status == LUBRICATED)
-    cell = mesh.dX * mesh.dY
-    square_metres = mesh.dX * contact.x_scale * (1.0 if mesh.is_line else mesh.dY * contact.y_scale)
+    cell, square_metres = mesh.dX * mesh.dY, contact.cell_area(mesh)
     unit_nm = 1e9 * contact.film_scale
     nm, sizes, gaps = unit_nm * nodes.H, patch_sizes(solid), gaps_of(mesh, nodes.P, nodes.H, hertz.reach)
     near = (nodes.status == LUBRICATED) & (nodes.H <= NEAR * kept)

@@ -100,8 +100,8 @@ def _resistance(instant, state, problem):
     there.contact = replace(contact, speed=abs(instant.speed))
     shear, load = shear_of(there, state), instant.load * contact.load
     return {
-        "friction": (shear.film_force + shear.solid_force) / load,
-        "largest_shear_MPa": 1e-6 * problem.grid.max(shear.film + shear.solids),
+        "friction": shear.sliding_force / load,
+        "largest_shear_MPa": 1e-6 * problem.grid.max(shear.stress),
         "rolling": shear.rolling_force / load,
     }
 

@@ -37,6 +37,16 @@ class Fields:
     flash_2: Reals | None = None
 
     @property
+    def fluid_pressure(self) -> Reals:
+        """That of the fluid; `P` where it was not kept."""
+        return self.P if self.p is None else self.p
+
+    @property
+    def full_part(self) -> Reals:
+        """How full of oil the gap is; 1 in older results, whose cavities carry all of it."""
+        return np.ones_like(self.H) if self.filling is None else self.filling
+
+    @property
     def named(self) -> dict[str, NDArray[Any]]:
         """All that there are, by name, in their order."""
         return {name: each for name, each in vars(self).items() if each is not None}
@@ -51,8 +61,7 @@ class Fields:
 class Solution:
     """A solved contact; `rows` is the history, a dictionary per cycle.
 
-    Whole-grid fields live on rank 0 and are None on the others; every rank has its own lines in
-    `local`, which begin with line `first_line`.
+    Whole-grid fields live on rank 0 and are None on the others.
     """
 
     config: Config
@@ -63,8 +72,6 @@ class Solution:
     result: Result
     H0: float = 0.0
     """Constant part of the gap in units of H  [Liu eq. 48], less the closer the bodies; 0 for a wedge."""
-    local: Fields | None = None
-    first_line: int = 0
     frames: Any = None
     """Of a run in time: what has its fields at some instants, on rank 0 (`frames.Frames`)."""
 
@@ -134,7 +141,7 @@ class Solution:
 
     def shared(self) -> "Solution":
         """What every rank knows."""
-        return replace(self, fields=None, local=None)
+        return replace(self, fields=None)
 
     def __str__(self) -> str:
         return str(self.result)

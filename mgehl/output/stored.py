@@ -130,7 +130,7 @@ def _solution(file, directory):
     frames = StoredFrames(directory / FRAMES)
     kept = frames if config.is_in_time and is_plain(frames.path) else None
     rows = _rows(texts[HISTORY])
-    return Solution(config, contact, mesh, fields, rows, result, H0, local=fields, frames=kept)
+    return Solution(config, contact, mesh, fields, rows, result, H0, frames=kept)
 
 
 def _fields(file, mesh):

@@ -32,8 +32,8 @@ CLOSED_IN_TIME = 1e-8
 def summarise(problem, outcome, tolerance, work, wall_s, versions):
     """The `Result` of a loaded contact with a film (collective); gap, residual and load are evaluated anew
     from P, H0 and the partition."""
-    contact, found, own = problem.contact, outcome.state, problem.contact.unheated
-    state = outcome.state = problem.state(found.P, found.H0, found.status, found.p, found.filling)
+    contact, own = problem.contact, problem.contact.unheated
+    state = outcome.state = problem.with_own_gap(outcome.state)
     evaluation = problem.evaluate(state)
     nm, moes = 1e9 * contact.film_scale, contact.film_scale * own.moes_scale
     central, minimum = problem.films(state)

@@ -6,8 +6,8 @@ from mgehl.model.frame import Frame
 from mgehl.output.solution import Fields
 
 
-def in_users_axes(solution, frame, grid, case):
-    """A `Solution` found in a frame, on `grid`, in the user's axes, those of its `Case` (collective)."""
+def in_users_axes(solution, frame, case):
+    """A `Solution` found in a frame, in the user's axes, those of its `Case`."""
     if frame == Frame():
         return solution
     scale = solution.contact.film_scale / case.contact.film_scale
@@ -15,9 +15,6 @@ def in_users_axes(solution, frame, grid, case):
     if solution.fields is not None:
         fields = Fields(**{name: frame.users_array(each) for name, each in solution.fields.named.items()})
         fields.H = scale * fields.H
-    # A point contact has as many lines as nodes in a line: they are dealt out as before.
-    whole = fields.named if fields else {}
-    local = Fields(**{name: grid.scatter(whole.get(name)) for name in solution.local.named})
     return replace(
         solution,
         contact=case.contact,
@@ -25,7 +22,6 @@ def in_users_axes(solution, frame, grid, case):
         fields=fields,
         result=_result(solution.result, frame, solution.mesh),
         H0=scale * solution.H0,
-        local=local,
     )
 
 

@@ -6,7 +6,7 @@ from mgehl.discretization.fluid import FOLDING
 from mgehl.solver.continuation import SPEED_RATIO, Continuation
 from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.nested import nested_iteration
-from mgehl.solver.recipe import DRY, THICK_FILM, TOUCHING, on_mesh, recipe_of
+from mgehl.solver.recipe import DRY, IN_CONTACT, THICK_FILM, TOUCHING, on_mesh, recipe_of
 
 COVERED = 1.5
 """Film of smooth bodies over the roughness from which on a walk down in speed may begin: more than 1, or
@@ -28,8 +28,10 @@ def begin(hierarchy, contact, settings, monitor, journal=NOTHING_KEPT):
     if settings.scheme.face_mobility not in FOLDING:
         settings = on_mesh(settings, contact, hierarchy.grids[-1].mesh)
         return nested_iteration(hierarchy, contact, settings, monitor, journal)
-    continuation = Continuation(hierarchy, contact, settings, monitor, journal)
-    return continuation.begin(contact.speed, settings.nested.start)
+    if settings.start == IN_CONTACT:
+        settings = replace(settings, newton=settings.newton.squeezed())
+        return nested_iteration(hierarchy, contact, settings, monitor, journal)
+    return Continuation(hierarchy, contact, settings, monitor, journal).begin()
 
 
 def _begin_touching(hierarchy, contact, settings, monitor, journal):
@@ -65,8 +67,7 @@ def with_news(monitor, news):
 
 def begin_dry(hierarchy, contact, settings, monitor, journal=NOTHING_KEPT):
     """Solve from the dry contact, its valleys empty: near to where solids carry nearly all."""
-    settings = replace(settings, nested=replace(settings.nested, start=DRY))
-    return nested_iteration(hierarchy, contact, settings, monitor, journal)
+    return nested_iteration(hierarchy, contact, replace(settings, start=DRY), monitor, journal)
 
 
 def begin_thick(hierarchy, contact, settings, monitor, journal=NOTHING_KEPT):

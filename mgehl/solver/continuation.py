@@ -2,12 +2,10 @@
 
 from dataclasses import replace
 
-from mgehl.discretization.fluid import FOLDING
 from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.nested import nested_iteration
 from mgehl.solver.on_grid import solve_near
 from mgehl.solver.problem import ContactProblem
-from mgehl.solver.recipe import IN_CONTACT
 
 SMALLEST_STEP = 0.25
 """A step that failed is halved, down to this part of the first step. From 0.05 to 1 the same steps on 65
@@ -32,47 +30,15 @@ class Continuation:
         self._monitor, self._journal = monitor, journal
         self._settings = replace(settings, newton=settings.newton.squeezed())
 
-    def begin(self, speed, start):
-        """Solve at `speed` without a solution to begin with: a "film" or a "contact" start."""
-        nested = replace(self._settings.nested, start=start)
-        contact = self._contact.at_speed(speed)
-        settings = replace(self._settings, nested=nested)
-        if start == IN_CONTACT or settings.scheme.face_mobility not in FOLDING:
-            return nested_iteration(self._hierarchy, contact, settings, self._monitor, self._journal)
-        return self._asked(speed, *self._begin_with_mean(contact, settings))
+    def begin(self):
+        """Solve without a solution to begin with, by a mean whose flow has a fold.
 
-    def at(self, speed, state, share=1.0, **limits):
-        """Solve at `speed` from `state`, with own limits of Newton's where some are given; return the
-        problem and the `Outcome`."""
-        hierarchy, settings = self._hierarchy, self._settings
-        scheme, contact = replace(settings.scheme, mobility_share=share), self._contact.at_speed(speed)
-        problem = ContactProblem(hierarchy.grids[-1], hierarchy.deflections[-1], contact, scheme)
-        state = problem.state(state.P, state.H0, state.status, state.p, state.filling)
-        how = settings, self._monitor, self._journal
-        return problem, solve_near(hierarchy, problem, state, *how, **limits)
-
-    def follow(self, state, first_speed, last_speed):
-        """Carry the `state` at one speed to another, in steps of equal ratio."""
-        return self._asked(last_speed, *self._follow(state, first_speed, last_speed))
-
-    def slow_down(self, problem, outcome):
-        """From the solution of a faster contact to that of its own speed, as far as there is one."""
-        speed = self._contact.speed
-        return self._asked(speed, *self._slow_down(problem, outcome, speed, exactly=True))
-
-    def _follow(self, state, first_speed, last_speed):
-        def solve(t, state):
-            return self.at(first_speed ** (1.0 - t) * last_speed**t, state)
-
-        return in_steps(solve, state)
-
-    def _begin_with_mean(self, contact, settings):
-        """Solve by a mean whose flow has a fold, first at a speed at which the grid resolves the inlet.
-
-        Nested iteration finds the solution of the logarithmic mean from the formula's film. The wanted mean
-        is approached from there, then the wanted speed. Solutions on the way need not be exact.
+        First at a speed at which the grid resolves the inlet: nested iteration finds the solution of the
+        logarithmic mean from the formula's film. The wanted mean is approached from there, then the wanted
+        speed. Solutions on the way need not be exact.
         """
-        speed = contact.matched_speed(self._hierarchy.grids[-1].mesh, settings.nested.inlet_cells)
+        contact, settings = self._contact, self._settings
+        speed = contact.matched_speed(self._hierarchy.grids[-1].mesh, settings.inlet_cells)
         first = replace(settings, scheme=replace(settings.scheme, face_mobility="logarithmic")).roughly()
         problem, outcome = nested_iteration(
             self._hierarchy, contact.at_speed(speed), first, self._monitor, self._journal
@@ -80,19 +46,38 @@ class Continuation:
         if outcome.converged:
             walk = self._walk(speed == contact.speed)
             problem, outcome = in_steps(lambda t, state: walk.at(speed, state, t), outcome.state)
-        return self._slow_down(problem, outcome, contact.speed, exactly=False)
+        return self.slow_down(problem, outcome, exactly=False)
 
-    def _slow_down(self, problem, outcome, goal, exactly):
-        """From a solution to that at the speed `goal`; with the problem of the last stage that was tried.
+    def at(self, speed, state, share=1.0, **limits):
+        """Solve at `speed` from `state`, with own limits of Newton's where some are given; return the
+        problem and the `Outcome`."""
+        hierarchy, settings = self._hierarchy, self._settings
+        scheme, contact = replace(settings.scheme, mobility_share=share), self._contact.at_speed(speed)
+        problem = ContactProblem(hierarchy.grids[-1], hierarchy.deflections[-1], contact, scheme)
+        state, how = problem.with_own_gap(state), (settings, self._monitor, self._journal)
+        return problem, solve_near(hierarchy, problem, state, *how, **limits)
+
+    def follow(self, state, first_speed, last_speed):
+        """Carry the `state` at one speed to another, in steps of equal ratio."""
+        return self._asked(last_speed, *self._follow(state, first_speed, last_speed))
+
+    def slow_down(self, problem, outcome, exactly=True):
+        """From the solution of a faster contact to that of its own speed, as far as there is one.
 
         On the way `exactly`, or with a coarse grid's tolerance.
         """
-        speed = problem.contact.speed
+        speed, goal = problem.contact.speed, self._contact.speed
         while outcome.converged and speed != goal:
             slower = max(goal, speed / SPEED_RATIO)
             problem, outcome = self._walk(exactly or slower == goal)._follow(outcome.state, speed, slower)
             speed = slower
-        return problem, outcome
+        return self._asked(goal, problem, outcome)
+
+    def _follow(self, state, first_speed, last_speed):
+        def solve(t, state):
+            return self.at(first_speed ** (1.0 - t) * last_speed**t, state)
+
+        return in_steps(solve, state)
 
     def _walk(self, exactly):
         """The same, or with a coarse grid's tolerance, for what only leads to another solution."""

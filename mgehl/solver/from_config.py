@@ -19,9 +19,8 @@ from mgehl.solver.recipe import (
     recipe_of,
     share_of_the_flow,
 )
-from mgehl.solver.recipe_words import plain
 from mgehl.solver.relaxation import RelaxationSettings
-from mgehl.solver.settings import NestedSettings, NewtonSettings, SolverSettings, TimeSettings
+from mgehl.solver.settings import NewtonSettings, SolverSettings, TimeSettings
 
 
 @dataclass(frozen=True)
@@ -35,13 +34,13 @@ class SetUp:
     """Those axes, beside the user's."""
 
     def recipe(self, start=None, begins=None):
-        """{choice: value} of the `Recipe` of a loaded contact with a fluid, maybe from a `start`.
+        """The `Recipe` of a loaded contact with a fluid, maybe from a `start`.
 
         It `begins` in the way that led to the answer, where that is another.
         """
         settings = on_mesh(self.settings, self.contact, self.mesh)
         recipe = recipe_of(settings, self.contact, start and A_STATE)
-        return plain(replace(recipe, begins=begins or recipe.begins))
+        return replace(recipe, begins=begins or recipe.begins)
 
     def hierarchy(self, comm):
         """The grids of a loaded contact on `comm` (collective); the caller destroys them."""
@@ -91,7 +90,9 @@ def settings_from(config, contact):
     return SolverSettings(
         method=solver.method,
         scheme=scheme,
-        nested=NestedSettings(solver.start, solver.first_nodes, solver.inlet_cells),
+        start=solver.start,
+        first_nodes=solver.first_nodes,
+        inlet_cells=solver.inlet_cells,
         newton=NewtonSettings(
             tolerance=share_of_the_flow(contact, scheme) * solver.tolerance,
             max_steps=solver.max_steps,

@@ -90,12 +90,23 @@ def _hertz_ellipse(problem, evaluation):
 
 def _through(problem, evaluation, inside):
     """What enters the nodes `inside`, a ghosted mask, and what leaves them, in units of H and Y."""
-    grid, mesh = problem.grid, problem.grid.mesh
     enters = leaves = 0.0
-    for axis, (leaving, entering) in zip(evaluation.axes, evaluation.flows, strict=True):
-        width, here = mesh.dX * mesh.dY / axis.cell, axis.inner(own(inside))
-        first, last = here & ~axis.neighbour(inside, -1), here & ~axis.neighbour(inside, 1)
-        flow = np.concatenate([axis.entered(entering.value)[first], -axis.left(leaving.value)[last]])
+    for width, *flows in border_flows(evaluation, inside):
+        flow = np.concatenate(flows)
         enters += width * flow[flow > 0.0].sum()
         leaves -= width * flow[flow < 0.0].sum()
-    return grid.sum(enters), grid.sum(leaves)
+    return problem.grid.sum(enters), problem.grid.sum(leaves)
+
+
+def border_flows(evaluation, nodes):
+    """For each axis the width of a face, and what flows into `nodes`, a ghosted mask, by their borders.
+
+    Two flat arrays: through faces where they begin along the axis, and where they end. A face between ranks
+    is counted by the rank whose node is one of them.
+    """
+    mesh = evaluation.mesh
+    for axis, (leaving, entering) in zip(evaluation.axes, evaluation.flows, strict=True):
+        here = axis.inner(own(nodes))
+        first, last = here & ~axis.neighbour(nodes, -1), here & ~axis.neighbour(nodes, 1)
+        inward = axis.entered(entering.value)[first], -axis.left(leaving.value)[last]
+        yield mesh.dX * mesh.dY / axis.cell, *inward

@@ -6,10 +6,9 @@ import numpy as np
 
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
 from mgehl.solver.dry import dry_pressure, guess_on_finest
-from mgehl.solver.fluid_guess import guess_fluid
 from mgehl.solver.journal import NOTHING_KEPT
-from mgehl.solver.on_grid import LevelSolve, solve_on
-from mgehl.solver.problem import DIVERGED, ContactProblem
+from mgehl.solver.on_grid import LevelSolve, fluid_on, solve_on
+from mgehl.solver.problem import DIVERGED, ContactProblem, State
 from mgehl.solver.recipe import (
     DRY,
     FULL_FILM,
@@ -20,6 +19,7 @@ from mgehl.solver.recipe import (
     recipe_of,
 )
 from mgehl.solver.relaxation import relax
+from mgehl.solver.settings import COARSE_TOLERANCE
 
 FLAT = 0.1
 """Largest gap, and largest overlap, that the dry guess may leave, over the formula's film that is laid on
@@ -56,11 +56,13 @@ def nested_iteration(hierarchy, contact, settings, monitor, journal=NOTHING_KEPT
     return problem, outcome
 
 
-def single_loop(hierarchy, contact, settings, monitor, journal=NOTHING_KEPT):
-    """Solve by the paper's relaxation, on the finest grid alone; otherwise as `nested_iteration`."""
+def single_loop(hierarchy, contact, settings, monitor, journal=NOTHING_KEPT, state=None):
+    """Solve by the paper's relaxation, on the finest grid alone, maybe from a `state`; otherwise as
+    `nested_iteration`."""
     grid = hierarchy.grids[-1]
     problem = ContactProblem(grid, hierarchy.deflections[-1], contact, settings.scheme)
-    state = first_guess(problem, recipe_of(settings, contact).begins)
+    if state is None:
+        state = first_guess(problem, recipe_of(settings, contact).begins)
     tell = partial(monitor, LevelSolve(grid.mesh.nx, contact.speed, True))
     return problem, relax(problem, state, settings.relaxation, tell, journal)
 
@@ -103,6 +105,36 @@ def _first_guess_of_peaks(problem, begins, P, film):
     return problem.state(P, H0, np.full(problem.grid.shape, LUBRICATED))
 
 
+def guess_fluid(hierarchy, problem, state, settings):
+    """Set the fluid around a contact start, the `state`, in place, to that of the coarser grids in its gap.
+
+    A Newton step or a line sweep moves the boundary of the cavities by a few nodes, so a fine grid needs
+    many of them. On 1025 nodes it takes 14 steps from a pressure of zero, and 4 from the coarser grids'
+    pressures. The gap is injected, so no convolution is made. Fluid that is beside contact on the coarse
+    grid is left as it is: pressures jump there.
+    """
+    level = hierarchy.grids.index(problem.grid) - 1
+    grid, fewest = hierarchy.grids[level], settings.first_nodes
+    if level < 0 or grid.mesh.nx < fewest or not problem.scheme.cavitation:
+        return
+    transfer, deflection = hierarchy.transfers[level], hierarchy.deflections[level]
+    coarse_problem = ContactProblem(grid, deflection, problem.contact, problem.scheme)
+    P, H, status, filling = (
+        transfer.inject(array) for array in (state.P, state.H, state.status, state.filling)
+    )
+    coarse = State(P, state.H0, H, status, P.copy(), filling)
+    guess_fluid(hierarchy, coarse_problem, coarse, settings)
+    with fluid_on(hierarchy, coarse_problem, settings.cycle) as fluid:
+        fluid.solve(coarse, COARSE_TOLERANCE, to_rest=False)
+    beside_contact, empty = (
+        transfer.bilinear((coarse.status == kind).astype(float)) > 0.0 for kind in (CONTACT, CAVITATED)
+    )
+    film = (state.status == LUBRICATED) & ~beside_contact
+    state.P[film] = transfer.bilinear(coarse.P)[film]
+    state.p[film] = state.P[film]
+    state.status[film & empty & (state.P == problem.contact.tears_at)] = CAVITATED
+
+
 def interpolate(transfer, problem, coarse):
     """The coarse state on the fine grid: P cubic, a node in contact where most of it would be.
 
@@ -122,12 +154,11 @@ def planned_solves(meshes, contact, settings):
     A film begins on the coarse grids, at speeds that they resolve and that do not lift the bodies off each
     other.
     """
-    finest, nested = len(meshes) - 1, settings.nested
-    on_coarse_grids = recipe_of(settings, contact).on_coarse_grids
+    finest, on_coarse_grids = len(meshes) - 1, recipe_of(settings, contact).on_coarse_grids
     for level, mesh in enumerate(meshes):
         if level == finest:
             yield level, LevelSolve(mesh.nx, contact.speed, True)
-        elif mesh.nx >= nested.first_nodes and on_coarse_grids:
-            speed = contact.matched_speed(mesh, nested.inlet_cells)
+        elif mesh.nx >= settings.first_nodes and on_coarse_grids:
+            speed = contact.matched_speed(mesh, settings.inlet_cells)
             if not contact.at_speed(speed).hardly_yields:
                 yield level, LevelSolve(mesh.nx, speed, False)

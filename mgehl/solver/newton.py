@@ -119,7 +119,7 @@ class Newton(PythonSnes):
             before = state.status.copy()
             reached = self._position.cycles[-1].residual if self._position.cycles else 1.0
             tolerance = FLUID_AHEAD * max(reached, self._settings.tolerance)
-            self._evaluation = self._fluid.solve(state, tolerance, to_rest=False).evaluation
+            _, self._evaluation = self._fluid.solve(state, tolerance, to_rest=False)
             changes.cavitated += problem.grid.count(before != state.status)
         else:
             evaluation, moved = problem.evaluate(state), 0

@@ -84,10 +84,6 @@ class Past(Kept):
     closing_gap: np.ndarray
     torn_pressure: np.ndarray
 
-    def copy(self):
-        """One of its own."""
-        return Past(**{name: each.copy() for name, each in vars(self).items()})
-
     @classmethod
     def none(cls, shape, release_budget):
         """Of nodes that went through nothing yet."""

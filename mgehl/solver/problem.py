@@ -214,6 +214,10 @@ class ContactProblem(Problem):
         filling = np.ones(P.shape) if filling is None else np.clip(filling, 0.0, 1.0)
         return State(P, H0, H, status, p, filling)
 
+    def with_own_gap(self, state):
+        """A state of this problem with the pressures, statuses and contents of another one's."""
+        return self.state(state.P, state.H0, state.status, state.p, state.filling)
+
     def load_deficit(self, P):
         """Integral of P minus the load that the domain carries  [Liu eq. 50]."""
         return self.load(P) - self._load_within

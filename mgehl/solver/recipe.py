@@ -99,7 +99,7 @@ class Recipe:
 def recipe_of(settings, contact, begins=None):
     """The `Recipe` of a loaded contact by what `SolverSettings` ask; `begins` may be `A_STATE`."""
     law, peaks = settings.scheme.contact_law, _peaks(settings.scheme.contact_law, contact)
-    start = begins or settings.nested.start
+    start = begins or settings.start
     closed = start == IN_CONTACT and law.has_contact
     touching, rough = peaks == TOUCHING, peaks != NONE
     return Recipe(
@@ -179,13 +179,13 @@ def on_mesh(settings, contact, mesh):
     Smooth bodies, and peaks under a film. Of 48 random contacts with too few cells for a start on coarse
     grids all are found in this way, with 100 convolutions on average; from higher speeds on with 249.
     """
-    law, nested = settings.scheme.contact_law, settings.nested
-    seen = contact.matched_speed(mesh, nested.inlet_cells) == contact.speed
+    law = settings.scheme.contact_law
+    seen = contact.matched_speed(mesh, settings.inlet_cells) == contact.speed
     otherwise = settings.scheme.face_mobility in FOLDING or settings.method == "relaxation"
     otherwise |= not law.is_continuous or _peaks(law, contact) == TOUCHING
-    if nested.start != FULL_FILM or seen or otherwise:
+    if settings.start != FULL_FILM or seen or otherwise:
         return settings
-    return replace(settings, nested=replace(nested, start=UNSEEN_FILM))
+    return replace(settings, start=UNSEEN_FILM)
 
 
 def couette_scheme_of(contact):

@@ -3,6 +3,7 @@
 from dataclasses import asdict
 
 from mgehl.multigrid.cycle import DIRECT
+from mgehl.multigrid.smoother_choice import smoother_of
 from mgehl.solver.recipe import (
     A_STATE,
     COVERED,
@@ -61,14 +62,11 @@ def recipe_words(recipe, is_line, at_rest=False):
 
 
 def _smoother(recipe, is_line):
-    """That of the finest grid, as `multigrid.smoother_choice.smoother_of` has it."""
-    if is_line and recipe.cycle.rough:
+    """That of the finest grid."""
+    cycle = recipe.cycle
+    if is_line and cycle.rough:
         return f"none, up to {DIRECT} nodes of a line are solved directly"
-    if recipe.cycle.in_valleys:
-        return "lines along x, in valleys along y, too, nearby nodes at once where that takes long"
-    if is_line or recipe.fluid_apart:
-        return "lines along x"
-    return "lines along x and y, nodes at cliffs of the mobility at once"
+    return smoother_of(is_line, in_valleys=cycle.in_valleys, finest=True, apart=recipe.fluid_apart).words
 
 
 def _steps(newton):

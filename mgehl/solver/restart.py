@@ -1,7 +1,6 @@
 """A start from the fields of another run: another grid, another speed, another load."""
 
 from dataclasses import dataclass, replace
-from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -12,10 +11,9 @@ from mgehl.errors import UserError
 from mgehl.model.own_function import file_and_function
 from mgehl.solver.beginning import NOR, begin, with_news
 from mgehl.solver.continuation import Continuation
-from mgehl.solver.on_grid import LevelSolve
+from mgehl.solver.nested import single_loop
 from mgehl.solver.problem import ContactProblem
 from mgehl.solver.recipe import on_mesh, recipe_of
-from mgehl.solver.relaxation import relax
 
 FORECAST_STEPS = 40
 """Newton steps that a forecast may take before the way from the nearest solution is taken instead: the
@@ -144,8 +142,7 @@ def _carried(hierarchy, contact, settings, start, frame, monitor, journal):
     forecast, start = (start, start.last) if isinstance(start, Forecast) else (None, start)
     state = interpolated(problem, start, frame)
     if settings.method != "newton-mg":
-        tell = partial(monitor, LevelSolve(problem.grid.mesh.nx, contact.speed, True))
-        return problem, relax(problem, state, settings.relaxation, tell, journal)
+        return single_loop(hierarchy, contact, settings, monitor, journal, state)
     continuation = Continuation(hierarchy, contact, settings, monitor, journal)
     if forecast:
         patient = min(FORECAST_STEPS, settings.newton.max_steps)
@@ -190,9 +187,8 @@ def interpolated(problem, start, frame):
         old = start.mesh.in_frame(frame)
         in_contact = frame.array((start.fields.status == CONTACT).astype(float))
         P = _onto(mesh, old, frame.array(start.fields.P))
-        fluid = start.fields.P if start.fields.p is None else start.fields.p
-        p = _onto(mesh, old, frame.array(fluid))
-        filling = 1.0 - _onto(mesh, old, 1.0 - frame.array(_filling(start.fields)))  # full outside
+        p = _onto(mesh, old, frame.array(start.fields.fluid_pressure))
+        filling = 1.0 - _onto(mesh, old, 1.0 - frame.array(start.fields.full_part))  # full outside
         film = np.where(
             (P > problem.contact.tears_at) | (not problem.scheme.cavitation), LUBRICATED, CAVITATED
         )
@@ -204,11 +200,6 @@ def interpolated(problem, start, frame):
     H0 = between * before.film_scale / contact.film_scale - contact.approach
     P, p, filling, status = (grid.scatter(each) for each in (P, p, filling, status))
     return problem.state(P, H0, status, p, filling)
-
-
-def _filling(fields):
-    """How full the gaps of `Fields` are; of an older result all are."""
-    return np.ones(fields.P.shape) if fields.filling is None else fields.filling
 
 
 def _onto(mesh, old, values):

@@ -6,7 +6,6 @@ import numpy as np
 from petsc4py import PETSc
 
 from mgehl.discretization.axes import own
-from mgehl.discretization.evaluation import Evaluation
 from mgehl.discretization.rows import rows_of
 from mgehl.discretization.status import CAVITATED, LUBRICATED, is_fluid
 from mgehl.grid.events import linear_solve
@@ -37,14 +36,6 @@ class FluidStep:
     linear_iterations: int
 
 
-@dataclass(frozen=True)
-class SettledFluid:
-    """How the fluid came into balance, and the evaluation of its last state."""
-
-    steps: list
-    evaluation: Evaluation
-
-
 class RigidGapFluid:
     """Newton's method for the separable fluid alone; `multigrid` solves its linear systems.
 
@@ -72,7 +63,8 @@ class RigidGapFluid:
         return is_fluid(status) & (own(evaluation.fluid.eps) > 0.0) & driven(self._problem, evaluation)
 
     def solve(self, state, tolerance, max_steps=30, before_step=lambda: None, to_rest=True):
-        """Bring the fluid of `state` into balance at its gap, in place; return the `SettledFluid`.
+        """Bring the fluid of `state` into balance at its gap, in place; return its `FluidStep`s and the
+        `Evaluation` of its last state.
 
         Ends when the rms inflow is below `tolerance` and the set has settled, or after `max_steps` (in
         contact on 129 and 257 nodes 3 to 60 come to the same); the last step is the residual that is left,
@@ -96,7 +88,7 @@ class RigidGapFluid:
             restless = given_back + problem.grid.count(filled) + (moved if to_rest else 0)
             settled = rms <= tolerance and restless == 0
             if settled or len(steps) == max_steps or not rms < DIVERGED:
-                return SettledFluid([*steps, FluidStep(rms, 0)], evaluation)
+                return [*steps, FluidStep(rms, 0)], evaluation
             before_step()
             self._correct(state, evaluation, residual, separable)
             steps.append(FluidStep(rms, self._ksp.getIterationNumber()))

@@ -1,4 +1,4 @@
-"""All that the solver may be told: of the first guess, of Newton's method, and together.
+"""All that the solver may be told: of Newton's method, of steps in time, and together.
 
 What is a key of the configuration, too, has that key's default.
 """
@@ -15,22 +15,6 @@ from mgehl.solver.squeeze import SQUEEZE
 COARSE_TOLERANCE = 1e-4
 """Residual at which a coarse grid has served its purpose. From 3e-5 to 1e-3 films take the same work
 within 3 %, line contacts 56 to 67 convolutions; contact starts the same up to 1e-2."""
-
-
-@dataclass(frozen=True)
-class NestedSettings:
-    """How the finest grid's first guess is made."""
-
-    start: str = SolverSection.start
-    """"film" from a full film on a coarse grid, "contact" from the Hertz ellipse in contact."""
-    first_nodes: int = SolverSection.first_nodes
-    """Nodes along X of the first grid of the nested iteration, and of the first one asked for a contact
-    start's fluid. With 33 and 129 the work is the same within 7 %; 129 halve it for a motion at 30
-    degrees."""
-    inlet_cells: float = SolverSection.inlet_cells
-    """Cells that the inlet must have on the coarse grids: the speed is raised until it has. Fewer lead to
-    spurious contact that poisons finer grids (full film is lost near 1.4), more to a longer way back. From
-    1.7 to 2.5 the work varies by a third without order; at 30 degrees 2.5 save half of it."""
 
 
 @dataclass(frozen=True)
@@ -90,7 +74,16 @@ class SolverSettings:
     method: str = SolverSection.method
     """"newton-mg", or the paper's "relaxation" on the finest grid alone."""
     scheme: Scheme = field(default_factory=Scheme)
-    nested: NestedSettings = field(default_factory=NestedSettings)
+    start: str = SolverSection.start
+    """"film" from a full film on a coarse grid, "contact" from the Hertz ellipse in contact."""
+    first_nodes: int = SolverSection.first_nodes
+    """Nodes along X of the first grid of the nested iteration, and of the first one asked for a contact
+    start's fluid. With 33 and 129 the work is the same within 7 %; 129 halve it for a motion at 30
+    degrees."""
+    inlet_cells: float = SolverSection.inlet_cells
+    """Cells that the inlet must have on the coarse grids: the speed is raised until it has. Fewer lead to
+    spurious contact that poisons finer grids (full film is lost near 1.4), more to a longer way back. From
+    1.7 to 2.5 the work varies by a third without order; at 30 degrees 2.5 save half of it."""
     newton: NewtonSettings = field(default_factory=NewtonSettings)
     cycle: CycleSettings = field(default_factory=CycleSettings)
     relaxation: RelaxationSettings = field(default_factory=RelaxationSettings)

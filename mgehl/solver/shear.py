@@ -22,11 +22,21 @@ class Shear:
     rolling_force: float
     """On each body, against the motion."""
 
+    @property
+    def stress(self):
+        """Of film and solids."""
+        return self.film + self.solids
+
+    @property
+    def sliding_force(self):
+        """By that stress."""
+        return self.film_force + self.solid_force
+
 
 def shear_of(problem, state):
     """The `Shear` of a state (collective)."""
     film, solids = film_shear(problem, state), solid_shear(problem, state)
-    cell = square_metres(problem)
+    cell = problem.contact.cell_area(problem.grid.mesh)
     forces = (cell * problem.grid.sum(each.sum()) for each in (film, solids))
     return Shear(film, solids, *forces, rolling_force(problem, state))
 
@@ -35,23 +45,17 @@ def coefficient(problem, state):
     """Shear of film and solids over the load; None where the surfaces do not slide (collective)."""
     if problem.contact.friction.slide_to_roll == 0.0:
         return None
-    shear = shear_of(problem, state)
-    return (shear.film_force + shear.solid_force) / problem.contact.load
+    return shear_of(problem, state).sliding_force / problem.contact.load
 
 
 def friction_difference(problem, one, other):
     """Sum of the sizes by which the shear of two states differs from node to node, over the load
     (collective)."""
-    if problem.contact.friction.slide_to_roll == 0.0:
+    grid, contact = problem.grid, problem.contact
+    if contact.friction.slide_to_roll == 0.0:
         return 0.0
     apart = sum(shear(problem, one) - shear(problem, other) for shear in (film_shear, solid_shear))
-    return square_metres(problem) * problem.grid.sum(np.abs(apart).sum()) / problem.contact.load
-
-
-def square_metres(problem):
-    """Area of a cell; of a line contact that of a metre of its length."""
-    mesh, contact = problem.grid.mesh, problem.contact
-    return mesh.dX * contact.x_scale * (1.0 if mesh.is_line else mesh.dY * contact.y_scale)
+    return contact.cell_area(grid.mesh) * grid.sum(np.abs(apart).sum()) / contact.load
 
 
 def film_shear(problem, state):
@@ -106,5 +110,5 @@ def rolling_force(problem, state):
         drag = np.where(open_faces(solid, axis), mean * rise, 0.0)
         # Along Y a face belongs to the line behind it: no two ranks count it.
         total += part * scale / axis.cell * float((drag if axis.number else drag[: len(own(P))]).sum())
-    unit = square_metres(problem) * contact.film_scale * contact.pressure_scale
+    unit = contact.cell_area(grid.mesh) * contact.film_scale * contact.pressure_scale
     return 0.5 * unit * grid.sum(total)

@@ -4,7 +4,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mgehl.discretization.axes import own
 from mgehl.discretization.status import (
     CAVITATED,
     CONTACT,
@@ -14,6 +13,7 @@ from mgehl.discretization.status import (
     is_solid,
     open_faces,
 )
+from mgehl.solver.mass import border_flows
 
 LARGEST_EDGE_PRESSURE = 0.01
 """Largest pressure near the domain's boundary, over the largest of all, of a contact that lies inside the
@@ -156,17 +156,10 @@ def flux_imbalance(problem, evaluation):
     The film is all lubricated nodes; its borders are the domain's edge and the cavities. A conservative
     scheme leaves nothing but rounding and the residual.
     """
-    grid, mesh = problem.grid, problem.grid.mesh
-    film, into = evaluation.status == LUBRICATED, []
-    for axis, (leaving, entering) in zip(evaluation.axes, evaluation.flows, strict=True):
-        width = mesh.dX * mesh.dY / axis.cell
-        here = axis.inner(own(film))
-        # A face between ranks is counted by the rank whose node is film.
-        first, last = here & ~axis.neighbour(film, -1), here & ~axis.neighbour(film, 1)
-        into += [width * axis.entered(entering.value)[first], -width * axis.left(leaving.value)[last]]
-    flow = np.concatenate(into)
-    total = grid.sum(flow.sum())
-    inflow = grid.sum(flow[flow > 0.0].sum())
+    borders = border_flows(evaluation, evaluation.status == LUBRICATED)
+    flow = np.concatenate([width * each for width, *flows in borders for each in flows])
+    total = problem.grid.sum(flow.sum())
+    inflow = problem.grid.sum(flow[flow > 0.0].sum())
     return abs(total) / inflow if inflow > 0.0 else 0.0
 
 

@@ -48,10 +48,11 @@ def solve_wedge(grid, bearing, scheme, tolerance, max_steps, before_step=lambda:
     fluid = RigidGapFluid(problem, multigrid, OF_A_RUN, LINEAR_TOLERANCE)
     state = problem.first_guess()
     try:
-        steps = fluid.solve(state, tolerance, max_steps, before_step).steps
+        steps, _ = fluid.solve(state, tolerance, max_steps, before_step)
         # Once more: what the first solve left would show in the flow balance.
         if steps[-1].residual <= tolerance:
-            steps = steps[:-1] + fluid.solve(state, 0.0, 1).steps
+            again, _ = fluid.solve(state, 0.0, 1)
+            steps = steps[:-1] + again
     finally:
         fluid.free()
     state.filling[state.status != CAVITATED] = 1.0  # what has become film may say more

@@ -88,6 +88,24 @@ def test_friction_heat_and_time_are_told_and_from_where_to_where_speed_and_load_
     assert "begins from the dry contact: the surfaces are at rest" in text and "a full film" not in text
 
 
+def test_the_recipe_is_that_of_the_axes_in_which_it_is_solved(told):
+    """At more than 45 degrees x and y are exchanged, and with them their cells."""
+    film = (
+        "solver.start=film",
+        "grid.nodes=129",
+        "motion.speed=0.7 m/s",
+        "discretization.face_mobility=linear-gap",
+    )
+    along_x = "motion.angle=0", "grid.x=[-2.0, 2.0]", "grid.y=[-3.0, 3.0]"
+    along_y = "motion.angle=90", "grid.x=[-3.0, 3.0]", "grid.y=[-2.0, 2.0]"
+
+    def way(*settings):
+        lines = told("full_film.toml", *(f"--set={each}" for each in (*film, *settings))).splitlines()
+        return [line for line in lines if "begins" in line or line.startswith("grid  ")]
+
+    assert way(*along_y) == way(*along_x) and "from a full film, coarse grids first" in way(*along_y)[-1]
+
+
 def test_a_bearing_of_a_catalogue_is_told_with_what_follows_from_it(told):
     text = told("bearing_6206.toml")
     assert "material steel   diameter 0.009525 m" in text and "not given" not in text

@@ -33,7 +33,8 @@ def make_smoother():
     made = []
 
     def make(jacobian, rows, kind=None):
-        made.append((kind or smoother_of(jacobian))(jacobian, OMEGA))
+        kind = kind or smoother_of(jacobian.grid.mesh.is_line, jacobian.holds_film)
+        made.append(kind(jacobian, OMEGA))
         made[-1].partition(rows)
         made[-1].factor()
         made[-1].factor_alone()

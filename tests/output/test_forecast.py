@@ -6,7 +6,7 @@ import pytest
 from mpi4py import MPI
 
 from mgehl.config import load_config
-from mgehl.kinds import contact_from, mesh_from
+from mgehl.kinds import case_of, contact_from, mesh_from
 from mgehl.output import forecast as module
 from mgehl.output.forecast import MiB, forecast, inlet_grids
 from mgehl.run import solve
@@ -31,9 +31,16 @@ def foretold(config, ranks=1):
     return forecast(config, contact, mesh_from(config, contact), ranks)
 
 
-def test_speeds_are_those_that_the_nested_iteration_solves_at():
-    config = film(nodes=129, speed=0.2)
-    grids = inlet_grids(config, contact_from(config))
+ALONG_Y = {"motion.angle": 90.0, "grid.x": [-3.0, 3.0], "grid.y": [-2.0, 2.0]}
+"""Motion along y, whose cells are smaller: they are solved as X."""
+
+
+@pytest.mark.parametrize(
+    "speed, changes", [(0.2, {}), (0.7, ALONG_Y)], ids=["along x", "along y, by smaller cells"]
+)
+def test_speeds_are_those_that_the_nested_iteration_solves_at(speed, changes):
+    config = film(nodes=129, speed=speed, **changes)
+    grids = inlet_grids(case_of(config))
     assert [grid.nodes for grid in grids] == [33, 65, 129]
     rows = solve(config, MPI.COMM_SELF).rows
     solved = {row["grid"]: row["speed_mm_s"] for row in rows}

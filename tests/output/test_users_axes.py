@@ -2,11 +2,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from mpi4py import MPI
 from test_files import make_result
 
 from mgehl.config import config_from_tables
-from mgehl.grid.grid import single_grid
 from mgehl.kinds import Case, case_of, contact_from, mesh_from
 from mgehl.model.frame import Frame
 from mgehl.output.result import ContactResult
@@ -31,7 +29,7 @@ def config_at(angle):
 
 @pytest.fixture(params=ANGLES, ids=lambda angle: f"{angle:g} degrees")
 def case(request):
-    """(the user's `Solution`, the one that was solved, its frame, its grid) at an angle."""
+    """(the user's `Solution`, the one that was solved, its frame) at an angle."""
     config = config_at(request.param)
     parts = set_up(case_of(config))
     contact = contact_from(config)
@@ -47,12 +45,10 @@ def case(request):
     there = Fields(**{name: parts.frame.array(array) for name, array in fields.named.items()})
     there.H = scale * there.H
     solved = replace(
-        expected, contact=parts.contact, mesh=mesh.in_frame(parts.frame), fields=there, local=there,
+        expected, contact=parts.contact, mesh=mesh.in_frame(parts.frame), fields=there,
         result=_result(there), H0=-0.5 * scale,
     )  # fmt: skip
-    grid = single_grid(solved.mesh, MPI.COMM_SELF)
-    yield expected, solved, parts.frame, grid
-    grid.destroy()
+    return expected, solved, parts.frame
 
 
 def _result(fields):
@@ -78,8 +74,8 @@ def _largest(array):
     return {"i": int(i) + 2, "j": int(j) + 2}
 
 
-def back(expected, solved, frame, grid):
-    return in_users_axes(solved, frame, grid, Case(expected.config, expected.contact, expected.mesh))
+def back(expected, solved, frame):
+    return in_users_axes(solved, frame, Case(expected.config, expected.contact, expected.mesh))
 
 
 def test_fields_scales_and_axes_are_the_users(case):
@@ -103,5 +99,5 @@ def test_nodes_sides_and_ranges_are_the_users(case):
 
 
 def test_what_was_solved_in_the_users_axes_stays_as_it_is(case):
-    expected, solved, _, grid = case
-    assert back(expected, solved, Frame(), grid) is solved
+    expected, solved, _ = case
+    assert back(expected, solved, Frame()) is solved

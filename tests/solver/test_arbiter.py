@@ -20,8 +20,7 @@ class TestInASolve:
 
     def assert_settled(self, solution):
         problem, outcome = solution.problem, solution.outcome
-        found = outcome.state
-        state = problem.state(found.P, found.H0, found.status, found.p, found.filling)
+        state = problem.with_own_gap(outcome.state)
         assert outcome.converged and outcome.reason == "residual, load and sets settled"
         assert problem.rms(problem.residual(problem.evaluate(state), state.status)) <= 1e-8
         assert abs(problem.load_deficit(state.P)) <= 1e-8

@@ -4,6 +4,7 @@ import pytest
 import mgehl
 from mgehl.discretization.scheme import Scheme
 from mgehl.solver.continuation import Continuation
+from mgehl.solver.nested import nested_iteration
 from mgehl.solver.settings import SolverSettings
 
 
@@ -12,9 +13,13 @@ class Followed:
 
     def __init__(self, hierarchy, contact, scheme):
         self.told, self.scheme = [], scheme
-        settings = SolverSettings(scheme=scheme)
         tell = lambda level, cycle: self.told.append(level)  # noqa: E731
-        self.continuation = Continuation(hierarchy, contact, settings, tell)
+        self._how = hierarchy, contact, SolverSettings(scheme=scheme), tell
+        self.continuation = Continuation(*self._how)
+
+    def film(self):
+        """Problem and `Outcome` at the contact's own speed."""
+        return nested_iteration(*self._how)
 
     @property
     def speeds(self):
@@ -35,13 +40,13 @@ def make(make_hierarchy, paper_contact, usual_law):
 
 
 def true_residual(problem, state):
-    state = problem.state(state.P, state.H0, state.status, state.p, state.filling)
+    state = problem.with_own_gap(state)
     return problem.rms(problem.residual(problem.evaluate(state), state.status))
 
 
 def test_a_film_followed_to_another_speed_is_the_film_of_that_speed(make, solve, paper_contact):
     followed = make()
-    _, first = followed.continuation.begin(1.0, "film")
+    _, first = followed.film()
     before = first.state.copy()
     problem, outcome = followed.continuation.follow(first.state, 1.0, 0.7)
     assert outcome.converged and problem.contact.speed == 0.7
@@ -59,7 +64,7 @@ def test_a_film_followed_to_another_speed_is_the_film_of_that_speed(make, solve,
 def test_another_mean_is_found_from_the_logarithmic(make, solve, paper_contact):
     """65 nodes have not two cells in the inlet at 1 m/s: it is begun at a speed that has."""
     followed = make(face_mobility="geometric")
-    problem, outcome = followed.continuation.begin(1.0, "film")
+    problem, outcome = followed.continuation.begin()
     assert outcome.converged and problem.contact.speed == 1.0
     assert problem.scheme == followed.scheme
     assert true_residual(problem, outcome.state) <= 1e-8

@@ -10,7 +10,7 @@ from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
 from mgehl.solver.nested import nested_iteration
 from mgehl.solver.partition import RESTLESS, Changes, Contradiction, Partition
 from mgehl.solver.problem import State
-from mgehl.solver.settings import NestedSettings, NewtonSettings, SolverSettings
+from mgehl.solver.settings import NewtonSettings, SolverSettings
 
 THRESHOLD = 1e-3
 NODE = (4, 4)
@@ -266,8 +266,8 @@ def contact_start(paper_contact, make_hierarchy, usual_law):
     def start(max_steps):
         contact = paper_contact(5e-6)
         scheme = Scheme(face_mobility="geometric", contact_law=usual_law(contact))
-        nested, newton = NestedSettings(start="contact"), NewtonSettings(max_steps=max_steps)
-        settings = SolverSettings(scheme=scheme, nested=nested, newton=newton)
+        newton = NewtonSettings(max_steps=max_steps)
+        settings = SolverSettings(scheme=scheme, start="contact", newton=newton)
         hierarchy = make_hierarchy(contact, 257)
         _, outcome = nested_iteration(hierarchy, contact, settings, lambda *each: None)
         return outcome, hierarchy, contact, settings

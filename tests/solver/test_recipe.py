@@ -28,7 +28,7 @@ from mgehl.solver.recipe import (
     recipe_in_time,
     recipe_of,
 )
-from mgehl.solver.settings import NestedSettings, NewtonSettings, SolverSettings
+from mgehl.solver.settings import NewtonSettings, SolverSettings
 
 CLOSING, CLOSED = BoundaryFilm(1e-6), InterfaceConditions(1e-6)
 
@@ -43,7 +43,7 @@ def recipe(paper_contact):
         law = law if layers is None else BoundaryFilm(layers / contact.film_scale)
         settings = SolverSettings(
             scheme=Scheme(face_mobility=mean, contact_law=law),
-            nested=NestedSettings(start=start),
+            start=start,
             newton=NewtonSettings(**newton),
         )
         return recipe_of(settings, contact)
@@ -86,7 +86,7 @@ def test_patience_is_more_in_time_and_most_where_films_close_continuously(recipe
 
 
 def test_from_a_state_and_in_time_nothing_is_guessed(paper_contact):
-    settings = SolverSettings(nested=NestedSettings(start="contact"))
+    settings = SolverSettings(start="contact")
     contact = paper_contact(1.0)
     made = recipe_of(settings, contact, A_STATE)
     assert made.begins == A_STATE and not made.fluid_apart and made.newton.squeeze == 0.0
@@ -118,7 +118,7 @@ def test_a_grid_that_hardly_sees_a_film_begins_alone_from_a_thicker_one(paper_co
     surface = Waviness(asked["amplitude"], 2e-4, 2e-4) if asked["amplitude"] else None
     contact = paper_contact(speed, surface=surface)
     scheme = Scheme(face_mobility=asked["mean"], contact_law=asked["law"])
-    settings = SolverSettings(scheme=scheme, nested=NestedSettings(start=asked["start"]))
+    settings = SolverSettings(scheme=scheme, start=asked["start"])
     mesh = Mesh(257, 257, (-1.9, 1.3), (-1.5, 1.5))
     made = recipe_of(on_mesh(settings, contact, mesh), contact)
     assert made.begins == begins

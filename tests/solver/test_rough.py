@@ -12,7 +12,7 @@ from mgehl.multigrid import valleys
 from mgehl.solver.inequality import check_interface
 from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.nested import nested_iteration
-from mgehl.solver.settings import NestedSettings, NewtonSettings, SolverSettings
+from mgehl.solver.settings import NewtonSettings, SolverSettings
 from mgehl.solver.verification import complementarity_error
 
 
@@ -39,8 +39,8 @@ def solve_rough(paper_contact, make_hierarchy):
         hierarchy = make_hierarchy(contact, nodes, x=(-2.0, 1.5), y=(-1.75, 1.75))
         law = BoundaryFilm(boundary_film / contact.film_scale)
         scheme = Scheme(couette, "linear-gap", contact_law=law)
-        newton, nested = NewtonSettings(tolerance=tolerance), NestedSettings(start=start)
-        settings = SolverSettings(scheme=scheme, newton=newton, nested=nested)
+        newton = NewtonSettings(tolerance=tolerance)
+        settings = SolverSettings(scheme=scheme, newton=newton, start=start)
         return nested_iteration(hierarchy, contact, settings, lambda *_: None, journal)
 
     return run

@@ -7,7 +7,7 @@ from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.scheme import Scheme
 from mgehl.model.surface import Surface, Waviness
 from mgehl.solver.nested import nested_iteration
-from mgehl.solver.settings import NestedSettings, SolverSettings
+from mgehl.solver.settings import SolverSettings
 
 A = 0.4108333e-3
 FINEST = Mesh(129, 129, (-1.9, 1.3), (-1.5, 1.5))
@@ -51,9 +51,7 @@ def test_the_finest_grid_s_film_does_not_depend_on_what_coarse_ones_see(
     contact = paper_contact(1.0, surface=surface)
     films = []
     for first_nodes in (33, 129):
-        settings = SolverSettings(
-            scheme=Scheme("3B", "linear-gap"), nested=NestedSettings(first_nodes=first_nodes)
-        )
+        settings = SolverSettings(scheme=Scheme("3B", "linear-gap"), first_nodes=first_nodes)
         hierarchy = make_hierarchy(contact, 129)
         problem, outcome = nested_iteration(hierarchy, contact, settings, lambda *_: None)
         assert outcome.converged and problem.contact.surface == surface

@@ -41,8 +41,8 @@ def test_keys_reach_the_records_that_the_solver_is_given():
     settings, scheme, relaxation = setup.settings, setup.settings.scheme, setup.settings.relaxation
     assert (scheme.cavitation, scheme.couette_at_interface) == (False, "untreated")
     assert scheme.contact_law == UnifiedEquations(1e-9 / setup.contact.film_scale)
-    assert (settings.method, settings.nested.start) == ("relaxation", "contact")
-    assert settings.nested.inlet_cells == 3.0
+    assert (settings.method, settings.start) == ("relaxation", "contact")
+    assert settings.inlet_cells == 3.0
     assert settings.newton.tolerance == relaxation.tolerance == 1e-6
     assert (relaxation.omega, relaxation.load_every) == (0.1, 4)
     assert settings.cycle.sweeps == 2 and settings.newton.squeeze == 5.0

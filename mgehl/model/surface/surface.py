@@ -88,11 +88,6 @@ class Smoothed(Surface):
     ends: tuple
     """Where samples end along x and along y: beyond, the last one goes on."""
 
-    @property
-    def function(self):
-        """That of the surface itself."""
-        return self.surface.function
-
     def height(self, x, y):
         """At nodes (1, nx) and (ny, 1), or (nx, 1) and (1, ny), equally spaced."""
         return smoothed(self.surface.height, x, y, self.wavelengths, self.steps, self.ends)

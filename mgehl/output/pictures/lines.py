@@ -8,7 +8,7 @@ from mgehl.discretization.status import CAVITATED, CONTACT
 from mgehl.kinds.kind import pressure_unit
 from mgehl.model.hertz import hertz_pressure
 from mgehl.output.pictures import style
-from mgehl.output.pictures.plane import DECADES, LINEAR, filling_of
+from mgehl.output.pictures.plane import DECADES, LINEAR
 from mgehl.output.pictures.titles import gap_words, position_labels, title_with_films
 
 INSIDE = {0.8: 3.0, 1.25: 1.0}
@@ -54,8 +54,8 @@ def line_of(solution, across, GPa=1.0):
     ends, near = hertz.contact, fine / hertz.reach
     dry = ends.dry_gap(0.0 * near, near) if across else ends.dry_gap(near, 0.0 * near)
     return Line(
-        X, P, P if fields.p is None else unit * fields.p[part], film,
-        layers + filling_of(fields)[part] * (film - layers), fields.status[part],
+        X, P, unit * fields.fluid_pressure[part], film,
+        layers + fields.full_part[part] * (film - layers), fields.status[part],
         fine, Pa * ends.pressure_scale * hertz_pressure(near, 0.0), 1e9 * ends.film_scale * dry,
     )  # fmt: skip
 

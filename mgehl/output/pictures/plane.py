@@ -78,17 +78,12 @@ class Plane:
         overlap = (fields.H < 0.0) & (fields.status != CONTACT)
         self.status = self.blocks.largest(np.where(overlap, OVERLAP, fields.status)[part])
         self.film = self.blocks.least(1e9 * contact.film_scale * fields.H[part])
-        self.filling = self.blocks.least(filling_of(fields)[part])
+        self.filling = self.blocks.least(fields.full_part[part])
         self.distance = np.hypot((self.blocks.X - x) / wide, (self.blocks.Y[:, None] - y) / high)
 
     def largest(self, values):
         """The largest of a field of the run, (ny, nx), in each block."""
         return self.blocks.largest(values[self.part])
-
-
-def filling_of(fields):
-    """How full of oil the gap is, (ny, nx); 1 in older results, whose cavities carry all of it."""
-    return np.ones_like(fields.H) if fields.filling is None else fields.filling
 
 
 def _place(line, hertz, loaded, whole):

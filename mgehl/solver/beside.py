@@ -1,9 +1,9 @@
-"""The same contact on coarser grids, each solved from the next finer answer: the error of the films follows
-from the differences.
+"""What is solved beside a run's answer, from it: the same contact on coarser grids, and with other oil.
 
-A coarse grid of the nested iteration was solved at a speed that it resolves, and not to its end. Here the
-speed is the wanted one, and the start is so near that a few steps do. Two coarser grids take some fifteen
-per cent of the finest grid's work. For the gaps of rough bodies one coarser grid takes 5 to 30; it sees the
+The error of the films follows from their differences to the coarser grids'. A coarse grid of the nested
+iteration was solved at a speed that it resolves, and not to its end. Here the speed is the wanted one, and
+the start, the next finer answer, is so near that a few steps do. Two coarser grids take some fifteen per
+cent of the finest grid's work. For the gaps of rough bodies one coarser grid takes 5 to 30; it sees the
 surface as it is, for else it would have another contact.
 """
 
@@ -34,8 +34,8 @@ SPREADING_STEPS = 3
 and none of these settled. Eight settled with contact on the way: it spread in two steps at the most."""
 
 
-class CoarserGrids:
-    """What the coarser grids say of a run's answer, the `state` of its `problem`.
+class Beside:
+    """What is solved beside a run's answer, the `state` of its `problem`.
 
     Whoever wants both asks for the `gaps` first: `films` takes over what was solved for them.
 
@@ -77,6 +77,14 @@ class CoarserGrids:
         self._of_gaps = problem, outcome = self._whole(level)
         return finest, grid_gap(problem, outcome.state, outcome.converged, there)
 
+    def unthinned(self):
+        """The `ContactProblem` whose oil shear does not thin, and its `Outcome`, on the finest grid
+        (collective)."""
+        thinned, friction = self.problem, self.problem.contact.friction
+        contact = replace(thinned.contact, friction=replace(friction, thins=False))
+        problem = ContactProblem(thinned.grid, thinned.deflection, contact, thinned.scheme)
+        return problem, self._solve_near(problem, self._state, self.settings)
+
     def _whole(self, level):
         """Problem and `Outcome` of the contact with all of its surface, by the scheme of the run."""
         contact, scheme = self.problem.contact, self.problem.scheme
@@ -98,9 +106,11 @@ class CoarserGrids:
         limits |= {"tolerance": max(TOLERANCE, newton.tolerance), "release_budget": 0}
         settings = replace(self.settings, newton=replace(newton, **limits))
         problem = ContactProblem(hierarchy.grids[level], hierarchy.deflections[level], contact, scheme)
-        there = _at_nodes(hierarchy.transfers[level], state)
-        state = problem.state(there.P, there.H0, there.status, there.p, there.filling)
-        return problem, solve_near(hierarchy, problem, state, settings, self._monitor, self._journal)
+        return problem, self._solve_near(problem, _at_nodes(hierarchy.transfers[level], state), settings)
+
+    def _solve_near(self, problem, state, settings):
+        state, how = problem.with_own_gap(state), (settings, self._monitor, self._journal)
+        return solve_near(self._hierarchy, problem, state, *how)
 
 
 def _is_of(problem, grid, contact, scheme):
