@@ -169,6 +169,17 @@ def test_the_inlet_is_that_of_the_slowest_motion_and_heat_that_of_the_end(course
     assert after.thermal_reduction == pytest.approx(end.heated_film(0.04, 0.14))
 
 
+def test_lambda_is_that_of_the_end(course):
+    """As at half of the speed in a steady state, and nothing at rest."""
+    waves = {"surface.kind": "waviness", "surface.amplitude": 3e-8, "surface.wavelength_y": 6e-5}
+    half = contact_from(mgehl.load(None, BALL | waves | {"motion.speed": 0.045}))
+    named = {key.replace(".", "__"): value for key, value in waves.items()}
+    for last, ratio in ((0.045, half.lambda_ratio), (0.0, 0.0)):
+        speed = course((0.0, 0.09), (0.02 * UNIT, last))
+        after = solved(motion__speed=speed, time__end=0.02 * UNIT, **named).summary
+        assert after.mixed.lambda_ratio == pytest.approx(ratio)
+
+
 def test_heat_thins_the_film_by_the_speed_of_the_instant(course):
     """From 8 to 2 m/s: what the film loses at the end is what it loses at 2 m/s, on finer grids nearer."""
     line = {

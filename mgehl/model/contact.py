@@ -75,9 +75,11 @@ class LoadedContact(OnBodies, Inlet):
 
     @property
     def lambda_ratio(self):
-        """Film of smooth bodies over the roughness; None where there is next to none."""
+        """Film of smooth bodies over the roughness, at rest 0; None where there is next to none."""
         rms = self.roughness
-        return self.expected_film / rms if rms > NEXT_TO_NONE else None
+        if rms <= NEXT_TO_NONE:
+            return None
+        return 0.0 if self.is_at_rest else self.expected_film / rms
 
     @property
     def asymptotes(self):

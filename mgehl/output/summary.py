@@ -87,6 +87,7 @@ def summarise_in_time(problem, outcome, rows, scene, tolerance, work, wall_s, ve
         result, converged=settled and not cut, settled=settled, reason=(settled and why) or reason,
         mass=None, flux_imbalance=None, error=OF_AN_INSTANT, time=time,
         thermal_reduction=end.thermal_reduction,
+        mixed=result.mixed and replace(result.mixed, lambda_ratio=end.lambda_ratio),
     )  # fmt: skip
 
 
