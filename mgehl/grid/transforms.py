@@ -17,7 +17,9 @@ TIMED, FIXED = ("FFTW_MEASURE",), ("FFTW_ESTIMATE",)
 
 LARGE = 4000
 """Nodes of a period from which on plans are timed: that takes a second. On 1025 nodes it saves 3 ms a
-convolution, so it would need some 250 of them to pay for it, on 2049 nodes 50."""
+convolution, so it would need some 250 of them to pay for it, on 2049 nodes 50. A single line, which takes
+microseconds, is never timed: another plan has other last digits, and every run of it should have the same.
+"""
 
 BLOCK = 32_768
 """Numbers of a block: half a megabyte where they are complex."""
@@ -140,7 +142,8 @@ class _AlongY:
 
 
 def _planned(source, target, direction):
-    flags = TIMED if max(source.shape[1], target.shape[1]) > LARGE else FIXED
+    rows, period = len(source), max(source.shape[1], target.shape[1])
+    flags = TIMED if period > LARGE and rows > 1 else FIXED
     return pyfftw.FFTW(source, target, axes=(1,), direction=direction, flags=flags, threads=THREADS)
 
 

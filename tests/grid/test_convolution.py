@@ -1,4 +1,5 @@
 import numpy as np
+import pyfftw
 import pytest
 
 from mgehl.discretization.influence import influence_coefficients
@@ -53,6 +54,17 @@ def test_convolution_on_one_line_is_the_dense_product(line_contact, make_line, n
     deflection = hierarchy.deflections[-1](P)
     assert deflection.shape == (1, nodes)
     assert np.max(np.abs(deflection[0] - expected)) < 1e-12 * np.max(np.abs(expected))
+
+
+def test_a_long_line_is_convolved_by_the_same_plan_in_every_run(make_line):
+    """A plan that is timed would be another one on a busy machine, with other last digits."""
+    P = np.random.default_rng(4).random((1, 4097))
+    found = []
+    for _ in range(4):
+        pyfftw.forget_wisdom()
+        found.append(make_line(4097, coarsest=4097).deflections[-1](P).copy())
+    for other in found[1:]:
+        np.testing.assert_array_equal(other, found[0])
 
 
 class TestInverse:
