@@ -41,6 +41,13 @@ def test_a_domain_that_cuts_the_contact():
     assert first.startswith('  grid.x = "auto" and grid.y = "auto"')
 
 
+@pytest.mark.parametrize(("squeeze", "told"), [(0.0, True), (10.0, False)])
+def test_peaks_that_touch_are_told_of_shorter_steps(squeeze, told):
+    tries = "\n".join(advice([f"solver.squeeze={squeeze}"], recipe={"peaks": "touching"}))
+    assert ("solver.squeeze = 10" in tries) is told
+    assert "solver.squeeze" not in "\n".join(advice(recipe={"peaks": "none"}))
+
+
 @pytest.mark.parametrize("settings", [["contact.kind=wedge"], ["discretization.contact_model=dry"]])
 def test_what_has_no_film_is_told_nothing_of_one(settings):
     text = "\n".join(advice(settings))
