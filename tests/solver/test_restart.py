@@ -97,10 +97,12 @@ ROUGH = {"surface.kind": "waviness", "surface.amplitude": "100 nm", "surface.wav
         ({}, {"contact.load": 100.0}, True),
         (ROUGH, {"motion.speed": 0.4}, True),
         (ROUGH, {"grid.nodes": 129}, True),
+        (ROUGH, {"contact.load": 80.5}, True),
         (ROUGH, {"contact.load": 100.0}, False),
+        (ROUGH, {"surface.amplitude": 110e-9}, False),
     ],
 )
-def test_a_forecast_leads_to_films_that_are_near_and_peaks_that_stay(surface, change, leads):
+def test_a_forecast_leads_to_films_that_are_near_and_heights_that_stay(surface, change, leads):
     config = mgehl.load(None, {"motion.speed": 0.5, "contact.load": 80.0, "solver.start": "film"} | surface)
     before = SimpleNamespace(contact=contact_from(config))
     contact = contact_from(config.with_(change))
