@@ -42,25 +42,42 @@ def _begin_touching(hierarchy, contact, settings, monitor, journal):
     recipe = recipe_of(settings, contact)
     if not recipe.or_otherwise:
         return nested_iteration(hierarchy, contact, settings, monitor, journal)
-    newton = replace(settings.newton, max_work=FIRST_WAY * settings.newton.max_work)
-    problem, outcome = nested_iteration(
-        hierarchy, contact, replace(settings, newton=newton), monitor, journal
-    )
+    part = replace(settings.newton, max_work=FIRST_WAY * settings.newton.max_work)
+    how = hierarchy, contact, replace(settings, newton=part)
+
+    def other(begins, way):
+        def found(tell):
+            problem, outcome = way(hierarchy, contact, settings, tell, journal)
+            return problem, replace(outcome, begins=begins) if outcome.converged else outcome
+
+        return found
+
+    ways = [("a film", lambda tell: nested_iteration(*how, tell, journal))]
+    if recipe.begins != DRY:
+        ways.append(("the dry contact without oil", other(DRY, begin_dry)))
+    return first_found([*ways, ("a thick film", other(THICK_FILM, begin_thick))], monitor)
+
+
+def first_found(ways, monitor):
+    """Problem and `Outcome` of the first way that leads to an answer, each tried where those before fail.
+
+    `ways` are (where it begins, function of a monitor). Where none leads there, the `Outcome` is the first
+    one's, and has the reason of each.
+    """
+    (_, way), *others = ways
+    problem, outcome = way(monitor)
     if outcome.converged:
         return problem, outcome
-    reason, others = outcome.reason, [("a thick film", THICK_FILM, begin_thick)]
-    if recipe.begins != DRY:
-        others.insert(0, ("the dry contact without oil", DRY, begin_dry))
-    for where, begins, way in others:
-        tell = with_news(monitor, f"not found: {reason}; now from {where}")
-        found, last = way(hierarchy, contact, settings, tell, journal)
+    reason = outcome.reason
+    for where, way in others:
+        found, last = way(_with_news(monitor, f"not found: {reason}; now from {where}"))
         if last.converged:
-            return found, replace(last, begins=begins)
+            return found, last
         reason += f"{NOR} {where}: {last.reason}"
     return problem, replace(outcome, reason=reason)
 
 
-def with_news(monitor, news):
+def _with_news(monitor, news):
     """A monitor that tells news with each level."""
     return lambda level, cycle: monitor(replace(level, news=news), cycle)
 

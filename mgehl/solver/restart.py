@@ -9,7 +9,7 @@ from scipy.interpolate import RegularGridInterpolator
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
 from mgehl.errors import UserError
 from mgehl.model.own_function import file_and_function
-from mgehl.solver.beginning import NOR, begin, with_news
+from mgehl.solver.beginning import begin, first_found
 from mgehl.solver.continuation import Continuation
 from mgehl.solver.nested import single_loop
 from mgehl.solver.problem import ContactProblem
@@ -25,17 +25,28 @@ sweeps take 30 to 360 convolutions, near rest without layers up to 1900; a groun
 m/s, took 4000 in vain."""
 
 THINNER = 0.5
-"""A formula's film over that of a solution below which nothing is the better start. Smooth balls on 129
-nodes at 1/8 of the speed (film .25): 111, 55 and 319 convolutions, from nothing 32, 55 and 58; at half of
-it (.63) 33, 30 and 43 for 36, 67 and 56. Rough ones without layers at a tenth (.21): 799, 339, 930 and
-twice over 2800 for 281, 306, 888, 813 and 926. To thicker films a solution leads as well as nothing."""
+"""A formula's film over that of a solution below which nothing is the better start. To thicker films a
+solution leads as well. Convolutions on 129 nodes:
+
+    film                           from a solution                    from nothing
+    .63, smooth                    33, 30, 43                         36, 67, 56
+    .25, smooth                    111, 55, 319                       32, 55, 58
+    .21, rough, without layers     799, 339, 930, 2841, 2942          281, 306, 888, 813, 926
+"""
 
 OTHER_HEIGHTS = 0.05
-"""Rms by which heights at the same X and Y may differ, over their own, where a solution is a start. Of
-rough.toml on 129 nodes, from 0.6 and 20 mm/s, for no more 160 to 258 and 61 to 84 convolutions, from
-nothing 224 to 256 and 134 to 144; by .07 319 and 76 for 245 and 130; by .1 385 and 368 for 277 and 136; by
-.27 and more 250 to 2250 for 91 to 391. It is not where the pressure is laid: in m or in units of a, with
-Hertz's change or without, linear or cubic, all are worse than nothing."""
+"""Rms by which heights at the same X and Y may differ, over their own, where a solution is a start.
+Convolutions of rough.toml on 129 nodes at 0.6 and 20 mm/s:
+
+    differ by         from a solution           from nothing
+    .01 to .05        160 to 258, 61 to 84      224 to 256, 134 to 144
+    .07               319, 76                   245, 130
+    .1                385, 368                  277, 136
+    .27 and more      947 to 2250, 170 to 2246  141 to 391, 91 to 192
+
+Wherever the pressure is laid, in m or in units of a, with Hertz's change or without, linear or cubic, what
+differs by .27 takes more than from nothing.
+"""
 
 LEAST_LEFT = 0.2
 """Part of a pressure that a forecast leaves at the least."""
@@ -114,25 +125,16 @@ def solve_from(hierarchy, contact, settings, start, frame, monitor, journal):
     part = replace(settings.newton, max_work=OF_A_START * settings.newton.max_work)
     near = replace(settings, newton=part)
 
-    def from_start(monitor):
-        return _carried(hierarchy, contact, near, start, frame, monitor, journal)
+    def from_start(tell):
+        return _carried(hierarchy, contact, near, start, frame, tell, journal)
 
-    def from_nothing(monitor):
-        return _from_nothing(hierarchy, contact, settings, monitor, journal)
+    def from_nothing(tell):
+        return _from_nothing(hierarchy, contact, settings, tell, journal)
 
     ways = [("that start", from_start), ("nothing", from_nothing)]
     if isinstance(start, Forecast) and not start.leads_to(contact, frame):
         ways.reverse()
-    (name, way), (other, other_way) = ways
-    problem, outcome = way(monitor)
-    if outcome.converged:
-        return problem, outcome
-    found, last = other_way(
-        with_news(monitor, f"not found from {name}: {outcome.reason}; now from {other}")
-    )
-    if last.converged:
-        return found, last
-    return problem, replace(outcome, reason=f"{outcome.reason}{NOR} {other}: {last.reason}")
+    return first_found(ways, monitor)
 
 
 def _from_nothing(hierarchy, contact, settings, monitor, journal):
