@@ -110,12 +110,12 @@ def _inlet(case):
     verdict = "this grid does" if needed <= config.grid.nodes else f"recommended: grid.nodes={needed}"
     if needed > LARGEST_NODES:
         verdict = f"no grid up to {LARGEST_NODES} does; a higher speed or a smaller domain helps"
-    lost = resolution.film_lost(contact, mesh)
+    lost = resolution.film_lost(contact, mesh, scene)
     on_domain = resolution.domain_words(resolution.domain_verdict(lost), lost)
     peaks = resolution.peaks_words(contact, mesh)
     yield from _under("domain", [resolution.room_words(mesh), on_domain, *peaks])
-    beyond = resolution.beyond_words(100.0 * contact.share_beyond(mesh))
-    yield from (f"load       {words}" for words in beyond)
+    beyond = resolution.load_beyond(contact, mesh, scene), scene is not None
+    yield from (f"load       {words}" for words in resolution.beyond_words(*beyond))
     cells = f"with {resolution.RESOLVED_CELLS:.0f} cells in the inlet"
     yield f"resolved   {cells}, from {needed} nodes on: {verdict}"
 

@@ -49,8 +49,6 @@ def check_friction(config):
     section, motion = config.friction, config.motion
     if section.thinning and section.eyring_stress is None:
         raise ConfigError("friction.thinning = True: needs friction.eyring_stress")
-    if section.thinning and isinstance(motion.speed, str):
-        raise ConfigError("friction.thinning = True: needs a motion.speed that stays the same")
     if _thins(config) and motion.angle % 90.0:
         raise ConfigError(
             f"motion.angle = {motion.angle:g}: with friction.thinning it must be a multiple of 90; "
@@ -79,4 +77,4 @@ def _rheology(section, temperature):
 def _thins(config):
     section, slides = config.friction, config.motion.slip != 0.0
     is_asked = section.eyring_stress is not None and section.thinning is not False
-    return is_asked and slides and not isinstance(config.motion.speed, str)
+    return is_asked and slides

@@ -1,5 +1,7 @@
 """Input that is allowed, and yet unusual: most often a wrong unit. Each is named; none is refused."""
 
+from mgehl.kinds.heat import solids_from
+from mgehl.kinds.surface_kinds import STILL, carried
 from mgehl.kinds.time import begins_at_rest, range_of, scene_of
 from mgehl.model.films import formula_of
 from mgehl.model.frame import direction
@@ -123,17 +125,28 @@ def _films(contact):
 
 
 def _stands_still(config, contact):
-    """A steady state whose rough body would move."""
+    """Roughness that stands still on a body that moves."""
     motion, slide = config.motion, config.inputs.get("motion.slide_to_roll", config.motion.slide_to_roll)
     moves = slide not in (None, 2.0, -2.0) or motion.ring_rotation is not None
-    if config.is_in_time or not moves or contact.surface is None:
+    along = direction(motion.angle)
+    bodies = [body for _, surface, body in carried(config) if surface.varies_along(along)]
+    if not moves or not bodies:
         return
-    if contact.surface.varies_along(direction(motion.angle)):
+    both = f"motion.slide_to_roll = {slide or 0.0:.3g}: both bodies move"
+    if not config.is_in_time:
+        needed = "time.end moves it" if STILL not in bodies else 'body = "body_1" and time.end move it'
         yield (
-            f"motion.slide_to_roll = {slide or 0.0:.3g}: both bodies move, and roughness that moves "
-            "changes the film with time: here it stands still, and friction alone is of this motion; "
-            "time.end moves it"
+            f"{both}, and roughness that moves changes the film with time: here it stands still, and "
+            f"friction alone is of this motion; {needed}"
         )
+    elif STILL in bodies:
+        yield f'{both}, but roughness whose body = "still" stands still: "body_1" or "body_2" carry it'
+
+
+def _without_temperatures(config):
+    """Bodies that conduct, in time."""
+    if config.is_in_time and solids_from(config):
+        yield "heat: a run in time tells no temperatures; a steady run of an instant does"
 
 
 def _parts_from_rest(config):

@@ -147,20 +147,25 @@ class LoadedContact(OnBodies, Inlet):
         """
         return self.widening if self.widening <= 1.0 else min(self.widening**2, 1.3 * self.widening)
 
-    def share_beyond(self, mesh):
-        """Part of the load that the film in the domain of a mesh need not carry."""
+    def share_beyond(self, x, y):
+        """Part of the load that the film in a domain need not carry, its ends in m."""
         return 0.0
 
-    def load_within(self, mesh):
+    def load_within(self, mesh, there=None):
         """The integral of P that the domain of a mesh takes: the load less what is missing there.
 
-        [Liu eq. 50]
+        Of another load and speed that of the contact `there`, in this one's units  [Liu eq. 50].
         """
-        return self.load_integral * (1.0 - self.share_beyond(mesh))
+        there = there or self
+        within = 1.0 - there.share_beyond(*self.ends(mesh))
+        return there.load / self.load * self.load_integral * within
 
-    def drag_beyond(self, mesh):
-        """What rolling takes from each body beyond the domain of a mesh, in N: of a line hardly any."""
-        return 0.0
+    def drag_beyond(self, mesh, downstream=False):
+        """What rolling takes from each body beyond the domain of a mesh, in N, of a line contact in N/m.
+
+        Upstream, and `downstream` where no film tears.
+        """
+        raise NotImplementedError
 
     @property
     def is_at_rest(self):
@@ -210,6 +215,16 @@ class LoadedContact(OnBodies, Inlet):
     def y_scale(self):
         """Metres per unit of Y: b."""
         return self.hertz.b
+
+    def ends(self, mesh):
+        """Where the domain of a mesh ends along x and y, two pairs in m."""
+        (x0, x1), (y0, y1), a, b = mesh.x, mesh.y, self.x_scale, self.y_scale
+        return (x0 * a, x1 * a), (y0 * b, y1 * b)
+
+    def in_its_units(self, x, y):
+        """Two pairs in m along x and y, in units of X and Y."""
+        (x0, x1), (y0, y1), a, b = x, y, self.x_scale, self.y_scale
+        return (x0 / a, x1 / a), (y0 / b, y1 / b)
 
     def cell_area(self, mesh):
         """Area of a cell of a mesh in m^2; of a line contact that of a metre of its length."""

@@ -1,6 +1,7 @@
-"""What drags bodies that roll beyond the domain, where they are rigid and all is full of oil.
+"""What drags bodies that roll beyond the domain, where all is full of oil.
 
-Far upstream of the contact the pressure is that of Kapitza (1955), p = -K x/h^2, h = x^2/2R_x + y^2/2R_y.
+Far from a point contact the pressure is that of rigid bodies [Kapitza 1955], p = -K x/h^2 with
+h = x^2/2R_x + y^2/2R_y. Beside a line contact it rises by dp/dx = 12 eta u (h - h_c)/h^3.
 """
 
 import numpy as np
@@ -14,10 +15,29 @@ def kapitza_factor(lubricant, speed, along, across):
     return 12.0 * lubricant.viscosity * speed / (3.0 + 2.0 * along / across)
 
 
-def kapitza_drag_beyond(contact, x, y):
-    """Half of the integral of h dp/dx along the motion, in N, upstream from the end of a domain to where
-    bodies are no paraboloids any more: a radius of curvature away. The domain ends at `x` and `y`, in units
-    of X and Y.
+NODES, WEIGHTS = (0.5 * each for each in np.polynomial.legendre.leggauss(32))
+"""Of the quadrature along a line contact, about its middle: good to ten digits."""
+
+
+def line_drag_beyond(contact, x, downstream):
+    """Half of the integral of h dp/dx, in N/m, from the domain's end upstream on, and `downstream`, too.
+
+    The domain ends at `x` in units of X. The gap is that of the dry contact and a formula's film.
+    """
+    film = contact.flooded_film / contact.film_scale
+    near = 0.5 + NODES  # end/X, from infinity to the end
+    total = 0.0
+    for end in (-x[0], x[1])[: 1 + downstream]:
+        H = film + contact.dry_gap(end / near, None)
+        total += float(np.sum(WEIGHTS * end / near**2 * (H - film) / H**2))
+    unit = contact.x_scale / contact.film_scale
+    return 6.0 * contact.lubricant.viscosity * contact.speed * unit * total
+
+
+def kapitza_drag_beyond(contact, x, y, downstream=False):
+    """Half of the integral of h dp/dx along the motion, in N, from the end of a domain to where bodies are
+    no paraboloids any more: a radius of curvature away; upstream, and `downstream`, too. The domain ends at
+    `x` and `y`, in units of X and Y.
 
     It grows with the logarithm of that distance, so it has no limit but the bodies' own size.
     """
@@ -33,7 +53,9 @@ def kapitza_drag_beyond(contact, x, y):
     pressing = K_x * c + K_y * s
     dragged = 2.0 * pressing * steepness / curvature - K_x * motion_x - K_y * motion_y
     ratio = np.maximum(1.0 / (2.0 * curvature * way), 1.0)
-    return float(np.mean(np.where(pressing < 0.0, dragged * np.log(ratio) / curvature, 0.0)) * np.pi)
+    return float(
+        np.mean(np.where((pressing < 0.0) | downstream, dragged * np.log(ratio) / curvature, 0.0)) * np.pi
+    )
 
 
 def _way(part, ends, scale):

@@ -49,13 +49,11 @@ NOTHING = 1e-10
 
 
 def missing_share(contact, x, y):
-    """Part of a contact's load that is missing in a domain, its ends in units of X and Y."""
+    """Part of a contact's load that is missing in a domain, its ends in m."""
     film, radii = _rigid_film(contact), (contact.radius_x, contact.radius_y)
     lengths = [sqrt(2.0 * radius * film) for radius in radii]
-    scales = contact.x_scale, contact.y_scale
     ends = [
-        tuple(round(end * scale / length, 6) for end in pair)
-        for pair, scale, length in zip((x, y), scales, lengths, strict=True)
+        tuple(round(end / length, 6) for end in pair) for pair, length in zip((x, y), lengths, strict=True)
     ]
     pressure = 12.0 * contact.lubricant.viscosity * contact.speed * lengths[0] / film**2
     missing = _missing_load(*ends, lengths[0] / lengths[1], contact.motion)

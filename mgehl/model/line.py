@@ -7,6 +7,7 @@ from math import pi
 from mgehl.model import films
 from mgehl.model.contact import Groups, LoadedContact
 from mgehl.model.deformation import HalfPlane
+from mgehl.model.drag import line_drag_beyond
 from mgehl.model.flash import Solid
 from mgehl.model.hertz import hertz_line_contact, hertz_line_gap
 from mgehl.model.lubricant import Lubricant
@@ -59,6 +60,10 @@ class LineContact(LoadedContact):
     def dry_gap(self, X, _Y):
         """Gap of the Hertz contact in units of H."""
         return hertz_line_gap(X)
+
+    def drag_beyond(self, mesh, downstream=False):
+        """By the film between the cylinders as they are pressed."""
+        return line_drag_beyond(self, mesh.x, downstream)
 
     @property
     def groups(self):

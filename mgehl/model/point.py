@@ -164,14 +164,14 @@ class PointContact(LoadedContact):
         like = self.likeness
         return films.point_asymptotes(like.groups, like.radius_x / like.radius_y)
 
-    def share_beyond(self, mesh):
-        """Part of the load that the film in the domain of a mesh need not carry."""
+    def share_beyond(self, x, y):
+        """As of any contact."""
         counted = self.counted_beyond
-        return counted * missing_share(self, mesh.x, mesh.y) if counted else 0.0
+        return counted * missing_share(self, x, y) if counted else 0.0
 
-    def drag_beyond(self, mesh):
+    def drag_beyond(self, mesh, downstream=False):
         """By the film of rigid bodies, as far as they are paraboloids."""
-        return kapitza_drag_beyond(self, mesh.x, mesh.y)
+        return kapitza_drag_beyond(self, mesh.x, mesh.y, downstream)
 
     def _inlet_of(self, film):
         """As of any contact, in units of this one's a."""

@@ -4,7 +4,7 @@ Which law is right is contested: Eyring's fits squalane on four rigs, limits fit
 2023; Arana, Larranaga, Ulacia, Proc IMechE J 233 (2019) 303]. A result names the law that it is by.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -96,3 +96,7 @@ class Friction:
     def sliding_speed(self, speed):
         """u_1 - u_2 in m/s, without its sign, at an entrainment speed in m/s."""
         return abs(self.slide_to_roll) * speed
+
+    def slowed(self, share):
+        """The same where the surfaces slide by `share` times as much."""
+        return self if share == 1.0 else replace(self, slide_to_roll=share * self.slide_to_roll)

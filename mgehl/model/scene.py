@@ -70,16 +70,16 @@ class Scene:
         along = self.contact.motion
         return any(share and surface.varies_along(along) for surface, share in self.surfaces)
 
-    @property
-    def passage(self):
-        """Way in m of the mean surface on which all heights that move go the length of the Hertz contact.
+    def passage(self, share=1.0):
+        """Way in m of the mean surface on which all heights that move go the length of the Hertz contact
+        under `share` times the load.
 
         A body that is slower than the mean takes longer: before it has passed, a mean is one of the few
         heights that were there.
         """
         along = self.contact.motion
         shares = [abs(share) for surface, share in self.surfaces if share and surface.varies_along(along)]
-        return 2.0 * self.framed.x_scale / min([1.0, *shares])
+        return 2.0 * self.framed.under(share).x_scale / min([1.0, *shares])
 
     def at(self, path):
         """The contact, in the axes in which it is solved, when the mean surface has gone a `path` in m."""
@@ -117,6 +117,15 @@ class Scene:
         """Times, and the speed at each, between which neither speed nor load turns."""
         times = sorted({*self.speed.times(self.end), *self.load.times(self.end)})
         return times, [self.speed.value(t) for t in times]
+
+    @cached_property
+    def ends(self):
+        """Times of the slowest and the fastest motion, of the lightest and the heaviest load: none at which
+        the surfaces rest."""
+        times, speeds = self._speeds
+        moving = [t for t, u in zip(times, speeds, strict=True) if abs(u) > AT_REST * self.contact.speed]
+        by = (lambda t: abs(self.speed.value(t))), self.load.value
+        return sorted({pick(moving or times[:1], key=key) for key in by for pick in (min, max)})
 
     @property
     def is_steady(self):

@@ -18,7 +18,7 @@ class Diary:
     def __init__(self, case, frame, grid, progress, watch):
         self._config, self._frame, self._grid = case.config, frame, grid
         self._progress, self._watch, self._written = progress, watch, time.monotonic()
-        self._length = 1e6 * case.scene.passage
+        self._scene = case.scene
         self._units = case.contact.pressure_scale, case.contact.in_frame(frame).film_scale
         keys, folder = case.config.time, watch.directory and watch.directory / CHECKPOINT
         self.frames = Frames(keys.save_every or keys.end / FRAMES_OF_A_RUN, folder)
@@ -32,7 +32,7 @@ class Diary:
         if self.frames.is_due(instant.t, instant.step):
             self._take_frame(instant.t, standing.state, problem.heights)
         self._write_series()
-        settled = keys.until == "settled" and have_settled(progress.rows, self._length)
+        settled = keys.until == "settled" and have_settled(progress.rows, self._scene)
         return "means over passages have settled" if settled else ""
 
     def _take_frame(self, t, state, heights):

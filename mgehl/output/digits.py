@@ -7,6 +7,10 @@ MOST_DECIMALS = 9
 """Most decimals of nanometres: far below an atom, and within what a double holds."""
 
 
+LARGE = 1e7
+"""From here on a number is told with four digits."""
+
+
 def is_number(text):
     """True of a number, of one with its band, and of two as in "3 of 7" or "3..7"."""
     try:
@@ -22,8 +26,10 @@ def with_band(value, half_width=None):
 
     Without a band four digits stand after the point; of a diverged run four in all.
     """
-    if half_width is None or not (isfinite(value) and isfinite(half_width)):
-        return f"{round(value, 4) + 0.0:.4f}" if abs(value) < 1e7 else f"{value:.3e}"
+    known = half_width is not None and isfinite(value) and isfinite(half_width)
+    if not known or abs(value) >= LARGE:
+        band = f" ± {half_width:.1e}" if known else ""
+        return f"{round(value, 4) + 0.0:.4f}" if abs(value) < LARGE else f"{value:.3e}{band}"
     decimals = MOST_DECIMALS
     if half_width > 0.0:
         first = floor(log10(half_width))

@@ -7,7 +7,7 @@ import numpy as np
 from mgehl.discretization.status import is_fluid
 from mgehl.solver.gaps import gaps
 from mgehl.solver.heat import has_temperatures, rise_of
-from mgehl.solver.shear import shear_of
+from mgehl.solver.shear import flows_out_whole, shear_of
 
 
 @dataclass(frozen=True)
@@ -90,7 +90,8 @@ def friction_result(problem, state):
         film_coefficient=shear.film_force / contact.load,
         solid_coefficient=shear.solid_force / contact.load,
         rolling_coefficient=shear.rolling_force / contact.load,
-        rolling_beyond=contact.drag_beyond(problem.grid.mesh) / contact.load,
+        rolling_beyond=contact.drag_beyond(problem.grid.mesh, flows_out_whole(problem, state))
+        / contact.load,
         force_1_N=-dragged - shear.rolling_force,
         force_2_N=dragged - shear.rolling_force,
         rolling_N=-shear.rolling_force,

@@ -67,15 +67,16 @@ def inlet_cells(contact, mesh, scene=None):
 def resolution(contact, mesh, scene=None):
     """The `Resolution` of a loaded contact's inlet and surface by a mesh, and of its film by the domain.
 
-    Of a `Scene` the contact is that at a time of 0, and the inlet that of the slowest motion.
+    Of a `Scene` the contact is that at a time of 0, the inlet that of the slowest motion, and the domain is
+    judged at the instant that it takes most from.
     """
-    cells, lost = inlet_cells(contact, mesh, scene), film_lost(contact, mesh)
+    cells, lost = inlet_cells(contact, mesh, scene), film_lost(contact, mesh, scene)
     domain, nodes = domain_verdict(lost), surface.wave_nodes(contact, mesh)
     verdict = "coarse" if cells >= SEEN_CELLS else "grid-determined"
     if cells >= RESOLVED_CELLS:
         verdict = "resolved" if domain == SUFFICIENT else domain
     shown, waves = surface.surface_verdict(contact, nodes), nodes if isfinite(nodes) else None
-    beyond = 100.0 * contact.share_beyond(mesh)
+    beyond = load_beyond(contact, mesh, scene)
     found = Resolution(cells, verdict, domain, lost, shown, waves, beyond)
     if scene is None or scene.is_steady:
         return found
@@ -131,12 +132,29 @@ def expectation(cells, start, is_mixed, shuts):
     return "film and contact side by side; where they meet is decided by the grid"
 
 
-def film_lost(contact, mesh):
+def film_lost(contact, mesh, scene=None):
     """Estimate, in per cent, of the film that a domain of twice the size would have more.
 
-    Of central and minimum film the one that changes more; good to a factor of two.
+    Of central and minimum film the one that changes more; good to a factor of two. Of a `Scene` the most
+    that an instant has.
     """
-    return Starvation(contact, contact.flooded_film).lost(mesh.x, mesh.y)
+    return max(
+        Starvation(there, there.flooded_film).lost(*there.in_its_units(*contact.ends(mesh)))
+        for there in _instants(contact, scene)
+    )
+
+
+def load_beyond(contact, mesh, scene=None):
+    """Part of the load, in per cent, that the film in the domain of a mesh need not carry.
+
+    Of a `Scene` the most that an instant has.
+    """
+    return 100.0 * max(there.share_beyond(*contact.ends(mesh)) for there in _instants(contact, scene))
+
+
+def _instants(contact, scene):
+    """The contact itself, of a `Scene` those of its extremes."""
+    return [contact] if scene is None else [scene.instant(contact, t) for t in scene.ends]
 
 
 def domain_verdict(lost):
@@ -158,9 +176,13 @@ def domain_words(verdict, lost):
     )
 
 
-def beyond_words(percent):
-    """How much of the load the film in a domain need not carry, in a list; empty where hardly any."""
-    words = f"{percent:.1f} % of it is carried beyond the domain or lost at its sides, the rest within"
+def beyond_words(percent, at_most=False):
+    """How much of the load the film in a domain need not carry, in a list; empty where hardly any.
+
+    `at_most`: of the instants of a run in time.
+    """
+    part = f"{'up to ' if at_most else ''}{percent:.1f} % of it"
+    words = f"{part} is carried beyond the domain or lost at its sides, the rest within"
     return [words] if percent >= 0.05 else []
 
 

@@ -2,8 +2,8 @@
 
 It is written anew with every checkpoint and at the end. And the means over passages: what an engineer asks
 of roughness that moves. A passage is the time in which all heights that move go the length of the Hertz
-contact, and of smooth bodies the mean surface (`Scene.passage`). The band of a mean is what the means of
-the last two passages differ by; it has settled where that is little.
+contact of the present load, and of smooth bodies the mean surface (`Scene.passage`). The band of a mean is
+what the means of the last two passages differ by; it has settled where that is little.
 """
 
 from copy import copy
@@ -122,38 +122,45 @@ def write_series(path, rows, title):
             put(file, called, ("time",), values, units=unit, long_name=meaning, **told)
 
 
-def means(rows, length):
-    """{name: `Mean`} of the last passage of `length` in um; empty before the end of the first."""
-    path = np.array([row["path_um"] for row in rows])
-    gone = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(path, prepend=0.0)))])
-    if gone[-1] < length:
+def passed(rows, scene):
+    """Passages that the rows of a history have gone through by the end of each, (rows,)."""
+    path, loads = (np.array([row[name] for row in rows]) for name in ("path_um", "load_share"))
+    shares, which = np.unique(loads, return_inverse=True)
+    lengths = 1e6 * np.array([scene.passage(share) for share in shares])
+    return np.cumsum(np.abs(np.diff(path, prepend=0.0)) / lengths[which])
+
+
+def means(rows, gone):
+    """{name: `Mean`} of the last passage, `gone` as `passed` says; empty before the end of the first."""
+    if gone[-1] < 1.0:
         return {}
     weights = np.array([row["step_s"] for row in rows])
-    last, before = (gone[1:] > gone[-1] - length), (gone[1:] <= gone[-1] - length)
-    before &= gone[1:] > gone[-1] - 2.0 * length
+    last, before = (gone > gone[-1] - 1.0), (gone <= gone[-1] - 1.0)
+    before &= gone > gone[-1] - 2.0
     found = {}
     for name in MEANS:
         values = np.array([row[name] for row in rows])
         mean = float(np.average(values[last], weights=weights[last]))
-        two = gone[-1] >= 2.0 * length and before.any()
+        two = gone[-1] >= 2.0 and before.any()
         earlier = float(np.average(values[before], weights=weights[before])) if two else None
         found[name] = Mean(mean, None if earlier is None else abs(mean - earlier))
     return found
 
 
-def have_settled(rows, length):
+def have_settled(rows, scene):
     """Whether the means of gap and load on solids have settled after `FEWEST` passages."""
-    if sum(abs(row["speed_mm_s"]) * 1e3 * row["step_s"] for row in rows) < FEWEST * length:
+    gone = passed(rows, scene)
+    if gone[-1] < FEWEST:
         return False
-    found = means(rows, length)
+    found = means(rows, gone)
     gap, solids = found["mean_gap_nm"], found["load_on_solids"]
     return gap.band <= SETTLED * gap.value and solids.band <= SETTLED
 
 
-def time_result(rows, length, work, largest_node):
-    """The `TimeResult` of the rows of a history; `length` in um is that of a passage."""
+def time_result(rows, scene, work, largest_node):
+    """The `TimeResult` of the rows of a history of a `Scene`."""
     each = [after["convolutions"] - before["convolutions"] for before, after in pairwise(rows)]
-    gone = sum(abs(row["speed_mm_s"]) * 1e3 * row["step_s"] for row in rows)
+    gone = passed(rows, scene)
     return TimeResult(
         end_s=rows[-1]["time_s"],
         steps=len(rows),
@@ -161,7 +168,7 @@ def time_result(rows, length, work, largest_node):
         largest_closure=max(abs(row["closure"]) for row in rows),
         largest_node=largest_node,
         convolutions_a_step=sorted(each)[len(each) // 2] if each else work.convolutions,
-        passages=gone / length,
-        means=means(rows, length),
+        passages=float(gone[-1]),
+        means=means(rows, gone),
         largest_shear_MPa=max(row["largest_shear_MPa"] for row in rows),
     )

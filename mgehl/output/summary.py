@@ -75,7 +75,7 @@ def summarise_in_time(problem, outcome, rows, scene, tolerance, work, wall_s, ve
         return replace(result, converged=False, settled=False, reason=outcome.reason, mass=None)
     largest_node = _largest_node(problem, outcome.state)
     end = scene.instant(problem.contact, rows[-1]["time_s"])
-    time = time_result(rows, 1e6 * scene.passage, work, largest_node)
+    time = time_result(rows, scene, work, largest_node)
     off = max(time.largest_closure, largest_node)
     settled, reason = result.settled and off <= CLOSED_IN_TIME, outcome.reason
     if not result.settled:

@@ -10,6 +10,9 @@ from mgehl.output.surface import surface_words
 HARDLY = 2e-3
 """Part of a film by which shear must thin it to be told."""
 
+ALIKE = 1e-4
+"""Part of a mean below which its band is not told."""
+
 LISTED = 20
 """Most nodes that are named one by one."""
 
@@ -78,7 +81,8 @@ def _loaded_lines(result, verbose):
     room = domain_words(resolution.domain, resolution.domain_loss_percent)
     # Nothing is known of the film of a domain that cuts the contact.
     yield f"domain: {'too small: it cuts the contact' if result.edge.cuts else room}"
-    yield from (f"load: {words}" for words in beyond_words(resolution.load_beyond_percent))
+    beyond = beyond_words(resolution.load_beyond_percent, at_most=bool(result.time))
+    yield from (f"load: {words}" for words in beyond)
     if shown := surface_words(resolution.surface, resolution.surface_nodes):
         yield f"surface: {shown}"
     if result.mixed:
@@ -279,5 +283,8 @@ def time_lines(time):
 
 
 def mean_words(mean, scale=1.0):
-    """A `Mean` times `scale`, with its band; with four digits where it has none, or no width."""
-    return with_band(scale * mean.value, scale * mean.band) if mean.band else f"{scale * mean.value:.4g}"
+    """A `Mean` times `scale`, with its band; with four digits where it has none, or one below them:
+    passages that are alike say nothing of the grid."""
+    if mean.band and mean.band > ALIKE * abs(mean.value):
+        return with_band(scale * mean.value, scale * mean.band)
+    return f"{scale * mean.value:.4g}"

@@ -1,9 +1,9 @@
 """A contact in time: step after step, each a solve of its own (`carry` says what one hands to the next).
 
-    bodies, load, oil as they are at the end of the step    mgehl.solver.problem.ContactProblem.turn_to
-    contents         carried along                          mgehl.solver.carry.Transport.leg
-    first guess      the states before, continued           mgehl.solver.march.March._guess
-    pressures, sets  Newton's method                        mgehl.solver.newton.Newton.run
+    bodies, load, speed, oil    as they are at its end          mgehl.solver.problem.ContactProblem.turn_to
+    contents                    carried along                   mgehl.solver.carry.Transport.leg
+    first guess                 the states before, continued    mgehl.solver.march.March._guess
+    pressures, sets             Newton's method                 mgehl.solver.newton.Newton.run
 
 A step that does not settle is halved.
 """
@@ -124,10 +124,9 @@ class March:
         return Outcome(standing.state, converged, reason)
 
     def _turn(self, t, path):
-        """Let bodies, load and oil be as they are at a time."""
+        """Let bodies, load, speed and oil be as they are at a time."""
         scene = self._scene
-        oil = scene.instant(scene.framed, t).lubricant
-        self._problem.turn_to(scene.at(path), scene.load_share(t), oil)
+        self._problem.turn_to(scene.at(path), scene.instant(scene.framed, t))
 
     def _advance(self, standing):
         """Take one step, halved as often as need be; return its `Instant`, None where it never settles."""

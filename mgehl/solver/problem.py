@@ -175,16 +175,17 @@ class ContactProblem(Problem):
         found = self._surface.height(grid.X * contact.x_scale, grid.Y * contact.y_scale)
         return np.array(np.broadcast_to(found, grid.shape))
 
-    def turn_to(self, contact, load, oil=None):
-        """Take the surfaces of a `contact` as they are at another time, `load` times its load, and another
-        `oil`, if there is one."""
-        if oil is not None and oil is not self.flowing.lubricant:
-            self.flowing = replace(self.contact, lubricant=oil)
-        if contact.surface is not self._surface:
-            self._undeformed = contact.undeformed_gap(self.grid.X, self.grid.Y)
-            self._surface = contact.surface
-        self.load_share = load
-        self._load_within = load * contact.load_within(self.grid.mesh)
+    def turn_to(self, surfaces, there):
+        """Take the surfaces of the contact `surfaces` as they are at another time, and the load, the speed
+        and the oil of the contact `there`."""
+        contact = self.contact
+        friction = contact.friction.slowed(there.speed / contact.speed)
+        self.flowing = replace(contact, lubricant=there.lubricant, friction=friction)
+        if surfaces.surface is not self._surface:
+            self._undeformed = surfaces.undeformed_gap(self.grid.X, self.grid.Y)
+            self._surface = surfaces.surface
+        self.load_share = there.load / contact.load
+        self._load_within = contact.load_within(self.grid.mesh, there)
 
     @property
     def hertz(self):

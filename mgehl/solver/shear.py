@@ -41,6 +41,15 @@ def shear_of(problem, state):
     return Shear(film, solids, *forces, rolling_force(problem, state))
 
 
+def flows_out_whole(problem, state):
+    """Whether the film leaves the domain without a cavity: under an ambient pressure it need not tear
+    (collective)."""
+    grid = problem.grid
+    torn = state.status == CAVITATED
+    lines = np.arange(grid.first, grid.last) == grid.mesh.ny - 2
+    return not grid.count(torn[:, -2]) + (0 if grid.mesh.is_line else grid.count(torn[lines]))
+
+
 def coefficient(problem, state):
     """Shear of film and solids over the load; None where the surfaces do not slide (collective)."""
     if problem.contact.friction.slide_to_roll == 0.0:

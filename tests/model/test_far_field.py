@@ -66,8 +66,9 @@ def test_far_away_it_falls_as_one_over_the_distance():
 def test_it_is_the_same_in_the_axes_of_the_solver(angle):
     ball = contact(angle=angle, **ELLIPSE)
     frame = Frame.of(angle)[0]
-    there = missing_share(ball.in_frame(frame), *frame.intervals(X, Y))
-    assert there == pytest.approx(missing_share(ball, X, Y), rel=1e-6)
+    here = [tuple(end * scale for end in pair) for pair, scale in ((X, ball.x_scale), (Y, ball.y_scale))]
+    there = missing_share(ball.in_frame(frame), *frame.intervals(*here))
+    assert there == pytest.approx(missing_share(ball, *here), rel=1e-6)
 
 
 @pytest.mark.parametrize("M, counted", [(3.0, 1.0), (8.0, 1.0), (16.0, 0.0), (200.0, 0.0)])

@@ -25,13 +25,13 @@ def scene(settings):
 )
 def test_a_passage_is_that_of_the_slowest_heights(body, slide_to_roll, lengths):
     found = scene(WAVES | {"surface.body": body, "motion.slide_to_roll": slide_to_roll})
-    assert found.passage == pytest.approx(lengths * 2.0 * found.framed.x_scale)
+    assert found.passage() == pytest.approx(lengths * 2.0 * found.framed.x_scale)
 
 
 def test_ridges_along_the_motion_do_not_pass():
     ridges = {"surface.kind": "waviness", "surface.amplitude": 1e-8, "surface.wavelength_y": 1e-4}
     found = scene(ridges | {"surface.body": "body_2", "motion.slide_to_roll": 1.0})
-    assert found.passage == pytest.approx(2.0 * found.framed.x_scale)
+    assert found.passage() == pytest.approx(2.0 * found.framed.x_scale)
 
 
 @pytest.mark.parametrize(

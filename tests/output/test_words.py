@@ -31,7 +31,12 @@ def test_a_shear_in_time_that_no_oil_bears_is_named(shear, is_odd):
 
 @pytest.mark.parametrize(
     "mean, said",
-    [(Mean(148.9, 21.0), "150 ± 30"), (Mean(0.25, 0.0), "0.25"), (Mean(148.93, None), "148.9")],
+    [
+        (Mean(148.9, 21.0), "150 ± 30"),
+        (Mean(0.25, 0.0), "0.25"),
+        (Mean(148.93, None), "148.9"),
+        (Mean(148.93, 1e-3), "148.9"),
+    ],
 )
 def test_a_mean_is_rounded_as_its_band_is(mean, said):
     """A report had 150 ± 30 on top and 148.9 ± 21 below."""

@@ -26,7 +26,7 @@ def test_an_instant_has_the_load_and_the_ellipse_of_its_own(make_problem, paper_
     """Of another load than the contact's: axes grow with its third root, a part of it is of that load."""
     problem = make_problem(paper_contact(1.0), nodes=65, scheme=Scheme())
     mesh, contact = problem.grid.mesh, problem.contact
-    problem.turn_to(contact, share)
+    problem.turn_to(contact, contact.under(share))
     P = np.where(problem.boundary, 0.0, 1.0)
     state = problem.state(P, 0.5, np.where(problem.boundary, BOUNDARY, CONTACT))
     assert loads(problem, state).contact == pytest.approx(problem.load(P) / (share * contact.load_integral))
