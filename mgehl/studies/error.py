@@ -34,9 +34,9 @@ FILMS = ("central", "minimum")
 
 def run(study):
     """Solve all; write the tables `cases` and `bands`."""
-    nodes = study.nodes or NODES
-    contacts = draw(study.wanted or CASES, SEED if study.seed is None else study.seed)
-    study.cases = len(contacts) * (len(nodes) + 1)
+    nodes = study.asked.nodes or NODES
+    contacts = study.drawn(draw, CASES, SEED)
+    study.expected = len(contacts) * (len(nodes) + 1)
     rows, bands = [], {film: [] for film in FILMS}
     for name, contact in contacts.items():
         grids = *nodes, 2 * nodes[-1] - 1

@@ -22,7 +22,7 @@ INSIDE = 0.9
 
 def run(study):
     """Solve both cases on every grid; write the tables `contact` and `film` and Figures 11 to 13."""
-    nodes = study.nodes or NODES
+    nodes = study.asked.nodes or NODES
     dry = [each for _, each in study.solved(_cases(nodes, CONTACT_SPEED, "contact"), must_converge=False)]
     wet = [each for _, each in study.solved(_cases(nodes, FILM_SPEED, "film"), must_converge=False)]
     profiles = study.comm.bcast([Profile(each) for each in dry] if study.first else None)

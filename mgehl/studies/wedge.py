@@ -38,8 +38,8 @@ NODES = (129, 257, 513, 1025)
 
 def run(study):
     """Solve all cases; write tables `cases` and `convergence`, figures 7, 8, 9, 10."""
-    nodes = study.nodes or NODES
-    study.cases = 4 + 3 * len(PILLARS) + 2 * len(SCHEMES) * len(nodes)
+    nodes = study.asked.nodes or NODES
+    study.expected = 4 + 3 * len(PILLARS) + 2 * len(SCHEMES) * len(nodes)
     solutions = {name: study.solve(name, tables) for name, tables in _figure_cases().items()}
     study.write_table("cases", [_case_row(name, solution) for name, solution in solutions.items()])
     rows = []

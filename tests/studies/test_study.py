@@ -4,6 +4,7 @@ import pytest
 from mpi4py import MPI
 
 from mgehl.errors import ConfigError, UserError
+from mgehl.output.study_directory import StudyRecord
 from mgehl.run import run
 from mgehl.studies.limits import observed_order, richardson
 from mgehl.studies.study import Study, merged
@@ -37,7 +38,7 @@ def test_without_falling_differences_of_one_sign_there_is_no_limit_to_see(values
 
 @pytest.fixture
 def study(tmp_path):
-    return Study(tmp_path, MPI.COMM_SELF, (65,))
+    return Study(tmp_path, MPI.COMM_SELF, StudyRecord("films", (65,), 1, {}))
 
 
 def test_named_cases_are_solved_in_their_order_and_one_that_cannot_be_is_passed(study, capsys, monkeypatch):
