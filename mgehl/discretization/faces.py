@@ -8,8 +8,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from mgehl.discretization.couette import SHIFT, E, W, add_couette, nodes_of
-from mgehl.discretization.flow import Flow
+from mgehl.discretization.couette import add_couette, nodes_of
+from mgehl.discretization.flow import SHIFT, E, Flow, W
 from mgehl.discretization.fluid import FaceMobility, face_mobility
 from mgehl.discretization.kernels import add_poiseuille, add_poiseuille_slopes
 from mgehl.discretization.status import WALL, is_solid, open_faces

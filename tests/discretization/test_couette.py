@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from handmade import ALONG, Row
 
-from mgehl.discretization.couette import EE, SCHEMES, SHIFT, WW, E, W, add_couette, couette_scheme
-from mgehl.discretization.flow import Flow
+from mgehl.discretization.couette import SCHEMES, add_couette, couette_scheme
+from mgehl.discretization.flow import EE, SHIFT, WW, E, Flow, W
 from mgehl.discretization.status import CONTACT, LUBRICATED, is_solid
 
 # One row of five nodes with small whole numbers, so that every flow is exact.

@@ -6,7 +6,8 @@ from handmade import ALONG, Row, conductances, flows
 
 from mgehl.discretization.axes import axes_of
 from mgehl.discretization.contact_law import BoundaryFilm
-from mgehl.discretization.couette import EE, SCHEMES, SHIFT, WW, E, W
+from mgehl.discretization.couette import SCHEMES
+from mgehl.discretization.flow import EE, SHIFT, WW, E, W
 from mgehl.discretization.fluid import FACE_MOBILITIES, Fluid, fluid_state
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.scheme import Scheme
