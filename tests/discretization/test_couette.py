@@ -69,14 +69,6 @@ def test_3L_differs_from_the_film_of_the_node_upstream_by_half_of_it(couette_flo
         assert flow == pytest.approx(velocity * by_3L, rel=1e-15)
 
 
-@pytest.mark.parametrize("power", [1, 2, 3])
-def test_3B_differences_a_cube_exactly(couette_flows, power):
-    """d(X^3)/dX = 3 X^2 at nodes with both neighbours and the one before: third order."""
-    X = np.arange(5.0)
-    flow = couette_flows("3B", rho=np.ones(5), gap=X**power)[0].value
-    np.testing.assert_allclose(flow[2:] - flow[1:-1], power * X[2:4] ** (power - 1), rtol=1e-14)
-
-
 @pytest.mark.parametrize("coarsenings", [1, 2, 3])
 def test_a_coarse_grid_has_the_truncation_error_of_the_finest(coarsenings):
     """1B of X^2 is off by the spacing: on a coarse grid by the finest grid's, whatever its own."""
