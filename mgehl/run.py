@@ -23,7 +23,7 @@ from mgehl.output.friction_result import friction_result, with_band, with_unthin
 from mgehl.output.gap_error import gap_error
 from mgehl.output.laws import law_files
 from mgehl.output.lock import locked
-from mgehl.output.result import Work
+from mgehl.output.result import Making, Work
 from mgehl.output.solution import Fields, Solution, on_every_rank
 from mgehl.output.summary import summarise, summarise_in_time
 from mgehl.output.surroundings import versions
@@ -154,8 +154,8 @@ def _solve_loaded(case, parts, hierarchy, monitor, watch, start):
     problem, outcome = method(hierarchy, contact, settings, monitor=monitor, journal=journal)
     if by_newton:
         outcome = close_account(hierarchy, problem, outcome, settings, monitor, journal)
-    work = Work(monitor.convolutions, monitor.steps if by_newton else outcome.cycles[-1].step)
-    result = summarise(problem, outcome, config.solver.tolerance, work, monitor.seconds, versions())
+    making = _making(monitor, monitor.steps if by_newton else outcome.cycles[-1].step)
+    result = summarise(problem, outcome, config.solver.tolerance, making)
     beside = Beside(hierarchy, problem, outcome.state, settings, monitor.beside, journal)
     mixed = result.mixed and replace(result.mixed, error=gap_error(result, beside, monitor))
     bands = {"mixed": mixed, "error": film_error(result, beside, monitor)}
@@ -174,10 +174,8 @@ def _solve_in_time(case, parts, hierarchy, monitor, watch, start):
     diary = Diary(case, parts.frame, hierarchy.grids[-1], monitor, watch)
     how = parts.settings, diary, monitor.beside, _journal(config, monitor, watch)
     problem, outcome = march(scene, hierarchy, *how, start and (start, parts.frame))
-    work, limit = Work(monitor.convolutions, len(monitor.rows)), config.solver.tolerance
-    result = summarise_in_time(
-        problem, outcome, monitor.rows, scene, limit, work, monitor.seconds, versions()
-    )
+    making, limit = _making(monitor, len(monitor.rows)), config.solver.tolerance
+    result = summarise_in_time(problem, outcome, monitor.rows, scene, limit, making)
     result = replace(result, recipe=plain(parts.recipe(start, outcome.begins)))
     solution = _solution(case, parts, problem, outcome.state, monitor.rows, result)
     return replace(solution, frames=diary.frames)
@@ -194,9 +192,13 @@ def _solve_dry(case, parts, hierarchy, monitor, watch, start):
     journal = _journal(case.config, monitor, watch)
     tell = partial(monitor, LevelSolve(parts.mesh.nx, None, True))
     outcome = solve_dry(problem, guess, limits.tolerance, limits.max_steps, tell, journal)
-    work = Work(monitor.convolutions, monitor.steps)
-    result = summarise_dry(problem, outcome, limits.tolerance, work, monitor.seconds, versions())
+    result = summarise_dry(problem, outcome, limits.tolerance, _making(monitor, monitor.steps))
     return _solution(case, parts, problem, outcome.state, monitor.rows, result)
+
+
+def _making(monitor, steps):
+    """The `Making` of an answer: so many steps, and what a monitor saw."""
+    return Making(Work(monitor.convolutions, steps), monitor.seconds, versions())
 
 
 class _Asked(Journal):

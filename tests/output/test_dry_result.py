@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from mgehl.output.dry_summary import summarise_dry
-from mgehl.output.result import Work
+from mgehl.output.result import Making, Work
 from mgehl.solver.dry import solve_dry
 
 TOLERANCE = 1e-8
@@ -21,7 +21,7 @@ def settled(make_problem):
 
 
 def judged(problem, outcome):
-    return summarise_dry(problem, outcome, TOLERANCE, Work(1.0, 1), 0.0, {})
+    return summarise_dry(problem, outcome, TOLERANCE, Making(Work(1.0, 1), 0.0, {}))
 
 
 def test_an_answer_converges(settled):

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from mgehl.discretization.status import BOUNDARY, CONTACT, LUBRICATED
-from mgehl.output.result import Work
+from mgehl.output.result import Making, Work
 from mgehl.output.summary import summarise
 from mgehl.solver.outcome import Cycle, Outcome
 from mgehl.solver.partition import Changes
@@ -27,7 +27,7 @@ def summary(tiny_problem, outcome, monkeypatch):
         monkeypatch.setattr(tiny_problem, "residual", lambda _, status: np.full(status.shape, residual))
         monkeypatch.setattr(tiny_problem, "load_deficit", lambda P: load)
         monkeypatch.setattr("mgehl.output.summary._conserves", lambda *_: True)
-        return summarise(tiny_problem, outcome, 1e-8, Work(12.5, 7), 3.0, {"mgehl": "0"})
+        return summarise(tiny_problem, outcome, 1e-8, Making(Work(12.5, 7), 3.0, {"mgehl": "0"}))
 
     return make
 
