@@ -19,7 +19,7 @@ from mgehl.output.dry_summary import summarise_dry
 from mgehl.output.film_error import film_error
 from mgehl.output.finish import finish_run
 from mgehl.output.forecast import check_memory
-from mgehl.output.friction_result import friction_result, with_band, with_unthinned
+from mgehl.output.friction_result import banded, friction_result, with_unthinned
 from mgehl.output.gap_error import gap_error
 from mgehl.output.laws import law_files
 from mgehl.output.lock import locked
@@ -160,7 +160,7 @@ def _solve_loaded(case, parts, hierarchy, monitor, watch, start):
     mixed = result.mixed and replace(result.mixed, error=gap_error(result, beside, monitor))
     bands = {"mixed": mixed, "error": film_error(result, beside, monitor)}
     friction, maps = friction_result(problem, outcome.state)
-    friction = with_band(friction, mixed, contact.friction.boundary_coefficient)
+    friction = banded(friction, mixed, contact.friction.boundary_coefficient)
     if friction and contact.friction.thins and settings.error:
         friction = with_unthinned(friction, result, beside.unthinned)
     told = bands | {"friction": friction, "recipe": plain(parts.recipe(start, outcome.begins))}

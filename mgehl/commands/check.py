@@ -9,7 +9,7 @@ example: mgehl check --set grid.nodes=1025 --set motion.speed='7.5 mm/s' --ranks
 from itertools import groupby
 
 from mgehl.commands import add_configuration, add_settings, shown, whole_number
-from mgehl.config import config_from_tables, left_out, read_tables
+from mgehl.config import config_from_tables, not_given, read_tables
 from mgehl.config_file import chosen_config, naming_file
 from mgehl.kinds.choice import given
 from mgehl.kinds.cited import cited
@@ -42,7 +42,7 @@ def execute(options):
         case = checked_case(config_from_tables(tables))
     config, contact, mesh = case.config, case.contact, case.mesh
     print(f"{options.config or shown(file)}: valid, a {config.kind.noun}\n")
-    lines = [*_given(config, left_out(config, tables)), *_idle(config, tables)]
+    lines = [*_given(config, not_given(config, tables)), *_idle(config, tables)]
     lines += *_under("unusual", implausible(config, contact)), "", *_described(case)
     lines += *_estimate(config, contact, mesh, options.ranks), *_recipe(case), ""
     names = ", ".join(SOURCES[key].short for key in cited(config, contact))

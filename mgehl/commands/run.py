@@ -11,7 +11,7 @@ from pathlib import Path
 from shlex import quote
 
 from mgehl.commands import CONVERGED, NOT_CONVERGED, add_configuration, add_settings, shown
-from mgehl.config import config_from_tables, left_out, read_tables
+from mgehl.config import config_from_tables, not_given, read_tables
 from mgehl.config_file import chosen_config, naming_file
 from mgehl.config_value import read_quantity
 from mgehl.errors import OutputError, UserError
@@ -110,7 +110,7 @@ def _say_what(options, file, case, tables):
 
     changed, config = ", changed by --set" if options.settings else "", case.config
     which = [] if options.config else [f"no configuration named: solving {shown(file)}{changed}"]
-    which += [f"not given: {key}: {config.said(key)} is the paper's" for key in left_out(config, tables)]
+    which += [f"not given: {key}: {config.said(key)} is the paper's" for key in not_given(config, tables)]
     which += [f"unusual: {words}" for words in implausible(config, case.contact)]
     for words in which:
         say(folded(f"mgehl: {words}", "    ", columns()))

@@ -114,7 +114,7 @@ def _parameters(formula):
     return {field.name: field.default is MISSING and field.type is float for field in own}
 
 
-def carried(config):
+def every_surface(config):
     """(Key, `Surface`, the body that carries it) of every surface."""
     for name in NAMES:
         section = getattr(config, name)

@@ -9,7 +9,7 @@ from math import nan
 import numpy as np
 
 from mgehl.studies.columns import told
-from mgehl.studies.limits import Band, cells, summary
+from mgehl.studies.limits import JudgedBand, cells, summary
 from mgehl.studies.study import BEST, merged
 
 NODES, CASES, SEED = (65, 129, 257), 40, 11
@@ -85,7 +85,7 @@ def limits_of(error):
 
 
 def _band(film, result, limit):
-    return Band(getattr(result, f"{film}_film_nm"), getattr(result.error, f"{film}_nm"), limit)
+    return JudgedBand(getattr(result, f"{film}_film_nm"), getattr(result.error, f"{film}_nm"), limit)
 
 
 def _row(name, solution, bands):
