@@ -101,23 +101,22 @@ def _inlet(case):
     for grid in grids:
         at = "" if grid.speed is None else f"   solved at {speed_words(grid.speed)}"
         yield f"grid {grid.nodes:5d}   {grid.cells:8.2f} cells in the inlet{at}"
-    needed = resolution.resolving_nodes(contact, mesh, scene)
-    cells, start = grids[-1].cells, config.solver.start
     yield ""
-    shuts = scheme_from(config, contact).contact_law.closes_faces
-    expected = resolution.expectation(cells, start, contact.is_mixed, shuts)
+    start, shuts = config.solver.start, scheme_from(config, contact).contact_law.closes_faces
+    expected = resolution.expectation(grids[-1].cells, start, contact.is_mixed, shuts)
     yield f"expected   from a {start} start, {expected}"
-    verdict = "this grid does" if needed <= config.grid.nodes else f"recommended: grid.nodes={needed}"
-    if needed > LARGEST_NODES:
-        verdict = f"no grid up to {LARGEST_NODES} does; a higher speed or a smaller domain helps"
     lost = resolution.film_lost(contact, mesh)
     on_domain = resolution.domain_words(resolution.domain_verdict(lost), lost)
     peaks = resolution.peaks_words(contact, mesh)
     yield from _under("domain", [resolution.room_words(mesh), on_domain, *peaks])
     beyond = resolution.beyond_words(100.0 * contact.share_beyond(mesh))
     yield from (f"load       {words}" for words in beyond)
-    cells = f"with {resolution.RESOLVED_CELLS:.0f} cells in the inlet"
-    yield f"resolved   {cells}, from {needed} nodes on: {verdict}"
+    needed = resolution.resolving_nodes(contact, mesh, scene)
+    verdict = "this grid does" if needed <= config.grid.nodes else f"recommended: grid.nodes={needed}"
+    if needed > LARGEST_NODES:
+        verdict = f"no grid up to {LARGEST_NODES} does; a higher speed or a smaller domain helps"
+    enough = f"with {resolution.RESOLVED_CELLS:.0f} cells in the inlet"
+    yield f"resolved   {enough}, from {needed} nodes on: {verdict}"
 
 
 def _recipe(case):
