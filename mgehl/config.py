@@ -170,7 +170,7 @@ def load_config(path=None, settings=()):
     return config_from_tables(read_tables(path, settings))
 
 
-def left_out(config, tables):
+def not_given(config, tables):
     """The `physics` of a `Config` that its tables do not give, where the paper's values are taken."""
     known = {each.key for each in config.derived}
     return [key for key in config.physics if key not in known and value_of(tables, key) is None]

@@ -2,13 +2,14 @@
 
 import time
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import cached_property, partial
 from pathlib import Path
 
 import numpy as np
 from mpi4py import MPI
 
 from mgehl.grid.grid import single_grid
+from mgehl.grid.hierarchy import Hierarchy
 from mgehl.kinds import Case, case_of, checked_case
 from mgehl.kinds.own import naming_keys
 from mgehl.output import files, progress, terminal
@@ -19,11 +20,11 @@ from mgehl.output.dry_summary import summarise_dry
 from mgehl.output.film_error import film_error
 from mgehl.output.finish import finish_run
 from mgehl.output.forecast import check_memory
-from mgehl.output.friction_result import friction_result, with_band, with_unthinned
+from mgehl.output.friction_result import banded, friction_result, with_unthinned
 from mgehl.output.gap_error import gap_error
 from mgehl.output.laws import law_files
 from mgehl.output.lock import locked
-from mgehl.output.result import Work
+from mgehl.output.result import Making, Work
 from mgehl.output.solution import Fields, Solution, on_every_rank
 from mgehl.output.summary import summarise, summarise_in_time
 from mgehl.output.surroundings import versions
@@ -33,7 +34,7 @@ from mgehl.solver.beginning import begin
 from mgehl.solver.beside import Beside
 from mgehl.solver.closing import close_account
 from mgehl.solver.dry import guess_on_finest, solve_dry
-from mgehl.solver.from_config import set_up
+from mgehl.solver.from_config import SetUp, set_up
 from mgehl.solver.in_time import march
 from mgehl.solver.journal import Journal, told_to_stop
 from mgehl.solver.nested import single_loop
@@ -133,70 +134,102 @@ def _find(case, comm, watch, start):
 
 def _find_on(hierarchy, case, parts, watch, start):
     """The `Solution` of a loaded contact on these grids (collective)."""
-    config, tolerance = case.config, parts.settings.newton.tolerance
-    kind, solve = progress.newton_row, _solve_in_time if config.is_in_time else _solve_loaded
-    if config.is_dry:
-        kind, solve = progress.dry_row, _solve_dry
+    kind, tolerance = progress.newton_row, parts.settings.newton.tolerance
+    if case.config.is_dry:
+        kind = progress.dry_row
     elif parts.settings.method != "newton-mg":
         kind, tolerance = progress.sweep_row, parts.settings.relaxation.tolerance
     monitor = progress.Progress(kind, parts.contact.film_scale, hierarchy, tolerance, watch.speaker)
-    return solve(case, parts, hierarchy, monitor, watch, start)
+    solve = _LoadedSolve(case, parts, hierarchy, monitor, watch, start)
+    if case.config.is_dry:
+        return solve.without_a_fluid()
+    return solve.in_time() if case.config.is_in_time else solve.in_a_steady_state()
 
 
-def _solve_loaded(case, parts, hierarchy, monitor, watch, start):
-    """A loaded contact, by either method."""
-    config, contact, settings = case.config, parts.contact, parts.settings
-    by_newton = settings.method == "newton-mg"
-    method = begin if by_newton else single_loop
-    if start:
-        method = partial(solve_from, start=start, frame=parts.frame)
-    journal = _journal(config, monitor, watch)
-    problem, outcome = method(hierarchy, contact, settings, monitor=monitor, journal=journal)
-    if by_newton:
-        outcome = close_account(hierarchy, problem, outcome, settings, monitor, journal)
-    work = Work(monitor.convolutions, monitor.steps if by_newton else outcome.cycles[-1].step)
-    result = summarise(problem, outcome, config.solver.tolerance, work, monitor.seconds, versions())
-    beside = Beside(hierarchy, problem, outcome.state, settings, monitor.beside, journal)
-    mixed = result.mixed and replace(result.mixed, error=gap_error(result, beside, monitor))
-    bands = {"mixed": mixed, "error": film_error(result, beside, monitor)}
-    friction, maps = friction_result(problem, outcome.state)
-    friction = with_band(friction, mixed, contact.friction.boundary_coefficient)
-    if friction and contact.friction.thins and settings.error:
-        friction = with_unthinned(friction, result, beside.unthinned)
-    told = bands | {"friction": friction, "recipe": plain(parts.recipe(start, outcome.begins))}
-    result = replace(result, **told, wall_s=monitor.seconds)
-    return _solution(case, parts, problem, outcome.state, monitor.rows, result, maps)
+@dataclass(frozen=True)
+class _LoadedSolve:
+    """A solve of a loaded contact, from a `start` if there is one; each of its ways is collective."""
 
+    case: Case
+    parts: SetUp
+    hierarchy: Hierarchy
+    monitor: progress.Progress
+    watch: Watch
+    start: Solution | None
 
-def _solve_in_time(case, parts, hierarchy, monitor, watch, start):
-    """A loaded contact in time."""
-    config, scene = case.config, case.scene
-    diary = Diary(case, parts.frame, hierarchy.grids[-1], monitor, watch)
-    how = parts.settings, diary, monitor.beside, _journal(config, monitor, watch)
-    problem, outcome = march(scene, hierarchy, *how, start and (start, parts.frame))
-    work, limit = Work(monitor.convolutions, len(monitor.rows)), config.solver.tolerance
-    result = summarise_in_time(
-        problem, outcome, monitor.rows, scene, limit, work, monitor.seconds, versions()
-    )
-    result = replace(result, recipe=plain(parts.recipe(start, outcome.begins)))
-    solution = _solution(case, parts, problem, outcome.state, monitor.rows, result)
-    return replace(solution, frames=diary.frames)
+    def in_a_steady_state(self):
+        """Its `Solution` by either method."""
+        contact, settings = self.parts.contact, self.parts.settings
+        monitor, journal = self.monitor, self._journal
+        by_newton = settings.method == "newton-mg"
+        method = begin if by_newton else single_loop
+        if self.start:
+            method = partial(solve_from, start=self.start, frame=self.parts.frame)
+        problem, outcome = method(self.hierarchy, contact, settings, monitor=monitor, journal=journal)
+        if by_newton:
+            outcome = close_account(self.hierarchy, problem, outcome, settings, monitor, journal)
+        making = self._making(monitor.steps if by_newton else outcome.cycles[-1].step)
+        result = summarise(problem, outcome, self._tolerance, making)
+        beside = Beside(self.hierarchy, problem, outcome.state, settings, monitor.beside, journal)
+        mixed = result.mixed and replace(result.mixed, error=gap_error(result, beside, monitor))
+        bands = {"mixed": mixed, "error": film_error(result, beside, monitor)}
+        friction, maps = friction_result(problem, outcome.state)
+        friction = banded(friction, mixed, contact.friction.boundary_coefficient)
+        if friction and contact.friction.thins and settings.error:
+            friction = with_unthinned(friction, result, beside.unthinned)
+        told = bands | {"friction": friction, "recipe": self._recipe(outcome)}
+        result = replace(result, **told, wall_s=monitor.seconds)
+        return self._solution(problem, outcome, result, maps)
 
+    def in_time(self):
+        """Its `Solution` at the end of a run in time."""
+        case, parts, monitor, start = self.case, self.parts, self.monitor, self.start
+        diary = Diary(case, parts.frame, self.hierarchy.grids[-1], monitor, self.watch)
+        how = parts.settings, diary, monitor.beside, self._journal
+        problem, outcome = march(case.scene, self.hierarchy, *how, start and (start, parts.frame))
+        making = self._making(len(monitor.rows))
+        result = summarise_in_time(problem, outcome, monitor.rows, case.scene, self._tolerance, making)
+        result = replace(result, recipe=self._recipe(outcome))
+        return replace(self._solution(problem, outcome, result), frames=diary.frames)
 
-def _solve_dry(case, parts, hierarchy, monitor, watch, start):
-    """A loaded contact without a fluid."""
-    limits, scheme, finest = parts.settings.newton, parts.settings.scheme, hierarchy.grids[-1]
-    problem = ContactProblem(finest, hierarchy.deflections[-1], parts.contact, scheme)
-    if start:
-        guess = interpolated(problem, start, parts.frame).P
-    else:
-        guess = guess_on_finest(hierarchy, parts.contact, scheme)
-    journal = _journal(case.config, monitor, watch)
-    tell = partial(monitor, LevelSolve(parts.mesh.nx, None, True))
-    outcome = solve_dry(problem, guess, limits.tolerance, limits.max_steps, tell, journal)
-    work = Work(monitor.convolutions, monitor.steps)
-    result = summarise_dry(problem, outcome, limits.tolerance, work, monitor.seconds, versions())
-    return _solution(case, parts, problem, outcome.state, monitor.rows, result)
+    def without_a_fluid(self):
+        """Its `Solution` as a dry contact."""
+        hierarchy, contact, scheme = self.hierarchy, self.parts.contact, self.parts.settings.scheme
+        limits = self.parts.settings.newton
+        problem = ContactProblem(hierarchy.grids[-1], hierarchy.deflections[-1], contact, scheme)
+        if self.start:
+            guess = interpolated(problem, self.start, self.parts.frame).P
+        else:
+            guess = guess_on_finest(hierarchy, contact, scheme)
+        tell = partial(self.monitor, LevelSolve(self.parts.mesh.nx, None, True))
+        outcome = solve_dry(problem, guess, limits.tolerance, limits.max_steps, tell, self._journal)
+        result = summarise_dry(problem, outcome, limits.tolerance, self._making(self.monitor.steps))
+        return self._solution(problem, outcome, result)
+
+    @property
+    def _tolerance(self):
+        """That of the verdict: the user's."""
+        return self.case.config.solver.tolerance
+
+    @cached_property
+    def _journal(self):
+        """What is told of the way: the checkpoint of a directory, if there is one."""
+        watch = self.watch
+        if not watch.directory:
+            return _Asked(watch.stop)
+        return Checkpoint(watch.directory, self.case.config, self.monitor, watch.save_every, watch.stop)
+
+    def _making(self, steps):
+        """The `Making` of an answer in so many steps."""
+        work = Work(self.monitor.convolutions, steps)
+        return Making(work, self.monitor.seconds, versions())
+
+    def _recipe(self, outcome):
+        """What was chosen on the way to an `Outcome`, as result.json has it."""
+        return plain(self.parts.recipe(self.start, outcome.begins))
+
+    def _solution(self, problem, outcome, result, maps=None):
+        return _solution(self.case, self.parts, problem, outcome.state, self.monitor.rows, result, maps)
 
 
 class _Asked(Journal):
@@ -209,13 +242,6 @@ class _Asked(Journal):
         """Raise the `Stopped` of whoever was told."""
         if stopped := told_to_stop(grid.comm, self._stop):
             raise stopped
-
-
-def _journal(config, monitor, watch):
-    """What is told of the way of a solve: the checkpoint of its directory, if there is one."""
-    if not watch.directory:
-        return _Asked(watch.stop)
-    return Checkpoint(watch.directory, config, monitor, watch.save_every, watch.stop)
 
 
 def _solve_bearing(case, parts, comm, watch):

@@ -150,15 +150,6 @@ def test_what_it_does_not_take_is_one_line(film, call, words):
     assert "\n" not in str(caught.value)
 
 
-def test_a_solution_is_a_start_for_another_speed(film):
-    slower = mgehl.load(None, FILM | {"motion.speed": "0.8 m/s"})
-    again = mgehl.solve(slower, MPI.COMM_SELF, start=film)
-    cold = mgehl.solve(slower, MPI.COMM_SELF)
-    assert again.summary.converged
-    assert again.summary.central_film_nm == pytest.approx(cold.summary.central_film_nm, rel=1e-6)
-    assert again.summary.central_film_nm < film.summary.central_film_nm
-
-
 def test_importing_does_not_wake_petsc():
     """PETSc takes the options of the command line, which are read after the import."""
     code = "import sys, mgehl; sys.exit('petsc4py.PETSc' in sys.modules or 'matplotlib' in sys.modules)"

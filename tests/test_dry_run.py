@@ -1,6 +1,5 @@
 import numpy as np
 import pytest
-from told import rows_of
 
 from mgehl.cli import main
 from mgehl.output.stored import read_run
@@ -70,11 +69,3 @@ def test_it_starts_from_another_run(tmp_path, rough):
 def test_one_that_did_not_converge_says_so(tmp_path, capsys):
     assert run(tmp_path / "few", **{"contact.surface": SURFACE, "solver.max_steps": "2"}) == 1
     assert "nodes still change between contact and gap" in capsys.readouterr().err
-
-
-def test_study(tmp_path):
-    assert main(["study", "dry", "--nodes", "65,129", "--quiet", "--out", str(tmp_path / "study")]) == 0
-    rows = rows_of(tmp_path / "study" / "dry.csv")
-    assert len(rows) == 16 and all(row["converged"] == "yes" for row in rows)
-    for row in rows:
-        assert (row["contact nodes"] == row["public code's"]) == (row["nodes"] == "129")

@@ -63,13 +63,6 @@ class TestNamesThatAreNoText:
         assert all(line.isprintable() for line in capsys.readouterr().err.splitlines())
 
 
-def test_fields_that_were_cut_are_not_collected(finished, refused):
-    shutil.copytree(finished, "cut")
-    path = Path("cut/fields.h5")
-    path.write_bytes(path.read_bytes()[:-7])
-    assert "cut/fields.h5: is damaged" in refused("collect", "cut")
-
-
 @pytest.mark.parametrize("kind", ["line", "point"])
 def test_an_inlet_of_endless_cells_is_refused(refused, kind):
     line = refused("run", "--set", f"contact.kind={kind}", "--set", "solver.inlet_cells=1e300")

@@ -42,13 +42,6 @@ def film(tmp_path_factory):
     return directory, run_quietly(FILM, directory)
 
 
-def test_all_files_are_written(film):
-    directory, result = film
-    assert result.converged
-    assert {path.name for path in directory.iterdir()} == FILES
-    assert (directory / "picture.png").read_bytes().startswith(b"\x89PNG")
-
-
 def test_the_result_file_is_the_result(film):
     directory, result = film
     read = read_json(directory)
@@ -81,14 +74,6 @@ def test_the_fields_hold_the_films(film):
         centre = data["film"].sel(x=0.0, y=0.0, method="nearest")
         assert 1e9 * float(centre) == pytest.approx(result.central_film_nm)
         assert 1e-9 * float(data["pressure"].max()) == pytest.approx(result.max_pressure_GPa)
-
-
-def test_the_configuration_runs_again_to_the_same_films(film, tmp_path):
-    directory, result = film
-    config = load_config(directory / "configuration.toml")
-    again = run(config, tmp_path, MPI.COMM_SELF)
-    assert again.central_film_nm == pytest.approx(result.central_film_nm, rel=1e-12)
-    assert again.minimum_film_nm == pytest.approx(result.minimum_film_nm, rel=1e-12)
 
 
 def test_a_run_that_does_not_converge_still_leaves_everything(tmp_path):

@@ -9,7 +9,7 @@ example: mgehl check --set grid.nodes=1025 --set motion.speed='7.5 mm/s' --ranks
 from itertools import groupby
 
 from mgehl.commands import add_configuration, add_settings, shown, whole_number
-from mgehl.config import config_from_tables, left_out, read_tables
+from mgehl.config import config_from_tables, not_given, read_tables
 from mgehl.config_file import chosen_config, naming_file
 from mgehl.kinds.choice import given
 from mgehl.kinds.cited import cited
@@ -42,7 +42,7 @@ def execute(options):
         case = checked_case(config_from_tables(tables))
     config, contact, mesh = case.config, case.contact, case.mesh
     print(f"{options.config or shown(file)}: valid, a {config.kind.noun}\n")
-    lines = [*_given(config, left_out(config, tables)), *_idle(config, tables)]
+    lines = [*_given(config, not_given(config, tables)), *_idle(config, tables)]
     lines += *_under("unusual", implausible(config, contact)), "", *_described(case)
     lines += *_estimate(config, contact, mesh, options.ranks), *_recipe(case), ""
     names = ", ".join(SOURCES[key].short for key in cited(config, contact))
@@ -101,23 +101,22 @@ def _inlet(case):
     for grid in grids:
         at = "" if grid.speed is None else f"   solved at {speed_words(grid.speed)}"
         yield f"grid {grid.nodes:5d}   {grid.cells:8.2f} cells in the inlet{at}"
-    needed = resolution.resolving_nodes(contact, mesh, scene)
-    cells, start = grids[-1].cells, config.solver.start
     yield ""
-    shuts = scheme_from(config, contact).contact_law.closes_faces
-    expected = resolution.expectation(cells, start, contact.is_mixed, shuts)
+    start, shuts = config.solver.start, scheme_from(config, contact).contact_law.closes_faces
+    expected = resolution.expectation(grids[-1].cells, start, contact.is_mixed, shuts)
     yield f"expected   from a {start} start, {expected}"
-    verdict = "this grid does" if needed <= config.grid.nodes else f"recommended: grid.nodes={needed}"
-    if needed > LARGEST_NODES:
-        verdict = f"no grid up to {LARGEST_NODES} does; a higher speed or a smaller domain helps"
     lost = resolution.film_lost(contact, mesh, scene)
     on_domain = resolution.domain_words(resolution.domain_verdict(lost), lost)
     peaks = resolution.peaks_words(contact, mesh)
     yield from _under("domain", [resolution.room_words(mesh), on_domain, *peaks])
     beyond = resolution.load_beyond(contact, mesh, scene), scene is not None
     yield from (f"load       {words}" for words in resolution.beyond_words(*beyond))
-    cells = f"with {resolution.RESOLVED_CELLS:.0f} cells in the inlet"
-    yield f"resolved   {cells}, from {needed} nodes on: {verdict}"
+    needed = resolution.resolving_nodes(contact, mesh, scene)
+    verdict = "this grid does" if needed <= config.grid.nodes else f"recommended: grid.nodes={needed}"
+    if needed > LARGEST_NODES:
+        verdict = f"no grid up to {LARGEST_NODES} does; a higher speed or a smaller domain helps"
+    enough = f"with {resolution.RESOLVED_CELLS:.0f} cells in the inlet"
+    yield f"resolved   {enough}, from {needed} nodes on: {verdict}"
 
 
 def _recipe(case):

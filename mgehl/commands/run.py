@@ -11,7 +11,7 @@ from pathlib import Path
 from shlex import quote
 
 from mgehl.commands import CONVERGED, NOT_CONVERGED, add_configuration, add_settings, shown
-from mgehl.config import config_from_tables, left_out, read_tables
+from mgehl.config import config_from_tables, not_given, read_tables
 from mgehl.config_file import chosen_config, naming_file
 from mgehl.config_value import read_quantity
 from mgehl.errors import OutputError, UserError
@@ -47,15 +47,15 @@ def add(parser):
 
 def execute(options, comm):
     """Solve on all ranks and write the directory."""
-    save_every = read_quantity("--save-every", options.save_every, "s")
-    limit = options.time_limit and read_quantity("--time-limit", options.time_limit, "s")
-    solved = _resume if options.resume else _begin
-    result = solved(options, comm, lambda *case: _run(*case, comm, options, save_every, limit))
+    options.save_every = read_quantity("--save-every", options.save_every, "s")
+    if options.time_limit:
+        options.time_limit = read_quantity("--time-limit", options.time_limit, "s")
+    result = _resume(options, comm) if options.resume else _begin(options, comm)
     return CONVERGED if result.converged else NOT_CONVERGED
 
 
-def _run(case, directory, start, start_directory, comm, options, save_every, limit):
-    """Solve; a signal or a limit of time may stop it."""
+def _solve(case, directory, comm, options, start):
+    """Solve in a directory that is locked; a signal or a limit of time may stop it."""
     from mgehl.output.terminal import SILENT, speaker
     from mgehl.run import Watch, run
     from mgehl.stopping import StopWhenTold
@@ -63,12 +63,12 @@ def _run(case, directory, start, start_directory, comm, options, save_every, lim
     spoken = speaker(options.quiet, options.json_lines, verbose=options.verbose)
     words = spoken if comm.rank == 0 else SILENT
     hint = f"go on with: mgehl run --resume {quote(str(directory))}"
-    with StopWhenTold(hint, limit) as stop, words:
-        watch = Watch(words, save_every=save_every, stop=stop)
-        return run(case, directory, comm, watch, start, start_directory)
+    with StopWhenTold(hint, options.time_limit) as stop, words:
+        watch = Watch(words, save_every=options.save_every, stop=stop)
+        return run(case, directory, comm, watch, start, options.start_from)
 
 
-def _begin(options, comm, solve):
+def _begin(options, comm):
     """Solve a new run in its directory, which is made and locked."""
     from mgehl.output.directory import make_directory, prepare_directory
     from mgehl.output.files import on_first_rank
@@ -93,7 +93,7 @@ def _begin(options, comm, solve):
         on_first_rank(comm, prepare_directory, directory, law_files(case.config).values())
         if comm.rank == 0 and not (options.quiet or options.json_lines):
             _say_what(options, file, case, tables)
-        return solve(case, directory, start, options.start_from)
+        return _solve(case, directory, comm, options, start)
 
 
 def _complain(lines):
@@ -110,7 +110,7 @@ def _say_what(options, file, case, tables):
 
     changed, config = ", changed by --set" if options.settings else "", case.config
     which = [] if options.config else [f"no configuration named: solving {shown(file)}{changed}"]
-    which += [f"not given: {key}: {config.said(key)} is the paper's" for key in left_out(config, tables)]
+    which += [f"not given: {key}: {config.said(key)} is the paper's" for key in not_given(config, tables)]
     which += [f"unusual: {words}" for words in implausible(config, case.contact)]
     for words in which:
         say(folded(f"mgehl: {words}", "    ", columns()))
@@ -153,7 +153,7 @@ def _start(directory, config, comm):
     return start
 
 
-def _resume(options, comm, solve):
+def _resume(options, comm):
     """Go on with a run in its directory, which is locked; draw the missing picture of a finished one."""
     from mgehl.output.files import on_first_rank
     from mgehl.output.finish import draw_missing, taken_up
@@ -171,7 +171,7 @@ def _resume(options, comm, solve):
             _complain(said)
         told, start = comm.bcast(config), on_every_rank(comm, start)
         if told is not None:
-            return solve(told, directory, start, None)
+            return _solve(told, directory, comm, options, start)
         result = on_first_rank(comm, draw_missing, directory)
         if speaks and comm.rank == 0:
             from mgehl.saying import say

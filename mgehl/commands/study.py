@@ -63,8 +63,8 @@ def execute(options, comm):
         options.study, _checked_nodes(options), comm.size, versions(), options.direction or "both",
         tuple(options.settings), options.cases, options.seed,
     )  # fmt: skip
-    how = not options.quiet, options.resume, options.force
-    with begun(directory, comm, record, *how, settings=settings) as study:
+    how = {"speak": not options.quiet, "settings": settings}
+    with begun(directory, comm, record, options.resume, options.force, **how) as study:
         import_module(f"mgehl.studies.{options.study}").run(study)
     if options.quiet and study.failures and comm.rank == 0:
         complain(f"{study.failures} cases of the study did not converge")

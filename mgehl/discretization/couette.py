@@ -11,13 +11,7 @@ from math import inf, isfinite
 
 import numpy as np
 
-from mgehl.discretization.flow import Flow
-
-WW, W, E, EE = 0, 1, 2, 3
-"""Node positions relative to the face between W and E, along whichever axis."""
-
-SHIFT = {WW: -1, W: 0, E: 1, EE: 2}
-"""How many nodes they lie beyond W."""
+from mgehl.discretization.flow import EE, SHIFT, WW, E, Flow, W
 
 
 @dataclass(frozen=True)

@@ -8,8 +8,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from mgehl.discretization.couette import SHIFT, E, W, add_couette, nodes_of
-from mgehl.discretization.flow import Flow
+from mgehl.discretization.couette import add_couette, nodes_of
+from mgehl.discretization.flow import SHIFT, E, Flow, W
 from mgehl.discretization.fluid import FaceMobility, face_mobility
 from mgehl.discretization.kernels import add_poiseuille, add_poiseuille_slopes
 from mgehl.discretization.status import WALL, is_solid, open_faces
@@ -21,45 +21,40 @@ def flows(fluid, status, axis, scheme, mobility, linearised=False, rigid=False):
     `fluid` and `status` are ghosted, `mobility` is the `FaceMobility`; the two are one object for a
     conservative scheme. Derivatives only if they are to be `linearised`, by H unless `rigid`.
     """
-    table = scheme.couette_flow
+    couette = scheme.couette_flow
+    solid = is_solid(status, scheme.contact_law.closes_faces)
+    untreated = scheme.couette_at_interface == "untreated"  # contact stops the pressure flow alone
+    stops = status == WALL if untreated else solid
+    is_open = open_faces(stops, axis)
 
     def flow(terms):
-        return _flow(fluid, status, axis, scheme, mobility, terms, table, linearised, rigid)
+        """One of the two, its Couette part by `terms`."""
+        nodes = _nodes_of_flow(axis, terms, couette) if linearised else ()
+        found = Flow(is_open.shape, nodes, rigid)
+        _add_poiseuille(found, fluid, axis, mobility)
+        if untreated:
+            found.close(open_faces(solid, axis))
+        if axis.couette:
+            _add_carried(found, terms, couette, fluid, stops, axis)
+        found.close(is_open)
+        return found
 
-    leaving = flow(table.leaving)
-    conservative = table.conservative or not axis.couette
-    return leaving, leaving if conservative else flow(table.entering)
-
-
-def _flow(fluid, status, axis, scheme, mobility, terms, table, linearised, rigid):
-    """One flow, its Couette part by `terms` of the `CouetteScheme`."""
-    solid = is_solid(status, scheme.contact_law.closes_faces)
-    is_open = open_faces(solid, axis)
-    flow = Flow(is_open.shape, _nodes_of_flow(axis, terms, table) if linearised else (), rigid)
-    _add_poiseuille(flow, fluid, axis, mobility)
-    if scheme.couette_at_interface == "untreated":
-        # Contact stops the pressure flow alone; nothing passes a wall.
-        flow.close(is_open)
-        stops = status == WALL
-        is_open = open_faces(stops, axis)
-    else:
-        stops = solid
-    if axis.couette:
-        _add_carried(flow, terms, table, fluid, stops, axis)
-    flow.close(is_open)
-    return flow
+    leaving = flow(couette.leaving)
+    conservative = couette.conservative or not axis.couette
+    return leaving, leaving if conservative else flow(couette.entering)
 
 
-def _add_carried(flow, terms, table, fluid, stops, axis):
-    """Add the Couette flow: that of full gaps times the filling of the node it comes from.
+def _add_carried(flow, terms, couette, fluid, stops, axis):
+    """Add the Couette flow by `terms` of a `CouetteScheme`: that of full gaps times the filling of the node
+    it comes from.
 
     So what leaves a cavity that is full is what would leave it as a film, by every scheme.
     """
     if fluid.torn is None:
-        add_couette(flow, terms, table, fluid, stops, axis)
+        add_couette(flow, terms, couette, fluid, stops, axis)
         return
     of_full = Flow(flow.value.shape, flow.by_P, not flow.by_H)
-    add_couette(of_full, terms, table, fluid, stops, axis)
+    add_couette(of_full, terms, couette, fluid, stops, axis)
     upstream = W if axis.couette >= 0.0 else E  # against the axis: a wedge's plate
     filling, torn = (axis.at(part, SHIFT[upstream]) for part in (fluid.filling, fluid.torn))
     flow.value += filling * of_full.value
@@ -83,12 +78,12 @@ def carried(fluid, status, axis, scheme):
 
 def nodes_of_flows(axis, scheme):
     """Positions of the nodes that the `flows` (leaving W, entering E) along an axis depend on."""
-    table = scheme.couette_flow
-    return [_nodes_of_flow(axis, terms, table) for terms in (table.leaving, table.entering)]
+    couette = scheme.couette_flow
+    return [_nodes_of_flow(axis, terms, couette) for terms in (couette.leaving, couette.entering)]
 
 
-def _nodes_of_flow(axis, terms, table):
-    return {W, E} | (nodes_of(terms) | nodes_of(table.near) if axis.couette else set())
+def _nodes_of_flow(axis, terms, couette):
+    return {W, E} | (nodes_of(terms) | nodes_of(couette.near) if axis.couette else set())
 
 
 def _add_poiseuille(flow, fluid, axis, mobility):

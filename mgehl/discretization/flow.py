@@ -1,6 +1,12 @@
-"""What flows through the faces along an axis."""
+"""What flows through the faces along an axis, and the nodes that it depends on."""
 
 import numpy as np
+
+WW, W, E, EE = 0, 1, 2, 3
+"""Node positions relative to the face between W and E, along whichever axis."""
+
+SHIFT = {WW: -1, W: 0, E: 1, EE: 2}
+"""How many nodes they lie beyond W."""
 
 
 class Flow:

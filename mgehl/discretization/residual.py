@@ -10,8 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from mgehl.discretization.axes import few_lines, own
-from mgehl.discretization.couette import SHIFT
 from mgehl.discretization.faces import nodes_of_flows
+from mgehl.discretization.flow import SHIFT
 from mgehl.discretization.mesh import HALO
 from mgehl.discretization.rows import FLOW, GAP, PRESSURE
 from mgehl.discretization.status import CAVITATED, CONTACT

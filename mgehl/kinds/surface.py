@@ -8,7 +8,7 @@ from contextlib import contextmanager
 import numpy as np
 
 from mgehl.errors import ConfigError
-from mgehl.kinds.surface_kinds import NAMES, carried, share_of, surface_of
+from mgehl.kinds.surface_kinds import NAMES, every_surface, share_of, surface_of
 from mgehl.kinds.time import ways_of
 from mgehl.model.frame import direction
 from mgehl.model.own_function import OwnFunctionError
@@ -70,7 +70,7 @@ def surface_from(config):
 
 def parts_of(config):
     """(Key, `Surface`) of every surface."""
-    return [(key, surface) for key, surface, _ in carried(config)]
+    return [(key, surface) for key, surface, _ in every_surface(config)]
 
 
 def check_surfaces(config, contact, mesh):

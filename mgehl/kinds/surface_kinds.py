@@ -90,17 +90,18 @@ def surface_choices(tables):
     """The `Choice` of each surface that nested values speak of."""
     for name in NAMES:
         table = tables.get(name)
-        if isinstance(table, dict) and not {"kind", "file"}.isdisjoint(table):
-            kind = word_of(tables, f"{name}.kind")
-            if table.get("file") is not None:
-                yield Choice(f"with {name}.file", (name,), _keys(name, OF_A_FILE))
-            elif kind is None:
-                yield Choice(f"without {name}.kind or {name}.file", (name,))
-            elif kind in FORMULAS:
-                parameters = _parameters(FORMULAS[kind])
-                takes = _keys(name, ("kind", "body", *parameters))
-                needs = _keys(name, (key for key, needed in parameters.items() if needed))
-                yield Choice(f'with {name}.kind = "{kind}"', (name,), takes, needs)
+        if not isinstance(table, dict) or {"kind", "file"}.isdisjoint(table):
+            continue
+        kind = word_of(tables, f"{name}.kind")
+        if table.get("file") is not None:
+            yield Choice(f"with {name}.file", (name,), _keys(name, OF_A_FILE))
+        elif kind is None:
+            yield Choice(f"without {name}.kind or {name}.file", (name,))
+        elif kind in FORMULAS:
+            parameters = _parameters(FORMULAS[kind])
+            takes = _keys(name, ("kind", "body", *parameters))
+            needs = _keys(name, (key for key, needed in parameters.items() if needed))
+            yield Choice(f'with {name}.kind = "{kind}"', (name,), takes, needs)
 
 
 def _keys(section, names):
@@ -114,7 +115,7 @@ def _parameters(formula):
     return {field.name: field.default is MISSING and field.type is float for field in own}
 
 
-def carried(config):
+def every_surface(config):
     """(Key, `Surface`, the body that carries it) of every surface."""
     for name in NAMES:
         section = getattr(config, name)

@@ -8,7 +8,7 @@ import numpy as np
 from mgehl.config_value import WrongUnitError, number, read_quantity, word
 from mgehl.errors import ConfigError
 from mgehl.kinds.choice import Choice, given
-from mgehl.kinds.surface_kinds import carried, share_of
+from mgehl.kinds.surface_kinds import every_surface, share_of
 from mgehl.model.course import SAMPLES, Recorded, Table, course_of
 from mgehl.model.frame import direction
 from mgehl.model.own_function import OwnFunctionError, is_own
@@ -215,7 +215,7 @@ def scene_of(config, contact):
     load = course(key, contact.load if by_moes else config.value(key))
     speed = course("motion.speed", contact.speed if by_moes else config.motion.speed)
     slip = config.motion.slip
-    surfaces = tuple((surface, share_of(body, slip)) for _, surface, body in carried(config))
+    surfaces = tuple((surface, share_of(body, slip)) for _, surface, body in every_surface(config))
     return Scene(contact, speed, load, surfaces, config.time.end)
 
 

@@ -89,24 +89,25 @@ class MultigridSolver:
     def __init__(
         self, hierarchy, level, contact, scheme, settings=CycleSettings(), rigid=False, apart=False
     ):
-        self.contact, self._settings, self._hierarchy = contact, settings, hierarchy
+        self._hierarchy = hierarchy
         self._oblique = scheme.is_oblique and not (rigid or apart)
         self._rough, self._in_valleys = settings.rough and not rigid, settings.in_valleys and not rigid
         better = ASKEW_OR_APART if self._oblique or rigid or apart else IN_THE_CYCLE
         self._scheme = _scheme_of_cycle(settings.couette, scheme, better)
         first = self._first_grid(hierarchy.grids, level)
-        grids, deflections = hierarchy.grids[first : level + 1], hierarchy.deflections[first : level + 1]
-        if rigid:
-            deflections = [None] * len(grids)
+
+        def jacobian_on(number, scheme):
+            deflection = None if rigid else hierarchy.deflections[number]
+            return Jacobian(hierarchy.grids[number], deflection, contact, scheme)
+
         self.jacobians = [
-            Jacobian(grid, deflection, contact, self._scheme_of(len(grids) - 1 - number))
-            for number, (grid, deflection) in enumerate(zip(grids, deflections, strict=True))
+            jacobian_on(number, self._scheme_of(level - number)) for number in range(first, level + 1)
         ]
         """Of the cycle's grids, coarsest first."""
         self.jacobian = self.jacobians[-1]
         """What is solved."""
         if self._scheme is not scheme:
-            self.jacobian = Jacobian(grids[-1], deflections[-1], contact, scheme)
+            self.jacobian = jacobian_on(level, scheme)
         self._transfers = hierarchy.transfers[first:level]
         self._partitioned = [PartitionedTransfer(transfer) for transfer in self._transfers]
         self._smoothers = [self._smoother(each, apart)(each, settings.omega) for each in self.jacobians[1:]]

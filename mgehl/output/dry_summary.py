@@ -12,14 +12,14 @@ PRESSED = 1e-12
 """Pressure of dry contact over the largest, which a peak may have: more than rounding."""
 
 
-def summarise_dry(problem, outcome, tolerance, work, wall_s, versions):
+def summarise_dry(problem, outcome, tolerance, making):
     """The `Result` of a contact without a film (collective); gap and load are evaluated anew from P and
     H0."""
     contact = problem.contact
     state = outcome.state = problem.state(outcome.state.P, outcome.state.H0, outcome.state.status)
     nm, hertz = 1e9 * contact.film_scale, contact.hertz
     result = Result(
-        **of_every_load(problem, state, work, wall_s, versions, PRESSED),
+        **of_every_load(problem, state, making, PRESSED),
         error=no_band("there is no film"),
         complementarity_error=_complementarity_error(problem.grid, state),
         approach_um=-1e-3 * nm * state.H0,

@@ -88,7 +88,7 @@ class InletGrid(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Forecast:
+class Costs:
     """Memory (bytes, of all ranks) and time of a run; half or twice as many seconds are usual."""
 
     memory: float
@@ -127,7 +127,7 @@ def _with_coarser(mesh):
 
 
 def forecast(config, contact, mesh, ranks):
-    """The `Forecast` of a run on so many ranks; times a convolution."""
+    """The `Costs` of a run on so many ranks; times a convolution."""
     effort = effort_of(config, contact, mesh)
     nodes = mesh.nx if mesh.is_line else min(mesh.nx, LARGEST_TIMED)
     y = (1, (0.0, 0.0)) if mesh.is_line else (nodes, (-2.0, 2.0))
@@ -135,7 +135,7 @@ def forecast(config, contact, mesh, ranks):
     second = time_convolution(timed) * mesh.nodes * log(mesh.nodes) / (timed.nodes * log(timed.nodes))
     workers = 1 if mesh.is_line else min(ranks, cores_allowed())
     each = (second + effort.node_seconds * mesh.nodes) / workers + effort.beside
-    return Forecast(
+    return Costs(
         memory=ranks * RANK_BYTES + bytes_of_nodes(effort, mesh),
         most_memory=ranks * RANK_BYTES + bytes_of_nodes(effort, mesh, most=True),
         seconds=START_SECONDS + effort.convolutions * each,

@@ -115,7 +115,7 @@ def _temperatures(problem, state, rise):
     return Temperatures(*largest, by_pressure, grid.max(film))
 
 
-def with_band(friction, mixed, boundary_coefficient):
+def banded(friction, mixed, boundary_coefficient):
     """A `FrictionResult` with the band that the grids of a `MixedResult` give it."""
     error = mixed and mixed.error
     if not (friction and friction.slide_to_roll and error):

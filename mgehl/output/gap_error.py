@@ -108,28 +108,28 @@ def from_grids(grids):
     finest, coarser = grids
     if not coarser.settled:
         return no_band(f"on {coarser.nodes} nodes, the next coarser grid, no state settled to compare with")
-    touches = finest.contact_load_share > 0.0 or coarser.contact_load_share > 0.0
-    mean = half_width(finest.mean_nm, coarser.mean_nm, coarser.mean_apart_nm, touches)
-    loaded = half_width(finest.loaded_nm, coarser.loaded_nm, coarser.loaded_apart_nm, touches)
+
+    def on_both(name):
+        return getattr(finest, name), getattr(coarser, name)
+
+    touches = max(on_both("contact_load_share")) > 0.0
+    mean = half_width(*on_both("mean_nm"), coarser.mean_apart_nm, touches)
+    loaded = half_width(*on_both("loaded_nm"), coarser.loaded_apart_nm, touches)
     if mean > WIDEST * finest.mean_nm:
         return no_band(
             f"on {coarser.nodes} nodes the mean gap is {coarser.mean_nm:.3g} nm, too far from this"
         )
-    pressures = finest.max_pressure_GPa, coarser.max_pressure_GPa, coarser.pressure_apart_GPa
-    contact = finest.contact_load_share, coarser.contact_load_share, coarser.contact_load_apart
-    solids = finest.solid_load_fraction, coarser.solid_load_fraction, coarser.solid_load_apart
-    pressure = finest.pressure_crest_GPa + half_width(*pressures)
-    slides = finest.friction is not None and coarser.friction is not None
+    pressure = finest.pressure_crest_GPa
+    pressure += half_width(*on_both("max_pressure_GPa"), coarser.pressure_apart_GPa)
+    slides = None not in on_both("friction")
     return GapError(
         mean,
         _unless_wider(loaded, WIDEST * finest.loaded_nm),
         f"from the differences to {coarser.nodes} nodes",
         max_pressure_GPa=_unless_wider(pressure, WIDEST * finest.max_pressure_GPa),
-        contact_load_share=share_half_width(*contact),
-        solid_load_fraction=share_half_width(*solids),
-        friction=half_width(finest.friction, coarser.friction, coarser.friction_apart, True)
-        if slides
-        else None,
+        contact_load_share=share_half_width(*on_both("contact_load_share"), coarser.contact_load_apart),
+        solid_load_fraction=share_half_width(*on_both("solid_load_fraction"), coarser.solid_load_apart),
+        friction=half_width(*on_both("friction"), coarser.friction_apart, True) if slides else None,
     )
 
 

@@ -54,6 +54,16 @@ class Work:
 
 
 @dataclass(frozen=True)
+class Making:
+    """How a loaded contact's answer was made: what a `Result` tells of it, and no check asks."""
+
+    work: Work
+    wall_s: float
+    versions: dict
+    """Of what solved it, by their names."""
+
+
+@dataclass(frozen=True)
 class HertzResult:
     """What Hertz' formulas say of smooth half-spaces under the same load."""
 

@@ -40,10 +40,11 @@ class StudyRecord:
 
     name: str
     nodes: tuple
+    """Along each side, coarsest first."""
     ranks: int
     versions: dict
     branch: str = "both"
-    """Of study transition."""
+    """Of study transition: "down", "up" or "both"."""
     settings: tuple = ()
     """Of --set, "section.key=value", for every case."""
     cases: int | None = None

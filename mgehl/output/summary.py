@@ -29,16 +29,16 @@ CLOSED_IN_TIME = 1e-8
 """Part of the stored oil by which the account of a step may be off."""
 
 
-def summarise(problem, outcome, tolerance, work, wall_s, versions):
+def summarise(problem, outcome, tolerance, making):
     """The `Result` of a loaded contact with a film (collective); gap, residual and load are evaluated anew
-    from P, H0 and the partition."""
+    from P, H0 and the partition. The `Making` is taken as it is."""
     contact, own = problem.contact, problem.contact.unheated
     state = outcome.state = problem.with_own_gap(outcome.state)
     evaluation = problem.evaluate(state)
     nm, moes = 1e9 * contact.film_scale, contact.film_scale * own.moes_scale
     central, minimum = problem.films(state)
     result = Result(
-        **of_every_load(problem, state, work, wall_s, versions, LOADED),
+        **of_every_load(problem, state, making, LOADED),
         central_film_nm=central * nm,
         minimum_film_nm=minimum * nm,
         residual=problem.rms(problem.residual(evaluation, state.status)),
@@ -67,15 +67,15 @@ def summarise(problem, outcome, tolerance, work, wall_s, versions):
     )  # fmt: skip
 
 
-def summarise_in_time(problem, outcome, rows, scene, tolerance, work, wall_s, versions):
+def summarise_in_time(problem, outcome, rows, scene, tolerance, making):
     """The `Result` of a run of a `Scene` in time, its last state verified (collective)."""
-    result = summarise(problem, outcome, tolerance, work, wall_s, versions)
+    result = summarise(problem, outcome, tolerance, making)
     result = replace(result, resolution=resolution(problem.contact, problem.grid.mesh, scene))
     if not rows:
         return replace(result, converged=False, settled=False, reason=outcome.reason, mass=None)
     largest_node = _largest_node(problem, outcome.state)
     end = scene.instant(problem.contact, rows[-1]["time_s"])
-    time = time_result(rows, scene, work, largest_node)
+    time = time_result(rows, scene, making.work, largest_node)
     off = max(time.largest_closure, largest_node)
     settled, reason = result.settled and off <= CLOSED_IN_TIME, outcome.reason
     if not result.settled:
@@ -91,7 +91,7 @@ def summarise_in_time(problem, outcome, rows, scene, tolerance, work, wall_s, ve
     )  # fmt: skip
 
 
-def of_every_load(problem, state, work, wall_s, versions, part):
+def of_every_load(problem, state, making, part):
     """What a `Result` has of every loaded contact, not judged yet; the loaded zone has at least this `part`
     of the largest pressure (collective)."""
     grid, contact = problem.grid, problem.contact
@@ -103,7 +103,7 @@ def of_every_load(problem, state, work, wall_s, versions, part):
         "contact": _contact(problem, state, nm),
         "overlap": _overlap(grid, state, nm),
         "edge": check_edge(problem, state, part),
-        "work": work, "wall_s": wall_s, "ranks": grid.comm.size, "versions": versions,
+        "work": making.work, "wall_s": making.wall_s, "ranks": grid.comm.size, "versions": making.versions,
     }  # fmt: skip
 
 

@@ -139,33 +139,38 @@ class March:
 
     def _tried(self, standing, step, halvings):
         """The `Instant` of a step in s, None where it does not settle; else `standing` has moved on."""
-        scene, problem = self._scene, self._problem
-        t, speeds = standing.t + step, [scene.speed.value(standing.t), scene.speed.value(standing.t + step)]
+        scene, problem, t = self._scene, self._problem, standing.t + step
         way = scene.speed.integral(standing.t, t)
         self._turn(t, standing.path + way)
-        carried = standing.carried
-        if abs(speeds[1] - speeds[0]) > SUDDEN * scene.contact.speed:
-            carried = carried.afresh()
-        shift = Shift(*scene.cells(way, problem.grid.mesh))
-        basis = standing.reference, way / scene.framed.x_scale
-        leg, reference = self._transport.leg(
-            carried, standing.state.status, step / scene.unit, shift, *basis
-        )
+        leg, reference = self._leg(standing, step, way)
         problem.storage = leg.storage
         newton = self._solved(self._guess(standing, t, halvings), leg)
         if not newton.converged:
             self._why = newton.reason
             return None
         evaluation = problem.evaluate(newton.state)
-        stored, closure = self._account(leg, carried, evaluation)
+        stored, closure = self._account(leg, standing.carried, evaluation)
         error = self._error(standing, t, newton.state)
         standing.state, standing.carried = newton.state, self._transport.ended(leg, evaluation)
         standing.t, standing.path, standing.number = t, standing.path + way, standing.number + 1
         standing.reference = reference
         standing.step = self._pace.next(t, step, error, halvings > 0)
         self._remember(standing)
-        load = scene.load_share(t)
-        return Instant(standing.number, t, step, speeds[1], load, newton, stored, closure, halvings)
+        speed, load = scene.speed.value(t), scene.load_share(t)
+        return Instant(standing.number, t, step, speed, load, newton, stored, closure, halvings)
+
+    def _leg(self, standing, step, way):
+        """The `Leg` of a step in s in which the mean surface goes a way in m, and the `Reference` after it.
+
+        Where the speed changes much, what passed the faces in the step before tells nothing.
+        """
+        scene, carried = self._scene, standing.carried
+        before, after = (scene.speed.value(t) for t in (standing.t, standing.t + step))
+        if abs(after - before) > SUDDEN * scene.contact.speed:
+            carried = carried.afresh()
+        shift = Shift(*scene.cells(way, self._problem.grid.mesh))
+        status, dT, X = standing.state.status, step / scene.unit, way / scene.framed.x_scale
+        return self._transport.leg(carried, status, dT, shift, standing.reference, X)
 
     def _solved(self, state, leg):
         """Newton's `Outcome` from a guess, to a part of the residual that it begins with, and until the

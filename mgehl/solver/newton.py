@@ -215,8 +215,9 @@ class Newton(PythonSnes):
         state, changes = position.state, position.changes
         c, dH0 = self._space.read(self._correction)
         dP = self._multigrid.jacobian.pressures(c)
-        step = problem, self._partition, self._evaluation, state, dP, dH0
-        length, H, dH = step_length(*step, self._settings)
+        length, H, dH = step_length(
+            problem, self._partition, self._evaluation, state, dP, dH0, self._settings
+        )
         if self._layers:
             self._layers.follow(state, c, dH, length)
         state.P -= length * dP
@@ -234,8 +235,8 @@ class Newton(PythonSnes):
             self._take_up(position.trial.answer)
             outcome = Outcome(position.state, True, position.trial.reason, position.cycles)
         else:
-            how = ruling is Ruling.ACCEPT, verdict.reason, position.cycles, list(verdict.contradictions)
-            outcome = Outcome(position.state, *how)
+            converged, contradictions = ruling is Ruling.ACCEPT, list(verdict.contradictions)
+            outcome = Outcome(position.state, converged, verdict.reason, position.cycles, contradictions)
         self._outcome = outcome
         self._snes.setConvergedReason(
             reasons.CONVERGED_FNORM_ABS if outcome.converged else reasons.DIVERGED_MAX_IT

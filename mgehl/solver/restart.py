@@ -121,12 +121,12 @@ def solve_from(hierarchy, contact, settings, start, frame, monitor, journal):
     faces is not: there two states may be answers, and a start names the one that is meant.
     """
     if settings.method != "newton-mg" or not settings.scheme.contact_law.is_continuous:
-        return _carried(hierarchy, contact, settings, start, frame, monitor, journal)
+        return _from_fields(hierarchy, contact, settings, start, frame, monitor, journal)
     part = replace(settings.newton, max_work=OF_A_START * settings.newton.max_work)
     near = replace(settings, newton=part)
 
     def from_start(tell):
-        return _carried(hierarchy, contact, near, start, frame, tell, journal)
+        return _from_fields(hierarchy, contact, near, start, frame, tell, journal)
 
     def from_nothing(tell):
         return _from_nothing(hierarchy, contact, settings, tell, journal)
@@ -144,7 +144,7 @@ def _from_nothing(hierarchy, contact, settings, monitor, journal):
     return problem, replace(outcome, begins=outcome.begins or recipe_of(seen, contact).begins)
 
 
-def _carried(hierarchy, contact, settings, start, frame, monitor, journal):
+def _from_fields(hierarchy, contact, settings, start, frame, monitor, journal):
     """Problem and `Outcome` of a contact from another run's fields alone."""
     problem = ContactProblem(hierarchy.grids[-1], hierarchy.deflections[-1], contact, settings.scheme)
     forecast, start = (start, start.last) if isinstance(start, Forecast) else (None, start)

@@ -92,16 +92,18 @@ class RigidGapFluid:
             before_step()
             self._correct(state, evaluation, residual, separable)
             steps.append(FluidStep(rms, self._ksp.getIterationNumber()))
-            if problem.scheme.cavitation:
-                tears_at = problem.contact.tears_at
-                torn = (state.P < tears_at) & separable & (state.status == LUBRICATED)
-                state.P[torn] = tears_at
-                state.status[torn] = CAVITATED
-                state.filling[torn] = 1.0
+            self._tear(state, separable)
             evaluation = self._evaluated(state)
             given_back = self._give_back(state, separable, before, evaluation)
             if given_back:
                 evaluation = self._evaluated(state)
+
+    def _tear(self, state, separable):
+        """Make cavities, full ones, of `separable` film that pulls, where films may tear."""
+        tears_at = self._problem.contact.tears_at
+        torn = (state.P < tears_at) & separable & (state.status == LUBRICATED)
+        if self._problem.scheme.cavitation:
+            state.P[torn], state.status[torn], state.filling[torn] = tears_at, CAVITATED, 1.0
 
     def _evaluated(self, state):
         """The evaluation of a state whose pressures are the fluid's, contents marched."""

@@ -40,10 +40,8 @@ def run_drawn(study, name, draw, row, nodes, cases):
 
     On so many `nodes`, and so many `cases`, where the study is not told others.
     """
-    (nodes,) = study.nodes or (nodes,)
-    drawn = {
-        case.title: case for case in draw(study.wanted or cases, SEED if study.seed is None else study.seed)
-    }
+    (nodes,) = study.asked.nodes or (nodes,)
+    drawn = {case.title: case for case in study.drawn(draw, cases, SEED)}
     tables = {title: merged(case.tables, {"grid": {"nodes": nodes}}) for title, case in drawn.items()}
     rows, results = {}, []
     for title, solution in study.solved(tables):

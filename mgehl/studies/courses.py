@@ -77,8 +77,8 @@ def swinging(t):
 
 def run(study):
     """Solve all; write the tables `courses` and `courses-slow`, and the picture `courses`."""
-    (nodes,) = study.nodes or (NODES,)
-    study.cases = len(COURSES) + len(STEADY) + 1
+    (nodes,) = study.asked.nodes or (NODES,)
+    study.expected = len(COURSES) + len(STEADY) + 1
     runs = {title: study.solve(title, case(nodes, *how)) for title, how in COURSES.items()}
     study.write_table("courses", [_row(title, found) for title, found in runs.items()])
     study.draw("courses", figure, {title: found.rows for title, found in runs.items()})

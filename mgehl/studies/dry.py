@@ -59,7 +59,9 @@ pressure on rectangles around nodes, no periods."""
 
 def run(study):
     """Solve all; write the table `dry`."""
-    cases = {f"{surface}, {n} nodes": (surface, n) for surface in SURFACES for n in study.nodes or NODES}
+    cases = {
+        f"{surface}, {n} nodes": (surface, n) for surface in SURFACES for n in study.asked.nodes or NODES
+    }
     tables = {name: tables_of(*case) for name, case in cases.items()}
     study.write_table("dry", [_row(*cases[name], each.result) for name, each in study.solved(tables)])
 

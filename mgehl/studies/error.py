@@ -9,7 +9,7 @@ from math import nan
 import numpy as np
 
 from mgehl.studies.columns import told
-from mgehl.studies.limits import Band, cells, summary
+from mgehl.studies.limits import JudgedBand, cells, summary
 from mgehl.studies.study import BEST, merged
 
 NODES, CASES, SEED = (65, 129, 257), 40, 11
@@ -34,9 +34,9 @@ FILMS = ("central", "minimum")
 
 def run(study):
     """Solve all; write the tables `cases` and `bands`."""
-    nodes = study.nodes or NODES
-    contacts = draw(study.wanted or CASES, SEED if study.seed is None else study.seed)
-    study.cases = len(contacts) * (len(nodes) + 1)
+    nodes = study.asked.nodes or NODES
+    contacts = study.drawn(draw, CASES, SEED)
+    study.expected = len(contacts) * (len(nodes) + 1)
     rows, bands = [], {film: [] for film in FILMS}
     for name, contact in contacts.items():
         grids = *nodes, 2 * nodes[-1] - 1
@@ -85,7 +85,7 @@ def limits_of(error):
 
 
 def _band(film, result, limit):
-    return Band(getattr(result, f"{film}_film_nm"), getattr(result.error, f"{film}_nm"), limit)
+    return JudgedBand(getattr(result, f"{film}_film_nm"), getattr(result.error, f"{film}_nm"), limit)
 
 
 def _row(name, solution, bands):

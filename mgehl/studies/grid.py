@@ -9,7 +9,7 @@ from mgehl.discretization.status import CONTACT
 from mgehl.model.hertz import hertz_pressure
 from mgehl.output.pictures.style import COLOURS, MARKS, subplots
 from mgehl.studies.columns import told
-from mgehl.studies.limits import limit_said, observed_order
+from mgehl.studies.limits import limit_said, order_of_errors
 from mgehl.studies.study import PAPER, merged, papers_grid
 
 NODES = (257, 513, 1025)
@@ -22,7 +22,7 @@ INSIDE = 0.9
 
 def run(study):
     """Solve both cases on every grid; write the tables `contact` and `film` and Figures 11 to 13."""
-    nodes = study.nodes or NODES
+    nodes = study.asked.nodes or NODES
     dry = [each for _, each in study.solved(_cases(nodes, CONTACT_SPEED, "contact"), must_converge=False)]
     wet = [each for _, each in study.solved(_cases(nodes, FILM_SPEED, "film"), must_converge=False)]
     profiles = study.comm.bcast([Profile(each) for each in dry] if study.first else None)
@@ -68,7 +68,7 @@ class Profile:
 def _contact_rows(solutions, profiles):
     before = None
     for solution, profile in zip(solutions, profiles, strict=True):
-        order = f"{observed_order(before.largest_inside, profile.largest_inside):.2f}" if before else ""
+        order = f"{order_of_errors(before.largest_inside, profile.largest_inside):.2f}" if before else ""
         yield _common(solution) | {
             **told(solution.result, "contact on X, on Y, contact/Hertz area:.5f, load on contact:.6f"),
             "P - Hertz inside 0.9 a": f"{profile.largest_inside:.2e}",

@@ -12,7 +12,7 @@ PLAUSIBLE_ORDERS = (0.5, 3.0)
 """Orders outside of this range come from values that are too far from their limit to tell it."""
 
 
-def observed_order(coarse, fine):
+def order_of_errors(coarse, fine):
     """Power of the spacing by which an error falls when that is halved."""
     return log2(abs(coarse) / abs(fine)) if coarse and fine else nan
 
@@ -37,7 +37,7 @@ def limit_said(values, shown):
     return shown.format(limit, order) if plausible else "not to be told yet"
 
 
-class Band(NamedTuple):
+class JudgedBand(NamedTuple):
     """A number with the half-width of its band beside its limit, all in one unit; None without a band."""
 
     value: float
@@ -77,7 +77,7 @@ def cells(name, band):
 
 
 def summary(bands):
-    """A row for each name of `bands`, {name: [Band]}: how often they hold the limit, how wide they are."""
+    """A row for each name of `bands`, {name: [JudgedBand]}: how often they hold the limit, and how wide."""
     for name, found in bands.items():
         known = [band for band in found if band.known]
         held = sum(band.holds for band in known)

@@ -27,7 +27,7 @@ MODEL_CASES = {
 
 def run(study):
     """Solve all; write tables `methods` and `models` and the picture `histories`."""
-    study.cases = 2 * len(CASES) + 2 * len(MODEL_CASES)
+    study.expected = 2 * len(CASES) + 2 * len(MODEL_CASES)
     rows, histories = [], {}
     for name, case in CASES.items():
         pair = {method: _solve(study, name, case, method) for method in ("newton-mg", "relaxation")}

@@ -66,12 +66,12 @@ def dimple(x, y):
 
 def run(study):
     """Solve all; write the tables `waves`, `points` and `dimple`, and the picture `points`."""
-    nodes = study.nodes[0] if study.nodes else NODES
+    nodes = study.asked.nodes[0] if study.asked.nodes else NODES
     on_points = min(nodes, POINT_NODES)
     cases = [(ROELANDS, length, 1.0) for length in (4.0, 2.0)]
     cases += [(line, length, s) for line in (ROELANDS, BARUS) for length in (1.0, 0.5)
               for s in REFERENCE[line[0], length]]  # fmt: skip
-    study.cases = len(cases) + len(POINT_LENGTHS) + len(PLACES) + 4
+    study.expected = len(cases) + len(POINT_LENGTHS) + len(PLACES) + 4
     smooth = {line: study.solve(f"smooth, M {line[0]:g}", _line(line, nodes)) for line in (ROELANDS, BARUS)}
     study.write_table("waves", [_wave(study, smooth[case[0]], *case, nodes) for case in cases])
     points = list(_points(study, on_points))

@@ -17,8 +17,8 @@ BASE = merged(PAPER, {"motion": {"speed": 1.0}})
 
 def run(study):
     """Solve all; write the table `films` with Richardson's limits and the picture `films`."""
-    nodes = study.nodes or NODES
-    study.cases = len(SCHEMES) * len(nodes)
+    nodes = study.asked.nodes or NODES
+    study.expected = len(SCHEMES) * len(nodes)
     rows, films = [], {}
     for couette in SCHEMES:
         solutions = [each for _, each in study.solved(_cases(couette, nodes))]

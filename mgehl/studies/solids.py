@@ -44,7 +44,7 @@ CARRIED = 0.001, 0.01, 0.1
 
 def run(study):
     """Solve all; write the tables `solids` and `solids-begin`, and the picture `solids`."""
-    (nodes,) = study.nodes or (NODES,)
+    (nodes,) = study.asked.nodes or (NODES,)
     asked = [(oil, motion, speed) for motion in MOTIONS for oil in OILS for speed in SPEEDS]
     cases = {f"{oil}, {motion}, {speed:g} m/s": (oil, motion, speed) for oil, motion, speed in asked}
     tables = {name: case(nodes, *how) for name, how in cases.items()}

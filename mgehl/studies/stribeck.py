@@ -29,12 +29,12 @@ CASE = merged(
 
 def run(study):
     """Solve all; write a table, arrays and curves of each oil, and the picture `stribeck` of all."""
-    (nodes,) = study.nodes or (NODES,)
+    (nodes,) = study.asked.nodes or (NODES,)
     told = []
     for oil in OILS:
         config = study.config(merged(CASE, {"grid": {"nodes": nodes}, "lubricant": {"oil": oil}}))
         axes = [axis_of(config, "motion.speed", SPEEDS)]
         points = points_of(config, axes)
-        study.cases = len(OILS) * len(points)
+        study.expected = len(OILS) * len(points)
         told += fill(study, study.home / oil, axes, points, f"stribeck-{oil}")
     study.draw("stribeck", curves, told, "motion.speed")

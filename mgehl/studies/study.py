@@ -31,7 +31,7 @@ from mgehl.output.report.page import render
 from mgehl.output.report.study_report import study_report
 from mgehl.output.solution import on_every_rank
 from mgehl.output.stored import read_run, read_texts
-from mgehl.output.study_directory import RUNS, begin_study, clear_runs, finish_study
+from mgehl.output.study_directory import RUNS, StudyRecord, begin_study, clear_runs, finish_study
 from mgehl.output.table import drawn, markdown, said, write_csv
 from mgehl.output.whole_file import write_whole
 from mgehl.run import Watch, enter, run
@@ -49,11 +49,11 @@ PAPERS_DOMAIN = {"x": [-1.9, 1.3], "y": [-1.5, 1.5]}
 
 
 @contextmanager
-def begun(directory, comm, record, speak=True, resume=True, force=False, **asked):
+def begun(directory, comm, record, resume=True, force=False, **how):
     """The `Study` of a `StudyRecord` in a directory, which it holds; at the end its tables replace those
     that were there (collective).
 
-    What has finished is taken as it is with `resume`; all is solved anew with `force`. `asked` are other
+    What has finished is taken as it is with `resume`; all is solved anew with `force`. `how` are other
     fields of the `Study`.
     """
     on_first_rank(comm, make_directory, directory, resume or force)
@@ -61,12 +61,11 @@ def begun(directory, comm, record, speak=True, resume=True, force=False, **asked
         stage = comm.bcast(on_first_rank(comm, begin_study, directory, record, resume))
         if not resume:
             on_first_rank(comm, clear_runs, directory)
-        drawn = {"branch": record.branch, "wanted": record.cases, "seed": record.seed}
-        study = Study(stage, comm, record.nodes, speak, home=Path(directory), **drawn, **asked)
+        study = Study(stage, comm, record, home=Path(directory), **how)
         yield study
         on_first_rank(comm, finish_study, directory, stage, resume)
         on_first_rank(comm, _write_page, study.home)
-    if study.first and speak:
+    if study.first and study.speak:
         say(f"results in {directory}")
 
 
@@ -76,24 +75,17 @@ def _write_page(directory):
 
 @dataclass
 class Study:
-    """A study's directory and what was asked of it; `comm` solves its cases, rank 0 speaks and writes."""
+    """A study's directory and what is asked of it; `comm` solves its cases, rank 0 speaks and writes."""
 
     directory: Path
     """Of tables and pictures."""
     comm: MPI.Comm
-    nodes: tuple = ()
-    """Nodes along each side, coarsest first; empty for the study's own choice."""
+    asked: StudyRecord
     speak: bool = True
-    cases: int = 0
-    """How many there will be at the least, for the time left."""
-    branch: str = "both"
-    """Branches that are wanted of a study of both: "down", "up" or "both"."""
+    expected: int = 0
+    """How many cases there will be at the least, for the time left."""
     settings: dict = field(default_factory=dict)
     """Nested tables that every case has besides its own, with authority over them."""
-    wanted: int | None = None
-    """Random cases of studies that draw some; None for its own choice."""
-    seed: int | None = None
-    """By which it draws them."""
     home: Path | None = None
     """Directory of its runs where it is not that of tables and pictures."""
     watch: Watch = Watch(picture=False)
@@ -113,6 +105,10 @@ class Study:
         """True on the rank that writes; fields of solutions are whole there."""
         return self.comm.rank == 0
 
+    def drawn(self, draw, cases, seed):
+        """What `draw(cases, seed)` finds by chance: so many, by this seed, unless others are asked for."""
+        return draw(self.asked.cases or cases, seed if self.asked.seed is None else self.asked.seed)
+
     def solved(self, cases, must_converge=True):
         """Solve configurations, {name: nested tables}, one after the other; yield (name, `Solution`).
 
@@ -121,7 +117,7 @@ class Study:
         """
         for tables in cases.values():
             self.config(tables)
-        self.cases = max(self.cases, self._done + len(cases))
+        self.expected = max(self.expected, self._done + len(cases))
         for name, tables in cases.items():
             solution = self.passed(name, self.solve, name, tables, must_converge)
             if solution:
@@ -185,8 +181,8 @@ class Study:
         if self.first and self.speak:
             none = "NOT CONVERGED" if must_converge else "no solution, which is an answer here"
             what = "" if result.converged else f"  {verdict(result, none)}"
-            left = (time.perf_counter() - self._started) / self._done * max(self.cases - self._done, 0)
-            say(f"{self._done:3d}/{max(self.cases, self._done)}  {left:5.0f} s left  {title}{what}")
+            left = (time.perf_counter() - self._started) / self._done * max(self.expected - self._done, 0)
+            say(f"{self._done:3d}/{max(self.expected, self._done)}  {left:5.0f} s left  {title}{what}")
 
     def write_table(self, name, rows, shown=()):
         """Write rows (dictionaries of text) as NAME.csv and NAME.md, and print them, or what is to be

@@ -40,14 +40,14 @@ NEAR = 4.0
 """Ratio of two films, and of two steps along a key, within which what changes is forecast."""
 
 
-def swept(directory, comm, axes, points, watch, speak=True, asked=()):
+def swept(directory, comm, axes, points, watch, speak=True, words=()):
     """Solve all points in a directory, or read what is there; write table, arrays, curves and a page.
 
-    Collective; returns the `Study`. `asked` are the words of a command line. Raises OutputError where a run
+    Collective; returns the `Study`. `words` are those of a command line. Raises OutputError where a run
     that is there is of another configuration, or of none of the points.
     """
-    record = StudyRecord("sweep", (points[0].config.grid.nodes,), comm.size, versions(), settings=asked)
-    with begun(directory, comm, record, speak, watch=watch) as study:
+    record = StudyRecord("sweep", (points[0].config.grid.nodes,), comm.size, versions(), settings=words)
+    with begun(directory, comm, record, speak=speak, watch=watch) as study:
         fill(study, study.home, axes, points)
     return study
 
@@ -60,7 +60,7 @@ def fill(study, directory, axes, points, name="sweep"):
     folder, behind, runs = directory / RUNS, [], []
     on_first_rank(study.comm, _refuse_others, folder, points)
     called = "" if name == "sweep" else f"{name}, "
-    study.cases = max(study.cases, len(points))
+    study.expected = max(study.expected, len(points))
     for point in points:
         title, path = f"{called}{_title(axes, point)}", folder / point.run
         solution = study.passed(title, study.run, path, point.config, start_of(behind, axes, point))

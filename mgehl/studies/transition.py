@@ -47,9 +47,9 @@ GREYS = "0.3", "0.55", "0.75", "0.85"
 
 def run(study):
     """Walk the branches; write the table `transition-NODES` and the pictures of Figure 14."""
-    nodes = study.nodes or (COARSE,)
-    directions = ("down", "up") if study.branch == "both" else (study.branch,)
-    study.cases = len(nodes) * len(directions) * COUNT
+    nodes = study.asked.nodes or (COARSE,)
+    directions = ("down", "up") if study.asked.branch == "both" else (study.asked.branch,)
+    study.expected = len(nodes) * len(directions) * COUNT
     for n in nodes:
         points = []
         for direction in directions:

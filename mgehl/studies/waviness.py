@@ -58,7 +58,7 @@ class Response(NamedTuple):
 
 def run(study):
     """Solve all; write the table `line`."""
-    study.cases = len(GRIDS) * len(LINES) * (1 + 4 * len(LENGTHS))
+    study.expected = len(GRIDS) * len(LINES) * (1 + 4 * len(LENGTHS))
     rows = [row for grid in GRIDS for line in LINES for row in _rows(study, grid, line)]
     study.write_table("line", rows)
 

@@ -8,7 +8,7 @@ from mgehl.model.wedge_series import WedgeSeries
 from mgehl.output.center_line import center_line
 from mgehl.output.pictures import style, wedge_picture
 from mgehl.studies.columns import told
-from mgehl.studies.limits import observed_order
+from mgehl.studies.limits import order_of_errors
 from mgehl.studies.study import merged
 
 BASE = {
@@ -38,8 +38,8 @@ NODES = (129, 257, 513, 1025)
 
 def run(study):
     """Solve all cases; write tables `cases` and `convergence`, figures 7, 8, 9, 10."""
-    nodes = study.nodes or NODES
-    study.cases = 4 + 3 * len(PILLARS) + 2 * len(SCHEMES) * len(nodes)
+    nodes = study.asked.nodes or NODES
+    study.expected = 4 + 3 * len(PILLARS) + 2 * len(SCHEMES) * len(nodes)
     solutions = {name: study.solve(name, tables) for name, tables in _figure_cases().items()}
     study.write_table("cases", [_case_row(name, solution) for name, solution in solutions.items()])
     rows = []
@@ -93,7 +93,7 @@ def _convergence(study, shape, couette, nodes, exact):
         for name, error, coarse in zip((*PLACES, "load"), errors, before or errors, strict=True):
             label = name if name == "load" else f"P({name:g},0)"
             row[f"{label} error %"] = f"{100 * error:+.5f}"
-            row[f"{label} order"] = f"{observed_order(coarse, error):.2f}" if before else ""
+            row[f"{label} order"] = f"{order_of_errors(coarse, error):.2f}" if before else ""
         numbers = "residual, flux imbalance, flow through closed faces, iterations, wall s:.2f"
         rows.append(row | told(solution.result, numbers))
         before = errors

@@ -3,7 +3,6 @@ import subprocess
 import sys
 from pathlib import Path
 
-import h5netcdf
 import numpy as np
 import pytest
 import xarray
@@ -79,33 +78,6 @@ def test_a_full_disk_is_one_line_to_the_end_of_the_process(name, runs, tmp_path)
     assert done.returncode == 2, done.stderr
     assert "cannot be written" in done.stderr and done.stderr.count("\n") == 1
     assert [path.read_text() for path in tmp_path.iterdir()] == ["mine"]
-
-
-def spoil_film(directory):
-    with h5netcdf.File(directory / "fields.h5", "r+") as file:
-        file["H"][3, 4] = np.nan
-
-
-def cut_fields(directory):
-    whole = (directory / "fields.h5").read_bytes()
-    (directory / "fields.h5").write_bytes(whole[: len(whole) // 2])
-
-
-def no_fields(directory):
-    (directory / "fields.h5").unlink()
-
-
-def no_run(directory):
-    shutil.rmtree(directory)
-
-
-@pytest.mark.parametrize("damage", [spoil_film, cut_fields, no_fields, no_run])
-def test_a_damaged_run_is_one_line(damage, run, refused):
-    directory = run("wedge")
-    damage(directory)
-    before = sorted(directory.parent.rglob("*"))
-    refused("export", str(directory), "--to", "nc")
-    assert sorted(directory.parent.rglob("*")) == before
 
 
 @pytest.mark.parametrize(

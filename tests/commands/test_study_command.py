@@ -77,9 +77,3 @@ def test_it_goes_on_in_its_own_directory_alone(study, refused):
     assert "here is of study dry, not of study wedge" in line
     line = refused("run", "--set", "grid.nodes=65", "--out", "here", "--force")
     assert "is the directory of a study" in line
-
-
-@pytest.mark.parametrize("name, said", [("onset", "study onset is no longer part of mgehl"), ("x", "x: ")])
-def test_a_study_that_is_none_is_one_line(refused, name, said):
-    line = refused("study", name)
-    assert said in line and ("runs/README.md" in line or "wedge, grid" in line)

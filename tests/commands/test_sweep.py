@@ -8,7 +8,6 @@ from told import counting, rows_of
 
 import mgehl
 from mgehl.cli import main
-from mgehl.commands.sweep import _split
 from mgehl.config import load_config
 from mgehl.errors import UserError
 from mgehl.studies import study
@@ -110,9 +109,10 @@ def test_ranges_and_lists(text, values):
     assert axis_of(load_config(), "motion.speed", text).values == pytest.approx(values)
 
 
-@pytest.mark.parametrize("values", ["1,2 m/s", '"1,2 m/s"', "'1,2 m/s'"])
-def test_values_may_stand_in_quotes_as_those_of_set_do(values):
-    assert _split(f"motion.speed={values}") == ("motion.speed", "1,2 m/s")
+@pytest.mark.parametrize("quote", "\"'")
+def test_values_may_stand_in_quotes_as_those_of_set_do(film, quote):
+    quoted = SPEEDS.replace("=", f"={quote}") + quote
+    assert main([quoted if word == SPEEDS else word for word in [*SWEEP, str(film), "--resume"]]) == 0
 
 
 def test_several_keys_are_a_snake_there_and_back():

@@ -1,5 +1,4 @@
 import numpy as np
-import pytest
 
 from mgehl.discretization.contents import OVERFULL, feeding, missing_fillings
 
@@ -35,12 +34,6 @@ def risen(inflow, leaving_x, leaving_y=0.0, marched=None):
         marched[:, [0, -1]] = False
     leaving = (np.array(np.broadcast_to(each, inflow.shape), float) for each in (leaving_x, leaving_y))
     return missing_fillings(marched, inflow, *leaving, np.zeros(inflow.shape))
-
-
-def test_a_rise_is_carried_on():
-    """1/4 carries 0.5 on, which with 0.1 more is 0.3; of its 0.6, 0.2 are missed further on, and so on."""
-    found = risen([0.0, 0.5, 0.1, -0.2, -0.4, 9.0], 2.0)
-    assert found[0] == pytest.approx([0.0, 0.25, 0.3, 0.2, 0.0, 0.0], abs=1e-16)
 
 
 def test_wherever_a_rise_is_marched_no_inflow_is_left():

@@ -6,7 +6,8 @@ from handmade import ALONG, Row, conductances, flows
 
 from mgehl.discretization.axes import axes_of
 from mgehl.discretization.contact_law import BoundaryFilm
-from mgehl.discretization.couette import EE, SCHEMES, SHIFT, WW, E, W
+from mgehl.discretization.couette import SCHEMES
+from mgehl.discretization.flow import EE, SHIFT, WW, E, W
 from mgehl.discretization.fluid import FACE_MOBILITIES, Fluid, fluid_state
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.scheme import Scheme
@@ -35,23 +36,6 @@ def flows_of(row, axis, P, H, rho, eps, scheme, status=None):
 
 def fluid_of(state, scheme):
     return fluid_state(state.P, state.H, state.contact, scheme.contact_law)
-
-
-@along_both
-@pytest.mark.parametrize("mean, eps", [("arithmetic", 5.0), ("geometric", 4.0), ("harmonic", 3.2)])
-def test_poiseuille_flow_through_a_face(along, mean, eps):
-    """-eps (P_E - P_W)/distance with eps of 2 and 8, P of 1 and 4; rho H = 0."""
-    row = Row(along)
-    axis, scheme = row.axis(cell=0.5, distance=0.25), Scheme(face_mobility=mean)
-    leaving, entering = flows_of(row, axis, [1.0, 4.0, 4.0], 0.0, 1.0, [2.0, 8.0, 8.0], scheme)
-    assert leaving.tolist() == entering.tolist() == pytest.approx([-eps * 3.0 / 0.25, 0.0], rel=1e-15)
-
-
-def test_poiseuille_flow_across_the_motion_in_units_of_the_ellipse():
-    """-k_e^2 eps (P_N - P_S)/dY with k_e = 2, dY = 1/4, and no Couette flow."""
-    row, mesh = Row("y"), Mesh(3, 5, (0.0, 1.0), (0.0, 1.0), k_e=2.0)
-    across, _ = flows_of(row, axes_of(mesh, (1.0, 0.0))[1], [1.0, 4.0], 1.0, 1.0, [2.0, 8.0], Scheme())
-    assert across == pytest.approx(-4.0 * 5.0 * 3.0 / 0.25, rel=1e-15)
 
 
 def test_couette_flow_across_the_lines_in_units_of_the_ellipse():

@@ -3,7 +3,7 @@ import pytest
 from handmade import flows, ghosted, walled
 
 from mgehl.discretization.axes import axes_of
-from mgehl.discretization.couette import E, W
+from mgehl.discretization.flow import E, W
 from mgehl.discretization.fluid import Fluid
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.scheme import Scheme

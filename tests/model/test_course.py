@@ -24,14 +24,8 @@ def test_a_table_is_straight_between_its_rows(table):
 
 
 TEXTS = {
-    "semicolons": "0;1\n1;2\n",
-    "tabs": "0\t1\n1\t2\n",
     "commas": "\ufeff# a comment\n0,1\n\n1,2\n",
     "decimal commas between semicolons": "t;v\n0,0;1,25\n0,5;1,5\n1,0;1,75\n",
-    "decimal commas between tabs": "0,0\t1,25\n0,5\t1,5\n1,0\t1,75\n",
-    "decimal commas between blanks": "0,0 1,25\n1,0 1,75\n",
-    "quoted": '"t","v"\n"0.0","1"\n"1.0","2.0"\n',
-    "quoted with decimal commas": '"0,0";"1,25"\n"1,0";"1,75"\n',
     "quoted decimal commas between commas": '"0,0","1,25"\n"1,0","1,75"\n',
 }
 

@@ -39,36 +39,9 @@ def test_in_its_frame_every_motion_goes_towards_X_and_no_more_towards_Y(angle):
 
 @EACH
 class TestEveryFrame:
-    def test_arrays_come_back(self, frame):
-        np.testing.assert_array_equal(frame.users_array(frame.array(of_user())), of_user())
-
     def test_an_array_there_has_the_values_of_the_users_points(self, frame):
         """The nodes are those of the intervals, each at the user's point it says it is."""
         x, y = frame.intervals((X[0], X[-1]), (Y[0], Y[-1]))
         nx, ny = frame.pair(NX, NY)
         there = np.meshgrid(np.linspace(*x, nx), np.linspace(*y, ny))
         np.testing.assert_allclose(frame.array(of_user()), values(*frame.users_point(*there)), rtol=1e-14)
-
-    def test_ranges_of_nodes_are_the_users(self, frame):
-        """Nodes marked on one of the user's lines along each axis are found again."""
-        marked = np.zeros((NY, NX), bool)
-        marked[1, 1:3], marked[0:2, 1] = True, True
-        there = frame.array(marked)
-        ny, nx = there.shape
-        along = [_ends(there.any(axis=axis)) for axis in (0, 1)]
-        assert frame.users_ranges(*along, nx, ny) == ((2, 3), (1, 2))
-
-    def test_sides_of_a_node_are_the_users(self, frame):
-        """West, east, before, after: the values beside the middle node."""
-        there = frame.array(of_user())
-        j, i = (n // 2 for n in there.shape)
-        sides = there[j, i - 1], there[j, i + 1], there[j - 1, i], there[j + 1, i]
-        j, i = NY // 2, NX // 2
-        mine = of_user()
-        assert frame.users_sides(*sides) == (mine[j, i - 1], mine[j, i + 1], mine[j - 1, i], mine[j + 1, i])
-
-
-def _ends(marked):
-    """First and last, from 1."""
-    nodes = np.flatnonzero(marked) + 1
-    return int(nodes[0]), int(nodes[-1])

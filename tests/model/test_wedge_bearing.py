@@ -69,23 +69,3 @@ def test_a_pocket_has_its_volume_wherever_its_edges_lie_between_nodes(shift):
     assert recess.sum() * 0.1 * 0.04 == pytest.approx(4.0 * 2.0, rel=1e-12)
     assert recess.max() == pytest.approx(2.0, rel=1e-14) and recess.min() == 0.0
     assert BEARING.recess(X, Y, 0.1, 0.04) == 0.0
-
-
-PAD = WedgeBearing(
-    exit=-4e-3, inlet=0.0, width=4e-3, slope=0.25e-3, viscosity=0.05, speed=0.3, turned=True, level=3e-6
-)
-"""By its films: from 3 um at x = 0 to 2 um at 4 mm, along the motion."""
-
-
-@pytest.mark.parametrize("bearing, scale", [(BEARING, 1e-6), (PAD, 2e-6)])
-def test_units_turn_reynolds_equation_into_eq_44(bearing, scale):
-    """h^3 dp/dx = 6 eta u h into H^3 dP/dX = 6 H; lengths in units of a pad's smaller film."""
-    assert bearing.film_scale == pytest.approx(scale) and bearing.lambda_ == 6.0
-    flow = scale**3 * bearing.pressure_scale / 1e-3
-    assert flow == pytest.approx(0.05 * 0.3 * scale, rel=1e-14)
-
-
-def test_a_pad_by_its_films():
-    x, edges = PAD.placement(65)
-    assert edges == (0.0, 4.0) and x[0] == 0.0 and x[1] == pytest.approx(4.0 + 0.5 * 4.0 / 63.5)
-    np.testing.assert_allclose(PAD.gap(np.array([0.0, 2.0, 4.0])), [1.5, 1.25, 1.0], rtol=1e-14)

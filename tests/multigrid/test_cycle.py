@@ -55,40 +55,14 @@ def right_hand_side(kind, multigrid, state, where=None):
     return np.where(where, r, 0.0), 0.3
 
 
-def richardson(multigrid, ksp, make_vec, b, cycles):
-    """Residual norms of x += (cycle) (b - J x) from x = 0."""
-    x, r, correction = (make_vec(multigrid.space) for _ in range(3))
-    mat = multigrid.jacobian.mat
-    norms = []
-    for _ in range(cycles):
-        mat.mult(x, r)
-        r.aypx(-1.0, b)
-        norms.append(r.norm())
-        # One cycle: the preconditioner alone.
-        ksp.getPC().apply(r, correction)
-        x.axpy(1.0, correction)
-    return np.array(norms)
-
-
 @pytest.mark.parametrize("kind", ["noise", "bulge"])
 @pytest.mark.parametrize("nodes", SIZES)
-def test_stationary_convergence(film, make_ksp, make_vec, nodes, kind):
-    """A cycle with two relaxations by itself takes at least half of the residual away."""
-    multigrid, state = film(nodes, sweeps=2)
-    ksp = make_ksp(multigrid)
-    ksp.setUp()
-    b = make_vec(multigrid.space, *right_hand_side(kind, multigrid, state))
-    norms = richardson(multigrid, ksp, make_vec, b, 13)
-    factor = (norms[-1] / norms[4]) ** (1 / 8)
-    assert factor < 0.5
-
-
-@pytest.mark.parametrize("kind", ["noise", "bulge"])
-@pytest.mark.parametrize("nodes", SIZES)
-@pytest.mark.parametrize("couette, cycle, most", [("1B", "same", 6), ("2B", "1B", 12)])
-def test_gmres_iterations(film, make_ksp, make_vec, nodes, kind, couette, cycle, most):
+@pytest.mark.parametrize(
+    "couette, cycle, sweeps, most", [("1B", "same", 1, 6), ("1B", "same", 2, 5), ("2B", "1B", 1, 12)]
+)
+def test_gmres_iterations(film, make_ksp, make_vec, nodes, kind, couette, cycle, sweeps, most):
     """To the KSP's tolerance, which the true residual must meet, too; 2B by cycles of 1B."""
-    multigrid, state = film(nodes, couette, couette=cycle)
+    multigrid, state = film(nodes, couette, couette=cycle, sweeps=sweeps)
     ksp = make_ksp(multigrid)
     b, x, r = (make_vec(multigrid.space) for _ in range(3))
     multigrid.space.write(b, *right_hand_side(kind, multigrid, state))

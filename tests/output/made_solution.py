@@ -1,13 +1,13 @@
-"""Solutions made by hand for the tests of files: few nodes, no two of them alike."""
+"""Results and solutions made by hand for the tests of files and words: few nodes, no two of them alike."""
 
 import numpy as np
-from test_files import make_result
 
 from mgehl.config import config_from_tables
 from mgehl.discretization.mesh import Mesh
 from mgehl.kinds import contact_from
-from mgehl.output.result import Result
+from mgehl.output.result import ContactResult, Overlap, Resolution, Result, Work
 from mgehl.output.solution import Fields, Solution
+from mgehl.solver.inequality import Inequality
 
 TABLES = {
     "point": {"contact": {"radius_y": 25.4e-3}, "motion": {"speed": 0.5}},
@@ -15,6 +15,24 @@ TABLES = {
     "wedge": {"contact": {"kind": "wedge"}},
 }
 SHAPES = {"point": (5, 7), "line": (1, 7), "wedge": (5, 7)}
+
+
+def make_result(**changes):
+    """A `Result` of a point contact with a film and contact, but for some parts."""
+    values = {
+        "converged": True, "reason": "all holds", "central_film_nm": 12.0, "minimum_film_nm": 1.0,
+        "max_pressure_GPa": 2.3, "residual": 1e-9, "load_error": -1e-10, "complementarity_error": 0.0,
+        "settled": True, "contradictions": [], "flux_imbalance": 1e-11,
+        "contact": ContactResult(3, 0.01, 0.02, (4, 6), None, 0.0),
+        "overlap": Overlap(0, 0.0),
+        "pressure_inequality": Inequality(8, 1, 0.25, 1.5, [{"i": 6, "j": 3, "size": 0.25}]),
+        "other_inequality": Inequality(8, 0, 0.0, 0.0, [], "at the interface"),
+        "cavitated_nodes": 100, "groups": {"U": 1e-12},
+        "resolution": Resolution(5.0, "resolved", "sufficient", 0.1),
+        "moes_film": {"central": 4.0}, "formulas": {"grubin_nm": 10.0}, "work": Work(80.5, 14),
+        "wall_s": 2.0, "ranks": 1, "versions": {"mgehl": "0"},
+    }  # fmt: skip
+    return Result(**(values | changes))
 
 
 def make_solution(kind):

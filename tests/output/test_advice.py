@@ -1,7 +1,7 @@
 from dataclasses import replace
 
 import pytest
-from test_files import make_result
+from made_solution import make_result
 
 from mgehl.config import load_config
 from mgehl.kinds import contact_from, settled

@@ -7,8 +7,8 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
+from made_solution import make_result
 from mpi4py import MPI
-from test_files import make_result
 from told import counting
 
 from mgehl.config import config_from_tables

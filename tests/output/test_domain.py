@@ -1,5 +1,3 @@
-from math import nan
-
 import pytest
 from tools.contacts import ON_TWICE_THE_DOMAIN, films_on_twice_the_domain
 
@@ -7,8 +5,6 @@ from mgehl.config import config_from_tables, load_config
 from mgehl.discretization.mesh import Mesh
 from mgehl.kinds import contact_from, mesh_from
 from mgehl.output.resolution import (
-    domain_verdict,
-    domain_words,
     film_lost,
     resolution,
     resolving_nodes,
@@ -34,16 +30,6 @@ def test_the_paper_s_domain_starves_a_fast_film_and_auto_does_not():
     enough = resolution(*contact_and_mesh())
     assert (enough.verdict, enough.domain) == ("resolved", "sufficient")
     assert enough.domain_loss_percent < 0.5
-
-
-@pytest.mark.parametrize(
-    "lost, verdict, words",
-    [(0.4, "sufficient", "sufficient: twice the size would change the film by some 0.4 %"),
-     (1.0, "starved", "starved: twice the size would change the film by some 1 %"),
-     (nan, "unknown", "not judged: made by an older version")],
-)  # fmt: skip
-def test_what_is_said_of_a_domain(lost, verdict, words):
-    assert domain_verdict(lost) == verdict and domain_words(verdict, lost).startswith(words)
 
 
 def test_the_verdicts_on_films_that_were_solved_on_twice_the_domain_are_right():

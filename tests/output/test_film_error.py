@@ -3,7 +3,7 @@ from types import SimpleNamespace
 
 import pytest
 from contacts import solved
-from test_files import make_result
+from made_solution import make_result
 
 from mgehl.output.film_error import from_grids, why_no_band
 from mgehl.output.resolution import Resolution

@@ -1,9 +1,6 @@
-from pathlib import Path
-
 import pytest
 
 from mgehl.cli import main
-from mgehl.output.stored import read_run
 
 DRY = ["run", "--quiet", "--set", "grid.nodes=65", "--set", "solver.start=contact", "--out", "here"]
 
@@ -43,13 +40,3 @@ def test_a_kill_at_the_very_beginning_is_in_nobodys_way(monkeypatch, begun):
         assert main(DRY) == 130
     assert main(["run", "--resume", "here", "--quiet"]) == (0 if begun else 2)
     assert main([*DRY, "--force"]) == 0
-
-
-def test_with_force_the_old_result_stays_until_there_is_another(capsys):
-    assert main(DRY) == 0
-    old = Path("here/fields.h5").read_bytes()
-    again = [*DRY, "--force", "--set", "motion.speed=1e-5"]
-    assert main([*again, "--time-limit", "1e-9"]) == 143
-    assert Path("here/fields.h5").read_bytes() == old and read_run("here").config.motion.speed != 1e-5
-    assert main(["run", "--resume", "here", "--quiet"]) == 0
-    assert read_run("here").config.motion.speed == 1e-5

@@ -9,7 +9,7 @@ import mgehl
 from mgehl.discretization.mesh import Mesh
 from mgehl.model.rheology import Friction
 from mgehl.output import friction_result as module
-from mgehl.output.friction_result import friction_lines, friction_result, with_band
+from mgehl.output.friction_result import banded, friction_lines, friction_result
 from mgehl.output.gap_error import GapError, GridGap
 from mgehl.output.report.run_report import report
 from mgehl.output.words import thinning_words
@@ -46,14 +46,14 @@ def mixed(band):
 
 
 def test_the_band_of_the_load_on_solids_is_friction_s(found):
-    result = with_band(found(0.2), mixed(0.02), 0.1)
+    result = banded(found(0.2), mixed(0.02), 0.1)
     assert result.coefficient_band == pytest.approx(0.002) and not result.is_the_grids
     (line,) = friction_lines(result, verbose=False)
     assert line.startswith("friction 0.06000 ± 0.002 (newtonian): film 0.05000, solids 0.01000; rolling")
 
 
 def test_where_the_load_on_solids_is_the_grid_s_so_is_friction(found):
-    result = with_band(found(0.2), mixed(None), 0.1)
+    result = banded(found(0.2), mixed(None), 0.1)
     assert result.coefficient_band is None and result.is_the_grids
     assert (
         list(friction_lines(result, verbose=False))[1] == "friction is the grid's, as the load on solids is"

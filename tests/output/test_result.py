@@ -2,12 +2,11 @@ import numpy as np
 import pytest
 
 from mgehl.discretization.status import BOUNDARY, CONTACT, LUBRICATED
-from mgehl.output.result import Work
+from mgehl.output.result import Making, Work
 from mgehl.output.summary import summarise
 from mgehl.solver.outcome import Cycle, Outcome
 from mgehl.solver.partition import Changes
 from mgehl.solver.problem import State
-from mgehl.solver.verification import Edge
 
 
 @pytest.fixture
@@ -28,7 +27,7 @@ def summary(tiny_problem, outcome, monkeypatch):
         monkeypatch.setattr(tiny_problem, "residual", lambda _, status: np.full(status.shape, residual))
         monkeypatch.setattr(tiny_problem, "load_deficit", lambda P: load)
         monkeypatch.setattr("mgehl.output.summary._conserves", lambda *_: True)
-        return summarise(tiny_problem, outcome, 1e-8, Work(12.5, 7), 3.0, {"mgehl": "0"})
+        return summarise(tiny_problem, outcome, 1e-8, Making(Work(12.5, 7), 3.0, {"mgehl": "0"}))
 
     return make
 
@@ -97,25 +96,3 @@ def test_contact_is_described_with_nodes_counted_from_one(summary, outcome, tiny
     assert contact.largest_gap_nm == pytest.approx(1e-9 * nm)
     assert result.overlap.nodes == 0
     assert result.max_pressure_GPa == pytest.approx(0.5e-9 * tiny_problem.contact.hertz.p_h)
-
-
-@pytest.mark.parametrize(
-    "edge, doubt, words",
-    [(Edge(0.0, 13, 337.0, 41, 43), "the bodies overlap", "13 nodes of the domain's boundary"),
-     (Edge(0.2, 0, 0.0, 41, 43), "the domain cuts the contact", "is 20 % of the largest"),
-     (Edge(0.0, 0, 0.0, 3, 43), "too few nodes", "3 nodes wide along x"),
-     (Edge(0.0, 0, 0.0, 41, 1), "too few nodes", "1 nodes wide along y"),
-     (Edge(0.0, 0, 0.0, 41, None), "", "")],
-)  # fmt: skip
-def test_what_is_wrong_with_the_domain_is_said(edge, doubt, words):
-    """A solution of the equations in a domain that cuts the contact is no answer."""
-    short, long = edge.wrong
-    assert doubt in short and words in long and bool(short) == bool(doubt)
-
-
-def test_a_domain_that_cuts_the_contact_is_not_converged(summary, outcome):
-    """Pressure at a corner of the inner nodes."""
-    outcome.state.P[2:7, 2:7], outcome.state.P[1, 1] = 0.5, 0.25
-    result = summary()
-    assert result.settled and not result.converged
-    assert "SETTLED, BUT THE DOMAIN CUTS THE CONTACT: the pressure near" in str(result)

@@ -11,7 +11,7 @@ from math import inf, nan
 from types import SimpleNamespace
 
 import pytest
-from test_files import make_result
+from made_solution import make_result
 
 from mgehl.output.solution import Solution
 from mgehl.output.terminal import JsonLines, Lines, Live, Quiet, line_of, speaker

@@ -2,7 +2,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from test_files import make_result
+from made_solution import make_result
 
 from mgehl.config import config_from_tables
 from mgehl.kinds import Case, case_of, contact_from, mesh_from

@@ -3,14 +3,12 @@ import signal
 import subprocess
 import sys
 
-import numpy as np
 import pytest
 from full_disk import files_of_at_most
 from made_solution import make_solution
 
 from mgehl.errors import OutputError
 from mgehl.output.files import write_fields
-from mgehl.output.netcdf import netcdf_file
 from mgehl.output.whole_file import whole_file, write_whole
 
 
@@ -60,13 +58,6 @@ def test_what_cannot_be_written_is_one_line(path, monkeypatch):
     with pytest.raises(OutputError, match="fields.h5: cannot be written: No space left on device"):
         write_whole(path, "new")
     assert path.read_text() == "old" and names(path) == ["fields.h5"]
-
-
-def test_a_full_disk_raises_an_error(tmp_path):
-    """HDF5 writing to the file itself would end this process."""
-    with files_of_at_most(1000), pytest.raises(OSError), netcdf_file(tmp_path / "a.nc") as file:
-        file.dimensions = {"x": 1000}
-        file.create_variable("x", ("x",), float, data=np.arange(1000.0))
 
 
 def test_the_fields_of_a_run_do_not_crash_on_a_full_disk(tmp_path):

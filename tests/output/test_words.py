@@ -2,8 +2,8 @@ import re
 from pathlib import Path
 
 import pytest
+from made_solution import make_result
 from mpi4py import MPI
-from test_files import make_result
 
 import mgehl
 from mgehl.output.resolution import Resolution

@@ -21,6 +21,7 @@ from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
 from mgehl.errors import OutputError, Stopped
 from mgehl.multigrid.cliffs import CliffZone
+from mgehl.output.study_directory import StudyRecord
 from mgehl.run import Watch
 from mgehl.run import solve as solve_config
 from mgehl.solver.inequality import check_pressure_inequality
@@ -333,7 +334,7 @@ class TestBranches:
         if comm.rank == 0:
             directory.mkdir(exist_ok=True)
         comm.barrier()
-        study = Study(directory, comm, (65,), speak=False)
+        study = Study(directory, comm, StudyRecord("transition", (), comm.size, {}), speak=False)
         tables = merged(PAPER, {"grid": papers_grid(65)})
         ways = {"down": [1.0, 0.7], "up": [0.005, 0.007]}
         return [point for name, way in ways.items() for point in Branch(study, tables, name).walk(way)]

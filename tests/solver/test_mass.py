@@ -8,7 +8,7 @@ from mpi4py import MPI
 from mgehl.config import load_config
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
 from mgehl.kinds import case_of
-from mgehl.output.result import Work
+from mgehl.output.result import Making, Work
 from mgehl.output.summary import summarise
 from mgehl.solver.beginning import begin
 from mgehl.solver.from_config import set_up
@@ -38,7 +38,7 @@ def account(problem, state):
 
 
 def verdict(problem, outcome):
-    return summarise(problem, outcome, TOLERANCE, Work(1.0, 1), 1.0, {})
+    return summarise(problem, outcome, TOLERANCE, Making(Work(1.0, 1), 1.0, {}))
 
 
 def test_a_solved_state_makes_no_oil(solved):

@@ -261,22 +261,11 @@ class TestContinuousContact:
         changed_by(partition.enter_contact, pressed, entered=1)
 
 
-@pytest.fixture
-def contact_start(paper_contact, make_hierarchy, usual_law):
-    def start(max_steps):
-        contact = paper_contact(5e-6)
-        scheme = Scheme(face_mobility="geometric", contact_law=usual_law(contact))
-        newton = NewtonSettings(max_steps=max_steps)
-        settings = SolverSettings(scheme=scheme, start="contact", newton=newton)
-        hierarchy = make_hierarchy(contact, 257)
-        _, outcome = nested_iteration(hierarchy, contact, settings, lambda *each: None)
-        return outcome, hierarchy, contact, settings
-
-    return start
-
-
-def test_a_node_that_its_flow_would_lift_is_not_solved_apart(contact_start):
-    outcome, *_ = contact_start(15)
+def test_a_node_that_its_flow_would_lift_is_not_solved_apart(paper_contact, make_hierarchy, usual_law):
+    contact = paper_contact(5e-6)
+    scheme = Scheme(face_mobility="geometric", contact_law=usual_law(contact))
+    settings = SolverSettings(scheme=scheme, start="contact", newton=NewtonSettings(max_steps=15))
+    _, outcome = nested_iteration(make_hierarchy(contact, 257), contact, settings, lambda *each: None)
     assert outcome.converged and outcome.cycles[-1].step <= 9
 
 

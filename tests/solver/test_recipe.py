@@ -8,12 +8,9 @@ from mgehl.discretization.scheme import Scheme
 from mgehl.model.surface.shapes import Dent
 from mgehl.model.surface.waviness import Waviness
 from mgehl.solver.recipe import (
-    A_STATE,
     COVERED,
     DRY,
     FULL_FILM,
-    IDLE,
-    IDLE_IN_TIME,
     IN_CONTACT,
     NEAR,
     NONE,
@@ -25,10 +22,9 @@ from mgehl.solver.recipe import (
     UNSEEN_FILM,
     couette_scheme_of,
     on_mesh,
-    recipe_in_time,
     recipe_of,
 )
-from mgehl.solver.settings import NewtonSettings, SolverSettings
+from mgehl.solver.settings import SolverSettings
 
 CLOSING, CLOSED = BoundaryFilm(1e-6), InterfaceConditions(1e-6)
 
@@ -37,16 +33,11 @@ CLOSING, CLOSED = BoundaryFilm(1e-6), InterfaceConditions(1e-6)
 def recipe(paper_contact):
     """Function: the recipe of the paper's ball at 1 m/s (film 390 nm), with waves of a size in m."""
 
-    def made(amplitude=0.0, law=CLOSED, start="film", mean="arithmetic", layers=None, **newton):
+    def made(amplitude=0.0, law=CLOSED, start="film", layers=None):
         surface = Waviness(amplitude, 2e-4, 2e-4) if amplitude else None
         contact = paper_contact(1.0, surface=surface)
         law = law if layers is None else BoundaryFilm(layers / contact.film_scale)
-        settings = SolverSettings(
-            scheme=Scheme(face_mobility=mean, contact_law=law),
-            start=start,
-            newton=NewtonSettings(**newton),
-        )
-        return recipe_of(settings, contact)
+        return recipe_of(SolverSettings(scheme=Scheme(contact_law=law), start=start), contact)
 
     return made
 
@@ -74,23 +65,6 @@ def test_peaks_that_touch_begin_from_their_dry_contact(recipe):
     assert recipe(4e-6, CLOSING).begins == UNDER_FILM
     assert recipe(4e-6, CLOSING, start="contact").begins == UNDER_THIN_FILM
     assert recipe(4e-6, layers=1e-6).begins == DRY
-
-
-def test_patience_is_more_in_time_and_most_where_films_close_continuously(recipe):
-    assert recipe().newton.idle_steps == IDLE
-    assert recipe(squeeze=3.0).newton.idle_steps == IDLE_IN_TIME > IDLE
-    assert recipe(mean="harmonic").newton.idle_steps == IDLE_IN_TIME
-    assert recipe(start="contact").newton.idle_steps == IDLE_IN_TIME
-    assert recipe(law=CLOSING, max_steps=90).newton.idle_steps == 90
-    assert recipe(law=CLOSING, idle_steps=7).newton.idle_steps == 7
-
-
-def test_from_a_state_and_in_time_nothing_is_guessed(paper_contact):
-    settings = SolverSettings(start="contact")
-    contact = paper_contact(1.0)
-    made = recipe_of(settings, contact, A_STATE)
-    assert made.begins == A_STATE and not made.fluid_apart and made.newton.squeeze == 0.0
-    assert recipe_in_time(settings, contact).scheme.motion == (0.0, 0.0)
 
 
 def test_a_surface_that_comes_later_has_the_scheme_of_rough_bodies(paper_contact):

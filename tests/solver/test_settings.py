@@ -13,18 +13,6 @@ def test_what_is_not_configured_is_the_default():
     assert set_up(case_of(config)).settings == SolverSettings(scheme=scheme)
 
 
-def test_rough_bodies_are_differenced_by_the_limited_scheme_unless_told_otherwise():
-    """However thick the film is, and smooth bodies as ever."""
-    rough = {"kind": "self-affine", "rms": 1e-7, "shortest_wavelength": 4e-5, "longest_wavelength": 2e-4}
-    for speed in (1e-3, 10.0):
-        tables = {"surface": rough, "motion": {"speed": speed}}
-        assert set_up(case_of(config_from_tables(tables))).settings.scheme.couette == "3L"
-        named = tables | {"discretization": {"couette": "1B"}}
-        assert set_up(case_of(config_from_tables(named))).settings.scheme.couette == "1B"
-        smooth = {"motion": {"speed": speed}}
-        assert set_up(case_of(config_from_tables(smooth))).settings.scheme.couette == "3B"
-
-
 def test_keys_reach_the_records_that_the_solver_is_given():
     tables = {
         "discretization": {

@@ -133,11 +133,3 @@ def test_flux_imbalance_of_a_film_that_widens(tiny_problem, state, kind, first, 
     state.H[:] = 1.0 + 0.1 * np.arange(9)
     state.status[1:-1, first:last] = kind
     assert flux_imbalance(tiny_problem, tiny_problem.evaluate(state)) == pytest.approx(imbalance)
-
-
-@pytest.mark.parametrize("couette", ["1B", "2B", "2C", "S2C"])
-def test_conservative_schemes_balance_when_solved(solve, paper_contact, couette):
-    solution = solve(paper_contact(), 65, couette=couette)
-    assert solution.outcome.converged
-    assert solution.problem.scheme.couette == couette
-    assert flux_imbalance(solution.problem, solution.problem.evaluate(solution.outcome.state)) < 1e-7

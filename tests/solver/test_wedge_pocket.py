@@ -17,7 +17,7 @@ from mgehl.kinds import contact_from
 from mgehl.solver.from_config import scheme_from
 from mgehl.solver.mass import CLOSED
 from mgehl.solver.wedge import solve_wedge
-from mgehl.studies.limits import observed_order
+from mgehl.studies.limits import order_of_errors
 from mgehl.studies.study import merged
 
 
@@ -79,7 +79,7 @@ def test_rupture_and_reformation_are_the_reference_s(couette, bound):
     """Of the largest pressure, at the worst node: 0.077 % on 2049 nodes by 3B, and first order."""
     errors = [difference(solution(nodes, couette), answer()) for nodes in (513, 2049)]
     assert errors[1] < bound
-    assert 0.5 * observed_order(*errors) == pytest.approx(1.0, abs=0.4)
+    assert 0.5 * order_of_errors(*errors) == pytest.approx(1.0, abs=0.4)
     x, p = pressures(solution(2049, couette))
     torn = x[p == 0.0]
     assert (torn[0], torn[-1]) == pytest.approx(answer().cavity, abs=1e-5)

@@ -14,7 +14,7 @@ from mgehl.output.center_line import center_line
 from mgehl.solver.from_config import scheme_from
 from mgehl.solver.verification import complementarity_error, flux_imbalance
 from mgehl.solver.wedge import solve_wedge
-from mgehl.studies.limits import observed_order
+from mgehl.studies.limits import order_of_errors
 from mgehl.studies.study import merged
 from mgehl.studies.wedge import PLACES, case, relative_errors
 
@@ -65,7 +65,7 @@ def errors_and_orders(shape, couette, turned=False):
     coarse, fine = (
         relative_errors(solution(shape, nodes, couette, turned=turned), exact(shape)) for nodes in (65, 129)
     )
-    return fine, [observed_order(*pair) for pair in zip(coarse, fine, strict=True)]
+    return fine, [order_of_errors(*pair) for pair in zip(coarse, fine, strict=True)]
 
 
 # Measured on 129 nodes: 0.45 % by 1B at the blocked exit, 0.02 % by the others, 0.1 % at the open one.

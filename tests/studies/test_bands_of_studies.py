@@ -1,12 +1,14 @@
 from mpi4py import MPI
 from told import rows_of
 
+from mgehl.output.study_directory import StudyRecord
 from mgehl.studies import error
 from mgehl.studies.study import Study
 
 
 def test_films_of_a_random_contact(tmp_path):
-    error.run(Study(tmp_path, MPI.COMM_SELF, (65,), speak=False, wanted=2, seed=3))
+    asked = StudyRecord("error", (65,), 1, {}, cases=2, seed=3)
+    error.run(Study(tmp_path, MPI.COMM_SELF, asked, speak=False))
     rows, bands = rows_of(tmp_path / "cases.csv"), rows_of(tmp_path / "bands.csv")
     assert [row["contact"] for row in rows] == list(error.draw(2, 3))
     assert [row["nodes"] for row in rows] == ["65", "65"]

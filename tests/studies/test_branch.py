@@ -9,6 +9,7 @@ from mpi4py import MPI
 from told import rows_of
 
 from mgehl.cli import main
+from mgehl.output.study_directory import StudyRecord
 from mgehl.studies import transition
 from mgehl.studies.branch import Branch
 from mgehl.studies.study import Study
@@ -24,7 +25,8 @@ class TestBothBranches:
     @pytest.fixture(scope="class")
     def points(self, tmp_path_factory):
         """129 nodes at 30 mm/s, where the grid has two solutions."""
-        study = Study(tmp_path_factory.mktemp("branches"), MPI.COMM_SELF, (129,), speak=False)
+        asked = StudyRecord("transition", (), 1, {})
+        study = Study(tmp_path_factory.mktemp("branches"), MPI.COMM_SELF, asked, speak=False)
         down = Branch(study, transition.case(129), "down").walk([0.1, 0.055, self.SPEED])
         up = Branch(study, transition.case(129), "up").walk([0.005, 0.01, 0.02, self.SPEED])
         return down[-1], up[-1]

@@ -4,8 +4,9 @@ import pytest
 from mpi4py import MPI
 
 from mgehl.errors import ConfigError, UserError
+from mgehl.output.study_directory import StudyRecord
 from mgehl.run import run
-from mgehl.studies.limits import observed_order, richardson
+from mgehl.studies.limits import order_of_errors, richardson
 from mgehl.studies.study import Study, merged
 
 FILM = {"motion": {"speed": 1.0}, "grid": {"nodes": 65}}
@@ -25,8 +26,8 @@ class TestMadeUpSequences:
 
     def test_order_of_errors_of_whatever_sign(self, amplitude, order):
         coarse, fine = (value - 8.0 for value in self.values(amplitude, order, 2))
-        assert observed_order(coarse, fine) == pytest.approx(order, rel=1e-12)
-        assert observed_order(coarse, -fine) == pytest.approx(order, rel=1e-12)
+        assert order_of_errors(coarse, fine) == pytest.approx(order, rel=1e-12)
+        assert order_of_errors(coarse, -fine) == pytest.approx(order, rel=1e-12)
 
 
 @pytest.mark.parametrize("values", [(1, 2, 3), (1, 2, 4), (1, 2, 1.5), (1, 2, 2), (1, 1, 2), (1, 1, 1)])
@@ -37,7 +38,7 @@ def test_without_falling_differences_of_one_sign_there_is_no_limit_to_see(values
 
 @pytest.fixture
 def study(tmp_path):
-    return Study(tmp_path, MPI.COMM_SELF, (65,))
+    return Study(tmp_path, MPI.COMM_SELF, StudyRecord("films", (65,), 1, {}))
 
 
 def test_named_cases_are_solved_in_their_order_and_one_that_cannot_be_is_passed(study, capsys, monkeypatch):

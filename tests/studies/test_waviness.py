@@ -7,6 +7,7 @@ from told import rows_of
 
 from mgehl.cli import main
 from mgehl.model.conditions import Conditions
+from mgehl.output.study_directory import StudyRecord
 from mgehl.studies import venner_laws, waviness
 from mgehl.studies.study import Study, merged
 from mgehl.studies.waviness import GRIDS, LINES, REFERENCE, line_case, respond
@@ -15,7 +16,8 @@ from mgehl.studies.waviness import GRIDS, LINES, REFERENCE, line_case, respond
 def responses(directory, couette, mean, nodes, line):
     """Smooth film by Moes, and what waves of each length change."""
     scheme = {"grid": {"nodes": nodes}, "discretization": {"couette": couette, "face_mobility": mean}}
-    study, case = Study(directory, MPI.COMM_SELF, speak=False), merged(line_case(*line), scheme)
+    study = Study(directory, MPI.COMM_SELF, StudyRecord("waviness", (), 1, {}), speak=False)
+    case = merged(line_case(*line), scheme)
     smooth = study.solve("smooth", case)
     found = {length: respond(study, "waves", case, smooth, length) for length in (1.0, 0.5)}
     return smooth.result.moes_film.central, found

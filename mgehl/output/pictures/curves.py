@@ -2,6 +2,7 @@
 
 from collections import defaultdict
 from math import isfinite
+from typing import NamedTuple
 
 import numpy as np
 from matplotlib.ticker import LogFormatter
@@ -41,6 +42,14 @@ NOT_HERE = {"color": "0.4", "marker": "|", "linestyle": "none", "markersize": 10
 """On the upper edge, where a run has no answer."""
 
 
+class Group(NamedTuple):
+    """Runs that differ in the key alone, or have a name in common, and their look."""
+
+    runs: list
+    colour: str
+    mark: str
+
+
 def curves(runs, key, names=()):
     """Figure of `Told` runs against a key: a colour for what else differs, or for `names` of the runs.
 
@@ -58,27 +67,33 @@ def curves(runs, key, names=()):
     if not panels:
         raise UserError(f"--against {key}: none of these runs has an answer to draw")
     rows = (len(panels) + 1) // 2
-    told = [each for each in (key, KEYS[key].metadata["unit"]) if each]
     figure, axes = subplots(rows, min(2, len(panels)), size=(10.5, 1.0 + 3.4 * rows), squeeze=False)
     for axis, (label, panel) in zip(axes.flat, panels.items(), strict=False):
-        y = [run.number(QUANTITIES[name].path) for run in runs if run.settled for name in panel]
-        factor, unit = pressure_unit(max(filter(isfinite, y))) if label.endswith("GPa") else (1.0, "")
-        handles = [_draw(axis, runs, x, *each, panel, factor) for each in groups.items()]
-        axis.set(ylabel=_label(label.replace("GPa", unit), panel), xlabel=", ".join(told))
-        _scale(axis, x, [factor * each for each in y])
-        failed = [each for each, run in zip(x, runs, strict=True) if not run.settled]
-        axis.plot(failed, len(failed) * [0.98], transform=axis.get_xaxis_transform(), **NOT_HERE)
-        if len(panel) > 1:
-            axis.legend(handles=handles[0])
+        _draw_panel(axis, runs, groups, key, label, panel)
     for axis in axes.flat[len(panels) :]:
         axis.remove()
     if len(groups) > 1:
-        colours = zip(groups, COLOURS * len(groups), strict=False)
-        legend_under_all(figure, [axes.flat[0].plot([], [], color=c, label=name)[0] for name, c in colours])
+        looks = [(name, group.colour) for name, group in groups.items()]
+        legend_under_all(figure, [axes.flat[0].plot([], [], color=c, label=name)[0] for name, c in looks])
     failed = sum(not run.settled for run in runs)
     note = f", {failed} without an answer (ticks above)" if failed else ""
     figure.suptitle(f"{len(runs)} runs against {key}{note}")
     return figure
+
+
+def _draw_panel(axis, runs, groups, key, label, panel):
+    """The quantities of a panel of all runs against the key."""
+    x = [run.value(key) for run in runs]
+    y = [run.number(QUANTITIES[name].path) for run in runs if run.settled for name in panel]
+    factor, unit = pressure_unit(max(filter(isfinite, y))) if label.endswith("GPa") else (1.0, "")
+    handles = [_draw_group(axis, group, key, panel, factor) for group in groups.values()]
+    told = [each for each in (key, KEYS[key].metadata["unit"]) if each]
+    axis.set(ylabel=_label(label.replace("GPa", unit), panel), xlabel=", ".join(told))
+    _scale(axis, x, [factor * each for each in y])
+    failed = [each for each, run in zip(x, runs, strict=True) if not run.settled]
+    axis.plot(failed, len(failed) * [0.98], transform=axis.get_xaxis_transform(), **NOT_HERE)
+    if len(panel) > 1:
+        axis.legend(handles=handles[0])
 
 
 def _label(label, panel):
@@ -89,7 +104,7 @@ def _label(label, panel):
 
 
 def _groups(runs, key, names):
-    """{what runs have in common but the key: (their numbers, colour, mark)}, in order.
+    """{what runs have in common but the key: their `Group`}, in order.
 
     Of a key that follows from words the other numbers that follow from them are told, and not the words.
     """
@@ -103,9 +118,9 @@ def _groups(runs, key, names):
     found = defaultdict(list)
     for number, run in enumerate(runs):
         said = [key_words(each, run.value(each)) for each in differ if run.value(each) is not None]
-        found[", ".join([*said, *names[number : number + 1]])].append(number)
-    looks = zip(found.items(), COLOURS * len(found), MARKS * len(found), strict=False)
-    return {name: (numbers, colour, mark) for (name, numbers), colour, mark in looks}
+        found[", ".join([*said, *names[number : number + 1]])].append(run)
+    looks = zip(found.values(), COLOURS * len(found), MARKS * len(found), strict=False)
+    return {name: Group(*look) for name, look in zip(found, looks, strict=False)}
 
 
 def _there(runs, panel):
@@ -115,16 +130,16 @@ def _there(runs, panel):
     return [name for name in found if name not in OF_ONE_NODE or "mean_gap_nm" not in found]
 
 
-def _draw(axis, runs, x, name, look, panel, factor):
+def _draw_group(axis, group, key, panel, factor):
     """The curves of one group, by their numbers times a factor; their handles."""
-    numbers, colour, mark = look
-    numbers = sorted((number for number in numbers if runs[number].settled), key=lambda n: x[n])
+    settled = sorted((run for run in group.runs if run.settled), key=lambda run: run.value(key))
+    _, colour, mark = group
     handles = []
     for quantity, stroke in zip(panel, STROKES, strict=False):
         path, _, meaning, band = QUANTITIES[quantity]
-        at = np.array([x[number] for number in numbers])
-        y = factor * np.array([runs[number].number(path) for number in numbers])
-        width = factor * np.array([runs[number].number(band or "none") for number in numbers])
+        at = np.array([run.value(key) for run in settled])
+        y = factor * np.array([run.number(path) for run in settled])
+        width = factor * np.array([run.number(band or "none") for run in settled])
         (line,) = axis.plot(at, y, stroke, color=colour, label=meaning)
         handles.append(line)
         bare = np.isnan(width) & np.isfinite(width).any()

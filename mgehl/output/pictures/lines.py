@@ -26,7 +26,7 @@ ANYWHERE = "Y = 0, along x", "X = 0, along y"
 """Where the motion is not along x, or there is none."""
 
 
-class Line(NamedTuple):
+class CentreLine(NamedTuple):
     """A centre line: place in semi-axes; total pressure and the fluid's own; gap and its oil in nm;
     status. Of the dry contact places of its own, pressure and gap."""
 
@@ -42,7 +42,8 @@ class Line(NamedTuple):
 
 
 def line_of(solution, across, GPa=1.0):
-    """The `Line` of a loaded contact along x on Y = 0, or along y on X = 0; a GPa counts as so many."""
+    """The `CentreLine` of a loaded contact along x, or along y where it is `across`; a GPa counts as so
+    many."""
     mesh, fields, contact = solution.mesh, solution.fields, solution.contact
     i, j = mesh.nearest(0.0, 0.0)
     part, X = ((slice(None), i), mesh.Y) if across else ((j, slice(None)), mesh.X)
@@ -53,7 +54,7 @@ def line_of(solution, across, GPa=1.0):
     fine, hertz = np.linspace(X[0], X[-1], FINE), contact.hertz_under(solution.load_share)
     ends, near = hertz.contact, fine / hertz.reach
     dry = ends.dry_gap(0.0 * near, near) if across else ends.dry_gap(near, 0.0 * near)
-    return Line(
+    return CentreLine(
         X, P, unit * fields.fluid_pressure[part], film,
         layers + fields.full_part[part] * (film - layers), fields.status[part],
         fine, Pa * ends.pressure_scale * hertz_pressure(near, 0.0), 1e9 * ends.film_scale * dry,
@@ -101,9 +102,9 @@ def names(solution):
 
 
 def set_axes(axes, lines):
-    """Limits for some `Line`s, of each column of axes: what is loaded is shown, and films inside the dry
-    contact can be read, on a logarithmic axis where they differ much. It begins below 0 only where bodies
-    overlap."""
+    """Limits for some `CentreLine`s, of each column of axes: what is loaded is shown, and films inside the
+    dry contact can be read, on a logarithmic axis where they differ much. It begins below 0 only where
+    bodies overlap."""
     lines, columns = [line for column in lines for line in column], lines
     for inside in INSIDE:
         films = [line.film[(np.abs(line.X) < inside) & (line.status != CONTACT)] for line in lines]

@@ -5,7 +5,6 @@ import pytest
 import xarray
 from made_solution import make_solution
 
-from mgehl.errors import OutputError
 from mgehl.output.export.export import export
 
 
@@ -54,12 +53,6 @@ def test_a_table_has_a_row_for_each_node_and_an_archive_the_units_of_X_and_the_r
         np.testing.assert_array_equal(archive[name], getattr(solution.fields, name))
     assert archive["status_names"][archive["status"]].ravel().tolist() == table["status"].tolist()
     assert json.loads(str(archive["result"]), parse_constant=pytest.fail)["residual"] is None
-
-
-def test_a_filling_that_is_not_finite_is_not_exported(solution, tmp_path):
-    solution.fields.filling[0, 0] = np.nan
-    with pytest.raises(OutputError, match="filling of this run is not finite at 1 nodes"):
-        export(solution, {"csv": tmp_path / "a.csv"})
 
 
 def test_paraview_has_them(solution, tmp_path):

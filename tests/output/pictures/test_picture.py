@@ -5,12 +5,11 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from matplotlib.colors import to_rgb
-from matplotlib.figure import Figure
 
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.status import CONTACT, LUBRICATED
 from mgehl.output.pictures import style
-from mgehl.output.pictures.figures import figures, run_picture, write
+from mgehl.output.pictures.figures import figures, run_picture
 from mgehl.output.pictures.plane import Blocks
 
 
@@ -46,23 +45,9 @@ def test_of_a_line_contact_and_a_wedge(kind, request):
     assert share(image_of(request.getfixturevalue(kind)()), style.PRESSURE) > 5e-4
 
 
-def test_a_point_contact_has_them_all(make_solution):
-    pictures = figures(make_solution())
-    assert [picture.name for picture in pictures] == ["lines", "film", "pressure", "status", "history"]
-    assert all(isinstance(picture.figure, Figure) and picture.title for picture in pictures)
-
-
 def test_a_line_contact_and_a_wedge_have_what_makes_sense(make_line, make_wedge):
     assert [picture.name for picture in figures(make_line())] == ["lines", "history"]
     assert [picture.name for picture in figures(make_wedge())] == ["lines", "pressure", "status", "history"]
-
-
-def test_every_format_is_written(make_line, tmp_path):
-    paths = write(figures(make_line()), tmp_path / "new", ("png", "svg", "pdf"))
-    names = [f"{name}.{form}" for name in ("lines", "history") for form in ("png", "svg", "pdf")]
-    assert [path.name for path in paths] == names
-    assert {path.name for path in (tmp_path / "new").iterdir()} == set(names)
-    assert all(path.stat().st_size > 1000 for path in paths)
 
 
 def test_blocks_of_three_by_three_and_what_is_left():

@@ -1,8 +1,8 @@
 from types import SimpleNamespace
 
 import pytest
+from made_solution import make_result
 from matplotlib.quiver import Quiver
-from test_files import make_result
 
 from mgehl.config import load_config
 from mgehl.output.pictures.figures import figures
