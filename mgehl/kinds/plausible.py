@@ -1,7 +1,7 @@
 """Input that is allowed, and yet unusual: most often a wrong unit. Each is named; none is refused."""
 
 from mgehl.kinds.heat import solids_from
-from mgehl.kinds.surface_kinds import STILL, carried
+from mgehl.kinds.surface_kinds import STILL, every_surface
 from mgehl.kinds.time import begins_at_rest, range_of, scene_of
 from mgehl.model.films import formula_of
 from mgehl.model.frame import direction
@@ -67,6 +67,7 @@ def implausible(config, contact):
         )
     yield from _films(contact)
     yield from _stands_still(config, contact)
+    yield from _without_temperatures(config)
     yield from _parts_from_rest(config)
     yield from _long_steps(config, contact)
     if config.lubricant.oil is not None:
@@ -129,15 +130,14 @@ def _stands_still(config, contact):
     motion, slide = config.motion, config.inputs.get("motion.slide_to_roll", config.motion.slide_to_roll)
     moves = slide not in (None, 2.0, -2.0) or motion.ring_rotation is not None
     along = direction(motion.angle)
-    bodies = [body for _, surface, body in carried(config) if surface.varies_along(along)]
+    bodies = [body for _, surface, body in every_surface(config) if surface.varies_along(along)]
     if not moves or not bodies:
         return
     both = f"motion.slide_to_roll = {slide or 0.0:.3g}: both bodies move"
     if not config.is_in_time:
-        needed = "time.end moves it" if STILL not in bodies else 'body = "body_1" and time.end move it'
         yield (
             f"{both}, and roughness that moves changes the film with time: here it stands still, and "
-            f"friction alone is of this motion; {needed}"
+            'friction alone is of this motion; body = "body_1" and time.end move it'
         )
     elif STILL in bodies:
         yield f'{both}, but roughness whose body = "still" stands still: "body_1" or "body_2" carry it'

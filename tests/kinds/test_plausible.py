@@ -90,6 +90,20 @@ def test_roughness_that_would_move_is_named(settings, is_odd):
     assert any("here it stands still" in line for line in odd(given)) == is_odd
 
 
+@pytest.mark.parametrize("body, is_odd", [("still", True), ("body_1", False)])
+def test_roughness_that_no_body_carries_is_named_in_time(body, is_odd):
+    """A steady run told that time.end would move it."""
+    given = BALL | WAVES | {"motion.slide_to_roll": 0.1, "surface.body": body, "time.end": "1 ms"}
+    assert any('"still" stands still' in line for line in odd(given)) == is_odd
+
+
+def test_a_run_in_time_says_that_it_tells_no_temperatures():
+    bodies = {f"heat.{name}_{body}": value for name, value in (("conductivity", 46.0), ("capacity", 3.6e6))
+              for body in (1, 2)}  # fmt: skip
+    assert any("no temperatures" in line for line in odd(BALL | bodies | {"time.end": "1 ms"}))
+    assert not any("no temperatures" in line for line in odd(BALL | bodies))
+
+
 @pytest.mark.parametrize("layers, is_odd", [(0.0, True), ("2 nm", False)])
 def test_a_start_from_rest_wants_layers(tmp_path, layers, is_odd):
     course = tmp_path / "speed.csv"

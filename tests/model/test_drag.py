@@ -1,9 +1,13 @@
 from math import log, pi
 
+import numpy as np
 import pytest
 from contacts import contact_of, moes
+from scipy.integrate import simpson
 
-from mgehl.model.drag import kapitza_drag_beyond, kapitza_factor
+from mgehl.model.drag import kapitza_drag_beyond, kapitza_factor, line_drag_beyond
+from mgehl.model.line import LineContact
+from mgehl.model.lubricant import Barus, ConstantDensity, Lubricant
 
 
 def test_drag_beyond_grows_with_the_logarithm_of_the_domain():
@@ -14,3 +18,30 @@ def test_drag_beyond_grows_with_the_logarithm_of_the_domain():
     between = kapitza_drag_beyond(ball, square, square) - kapitza_drag_beyond(ball, twice, twice)
     K = kapitza_factor(ball.lubricant, ball.speed, ball.radius_x, ball.radius_x)
     assert between == pytest.approx(pi * K * ball.radius_x * log(2.0), rel=1e-5)
+
+
+def test_where_no_film_tears_the_other_side_drags_as_much():
+    ball = contact_of(moes(3.0, 2.0))
+    square = (-8.0, 8.0)
+    upstream, both = (kapitza_drag_beyond(ball, square, square, whole) for whole in (False, True))
+    assert both == pytest.approx(2.0 * upstream)
+
+
+LINE = LineContact(2e3, 0.01, 2e7, 0.05, Lubricant(Barus(0.5, 2e-8), ConstantDensity()))
+
+
+def test_drag_beyond_of_a_line_falls_as_one_over_the_distance():
+    """Of rigid bodies 12 eta u R/x on each body."""
+    far = line_drag_beyond(LINE, (-1e4, 1e4), False)
+    assert far == pytest.approx(12.0 * 0.5 * 0.05 * 0.01 / (1e4 * LINE.x_scale), rel=1e-5)
+    assert line_drag_beyond(LINE, (-1e4, 1e4), True) == pytest.approx(2.0 * far)
+
+
+def test_what_drags_between_two_domains_is_the_integral_between_them():
+    X, dX = np.linspace(2.0, 4.0, 20001, retstep=True)
+    film = LINE.flooded_film / LINE.film_scale
+    H = film + LINE.dry_gap(X, None)
+    between = simpson((H - film) / H**2, dx=dX)
+    unit = 6.0 * LINE.lubricant.viscosity * LINE.speed * LINE.x_scale / LINE.film_scale
+    near, far = (line_drag_beyond(LINE, (-end, 1.0), False) for end in (2.0, 4.0))
+    assert near - far == pytest.approx(unit * between, rel=1e-6)

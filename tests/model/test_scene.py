@@ -28,6 +28,11 @@ def test_a_passage_is_that_of_the_slowest_heights(body, slide_to_roll, lengths):
     assert found.passage() == pytest.approx(lengths * 2.0 * found.framed.x_scale)
 
 
+def test_a_heavier_load_takes_longer_to_pass():
+    found = scene(WAVES)
+    assert found.passage(8.0) == pytest.approx(2.0 * found.passage())
+
+
 def test_ridges_along_the_motion_do_not_pass():
     ridges = {"surface.kind": "waviness", "surface.amplitude": 1e-8, "surface.wavelength_y": 1e-4}
     found = scene(ridges | {"surface.body": "body_2", "motion.slide_to_roll": 1.0})

@@ -1,12 +1,19 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
+from contacts import moes
 
+from mgehl.config import config_from_tables
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import BOUNDARY, CONTACT, LUBRICATED
+from mgehl.kinds import contact_from
 from mgehl.model.line import LineContact
 from mgehl.model.lubricant import Barus, ConstantDensity, Lubricant
+from mgehl.model.rheology import Eyring, Friction
 from mgehl.solver.gaps import differences, gaps, gaps_of, load_differences, loads
+from mgehl.studies.study import merged
 
 
 def test_the_mean_is_that_of_the_nodes_within_the_ellipse_or_a_line_s_width():
@@ -34,6 +41,26 @@ def test_an_instant_has_the_load_and_the_ellipse_of_its_own(make_problem, paper_
     assert (hertz.reach, hertz.area) == pytest.approx((reach, reach**2 * contact.contact_area))
     inside = np.hypot(mesh.X[None, :], mesh.Y[:, None]) <= hertz.reach
     assert gaps(problem, state).mean == pytest.approx(state.H[inside].mean(), rel=1e-12)
+
+
+def test_an_instant_slides_and_loses_load_beyond_the_domain_as_fast_as_it_moves(make_problem):
+    """Load carried beyond the domain was that of the first load and the largest speed, and shear did not
+    thin the oil where the speed changes."""
+    tables = merged(moes(3.0, 2.0), {"grid": {"nodes": 65}})
+    contact = contact_from(config_from_tables(tables))
+    contact = replace(contact, friction=Friction(Eyring(5e6), 0.5, thins=True))
+    problem = make_problem(contact, nodes=65, scheme=Scheme())
+    nothing = np.zeros(problem.grid.shape)
+    beyond = contact.share_beyond(*contact.ends(problem.grid.mesh))
+    assert -problem.load_deficit(nothing) == pytest.approx((1.0 - beyond) * contact.load_integral)
+    assert beyond > 0.01
+    for there in (contact.under(30.0), contact.at_speed(0.0)):  # pressed flat, and at rest: all is within
+        problem.turn_to(contact, there)
+        assert -problem.load_deficit(nothing) == pytest.approx(
+            there.load / contact.load * contact.load_integral
+        )
+        slower = there.speed / contact.speed
+        assert problem.flowing.thinning == pytest.approx(slower * contact.thinning)
 
 
 def test_a_line_grows_with_the_root_of_its_load():

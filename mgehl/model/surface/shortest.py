@@ -35,7 +35,7 @@ def _along(lines, step):
         return inf
     window = np.hanning(slopes.shape[1] + 2)[1:-1]
     power = (np.abs(np.fft.rfft(slopes * window, axis=1)) ** 2).mean(axis=0)
-    if not power.sum() > 0.0:  # heights at the ends alone, where the window is nothing
+    if not power.sum() > 0.0:  # the squares of such heights are nothing
         return inf
     share = np.cumsum(power) / power.sum()
     waves = np.interp(SHARE, share, np.arange(len(share))) - SPREAD

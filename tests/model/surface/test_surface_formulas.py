@@ -140,6 +140,11 @@ class TestWhatIsNotKnown:
         assert 2.0 * step < noisy.shortest(self.nodes, self.nodes) < 2.3 * step
         assert plane.shortest(self.nodes, self.nodes) == np.inf
 
+    def test_heights_whose_squares_are_nothing_have_no_waves(self):
+        """Such as the far tail of a dimple beyond the domain."""
+        tail = Plain(lambda x, y: 1e-200 * np.cos(2 * np.pi * x / 1e-4) + 0.0 * y)
+        assert tail.shortest(self.nodes, self.nodes) == np.inf
+
     def test_a_coarse_grid_sees_it_smoothed_and_not_sampled(self):
         """Samples of a wave of two thirds of a coarse cell would be a wave of two cells."""
         coarse = self.nodes[::32]
