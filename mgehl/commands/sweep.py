@@ -49,10 +49,26 @@ def execute(options, comm):
     directory = Path(options.out or Path("runs") / f"sweep-{file.stem}")
     if comm.bcast(directory.exists()) and not options.resume:
         raise OutputError(f"{directory} exists: add --resume to go on, or choose another with --out")
+    if comm.rank == 0 and not options.quiet:
+        _say_unusual(points)
     asked = (*(f"--over {word}" for word in options.over), *options.settings)
     with StopWhenTold(f"go on with --resume, --out {quote(str(directory))}") as stop:
         study = swept(directory, comm, axes, points, Watch(stop=stop), not options.quiet, asked)
     return NOT_CONVERGED if study.failures else CONVERGED
+
+
+def _say_unusual(points):
+    """Say what is unusual in the input, each once, at the first point that has it."""
+    from mgehl.kinds import contact_from
+    from mgehl.kinds.plausible import implausible
+    from mgehl.saying import columns, folded, say
+
+    found = {}
+    for point in points:
+        for words in implausible(point.config, contact_from(point.config)):
+            found.setdefault(words.split()[0], f"mgehl: unusual from point {point.run} on: {words}")
+    for words in found.values():
+        say(folded(words, "    ", columns()))
 
 
 def _split(word):

@@ -25,8 +25,8 @@ class TimeSection:
         "error)", "s", above=0.0, high=1e9)
     tolerance: float = number(1e-3, "residual that a step may leave, over that with which it begins",
         above=0.0, high=0.1)
-    save_every: float | None = number(None, "time between two fields that are kept (unset: 50 in a run)",
-        "s", above=0.0, high=1e9)
+    save_every: float | None = number(None, "time after which the next step's fields are kept (unset: "
+        "50 in a run)", "s", above=0.0, high=1e9)
     until: str = word("end", "when it ends: at time.end, or before when means over passages have settled, "
         "at a speed and a load that stay",
         ("end", "settled"))

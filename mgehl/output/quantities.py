@@ -61,10 +61,28 @@ def _put_at(result, path, value):
     result[last] = value
 
 
+NO_MEANS = "moes_film", "mixed.loaded_gap_nm", "mixed.mean_film_nm", "contact.area_fraction"
+"""Of the last instant alone: left out where means stand beside them."""
+
+PASSAGE, INSTANT = "a passage", "an instant"
+"""What the numbers of a run in time are of."""
+
+
+def of_what(result):
+    """`PASSAGE` or `INSTANT`, of a run in time; else empty."""
+    if not result.get("time"):
+        return ""
+    return PASSAGE if told_at(result, "time.means") else INSTANT
+
+
 def with_means(result):
     """The same result; of a run in time its means over the last passage are where the numbers of its last
-    instant were. A run that has no means keeps those."""
-    for name, mean in (told_at(result, "time.means") or {}).items():
+    instant were. A run that has no means keeps those (`of_what`)."""
+    means = told_at(result, "time.means") or {}
+    for path in NO_MEANS if means else ():
+        if told_at(result, path) is not None:
+            _put_at(result, path, None)
+    for name, mean in means.items():
         found = QUANTITIES[name]
         _put_at(result, found.path, mean["value"])
         _put_at(result, found.band, mean["band"])

@@ -12,7 +12,7 @@ from rich.text import Text
 
 from mgehl.errors import printable
 from mgehl.output.digits import is_number, with_band
-from mgehl.output.quantities import read_told, told_at
+from mgehl.output.quantities import of_what, read_told, told_at
 from mgehl.output.stored import read_texts
 from mgehl.output.whole_file import whole_file
 from mgehl.output.words import span
@@ -86,6 +86,7 @@ def _row(directory, keys):
         **{key: said(told.value(key)) for key in keys},
         "nodes": str(nodes),
         "couette": told.tables["discretization"].get("couette", DEFAULT),
+        **({"numbers of": of} if (of := of_what(result)) else {}),
     }
     for name, (path, shape) in COLUMNS.items():
         if path.split(".")[0] in result:

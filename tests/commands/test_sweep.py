@@ -98,6 +98,15 @@ def test_a_point_that_fails_is_said_and_passed(tmp_path, capsys, monkeypatch):
     assert [row["why not"] for row in table(tmp_path / "film")] == ["", "no memory", ""]
 
 
+def test_what_is_unusual_is_said_once(tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr(study, "run", lambda *case: (_ for _ in ()).throw(UserError("not asked")))
+    over = ["--over", "motion.speed=100,300,400 m/s", "--out", str(tmp_path / "fast")]
+    assert main(["sweep", *FILM, *over]) == 1
+    said = " ".join(capsys.readouterr().out.split())
+    assert said.count("unusual from point 002 on: motion.speed = 300 m/s: machines have 0 to 200") == 1
+    assert "400 m/s: machines" not in said
+
+
 @pytest.mark.parametrize(
     "text, values",
     [("1..5 mm/s:3", [0.001, 0.003, 0.005]), ("1e-4..1 m/s:5", [1e-4, 1e-3, 1e-2, 0.1, 1.0]),
