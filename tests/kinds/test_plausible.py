@@ -121,6 +121,12 @@ def test_a_step_in_time_that_leaps_over_waves_is_named(step, is_odd):
     assert any("cells in a step" in line for line in found) == is_odd
 
 
+@pytest.mark.parametrize("step, is_odd", [("20 us", False), ("2 us", True)])
+def test_a_step_of_a_small_part_of_a_cell_is_named(step, is_odd):
+    found = odd({"motion.speed": 0.5, "time.end": 6e-4, "time.step": step, "grid.nodes": 65})
+    assert any("of a cell in a step" in line for line in found) == is_odd
+
+
 def test_friction_and_heat_cite_their_formulas():
     heat = {"lubricant.heating": "factor", "lubricant.conductivity": 0.14}
     eyring = {"friction.model": "eyring", "friction.eyring_stress": 5e6, "motion.slide_to_roll": 0.2}
