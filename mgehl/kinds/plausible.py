@@ -92,7 +92,7 @@ def _odd_steps(config, contact):
         )
     if 0.0 < cells < LEAST_CELLS:
         yield (
-            f"time.step = {config.time.step:.4g} s: surfaces go {cells:.2g} of a cell in a step at the most; "
+            f"time.step = {config.time.step:.4g} s: surfaces go {cells:.2g} of a cell in a step at most; "
             f"below {LEAST_CELLS:g} contents are carried along less well, not better"
         )
 
