@@ -56,7 +56,7 @@ def _tries(solution):
             f"{RESOLVED_CELLS:g}; mgehl check says how many nodes that takes"
         )
     if (result.recipe or {}).get("peaks") == TOUCHING and config.solver.squeeze < SHORTER:
-        yield f"solver.squeeze = {SHORTER:g}: shorter time steps: two of four rough polymers were found so"
+        yield f"solver.squeeze = {SHORTER:g}: shorter time steps, for a fifth more work"
     yield OTHER[config.solver.start]
     if NOR not in result.reason:
         yield "--start-from RUN: from a run at a higher speed that converged; so step by step down"

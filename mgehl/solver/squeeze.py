@@ -11,9 +11,10 @@ Newton step is as good as random. There the time step is so short that the node 
 passes the fold slowly: for some steps the residual hardly falls, then it does.
 
 By every mean there is another fold, between rough bodies: at a peak beside a valley more pressure opens the
-gap, and lets more in than it keeps out. Soft bodies open by several films so, and some polymers are not
-found. Rates that keep nodes from this fold, too, find one of four such and take up to 2.4 times the work of
-what is found anyway; `solver.squeeze` 10 finds two and takes a fifth more.
+gap, and lets more in than it keeps out. Soft bodies open by several films so, and a polymer may not be
+found. Rates that keep nodes from this fold, too, take up to 2.4 times the work of what is found anyway,
+`solver.squeeze` 10 a fifth more. Both found polymers that are found now without: their linear systems were
+not solved, for corrections that were not soft had crowded out those that are (`multigrid.memory.SOFT`).
 """
 
 import numpy as np
