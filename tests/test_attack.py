@@ -1,4 +1,4 @@
-"""A few of the command lines that tests/tools/attack.py makes up by the thousand."""
+"""Small samples of the attacks that tests/tools/attack.py makes by the thousand."""
 
 import json
 import subprocess
@@ -16,8 +16,9 @@ from mgehl.discretization.status import CAVITATED, LUBRICATED
 TOOL = Path(__file__).parent / "tools" / "attack.py"
 
 
-def test_a_few_find_nothing():
-    words = [sys.executable, str(TOOL), "--count", "10", "--seed", "11"]
+@pytest.mark.parametrize("attack, count", [("words", 10), ("damage", 5)])
+def test_a_few_find_nothing(attack, count):
+    words = [sys.executable, str(TOOL), attack, "--count", str(count), "--seed", "11"]
     done = subprocess.run(words, capture_output=True, text=True, timeout=300, env=own_environment())
     assert done.returncode == 0, done.stdout + done.stderr
     assert json.loads(done.stdout.splitlines()[-1])["findings"] == 0
