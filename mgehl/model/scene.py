@@ -119,7 +119,7 @@ class Scene:
         return times, [self.speed.value(t) for t in times]
 
     @cached_property
-    def ends(self):
+    def extremes(self):
         """Times of the slowest and the fastest motion, of the lightest and the heaviest load: none at which
         the surfaces rest."""
         times, speeds = self._speeds

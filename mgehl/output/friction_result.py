@@ -79,6 +79,7 @@ def friction_result(problem, state):
     contact, friction = problem.contact, problem.contact.friction
     shear, slides = shear_of(problem, state), friction.slide_to_roll
     speed, total, stress = contact.speed, shear.sliding_force, shear.stress
+    beyond = contact.drag_beyond(problem.grid.mesh, flows_out_whole(problem, state))
     dragged = total if slides > 0.0 else -total
     sliding = friction.sliding_speed(speed)
     rise = rise_of(problem, state, stress) if has_temperatures(contact) else None
@@ -90,8 +91,7 @@ def friction_result(problem, state):
         film_coefficient=shear.film_force / contact.load,
         solid_coefficient=shear.solid_force / contact.load,
         rolling_coefficient=shear.rolling_force / contact.load,
-        rolling_beyond=contact.drag_beyond(problem.grid.mesh, flows_out_whole(problem, state))
-        / contact.load,
+        rolling_beyond=beyond / contact.load,
         force_1_N=-dragged - shear.rolling_force,
         force_2_N=dragged - shear.rolling_force,
         rolling_N=-shear.rolling_force,

@@ -154,7 +154,7 @@ def load_beyond(contact, mesh, scene=None):
 
 def _instants(contact, scene):
     """The contact itself, of a `Scene` those of its extremes."""
-    return [contact] if scene is None else [scene.instant(contact, t) for t in scene.ends]
+    return [contact] if scene is None else [scene.instant(contact, t) for t in scene.extremes]
 
 
 def domain_verdict(lost):
