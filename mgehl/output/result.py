@@ -119,6 +119,9 @@ class Result:
 
     # Of a loaded contact.
     max_pressure_GPa: float = None
+    pressure_crest: float = None
+    """By how much the pressure may be larger between the nodes, over the largest there; with a fluid alone,
+    None in older results."""
     load_error: float = None
     complementarity_error: float = None
     """Of a dry contact the largest |gap| in contact, overlap elsewhere (units of H), or pull (p_h)."""

@@ -17,6 +17,7 @@ from mgehl.output.result import (
 )  # fmt: skip
 from mgehl.output.series import time_result
 from mgehl.output.words import undecided_words
+from mgehl.solver.gaps import loads
 from mgehl.solver.inequality import check_interface, check_pressure_inequality, check_under_contact
 from mgehl.solver.mass import CLOSED, mass_account
 from mgehl.solver.verification import LOADED, check_edge, complementarity_error, flux_imbalance
@@ -39,6 +40,7 @@ def summarise(problem, outcome, tolerance, making):
     central, minimum = problem.films(state)
     result = Result(
         **of_every_load(problem, state, making, LOADED),
+        pressure_crest=_crest(problem, state),
         central_film_nm=central * nm,
         minimum_film_nm=minimum * nm,
         residual=problem.rms(problem.residual(evaluation, state.status)),
@@ -200,6 +202,12 @@ def _overlap(grid, state, nm):
 
 def _ends(nodes):
     return (int(nodes[0]), int(nodes[-1])) if len(nodes) else None
+
+
+def _crest(problem, state):
+    """How much larger the pressure may be between the nodes, over the largest at one (collective)."""
+    found = loads(problem, state)
+    return found.crest / found.largest if found.largest > 0.0 else 0.0
 
 
 def _largest_node(problem, state):

@@ -43,6 +43,11 @@ def test_a_mean_is_rounded_as_its_band_is(mean, said):
     assert mean_words(mean) == said
 
 
+@pytest.mark.parametrize("crest, is_named", [(None, False), (0.002, False), (0.15, True)])
+def test_a_pressure_spike_that_the_grid_does_not_hold_is_named(crest, is_named):
+    assert ("three nodes do not hold" in str(make_result(pressure_crest=crest))) == is_named
+
+
 class TestWhereToReadOn:
     """Pages and headings that words name are there; what is fine needs none."""
 
