@@ -19,6 +19,11 @@ def say(*words, sep=" "):
         silence(sys.stdout)
 
 
+def mention(words):
+    """Print a line of mgehl's to standard output, folded as the terminal is wide."""
+    say(folded(f"mgehl: {words}", "    ", columns()))
+
+
 def complain(words):
     """Print a line of mgehl's to standard error."""
     try:

@@ -106,14 +106,14 @@ def _complain(lines):
 def _say_what(options, file, case, tables):
     """Say which configuration is solved where none was named, what it does not give, what is unusual."""
     from mgehl.kinds.plausible import implausible
-    from mgehl.saying import columns, folded, say
+    from mgehl.saying import mention
 
     changed, config = ", changed by --set" if options.settings else "", case.config
     which = [] if options.config else [f"no configuration named: solving {shown(file)}{changed}"]
     which += [f"not given: {key}: {config.said(key)} is the paper's" for key in not_given(config, tables)]
     which += [f"unusual: {words}" for words in implausible(config, case.contact)]
     for words in which:
-        say(folded(f"mgehl: {words}", "    ", columns()))
+        mention(words)
 
 
 def _doubts(case):

@@ -61,14 +61,14 @@ def _say_unusual(points):
     """Say what is unusual in the input, each once, at the first point that has it."""
     from mgehl.kinds import contact_from
     from mgehl.kinds.plausible import implausible
-    from mgehl.saying import columns, folded, say
+    from mgehl.saying import mention
 
     found = {}
     for point in points:
         for words in implausible(point.config, contact_from(point.config)):
-            found.setdefault(words.split()[0], f"mgehl: unusual from point {point.run} on: {words}")
+            found.setdefault(words.split()[0], f"unusual from point {point.run} on: {words}")
     for words in found.values():
-        say(folded(words, "    ", columns()))
+        mention(words)
 
 
 def _split(word):

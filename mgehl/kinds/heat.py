@@ -5,8 +5,8 @@ from dataclasses import dataclass, fields
 from mgehl.config_value import number, shown
 from mgehl.errors import ConfigError
 from mgehl.kinds.choice import Choice, given, word_of
-from mgehl.model.contact import LEAST_HEATED
 from mgehl.model.flash import Solid
+from mgehl.model.inlet_heat import LEAST_HEATED
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,7 @@ Inside the code X = x/a, P = p/p_h and H = h R_x/a^2 (the paper divides the gap 
 """
 
 from dataclasses import dataclass, replace
-from math import log, sqrt
+from math import sqrt
 
 import numpy as np
 
@@ -12,15 +12,12 @@ from mgehl.model import films
 from mgehl.model.frame import Frame
 from mgehl.model.hertz import hertz_pressure
 from mgehl.model.inlet import Inlet
+from mgehl.model.inlet_heat import InletHeat
 from mgehl.model.lubricant import DowsonHigginson
 from mgehl.model.on_bodies import NEXT_TO_NONE, OnBodies
 
 RESOLVED_CELLS = 4.0
 """Cells in the inlet from which on the film does not change with the grid."""
-
-
-LEAST_HEATED = 0.2
-"""Part of the film below which the factor of heat means nothing: its formula falls through 0."""
 
 
 @dataclass(frozen=True)
@@ -48,7 +45,7 @@ class HertzUnder:
     """In units of X and Y; of a line contact its width."""
 
 
-class LoadedContact(OnBodies, Inlet):
+class LoadedContact(OnBodies, Inlet, InletHeat):
     """Scales, film and inlet of a body pressed on a lubricated flat, all values in SI units.
 
     A kind of contact adds `load`, `radius_x`, `reduced_modulus`, `speed`, `lubricant`, `friction` and
@@ -250,42 +247,6 @@ class LoadedContact(OnBodies, Inlet):
         """Reynolds coefficient lambda = 12 u eta0 R_x^2/(a^3 p_h)."""
         hertz = self.hertz
         return 12.0 * self.speed * self.lubricant.viscosity * self.radius_x**2 / (hertz.a**3 * hertz.p_h)
-
-    @property
-    def unheated(self):
-        """The same contact with the oil's own viscosity, which no heat of shear has thinned."""
-        return replace(self, lubricant=replace(self.lubricant, thinned=1.0))
-
-    @property
-    def thermal_reduction(self):
-        """As `heated_film`; None without oil's data."""
-        oil = self.lubricant
-        if oil.conductivity is None or oil.thermoviscosity is None or self.is_at_rest:
-            return None
-        return self.heated_film(oil.thermoviscosity, oil.conductivity)
-
-    def heated_film(self, beta, conductivity):
-        """Phi_T: the part of the film that the heat of shear in the inlet leaves, of the oil that is not
-        thinned yet, with beta = -d ln(eta)/dT in 1/K and its conductivity in W/(m K).
-
-        [Gupta, Cheng, Zhu, Forster, Schrand 1992]
-        """
-        loading = self.lubricant.cold_viscosity * beta * self.speed**2 / conductivity
-        slip = self.friction.slide_to_roll
-        return films.inlet_heating(self.hertz.p_h / self.reduced_modulus, loading, slip)
-
-    def heated(self):
-        """The same contact with oil so much thinner that the film is thinner by Phi_T; cold at rest."""
-        cold = self.unheated
-        if self.is_at_rest:
-            return cold
-        part = max(cold.thermal_reduction, LEAST_HEATED) ** (1.0 / cold.film_exponent)
-        return replace(cold, lubricant=replace(cold.lubricant, thinned=part))
-
-    @property
-    def film_exponent(self):
-        """n of film ~ viscosity^n, by the formula of its regime."""
-        return log(self.at_speed(1.01 * self.speed).flooded_film / self.flooded_film) / log(1.01)
 
     @property
     def thinning(self):

@@ -32,6 +32,9 @@ from mgehl.solver.nested import planned_solves
 from mgehl.solver.pace import expected_steps
 from mgehl.solver.recipe import on_mesh
 
+TIMED = 5
+"""Convolutions of which the quickest counts."""
+
 LARGEST_TIMED = 513
 """Nodes of the largest grid whose convolution is timed: half a second, most of it for the FFT's plan."""
 
@@ -209,13 +212,13 @@ def _of_peaks(contact, has_layers, mesh):
     return highest * mesh.nx / 129 * (contact.roughness / contact.film_scale) ** 0.36 * thinner
 
 
-def time_convolution(mesh, repeats=5):
+def time_convolution(mesh):
     """Seconds of one convolution on a mesh, on one core of this machine: the quickest of a few."""
     grid = single_grid(mesh, MPI.COMM_SELF)
     deflection = Deflection(grid, HalfPlane(1.0) if mesh.is_line else HalfSpace(1.0))
     try:
         pressure, seconds = np.zeros(grid.shape), []
-        for _ in range(repeats):
+        for _ in range(TIMED):
             started = time.perf_counter()
             deflection(pressure)
             seconds.append(time.perf_counter() - started)

@@ -215,9 +215,8 @@ class Newton(PythonSnes):
         state, changes = position.state, position.changes
         c, dH0 = self._space.read(self._correction)
         dP = self._multigrid.jacobian.pressures(c)
-        length, H, dH = step_length(
-            problem, self._partition, self._evaluation, state, dP, dH0, self._settings
-        )
+        where = problem, self._partition, self._evaluation, state
+        length, H, dH = step_length(*where, dP, dH0, self._settings)
         if self._layers:
             self._layers.follow(state, c, dH, length)
         state.P -= length * dP

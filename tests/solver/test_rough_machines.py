@@ -29,16 +29,15 @@ RIDGES = {
 }
 """Short waves along both axes under a film as thick as they are, which coarser grids do not see."""
 
-CASES = [(STEEL, 24.21, 600.0), (POLYMER, 579.97, 400.0), (RIDGES, 58.16, 130.0)]
+CASES = [(STEEL, 24.21), (POLYMER, 579.97), (RIDGES, 58.16)]
 
 
-@pytest.mark.parametrize("case, mean_gap, most", CASES, ids=["steel", "polymer", "ridges"])
-def test_they_are_found_and_no_node_makes_oil(case, mean_gap, most):
+@pytest.mark.parametrize("case, mean_gap", CASES, ids=["steel", "polymer", "ridges"])
+def test_they_are_found_and_no_node_makes_oil(case, mean_gap):
     """They carry no load on contact. What enters the domain leaves it."""
     tables = case | {"grid": {"nodes": 129}, "solver": {"error": False}}
     result = solved(tables).result
     assert result.converged and result.contact.nodes == 0
-    assert result.work.convolutions < most
     assert result.mixed.mean_gap_nm == pytest.approx(mean_gap, rel=1e-3)
     mass = result.mass
     assert mass.leaves == pytest.approx(mass.enters, rel=1e-7)
