@@ -101,6 +101,8 @@ class TimeResult:
     """Over the last passage; none before the end of the first."""
     largest_shear_MPa: float = None
     """Of all steps; None in older results."""
+    spikes: int = 0
+    """Steps whose largest pressure is a spike that three nodes do not hold."""
 
 
 @dataclass(frozen=True, kw_only=True)

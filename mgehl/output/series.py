@@ -12,11 +12,10 @@ from itertools import pairwise
 
 import numpy as np
 
-from mgehl.discretization.status import CONTACT
 from mgehl.output.netcdf import netcdf_file, put
 from mgehl.output.result import Mean, TimeResult
 from mgehl.output.whole_file import whole_file
-from mgehl.solver.gaps import within_hertz
+from mgehl.solver.gaps import NARROW, loads, within_hertz
 from mgehl.solver.shear import shear_of
 
 COLUMNS = {
@@ -29,6 +28,7 @@ COLUMNS = {
     "minimum_film_nm": ("nm", "smallest film"),
     "mean_gap_nm": ("nm", "mean gap within the Hertz ellipse of the load"),
     "max_pressure_GPa": ("GPa", "largest pressure"),
+    "pressure_crest": ("1", "what it may be larger between the nodes, over itself"),
     "load_on_contact": ("1", "part of the load on contact nodes"),
     "load_on_solids": ("1", "part of the load that solids carry"),
     "friction": ("1", "shear of film and solids over the load"),
@@ -64,7 +64,7 @@ def row_of(instant, standing, problem, convolutions, seconds):
     """What is kept of an `Instant` after which the run stands there (collective)."""
     state, contact, grid = standing.state, problem.contact, problem.grid
     nm, last = 1e9 * contact.film_scale, instant.newton.cycles[-1]
-    touching = state.status == CONTACT
+    carried = loads(problem, state)
     inside = within_hertz(grid.mesh, problem.hertz.reach)[grid.first : grid.last]
     return {
         "time_s": instant.t,
@@ -77,9 +77,10 @@ def row_of(instant, standing, problem, convolutions, seconds):
         "central_film_nm": last.central * nm,
         "minimum_film_nm": last.minimum * nm,
         "mean_gap_nm": problem.mean(state.H, inside) * nm,
-        "max_pressure_GPa": 1e-9 * contact.pressure_scale * grid.max(state.P),
-        "load_on_contact": problem.share_of_load(state.P, touching),
-        "load_on_solids": problem.share_of_load(state.P - state.p, touching),
+        "max_pressure_GPa": 1e-9 * contact.pressure_scale * carried.largest,
+        "pressure_crest": carried.crest_share,
+        "load_on_contact": carried.contact,
+        "load_on_solids": carried.solids,
         **_resistance(instant, state, problem),
         "contact_nodes": last.contact_nodes,
         "cavitated_nodes": last.cavitated_nodes,
@@ -171,4 +172,5 @@ def time_result(rows, scene, work, largest_node):
         passages=float(gone[-1]),
         means=means(rows, gone),
         largest_shear_MPa=max(row["largest_shear_MPa"] for row in rows),
+        spikes=sum(row["pressure_crest"] > NARROW for row in rows),
     )

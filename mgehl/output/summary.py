@@ -40,7 +40,7 @@ def summarise(problem, outcome, tolerance, making):
     central, minimum = problem.films(state)
     result = Result(
         **of_every_load(problem, state, making, LOADED),
-        pressure_crest=_crest(problem, state),
+        pressure_crest=loads(problem, state).crest_share,
         central_film_nm=central * nm,
         minimum_film_nm=minimum * nm,
         residual=problem.rms(problem.residual(evaluation, state.status)),
@@ -202,12 +202,6 @@ def _overlap(grid, state, nm):
 
 def _ends(nodes):
     return (int(nodes[0]), int(nodes[-1])) if len(nodes) else None
-
-
-def _crest(problem, state):
-    """How much larger the pressure may be between the nodes, over the largest at one (collective)."""
-    found = loads(problem, state)
-    return found.crest / found.largest if found.largest > 0.0 else 0.0
 
 
 def _largest_node(problem, state):

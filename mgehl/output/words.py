@@ -6,6 +6,7 @@ from mgehl.output.friction_result import friction_lines, strength_lines
 from mgehl.output.mixed_words import filling_words, mixed_lines
 from mgehl.output.resolution import RESOLVED_CELLS, SEEN_CELLS, beyond_words, domain_words, inlet_words
 from mgehl.output.surface import surface_words
+from mgehl.solver.gaps import NARROW
 
 HARDLY = 2e-3
 """Part of a film by which shear must thin it to be told."""
@@ -13,13 +14,10 @@ HARDLY = 2e-3
 ALIKE = 1e-4
 """Part of a mean below which its band is not told."""
 
-NARROW = 0.05
-"""What the largest pressure may be larger between nodes, over itself, from which on it is a spike of three
-nodes: beside it the pressure is four fifths of it or less. The spike of a line contact that 1025 nodes do
-not hold has 0.15, those that a grid holds 4e-4 and less (ball bearing on 129 nodes, M = 200 on 257)."""
-
 LISTED = 20
 """Most nodes that are named one by one."""
+
+SPIKE = "a spike that three nodes do not hold"
 
 FAILED = 'what now: configs/README.md, "It did not converge: what now?"'
 UNRESOLVED = 'how to do better: configs/README.md, "Choosing the domain and the grid"'
@@ -254,7 +252,7 @@ def largest_pressure_words(result):
     error = result.mixed and result.mixed.error
     band = error and error.max_pressure_GPa
     is_narrow = band is None and (result.pressure_crest or 0.0) > NARROW
-    spike = " (a spike that three nodes do not hold: the grid's)" if is_narrow else ""
+    spike = f" ({SPIKE}: the grid's)" if is_narrow else ""
     return f"{pressure_words(result.max_pressure_GPa, band)}{spike}"
 
 
@@ -288,6 +286,8 @@ def time_lines(time):
         )
     else:
         yield "no means: the run ends before its first passage"
+    if time.spikes:
+        yield f"in {time.spikes} of {time.steps} steps the largest pressure is the grid's: {SPIKE}"
     yield from strength_lines(time.largest_shear_MPa)
 
 
