@@ -20,7 +20,9 @@ def step_length(problem, partition, evaluation, state, dP, dH0, settings):
     And the gap that it leads to, (lines, nx), and what the gap falls by in a whole step; None where that is
     not known. By `NewtonSettings`.
     """
-    largest = problem.grid.max(np.abs(dP), initial=0.0)
+    # A film falls to the pressure at which it tears and no further, whatever a step asks for.
+    room = np.where(state.status == LUBRICATED, state.P - problem.contact.tears_at, np.inf)
+    largest = problem.grid.max(np.abs(np.minimum(dP, room)), initial=0.0)
     limit = settings.max_pressure_step
     if settings.over_largest:
         limit *= max(1.0, problem.grid.max(state.P, initial=0.0))
