@@ -7,6 +7,7 @@
 # make pictures the pictures of the cases in configs/README.md (a few minutes)
 # make tables   the table "Measured" in runs/README.md
 # make studies  the other tables and pictures in runs/tables (hours); make study-NAME those of one study
+# make sweeps   tables of sweeps, the same way
 # make page     put the tables into the pages
 
 ENVIRONMENT := .venv/mgehl-env.sh
@@ -111,6 +112,23 @@ study-%: $(ENVIRONMENT)
 	  cp $$f ../tables/$$t || exit 1; done
 
 .PHONY: studies
+
+# make sweeps      run the sweeps that pages show and write their tables to runs/tables (hours)
+# make sweep-NAME  one of them. One that was stopped goes on; a point without an answer says so in the table.
+SWEEPS := slow rest rest-bare fine
+OF_slow := --set solver.start=film --over motion.speed="7.5,2.5,1,.25,.1,.025,.005 mm/s" \
+  --over grid.nodes=129,257,513,1025
+OF_rest := configs/rough.toml --over motion.speed="2e-2..1e-9 m/s:18"
+OF_rest-bare := $(OF_rest) --set contact.boundary_film=0 --set grid.nodes=129
+OF_fine := configs/rough.toml --set surface.shortest_wavelength="5 um" --over motion.speed="30,17.5,8,3,1 mm/s" \
+  --over grid.nodes=513,1025
+sweeps: $(SWEEPS:%=sweep-%)
+sweep-%: $(ENVIRONMENT)
+	( $(ON) mpiexec -n 2 python -m mgehl sweep $(OF_$*) --set solver.error=false --out runs/sweep-$* --resume \
+	  --quiet ); test $$? -le 1
+	cp runs/sweep-$*/sweep.csv runs/tables/$*.csv
+
+.PHONY: sweeps
 
 # make page    put the tables of runs/tables into the pages
 page: $(ENVIRONMENT)
