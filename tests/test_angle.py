@@ -7,11 +7,7 @@ from mgehl.studies.study import PAPER, papers_grid
 EXACT = 1e-10
 ON_A_SQUARE = {"x": [-1.9, 1.9], "y": [-1.9, 1.9]}
 FILM = {"motion": {"speed": 1.0}, "grid": {"nodes": 65} | ON_A_SQUARE}
-CONTACT_CASE = PAPER | {
-    "motion": {"speed": 5e-6},
-    "grid": papers_grid(129),
-    "solver": {"start": "contact"},
-}
+CONTACT_CASE = PAPER | {"motion": {"speed": 5e-6}, "grid": papers_grid(129), "solver": {"start": "contact"}}
 
 
 def at(angle):

@@ -126,10 +126,7 @@ def test_values_may_stand_in_quotes_as_those_of_set_do(film, quote):
 
 def test_several_keys_are_a_snake_there_and_back():
     config = load_config()
-    axes = [
-        axis_of(config, "motion.speed", [1.0, 2.0, 3.0]),
-        axis_of(config, "contact.load", [50, 60]),
-    ]
+    axes = [axis_of(config, "motion.speed", [1.0, 2.0, 3.0]), axis_of(config, "contact.load", [50, 60])]
     there = [(0, 0), (1, 0), (2, 0), (2, 1), (1, 1), (0, 1)]
     points = points_of(config, axes, both_ways=True)
     assert [point.place for point in points] == there + there[::-1]

@@ -5,13 +5,7 @@ from handmade import walled
 from mgehl.discretization.axes import axes_of, own
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.rows import FLOW, GAP, PRESSURE, rows_of
-from mgehl.discretization.status import (
-    BOUNDARY,
-    CAVITATED,
-    CONTACT,
-    LUBRICATED,
-    enclosed,
-)
+from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED, enclosed
 
 MESH = Mesh(5, 3, (0.0, 4.0), (0.0, 2.0))
 ALONG_X, _ = axes_of(MESH, (1.0, 0.0))

@@ -17,19 +17,14 @@ SIZES = (65, 129)
 
 
 @pytest.fixture
-def make_ksp():
-    made = []
-
+def make_ksp(in_the_end):
     def make(multigrid, rtol=1e-2):
-        ksp = PETSc.KSP().create(MPI.COMM_SELF)
-        made.append(ksp)
+        ksp = in_the_end(PETSc.KSP.destroy, PETSc.KSP().create(MPI.COMM_SELF))
         ksp.setOptionsPrefix("test_")
         multigrid.configure(ksp, rtol)
         return ksp
 
-    yield make
-    for ksp in made:
-        ksp.destroy()
+    return make
 
 
 @pytest.fixture

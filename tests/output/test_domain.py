@@ -1,14 +1,10 @@
 import pytest
-from tools.contacts import ON_TWICE_THE_DOMAIN, films_on_twice_the_domain
+from contacts import ON_TWICE_THE_DOMAIN, films_on_twice_the_domain
 
 from mgehl.config import config_from_tables, load_config
 from mgehl.discretization.mesh import Mesh
 from mgehl.kinds import contact_from, mesh_from
-from mgehl.output.resolution import (
-    film_lost,
-    resolution,
-    resolving_nodes,
-)  # fmt: skip
+from mgehl.output.resolution import film_lost, resolution, resolving_nodes
 
 CASE = {
     "contact": {"load": 250.0, "radius_x": 10e-3, "radius_y": 15e-3}, "motion": {"speed": 3.0},

@@ -3,12 +3,7 @@ import pytest
 
 from mgehl.discretization.axes import HALO
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
-from mgehl.solver.cavitation import (
-    LOW,
-    part_of_the_line,
-    relax_cavitation_set,
-    weakly_coupled,
-)
+from mgehl.solver.cavitation import LOW, part_of_the_line, relax_cavitation_set, weakly_coupled
 
 
 @pytest.fixture

@@ -5,15 +5,7 @@ import pytest
 from petsc4py import PETSc
 
 from mgehl.discretization.status import BOUNDARY, LUBRICATED
-from mgehl.solver.judge import (
-    GO_ON,
-    STALLS,
-    Verdict,
-    judge,
-    judge_system,
-    judge_work,
-    steps_since_lowered,
-)
+from mgehl.solver.judge import GO_ON, STALLS, Verdict, judge, judge_system, judge_work, steps_since_lowered
 from mgehl.solver.outcome import Cycle
 from mgehl.solver.partition import RESTLESS, Changes, Partition
 from mgehl.solver.position import Position, Trial

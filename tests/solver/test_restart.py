@@ -34,21 +34,18 @@ def film():
 
 
 @pytest.fixture
-def onto():
+def onto(in_the_end):
     """Function: the fields of a solution on the problem of other tables, and that problem."""
-    made = []
 
     def make(start, *tables):
         config = config_from_tables(merged(*tables))
         contact = contact_from(config)
-        made.append(Hierarchy(mesh_from(config, contact), 33, contact.kernel, MPI.COMM_SELF))
-        grid, deflection = made[-1].grids[-1], made[-1].deflections[-1]
+        made = Hierarchy(mesh_from(config, contact), 33, contact.kernel, MPI.COMM_SELF)
+        grid, deflection = in_the_end(Hierarchy.destroy, made).grids[-1], made.deflections[-1]
         problem = ContactProblem(grid, deflection, contact, settings_from(config, contact).scheme)
         return interpolated(problem, start, Frame()), problem
 
-    yield make
-    for hierarchy in made:
-        hierarchy.destroy()
+    return make
 
 
 class TestInterpolated:

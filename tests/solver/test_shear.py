@@ -11,14 +11,12 @@ from math import exp, pi
 import numpy as np
 import pytest
 from contacts import moes, solved
-from mpi4py import MPI
 from scipy.integrate import quad
 
 from mgehl.discretization.contact_law import BoundaryFilm, UnifiedEquations
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
-from mgehl.grid.grid import single_grid
 from mgehl.model.hertz import hertz_pressure
 from mgehl.model.rheology import Eyring, Friction, Limiting
 from mgehl.solver.problem import ContactProblem, Problem, State
@@ -37,17 +35,12 @@ CLOSING = Scheme()
 
 
 @pytest.fixture
-def make_problem():
-    grids = []
-
+def make_problem(make_grid):
     def make(contact, nodes=65, scheme=CLOSING):
         mesh = Mesh(nodes, nodes, (-1.5, 1.5), (-1.5, 1.5), contact.k_e)
-        grids.append(single_grid(mesh, MPI.COMM_SELF))
-        return Problem(grids[-1], contact, scheme)
+        return Problem(make_grid(mesh), contact, scheme)
 
-    yield make
-    for grid in grids:
-        grid.destroy()
+    return make
 
 
 def sliding(paper_contact, friction, **changes):

@@ -3,11 +3,9 @@ from functools import cache
 import numpy as np
 import pytest
 from contacts import solved
-from mpi4py import MPI
 
 from mgehl.config import config_from_tables
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
-from mgehl.grid.grid import single_grid
 from mgehl.kinds import contact_from, mesh_from
 from mgehl.model.wedge_series import WedgeSeries
 from mgehl.output.center_line import center_line
@@ -38,19 +36,14 @@ def solution(shape, nodes=65, couette="1B", interface="closed", turned=False, pi
 
 
 @pytest.fixture
-def solve_tables():
-    made = []
-
+def solve_tables(make_grid):
     def run(tables, tolerance=1e-10, max_steps=60):
         config = config_from_tables(tables)
         bearing = contact_from(config)
-        made.append(single_grid(mesh_from(config, bearing), MPI.COMM_SELF))
-        scheme = scheme_from(config, bearing)
-        return solve_wedge(made[-1], bearing, scheme, tolerance, max_steps)
+        grid, scheme = make_grid(mesh_from(config, bearing)), scheme_from(config, bearing)
+        return solve_wedge(grid, bearing, scheme, tolerance, max_steps)
 
-    yield run
-    for grid in made:
-        grid.destroy()
+    return run
 
 
 @cache
