@@ -12,6 +12,7 @@ from contextlib import ExitStack
 from dataclasses import dataclass
 
 import pytest
+from told import status_of
 
 from mgehl.discretization.mesh import Mesh
 from mgehl.model.lubricant import Barus, DowsonHigginson, Lubricant
@@ -135,14 +136,9 @@ def empty_directory(tmp_path, monkeypatch):
 @pytest.fixture
 def refused(capsys):
     """Function: the one line with which a command line is refused, and nothing else is said."""
-    from mgehl.cli import main
 
     def line(*words):
-        try:
-            status = main(list(words))
-        except SystemExit as stop:
-            status = stop.code
-        out, err = capsys.readouterr()
+        status, (out, err) = status_of(*words), capsys.readouterr()
         assert (status, out, err.count("\n")) == (2, "", 1) and err.startswith("mgehl: "), err
         assert err[:-1].isprintable()
         return err[:-1]

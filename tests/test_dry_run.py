@@ -12,7 +12,7 @@ PAPER = {"grid.nodes": "65", "grid.x": "[-1.9, 1.3]", "grid.y": "[-1.5, 1.5]"}
 
 def run(directory, *more, **settings):
     keys = {"discretization.contact_model": "dry"} | PAPER | settings
-    words = [word for key, value in keys.items() for word in ("--set", f"{key}={value}")]
+    words = [f"--set={key}={value}" for key, value in keys.items()]
     return main(["run", *words, "--out", str(directory), "--quiet", *more])
 
 

@@ -3,8 +3,9 @@ from importlib import import_module
 from pathlib import Path
 
 import pytest
+from places import ROOT
 
-PAGE = (Path(__file__).resolve().parent.parent / "mgehl" / "README.md").read_text()
+PAGE = (ROOT / "mgehl" / "README.md").read_text()
 NAMES = sorted(set(re.findall(r"mgehl(?:\.\w+)+", PAGE)))
 PLACES = sorted(
     set(
@@ -39,7 +40,7 @@ def test_a_place_is_there(place):
     assert found(f"mgehl.{place}")
 
 
-CONTRIBUTING = (Path(__file__).resolve().parent.parent / "CONTRIBUTING.md").read_text()
+CONTRIBUTING = (ROOT / "CONTRIBUTING.md").read_text()
 
 
 @pytest.mark.parametrize("file", sorted(set(re.findall(r"`([\w/]+\.py)`", CONTRIBUTING))))

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from places import CONFIGS, content_of
 
 import mgehl
 from mgehl.cli import main
@@ -11,7 +12,6 @@ from mgehl.config import load_config
 from mgehl.model.hertz import hertz_contact
 from mgehl.output.stored import read_run
 
-CONFIGS = Path(__file__).resolve().parent.parent / "configs"
 A = 0.4108e-3
 """Hertz radius of the paper's ball in m."""
 
@@ -120,10 +120,9 @@ class TestALawThatTurnsLate:
         (tmp_path / "broken").touch()
         monkeypatch.chdir(tmp_path)
         assert main(["run", "--set", "contact.kind=wedge", "--set", "grid.nodes=65", "--out", "here"]) == 0
-        before = {path.name: path.read_bytes() for path in Path("here").iterdir() if path.is_file()}
+        before = content_of("here")
         assert main([*self.WORDS, "--force", "--save-every", "1e-9"]) == 2
-        after = {path.name: path.read_bytes() for path in Path("here").iterdir() if path.is_file()}
-        assert after == before and read_run("here").result.converged
+        assert content_of("here") == before and read_run("here").result.converged
         (tmp_path / "broken").unlink()
         assert main(["run", "--resume", "here", "--quiet"]) == 0
         assert read_run("here").config.motion.speed == 0.5

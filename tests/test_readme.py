@@ -1,22 +1,19 @@
 import re
 import shlex
 import shutil
-import subprocess
-import sys
 import tomllib
 from dataclasses import fields
-from pathlib import Path
 
 import page_tables
 import pytest
 from mpi4py import MPI
-from processes import own_environment
+from places import ROOT
+from processes import MGEHL, ended
 
 import mgehl
 from mgehl.cli import main, read
 from mgehl.config import SECTIONS, config_from_tables, load_config
 
-ROOT = Path(__file__).resolve().parent.parent
 PAGES = {
     name: (ROOT / name).read_text()
     for name in (
@@ -137,17 +134,14 @@ def small(line):
     line = re.sub(r"grid\.nodes=\d+", "grid.nodes=65", line)
     if " run " in line and "--resume" not in line and "grid.nodes" not in line:
         line = re.sub(r"(run \S+)", r"\1 --set grid.nodes=65", line)
-    return re.sub(r"^mgehl ", f"{shlex.quote(sys.executable)} -m mgehl ", line)
+    return re.sub(r"^mgehl ", f"{shlex.join(MGEHL)} ", line)
 
 
 def test_commands_run_in_their_order(place):
     """Each as it stands, but on 65 nodes; a command leaves behind what the next one reads."""
     assert len(RUN) >= 8
     for line in RUN:
-        done = subprocess.run(
-            shlex.split(small(line)), cwd=place, env=own_environment(), capture_output=True, text=True,
-            timeout=120,
-        )  # fmt: skip
+        done = ended(shlex.split(small(line)), cwd=place)
         assert done.returncode == 0, f"{small(line)}\n{done.stdout}{done.stderr}"
 
 

@@ -4,6 +4,7 @@ import h5netcdf
 import numpy as np
 import pytest
 from mpi4py import MPI
+from places import names_in
 from told import counting, rows_of
 
 import mgehl
@@ -35,7 +36,7 @@ def array(directory, name):
 
 
 def test_it_leaves_runs_a_table_an_array_curves_and_a_page(film):
-    assert {path.name for path in film.iterdir()} == {
+    assert names_in(film) == {
         "report.html", "runs", "study.json", "sweep.csv", "sweep.md", "sweep.nc", "sweep.png",
     }  # fmt: skip
     results = [

@@ -1,9 +1,9 @@
 import os
 from dataclasses import replace
 from math import pi
-from pathlib import Path
 
 import pytest
+from places import CONFIGS
 from told import refusal
 
 from mgehl.config import KEYS, ConfigError, config_from_tables, load_config
@@ -11,7 +11,6 @@ from mgehl.kinds import contact_from
 from mgehl.kinds.derived import EITHER, FOLLOWS, NEEDS
 from mgehl.model.oils import OILS
 
-CONFIGS = Path(__file__).resolve().parents[2] / "configs"
 STEEL = {"body_1.material": "steel", "body_2.material": "steel"}
 OIL = {"lubricant.oil": "M100", "lubricant.temperature": "60 degC"}
 TWO = {"lubricant.kinematic_viscosity_40": "68 cSt", "lubricant.kinematic_viscosity_100": "8.5 cSt"}

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from made_solution import make_result
 from mpi4py import MPI
+from places import RUN_FILES
 from told import counting
 
 from mgehl.config import config_from_tables
@@ -43,7 +44,6 @@ def make_solution(H0):
 
 
 SOLUTIONS = {H0: make_solution(H0) for H0 in (-0.25, -0.5)}
-FILES = {"configuration.toml", "fields.h5", "history.csv", "picture.png", "result.json"}
 
 
 @pytest.fixture(autouse=True)
@@ -111,7 +111,7 @@ class TestForeign:
         before = content(tmp_path)
         put(tmp_path, -0.5, force=True)
         assert (
-            content(tmp_path).keys() == before.keys() | FILES
+            content(tmp_path).keys() == before.keys() | RUN_FILES
             and before.items() <= content(tmp_path).items()
         )
 

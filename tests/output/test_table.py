@@ -30,7 +30,7 @@ def runs(tmp_path_factory):
         "dry": ["discretization.contact_model=dry", "grid.nodes=65"],
         "wedge": ["contact.kind=wedge", "motion.speed=1 m/s", "grid.nodes=65"],
     }.items():
-        words = [word for each in settings for word in ("--set", each)]
+        words = [f"--set={each}" for each in settings]
         assert main(["run", *words, "--quiet", "--out", str(directory / name)]) == 0
     return directory
 

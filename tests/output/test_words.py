@@ -1,17 +1,15 @@
 import re
-from pathlib import Path
 
 import pytest
 from made_solution import make_result
 from mpi4py import MPI
+from places import ROOT
 
 import mgehl
 from mgehl.output.resolution import Resolution
 from mgehl.output.result import Mean, TimeResult
 from mgehl.output.words import FAILED, UNRESOLVED, mean_words
 from mgehl.solver.inequality import Inequality
-
-ROOT = Path(__file__).resolve().parents[2]
 
 
 def in_time(**more):

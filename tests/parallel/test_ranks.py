@@ -12,8 +12,10 @@ import numpy as np
 import pytest
 from both import COMM, both, same_fields
 from mpi4py import MPI
+from places import CONFIGS, RUN_FILES, names_in
 from pocket_reference import case as pocket_case
 
+from mgehl.cli import main
 from mgehl.config import config_from_tables
 from mgehl.discretization.contact_law import BoundaryFilm
 from mgehl.discretization.residual import Linearisation
@@ -37,7 +39,6 @@ from mgehl.studies.wedge import case as wedge_case
 
 pytestmark = pytest.mark.parallel
 
-CONFIGS = Path(__file__).resolve().parents[2] / "configs"
 MESHES = [{"nodes": 65}, {"nodes": 65, "ny": 33, "coarsest": 65}]
 
 
@@ -402,8 +403,6 @@ class TestCommandLine:
         return COMM.bcast(tmp_path)
 
     def test_a_law_that_turns_nan_late_is_said_once_and_loses_nothing(self, directory, capsys):
-        from mgehl.cli import main
-
         if COMM.rank == 0:
             (directory / "late.py").write_text(
                 "import numpy as np\ncalls = 0\ndef law(at):\n    global calls\n    calls += 1\n"
@@ -420,8 +419,6 @@ class TestCommandLine:
         assert (directory / "here" / "checkpoint" / "under-way.npz").exists()
 
     def test_one_directory_for_all(self, directory, capsys):
-        from mgehl.cli import main
-
         here = directory / "here"
         arguments = ["run", "--set", "grid.nodes=65", "--set", "solver.start=contact", "--out", str(here)]
         status = main(arguments)
@@ -429,7 +426,5 @@ class TestCommandLine:
         assert COMM.allgather(status) == [0] * COMM.size
         spoke = COMM.allgather(bool(out))
         assert spoke == [True] + [False] * (COMM.size - 1)
-        names = {path.name for path in here.iterdir()}
-        assert names == {"configuration.toml", "fields.h5", "history.csv", "picture.png",
-                         "result.json"}  # fmt: skip
+        assert names_in(here) == RUN_FILES
         assert f"{COMM.size} ranks" in (out if COMM.rank == 0 else f"{COMM.size} ranks")

@@ -1,9 +1,9 @@
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 from mpi4py import MPI
+from places import ROUGH
 
 from mgehl.config import load_config
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
@@ -15,7 +15,6 @@ from mgehl.solver.from_config import set_up
 from mgehl.solver.inequality import check_under_contact
 from mgehl.solver.mass import CLOSED, mass_account
 
-ROUGH = Path(__file__).parents[2] / "configs" / "rough.toml"
 TOLERANCE = 1e-8
 
 

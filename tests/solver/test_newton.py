@@ -1,8 +1,8 @@
-import subprocess
 import sys
 
 import numpy as np
 import pytest
+from processes import ended
 
 from mgehl.discretization.status import LUBRICATED
 from mgehl.model.lubricant import Barus
@@ -129,7 +129,7 @@ class TestExceptions:
 
     def test_of_a_product_inside_the_linear_solver(self):
         """In a process of its own, which would die of it."""
-        done = subprocess.run([sys.executable, "-c", RAISES_INSIDE], capture_output=True, text=True)
+        done = ended([sys.executable, "-c", RAISES_INSIDE])
         assert (done.returncode, done.stdout) == (0, "as it was\nfreed\n"), done.stderr
 
     def test_after_one_it_solves_again(self, make_newton):

@@ -6,6 +6,7 @@ import time
 
 import pytest
 from mpi4py import MPI
+from places import names_in
 from told import rows_of
 
 from mgehl.cli import main
@@ -78,7 +79,7 @@ class TestStudies:
         assert float(rows[1]["order"]) > 1.0
         assert len(rows_of(tmp_path / "g" / "film.csv")) == 2
         assert {row["central: limit, order"] for row in rows_of(tmp_path / "g" / "film.csv")} == {""}
-        assert {"figures-11-12.png", "figure-13.png"} <= {path.name for path in (tmp_path / "g").iterdir()}
+        assert {"figures-11-12.png", "figure-13.png"} <= names_in(tmp_path / "g")
 
 
 class TestKill:
