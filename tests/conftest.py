@@ -171,9 +171,9 @@ def solve(make_hierarchy, usual_law):
     from mgehl.solver.nested import nested_iteration
     from mgehl.solver.settings import NewtonSettings, SolverSettings
 
-    def run(contact, nodes, start="film", couette="1B", newton=None, **grid):
+    def run(contact, nodes, start="film", couette="1B", newton=None, mean="arithmetic", **grid):
         settings = SolverSettings(
-            scheme=Scheme(couette, contact_law=usual_law(contact)),
+            scheme=Scheme(couette, mean, contact_law=usual_law(contact)),
             start=start,
             newton=NewtonSettings(**(newton or {})),
         )

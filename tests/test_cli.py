@@ -76,9 +76,8 @@ def test_words_that_are_nothing_are_one_line(tmp_path, refused, arguments):
 @pytest.mark.parametrize("value, said", [("-1", "-1.0"), ("-1 s", "'-1 s'"), ("-.5", "-0.5")])
 def test_a_number_below_0_is_the_options_own_and_not_petscs(refused, value, said):
     """Of --save-every -1 --out d the --out was blamed."""
-    assert f"--save-every = {said}: must be a number in s" in refused(
-        "run", "--save-every", value, "--out", "d"
-    )
+    line = refused("run", "--save-every", value, "--out", "d")
+    assert f"--save-every = {said}: must be a number in s" in line
 
 
 class TestFailures:

@@ -84,9 +84,8 @@ def accepted(tables):
 def assert_names_a_key(message, tables):
     """One line that begins with a key, a section or an unknown name that was given."""
     assert message and len(message.splitlines()) == 1
-    known = (
-        {f"{section}.{key}" for section, key in KEYS} | set(SECTIONS) | {f"[{name}]" for name in SECTIONS}
-    )
+    sections = {*SECTIONS, *(f"[{name}]" for name in SECTIONS)}
+    known = sections | {f"{section}.{key}" for section, key in KEYS}
     given = {name for name in tables}
     given |= {f"{name}.{key}" for name in tables if isinstance(tables[name], dict) for key in tables[name]}
     names = known | {printable(" ".join(name.splitlines())) for name in given}

@@ -62,9 +62,7 @@ REFUSED = {
 
 
 @pytest.mark.parametrize("setting, words", REFUSED.items(), ids=REFUSED)
-def test_what_cannot_be_used_is_one_line_before_anything_is_written(
-    laws, setting, words, monkeypatch, capsys
-):
+def test_what_cannot_be_used_is_one_line_and_nothing_is_written(laws, setting, words, monkeypatch, capsys):
     monkeypatch.chdir(laws.parent)
     os.mkfifo("pipe.py")
     assert main(["run", "--set", "grid.nodes=65", "--set", setting, "--out", "here"]) == 2

@@ -7,7 +7,7 @@ from dataclasses import fields
 import page_tables
 import pytest
 from mpi4py import MPI
-from places import ROOT
+from places import CONFIGS, ROOT
 from processes import MGEHL, ended
 
 import mgehl
@@ -70,24 +70,18 @@ def test_the_verdict_shown_is_that_of_the_first_case():
     assert "  work: " in words[-1]
 
 
-def test_own_laws_are_a_valid_configuration(tmp_path, capsys):
-    """They are compared with their differences before a run, and by `mgehl check`."""
-    shutil.copy(ROOT / "configs" / "my_laws.py", tmp_path)
-    (tmp_path / "own.toml").write_text(OWN_LAWS)
-    assert main(["check", str(tmp_path / "own.toml"), "--set", "grid.nodes=65"]) == 0
-    assert "valid, a point contact" in capsys.readouterr().out
-
-
-def test_the_surface_is_a_valid_configuration(tmp_path, capsys):
+@pytest.mark.parametrize(
+    "example, said",
+    [(OWN_LAWS, "valid, a point contact"), (SURFACE, "ground.txt': 8 x 40 points"), (FRICTION, "friction")],
+    ids=["laws", "surface", "friction"],
+)  # fmt: skip
+def test_examples_of_the_page_of_cases_are_valid_configurations(tmp_path, capsys, example, said):
+    """Laws are compared with their differences before a run, and by `mgehl check`."""
+    shutil.copy(CONFIGS / "my_laws.py", tmp_path)
     (tmp_path / "ground.txt").write_text(40 * "0 1 2 1 0 1 1 2\n")
-    (tmp_path / "rough.toml").write_text(SURFACE)
-    assert main(["check", str(tmp_path / "rough.toml"), "--set", "grid.nodes=65"]) == 0
-    assert "ground.txt': 8 x 40 points" in capsys.readouterr().out
-
-
-def test_the_page_of_cases_shows_friction_that_mgehl_check_takes(tmp_path):
-    (tmp_path / "sliding.toml").write_text(FRICTION)
-    assert main(["check", str(tmp_path / "sliding.toml"), "--set", "grid.nodes=65"]) == 0
+    (tmp_path / "mine.toml").write_text(example)
+    assert main(["check", str(tmp_path / "mine.toml"), "--set", "grid.nodes=65"]) == 0
+    assert said in capsys.readouterr().out
 
 
 def shell_lines(text):

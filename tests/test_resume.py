@@ -70,9 +70,8 @@ def start(arguments, ranks=1):
     words = [*MGEHL, "run", *arguments]
     if ranks > 1:
         words = ["mpiexec", "-n", str(ranks), *words]
-    return subprocess.Popen(
-        words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=own_environment()
-    )
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
+    return subprocess.Popen(words, env=own_environment(), **pipes)
 
 
 def end(process):

@@ -39,9 +39,8 @@ def test_it_leaves_runs_a_table_an_array_curves_and_a_page(film):
     assert names_in(film) == {
         "report.html", "runs", "study.json", "sweep.csv", "sweep.md", "sweep.nc", "sweep.png",
     }  # fmt: skip
-    results = [
-        json.loads((film / "runs" / name / "result.json").read_text()) for name in ("001", "002", "003")
-    ]
+    paths = (film / "runs" / name / "result.json" for name in ("001", "002", "003"))
+    results = [json.loads(path.read_text()) for path in paths]
     assert [row["motion.speed"] for row in table(film)] == ["0.5", "1.25", "2"]
     assert array(film, "central_film_nm").tolist() == [each["central_film_nm"] for each in results]
     with h5netcdf.File(film / "sweep.nc", "r") as file:
@@ -168,9 +167,8 @@ def test_collect_takes_keys_and_plot_draws_against_one(film, tmp_path, capsys, r
     runs = sorted(map(str, (film / "runs").iterdir()))
     assert main(["collect", *runs, "--columns", "run,motion.speed,contact.load,central nm"]) == 0
     assert "| 001 | 0.5 | 800 |" in capsys.readouterr().out
-    assert (
-        main(["plot", *runs, "--against", "motion.speed", "--format", "png", "--out", str(tmp_path)]) == 0
-    )
+    drawn = "--against", "motion.speed", "--format", "png", "--out", str(tmp_path)
+    assert main(["plot", *runs, *drawn]) == 0
     assert (tmp_path / "against-motion.speed.png").stat().st_size > 10000
     capsys.readouterr()
     for key, said in {

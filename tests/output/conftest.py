@@ -92,9 +92,8 @@ def make_line():
 @pytest.fixture
 def make_wedge():
     def make(nodes=33, settings=()):
-        config = load_config(
-            settings=["contact.kind=wedge", "grid.nodes=65", "wedge.pillar=square", *settings]
-        )
+        wedge = "contact.kind=wedge", "grid.nodes=65", "wedge.pillar=square"
+        config = load_config(settings=[*wedge, *settings])
         body = contact_from(config)
         ends, edges = body.placement(nodes)
         mesh = Mesh(nodes, nodes, ends, (-10.0, 10.0), edges=edges)

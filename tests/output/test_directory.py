@@ -192,9 +192,8 @@ class TestPublishing:
         put(tmp_path / "run", -0.5)
         path = os.pathsep.join([str(Path(__file__).parent), *sys.path])
         words = [sys.executable, "-c", WRITER, str(tmp_path / "run"), "100"]
-        with subprocess.Popen(
-            words, stdout=subprocess.PIPE, env=os.environ | {"PYTHONPATH": path}
-        ) as writer:
+        environment = os.environ | {"PYTHONPATH": path}
+        with subprocess.Popen(words, stdout=subprocess.PIPE, env=environment) as writer:
             writer.stdout.readline()
             found = []
             while writer.poll() is None:
@@ -206,9 +205,7 @@ class TestPublishing:
         assert writer.returncode == 0 and {*found} == {-0.25, -0.5}
 
     @pytest.mark.parametrize("moved", range(0, 19))
-    def test_an_end_in_between_leaves_the_old_or_the_new_and_a_new_run_clears_up(
-        self, tmp_path, monkeypatch, moved
-    ):
+    def test_an_end_in_between_leaves_old_or_new_and_is_made_good(self, tmp_path, monkeypatch, moved):
         """After so many steps."""
         expected = timeless(put(tmp_path / "new", -0.5))
         here = put(tmp_path / "here", -0.25)

@@ -40,9 +40,8 @@ def test_a_row_for_each_run_of_any_kind(runs):
     assert {tuple(row) for row in rows.values()} == {tuple(rows["ball"])}
     assert all(row["converged"] == "yes" for row in rows.values())
     assert float(rows["ball"]["central nm"]) > 100.0 and rows["ball"]["lambda"] == ""
-    assert rows["dry"]["central nm"] == "" and float(rows["dry"]["contact/Hertz area"]) == pytest.approx(
-        1.0, abs=0.1
-    )
+    assert rows["dry"]["central nm"] == ""
+    assert float(rows["dry"]["contact/Hertz area"]) == pytest.approx(1.0, abs=0.1)
     assert float(rows["wedge"]["load N"]) > 0.0 and rows["line"]["load N"] == ""
 
 

@@ -1,24 +1,20 @@
 import re
 
 import pytest
-from made_solution import make_result
+from made_solution import in_time, make_result
 from mpi4py import MPI
 from places import ROOT
 
 import mgehl
 from mgehl.output.resolution import Resolution
-from mgehl.output.result import Mean, TimeResult
+from mgehl.output.result import Mean
 from mgehl.output.words import FAILED, UNRESOLVED, mean_words
 from mgehl.solver.inequality import Inequality
 
 
-def in_time(**more):
-    told = {"end_s": 1.0, "steps": 9, "halved": 0, "largest_closure": 0.0, "largest_node": 0.0}
-    return TimeResult(**told, convolutions_a_step=1.0, passages=0.5, means={}, **more)
-
-
 def test_a_run_shorter_than_a_passage_says_that_it_has_no_means():
-    assert "\n  no means: the run ends before its first passage\n" in str(make_result(time=in_time()))
+    said = str(make_result(time=in_time(passages=0.5)))
+    assert "\n  no means: the run ends before its first passage\n" in said
 
 
 @pytest.mark.parametrize("shear, is_odd", [(None, False), (299.0, False), (301.0, True)])

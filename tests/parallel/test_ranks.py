@@ -19,7 +19,6 @@ from mgehl.cli import main
 from mgehl.config import config_from_tables
 from mgehl.discretization.contact_law import BoundaryFilm
 from mgehl.discretization.residual import Linearisation
-from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
 from mgehl.errors import OutputError, Stopped
 from mgehl.multigrid.cliffs import CliffZone
@@ -29,7 +28,7 @@ from mgehl.run import solve as solve_config
 from mgehl.solver.inequality import check_pressure_inequality
 from mgehl.solver.nested import single_loop
 from mgehl.solver.partition import Changes, Partition
-from mgehl.solver.problem import ContactProblem, State
+from mgehl.solver.problem import State
 from mgehl.solver.relaxation import RelaxationSettings
 from mgehl.solver.settings import SolverSettings
 from mgehl.solver.verification import complementarity_error, flux_imbalance
@@ -75,15 +74,10 @@ def mixed_status(grid):
     return np.where(grid.boundary(), BOUNDARY, status).astype(np.int8)
 
 
-def problem_of(hierarchy, contact, scheme=None):
-    return ContactProblem(hierarchy.grids[-1], hierarchy.deflections[-1], contact, scheme or Scheme())
-
-
 @pytest.mark.parametrize("start, speed", [("film", 1.0), ("contact", 5e-6)])
 def test_cycles_over_coarse_grids_on_fewer_ranks_solve_as_on_one(solve, paper_contact, start, speed):
-    together, alone = (
-        solve(paper_contact(speed), 33, start, coarsest=5, comm=comm) for comm in (COMM, MPI.COMM_SELF)
-    )
+    how = paper_contact(speed), 33, start
+    together, alone = (solve(*how, coarsest=5, comm=comm) for comm in (COMM, MPI.COMM_SELF))
     found, expected = together.outcome, alone.outcome
     assert found.converged and expected.converged
     work = [[cycle.linear_iterations for cycle in each.cycles] for each in (found, expected)]
@@ -156,8 +150,8 @@ class TestSolutions:
         told = [(level.nodes, cycle.step, cycle.residual, cycle.central) for level, cycle in together.told]
         assert len(told) == len(alone.told) and all(each == told for each in COMM.allgather(told))
 
-    def test_a_violation_is_listed_on_every_rank(self, pair, paper_contact):
-        together, alone = (problem_of(each, paper_contact()) for each in pair(nodes=65))
+    def test_a_violation_is_listed_on_every_rank(self, make_problem):
+        together, alone = make_problem(comm=COMM), make_problem()
         grid = together.grid
         status, P = mixed_status(alone.grid), np.zeros((65, 65))
         P[status == CONTACT] = 0.5
@@ -173,10 +167,10 @@ class TestSolutions:
         serial = check_pressure_inequality(alone, State(P, 0.0, H, status))
         assert serial.nodes == result.nodes
 
-    def test_neighbours_on_two_ranks_change_in_turn(self, pair, paper_contact):
+    def test_neighbours_on_two_ranks_change_in_turn(self, make_problem):
         """Film that is torn everywhere, somewhere by more than around it."""
         found = []
-        for problem in (problem_of(each, paper_contact()) for each in pair(nodes=65)):
+        for problem in (make_problem(comm=COMM), make_problem()):
             grid, scheme = problem.grid, replace(problem.scheme, contact_law=BoundaryFilm(1e-3))
             problem.scheme, partition = scheme, Partition(problem, 0)
             torn = -np.abs(random(grid))

@@ -118,9 +118,7 @@ def test_contact_carries_much_of_the_load(solve_rough, start, speed, steps, shar
     assert check_interface(problem, state).violations == 0
 
 
-def test_nearby_nodes_at_once_settle_and_a_run_that_was_stopped_on_the_way_goes_on_the_same(
-    solve_rough, monkeypatch
-):
+def test_nearby_nodes_at_once_settle_and_a_run_that_was_stopped_goes_on_the_same(solve_rough, monkeypatch):
     """Waves of 200 nm at a smooth film of .5 nm; a linear system may take but 5 iterations by lines.
 
     It takes 18 steps. By lines alone it takes 69. (At a tenth of the film neither settles.)

@@ -44,9 +44,7 @@ def test_what_is_not_known_wave_by_wave_is_smoothed(paper_contact):
 
 
 @pytest.mark.parametrize("surface", [Waviness(2e-8, 6.0 * CELL, None), Waves()], ids=["known", "unknown"])
-def test_the_finest_grid_s_film_does_not_depend_on_what_coarse_ones_see(
-    paper_contact, make_hierarchy, surface
-):
+def test_the_finest_grid_s_film_is_one_whatever_coarse_ones_see(paper_contact, make_hierarchy, surface):
     """From coarse grids and from the finest alone: the same film of the same surface."""
     contact = paper_contact(1.0, surface=surface)
     films = []

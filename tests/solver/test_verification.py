@@ -53,9 +53,7 @@ class TestEdge:
         assert (edge.overlapping, edge.largest_nm) == (1, 0.125e9 * tiny_problem.contact.film_scale)
 
 
-def test_of_an_untreated_couette_flow_the_largest_through_a_closed_face_counts(
-    tiny_problem, make_problem, state
-):
+def test_of_an_untreated_couette_flow_the_largest_through_a_face_counts(tiny_problem, make_problem, state):
     """1B carries rho H of the node on the left."""
     leaky = make_problem(nodes=9, scheme=Scheme(couette_at_interface="untreated"))
 

@@ -123,9 +123,8 @@ def test_pressures_at_the_inlet_are_in_the_order_of_figure_9():
 
 def test_cavitation_leaves_no_tension(solve_tables):
     """Behind the pillar the film tears: P >= 0, P = 0 in the cavity, and as much flows out of it as in."""
-    problem, outcome = solve_tables(
-        merged(case("square pillar", 65), {"discretization": {"cavitation": True}})
-    )
+    tables = merged(case("square pillar", 65), {"discretization": {"cavitation": True}})
+    problem, outcome = solve_tables(tables)
     state = outcome.state
     assert outcome.converged
     assert state.P.min() == 0.0

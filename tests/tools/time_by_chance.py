@@ -56,9 +56,8 @@ def drawn(seed, folder):
     elif kind in ("stop", "reversal"):
         settings["motion.speed"] = course((0.0, speed), (within, 0.0 if kind == "stop" else -speed))
     elif kind == "load":
-        settings[load_key] = course(
-            (0.0, load), (0.1, load), (0.1 + within, chance.choice([0.6, 1.5]) * load)
-        )
+        after = chance.choice([0.6, 1.5]) * load
+        settings[load_key] = course((0.0, load), (0.1, load), (0.1 + within, after))
     if "rough" in kind:
         settings |= _rough(chance, seed, a, kind)
     return kind, settings
