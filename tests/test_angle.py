@@ -27,14 +27,6 @@ def assert_same(found, expected, back=lambda array: array):
     assert found.result.work == expected.result.work
 
 
-def mirrored_y(array):
-    return array[::-1]
-
-
-def mirrored_x(array):
-    return array[:, ::-1]
-
-
 class TestAlongTheOtherAxis:
     @pytest.mark.parametrize("couette", ["1B", "2B"])
     def test_a_ball_has_the_transpose(self, couette):
@@ -68,13 +60,11 @@ class TestAlongTheOtherAxis:
 
 
 class TestMirrored:
-    def test_about_x(self):
+    @pytest.mark.parametrize("angle, axis", [(-30, 0), (150, 1)], ids=["about x", "about y"])
+    def test_about_an_axis(self, angle, axis):
         ellipse = {"contact": {"radius_y": 25.4e-3}}
-        assert_same(solved(FILM, ellipse, at(-30)), solved(FILM, ellipse, at(30)), mirrored_y)
-
-    def test_about_y(self):
-        ellipse = {"contact": {"radius_y": 25.4e-3}}
-        assert_same(solved(FILM, ellipse, at(150)), solved(FILM, ellipse, at(30)), mirrored_x)
+        found, expected = (solved(FILM, ellipse, at(each)) for each in (angle, 30))
+        assert_same(found, expected, lambda array: np.flip(array, axis))
 
     def test_about_the_diagonal(self):
         """60 degrees on a ball: what belonged to x belongs to y."""

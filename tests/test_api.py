@@ -131,19 +131,11 @@ def test_a_run_directory_is_a_start(film, tmp_path):
 
 @pytest.mark.parametrize(
     "call, words",
-    [
-        (
-            lambda film: mgehl.solve({"grid.nodes": 65}),
-            "must be the path of a configuration; keys are for mgehl.load",
-        ),
-        (
-            lambda film: mgehl.solve(film.config, start=3),
-            "start: is of type int; must be a Solution or a run",
-        ),
-        (lambda film: mgehl.solve(film.config, start="nowhere"), "nowhere: is no run directory"),
-        (lambda film: mgehl.sweep(film.config, {}, "d"), "names no key"),
-    ],
-)
+    [(lambda film: mgehl.solve({"grid.nodes": 65}), "the path of a configuration; keys are for mgehl.load"),
+     (lambda film: mgehl.solve(film.config, start=3), "start: is of type int; must be a Solution or a run"),
+     (lambda film: mgehl.solve(film.config, start="nowhere"), "nowhere: is no run directory"),
+     (lambda film: mgehl.sweep(film.config, {}, "d"), "names no key")],
+)  # fmt: skip
 def test_what_it_does_not_take_is_one_line(film, call, words):
     with pytest.raises(mgehl.UserError, match=words) as caught:
         call(film)

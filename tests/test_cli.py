@@ -12,7 +12,6 @@ from mgehl.errors import ConfigError, OptionError, OutputError, UserError
 
 DRY = ["run", "--set", "grid.nodes=65", "--set", "solver.start=contact", "--set", "motion.speed=0.005 mm/s"]
 
-
 pytestmark = pytest.mark.usefixtures("empty_directory")
 
 

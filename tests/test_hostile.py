@@ -16,7 +16,6 @@ WEDGE = ["run", "--set", "contact.kind=wedge", "--set", "grid.nodes=65", "--quie
 NAME = os.fsdecode(b"\xff\xfe")
 """Of a directory: no text in UTF-8."""
 
-
 pytestmark = pytest.mark.usefixtures("empty_directory")
 
 

@@ -7,13 +7,8 @@ from places import ROOT
 
 PAGE = (ROOT / "mgehl" / "README.md").read_text()
 NAMES = sorted(set(re.findall(r"mgehl(?:\.\w+)+", PAGE)))
-PLACES = sorted(
-    set(
-        re.findall(
-            r"`((?:model|discretization|kinds|grid|multigrid|solver|output|studies)(?:\.\w+)+)`", PAGE
-        )
-    )
-)
+LAYERS = "model|discretization|kinds|grid|multigrid|solver|output|studies"
+PLACES = sorted(set(re.findall(rf"`((?:{LAYERS})(?:\.\w+)+)`", PAGE)))
 
 
 def found(dotted):

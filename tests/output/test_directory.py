@@ -29,12 +29,8 @@ from mgehl.version import VERSION
 
 def make_solution(H0):
     """A `Solution` of a line contact, all of whose parts go by its H0."""
-    tables = {
-        "contact": {"kind": "line"},
-        "grid": {"nodes": 65, "x": [-2.0, 1.5]},
-        "motion": {"speed": -H0},
-    }
-    config = config_from_tables(tables)
+    tables = {"contact": {"kind": "line"}, "grid": {"nodes": 65, "x": [-2.0, 1.5]}}
+    config = config_from_tables(tables | {"motion": {"speed": -H0}})
     contact = contact_from(config)
     random = np.random.default_rng(int(-100 * H0))
     fields = Fields(random.random((1, 65)), random.random((1, 65)), random.integers(0, 4, (1, 65), np.int8))
@@ -144,14 +140,9 @@ class TestForeign:
             file[WHOLE] = np.frombuffer(json.dumps(texts).encode(), np.uint8)
         put(here, -0.25, force=True)
         checkpoint = here / "checkpoint"
-        record = {
-            "format": FORMAT,
-            "mgehl": VERSION,
-            "configuration": {},
-            "names": [name],
-            "origins": {name: ""},
-        }
-        save(checkpoint / "begun.npz", record, {"0": np.zeros(3, np.uint8)})
+        record = {"format": FORMAT, "mgehl": VERSION, "configuration": {}}
+        kept = {"names": [name], "origins": {name: ""}}
+        save(checkpoint / "begun.npz", record | kept, {"0": np.zeros(3, np.uint8)})
         with pytest.raises(OutputError, match="it names files elsewhere"):
             taken_up(here)
         clear_checkpoint(here)

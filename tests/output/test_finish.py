@@ -5,7 +5,6 @@ from mgehl.cli import main
 
 DRY = ["run", "--quiet", "--set", "grid.nodes=65", "--set", "solver.start=contact", "--out", "here"]
 
-
 pytestmark = pytest.mark.usefixtures("empty_directory")
 
 

@@ -65,12 +65,8 @@ def test_runs_of_a_bearing_have_the_speed_that_follows_and_their_lambda(tmp_path
 def test_a_run_in_time_is_told_by_its_means():
     """In the tables was its last instant, without a word: a wave in the contact, or beside it."""
     means = {name: {"value": float(i), "band": 0.1 * i} for i, name in enumerate(MEANS)}
-    instant = {
-        "central_film_nm": 99.0,
-        "moes_film": {"central": 3.5},
-        "mixed": None,
-        "error": {"reason": "of an instant"},
-    }
+    instant = {"central_film_nm": 99.0, "moes_film": {"central": 3.5}, "mixed": None}
+    instant["error"] = {"reason": "of an instant"}
     told = Told({}, with_means(instant | {"time": {"means": means}}))
     assert [told.number(QUANTITIES[name].path) for name in MEANS] == list(range(len(MEANS)))
     assert told.number("contact.load_fraction") == told.number("mixed.contact_load_share")

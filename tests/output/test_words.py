@@ -23,18 +23,10 @@ def test_a_shear_in_time_that_no_oil_bears_is_named(shear, is_odd):
     assert ("no oil bears more than some 300 MPa" in found) == is_odd
 
 
-@pytest.mark.parametrize(
-    "mean, said",
-    [
-        (Mean(148.9, 21.0), "150 ± 30"),
-        (Mean(0.25, 0.0), "0.25"),
-        (Mean(148.93, None), "148.9"),
-        (Mean(148.93, 1e-3), "148.9"),
-    ],
-)
-def test_a_mean_is_rounded_as_its_band_is(mean, said):
+def test_a_mean_is_rounded_as_its_band_is():
     """A report had 150 ± 30 on top and 148.9 ± 21 below."""
-    assert mean_words(mean) == said
+    means = Mean(148.9, 21.0), Mean(0.25, 0.0), Mean(148.93, None), Mean(148.93, 1e-3)
+    assert [mean_words(mean) for mean in means] == ["150 ± 30", "0.25", "148.9", "148.9"]
 
 
 @pytest.mark.parametrize("crest, is_named", [(None, False), (0.002, False), (0.15, True)])
@@ -92,14 +84,9 @@ def test_a_bearing_that_sucks_names_what_would_let_its_film_tear(cavitation):
 
 @pytest.mark.parametrize(
     "more, words",
-    [
-        ({}, "5.00 cells, resolved"),
-        ({"inlet_speed": 0.3}, "5.00 cells at the slowest, 300 mm/s, resolved"),
-        (
-            {"inlet_speed": 8.0, "rests": True},
-            "5.00 cells at 8 m/s, resolved; near rest no grid resolves it",
-        ),
-    ],
-)
+    [({}, "5.00 cells, resolved"),
+     ({"inlet_speed": 0.3}, "5.00 cells at the slowest, 300 mm/s, resolved"),
+     ({"inlet_speed": 8.0, "rests": True}, "5.00 cells at 8 m/s, resolved; near rest no grid resolves it")],
+)  # fmt: skip
 def test_the_inlet_of_a_run_in_time_is_that_of_a_speed(more, words):
     assert f"  inlet: {words}" in str(make_result(resolution=Resolution(5.0, "resolved", **more)))

@@ -11,6 +11,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from both import COMM, both, same_fields
+from contacts import line
 from mpi4py import MPI
 from places import CONFIGS, RUN_FILES, names_in
 from pocket_reference import case as pocket_case
@@ -242,13 +243,8 @@ def test_wedge(tables):
 
 @pytest.mark.parametrize("start, speed", [("film", 0.1), ("contact", 1e-4)])
 def test_line_belongs_to_one_rank_which_tells_the_others(start, speed):
-    tables = {
-        "contact": {"kind": "line", "load_per_length": 1859e3},
-        "motion": {"speed": speed},
-        "grid": {"nodes": 257, "x": [-2.5, 1.5]},
-        "solver": {"start": start},
-    }
-    together, alone = both(tables)
+    grid = {"nodes": 257, "x": [-2.5, 1.5]}
+    together, alone = both(line(1859e3, speed), {"grid": grid, "solver": {"start": start}})
     assert (together.fields is None) == (COMM.rank > 0)
     same_fields(together, alone, P=1e-10)
     assert COMM.bcast(together.result) == together.result

@@ -79,9 +79,8 @@ class TestFromAThickFilm:
         contact, hierarchy, settings = parts
         ways = begin_thick, begin_dry, begin
         found = [way(hierarchy, contact, settings, lambda level, cycle: None) for way in ways]
-        assert [gaps(problem, outcome.state).mean for problem, outcome in found] == pytest.approx(
-            [gaps(found[0][0], found[0][1].state).mean] * 3, rel=1e-6
-        )
+        means = [gaps(problem, outcome.state).mean for problem, outcome in found]
+        assert means == pytest.approx(3 * means[:1], rel=1e-6)
 
     def test_where_both_fail_the_state_is_of_the_contact_s_own_speed(self, parts):
         contact, hierarchy, settings = parts

@@ -29,7 +29,6 @@ SLIDING = 0.1
 MU_EYRING, MU_LIMITED = 0.080229, 0.049921
 """Of the paper's contact, by the integrals above."""
 
-
 CLOSING = Scheme()
 """Contact closes its faces."""
 

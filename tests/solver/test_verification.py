@@ -79,10 +79,7 @@ def balanced(state):
 # Changes of the balanced state, (status, P, H) of nodes; what is broken, and by how much.
 BROKEN = {
     "tension in a film": ({(4, 2): (LUBRICATED, -0.25, 1.0)}, 0.25),
-    "tension in contact": (
-        {(4, 2): (CONTACT, -0.25, 0.0)},
-        0.25,
-    ),  # far from the cavity: it blocks the flow
+    "tension in contact": ({(4, 2): (CONTACT, -0.25, 0.0)}, 0.25),  # far from the cavity: it blocks flow
     "flow into the cavity": ({(4, 6): (CAVITATED, 0.0, 0.7)}, 0.3),  # receives 1, passes its gap on
     "flow out of it": ({(4, 7): (CAVITATED, 0.0, 1.3)}, 0.3),
     "contact with a gap": ({(4, 2): (CONTACT, 0.0, 0.125)}, 0.125),
