@@ -170,6 +170,7 @@ def solve(make_hierarchy, usual_law):
     from mgehl.discretization.scheme import Scheme
     from mgehl.solver.nested import nested_iteration
     from mgehl.solver.settings import NewtonSettings, SolverSettings
+    from mgehl.solver.task import Task
 
     def run(contact, nodes, start="film", couette="1B", newton=None, mean="arithmetic", **grid):
         settings = SolverSettings(
@@ -178,7 +179,8 @@ def solve(make_hierarchy, usual_law):
             newton=NewtonSettings(**(newton or {})),
         )
         hierarchy, told = make_hierarchy(contact, nodes, **grid), []
-        problem, outcome = nested_iteration(hierarchy, contact, settings, lambda *each: told.append(each))
+        task = Task(hierarchy, contact, settings, lambda *each: told.append(each))
+        problem, outcome = nested_iteration(task)
         return Solution(hierarchy, problem, outcome, told)
 
     return run

@@ -32,6 +32,7 @@ from mgehl.solver.partition import Changes, Partition
 from mgehl.solver.problem import State
 from mgehl.solver.relaxation import RelaxationSettings
 from mgehl.solver.settings import SolverSettings
+from mgehl.solver.task import Task
 from mgehl.solver.verification import complementarity_error, flux_imbalance
 from mgehl.studies.branch import Branch
 from mgehl.studies.study import PAPER, Study, merged, papers_grid
@@ -199,7 +200,7 @@ class TestRelaxation:
         )  # fmt: skip
         told = ([], [])
         solved = [
-            single_loop(hierarchy, contact, settings, lambda _, sweep, rows=rows: rows.append(sweep))
+            single_loop(Task(hierarchy, contact, settings, lambda _, sweep, rows=rows: rows.append(sweep)))
             for hierarchy, rows in zip(pair(nodes=65), told, strict=True)
         ]
         (problem, together), (_, alone) = solved

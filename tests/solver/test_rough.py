@@ -13,6 +13,7 @@ from mgehl.solver.inequality import check_interface
 from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.nested import nested_iteration
 from mgehl.solver.settings import NewtonSettings, SolverSettings
+from mgehl.solver.task import Task
 from mgehl.solver.verification import complementarity_error
 
 
@@ -41,7 +42,7 @@ def solve_rough(paper_contact, make_hierarchy):
         scheme = Scheme(couette, "linear-gap", contact_law=law)
         newton = NewtonSettings(tolerance=tolerance)
         settings = SolverSettings(scheme=scheme, newton=newton, start=start)
-        return nested_iteration(hierarchy, contact, settings, lambda *_: None, journal)
+        return nested_iteration(Task(hierarchy, contact, settings, journal=journal))
 
     return run
 
