@@ -122,10 +122,8 @@ def test_ctrl_c_is_a_keyboard_interrupt_and_no_word_of_petsc(ask):
 
 def test_a_run_directory_is_a_start(film, tmp_path):
     config = film.config.with_({"motion.speed": "0.9 m/s"})
-    by_path, by_itself = (
-        mgehl.solve(config, MPI.COMM_SELF, start=start)
-        for start in (str(film.save(tmp_path / "film")), film)
-    )
+    starts = str(film.save(tmp_path / "film")), film
+    by_path, by_itself = (mgehl.solve(config, MPI.COMM_SELF, start=start) for start in starts)
     np.testing.assert_array_equal(by_path.film, by_itself.film)
 
 

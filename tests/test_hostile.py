@@ -79,10 +79,10 @@ def test_a_limit_of_memory_that_is_too_low(kilobytes):
     assert not Path("here").exists()
 
 
-@pytest.mark.parametrize(
-    "variables",
-    [{"PYTHONWARNINGS": "error"}, {"LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}],
-)
+PLAIN = {"LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}
+
+
+@pytest.mark.parametrize("variables", [{"PYTHONWARNINGS": "error"}, PLAIN])
 def test_surroundings_in_which_a_run_goes_on(variables):
     assert process(*WEDGE, "--out", "über µ", **variables) == (0, [])
     assert process("report", "über µ", **variables) == (0, [])

@@ -151,10 +151,9 @@ def test_a_run_with_own_laws_runs_again_from_its_configuration(laws, monkeypatch
 
 def test_waves_on_the_surface_show_in_the_film(laws):
     """Nothing solid where the film is thicker than they are high, and their wavelength in the film."""
-    smooth, wavy = (
-        mgehl.solve(mgehl.load(CONFIGS / "wavy.toml", {"grid.nodes": 129} | more))
-        for more in ({"contact.surface": f"{laws}:flat"}, {})
-    )
+    flat = {"contact.surface": f"{laws}:flat"}
+    configs = (mgehl.load(CONFIGS / "wavy.toml", {"grid.nodes": 129} | more) for more in (flat, {}))
+    smooth, wavy = map(mgehl.solve, configs)
     assert smooth.summary.converged and wavy.summary.converged and wavy.summary.contact.nodes == 0
     j = np.abs(wavy.y).argmin()
     inside = np.abs(wavy.x) < 0.8 * wavy.contact.hertz.a

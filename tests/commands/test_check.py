@@ -35,10 +35,8 @@ def test_a_point_contact_is_described(told):
 def test_formulas_are_isothermal_and_heat_is_told_beside_them(told):
     """With heating = "factor" groups and films had the heated viscosity and were called isothermal."""
     oil = "lubricant.conductivity=0.14", "lubricant.thermoviscosity=0.04", "motion.speed=2 m/s"
-    text, heated = (
-        told("full_film.toml", *(f"--set={each}" for each in (*oil, *more)))
-        for more in ([], ["lubricant.heating=factor"])
-    )
+    words = ["full_film.toml", *(f"--set={each}" for each in oil)]
+    text, heated = told(*words), told(*words, "--set=lubricant.heating=factor")
     begin, end = (re.search(rf"^{head} .*$", text, re.M)[0] for head in ("groups", "films, nm"))
     assert begin in heated and end in heated
     left = number(text, r'heat +isothermal films: lubricant.heating = "factor" would leave some (\d+) %')

@@ -230,9 +230,7 @@ def test_half_a_cavity_passes_half_the_couette_flow(velocity, behind, couette, a
         np.testing.assert_allclose(row.faces(part.value), filled * whole, rtol=1e-14)
         by_filling = row.faces(part.by_P[behind])
         np.testing.assert_allclose(by_filling[from_cavity], whole[from_cavity], rtol=1e-14)
-    driven = [
-        row.faces(one.value - other.value)
-        for one, other in ((found(each)[0], found(immobile(each))[0]) for each in (fluid, half))
-    ]
+    pairs = ((found(each)[0], found(immobile(each))[0]) for each in (fluid, half))
+    driven = [row.faces(one.value - other.value) for one, other in pairs]
     np.testing.assert_allclose(driven[1], driven[0], rtol=1e-13, atol=1e-13)
     np.testing.assert_allclose(driven[0], [5.0, 5.0, 0.0, -15.0, 10.0], rtol=1e-13, atol=1e-13)

@@ -85,10 +85,8 @@ def test_the_outer_operator_is_that_of_the_problem_and_not_of_the_cycle(
     contact = paper_contact()
     hierarchy = make_hierarchy(contact, 33, coarsest=17)
     problem = ContactProblem(hierarchy.grids[-1], hierarchy.deflections[-1], contact, Scheme("2B"))
-    multigrid, same = (
-        make_multigrid(hierarchy, problem, rough_state(problem, contact=True), couette=cycle)
-        for cycle in ("1B", "same")
-    )
+    how = hierarchy, problem, rough_state(problem, contact=True)
+    multigrid, same = (make_multigrid(*how, couette=cycle) for cycle in ("1B", "same"))
     assert multigrid.jacobian.scheme.couette == "2B"
     space = multigrid.space
     P = np.random.default_rng(9).standard_normal(space.grid.shape)

@@ -93,10 +93,8 @@ def test_a_time_step_stores_what_flows_in(make_problem, rough_state, make_jacobi
     jacobian.linearise(now, rows, rate)
     r, _ = apply(jacobian, make_vec, dP, dH0)
     problem.storage = storage
-    ahead, behind = (
-        residual(problem.evaluate(problem.state(state.P + s * dP, state.H0 + s * dH0, state.status)), rows)
-        for s in (STEP, -STEP)
-    )
+    moved = (problem.state(state.P + s * dP, state.H0 + s * dH0, state.status) for s in (STEP, -STEP))
+    ahead, behind = (residual(problem.evaluate(each), rows) for each in moved)
     film = rows == FLOW
     assert_close(r[film], ((ahead - behind) / (2.0 * STEP))[film])
 

@@ -106,10 +106,8 @@ class TestForeign:
             (tmp_path / name).write_text("mine")
         before = content(tmp_path)
         put(tmp_path, -0.5, force=True)
-        assert (
-            content(tmp_path).keys() == before.keys() | RUN_FILES
-            and before.items() <= content(tmp_path).items()
-        )
+        after = content(tmp_path)
+        assert after.keys() == before.keys() | RUN_FILES and before.items() <= after.items()
 
     @pytest.mark.parametrize("name", ["result.json", "fields.h5", "checkpoint", "laws"])
     def test_a_link_is_not_followed(self, tmp_path, name):

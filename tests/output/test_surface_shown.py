@@ -34,10 +34,8 @@ def doubts(tmp_path, heights, **keys):
     np.save(tmp_path / "z.npy", heights)
     told = {"file": f"{tmp_path}/z.npy", "height_unit": "nm", "spacing": "14 um"} | keys
     config, contact, _ = case({"grid.nodes": 65} | {f"surface.{key}": value for key, value in told.items()})
-    return [
-        words.removeprefix(f"surface.file = '{tmp_path}/z.npy': ")
-        for words in surface_doubts(config, contact)
-    ]
+    key = f"surface.file = '{tmp_path}/z.npy': "
+    return [words.removeprefix(key) for words in surface_doubts(config, contact)]
 
 
 def test_points_that_are_hardly_heights_are_named(tmp_path):

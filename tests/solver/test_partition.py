@@ -34,7 +34,7 @@ def changed_by(rule, state, **expected):
     """Apply a rule; the changes that it tells are these and no others."""
     changes = Changes()
     rule(state, changes)
-    assert vars(changes) == {"cavitated": 0, "filled": 0, "entered": 0, "released": 0} | expected
+    assert changes == Changes(**expected)
     assert changes.total == sum(expected.values())
 
 

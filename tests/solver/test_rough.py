@@ -85,10 +85,8 @@ def test_behind_peaks_a_film_is_never_less_than_none(solve_rough, couette):
 @pytest.mark.parametrize("couette", ["1B", "3L"])
 def test_from_a_film_and_from_contact_it_is_the_same_state(solve_rough, couette):
     """Closing is continuous: there is no second branch. What solves are apart by, their tolerance is."""
-    found = [
-        solve_rough(1e-7, 1e-3, start=start, couette=couette, tolerance=1e-10)
-        for start in ("film", "contact")
-    ]
+    how = {"couette": couette, "tolerance": 1e-10}
+    found = [solve_rough(1e-7, 1e-3, start=start, **how) for start in ("film", "contact")]
     films = [problem.films(outcome.state) for problem, outcome in found]
     np.testing.assert_allclose(*films, rtol=1e-6)
 
