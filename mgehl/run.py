@@ -39,9 +39,9 @@ from mgehl.solver.in_time import march
 from mgehl.solver.journal import Journal, told_to_stop
 from mgehl.solver.nested import single_loop
 from mgehl.solver.on_grid import LevelSolve
-from mgehl.solver.problem import ContactProblem
 from mgehl.solver.recipe_words import plain
 from mgehl.solver.restart import interpolated, solve_from
+from mgehl.solver.task import Task
 from mgehl.solver.wedge import solve_wedge
 
 
@@ -159,18 +159,18 @@ class _LoadedSolve:
 
     def in_a_steady_state(self):
         """Its `Solution` by either method."""
-        contact, settings = self.parts.contact, self.parts.settings
-        monitor, journal = self.monitor, self._journal
+        task, monitor = self._task, self.monitor
+        contact, settings = task.contact, task.settings
         by_newton = settings.method == "newton-mg"
         method = begin if by_newton else single_loop
         if self.start:
             method = partial(solve_from, start=self.start, frame=self.parts.frame)
-        problem, outcome = method(self.hierarchy, contact, settings, monitor=monitor, journal=journal)
+        problem, outcome = method(task)
         if by_newton:
-            outcome = close_account(self.hierarchy, problem, outcome, settings, monitor, journal)
+            outcome = close_account(task, problem, outcome)
         making = self._making(monitor.steps if by_newton else outcome.cycles[-1].step)
         result = summarise(problem, outcome, self._tolerance, making)
-        beside = Beside(self.hierarchy, problem, outcome.state, settings, monitor.beside, journal)
+        beside = Beside(replace(task, monitor=monitor.beside), problem, outcome.state)
         mixed = result.mixed and replace(result.mixed, error=gap_error(result, beside, monitor))
         bands = {"mixed": mixed, "error": film_error(result, beside, monitor)}
         friction, maps = friction_result(problem, outcome.state)
@@ -185,8 +185,8 @@ class _LoadedSolve:
         """Its `Solution` at the end of a run in time."""
         case, parts, monitor, start = self.case, self.parts, self.monitor, self.start
         diary = Diary(case, parts.frame, self.hierarchy.grids[-1], monitor, self.watch)
-        how = parts.settings, diary, monitor.beside, self._journal
-        problem, outcome = march(case.scene, self.hierarchy, *how, start and (start, parts.frame))
+        task = replace(self._task, contact=case.scene.framed, monitor=monitor.beside)
+        problem, outcome = march(case.scene, task, diary, start and (start, parts.frame))
         making = self._making(len(monitor.rows))
         result = summarise_in_time(problem, outcome, monitor.rows, case.scene, self._tolerance, making)
         result = replace(result, recipe=self._recipe(outcome))
@@ -194,17 +194,20 @@ class _LoadedSolve:
 
     def without_a_fluid(self):
         """Its `Solution` as a dry contact."""
-        hierarchy, contact, scheme = self.hierarchy, self.parts.contact, self.parts.settings.scheme
-        limits = self.parts.settings.newton
-        problem = ContactProblem(hierarchy.grids[-1], hierarchy.deflections[-1], contact, scheme)
+        task, limits = self._task, self.parts.settings.newton
+        problem = task.problem()
         if self.start:
             guess = interpolated(problem, self.start, self.parts.frame).P
         else:
-            guess = guess_on_finest(hierarchy, contact, scheme)
-        tell = partial(self.monitor, LevelSolve(self.parts.mesh.nx, None, True))
-        outcome = solve_dry(problem, guess, limits.tolerance, limits.max_steps, tell, self._journal)
+            guess = guess_on_finest(task.hierarchy, task.contact, task.settings.scheme)
+        tell = partial(task.monitor, LevelSolve(task.mesh.nx, None, True))
+        outcome = solve_dry(problem, guess, limits.tolerance, limits.max_steps, tell, task.journal)
         result = summarise_dry(problem, outcome, limits.tolerance, self._making(self.monitor.steps))
         return self._solution(problem, outcome, result)
+
+    @cached_property
+    def _task(self):
+        return Task(self.hierarchy, self.parts.contact, self.parts.settings, self.monitor, self._journal)
 
     @property
     def _tolerance(self):

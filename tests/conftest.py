@@ -8,9 +8,11 @@ import os
 import signal
 import sys
 import tempfile
+from contextlib import ExitStack
 from dataclasses import dataclass
 
 import pytest
+from told import status_of
 
 from mgehl.discretization.mesh import Mesh
 from mgehl.model.lubricant import Barus, DowsonHigginson, Lubricant
@@ -58,7 +60,29 @@ def paper_contact():
 
 
 @pytest.fixture
-def make_hierarchy():
+def in_the_end():
+    """Function (end, made): calls `end(made)` after the test, for the last one first; returns `made`."""
+    with ExitStack() as stack:
+
+        def kept(end, made):
+            stack.callback(end, made)
+            return made
+
+        yield kept
+
+
+@pytest.fixture
+def make_grid(in_the_end):
+    """Factory of the grid of a mesh; destroyed after the test."""
+    from mpi4py import MPI
+
+    from mgehl.grid.grid import Grid, single_grid
+
+    return lambda mesh, comm=MPI.COMM_SELF: in_the_end(Grid.destroy, single_grid(mesh, comm))
+
+
+@pytest.fixture
+def make_hierarchy(in_the_end):
     """Factory of grid hierarchies; all of them are destroyed after the test.
 
     The communicator is COMM_SELF unless another is given: every rank has a grid of its own.
@@ -67,16 +91,11 @@ def make_hierarchy():
 
     from mgehl.grid.hierarchy import Hierarchy
 
-    made = []
-
     def make(contact, nodes=65, coarsest=33, comm=MPI.COMM_SELF, x=DOMAIN["x"], y=DOMAIN["y"], ny=None):
         mesh = Mesh(nodes, ny or nodes, x, y, contact.k_e)
-        made.append(Hierarchy(mesh, coarsest, contact.kernel, comm))
-        return made[-1]
+        return in_the_end(Hierarchy.destroy, Hierarchy(mesh, coarsest, contact.kernel, comm))
 
-    yield make
-    for hierarchy in made:
-        hierarchy.destroy()
+    return make
 
 
 @pytest.fixture
@@ -117,14 +136,9 @@ def empty_directory(tmp_path, monkeypatch):
 @pytest.fixture
 def refused(capsys):
     """Function: the one line with which a command line is refused, and nothing else is said."""
-    from mgehl.cli import main
 
     def line(*words):
-        try:
-            status = main(list(words))
-        except SystemExit as stop:
-            status = stop.code
-        out, err = capsys.readouterr()
+        status, (out, err) = status_of(*words), capsys.readouterr()
         assert (status, out, err.count("\n")) == (2, "", 1) and err.startswith("mgehl: "), err
         assert err[:-1].isprintable()
         return err[:-1]
@@ -156,15 +170,17 @@ def solve(make_hierarchy, usual_law):
     from mgehl.discretization.scheme import Scheme
     from mgehl.solver.nested import nested_iteration
     from mgehl.solver.settings import NewtonSettings, SolverSettings
+    from mgehl.solver.task import Task
 
-    def run(contact, nodes, start="film", couette="1B", newton=None, **grid):
+    def run(contact, nodes, start="film", couette="1B", newton=None, mean="arithmetic", **grid):
         settings = SolverSettings(
-            scheme=Scheme(couette, contact_law=usual_law(contact)),
+            scheme=Scheme(couette, mean, contact_law=usual_law(contact)),
             start=start,
             newton=NewtonSettings(**(newton or {})),
         )
         hierarchy, told = make_hierarchy(contact, nodes, **grid), []
-        problem, outcome = nested_iteration(hierarchy, contact, settings, lambda *each: told.append(each))
+        task = Task(hierarchy, contact, settings, lambda *each: told.append(each))
+        problem, outcome = nested_iteration(task)
         return Solution(hierarchy, problem, outcome, told)
 
     return run
@@ -217,60 +233,49 @@ def rough_state():
 
 
 @pytest.fixture
-def make_multigrid():
+def make_multigrid(in_the_end):
     """Factory of `MultigridSolver`s linearised about a state, by its rows or others; freed in the end."""
     from mgehl.discretization.rows import rows_of
     from mgehl.multigrid.cycle import CycleSettings, MultigridSolver
 
-    made = []
-
     def make(hierarchy, problem, state, rigid=False, rows=None, **settings):
         level = hierarchy.grids.index(problem.grid)
-        settings = CycleSettings(**settings)
-        made.append(MultigridSolver(hierarchy, level, problem.contact, problem.scheme, settings, rigid))
+        how = problem.contact, problem.scheme, CycleSettings(**settings), rigid
+        multigrid = in_the_end(MultigridSolver.free, MultigridSolver(hierarchy, level, *how))
         feeding = problem.feeding(state.status)
         rows = rows_of(state.status, rigid, feeding=feeding) if rows is None else rows
-        made[-1].linearise(problem.evaluate(state), rows)
-        return made[-1]
+        multigrid.linearise(problem.evaluate(state), rows)
+        return multigrid
 
-    yield make
-    for multigrid in made:
-        multigrid.free()
+    return make
 
 
 @pytest.fixture
-def make_jacobian():
+def make_jacobian(in_the_end):
     """Factory of the `Jacobian` of a problem about a state; its Mat is destroyed after the test."""
     from mgehl.discretization.rows import rows_of
     from mgehl.multigrid.jacobian import Jacobian
 
-    made = []
-
     def make(problem, state, rigid=False):
         deflection = None if rigid else problem.deflection
         jacobian = Jacobian(problem.grid, deflection, problem.contact, problem.scheme)
-        made.append(jacobian)
+        in_the_end(lambda each: each.mat.destroy(), jacobian)
         rows = rows_of(state.status, rigid, feeding=problem.feeding(state.status))
         jacobian.linearise(problem.evaluate(state), rows)
         return jacobian
 
-    yield make
-    for jacobian in made:
-        jacobian.mat.destroy()
+    return make
 
 
 @pytest.fixture
-def make_vec():
+def make_vec(in_the_end):
     """Factory of vectors of a `BorderedSpace`, filled if values are given; destroyed after the test."""
-    made = []
 
     def make(space, P=None, border=0.0):
-        made.append(space.create_vec())
-        made[-1].set(0.0)
+        vec = in_the_end(lambda each: each.destroy(), space.create_vec())
+        vec.set(0.0)
         if P is not None:
-            space.write(made[-1], P, border)
-        return made[-1]
+            space.write(vec, P, border)
+        return vec
 
-    yield make
-    for vec in made:
-        vec.destroy()
+    return make

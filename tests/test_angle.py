@@ -7,11 +7,7 @@ from mgehl.studies.study import PAPER, papers_grid
 EXACT = 1e-10
 ON_A_SQUARE = {"x": [-1.9, 1.9], "y": [-1.9, 1.9]}
 FILM = {"motion": {"speed": 1.0}, "grid": {"nodes": 65} | ON_A_SQUARE}
-CONTACT_CASE = PAPER | {
-    "motion": {"speed": 5e-6},
-    "grid": papers_grid(129),
-    "solver": {"start": "contact"},
-}
+CONTACT_CASE = PAPER | {"motion": {"speed": 5e-6}, "grid": papers_grid(129), "solver": {"start": "contact"}}
 
 
 def at(angle):
@@ -29,14 +25,6 @@ def assert_same(found, expected, back=lambda array: array):
     for name in ("central_film_nm", "minimum_film_nm", "max_pressure_GPa"):
         assert getattr(found.result, name) == pytest.approx(getattr(expected.result, name), rel=EXACT)
     assert found.result.work == expected.result.work
-
-
-def mirrored_y(array):
-    return array[::-1]
-
-
-def mirrored_x(array):
-    return array[:, ::-1]
 
 
 class TestAlongTheOtherAxis:
@@ -72,13 +60,11 @@ class TestAlongTheOtherAxis:
 
 
 class TestMirrored:
-    def test_about_x(self):
+    @pytest.mark.parametrize("angle, axis", [(-30, 0), (150, 1)], ids=["about x", "about y"])
+    def test_about_an_axis(self, angle, axis):
         ellipse = {"contact": {"radius_y": 25.4e-3}}
-        assert_same(solved(FILM, ellipse, at(-30)), solved(FILM, ellipse, at(30)), mirrored_y)
-
-    def test_about_y(self):
-        ellipse = {"contact": {"radius_y": 25.4e-3}}
-        assert_same(solved(FILM, ellipse, at(150)), solved(FILM, ellipse, at(30)), mirrored_x)
+        found, expected = (solved(FILM, ellipse, at(each)) for each in (angle, 30))
+        assert_same(found, expected, lambda array: np.flip(array, axis))
 
     def test_about_the_diagonal(self):
         """60 degrees on a ball: what belonged to x belongs to y."""

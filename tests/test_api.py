@@ -122,28 +122,18 @@ def test_ctrl_c_is_a_keyboard_interrupt_and_no_word_of_petsc(ask):
 
 def test_a_run_directory_is_a_start(film, tmp_path):
     config = film.config.with_({"motion.speed": "0.9 m/s"})
-    by_path, by_itself = (
-        mgehl.solve(config, MPI.COMM_SELF, start=start)
-        for start in (str(film.save(tmp_path / "film")), film)
-    )
+    starts = str(film.save(tmp_path / "film")), film
+    by_path, by_itself = (mgehl.solve(config, MPI.COMM_SELF, start=start) for start in starts)
     np.testing.assert_array_equal(by_path.film, by_itself.film)
 
 
 @pytest.mark.parametrize(
     "call, words",
-    [
-        (
-            lambda film: mgehl.solve({"grid.nodes": 65}),
-            "must be the path of a configuration; keys are for mgehl.load",
-        ),
-        (
-            lambda film: mgehl.solve(film.config, start=3),
-            "start: is of type int; must be a Solution or a run",
-        ),
-        (lambda film: mgehl.solve(film.config, start="nowhere"), "nowhere: is no run directory"),
-        (lambda film: mgehl.sweep(film.config, {}, "d"), "names no key"),
-    ],
-)
+    [(lambda film: mgehl.solve({"grid.nodes": 65}), "the path of a configuration; keys are for mgehl.load"),
+     (lambda film: mgehl.solve(film.config, start=3), "start: is of type int; must be a Solution or a run"),
+     (lambda film: mgehl.solve(film.config, start="nowhere"), "nowhere: is no run directory"),
+     (lambda film: mgehl.sweep(film.config, {}, "d"), "names no key")],
+)  # fmt: skip
 def test_what_it_does_not_take_is_one_line(film, call, words):
     with pytest.raises(mgehl.UserError, match=words) as caught:
         call(film)

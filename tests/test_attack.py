@@ -1,14 +1,13 @@
 """Small samples of the attacks that tests/tools/attack.py makes by the thousand."""
 
 import json
-import subprocess
 import sys
 from copy import deepcopy
 from importlib import import_module
 from pathlib import Path
 
 import pytest
-from processes import own_environment
+from processes import ended
 
 import mgehl
 from mgehl.discretization.status import CAVITATED, LUBRICATED
@@ -19,7 +18,7 @@ TOOL = Path(__file__).parent / "tools" / "attack.py"
 @pytest.mark.parametrize("attack, count", [("words", 10), ("damage", 5)])
 def test_a_few_find_nothing(attack, count):
     words = [sys.executable, str(TOOL), attack, "--count", str(count), "--seed", "11"]
-    done = subprocess.run(words, capture_output=True, text=True, timeout=300, env=own_environment())
+    done = ended(words, timeout=300)
     assert done.returncode == 0, done.stdout + done.stderr
     assert json.loads(done.stdout.splitlines()[-1])["findings"] == 0
 

@@ -1,70 +1,54 @@
 import json
 import pickle
 import shlex
-import subprocess
 import sys
 
 import pytest
-from processes import own_environment
+from places import RUN_FILES, names_in
+from processes import MGEHL, ended
+from told import status_of
 
-from mgehl.cli import main
 from mgehl.errors import ConfigError, OptionError, OutputError, UserError
 
-FILES = {"configuration.toml", "fields.h5", "history.csv", "picture.png", "result.json"}
 DRY = ["run", "--set", "grid.nodes=65", "--set", "solver.start=contact", "--set", "motion.speed=0.005 mm/s"]
-
 
 pytestmark = pytest.mark.usefixtures("empty_directory")
 
 
 def mgehl(*arguments):
-    """Run the command in a process of its own, without MPI variables of this one."""
-    command = [sys.executable, "-m", "mgehl", *arguments]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=60, env=own_environment())
-    # MPI's libraries may have a say on the machine: "[hwloc/linux] ...".
-    own = [line for line in done.stderr.splitlines(keepends=True) if not line.startswith("[")]
-    done.stderr = "".join(own)
-    return done
-
-
-def exit_status(arguments):
-    try:
-        return main(arguments)
-    except SystemExit as stop:
-        return stop.code
+    """The command in a process of its own."""
+    return ended([*MGEHL, *arguments])
 
 
 def test_a_run_in_a_process_of_its_own(tmp_path):
     done = mgehl(*DRY, "--out", "here")
     assert (done.returncode, done.stderr) == (0, "")
     assert "\nCONVERGED" in done.stdout
-    assert {path.name for path in (tmp_path / "here").iterdir()} == FILES
+    assert names_in(tmp_path / "here") == RUN_FILES
     assert [path.name for path in tmp_path.iterdir()] == ["here"]
 
 
-def piped(command, tmp_path):
+def piped(command):
     """(exit status, stdout, stderr) of a command of the shell, mgehl's the status of a pipe's first."""
-    words = ["bash", "-c", f"set -o pipefail; {command.replace('mgehl', f'{sys.executable} -m mgehl', 1)}"]
-    done = subprocess.run(words, capture_output=True, text=True, timeout=60, env=own_environment())
-    err = [line for line in done.stderr.splitlines() if not line.startswith("[")]
-    assert len(err) <= 1 and "Traceback" not in done.stderr, done.stderr
-    return done.returncode, done.stdout, "".join(err)
+    done = ended(["bash", "-c", f"set -o pipefail; {command.replace('mgehl', shlex.join(MGEHL), 1)}"])
+    assert done.stderr.count("\n") <= 1 and "Traceback" not in done.stderr, done.stderr
+    return done.returncode, done.stdout, done.stderr
 
 
 @pytest.mark.parametrize("where", ["| head -n 1", "> /dev/full", ">&-", "2>&-", "<&- >&- 2>&-"])
 def test_a_run_whose_words_nobody_hears_goes_on(tmp_path, where):
-    status, _, err = piped(f"{shlex.join(['mgehl', *DRY])} --out here {where}", tmp_path)
+    status, _, err = piped(f"{shlex.join(['mgehl', *DRY])} --out here {where}")
     assert (status, err) == (0, "")
-    assert {path.name for path in (tmp_path / "here").iterdir()} == FILES
+    assert names_in(tmp_path / "here") == RUN_FILES
 
 
 @pytest.mark.parametrize("words", [["--version"], ["--help"], ["run", "--help"], ["run", "--nonsense"], []])
 def test_of_several_ranks_one_says_it(capsys, monkeypatch, words):
     monkeypatch.setenv("OMPI_COMM_WORLD_RANK", "0")
-    first = exit_status(words)
+    first = status_of(*words)
     assert "mgehl" in "".join(capsys.readouterr())
     monkeypatch.setenv("OMPI_COMM_WORLD_RANK", "1")
-    assert exit_status(words) == first
+    assert status_of(*words) == first
     assert capsys.readouterr() == ("", "")
 
 
@@ -91,9 +75,8 @@ def test_words_that_are_nothing_are_one_line(tmp_path, refused, arguments):
 @pytest.mark.parametrize("value, said", [("-1", "-1.0"), ("-1 s", "'-1 s'"), ("-.5", "-0.5")])
 def test_a_number_below_0_is_the_options_own_and_not_petscs(refused, value, said):
     """Of --save-every -1 --out d the --out was blamed."""
-    assert f"--save-every = {said}: must be a number in s" in refused(
-        "run", "--save-every", value, "--out", "d"
-    )
+    line = refused("run", "--save-every", value, "--out", "d")
+    assert f"--save-every = {said}: must be a number in s" in line
 
 
 class TestFailures:
@@ -119,7 +102,7 @@ class TestFailures:
             raise error
 
         monkeypatch.setattr(f"mgehl.commands.{command[0]}.execute", fail)
-        assert exit_status(command) == status
+        assert status_of(*command) == status
         out, err = capsys.readouterr()
         assert (out, err.count("\n")) == ("", 1 if line else 0)
         assert not line or (err.startswith("mgehl: ") and line in err)
@@ -137,7 +120,7 @@ class TestFailures:
         """A python that has none of them can still read `python -m mgehl`."""
         text = f"import sys, runpy; sys.modules['{missing}'] = None; sys.argv = ['mgehl', *{words}]; "
         text += "runpy.run_module('mgehl', run_name='__main__')"
-        done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True)
+        done = ended([sys.executable, "-c", text])
         if done.returncode == 0:  # the help needs nothing that is missing
             assert words == [] and done.stderr == "" and "solve one contact" in done.stdout
         else:
@@ -174,9 +157,9 @@ def test_a_directory_that_exists_is_refused_and_replaced_with_force(tmp_path, re
     assert [path.name for path in here.iterdir()] == ["result.json"]
     (here / "result.json").unlink()
     for _ in range(2):
-        assert exit_status([*DRY, "--out", "here", "--force", "--quiet"]) == 0
+        assert status_of(*DRY, "--out", "here", "--force", "--quiet") == 0
     assert json.loads((here / "result.json").read_text())["converged"] is True
-    assert {path.name for path in here.iterdir()} == FILES
+    assert names_in(here) == RUN_FILES
 
 
 BAD = [

@@ -1,19 +1,16 @@
 import os
-import subprocess
-import sys
+import shlex
 import tomllib
-from pathlib import Path
 
 import numpy as np
 import pytest
 import tomli_w
-from processes import own_environment
+from places import CONFIGS
+from processes import MGEHL, ended
 from told import refusal
 
 from mgehl.config import Config, ConfigError, config_from_tables, load_config
 from mgehl.config_file import default_config
-
-CONFIGS = Path(__file__).resolve().parent.parent / "configs"
 
 
 def with_settings(*settings):
@@ -315,10 +312,7 @@ class TestPipes:
 
     def check(self, tmp_path, command):
         """What `mgehl check` says of the output of a command."""
-        words = ["bash", "-c", f"exec {sys.executable} -m mgehl check <({command})"]
-        return subprocess.run(
-            words, capture_output=True, text=True, cwd=tmp_path, env=own_environment(), timeout=60
-        )
+        return ended(["bash", "-c", f"exec {shlex.join(MGEHL)} check <({command})"], cwd=tmp_path)
 
     def test_what_comes_out_of_one(self, tmp_path):
         done = self.check(tmp_path, "sleep 0.5; printf '[grid]\\nnodes = 129'")

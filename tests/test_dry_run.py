@@ -12,7 +12,7 @@ PAPER = {"grid.nodes": "65", "grid.x": "[-1.9, 1.3]", "grid.y": "[-1.5, 1.5]"}
 
 def run(directory, *more, **settings):
     keys = {"discretization.contact_model": "dry"} | PAPER | settings
-    words = [word for key, value in keys.items() for word in ("--set", f"{key}={value}")]
+    words = [f"--set={key}={value}" for key, value in keys.items()]
     return main(["run", *words, "--out", str(directory), "--quiet", *more])
 
 
@@ -30,9 +30,8 @@ def test_its_files_read_back(rough):
     solution = read_run(rough)
     assert solution.is_dry and solution.result.converged
     assert np.count_nonzero(solution.fields.P) == solution.result.contact.nodes
-    np.testing.assert_allclose(
-        solution.heights, dry_surfaces.rough_500(solution.x[None], solution.y[:, None])
-    )
+    heights = dry_surfaces.rough_500(solution.x[None], solution.y[:, None])
+    np.testing.assert_allclose(solution.heights, heights)
     assert solution.film.min() > -1e-14 and [row["changed_nodes"] for row in solution.rows][-1] == 0
 
 

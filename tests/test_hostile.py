@@ -5,19 +5,16 @@
 
 import os
 import shutil
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
-from processes import own_environment
+from processes import MGEHL, ended
 
 from mgehl.cli import main
 
 WEDGE = ["run", "--set", "contact.kind=wedge", "--set", "grid.nodes=65", "--quiet"]
 NAME = os.fsdecode(b"\xff\xfe")
 """Of a directory: no text in UTF-8."""
-
 
 pytestmark = pytest.mark.usefixtures("empty_directory")
 
@@ -31,14 +28,8 @@ def finished(tmp_path_factory):
 
 def process(*words, before="", **variables):
     """mgehl in a process of its own, after words of the shell."""
-    command = ["bash", "-c", f'{before} "$@"', "-", sys.executable, "-m", "mgehl", *words]
-    environment = own_environment(**variables)
-    done = subprocess.run(
-        command, capture_output=True, text=True, errors="replace", timeout=120, env=environment
-    )
-    # MPI's libraries may have a say on the machine: "[hwloc/linux] ...".
-    lines = [line for line in done.stderr.splitlines() if not line.startswith("[")]
-    return done.returncode, lines
+    done = ended(["bash", "-c", f'{before} "$@"', "-", *MGEHL, *words], **variables)
+    return done.returncode, done.stderr.splitlines()
 
 
 class TestNamesThatAreNoText:
@@ -83,16 +74,15 @@ def test_a_limit_of_memory_that_is_too_low(kilobytes):
     """It ended in BLAS, never, in a dozen lines of MPI, or in a unit that was not understood."""
     before = f"ulimit -v {kilobytes};"
     status, lines = process("run", "--set", "grid.nodes=513", "--out", "here", before=before)
-    assert (
-        status == 2 and len(lines) == 1 and lines[0].endswith(f"allows {kilobytes / 1024:.0f} (ulimit -v)")
-    ), lines
+    assert status == 2 and len(lines) == 1, lines
+    assert lines[0].endswith(f"allows {kilobytes / 1024:.0f} (ulimit -v)")
     assert not Path("here").exists()
 
 
-@pytest.mark.parametrize(
-    "variables",
-    [{"PYTHONWARNINGS": "error"}, {"LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}],
-)
+PLAIN = {"LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}
+
+
+@pytest.mark.parametrize("variables", [{"PYTHONWARNINGS": "error"}, PLAIN])
 def test_surroundings_in_which_a_run_goes_on(variables):
     assert process(*WEDGE, "--out", "über µ", **variables) == (0, [])
     assert process("report", "über µ", **variables) == (0, [])

@@ -19,6 +19,7 @@ from math import isfinite
 from pathlib import Path
 
 import numpy as np
+import pytest
 import tomli_w
 from configurations import KEYS, raw_tables, solvable_tables
 from hypothesis import HealthCheck, event, given, settings
@@ -84,9 +85,8 @@ def accepted(tables):
 def assert_names_a_key(message, tables):
     """One line that begins with a key, a section or an unknown name that was given."""
     assert message and len(message.splitlines()) == 1
-    known = (
-        {f"{section}.{key}" for section, key in KEYS} | set(SECTIONS) | {f"[{name}]" for name in SECTIONS}
-    )
+    sections = {*SECTIONS, *(f"[{name}]" for name in SECTIONS)}
+    known = sections | {f"{section}.{key}" for section, key in KEYS}
     given = {name for name in tables}
     given |= {f"{name}.{key}" for name in tables if isinstance(tables[name], dict) for key in tables[name]}
     names = known | {printable(" ".join(name.splitlines())) for name in given}
@@ -140,7 +140,7 @@ def test_every_run_leaves_files_that_read_back(tables):
         return
     with tempfile.TemporaryDirectory() as directory, no_longer_than(PATIENCE), no_warnings():
         result = run(config, Path(directory), MPI.COMM_SELF)
-        json.loads((Path(directory) / "result.json").read_text(), parse_constant=refuse)
+        json.loads((Path(directory) / "result.json").read_text(), parse_constant=pytest.fail)
         try:
             read = read_run(directory)
         except OutputError as error:
@@ -157,10 +157,6 @@ def is_finite(solution):
     fields = solution.film, solution.pressure
     numbers = numbers_of(asdict(solution.summary))
     return all(map(isfinite, numbers)) and all(np.isfinite(field).all() for field in fields)
-
-
-def refuse(constant):
-    raise AssertionError(f"{constant} is not JSON")
 
 
 @contextmanager

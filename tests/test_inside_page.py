@@ -3,16 +3,12 @@ from importlib import import_module
 from pathlib import Path
 
 import pytest
+from places import ROOT
 
-PAGE = (Path(__file__).resolve().parent.parent / "mgehl" / "README.md").read_text()
+PAGE = (ROOT / "mgehl" / "README.md").read_text()
 NAMES = sorted(set(re.findall(r"mgehl(?:\.\w+)+", PAGE)))
-PLACES = sorted(
-    set(
-        re.findall(
-            r"`((?:model|discretization|kinds|grid|multigrid|solver|output|studies)(?:\.\w+)+)`", PAGE
-        )
-    )
-)
+LAYERS = "model|discretization|kinds|grid|multigrid|solver|output|studies"
+PLACES = sorted(set(re.findall(rf"`((?:{LAYERS})(?:\.\w+)+)`", PAGE)))
 
 
 def found(dotted):
@@ -39,7 +35,7 @@ def test_a_place_is_there(place):
     assert found(f"mgehl.{place}")
 
 
-CONTRIBUTING = (Path(__file__).resolve().parent.parent / "CONTRIBUTING.md").read_text()
+CONTRIBUTING = (ROOT / "CONTRIBUTING.md").read_text()
 
 
 @pytest.mark.parametrize("file", sorted(set(re.findall(r"`([\w/]+\.py)`", CONTRIBUTING))))

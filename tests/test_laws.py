@@ -4,6 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from places import CONFIGS, content_of
 
 import mgehl
 from mgehl.cli import main
@@ -11,7 +12,6 @@ from mgehl.config import load_config
 from mgehl.model.hertz import hertz_contact
 from mgehl.output.stored import read_run
 
-CONFIGS = Path(__file__).resolve().parent.parent / "configs"
 A = 0.4108e-3
 """Hertz radius of the paper's ball in m."""
 
@@ -62,9 +62,7 @@ REFUSED = {
 
 
 @pytest.mark.parametrize("setting, words", REFUSED.items(), ids=REFUSED)
-def test_what_cannot_be_used_is_one_line_before_anything_is_written(
-    laws, setting, words, monkeypatch, capsys
-):
+def test_what_cannot_be_used_is_one_line_and_nothing_is_written(laws, setting, words, monkeypatch, capsys):
     monkeypatch.chdir(laws.parent)
     os.mkfifo("pipe.py")
     assert main(["run", "--set", "grid.nodes=65", "--set", setting, "--out", "here"]) == 2
@@ -120,10 +118,9 @@ class TestALawThatTurnsLate:
         (tmp_path / "broken").touch()
         monkeypatch.chdir(tmp_path)
         assert main(["run", "--set", "contact.kind=wedge", "--set", "grid.nodes=65", "--out", "here"]) == 0
-        before = {path.name: path.read_bytes() for path in Path("here").iterdir() if path.is_file()}
+        before = content_of("here")
         assert main([*self.WORDS, "--force", "--save-every", "1e-9"]) == 2
-        after = {path.name: path.read_bytes() for path in Path("here").iterdir() if path.is_file()}
-        assert after == before and read_run("here").result.converged
+        assert content_of("here") == before and read_run("here").result.converged
         (tmp_path / "broken").unlink()
         assert main(["run", "--resume", "here", "--quiet"]) == 0
         assert read_run("here").config.motion.speed == 0.5
@@ -154,10 +151,9 @@ def test_a_run_with_own_laws_runs_again_from_its_configuration(laws, monkeypatch
 
 def test_waves_on_the_surface_show_in_the_film(laws):
     """Nothing solid where the film is thicker than they are high, and their wavelength in the film."""
-    smooth, wavy = (
-        mgehl.solve(mgehl.load(CONFIGS / "wavy.toml", {"grid.nodes": 129} | more))
-        for more in ({"contact.surface": f"{laws}:flat"}, {})
-    )
+    flat = {"contact.surface": f"{laws}:flat"}
+    configs = (mgehl.load(CONFIGS / "wavy.toml", {"grid.nodes": 129} | more) for more in (flat, {}))
+    smooth, wavy = map(mgehl.solve, configs)
     assert smooth.summary.converged and wavy.summary.converged and wavy.summary.contact.nodes == 0
     j = np.abs(wavy.y).argmin()
     inside = np.abs(wavy.x) < 0.8 * wavy.contact.hertz.a

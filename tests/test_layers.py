@@ -1,10 +1,9 @@
 import ast
 from graphlib import CycleError, TopologicalSorter
-from pathlib import Path
 
 import pytest
+from places import ROOT
 
-ROOT = Path(__file__).resolve().parent.parent
 LAYERS = (
     "model", "discretization", "kinds", "grid", "multigrid", "solver", "output", "studies", "commands",
 )  # fmt: skip

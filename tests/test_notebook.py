@@ -1,12 +1,11 @@
 import json
 import re
 import shutil
-from pathlib import Path
 
 import matplotlib.pyplot as plt
 import pytest
+from places import CONFIGS
 
-CONFIGS = Path(__file__).resolve().parent.parent / "configs"
 CELLS = json.loads((CONFIGS / "first_steps.ipynb").read_text())["cells"]
 CODE = ["".join(cell["source"]) for cell in CELLS if cell["cell_type"] == "code"]
 

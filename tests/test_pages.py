@@ -2,11 +2,11 @@
 
 import csv
 import re
-from pathlib import Path
 
 import pytest
+from places import ROOT
 
-RUNS = Path(__file__).parents[1] / "runs"
+RUNS = ROOT / "runs"
 PAGE = RUNS / "README.md"
 NUMBER = r"[-+]?\d[\d.]*(?:e[-+]?\d+)?"
 QUOTED = re.compile(r"`([-+]?\d[^`]*)`")

@@ -1,22 +1,19 @@
 import re
 import shlex
 import shutil
-import subprocess
-import sys
 import tomllib
 from dataclasses import fields
-from pathlib import Path
 
 import page_tables
 import pytest
 from mpi4py import MPI
-from processes import own_environment
+from places import CONFIGS, ROOT
+from processes import MGEHL, ended
 
 import mgehl
 from mgehl.cli import main, read
 from mgehl.config import SECTIONS, config_from_tables, load_config
 
-ROOT = Path(__file__).resolve().parent.parent
 PAGES = {
     name: (ROOT / name).read_text()
     for name in (
@@ -73,24 +70,18 @@ def test_the_verdict_shown_is_that_of_the_first_case():
     assert "  work: " in words[-1]
 
 
-def test_own_laws_are_a_valid_configuration(tmp_path, capsys):
-    """They are compared with their differences before a run, and by `mgehl check`."""
-    shutil.copy(ROOT / "configs" / "my_laws.py", tmp_path)
-    (tmp_path / "own.toml").write_text(OWN_LAWS)
-    assert main(["check", str(tmp_path / "own.toml"), "--set", "grid.nodes=65"]) == 0
-    assert "valid, a point contact" in capsys.readouterr().out
-
-
-def test_the_surface_is_a_valid_configuration(tmp_path, capsys):
+@pytest.mark.parametrize(
+    "example, said",
+    [(OWN_LAWS, "valid, a point contact"), (SURFACE, "ground.txt': 8 x 40 points"), (FRICTION, "friction")],
+    ids=["laws", "surface", "friction"],
+)  # fmt: skip
+def test_examples_of_the_page_of_cases_are_valid_configurations(tmp_path, capsys, example, said):
+    """Laws are compared with their differences before a run, and by `mgehl check`."""
+    shutil.copy(CONFIGS / "my_laws.py", tmp_path)
     (tmp_path / "ground.txt").write_text(40 * "0 1 2 1 0 1 1 2\n")
-    (tmp_path / "rough.toml").write_text(SURFACE)
-    assert main(["check", str(tmp_path / "rough.toml"), "--set", "grid.nodes=65"]) == 0
-    assert "ground.txt': 8 x 40 points" in capsys.readouterr().out
-
-
-def test_the_page_of_cases_shows_friction_that_mgehl_check_takes(tmp_path):
-    (tmp_path / "sliding.toml").write_text(FRICTION)
-    assert main(["check", str(tmp_path / "sliding.toml"), "--set", "grid.nodes=65"]) == 0
+    (tmp_path / "mine.toml").write_text(example)
+    assert main(["check", str(tmp_path / "mine.toml"), "--set", "grid.nodes=65"]) == 0
+    assert said in capsys.readouterr().out
 
 
 def shell_lines(text):
@@ -137,17 +128,14 @@ def small(line):
     line = re.sub(r"grid\.nodes=\d+", "grid.nodes=65", line)
     if " run " in line and "--resume" not in line and "grid.nodes" not in line:
         line = re.sub(r"(run \S+)", r"\1 --set grid.nodes=65", line)
-    return re.sub(r"^mgehl ", f"{shlex.quote(sys.executable)} -m mgehl ", line)
+    return re.sub(r"^mgehl ", f"{shlex.join(MGEHL)} ", line)
 
 
 def test_commands_run_in_their_order(place):
     """Each as it stands, but on 65 nodes; a command leaves behind what the next one reads."""
     assert len(RUN) >= 8
     for line in RUN:
-        done = subprocess.run(
-            shlex.split(small(line)), cwd=place, env=own_environment(), capture_output=True, text=True,
-            timeout=120,
-        )  # fmt: skip
+        done = ended(shlex.split(small(line)), cwd=place)
         assert done.returncode == 0, f"{small(line)}\n{done.stdout}{done.stderr}"
 
 

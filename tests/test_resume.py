@@ -11,9 +11,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 from mpi4py import MPI
-from processes import own_environment
+from places import CONFIGS, RUN_FILES, content_of, names_in
+from processes import MGEHL, ended, own_environment
+from told import status_of
 
-from mgehl.cli import main
 from mgehl.config import load_config
 from mgehl.kinds import contact_from
 from mgehl.kinds import settled as settled_for
@@ -21,7 +22,6 @@ from mgehl.output.checkpoint import begin_run, load, read_begun
 from mgehl.output.stored import read_run
 from mgehl.run import solve
 
-FILES = {"configuration.toml", "fields.h5", "history.csv", "picture.png", "result.json"}
 FILM = ["--set", "grid.nodes=129", "--set", "motion.speed=0.5", "--set", "solver.start=film"]
 """Eight steps on 65 nodes, seven on 129."""
 SOLVES = {"solve-0000.npz", "solve-0001.npz"}
@@ -30,13 +30,12 @@ TEXTS = {"configuration.toml", "history.csv", "result.json"}
 BEGUN = {"begun.npz"}
 """What is solved, in the checkpoint."""
 SMALL = ["--set", "grid.nodes=65", "--set", "motion.speed=0.5", "--set", "solver.start=film"]
-ROUGH = [str(Path(__file__).parents[1] / "configs" / "rough.toml"), "--set", "grid.nodes=65"]
+ROUGH = [str(CONFIGS / "rough.toml"), "--set", "grid.nodes=65"]
 ROUGH += ["--set", "solver.tolerance=1e-10"]
 """Film and contact on a rough ball: some twenty steps, by a linear solver that remembers those before. To a
 tolerance by which runs whose sums round differently end with the same film."""
 SIGNALS = ((signal.SIGTERM, "SIGTERM", 143), (signal.SIGINT, "Ctrl-C", 130), (signal.SIGHUP, "SIGHUP", 129))
 ALWAYS = ["--save-every", "0.001"]
-
 
 pytestmark = pytest.mark.usefixtures("empty_directory")
 
@@ -67,12 +66,11 @@ def settled(config):
 
 def start(arguments, ranks=1):
     """A process of `mgehl run`, without MPI variables of this one."""
-    words = [sys.executable, "-m", "mgehl", "run", *arguments]
+    words = [*MGEHL, "run", *arguments]
     if ranks > 1:
         words = ["mpiexec", "-n", str(ranks), *words]
-    return subprocess.Popen(
-        words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=own_environment()
-    )
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
+    return subprocess.Popen(words, env=own_environment(), **pipes)
 
 
 def end(process):
@@ -82,10 +80,7 @@ def end(process):
 
 
 def exit_status(*arguments):
-    try:
-        return main(["run", *arguments, "--quiet"])
-    except SystemExit as stop:
-        return stop.code
+    return status_of("run", *arguments, "--quiet")
 
 
 def children(pid):
@@ -98,17 +93,13 @@ def has_begun(directory):
 
 def assert_nothing_is_half_written(directory):
     """What is there under a name of its own can be read."""
-    names = {path.name for path in directory.iterdir()} if directory.exists() else set()
-    assert names - parts(names) <= FILES | {"checkpoint", ".mgehl-lock"}
+    whole = {path.name for path in directory.glob("*") if not path.name.startswith(".part-")}
+    assert whole <= RUN_FILES | {"checkpoint", ".mgehl-lock"}
     if (directory / "fields.h5").exists():
         read_run(directory)
     if (directory / "checkpoint" / "begun.npz").exists():
         for path in (directory / "checkpoint").glob("[!.]*.npz"):
             assert load(path, configuration_of(directory))
-
-
-def parts(names):
-    return {name for name in names if name.startswith(".part-")}
 
 
 def configuration_of(directory):
@@ -120,13 +111,12 @@ def assert_same(directory, solution, steps=0):
     """Films to 1e-9 of the largest, the same status map; history of so many `steps` more or less."""
     read = read_run(directory)
     np.testing.assert_array_equal(read.status, solution.status)
-    np.testing.assert_allclose(read.film, solution.film, rtol=0.0, atol=1e-9 * solution.film.max())
-    np.testing.assert_allclose(
-        read.pressure, solution.pressure, rtol=0.0, atol=1e-9 * solution.pressure.max()
-    )
+    for name in ("film", "pressure"):
+        found, known = getattr(read, name), getattr(solution, name)
+        np.testing.assert_allclose(found, known, rtol=0.0, atol=1e-9 * known.max())
     assert abs(len(read.rows) - len(solution.rows)) <= steps
     assert read.result.converged == solution.result.converged
-    assert {path.name for path in directory.iterdir()} == FILES
+    assert names_in(directory) == RUN_FILES
 
 
 class TestKills:
@@ -160,9 +150,8 @@ class TestKills:
 
     def killed(self, here, ranks, chance, settings=FILM):
         """Whether a run, or one that goes on, was killed on its way."""
-        arguments = (
-            ["--resume", str(here)] if has_begun(here) else [*settings, "--out", str(here), "--force"]
-        )
+        anew = [*settings, "--out", str(here), "--force"]
+        arguments = ["--resume", str(here)] if has_begun(here) else anew
         process = start([*arguments, *ALWAYS, "--json-lines"], ranks)
         for _ in range(chance.choice([0, 1, 1, 2])):
             process.stdout.readline()
@@ -192,9 +181,8 @@ class TestStops:
             said, err = process.communicate(timeout=60)
             line = f"mgehl: stopped by {name}; go on with: mgehl run --resume {here}\n"
             assert (process.returncode, err) == (status, line)
-            rows = load(here / "checkpoint" / "under-way.npz", configuration_of(here))[0]["progress"][
-                "rows"
-            ]
+            record, _ = load(here / "checkpoint" / "under-way.npz", configuration_of(here))
+            rows = record["progress"]["rows"]
             assert rows[cycles] == first and len(rows) == cycles + 1 + len(said.splitlines())
             cycles, arguments = len(rows), ["--resume", str(here)]
         assert exit_status("--resume", str(here)) == 0
@@ -301,7 +289,7 @@ class TestStartFrom:
     )  # fmt: skip
     def test_what_is_no_start(self, before, tmp_path, refused, arguments, part):
         assert part in refused("run", *arguments)
-        assert {path.name for path in before.iterdir()} == FILES and not (tmp_path / "new").exists()
+        assert names_in(before) == RUN_FILES and not (tmp_path / "new").exists()
 
 
 def mounted(*words):
@@ -338,11 +326,9 @@ class TestFullDisk:
     )  # fmt: skip
     def test_it_is_one_line_and_the_run_goes_on_later(self, disk, uninterrupted, size, save_every, there):
         here = disk(size) / "here"
-        process = start([*SMALL, "--out", str(here), "--quiet", "--save-every", save_every])
-        _, err = process.communicate(timeout=60)
-        lines = [line for line in err.splitlines() if not line.startswith("[")]  # MPI's own
-        assert process.returncode == 2 and len(lines) == 1, err
-        assert lines[0].startswith(f"mgehl: {here}") and "No space left on device" in lines[0]
+        done = ended([*MGEHL, "run", *SMALL, "--out", str(here), "--quiet", "--save-every", save_every])
+        assert done.returncode == 2 and done.stderr.count("\n") == 1, done.stderr
+        assert done.stderr.startswith(f"mgehl: {here}") and "No space left on device" in done.stderr
         assert {path.name for path in here.rglob("*") if path.is_file()} == there
         assert_nothing_is_half_written(here)
         disk("4m")
@@ -352,13 +338,11 @@ class TestFullDisk:
     def test_a_run_to_be_replaced_stays_where_the_disk_is_full(self, disk, refused):
         path = disk("4m")
         assert exit_status(*SMALL, "--out", str(path / "here")) == 0
-        before = {each.name: each.read_bytes() for each in (path / "here").iterdir()}
+        before = content_of(path / "here")
         disk(f"{sum(len(each) for each in before.values()) // 1024 + 280}k")
         again = [*SMALL, "--set", "motion.speed=0.6", "--out", str(path / "here"), "--force"]
         assert "cannot be written: No space left on device" in refused("run", *again, "--quiet")
-        assert {
-            each.name: each.read_bytes() for each in (path / "here").iterdir() if each.is_file()
-        } == before
+        assert content_of(path / "here") == before
         disk("4m")
         assert exit_status("--resume", str(path / "here")) == 0
         assert read_run(path / "here").config.motion.speed == 0.6
@@ -386,8 +370,7 @@ class TestFailingRank:
         words = [
             "mpiexec", "-n", "2", sys.executable, "driver.py", "run", *SMALL, "--quiet", "--out", "here",
         ]  # fmt: skip
-        began = time.monotonic()
-        done = subprocess.run(words, capture_output=True, text=True, env=own_environment(), timeout=60)
+        began, done = time.monotonic(), ended(words)
         return done.returncode, done.stderr, time.monotonic() - began
 
     def test_an_error_ends_all_with_its_message(self, tmp_path):

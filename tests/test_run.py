@@ -1,11 +1,11 @@
 import json
 from dataclasses import asdict
-from pathlib import Path
 
 import numpy as np
 import pytest
 import xarray
 from mpi4py import MPI
+from places import CONFIGS, RUN_FILES, names_in
 from told import rows_of
 
 from mgehl.cli import main
@@ -16,8 +16,6 @@ from mgehl.output.solution import Solution
 from mgehl.run import run, solve
 from mgehl.studies.study import PAPERS_DOMAIN, papers_grid
 
-CONFIGS = Path(__file__).resolve().parent.parent / "configs"
-FILES = {"configuration.toml", "fields.h5", "history.csv", "picture.png", "result.json"}
 FILM = {"motion": {"speed": "1 m/s"}, "grid": papers_grid(65)}
 
 RESULT_KEYS = {
@@ -79,7 +77,7 @@ def test_the_fields_hold_the_films(film):
 def test_a_run_that_does_not_converge_still_leaves_everything(tmp_path):
     result = run_quietly({**FILM, "solver": {"max_steps": 1}}, tmp_path)
     assert not result.converged
-    assert {path.name for path in tmp_path.iterdir()} == FILES
+    assert names_in(tmp_path) == RUN_FILES
     read = read_json(tmp_path)
     assert read["converged"] is False and "1 steps" in read["reason"]
 
@@ -87,13 +85,8 @@ def test_a_run_that_does_not_converge_still_leaves_everything(tmp_path):
 KINDS = {
     "point": (FILM, Result, (65, 65)),
     "line": (
-        {
-            "contact": {"kind": "line"},
-            "motion": {"speed": 0.3},
-            "grid": {"nodes": 257, "x": PAPERS_DOMAIN["x"]},
-        },
-        Result,
-        (1, 257),
+        {"contact": {"kind": "line"}, "motion": {"speed": 0.3},
+         "grid": {"nodes": 257, "x": PAPERS_DOMAIN["x"]}}, Result, (1, 257),
     ),
     "wedge": ({"contact": {"kind": "wedge"}, "grid": {"nodes": 65}}, Result, (65, 65)),
     "relaxed point": (
@@ -125,7 +118,7 @@ WEDGES = ("wedge_blocked_exit", "wedge_open", "wedge_square_pillar", "wedge_cyli
 def test_wedge_of_the_repository(name, tmp_path):
     here = tmp_path / "here"
     assert main(["run", str(CONFIGS / f"{name}.toml"), "--quiet", "--out", str(here)]) == 0
-    assert {path.name for path in here.iterdir()} == FILES | {"centerline.csv"}
+    assert names_in(here) == RUN_FILES | {"centerline.csv"}
     read = read_json(here)
     assert read["converged"] is True and read["residual"] <= 1e-10 and read["closed_face_flow"] == 0.0
     # p dx dy in newtons, P dX dY in mm: eta u/(m^2 mm) mm^2 of 0.096 Pa s, 1 m/s and a slope of 1e-3.
@@ -161,7 +154,7 @@ def test_pocket_of_the_repository(tmp_path):
     """One line of nodes from the inlet to half a cell beyond the exit, with its own density law."""
     here = tmp_path / "here"
     assert main(["run", str(CONFIGS / "pocket.toml"), "--quiet", "--out", str(here)]) == 0
-    assert {path.name for path in here.iterdir()} == FILES | {"centerline.csv", "laws"}
+    assert names_in(here) == RUN_FILES | {"centerline.csv", "laws"}
     read = read_json(here)
     assert read["converged"] is True and read["mass"]["largest_node"] < 1e-8 * read["mass"]["enters"]
     assert read["max_pressure_MPa"] == pytest.approx(41.898, rel=1e-3)

@@ -1,9 +1,9 @@
 import os
 import signal
-import subprocess
 import sys
 
 import pytest
+from processes import ended
 
 from mgehl.stopping import SIGNALS, StopWhenTold
 
@@ -33,7 +33,7 @@ def test_the_second_ends_the_process(number):
         f"        os.kill(os.getpid(), {int(number)})\n"
         "    print('still alive', flush=True)\n"
     )
-    done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, timeout=60)
+    done = ended([sys.executable, "-c", text])
     assert (done.returncode, done.stdout, done.stderr) == (-number, "alive\nalive\n", "")
 
 

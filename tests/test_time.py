@@ -30,9 +30,10 @@ ROUGH = {
 }  # fmt: skip
 
 
-def solved(**more):
-    settings = BALL | {key.replace("__", "."): value for key, value in more.items()}
-    return mgehl.solve(mgehl.load(None, settings))
+def solved(more=(), **keys):
+    """The ball with other settings; in a keyword a dot is two underscores."""
+    named = {key.replace("__", "."): value for key, value in keys.items()}
+    return mgehl.solve(mgehl.load(None, BALL | dict(more) | named))
 
 
 @pytest.fixture
@@ -150,9 +151,8 @@ def test_the_end_is_told_by_the_load_of_the_end(course):
     assert hertz.x_scale == pytest.approx(2.0 ** (1.0 / 3.0) * after.contact.x_scale)
     inside = np.hypot(after.x[None, :], after.y[:, None]) <= hertz.x_scale
     assert mixed.mean_gap_nm == pytest.approx(1e9 * after.film[inside].mean())
-    assert mixed.contact_area_m2 == pytest.approx(
-        mixed.contact_area_over_hertz * np.pi * hertz.x_scale * hertz.y_scale
-    )
+    area = np.pi * hertz.x_scale * hertz.y_scale
+    assert mixed.contact_area_m2 == pytest.approx(mixed.contact_area_over_hertz * area)
 
 
 def test_the_inlet_is_that_of_the_slowest_motion_and_heat_that_of_the_end(course):
@@ -174,10 +174,9 @@ def test_lambda_is_that_of_the_end(course):
     """As at half of the speed in a steady state, and nothing at rest."""
     waves = {"surface.kind": "waviness", "surface.amplitude": 3e-8, "surface.wavelength_y": 6e-5}
     half = contact_from(mgehl.load(None, BALL | waves | {"motion.speed": 0.045}))
-    named = {key.replace(".", "__"): value for key, value in waves.items()}
     for last, ratio in ((0.045, half.lambda_ratio), (0.0, 0.0)):
         speed = course((0.0, 0.09), (0.02 * UNIT, last))
-        after = solved(motion__speed=speed, time__end=0.02 * UNIT, **named).summary
+        after = solved(waves, motion__speed=speed, time__end=0.02 * UNIT).summary
         assert after.mixed.lambda_ratio == pytest.approx(ratio)
 
 
@@ -199,7 +198,7 @@ def test_heat_thins_the_film_by_the_speed_of_the_instant(course):
 
 @pytest.fixture(scope="module")
 def rough():
-    return solved(**{key.replace(".", "__"): value for key, value in ROUGH.items()}, time__end=0.4 * UNIT)
+    return solved(ROUGH, time__end=0.4 * UNIT)
 
 
 def test_rough_bodies_make_no_oil(rough):
@@ -298,9 +297,7 @@ def test_frames_have_the_heights_where_they_are_and_what_cavities_hold():
     ],
 )  # fmt: skip
 def test_what_is_refused(settings, what, course):
-    settings = {
-        key: course(*value) if isinstance(value, list) else value for key, value in settings.items()
-    }
+    settings = {key: course(*each) if isinstance(each, list) else each for key, each in settings.items()}
     with pytest.raises(ConfigError, match=what):
         enter(mgehl.load(None, BALL | settings), MPI.COMM_SELF)
 

@@ -1,10 +1,8 @@
-import subprocess
 import sys
-from pathlib import Path
 
 import pytest
-
-ROOT = Path(__file__).resolve().parent.parent
+from places import ROOT
+from processes import ended
 
 
 @pytest.mark.parametrize(
@@ -12,7 +10,5 @@ ROOT = Path(__file__).resolve().parent.parent
 )
 def test_a_tool_has_nothing_to_say(tool):
     pytest.importorskip(tool.split()[0])
-    done = subprocess.run(
-        [sys.executable, "-m", *tool.split()], cwd=ROOT, capture_output=True, text=True, timeout=300
-    )
+    done = ended([sys.executable, "-m", *tool.split()], 300, ROOT)
     assert done.returncode == 0, done.stdout + done.stderr

@@ -1,9 +1,9 @@
 import re
-from pathlib import Path
+
+from places import ROOT
 
 from mgehl.version import VERSION
 
-ROOT = Path(__file__).resolve().parent.parent
 CITATION = (ROOT / "CITATION.cff").read_text()
 
 

@@ -50,6 +50,13 @@ def add_settings(parser, help="set a key, such as grid.nodes=513; may be repeate
     )
 
 
+def add_results(parser, directory):
+    """Add where the results of many runs go, and whether they go on and are told."""
+    parser.add_argument("--out", metavar="DIR", help=f"directory of the results (default: {directory})")
+    parser.add_argument("--resume", action="store_true", help="go on with the points that are finished")
+    parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
+
+
 def whole_number(option, low, high=10**6):
     """What reads the whole number of an option, in a range. Raises UserError."""
 

@@ -10,7 +10,7 @@ from importlib import import_module
 from itertools import pairwise
 from pathlib import Path
 
-from mgehl.commands import CONVERGED, NOT_CONVERGED, add_settings, whole_number
+from mgehl.commands import CONVERGED, NOT_CONVERGED, add_results, add_settings, whole_number
 from mgehl.config import load_config
 from mgehl.config_file import nested
 from mgehl.errors import ConfigError
@@ -32,10 +32,8 @@ def add(parser):
     parser.add_argument(
         "--seed", type=whole_number("--seed", 0, 2**31), metavar="N", help="by which they are drawn"
     )
-    parser.add_argument("--out", metavar="DIR", help="directory of the results (default: runs/study-NAME)")
     parser.add_argument("--force", action="store_true", help="start anew in a directory that exists")
-    parser.add_argument("--resume", action="store_true", help="go on with the points that are finished")
-    parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
+    add_results(parser, "runs/study-NAME")
 
 
 def _name(text):

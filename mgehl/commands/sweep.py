@@ -15,7 +15,7 @@ import re
 from pathlib import Path
 from shlex import quote
 
-from mgehl.commands import CONVERGED, NOT_CONVERGED, add_configuration, add_settings
+from mgehl.commands import CONVERGED, NOT_CONVERGED, add_configuration, add_results, add_settings
 from mgehl.config import load_config
 from mgehl.config_file import chosen_config, naming_file
 from mgehl.errors import ConfigError, OutputError
@@ -29,9 +29,7 @@ def add(parser):
     parser.add_argument(
         "--both-ways", action="store_true", help="go back along all points, too, from the last"
     )
-    parser.add_argument("--out", metavar="DIR", help="directory of the results (default: runs/sweep-NAME)")
-    parser.add_argument("--resume", action="store_true", help="go on with the points that are finished")
-    parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
+    add_results(parser, "runs/sweep-NAME")
 
 
 def execute(options, comm):

@@ -56,7 +56,7 @@ def missing_share(contact, x, y):
         tuple(round(end / length, 6) for end in pair) for pair, length in zip((x, y), lengths, strict=True)
     ]
     pressure = 12.0 * contact.lubricant.viscosity * contact.speed * lengths[0] / film**2
-    missing = _missing_load(*ends, lengths[0] / lengths[1], contact.motion)
+    missing = missing_load(*ends, lengths[0] / lengths[1], contact.motion)
     return min(missing * pressure * lengths[0] * lengths[1] / contact.load, MOST)
 
 
@@ -69,7 +69,7 @@ def _rigid_film(contact):
 
 
 @lru_cache(maxsize=64)
-def _missing_load(x, y, ratio, motion):
+def missing_load(x, y, ratio, motion):
     """The load missing between ends x and y in units of sqrt(2 R h_0), of a motion in these parts.
 
     In units of 12 eta u sqrt(2 R_x h_0)/h_0^2 times both lengths; their `ratio` is that along x to y.

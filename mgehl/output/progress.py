@@ -10,7 +10,7 @@ STEPS_A_GRID = 8
 class Progress:
     """Collects the history of a run and tells the speaker of it, with the time that is left.
 
-    The monitor of `nested_iteration` and its like. `kind` makes a cycle a row: `newton_row` and its like.
+    The monitor of a `Task`. `kind` makes a cycle a row: `newton_row` and its like.
     A run that goes on begins with what its checkpoint had of all this (`record`, `go_on`).
     """
 

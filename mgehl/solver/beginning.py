@@ -4,7 +4,6 @@ from dataclasses import replace
 
 from mgehl.discretization.fluid import FOLDING
 from mgehl.solver.continuation import SPEED_RATIO, Continuation
-from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.nested import nested_iteration
 from mgehl.solver.recipe import DRY, IN_CONTACT, THICK_FILM, TOUCHING, on_mesh, recipe_of
 
@@ -20,57 +19,55 @@ NOR = "; nor from"
 """Begins, in the reason of a failure, what is said of every other way that was tried."""
 
 
-def begin(hierarchy, contact, settings, monitor, journal=NOTHING_KEPT):
-    """Solve `contact` in the way that its surface, and its mean of the mobility, need; as
+def begin(task):
+    """Solve a `Task` in the way that its surface, and its mean of the mobility, need; as
     `nested_iteration`."""
+    contact, settings = task.contact, task.settings
     if recipe_of(settings, contact).peaks == TOUCHING:
-        return _begin_touching(hierarchy, contact, settings, monitor, journal)
+        return _begin_touching(task)
     if settings.scheme.face_mobility not in FOLDING:
-        settings = on_mesh(settings, contact, hierarchy.grids[-1].mesh)
-        return nested_iteration(hierarchy, contact, settings, monitor, journal)
+        return nested_iteration(replace(task, settings=on_mesh(settings, contact, task.mesh)))
     if settings.start == IN_CONTACT:
-        settings = replace(settings, newton=settings.newton.squeezed())
-        return nested_iteration(hierarchy, contact, settings, monitor, journal)
-    return Continuation(hierarchy, contact, settings, monitor, journal).begin()
+        return nested_iteration(task.but(newton=settings.newton.squeezed()))
+    return Continuation(task).begin()
 
 
-def _begin_touching(hierarchy, contact, settings, monitor, journal):
+def _begin_touching(task):
     """The same where peaks touch: where one way fails, another.
 
     Of 8 contacts that no film led to (5 rollers, 3 slow balls) 3 are found from the dry contact.
     """
-    recipe = recipe_of(settings, contact)
+    recipe = recipe_of(task.settings, task.contact)
     if not recipe.or_otherwise:
-        return nested_iteration(hierarchy, contact, settings, monitor, journal)
-    part = replace(settings.newton, max_work=FIRST_WAY * settings.newton.max_work)
-    how = hierarchy, contact, replace(settings, newton=part)
+        return nested_iteration(task)
 
     def other(begins, way):
-        def found(tell):
-            problem, outcome = way(hierarchy, contact, settings, tell, journal)
+        def found(task):
+            problem, outcome = way(task)
             return problem, replace(outcome, begins=begins) if outcome.converged else outcome
 
         return found
 
-    ways = [("a film", lambda tell: nested_iteration(*how, tell, journal))]
+    ways = [("a film", lambda task: nested_iteration(task.within(FIRST_WAY)))]
     if recipe.begins != DRY:
         ways.append(("the dry contact without oil", other(DRY, begin_dry)))
-    return first_found([*ways, ("a thick film", other(THICK_FILM, begin_thick))], monitor)
+    return first_found(task, [*ways, ("a thick film", other(THICK_FILM, begin_thick))])
 
 
-def first_found(ways, monitor):
+def first_found(task, ways):
     """Problem and `Outcome` of the first way that leads to an answer, each tried where those before fail.
 
-    `ways` are (where it begins, function of a monitor). Where none leads there, the `Outcome` is the first
+    `ways` are (where it begins, function of a `Task`). Where none leads there, the `Outcome` is the first
     one's, and has the reason of each.
     """
     (_, way), *others = ways
-    problem, outcome = way(monitor)
+    problem, outcome = way(task)
     if outcome.converged:
         return problem, outcome
     reason = outcome.reason
     for where, way in others:
-        found, last = way(_with_news(monitor, f"not found: {reason}; now from {where}"))
+        news = f"not found: {reason}; now from {where}"
+        found, last = way(replace(task, monitor=_with_news(task.monitor, news)))
         if last.converged:
             return found, last
         reason += f"{NOR} {where}: {last.reason}"
@@ -82,12 +79,12 @@ def _with_news(monitor, news):
     return lambda level, cycle: monitor(replace(level, news=news), cycle)
 
 
-def begin_dry(hierarchy, contact, settings, monitor, journal=NOTHING_KEPT):
+def begin_dry(task):
     """Solve from the dry contact, its valleys empty: near to where solids carry nearly all."""
-    return nested_iteration(hierarchy, contact, replace(settings, start=DRY), monitor, journal)
+    return nested_iteration(task.but(start=DRY))
 
 
-def begin_thick(hierarchy, contact, settings, monitor, journal=NOTHING_KEPT):
+def begin_thick(task):
     """Solve at a speed at which the film covers the peaks, and slow down: film fills the valleys on the
     way.
 
@@ -95,8 +92,7 @@ def begin_thick(hierarchy, contact, settings, monitor, journal=NOTHING_KEPT):
     the other from the inlet on, for all must flow over the peaks. Solutions on the way are exact: of seven
     lines that are not found from the dry contact one fails with 1e-6, and a second with 1e-4.
     """
-    faster = contact
-    while faster.expected_film < COVERED * contact.roughness:
+    faster = task.contact
+    while faster.expected_film < COVERED * task.contact.roughness:
         faster = faster.at_speed(SPEED_RATIO * faster.speed)
-    found = begin(hierarchy, faster, settings, monitor, journal)
-    return Continuation(hierarchy, contact, settings, monitor, journal).slow_down(*found)
+    return Continuation(task).slow_down(*begin(replace(task, contact=faster)))

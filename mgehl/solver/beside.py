@@ -13,7 +13,6 @@ import numpy as np
 
 from mgehl.solver.films import GridFilm, films_beside, films_between_nodes
 from mgehl.solver.gaps import grid_gap
-from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.on_grid import solve_near
 from mgehl.solver.problem import ContactProblem, State
 
@@ -35,17 +34,14 @@ and none of these settled. Eight settled with contact on the way: it spread in t
 
 
 class Beside:
-    """What is solved beside a run's answer, the `state` of its `problem`.
+    """What is solved beside the answer to a `Task`, the `state` of its `problem`.
 
     Whoever wants both asks for the `gaps` first: `films` takes over what was solved for them.
-
-    `monitor` and `journal` as of `nested_iteration`.
     """
 
-    def __init__(self, hierarchy, problem, state, settings, monitor, journal=NOTHING_KEPT):
-        self.problem, self.settings = problem, settings
-        self._hierarchy, self._state = hierarchy, state
-        self._monitor, self._journal = monitor, journal
+    def __init__(self, task, problem, state):
+        self.problem, self.settings = problem, task.settings
+        self._task, self._hierarchy, self._state = task, task.hierarchy, state
         self._of_gaps = None
         """Problem and `Outcome` by which `gaps` were told."""
 
@@ -83,7 +79,7 @@ class Beside:
         thinned, friction = self.problem, self.problem.contact.friction
         contact = replace(thinned.contact, friction=replace(friction, thins=False))
         problem = ContactProblem(thinned.grid, thinned.deflection, contact, thinned.scheme)
-        return problem, self._solve_near(problem, self._state, self.settings)
+        return problem, solve_near(self._task, problem, problem.with_own_gap(self._state))
 
     def _whole(self, level):
         """Problem and `Outcome` of the contact with all of its surface, by the scheme of the run."""
@@ -104,13 +100,10 @@ class Beside:
         """
         hierarchy, newton = self._hierarchy, self.settings.newton
         limits |= {"tolerance": max(TOLERANCE, newton.tolerance), "release_budget": 0}
-        settings = replace(self.settings, newton=replace(newton, **limits))
+        task = self._task.but(newton=replace(newton, **limits))
         problem = ContactProblem(hierarchy.grids[level], hierarchy.deflections[level], contact, scheme)
-        return problem, self._solve_near(problem, _at_nodes(hierarchy.transfers[level], state), settings)
-
-    def _solve_near(self, problem, state, settings):
-        state, how = problem.with_own_gap(state), (settings, self._monitor, self._journal)
-        return solve_near(self._hierarchy, problem, state, *how)
+        there = _at_nodes(hierarchy.transfers[level], state)
+        return problem, solve_near(task, problem, problem.with_own_gap(there))
 
 
 def _is_of(problem, grid, contact, scheme):

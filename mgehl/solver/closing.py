@@ -17,9 +17,9 @@ FINER, ROUNDS, STEPS = 0.1, 4, 5
 rounding may not let it fall so far."""
 
 
-def close_account(hierarchy, problem, outcome, settings, monitor, journal):
-    """The `Outcome` of a solved problem on the finest grid, its account of the oil closed as far as it can
-    be (collective); `monitor` and `journal` as of `nested_iteration`.
+def close_account(task, problem, outcome):
+    """The `Outcome` of the solved problem of a `Task`, its account of the oil closed as far as it can be
+    (collective).
 
     Contact that shuts its faces has no flow that its sets depend on: there the residual says all.
     """
@@ -27,9 +27,8 @@ def close_account(hierarchy, problem, outcome, settings, monitor, journal):
     for _ in range(ROUNDS):
         if not (outcome.converged and continuous and _makes_oil(problem, outcome.state)):
             break
-        how = outcome.state.copy(), settings, monitor, journal, news
-        tolerance = FINER * outcome.cycles[-1].residual
-        found = solve_near(hierarchy, problem, *how, tolerance=tolerance, max_steps=STEPS)
+        limits = {"tolerance": FINER * outcome.cycles[-1].residual, "max_steps": STEPS}
+        found = solve_near(task, problem, outcome.state.copy(), news, **limits)
         if not found.converged:
             break
         outcome = replace(found, begins=outcome.begins)

@@ -2,7 +2,6 @@
 
 from dataclasses import replace
 
-from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.nested import nested_iteration
 from mgehl.solver.on_grid import solve_near
 from mgehl.solver.problem import ContactProblem
@@ -17,18 +16,14 @@ convolutions, with 1.3 1068, from 3 on 691; by the geometric mean it makes no di
 
 
 class Continuation:
-    """One contact on the finest grid of a hierarchy at any speed, each solution from another.
+    """The contact of a `Task` at any speed, each solution from another.
 
-    `monitor` is called as by `nested_iteration`. All solves are of the coupled film and contact. Where one
-    on the way is not found, the problem that is returned is the one that was asked for, none the less.
+    All solves are of the coupled film and contact. Where one on the way is not found, the problem that is
+    returned is the one that was asked for, none the less.
     """
 
-    def __init__(
-        self, hierarchy, contact, settings, monitor=lambda level, cycle: None, journal=NOTHING_KEPT
-    ):
-        self._hierarchy, self._contact = hierarchy, contact
-        self._monitor, self._journal = monitor, journal
-        self._settings = replace(settings, newton=settings.newton.squeezed())
+    def __init__(self, task):
+        self._task = task.but(newton=task.settings.newton.squeezed())
 
     def begin(self):
         """Solve without a solution to begin with, by a mean whose flow has a fold.
@@ -37,25 +32,21 @@ class Continuation:
         logarithmic mean from the formula's film. The wanted mean is approached from there, then the wanted
         speed. Solutions on the way need not be exact.
         """
-        contact, settings = self._contact, self._settings
-        speed = contact.matched_speed(self._hierarchy.grids[-1].mesh, settings.inlet_cells)
+        task, settings = self._task, self._task.settings
+        speed = task.contact.matched_speed(task.mesh, settings.inlet_cells)
         first = replace(settings, scheme=replace(settings.scheme, face_mobility="logarithmic")).roughly()
-        problem, outcome = nested_iteration(
-            self._hierarchy, contact.at_speed(speed), first, self._monitor, self._journal
-        )
+        problem, outcome = nested_iteration(replace(task.at_speed(speed), settings=first))
         if outcome.converged:
-            walk = self._walk(speed == contact.speed)
+            walk = self._walk(speed == task.contact.speed)
             problem, outcome = in_steps(lambda t, state: walk.at(speed, state, t), outcome.state)
         return self.slow_down(problem, outcome, exactly=False)
 
     def at(self, speed, state, share=1.0, **limits):
         """Solve at `speed` from `state`, with own limits of Newton's where some are given; return the
         problem and the `Outcome`."""
-        hierarchy, settings = self._hierarchy, self._settings
-        scheme, contact = replace(settings.scheme, mobility_share=share), self._contact.at_speed(speed)
-        problem = ContactProblem(hierarchy.grids[-1], hierarchy.deflections[-1], contact, scheme)
-        state, how = problem.with_own_gap(state), (settings, self._monitor, self._journal)
-        return problem, solve_near(hierarchy, problem, state, *how, **limits)
+        scheme = replace(self._task.settings.scheme, mobility_share=share)
+        problem = self._task.at_speed(speed).but(scheme=scheme).problem()
+        return problem, solve_near(self._task, problem, problem.with_own_gap(state), **limits)
 
     def follow(self, state, first_speed, last_speed):
         """Carry the `state` at one speed to another, in steps of equal ratio."""
@@ -66,7 +57,7 @@ class Continuation:
 
         On the way `exactly`, or with a coarse grid's tolerance.
         """
-        speed, goal = problem.contact.speed, self._contact.speed
+        speed, goal = problem.contact.speed, self._task.contact.speed
         while outcome.converged and speed != goal:
             slower = max(goal, speed / SPEED_RATIO)
             problem, outcome = self._walk(exactly or slower == goal)._follow(outcome.state, speed, slower)
@@ -81,8 +72,8 @@ class Continuation:
 
     def _walk(self, exactly):
         """The same, or with a coarse grid's tolerance, for what only leads to another solution."""
-        settings = self._settings if exactly else self._settings.roughly()
-        return Continuation(self._hierarchy, self._contact, settings, self._monitor, self._journal)
+        task = self._task
+        return Continuation(task if exactly else replace(task, settings=task.settings.roughly()))
 
     def _asked(self, speed, problem, outcome):
         """The problem that was asked for, where that of the `outcome` is a stage on the way to it.
@@ -91,7 +82,7 @@ class Continuation:
         """
         if outcome.converged:
             return problem, outcome
-        scheme, contact = self._settings.scheme, self._contact.at_speed(speed)
+        scheme, contact = self._task.settings.scheme, self._task.contact.at_speed(speed)
         stage = problem.scheme, problem.contact.speed
         if stage == (scheme, speed):
             return problem, outcome

@@ -8,54 +8,51 @@ from mgehl.discretization.status import CONTACT, LUBRICATED
 from mgehl.solver.beginning import begin
 from mgehl.solver.carry import Reference
 from mgehl.solver.dry import guess_on_finest, solve_dry
-from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.march import March
 from mgehl.solver.on_grid import newton_on
-from mgehl.solver.problem import ContactProblem
 from mgehl.solver.recipe import DRY, recipe_in_time
 from mgehl.solver.restart import interpolated
 
 
-def march(scene, hierarchy, settings, told, monitor, journal=NOTHING_KEPT, start=None):
+def march(scene, task, told, start=None):
     """Run a `Scene` in time on the finest grid; return its `ContactProblem` and its `Outcome`.
 
-    From `start`, a `Solution` and the `Frame` here, or from the steady state of its beginning. `told` is
-    called after each step, as `March` says, `monitor` for each cycle on the way to the beginning.
+    The `Task` is that of the scene's contact. From `start`, a `Solution` and the `Frame` here, or from the
+    steady state of its beginning. `told` is called after each step, as `March` says, the monitor for each
+    cycle on the way to the beginning.
     """
     reference = begins = None
-    contact, grid, deflection = scene.framed, hierarchy.grids[-1], hierarchy.deflections[-1]
-    recipe = recipe_in_time(settings, contact)
-    problem = ContactProblem(grid, deflection, contact, recipe.scheme)
+    recipe = recipe_in_time(task.settings, task.contact)
+    problem = task.but(scheme=recipe.scheme).problem()
     if start:
         state = interpolated(problem, *start)
     else:
         beginning = _at_rest if scene.speed.value(0.0) == 0.0 else _steady
-        steady, first = beginning(scene, hierarchy, settings, monitor, journal)
+        steady, first = beginning(scene, task)
         if not first.converged:
             first.reason = f"the steady state that time begins with: {first.reason}"
             return problem, first
         state, begins = first.state, first.begins
         if beginning is _steady and not scene.moves:
             reference = Reference.of(steady, state)
-    with newton_on(hierarchy, problem, recipe) as newton:
-        outcome = March(scene, problem, newton, settings.time, told).run(state, reference, journal)
+    with newton_on(task.hierarchy, problem, recipe) as newton:
+        marching = March(scene, problem, newton, task.settings.time, told)
+        outcome = marching.run(state, reference, task.journal)
     return problem, replace(outcome, begins=begins)
 
 
-def _steady(scene, hierarchy, settings, monitor, journal):
+def _steady(scene, task):
     """The steady problem at the beginning and its `Outcome`."""
-    contact = scene.instant(scene.framed, 0.0)
-    return begin(hierarchy, contact, settings, monitor, journal)
+    return begin(replace(task, contact=scene.instant(task.contact, 0.0)))
 
 
-def _at_rest(scene, hierarchy, settings, monitor, journal):
+def _at_rest(_scene, task):
     """The problem and the `Outcome` of the dry contact in a bath of oil: between solids it is without
     pressure, and around them it fills the gap."""
-    contact, grid, scheme = scene.framed, hierarchy.grids[-1], settings.scheme
-    problem = ContactProblem(grid, hierarchy.deflections[-1], contact, scheme)
-    guess = guess_on_finest(hierarchy, contact, scheme)
-    limits = settings.newton.tolerance, settings.newton.max_steps
-    outcome = solve_dry(problem, guess, *limits, lambda cycle: None, journal)
+    problem, scheme, limits = task.problem(), task.settings.scheme, task.settings.newton
+    guess = guess_on_finest(task.hierarchy, task.contact, scheme)
+    how = limits.tolerance, limits.max_steps, lambda cycle: None, task.journal
+    outcome = solve_dry(problem, guess, *how)
     P, layers = outcome.state.P, scheme.contact_law.contact_gap
     status = np.where(P > 0.0, CONTACT, LUBRICATED)
     outcome.state = problem.state(P, outcome.state.H0 + layers, status, np.zeros(P.shape))

@@ -6,7 +6,6 @@ import numpy as np
 
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
 from mgehl.solver.dry import dry_pressure, guess_on_finest
-from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.on_grid import LevelSolve, fluid_on, solve_on
 from mgehl.solver.problem import DIVERGED, ContactProblem, State
 from mgehl.solver.recipe import (
@@ -32,11 +31,9 @@ make films thicker, those of the paper's ball at 0.1 mm/s three times on 129 nod
 convolutions from the formula's own film, 367 from 3 times it, 360 from 5; at 1 mm/s 63, 91 and 100."""
 
 
-def nested_iteration(hierarchy, contact, settings, monitor, journal=NOTHING_KEPT):
-    """Solve `contact` on the finest grid; return its `ContactProblem` and its `Outcome`.
-
-    `monitor(level, cycle)` is called with a `LevelSolve` and the `Cycle` for every cycle.
-    """
+def nested_iteration(task):
+    """Solve the contact of a `Task`, coarse grids first; return its `ContactProblem` and its `Outcome`."""
+    hierarchy, contact, settings = task.hierarchy, task.contact, task.settings
     coarse, outcome = settings.roughly(), None
     for level, solve in planned_solves([grid.mesh for grid in hierarchy.grids], contact, settings):
         grid, deflection = hierarchy.grids[level], hierarchy.deflections[level]
@@ -50,21 +47,20 @@ def nested_iteration(hierarchy, contact, settings, monitor, journal=NOTHING_KEPT
             state = interpolate(hierarchy.transfers[level - 1], problem, outcome.state)
         if recipe.fluid_apart:
             guess_fluid(hierarchy, problem, state, settings)
-        outcome = solve_on(hierarchy, problem, state, recipe, partial(monitor, solve), journal)
+        outcome = solve_on(hierarchy, problem, state, recipe, partial(task.monitor, solve), task.journal)
         if not outcome.cycles[-1].residual < DIVERGED:
             break  # nothing to start the next grid from; the outcome says why
     return problem, outcome
 
 
-def single_loop(hierarchy, contact, settings, monitor, journal=NOTHING_KEPT, state=None):
+def single_loop(task, state=None):
     """Solve by the paper's relaxation, on the finest grid alone, maybe from a `state`; otherwise as
     `nested_iteration`."""
-    grid = hierarchy.grids[-1]
-    problem = ContactProblem(grid, hierarchy.deflections[-1], contact, settings.scheme)
+    problem, settings = task.problem(), task.settings
     if state is None:
-        state = first_guess(problem, recipe_of(settings, contact).begins)
-    tell = partial(monitor, LevelSolve(grid.mesh.nx, contact.speed, True))
-    return problem, relax(problem, state, settings.relaxation, tell, journal)
+        state = first_guess(problem, recipe_of(settings, task.contact).begins)
+    tell = partial(task.monitor, LevelSolve(task.mesh.nx, task.contact.speed, True))
+    return problem, relax(problem, state, settings.relaxation, tell, task.journal)
 
 
 def first_guess(problem, begins, P=None):

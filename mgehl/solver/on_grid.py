@@ -23,17 +23,17 @@ class LevelSolve:
     """What its user should know of the way here; empty where all goes as planned."""
 
 
-def solve_near(hierarchy, problem, state, settings, monitor, journal, news="", **limits):
+def solve_near(task, problem, state, news="", **limits):
     """Solve a `ContactProblem` on its grid from a `state` near its own; return the `Outcome`.
 
-    The `state` is the solve's own from now on. `limits` overrule those that the recipe has of Newton's
-    method; `monitor` and `journal` as of `nested.nested_iteration`, `news` as of a `LevelSolve`.
+    By the settings of a `Task`, whatever contact and scheme that has. The `state` is the solve's own from
+    now on. `limits` overrule those that the recipe has of Newton's method; `news` as of a `LevelSolve`.
     """
-    contact, grid = problem.contact, problem.grid
-    recipe = recipe_of(replace(settings, scheme=problem.scheme), contact, A_STATE)
+    contact, grid, hierarchy = problem.contact, problem.grid, task.hierarchy
+    recipe = recipe_of(replace(task.settings, scheme=problem.scheme), contact, A_STATE)
     recipe = replace(recipe, newton=replace(recipe.newton, **limits))
     solve = LevelSolve(grid.mesh.nx, contact.speed, grid is hierarchy.grids[-1], news)
-    return solve_on(hierarchy, problem, state, recipe, partial(monitor, solve), journal)
+    return solve_on(hierarchy, problem, state, recipe, partial(task.monitor, solve), task.journal)
 
 
 def solve_on(hierarchy, problem, state, recipe, tell, journal):

@@ -1,6 +1,7 @@
 """A start from the fields of another run: another grid, another speed, another load."""
 
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +13,6 @@ from mgehl.model.own_function import file_and_function
 from mgehl.solver.beginning import begin, first_found
 from mgehl.solver.continuation import Continuation
 from mgehl.solver.nested import single_loop
-from mgehl.solver.problem import ContactProblem
 from mgehl.solver.recipe import on_mesh, recipe_of
 
 FORECAST_STEPS = 40
@@ -112,46 +112,39 @@ def _plain(value):
     return (Path(own[0]).name, own[1]) if own else value
 
 
-def solve_from(hierarchy, contact, settings, start, frame, monitor, journal):
-    """Solve on the finest grid from another run's fields; otherwise as `nested_iteration`.
+def solve_from(task, start, frame):
+    """Solve a `Task` on the finest grid from another run's fields; otherwise as `nested_iteration`.
 
     `start` is a `Solution` whose whole fields rank 0 has, or a `Forecast`; the contact is one in a `Frame`.
     From another speed it is carried here, in smaller steps where one is too large. What no start leads to
     is looked for from nothing, and what a `Forecast` hardly leads to is so at first. Contact that shuts its
     faces is not: there two states may be answers, and a start names the one that is meant.
     """
+    settings = task.settings
     if settings.method != "newton-mg" or not settings.scheme.contact_law.is_continuous:
-        return _from_fields(hierarchy, contact, settings, start, frame, monitor, journal)
-    part = replace(settings.newton, max_work=OF_A_START * settings.newton.max_work)
-    near = replace(settings, newton=part)
-
-    def from_start(tell):
-        return _from_fields(hierarchy, contact, near, start, frame, tell, journal)
-
-    def from_nothing(tell):
-        return _from_nothing(hierarchy, contact, settings, tell, journal)
-
-    ways = [("that start", from_start), ("nothing", from_nothing)]
-    if isinstance(start, Forecast) and not start.leads_to(contact, frame):
+        return _from_fields(task, start, frame)
+    from_start = partial(_from_fields, start=start, frame=frame)
+    ways = [("that start", lambda task: from_start(task.within(OF_A_START))), ("nothing", _from_nothing)]
+    if isinstance(start, Forecast) and not start.leads_to(task.contact, frame):
         ways.reverse()
-    return first_found(ways, monitor)
+    return first_found(task, ways)
 
 
-def _from_nothing(hierarchy, contact, settings, monitor, journal):
-    """Problem and `Outcome` of a contact without another run's fields."""
-    problem, outcome = begin(hierarchy, contact, settings, monitor, journal)
-    seen = on_mesh(settings, contact, problem.grid.mesh)
-    return problem, replace(outcome, begins=outcome.begins or recipe_of(seen, contact).begins)
+def _from_nothing(task):
+    """Problem and `Outcome` of a `Task` without another run's fields."""
+    problem, outcome = begin(task)
+    seen = on_mesh(task.settings, task.contact, problem.grid.mesh)
+    return problem, replace(outcome, begins=outcome.begins or recipe_of(seen, task.contact).begins)
 
 
-def _from_fields(hierarchy, contact, settings, start, frame, monitor, journal):
-    """Problem and `Outcome` of a contact from another run's fields alone."""
-    problem = ContactProblem(hierarchy.grids[-1], hierarchy.deflections[-1], contact, settings.scheme)
+def _from_fields(task, start, frame):
+    """Problem and `Outcome` of a `Task` from another run's fields alone."""
+    problem, contact, settings = task.problem(), task.contact, task.settings
     forecast, start = (start, start.last) if isinstance(start, Forecast) else (None, start)
     state = interpolated(problem, start, frame)
     if settings.method != "newton-mg":
-        return single_loop(hierarchy, contact, settings, monitor, journal, state)
-    continuation = Continuation(hierarchy, contact, settings, monitor, journal)
+        return single_loop(task, state)
+    continuation = Continuation(task)
     if forecast:
         patient = min(FORECAST_STEPS, settings.newton.max_steps)
         limits = {"max_steps": patient, "squeeze": settings.newton.squeeze}

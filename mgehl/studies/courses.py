@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 from scipy.interpolate import CubicSpline
 
+from mgehl.output.film_error import FILMS
 from mgehl.output.pictures.style import COLOURS, subplots
 from mgehl.studies.columns import told
 from mgehl.studies.moving import BALL
@@ -112,9 +113,6 @@ def _closes(found):
         "account off by": f"{time.largest_closure:.1e}",
         **told(found.result, "converged"),
     }
-
-
-FILMS = "central", "minimum"
 
 
 def _slow(study, nodes):

@@ -8,6 +8,7 @@ from math import nan
 
 import numpy as np
 
+from mgehl.output.film_error import FILMS
 from mgehl.studies.columns import told
 from mgehl.studies.limits import JudgedBand, cells, summary
 from mgehl.studies.study import BEST, merged
@@ -28,8 +29,6 @@ DOMAINS = (
     (np.inf, {"x": [-1.9, 1.3], "y": [-1.5, 1.5]}),
 )
 """Domains by the load M below which they are taken."""
-
-FILMS = ("central", "minimum")
 
 
 def run(study):

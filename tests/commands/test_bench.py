@@ -34,12 +34,8 @@ def test_a_benchmark_is_printed_written_and_compared(capsys, tmp_path):
      (["--compare", "old.json"], ["old.json: no benchmark"])],
 )  # fmt: skip
 def test_mistakes_are_one_line_before_anything_is_timed(refused, tmp_path, arguments, parts):
-    (tmp_path / "two.json").write_text('{"ranks": 2, "versions": {}, "timings": []}')
-    for name, text in {
-        "empty": "",
-        "other": "{}",
-        "old": '{"ranks": 1, "timings": [{"case": "a"}]}',
-    }.items():
+    two, old = '{"ranks": 2, "versions": {}, "timings": []}', '{"ranks": 1, "timings": [{"case": "a"}]}'
+    for name, text in {"two": two, "empty": "", "other": "{}", "old": old}.items():
         (tmp_path / f"{name}.json").write_text(text)
     line = refused("bench", *arguments)
     assert all(part in line for part in parts)

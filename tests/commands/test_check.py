@@ -1,11 +1,9 @@
 import re
-from pathlib import Path
 
 import pytest
+from places import CONFIGS
 
 from mgehl.cli import main
-
-ROOT = Path(__file__).resolve().parents[2]
 
 
 @pytest.fixture
@@ -13,7 +11,7 @@ def told(capsys, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
 
     def run(name, *words):
-        assert main(["check", str(ROOT / "configs" / name), *words]) == 0
+        assert main(["check", str(CONFIGS / name), *words]) == 0
         assert not list(tmp_path.iterdir())
         return capsys.readouterr().out
 
@@ -37,10 +35,8 @@ def test_a_point_contact_is_described(told):
 def test_formulas_are_isothermal_and_heat_is_told_beside_them(told):
     """With heating = "factor" groups and films had the heated viscosity and were called isothermal."""
     oil = "lubricant.conductivity=0.14", "lubricant.thermoviscosity=0.04", "motion.speed=2 m/s"
-    text, heated = (
-        told("full_film.toml", *(word for each in (*oil, *more) for word in ("--set", each)))
-        for more in ([], ["lubricant.heating=factor"])
-    )
+    words = ["full_film.toml", *(f"--set={each}" for each in oil)]
+    text, heated = told(*words), told(*words, "--set=lubricant.heating=factor")
     begin, end = (re.search(rf"^{head} .*$", text, re.M)[0] for head in ("groups", "films, nm"))
     assert begin in heated and end in heated
     left = number(text, r'heat +isothermal films: lubricant.heating = "factor" would leave some (\d+) %')
@@ -90,12 +86,8 @@ def test_friction_heat_and_time_are_told_and_from_where_to_where_speed_and_load_
 
 def test_the_recipe_is_that_of_the_axes_in_which_it_is_solved(told):
     """At more than 45 degrees x and y are exchanged, and with them their cells."""
-    film = (
-        "solver.start=film",
-        "grid.nodes=129",
-        "motion.speed=0.7 m/s",
-        "discretization.face_mobility=linear-gap",
-    )
+    film = "solver.start=film", "grid.nodes=129", "motion.speed=0.7 m/s"
+    film += ("discretization.face_mobility=linear-gap",)
     along_x = "motion.angle=0", "grid.x=[-2.0, 2.0]", "grid.y=[-3.0, 3.0]"
     along_y = "motion.angle=90", "grid.x=[-3.0, 3.0]", "grid.y=[-2.0, 2.0]"
 
@@ -144,19 +136,13 @@ def test_what_would_not_run_is_one_line_and_status_2(words, parts, refused):
     assert all(part in line for part in parts)
 
 
-def test_a_course_of_the_speed_is_resolved_where_its_slowest_motion_is(capsys, tmp_path):
+def test_a_course_of_the_speed_is_resolved_where_its_slowest_motion_is(told, tmp_path_factory):
     """By as many nodes as that speed takes in a steady state."""
-    found = {}
-    (tmp_path / "speed.csv").write_text("0,2\n0.001,0.2\n0.002,0.3\n")
-    for name, more in {
-        "course": {"motion.speed": tmp_path / "speed.csv", "time.end": 0.002},
-        "steady": {"motion.speed": 0.2},
-    }.items():
-        more |= {"grid.x": [-3, 1.5], "grid.y": [-2, 2], "grid.nodes": 257}
-        words = [word for key, value in more.items() for word in ("--set", f"{key}={value}")]
-        assert main(["check", str(ROOT / "configs" / "full_film.toml"), *words]) == 0
-        found[name] = capsys.readouterr().out
-    cells, nodes = r"grid +257 +([\d.]+) cells", r"from (\d+) nodes on"
-    for each in (cells, nodes):
-        assert number(found["course"], each) == number(found["steady"], each)
-    assert "inlet      at the slowest, 200 mm/s" in found["course"] and "slowest" not in found["steady"]
+    speed = tmp_path_factory.mktemp("courses") / "speed.csv"
+    speed.write_text("0,2\n0.001,0.2\n0.002,0.3\n")
+    ways = (f"motion.speed={speed}", "time.end=0.002"), ("motion.speed=0.2",)
+    grid = "grid.x=[-3, 1.5]", "grid.y=[-2, 2]", "grid.nodes=257"
+    course, steady = (told("full_film.toml", *(f"--set={each}" for each in (*way, *grid))) for way in ways)
+    for each in (r"grid +257 +([\d.]+) cells", r"from (\d+) nodes on"):
+        assert number(course, each) == number(steady, each)
+    assert "inlet      at the slowest, 200 mm/s" in course and "slowest" not in steady

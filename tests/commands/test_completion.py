@@ -16,7 +16,6 @@ _mgehl
 printf '%s\\n' "${COMPREPLY[@]}" $asked
 """
 
-
 FILENAMES = ("-o", "filenames")
 """What completions of files ask bash for."""
 

@@ -1,20 +1,20 @@
 import shutil
-import subprocess
 import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 import xarray
+from places import CONFIGS, content_of
+from processes import ended
 
 from mgehl.cli import main
 from mgehl.output.stored import read_run
 
-ROOT = Path(__file__).resolve().parents[2]
 RUNS = {
     "point": ["--set", "grid.nodes=65", "--set", "motion.speed=0.5 m/s", "--set", "solver.start=film"],
-    "line": [str(ROOT / "configs/line_contact.toml"), "--set", "grid.nodes=129"],
-    "wedge": [str(ROOT / "configs/wedge_square_pillar.toml"), "--set", "grid.nodes=65"],
+    "line": [str(CONFIGS / "line_contact.toml"), "--set", "grid.nodes=129"],
+    "wedge": [str(CONFIGS / "wedge_square_pillar.toml"), "--set", "grid.nodes=65"],
 }
 
 
@@ -43,12 +43,12 @@ def run(runs, tmp_path):
 @pytest.mark.parametrize("kind", RUNS)
 def test_all_formats_of_a_run(kind, run, capsys):
     directory = run(kind)
-    before = {path.name: path.read_bytes() for path in directory.iterdir()}
+    before = content_of(directory)
     assert main(["export", str(directory), "--to", "vts,nc,npz,csv"]) == 0
     written = [f"fields.{each}" for each in ("vts", "nc", "npz", "csv")]
     assert capsys.readouterr().out.split() == [str(directory / name) for name in written]
-    assert {path.name for path in directory.iterdir()} == before.keys() | set(written)
-    assert all((directory / name).read_bytes() == content for name, content in before.items())
+    after = content_of(directory)
+    assert after.keys() == before.keys() | set(written) and before.items() <= after.items()
     solution = read_run(directory)
     with xarray.open_dataset(directory / "fields.nc", engine="h5netcdf") as data:
         np.testing.assert_array_equal(data.film, solution.film)
@@ -74,7 +74,7 @@ def test_a_full_disk_is_one_line_to_the_end_of_the_process(name, runs, tmp_path)
     (tmp_path / f"a.{name}").write_text("mine")
     command = [sys.executable, "-c", ON_A_FULL_DISK, "export", str(runs("point")), "--to", name]
     command += ["--force", "--out", str(tmp_path / "a")]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=60)
+    done = ended(command)
     assert done.returncode == 2, done.stderr
     assert "cannot be written" in done.stderr and done.stderr.count("\n") == 1
     assert [path.read_text() for path in tmp_path.iterdir()] == ["mine"]

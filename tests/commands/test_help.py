@@ -1,16 +1,14 @@
 import os
 import shlex
-import subprocess
 import sys
-from pathlib import Path
 
 import pytest
-from processes import own_environment
+from places import ROOT
+from processes import ended
 
 from mgehl.cli import main, parser
 from mgehl.commands import COMMANDS
 
-ROOT = Path(__file__).resolve().parents[2]
 SMALL = ["grid.nodes=65", "motion.speed=0.5 m/s", "solver.start=film"]
 
 
@@ -18,7 +16,7 @@ SMALL = ["grid.nodes=65", "motion.speed=0.5 m/s", "solver.start=film"]
 def directory(tmp_path_factory):
     """A directory with a small run in runs/try, which examples may name."""
     here = tmp_path_factory.mktemp("examples")
-    settings = [word for setting in SMALL for word in ("--set", setting)]
+    settings = [f"--set={setting}" for setting in SMALL]
     assert main(["run", *settings, "--out", str(here / "runs" / "try"), "--quiet"]) == 0
     return here
 
@@ -63,9 +61,6 @@ def test_mgehl_alone_is_a_question_for_help(capsys):
 @pytest.mark.parametrize("name", COMMANDS)
 def test_the_example_runs(name, directory):
     path = os.pathsep.join([str(ROOT), os.environ.get("PYTHONPATH", "")])
-    environment = own_environment(PYTHONPATH=path)
-    done = subprocess.run(
-        example(name), cwd=directory, env=environment, capture_output=True, text=True, timeout=300
-    )
+    done = ended(example(name), 300, directory, PYTHONPATH=path)
     assert done.returncode == 0, done.stdout + done.stderr
     assert "Traceback" not in done.stderr

@@ -1,18 +1,19 @@
+import shutil
+
 import pytest
+from places import names_in
 
 from mgehl.cli import main
 from mgehl.output.study_directory import StudyRecord, write_record
 from mgehl.studies.catalogue import WHAT
 
-RUN = ["run", "--set", "grid.nodes=65", "--set", "solver.start=contact", "--quiet", "--out", "dry"]
+RUN = ["run", "--set", "grid.nodes=65", "--set", "solver.start=contact", "--quiet", "--out"]
 
 
 @pytest.fixture(scope="module")
 def finished(tmp_path_factory):
-    directory = tmp_path_factory.mktemp("report")
-    with pytest.MonkeyPatch.context() as patch:
-        patch.chdir(directory)
-        assert main(RUN) == 0
+    directory = tmp_path_factory.mktemp("report") / "dry"
+    assert main([*RUN, str(directory)]) == 0
     return directory
 
 
@@ -23,23 +24,16 @@ def quick(monkeypatch):
 
 
 @pytest.fixture
-def here(finished, tmp_path, monkeypatch):
-    (tmp_path / "dry").mkdir()
-    for path in (finished / "dry").iterdir():
-        (tmp_path / "dry" / path.name).write_bytes(path.read_bytes())
-    monkeypatch.chdir(tmp_path)
-    return tmp_path
-
-
-def names(directory):
-    return {path.name for path in directory.iterdir()}
+def here(finished, empty_directory):
+    shutil.copytree(finished, empty_directory / "dry")
+    return empty_directory
 
 
 def test_beside_the_results(here, capsys):
-    before = names(here / "dry")
+    before = names_in(here / "dry")
     (here / "dry" / "report.html").write_text("old")
     assert main(["report", "dry"]) == 0
-    assert names(here / "dry") == before | {"report.html"}
+    assert names_in(here / "dry") == before | {"report.html"}
     assert capsys.readouterr().out == "report dry/report.html\n"
     html = (here / "dry" / "report.html").read_text(encoding="utf-8")
     assert html.startswith("<!DOCTYPE html>") and "Run dry" in html and "Converged" in html
@@ -52,7 +46,7 @@ def test_another_file_is_replaced_only_with_force(here, refused):
     assert page.read_text() == "mine"
     assert main(["report", "dry", "--out", "page.html", "--force"]) == 0
     assert page.read_text(encoding="utf-8").startswith("<!DOCTYPE html>")
-    assert "report.html" not in names(here / "dry")
+    assert "report.html" not in names_in(here / "dry")
 
 
 @pytest.mark.parametrize("damage", ["missing", "cut off"])
@@ -62,9 +56,9 @@ def test_a_damaged_run_is_refused_and_writes_nothing(here, refused, damage):
         path.unlink()
     else:
         path.write_bytes(path.read_bytes()[:-40])
-    before = names(here / "dry")
+    before = names_in(here / "dry")
     refused("report", "dry")
-    assert names(here / "dry") == before
+    assert names_in(here / "dry") == before
 
 
 def test_somebodys_tables_are_no_study(here, refused):

@@ -65,7 +65,7 @@ class TestWithoutAConfiguration:
 
 
 def test_the_numbers_that_follow_are_stored_and_read_again(run, tmp_path, capsys):
-    steel = [word for body in (1, 2) for word in ("--set", f"body_{body}.material=steel")]
+    steel = [f"--set=body_{body}.material=steel" for body in (1, 2)]
     rough = "--set", "body_1.Ra=40 nm", "--no-error"
     result, config, words = run(*steel, *rough, "--set", "lubricant.pressure_viscosity=0.2 1/GPa")
     assert "reduced_modulus" not in config["contact"] and config["body_1"]["material"] == "steel"

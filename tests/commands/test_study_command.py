@@ -2,6 +2,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from places import names_in
 from told import counting
 
 from mgehl.cli import main
@@ -68,7 +69,7 @@ def test_by_force_its_runs_are_solved_anew_and_what_is_not_its_own_stays(study):
     assert (run / "fields.h5").stat().st_mtime_ns > before
     assert (run / "notes.txt").read_text() == "mine" and (study / "runs" / "mine").exists()
     assert main(["study", "dry", "--nodes", "129", "--quiet", "--out", "here", "--force"]) == 0
-    assert {path.name for path in run.iterdir()} == {"notes.txt"}
+    assert names_in(run) == {"notes.txt"}
 
 
 def test_it_goes_on_in_its_own_directory_alone(study, refused):

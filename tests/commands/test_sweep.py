@@ -4,6 +4,7 @@ import h5netcdf
 import numpy as np
 import pytest
 from mpi4py import MPI
+from places import names_in
 from told import counting, rows_of
 
 import mgehl
@@ -35,12 +36,11 @@ def array(directory, name):
 
 
 def test_it_leaves_runs_a_table_an_array_curves_and_a_page(film):
-    assert {path.name for path in film.iterdir()} == {
+    assert names_in(film) == {
         "report.html", "runs", "study.json", "sweep.csv", "sweep.md", "sweep.nc", "sweep.png",
     }  # fmt: skip
-    results = [
-        json.loads((film / "runs" / name / "result.json").read_text()) for name in ("001", "002", "003")
-    ]
+    paths = (film / "runs" / name / "result.json" for name in ("001", "002", "003"))
+    results = [json.loads(path.read_text()) for path in paths]
     assert [row["motion.speed"] for row in table(film)] == ["0.5", "1.25", "2"]
     assert array(film, "central_film_nm").tolist() == [each["central_film_nm"] for each in results]
     with h5netcdf.File(film / "sweep.nc", "r") as file:
@@ -126,10 +126,7 @@ def test_values_may_stand_in_quotes_as_those_of_set_do(film, quote):
 
 def test_several_keys_are_a_snake_there_and_back():
     config = load_config()
-    axes = [
-        axis_of(config, "motion.speed", [1.0, 2.0, 3.0]),
-        axis_of(config, "contact.load", [50, 60]),
-    ]
+    axes = [axis_of(config, "motion.speed", [1.0, 2.0, 3.0]), axis_of(config, "contact.load", [50, 60])]
     there = [(0, 0), (1, 0), (2, 0), (2, 1), (1, 1), (0, 1)]
     points = points_of(config, axes, both_ways=True)
     assert [point.place for point in points] == there + there[::-1]
@@ -170,9 +167,8 @@ def test_collect_takes_keys_and_plot_draws_against_one(film, tmp_path, capsys, r
     runs = sorted(map(str, (film / "runs").iterdir()))
     assert main(["collect", *runs, "--columns", "run,motion.speed,contact.load,central nm"]) == 0
     assert "| 001 | 0.5 | 800 |" in capsys.readouterr().out
-    assert (
-        main(["plot", *runs, "--against", "motion.speed", "--format", "png", "--out", str(tmp_path)]) == 0
-    )
+    drawn = "--against", "motion.speed", "--format", "png", "--out", str(tmp_path)
+    assert main(["plot", *runs, *drawn]) == 0
     assert (tmp_path / "against-motion.speed.png").stat().st_size > 10000
     capsys.readouterr()
     for key, said in {

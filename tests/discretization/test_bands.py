@@ -3,11 +3,7 @@ import pytest
 from dense import ALONG_X, BOTH_WAYS, dense_JQ, line_stencils
 
 from mgehl.discretization.band_kernels import REACH
-from mgehl.discretization.bands import (
-    AT_A_TIME,
-    LineBands,
-    influence_of_columns,
-)
+from mgehl.discretization.bands import AT_A_TIME, LineBands, influence_of_columns
 from mgehl.discretization.influence import influence_coefficients
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.residual import Linearisation

@@ -1,9 +1,7 @@
-import os
-import subprocess
 import sys
-from pathlib import Path
 
-import mgehl
+from places import ROOT, ROUGH
+from processes import ended
 
 
 def test_without_any_place_functions_are_compiled_again(tmp_path):
@@ -18,8 +16,7 @@ def test_without_any_place_functions_are_compiled_again(tmp_path):
         "apply_stencil(np.array([[0, 0]]), np.full((1, 1, 3), 2.0), np.ones((5, 3)), out)\n"
         "assert (out == 2.0).all()\n"
     )
-    environment = dict(os.environ) | {"PYTHONPATH": str(Path(mgehl.__file__).parents[1])}
-    done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, env=environment)
+    done = ended([sys.executable, "-c", text], PYTHONPATH=str(ROOT))
     assert done.returncode == 0, done.stderr
 
 
@@ -38,11 +35,7 @@ def test_what_was_just_compiled_gives_the_bits_of_what_was_kept(tmp_path):
     A multiplication and an addition that are one instruction round otherwise: a rough ball took 168
     convolutions where it was the first run of a copy, and 152 in all later runs.
     """
-    script = SOLVED % str(Path(mgehl.__file__).parents[1] / "configs" / "rough.toml")
-    variables = os.environ | {"NUMBA_CACHE_DIR": str(tmp_path)}
-    variables["PYTHONPATH"] = str(Path(mgehl.__file__).parents[1])
-    run = [sys.executable, "-c", script]
-    first, second = (
-        subprocess.run(run, capture_output=True, text=True, env=variables, check=True).stdout for _ in "12"
-    )
+    run = [sys.executable, "-c", SOLVED % str(ROUGH)]
+    variables = {"NUMBA_CACHE_DIR": str(tmp_path), "PYTHONPATH": str(ROOT)}
+    first, second = (ended(run, **variables).stdout for _ in "12")
     assert list(tmp_path.iterdir()) and len(first) > 60 and first == second

@@ -27,9 +27,8 @@ def plain_fluid(P, H, rho, eps):
 
 def flows_of(row, axis, P, H, rho, eps, scheme, status=None):
     """Values of the flows (leaving W, entering E) through the faces of a row made by hand."""
-    laid = (
-        row.lay(each) for each in np.broadcast_arrays(*(np.asarray(x, float) for x in (P, H, rho, eps)))
-    )
+    given = (np.asarray(each, float) for each in (P, H, rho, eps))
+    laid = map(row.lay, np.broadcast_arrays(*given))
     status = np.full(np.shape(P), LUBRICATED) if status is None else status
     return [row.faces(flow.value) for flow in flows(plain_fluid(*laid), row.status(status), axis, scheme)]
 
@@ -72,9 +71,8 @@ def test_contact_closes_a_face_for_both_flows_and_all_derivatives(couette, mixed
         closed = closed_faces(mixed.status, axis)
         assert closed.any() and not closed.all()
         blocked = flows(fluid, mixed.status, axis, scheme, linearised=True)
-        for flow, free in zip(
-            blocked, flows(fluid, no_contact, axis, scheme, linearised=True), strict=True
-        ):
+        open_ones = flows(fluid, no_contact, axis, scheme, linearised=True)
+        for flow, free in zip(blocked, open_ones, strict=True):
             unlike = closed | reaches_across(flow, mixed.status, axis)
             for array, free_array in zip(arrays_of(flow), arrays_of(free), strict=True):
                 assert (array[closed] == 0.0).all()
@@ -128,9 +126,8 @@ def test_conductances_are_what_a_pressure_drives_through_a_face(mean, mixed):
         rise = axis.at(fluid.P, 1) - axis.at(fluid.P)
         expected = (still - driven) / axis.cell
         conductance = conductances(fluid, mixed.status, axis, scheme)
-        np.testing.assert_allclose(
-            conductance * rise, expected, rtol=1e-10, atol=1e-14 * np.abs(expected).max()
-        )
+        rounding = 1e-14 * np.abs(expected).max()
+        np.testing.assert_allclose(conductance * rise, expected, rtol=1e-10, atol=rounding)
         assert (conductance[closed_faces(mixed.status, axis)] == 0.0).all() and conductance.any()
 
 
@@ -141,10 +138,8 @@ def test_with_the_boundary_film_the_flow_through_contact_goes_to_nothing(h_b, mi
     H = np.where(mixed.status == CONTACT, h_b, 0.5)
     fluid = fluid_state(mixed.P, H, mixed.contact, scheme.contact_law)
     for axis in axes_of(mixed.mesh, scheme.motion):
-        closed, conductance = (
-            closed_faces(mixed.status, axis),
-            conductances(fluid, mixed.status, axis, scheme),
-        )
+        closed = closed_faces(mixed.status, axis)
+        conductance = conductances(fluid, mixed.status, axis, scheme)
         assert 0.0 < conductance[closed].max() < 8.0 * (h_b / 0.5) ** 2 * conductance.max()
 
 
@@ -231,14 +226,11 @@ def test_half_a_cavity_passes_half_the_couette_flow(velocity, behind, couette, a
     for full, part in zip(*carried, strict=True):
         whole = row.faces(full.value)
         assert (velocity * whole > 0.0).all()
-        np.testing.assert_allclose(
-            row.faces(part.value), np.where(from_cavity, 0.5, 1.0) * whole, rtol=1e-14
-        )
+        filled = np.where(from_cavity, 0.5, 1.0)
+        np.testing.assert_allclose(row.faces(part.value), filled * whole, rtol=1e-14)
         by_filling = row.faces(part.by_P[behind])
         np.testing.assert_allclose(by_filling[from_cavity], whole[from_cavity], rtol=1e-14)
-    driven = [
-        row.faces(one.value - other.value)
-        for one, other in ((found(each)[0], found(immobile(each))[0]) for each in (fluid, half))
-    ]
+    pairs = ((found(each)[0], found(immobile(each))[0]) for each in (fluid, half))
+    driven = [row.faces(one.value - other.value) for one, other in pairs]
     np.testing.assert_allclose(driven[1], driven[0], rtol=1e-13, atol=1e-13)
     np.testing.assert_allclose(driven[0], [5.0, 5.0, 0.0, -15.0, 10.0], rtol=1e-13, atol=1e-13)

@@ -83,9 +83,8 @@ def test_the_linear_gap_s_flow_is_that_of_the_differential_equation():
     x = (np.arange(steps) + 0.5) / steps
     q = -(1.0 - exp(-2.0)) / np.mean((h[0] + (h[1] - h[0]) * x) ** -3.0)
     eps = [np.array([gap**3 * exp(-p)]) for p, gap in zip(P, h, strict=True)]
-    found = face_mobility(
-        Scheme("1B", "linear-gap"), eps, [np.array([gap]) for gap in h], [np.ones(1), np.ones(1)]
-    )
+    gaps = [np.array([gap]) for gap in h]
+    found = face_mobility(Scheme("1B", "linear-gap"), eps, gaps, (ONE, ONE))
     assert -found.value[0] * (P[1] - P[0]) == pytest.approx(q, rel=1e-6)
 
 

@@ -94,9 +94,7 @@ LAYERS = {"motion": AT_AN_ANGLE, "contact_law": BoundaryFilm(0.1)}
 
 @pytest.mark.parametrize("mean", ["arithmetic", "geometric", "linear-gap"])
 @every_scheme
-def test_linearisation_in_a_film_and_beside_boundary_layers_matches_central_differences(
-    couette, mean, film
-):
+def test_linearisation_in_a_film_and_beside_layers_matches_central_differences(couette, mean, film):
     assert_linearised(film, Scheme(couette, mean, **({} if mean == "arithmetic" else LAYERS)))
 
 

@@ -5,13 +5,7 @@ from handmade import walled
 from mgehl.discretization.axes import axes_of, own
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.rows import FLOW, GAP, PRESSURE, rows_of
-from mgehl.discretization.status import (
-    BOUNDARY,
-    CAVITATED,
-    CONTACT,
-    LUBRICATED,
-    enclosed,
-)
+from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED, enclosed
 
 MESH = Mesh(5, 3, (0.0, 4.0), (0.0, 2.0))
 ALONG_X, _ = axes_of(MESH, (1.0, 0.0))
@@ -19,21 +13,13 @@ ALONG_X, _ = axes_of(MESH, (1.0, 0.0))
 # Number, label and closed faces of the neighbourhoods of Liu sec. 3.2.2-3.2.5. A label says on
 # which side of the contact the node lies (1-8), or which border is open (11-14).
 NEIGHBOURHOODS = [
-    (1, "west", {"east"}),
-    (2, "east", {"west"}),
-    (3, "north", {"south"}),
-    (4, "south", {"north"}),
-    (5, "northwest", {"east", "south"}),
-    (6, "northeast", {"west", "south"}),
-    (7, "southwest", {"east", "north"}),
-    (8, "southeast", {"west", "north"}),
-    (9, "horizontal channel", {"south", "north"}),
-    (10, "vertical channel", {"west", "east"}),
-    (11, "west open", {"east", "south", "north"}),
-    (12, "east open", {"west", "south", "north"}),
-    (13, "north open", {"west", "east", "south"}),
-    (14, "south open", {"west", "east", "north"}),
-]
+    (1, "west", {"east"}), (2, "east", {"west"}), (3, "north", {"south"}), (4, "south", {"north"}),
+    (5, "northwest", {"east", "south"}), (6, "northeast", {"west", "south"}),
+    (7, "southwest", {"east", "north"}), (8, "southeast", {"west", "north"}),
+    (9, "horizontal channel", {"south", "north"}), (10, "vertical channel", {"west", "east"}),
+    (11, "west open", {"east", "south", "north"}), (12, "east open", {"west", "south", "north"}),
+    (13, "north open", {"west", "east", "south"}), (14, "south open", {"west", "east", "north"}),
+]  # fmt: skip
 NEIGHBOUR = {"west": (1, 1), "east": (1, 3), "south": (0, 2), "north": (2, 2)}
 """Line and node of the neighbours of node (1, 2) in three lines of five nodes."""
 

@@ -3,13 +3,12 @@
 import errno
 import os
 import platform
-import subprocess
 import sys
 
 import numpy as np
 import pytest
 from mpi4py import MPI
-from processes import own_environment
+from processes import ended
 
 from mgehl.grid import freed_memory, shared_memory
 from mgehl.grid.shared_memory import shared_array
@@ -34,9 +33,7 @@ print(held, resident() - before)
 @pytest.mark.skipif(platform.libc_ver()[0] != "glibc", reason="no glibc")
 def test_a_freed_array_is_given_back():
     """PETSc's libraries may have told the C library to keep it."""
-    command = [sys.executable, "-c", FREE]
-    done = subprocess.run(command, capture_output=True, text=True, env=own_environment())
-    held, left = map(float, done.stdout.split())
+    held, left = map(float, ended([sys.executable, "-c", FREE]).stdout.split())
     assert held > 60.0 and left < 4.0
 
 

@@ -1,9 +1,9 @@
 import os
 import re
-from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
+from places import CONFIGS
 
 from mgehl.config import load_config
 from mgehl.kinds import contact_from, mesh_from
@@ -11,7 +11,6 @@ from mgehl.kinds.cited import cited
 from mgehl.kinds.plausible import implausible
 from mgehl.model.sources import SOURCES
 
-CONFIGS = Path(__file__).resolve().parents[2] / "configs"
 BALL = {"motion.speed": "1 m/s"}
 STEEL = {"conductivity": 46.0, "capacity": 3.6e6}
 OIL = BALL | {"lubricant.oil": "PAO100", "lubricant.temperature": "60 degC"}

@@ -45,9 +45,7 @@ def test_waves_may_be_along_y_alone():
 REFUSED = {
     "no source": ({"hurst": 0.5}, "surface.hurst = 0.5: means nothing without surface.kind or"),
     "two sources": (DENT | {"file": "z.npy"}, "surface.kind = 'dent': means nothing with surface.file"),
-    "another's key": (
-        WAVES | {"hurst": 0.5}, 'surface.hurst = 0.5: means nothing with surface.kind = "waviness"',
-    ),
+    "another's key": (WAVES | {"hurst": 0.5}, "surface.hurst = 0.5: means nothing with surface.kind = "),
     "a key of files": (DENT | {"remove": "tilt"}, "surface.remove = 'tilt': means nothing with"),
     "what it needs": ({"kind": "dent", "width": 1e-4}, "surface.amplitude: must be given with"),
     "no wavelength": ({"kind": "waviness", "amplitude": 1e-8}, "surface.wavelength_x: it or"),
@@ -57,10 +55,7 @@ REFUSED = {
     ),
     "a moving body": (WAVES | {"body": "moving"}, 'surface.body = "moving": its heights change along'),
     "a moving dent": (DENT | {"body": "moving"}, 'surface.body = "moving": its heights change'),
-    "too high": (
-        RIDGE | {"amplitude": "1.3 mm"},
-        "surface.kind = 'ridge': its height is 0.0013 m at x = ",
-    ),
+    "too high": (RIDGE | {"amplitude": "1.3 mm"}, "surface.kind = 'ridge': its height is 0.0013 m at x"),
     "no length": (WAVES | {"amplitude": "50 s"}, "surface.amplitude = '50 s': wrong unit"),
     "an unknown kind": ({"kind": "rough"}, "surface.kind = 'rough': must be one of waviness, self-affine"),
 }  # fmt: skip

@@ -1,3 +1,5 @@
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from scipy.integrate import dblquad, quad
@@ -38,12 +40,11 @@ def deflection_by_a_point_force(compliance, r):
     surface = float(compliance(np.array(1e4)))
     zeros = (np.arange(1, 4000) - 0.25) * np.pi / r
     ends = [0.0, *zeros[zeros < 400.0], 400.0]
-    parts = [
-        quad(lambda k: (compliance(np.array(k)) - surface) * j0(k * r), *pair, epsabs=1e-12, epsrel=1e-10)[
-            0
-        ]
-        for pair in zip(ends[:-1], ends[1:], strict=True)
-    ]
+
+    def integrand(k):
+        return (compliance(np.array(k)) - surface) * j0(k * r)
+
+    parts = (quad(integrand, *pair, epsabs=1e-12, epsrel=1e-10)[0] for pair in pairwise(ends))
     return surface / r + sum(parts)
 
 

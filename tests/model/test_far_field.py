@@ -6,7 +6,7 @@ from contacts import contact_of, moes
 from scipy.sparse import diags
 from scipy.sparse.linalg import spsolve
 
-from mgehl.model.far_field import _missing_load, missing_share
+from mgehl.model.far_field import missing_load, missing_share
 from mgehl.model.frame import Frame
 
 X, Y = (-20.0, 2.0), (-12.0, 12.0)
@@ -52,13 +52,13 @@ def relaxed_load(x, y, cells):
 @pytest.mark.parametrize("x, y", [((-6.6, 1.2), (-4.4, 4.4)), ((-12.0, 3.0), (-6.0, 6.0))])
 def test_what_is_missing_and_what_a_rectangle_carries_is_all_of_the_load(x, y):
     coarse, fine = (relaxed_load(x, y, cells) for cells in (48, 96))
-    assert fine + (fine - coarse) / 3.0 + _missing_load(x, y, 1.0, ALONG) == pytest.approx(WHOLE, rel=2e-3)
+    assert fine + (fine - coarse) / 3.0 + missing_load(x, y, 1.0, ALONG) == pytest.approx(WHOLE, rel=2e-3)
 
 
 def test_far_away_it_falls_as_one_over_the_distance():
     """Twice as far the half of it, whatever the shape of the bodies."""
     for ratio in (0.2, 1.0, 2.0):
-        near, far = (_missing_load((-d, d), (-d, d), ratio, ALONG) for d in (20.0, 40.0))
+        near, far = (missing_load((-d, d), (-d, d), ratio, ALONG) for d in (20.0, 40.0))
         assert near == pytest.approx(2.0 * far, rel=0.02)
 
 

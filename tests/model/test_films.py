@@ -32,17 +32,15 @@ def test_formulas_as_printed(film, expected):
 @pytest.mark.parametrize(
     "M, L, D, H, rel",
     [
-        (20.0, 10.0, 1.0, 4.708073308, 1e-9),
-        (200.0, 10.0, 1.0, 4.380290978, 1e-9),
-        (200.0, 10.0, 0.25, 5.390596135, 1e-9),
-        (1e4, 40.0, 1.0, 9.028713288, 1e-9),
+        (20.0, 10.0, 1.0, 4.708073308, 1e-9), (200.0, 10.0, 1.0, 4.380290978, 1e-9),
+        (200.0, 10.0, 0.25, 5.390596135, 1e-9), (1e4, 40.0, 1.0, 9.028713288, 1e-9),
         (5.0, 100.0, 1.0, 19.79027532, 1e-9),
         # Circular contacts far into one regime: isoviscous elastic, piezoviscous elastic, isoviscous rigid.
         (1e5, 1e-6, 1.0, 3.18 * 1.636 ** (-14 / 25) * 1e5 ** (-2 / 15), 2e-3),
         (1e7, 100.0, 1.0, 1.48 * 1.63 ** (-7 / 20) * 1e7 ** (-1 / 12) * 100.0**0.75, 1e-2),
         (0.1, 1e-3, 1.0, 145.0 * 1.796 ** (-15 / 7) * 0.1**-2.0, 1e-2),
     ],
-)
+)  # fmt: skip
 def test_nijenbanning_venner_moes(M, L, D, H, rel):
     """Central film H (h/R_x)(2U)^(-1/2), for U = 2e-12 and R_x = 0.02: so printed, and asymptotes."""
     film = nijenbanning_venner_moes(SimpleNamespace(U=2e-12, M=M, L=L), 0.02, 0.02 / D)

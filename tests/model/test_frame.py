@@ -1,3 +1,4 @@
+from itertools import product
 from math import cos, radians, sin
 
 import numpy as np
@@ -7,13 +8,8 @@ from mgehl.model.frame import Frame
 
 DIRECTIONS = range(-360, 361, 5)
 
-FRAMES = [
-    Frame(mirrored_x, mirrored_y, exchanged)
-    for mirrored_x in (False, True)
-    for mirrored_y in (False, True)
-    for exchanged in (False, True)
-]
-EACH = pytest.mark.parametrize("frame", FRAMES, ids=str)
+FRAMES = [Frame(*each) for each in product((False, True), repeat=3)]
+"""Mirrored along x, along y, exchanged, or not."""
 
 NX, NY = 5, 3
 X, Y = np.linspace(-2.0, 1.0, NX), np.linspace(-1.0, 3.0, NY)
@@ -25,10 +21,6 @@ def values(x, y):
     return 1000.0 * x + y
 
 
-def of_user():
-    return values(X[None, :], Y[:, None])
-
-
 @pytest.mark.parametrize("angle", DIRECTIONS)
 def test_in_its_frame_every_motion_goes_towards_X_and_no_more_towards_Y(angle):
     frame, acute = Frame.of(angle)
@@ -37,11 +29,11 @@ def test_in_its_frame_every_motion_goes_towards_X_and_no_more_towards_Y(angle):
     assert frame.users_point(*there) == pytest.approx((cos(radians(angle)), sin(radians(angle))), abs=1e-15)
 
 
-@EACH
-class TestEveryFrame:
-    def test_an_array_there_has_the_values_of_the_users_points(self, frame):
-        """The nodes are those of the intervals, each at the user's point it says it is."""
-        x, y = frame.intervals((X[0], X[-1]), (Y[0], Y[-1]))
-        nx, ny = frame.pair(NX, NY)
-        there = np.meshgrid(np.linspace(*x, nx), np.linspace(*y, ny))
-        np.testing.assert_allclose(frame.array(of_user()), values(*frame.users_point(*there)), rtol=1e-14)
+@pytest.mark.parametrize("frame", FRAMES, ids=str)
+def test_an_array_there_has_the_values_of_the_users_points(frame):
+    """The nodes are those of the intervals, each at the user's point it says it is."""
+    x, y = frame.intervals((X[0], X[-1]), (Y[0], Y[-1]))
+    nx, ny = frame.pair(NX, NY)
+    there = np.meshgrid(np.linspace(*x, nx), np.linspace(*y, ny))
+    of_user = values(X[None, :], Y[:, None])
+    np.testing.assert_allclose(frame.array(of_user), values(*frame.users_point(*there)), rtol=1e-14)

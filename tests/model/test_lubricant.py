@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from mgehl.model.lubricant import DENSITY_LAWS, VISCOSITY_LAWS, Roelands
+from mgehl.model.oils import CELSIUS, OILS
 
 P_H = 0.8e9
 P = np.array([0.0, 0.25, 1.0, 1.7])
@@ -14,6 +15,7 @@ def central_difference(law, P, d=1e-6):
 
 
 LAWS = [law(0.05, 18e-9).log_viscosity for law in VISCOSITY_LAWS.values()]
+LAWS += [oil.law(60.0 + CELSIUS).log_viscosity for oil in OILS.values()]
 
 
 @pytest.mark.parametrize("law", [*LAWS, *(law().density for law in DENSITY_LAWS.values())])

@@ -48,9 +48,8 @@ def test_slopes_of_effective_mobilities_are_those_of_their_values():
 
 
 def own(path, body):
-    (path / "mine.py").write_text(
-        f"import numpy as np\ndef law(conditions):\n    at = conditions\n    {body}"
-    )
+    text = f"import numpy as np\ndef law(conditions):\n    at = conditions\n    {body}"
+    (path / "mine.py").write_text(text)
     return OwnRheology(OwnFunction(f"{path}/mine.py:law"))
 
 

@@ -14,16 +14,11 @@ def scene(settings):
 
 @pytest.mark.parametrize(
     "body, slide_to_roll, lengths",
-    [
-        ("still", 1.0, 1.0),
-        ("body_1", 1.0, 1.0),  # faster than the mean surface
-        ("body_2", 1.0, 2.0),
-        ("body_1", -1.9, 20.0),
-        ("body_2", 2.5, 4.0),  # against the motion
-        ("body_2", 2.0, 1.0),  # it rests, and never passes
-    ],
-)
+    [("still", 1.0, 1.0), ("body_1", 1.0, 1.0), ("body_2", 1.0, 2.0), ("body_1", -1.9, 20.0),
+     ("body_2", 2.5, 4.0), ("body_2", 2.0, 1.0)],
+)  # fmt: skip
 def test_a_passage_is_that_of_the_slowest_heights(body, slide_to_roll, lengths):
+    """Those that go against the motion pass, too; those that rest never do."""
     found = scene(WAVES | {"surface.body": body, "motion.slide_to_roll": slide_to_roll})
     assert found.passage() == pytest.approx(lengths * 2.0 * found.framed.x_scale)
 
@@ -41,15 +36,10 @@ def test_ridges_along_the_motion_do_not_pass():
 
 @pytest.mark.parametrize(
     "rows, slowest, rests",
-    [
-        ("0,8\n0.4,0.3\n1,0.3\n", 0.4, False),
-        ("0,0.3\n1,8\n", 0.0, False),
-        ("0,0\n0.5,4\n1,8\n", 1.0, True),
-        ("0,0\n0.2,8\n0.6,0.3\n1,0.3\n", 0.6, True),
-        ("0,8\n0.5,-8\n1,-2\n", 1.0, True),
-        ("0,8\n0.5,1e-9\n1,4\n", 0.0, True),
-    ],
-)
+    [("0,8\n0.4,0.3\n1,0.3\n", 0.4, False), ("0,0.3\n1,8\n", 0.0, False),
+     ("0,0\n0.5,4\n1,8\n", 1.0, True), ("0,0\n0.2,8\n0.6,0.3\n1,0.3\n", 0.6, True),
+     ("0,8\n0.5,-8\n1,-2\n", 1.0, True), ("0,8\n0.5,1e-9\n1,4\n", 0.0, True)],
+)  # fmt: skip
 def test_the_slowest_motion_is_where_the_speed_turns_or_stays(tmp_path, rows, slowest, rests):
     """On the way to rest and from it every speed is passed: there the largest counts."""
     (tmp_path / "speed.csv").write_text(rows)

@@ -29,7 +29,7 @@ def taken(found, x, y):
     ],
 )  # fmt: skip
 def test_within_a_factor_of_two_of_solutions(tables, x, y, central, minimum):
-    """Per cent taken, by `a.py`-like pairs of solutions of 2B on 4 to 6 inlet cells."""
+    """Per cent taken, by pairs of solutions of 2B on 4 to 6 inlet cells."""
     estimate = max(taken(starvation(tables), x, y))
     assert 0.5 < estimate / max(central, minimum) < 2.0
 

@@ -28,18 +28,15 @@ def masks(jacobian):
 
 
 @pytest.fixture
-def make_smoother():
+def make_smoother(in_the_end):
     """Factory of factored smoothers of a linearised `Jacobian` with these rows; freed after the test."""
-    made = []
 
     def make(jacobian, rows, kind=None):
         kind = kind or smoother_of(jacobian.grid.mesh.is_line, jacobian.holds_film)
-        made.append(kind(jacobian, OMEGA))
-        made[-1].partition(rows)
-        made[-1].factor()
-        made[-1].factor_alone()
-        return made[-1]
+        smoother = in_the_end(kind.free, kind(jacobian, OMEGA))
+        smoother.partition(rows)
+        smoother.factor()
+        smoother.factor_alone()
+        return smoother
 
-    yield make
-    for smoother in made:
-        smoother.free()
+    return make

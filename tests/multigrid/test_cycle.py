@@ -17,19 +17,14 @@ SIZES = (65, 129)
 
 
 @pytest.fixture
-def make_ksp():
-    made = []
-
+def make_ksp(in_the_end):
     def make(multigrid, rtol=1e-2):
-        ksp = PETSc.KSP().create(MPI.COMM_SELF)
-        made.append(ksp)
+        ksp = in_the_end(PETSc.KSP.destroy, PETSc.KSP().create(MPI.COMM_SELF))
         ksp.setOptionsPrefix("test_")
         multigrid.configure(ksp, rtol)
         return ksp
 
-    yield make
-    for ksp in made:
-        ksp.destroy()
+    return make
 
 
 @pytest.fixture
@@ -90,10 +85,8 @@ def test_the_outer_operator_is_that_of_the_problem_and_not_of_the_cycle(
     contact = paper_contact()
     hierarchy = make_hierarchy(contact, 33, coarsest=17)
     problem = ContactProblem(hierarchy.grids[-1], hierarchy.deflections[-1], contact, Scheme("2B"))
-    multigrid, same = (
-        make_multigrid(hierarchy, problem, rough_state(problem, contact=True), couette=cycle)
-        for cycle in ("1B", "same")
-    )
+    how = hierarchy, problem, rough_state(problem, contact=True)
+    multigrid, same = (make_multigrid(*how, couette=cycle) for cycle in ("1B", "same"))
     assert multigrid.jacobian.scheme.couette == "2B"
     space = multigrid.space
     P = np.random.default_rng(9).standard_normal(space.grid.shape)

@@ -54,9 +54,7 @@ def assert_close(result, expected):
     assert np.max(np.abs(result - expected)) < 1e-6 * np.max(np.abs(expected))
 
 
-ALONG = [
-    (couette, (1.0, 0.0), contact) for couette in ("1B", "2B", "2C", "S1B", "S2C") for contact in (0, 1)
-]
+ALONG = [(name, (1.0, 0.0), contact) for name in ("1B", "2B", "2C", "S1B", "S2C") for contact in (0, 1)]
 
 
 @pytest.mark.parametrize(
@@ -84,9 +82,7 @@ def assert_consistent(problem, state, make_jacobian, make_vec):
 
 
 @pytest.mark.parametrize("rate", [20.0, "each its own"])
-def test_a_time_step_stores_in_the_film_what_flows_in(
-    make_problem, rough_state, make_jacobian, make_vec, rate
-):
+def test_a_time_step_stores_what_flows_in(make_problem, rough_state, make_jacobian, make_vec, rate):
     """Against differences of the residual of the step."""
     problem = make_problem(nodes=33)
     state, (dP, dH0) = rough_state(problem, contact=True), direction(problem)
@@ -97,10 +93,8 @@ def test_a_time_step_stores_in_the_film_what_flows_in(
     jacobian.linearise(now, rows, rate)
     r, _ = apply(jacobian, make_vec, dP, dH0)
     problem.storage = storage
-    ahead, behind = (
-        residual(problem.evaluate(problem.state(state.P + s * dP, state.H0 + s * dH0, state.status)), rows)
-        for s in (STEP, -STEP)
-    )
+    moved = (problem.state(state.P + s * dP, state.H0 + s * dH0, state.status) for s in (STEP, -STEP))
+    ahead, behind = (residual(problem.evaluate(each), rows) for each in moved)
     film = rows == FLOW
     assert_close(r[film], ((ahead - behind) / (2.0 * STEP))[film])
 

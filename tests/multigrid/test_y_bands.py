@@ -1,12 +1,10 @@
 import numpy as np
 import pytest
-from mpi4py import MPI
 
 from mgehl.discretization.bands import LineBands, influence_of_columns
 from mgehl.discretization.influence import influence_coefficients
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.residual import Linearisation
-from mgehl.grid.grid import single_grid
 from mgehl.model.deformation import HalfSpace
 from mgehl.multigrid.y_bands import YBands
 
@@ -15,10 +13,8 @@ OFFSETS = np.array([(0, 0), (0, -1), (0, 1), (-1, 0), (1, 0)])
 
 
 @pytest.fixture
-def grid():
-    made = single_grid(Mesh(NX, NY, (-1.9, 1.3), (-1.5, 1.5)), MPI.COMM_SELF)
-    yield made
-    made.destroy()
+def grid(make_grid):
+    return make_grid(Mesh(NX, NY, (-1.9, 1.3), (-1.5, 1.5)))
 
 
 @pytest.fixture

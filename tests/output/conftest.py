@@ -92,19 +92,16 @@ def make_line():
 @pytest.fixture
 def make_wedge():
     def make(nodes=33, settings=()):
-        config = load_config(
-            settings=["contact.kind=wedge", "grid.nodes=65", "wedge.pillar=square", *settings]
-        )
+        wedge = "contact.kind=wedge", "grid.nodes=65", "wedge.pillar=square"
+        config = load_config(settings=[*wedge, *settings])
         body = contact_from(config)
         ends, edges = body.placement(nodes)
         mesh = Mesh(nodes, nodes, ends, (-10.0, 10.0), edges=edges)
         X, Y = mesh.X[None, :], mesh.Y[:, None]
         status = np.where(body.solid(X, Y), CONTACT, LUBRICATED).astype(np.int8)
         P = np.sin(0.2 * X) * np.cos(0.1 * Y)
-        rows = [
-            {"grid": nodes, "step": k, "residual": 10.0 ** (-6 * k), "linear_iterations": 3}
-            for k in range(3)
-        ]
+        row = {"grid": nodes, "linear_iterations": 3}
+        rows = [row | {"step": k, "residual": 10.0 ** (-6 * k)} for k in range(3)]
         result = bare_result(cavitated_nodes=0)
         return Solution(config, body, mesh, Fields(P, body.gap(X) + 0.0 * Y, status), rows, result)
 

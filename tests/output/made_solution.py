@@ -5,7 +5,7 @@ import numpy as np
 from mgehl.config import config_from_tables
 from mgehl.discretization.mesh import Mesh
 from mgehl.kinds import contact_from
-from mgehl.output.result import ContactResult, Overlap, Resolution, Result, Work
+from mgehl.output.result import ContactResult, Overlap, Resolution, Result, TimeResult, Work
 from mgehl.output.solution import Fields, Solution
 from mgehl.solver.inequality import Inequality
 
@@ -33,6 +33,12 @@ def make_result(**changes):
         "wall_s": 2.0, "ranks": 1, "versions": {"mgehl": "0"},
     }  # fmt: skip
     return Result(**(values | changes))
+
+
+def in_time(**changes):
+    """What a `Result` has of a run in time, but for some parts."""
+    told = {"end_s": 1.0, "steps": 9, "halved": 0, "largest_closure": 0.0, "largest_node": 0.0}
+    return TimeResult(**told | {"convolutions_a_step": 1.0, "passages": 3.0, "means": {}} | changes)
 
 
 def make_solution(kind):

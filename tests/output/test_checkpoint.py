@@ -167,13 +167,10 @@ class TestStoppedAtEveryStep:
         stops = 0
         while True:
             asked = count()
-            watch = Watch(
-                directory=directory,
-                save_every=inf,
-                stop=lambda asked=asked: STOPPED if next(asked) == 1 else None,
-            )
+            how = {"directory": directory, "save_every": inf}
+            how["stop"] = lambda asked=asked: STOPPED if next(asked) == 1 else None
             try:
-                return solve(config, MPI.COMM_SELF, watch), stops
+                return solve(config, MPI.COMM_SELF, Watch(**how)), stops
             except Stopped:
                 stops += 1
 

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from made_solution import make_result
 from mpi4py import MPI
+from places import RUN_FILES
 from told import counting
 
 from mgehl.config import config_from_tables
@@ -28,12 +29,8 @@ from mgehl.version import VERSION
 
 def make_solution(H0):
     """A `Solution` of a line contact, all of whose parts go by its H0."""
-    tables = {
-        "contact": {"kind": "line"},
-        "grid": {"nodes": 65, "x": [-2.0, 1.5]},
-        "motion": {"speed": -H0},
-    }
-    config = config_from_tables(tables)
+    tables = {"contact": {"kind": "line"}, "grid": {"nodes": 65, "x": [-2.0, 1.5]}}
+    config = config_from_tables(tables | {"motion": {"speed": -H0}})
     contact = contact_from(config)
     random = np.random.default_rng(int(-100 * H0))
     fields = Fields(random.random((1, 65)), random.random((1, 65)), random.integers(0, 4, (1, 65), np.int8))
@@ -43,7 +40,6 @@ def make_solution(H0):
 
 
 SOLUTIONS = {H0: make_solution(H0) for H0 in (-0.25, -0.5)}
-FILES = {"configuration.toml", "fields.h5", "history.csv", "picture.png", "result.json"}
 
 
 @pytest.fixture(autouse=True)
@@ -110,10 +106,8 @@ class TestForeign:
             (tmp_path / name).write_text("mine")
         before = content(tmp_path)
         put(tmp_path, -0.5, force=True)
-        assert (
-            content(tmp_path).keys() == before.keys() | FILES
-            and before.items() <= content(tmp_path).items()
-        )
+        after = content(tmp_path)
+        assert after.keys() == before.keys() | RUN_FILES and before.items() <= after.items()
 
     @pytest.mark.parametrize("name", ["result.json", "fields.h5", "checkpoint", "laws"])
     def test_a_link_is_not_followed(self, tmp_path, name):
@@ -144,14 +138,9 @@ class TestForeign:
             file[WHOLE] = np.frombuffer(json.dumps(texts).encode(), np.uint8)
         put(here, -0.25, force=True)
         checkpoint = here / "checkpoint"
-        record = {
-            "format": FORMAT,
-            "mgehl": VERSION,
-            "configuration": {},
-            "names": [name],
-            "origins": {name: ""},
-        }
-        save(checkpoint / "begun.npz", record, {"0": np.zeros(3, np.uint8)})
+        record = {"format": FORMAT, "mgehl": VERSION, "configuration": {}}
+        kept = {"names": [name], "origins": {name: ""}}
+        save(checkpoint / "begun.npz", record | kept, {"0": np.zeros(3, np.uint8)})
         with pytest.raises(OutputError, match="it names files elsewhere"):
             taken_up(here)
         clear_checkpoint(here)
@@ -192,9 +181,8 @@ class TestPublishing:
         put(tmp_path / "run", -0.5)
         path = os.pathsep.join([str(Path(__file__).parent), *sys.path])
         words = [sys.executable, "-c", WRITER, str(tmp_path / "run"), "100"]
-        with subprocess.Popen(
-            words, stdout=subprocess.PIPE, env=os.environ | {"PYTHONPATH": path}
-        ) as writer:
+        environment = os.environ | {"PYTHONPATH": path}
+        with subprocess.Popen(words, stdout=subprocess.PIPE, env=environment) as writer:
             writer.stdout.readline()
             found = []
             while writer.poll() is None:
@@ -206,9 +194,7 @@ class TestPublishing:
         assert writer.returncode == 0 and {*found} == {-0.25, -0.5}
 
     @pytest.mark.parametrize("moved", range(0, 19))
-    def test_an_end_in_between_leaves_the_old_or_the_new_and_a_new_run_clears_up(
-        self, tmp_path, monkeypatch, moved
-    ):
+    def test_an_end_in_between_leaves_old_or_new_and_is_made_good(self, tmp_path, monkeypatch, moved):
         """After so many steps."""
         expected = timeless(put(tmp_path / "new", -0.5))
         here = put(tmp_path / "here", -0.25)

@@ -1,14 +1,10 @@
 import pytest
-from tools.contacts import ON_TWICE_THE_DOMAIN, films_on_twice_the_domain
+from contacts import ON_TWICE_THE_DOMAIN, films_on_twice_the_domain
 
 from mgehl.config import config_from_tables, load_config
 from mgehl.discretization.mesh import Mesh
 from mgehl.kinds import contact_from, mesh_from
-from mgehl.output.resolution import (
-    film_lost,
-    resolution,
-    resolving_nodes,
-)  # fmt: skip
+from mgehl.output.resolution import film_lost, resolution, resolving_nodes
 
 CASE = {
     "contact": {"load": 250.0, "radius_x": 10e-3, "radius_y": 15e-3}, "motion": {"speed": 3.0},
@@ -46,17 +42,12 @@ def test_the_verdicts_on_films_that_were_solved_on_twice_the_domain_are_right():
         assert estimate == pytest.approx(float(row["estimated, %"]), abs=0.02)
 
 
-def film(nodes=257):
-    return load_config(settings={"grid.nodes": nodes, "motion.speed": 0.0075, "solver.start": "film"})
-
-
 def test_the_recommended_grid_is_the_first_that_resolves():
-    config = film()
-    contact = contact_from(config)
-    nodes = resolving_nodes(contact, mesh_from(config, contact))
-    fine, coarse = film(nodes=nodes), film(nodes=(nodes + 1) // 2)
-    verdicts = [
-        resolution(contact_from(each), mesh_from(each, contact_from(each))).verdict
-        for each in (fine, coarse)
-    ]
+    def film(nodes):
+        config = load_config(settings={"grid.nodes": nodes, "motion.speed": 0.0075, "solver.start": "film"})
+        contact = contact_from(config)
+        return contact, mesh_from(config, contact)
+
+    nodes = resolving_nodes(*film(257))
+    verdicts = [resolution(*film(each)).verdict for each in (nodes, (nodes + 1) // 2)]
     assert verdicts == ["resolved", "coarse"]

@@ -15,7 +15,6 @@ from mgehl.studies.study import papers_grid
 FILM = {"motion": {"speed": 1.0}, "grid": papers_grid(65), "discretization": {"couette": "2B"}}
 NO_CONTACT = ContactResult(0, 0.0, 0.0, None, None, 0.0)
 
-
 SMOOTH = SimpleNamespace(is_mixed=False)
 
 
@@ -74,10 +73,8 @@ def test_contact_on_the_next_grid_or_an_inlet_of_less_than_a_cell_makes_it_wider
     assert plain.central_nm > 4.0 and plain.minimum_nm > 1.0 and "wider" not in plain.how
     assert (plain.central_order, plain.order) == (None, 2) and "65 nodes" in plain.how
     coarse = from_grids(replace(film, resolution=Resolution(1.5, "coarse")), grids(10.0, 7.0), 2)
-    for wider, words in (
-        (touching, "touches at 4"),
-        (coarse, "on 65 nodes the inlet has less than a cell"),
-    ):
+    told = "touches at 4", "on 65 nodes the inlet has less than a cell"
+    for wider, words in zip((touching, coarse), told, strict=True):
         assert words in wider.how
         assert wider.central_nm > plain.central_nm and wider.minimum_nm > plain.minimum_nm
 
@@ -97,16 +94,11 @@ class TestOfRuns:
         assert result.error.convolutions < 0.35 * result.work.convolutions
 
     def test_solid_contact_has_none(self):
-        dry = {"motion": {"speed": 5e-6}, "solver": {"start": "contact"}}
-        result = result_of(**dry)
+        result = result_of(motion={"speed": 5e-6}, solver={"start": "contact"})
         assert result.converged and "solid contact" in result.error.how
         assert result.error.convolutions == 0.0
 
     def test_a_line_contact_has_one(self):
-        line = {
-            "contact": {"kind": "line"},
-            "motion": {"speed": 0.5},
-            "grid": {"nodes": 257, "x": [-1.9, 1.3]},
-        }
-        error = result_of(**line).error
+        line = {"contact": {"kind": "line"}, "motion": {"speed": 0.5}}
+        error = result_of(**line, grid={"nodes": 257, "x": [-1.9, 1.3]}).error
         assert error.central_order == pytest.approx(2.0, abs=0.2)

@@ -1,17 +1,14 @@
 """What is foretold agrees with what runs do, as far as it claims to."""
 
-from pathlib import Path
-
 import pytest
 from mpi4py import MPI
+from places import CONFIGS
 
 from mgehl.config import load_config
 from mgehl.kinds import case_of, contact_from, mesh_from
 from mgehl.output import forecast as module
 from mgehl.output.forecast import MiB, forecast, inlet_grids
 from mgehl.run import solve
-
-CONFIGS = Path(__file__).resolve().parents[2] / "configs"
 
 
 def film(nodes=257, speed=0.0075, **changes):

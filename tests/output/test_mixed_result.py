@@ -58,9 +58,7 @@ def test_areas_and_the_largest_patch_are_in_square_metres(contact, nodes):
     assert found.contact_area_over_hertz == pytest.approx(3 * cell / np.pi)
 
 
-def test_each_carries_the_load_of_its_pressure_and_solids_what_the_fluid_under_them_does_not(
-    contact, nodes
-):
+def test_each_carries_the_load_of_its_pressure_and_solids_what_the_fluid_does_not(contact, nodes):
     touch(nodes, (4, 8), P=2.0)
     nodes.P[4, 7], nodes.P[4, 9] = 0.5, 0.25
     nodes.P[0, 0] = 9.0  # of the boundary

@@ -144,15 +144,12 @@ def test_the_other_files_are_copies(copy, written, name):
 
 @pytest.mark.parametrize(
     "arrays, part",
-    [
-        ({"H": None}, "is damaged"),
-        ({name: np.ones((3, 129)) for name in ("P", "H", "status")}, "not of 129 x 1 nodes"),
-        ({"P": np.full((1, 129), nan)}, "not finite"),
-        ({"H": np.full((1, 129), nan)}, "not finite"),
-        ({"status": np.full((1, 129), 9)}, "a status that there is not"),
-        ({"status": np.full((1, 129), 0.5)}, "a status that there is not"),
-    ],
-)
+    [({"H": None}, "is damaged"),
+     ({name: np.ones((3, 129)) for name in ("P", "H", "status")}, "not of 129 x 1 nodes"),
+     ({"P": np.full((1, 129), nan)}, "not finite"), ({"H": np.full((1, 129), nan)}, "not finite"),
+     ({"status": np.full((1, 129), 9)}, "a status that there is not"),
+     ({"status": np.full((1, 129), 0.5)}, "a status that there is not")],
+)  # fmt: skip
 def test_fields_that_another_program_wrote_are_refused_in_one_line(copy, arrays, part):
     assert part in refused(edited(copy, **arrays))
 

@@ -34,10 +34,8 @@ def doubts(tmp_path, heights, **keys):
     np.save(tmp_path / "z.npy", heights)
     told = {"file": f"{tmp_path}/z.npy", "height_unit": "nm", "spacing": "14 um"} | keys
     config, contact, _ = case({"grid.nodes": 65} | {f"surface.{key}": value for key, value in told.items()})
-    return [
-        words.removeprefix(f"surface.file = '{tmp_path}/z.npy': ")
-        for words in surface_doubts(config, contact)
-    ]
+    key = f"surface.file = '{tmp_path}/z.npy': "
+    return [words.removeprefix(key) for words in surface_doubts(config, contact)]
 
 
 def test_points_that_are_hardly_heights_are_named(tmp_path):
@@ -58,6 +56,4 @@ def test_points_that_are_hardly_heights_are_named(tmp_path):
     (said,) = doubts(tmp_path, good, height_unit="pm")
     assert said.startswith("Sq is 0.026 nm within the Hertz contact, less than any surface has")
     (said,) = doubts(tmp_path, good, height_unit="um")
-    assert said.startswith(
-        "Sq is 26.1 um within the Hertz contact, more than a surface that rolls or slides has"
-    )
+    assert said.startswith("Sq is 26.1 um within the Hertz contact, more than a surface that rolls")

@@ -1,11 +1,10 @@
-import os
 import signal
-import subprocess
 import sys
 
 import pytest
 from full_disk import files_of_at_most
 from made_solution import make_solution
+from processes import ended
 
 from mgehl.errors import OutputError
 from mgehl.output.files import write_fields
@@ -40,7 +39,7 @@ def test_a_kill_leaves_the_old_one_and_the_next_writer_clears_up(path):
         "    part.write_text('half')\n"
         "    os.kill(os.getpid(), signal.SIGKILL)\n"
     )
-    done = subprocess.run([sys.executable, "-c", text, path], env=dict(os.environ))
+    done = ended([sys.executable, "-c", text, path])
     assert done.returncode == -signal.SIGKILL
     assert path.read_text() == "old" and len(names(path)) == 2
     write_whole(path, "new")

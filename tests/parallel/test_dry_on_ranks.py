@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 from both import COMM, both, same_fields
+from dry_surfaces import surface
 from mpi4py import MPI
-from tools.dry_surfaces import surface
 
 from mgehl.discretization.mesh import Mesh
 from mgehl.grid.hierarchy import Hierarchy

@@ -4,13 +4,12 @@ A serial test that starts the ranks itself, more of them than there are cores.
 """
 
 import pickle
-import subprocess
 import sys
 
 import numpy as np
 import pytest
 from mpi4py import MPI
-from processes import own_environment
+from processes import ended
 
 from mgehl.config import config_from_tables
 from mgehl.run import solve
@@ -42,8 +41,7 @@ def together(tmp_path_factory):
     directory = tmp_path_factory.mktemp("together")
     script, found = directory / "solve_all.py", directory / "found"
     script.write_text(SOLVE_ALL % CASES)
-    words = ["mpiexec", "-n", str(RANKS), sys.executable, str(script), str(found)]
-    done = subprocess.run(words, capture_output=True, text=True, env=own_environment(), timeout=300)
+    done = ended(["mpiexec", "-n", str(RANKS), sys.executable, str(script), str(found)], timeout=300)
     assert done.returncode == 0, done.stderr
     return pickle.loads(found.read_bytes())
 

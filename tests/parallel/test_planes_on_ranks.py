@@ -13,7 +13,6 @@ from mgehl.discretization.influence import influence_coefficients
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.residual import Linearisation
 from mgehl.grid import plane, shared_memory
-from mgehl.grid.grid import single_grid
 from mgehl.grid.plane import SentPlane, SharedPlane
 from mgehl.grid.shared_memory import shared_array
 from mgehl.model.deformation import HalfSpace
@@ -45,12 +44,9 @@ def kind(request, monkeypatch):
 
 
 @pytest.fixture
-def grids():
+def grids(make_grid):
     """A grid on one rank, and on all."""
-    made = [single_grid(Mesh(NX, NY, (-1.9, 1.3), (-1.5, 1.5)), comm) for comm in (MPI.COMM_SELF, COMM)]
-    yield made
-    for grid in made:
-        grid.destroy()
+    return [make_grid(Mesh(NX, NY, (-1.9, 1.3), (-1.5, 1.5)), comm) for comm in (MPI.COMM_SELF, COMM)]
 
 
 def solved_y_lines(grid, moving):

@@ -11,13 +11,15 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from both import COMM, both, same_fields
+from contacts import line
 from mpi4py import MPI
+from places import CONFIGS, RUN_FILES, names_in
 from pocket_reference import case as pocket_case
 
+from mgehl.cli import main
 from mgehl.config import config_from_tables
 from mgehl.discretization.contact_law import BoundaryFilm
 from mgehl.discretization.residual import Linearisation
-from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
 from mgehl.errors import OutputError, Stopped
 from mgehl.multigrid.cliffs import CliffZone
@@ -27,9 +29,10 @@ from mgehl.run import solve as solve_config
 from mgehl.solver.inequality import check_pressure_inequality
 from mgehl.solver.nested import single_loop
 from mgehl.solver.partition import Changes, Partition
-from mgehl.solver.problem import ContactProblem, State
+from mgehl.solver.problem import State
 from mgehl.solver.relaxation import RelaxationSettings
 from mgehl.solver.settings import SolverSettings
+from mgehl.solver.task import Task
 from mgehl.solver.verification import complementarity_error, flux_imbalance
 from mgehl.studies.branch import Branch
 from mgehl.studies.study import PAPER, Study, merged, papers_grid
@@ -37,7 +40,6 @@ from mgehl.studies.wedge import case as wedge_case
 
 pytestmark = pytest.mark.parallel
 
-CONFIGS = Path(__file__).resolve().parents[2] / "configs"
 MESHES = [{"nodes": 65}, {"nodes": 65, "ny": 33, "coarsest": 65}]
 
 
@@ -74,15 +76,10 @@ def mixed_status(grid):
     return np.where(grid.boundary(), BOUNDARY, status).astype(np.int8)
 
 
-def problem_of(hierarchy, contact, scheme=None):
-    return ContactProblem(hierarchy.grids[-1], hierarchy.deflections[-1], contact, scheme or Scheme())
-
-
 @pytest.mark.parametrize("start, speed", [("film", 1.0), ("contact", 5e-6)])
 def test_cycles_over_coarse_grids_on_fewer_ranks_solve_as_on_one(solve, paper_contact, start, speed):
-    together, alone = (
-        solve(paper_contact(speed), 33, start, coarsest=5, comm=comm) for comm in (COMM, MPI.COMM_SELF)
-    )
+    how = paper_contact(speed), 33, start
+    together, alone = (solve(*how, coarsest=5, comm=comm) for comm in (COMM, MPI.COMM_SELF))
     found, expected = together.outcome, alone.outcome
     assert found.converged and expected.converged
     work = [[cycle.linear_iterations for cycle in each.cycles] for each in (found, expected)]
@@ -155,8 +152,8 @@ class TestSolutions:
         told = [(level.nodes, cycle.step, cycle.residual, cycle.central) for level, cycle in together.told]
         assert len(told) == len(alone.told) and all(each == told for each in COMM.allgather(told))
 
-    def test_a_violation_is_listed_on_every_rank(self, pair, paper_contact):
-        together, alone = (problem_of(each, paper_contact()) for each in pair(nodes=65))
+    def test_a_violation_is_listed_on_every_rank(self, make_problem):
+        together, alone = make_problem(comm=COMM), make_problem()
         grid = together.grid
         status, P = mixed_status(alone.grid), np.zeros((65, 65))
         P[status == CONTACT] = 0.5
@@ -172,10 +169,10 @@ class TestSolutions:
         serial = check_pressure_inequality(alone, State(P, 0.0, H, status))
         assert serial.nodes == result.nodes
 
-    def test_neighbours_on_two_ranks_change_in_turn(self, pair, paper_contact):
+    def test_neighbours_on_two_ranks_change_in_turn(self, make_problem):
         """Film that is torn everywhere, somewhere by more than around it."""
         found = []
-        for problem in (problem_of(each, paper_contact()) for each in pair(nodes=65)):
+        for problem in (make_problem(comm=COMM), make_problem()):
             grid, scheme = problem.grid, replace(problem.scheme, contact_law=BoundaryFilm(1e-3))
             problem.scheme, partition = scheme, Partition(problem, 0)
             torn = -np.abs(random(grid))
@@ -203,7 +200,7 @@ class TestRelaxation:
         )  # fmt: skip
         told = ([], [])
         solved = [
-            single_loop(hierarchy, contact, settings, lambda _, sweep, rows=rows: rows.append(sweep))
+            single_loop(Task(hierarchy, contact, settings, lambda _, sweep, rows=rows: rows.append(sweep)))
             for hierarchy, rows in zip(pair(nodes=65), told, strict=True)
         ]
         (problem, together), (_, alone) = solved
@@ -247,13 +244,8 @@ def test_wedge(tables):
 
 @pytest.mark.parametrize("start, speed", [("film", 0.1), ("contact", 1e-4)])
 def test_line_belongs_to_one_rank_which_tells_the_others(start, speed):
-    tables = {
-        "contact": {"kind": "line", "load_per_length": 1859e3},
-        "motion": {"speed": speed},
-        "grid": {"nodes": 257, "x": [-2.5, 1.5]},
-        "solver": {"start": start},
-    }
-    together, alone = both(tables)
+    grid = {"nodes": 257, "x": [-2.5, 1.5]}
+    together, alone = both(line(1859e3, speed), {"grid": grid, "solver": {"start": start}})
     assert (together.fields is None) == (COMM.rank > 0)
     same_fields(together, alone, P=1e-10)
     assert COMM.bcast(together.result) == together.result
@@ -402,8 +394,6 @@ class TestCommandLine:
         return COMM.bcast(tmp_path)
 
     def test_a_law_that_turns_nan_late_is_said_once_and_loses_nothing(self, directory, capsys):
-        from mgehl.cli import main
-
         if COMM.rank == 0:
             (directory / "late.py").write_text(
                 "import numpy as np\ncalls = 0\ndef law(at):\n    global calls\n    calls += 1\n"
@@ -420,8 +410,6 @@ class TestCommandLine:
         assert (directory / "here" / "checkpoint" / "under-way.npz").exists()
 
     def test_one_directory_for_all(self, directory, capsys):
-        from mgehl.cli import main
-
         here = directory / "here"
         arguments = ["run", "--set", "grid.nodes=65", "--set", "solver.start=contact", "--out", str(here)]
         status = main(arguments)
@@ -429,7 +417,5 @@ class TestCommandLine:
         assert COMM.allgather(status) == [0] * COMM.size
         spoke = COMM.allgather(bool(out))
         assert spoke == [True] + [False] * (COMM.size - 1)
-        names = {path.name for path in here.iterdir()}
-        assert names == {"configuration.toml", "fields.h5", "history.csv", "picture.png",
-                         "result.json"}  # fmt: skip
+        assert names_in(here) == RUN_FILES
         assert f"{COMM.size} ranks" in (out if COMM.rank == 0 else f"{COMM.size} ranks")

@@ -11,9 +11,8 @@ from mgehl.solver.settings import NewtonSettings, SolverSettings
 
 
 @pytest.fixture
-def make_newton(make_hierarchy, paper_contact):
+def make_newton(make_hierarchy, paper_contact, in_the_end):
     """Factory of (problem, Newton) on 65 nodes, for the film at 1 m/s; freed after the test."""
-    made = []
 
     def make(monitor=None, kind=Newton, contact=None, scheme=None, **limits):
         contact, scheme = contact or paper_contact(), scheme or Scheme()
@@ -21,12 +20,9 @@ def make_newton(make_hierarchy, paper_contact):
         problem = ContactProblem(hierarchy.grids[-1], hierarchy.deflections[-1], contact, scheme)
         recipe = recipe_of(SolverSettings(scheme=scheme, newton=NewtonSettings(**limits)), contact)
         multigrid = MultigridSolver(hierarchy, 1, contact, scheme, recipe.cycle)
-        made.append(kind(problem, multigrid, recipe.newton, None, monitor))
-        return problem, made[-1]
+        return problem, in_the_end(kind.free, kind(problem, multigrid, recipe.newton, None, monitor))
 
-    yield make
-    for newton in made:
-        newton.free()
+    return make
 
 
 @pytest.fixture

@@ -55,10 +55,8 @@ def test_without_tearing_a_pressure_around_is_a_thicker_oil():
 
 def test_the_film_tears_where_nothing_is_left_of_the_pressure_around():
     """Behind the contact P falls below zero: as far as that, or, under much pressure, not so far."""
-    little, much = (
-        solved(**{"motion.speed": 0.5, "solver.start": "film", "contact.ambient_pressure": ambient})
-        for ambient in (0.2 * AROUND, AROUND)
-    )
+    film = {"motion.speed": 0.5, "solver.start": "film"}
+    little, much = (solved(**film, **{"contact.ambient_pressure": p}) for p in (0.2 * AROUND, AROUND))
     assert little.result.converged and much.result.converged
     torn = little.fields.status == CAVITATED
     assert torn.any() and np.all(little.fields.P[torn] == little.contact.tears_at)

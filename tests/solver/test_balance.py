@@ -1,14 +1,11 @@
 """Runs make no oil: their files are asked by a checker that shares nothing with the program."""
 
-from pathlib import Path
-
 import h5py
 import pytest
 from balance import balance
+from places import ROUGH
 
 import mgehl
-
-ROUGH = Path(__file__).parents[2] / "configs" / "rough.toml"
 
 
 def run_of(path, **sections):

@@ -6,6 +6,7 @@ from mgehl.discretization.scheme import Scheme
 from mgehl.solver.continuation import Continuation
 from mgehl.solver.nested import nested_iteration
 from mgehl.solver.settings import SolverSettings
+from mgehl.solver.task import Task
 
 
 class Followed:
@@ -14,12 +15,12 @@ class Followed:
     def __init__(self, hierarchy, contact, scheme):
         self.told, self.scheme = [], scheme
         tell = lambda level, cycle: self.told.append(level)  # noqa: E731
-        self._how = hierarchy, contact, SolverSettings(scheme=scheme), tell
-        self.continuation = Continuation(*self._how)
+        self._task = Task(hierarchy, contact, SolverSettings(scheme=scheme), tell)
+        self.continuation = Continuation(self._task)
 
     def film(self):
         """Problem and `Outcome` at the contact's own speed."""
-        return nested_iteration(*self._how)
+        return nested_iteration(self._task)
 
     @property
     def speeds(self):

@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
+from dry_surfaces import surface
 from journals import Kept, Standing
 from scipy.optimize import nnls
-from tools.dry_surfaces import surface
 
 from mgehl.discretization.influence import influence_coefficients
 from mgehl.discretization.status import CONTACT

@@ -56,9 +56,8 @@ def test_an_instant_slides_and_loses_load_beyond_the_domain_as_fast_as_it_moves(
     assert beyond > 0.01
     for there in (contact.under(30.0), contact.at_speed(0.0)):  # pressed flat, and at rest: all is within
         problem.turn_to(contact, there)
-        assert -problem.load_deficit(nothing) == pytest.approx(
-            there.load / contact.load * contact.load_integral
-        )
+        share = there.load / contact.load
+        assert -problem.load_deficit(nothing) == pytest.approx(share * contact.load_integral)
         slower = there.speed / contact.speed
         assert problem.flowing.thinning == pytest.approx(slower * contact.thinning)
 

@@ -6,7 +6,6 @@ import mgehl
 OIL = {"conductivity": 0.14, "thermoviscosity": 0.04}
 STEEL = {"conductivity_1": 46.0, "conductivity_2": 46.0, "capacity_1": 3.6e6, "capacity_2": 3.6e6}
 
-
 SLIDES = {
     "contact": {"load": 100.0}, "motion": {"speed": 2.0, "slide_to_roll": 0.2}, "grid": {"nodes": 65},
     "friction": {"model": "limiting", "limiting_coefficient": 0.05},

@@ -33,9 +33,8 @@ class TestInterface:
         state = across(1.0 + slope * np.arange(6))
         assert check_interface(tiny_problem, state).violations == 0
         at_nodes = {(each["i"], each["j"]) for each in check_pressure_inequality(tiny_problem, state).nodes}
-        assert bool(at_nodes & ({(5, j) for j in range(1, 10)} | {(i, 5) for i in range(1, 10)})) == (
-            slope < 0.0
-        )
+        edge = {(5, j) for j in range(1, 10)} | {(i, 5) for i in range(1, 10)}
+        assert bool(at_nodes & edge) == (slope < 0.0)
 
     @pytest.mark.parametrize("slope", [0.1, 0.0, -0.1])
     def test_a_jump_to_less_pressure_is_found(self, tiny_problem, across, slope):
@@ -65,9 +64,7 @@ class TestInterface:
         assert check_interface(tiny_problem, state).violations == 0
 
     @pytest.mark.parametrize("first, undecided", [(0.24, 9), (0.35, 0)])
-    def test_contact_that_rises_from_less_than_its_tolerance_is_not(
-        self, tiny_problem, across, first, undecided
-    ):
+    def test_contact_that_rises_from_its_tolerance_is_not(self, tiny_problem, across, first, undecided):
         """By 0.4 from node to node: half of that is the step to the face, and 1.25 times as much, 0.25, the
         tolerance; on the outer lines, beyond which there is no pressure, 0.32. No fluid is behind it."""
         state = across(np.r_[np.full(3, 0.125), first + 0.4 * np.arange(3.0)])

@@ -4,20 +4,11 @@ import numpy as np
 import pytest
 from petsc4py import PETSc
 
-from mgehl.discretization.status import BOUNDARY, LUBRICATED
-from mgehl.solver.judge import (
-    GO_ON,
-    STALLS,
-    Verdict,
-    judge,
-    judge_system,
-    judge_work,
-    steps_since_lowered,
-)
+from mgehl.solver.judge import GO_ON, STALLS, Verdict, judge, judge_system, judge_work, steps_since_lowered
 from mgehl.solver.outcome import Cycle
 from mgehl.solver.partition import RESTLESS, Changes, Partition
 from mgehl.solver.position import Position, Trial
-from mgehl.solver.problem import DIVERGED, State
+from mgehl.solver.problem import DIVERGED
 from mgehl.solver.recipe import IDLE as IDLE_STEPS
 from mgehl.solver.settings import NewtonSettings
 
@@ -31,16 +22,14 @@ def partition(tiny_problem):
 
 
 @pytest.fixture
-def make_position(tiny_problem, partition):
+def make_position(state, partition):
     """Factory of the position of a film whose cycles have these residuals, the last one these changes, at a
     trial of Eq. 2 until a step."""
 
     def make(*residuals, changes=None, load=0.0, step=7, until=None, stalls=0):
-        status = np.where(tiny_problem.boundary, BOUNDARY, LUBRICATED).astype(np.int8)
-        state = State(np.zeros(status.shape), 0.0, np.ones(status.shape), status)
         cycles = [Cycle(step, each, load, 1.0, 1.0, 0, 0, changes or Changes()) for each in residuals]
         trial = until and Trial(state.copy(), "settled before", 2, 2, until)
-        return Position(state, partition.past, cycles, trial=trial, stalls=stalls)
+        return Position(state.copy(), partition.past, cycles, trial=trial, stalls=stalls)
 
     return make
 
@@ -77,9 +66,7 @@ def test_the_verdict_on_a_position(partition, make_position, residuals, given, r
 
 
 @pytest.mark.parametrize("nodes, spreads", [([4, 8, 8, 12, 10], False), ([4, 8, 8, 12, 10, 11], True)])
-def test_contact_that_spreads_in_so_many_steps_ends_it_where_that_is_asked(
-    partition, make_position, nodes, spreads
-):
+def test_contact_that_spreads_in_so_many_steps_ends_it_if_asked(partition, make_position, nodes, spreads):
     position = make_position(1e-3)
     position.cycles = [replace(position.cycles[0], contact_nodes=each) for each in nodes]
     assert judge(position, partition, replace(LIMITS, spreading_steps=3)).ends == spreads
@@ -93,9 +80,7 @@ def test_too_many_convolutions_end_what_would_go_on(work, ends):
     assert judge_work(settled, work, 100) is settled
 
 
-def test_a_linear_system_ends_a_solve_where_it_is_singular_and_a_trial_where_it_is_not_solved(
-    make_position,
-):
+def test_a_singular_linear_system_ends_a_solve_and_one_that_is_not_solved_a_trial(make_position):
     reasons, found = PETSc.KSP.ConvergedReason, []
     for until in (None, 15):
         position = make_position(1e-3, until=until)

@@ -1,9 +1,9 @@
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 from mpi4py import MPI
+from places import ROUGH
 
 from mgehl.config import load_config
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
@@ -14,8 +14,8 @@ from mgehl.solver.beginning import begin
 from mgehl.solver.from_config import set_up
 from mgehl.solver.inequality import check_under_contact
 from mgehl.solver.mass import CLOSED, mass_account
+from mgehl.solver.task import Task
 
-ROUGH = Path(__file__).parents[2] / "configs" / "rough.toml"
 TOLERANCE = 1e-8
 
 
@@ -24,7 +24,7 @@ def solved():
     """Problem and outcome of the rough ball on 65 nodes: film, cavities that feed it, and contact."""
     parts = set_up(case_of(load_config(ROUGH, {"grid.nodes": 65, "solver.error": False})))
     hierarchy = parts.hierarchy(MPI.COMM_SELF)
-    yield begin(hierarchy, parts.contact, parts.settings, lambda *_: None)
+    yield begin(Task(hierarchy, parts.contact, parts.settings))
     hierarchy.destroy()
 
 

@@ -27,16 +27,11 @@ def test_the_film_is_symmetric(solve, paper_contact):
     np.testing.assert_array_equal(state.status, state.status[::-1])
 
 
-MOES = [
-    (20, "2B", 65, 4.65234, 2.88452),
-    (20, "2B", 129, 4.76528, 2.94626),
-    (200, "2B", 65, 3.25298, 1.31632),
-    (20, "1B", 65, 5.11010, None),
-    (200, "1B", 65, 4.79300, None),
-]
-
-
-@pytest.mark.parametrize("M, couette, nodes, central, minimum", MOES)
+@pytest.mark.parametrize(
+    "M, couette, nodes, central, minimum",
+    [(20, "2B", 65, 4.65234, 2.88452), (20, "2B", 129, 4.76528, 2.94626),
+     (200, "2B", 65, 3.25298, 1.31632), (20, "1B", 65, 5.11010, None), (200, "1B", 65, 4.79300, None)],
+)  # fmt: skip
 def test_moes_films(solve, M, couette, nodes, central, minimum):
     """Incompressible full films with L = 10, by another program on the same grid (tests/README.md)."""
     contact = contact_of(moes(M, 10.0))

@@ -1,8 +1,8 @@
-import subprocess
 import sys
 
 import numpy as np
 import pytest
+from processes import ended
 
 from mgehl.discretization.status import LUBRICATED
 from mgehl.model.lubricant import Barus
@@ -45,10 +45,8 @@ def test_a_residual_without_a_way_back_ends_it(make_newton, P, H):
 @pytest.mark.parametrize("speed", [1.0, 0.12])
 def test_implicit_time_steps_end_in_the_steady_solution(solve, paper_contact, speed):
     """Another way to the same film, at 0.12 m/s with contact."""
-    steady, implicit = (
-        solve(paper_contact(speed), 65, newton={"squeeze": squeeze, "release_budget": 0}).outcome
-        for squeeze in (0.0, 3.0)
-    )
+    ways = ({"squeeze": squeeze, "release_budget": 0} for squeeze in (0.0, 3.0))
+    steady, implicit = (solve(paper_contact(speed), 65, newton=way).outcome for way in ways)
     assert steady.converged and implicit.converged
     np.testing.assert_allclose(implicit.state.P, steady.state.P, rtol=0.0, atol=1e-6)
     np.testing.assert_allclose(implicit.state.H, steady.state.H, rtol=0.0, atol=1e-6)
@@ -129,7 +127,7 @@ class TestExceptions:
 
     def test_of_a_product_inside_the_linear_solver(self):
         """In a process of its own, which would die of it."""
-        done = subprocess.run([sys.executable, "-c", RAISES_INSIDE], capture_output=True, text=True)
+        done = ended([sys.executable, "-c", RAISES_INSIDE])
         assert (done.returncode, done.stdout) == (0, "as it was\nfreed\n"), done.stderr
 
     def test_after_one_it_solves_again(self, make_newton):

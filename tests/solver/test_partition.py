@@ -7,10 +7,7 @@ import mgehl
 from mgehl.discretization.contact_law import BoundaryFilm, InterfaceConditions, UnifiedEquations
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
-from mgehl.solver.nested import nested_iteration
 from mgehl.solver.partition import RESTLESS, Changes, Contradiction, Partition
-from mgehl.solver.problem import State
-from mgehl.solver.settings import NewtonSettings, SolverSettings
 
 THRESHOLD = 1e-3
 NODE = (4, 4)
@@ -27,19 +24,17 @@ def make_partition(make_problem):
 
 
 @pytest.fixture
-def state(tiny_problem):
+def state(state, tiny_problem):
     """All film with P = 0.5 and a gap of 1."""
-    shape = tiny_problem.grid.shape
-    status = np.where(tiny_problem.boundary, BOUNDARY, LUBRICATED).astype(np.int8)
-    P = np.where(tiny_problem.boundary, 0.0, 0.5)
-    return State(P, 0.0, np.ones(shape), status)
+    state.P[:] = state.p[:] = np.where(tiny_problem.boundary, 0.0, 0.5)
+    return state
 
 
 def changed_by(rule, state, **expected):
     """Apply a rule; the changes that it tells are these and no others."""
     changes = Changes()
     rule(state, changes)
-    assert vars(changes) == {"cavitated": 0, "filled": 0, "entered": 0, "released": 0} | expected
+    assert changes == Changes(**expected)
     assert changes.total == sum(expected.values())
 
 
@@ -242,7 +237,7 @@ class TestContinuousContact:
         assert (pressed.status[NODE] == LUBRICATED) == opens
 
     @pytest.mark.parametrize("part, stays", [(0.9, False), (1.1, True)])
-    def test_what_overlaps_is_torn_open_by_enough_tension_alone(
+    def test_what_overlaps_is_torn_open_by_tension_alone(
         self, partition, tiny_problem, pressed, part, stays
     ):
         """The overlap in parts of what the tension gives the node: first guesses overlap by far more."""
@@ -261,11 +256,8 @@ class TestContinuousContact:
         changed_by(partition.enter_contact, pressed, entered=1)
 
 
-def test_a_node_that_its_flow_would_lift_is_not_solved_apart(paper_contact, make_hierarchy, usual_law):
-    contact = paper_contact(5e-6)
-    scheme = Scheme(face_mobility="geometric", contact_law=usual_law(contact))
-    settings = SolverSettings(scheme=scheme, start="contact", newton=NewtonSettings(max_steps=15))
-    _, outcome = nested_iteration(make_hierarchy(contact, 257), contact, settings, lambda *each: None)
+def test_a_node_that_its_flow_would_lift_is_not_solved_apart(paper_contact, solve):
+    outcome = solve(paper_contact(5e-6), 257, "contact", newton={"max_steps": 15}, mean="geometric").outcome
     assert outcome.converged and outcome.cycles[-1].step <= 9
 
 
@@ -275,7 +267,7 @@ def test_a_node_that_its_flow_would_lift_is_not_solved_apart(paper_contact, make
     [("cut_tension", "cavitated", CAVITATED), ("fill", "filled", LUBRICATED),
      ("open_contact", "released", LUBRICATED)],
 )  # fmt: skip
-def test_neighbours_whose_signs_are_wrong_change_at_once_or_in_turn(
+def test_neighbours_with_wrong_signs_change_at_once_or_in_turn(
     make_partition, state, rule, told, new, in_turn
 ):
     """Three neighbours, of which in turn the middle one alone changes, which asks most; and one apart.

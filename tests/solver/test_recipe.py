@@ -76,16 +76,10 @@ def test_a_surface_that_comes_later_has_the_scheme_of_rough_bodies(paper_contact
 
 @pytest.mark.parametrize(
     "speed, rest, begins",
-    [
-        (1.0, {}, FULL_FILM),
-        (1e-2, {}, UNSEEN_FILM),
-        (1e-2, {"mean": "logarithmic"}, UNSEEN_FILM),
-        (1e-2, {"mean": "geometric"}, FULL_FILM),
-        (1e-2, {"law": CLOSED}, FULL_FILM),
-        (1e-2, {"start": IN_CONTACT}, IN_CONTACT),
-        (1e-2, {"amplitude": 4e-6}, UNDER_FILM),
-    ],
-)
+    [(1.0, {}, FULL_FILM), (1e-2, {}, UNSEEN_FILM), (1e-2, {"mean": "logarithmic"}, UNSEEN_FILM),
+     (1e-2, {"mean": "geometric"}, FULL_FILM), (1e-2, {"law": CLOSED}, FULL_FILM),
+     (1e-2, {"start": IN_CONTACT}, IN_CONTACT), (1e-2, {"amplitude": 4e-6}, UNDER_FILM)],
+)  # fmt: skip
 def test_a_grid_that_hardly_sees_a_film_begins_alone_from_a_thicker_one(paper_contact, speed, rest, begins):
     """The paper's ball on 257 nodes: 5.3 and .5 cells in the inlet."""
     asked = {"amplitude": 0.0, "mean": "linear-gap", "law": CLOSING, "start": FULL_FILM} | rest

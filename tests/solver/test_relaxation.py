@@ -10,6 +10,7 @@ from mgehl.solver.nested import single_loop
 from mgehl.solver.problem import State
 from mgehl.solver.relaxation import RelaxationSettings, relax
 from mgehl.solver.settings import SolverSettings
+from mgehl.solver.task import Task
 
 
 @pytest.fixture
@@ -73,7 +74,8 @@ class TestRuns:
         law = InterfaceConditions(0.02e-9 / contact.film_scale)
         scheme = Scheme(cavitation=cavitation, contact_law=law)
         everything = SolverSettings(method="relaxation", scheme=scheme, relaxation=limits)
-        problem, outcome = single_loop(hierarchy, contact, everything, lambda *each: told.append(each))
+        task = Task(hierarchy, contact, everything, lambda *each: told.append(each))
+        problem, outcome = single_loop(task)
         return hierarchy, problem, outcome, told
 
     def test_it_finds_the_film_that_newton_finds(self, make_hierarchy, solve, paper_contact):

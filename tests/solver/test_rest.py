@@ -1,13 +1,12 @@
 """Near rest a rough contact with layers is the dry contact; its oil leaves no trace."""
 
 import tomllib
-from pathlib import Path
 
 import numpy as np
 import pytest
 from contacts import solved
+from places import ROUGH
 
-ROUGH = Path(__file__).parents[2] / "configs" / "rough.toml"
 SPEEDS = (2e-4, 1e-5, 1e-7, 1e-9)
 """In m/s: solids carry a part of the load, nearly all of it, all."""
 

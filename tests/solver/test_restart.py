@@ -34,21 +34,18 @@ def film():
 
 
 @pytest.fixture
-def onto():
+def onto(in_the_end):
     """Function: the fields of a solution on the problem of other tables, and that problem."""
-    made = []
 
     def make(start, *tables):
         config = config_from_tables(merged(*tables))
         contact = contact_from(config)
-        made.append(Hierarchy(mesh_from(config, contact), 33, contact.kernel, MPI.COMM_SELF))
-        grid, deflection = made[-1].grids[-1], made[-1].deflections[-1]
+        made = Hierarchy(mesh_from(config, contact), 33, contact.kernel, MPI.COMM_SELF)
+        grid, deflection = in_the_end(Hierarchy.destroy, made).grids[-1], made.deflections[-1]
         problem = ContactProblem(grid, deflection, contact, settings_from(config, contact).scheme)
         return interpolated(problem, start, Frame()), problem
 
-    yield make
-    for hierarchy in made:
-        hierarchy.destroy()
+    return make
 
 
 class TestInterpolated:
@@ -90,18 +87,12 @@ ROUGH = {"surface.kind": "waviness", "surface.amplitude": "100 nm", "surface.wav
 
 @pytest.mark.parametrize(
     ("surface", "change", "leads"),
-    [
-        ({}, {"motion.speed": 0.4}, True),
-        ({}, {"motion.speed": 5.0}, True),
-        ({}, {"motion.speed": 0.1}, False),
-        ({}, {"contact.load": 100.0}, True),
-        (ROUGH, {"motion.speed": 0.4}, True),
-        (ROUGH, {"grid.nodes": 129}, True),
-        (ROUGH, {"contact.load": 80.5}, True),
-        (ROUGH, {"contact.load": 100.0}, False),
-        (ROUGH, {"surface.amplitude": 110e-9}, False),
-    ],
-)
+    [({}, {"motion.speed": 0.4}, True), ({}, {"motion.speed": 5.0}, True),
+     ({}, {"motion.speed": 0.1}, False), ({}, {"contact.load": 100.0}, True),
+     (ROUGH, {"motion.speed": 0.4}, True), (ROUGH, {"grid.nodes": 129}, True),
+     (ROUGH, {"contact.load": 80.5}, True), (ROUGH, {"contact.load": 100.0}, False),
+     (ROUGH, {"surface.amplitude": 110e-9}, False)],
+)  # fmt: skip
 def test_a_forecast_leads_to_films_that_are_near_and_heights_that_stay(surface, change, leads):
     config = mgehl.load(None, {"motion.speed": 0.5, "contact.load": 80.0, "solver.start": "film"} | surface)
     before = SimpleNamespace(contact=contact_from(config))

@@ -13,6 +13,7 @@ from mgehl.solver.inequality import check_interface
 from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.nested import nested_iteration
 from mgehl.solver.settings import NewtonSettings, SolverSettings
+from mgehl.solver.task import Task
 from mgehl.solver.verification import complementarity_error
 
 
@@ -41,7 +42,7 @@ def solve_rough(paper_contact, make_hierarchy):
         scheme = Scheme(couette, "linear-gap", contact_law=law)
         newton = NewtonSettings(tolerance=tolerance)
         settings = SolverSettings(scheme=scheme, newton=newton, start=start)
-        return nested_iteration(hierarchy, contact, settings, lambda *_: None, journal)
+        return nested_iteration(Task(hierarchy, contact, settings, journal=journal))
 
     return run
 
@@ -84,10 +85,8 @@ def test_behind_peaks_a_film_is_never_less_than_none(solve_rough, couette):
 @pytest.mark.parametrize("couette", ["1B", "3L"])
 def test_from_a_film_and_from_contact_it_is_the_same_state(solve_rough, couette):
     """Closing is continuous: there is no second branch. What solves are apart by, their tolerance is."""
-    found = [
-        solve_rough(1e-7, 1e-3, start=start, couette=couette, tolerance=1e-10)
-        for start in ("film", "contact")
-    ]
+    how = {"couette": couette, "tolerance": 1e-10}
+    found = [solve_rough(1e-7, 1e-3, start=start, **how) for start in ("film", "contact")]
     films = [problem.films(outcome.state) for problem, outcome in found]
     np.testing.assert_allclose(*films, rtol=1e-6)
 
@@ -118,9 +117,7 @@ def test_contact_carries_much_of_the_load(solve_rough, start, speed, steps, shar
     assert check_interface(problem, state).violations == 0
 
 
-def test_nearby_nodes_at_once_settle_and_a_run_that_was_stopped_on_the_way_goes_on_the_same(
-    solve_rough, monkeypatch
-):
+def test_nearby_nodes_at_once_settle_and_a_run_that_was_stopped_goes_on_the_same(solve_rough, monkeypatch):
     """Waves of 200 nm at a smooth film of .5 nm; a linear system may take but 5 iterations by lines.
 
     It takes 18 steps. By lines alone it takes 69. (At a tenth of the film neither settles.)

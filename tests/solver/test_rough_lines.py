@@ -8,6 +8,7 @@ from contacts import solved
 from mpi4py import MPI
 
 from mgehl.config import config_from_tables
+from mgehl.grid.hierarchy import Hierarchy
 from mgehl.kinds import case_of, contact_from
 from mgehl.multigrid import cycle
 from mgehl.solver import beginning
@@ -16,6 +17,7 @@ from mgehl.solver.from_config import set_up
 from mgehl.solver.gaps import gaps
 from mgehl.solver.outcome import Outcome
 from mgehl.solver.recipe import DRY, THICK_FILM, UNDER_FILM
+from mgehl.solver.task import Task
 
 ROLLER = {
     "contact": {"kind": "line", "radius_x": 18.5e-3, "reduced_modulus": 226e9, "load_per_length": 847e3,
@@ -58,35 +60,29 @@ def test_the_recipe_begins_in_the_way_that_led_to_the_answer(monkeypatch):
 
 class TestFromAThickFilm:
     @pytest.fixture
-    def parts(self):
+    def task(self, in_the_end):
         config = config_from_tables(ROLLER)
         parts = set_up(case_of(config))
-        hierarchy = parts.hierarchy(MPI.COMM_SELF)
-        yield contact_from(config), hierarchy, parts.settings
-        hierarchy.destroy()
+        hierarchy = in_the_end(Hierarchy.destroy, parts.hierarchy(MPI.COMM_SELF))
+        return Task(hierarchy, contact_from(config), parts.settings)
 
-    def test_the_speed_falls_from_a_covering_film_to_the_contact_s_own(self, parts):
-        contact, hierarchy, settings = parts
-        told = []
+    def test_the_speed_falls_from_a_covering_film_to_the_contact_s_own(self, task):
+        contact, told = task.contact, []
         tell = lambda level, cycle: told.append(level.speed)  # noqa: E731
-        problem, outcome = begin_thick(hierarchy, contact, settings, tell)
+        problem, outcome = begin_thick(replace(task, monitor=tell))
         assert outcome.converged and problem.contact.speed == contact.speed == told[-1]
         thickest = contact.at_speed(max(told)).expected_film
         assert thickest >= COVERED * contact.roughness > contact.expected_film
         assert np.all(np.diff(told) <= 0.0)
 
-    def test_all_ways_lead_to_the_same_answer(self, parts):
-        contact, hierarchy, settings = parts
+    def test_all_ways_lead_to_the_same_answer(self, task):
         ways = begin_thick, begin_dry, begin
-        found = [way(hierarchy, contact, settings, lambda level, cycle: None) for way in ways]
-        assert [gaps(problem, outcome.state).mean for problem, outcome in found] == pytest.approx(
-            [gaps(found[0][0], found[0][1].state).mean] * 3, rel=1e-6
-        )
+        found = [way(task) for way in ways]
+        means = [gaps(problem, outcome.state).mean for problem, outcome in found]
+        assert means == pytest.approx(3 * means[:1], rel=1e-6)
 
-    def test_where_both_fail_the_state_is_of_the_contact_s_own_speed(self, parts):
-        contact, hierarchy, settings = parts
-        settings = replace(settings, newton=replace(settings.newton, max_steps=2))
-        problem, outcome = begin(hierarchy, contact, settings, lambda level, cycle: None)
-        assert not outcome.converged and problem.contact.speed == contact.speed
+    def test_where_both_fail_the_state_is_of_the_contact_s_own_speed(self, task):
+        problem, outcome = begin(task.but(newton=replace(task.settings.newton, max_steps=2)))
+        assert not outcome.converged and problem.contact.speed == task.contact.speed
         assert f"after 2 steps{NOR} the dry contact without oil: " in outcome.reason
         assert f"after 2 steps{NOR} a thick film: a stage on the way" in outcome.reason

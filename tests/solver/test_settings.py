@@ -15,14 +15,10 @@ def test_what_is_not_configured_is_the_default():
 
 def test_keys_reach_the_records_that_the_solver_is_given():
     tables = {
-        "discretization": {
-            "cavitation": False, "couette_at_interface": "untreated", "contact_model": "unified",
-            "unified_gap": 1e-9,
-        },
-        "solver": {
-            "tolerance": 1e-6, "method": "relaxation", "start": "contact", "inlet_cells": 3.0, "sweeps": 2,
-            "squeeze": 5.0,
-        },
+        "discretization": {"cavitation": False, "couette_at_interface": "untreated",
+                           "contact_model": "unified", "unified_gap": 1e-9},
+        "solver": {"tolerance": 1e-6, "method": "relaxation", "start": "contact", "inlet_cells": 3.0,
+                   "sweeps": 2, "squeeze": 5.0},
         "relaxation": {"omega": 0.1, "load_every": 4},
     }  # fmt: skip
     setup = set_up(case_of(config_from_tables(tables)))

@@ -11,14 +11,12 @@ from math import exp, pi
 import numpy as np
 import pytest
 from contacts import moes, solved
-from mpi4py import MPI
 from scipy.integrate import quad
 
 from mgehl.discretization.contact_law import BoundaryFilm, UnifiedEquations
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
-from mgehl.grid.grid import single_grid
 from mgehl.model.hertz import hertz_pressure
 from mgehl.model.rheology import Eyring, Friction, Limiting
 from mgehl.solver.problem import ContactProblem, Problem, State
@@ -31,23 +29,17 @@ SLIDING = 0.1
 MU_EYRING, MU_LIMITED = 0.080229, 0.049921
 """Of the paper's contact, by the integrals above."""
 
-
 CLOSING = Scheme()
 """Contact closes its faces."""
 
 
 @pytest.fixture
-def make_problem():
-    grids = []
-
+def make_problem(make_grid):
     def make(contact, nodes=65, scheme=CLOSING):
         mesh = Mesh(nodes, nodes, (-1.5, 1.5), (-1.5, 1.5), contact.k_e)
-        grids.append(single_grid(mesh, MPI.COMM_SELF))
-        return Problem(grids[-1], contact, scheme)
+        return Problem(make_grid(mesh), contact, scheme)
 
-    yield make
-    for grid in grids:
-        grid.destroy()
+    return make
 
 
 def sliding(paper_contact, friction, **changes):
@@ -106,9 +98,8 @@ def test_a_cavity_resists_as_far_as_it_is_filled(paper_contact, make_problem):
 @pytest.mark.parametrize("law, carried", [(CLOSING.contact_law, 0.8), (BoundaryFilm(1e-6), 0.3)])
 def test_solids_resist_by_what_they_carry(paper_contact, make_problem, law, carried):
     """P where contact closes its faces, P - p where the fluid in it has a pressure of its own."""
-    problem = make_problem(
-        sliding(paper_contact, Friction(boundary_coefficient=0.1)), 65, Scheme(contact_law=law)
-    )
+    sliding_contact = sliding(paper_contact, Friction(boundary_coefficient=0.1))
+    problem = make_problem(sliding_contact, 65, Scheme(contact_law=law))
     state = uniform_film(problem)
     state.status[30, 30], state.P[30, 30], state.p[30, 30], state.H[30, 30] = CONTACT, 0.8, 0.5, 0.0
     stress = solid_shear(problem, state)
@@ -157,9 +148,8 @@ def test_shear_thins_a_film_by_newton_s_own_steps():
 def test_a_film_along_y_is_thinned_as_one_along_x():
     slides = {"slide_to_roll": 1.0}
     eyring = {"model": "eyring", "eyring_stress": 2e6}
-    along_x, along_y = (
-        film_of(0.5, motion=slides | {"angle": angle}, friction=eyring) for angle in (0.0, 90.0)
-    )
+    ways = (slides | {"angle": angle} for angle in (0.0, 90.0))
+    along_x, along_y = (film_of(0.5, motion=way, friction=eyring) for way in ways)
     assert along_y.central_film_nm == pytest.approx(along_x.central_film_nm, rel=1e-12)
     assert along_y.friction.coefficient == pytest.approx(along_x.friction.coefficient, rel=1e-12)
 

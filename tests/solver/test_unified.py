@@ -13,13 +13,9 @@ from mgehl.studies.study import PAPER, papers_grid
 @cache
 def solution(speed, nodes, model="unified", start="film", gap="0 m", tolerance=1e-8):
     section = {"contact_model": model} | ({"unified_gap": gap} if model == "unified" else {})
-    tables = {
-        "motion": {"speed": speed},
-        "grid": papers_grid(nodes),
-        "discretization": PAPER["discretization"] | section,
-    }
-    solver = {"solver": {"start": start, "tolerance": tolerance}}
-    return solved(tables, solver)
+    tables = {"motion": {"speed": speed}, "grid": papers_grid(nodes)}
+    tables |= {"discretization": section, "solver": {"start": start, "tolerance": tolerance}}
+    return solved(PAPER, tables)
 
 
 @pytest.mark.parametrize("nodes", [65, 129])

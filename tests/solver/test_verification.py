@@ -53,9 +53,7 @@ class TestEdge:
         assert (edge.overlapping, edge.largest_nm) == (1, 0.125e9 * tiny_problem.contact.film_scale)
 
 
-def test_of_an_untreated_couette_flow_the_largest_through_a_closed_face_counts(
-    tiny_problem, make_problem, state
-):
+def test_of_an_untreated_couette_flow_the_largest_through_a_face_counts(tiny_problem, make_problem, state):
     """1B carries rho H of the node on the left."""
     leaky = make_problem(nodes=9, scheme=Scheme(couette_at_interface="untreated"))
 
@@ -81,10 +79,7 @@ def balanced(state):
 # Changes of the balanced state, (status, P, H) of nodes; what is broken, and by how much.
 BROKEN = {
     "tension in a film": ({(4, 2): (LUBRICATED, -0.25, 1.0)}, 0.25),
-    "tension in contact": (
-        {(4, 2): (CONTACT, -0.25, 0.0)},
-        0.25,
-    ),  # far from the cavity: it blocks the flow
+    "tension in contact": ({(4, 2): (CONTACT, -0.25, 0.0)}, 0.25),  # far from the cavity: it blocks flow
     "flow into the cavity": ({(4, 6): (CAVITATED, 0.0, 0.7)}, 0.3),  # receives 1, passes its gap on
     "flow out of it": ({(4, 7): (CAVITATED, 0.0, 1.3)}, 0.3),
     "contact with a gap": ({(4, 2): (CONTACT, 0.0, 0.125)}, 0.125),

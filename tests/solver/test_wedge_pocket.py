@@ -5,14 +5,12 @@ import numpy as np
 import pocket_reference as reference
 import pytest
 from contacts import solved
-from mpi4py import MPI
 from pocket_reference import SIZES, case, difference, pressures
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from mgehl.config import config_from_tables
 from mgehl.discretization.status import CAVITATED
-from mgehl.grid.grid import single_grid
 from mgehl.kinds import contact_from
 from mgehl.solver.from_config import scheme_from
 from mgehl.solver.mass import CLOSED
@@ -129,20 +127,19 @@ def test_what_is_filled_behind_the_rupture_of_a_diverging_film_stays():
     assert found.result.mass.made_share < 1e-12
 
 
-def test_walls_at_the_sides_make_all_lines_alike():
+def test_walls_at_the_sides_make_all_lines_alike(make_grid):
     """65 lines between walls are the one line, and the load is that of the whole width."""
     config = config_from_tables(case(65))
     bearing = contact_from(config)
     line = solution(65)
     half = 0.5 * bearing.width / bearing.y_scale * 64.0 / 65.0
-    grid = single_grid(replace(line.mesh, ny=65, y=(-half, half)), MPI.COMM_SELF)
+    grid = make_grid(replace(line.mesh, ny=65, y=(-half, half)))
     problem, outcome = solve_wedge(grid, bearing, scheme_from(config, bearing), 1e-10, 60)
     assert outcome.converged
     P = outcome.state.P
     np.testing.assert_allclose(P, np.broadcast_to(line.fields.P, P.shape), rtol=0.0, atol=1e-11)
     load = problem.load(P - bearing.ambient)
     assert line.result.load == pytest.approx(load, rel=1e-11)
-    grid.destroy()
 
 
 @pytest.mark.parametrize("size", SIZES)

@@ -23,9 +23,8 @@ def test_the_middle_of_a_wide_ellipse_is_the_line_contact_of_the_same_pressure()
     """22 times as wide as long. Torn nodes at both of its ends went in a circle, and it was not found."""
     wide = contact(load=3000.0, radius_y=0.9)
     per_length = 2.0 * pi * RADIUS * contact_from(wide).hertz.p_h ** 2 / MODULUS
-    found, line = (
-        mgehl.solve(each).result for each in (wide, contact(kind="line", load_per_length=per_length))
-    )
+    line = contact(kind="line", load_per_length=per_length)
+    found, line = (mgehl.solve(each).result for each in (wide, line))
     assert found.converged and line.converged
     assert found.central_film_nm == pytest.approx(line.central_film_nm, rel=5e-3)
     assert found.minimum_film_nm == pytest.approx(line.minimum_film_nm, rel=5e-3)

@@ -5,7 +5,6 @@ from mgehl.studies.case_names import directory_of, key_of
 
 DESCRIPTION = [{"grid": {"nodes": 65, "x": [-1.9, 1.3]}, "mean": "arithmetic"}, "down", [1.0, 0.7], True]
 
-
 COMPUTES = ("model/a.py", "kinds/b.py", "solver/deep/c.py", "output/d.py", "run.py", "studies/branch.py")
 
 

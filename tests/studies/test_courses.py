@@ -4,15 +4,7 @@ import numpy as np
 import pytest
 
 from mgehl.config import config_from_tables
-from mgehl.studies.courses import (
-    COURSES,
-    MEAN,
-    PERIOD,
-    STEADY,
-    SWING,
-    case,
-    off,
-)
+from mgehl.studies.courses import COURSES, MEAN, PERIOD, STEADY, SWING, case, off
 
 
 @pytest.mark.parametrize("course", COURSES)

@@ -1,5 +1,6 @@
 import pytest
 from contacts import solved
+from places import names_in
 from told import rows_of
 
 from mgehl.cli import main
@@ -40,7 +41,7 @@ def test_wedge(study):
 def test_schemes(study):
     """One grid: every scheme's film on 65 nodes as a run finds it, no limit."""
     directory = study("schemes", "65")
-    assert {path.name for path in directory.iterdir()} == {"films.csv", "films.md", "films.png"} | OTHERS
+    assert names_in(directory) == {"films.csv", "films.md", "films.png"} | OTHERS
     rows = rows_of(directory / "films.csv")
     assert [row["couette"] for row in rows] == list(SCHEMES)
     assert all((row["nodes"], row["converged"]) == ("65", "yes") for row in rows)

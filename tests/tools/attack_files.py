@@ -23,9 +23,8 @@ def attack_damage(count, chance, folder, findings):
     known = _ground(folder)
     for _ in findings.rounds(count):
         victim = _copied(folder, chance.choice(["healthy", "healthy", "stopped"]))
-        path = chance.choice(
-            [path for path in victim.rglob("*") if path.is_file() and path.name != "picture.png"]
-        )
+        files = [path for path in victim.rglob("*") if path.is_file() and path.name != "picture.png"]
+        path = chance.choice(files)
         how = chance.choice(DAMAGES)
         _damage(path, how, chance, folder)
         _attack([how, path.name], chance, folder, findings, known)

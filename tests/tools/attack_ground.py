@@ -108,23 +108,24 @@ def warm():
 def lay(folder):
     """Foreign files, a healthy run, one that was stopped, and configurations good and bad."""
     for name, text in FOREIGN.items():
-        (folder / name).parent.mkdir(parents=True, exist_ok=True)
-        (folder / name).write_text(text)
+        _put(folder / name, text)
     (folder / "good.toml").write_text("[grid]\nnodes = 65\n[solver]\nstart = 'contact'\n")
     (folder / "bad.toml").write_bytes(b"[grid\n\x00\xff")
     (folder / "link").symlink_to("foreign")
     os.mkfifo(folder / "pipe.npz")
     forked(["run", *SMALL, "--out", "healthy"], folder)
     forked(["run", *SMALL, "--out", "stopped", "--time-limit", "1e-9"], folder)
-    forked(
-        ["run", "--set", "contact.kind=wedge", "--set", "grid.nodes=65", "--quiet", "--out", "wedge"],
-        folder,
-    )
+    wedge = ["--set", "contact.kind=wedge", "--set", "grid.nodes=65", "--quiet"]
+    forked(["run", *wedge, "--out", "wedge"], folder)
 
 
 def untouched(findings, folder, words):
     for name, text in FOREIGN.items():
         if not (folder / name).exists() or (folder / name).read_text() != text:
             findings.say(f"foreign file {name} touched by {words!r}")
-            (folder / name).parent.mkdir(parents=True, exist_ok=True)
-            (folder / name).write_text(text)
+            _put(folder / name, text)
+
+
+def _put(path, text):
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(text)

@@ -19,6 +19,7 @@ OPTIONS = {
     "study": ["--nodes", "--direction", "--out", "--quiet"], "cite": [],
     "sweep": ["--set", "--over", "--out", "--resume", "--both-ways", "--quiet"],
 }  # fmt: skip
+PETSC = ["-mgehl_ksp_type", "-fp_trap", "-options_file", "-log_view", "-mgehl_ksp_rtol"]
 FLAGS = {"--force", "--quiet", "--json-lines", "--no-error"}
 SANE = ["vts,nc", "png", "lines", "status", "65", "129", "1", "2 s", "point", "line", "bash", "inlet",
         "wedge-257"]  # fmt: skip
@@ -35,14 +36,8 @@ def key_word(chance):
     key = chance.choice(fields(SECTIONS[section]))
     rules = key.metadata
     ends = [rules["low"], rules["high"], rules["above"]]
-    values = [
-        *(rules["choices"] or ()),
-        *(end for end in ends if end is not None),
-        *NASTY,
-        1e-300,
-        1e300,
-        "true",
-    ]
+    known = [*(rules["choices"] or ()), *(end for end in ends if end is not None)]
+    values = [*known, *NASTY, 1e-300, 1e300, "true"]
     if f"{section}.{key.name}" == "grid.nodes":
         values = [33, 65, 66, -1, "a"]  # a large grid is no attack
     return f"{section}.{key.name}={chance.choice(values)}"
@@ -68,9 +63,7 @@ def line_of(chance):
     if command == "bench":
         words += ["--case", "nothing"]
     if chance.random() < 0.1:
-        words += [
-            chance.choice(["-mgehl_ksp_type", "-fp_trap", "-options_file", "-log_view", "-mgehl_ksp_rtol"])
-        ]
+        words.append(chance.choice(PETSC))
         words += [chance.choice([*NASTY, "gmres"])]
     return words
 

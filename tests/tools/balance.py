@@ -33,10 +33,8 @@ def balance(run):
     into = np.concatenate([_into(inside, along), _into(inside.T, across.T)])
     enters, leaves = into[into > 0.0].sum(), -into[into < 0.0].sum()
     inner = inflow[1:-1, 1:-1]
-    made = {
-        name: -inner[status[1:-1, 1:-1] == kind].sum() / enters
-        for name, kind in (("film", FILM), ("cavity", CAVITY), ("contact", CONTACT))
-    }
+    kinds, kind_of = {"film": FILM, "cavity": CAVITY, "contact": CONTACT}, status[1:-1, 1:-1]
+    made = {name: -inner[kind_of == kind].sum() / enters for name, kind in kinds.items()}
     return {"leaves": leaves / enters, "node": np.abs(inner).max() / enters, **made}
 
 
@@ -52,10 +50,8 @@ def flows(run):
         config = tomllib.load(file)
     scheme = json.loads((run / "result.json").read_text())["recipe"]["couette"]
     with h5py.File(run / "fields.h5") as file:
-        pressure, P, p, film, filling, status, x, y, X, Y = (
-            file[name][:]
-            for name in ("pressure", "P", "p", "film", "filling", "status", "x", "y", "X", "Y")
-        )
+        names = "pressure", "P", "p", "film", "filling", "status", "x", "y", "X", "Y"
+        pressure, P, p, film, filling, status, x, y, X, Y = (file[name][:] for name in names)
     fluid = p * (pressure.max() / P.max()) + config["contact"].get("ambient_pressure", 0.0)
     dx, dy = (x[-1] - x[0]) / (len(x) - 1), (y[-1] - y[0]) / (len(y) - 1)
     layers = max(config["contact"]["boundary_film"], config["discretization"]["film_threshold"])

@@ -9,11 +9,11 @@ expression. Where that file is missing, the page stays as it is.
 
 import csv
 import re
-from pathlib import Path
+
+from places import ROOT
 
 from mgehl.output.table import markdown, with_bands
 
-ROOT = Path(__file__).resolve().parents[2]
 TABLES = ROOT / "runs" / "tables"
 PAGES = [ROOT / name for name in ("README.md", "configs/README.md", "runs/README.md")]
 MARK = re.compile(r"(<!-- numbers: ([\w-]+)(?:\[(.+)\])?(?:: (.+))? -->\n)((?:\|.*\n)*)")

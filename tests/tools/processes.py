@@ -1,6 +1,10 @@
 """Processes of their own that tests begin, of one rank or of several."""
 
 import os
+import subprocess
+import sys
+
+MGEHL = [sys.executable, "-m", "mgehl"]
 
 LEFT_BY_MPI = (
     "OMPI_COMM", "PMIX_", "PRTE_", "PMI_",
@@ -17,3 +21,13 @@ def own_environment(**variables):
     """
     kept = {name: value for name, value in os.environ.items() if not name.startswith(LEFT_BY_MPI)}
     return kept | variables
+
+
+def ended(words, timeout=120, cwd=None, **variables):
+    """A process that has ended, with what it said: on stderr but for MPI's libraries, which may have a say
+    on the machine, "[hwloc/linux] ..."."""
+    how = {"timeout": timeout, "cwd": cwd, "env": own_environment(**variables)}
+    done = subprocess.run(words, capture_output=True, text=True, errors="replace", **how)
+    own = [line for line in done.stderr.splitlines(keepends=True) if not line.startswith("[")]
+    done.stderr = "".join(own)
+    return done

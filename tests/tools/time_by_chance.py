@@ -30,19 +30,14 @@ def drawn(seed, folder):
     load_key = "contact.load_per_length" if line else "contact.load"
     time = a / speed
     settings = {
-        "contact.kind": "line" if line else "point",
-        "contact.radius_x": radius,
-        "contact.reduced_modulus": modulus,
-        load_key: load,
+        "contact.kind": "line" if line else "point", "contact.radius_x": radius,
+        "contact.reduced_modulus": modulus, load_key: load,
         "lubricant.viscosity": 10.0 ** chance.uniform(-2.0, -0.3),
         "lubricant.pressure_viscosity": chance.uniform(10e-9, 22e-9),
         "lubricant.viscosity_law": chance.choice(["barus", "roelands"]),
-        "motion.speed": speed,
-        "grid.nodes": 257 if line else 65,
-        "grid.x": [-2.5, 2.5],
-        "solver.start": "film",
-        "time.end": 4.0 * time,
-    } | ({} if line else {"contact.radius_y": radius, "grid.y": [-2.0, 2.0]})
+        "motion.speed": speed, "grid.nodes": 257 if line else 65, "grid.x": [-2.5, 2.5],
+        "solver.start": "film", "time.end": 4.0 * time,
+    } | ({} if line else {"contact.radius_y": radius, "grid.y": [-2.0, 2.0]})  # fmt: skip
 
     def course(*rows):
         path = folder / f"{seed}.csv"
@@ -56,9 +51,8 @@ def drawn(seed, folder):
     elif kind in ("stop", "reversal"):
         settings["motion.speed"] = course((0.0, speed), (within, 0.0 if kind == "stop" else -speed))
     elif kind == "load":
-        settings[load_key] = course(
-            (0.0, load), (0.1, load), (0.1 + within, chance.choice([0.6, 1.5]) * load)
-        )
+        after = chance.choice([0.6, 1.5]) * load
+        settings[load_key] = course((0.0, load), (0.1, load), (0.1 + within, after))
     if "rough" in kind:
         settings |= _rough(chance, seed, a, kind)
     return kind, settings
@@ -67,12 +61,8 @@ def drawn(seed, folder):
 def _rough(chance, seed, a, kind):
     """Surfaces of one or both bodies, layers, and how much the bodies slide."""
     rms = 10.0 ** chance.uniform(-8.0, -6.7)
-    ground = {
-        "kind": "self-affine",
-        "rms": rms,
-        "shortest_wavelength": 0.4 * a,
-        "longest_wavelength": 2.0 * a,
-    }
+    ground = {"kind": "self-affine", "rms": rms}
+    ground |= {"shortest_wavelength": 0.4 * a, "longest_wavelength": 2.0 * a}
     waves = {"kind": "waviness", "amplitude": 1.4 * rms, "wavelength_x": chance.uniform(0.3, 1.0) * a}
     first = chance.choice([ground | {"seed": seed}, waves]) | {"body": "body_1"}
     second = ground | {"seed": seed + 1, "body": "body_2"} if kind == "both rough" else {}

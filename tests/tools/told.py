@@ -16,6 +16,16 @@ def refusal(call, *arguments, error=UserError, **named):
     return message
 
 
+def status_of(*words):
+    """The exit status of a command line that this process executes."""
+    from mgehl.cli import main
+
+    try:
+        return main(list(words))
+    except SystemExit as stop:
+        return stop.code or 0
+
+
 def counting(function, steps):
     """A function that ends the process, as it were, after so many calls of some."""
 

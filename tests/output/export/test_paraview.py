@@ -15,9 +15,8 @@ every_kind = pytest.mark.parametrize("kind", SHAPES)
 
 def values_of(solution):
     fields = solution.fields
-    return dict(
-        zip(NAMES, (solution.pressure, solution.film, fields.P, fields.H, fields.status), strict=True)
-    )
+    values = solution.pressure, solution.film, fields.P, fields.H, fields.status
+    return dict(zip(NAMES, values, strict=True))
 
 
 def places_of(solution):

@@ -14,9 +14,8 @@ def test_residual_load_error_and_sets_against_the_cycles_in_order(make_solution,
     errors, sets = drawn(history, make_solution(rows=rows)).axes
     np.testing.assert_array_equal(errors.get_lines()[0].get_xdata(), np.arange(8))
     np.testing.assert_array_equal(lines_of(errors)["residual (rms)"], [row["residual"] for row in rows])
-    np.testing.assert_array_equal(
-        lines_of(errors)["|load error|"], [abs(row["load_error"]) for row in rows]
-    )
+    off = [abs(row["load_error"]) for row in rows]
+    np.testing.assert_array_equal(lines_of(errors)["|load error|"], off)
     for name, label in (("contact", "in contact"), ("cavitated", "cavitated"), ("changed", "changed")):
         np.testing.assert_array_equal(lines_of(sets)[label], [row[f"{name}_nodes"] for row in rows])
     assert errors.get_yscale() == "log" and sets.get_yscale() == "symlog"

@@ -52,9 +52,7 @@ def test_what_carries_load_is_shown_beside_a_smooth_dry_contact(make_solution, d
     assert len(hertz.get_xdata()) > 10 * solution.mesh.nx
 
 
-def test_the_fluid_in_layers_has_a_line_of_its_own_and_solids_carry_the_rest(
-    make_solution, drawn, check_texts
-):
+def test_the_fluid_in_layers_has_a_line_and_solids_carry_the_rest(make_solution, drawn, check_texts):
     """Layers of 2 nm, in which the fluid carries half of the pressure."""
     solution = make_solution(65, contact=0.3, settings=["contact.boundary_film=2 nm"])
     fields, nm = solution.fields, 1e9 * solution.contact.film_scale

@@ -18,9 +18,7 @@ def test_it_holds_the_largest_contact_of_all_frames():
         pressure = np.maximum(1.0 - np.hypot(x[None, :] / a, y[:, None] / b), 0.0)
         return 0.0, {"pressure": pressure, "status": np.full(pressure.shape, LUBRICATED)}
 
-    shown = [
-        [*halves(solution, [frame(*each) for each in axes])]
-        for axes in ([(0.4, 0.2)], [(0.4, 0.2), (2.05, 1.05)])
-    ]
+    frames = frame(0.4, 0.2), frame(2.05, 1.05)
+    shown = [[*halves(solution, some)] for some in (frames[:1], frames)]
     assert shown[0] == pytest.approx([500.0 * SHOWN, 250.0 * SHOWN])
     assert shown[1] == pytest.approx([1800.0 * SHOWN, 900.0 * SHOWN])

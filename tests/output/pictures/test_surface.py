@@ -34,9 +34,8 @@ def test_a_rough_contact_has_one_picture_more(make_solution, check_texts, contac
     heights, film, distribution = pictures[-1].figure.axes
     assert [axes.get_title() for axes in (heights, film)] == ["heights", "film"]
     assert distribution.get_title().startswith("Sq 56.78 nm, Ssk ")
-    assert sum(patch.get_height() * patch.get_width() for patch in distribution.patches) == pytest.approx(
-        1.0
-    )
+    areas = [patch.get_height() * patch.get_width() for patch in distribution.patches]
+    assert sum(areas) == pytest.approx(1.0)
     for axes in (heights, film):
         said = [text.get_text() for text in axes.get_legend().get_texts()]
         assert ("contact" in said) == (contact > 0.0) and any(text.startswith("Hertz: ") for text in said)

@@ -3,6 +3,7 @@ from dataclasses import replace
 from html.parser import HTMLParser
 
 import pytest
+from made_solution import in_time
 from mpi4py import MPI
 
 import mgehl
@@ -12,7 +13,7 @@ from mgehl.output.gap_error import GapError, GridGap
 from mgehl.output.mixed_result import MixedResult
 from mgehl.output.report.page import NO_NUMBER, picture
 from mgehl.output.report.run_report import report, setting, verdict
-from mgehl.output.result import Mean, TimeResult
+from mgehl.output.result import Mean
 
 VOID = {"meta", "img", "br", "hr", "link", "input"}
 
@@ -75,9 +76,8 @@ class Reader(HTMLParser):
 
 
 def solved(**settings):
-    return mgehl.solve(
-        mgehl.load(settings={"grid.nodes": 65, "motion.speed": "1 m/s"} | settings), MPI.COMM_SELF
-    )
+    usual = {"grid.nodes": 65, "motion.speed": "1 m/s"}
+    return mgehl.solve(mgehl.load(settings=usual | settings), MPI.COMM_SELF)
 
 
 @pytest.fixture(scope="module")
@@ -157,10 +157,8 @@ def test_after_a_failure_every_number_says_so(film_run, quick, mark, settled):
 
 def test_a_run_in_time_tells_its_means_and_that_other_numbers_are_those_at_its_end(film_run, quick):
     """Only the record had the means, and an instant stood on top as if it were all."""
-    told = {"end_s": 1.0, "steps": 9, "halved": 0, "largest_closure": 0.0, "largest_node": 0.0}
-    mean = Mean(200.25, 0.5)
-    means = dict.fromkeys(("mean_gap_nm", "max_pressure_GPa", "load_on_solids", "friction"), mean)
-    time = TimeResult(**told, convolutions_a_step=1.0, passages=3.0, means=means)
+    told = "mean_gap_nm", "max_pressure_GPa", "load_on_solids", "friction"
+    time = in_time(means=dict.fromkeys(told, Mean(200.25, 0.5)))
     page = quick(film_run, time=time, flux_imbalance=None)
     assert page.highlights["mean gap over the last passage"] == "200.2 ± 0.5 nm"
     assert "central film at the end" in page.highlights and "central film" not in page.highlights
@@ -173,8 +171,7 @@ def test_what_pictures_say_in_words_of_a_run_in_time(film_run, monkeypatch, doub
     """That of the steps began "T the en: "."""
     drawn = [picture(f"{name}.", "", b"", "image/png", (1, 1), name) for name in ("time", "film")]
     monkeypatch.setattr("mgehl.output.report.run_report.pictures", lambda solution: drawn)
-    time = TimeResult(1.0, 9, 0, 0.0, 0.0, 1.0, 3.0, {})
-    page = Reader(report(changed(film_run, time=time, **doubt), "my-run"))
+    page = Reader(report(changed(film_run, time=in_time(), **doubt), "my-run"))
     took, film = [value for _, name, value in page.attributes if name == "alt"]
     assert took == f"time. It took {len(film_run.rows)} steps."
     assert film.startswith(f"film. At the end{mark}: The film is ")
@@ -194,11 +191,8 @@ def test_what_resists_and_what_heat_takes_are_in_the_words_of_the_terminal(film_
         assert f"{line[0].upper()}{line[1:]}." in page.text
     assert page.highlights["friction coefficient"] == "0.12500"
     forces = page.tables["Forces on the bodies, positive along the motion"]
-    assert forces == [
-        ["on body 1", "-12.5", "N"],
-        ["on body 2", "7.5", "N"],
-        ["of each by rolling", "-2.5", "N"],
-    ]
+    told = {"on body 1": "-12.5", "on body 2": "7.5", "of each by rolling": "-2.5"}
+    assert forces == [[name, value, "N"] for name, value in told.items()]
 
 
 class TestRoughBodies:

@@ -1,0 +1,43 @@
+"""What the solver is asked for, made once at its door and handed through all ways to an answer."""
+
+from dataclasses import dataclass, replace
+
+from mgehl.grid.hierarchy import Hierarchy
+from mgehl.solver.journal import NOTHING_KEPT, Journal
+from mgehl.solver.problem import ContactProblem
+from mgehl.solver.settings import SolverSettings
+
+
+@dataclass(frozen=True)
+class Task:
+    """A loaded contact that is to be solved on the finest grid of a hierarchy."""
+
+    hierarchy: Hierarchy
+    contact: object
+    settings: SolverSettings
+    monitor: object = lambda level, cycle: None
+    """Called with a `LevelSolve` and the `Cycle` for every cycle."""
+    journal: Journal = NOTHING_KEPT
+
+    @property
+    def mesh(self):
+        """The finest one."""
+        return self.hierarchy.grids[-1].mesh
+
+    def problem(self):
+        """The `ContactProblem` on the finest grid."""
+        grid, deflection = self.hierarchy.grids[-1], self.hierarchy.deflections[-1]
+        return ContactProblem(grid, deflection, self.contact, self.settings.scheme)
+
+    def at_speed(self, speed):
+        """The same at another speed in m/s."""
+        return replace(self, contact=self.contact.at_speed(speed))
+
+    def but(self, **settings):
+        """The same but for some of its settings."""
+        return replace(self, settings=replace(self.settings, **settings))
+
+    def within(self, part):
+        """The same with a part of the work that is allowed (`solver.max_work`)."""
+        newton = self.settings.newton
+        return self.but(newton=replace(newton, max_work=part * newton.max_work))
