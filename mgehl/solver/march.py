@@ -181,9 +181,23 @@ class March:
         while True:
             outcome = self._newton.run(state, tolerance=tolerance)
             reached = outcome.cycles[-1].residual
+            if outcome.converged:
+                self._close(outcome.state)
             if not outcome.converged or reached <= settings.least or self._closes(outcome.state, leg):
                 return outcome
             state, tolerance = outcome.state, max(settings.least, FINER * reached)
+
+    def _close(self, state):
+        """Bring the bodies apart, or nearer, until what a state's residual makes of oil in sum is nothing.
+
+        That takes no convolution, and less of a film than the residual is: 1e-8. By smaller residuals the
+        account closes for a third more work, and films change by 2e-6.
+        """
+        evaluation, inner = self._problem.evaluate(state), ~self._problem.boundary
+        stores = self._sum(self._problem.storage.by_H(evaluation.fluid), inner)
+        apart = self._sum(evaluation.inflow, inner) / stores
+        state.H0 += apart
+        state.H += apart
 
     def _closes(self, state, leg):
         """Whether what a state's residual makes is little beside what there is."""

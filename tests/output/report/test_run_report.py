@@ -7,6 +7,7 @@ from made_solution import in_time
 from mpi4py import MPI
 
 import mgehl
+from mgehl.commands.plot import KINDS
 from mgehl.output.files import plain_result
 from mgehl.output.friction_result import FrictionResult, Temperatures
 from mgehl.output.gap_error import GapError, GridGap
@@ -177,13 +178,29 @@ def test_what_pictures_say_in_words_of_a_run_in_time(film_run, monkeypatch, doub
     assert film.startswith(f"film. At the end{mark}: The film is ")
 
 
+def sheared(temperatures):
+    """Friction of a body that another slides on."""
+    return FrictionResult(
+        "eyring", 0.5, 0.25, 0.125, 0.125, 0.0, 0.03125, 0.0, -12.5, 7.5, -2.5, 4.0, 40.0, temperatures
+    )
+
+
+def test_every_picture_of_a_run_has_its_words(film_run, monkeypatch):
+    """A report of a ball that friction heats ended in an error: its flash temperatures had none."""
+    names = [name for name in KINDS if name not in ("all", "compare")]
+    drawn = [picture(f"{name}.", "", b"", "image/png", (1, 1), name) for name in names]
+    monkeypatch.setattr("mgehl.output.report.run_report.pictures", lambda solution: drawn)
+    page = Reader(
+        report(changed(film_run, friction=sheared(Temperatures(50.25, 60.25, 20.0, 90.0))), "my-run")
+    )
+    said = {value for _, name, value in page.attributes if name == "alt"}
+    assert len(said) == len(names) and "flash_2. Friction heats the surface by at most 60.25 K." in said
+
+
 def test_what_resists_and_what_heat_takes_are_in_the_words_of_the_terminal(film_run, quick):
     """Only the record had them."""
-    rise = Temperatures(50.0, 60.0, 20.0, 90.0)
-    told = (0.5, 0.25, 0.125, 0.125, 0.0, 0.03125, 0.0, -12.5, 7.5, -2.5, 4.0, 40.0)
-    result = changed(
-        film_run, friction=FrictionResult("eyring", *told, rise), thermal_reduction=0.75, flux_imbalance=0.0
-    )
+    friction = sheared(Temperatures(50.0, 60.0, 20.0, 90.0))
+    result = changed(film_run, friction=friction, thermal_reduction=0.75, flux_imbalance=0.0)
     page = quick(result)
     words = str(result.result).splitlines()
     for each in ("friction 0.1", "flash temp", "this is the isothermal film; shear"):
