@@ -119,6 +119,18 @@ def test_a_reversal_makes_no_oil(course):
     assert np.abs(column(turned, "closure")).max() < 1e-8
 
 
+def test_after_a_reversal_the_bath_comes_in_and_the_film_is_that_of_its_mirror(course):
+    """What is added for the beginning to stay as it is was added to its reverse, too: no oil came in from
+    outside, and a ball's film settled an eighth too thick."""
+    motion = course((0, 0.5), (0.5e-3, 0.5), (1e-3, -0.5), (1.0, -0.5))
+    line = {"contact.kind": "line", "contact.load_per_length": 50e3, "contact.radius_x": 0.01}
+    oil = {"lubricant.viscosity": 0.04, "lubricant.pressure_viscosity": 20e-9, "grid.nodes": 129}
+    turned = mgehl.solve(mgehl.load(None, line | oil | {"motion.speed": motion, "time.end": 2.5e-3}))
+    film = column(turned, "central_film_nm")
+    assert film.min() < 0.6 * film[0] and film[-1] == pytest.approx(film[0], rel=0.01)
+    assert turned.fields.filling[0, -30:].min() == 1.0
+
+
 def test_a_course_that_does_not_change_is_no_course(course):
     speed = course((0.0, 0.09), (1.0, 0.09))
     one, other = solved(time__end=UNIT), solved(motion__speed=speed, time__end=UNIT)

@@ -168,9 +168,11 @@ class March:
         before, after = (scene.speed.value(t) for t in (standing.t, standing.t + step))
         if abs(after - before) > SUDDEN * scene.contact.speed:
             carried = carried.afresh()
+        # The steady state at the beginning is none of motion that turned round.
+        reference = standing.reference if way >= 0.0 else None
         shift = Shift(*scene.cells(way, self._problem.grid.mesh))
         status, dT, X = standing.state.status, step / scene.unit, way / scene.framed.x_scale
-        return self._transport.leg(carried, status, dT, shift, standing.reference, X)
+        return self._transport.leg(carried, status, dT, shift, reference, X)
 
     def _solved(self, state, leg):
         """Newton's `Outcome` from a guess, to a part of the residual that it begins with, and until the
