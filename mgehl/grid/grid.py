@@ -170,11 +170,6 @@ class Grid:
         """Number of True nodes over all ranks."""
         return self.comm.allreduce(int(np.count_nonzero(mask)), MPI.SUM)
 
-    def value_at(self, array, i, j):
-        """The value at node (i, j), known to every rank."""
-        mine = float(array[j - self.first, i]) if self.first <= j < self.last else 0.0
-        return self.comm.allreduce(mine, MPI.SUM)
-
     def gather(self, array):
         """The whole (..., ny, nx) array on rank 0, None elsewhere: for what is written or shown."""
         several, size = array.shape[:-2], (self.mesh.ny, self.mesh.nx)

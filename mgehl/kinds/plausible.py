@@ -69,7 +69,7 @@ def implausible(config, contact):
             f"lubricant.viscosity_law = 'roelands': its z is {law.z:.3g}, measured oils have 0.4 to 0.8: "
             "look at viscosity and pressure_viscosity"
         )
-    yield from _films(contact)
+    yield from _films(config, contact)
     yield from _stands_still(config, contact)
     yield from _without_temperatures(config)
     yield from _parts_from_rest(config)
@@ -110,7 +110,7 @@ def _pressure(contact):
         )
 
 
-def _films(contact):
+def _films(config, contact):
     if not contact.is_plane and contact.aligned.radius_x > SLENDER * contact.aligned.radius_y:
         yield (
             "the contact is far longer along the motion than it is wide: film formulas, lambda and the "
@@ -120,6 +120,12 @@ def _films(contact):
     film = next(film for name, film in known.items() if formula_of(name).bodies == "any")
     if film > THICKEST["piezoviscous" in contact.regime]:
         yield f"film of {1e6 * film:.3g} um by a formula: look at viscosity, speed and radii"
+    threshold = config.discretization.film_threshold
+    if config.solver.start == "film" and not contact.is_rough and film < threshold:
+        yield (
+            f"film of {1e9 * film:.3g} nm by a formula: below discretization.film_threshold = "
+            f"{1e9 * threshold:.3g} nm bodies count as in contact"
+        )
     centers = {
         name: film
         for name, film in known.items()

@@ -69,6 +69,9 @@ class FrictionResult:
 STRONGEST = 300.0
 """Largest shear stress in MPa that oils were seen to bear: a tenth of 3 GPa [Arana et al. 2019]."""
 
+LEAST = 1e-5
+"""Coefficient of surfaces that slide below which the stress of a user's law may have another unit."""
+
 TINY = 1e-300
 """No pressure at all: the film has no mean by it."""
 
@@ -157,6 +160,8 @@ def friction_lines(friction, verbose):
         f"{friction.power_loss_W:.3g} W{unit}, largest shear {friction.largest_shear_MPa:.4g} MPa"
     )
     yield from strength_lines(friction.largest_shear_MPa)
+    if friction.model == "own" and friction.coefficient < LEAST:
+        yield f"friction below {LEAST:g} is less than oils have: the law's stress is to be in Pa"
     if friction.temperatures:
         yield _temperature_words(friction.temperatures)
     if friction.is_the_grids:

@@ -172,7 +172,7 @@ def domain_words(verdict, lost):
         return f"sufficient: twice the size would change the film by some {lost:.1f} %"
     return (
         f"starved: twice the size would change the film by some {lost:.2g} %; "
-        'grid.x = "auto" and grid.y = "auto" choose one as large as the nodes allow'
+        'grid.x = "auto" and grid.y = "auto" choose one as large as the nodes allow, up to 1000 a'
     )
 
 

@@ -1,8 +1,9 @@
 """Central and minimum film between the nodes, so that films of different grids can be compared.
 
-The films that a run reports are those of nodes. A node lies at the centre by chance, and never at the
-bottom of the smallest gap. So its film goes up and down from grid to grid by a few per cent, with the place
-of the node alone. Films that are compared come from polynomials through the nodes around.
+A node lies at the centre by chance, and never at the bottom of the smallest gap. So its film goes up and
+down from grid to grid by a few per cent, with the place of the node alone. Films that are compared come
+from polynomials through the nodes around, and so does the central film that a run reports; its minimum is
+that of a node.
 """
 
 from dataclasses import dataclass
@@ -103,21 +104,25 @@ def _around_centre(values, mesh):
 
 
 def value_at(H, mesh, X, Y):
-    """H, (ny, nx), at a point, from cubics through the four nodes around it along either axis."""
-    columns, along = _cubic(mesh.X, X)
-    if mesh.is_line:
-        return float(H[0, columns] @ along)
-    lines, across = _cubic(mesh.Y, Y)
-    return float(across @ H[lines, columns] @ along)
+    """H, (ny, nx), at a point."""
+    return float(np.vdot(weights_at(mesh, X, Y), H))
+
+
+def weights_at(mesh, X, Y):
+    """What nodes count for a value at a point, (ny, nx): cubics through the four around it along either
+    axis."""
+    across = np.ones(1) if mesh.is_line else _cubic(mesh.Y, Y)
+    return np.outer(across, _cubic(mesh.X, X))
 
 
 def _cubic(nodes, point):
-    """Which four nodes lie around a point, and Lagrange's weights of them."""
+    """Lagrange's weights of the four nodes around a point, and none of the others."""
     at = (point - nodes[0]) / (nodes[1] - nodes[0])
     first = int(np.clip(np.floor(at) - 1, 0, len(nodes) - 4))
-    others = np.arange(4)
-    weights = [np.prod([(at - first - m) / (k - m) for m in others if m != k]) for k in others]
-    return slice(first, first + 4), np.array(weights)
+    others, weights = np.arange(4), np.zeros(len(nodes))
+    for k in others:
+        weights[first + k] = np.prod([(at - first - m) / (k - m) for m in others if m != k])
+    return weights
 
 
 def smallest(H):

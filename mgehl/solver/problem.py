@@ -12,6 +12,7 @@ from mgehl.discretization.residual import residual
 from mgehl.discretization.rows import rows_of
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
 from mgehl.grid.events import ASSEMBLY, event
+from mgehl.solver.films import weights_at
 from mgehl.solver.record import Kept
 
 AT_REST = (0.0, 0.0)
@@ -163,6 +164,7 @@ class ContactProblem(Problem):
         super().__init__(grid, contact, scheme)
         self.deflection = deflection
         self.K00 = influence_coefficients(grid.mesh, contact.kernel, 0, 1)[0, 0]
+        self._centre = weights_at(grid.mesh, 0.0, 0.0)[grid.first : grid.last]
         self._undeformed, self._surface = contact.undeformed_gap(grid.X, grid.Y), contact.surface
         self._load_within = contact.load_within(grid.mesh)
 
@@ -236,9 +238,8 @@ class ContactProblem(Problem):
         return self.grid.sum(array[nodes].sum()) / self.grid.count(nodes)
 
     def films(self, state):
-        """Gap at the node nearest to the centre, and the smallest gap, in units of H."""
-        i, j = self.grid.mesh.nearest(0.0, 0.0)
-        return self.grid.value_at(state.H, i, j), self.grid.min(state.H)
+        """Gap at the centre, if need be between nodes, and the smallest gap of a node, in units of H."""
+        return self.grid.sum(np.vdot(self._centre, state.H)), self.grid.min(state.H)
 
     def counts(self, status):
         """Numbers of contact and of cavitated nodes."""

@@ -47,7 +47,8 @@ def test_gels_and_rubber_are_machines_too():
      ({"lubricant.viscosity_law": "roelands", "lubricant.pressure_viscosity": "45 1/GPa"}, "its z is 1.2"),
      (OIL | {"lubricant.temperature": "0 degC"}, "PAO100 was measured from 40 to 100 C"),
      (OIL, "p_h = 2.26 GPa: PAO100 was measured up to 1 GPa: its law is extended beyond"),
-     ({"contact.load": "1 mN", "lubricant.viscosity": "1 Pa s"}, "fold apart")],
+     ({"contact.load": "1 mN", "lubricant.viscosity": "1 Pa s"}, "fold apart"),
+     ({"motion.speed": "0.1 um/s", "solver.start": "film"}, "below discretization.film_threshold")],
 )  # fmt: skip
 def test_what_is_unusual_is_named(settings, words):
     found = odd(BALL | settings)

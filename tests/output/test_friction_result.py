@@ -41,6 +41,15 @@ def test_the_loss_is_what_the_forces_take_from_the_bodies(found, slide_to_roll):
     assert result.power_loss_W == pytest.approx(-result.force_1_N * u_1 - result.force_2_N * u_2)
 
 
+@pytest.mark.parametrize(
+    "model, coefficient, said", [("own", 2e-9, 1), ("own", 2e-5, 0), ("eyring", 2e-9, 0)]
+)
+def test_a_law_of_another_unit_is_named(found, model, coefficient, said):
+    """A function that returned a viscosity made a friction of 0.00000, without a word."""
+    words = list(friction_lines(replace(found(0.2), model=model, coefficient=coefficient), verbose=False))
+    assert sum("the law's stress is to be in Pa" in line for line in words) == said
+
+
 def mixed(band):
     grids = (GridGap(129, 10.0, 9.0, 0.3, True, max_pressure_GPa=2.0),)
     return SimpleNamespace(error=GapError(0.1, 0.1, "", grids, solid_load_fraction=band))
