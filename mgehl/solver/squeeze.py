@@ -27,8 +27,8 @@ full contact takes the same steps, mixed lubrication 65 to 58 convolutions, a fi
 to 419."""
 
 OF_NODES = 1.0
-"""Part of the rate that follows a node's own residual and film: by its own flow a film changes by a third of
-itself in a step. Polymers, whose oil hardly stiffens, need it: with a tenth a node opens by three films,
+"""Part of the rate that follows a node's own residual and film: by its own flow a film changes by a third
+of itself in a step. Polymers, whose oil hardly stiffens, need it: with a tenth a node opens by three films,
 its neighbours follow, and the residual rises. Twelve contacts of machines (129 nodes) of which four were
 hard: 10 found with 0.1, all with 0.3 and 1, after 391, 268 and 211 convolutions on average."""
 
