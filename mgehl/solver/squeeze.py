@@ -2,7 +2,8 @@
 
 The time step grows as the residual falls. The squeeze flow keeps a Newton step from closing a film that the
 steady equations leave open. So, from one speed to the next, contact grows node by node and not in spots.
-Besides, each node has a time step of its own, in which its own flow changes its film by no more than itself.
+Besides, each node has a time step of its own, in which its own flow changes its film by no more than
+itself.
 
 Where the mean of the mobility vanishes with either side, the flow out of a node has a fold: more pressure
 makes the fluid stiffer, and may drive less of it out. Beyond the fold the pressure runs away, and near it a
