@@ -132,20 +132,25 @@ class Partition:
         self.fit(state)
 
     def cut_tension(self, state, changes, in_turn=False):
-        """Set pressures below that of torn film to it in place: fluid cavitates, contact is released."""
+        """Set pressures below that of torn film to it in place: fluid cavitates, contact is released.
+
+        Contact with open faces under which fluid presses is lifted, not torn apart: `open_contact` lets it
+        go. A node that opened empty beside a film of a few nm closed and opened for ever.
+        """
         P, status = state.P, state.status
         torn, tensile = self.tension(P, status)
         opened = self._that_change(torn, self._tears_at - P, in_turn)
-        self.past.torn_pressure[tensile] = P[tensile] - self._tears_at
-        self.past.turns += tensile & self._contact_law.closes_faces
+        apart = tensile & (self.asks_eq_2 | (state.p <= self._tears_at))
+        self.past.torn_pressure[apart] = P[apart] - self._tears_at
+        self.past.turns += apart & self._contact_law.closes_faces
         P[torn | tensile] = self._tears_at
         # Bodies that are torn apart leave an empty gap: a cavity, until fluid flows in.
-        status[opened | tensile] = CAVITATED
-        state.filling[opened], state.filling[tensile] = 1.0, 0.0
-        self.past.just_released = tensile
-        self.past.was_released |= tensile
+        status[opened | apart] = CAVITATED
+        state.filling[opened], state.filling[apart] = 1.0, 0.0
+        self.past.just_released = apart
+        self.past.was_released |= apart
         changes.cavitated += self._grid.count(opened)
-        changes.released += self._grid.count(tensile)
+        changes.released += self._grid.count(apart)
 
     def enter_contact(self, state, changes):
         """Nodes whose gap is closed, and fluid shut in along the motion, become contact.

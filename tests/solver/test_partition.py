@@ -241,11 +241,19 @@ class TestContinuousContact:
         self, partition, tiny_problem, pressed, part, stays
     ):
         """The overlap in parts of what the tension gives the node: first guesses overlap by far more."""
-        pressed.P[NODE] = -0.1
+        pressed.P[NODE], pressed.p[NODE] = -0.1, 0.0
         partition.cut_tension(pressed, Changes())
         pressed.H[NODE] -= part * 0.1 * tiny_problem.K00
         changed_by(partition.enter_contact, pressed, entered=int(stays))
         assert (pressed.status[NODE] == CONTACT) == stays and pressed.P[NODE] == 0.0
+
+    def test_what_fluid_presses_under_is_lifted_and_not_torn_apart(self, partition, pressed):
+        """It opened empty, was closed by the films beside it, and so on: a polymer was not found."""
+        pressed.P[NODE], pressed.p[NODE] = -0.1, 0.1
+        changed_by(partition.cut_tension, pressed)
+        assert pressed.P[NODE] == 0.0 and pressed.status[NODE] == CONTACT
+        changed_by(partition.open_contact, pressed, released=1)
+        assert pressed.status[NODE] == LUBRICATED
 
     def test_what_has_opened_does_not_close_before_the_next_step(self, partition, pressed):
         pressed.p[NODE] += 0.1
