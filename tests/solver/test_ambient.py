@@ -44,7 +44,7 @@ def test_oil_under_a_ball_at_rest_has_the_pressure_around_it():
 def test_without_tearing_a_pressure_around_is_a_thicker_oil():
     """Barus's law from p0 on is that of the viscosity at p0."""
     film = {"motion.speed": 0.5, "solver.start": "film", "lubricant.density_law": "constant"}
-    film["discretization.cavitation"] = False
+    film |= {"discretization.cavitation": False, "solver.tolerance": 1e-10}
     thicker = float(BALL["lubricant.viscosity"] * np.exp(BALL["lubricant.pressure_viscosity"] * AROUND))
     one = solved(**film, **{"contact.ambient_pressure": AROUND})
     other = solved(**film, **{"lubricant.viscosity": thicker})
