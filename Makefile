@@ -115,12 +115,12 @@ study-%: $(ENVIRONMENT)
 
 # make sweeps      run the sweeps that pages show and write their tables to runs/tables (hours)
 # make sweep-NAME  one of them. One that was stopped goes on; a point without an answer says so in the table.
-SWEEPS := slow rest rest-bare fine
+SWEEPS := slow rest rest-bare solids-fine
 OF_slow := --set solver.start=film --over motion.speed="7.5,2.5,1,.25,.1,.025,.005 mm/s" \
   --over grid.nodes=129,257,513,1025
 OF_rest := configs/rough.toml --over motion.speed="2e-2..1e-9 m/s:18"
 OF_rest-bare := $(OF_rest) --set contact.boundary_film=0 --set grid.nodes=129
-OF_fine := configs/rough.toml --set surface.shortest_wavelength="5 um" --over motion.speed="30,17.5,8,3,1 mm/s" \
+OF_solids-fine := configs/rough.toml --set surface.shortest_wavelength="5 um" --over motion.speed="30,17.5,8,3,1 mm/s" \
   --over grid.nodes=513,1025
 sweeps: $(SWEEPS:%=sweep-%)
 sweep-%: $(ENVIRONMENT)
