@@ -48,8 +48,8 @@ def flows(run):
     """Oil in m^3/s at ambient density through the faces of a run along x and along y, with X, Y, status."""
     with (run / "configuration.toml").open("rb") as file:
         config = tomllib.load(file)
-    if config["motion"].get("angle"):
-        raise SystemExit(f"{run}: moves at an angle; here surfaces move along +x")
+    if config["motion"].get("angle") or config["lubricant"].get("viscosity_law", "barus") != "barus":
+        raise SystemExit(f"{run}: here surfaces move along +x, in oil of Barus's law")
     scheme = json.loads((run / "result.json").read_text())["recipe"]["couette"]
     with h5py.File(run / "fields.h5") as file:
         names = "pressure", "P", "p", "film", "filling", "status", "x", "y", "X", "Y"
