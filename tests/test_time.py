@@ -121,7 +121,7 @@ def test_a_reversal_makes_no_oil(course):
 
 def test_after_a_reversal_the_bath_comes_in_and_the_film_is_that_of_its_mirror(course):
     """What is added for the beginning to stay as it is was added to its reverse, too: no oil came in from
-    outside, and a ball's film settled an eighth too thick."""
+    outside, and a ball's film settled 14 % too thick."""
     motion = course((0, 0.5), (0.5e-3, 0.5), (1e-3, -0.5), (1.0, -0.5))
     line = {"contact.kind": "line", "contact.load_per_length": 50e3, "contact.radius_x": 0.01}
     oil = {"lubricant.viscosity": 0.04, "lubricant.pressure_viscosity": 20e-9}

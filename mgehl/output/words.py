@@ -18,6 +18,7 @@ LISTED = 20
 """Most nodes that are named one by one."""
 
 SPIKE = "a spike that three nodes do not hold"
+"""What a largest pressure is beyond `NARROW`."""
 
 FAILED = 'what now: configs/README.md, "It did not converge: what now?"'
 UNRESOLVED = 'how to do better: configs/README.md, "Choosing the domain and the grid"'

@@ -168,7 +168,7 @@ class March:
         before, after = (scene.speed.value(t) for t in (standing.t, standing.t + step))
         if abs(after - before) > SUDDEN * scene.contact.speed:
             carried = carried.afresh()
-        # The steady state at the beginning is none of motion that turned round.
+        # What is steady at the beginning is not steady under motion that turned round.
         reference = standing.reference if way >= 0.0 else None
         shift = Shift(*scene.cells(way, self._problem.grid.mesh))
         status, dT, X = standing.state.status, step / scene.unit, way / scene.framed.x_scale
@@ -192,8 +192,8 @@ class March:
     def _close(self, state):
         """Bring the bodies apart, or nearer, until what a state's residual makes of oil in sum is nothing.
 
-        That takes no convolution, and less of a film than the residual is: 1e-8. By smaller residuals the
-        account closes for a third more work, and films change by 2e-6.
+        That takes no convolution, and moves them by some 1e-8 of the film. Smaller residuals would close
+        the account, too, for a third more work; films would differ by 5e-6 (ground surfaces in a film).
         """
         evaluation, inner = self._problem.evaluate(state), ~self._problem.boundary
         stores = self._sum(self._problem.storage.by_H(evaluation.fluid), inner)

@@ -2,8 +2,8 @@
 
 The time step grows as the residual falls. The squeeze flow keeps a Newton step from closing a film that the
 steady equations leave open. So, from one speed to the next, contact grows node by node and not in spots.
-Besides, each node has a time step of its own, in which its own flow changes its film by no more than
-itself.
+Besides, each node has a time step of its own, in which its own flow changes its film by about as much as
+there is.
 
 Where the mean of the mobility vanishes with either side, the flow out of a node has a fold: more pressure
 makes the fluid stiffer, and may drive less of it out. Beyond the fold the pressure runs away, and near it a
@@ -28,10 +28,11 @@ full contact takes the same steps, mixed lubrication 65 to 58 convolutions, a fi
 to 419."""
 
 OF_NODES = 0.3
-"""Part of the rate that follows a node's own residual and film: by its own flow a film changes by no more
-than itself in a step. With 0.1 it may open by three times as much; where oil hardly stiffens its neighbours
-follow, and the residual rises. Of twelve contacts of machines (129 nodes) of which four were hard, 10 are
-found with 0.1, all with 0.3 and 1; seven usual ones (257 nodes) take 1655, 1690 and 2172 convolutions."""
+"""Part of the rate that follows a node's own residual and film: by its own flow a film changes by about
+as much as there is in a step. With 0.1 it may open by three times as much; where oil hardly stiffens its
+neighbours follow, and the residual rises. Of twelve contacts of machines (129 nodes), four of them hard, 10
+are found with 0.1, all with 0.3 and 1; seven usual ones (257 nodes) take 1654, 1690 and 2172 convolutions.
+"""
 
 STABLE = 0.6
 """Rate per cell by which a node is kept from its fold: its neighbours bring it nearer. Points on 129 nodes
