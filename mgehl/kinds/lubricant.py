@@ -18,7 +18,7 @@ class LubricantSection:
     viscosity: float = number(0.096, "viscosity where p = 0", "Pa*s", 1e-6, 1e4,
         instead="lubricant.kinematic_viscosity takes cSt, beside lubricant.density")
     viscosity_law: str = word("barus", "viscosity-pressure law", tuple(VISCOSITY_LAWS), own=absolute)
-    pressure_viscosity: float = number(18.2e-9, "pressure-viscosity coefficient", "1/Pa", 1e-10, 1e-6)
+    pressure_viscosity: float = number(18.2e-9, "pressure-viscosity coefficient", "1/Pa", 0.0, 1e-6)
     density_law: str = word("dowson-higginson", "density-pressure law", tuple(DENSITY_LAWS), own=absolute)
     oil: str | None = word(None, "a measured oil, for viscosity and its law at lubricant.temperature",
         tuple(OILS))

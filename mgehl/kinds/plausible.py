@@ -34,6 +34,10 @@ STEEPEST = 0.1
 THICKEST = {True: 3e-6, False: 50e-6}
 """Film in m, of piezoviscous contacts and of others."""
 
+STEEPEST_HEIGHTS = 0.2
+"""Rms slope of a surface from which on its oil no longer flows along the gap as Reynolds' equation has it,
+and its steel yields. Ground surfaces have some 0.1."""
+
 SLENDER = 8.0
 """R_x/R_y from which on no formula is made for the contact. Solved films are 1.3, 1.4 and 1.5 times
 Nijenbanning's at 10, 20 and 34, and half and less of Hamrock and Dowson's."""
@@ -56,11 +60,16 @@ def implausible(config, contact):
     for key, (low, high, unit) in USUAL.items():
         value = physics[key] if key in physics else config.value(key)
         known = isinstance(value, float) and key not in config.unused  # not a course in time
-        if known and not low <= value <= high:
+        if known and value and not low <= value <= high:
             yield f"{key} = {value:.4g} {unit}: machines have {low:g} to {high:g}"
     if not contact.is_loaded:
         return
     yield from _pressure(contact)
+    if contact.is_rough and contact.slope > STEEPEST_HEIGHTS:
+        yield (
+            f"the surface's rms slope is {contact.slope:.2g}: from {STEEPEST_HEIGHTS:g} on peaks yield, "
+            "and oil does not flow along the gap, as is assumed: look at heights and wavelengths"
+        )
     if config.is_dry:
         return
     law = contact.lubricant.viscosity_law
@@ -129,7 +138,7 @@ def _films(config, contact):
     centers = {
         name: film
         for name, film in known.items()
-        if not name.endswith("_minimum") and formula_of(name).bodies != "soft"
+        if film and not name.endswith("_minimum") and formula_of(name).bodies != "soft"
     }
     low, high = (pick(centers, key=centers.__getitem__) for pick in (min, max))
     if contact.regime != "elastic isoviscous" and centers[high] > APART * centers[low]:

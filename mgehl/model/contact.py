@@ -119,12 +119,9 @@ class LoadedContact(OnBodies, Inlet, InletHeat):
         return found
 
     @property
-    def is_soft(self):
-        """Whether the bodies yield to pressures that hardly stiffen the oil: rubber, or steel in water.
-
-        Or so by the formulas' regime, in which any bodies are that hardly move.
-        """
-        return films.is_soft(*self.asymptotes)
+    def is_isoviscous(self):
+        """Whether pressures hardly stiffen the oil: between rubber, under light loads, in water."""
+        return films.hardly_stiffens(*self.asymptotes)
 
     @property
     def expected_film(self):

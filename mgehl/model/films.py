@@ -4,8 +4,8 @@ from dataclasses import dataclass
 from math import exp, log, sqrt
 
 SOFT = 2.0
-"""Isoviscous film over the piezoviscous one from which on bodies that yield are called soft: the formulas
-of Ertel and Grubin say half of their film there, and less."""
+"""Isoviscous film over the piezoviscous one from which on the oil hardly stiffens: the formula of Ertel
+and Grubin says half of the film there, and less."""
 
 
 @dataclass(frozen=True)
@@ -110,8 +110,7 @@ def nijenbanning_venner_moes(groups, radius_x, radius_y):
     H00 = 1.8 / D
     s = 1.5 * (1.0 + exp(-1.2 * EI / RI))
     isoviscous = RI**1.5 + (EI**-4.0 + H00**-4.0) ** (-3 / 8)
-    piezoviscous = RP**-8.0 + EP**-8.0
-    H = (isoviscous ** (2 * s / 3) + piezoviscous ** (-s / 8)) ** (1.0 / s)
+    H = (isoviscous ** (2 * s / 3) + _below_both(RP, EP, 8.0) ** s) ** (1.0 / s)
     return H * radius_x * sqrt(2.0 * groups.U)
 
 
@@ -136,9 +135,14 @@ def moes_line(groups, radius_x):
     """Central film of a line contact for every regime [Moes 1992]."""
     RI, EI, RP, EP = line_asymptotes(groups)
     s = (7.0 + 8.0 * exp(-2.0 * EI / RI)) / 5.0
-    isoviscous, piezoviscous = RI ** (7 / 3) + EI ** (7 / 3), RP**-3.5 + EP**-3.5
-    H = (isoviscous ** (3 * s / 7) + piezoviscous ** (-2 * s / 7)) ** (1.0 / s)
+    isoviscous = RI ** (7 / 3) + EI ** (7 / 3)
+    H = (isoviscous ** (3 * s / 7) + _below_both(RP, EP, 3.5) ** s) ** (1.0 / s)
     return H * radius_x * sqrt(2.0 * groups.U)
+
+
+def _below_both(RP, EP, power):
+    """The piezoviscous film between both asymptotes; none where pressure does not stiffen the oil."""
+    return (RP**-power + EP**-power) ** (-1.0 / power) if RP > 0.0 else 0.0
 
 
 def is_isoviscous(RI, EI, RP, EP):
@@ -146,9 +150,9 @@ def is_isoviscous(RI, EI, RP, EP):
     return max(RI, EI) > min(RP, EP)
 
 
-def is_soft(RI, EI, RP, EP):
-    """Whether the bodies yield to a pressure that hardly stiffens the oil."""
-    return EI > max(RI, SOFT * min(RP, EP))
+def hardly_stiffens(RI, EI, RP, EP):
+    """Whether the film is that of oil which the pressure hardly stiffens."""
+    return max(RI, EI) > SOFT * min(RP, EP)
 
 
 def regime(RI, EI, RP, EP):

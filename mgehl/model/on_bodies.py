@@ -9,6 +9,8 @@ from mgehl.model.surface.surface import JUST, step_of
 
 SAMPLES = 65
 """Heights along each side from which the roughness is reckoned: the same whatever the grid."""
+STEP = 1e-3
+"""Part of the semi-axes over which slopes are taken."""
 NEXT_TO_NONE = 1e-18
 """Roughness in m that is none: a dent far beside the contact leaves a tail in it."""
 SHOWN_CELLS = 4.0
@@ -40,6 +42,21 @@ class OnBodies:
         return float(np.mean((self.heights / rms) ** 3)) if rms else 0.0
 
     @property
+    def slope(self):
+        """Rms slope of the surface where the heights are taken; 0 of smooth bodies."""
+        if self.surface is None:
+            return 0.0
+        x, y = self._places
+        dx, dy = STEP * self.x_scale, STEP * self.y_scale
+        squares = [np.mean(self._rise(x + dx, x - dx, y, y) ** 2) / (2.0 * dx) ** 2]
+        if not self.is_plane:
+            squares.append(np.mean(self._rise(x, x, y + dy, y - dy) ** 2) / (2.0 * dy) ** 2)
+        return float(np.sqrt(sum(squares)))
+
+    def _rise(self, x, x_before, y, y_before):
+        return self.surface.height(x, y) - self.surface.height(x_before, y_before)
+
+    @property
     def is_rough(self):
         """Whether there are heights, in the contact or beside it: in time they may come into it."""
         return self.surface is not None
@@ -58,10 +75,15 @@ class OnBodies:
     def _samples(self):
         if self.surface is None:
             return np.zeros(1)
+        x, y = self._places
+        return np.broadcast_to(self.surface.height(x, y), (len(y), SAMPLES))
+
+    @property
+    def _places(self):
+        """x (1, nx) and y (ny, 1) of the samples in m."""
         side = np.linspace(-1.0, 1.0, SAMPLES)
         across = np.zeros(1) if self.is_plane else side
-        x, y = side[None, :] * self.x_scale, across[:, None] * self.y_scale
-        return np.broadcast_to(self.surface.height(x, y), (len(across), SAMPLES))
+        return side[None, :] * self.x_scale, across[:, None] * self.y_scale
 
     def shortest_wave(self, mesh):
         """Shortest wavelength of the surface in m, as seen on a mesh within the Hertz semi-axes."""

@@ -92,7 +92,7 @@ class WedgeBearing:
 
     is_loaded = False
     is_at_rest = False
-    is_mixed = is_soft = is_rough = False
+    is_mixed = is_rough = False
     roughness = 0.0
     """The gap is given."""
     thinning = None

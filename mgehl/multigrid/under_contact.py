@@ -87,9 +87,13 @@ def factored(L):
     """LU of the balance L of nodes under contact.
 
     Several p_h make oil by Barus so stiff that 1e-30 of the flow beside gets through. Nodes that such oil
-    shuts in may keep to rounding what they have, and L is singular: there p may be anything.
+    shuts in may keep to rounding what they have, and L is singular: there p may be anything. Far from a
+    solution nothing may get through at all: there p stays.
     """
     how = {"permc_spec": "MMD_AT_PLUS_A", "diag_pivot_thresh": 0.0}
+    nothing = np.abs(L.diagonal()) < np.finfo(float).tiny
+    if nothing.any():
+        L = L - diags(nothing.astype(float))
     try:
         return splu(L.tocsc(), **how)
     except RuntimeError:

@@ -1,5 +1,6 @@
 """Nested iteration: from a coarse grid to the finest, at speeds that each grid can resolve."""
 
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -47,10 +48,27 @@ def nested_iteration(task):
             state = interpolate(hierarchy.transfers[level - 1], problem, outcome.state)
         if recipe.fluid_apart:
             guess_fluid(hierarchy, problem, state, settings)
-        outcome = solve_on(hierarchy, problem, state, recipe, partial(task.monitor, solve), task.journal)
+        outcome = _solve(task, problem, state, recipe, solve)
         if not outcome.cycles[-1].residual < DIVERGED:
             break  # nothing to start the next grid from; the outcome says why
     return problem, outcome
+
+
+def _solve(task, problem, state, recipe, solve):
+    """Solve from a state; where Newton's own steps lead nowhere, anew by time steps."""
+
+    def outcome(state, recipe, solve):
+        tell = partial(task.monitor, solve)
+        return solve_on(task.hierarchy, problem, state, recipe, tell, task.journal)
+
+    by_time_steps = replace(recipe, newton=recipe.newton.squeezed())
+    if by_time_steps.newton == recipe.newton:
+        return outcome(state, recipe, solve)
+    found = outcome(state.copy(), recipe, solve)
+    if found.converged:
+        return found
+    news = f"not found: {found.reason}; now by time steps"
+    return outcome(state, by_time_steps, replace(solve, news=news))
 
 
 def single_loop(task, state=None):

@@ -11,8 +11,9 @@ import numpy as np
 from mgehl.studies.columns import statistic, told
 from mgehl.studies.study import merged, verdict
 
-SEED = 2030
-"""No constant of the solver was chosen on the contacts that it draws."""
+SEED = 4099
+"""No constant of the solver was chosen on the contacts that it draws. Who chooses one on them takes another
+seed: so went 2030."""
 
 BALL = {
     "surface": {"kind": "self-affine", "longest_wavelength": 200e-6},

@@ -90,6 +90,18 @@ def test_roughness_that_would_move_is_named(settings, is_odd):
     assert any("here it stands still" in line for line in odd(given)) == is_odd
 
 
+@pytest.mark.parametrize("amplitude, is_odd", [("1 um", False), ("3 um", True)])
+def test_a_steep_surface_is_named(amplitude, is_odd):
+    """Rms slopes of 0.11 and 0.33."""
+    assert (
+        any("rms slope" in line for line in odd(BALL | WAVES | {"surface.amplitude": amplitude})) == is_odd
+    )
+
+
+def test_oil_that_no_pressure_stiffens_is_usual():
+    assert not any("viscosity" in line for line in odd(BALL | {"lubricant.pressure_viscosity": 0.0}))
+
+
 @pytest.mark.parametrize("body, is_odd", [("still", True), ("body_1", False)])
 def test_roughness_that_no_body_carries_is_named_in_time(body, is_odd):
     """A steady run told that time.end would move it."""

@@ -10,3 +10,11 @@ def test_nodes_that_keep_what_they_have_leave_the_others_their_pressure():
     balance = np.array([[-2.0, 0.0, 0.0], [0.0, -1e-30, 1e-30], [0.0, 1e-30, -1e-30]])
     p = factored(csr_matrix(balance)).solve(np.array([4.0, 0.0, 0.0]))
     assert p[0] == pytest.approx(-2.0, rel=1e-11) and np.isfinite(p).all()
+
+
+@pytest.mark.parametrize("nothing", [0.0, 1e-310])
+def test_nodes_without_any_flow_keep_their_pressure(nothing):
+    """Far from a solution pressures may be so large that nothing flows at all (soft line contacts)."""
+    balance = np.array([[-2.0, 0.0, 0.0], [0.0, -nothing, nothing], [0.0, nothing, -nothing]])
+    p = factored(csr_matrix(balance)).solve(np.array([4.0, 0.0, 0.0]))
+    assert p == pytest.approx([-2.0, 0.0, 0.0])

@@ -17,6 +17,32 @@ def test_they_converge_to_moes_film(kind, M, L, ratio):
     assert 1e-9 * result.central_film_nm == pytest.approx(solution.contact.flooded_film, rel=within)
 
 
+WATER = {
+    "contact": {"kind": "line", "radius_x": 32.2e-3, "reduced_modulus": 20e6},
+    "lubricant": {"viscosity": 4.11e-3, "pressure_viscosity": 0.0, "density_law": "constant"},
+    "motion": {"speed": 2.456}, "grid": {"nodes": 513},
+}  # fmt: skip
+"""Of a rubber roller, no thicker than blood."""
+
+
+@pytest.mark.parametrize("layers", [0.0, "2 nm"])
+def test_rubber_in_water(layers):
+    """M = 76: on 65 nodes Newton's own steps went in a circle, and 2500 convolutions led nowhere."""
+    pressed = {"contact": {"load_per_length": 8694.0, "boundary_film": layers}}
+    solution = solved(WATER, pressed, NO_ERROR)
+    result = solution.result
+    assert result.converged and result.work.convolutions < 200.0
+    assert 1e-9 * result.central_film_nm == pytest.approx(solution.contact.flooded_film, rel=0.05)
+
+
+def test_a_rigid_roller_in_water_has_martins_film():
+    """4.896 eta u R/w of each metre: 0.2 % of the load is carried beyond the domain."""
+    result = solved(WATER, {"contact": {"load_per_length": 10.0}}, NO_ERROR).result
+    assert result.converged and result.resolution.verdict == "resolved" and result.work.convolutions < 80.0
+    martin = 4.896 * 4.11e-3 * 2.456 * 32.2e-3 / 10.0
+    assert 1e-9 * result.central_film_nm == pytest.approx(martin, rel=3e-3)
+
+
 WIDE = {
     "contact": {"radius_x": 22e-3, "radius_y": 114e-3, "reduced_modulus": 4e9, "load": 735.0},
     "lubricant": {"viscosity": 0.13, "pressure_viscosity": 12e-9, "viscosity_law": "roelands"},
