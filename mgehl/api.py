@@ -68,7 +68,8 @@ def solve(
     `Solution` to start from, of any grid and speed, with its fields on rank 0, or its run directory. With
     `speak`, rank 0 prints a line for each cycle. Ctrl-C ends it before the next step, with
     KeyboardInterrupt; a second one ends it at once. Raises `mgehl.ConfigError` where the values make no
-    contact that can be solved, and `mgehl.UserError` where `start` is another kind of contact.
+    contact that can be solved, and `mgehl.UserError` where `start` is another kind of contact, or one in
+    time between other heights.
     """
     config = config if isinstance(config, Config) else load_config(config)
     leave_signals_alone()
@@ -89,7 +90,7 @@ def solve(
     is_path = isinstance(start, str | PathLike)
     begin = on_every_rank(comm, on_first_rank(comm, read_run, start)) if is_path else start
     if begin is not None:
-        check_start(begin, config.contact.kind)
+        on_first_rank(comm, check_start, begin, case)
     try:
         with StopOnCtrlC() as stop:
             watch = Watch(Lines() if speak else SILENT, stop=stop)

@@ -7,6 +7,8 @@ from functools import cache
 from numbers import Real
 from operator import ge, gt, le
 
+import numpy as np
+
 from mgehl.errors import ConfigError
 
 AUTO = "auto"
@@ -108,8 +110,8 @@ def read_value(key, rules, value):
         return _number(key, rules, value)
     if kind is tuple:
         return _interval(key, value)
-    if kind is bool and isinstance(value, bool):
-        return value
+    if kind is bool and isinstance(value, bool | np.bool_):
+        return bool(value)
     raise ConfigError(f"{key} = {shown(value)}: must be {describe_rules(rules)}")
 
 

@@ -339,5 +339,12 @@ def test_a_file_may_begin_with_the_mark_of_windows_editors(tmp_path):
 
 
 def test_numbers_of_numpy_are_numbers():
-    config = load_config(None, {"grid.nodes": np.int64(129), "motion.speed": np.float32(0.5)})
+    numbers = {
+        "grid.nodes": np.int64(129),
+        "motion.speed": np.float32(0.5),
+        "solver.error": np.bool_(False),
+    }
+    config = load_config(None, numbers)
+    assert config.solver.error is False
     assert (config.grid.nodes, type(config.grid.nodes), config.motion.speed) == (129, int, 0.5)
+    assert load_config(None, {"solver.error": np.bool_(False)}).solver.error is False

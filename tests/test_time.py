@@ -7,7 +7,7 @@ from mpi4py import MPI
 
 import mgehl
 from mgehl.discretization.mesh import Mesh
-from mgehl.errors import ConfigError, Stopped
+from mgehl.errors import ConfigError, Stopped, UserError
 from mgehl.kinds import contact_from
 from mgehl.run import Watch, enter, run
 
@@ -227,6 +227,45 @@ def test_rough_bodies_make_no_oil(rough):
 def test_contact_carries_what_solids_and_fluid_do(rough):
     assert np.all(column(rough, "load_on_solids") <= column(rough, "load_on_contact") + 1e-12)
     assert np.abs(column(rough, "load_error")).max() < 1e-4
+
+
+def went_on(start, **keys):
+    """The ball in time from the end of another run."""
+    named = {key.replace("__", "."): value for key, value in keys.items()}
+    return mgehl.solve(mgehl.load(None, BALL | named), start=start)
+
+
+def test_a_run_goes_on_from_the_end_of_another_one_whose_load_has_changed(course):
+    """Its units were taken for those of the first load: a film of 2700 nm for 156."""
+    load = course((0.0, 15.0), (0.5 * UNIT, 6.0), (1.0 * UNIT, 6.0))
+    lighter = solved(contact__load=load, time__end=0.8 * UNIT)
+    after = went_on(lighter, contact__load=6.0, time__end=0.1 * UNIT)
+    assert after.summary.converged
+    for name, part in (("central_film_nm", 0.005), ("max_pressure_GPa", 0.01)):
+        assert column(after, name)[0] == pytest.approx(column(lighter, name)[-1], rel=part)
+
+
+def test_roughness_goes_on_from_where_it_is(course):
+    moving = ROUGH | {"surface.rms": 30e-9}
+    first, whole = (solved(moving, time__end=times * 0.3 * UNIT) for times in (1, 2))
+    second = mgehl.solve(mgehl.load(None, BALL | moving | {"time.end": 0.3 * UNIT}), start=first)
+    assert second.summary.converged
+    assert second.heights == pytest.approx(whole.heights, abs=1e-13)
+    inner = np.abs(second.x) < 1e-4
+    assert second.film[:, inner] == pytest.approx(whole.film[:, inner], rel=0.05, abs=2e-9)
+    with pytest.raises(
+        UserError, match="start: its heights differ by .* % from those that this run in time"
+    ):
+        mgehl.solve(mgehl.load(None, BALL | moving | {"time.end": UNIT, "surface.seed": 4}), start=first)
+
+
+def test_a_run_that_finds_no_beginning_can_be_read(tmp_path):
+    """It has no step: its directory was called damaged, and a sweep ended there."""
+    failed = solved(solver__max_steps=2, time__end=UNIT)
+    failed.save(tmp_path / "failed")
+    again = mgehl.read(tmp_path / "failed")
+    assert not again.summary.converged and again.rows == [] and "beginning" not in str(again.summary.error)
+    assert again.plot("film")
 
 
 class StopAfter:

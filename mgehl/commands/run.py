@@ -82,7 +82,7 @@ def _begin(options, comm):
         tables = read_tables(file, settings)
         case = enter(config_from_tables(tables), comm)
     on_first_rank(comm, _complain, _doubts(case))
-    start = _start(options.start_from, case.config, comm) if options.start_from else None
+    start = _start(options.start_from, case, comm) if options.start_from else None
     if start and comm.rank == 0:
         _complain(_differences(options.start_from, start, case.config))
     directory = Path(options.out or Path("runs") / file.stem)
@@ -136,9 +136,11 @@ def _differences(directory, start, config):
             keys.append(Path(file).name)
     if keys:
         yield f"--start-from {directory}: is of another contact ({', '.join(keys)}): a first guess only"
+    if not start.result.settled:
+        yield f"--start-from {directory}: has not converged: a first guess only"
 
 
-def _start(directory, config, comm):
+def _start(directory, case, comm):
     """The `Solution` of another run, whole on every rank; it must be of the same kind."""
     from mgehl.output.files import on_first_rank
     from mgehl.output.solution import on_every_rank
@@ -147,7 +149,7 @@ def _start(directory, config, comm):
 
     start = on_every_rank(comm, on_first_rank(comm, read_run, directory))
     try:
-        check_start(start, config.contact.kind)
+        on_first_rank(comm, check_start, start, case)
     except UserError as error:
         raise UserError(f"--start-from {directory}: {error}") from None
     return start

@@ -115,14 +115,24 @@ def _modulus(bodies):
     return Derived("contact.reduced_modulus", reduced_modulus(*both), f"2/E' = {terms} 1/GPa")
 
 
-def _radii(bodies, kind):
-    """The radii of the paraboloid. Of a line contact that along x."""
-    axes = ("x",) if kind == "line" else ("x", "y")
-    found = {
+def smallest_radii(config):
+    """{axis: size of the smaller radius of both bodies in m}; of bodies that do not tell theirs none."""
+    bodies = config.body_1, config.body_2
+    found = _own_radii(bodies, config.contact.kind) if _any(bodies, GEOMETRY) else {}
+    return {axis: min(map(abs, both)) for axis, both in found.items()}
+
+
+def _own_radii(bodies, kind):
+    """{axis: radii of both bodies in m}. Of a line contact those along x."""
+    return {
         axis: [_radius(*each, axis) for each in zip(BODIES, bodies, reversed(bodies), strict=True)]
-        for axis in axes
+        for axis in (("x",) if kind == "line" else ("x", "y"))
     }
-    for axis, both in found.items():
+
+
+def _radii(bodies, kind):
+    """The radii of the paraboloid."""
+    for axis, both in _own_radii(bodies, kind).items():
         if both == [inf, inf]:
             names = " or ".join(f"{body}.radius_{axis}" for body in BODIES)
             raise ConfigError(f"{names}: must be given beside the bodies' other radii: both are flat")

@@ -93,6 +93,7 @@ class LoadedKind(Kind):
         loaded_checks.check_deformation(config, contact)
         heaviest = time.extremes(config, contact)[-1]
         loaded_checks.check_size(*self.size(config, heaviest))
+        loaded_checks.check_bodies(self.load_key, config, heaviest)
         if not config.is_dry:
             loaded_checks.check_exponent(heaviest)
         if contact.surface is not None:

@@ -2,6 +2,7 @@
 
 from mgehl.config_value import FARTHEST
 from mgehl.errors import ConfigError
+from mgehl.kinds.bodies import smallest_radii
 from mgehl.model.images import wave_numbers
 from mgehl.model.own_laws import OwnCompliance, OwnDensity, OwnRheology, OwnViscosity
 
@@ -35,6 +36,26 @@ def check_size(key, size, radii, part):
         raise ConfigError(
             f"{key}: the contact would be {size} wide on radii of {radii}; it must be below half of them"
         )
+
+
+def on_the_bodies(config, contact):
+    """(Axis, semi-axis of the dry contact, smaller radius of the bodies) in m, where these tell theirs.
+
+    Bodies that conform are wide apart by their reduced radius, and may be no half-spaces all the same.
+    """
+    wide = {"x": contact.hertz.a, "y": contact.hertz.b} if not contact.is_plane else {"x": contact.hertz.a}
+    for axis, radius in smallest_radii(config).items():
+        yield axis, contact.widening * wide[axis], radius
+
+
+def check_bodies(key, config, contact):
+    """The dry contact may not be as wide as a body."""
+    for axis, size, radius in on_the_bodies(config, contact):
+        if size >= radius:
+            raise ConfigError(
+                f"{key}: the contact would be {2.0 * size:.2g} m long along {axis}, wider than a body "
+                f"with a radius of {radius:g} m"
+            )
 
 
 def check_own_laws(contact):

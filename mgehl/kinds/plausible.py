@@ -1,7 +1,8 @@
 """Input that is allowed, and yet unusual: most often a wrong unit. Each is named; none is refused."""
 
 from mgehl.kinds.heat import solids_from
-from mgehl.kinds.surface_kinds import STILL, every_surface
+from mgehl.kinds.loaded_checks import LARGEST_CONTACT, on_the_bodies
+from mgehl.kinds.surface_kinds import NAMES, STILL, every_surface
 from mgehl.kinds.time import begins_at_rest, range_of, scene_of
 from mgehl.model.films import formula_of
 from mgehl.model.frame import direction
@@ -65,6 +66,13 @@ def implausible(config, contact):
     if not contact.is_loaded:
         return
     yield from _pressure(contact)
+    for axis, size, radius in on_the_bodies(config, contact):
+        if size > LARGEST_CONTACT * radius:
+            yield (
+                f"the contact's semi-axis along {axis} is {1e3 * size:.3g} mm, more than half of a body's "
+                f"radius of {1e3 * radius:.3g} mm: such bodies are no half-spaces, as is assumed"
+            )
+    yield from _flat_lay(config)
     if contact.is_rough and contact.slope > STEEPEST_HEIGHTS:
         yield (
             f"the surface's rms slope is {contact.slope:.2g}: from {STEEPEST_HEIGHTS:g} on peaks yield, "
@@ -85,6 +93,14 @@ def implausible(config, contact):
     yield from _odd_steps(config, contact)
     if config.lubricant.oil is not None:
         yield from _range(config.lubricant, contact.hertz.p_h)
+
+
+def _flat_lay(config):
+    """Directions of surfaces that are the same in all."""
+    for name in NAMES:
+        section = getattr(config, name)
+        if section.kind == "self-affine" and section.aspect == 1.0 and section.angle:
+            yield f"{name}.angle does nothing where {name}.aspect is 1: the surface has no lay"
 
 
 def _odd_steps(config, contact):

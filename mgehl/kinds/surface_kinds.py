@@ -71,7 +71,8 @@ class SurfaceSection:
     x: float = number(0.0, "where the middle of the file, dent or ridge is, a peak of the waves", "m", -1.0,
         1.0)
     y: float = number(0.0, "the same along y", "m", -1.0, 1.0)
-    angle: float = number(0.0, "direction of its own x axis, from +x towards +y", "deg", -360.0, 360.0)
+    angle: float = number(0.0, "direction of its own x axis, from +x towards +y; "
+        "of self-affine of its lay, with other heights at each angle", "deg", -360.0, 360.0)
     height_unit: str | None = word(None, "file: unit of its heights (unset: the file's own)", LENGTHS)
     position_unit: str | None = word(None, "file: unit of its x and y (unset: the file's own)", LENGTHS)
     spacing: float | None = number(None, "file: distance of its points (unset: the file's own)", "m", 1e-12,

@@ -85,8 +85,13 @@ class Scene:
         """The contact, in the axes in which it is solved, when the mean surface has gone a `path` in m."""
         if not self.moves or path == 0.0:
             return self.framed
-        parts = summed(self._moved(surface, share * path) for surface, share in self.surfaces)
-        return replace(self.contact, surface=parts).in_frame(self.contact.frame)
+        return replace(self.contact, surface=self.surface_at(path)).in_frame(self.contact.frame)
+
+    def surface_at(self, path):
+        """The `Surface` then, in the user's axes; None of smooth bodies."""
+        if not self.moves or path == 0.0:
+            return self.contact.surface
+        return summed(self._moved(surface, share * path) for surface, share in self.surfaces)
 
     def _moved(self, surface, path):
         x, y = self.contact.motion

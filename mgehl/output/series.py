@@ -124,11 +124,14 @@ def write_series(path, rows, title):
 
 
 def passed(rows, scene):
-    """Passages that the rows of a history have gone through by the end of each, (rows,)."""
+    """Passages that the rows of a history have gone through by the end of each, (rows,).
+
+    The first step does not count: the way may go on from that of another run.
+    """
     path, loads = (np.array([row[name] for row in rows]) for name in ("path_um", "load_share"))
     shares, which = np.unique(loads, return_inverse=True)
     lengths = 1e6 * np.array([scene.passage(share) for share in shares])
-    return np.cumsum(np.abs(np.diff(path, prepend=0.0)) / lengths[which])
+    return np.cumsum(np.abs(np.diff(path, prepend=path[0])) / lengths[which])
 
 
 def means(rows, gone):

@@ -98,6 +98,12 @@ class Solution:
         return self.last.get("load_share", 1.0) if self.last else 1.0
 
     @property
+    def path(self) -> float:
+        """Way in m that the mean surface of a run in time has gone at its end, with that of the run that it
+        started from; 0 of a steady state."""
+        return 1e-6 * self.last["path_um"] if self.last else 0.0
+
+    @property
     def at_the_end(self) -> LoadedContact | WedgeBearing:
         """The contact under the load of the fields, whose Hertz contact pictures show beside them."""
         if isinstance(self.contact, WedgeBearing):

@@ -147,7 +147,9 @@ def _fields(file, mesh):
 
 
 def _rows(text):
-    """Rows of a history.csv, numbers as numbers."""
+    """Rows of a history.csv, numbers as numbers; none of a run in time that did not find its beginning."""
+    if not text.strip():
+        return []
     names, *rows = csv.reader(text.splitlines())
     if not rows or "residual" not in names:
         raise ValueError("its history is none of a run")

@@ -74,7 +74,8 @@ def summarise_in_time(problem, outcome, rows, scene, tolerance, making):
     result = summarise(problem, outcome, tolerance, making)
     result = replace(result, resolution=resolution(problem.contact, problem.grid.mesh, scene))
     if not rows:
-        return replace(result, converged=False, settled=False, reason=outcome.reason, mass=None)
+        failed = replace(result, converged=False, settled=False, reason=outcome.reason, mass=None)
+        return replace(failed, error=OF_AN_INSTANT)
     largest_node = _largest_node(problem, outcome.state)
     end = scene.instant(problem.contact, rows[-1]["time_s"])
     time = time_result(rows, scene, making.work, largest_node)

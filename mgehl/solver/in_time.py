@@ -11,7 +11,7 @@ from mgehl.solver.dry import guess_on_finest, solve_dry
 from mgehl.solver.march import March
 from mgehl.solver.on_grid import newton_on
 from mgehl.solver.recipe import DRY, recipe_in_time
-from mgehl.solver.restart import interpolated
+from mgehl.solver.restart import begun_in_time
 
 
 def march(scene, task, told, start=None):
@@ -21,11 +21,13 @@ def march(scene, task, told, start=None):
     steady state of its beginning. `told` is called after each step, as `March` says, the monitor for each
     cycle on the way to the beginning.
     """
-    reference = begins = None
+    reference, begins, path = None, None, 0.0
     recipe = recipe_in_time(task.settings, task.contact)
     problem = task.but(scheme=recipe.scheme).problem()
     if start:
-        state = interpolated(problem, *start)
+        path = start[0].path
+        problem.turn_to(scene.at(path), scene.instant(scene.framed, 0.0))
+        state = begun_in_time(problem, *start)
     else:
         beginning = _at_rest if scene.speed.value(0.0) == 0.0 else _steady
         steady, first = beginning(scene, task)
@@ -37,7 +39,7 @@ def march(scene, task, told, start=None):
             reference = Reference.of(steady, state)
     with newton_on(task.hierarchy, problem, recipe) as newton:
         marching = March(scene, problem, newton, task.settings.time, told)
-        outcome = marching.run(state, reference, task.journal)
+        outcome = marching.run(state, path, reference, task.journal)
     return problem, replace(outcome, begins=begins)
 
 

@@ -48,7 +48,7 @@ class Standing(Kept):
     carried: Carried
     t: float
     path: float
-    """Way in m that the mean surface has gone."""
+    """Way in m that the mean surface has gone, from the beginning of the run that this one started from."""
     step: float
     """In s, the next one that is tried."""
     number: int = 0
@@ -91,16 +91,17 @@ class March:
         self._settings, self._pace = settings, Pace(scene, problem.grid.mesh, settings.step)
         self._transport = Transport(problem)
 
-    def run(self, state, reference=None, journal=NOTHING_KEPT):
+    def run(self, state, path=0.0, reference=None, journal=NOTHING_KEPT):
         """March from a `state`, which is the march's own from now on; return the `Outcome`.
 
-        With the `Reference` that it is, if it is steady and no heights move.
+        The mean surface has gone a `path` in m before. With the `Reference` that the state is, if it is
+        steady and no heights move.
         """
         grid = self._problem.grid
         standing = journal.standing(grid, Standing.from_record)
         if standing is None:
             first = self._transport.begin(state)
-            standing = Standing(state, first, 0.0, 0.0, self._pace.first())
+            standing = Standing(state, first, 0.0, path, self._pace.first())
             standing.reference = reference
             self._remember(standing)
         standing.memory = self._newton.remembered(standing.memory)

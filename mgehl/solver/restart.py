@@ -12,6 +12,7 @@ from mgehl.errors import UserError
 from mgehl.model.own_function import file_and_function
 from mgehl.solver.beginning import begin, first_found
 from mgehl.solver.continuation import Continuation
+from mgehl.solver.gaps import within_hertz
 from mgehl.solver.nested import single_loop
 from mgehl.solver.recipe import on_mesh, recipe_of
 
@@ -75,13 +76,32 @@ class Forecast:
         return bool(not thinner and change <= OTHER_HEIGHTS * contact.roughness)
 
 
-def check_start(start, kind):
-    """Raise UserError where a `Solution` cannot start a contact of this kind, or is none."""
+def check_start(start, case):
+    """Raise UserError where a `Solution` cannot start a `Case`, or is none; where its fields are.
+
+    In time films go on between the same heights.
+    """
     if not hasattr(start, "config"):
         raise UserError(f"start: is of type {type(start).__name__}; must be a Solution or a run directory")
-    other = start.config.contact.kind
+    other, kind = start.config.contact.kind, case.config.contact.kind
     if other != kind or not start.contact.is_loaded:
         raise UserError(f"a {other} is no start for a {kind}")
+    if case.config.is_in_time and start.fields and (off := _other_heights(start, case)) > OTHER_HEIGHTS:
+        raise UserError(
+            f"start: its heights differ by {100.0 * off:.3g} % from those that this run in time begins "
+            "with: films go on between the same heights"
+        )
+
+
+def _other_heights(start, case):
+    """Rms by which heights differ from those of a `Solution` at its end, over the rougher ones."""
+    surface, old = case.scene.surface_at(start.path), start.heights
+    now = surface.height(start.x[None, :], start.y[:, None]) if surface else 0.0
+    heights = (np.broadcast_to(0.0 if each is None else each, start.fields.P.shape) for each in (now, old))
+    inside = within_hertz(start.mesh)
+    now, old = (each[inside] - each[inside].mean() for each in heights)
+    rougher = max(np.sum(now**2), np.sum(old**2))
+    return float(np.sqrt(np.sum((now - old) ** 2) / rougher)) if rougher else 0.0
 
 
 DIFFER = ("contact", "coating", "lubricant", "discretization")
@@ -179,33 +199,56 @@ def forecast_state(problem, last, forecast, frame):
 def interpolated(problem, start, frame):
     """The fields of a `Solution` as a `State` of this problem in a `Frame` (collective).
 
-    P is bilinear in X and Y, zero outside of what was solved; a node is in contact where most of
-    its surroundings were.
+    P is bilinear in X and Y, in units of the Hertz contact that either load has, zero outside of what was
+    solved; a node is in contact where most of its surroundings were.
     """
-    grid, mesh = problem.grid, problem.grid.mesh
+    grid, mesh, contact = problem.grid, problem.grid.mesh, problem.contact
+    stood, before = start.contact, start.at_the_end
     P = p = filling = status = None
     if grid.comm.rank == 0:
         old = start.mesh.in_frame(frame)
+        # The units of a run in time are those of its first load.
+        wider = stood.x_scale / before.x_scale
+        old = _stretched(old, wider, wider)
+        pressure = stood.pressure_scale / before.pressure_scale
         in_contact = frame.array((start.fields.status == CONTACT).astype(float))
-        P = _onto(mesh, old, frame.array(start.fields.P))
-        p = _onto(mesh, old, frame.array(start.fields.fluid_pressure))
+        P = pressure * _onto(mesh, old, frame.array(start.fields.P))
+        p = pressure * _onto(mesh, old, frame.array(start.fields.fluid_pressure))
         filling = 1.0 - _onto(mesh, old, 1.0 - frame.array(start.fields.full_part))  # full outside
-        film = np.where(
-            (P > problem.contact.tears_at) | (not problem.scheme.cavitation), LUBRICATED, CAVITATED
-        )
+        film = np.where((P > contact.tears_at) | (not problem.scheme.cavitation), LUBRICATED, CAVITATED)
         touching = (_onto(mesh, old, in_contact) > 0.5) & problem.scheme.contact_law.has_contact
         status = np.where(touching, CONTACT, film).astype(np.int8)
-    before, contact = start.contact, problem.contact
     # Of H0 the dry approach is the new contact's; what lies between the bodies is as thick as before, in m.
-    between = grid.comm.bcast(start.H0) + before.approach
-    H0 = between * before.film_scale / contact.film_scale - contact.approach
+    between = grid.comm.bcast(start.H0) * stood.film_scale + before.approach * before.film_scale
+    H0 = between / contact.film_scale - contact.approach
     P, p, filling, status = (grid.scatter(each) for each in (P, p, filling, status))
     return problem.state(P, H0, status, p, filling)
 
 
-def _onto(mesh, old, values):
+def begun_in_time(problem, start, frame):
+    """The same for a run in time, whose films go on as they were: H is that of the `Solution`, at the same
+    place in m, and no more that of P (collective)."""
+    grid, mesh, contact = problem.grid, problem.grid.mesh, problem.contact
+    state, H = interpolated(problem, start, frame), None
+    if grid.comm.rank == 0:
+        stood = start.contact.in_frame(frame)
+        wider = stood.x_scale / contact.x_scale, stood.y_scale / contact.y_scale
+        old = _stretched(start.mesh.in_frame(frame), *wider)
+        scale = start.contact.film_scale / contact.film_scale
+        H = scale * _onto(mesh, old, frame.array(start.fields.H), outside=np.nan)
+    H = grid.scatter(H)
+    state.H = np.where(np.isnan(H), state.H, np.maximum(H, problem.scheme.contact_law.contact_gap))
+    return state
+
+
+def _stretched(mesh, x, y):
+    """A mesh in other units: `x` of those along X make an old one, and `y` along Y."""
+    return replace(mesh, x=tuple(x * end for end in mesh.x), y=tuple(y * end for end in mesh.y))
+
+
+def _onto(mesh, old, values, outside=0.0):
     """Values of the `old` mesh's nodes at those of `mesh`."""
     if old.is_line:
-        return np.interp(mesh.X, old.X, values[0], left=0.0, right=0.0)[None, :]
-    function = RegularGridInterpolator((old.Y, old.X), values, bounds_error=False, fill_value=0.0)
+        return np.interp(mesh.X, old.X, values[0], left=outside, right=outside)[None, :]
+    function = RegularGridInterpolator((old.Y, old.X), values, bounds_error=False, fill_value=outside)
     return function(tuple(np.meshgrid(mesh.Y, mesh.X, indexing="ij")))

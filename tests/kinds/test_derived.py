@@ -75,7 +75,7 @@ def value_for(key):
     """A value of a key that is right alone."""
     rules = KEYS[key].metadata
     low = 0.6 if rules["above"] else (rules["low"] or 0.0)
-    low = low if low > 0.0 else 1e-4
+    low = low if low > 0.0 else min(1e-4, rules["high"] or 1e-4)
     return rules["choices"][0] if rules["choices"] else low
 
 

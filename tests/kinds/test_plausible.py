@@ -6,7 +6,8 @@ import pytest
 from places import CONFIGS
 
 from mgehl.config import load_config
-from mgehl.kinds import contact_from, mesh_from
+from mgehl.errors import ConfigError
+from mgehl.kinds import checked_case, contact_from, mesh_from
 from mgehl.kinds.cited import cited
 from mgehl.kinds.plausible import implausible
 from mgehl.model.sources import SOURCES
@@ -73,6 +74,12 @@ def test_formulas_are_not_made_for_slender_contacts(radius, is_odd):
     assert any("film formulas" in line for line in odd(BALL | settings)) == is_odd
 
 
+HIP = {
+    "contact.load": "1500 N", "motion.speed": "10 mm/s", "lubricant.viscosity": 5e-3,
+    "body_1.modulus": "210 GPa", "body_1.poisson": 0.3, "body_1.diameter": "28 mm",
+    "body_2.modulus": "1 GPa", "body_2.poisson": 0.4,
+}  # fmt: skip
+
 WAVES = {"surface.kind": "waviness", "surface.amplitude": "50 nm", "surface.wavelength_x": "40 um"}
 
 
@@ -96,6 +103,25 @@ def test_a_steep_surface_is_named(amplitude, is_odd):
     assert (
         any("rms slope" in line for line in odd(BALL | WAVES | {"surface.amplitude": amplitude})) == is_odd
     )
+
+
+@pytest.mark.parametrize("hollow, is_odd", [("-28.2 mm", True), ("-35 mm", False)])
+def test_bodies_that_conform_too_far_are_named(hollow, is_odd):
+    """A ball of 28 mm in a socket: the contact's semi-axis is 12 mm, and the reduced radius 2 m."""
+    found = odd(HIP | {"body_2.diameter": hollow})
+    assert any("no half-spaces" in line for line in found) == is_odd
+
+
+def test_a_contact_wider_than_a_body_is_refused():
+    with pytest.raises(ConfigError, match=r"wider than a body with a radius of 0.014 m"):
+        checked_case(load_config(os.devnull, HIP | {"body_2.diameter": "-28.1 mm"}))
+
+
+def test_a_direction_of_what_has_none_is_named():
+    ground = {"surface.kind": "self-affine", "surface.rms": 1e-7, "surface.angle": 30,
+              "surface.shortest_wavelength": 2e-5, "surface.longest_wavelength": 2e-4}  # fmt: skip
+    assert any("no lay" in line for line in odd(BALL | ground))
+    assert not any("no lay" in line for line in odd(BALL | ground | {"surface.aspect": 3.0}))
 
 
 def test_oil_that_no_pressure_stiffens_is_usual():

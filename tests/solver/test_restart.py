@@ -11,7 +11,7 @@ from mgehl.config import config_from_tables
 from mgehl.discretization.status import CAVITATED, CONTACT
 from mgehl.errors import UserError
 from mgehl.grid.hierarchy import Hierarchy
-from mgehl.kinds import contact_from, mesh_from
+from mgehl.kinds import case_of, contact_from, mesh_from
 from mgehl.model.frame import Frame
 from mgehl.solver import restart
 from mgehl.solver.from_config import settings_from
@@ -154,7 +154,7 @@ class TestSolveFrom:
 
 def test_a_contact_of_another_kind_is_no_start(film):
     with pytest.raises(UserError, match="a point is no start for a line"):
-        check_start(film, "line")
+        check_start(film, case_of(mgehl.load(None, {"contact.kind": "line"})))
 
 
 def test_what_tells_another_contact_is_named():

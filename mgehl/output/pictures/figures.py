@@ -89,7 +89,8 @@ def _possible(solution):
     elif solution.is_dry:
         drawn = _DRY | {kind: drawn[kind] for kind in drawn if kind not in ("lines", "film")}
     if solution.config.is_in_time:
-        drawn = _IN_TIME | {kind: each for kind, each in drawn.items() if kind != "history"}
+        steps = _IN_TIME if solution.rows else {}
+        drawn = steps | {kind: each for kind, each in drawn.items() if kind != "history"}
     drawn = drawn | {kind: each for kind, each in _OF_FRICTION.items() if kind in solution.fields.named}
     return {kind: each for kind, each in drawn.items() if not (solution.mesh.is_line and kind in _FLAT)}
 
