@@ -115,14 +115,27 @@ study-%: $(ENVIRONMENT)
 
 # make sweeps      run the sweeps that pages show and write their tables to runs/tables (hours)
 # make sweep-NAME  one of them. One that was stopped goes on; a point without an answer says so in the table.
-SWEEPS := slow rest rest-bare solids-fine
+SWEEPS := slow rest rest-bare solids-fine traction
 OF_slow := --set solver.start=film --over motion.speed="7.5,2.5,1,.25,.1,.025,.005 mm/s" \
   --over grid.nodes=129,257,513,1025
 OF_rest := configs/rough.toml --over motion.speed="2e-2..1e-9 m/s:18"
 OF_rest-bare := $(OF_rest) --set contact.boundary_film=0 --set grid.nodes=129
 OF_solids-fine := configs/rough.toml --set surface.shortest_wavelength="5 um" --over motion.speed="30,17.5,8,3,1 mm/s" \
   --over grid.nodes=513,1025
+TRACTION_OILS := M100 N100 PAO100
+TRACTION := configs/traction.toml --over motion.slide_to_roll="log(1e-3..0.4:10)" --over motion.speed="2,16 m/s"
+OF_traction-N100 := $(TRACTION) --set lubricant.oil=N100 --set friction.limiting_coefficient=0.053 \
+  --set friction.eyring_stress="4.5 MPa"
+OF_traction-M100 := $(TRACTION)
+OF_traction-PAO100 := $(TRACTION) --set lubricant.oil=PAO100 --set friction.limiting_coefficient=0.035 \
+  --set friction.eyring_stress="7.8 MPa"
 sweeps: $(SWEEPS:%=sweep-%)
+sweep-traction: $(TRACTION_OILS:%=sweep-traction-%)
+	$(ON) mgehl plot runs/sweep-traction-*/runs/* --against motion.slide_to_roll --out runs/sweep-traction --format png
+	$(ON) mgehl collect runs/sweep-traction-*/runs/* --out runs/tables/traction.csv --columns \
+	  lubricant.oil,motion.speed,motion.slide_to_roll,friction
+	cp runs/sweep-traction/against-motion.slide_to_roll.png configs/pictures/traction.png
+	rm $(TRACTION_OILS:%=runs/tables/traction-%.csv)
 sweep-%: $(ENVIRONMENT)
 	( $(ON) mpiexec -n 2 python -m mgehl sweep $(OF_$*) --set solver.error=false --out runs/sweep-$* --resume \
 	  --quiet ); test $$? -le 1
