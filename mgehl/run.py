@@ -11,6 +11,7 @@ from mpi4py import MPI
 from mgehl.grid.grid import single_grid
 from mgehl.grid.hierarchy import Hierarchy
 from mgehl.kinds import Case, case_of, checked_case
+from mgehl.kinds.bodies import arms
 from mgehl.kinds.own import naming_keys
 from mgehl.output import files, progress, terminal
 from mgehl.output.checkpoint import Checkpoint, begin_run
@@ -20,7 +21,7 @@ from mgehl.output.dry_summary import summarise_dry
 from mgehl.output.film_error import film_error
 from mgehl.output.finish import finish_run
 from mgehl.output.forecast import check_memory
-from mgehl.output.friction_result import banded, friction_result, with_unthinned
+from mgehl.output.friction_result import banded, friction_result, with_moments, with_unthinned
 from mgehl.output.gap_error import gap_error
 from mgehl.output.laws import law_files
 from mgehl.output.lock import locked
@@ -174,6 +175,7 @@ class _LoadedSolve:
         mixed = result.mixed and replace(result.mixed, error=gap_error(result, beside, monitor))
         bands = {"mixed": mixed, "error": film_error(result, beside, monitor)}
         friction, maps = friction_result(problem, outcome.state)
+        friction = with_moments(friction, arms(self.case.config))
         friction = banded(friction, mixed, contact.friction.boundary_coefficient)
         if friction and contact.friction.thins and settings.error:
             friction = with_unthinned(friction, result, beside.unthinned)

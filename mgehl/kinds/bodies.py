@@ -180,10 +180,20 @@ def _speeds(bodies):
 def _surface_speed(name, body):
     if body.rotation is None:
         return body.speed
-    arm = body.rotation_radius if body.rotation_radius is not None else _round(body)
-    if arm is None:
+    if (arm := _arm(body)) is None:
         raise ConfigError(f"{name}.rotation_radius: must be given with {name}.rotation of a flat body")
-    return body.rotation * abs(arm)
+    return body.rotation * arm
+
+
+def _arm(body):
+    """Distance of the contact from its axis in m; None of a flat body that does not tell it."""
+    arm = body.rotation_radius if body.rotation_radius is not None else _round(body)
+    return None if arm is None else abs(arm)
+
+
+def arms(config):
+    """The distance of the contact from the axis of either body in m; None where a body has none."""
+    return _arm(config.body_1), _arm(config.body_2)
 
 
 def _bearing(bodies, rotation):

@@ -49,6 +49,7 @@ class FrictionResult:
     rolling_N: float
     """The part of both that is rolling's, against the motion."""
     power_loss_W: float
+    """Of sliding and rolling, of both bodies."""
     largest_shear_MPa: float
     temperatures: Temperatures | None = None
     """None where [heat] says nothing of the bodies, and of a band of heat on a body at rest."""
@@ -59,6 +60,11 @@ class FrictionResult:
     load on solids makes of it at the least. None without one."""
     is_the_grids: bool = False
     """Whether the load on solids is the grid's, and so is the coefficient."""
+    moment_1_Nm: float | None = None
+    """Of the force on body 1 about its axis, as far away as `rotation_radius` or its radius says: positive
+    the way that its surface moves along the motion. None of a flat body."""
+    moment_2_Nm: float | None = None
+    """The same of body 2; of a line contact those of a metre."""
     unthinned_film_nm: float | None = None
     """The central film if shear did not thin it, of rough bodies the mean gap; None where it does not, or
     where nobody asked (`solver.error`)."""
@@ -141,6 +147,15 @@ def with_unthinned(friction, result, solve):
     nm, (central, minimum) = 1e9 * problem.contact.film_scale, problem.films(outcome.state)
     film = gaps(problem, outcome.state).mean if result.mixed else central
     return replace(friction, unthinned_film_nm=nm * film, unthinned_minimum_nm=nm * minimum)
+
+
+def with_moments(friction, arms):
+    """A `FrictionResult` with moments, the contact being so far from the axis of either body, in m."""
+    if not friction:
+        return friction
+    forces = friction.force_1_N, friction.force_2_N
+    moments = (arm and arm * force for arm, force in zip(arms, forces, strict=True))
+    return replace(friction, **dict(zip(("moment_1_Nm", "moment_2_Nm"), moments, strict=True)))
 
 
 def friction_lines(friction, verbose):

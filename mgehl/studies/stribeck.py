@@ -18,10 +18,11 @@ CASE = merged(
     {
         "contact": {"load": 50.0, "boundary_film": 2e-9},
         "surface": {"rms": 100e-9, "hurst": 0.8, "shortest_wavelength": 50e-6, "seed": 1},
-        "lubricant": {"temperature": "60 degC"},
+        "lubricant": {"temperature": "60 degC", "conductivity": 0.14},
         "motion": {"slide_to_roll": 0.2},
         "friction": {"model": "limiting", "limiting_coefficient": 0.05, "eyring_stress": 5e6,
                      "boundary_coefficient": 0.1},
+        "heat": {"conductivity_1": 46.0, "conductivity_2": 46.0, "capacity_1": 3.6e6, "capacity_2": 3.6e6},
         "solver": {"error": True},
     },
 )  # fmt: skip

@@ -9,7 +9,7 @@ import mgehl
 from mgehl.discretization.mesh import Mesh
 from mgehl.model.rheology import Friction
 from mgehl.output import friction_result as module
-from mgehl.output.friction_result import banded, friction_lines, friction_result
+from mgehl.output.friction_result import banded, friction_lines, friction_result, with_moments
 from mgehl.output.gap_error import GapError, GridGap
 from mgehl.output.report.run_report import report
 from mgehl.output.words import thinning_words
@@ -39,6 +39,14 @@ def test_the_loss_is_what_the_forces_take_from_the_bodies(found, slide_to_roll):
     result = found(slide_to_roll)
     u_1, u_2 = 1.0 + 0.5 * slide_to_roll, 1.0 - 0.5 * slide_to_roll
     assert result.power_loss_W == pytest.approx(-result.force_1_N * u_1 - result.force_2_N * u_2)
+
+
+def test_moments_lose_what_forces_do(found):
+    """A ball of 4 mm and a disc that touches it 30 mm from its axis, at the speeds of the bodies."""
+    result = with_moments(found(0.2), (4e-3, 30e-3))
+    turned = result.moment_1_Nm * 1.1 / 4e-3 + result.moment_2_Nm * 0.9 / 30e-3
+    assert result.power_loss_W == pytest.approx(-turned)
+    assert with_moments(found(0.2), (4e-3, None)).moment_2_Nm is None
 
 
 @pytest.mark.parametrize(

@@ -21,6 +21,7 @@ PANELS = {
     "part of the load": ("load_on_solids", "load_on_contact"),
     "friction coefficient": ("friction", "friction_of_film", "friction_of_solids"),
     "largest pressure, GPa": ("max_pressure_GPa",),
+    "rise of temperature, K": ("flash_1_K", "flash_2_K", "film_K"),
 }
 """Axis of each panel and what it shows: each its own stroke."""
 
@@ -28,6 +29,9 @@ STROKES = "-", "--", ":"
 
 OF_ONE_NODE = "central_film_nm", "minimum_film_nm"
 """Left out where there is a mean gap: a single node of a rough surface says little."""
+
+MIXED = 0.01, 0.9
+"""Part of the load on solids from which on, and up to which, lubrication is called mixed."""
 
 DECADE = 10.0
 """Largest over smallest value from which on an axis is logarithmic."""
@@ -70,11 +74,13 @@ def curves(runs, key, names=()):
     figure, axes = subplots(rows, min(2, len(panels)), size=(10.5, 1.0 + 3.4 * rows), squeeze=False)
     for axis, (label, panel) in zip(axes.flat, panels.items(), strict=False):
         _draw_panel(axis, runs, groups, key, label, panel)
+        shade = _shade_mixed(axis, runs, key)
     for axis in axes.flat[len(panels) :]:
         axis.remove()
-    if len(groups) > 1:
-        looks = [(name, group.colour) for name, group in groups.items()]
-        legend_under_all(figure, [axes.flat[0].plot([], [], color=c, label=name)[0] for name, c in looks])
+    looks = [(name, group.colour) for name, group in groups.items()] if len(groups) > 1 else []
+    handles = [axes.flat[0].plot([], [], color=c, label=name)[0] for name, c in looks]
+    if handles := handles + [shade] * bool(shade):
+        legend_under_all(figure, handles)
     failed = sum(not run.settled for run in runs)
     note = f", {failed} without an answer (ticks above)" if failed else ""
     figure.suptitle(f"{len(runs)} runs against {key}{note}")
@@ -94,6 +100,22 @@ def _draw_panel(axis, runs, groups, key, label, panel):
     axis.plot(failed, len(failed) * [0.98], transform=axis.get_xaxis_transform(), **NOT_HERE)
     if len(panel) > 1:
         axis.legend(handles=handles[0])
+
+
+def _shade_mixed(axis, runs, key):
+    """Grey where some run along the key is in mixed lubrication, up to halfway to the next one that is not;
+    None where none is."""
+    solids, settled = QUANTITIES["load_on_solids"].path, [run for run in runs if run.settled]
+    mixed = [run.value(key) for run in settled if MIXED[0] <= run.number(solids) <= MIXED[1]]
+    if not mixed:
+        return None
+    there = sorted({run.value(key) for run in settled})
+    first, last = there.index(min(mixed)), there.index(max(mixed))
+    ends = there[max(first - 1, 0)], min(mixed), max(mixed), there[min(last + 1, len(there) - 1)]
+    is_log = axis.get_xscale() == "log"
+    middle = [(a * b) ** 0.5 if is_log else 0.5 * (a + b) for a, b in (ends[:2], ends[2:])]
+    label = f"mixed: solids carry {MIXED[0]:.0%} to {MIXED[1]:.0%}"
+    return axis.axvspan(*middle, color="0.92", zorder=0, label=label)
 
 
 def _label(label, panel):
