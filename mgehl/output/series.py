@@ -53,6 +53,9 @@ SETTLED = 0.01
 FEWEST = 3
 """Passages before means are asked whether they have settled: the first one begins."""
 
+ROUNDING = 1e-9
+"""Part of a way that is none."""
+
 MEANS = (
     "mean_gap_nm", "central_film_nm", "minimum_film_nm", "max_pressure_GPa",
     "load_on_contact", "load_on_solids", "friction",
@@ -124,14 +127,18 @@ def write_series(path, rows, title):
 
 
 def passed(rows, scene):
-    """Passages that the rows of a history have gone through by the end of each, (rows,).
-
-    The first step does not count: the way may go on from that of another run.
-    """
+    """Passages that the rows of a history have gone through by the end of each, (rows,)."""
     path, loads = (np.array([row[name] for row in rows]) for name in ("path_um", "load_share"))
     shares, which = np.unique(loads, return_inverse=True)
     lengths = 1e6 * np.array([scene.passage(share) for share in shares])
-    return np.cumsum(np.abs(np.diff(path, prepend=path[0])) / lengths[which])
+    return np.cumsum(np.abs(np.diff(path, prepend=_begun_at(rows[0]))) / lengths[which])
+
+
+def _begun_at(row):
+    """Way in um before the first row of a history: of a run that goes on from another's end not nothing."""
+    way = 1e3 * row["speed_mm_s"] * row["step_s"]
+    before = 1.0 - way / row["path_um"] if row["path_um"] else 0.0
+    return before * row["path_um"] if before > ROUNDING else 0.0
 
 
 def means(rows, gone):

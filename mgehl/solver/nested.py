@@ -40,7 +40,8 @@ def nested_iteration(task):
         grid, deflection = hierarchy.grids[level], hierarchy.deflections[level]
         seen = contact.at_speed(solve.speed).seen_by(grid.mesh, hierarchy.grids[-1].mesh)
         problem = ContactProblem(grid, deflection, seen, settings.scheme)
-        recipe = recipe_of(settings if solve.finest else coarse, seen)
+        own = settings if solve.finest else coarse
+        recipe = recipe_of(own, seen)
         if outcome is None:
             P = guess_on_finest(hierarchy, contact, settings.scheme) if solve.finest else None
             state = first_guess(problem, recipe.begins, P)
@@ -48,27 +49,29 @@ def nested_iteration(task):
             state = interpolate(hierarchy.transfers[level - 1], problem, outcome.state)
         if recipe.fluid_apart:
             guess_fluid(hierarchy, problem, state, settings)
-        outcome = _solve(task, problem, state, recipe, solve)
+        outcome = _solve(task, problem, state, own, solve)
         if not outcome.cycles[-1].residual < DIVERGED:
             break  # nothing to start the next grid from; the outcome says why
     return problem, outcome
 
 
-def _solve(task, problem, state, recipe, solve):
-    """Solve from a state; where Newton's own steps lead nowhere, anew by time steps."""
+def _solve(task, problem, state, settings, solve):
+    """Solve from a state, by its own `SolverSettings`; where Newton's own steps lead nowhere, anew by time
+    steps."""
+    in_time = replace(settings, newton=settings.newton.squeezed())
+    recipe, patient = (recipe_of(each, problem.contact) for each in (settings, in_time))
 
-    def outcome(state, recipe, solve):
+    def found(state, recipe, solve):
         tell = partial(task.monitor, solve)
         return solve_on(task.hierarchy, problem, state, recipe, tell, task.journal)
 
-    by_time_steps = replace(recipe, newton=recipe.newton.squeezed())
-    if by_time_steps.newton == recipe.newton:
-        return outcome(state, recipe, solve)
-    found = outcome(state.copy(), recipe, solve)
-    if found.converged:
-        return found
-    news = f"not found: {found.reason}; now by time steps"
-    return outcome(state, by_time_steps, replace(solve, news=news))
+    if recipe.newton.squeeze > 0.0:
+        return found(state, recipe, solve)
+    outcome = found(state.copy(), recipe, solve)
+    if outcome.converged:
+        return outcome
+    news = f"not found: {outcome.reason}; now by time steps"
+    return found(state, patient, replace(solve, news=news))
 
 
 def single_loop(task, state=None):
