@@ -218,7 +218,7 @@ class Study:
             with applied():
                 save(function(*arguments), path)
         except Exception as error:  # what matplotlib raises is anybody's guess; the tables are there
-            complain(f"{path}: cannot be drawn: {one_line(error)}")
+            complain(f"{path.name}: cannot be drawn: {one_line(error)}")
         else:
             if self.speak:
                 say(f"picture {path.name}")
