@@ -12,6 +12,9 @@ from mgehl.model.text_table import FileError, read_table
 SAMPLES = 1001
 """Times at which a function of the user's own is asked for its largest value."""
 
+ROUNDED = 1e-6
+"""Part of a run by which a table may end before it: its times have so many digits."""
+
 GAUSS = np.polynomial.legendre.leggauss(5)
 
 
@@ -97,7 +100,7 @@ class Table(Course):
     def check(self, end):
         """Raise FileError unless it has values from 0 to `end`."""
         times, _ = self._columns
-        if times[0] > 0.0 or times[-1] < end * (1.0 - 1e-9):
+        if times[0] > 0.0 or times[-1] < end * (1.0 - ROUNDED):
             ends = f"goes from {times[0]:g} to {times[-1]:g} s"
             raise FileError(self.path, f"{ends}; must cover 0 to {end:g}")
 

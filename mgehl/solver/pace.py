@@ -4,6 +4,8 @@ from dataclasses import dataclass
 from itertools import pairwise
 from math import inf, sqrt
 
+from mgehl.model.course import ROUNDED
+
 MOST_CELLS, MOST_CELLS_ROUGH = 4.0, 1.0
 """Cells that the surfaces go in a step at the most: smooth ones, and those whose heights move."""
 
@@ -69,6 +71,8 @@ class Pace:
         """As much of a step as time is left, up to the next kink, and as surfaces may go cells."""
         left = self.scene.end - t
         kinks = [kink - t for kink in (*self.scene.speed.kinks(), *self.scene.load.kinks())]
+        # The end of a table may be that of the run but for rounding.
+        kinks = [each for each in kinks if each < left - ROUNDED * self.scene.end]
         ends = [each for each in (left, *kinks) if each > JUST * self.scene.end]
         if not self.fixed:
             step = self._in_cells(t, step)

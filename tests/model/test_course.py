@@ -52,6 +52,10 @@ def test_what_is_wrong_with_a_table(table, text, what):
         table(text).check(1.0)
 
 
+def test_a_table_may_end_where_the_run_does_but_for_its_digits(table):
+    table("0,1\n0.9999995,2\n").check(1.0)
+
+
 def test_a_function_of_ones_own(tmp_path):
     (tmp_path / "mine.py").write_text("def speed(t):\n    return 3.0 * t**2\n")
     course = Own(OwnFunction(f"{tmp_path}/mine.py:speed"))
