@@ -179,6 +179,11 @@ class Grid:
             self.comm.Gatherv(np.ascontiguousarray(array[each]), self._parts(target, self.starts))
         return whole
 
+    def on_first(self, function, *arrays):
+        """What a `function` of whole arrays returns, called on rank 0 and told to all (collective)."""
+        whole = [self.gather(each) for each in arrays]
+        return self.comm.bcast(None if self.comm.rank else function(*whole))
+
     def to_last(self, array):
         """The whole (ny, nx) array on the team's last rank, None on the others: for a coarsest grid."""
         last = self.team.size - 1

@@ -93,12 +93,8 @@ def mixed_result(problem, state):
         return None
     heights = problem.heights - problem.hertz.contact.mean_height
     parts = state.P, state.H, state.status, heights, state.p, state.filling
-    whole = [grid.gather(each) for each in parts]
-    kept = problem.scheme.contact_law.contact_gap
-    load = problem.load_share
-    return grid.comm.bcast(
-        None if whole[0] is None else measured(contact, grid.mesh, Nodes(*whole), kept, load)
-    )
+    kept, load = problem.scheme.contact_law.contact_gap, problem.load_share
+    return grid.on_first(lambda *whole: measured(contact, grid.mesh, Nodes(*whole), kept, load), *parts)
 
 
 def measured(contact, mesh, nodes, kept=0.0, load_share=1.0):

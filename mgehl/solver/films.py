@@ -61,11 +61,8 @@ class GridFilm:
 
 def films_between_nodes(problem, state):
     """`Films` at the centre itself and at the bottom of the smallest gap (collective)."""
-    grid = problem.grid
-    whole, found = grid.gather(state.H), None
-    if whole is not None:
-        found = Films(value_at(whole, grid.mesh, 0.0, 0.0), smallest(whole))
-    return grid.comm.bcast(found)
+    mesh = problem.grid.mesh
+    return problem.grid.on_first(lambda H: Films(value_at(H, mesh, 0.0, 0.0), smallest(H)), state.H)
 
 
 def films_beside(problem, state, finer, H):
@@ -77,14 +74,15 @@ def films_beside(problem, state, finer, H):
     polynomial through its nodes, and may lie elsewhere (on 129 nodes the difference often has the wrong
     sign).
     """
-    grid = problem.grid
-    whole, of_finer, found = grid.gather(state.H), grid.gather(H), None
-    if whole is not None:
+    mesh = problem.grid.mesh
+
+    def found(whole, of_finer):
         difference = of_finer - whole
         mean, spread = _mean_and_spread(difference, *np.unravel_index(np.argmin(of_finer), of_finer.shape))
-        central = value_at(whole, grid.mesh, 0.0, 0.0)
-        found = Films(central, finer.minimum - mean, _around_centre(difference, grid.mesh), spread)
-    return grid.comm.bcast(found)
+        around = _around_centre(difference, mesh)
+        return Films(value_at(whole, mesh, 0.0, 0.0), finer.minimum - mean, around, spread)
+
+    return problem.grid.on_first(found, state.H, H)
 
 
 def _mean_and_spread(values, j, i):

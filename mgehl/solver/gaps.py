@@ -94,17 +94,16 @@ def gaps_of(mesh, P, H, reach=1.0):
 
 def gaps(problem, state):
     """`Gaps` of a state (collective): rank 0 tells the others, so they do not depend on their number."""
-    grid = problem.grid
-    P, H, reach = grid.gather(state.P), grid.gather(state.H), problem.hertz.reach
-    return grid.comm.bcast(None if P is None else gaps_of(grid.mesh, P, H, reach))
+    mesh, reach = problem.grid.mesh, problem.hertz.reach
+    return problem.grid.on_first(lambda P, H: gaps_of(mesh, P, H, reach), state.P, state.H)
 
 
 def differences(problem, state, H):
     """Means of the sizes by which the gaps of a state's nodes differ from a finer grid's `H` there,
     (lines, nx): `Gaps`, too (collective)."""
-    grid = problem.grid
-    P, size, reach = grid.gather(state.P), grid.gather(np.abs(state.H - H)), problem.hertz.reach
-    return grid.comm.bcast(None if P is None else gaps_of(grid.mesh, P, size, reach))
+    mesh, reach = problem.grid.mesh, problem.hertz.reach
+    size = np.abs(state.H - H)
+    return problem.grid.on_first(lambda P, size: gaps_of(mesh, P, size, reach), state.P, size)
 
 
 def loads(problem, state):

@@ -1,74 +1,8 @@
 """What is kept of a solve: named values and named arrays, which anybody can read.
 
 A `Record` knows no class of the solver. What is kept turns itself into one (`record`) and is made
-from one again (`from_record`). A dot parts the name of a whole from that of its part. These are all
-names; a new one, or one that is no more, is another `output.checkpoint.FORMAT`.
-
-Of every solve:
-
-    state.P state.H state.status
-        Arrays (lines, nx): pressure and gap in units of P and H, what the nodes are.
-    state.p state.filling
-        Arrays: the fluid's own pressure, and the part of their gap that cavities hold fluid in.
-    state.H0
-        Constant part of the gap in units of H.
-    history.step history.residual history.load_error history.central history.minimum
-    history.contact_nodes history.cavitated_nodes
-        Lists with an entry for each row of the history, the state before a step or a sweep.
-
-Of one by Newton's method:
-
-    history.changes.cavitated history.changes.filled history.changes.entered history.changes.released
-        Nodes that changed their status since the row before.
-    history.linear_iterations history.step_length
-        Iterations of the step to this row, and the part of it that was taken.
-
-Of one by relaxation:
-
-    history.e_p history.e_p_fluid history.e_p_solid
-        How far the sweep wants to move the pressures.
-
-Of a dry contact, beside step, residual, load error and contact nodes:
-
-    history.changed_nodes
-        Nodes that pull or overlap.
-
-Of one that has ended:
-
-    converged reason
-        Whether it has its answer, and why it ended.
-    contradictions.i contradictions.j contradictions.gap contradictions.pressure
-    contradictions.neighbours
-        Lists: nodes that can be neither film nor contact, if any.
-
-Of Newton's method under way:
-
-    past.budget past.just_released past.was_released past.turns past.closing_gap past.torn_pressure
-        Arrays: what the nodes went through.
-    changes.cavitated changes.filled changes.entered changes.released
-        Nodes that changed their status since the last row of the history.
-    step.linear_iterations step.length
-        Iterations of the last step, and the part of it that was taken.
-    early_rounds stalls
-        How often Eq. 2 was asked before the last digits; linear systems that were given up.
-    trial.answer.P trial.answer.H trial.answer.status trial.answer.H0 trial.answer.p trial.answer.filling
-        While Eq. 2 is tried: the state that had settled.
-    trial.reason trial.violations trial.released trial.limit trial.entered
-        Why it had, how many nodes break Eq. 2 there, and what became of them since.
-
-Of the same on rough surfaces, arrays (corrections, lines, nx) and lists with an entry for each:
-
-    memory.P memory.H0 memory.deflection
-        Corrections that the linear systems before were solved by, and the deflections by those of P.
-    memory.residual memory.load_residual
-        What the multigrid cycle answers by them.
-    memory.way
-        By lines, nearby nodes at once since a linear system was hard, or by lines again.
-
-Of the relaxation under way:
-
-    next_sweep
-        Its number.
+from one again (`from_record`). Its names are those of the fields of the `Kept` classes; a dot parts that
+of a whole from that of its part. A new one, or one that is no more, is another `output.checkpoint.FORMAT`.
 """
 
 from dataclasses import dataclass, field
