@@ -96,9 +96,10 @@ bench: $(ENVIRONMENT)
 # make studies     run all studies and write their tables, and the pictures that pages show, to runs/tables (hours)
 # make study-NAME  one of them. One that was stopped goes on; what did not converge says so in the table.
 STUDIES := wedge grid transition methods schemes error mixed machine rollers solids stribeck waviness moving courses dry
-GRIDS_grid := --nodes 257,513,1025,2049
-GRIDS_moving := --nodes 513
-GRIDS_transition := --nodes 257,513,1025
+WITH_mixed := --seed 2030
+WITH_grid := --nodes 257,513,1025,2049
+WITH_moving := --nodes 513
+WITH_transition := --nodes 257,513,1025
 SHOWN_courses := *.png
 SHOWN_grid := *.png
 SHOWN_moving := *.png
@@ -107,7 +108,7 @@ SHOWN_stribeck := stribeck.png
 SHOWN_transition := *.png
 studies: $(STUDIES:%=study-%)
 study-%: $(ENVIRONMENT)
-	( $(ON) mpiexec -n 2 python -m mgehl study $* $(GRIDS_$*) --resume --quiet ); test $$? -le 1
+	( $(ON) mpiexec -n 2 python -m mgehl study $* $(WITH_$*) --resume --quiet ); test $$? -le 1
 	cd runs/study-$* && for f in *.csv $(SHOWN_$*); do case $$f in $**) t=$$f ;; *) t=$*-$$f ;; esac; \
 	  cp $$f ../tables/$$t || exit 1; done
 
