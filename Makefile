@@ -98,7 +98,6 @@ bench: $(ENVIRONMENT)
 STUDIES := wedge grid transition methods schemes error mixed machine rollers solids stribeck waviness moving courses dry
 WITH_mixed := --seed 2030
 WITH_grid := --nodes 257,513,1025,2049
-WITH_moving := --nodes 513
 WITH_transition := --nodes 257,513,1025
 SHOWN_courses := *.png
 SHOWN_grid := *.png
