@@ -119,7 +119,7 @@ class LoadedContact(OnBodies, Inlet, InletHeat):
         return found
 
     @property
-    def is_isoviscous(self):
+    def hardly_stiffens(self):
         """Whether pressures hardly stiffen the oil: between rubber, under light loads, in water."""
         return films.hardly_stiffens(*self.asymptotes)
 

@@ -38,7 +38,7 @@ class Inlet:
         like = self.likeness
         if self.hardly_yields:
             return sqrt(2.0 * like.radius_x * like.flooded_film) / self.x_scale
-        return self._inlet_of(like.flooded_film if self.is_isoviscous else like.grubin_film)
+        return self._inlet_of(like.flooded_film if self.hardly_stiffens else like.grubin_film)
 
     def _inlet_of(self, film):
         """s* = (h/C)^(2/3) of a film in metres."""
