@@ -1,4 +1,5 @@
 import json
+from contextlib import suppress
 
 import h5netcdf
 import numpy as np
@@ -296,6 +297,21 @@ def test_a_run_that_is_stopped_goes_on_with_the_same_bits(tmp_path):
     one, other = (mgehl.read(directory) for directory in directories)
     assert np.array_equal(one.fields.H, other.fields.H)
     assert [row["residual"] for row in one.rows] == [row["residual"] for row in other.rows]
+
+
+def test_work_before_a_stop_counts_for_the_limit(tmp_path):
+    """A run that was killed now and then made as many convolutions as it liked."""
+    still = {"surface.body": "still", "solver.max_work": 100}
+    case, comm = enter(mgehl.load(None, BALL | ROUGH | still), MPI.COMM_SELF), MPI.COMM_SELF
+    directories = [tmp_path / name for name in ("whole", "stopped")]
+    for directory in directories:
+        directory.mkdir()
+    whole = run(case, directories[0], comm)
+    assert not whole.converged and "convolutions led to no answer" in whole.reason
+    for steps in (4, 4, 1000):
+        with suppress(Stopped):
+            stopped = run(case, directories[1], comm, Watch(stop=StopAfter(steps)))
+    assert stopped.reason == whole.reason and stopped.work == whole.work
 
 
 def test_files_of_a_run_in_time(tmp_path):

@@ -20,12 +20,21 @@ class Hierarchy:
         self.grids = build_grids(mesh, coarsest_nodes, comm)
         self.transfers = [Transfer(*pair) for pair in zip(self.grids[:-1], self.grids[1:], strict=True)]
         self.deflections = [Deflection(grid, kernel) for grid in self.grids]
+        self._made_before = 0.0
 
     @property
     def convolutions(self):
         """Convolutions made so far, in equivalents of one on the finest grid (by node ratio)."""
+        return self._made_before + self._made_here
+
+    @property
+    def _made_here(self):
         work = sum(deflection.count * deflection.grid.mesh.nodes for deflection in self.deflections)
         return work / self.grids[-1].mesh.nodes
+
+    def go_on(self, convolutions):
+        """Count on from what a run had made before it was stopped."""
+        self._made_before = convolutions - self._made_here
 
     def destroy(self):
         """Free the PETSc and MPI objects of the grids."""

@@ -17,7 +17,7 @@ class Progress:
     def __init__(self, kind, film_scale, hierarchy, tolerance, speaker):
         self._kind, self._nm, self._hierarchy, self._speaker = kind, 1e9 * film_scale, hierarchy, speaker
         self._finest, self._tolerance = hierarchy.grids[-1].mesh.nx, tolerance
-        self._started, self._convolutions_before = time.perf_counter(), 0.0
+        self._started = time.perf_counter()
         self._news = ""
         self.rows = []
 
@@ -47,7 +47,7 @@ class Progress:
     @property
     def convolutions(self):
         """In equivalents of one on the finest grid, those of the part before included."""
-        return self._convolutions_before + self._hierarchy.convolutions
+        return self._hierarchy.convolutions
 
     @property
     def seconds(self):
@@ -66,7 +66,7 @@ class Progress:
     def go_on(self, record):
         """Begin where a `record` was made."""
         self.rows = list(record["rows"])
-        self._convolutions_before = record["convolutions"] - self._hierarchy.convolutions
+        self._hierarchy.go_on(record["convolutions"])
         self._started = time.perf_counter() - record["seconds"]
 
 
