@@ -37,8 +37,7 @@ THICKEST = {True: 3e-6, False: 50e-6}
 """Film in m, of piezoviscous contacts and of others."""
 
 STEEPEST_HEIGHTS = 0.2
-"""Rms slope of a surface from which on its oil no longer flows along the gap as Reynolds' equation has it,
-and its steel yields. Ground surfaces have some 0.1."""
+"""Rms slope of a surface whose square, 4 %, Reynolds' equation and the half-space can no longer neglect."""
 
 SLENDER = 8.0
 """R_x/R_y from which on no formula is made for the contact. Solved films are 1.3, 1.4 and 1.5 times
@@ -108,8 +107,8 @@ def _steep(contact):
         return
     if slope > STEEPEST_HEIGHTS:
         yield (
-            f"the surface's rms slope is {slope:.2g}: from {STEEPEST_HEIGHTS:g} on peaks yield, and oil "
-            "does not flow along the gap, as is assumed: look at heights and wavelengths"
+            f"the surface's rms slope is {slope:.2g}: from {STEEPEST_HEIGHTS:g} on its square is no longer "
+            "small, as is assumed: look at heights and wavelengths"
         )
 
 

@@ -53,9 +53,6 @@ SETTLED = 0.01
 FEWEST = 3
 """Passages before means are asked whether they have settled: the first one begins."""
 
-ROUNDING = 1e-9
-"""Part of a way that is none."""
-
 MEANS = (
     "mean_gap_nm", "central_film_nm", "minimum_film_nm", "max_pressure_GPa",
     "load_on_contact", "load_on_solids", "friction",
@@ -131,14 +128,9 @@ def passed(rows, scene):
     path, loads = (np.array([row[name] for row in rows]) for name in ("path_um", "load_share"))
     shares, which = np.unique(loads, return_inverse=True)
     lengths = 1e6 * np.array([scene.passage(share) for share in shares])
-    return np.cumsum(np.abs(np.diff(path, prepend=_begun_at(rows[0]))) / lengths[which])
-
-
-def _begun_at(row):
-    """Way in um before the first row of a history: of a run that goes on from another's end not nothing."""
-    way = 1e3 * row["speed_mm_s"] * row["step_s"]
-    before = 1.0 - way / row["path_um"] if row["path_um"] else 0.0
-    return before * row["path_um"] if before > ROUNDING else 0.0
+    # The way goes on from that of another run, if this one started there.
+    first = 1e6 * scene.speed.integral(0.0, rows[0]["time_s"])
+    return np.cumsum(np.abs(np.append(first, np.diff(path))) / lengths[which])
 
 
 def means(rows, gone):

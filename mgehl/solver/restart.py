@@ -199,8 +199,8 @@ def forecast_state(problem, last, forecast, frame):
 def interpolated(problem, start, frame):
     """The fields of a `Solution` as a `State` of this problem in a `Frame` (collective).
 
-    P is bilinear in X and Y, in units of the Hertz contact that either load has, zero outside of what was
-    solved; a node is in contact where most of its surroundings were.
+    P over p_h is bilinear in X and Y, those of each load's own Hertz contact, and zero outside of what was
+    solved. A node is in contact where most of its surroundings were.
     """
     grid, mesh, contact = problem.grid, problem.grid.mesh, problem.contact
     stood, before = start.contact, start.at_the_end
