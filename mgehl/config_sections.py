@@ -44,8 +44,8 @@ class MotionSection:
     speed: float | str = number(5e-6, "entrainment speed u of the flow rho u h; in time a table FILE.csv "
         "of s, m/s or FILE.py:FUNCTION", "m/s", 1e-12, 1e3, own=absolute_course,
         instead="body_1.rotation and motion.ring_rotation take rpm")
-    angle: float = number(0.0, "direction in which both surfaces move, from +x towards +y", "deg", -360.0,
-        360.0)
+    angle: float | str = number(0.0, "direction in which both surfaces move, from +x towards +y; in time a "
+        "table FILE.csv of s, deg or FILE.py:FUNCTION", "deg", -360.0, 360.0, own=absolute_course)
     slide_to_roll: float | None = number(None, "2 (u_1 - u_2)/(u_1 + u_2) of both surfaces' speeds; 2: "
         "body 2 stands still (unset: 0, nothing slides)", low=-100.0, high=100.0)
     ring_rotation: float | None = number(None, "of one ring of a rolling bearing against the other; body_1 "

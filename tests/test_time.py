@@ -135,6 +135,61 @@ def test_after_a_reversal_the_bath_comes_in_and_the_film_is_that_of_its_mirror(c
     assert turned.fields.filling[..., -30:].min() == 1.0
 
 
+OBLONG = {
+    "contact__radius_y": 0.02, "time__end": 0.5 * UNIT, "grid__x": [-2.5, 2.5], "grid__y": [-2.5, 2.5],
+}  # fmt: skip
+
+
+@pytest.fixture
+def turned(tmp_path):
+    """The ball, longer along y, whose motion turns from one angle to another."""
+
+    def run(first, last, **keys):
+        (tmp_path / "angle.csv").write_text(f"0,{first}\n{0.3 * UNIT},{last}\n1,{last}\n")
+        return solved(motion__angle=str(tmp_path / "angle.csv"), **OBLONG | keys)
+
+    return run
+
+
+def test_the_film_turns_with_the_motion_and_no_oil_is_made(turned):
+    """Once all of it has passed through it is that of the last direction, as near as so few cells tell."""
+    scheme = {"discretization__couette": "3B", "discretization__face_mobility": "linear-gap"}
+    ball = OBLONG | scheme | {"contact__radius_y": 0.0125, "time__end": 2.5 * UNIT}
+    film, inside = turned(0.0, 90.0, **ball), slice(20, -20)
+    assert film.summary.converged and film.motion == (0.0, 1.0)
+    assert np.abs(column(film, "closure")).max() < 1e-8
+    quarter = 0.3 * 2.0 / np.pi
+    assert film.path == pytest.approx([0.09 * UNIT * part for part in (quarter, 2.2 + quarter)])
+    del ball["time__end"]
+    last = solved(**ball, motion__angle=90.0).film[inside, inside]
+    assert film.film[inside, inside] == pytest.approx(last, abs=0.05 * last.max())
+
+
+@pytest.mark.parametrize(
+    "first, last, mirrored", [(0.0, -60.0, np.s_[::-1]), (180.0, 120.0, np.s_[:, ::-1])]
+)
+def test_motion_that_turns_the_other_way_has_the_mirrored_film(turned, first, last, mirrored):
+    one, other = turned(0.0, 60.0), turned(first, last)
+    assert other.fields.H[mirrored] == pytest.approx(one.fields.H, abs=1e-6)
+
+
+def test_motion_that_turns_in_other_axes_has_the_same_film(turned):
+    radii = {"contact__radius_x": 0.02, "contact__radius_y": 0.0125}
+    one, other = turned(10.0, 70.0), turned(80.0, 20.0, **radii)
+    assert other.film.T == pytest.approx(one.film, abs=1e-13)
+
+
+def test_roughness_goes_along_where_the_motion_turns(turned):
+    moving = {key.replace(".", "__"): value for key, value in ROUGH.items()} | {"surface__rms": 30e-9}
+    first = turned(0.0, 90.0, **moving)
+    assert first.summary.converged
+    x, y = first.path
+    there = ROUGH | {"surface.rms": 30e-9, "surface.body": "still", "surface.x": x, "surface.y": y}
+    surface = contact_from(mgehl.load(None, BALL | there)).surface
+    heights = surface.height(first.x[None, :], first.y[:, None])
+    assert first.heights == pytest.approx(heights, abs=1e-12)
+
+
 def test_a_course_that_does_not_change_is_no_course(course):
     speed = course((0.0, 0.09), (1.0, 0.09))
     one, other = solved(time__end=UNIT), solved(motion__speed=speed, time__end=UNIT)

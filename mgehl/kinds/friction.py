@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from mgehl.config_value import number, switch, word
 from mgehl.errors import ConfigError
 from mgehl.kinds.choice import Choice
+from mgehl.kinds.time import range_of
 from mgehl.model.own_function import OwnFunction, absolute, is_own
 from mgehl.model.own_laws import OwnRheology
 from mgehl.model.rheology import Eyring, Friction, Limiting, Newtonian
@@ -46,12 +47,14 @@ def friction_choices(tables):
 
 def check_friction(config):
     """Raise ConfigError where the film cannot be thinned as it is asked."""
-    section, motion = config.friction, config.motion
+    section = config.friction
     if section.thinning and section.eyring_stress is None:
         raise ConfigError("friction.thinning = True: needs friction.eyring_stress")
-    if _thins(config) and motion.angle % 90.0:
+    angles = range_of(config, "motion.angle")
+    if _thins(config) and (angles[0] < angles[1] or angles[0] % 90.0):
+        turns = " to ".join(f"{angle:g}" for angle in dict.fromkeys(angles))
         raise ConfigError(
-            f"motion.angle = {motion.angle:g}: with friction.thinning it must be a multiple of 90; "
+            f"motion.angle = {turns}: with friction.thinning it must be a multiple of 90; "
             "friction.thinning = false leaves the film as it is"
         )
 

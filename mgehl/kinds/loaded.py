@@ -1,6 +1,7 @@
 """What point and line contacts have in common: a body pressed on a lubricated flat."""
 
 from dataclasses import asdict, replace
+from itertools import product
 
 import numpy as np
 
@@ -74,7 +75,11 @@ class LoadedKind(Kind):
 
     def _domain(self, config, contact):
         """The ends along x and y, in semi-axes of the first load, of a domain for every load of a run."""
-        contacts = time.extremes(config, contact)
+        contacts = [
+            each.turned(angle)
+            for each in time.extremes(config, contact)
+            for angle in time.directions(config)
+        ]
         found = [self.domain(each, config.grid.nodes) for each in contacts]
         if len(found) == 1:
             return found[0]
@@ -103,9 +108,14 @@ class LoadedKind(Kind):
         if contact.surface is not None:
             surface.check_surfaces(config, contact, self.mesh(config, contact))
         self.check_fluid(config.grid, contact)
-        ways = [1.0] * (heaviest is not contact) + [-1.0] * time.reverses(config)
-        for way in ways:
-            loaded_checks.check_domain(config.grid, heaviest, way, heaviest.x_scale / contact.x_scale)
+        if config.is_in_time:
+            self._check_ways(config, contact, heaviest)
+
+    def _check_ways(self, config, contact, heaviest):
+        """The domain must be large enough for every direction of a run in time, under the heaviest load."""
+        ways, wide = (1.0, -1.0)[: 1 + time.reverses(config)], heaviest.x_scale / contact.x_scale
+        for way, angle in product(ways, time.directions(config)):
+            loaded_checks.check_domain(config.grid, heaviest.turned(angle), way, wide)
 
     def check_fluid(self, grid, contact):
         """Laws must give numbers; the domain must be large enough for contact and inlet."""

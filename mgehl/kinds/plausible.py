@@ -1,9 +1,11 @@
 """Input that is allowed, and yet unusual: most often a wrong unit. Each is named; none is refused."""
 
+import numpy as np
+
 from mgehl.kinds.heat import solids_from
 from mgehl.kinds.loaded_checks import LARGEST_CONTACT, on_the_bodies
 from mgehl.kinds.surface_kinds import NAMES, STILL, every_surface
-from mgehl.kinds.time import begins_at_rest, range_of, scene_of
+from mgehl.kinds.time import begins_at_rest, range_of, reference, scene_of
 from mgehl.model.films import formula_of
 from mgehl.model.frame import direction
 from mgehl.model.lubricant import Roelands
@@ -118,7 +120,8 @@ def _odd_steps(config, contact):
         return
     fastest = max(map(abs, range_of(config, "motion.speed")))
     mesh = config.kind.mesh(config, contact)
-    cells = scene_of(config, contact).fastest(fastest * config.time.step, mesh)
+    way = fastest * config.time.step * np.array(contact.motion)
+    cells = scene_of(config, contact).fastest(way, mesh)
     if cells > MOST_CELLS:
         yield (
             f"time.step = {config.time.step:.4g} s: surfaces go up to {cells:.3g} cells in a step; waves "
@@ -178,7 +181,7 @@ def _stands_still(config, contact):
     """Roughness that stands still on a body that moves."""
     motion, slide = config.motion, config.inputs.get("motion.slide_to_roll", config.motion.slide_to_roll)
     moves = slide not in (None, 2.0, -2.0) or motion.ring_rotation is not None
-    along = direction(motion.angle)
+    along = direction(reference(config, "motion.angle"))
     bodies = [body for _, surface, body in every_surface(config) if surface.varies_along(along)]
     if not moves or not bodies:
         return

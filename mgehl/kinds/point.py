@@ -10,7 +10,7 @@ from mgehl.kinds.bodies import MOTION
 from mgehl.kinds.choice import Choice, given, word_of
 from mgehl.kinds.kind import Effort
 from mgehl.kinds.loaded import LoadedKind
-from mgehl.kinds.time import reference
+from mgehl.kinds.time import range_of, reference
 from mgehl.model.coating import Coating
 from mgehl.model.own_function import OwnFunction, is_own
 from mgehl.model.own_laws import OwnCompliance
@@ -97,7 +97,7 @@ class PointKind(LoadedKind):
         """A `PointContact`, by load and speed or by Moes numbers."""
         moes = config.moes
         shared |= {"radius_y": config.contact.radius_y, "deformation": _deformation_from(config)}
-        shared |= {"angle": config.motion.angle, "load_beyond": config.grid.load_beyond}
+        shared |= {"angle": reference(config, "motion.angle"), "load_beyond": config.grid.load_beyond}
         if moes.M is not None:
             return PointContact.from_moes(moes.M, moes.L, **shared)
         load, speed = reference(config, self.load_key), reference(config, "motion.speed")
@@ -130,16 +130,16 @@ class PointKind(LoadedKind):
     def parts(self, solution, times="x"):
         """With the direction of the motion, where that is not x."""
         speed, *others = super().parts(solution, times)
-        return [speed + angle_words(solution.contact.angle), *others]
+        return [speed + angle_words(solution.config), *others]
 
     def lines(self, config, contact, mesh):
         """With the direction of the motion."""
         *others, last = super().lines(config, contact, mesh)
-        return [*others, last + angle_words(contact.angle)]
+        return [*others, last + angle_words(config)]
 
     def scalars(self, solution):
         """The direction of the motion, too."""
-        angle = solution.contact.angle, "degree", "direction of the motion, from +x towards +y"
+        angle = solution.at_the_end.angle, "degree", "direction of the motion, from +x towards +y"
         return super().scalars(solution) | {"angle": angle}
 
     def load(self, contact):
@@ -154,9 +154,10 @@ class PointKind(LoadedKind):
 POINT = PointKind()
 
 
-def angle_words(angle):
-    """A direction after a speed; nothing where it is that of x."""
-    return f" at {angle:g}°" if angle else ""
+def angle_words(config):
+    """The direction after a speed, in time from where to where it goes; nothing where it is that of x."""
+    angles = dict.fromkeys(range_of(config, "motion.angle"))
+    return f" at {' to '.join(f'{angle:g}°' for angle in angles)}" if any(angles) else ""
 
 
 def _deformation_from(config):

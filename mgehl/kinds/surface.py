@@ -84,7 +84,7 @@ def check_surfaces(config, contact, mesh):
             else:
                 _check_heights(key, surface, x, y, radius)
                 _check_size(key, surface, contact)
-                for way in ways_of(config, key.partition(".")[0]):
+                for way in ways_of(config, contact, key.partition(".")[0]):
                     _check_size(key, Moved(surface, way), contact, "on its way ")
 
 

@@ -33,7 +33,9 @@ class TimeSection:
     # fmt: on
 
 
-ONLY_IN_TIME = {"motion.speed": "m/s", "contact.load": "N", "contact.load_per_length": "N/m"}
+ONLY_IN_TIME = {
+    "motion.speed": "m/s", "motion.angle": "deg", "contact.load": "N", "contact.load_per_length": "N/m",
+}  # fmt: skip
 """Keys that may be a course of time, and their units."""
 
 NEEDED = {"solver.method": "newton-mg", "discretization.contact_model": "lcic"}
@@ -116,7 +118,7 @@ def of_formulas(config):
 def reference(config, key):
     """A number for the value of a key that may be a course: its largest size until time.end.
 
-    Of the load the first one, if there is any.
+    Of the angle the first one; of the load, too, if there is any.
     """
     value = config.value(key)
     if not isinstance(value, str):
@@ -125,7 +127,7 @@ def reference(config, key):
     if key == "motion.speed":
         return max(abs(least), abs(most))
     first = course(key, value).value(0.0)
-    return first if first > 0.0 else most
+    return first if first > 0.0 or key == "motion.angle" else most
 
 
 def check_courses(config):
@@ -157,6 +159,8 @@ def _wrong_with(key, value, end):
     _naming(key, value, lambda: course(key, value).check(end))
     found = course(key, value)
     least, most = found.range(end)
+    if key == "motion.angle":
+        return None
     if key != "motion.speed":
         return None if least > 0.0 else f"falls to {least:g}; must stay above 0"
     if least == most == 0.0:
@@ -180,6 +184,17 @@ def extremes(config, contact):
     return tuple(replace(contact, load=load) for load in loads)
 
 
+LARGEST_TURN = 15.0
+"""Degrees between directions for which a domain is made."""
+
+
+def directions(config):
+    """Angles of the motion until time.end, close together from the least to the largest."""
+    least, most = range_of(config, "motion.angle")
+    count = min(int((most - least) / LARGEST_TURN), int(360.0 / LARGEST_TURN)) + 2
+    return np.linspace(least, min(most, least + 360.0), count).tolist() if least < most else [least]
+
+
 def reverses(config):
     """Whether the surfaces turn round until time.end."""
     return config.is_in_time and range_of(config, "motion.speed")[0] < 0.0
@@ -196,17 +211,17 @@ PARTS = 200
 """Parts of a run whose ways are added up to find how far a surface gets."""
 
 
-def ways_of(config, name):
+def ways_of(config, contact, name):
     """The farthest ways (x, y) in m that the surface of a section goes in time; none of one that rests."""
     section = getattr(config, name)
     share = share_of(section.body, config.motion.slip)
     if not config.is_in_time or share == 0.0 or config.moes.M is not None:
         return []
-    speed, times = course("motion.speed", config.motion.speed), np.linspace(0.0, config.time.end, PARTS + 1)
-    parts = [speed.integral(*ends) for ends in pairwise(times)]
-    path = share * np.concatenate([[0.0], np.cumsum(parts)])
-    c, s = direction(config.motion.angle)
-    return [(c * way, s * way) for way in (path.min(), path.max()) if way]
+    scene, times = scene_of(config, contact), np.linspace(0.0, config.time.end, PARTS + 1)
+    path = share * np.cumsum([scene.way(*ends) for ends in pairwise(times)], axis=0)
+    towards = np.array([direction(angle) for angle in np.arange(0.0, 360.0, LARGEST_TURN)])
+    farthest = np.unique(np.argmax(path @ towards.T, axis=0))
+    return [(x, y) for x, y in path[farthest].tolist() if x or y]
 
 
 def scene_of(config, contact):
@@ -214,9 +229,9 @@ def scene_of(config, contact):
     key, by_moes = config.kind.load_key, config.moes.M is not None
     load = course(key, contact.load if by_moes else config.value(key))
     speed = course("motion.speed", contact.speed if by_moes else config.motion.speed)
-    slip = config.motion.slip
+    slip, angle = config.motion.slip, course("motion.angle", config.motion.angle)
     surfaces = tuple((surface, share_of(body, slip)) for _, surface, body in every_surface(config))
-    return Scene(contact, speed, load, surfaces, config.time.end)
+    return Scene(contact, speed, load, surfaces, config.time.end, angle)
 
 
 def _naming(key, value, found):

@@ -60,7 +60,7 @@ class LoadedContact(OnBodies, Inlet, InletHeat):
     """It has no end across the motion."""
     counted_beyond = 0.0
     """Part of the load carried beyond the domain that the film within is spared, 0 to 1."""
-    motion = (1.0, 0.0)
+    motion, angle = (1.0, 0.0), 0.0
     """The surfaces move towards +X."""
 
     frame = Frame()
@@ -183,6 +183,10 @@ class LoadedContact(OnBodies, Inlet, InletHeat):
 
     def in_frame(self, frame):
         """The same contact, described in a `Frame`."""
+        return self
+
+    def turned(self, angle):
+        """The same contact with the motion at an angle in degrees, where it has a choice."""
         return self
 
     def under(self, share):

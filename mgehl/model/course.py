@@ -18,6 +18,13 @@ ROUNDED = 1e-6
 GAUSS = np.polynomial.legendre.leggauss(5)
 
 
+def integral(value, begin, end):
+    """That of value(t), a number or an array, between two times between which it is smooth."""
+    middle, half = 0.5 * (begin + end), 0.5 * (end - begin)
+    points, weights = GAUSS
+    return half * sum(w * value(middle + half * x) for x, w in zip(points, weights, strict=True))
+
+
 class Course:
     """SI values over time in s."""
 
@@ -27,9 +34,7 @@ class Course:
 
     def integral(self, begin, end):
         """Its integral between two times."""
-        middle, half = 0.5 * (begin + end), 0.5 * (end - begin)
-        points, weights = GAUSS
-        return half * sum(w * self.value(middle + half * x) for x, w in zip(points, weights, strict=True))
+        return integral(self.value, begin, end)
 
     def range(self, end):
         """Its least and its largest value until a time."""

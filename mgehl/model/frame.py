@@ -40,6 +40,17 @@ class Frame:
     def _mirrored(self, array):
         return array[:: -1 if self.mirrored_y else 1, :: -1 if self.mirrored_x else 1]
 
+    def angle(self, users):
+        """The angle in this frame of the user's, both in degrees."""
+        angle = 180.0 - users % 360.0 if self.mirrored_x else users % 360.0
+        if self.mirrored_y:
+            angle = -angle if angle < 180.0 else 360.0 - angle
+        return 90.0 - angle if self.exchanged else angle
+
+    def vector(self, x, y):
+        """The parts along X and Y of a vector whose parts along the user's x and y these are."""
+        return self.pair(-x if self.mirrored_x else x, -y if self.mirrored_y else y)
+
     def users_point(self, x, y):
         """The user's x and y of a point in this frame."""
         x, y = (y, x) if self.exchanged else (x, y)

@@ -92,13 +92,17 @@ class PointContact(LoadedContact):
         return replace(self, radius_x=along, radius_y=across, angle=0.0)
 
     def in_frame(self, frame):
-        """The same contact described in a `Frame` in which the motion has an angle of 0 to 45 degrees."""
+        """The same contact described in a `Frame`."""
         if frame == Frame():
             return self
         radius_x, radius_y = frame.pair(self.radius_x, self.radius_y)
         surface = self.surface and SurfaceInFrame(self.surface, frame)
-        angle = Frame.of(self.angle)[1]
+        angle = frame.angle(self.angle)
         return replace(self, radius_x=radius_x, radius_y=radius_y, surface=surface, angle=angle)
+
+    def turned(self, angle):
+        """The same contact with the motion at another angle."""
+        return self if angle == self.angle else replace(self, angle=angle)
 
     @cached_property
     def hertz(self):

@@ -1,15 +1,18 @@
-"""A loaded contact over time: where the surfaces of its bodies are, how fast they move, what the load is.
+"""A loaded contact over time: where the surfaces of its bodies are, how they move, what the load is.
 
-Times are in s. The mean velocity of both surfaces is `speed` along the contact's own direction; body 1
-moves at speed (1 + S/2), body 2 at speed (1 - S/2), S the slide-to-roll ratio.
+Times are in s. The mean velocity of both surfaces is `speed` at an `angle`; body 1 moves at
+speed (1 + S/2), body 2 at speed (1 - S/2), S the slide-to-roll ratio. Ways and paths are (x, y) in m along
+the user's axes.
 """
 
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 
-from mgehl.model.course import Course
+from mgehl.model.course import Course, integral
+from mgehl.model.frame import Frame, direction
 from mgehl.model.surface.surface import Surface, summed
 
 
@@ -53,6 +56,8 @@ class Scene:
     surfaces: tuple
     """(`Surface`, its body's speed over the mean one)."""
     end: float
+    angle: Course
+    """Of the motion in degrees, from the user's +x towards his +y."""
 
     @cached_property
     def framed(self):
@@ -67,8 +72,37 @@ class Scene:
     @property
     def moves(self):
         """Whether heights change with time."""
-        along = self.contact.motion
-        return any(share and surface.varies_along(along) for surface, share in self.surfaces)
+        return any(share and self._varies(surface) for surface, share in self.surfaces)
+
+    def _varies(self, surface):
+        """Whether heights vary along some direction of the motion."""
+        ways = ((1.0, 0.0), (0.0, 1.0)) if self.turns else (self.contact.motion,)
+        return any(map(surface.varies_along, ways))
+
+    @cached_property
+    def turns(self):
+        """Whether the direction of the motion changes with time."""
+        least, most = self.angle.range(self.end)
+        return least != most
+
+    def has_turned(self, t):
+        """Whether the direction at a time is another than in the beginning."""
+        return self.turns and self.angle.value(t) != self.contact.angle
+
+    def velocity(self, t):
+        """Of the mean surface, along the user's x and y in m/s."""
+        return self.speed.value(t) * np.array(direction(self.angle.value(t)))
+
+    def way(self, begin, end):
+        """The way that the mean surface goes between two times."""
+        if not self.turns:
+            return self.speed.integral(begin, end) * np.array(self.contact.motion)
+        kinks = sorted({t for t in (*self.speed.kinks(), *self.angle.kinks()) if begin < t < end})
+        return sum(integral(self.velocity, *ends) for ends in pairwise([begin, *kinks, end]))
+
+    def kinks(self):
+        """Times at which something changes suddenly: a step in time ends there."""
+        return *self.speed.kinks(), *self.load.kinks(), *self.angle.kinks()
 
     def passage(self, share=1.0):
         """Way in m of the mean surface on which all heights that move go the length of the Hertz contact
@@ -77,43 +111,50 @@ class Scene:
         A body that is slower than the mean takes longer: before it has passed, a mean is one of the few
         heights that were there.
         """
-        along = self.contact.motion
-        shares = [abs(share) for surface, share in self.surfaces if share and surface.varies_along(along)]
+        shares = [abs(share) for surface, share in self.surfaces if share and self._varies(surface)]
         return 2.0 * self.framed.under(share).x_scale / min([1.0, *shares])
 
     def at(self, path):
-        """The contact, in the axes in which it is solved, when the mean surface has gone a `path` in m."""
-        if not self.moves or path == 0.0:
+        """The contact, in the axes in which it is solved, when the mean surface has gone a `path`."""
+        if not self.moves or not np.any(path):
             return self.framed
         return replace(self.contact, surface=self.surface_at(path)).in_frame(self.contact.frame)
 
     def surface_at(self, path):
         """The `Surface` then, in the user's axes; None of smooth bodies."""
-        if not self.moves or path == 0.0:
+        if not self.moves or not np.any(path):
             return self.contact.surface
-        return summed(self._moved(surface, share * path) for surface, share in self.surfaces)
+        x, y = path
+        return summed(
+            Moved(surface, (share * x, share * y)) if share else surface for surface, share in self.surfaces
+        )
 
-    def _moved(self, surface, path):
-        x, y = self.contact.motion
-        return Moved(surface, (x * path, y * path)) if path else surface
-
-    def cells(self, path, mesh):
-        """Cells of a mesh that contents go along X and Y by a `path` in m."""
+    def cells(self, way, mesh):
+        """Cells of a mesh that contents go along X and Y by a `way`."""
         contact = self.framed
-        along_x = path * contact.motion[0] / (contact.x_scale * mesh.dX)
-        return along_x, 0.0 if mesh.is_line else path * contact.motion[1] / (contact.y_scale * mesh.dY)
+        x, y = self.contact.frame.vector(*way)
+        return x / (contact.x_scale * mesh.dX), 0.0 if mesh.is_line else y / (contact.y_scale * mesh.dY)
 
-    def fastest(self, path, mesh):
-        """Cells along X that count for the length of a step by a `path`."""
+    def most_cells(self, way, mesh):
+        """The same along X or Y, whichever are more."""
+        return max(map(abs, self.cells(way, mesh)))
+
+    def fastest(self, way, mesh):
+        """Cells that count for the length of a step by a `way`."""
         shares = [share for _, share in self.surfaces] if self.moves else []
-        return abs(self.cells(path, mesh)[0]) * cells_a_step(shares)
+        return self.most_cells(way, mesh) * cells_a_step(shares)
 
     def instant(self, contact, t):
-        """The `contact` of a time of 0, in any axes, under the load and at the speed of another time.
+        """The `contact` of a time of 0, in the user's axes or those of the solve, under the load, at the
+        speed and in the direction of another time.
 
         Where heat thins its oil, it thins that of the instant by as much as there.
         """
         speed, there = abs(self.speed.value(t)), contact.under(self.load_share(t))
+        if self.turns:
+            users = self.contact.frame
+            axes = Frame() if contact.frame == users else users
+            there = there.turned(axes.angle(self.angle.value(t)))
         there = there if speed == contact.speed else there.at_speed(speed)
         return there.heated() if contact.lubricant.thinned < 1.0 and there is not contact else there
 

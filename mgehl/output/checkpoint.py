@@ -42,7 +42,7 @@ BEGUN, UNDER_WAY = "begun.npz", "under-way.npz"
 START = "start"
 """In begun.npz the bytes of the fields.h5 of the run that this one was started from."""
 
-FORMAT = 11
+FORMAT = 12
 """Version of the files. It goes up with every change of the layout or of a name; files of another version
 are not read."""
 

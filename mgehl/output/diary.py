@@ -27,7 +27,7 @@ class Diary:
     def __call__(self, instant, standing, problem):
         """Write a step down; return why the run ends with it, in words, or "" """
         progress, keys = self._progress, self._config.time
-        row = row_of(instant, standing, problem, progress.convolutions, progress.seconds)
+        row = row_of(instant, standing, problem, self._scene, progress.convolutions, progress.seconds)
         progress.take(row, progress.seconds * (keys.end - instant.t) / instant.t)
         if self.frames.is_due(instant.t, instant.step):
             self._take_frame(instant.t, standing.state, problem.heights)

@@ -24,6 +24,9 @@ COLUMNS = {
     "speed_mm_s": ("mm s-1", "entrainment speed"),
     "load_share": ("1", "load over that at the beginning"),
     "path_um": ("um", "way that the mean surface has gone"),
+    "angle_deg": ("degree", "direction of the motion, from +x towards +y"),
+    "path_x_um": ("um", "way that the mean surface has gone along x"),
+    "path_y_um": ("um", "the same along y"),
     "central_film_nm": ("nm", "film at the centre of the contact"),
     "minimum_film_nm": ("nm", "smallest film"),
     "mean_gap_nm": ("nm", "mean gap within the Hertz ellipse of the load"),
@@ -45,7 +48,10 @@ COLUMNS = {
     "convolutions": ("1", "fine-grid convolutions until then"),
     "seconds": ("s", "seconds of work until then"),
 }
-"""What history.csv and series.nc have of each step beside time_s: unit and meaning."""
+"""What history.csv and series.nc have of each step beside time_s: unit and meaning.
+
+Where the direction of the motion stays they have the path along it, else the direction and both parts.
+"""
 
 SETTLED = 0.01
 """Part of a mean that its band may be; of a load share that part of the load."""
@@ -60,8 +66,8 @@ MEANS = (
 """Columns of which there are means."""
 
 
-def row_of(instant, standing, problem, convolutions, seconds):
-    """What is kept of an `Instant` after which the run stands there (collective)."""
+def row_of(instant, standing, problem, scene, convolutions, seconds):
+    """What is kept of an `Instant` of a `Scene` after which the run stands there (collective)."""
     state, contact, grid = standing.state, problem.contact, problem.grid
     nm, last = 1e9 * contact.film_scale, instant.newton.cycles[-1]
     carried = loads(problem, state)
@@ -73,7 +79,7 @@ def row_of(instant, standing, problem, convolutions, seconds):
         "grid": grid.mesh.nx,
         "speed_mm_s": 1e3 * instant.speed,
         "load_share": instant.load,
-        "path_um": 1e6 * standing.path,
+        **_gone(instant, standing, scene),
         "central_film_nm": last.central * nm,
         "minimum_film_nm": last.minimum * nm,
         "mean_gap_nm": problem.mean(state.H, inside) * nm,
@@ -95,10 +101,18 @@ def row_of(instant, standing, problem, convolutions, seconds):
     }
 
 
+def _gone(instant, standing, scene):
+    """The direction of the motion where it changes, and the path."""
+    if not scene.turns:
+        return {"path_um": 1e6 * float(np.dot(standing.path, scene.contact.motion))}
+    x, y = standing.path
+    return {"angle_deg": scene.angle.value(instant.t), "path_x_um": 1e6 * x, "path_y_um": 1e6 * y}
+
+
 def _resistance(instant, state, problem):
     """What resists the motion at an instant, over its load (collective)."""
     contact, there = problem.contact, copy(problem)
-    there.contact = replace(contact, speed=abs(instant.speed))
+    there.contact = replace(contact.turned(problem.flowing.angle), speed=abs(instant.speed))
     shear, load = shear_of(there, state), instant.load * contact.load
     return {
         "friction": shear.sliding_force / load,
@@ -117,6 +131,8 @@ def write_series(path, rows, title):
     with whole_file(path) as part, netcdf_file(part, title) as file:
         file.dimensions = {"time": len(rows)}
         for name, (unit, meaning) in {"time_s": ("s", "time"), **COLUMNS}.items():
+            if rows and name not in rows[0]:
+                continue
             values = np.array([row[name] for row in rows], dtype=float)
             told = {"axis": "T"} if name == "time_s" else {}
             called = "time" if told else name
@@ -125,12 +141,15 @@ def write_series(path, rows, title):
 
 def passed(rows, scene):
     """Passages that the rows of a history have gone through by the end of each, (rows,)."""
-    path, loads = (np.array([row[name] for row in rows]) for name in ("path_um", "load_share"))
+    names = ("path_x_um", "path_y_um") if scene.turns else ("path_um",)
+    path = np.array([[row[name] for name in names] for row in rows])
+    loads = np.array([row["load_share"] for row in rows])
     shares, which = np.unique(loads, return_inverse=True)
     lengths = 1e6 * np.array([scene.passage(share) for share in shares])
     # The way goes on from that of another run, if this one started there.
-    first = 1e6 * scene.speed.integral(0.0, rows[0]["time_s"])
-    return np.cumsum(np.abs(np.append(first, np.diff(path))) / lengths[which])
+    first = 1e6 * np.linalg.norm(scene.way(0.0, rows[0]["time_s"]))
+    ways = np.append(first, np.linalg.norm(np.diff(path, axis=0), axis=1))
+    return np.cumsum(ways / lengths[which])
 
 
 def means(rows, gone):

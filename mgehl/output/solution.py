@@ -90,7 +90,8 @@ class Solution:
         """Direction in which the surfaces of a loaded contact move, of a run in time at its end: a unit
         vector along x and y; (0, 0) of those at rest."""
         sign = np.sign(self.last["speed_mm_s"]) if self.last else 1.0 - self.is_dry
-        return sign * self.contact.motion[0], sign * self.contact.motion[1]
+        along = self.at_the_end.motion
+        return sign * along[0], sign * along[1]
 
     @property
     def load_share(self) -> float:
@@ -98,17 +99,23 @@ class Solution:
         return self.last.get("load_share", 1.0) if self.last else 1.0
 
     @property
-    def path(self) -> float:
-        """Way in m that the mean surface of a run in time has gone at its end, with that of the run that it
-        started from; 0 of a steady state."""
-        return 1e-6 * self.last["path_um"] if self.last else 0.0
+    def path(self) -> tuple[float, float]:
+        """Way in m along x and y that the mean surface of a run in time has gone at its end, with that of
+        the run that it started from; (0, 0) of a steady state."""
+        last = self.last or {"path_um": 0.0}
+        if "path_um" not in last:
+            return 1e-6 * last["path_x_um"], 1e-6 * last["path_y_um"]
+        x, y = self.contact.motion
+        return 1e-6 * last["path_um"] * x, 1e-6 * last["path_um"] * y
 
     @property
     def at_the_end(self) -> LoadedContact | WedgeBearing:
-        """The contact under the load of the fields, whose Hertz contact pictures show beside them."""
+        """The contact under the load and with the motion of the fields; its Hertz contact is shown beside
+        them."""
         if isinstance(self.contact, WedgeBearing):
             return self.contact
-        return self.contact.under(self.load_share)
+        there = self.contact.under(self.load_share)
+        return there.turned(self.last["angle_deg"]) if self.last and "angle_deg" in self.last else there
 
     @property
     def film(self) -> Reals | None:

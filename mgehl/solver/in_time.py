@@ -21,7 +21,7 @@ def march(scene, task, told, start=None):
     steady state of its beginning. `told` is called after each step, as `March` says, the monitor for each
     cycle on the way to the beginning.
     """
-    reference, begins, path = None, None, 0.0
+    reference, begins, path = None, None, (0.0, 0.0)
     recipe = recipe_in_time(task.settings, task.contact)
     problem = task.but(scheme=recipe.scheme).problem()
     if start:

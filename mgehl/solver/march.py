@@ -47,8 +47,9 @@ class Standing(Kept):
     state: State
     carried: Carried
     t: float
-    path: float
-    """Way in m that the mean surface has gone, from the beginning of the run that this one started from."""
+    path: list
+    """Way in m, along the user's x and y, that the mean surface has gone from the beginning of the run that
+    this one started from."""
     step: float
     """In s, the next one that is tried."""
     number: int = 0
@@ -91,17 +92,17 @@ class March:
         self._settings, self._pace = settings, Pace(scene, problem.grid.mesh, settings.step)
         self._transport = Transport(problem)
 
-    def run(self, state, path=0.0, reference=None, journal=NOTHING_KEPT):
+    def run(self, state, path=(0.0, 0.0), reference=None, journal=NOTHING_KEPT):
         """March from a `state`, which is the march's own from now on; return the `Outcome`.
 
-        The mean surface has gone a `path` in m before. With the `Reference` that the state is, if it is
+        The mean surface has gone a `path` before. With the `Reference` that the state is, if it is
         steady and no heights move.
         """
         grid = self._problem.grid
         standing = journal.standing(grid, Standing.from_record)
         if standing is None:
             first = self._transport.begin(state)
-            standing = Standing(state, first, 0.0, path, self._pace.first())
+            standing = Standing(state, first, 0.0, list(path), self._pace.first())
             standing.reference = reference
             self._remember(standing)
         standing.memory = self._newton.remembered(standing.memory)
@@ -141,8 +142,9 @@ class March:
     def _tried(self, standing, step, halvings):
         """The `Instant` of a step in s, None where it does not settle; else `standing` has moved on."""
         scene, problem, t = self._scene, self._problem, standing.t + step
-        way = scene.speed.integral(standing.t, t)
-        self._turn(t, standing.path + way)
+        way = scene.way(standing.t, t)
+        path = np.add(standing.path, way).tolist()
+        self._turn(t, path)
         leg, reference = self._leg(standing, step, way)
         problem.storage = leg.storage
         newton = self._solved(self._guess(standing, t, halvings), leg)
@@ -153,7 +155,7 @@ class March:
         stored, closure = self._account(leg, standing.carried, evaluation)
         error = self._error(standing, t, newton.state)
         standing.state, standing.carried = newton.state, self._transport.ended(leg, evaluation)
-        standing.t, standing.path, standing.number = t, standing.path + way, standing.number + 1
+        standing.t, standing.path, standing.number = t, path, standing.number + 1
         standing.reference = reference
         standing.step = self._pace.next(t, step, error, halvings > 0)
         self._remember(standing)
@@ -161,18 +163,20 @@ class March:
         return Instant(standing.number, t, step, speed, load, newton, stored, closure, halvings)
 
     def _leg(self, standing, step, way):
-        """The `Leg` of a step in s in which the mean surface goes a way in m, and the `Reference` after it.
+        """The `Leg` of a step in s in which the mean surface goes a way, and the `Reference` after it.
 
-        Where the speed changes much, what passed the faces in the step before tells nothing.
+        Where the velocity changes much, what passed the faces in the step before tells nothing.
         """
         scene, carried = self._scene, standing.carried
-        before, after = (scene.speed.value(t) for t in (standing.t, standing.t + step))
-        if abs(after - before) > SUDDEN * scene.contact.speed:
+        before, after = (scene.velocity(t) for t in (standing.t, standing.t + step))
+        if np.linalg.norm(after - before) > SUDDEN * scene.contact.speed:
             carried = carried.afresh()
-        # What is steady at the beginning is not steady under motion that turned round.
-        reference = standing.reference if way >= 0.0 else None
+        # What is steady at the beginning is not steady under motion that turned.
+        along = float(np.dot(way, scene.contact.motion))
+        stays = along >= 0.0 and not scene.has_turned(standing.t + step)
+        reference = standing.reference if stays else None
         shift = Shift(*scene.cells(way, self._problem.grid.mesh))
-        status, dT, X = standing.state.status, step / scene.unit, way / scene.framed.x_scale
+        status, dT, X = standing.state.status, step / scene.unit, along / scene.framed.x_scale
         return self._transport.leg(carried, status, dT, shift, reference, X)
 
     def _solved(self, state, leg):

@@ -34,7 +34,7 @@ def expected_steps(scene, mesh, fixed=None):
     if fixed:
         return int(-(-scene.end // fixed))
     times = [scene.end * part / FIRST_STEPS for part in range(FIRST_STEPS + 1)]
-    cells = sum(scene.fastest(scene.speed.integral(*ends), mesh) for ends in pairwise(times))
+    cells = sum(scene.fastest(scene.way(*ends), mesh) for ends in pairwise(times))
     return max(int(cells / (MOST_CELLS_ROUGH if scene.moves else 1.0)), FIRST_STEPS // 4)
 
 
@@ -62,7 +62,7 @@ class Pace:
             return GROWTH * before
         wanted = sqrt(AIM / error) if error > 0.0 else inf
         found = before * min(1.0 if halved else GROWTH, max(LEAST_GROWTH, wanted))
-        cells = abs(self.scene.cells(self.scene.speed.value(t) * found, self.mesh)[0])
+        cells = self.scene.most_cells(self.scene.velocity(t) * found, self.mesh)
         if halved or not 0.0 < cells < LEAST_CELLS:
             return found
         return min(found * LEAST_CELLS / cells, GROWTH * before)
@@ -70,7 +70,7 @@ class Pace:
     def fitted(self, t, step):
         """As much of a step as time is left, up to the next kink, and as surfaces may go cells."""
         left = self.scene.end - t
-        kinks = [kink - t for kink in (*self.scene.speed.kinks(), *self.scene.load.kinks())]
+        kinks = [kink - t for kink in self.scene.kinks()]
         # The end of a table may be that of the run but for rounding.
         kinks = [each for each in kinks if each < left - ROUNDED * self.scene.end]
         ends = [each for each in (left, *kinks) if each > JUST * self.scene.end]
@@ -86,9 +86,9 @@ class Pace:
         """A step in which the surfaces go no more cells than they may, a whole number where they go more
         than one."""
         for _ in range(3):
-            cells = self.scene.fastest(self.scene.speed.integral(t, t + step), self.mesh)
+            cells = self.scene.fastest(self.scene.way(t, t + step), self.mesh)
             if cells <= self._most_cells * (1.0 + JUST):
                 break
             step *= self._most_cells / cells
-        cells = abs(self.scene.cells(self.scene.speed.integral(t, t + step), self.mesh)[0])
+        cells = self.scene.most_cells(self.scene.way(t, t + step), self.mesh)
         return step * int(cells + JUST) / cells if cells > 1.0 else step

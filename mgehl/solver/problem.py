@@ -178,11 +178,11 @@ class ContactProblem(Problem):
         return np.array(np.broadcast_to(found, grid.shape))
 
     def turn_to(self, surfaces, there):
-        """Take the surfaces of the contact `surfaces` as they are at another time, and the load, the speed
-        and the oil of the contact `there`."""
+        """Take the surfaces of the contact `surfaces` as they are at another time, and the load, the
+        velocity and the oil of the contact `there`."""
         contact = self.contact
         friction = contact.friction.slowed(there.speed / contact.speed)
-        self.flowing = replace(contact, lubricant=there.lubricant, friction=friction)
+        self.flowing = replace(contact.turned(there.angle), lubricant=there.lubricant, friction=friction)
         if surfaces.surface is not self._surface:
             self._undeformed = surfaces.undeformed_gap(self.grid.X, self.grid.Y)
             self._surface = surfaces.surface

@@ -47,6 +47,16 @@ def test_a_load_that_grows_has_a_domain_for_its_largest(tmp_path):
     assert last.x_scale == pytest.approx(10.0 * contact.x_scale)
 
 
+def test_a_motion_that_turns_has_a_domain_for_each_of_its_directions(tmp_path):
+    (tmp_path / "angle.csv").write_text("0,0\n1,90\n")
+    turns = ["time.end=1", f"motion.angle={tmp_path / 'angle.csv'}", "motion.speed=0.5"]
+    grid, first = settled(*loaded(*turns)).grid, settled(*loaded("motion.speed=0.5")).grid
+    assert grid.x == grid.y and grid.x[0] <= first.x[0] and grid.y[1] >= first.y[1]
+    check_contact(*loaded(*turns))
+    with pytest.raises(ConfigError, match=r"grid.y = .*: must begin before"):
+        check_contact(*loaded(*turns, "grid.x=[-4, 4]", "grid.y=[-1.05, 4]"))
+
+
 LIGHT_AND_ROUGH = [
     "contact.radius_x=2.7 mm", "contact.radius_y=2.7 mm", "contact.load=0.12", "motion.speed=0.03",
     "lubricant.viscosity=0.0075", "lubricant.pressure_viscosity=9.5 1/GPa", "grid.nodes=129",

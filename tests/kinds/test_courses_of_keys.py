@@ -1,3 +1,4 @@
+import numpy as np
 import pytest
 
 from mgehl.errors import ConfigError
@@ -30,6 +31,7 @@ def test_a_heading_may_be_separated_otherwise(tmp_path):
 def test_each_key_has_its_unit(tmp_path):
     assert read(tmp_path, "t;F [kN]", "contact.load").value(0.0) == 1e5
     assert read(tmp_path, "t;F [N/mm]", "contact.load_per_length").value(0.0) == 1e5
+    assert read(tmp_path, "t;angle [rad]", "motion.angle").value(0.0) == pytest.approx(18000.0 / np.pi)
 
 
 @pytest.mark.parametrize(

@@ -4,7 +4,7 @@ from math import cos, radians, sin
 import numpy as np
 import pytest
 
-from mgehl.model.frame import Frame
+from mgehl.model.frame import Frame, direction
 
 DIRECTIONS = range(-360, 361, 5)
 
@@ -27,6 +27,15 @@ def test_in_its_frame_every_motion_goes_towards_X_and_no_more_towards_Y(angle):
     assert 0.0 <= acute <= 45.0
     there = cos(radians(acute)), sin(radians(acute))
     assert frame.users_point(*there) == pytest.approx((cos(radians(angle)), sin(radians(angle))), abs=1e-15)
+
+
+@pytest.mark.parametrize("angle", [*DIRECTIONS, 33.7, 301.3, -123.4])
+def test_an_angle_there_is_that_of_the_vector(angle):
+    """To the last bit of the motion that a frame is made for."""
+    made, acute = Frame.of(angle)
+    assert made.angle(angle) == acute
+    for frame in FRAMES:
+        assert direction(frame.angle(angle)) == pytest.approx(frame.vector(*direction(angle)), abs=1e-15)
 
 
 @pytest.mark.parametrize("frame", FRAMES, ids=str)

@@ -1,3 +1,4 @@
+import numpy as np
 import pytest
 
 from mgehl.config import load_config
@@ -54,6 +55,38 @@ def test_of_equal_speeds_the_heaviest_load_is_the_slowest(tmp_path):
     there = found.instant(found.contact, 0.25)
     assert (there.load, there.speed) == (80.0, 0.1)
     assert found.instant(found.contact, 0.0) is found.contact
+
+
+def turning(tmp_path, rows, **settings):
+    (tmp_path / "angle.csv").write_text(rows)
+    named = {key.replace("__", "."): value for key, value in settings.items()}
+    return scene(named | {"motion.angle": str(tmp_path / "angle.csv")})
+
+
+@pytest.mark.parametrize("first, last", [(0.0, 90.0), (0.0, -90.0), (200.0, 110.0), (90.0, 450.0)])
+def test_a_surface_whose_direction_turns_goes_along_a_circle(tmp_path, first, last):
+    found = turning(tmp_path, f"0,{first}\n1,{last}\n")
+    circle = 0.1 / np.radians(last - first)
+    begin, end = np.radians([first, last])
+    there = circle * (np.sin(end) - np.sin(begin)), circle * (np.cos(begin) - np.cos(end))
+    parts = [found.way(*ends) for ends in ((0.0, 0.3), (0.3, 0.6), (0.6, 1.0))]
+    assert np.sum(parts, axis=0) == pytest.approx(there, abs=1e-9)
+    assert np.linalg.norm(found.velocity(0.4)) == pytest.approx(0.1)
+
+
+def test_the_contact_of_an_instant_is_turned_in_the_users_axes_and_in_those_of_the_solve(tmp_path):
+    found = turning(tmp_path, "0,200\n1,300\n", contact__radius_y=0.02)
+    users, there = (found.instant(contact, 0.5) for contact in (found.contact, found.framed))
+    assert users.angle == pytest.approx(250.0)
+    assert there.motion == pytest.approx(found.contact.frame.vector(*users.motion))
+    assert there.aligned.radius_x == pytest.approx(users.aligned.radius_x)
+
+
+def test_ridges_along_the_motion_pass_where_it_turns(tmp_path):
+    ridges = {"surface__kind": "waviness", "surface__amplitude": 1e-8, "surface__wavelength_y": 1e-4}
+    moving = ridges | {"surface__body": "body_1"}
+    assert not scene({key.replace("__", "."): value for key, value in moving.items()}).moves
+    assert turning(tmp_path, "0,0\n1,1\n", **moving).moves
 
 
 def test_heat_thins_the_oil_by_the_speed_and_the_load_of_the_instant(tmp_path):

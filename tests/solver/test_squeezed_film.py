@@ -52,7 +52,7 @@ def films(contact, largest, mesh, end):
     scheme = Scheme(face_mobility="linear-gap", contact_law=law)
     recipe = recipe_in_time(SolverSettings(scheme=scheme), contact)
     problem = ContactProblem(hierarchy.grids[-1], hierarchy.deflections[-1], contact, recipe.scheme)
-    scene = Scene(contact, Constant(0.0), Constant(contact.load), (), end)
+    scene = Scene(contact, Constant(0.0), Constant(contact.load), (), end, Constant(0.0))
     grid, found = problem.grid, []
     r2 = (grid.X**2 + (0.0 if mesh.is_line else grid.Y**2)) * contact.x_scale**2
     P = largest / contact.pressure_scale / (1.0 + r2 / (2.0 * R * FILM)) ** 2

@@ -58,6 +58,7 @@ def _stage(solution, frames):
     films = _least_and_most(frames)
     images = _map(axes[0, 0], solution, frames, films) if plane else ()
     times, speeds = zip(*((row["time_s"], row["speed_mm_s"]) for row in solution.rows), strict=True)
+    angles = [row["angle_deg"] for row in solution.rows if "angle_deg" in row]
     p, h = _centre_lines(axes[0, -1], solution, films)
     axes[0, -1].set(ylabel=f"pressure, {unit}", ylim=(0.0, 1.05 * factor * largest))
     axes[0, -1].set_xlim(*(side * next(halves(solution, frames)) for side in (-1.0, 1.0)))
@@ -67,7 +68,8 @@ def _stage(solution, frames):
             image.set_data(data)
         p.set_ydata(factor * 1e-9 * fields["pressure"][middle])
         h.set_ydata(1e9 * fields["film"][middle])
-        figure.suptitle(f"{1e3 * t:.4g} ms, {np.interp(t, times, speeds):.4g} mm/s")
+        towards = f" at {np.interp(t, times, angles):.3g}°" if angles else ""
+        figure.suptitle(f"{1e3 * t:.4g} ms, {np.interp(t, times, speeds):.4g} mm/s{towards}")
 
     return figure, show
 

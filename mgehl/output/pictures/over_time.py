@@ -8,6 +8,7 @@ from mgehl.output.pictures.style import COLOURS, CONTACT_COLOUR, FILM, PRESSURE,
 from mgehl.output.pictures.titles import title_of_all
 
 PANELS = (
+    ("direction, degrees", {"angle_deg": ("of the motion", COLOURS[1])}),
     ("film, nm", {"central_film_nm": ("central", FILM), "mean_gap_nm": ("mean within Hertz", COLOURS[4]),
                   "minimum_film_nm": ("minimum", COLOURS[3])}),
     ("largest pressure", {"max_pressure_GPa": ("largest pressure", PRESSURE)}),
@@ -22,8 +23,8 @@ DRIVEN = {"speed_mm_s": ("speed", COLOURS[1]), "load_share": ("load", COLOURS[5]
 
 
 def over_time(solution):
-    """Figure of films, largest pressure and shares of the load against time, with speed and load above them
-    where they change."""
+    """Figure of films, largest pressure and shares of the load against time, with speed, load and direction
+    above them where they change."""
     rows = solution.rows
     t, units = column(rows, "time_s"), {"s": 1.0, "ms": 1e3, "us": 1e6}
     in_s = next((unit for unit, factor in units.items() if t[-1] * factor >= 1.0), "us")

@@ -37,13 +37,15 @@ def title_of_all(solution):
 
 
 def _instant(solution):
-    """Line with the time of the fields of a run in time, and speed and load then where these change."""
+    """Line with the time of the fields of a run in time, and what changes of speed, direction and load."""
     if not (last := solution.last):
         return []
     config = solution.config
     there = [f"at {1e3 * last['time_s']:.6g} ms"]
     if isinstance(config.motion.speed, str):
         there.append(speed_words(1e-3 * last["speed_mm_s"]))
+    if "angle_deg" in last:
+        there.append(f"motion at {last['angle_deg']:.4g}°")
     if of_first_load(config):
         there.append(" ".join(config.kind.load(solution.at_the_end)))
     return [", ".join(there)]
