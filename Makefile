@@ -113,6 +113,12 @@ study-%: $(ENVIRONMENT)
 
 .PHONY: studies
 
+# make movies   the courses of study-courses as movies: start, stop, reversal, turn, load (runs/study-courses/runs/*/plots)
+movies: study-courses
+	for r in runs/study-courses/runs/*; do ( $(ON) mgehl plot $$r --movie ) || exit 1; done
+
+.PHONY: movies
+
 # make sweeps      run the sweeps that pages show and write their tables to runs/tables (hours)
 # make sweep-NAME  one of them. One that was stopped goes on; a point without an answer says so in the table.
 SWEEPS := slow rest rest-bare solids-fine traction

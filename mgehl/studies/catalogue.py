@@ -29,7 +29,7 @@ STUDIES = {
     "solids": Entry("from which lambda on solids carry load: at rest and moving", grids=1),
     "waviness": Entry("waves in the film of a line contact, beside published numbers", grids=0),
     "moving": Entry("waves and a dimple that pass through full films", grids=1),
-    "courses": Entry("speed and load that change: start, stop, reversal", grids=1),
+    "courses": Entry("speed, direction and load that change", grids=1),
     "dry": Entry("dry contacts beside a public code's numbers"),
 }
 

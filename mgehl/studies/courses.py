@@ -1,8 +1,9 @@
-"""Speed and load that change: a start, a stop, a reversal, a load that rises, a speed that swings slowly.
+"""Speed, direction and load that change.
 
-The paper's ball from rest, to rest, and turned round; what is told are its films on the way. Where squeeze
-is weak, the film at x is the steady one at the speed of the time before in which the oil there entered
-[Sugimura et al., Tribol Int 32 (1999) 117]: a softer ball's speed swings by half, and its film is compared.
+The paper's ball starts, stops, is turned round and aside, and its load rises; what is told are its films on
+the way. Where squeeze is weak, the film at x is the steady one at the speed of the time before in which the
+oil there entered [Sugimura et al., Tribol Int 32 (1999) 117]: a softer ball's speed swings by half, and its
+film is compared.
 """
 
 from math import pi, sin
@@ -36,6 +37,7 @@ COURSES = {
     "start from rest": ("motion", "speed", "start"),
     "stop": ("motion", "speed", "stop"),
     "reversal": ("motion", "speed", "reversal"),
+    "turn by 90 degrees": ("motion", "angle", "turn"),
     "load up by half in 1 ms": ("contact", "load", "heavier"),
 }
 """Table and key that change, and the function of this file by which they do."""
@@ -59,6 +61,11 @@ def stop(t):
 def reversal(t):
     """m/s: turned round within two radii."""
     return SPEED * (1.0 - 2.0 * _gone(t, 2.0 * TIME))
+
+
+def turn(t):
+    """Degrees: by a right angle within two radii."""
+    return 90.0 * _gone(t, 2.0 * TIME)
 
 
 def heavier(t):
@@ -150,7 +157,7 @@ def off(rows, films, way):
 
 def figure(courses):
     """A matplotlib figure: films over time, a panel for each course."""
-    drawn, panels = subplots(1, len(courses), size=(11.0, 3.4), sharey=True)
+    drawn, panels = subplots(1, len(courses), size=(2.75 * len(courses), 3.4), sharey=True)
     for panel, (title, rows) in zip(panels, courses.items(), strict=True):
         t = [1e3 * row["time_s"] for row in rows or ()]
         for name, colour in zip(FILMS, COLOURS, strict=False):
