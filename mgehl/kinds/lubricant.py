@@ -1,6 +1,6 @@
 """[lubricant]: its keys, what follows from an oil as data sheets give it, and the laws that they make."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 
 from mgehl.config_value import number, shown, word
 from mgehl.errors import ConfigError
@@ -113,7 +113,8 @@ def lubricant_from(config):
     elif is_own(section.viscosity_law):
         viscosity = OwnViscosity(*at_rest, OwnFunction(section.viscosity_law), section.temperature)
     else:
-        viscosity = VISCOSITY_LAWS[section.viscosity_law](*at_rest)
+        law = VISCOSITY_LAWS[section.viscosity_law]
+        viscosity = law(**{field.name: getattr(section, field.name) for field in fields(law)})
     if is_own(section.density_law):
         density = OwnDensity(OwnFunction(section.density_law), section.temperature)
     else:
