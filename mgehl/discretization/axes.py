@@ -1,9 +1,7 @@
 """The faces of the control volumes along X and along Y: the same words for both.
 
-A ghosted array is (lines + 2 HALO, nx): the rank's own lines with those of its neighbours around them.
-Along X the faces are those between the nodes of its own lines, (lines, nx - 1); along Y those between its
-own lines and to the ones before and after, (lines + 1, nx). W and E are the nodes on both sides of a
-face, for Y the line before and the line after.
+Ghosted arrays are (lines + 2 HALO, nx). Faces along X lie between the nodes of the rank's own lines,
+(lines, nx - 1), those along Y around its own lines, (lines + 1, nx). W and E are the nodes on either side.
 """
 
 from dataclasses import dataclass

@@ -41,8 +41,7 @@ def build_bands(offsets, A, B, distributive, kappa, share, bands, lines, nodes):
     """Fill some `nodes` of some `lines` of `bands` (lines, nx, 2 reach + 1) with each line's part of J Q.
 
     Nodes and lines are (first, end). Column m of Q is 1 at node m and, where `distributive[j, m]`, -share
-    at its neighbours. `kappa[d, l, k]` is the deflection k nodes along and l lines beside a unit column of
-    kind d. What a band has beyond these nodes does not matter to `banded`'s factor.
+    at its neighbours. `kappa` is that of `bands.influence_of_columns`. Beyond, bands may have anything.
     """
     reach = bands.shape[2] // 2
     first, end = nodes

@@ -76,13 +76,9 @@ class InterfaceConditions(ContactLaw):
 
 @dataclass(frozen=True)
 class BoundaryFilm(ContactLaw):
-    """Contact where the film would be thinner than the layers that bodies keep between them.
-
-    Closing is continuous: H - h_b >= 0 and P - p >= 0, one of them zero. P is what the bodies feel, p the
-    fluid's own pressure, which answers to the flow through the layers: that of a film of the thickness h_b.
-    So contact never presses less than the fluid in it [Liu eq. 2]. As h_b goes to nothing so does the flow,
-    which gives the interface conditions [Liu eq. 4], where the mobility vanishes with either side.
-    """
+    """Contact where the film would be thinner than the layers that bodies keep between them: H - h_b >= 0
+    and P - p >= 0, one of them zero. P is what the bodies feel, p the fluid's own pressure, which answers
+    to the flow through a film of h_b. So Eq. 2 holds; with h_b the flow goes to nothing [Liu eq. 4]."""
 
     film: float
     """h_b."""

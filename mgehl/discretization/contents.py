@@ -1,9 +1,7 @@
 """What cavities hold: where it is carried to, and what it must be where nothing behind depends on it.
 
-A cavity's content is carried on by the surfaces alone, one node after the other. Where film or contact lies
-further on, the content decides what flows into them: there the part of the gap that is filled is an unknown
-like a pressure. Where only cavities and the domain's end lie further on, it follows from what flows in, and
-is marched.
+The surfaces carry it on from node to node. Where film or contact lies further on, the part of the gap that
+is filled is an unknown like a pressure. Where only cavities do, it follows from the inflow.
 """
 
 import numpy as np

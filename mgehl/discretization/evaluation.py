@@ -16,11 +16,9 @@ PARTS = "P", "H", "status", "mesh", "contact", "scheme", "fluid", "filling", "st
 
 
 class Evaluation:
-    """What the pressure, gap and status of a state mean for the flow; the three are ghosted.
-
-    Whoever needs a part of it is handed the whole. It holds what the state was when it was made:
-    a state that has changed is evaluated anew, or its evaluation is told of the new pressure.
-    """
+    """What the pressure, gap and status of a state, all ghosted, mean for the flow, each part computed
+    once. It holds what the state was when it was made: one that has changed is evaluated anew, or its
+    evaluation is told of the new pressure."""
 
     def __init__(self, P, H, status, mesh, contact, scheme, fluid=None, filling=None, storage=None):
         self.P, self.H, self.status, self.filling = P, H, status, filling

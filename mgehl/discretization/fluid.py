@@ -59,10 +59,9 @@ class Fluid:
 def fluid_state(P, H, contact, contact_law, touching=None, torn=None, filling=None):
     """Evaluate the constitutive laws at nodes of fluid pressure `P` and gap `H`.
 
-    `contact` gives the lubricant, the unit of P and lambda; the `contact_law` the gap that the
-    Poiseuille flow sees. H must be positive wherever the node can exchange fluid; contact nodes may
-    carry any H where their faces are closed. Elsewhere nodes that are `touching` have the gap that contact
-    keeps. Nodes that are `torn`, whose pressure is given, hold their `filling`.
+    `contact` gives the lubricant, the unit of P and lambda; the `contact_law` the gap that the Poiseuille
+    flow sees: at `touching` nodes what contact keeps. H must be positive wherever the node can exchange
+    fluid. Nodes that are `torn`, whose pressure is given, hold their `filling`.
     """
     follows = None
     if touching is not None and not contact_law.closes_faces:

@@ -113,9 +113,8 @@ def _subtract_flow(conductance, west, east, flow):
 def add_poiseuille_slopes(sides, P, closeness, by_eps_w, by_eps_e, eps_by, by_w, by_e):
     """What that flow changes by as the mobilities of W and E change, added to `by_w` and `by_e`.
 
-    The nodes' mobilities rise by `eps_by`, ghosted, and with each of them the face's by `by_eps_w`,
-    `by_eps_e`: as the faces, or one line that stands for all. `closeness` is 1/distance of the pressures,
-    one for each face of a line.
+    Nodes' mobilities rise by `eps_by`, ghosted, the face's with each of them by `by_eps_w`, `by_eps_e`: as
+    the faces, or one line for all. `closeness` is 1/distance of the pressures, for each face of a line.
     """
     line_w, line_e, node_e = sides
     lines, faces = by_w.shape
@@ -194,15 +193,14 @@ def lifted_by_less(K00, part, source, H, conductance, found):
 
 @compiled()
 def relax_cavitation(first, w, film, movable, source, conductances, carried, passes):
-    """Solve the flow balance by `w`, ghosted: pressure of film, minus what is empty of a cavity.
+    """Solve the flow balance by `w`, ghosted: pressure of film, minus what is empty of a cavity; every
+    other line from `first`. `source` is what flows into full gaps without the Poiseuille flow.
 
-    On every other line from `first`. `source` is what flows into full gaps without the Poiseuille flow.
     Pairs of faces along X, (lines, nx - 1), and Y, (lines + 1, nx), are their `conductances` and what full
-    gaps have `carried` through them; a cavity that nothing is carried out of counts as full.
-
-    `movable` nodes take part, which are `film` or cavities by the sign of w. On a line the set is iterated
-    `passes` times: solve all nodes, then turn those of the other sign, which begin at 0. Returns the number
-    of changes of the last pass.
+    gaps have `carried` through them; a cavity that nothing is carried out of counts as full. `movable`
+    nodes take part, which are `film` or cavities by the sign of w. A line's set is iterated `passes` times:
+    solve all nodes, then turn those of the other sign, which begin at 0. Returns the last pass' number of
+    changes.
     """
     lines, nx = source.shape
     upper, changes = np.zeros(nx), 0

@@ -1,8 +1,7 @@
-"""The nonlinear residual, a row for each node of the kind it has at the moment, and its linearisation.
+"""The nonlinear residual, a row for each node of its present kind, and its linearisation J = A + B K.
 
-The Jacobian is J = A + B K: A and B are stencils on P and on H, K is the deflection by P. What a cavity
-holds is an unknown in the place of its pressure, which is given. Under contact that closes no faces the
-fluid's pressure is one more unknown, and each such node's flow balance one more equation (`Leak`).
+A and B are stencils on P and on H, K is the deflection by P. What a cavity holds is an unknown in the place
+of its pressure. Under contact that closes no faces p is one more, and the balance of each (`Leak`).
 """
 
 from dataclasses import dataclass
@@ -31,8 +30,7 @@ class Leak:
     B: np.ndarray
     """The same by H."""
     into: np.ndarray
-    """Derivatives of the rows around them by their p: of the row that sees a node at an offset, at the
-    place of that node."""
+    """Derivatives of the rows around them by their p: of the row that sees a node at an offset, there."""
 
 
 @dataclass
@@ -77,13 +75,11 @@ def residual(evaluation, rows):
 
 
 def linearise(evaluation, rows, storage=None, rigid=False, room=None, leaks=False):
-    """Derivatives of `residual` by P (A) and, unless the gap is `rigid`, by H (B).
+    """Derivatives of `residual` by P (A) and, unless the gap is `rigid`, by H (B). Where it `leaks` contact
+    nodes have a flow balance, too. The `storage` is all that nodes store.
 
-    The `storage` is all that a node stores: of the time step that is taken, and of one that only helps on
-    the way to an answer. Where it `leaks` contact nodes have a flow balance, too.
-
-    Of a few lines at a time: their flows are still in the processor's cache when they are added up. The
-    arrays of `room`, a `Linearisation` of the same kind that nobody needs any more, are used again.
+    A few lines at a time, for the processor's cache. The arrays of `room`, a `Linearisation` of the same
+    kind that nobody needs any more, are used again.
     """
     fluid, offsets = evaluation.fluid, _offsets(evaluation)
     A, B = (room.A, room.B) if room else _empty_stencils((len(offsets), *rows.shape), rigid)

@@ -4,8 +4,7 @@
     PRESSURE  (P_given - P)/dX = 0     boundary, other cavity
     GAP       (h_b - H)/dX = 0         contact; h_b is the gap that its law keeps, mostly zero
 
-Mostly the status says which. But fluid that is settled apart from the gap is *frozen* in the linear
-system of the rest, and in a rigid gap the pressure of a contact node is given, too.
+Fluid settled apart from the gap is *frozen*; in a rigid gap a contact node's pressure is given, too.
 """
 
 import numpy as np

@@ -1,8 +1,7 @@
 """What a node is: film, cavity, solid contact or boundary; and which faces contact closes.
 
-All fourteen neighbourhoods of [Liu sec. 3.2.2-3.2.5] are one rule: a face is closed, for
-Poiseuille and Couette flow alike, when either of its two nodes is solid. What equation a node
-has at the moment is another matter (`rows`).
+All fourteen neighbourhoods of [Liu sec. 3.2.2-3.2.5] are one rule: a face is closed, for either flow, when
+either of its two nodes is solid. What equation a node has is another matter (`rows`).
 """
 
 import numpy as np

@@ -19,8 +19,7 @@ class Storage:
     before: np.ndarray
     """The content that the step begins with, carried to where the surfaces are at its end."""
     weights: tuple | None = None
-    """What the Poiseuille flow counts of faces along X, (lines, nx - 1), and along Y, (lines + 1, nx); None
-    where all count as they are."""
+    """What the Poiseuille flow counts of faces, (lines, nx - 1), (lines + 1, nx); None: all of it."""
 
     @classmethod
     def begun(cls, fluid, rate):

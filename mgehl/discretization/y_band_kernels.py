@@ -1,12 +1,9 @@
 """The loops over banded systems of y-lines, compiled by numba and cached.
 
-The systems of neighbouring y-lines lie side by side: bands are (lines, 2 reach + 1, nx), what each node of
-an x-line is coupled to on the lines from `reach` before to `reach` behind it. So the loops run along X, on
-vectors, and nothing has to be turned. An x-line takes part with the nodes of its span, (first, end): the
-others are given, and what they would be corrected by is zero.
-
-Loops are functions of their own: inside of others the compiler would not make vectors of them, and they
-would take four times as long. The tests say the same slowly.
+Bands are (lines, 2 reach + 1, nx): what each node of an x-line is coupled to on the lines from `reach`
+before to `reach` behind it. So loops run along X, on vectors; as functions of their own, or the compiler
+makes none (four times the time). An x-line takes part with the nodes of its span, (first, end): the others
+are given, their corrections zero.
 """
 
 import numpy as np

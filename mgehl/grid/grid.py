@@ -10,12 +10,9 @@ from mgehl.grid.ownership import active_ranks, ownerships
 
 
 class Grid:
-    """A `Mesh` decomposed along Y only; `shape` is (local lines, nx).
-
-    `starts` are the first lines of all ranks and, last, the number of lines. On a coarse grid some
-    ranks hold no line; the others are its `team`, a communicator, and exchange lines among
-    themselves. What is not said to be the team's is called by all ranks of `comm`.
-    """
+    """A `Mesh` decomposed along Y only; `shape` is (local lines, nx). `starts` are the first lines of all
+    ranks and, last, the number of lines. On a coarse grid some ranks hold no line; the others are its
+    `team`, a communicator. What is not said to be the team's is called by all ranks of `comm`."""
 
     def __init__(self, mesh, starts, comm):
         self.mesh = mesh

@@ -1,11 +1,8 @@
 """A plane of numbers that ranks fill line by line and read column by column, or the other way round.
 
-Ranks of one machine have one array for it (`SharedPlane`): nothing is sent and nothing is copied, they only
-wait for each other. Ranks of several machines have an array for their lines and one for their columns, and
-send each other what the others need (`SentPlane`).
-
-The lines follow the multigrid hierarchy's ownership, which block-distributing transpose libraries cannot
-express.
+Ranks of one machine share an array for it (`SharedPlane`) and wait for each other; those of several send
+each other what they need (`SentPlane`). Lines follow the multigrid hierarchy's ownership, which libraries
+that transpose cannot express.
 """
 
 import numpy as np

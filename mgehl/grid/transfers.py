@@ -93,14 +93,10 @@ class Transfer:
 
 
 class PartitionedTransfer:
-    """Full weighting of residuals and bilinear corrections, fluid and contact kept apart.
-
-    Their rows are different equations and their pressures jump across the interface, so each
-    kind is averaged over nodes of its own kind only. A contact row is -H/dX on every grid: what
-    is gathered on the fine one shrinks with the ratio of the spacings (leaving that out makes the
-    coarse correction twice too large, and the cycle slower with every refinement). Rows and
-    corrections of boundary and cavitated nodes are zero, and those of contact in a rigid gap.
-    """
+    """Full weighting of residuals and bilinear corrections, fluid and contact kept apart: their rows are
+    different equations and their pressures jump. A contact row is -H/dX on every grid, so what is gathered
+    shrinks with the ratio of the spacings (or the coarse correction would be twice too large). Rows and
+    corrections of boundary and cavitated nodes are zero, and those of contact in a rigid gap."""
 
     def __init__(self, transfer):
         self._transfer = transfer

@@ -88,10 +88,8 @@ def _sparse_inverse(A):
 class DenseInverse:
     """LU of A + B K with its border, A and B sparse and K dense.
 
-    Where the pressure is `given`, (nodes,) bool, a row is its diagonal and solved at once. The LU is that
-    of the other nodes alone: in contact at low speed these are a half, and take an eighth of the work. It
-    stands in `room`, an array of (nodes + 1)^2 numbers: memory that is new each time would take a third of
-    the time.
+    It is that of the nodes whose pressure is not `given`, (nodes,) bool: half of them in contact at low
+    speed. It stands in `room`, (nodes + 1)^2 numbers: new memory would take a third of the time.
     """
 
     def __init__(self, A, B, K, load_weight, given, moves, room):
@@ -120,12 +118,8 @@ class DenseInverse:
 
 @compiled()
 def fill_bordered(matrix, free, moves, A, B, K, load_weight):
-    """Fill the `matrix` of A + B K for the `free` nodes, with its border.
-
-    `moves` is 1, and 0 where an unknown is no pressure: that deflects nothing and carries nothing.
-
-    A and B have the rows of these nodes: (where each begins, columns, values) of sparse matrices.
-    """
+    """Fill the `matrix` of A + B K for the `free` nodes, with its border. A and B have their rows: (where
+    each begins, columns, values). `moves` is 1, and 0 where an unknown is no pressure."""
     count, place = len(free), np.full(len(K), -1)
     place[free] = np.arange(count)
     of_all = np.empty(len(K))

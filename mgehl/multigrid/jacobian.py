@@ -1,10 +1,7 @@
-"""The bordered Jacobian on one grid.
+"""The bordered Jacobian on one grid, [ A + B K, B 1; s^T, 0 ] with s = load weight x dX dY.
 
-    [ A + B K   B 1 ] [ dP  ]
-    [ s^T        0  ] [ dH0 ]        s = load weight x dX dY
-
-K is the full convolution and is never truncated or assembled. A bordered vector holds the
-rank's lines of P and, on the last rank, one entry more for H0 (or for the load row).
+K is the full convolution, never truncated or assembled. A bordered vector holds the rank's lines of P and,
+on the last rank, one entry more for H0 (or for the load row).
 """
 
 import numpy as np

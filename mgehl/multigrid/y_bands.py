@@ -22,14 +22,10 @@ UNEVEN = 1.05
 
 
 class YBands:
-    """Factored banded systems of all y-lines, each node coupled to `REACH` on each side.
-
-    The bands are one plane of numbers (`grid.plane`): each rank fills those of its x-lines, then factors
-    and solves its share of the y-lines, as they lie there. All methods are the team's.
-
-    `kappa` is the table of `bands.influence_of_columns` with X and Y exchanged; `share` is what Q hands to
-    each neighbour.
-    """
+    """Factored banded systems of all y-lines, each node coupled to `REACH` on each side: one plane of
+    numbers (`grid.plane`). Each rank fills those of its x-lines, then factors and solves its share of the
+    y-lines. All methods are the team's. `kappa` is the table of `bands.influence_of_columns` with X and Y
+    exchanged; `share` is what Q hands to each neighbour."""
 
     def __init__(self, grid, kappa, share):
         self._grid, self._kappa, self._share = grid, kappa, share

@@ -1,10 +1,7 @@
 """What is solved beside a run's answer, from it: the same contact on coarser grids, and with other oil.
 
-The error of the films follows from their differences to the coarser grids'. A coarse grid of the nested
-iteration was solved at a speed that it resolves, and not to its end. Here the speed is the wanted one, and
-the start, the next finer answer, is so near that a few steps do. Two coarser grids take some fifteen per
-cent of the finest grid's work. For the gaps of rough bodies one coarser grid takes 5 to 30; it sees the
-surface as it is, for else it would have another contact.
+The error of the films follows from the coarser grids' films at the wanted speed. The finer answer is so
+near that a few steps do: 15 % of the finest grid's work for two, 5 to 30 % for that of rough gaps.
 """
 
 from dataclasses import replace
@@ -20,17 +17,13 @@ COARSER = 2
 """Grids besides the finest: two differences show whether the error falls as the scheme's does."""
 
 TOLERANCE, MAX_STEPS = 1e-5, 10
-"""Largest residual and most steps on the coarser grids. With a residual of 1e-4 a thick film is off by half
-a per cent (3 m/s, 65 nodes). Four steps are usual; where ten do not settle there is no film to compare
-with."""
+"""Largest residual and most steps on the coarser grids; with 1e-4 thick films are off by 0.5 %."""
 
 MAX_STEPS_OF_ROUGH = 40
-"""Most steps on the coarser grids for rough bodies' gaps. Of 17 balls on 129 nodes 16 settled in 3 to 17
-steps; the other, at 0.05 mm/s, did not in 40."""
+"""Most steps on the coarser grids for rough bodies' gaps: of 17 balls 16 settled in 3 to 17."""
 
 SPREADING_STEPS = 3
-"""Steps in which contact may spread there. Of 500 such solves twelve came to contact that spread so often,
-and none of these settled. Eight settled with contact on the way: it spread in two steps at the most."""
+"""Steps in which contact may spread there: of 500 solves none settled in which it spread so often."""
 
 
 class Beside:
@@ -74,8 +67,7 @@ class Beside:
         return finest, grid_gap(problem, outcome.state, outcome.converged, there)
 
     def unthinned(self):
-        """The `ContactProblem` whose oil shear does not thin, and its `Outcome`, on the finest grid
-        (collective)."""
+        """`ContactProblem` and `Outcome` on the finest grid without thinning by shear (collective)."""
         thinned, friction = self.problem, self.problem.contact.friction
         contact = replace(thinned.contact, friction=replace(friction, thins=False))
         problem = ContactProblem(thinned.grid, thinned.deflection, contact, thinned.scheme)

@@ -1,9 +1,7 @@
 """Central and minimum film between the nodes, so that films of different grids can be compared.
 
-A node lies at the centre by chance, and never at the bottom of the smallest gap. So its film goes up and
-down from grid to grid by a few per cent, with the place of the node alone. Films that are compared come
-from polynomials through the nodes around, and so does the central film that a run reports; its minimum is
-that of a node.
+A node lies at the centre by chance, and never at the bottom of the smallest gap: its film varies from grid
+to grid by a few per cent. So films come from polynomials through the nodes around, but a run's minimum.
 """
 
 from dataclasses import dataclass
@@ -20,8 +18,7 @@ AROUND = 3
 
 ALONG, BESIDE = 2, np.array([0.5, 1.0, 0.5])
 """Nodes on each side of the smallest gap, along its line, over which a difference of films is averaged, and
-weights of the line before, its own and the one after: films differ from line to line anyway. With nine
-nodes that count alike half the bands of the minimum film are a tenth wider."""
+weights of the line before, its own and the one after. Nine alike make the minimum's bands a tenth wider."""
 
 
 @dataclass(frozen=True)
@@ -69,10 +66,8 @@ def films_beside(problem, state, finer, H):
     """`Films` of a coarser grid, to be compared with the `finer` grid's, whose gap at this grid's nodes is
     `H`, (lines, nx) (collective).
 
-    The smallest gap differs from the finer grid's by the mean of the gaps' differences at the nodes around
-    the one where `H` is smallest. Its own smallest gap would tell less: it is too narrow there for a
-    polynomial through its nodes, and may lie elsewhere (on 129 nodes the difference often has the wrong
-    sign).
+    The smallest gap is the finer grid's, less the mean of the gaps' differences around the node where `H`
+    is smallest. This grid's own is too narrow for a polynomial: its difference often has the wrong sign.
     """
     mesh = problem.grid.mesh
 
@@ -107,8 +102,7 @@ def value_at(H, mesh, X, Y):
 
 
 def weights_at(mesh, X, Y):
-    """What nodes count for a value at a point, (ny, nx): cubics through the four around it along either
-    axis."""
+    """What nodes count for a value at a point, (ny, nx): cubics through four along either axis."""
     across = np.ones(1) if mesh.is_line else _cubic(mesh.Y, Y)
     return np.outer(across, _cubic(mesh.X, X))
 

@@ -1,8 +1,7 @@
 """Mean gaps of rough bodies, film and contact alike, and what carries the load: different grids compared.
 
-Which nodes are in contact changes from grid to grid where gaps hardly differ, and with it the load on
-contact and the mean of the film beside it. The mean of all gaps does not care what a gap is called. It
-converges as a film does.
+Which nodes are in contact changes from grid to grid where gaps hardly differ. The mean of all gaps does not
+care what a gap is called, and converges as a film does.
 """
 
 from dataclasses import dataclass
@@ -26,8 +25,7 @@ class Gaps:
 
 NARROW = 0.05
 """What the largest pressure may be larger between nodes, over itself, from which on it is a spike of three
-nodes: beside it the pressure is four fifths of it or less. The spike of a line contact that 1025 nodes do
-not hold has 0.15, those that a grid holds 4e-4 and less (ball bearing on 129 nodes, M = 200 on 257)."""
+nodes. Spikes that a grid does not hold have 0.15, others 4e-4 and less."""
 
 
 @dataclass(frozen=True)

@@ -16,8 +16,7 @@ CLOSED = 1e-6
 """Part of what flows through that may be made, or lost, by a node or by all nodes of one kind."""
 
 LEAST_THROUGH = 1e-2
-"""Part of what the surfaces carry into the domain that counts as flowing through at the least: nothing
-flows through full contact."""
+"""Part of what surfaces carry in that counts as flowing through at the least: of full contact."""
 
 
 @dataclass(frozen=True)

@@ -1,7 +1,6 @@
 """Newton's method for one grid, the sets re-partitioned between its steps.
 
-Residual and Jacobian of the present partition are SNES's own function and Jacobian, and the iteration asks
-SNES for them.
+Residual and Jacobian of the present partition are SNES's own, and the iteration asks SNES for them.
 """
 
 from dataclasses import replace
@@ -36,12 +35,9 @@ from mgehl.solver.step_length import step_length
 
 
 class Newton(PythonSnes):
-    """Solves one `ContactProblem` with a `MultigridSolver`; the only one who changes its `Position`.
-
-    With a `fluid` solver (`RigidGapFluid`) the separable fluid is solved at each new gap, without
-    convolutions, and left out of the linear systems: right where solid contact carries the load.
-    `monitor` is called with every `Cycle`.
-    """
+    """Solves one `ContactProblem` with a `MultigridSolver`; the only one who changes its `Position`. With a
+    `fluid` solver (`RigidGapFluid`) separable fluid is solved at each new gap, without convolutions: right
+    where contact carries the load. `monitor` is called with every `Cycle`."""
 
     def __init__(self, problem, multigrid, settings, fluid=None, monitor=None):
         super().__init__(multigrid, settings)
@@ -188,8 +184,7 @@ class Newton(PythonSnes):
         return reason
 
     def _pose(self):
-        """Pose the linear system: the kind of row of each node, 1/time step; return its right-hand side,
-        (lines, nx)."""
+        """Pose the linear system: rows, 1/time step; return its right-hand side, (lines, nx)."""
         problem, status = self._problem, self._position.state.status
         F, frozen = self._space.read_pressure(self._f).copy(), None
         if self._fluid:

@@ -19,8 +19,7 @@ AT_REST = (0.0, 0.0)
 """The `motion` of a scheme without a Couette flow."""
 
 DIVERGED = 1e10
-"""Residual above which a solve counts as diverged; that of a first guess is below 1e4. Values from 1e3 to
-1e14 change nothing that converges."""
+"""Residual above which a solve counts as diverged; that of a first guess is below 1e4."""
 
 
 @dataclass
@@ -35,8 +34,7 @@ class State(Kept):
     p: np.ndarray | None = None
     """The fluid's own pressure: P but for contact, where solids carry the rest. None: P everywhere."""
     filling: np.ndarray | None = None
-    """The part of the gap above the layers that cavities hold fluid in; elsewhere without meaning. None:
-    cavities are full."""
+    """The part of the gap above the layers that cavities hold fluid in; None: all of it."""
 
     def __post_init__(self):
         self.p = self.P.copy() if self.p is None else self.p
@@ -178,8 +176,7 @@ class ContactProblem(Problem):
         return np.array(np.broadcast_to(found, grid.shape))
 
     def turn_to(self, surfaces, there):
-        """Take the surfaces of the contact `surfaces` as they are at another time, and the load, the speed
-        and the oil of the contact `there`."""
+        """Take another time's surfaces, of the contact `surfaces`, and load, speed and oil of `there`."""
         contact = self.contact
         friction = contact.friction.slowed(there.speed / contact.speed)
         self.flowing = replace(contact, lubricant=there.lubricant, friction=friction)

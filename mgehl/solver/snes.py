@@ -8,10 +8,7 @@ from mgehl.multigrid.options import OF_A_RUN
 
 class PythonSnes:
     """The SNES that a subclass iterates by `_iterate`, with its `_form_function` and `_form_jacobian`.
-
-    Its linear systems are a `MultigridSolver`'s; `settings` are `NewtonSettings`. PETSc objects are freed
-    by `free`.
-    """
+    Linear systems are a `MultigridSolver`'s; `settings` are `NewtonSettings`; `free` destroys them."""
 
     def __init__(self, multigrid, settings):
         self._multigrid, self._space = multigrid, multigrid.space
