@@ -53,11 +53,8 @@ class WrongUnitError(ConfigError):
 
 def number(default, help, unit=None, low=None, high=None, above=None, own=None, instead=""):
     """A key with a number from `low`, or `above` another, to `high`: a field whose metadata are its rules.
-
     `own` reads a word in its place, such as a function of the user's own, whose path counts from a
-    directory; it returns None for what it cannot read. `instead` names the key that takes what people often
-    give here in a unit of another kind.
-    """
+    directory, or returns None. `instead` names the key for what people often give here in another unit."""
     limits = {"above": above, "low": low, "high": high}
     return _key(default, help, float, unit=unit, own=own, instead=instead, **limits)
 

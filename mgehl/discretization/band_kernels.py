@@ -9,8 +9,7 @@ import numpy as np
 from mgehl.discretization.compiled import compiled
 
 REACH = 4
-"""Neighbours on each side that a line's band couples where the gap is elastic. With 3 to 10 the
-convolutions are the same within a tenth; the bands take more time and memory, the wider they are."""
+"""Neighbours on each side that a line's band couples where the gap is elastic; 3 to 10 do as well."""
 
 SIDE_BY_SIDE = 2
 """Lines that are solved side by side: a line waits for its own results, two take hardly longer than one."""
@@ -122,8 +121,7 @@ def _eliminate(band, node, below, reach):
 def banded(reach):
     """(factor, solve): functions for bands (lines, nx, 2 reach + 1).
 
-    What they close over must be numbers: numba would keep a function that closes over another anew in every
-    process.
+    What they close over must be numbers: numba keeps functions that close over others in no cache.
     """
 
     @compiled(error_model="numpy")

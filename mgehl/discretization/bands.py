@@ -8,8 +8,7 @@ from mgehl.discretization.band_kernels import REACH, banded, build_bands, empty_
 from mgehl.discretization.rows import GAP, PRESSURE
 
 STIFF = 0.3
-"""A node is distributive where its mobility/dX is below this part of its own influence. From 0.09 to 0.9
-the work stays within an eighth, now more, now less; with 0.03 line contacts take half as much again."""
+"""A node is distributive where its mobility/dX is below this part of its influence; 0.09 to 0.9 do."""
 
 REACH_OF_STENCIL = 2
 """What a stencil couples along its line: two nodes upstream, one downstream."""

@@ -145,8 +145,7 @@ def _leak(linearisation, contact, nodes):
 
 
 def shifted(ghosted, offset):
-    """What a ghosted array has at an `offset` (lines, nodes) from each node, (lines, nx); nothing
-    beyond the ends of lines."""
+    """A ghosted array at an `offset` (lines, nodes) from each node, (lines, nx); 0 beyond lines' ends."""
     line, node = offset
     lines, nx = own(ghosted).shape
     here = ghosted[HALO + line : HALO + line + lines]

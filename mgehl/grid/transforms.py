@@ -72,8 +72,7 @@ class _AlongX:
         self._to_real = _planned(self._modes, self._real, "FFTW_BACKWARD")
 
     def forward(self, nodes, modes, even=False):
-        """Write the `modes` of lines of `nodes`; what is left of a period is zero or, if `even`, the mirror
-        image."""
+        """Write the `modes` of lines of `nodes`; the rest of a period is zero or, if `even`, the image."""
         there = nodes.shape[1]
         for block, count in self._blocks(nodes):
             self._real[:count, :there] = nodes[block]

@@ -1,9 +1,5 @@
-"""The kinds of contact. Each module says which keys it takes, what it builds of them, what it is called.
-
-A new kind is its physics in `mgehl.model`, a module here with its own section of keys, its name in
-`KINDS` and its section in `mgehl.config.Config`. A key that only some kinds take means nothing to the
-others without a word of theirs.
-"""
+"""The kinds of contact. Each module says which keys it takes, what it builds of them, what it is called. A
+key that only some kinds take means nothing to the others without a word of theirs."""
 
 from dataclasses import dataclass
 from itertools import chain

@@ -7,11 +7,9 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Coating:
-    """One of the two bodies of a contact bears a layer, which replaces its outermost `thickness`.
-
-    Lengths in m, moduli in Pa. `reduced_modulus` E' is that of both bodies without the layer, 2/E' the sum
-    of their (1 - nu^2)/E; raises ValueError where the substrate alone is more compliant than that.
-    """
+    """One of the two bodies of a contact bears a layer, which replaces its outermost `thickness`. Lengths
+    in m, moduli in Pa. `reduced_modulus` E' is that of both bodies without the layer, 2/E' the sum of their
+    (1 - nu^2)/E; raises ValueError where the substrate alone is more compliant than that."""
 
     thickness: float
     modulus: float

@@ -46,12 +46,11 @@ class HertzUnder:
 
 
 class LoadedContact(OnBodies, Inlet, InletHeat):
-    """Scales, film and inlet of a body pressed on a lubricated flat, all values in SI units.
+    """Scales, film and inlet of a body pressed on a lubricated flat, in SI units; `speed` is u of rho u h.
 
     A kind of contact adds `load`, `radius_x`, `reduced_modulus`, `speed`, `lubricant`, `friction` and
     `solids`, the dry `hertz` contact, `groups`, `smooth_gap`, `dry_gap`, the `kernel` of the deformation,
-    the `load_integral` of P and the `contact_area` in units of X and Y. `speed` is u of the Couette flow
-    rho u h.
+    the `load_integral` of P and the `contact_area` in units of X and Y.
     """
 
     is_loaded = True
@@ -80,8 +79,7 @@ class LoadedContact(OnBodies, Inlet, InletHeat):
 
     @property
     def asymptotes(self):
-        """Moes' films, H_Moes, of the contact that formulas know: rigid and elastic isoviscous, the same
-        piezoviscous."""
+        """Moes' films, H_Moes, that formulas know: rigid and elastic isoviscous, the same piezoviscous."""
         raise NotImplementedError
 
     @property

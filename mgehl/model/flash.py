@@ -1,8 +1,7 @@
 """Flash temperatures: heat that a map of friction leaves in two half-spaces that move through it.
 
-Heat that is a time t old has moved with its body by u t and spread by sqrt(4 kappa t). The steady rise is
-the integral over all ages [Carslaw, Jaeger 1959, 10.7], of cells of even heat, summed by FFT. It has no
-other approximation than the cells: fast and slow bodies, at rest, too.
+Heat that is a time t old has moved by u t and spread by sqrt(4 kappa t). The steady rise is the integral
+over all ages [Carslaw, Jaeger 1959, 10.7], of cells of even heat, summed by FFT: at any speed.
 """
 
 from dataclasses import dataclass
@@ -46,11 +45,8 @@ class Solid:
 
 
 class MovingHeat:
-    """Rise of a surface in K by heat in W/m^2, both (ny, nx), on cells of `dx` by `dy` metres.
-
-    Its body moves by `velocity`, (u, v) in m/s, under the heat. A single line of nodes is a band of heat
-    without an end; its body must move.
-    """
+    """Rise of a surface in K by heat in W/m^2, both (ny, nx), on cells of `dx` by `dy` metres. Its body
+    moves by `velocity`, (u, v) in m/s, under the heat. A single line is an endless band; its body moves."""
 
     def __init__(self, solid, velocity, shape, dx, dy):
         self.shape = shape

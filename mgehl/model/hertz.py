@@ -72,9 +72,8 @@ def hertz_pressure(X, Y):
 def hertz_gap(contact, reduced_modulus, x, y):
     """Gap (m) of the dry contact at x and y (m, arrays of one shape); zero inside the ellipse.
 
-    Outside [Johnson 1985, sec. 3.5] it is p_h a b/E* times the integral over t, from 0 to the confocal
-    ellipse through the point, of (x^2/(a^2 + t^2) + y^2/(b^2 + t^2) - 1)/((a^2 + t^2)(b^2 + t^2))^(1/2);
-    t = c sinh s of the minor semi-axis c leaves a smooth integrand.
+    Outside it is p_h a b/E* times the integral over t, from 0 to the confocal ellipse through the point, of
+    (x^2/(a^2 + t^2) + y^2/(b^2 + t^2) - 1)/((a^2 + t^2)(b^2 + t^2))^(1/2) [Johnson 1985, sec. 3.5].
     """
     a, b = contact.a, contact.b
     minor, major = sorted((a, b))

@@ -113,8 +113,7 @@ class Lubricant:
     thinned: float = 1.0
     """Part of the viscosity that the heat of shear leaves in the inlet."""
     ambient_pressure: float = 0.0
-    """Pressure around the contact in Pa, above that at which the oil tears. P is what comes on top, and
-    values are over those there."""
+    """Pressure around the contact in Pa, above that at which oil tears; P and values are over it."""
 
     @property
     def viscosity(self):

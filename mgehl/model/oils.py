@@ -14,11 +14,8 @@ CELSIUS = 273.15
 
 @dataclass(frozen=True)
 class OilViscosity:
-    """An `Oil` at one temperature: ln(eta/eta0) = alpha p/(1 + decline p).
-
-    Below p = 0 the law goes on as a line. The decline of some oils is slightly negative, and the law then
-    ends far beyond any contact's pressure: there the denominator stays at 1/2.
-    """
+    """An `Oil` at one temperature: ln(eta/eta0) = alpha p/(1 + decline p). Below p = 0 the law goes on as a
+    line. A slightly negative decline ends it far beyond any contact: the denominator stays at 1/2."""
 
     viscosity: float
     """eta0 in Pa s."""

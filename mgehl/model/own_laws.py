@@ -6,8 +6,7 @@
     surface       surface(x, y) -> height in m, a peak positive: it lowers the gap
     deformation   compliance(k) -> deflection at wave number k over that of half-spaces
 
-`conditions` are `Conditions`. Other arguments and results are arrays of one shape: x and y in m from the
-centre, k in 1/m. `check` asks for values before a run does.
+`conditions`: `Conditions`; x and y in m from the centre, k in 1/m, of one shape. `check` asks beforehand.
 """
 
 from dataclasses import dataclass, replace

@@ -1,9 +1,5 @@
-"""How far from the centre the peaks of rough bodies may touch.
-
-Smooth bodies touch within the semi-axes of Hertz. Beyond them the gap opens slowly at first: a peak that is
-higher than the gap touches there, and carries load. The lighter the load, the farther (a ball of 0.1 N with
-66 nm rms: 2.1 semi-axes).
-"""
+"""How far from the centre the peaks of rough bodies may touch: beyond the semi-axes of Hertz the gap opens
+slowly, and a peak that is higher than it carries load. The lighter the load, the farther."""
 
 import numpy as np
 

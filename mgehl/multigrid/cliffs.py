@@ -20,8 +20,7 @@ CLIFF = 10.0
 """Ratio of neighbours' mobilities from which on it counts as a cliff. With 100 films take more work."""
 
 BESIDE = 1
-"""Nodes on each side of a cliff's two that are solved with them. With 2 the work is the same within 3 %,
-with 4 a seventh more. With none it is two to three times as much (measured for cliffs of 100)."""
+"""Nodes on each side of a cliff's two that are solved with them: with none it is twice the work."""
 
 AROUND = np.argwhere(np.ones((2 * BESIDE + 1,) * 2)) - BESIDE
 ITSELF = np.array([(0, 0)])
@@ -105,8 +104,7 @@ class CliffZone:
         return A @ Q + B @ N
 
     def solve(self, r, w, weight):
-        """Solve the zone for `weight` times the residual `r`, with `w` as it is around it; in place, both
-        (lines, nx)."""
+        """Solve the zone for `weight` times the residual `r`; `w` in place, both (lines, nx)."""
         if self._nodes is None:
             return
         nodes, dw = self._nodes, None

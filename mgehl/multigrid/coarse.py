@@ -69,8 +69,7 @@ class CoarseSolve:
         viewer.printfASCII("  LU with the border, on the last rank\n")
 
     def _gathered(self, stencil):
-        """Sparse matrix of a stencil (offsets, local lines, nx) of all ranks with lines; None but on the
-        last."""
+        """Sparse matrix of a stencil (offsets, local lines, nx) of the team; None but on the last rank."""
         grid, offsets = self._jacobian.grid, self._jacobian.linearisation.offsets
         whole = [grid.to_last(position) for position in stencil]
         return None if whole[0] is None else stencil_rows(offsets, np.stack(whole), 0, grid.mesh.nodes)

@@ -31,8 +31,7 @@ from mgehl.multigrid.smoother import RigidLineSmoother
 from mgehl.multigrid.smoother_choice import smoother_of
 
 IN_THE_CYCLE = {"2C": "3B", "S2C": "3B"}
-"""Couette schemes of the cycle's operators where the solved one's leave waves of two cells: lines do not
-damp them."""
+"""The cycle's Couette schemes where the solved one leaves waves of two cells, which lines do not damp."""
 
 ASKEW_OR_APART = IN_THE_CYCLE | {"3B": "2B"}
 """The same where the surfaces move at an angle to the lines, and where fluid and contact are solved apart
@@ -43,8 +42,7 @@ DIRECT = 4097
 through which valleys are coupled, and a third of such contacts are not found by the cycle."""
 
 MOST_ITERATIONS = 100
-"""Of GMRES, which is not restarted: thin films on coarse grids take 100, and with a restart after 30 they
-never end."""
+"""Of GMRES, which is not restarted: thin films on coarse grids take 100, restarted after 30 no end."""
 
 RESTART_OF_LARGE = 6
 """Iterations after which GMRES is restarted on a large grid: it keeps two vectors for each, and PETSc
@@ -139,8 +137,7 @@ class MultigridSolver:
 
     @property
     def way(self):
-        """How the finest grid's next linear system begins (of a `ValleySmoother`); "" where there is
-        one way only."""
+        """How the finest grid's next linear system begins (of a `ValleySmoother`), or ""."""
         return self._smoothers[-1].way if self._smoothers else ""
 
     @way.setter

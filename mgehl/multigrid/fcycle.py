@@ -11,8 +11,7 @@ back what the first one overshot. Elsewhere it is another spike, and a second vi
 import numpy as np
 
 SECOND = 0.8
-"""How much of the second visit's correction is taken. With all of it thick films on 129 to 1025 nodes take
-up to an eighth more work, a few of them a twentieth less."""
+"""How much of the second visit's correction is taken: with all of it thick films take more work."""
 
 
 class FCycle:

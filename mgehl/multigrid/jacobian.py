@@ -19,8 +19,7 @@ from mgehl.multigrid.under_contact import UnderContact
 
 
 class BorderedSpace:
-    """Vectors (P, H0) on a grid, over all ranks. Some ranks may have no line of the grid; the last one
-    always has."""
+    """Vectors (P, H0) on a grid, over all ranks, of which the last one always has lines."""
 
     def __init__(self, grid):
         self.grid = grid

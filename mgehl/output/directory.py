@@ -4,9 +4,8 @@
     result.json, history.csv, configuration.toml, laws/, ...   the same for people and other programs
     checkpoint/      what a run that has not finished has reached (`checkpoint`)
 
-A run is put together in a folder of the checkpoint. Where all of it is on the disk, one rename puts its
-fields.h5 in the place of the one before: whoever reads has the old run or the new one, whole. Only plain
-files of a run's names are removed or replaced, and only where there is a run.
+A run is put together in the checkpoint. Once it is on the disk one rename replaces fields.h5: readers have
+the old run or the new one. Only plain files of a run's names are ever removed or replaced.
 """
 
 import os

@@ -69,11 +69,10 @@ def put_laws(folder, laws):
 
 
 def as_they_were(begun, folder, directory):
-    """A run's `Config` with the laws where they were when it began, if they are still the same there; and
-    messages. Raises OSError.
+    """A run's `Config` with the laws where they were when it began, with the files that they read, if they
+    are still the same; and messages. Raises OSError.
 
-    There a law finds the files that it reads. Otherwise, as on another machine, the copies in `folder` are
-    run. `begun` is what the `checkpoint.Begun` run of the `directory` began with.
+    Otherwise, as on another machine, the copies in `folder` are run. `begun` is the directory's `Begun`.
     """
     places, said = {}, []
     for name, content in begun.laws.items():

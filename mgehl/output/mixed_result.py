@@ -19,11 +19,8 @@ NEAR = 1.1
 
 @dataclass(frozen=True)
 class MixedResult:
-    """Film and contact of rough bodies; areas of a line contact are those of one metre of its length.
-
-    Films are means and minima over nodes that are film, within the Hertz ellipse (of a line contact its
-    width): not of contact, nor where the film is torn. They are None where there is no such node.
-    """
+    """Film and contact of rough bodies; areas of a line contact are those of one metre of its length. Films
+    are means and minima over film nodes within the Hertz ellipse or width, or None."""
 
     lambda_ratio: float | None
     """Central film that a formula predicts of smooth bodies, over Sq; None where Sq is 0."""
@@ -57,8 +54,7 @@ class MixedResult:
     sealed_load_fraction: float | None = None
     """Part of the load on films and cavities that contact shuts in on all sides; None in older results."""
     torn_filling: float | None = None
-    """Mean part of the gap above the layers that cavities within the Hertz ellipse hold fluid in; None
-    without any."""
+    """Mean part of the gap above the layers that cavities within the Hertz ellipse hold fluid in."""
 
     @property
     def hertz_region(self):

@@ -1,8 +1,7 @@
 """Speed and load that change: a start, a stop, a reversal, a load that rises, a speed that swings slowly.
 
-The paper's ball from rest, to rest, and turned round; what is told are its films on the way. Where squeeze
-is weak, the film at x is the steady one at the speed of the time before in which the oil there entered
-[Sugimura et al., Tribol Int 32 (1999) 117]: a softer ball's speed swings by half, and its film is compared.
+The paper's ball, and films on the way. Where squeeze is weak, the film at x is the steady one at the speed
+at which the oil there entered [Sugimura et al., Tribol Int 32 (1999) 117]: a softer ball's.
 """
 
 from math import pi, sin

@@ -5,8 +5,8 @@ DIRECTORY/
     *.csv, *.md, *.nc, *.png  tables, the same as arrays, and pictures
     report.html, study.json   all on one page, and what was asked for
 
-A study is a module with `run(study)`: named configurations go to `Study.solved`, what comes back becomes
-rows of tables, and pictures where there are any. A sweep is a study whose cases follow from axes.
+A study is a module with `run(study)`, which makes rows of tables of what `Study.solved` returns. A sweep is
+a study whose cases follow from axes.
 """
 
 import time
@@ -51,11 +51,8 @@ PAPERS_DOMAIN = {"x": [-1.9, 1.3], "y": [-1.5, 1.5]}
 @contextmanager
 def begun(directory, comm, record, resume=True, force=False, **how):
     """The `Study` of a `StudyRecord` in a directory, which it holds; at the end its tables replace those
-    that were there (collective).
-
-    What has finished is taken as it is with `resume`; all is solved anew with `force`. `how` are other
-    fields of the `Study`.
-    """
+    that were there (collective). What has finished is taken with `resume`; all is solved anew with `force`.
+    `how` are other fields of the `Study`."""
     on_first_rank(comm, make_directory, directory, resume or force)
     with locked(comm, directory):
         stage = comm.bcast(on_first_rank(comm, begin_study, directory, record, resume))
@@ -162,11 +159,11 @@ class Study:
         return self.comm.bcast(directory_of(self.home / RUNS, title, description) if self.first else None)
 
     def run(self, path, config, start=None):
-        """The `Solution` of a configuration, with its fields on rank 0, from its run directory where it has
-        finished.
+        """The `Solution` of a configuration, with its fields on rank 0; from its directory once it is
+        there.
 
-        Else it goes on there, or is solved from the `start` that a run takes (collective). Raises
-        OutputError where the run that is there is of another configuration.
+        Else it goes on there, or is solved from the `start` (collective). Raises OutputError where the run
+        there is of another configuration.
         """
         case = enter(config, self.comm)
         if not self.comm.bcast(on_first_rank(self.comm, _has_finished, path, case.config)):

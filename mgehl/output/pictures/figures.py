@@ -1,10 +1,7 @@
 """Every picture of a finished run, by name: for the command line, reports and notebooks.
 
-    for picture in figures(read_run("runs/point_contact")):
-        print(picture.name, picture.title)
-
-`write` saves them. For another look call both under `style.applied("my.mplstyle")`. `run_picture` is
-the one that a run leaves.
+`figures(read_run(directory))` yields them, `write` saves them; for another look call both under
+`style.applied`. `run_picture` is the one that a run leaves.
 """
 
 from collections.abc import Sequence
