@@ -81,10 +81,11 @@ class Axis:
         """View of the nodes (lines, nx) between two faces: all but the ends of lines along X."""
         return array[..., 1:-1] if self.number else array
 
-    def neighbour(self, ghosted, shift):
-        """View at the nodes `shift` along the axis from those of `inner`."""
+    def beside(self, ghosted, shift):
+        """What lies `shift` nodes along the axis from each, (lines, nx); lines along X end as they are."""
         if self.number:
-            return ghosted[HALO:-HALO, 1 + shift : ghosted.shape[1] - 1 + shift]
+            nx = ghosted.shape[1]
+            return own(ghosted)[:, np.clip(np.arange(nx) + shift, 0, nx - 1)]
         return ghosted[HALO + shift : len(ghosted) - HALO + shift]
 
     def entered(self, array):

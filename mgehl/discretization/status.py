@@ -38,14 +38,10 @@ def open_faces(solid, axis):
 
 def beside_contact(status, axes):
     """Nodes with one of their faces closed by contact; `status` ghosted, the result (lines, nx)."""
-    return _any_neighbour(status == CONTACT, axes) | (own(status) == CONTACT)
-
-
-def _any_neighbour(ghosted, axes):
-    """Nodes of which a neighbour is True: (lines, nx)."""
-    result = np.zeros(own(ghosted).shape, dtype=bool)
+    contact = status == CONTACT
+    result = own(contact).copy()
     for axis in axes:
-        axis.inner(result)[:] |= axis.neighbour(ghosted, -1) | axis.neighbour(ghosted, 1)
+        result |= axis.beside(contact, -1) | axis.beside(contact, 1)
     return result
 
 
@@ -58,9 +54,7 @@ def enclosed(status, axes):
     shut = is_fluid(own(status))
     for axis in axes:
         if axis.couette:
-            between = np.zeros_like(shut)
-            axis.inner(between)[:] = axis.neighbour(solid, -1) & axis.neighbour(solid, 1)
-            shut &= between
+            shut &= axis.beside(solid, -1) & axis.beside(solid, 1)
     return shut
 
 
@@ -74,6 +68,5 @@ def largest_fluid_neighbour(P, status, axes):
     result = np.full(own(status).shape, -np.inf)
     for axis in axes:
         for side in (-1, 1):
-            part = axis.inner(result)
-            np.maximum(part, axis.neighbour(fluid, side), out=part)
+            np.maximum(result, axis.beside(fluid, side), out=result)
     return result

@@ -139,7 +139,7 @@ def with_unthinned(friction, result, solve):
     if not outcome.converged:
         return friction
     nm, (central, minimum) = 1e9 * problem.contact.film_scale, problem.films(outcome.state)
-    film = gaps(problem, outcome.state).mean if result.mixed else central
+    film = gaps(problem, outcome.state.P, outcome.state.H)[0] if result.mixed else central
     return replace(friction, unthinned_film_nm=nm * film, unthinned_minimum_nm=nm * minimum)
 
 

@@ -101,7 +101,8 @@ def measured(contact, mesh, nodes, kept=0.0, load_share=1.0):
     film = inside & (nodes.status == LUBRICATED)
     cell, square_metres = mesh.dX * mesh.dY, contact.cell_area(mesh)
     unit_nm = 1e9 * contact.film_scale
-    nm, sizes, gaps = unit_nm * nodes.H, patch_sizes(solid), gaps_of(mesh, nodes.P, nodes.H, hertz.reach)
+    nm, sizes = unit_nm * nodes.H, patch_sizes(solid)
+    mean_gap, loaded_gap = gaps_of(mesh, nodes.P, nodes.H, hertz.reach)
     near = (nodes.status == LUBRICATED) & (nodes.H <= NEAR * kept)
     torn, sealed = inside & (nodes.status == CAVITATED), _sealed(solid)
 
@@ -122,8 +123,8 @@ def measured(contact, mesh, nodes, kept=0.0, load_share=1.0):
         valley_film_nm=_of_some(np.mean, nm[film & (nodes.heights < -Sq)]),
         torn_share=float(np.mean(nodes.status[inside] == CAVITATED)),
         per_metre=mesh.is_line,
-        mean_gap_nm=unit_nm * gaps.mean,
-        loaded_gap_nm=unit_nm * gaps.loaded,
+        mean_gap_nm=unit_nm * mean_gap,
+        loaded_gap_nm=unit_nm * loaded_gap,
         near_contact_load_share=share(nodes.P[near]),
         solid_load_fraction=share((nodes.P - nodes.p)[solid]),
         sealed_load_fraction=share(nodes.P[sealed]),

@@ -22,18 +22,6 @@ weights of the line before, its own and the one after. Nine alike make the minim
 
 
 @dataclass(frozen=True)
-class Films:
-    """Central and minimum film in units of H."""
-
-    central: float
-    minimum: float
-    around: float = 0.0
-    """Of a coarser grid: its difference from the finer one around the centre, a root mean square."""
-    spread: float = 0.0
-    """The same around the smallest gap, a standard deviation."""
-
-
-@dataclass(frozen=True)
 class GridFilm:
     """Films of a grid's answer at the run's speed, in nm, between the nodes where need be.
 
@@ -57,14 +45,14 @@ class GridFilm:
 
 
 def films_between_nodes(problem, state):
-    """`Films` at the centre itself and at the bottom of the smallest gap (collective)."""
+    """Central film and bottom of the smallest gap, in units of H (collective)."""
     mesh = problem.grid.mesh
-    return problem.grid.on_first(lambda H: Films(value_at(H, mesh, 0.0, 0.0), smallest(H)), state.H)
+    return problem.grid.on_first(lambda H: (value_at(H, mesh, 0.0, 0.0), smallest(H)), state.H)
 
 
-def films_beside(problem, state, finer, H):
-    """`Films` of a coarser grid, to be compared with the `finer` grid's, whose gap at this grid's nodes is
-    `H`, (lines, nx) (collective).
+def films_beside(problem, state, minimum, H):
+    """The same of a coarser grid, beside a finer one of this `minimum`, whose gap at this grid's nodes is
+    `H`, (lines, nx); and `around` and `spread` of a `GridFilm`, all in units of H (collective).
 
     The smallest gap is the finer grid's, less the mean of the gaps' differences around the node where `H`
     is smallest. This grid's own is too narrow for a polynomial: its difference often has the wrong sign.
@@ -74,8 +62,7 @@ def films_beside(problem, state, finer, H):
     def found(whole, of_finer):
         difference = of_finer - whole
         mean, spread = _mean_and_spread(difference, *np.unravel_index(np.argmin(of_finer), of_finer.shape))
-        around = _around_centre(difference, mesh)
-        return Films(value_at(whole, mesh, 0.0, 0.0), finer.minimum - mean, around, spread)
+        return value_at(whole, mesh, 0.0, 0.0), minimum - mean, _around_centre(difference, mesh), spread
 
     return problem.grid.on_first(found, state.H, H)
 

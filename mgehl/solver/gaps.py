@@ -12,17 +12,6 @@ from mgehl.discretization.status import CONTACT
 from mgehl.solver.inequality import bend_of_a_cell
 from mgehl.solver.shear import coefficient, friction_difference
 
-
-@dataclass(frozen=True)
-class Gaps:
-    """Two mean gaps in units of H."""
-
-    mean: float
-    """Of all nodes within the Hertz ellipse, or a line contact's width."""
-    loaded: float
-    """Of all nodes by their pressure: the gap on which the load rests."""
-
-
 NARROW = 0.05
 """What the largest pressure may be larger between nodes, over itself, from which on it is a spike of three
 nodes. Spikes that a grid does not hold have 0.15, others 4e-4 and less."""
@@ -86,22 +75,16 @@ def within_hertz(mesh, reach=1.0):
 
 
 def gaps_of(mesh, P, H, reach=1.0):
-    """`Gaps` of the whole grid's pressure and gap, each (ny, nx), in a Hertz ellipse as `within_hertz`."""
-    return Gaps(float(np.mean(H[within_hertz(mesh, reach)])), _loaded(P, H))
+    """Mean of the gap H `within_hertz`, and of all nodes by their pressure P; both (ny, nx)."""
+    load = P.sum()
+    loaded = float(np.vdot(P, H) / load) if load > 0.0 else float("nan")
+    return float(np.mean(H[within_hertz(mesh, reach)])), loaded
 
 
-def gaps(problem, state):
-    """`Gaps` of a state (collective): rank 0 tells the others, so they do not depend on their number."""
+def gaps(problem, P, H):
+    """The same of a rank's lines (collective): rank 0 tells the others, so ranks do not matter."""
     mesh, reach = problem.grid.mesh, problem.hertz.reach
-    return problem.grid.on_first(lambda P, H: gaps_of(mesh, P, H, reach), state.P, state.H)
-
-
-def differences(problem, state, H):
-    """Means of the sizes by which the gaps of a state's nodes differ from a finer grid's `H` there,
-    (lines, nx): `Gaps`, too (collective)."""
-    mesh, reach = problem.grid.mesh, problem.hertz.reach
-    size = np.abs(state.H - H)
-    return problem.grid.on_first(lambda P, size: gaps_of(mesh, P, size, reach), state.P, size)
+    return problem.grid.on_first(lambda P, H: gaps_of(mesh, P, H, reach), P, H)
 
 
 def loads(problem, state):
@@ -132,23 +115,19 @@ def load_differences(problem, state, P, p, status):
 def grid_gap(problem, state, settled, finer=None):
     """The `GridGap` of a state; of a coarser grid `finer` is the finer one's at its nodes (collective)."""
     nm, GPa, apart = 1e9 * problem.contact.film_scale, 1e-9 * problem.contact.hertz.p_h, {}
-    found, carried = gaps(problem, state), loads(problem, state)
+    mean, loaded = gaps(problem, state.P, state.H)
+    carried = loads(problem, state)
     if finer:
-        of_gaps = differences(problem, state, finer.H)
+        mean_apart, loaded_apart = gaps(problem, state.P, np.abs(state.H - finer.H))
         of_loads = load_differences(problem, state, finer.P, finer.p, finer.status)
         apart = {
-            "mean_apart_nm": nm * of_gaps.mean, "loaded_apart_nm": nm * of_gaps.loaded,
+            "mean_apart_nm": nm * mean_apart, "loaded_apart_nm": nm * loaded_apart,
             "pressure_apart_GPa": GPa * of_loads.largest, "contact_load_apart": of_loads.contact,
             "solid_load_apart": of_loads.solids,
             "friction_apart": friction_difference(problem, state, finer),
         }  # fmt: skip
     return GridGap(
-        problem.grid.mesh.nx, nm * found.mean, nm * found.loaded, carried.contact, settled,
+        problem.grid.mesh.nx, nm * mean, nm * loaded, carried.contact, settled,
         max_pressure_GPa=GPa * carried.largest, pressure_crest_GPa=GPa * carried.crest,
         solid_load_fraction=carried.solids, friction=coefficient(problem, state), **apart,
     )  # fmt: skip
-
-
-def _loaded(P, H):
-    load = P.sum()
-    return float(np.vdot(P, H) / load) if load > 0.0 else float("nan")

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from mgehl.discretization.axes import own
-from mgehl.discretization.mesh import HALO
 from mgehl.discretization.status import CONTACT, is_solid, largest_fluid_neighbour
 
 ROUNDING = 1e-12
@@ -105,7 +104,7 @@ def check_interface(problem, state):
         return _inequality(grid, checked, excess, "at the interface")
     faces, hidden = 0, [np.zeros(0)]
     for axis in problem.axes:
-        ends = [contact & ~_beside(axis, solid, side) for side in (-1, 1)]
+        ends = [contact & ~axis.beside(solid, side) for side in (-1, 1)]
         asked = [_jump(problem, axis, state, (P, H, solid), side) for side in (-1, 1)]
         jumps = [jump for jump, _ in asked]
         is_wide = ~(ends[0] & ends[1])
@@ -129,20 +128,12 @@ def _jump(problem, axis, state, ghosted, side):
     (P, H, solid), axes = ghosted, problem.axes
     of_contact, its_error = _at_face(axes, axis, P, solid, side, sides=(1,))
     of_fluid, error = (
-        _beside(axis, problem.grid.halo(each), side) for each in _at_face(axes, axis, P, solid, -side)
+        axis.beside(problem.grid.halo(each), side) for each in _at_face(axes, axis, P, solid, -side)
     )
-    of_gap = np.abs(_beside(axis, H, side) - state.H) / problem.K00
+    of_gap = np.abs(axis.beside(H, side) - state.H) / problem.K00
     tolerance = SAFETY * (error + its_error + of_gap)
-    presses = np.maximum(of_fluid, _beside(axis, P, side))
+    presses = np.maximum(of_fluid, axis.beside(P, side))
     return of_fluid - of_contact - tolerance, np.where(tolerance > state.P, presses, 0.0)
-
-
-def _beside(axis, ghosted, shift):
-    """What a ghosted array holds `shift` nodes along an axis, (lines, nx); lines end as they are."""
-    lines, nx = own(ghosted).shape
-    if axis.number:
-        return own(ghosted)[:, np.clip(np.arange(nx) + shift, 0, nx - 1)]
-    return ghosted[HALO + shift : HALO + shift + lines]
 
 
 def _at_face(axes, axis, P, solid, side, sides=(1, -1)):
@@ -153,11 +144,11 @@ def _at_face(axes, axis, P, solid, side, sides=(1, -1)):
     (1), or to the one behind (-1), stands for the first two: the larger one of the `sides`.
     """
     near, kind = own(P), own(solid)
-    behind, farther = (_beside(axis, P, shift * side) for shift in (-1, -2))
-    known, known_farther = (_beside(axis, solid, shift * side) == kind for shift in (-1, -2))
+    behind, farther = (axis.beside(P, shift * side) for shift in (-1, -2))
+    known, known_farther = (axis.beside(solid, shift * side) == kind for shift in (-1, -2))
     step = np.where(known, 0.5 * (near - behind), 0.0)
     bend = np.where(known_farther, 0.375 * np.abs(near - 2.0 * behind + farther), np.abs(step))
-    changes = [np.abs(near - _beside(axis, P, each * side)) for each in sides]
+    changes = [np.abs(near - axis.beside(P, each * side)) for each in sides]
     unknown = 0.5 * np.maximum.reduce(changes)
     along = sum(bend_of_a_cell(other, P) for other in axes if other is not axis)
     return near + step, np.where(known, np.abs(step) + bend, unknown) + along
@@ -165,4 +156,4 @@ def _at_face(axes, axis, P, solid, side, sides=(1, -1)):
 
 def bend_of_a_cell(axis, P):
     """How far the pressure bends from the middle of a cell to its ends, (lines, nx)."""
-    return 0.125 * np.abs(_beside(axis, P, -1) - 2.0 * own(P) + _beside(axis, P, 1))
+    return 0.125 * np.abs(axis.beside(P, -1) - 2.0 * own(P) + axis.beside(P, 1))

@@ -105,7 +105,6 @@ def border_flows(evaluation, nodes):
     """
     mesh = evaluation.mesh
     for axis, (leaving, entering) in zip(evaluation.axes, evaluation.flows, strict=True):
-        here = axis.inner(own(nodes))
-        first, last = here & ~axis.neighbour(nodes, -1), here & ~axis.neighbour(nodes, 1)
+        first, last = (axis.inner(own(nodes) & ~axis.beside(nodes, side)) for side in (-1, 1))
         inward = axis.entered(entering.value)[first], -axis.left(leaving.value)[last]
         yield mesh.dX * mesh.dY / axis.cell, *inward
