@@ -25,9 +25,6 @@ UNFINISHED = "unfinished"
 RUNS = "runs"
 """Folder of run directories."""
 
-POINT = "point.json"
-"""In a run directory of an older study what that knew of it besides."""
-
 _RUN = re.compile(r"\d{3,}|.*-[0-9a-f]{16}")
 """Names of run directories that sweeps and studies make."""
 
@@ -60,7 +57,7 @@ def write_record(directory, record):
 
 
 def read_record(directory):
-    """The `StudyRecord` of a directory; None without one, as of studies of an earlier version.
+    """The `StudyRecord` of a directory; None without one.
 
     Raises OutputError where it is damaged.
     """
@@ -109,7 +106,7 @@ def clear_runs(directory):
 
 def _clear_run(path):
     clear_checkpoint(path)
-    remove_plain(path / name for name in (*files_of(path), POINT))
+    remove_plain(path / name for name in files_of(path))
     for folder in (path / LAWS, path):
         with suppress(OSError):  # not there, or somebody else's, too
             folder.rmdir()
