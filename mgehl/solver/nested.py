@@ -58,17 +58,13 @@ def _solve(task, problem, state, settings, solve):
     in_time = replace(settings, newton=settings.newton.squeezed())
     recipe, patient = (recipe_of(each, problem.contact) for each in (settings, in_time))
 
-    def found(state, recipe, solve):
-        tell = partial(task.monitor, solve)
-        return solve_on(task.hierarchy, problem, state, recipe, tell, task.journal)
-
     if recipe.newton.squeeze > 0.0:
-        return found(state, recipe, solve)
-    outcome = found(state.copy(), recipe, solve)
+        return solve_on(task, problem, state, recipe, solve)
+    outcome = solve_on(task, problem, state.copy(), recipe, solve)
     if outcome.converged:
         return outcome
     news = f"not found: {outcome.reason}; now by time steps"
-    return found(state, patient, replace(solve, news=news))
+    return solve_on(task, problem, state, patient, replace(solve, news=news))
 
 
 def single_loop(task, state=None):

@@ -27,7 +27,7 @@ from mgehl.solver.layers import FluidInLayers
 from mgehl.solver.outcome import Cycle, Outcome
 from mgehl.solver.partition import Changes, Partition
 from mgehl.solver.position import Position, Step, Trial
-from mgehl.solver.remembered import remembered
+from mgehl.solver.remembered import Remembered
 from mgehl.solver.rigid_gap import FLUID_AHEAD
 from mgehl.solver.snes import PythonSnes
 from mgehl.solver.squeeze import squeeze_rates
@@ -65,7 +65,10 @@ class Newton(PythonSnes):
 
     def remembered(self, kept):
         """What the linear solver remembers from now on: first what was `kept`, a `Record` or None."""
-        return remembered(self._multigrid, kept)
+        memory = self._multigrid.memory and Remembered(self._multigrid)
+        if memory and kept:
+            memory.take_back(kept)
+        return memory
 
     def _go_on(self, position):
         """Let SNES solve from a position; return the `Outcome`."""
