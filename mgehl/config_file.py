@@ -115,10 +115,8 @@ def naming_file(path, settings=()):
 
 
 def _text_of(path):
-    """The text of a file in UTF-8, as TOML demands, or what comes out of a pipe such as <(...).
-
-    The null device is the empty configuration.
-    """
+    """The text of a file in UTF-8, as TOML demands, or what comes out of a pipe such as <(...). The null
+    device is the empty configuration."""
     kind = path.stat().st_mode
     if not (stat.S_ISREG(kind) or stat.S_ISFIFO(kind) or path == Path(os.devnull)):
         raise OSError("is no file")

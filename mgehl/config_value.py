@@ -171,9 +171,7 @@ def _units():
 @cache
 def _pint():
     """The library of units: slow to import, so only where a unit is met, and without what is `LEFT_OUT`.
-
-    What the program has imported before, pint knows as ever.
-    """
+    What the program has imported before, pint knows as ever."""
     left_out = [name for name in LEFT_OUT if name not in sys.modules]
     sys.modules.update(dict.fromkeys(left_out))  # whoever imports one of them is told that it is not there
     try:

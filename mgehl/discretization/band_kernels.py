@@ -119,10 +119,8 @@ def _eliminate(band, node, below, reach):
 
 
 def banded(reach):
-    """(factor, solve): functions for bands (lines, nx, 2 reach + 1).
-
-    What they close over must be numbers: numba keeps functions that close over others in no cache.
-    """
+    """(factor, solve): functions for bands (lines, nx, 2 reach + 1). What they close over must be numbers:
+    numba keeps functions that close over others in no cache."""
 
     @compiled(error_model="numpy")
     def factor(bands, nodes):
@@ -149,9 +147,7 @@ def banded(reach):
     @compiled()
     def solve(bands, spans, r, w):
         """Solve every line with the factors for the nodes of its span (first, end); the others become zero.
-
-        `r` and `w` are (lines, nx), `spans` (lines, 2).
-        """
+        `r` and `w` are (lines, nx), `spans` (lines, 2)."""
         lines, nx, _ = bands.shape
         x = np.zeros((nx + 2 * reach, SIDE_BY_SIDE))
         line = 0

@@ -59,10 +59,8 @@ class InterfaceConditions(ContactLaw):
         return H, 1.0
 
     def closed(self, H, was_released):
-        """Below H_th; a node that was let go comes back only when the bodies would overlap.
-
-        With a gap between 0 and H_th it would be torn off and put back for ever.
-        """
+        """Below H_th; a node that was let go comes back only when the bodies would overlap. With a gap
+        between 0 and H_th it would be torn off and put back for ever."""
         return np.where(was_released, 0.0, self.threshold) >= H
 
     def takes_fluid(self, H):

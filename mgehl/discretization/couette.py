@@ -140,10 +140,8 @@ def _parts(terms, near, solid, axis):
 
 
 def _within(limit, parts, fluid, axis):
-    """The parts of a flow that is to differ from 1B's by no more than a `limit` of it.
-
-    Where it would, 1B's flow times 1 - limit or 1 + limit takes its place, with its derivatives.
-    """
+    """The parts of a flow that is to differ from 1B's by no more than a `limit` of it. Where it would, 1B's
+    flow times 1 - limit or 1 + limit takes its place, with its derivatives."""
     least, most = 1.0 - limit, 1.0 + limit
     upstream = axis.at(fluid.rho) * axis.at(fluid.carried)
     carried = Flow(upstream.shape)

@@ -109,10 +109,8 @@ class Evaluation:
         return zip(self.axes, self.mobilities, strict=True)
 
     def carried_by_full_gaps(self):
-        """What the surfaces carry through the faces along X and Y where all cavities are full, per cell.
-
-        As `conductances`: (lines, nx - 1), and (lines + 1, nx), which is zero on a single line.
-        """
+        """What the surfaces carry through the faces along X and Y where all cavities are full, per cell. As
+        `conductances`: (lines, nx - 1), and (lines + 1, nx), which is zero on a single line."""
         lines, nx = own(self.P).shape
         found = np.zeros((lines, nx - 1)), np.zeros((lines + 1, nx))
         for rate, axis in zip(found, self.axes, strict=False):
@@ -122,9 +120,7 @@ class Evaluation:
     @cached_property
     def inflow(self):
         """Net inflow/(dX dY) of every node, whatever its status, less what is stored in a time step.
-
-        (lines, nx); zero on the ends of lines.
-        """
+        (lines, nx); zero on the ends of lines."""
         inflow = np.zeros(own(self.P).shape)
         for axis, (leaving, entering) in zip(self.axes, self.flows, strict=True):
             axis.add_entering(entering.value, inflow)

@@ -67,10 +67,8 @@ def _add_carried(flow, terms, couette, fluid, stops, axis):
 
 
 def carried(fluid, status, axis, scheme):
-    """What leaves W through the faces along an axis with the surfaces, were all cavities full.
-
-    `fluid` and `status` are ghosted; the mobility does not matter.
-    """
+    """What leaves W through the faces along an axis with the surfaces, were all cavities full. `fluid` and
+    `status` are ghosted; the mobility does not matter."""
     whole = replace(fluid, torn=None, filling=None, P=np.zeros(fluid.P.shape))
     still = FaceMobility(np.zeros(axis.of_whole(status)), (0.0, 0.0))
     return flows(whole, status, axis, scheme, still)[0].value

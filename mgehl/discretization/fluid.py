@@ -10,10 +10,8 @@ from mgehl.model.rheology import effective_mobilities
 
 @dataclass
 class Fluid:
-    """Density and mobility at nodes with their derivatives; all arrays of one shape.
-
-    eps = rho* H^3/(eta* lambda)  [Liu eq. 26, in units of a^2/R]
-    """
+    """Density and mobility at nodes with their derivatives; all arrays of one shape. eps = rho* H^3/(eta*
+    lambda)  [Liu eq. 26, in units of a^2/R]"""
 
     P: np.ndarray
     """The fluid's own pressure, in contact the one beside the solids'."""
@@ -85,9 +83,7 @@ def fluid_state(P, H, contact, contact_law, touching=None, torn=None, filling=No
 
 def _thin(fluid, sheared, gap, dgap_dH, dlog_eta_dP):
     """Make a `Fluid` as mobile along X and Y as the shear leaves it, in place; the surfaces slide along X.
-
-    `sheared` over the gap is sigma of `effective_mobilities`. A closed gap is not sheared.
-    """
+    `sheared` over the gap is sigma of `effective_mobilities`. A closed gap is not sheared."""
     is_open = gap > 0.0
     gap = np.where(is_open, gap, 1.0)
     sigma = np.where(is_open, sheared / gap, 0.0)
@@ -219,10 +215,8 @@ def _logarithmic_mobility(eps, _gaps):
 
 
 def _linear_gap_mobility(eps, gaps):
-    """Exact for one-dimensional flow by Barus's law that the pressure drives through a linear gap.
-
-    e dp/dx = q/h^3 with e = exp(-alpha p) is integrated on both sides from node to node.
-    """
+    """Exact for one-dimensional flow by Barus's law that the pressure drives through a linear gap. e dp/dx
+    = q/h^3 with e = exp(-alpha p) is integrated on both sides from node to node."""
     parts = np.empty((5, *np.shape(eps[0])))
     laid = [np.atleast_2d(each) for each in (*eps, *gaps, *parts)]
     linear_gap_means(*laid)

@@ -70,9 +70,7 @@ def distribute(w, distributive, share, omega, out, along_x=True, along_y=True):
 @compiled()
 def deflect_nearby(K, p, out):
     """out = deflection by the pressure `p`, ghosted, of a node and the eight around it; `out` (lines, nx).
-
-    `K` holds the influence coefficients [line, node] of a node on itself and on those beside it, (2, 2).
-    """
+    `K` holds the influence coefficients [line, node] of a node on itself and on those beside it, (2, 2)."""
     for j in range(len(out)):
         _deflect_line(K, p[j + HALO - 1], p[j + HALO], p[j + HALO + 1], out[j])
 
@@ -92,10 +90,8 @@ def _deflect_line(K, before, here, behind, out):
 
 @compiled()
 def add_poiseuille(sides, P, conductance, flow):
-    """flow -= conductance (P_E - P_W) through faces (lines, faces) along an axis.
-
-    `P` is ghosted, `sides` as of an `Axis`.
-    """
+    """flow -= conductance (P_E - P_W) through faces (lines, faces) along an axis. `P` is ghosted, `sides`
+    as of an `Axis`."""
     line_w, line_e, node_e = sides
     lines, faces = flow.shape
     for j in range(lines):
@@ -142,9 +138,7 @@ def _subtract_slopes(gradient, by_eps, eps_by, slope):
 @compiled()
 def add_of_faces(number, which, flow, cell, inflow):
     """Add flow/cell of the face before (`which` 0) or behind (1) each node along an axis of that `number`.
-
-    Along X `flow` is (lines, nx - 1) and the ends of lines are left alone, along Y (lines + 1, nx).
-    """
+    Along X `flow` is (lines, nx - 1) and the ends of lines are left alone, along Y (lines + 1, nx)."""
     (lines, nx), factor = inflow.shape, 1.0 / cell
     for j in range(lines):
         if number:
@@ -181,10 +175,8 @@ def flow_sources(inflow, P, along, across, source):
 
 @compiled()
 def lifted_by_less(K00, part, source, H, conductance, found):
-    """Where the pressure source/conductance would lift the gap of its node by less than a `part` of H.
-
-    All (lines, nx); K00 is a node's influence on itself.
-    """
+    """Where the pressure source/conductance would lift the gap of its node by less than a `part` of H. All
+    (lines, nx); K00 is a node's influence on itself."""
     lines, nx = found.shape
     for j in range(lines):
         for i in range(nx):

@@ -22,10 +22,8 @@ def _slope(grown, x):
 
 @compiled()
 def _logarithmic(a, b):
-    """Logarithmic mean of two numbers and its slopes; zero where either vanishes.
-
-    Where small (1 + grown) = large the mean is small grown/x, x = ln(1 + grown).
-    """
+    """Logarithmic mean of two numbers and its slopes; zero where either vanishes. Where small (1 + grown) =
+    large the mean is small grown/x, x = ln(1 + grown)."""
     small, large = min(a, b), max(a, b)
     if small <= VANISHING * large:
         return 0.0, 0.0, 0.0

@@ -18,10 +18,8 @@ from mgehl.discretization.status import CAVITATED, CONTACT
 
 @dataclass
 class Leak:
-    """What couples the fluid's pressure under contact to the rest, (offsets, nodes) each.
-
-    Of the contact nodes in their order; the offsets are the linearisation's.
-    """
+    """What couples the fluid's pressure under contact to the rest, (offsets, nodes) each. Of the contact
+    nodes in their order; the offsets are the linearisation's."""
 
     nodes: np.ndarray
     """Where they are: a mask (lines, nx)."""
@@ -174,10 +172,8 @@ def _offsets(evaluation):
 
 
 def _set_rows(stencil, flowing, part, offsets, found, derivative):
-    """Set a stencil (offsets, lines, nx) from one kind of derivatives of the flows that were `found`.
-
-    Rows that are `flowing` have the net inflow, others nothing.
-    """
+    """Set a stencil (offsets, lines, nx) from one kind of derivatives of the flows that were `found`. Rows
+    that are `flowing` have the net inflow, others nothing."""
     stencil[:] = 0.0
     position = {offset: k for k, offset in enumerate(offsets)}
     for axis, (leaving, entering) in zip(part.axes, found, strict=True):

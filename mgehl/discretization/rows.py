@@ -15,10 +15,8 @@ FLOW, PRESSURE, GAP = np.int8(0), np.int8(1), np.int8(2)
 
 
 def rows_of(status, rigid=False, frozen=None, feeding=None):
-    """The kind of row of every node, shape as `status`; those that are `frozen` keep their pressure.
-
-    The content of cavities that are `feeding` answers to the flow.
-    """
+    """The kind of row of every node, shape as `status`; those that are `frozen` keep their pressure. The
+    content of cavities that are `feeding` answers to the flow."""
     rows = np.full(status.shape, PRESSURE)
     rows[status == LUBRICATED] = FLOW
     if feeding is not None:

@@ -46,10 +46,8 @@ def beside_contact(status, axes):
 
 
 def enclosed(status, axes):
-    """Fluid nodes shut in from both sides along every axis of motion: they belong to the contact.
-
-    [Liu sec. 3.2.5, last paragraph]. `status` ghosted, the result (lines, nx).
-    """
+    """Fluid nodes shut in from both sides along every axis of motion: they belong to the contact. [Liu sec.
+    3.2.5, last paragraph]. `status` ghosted, the result (lines, nx)."""
     solid = status == CONTACT
     shut = is_fluid(own(status))
     for axis in axes:

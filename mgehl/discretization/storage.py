@@ -9,10 +9,8 @@ from mgehl.discretization.axes import own
 
 @dataclass(frozen=True)
 class Storage:
-    """The term -rate (content - before) of the rows of flow; arrays (lines, nx).
-
-    The smaller the time step 1/rate, the less the gap of a film can change in it.
-    """
+    """The term -rate (content - before) of the rows of flow; arrays (lines, nx). The smaller the time step
+    1/rate, the less the gap of a film can change in it."""
 
     rate: float | np.ndarray
     """1/time step, in units in which the Couette flow of a full film is 1."""

@@ -30,10 +30,8 @@ class Shift:
 
 
 def passing(m, cells):
-    """What passes the faces of lines m (..., n) that go `cells` along: (..., n + 1), positive along.
-
-    Beyond the ends the content goes on along a straight line.
-    """
+    """What passes the faces of lines m (..., n) that go `cells` along: (..., n + 1), positive along. Beyond
+    the ends the content goes on along a straight line."""
     if cells < 0.0:
         return -passing(m[..., ::-1], -cells)[..., ::-1]
     whole = int(cells)

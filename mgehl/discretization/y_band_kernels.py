@@ -29,10 +29,8 @@ def spans_of_nodes(given):
 
 @compiled()
 def build_y_bands(offsets, A, B, distributive, kappa, share, spans, bands):
-    """Fill the `bands` of some x-lines with what J Q couples along Y, in their `spans`.
-
-    As `band_kernels.build_bands` along X. `distributive` has `reach` lines more on each side.
-    """
+    """Fill the `bands` of some x-lines with what J Q couples along Y, in their `spans`. As
+    `band_kernels.build_bands` along X. `distributive` has `reach` lines more on each side."""
     width = bands.shape[1]
     lines, nx = A.shape[1:]
     reach = width // 2
@@ -101,9 +99,7 @@ def factor_y_bands(bands, spans):
 @compiled()
 def solve_y_bands(bands, spans, columns, w):
     """Solve every y-line of the `columns` (first, end) with its factors, in place in `w`, (ny, columns).
-
-    Beyond the spans `w` becomes zero.
-    """
+    Beyond the spans `w` becomes zero."""
     ny, width, _ = bands.shape
     reach = width // 2
     for j in range(ny):

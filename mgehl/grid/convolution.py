@@ -36,10 +36,8 @@ class Deflection:
 
     @event(DEFLECTION)
     def __call__(self, P):
-        """Deflection (lines, nx) by the pressure P (lines, nx), zero on boundary nodes.
-
-        The result is a view that the next call overwrites. Ranks without lines take no part.
-        """
+        """Deflection (lines, nx) by the pressure P (lines, nx), zero on boundary nodes. The result is a
+        view that the next call overwrites. Ranks without lines take no part."""
         self.count += 1
         return self._convolution(P) if self._convolution else np.zeros(self.grid.shape)
 

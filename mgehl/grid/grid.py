@@ -97,10 +97,8 @@ class Grid:
         return out
 
     def lines_around(self, array, count):
-        """As `halo`, the team's too, with `count` lines of each neighbour; (lines + 2 count, nx).
-
-        Each must have as many: at most `ownership.MIN_LINES`.
-        """
+        """As `halo`, the team's too, with `count` lines of each neighbour; (lines + 2 count, nx). Each must
+        have as many: at most `ownership.MIN_LINES`."""
         lines, team = len(array), self.team
         around = np.zeros((lines + 2 * count, *array.shape[1:]), array.dtype)
         around[count : count + lines] = array

@@ -38,9 +38,7 @@ def even_shares(columns, ranks):
 
 def shares_of_work(work, ranks):
     """The same of columns that take so much `work` each: ranks have equal parts of it, to half a column.
-
-    Each has a column at the least; there must be as many.
-    """
+    Each has a column at the least; there must be as many."""
     done, inner = np.cumsum(work), np.arange(1, ranks)
     cuts = np.searchsorted(done - 0.5 * work, done[-1] * inner / ranks)
     cuts = np.maximum.accumulate(np.maximum(cuts - inner, 0)) + inner

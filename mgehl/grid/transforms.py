@@ -51,9 +51,7 @@ class PlaneTransforms:
 
     def product(self, nodes, spectrum, out):
         """Convolve `nodes` (lines, up to a period) with the kernel of a `spectrum`; write `out`, as wide.
-
-        It is `scale` times too large.
-        """
+        It is `scale` times too large."""
         self._along_x.forward(nodes, self._modes.lines)
         self._modes.to_columns()
         self._along_y.multiply(self._modes.columns, spectrum)

@@ -42,10 +42,8 @@ def kind_choice(kind):
 
 
 def derived(config):
-    """What follows from the words of a `Config`, a `Derived` each; there may not yet be such a key.
-
-    Raises ConfigError where the words do not fit.
-    """
+    """What follows from the words of a `Config`, a `Derived` each; there may not yet be such a key. Raises
+    ConfigError where the words do not fit."""
     return (*derived_from_bodies(config), *derived_from_oil(config))
 
 

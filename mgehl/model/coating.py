@@ -41,10 +41,8 @@ class Coating:
         return 1.0 + 0.5 * self.reduced_modulus * (layer - self._substrate)
 
     def layer_compliance(self, kt):
-        """Deflection of the coated body over that of a half-space of the layer's material.
-
-        `kt` is the wave number times the thickness [O'Sullivan and King 1988; Nogi and Kato 1997].
-        """
+        """Deflection of the coated body over that of a half-space of the layer's material. `kt` is the wave
+        number times the thickness [O'Sullivan and King 1988; Nogi and Kato 1997]."""
         nu = self.poisson
         # Shear modulus over that of the substrate.
         rigidity = self.modulus / (1.0 + nu) * self._substrate / (1.0 - self.substrate_poisson)

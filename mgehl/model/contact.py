@@ -133,10 +133,8 @@ class LoadedContact(OnBodies, Inlet, InletHeat):
 
     @property
     def reach(self):
-        """How far from the centre, in units of X and Y, the dry contact may reach.
-
-        The widening by a soft layer is estimated, and low by up to a third.
-        """
+        """How far from the centre, in units of X and Y, the dry contact may reach. The widening by a soft
+        layer is estimated, and low by up to a third."""
         return self.widening if self.widening <= 1.0 else min(self.widening**2, 1.3 * self.widening)
 
     def share_beyond(self, x, y):
@@ -144,19 +142,15 @@ class LoadedContact(OnBodies, Inlet, InletHeat):
         return 0.0
 
     def load_within(self, mesh, there=None):
-        """The integral of P that the domain of a mesh takes: the load less what is missing there.
-
-        Of another load and speed that of the contact `there`, in this one's units  [Liu eq. 50].
-        """
+        """The integral of P that the domain of a mesh takes: the load less what is missing there. Of
+        another load and speed that of the contact `there`, in this one's units  [Liu eq. 50]."""
         there = there or self
         within = 1.0 - there.share_beyond(*self.ends(mesh))
         return there.load / self.load * self.load_integral * within
 
     def drag_beyond(self, mesh, downstream=False):
         """What rolling takes from each body beyond the domain of a mesh, in N, of a line contact in N/m.
-
-        Upstream, and `downstream` where no film tears.
-        """
+        Upstream, and `downstream` where no film tears."""
         raise NotImplementedError
 
     @property

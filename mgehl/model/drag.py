@@ -21,9 +21,7 @@ NODES, WEIGHTS = (0.5 * each for each in np.polynomial.legendre.leggauss(32))
 
 def line_drag_beyond(contact, x, downstream):
     """Half of the integral of h dp/dx, in N/m, from the domain's end upstream on, and `downstream`, too.
-
-    The domain ends at `x` in units of X. The gap is that of the dry contact and a formula's film.
-    """
+    The domain ends at `x` in units of X. The gap is that of the dry contact and a formula's film."""
     film = contact.flooded_film / contact.film_scale
     near = 0.5 + NODES  # end/X, from infinity to the end
     total = 0.0

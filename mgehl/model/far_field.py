@@ -64,10 +64,8 @@ def _rigid_film(contact):
 
 @lru_cache(maxsize=64)
 def missing_load(x, y, ratio, motion):
-    """The load missing between ends x and y in units of sqrt(2 R h_0), of a motion in these parts.
-
-    In units of 12 eta u sqrt(2 R_x h_0)/h_0^2 times both lengths; their `ratio` is that along x to y.
-    """
+    """The load missing between ends x and y in units of sqrt(2 R h_0), of a motion in these parts. In units
+    of 12 eta u sqrt(2 R_x h_0)/h_0^2 times both lengths; their `ratio` is that along x to y."""
     coarse, fine = (_missing_on(step, x, y, ratio, motion) for step in STEPS)
     limit = fine + (fine - coarse) / ((STEPS[0] / STEPS[1]) ** 2 - 1.0)
     return limit / (1.0 - 1.0 / FAR)

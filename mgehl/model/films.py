@@ -168,9 +168,7 @@ def grubin(pressure_viscosity, viscosity, speed, a, gap_coefficient):
 
 
 def inlet_heating(pressure, Q, slide_to_roll):
-    """Film with heat by shear in the inlet over the isothermal one, of Gupta and others (1992).
-
-    `pressure` is p_h/E', Q = eta0 beta u^2/k with the oil's thinning beta in 1/K and conductivity k.
-    """
+    """Film with heat by shear in the inlet over the isothermal one, of Gupta and others (1992). `pressure`
+    is p_h/E', Q = eta0 beta u^2/k with the oil's thinning beta in 1/K and conductivity k."""
     slid = 1.0 + 2.23 * abs(slide_to_roll) ** 0.83
     return (1.0 - 13.2 * pressure * Q**0.42) / (1.0 + 0.213 * slid * Q**0.64)

@@ -62,10 +62,8 @@ class MovingHeat:
 
 
 def _influence(solid, velocity, shape, dx, dy):
-    """Rise at all offsets from a cell that takes 1 W/m^2: (2 ny - 1, 2 nx - 1).
-
-    2/(B sqrt(pi)) times the integral over s = sqrt(t) of what is left of the cell along x and along y.
-    """
+    """Rise at all offsets from a cell that takes 1 W/m^2: (2 ny - 1, 2 nx - 1). 2/(B sqrt(pi)) times the
+    integral over s = sqrt(t) of what is left of the cell along x and along y."""
     (ny, nx), kappa = shape, solid.diffusivity
     x, y = (np.arange(1 - n, n) * d for n, d in ((nx, dx), (ny, dy)))
     ends = _ages(kappa, velocity, max(x[-1], y[-1], dx), dx if ny == 1 else min(dx, dy), dx)
@@ -89,10 +87,8 @@ def _left(distance, cell, width):
 
 
 def _ages(kappa, velocity, length, cell, dx):
-    """Square roots of ages, from 0 on, between which the integrand is smooth.
-
-    Heat passes the edge of a cell along x at one of them as long as it is narrower than a cell.
-    """
+    """Square roots of ages, from 0 on, between which the integrand is smooth. Heat passes the edge of a
+    cell along x at one of them as long as it is narrower than a cell."""
     speed, oldest = np.hypot(*velocity), OLDEST * length**2 / kappa
     past = dx / (2.0 * abs(velocity[0])) if velocity[0] else inf
     s = 0.1 * cell / sqrt(4.0 * kappa)

@@ -24,10 +24,8 @@ class HertzContact:
 
 
 def hertz_contact(load, radius_x, radius_y, reduced_modulus):
-    """Solve the dry contact [Johnson 1985, eqs. 4.25-4.28].
-
-    `load` in N, radii in m, `reduced_modulus` E' in Pa with E' = 2 E*, as in the paper.
-    """
+    """Solve the dry contact [Johnson 1985, eqs. 4.25-4.28]. `load` in N, radii in m, `reduced_modulus` E'
+    in Pa with E' = 2 E*, as in the paper."""
     E_star = reduced_modulus / 2.0
     small, large = sorted((radius_x, radius_y))
     ratio = _axis_ratio(large / small)
@@ -95,8 +93,6 @@ def hertz_line_gap(X):
 
 
 def edge_gap_coefficient(contact, reduced_modulus):
-    """C in metres of the dry gap h = C s^(3/2) beside the edge on the x axis, s = x/a - 1.
-
-    Locally plane strain: C = (8 sqrt2/3) p_h a/E', which is (8 sqrt2/(3 pi)) a^2/R for a circle.
-    """
+    """C in metres of the dry gap h = C s^(3/2) beside the edge on the x axis, s = x/a - 1. Locally plane
+    strain: C = (8 sqrt2/3) p_h a/E', which is (8 sqrt2/(3 pi)) a^2/R for a circle."""
     return 8.0 * sqrt(2.0) / 3.0 * contact.p_h * contact.a / reduced_modulus

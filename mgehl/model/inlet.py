@@ -30,10 +30,8 @@ class Inlet:
 
     @property
     def inlet_length(self):
-        """Length of the zone that builds the film, in units of a; of layered bodies an estimate.
-
-        Of bodies that hardly yield it is sqrt(2 R h), on which the gap is twice the film.
-        """
+        """Length of the zone that builds the film, in units of a; of layered bodies an estimate. Of bodies
+        that hardly yield it is sqrt(2 R h), on which the gap is twice the film."""
         like = self.likeness
         if self.hardly_yields:
             return sqrt(2.0 * like.radius_x * like.flooded_film) / self.x_scale

@@ -34,10 +34,8 @@ class Barus:
 
 @dataclass(frozen=True)
 class Roelands:
-    """ln(eta/eta0) = (ln eta0 + 9.67) ((1 + 5.1e-9 p)^z - 1), slope alpha at p = 0.
-
-    Raises ValueError when ln(eta0) + 9.67 is not positive, where the law has no meaning.
-    """
+    """ln(eta/eta0) = (ln eta0 + 9.67) ((1 + 5.1e-9 p)^z - 1), slope alpha at p = 0. Raises ValueError when
+    ln(eta0) + 9.67 is not positive, where the law has no meaning."""
 
     viscosity: float
     pressure_viscosity: float

@@ -86,10 +86,8 @@ WALTHER = 0.7
 
 
 def walther(at_40, at_100, T):
-    """Kinematic viscosity at `T` of an oil that has `at_40` and `at_100` degrees C, all in m2/s.
-
-    The equation of Walther [ASTM D341].
-    """
+    """Kinematic viscosity at `T` of an oil that has `at_40` and `at_100` degrees C, all in m2/s. The
+    equation of Walther [ASTM D341]."""
     cold, warm = (log10(log10(1e6 * nu + WALTHER)) for nu in (at_40, at_100))
     T_40, T_100 = log10(40.0 + CELSIUS), log10(100.0 + CELSIUS)
     slope = (cold - warm) / (T_100 - T_40)

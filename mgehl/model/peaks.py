@@ -16,9 +16,7 @@ DISTANCES = np.geomspace(1.0, LOOKED_AT_LAST, 240)
 
 def reach_of_peaks(contact, film):
     """How far along X and Y, in their units, peaks reach through gap and `film` (m); 0 where none does.
-
-    Looked for as far as the highest peak could touch.
-    """
+    Looked for as far as the highest peak could touch."""
     if contact.surface is None:
         return 0.0, 0.0
     ends = LOOKED_AT_FIRST, LOOKED_AT_FIRST

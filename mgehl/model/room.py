@@ -32,10 +32,8 @@ PARTS = 32
 
 
 def domain_for(starvation, nodes, farthest):
-    """The smallest x and y in which a film loses no more than `ALLOWED`, up to `farthest` semi-axes.
-
-    The film and its contact are those of a `Starvation`. With too few `nodes` light loads lose more.
-    """
+    """The smallest x and y in which a film loses no more than `ALLOWED`, up to `farthest` semi-axes. The
+    film and its contact are those of a `Starvation`. With too few `nodes` light loads lose more."""
     peaks = reach_of_peaks(starvation.contact, starvation.film)
     for share in SHARES:
         x, y = _ends(starvation, share, nodes, farthest, peaks)

@@ -94,10 +94,8 @@ class Starvation:
     film: float
 
     def lost(self, x, y):
-        """Per cent of film that a domain of twice the size has more, central or minimum, the larger.
-
-        `x` and `y` are the ends of the domain in units of X and Y.
-        """
+        """Per cent of film that a domain of twice the size has more, central or minimum, the larger. `x`
+        and `y` are the ends of the domain in units of X and Y."""
         near, far = self.missing(x, y), self.missing(_twice(x), _twice(y))
         most = max(less - more for less, more in zip(near, far, strict=True))
         return 100.0 * (1.0 - exp(-most))
@@ -167,9 +165,7 @@ class Starvation:
     @cached_property
     def by_load(self):
         """-ln of the film left without the load beyond a side, times its distance in m to the `order`.
-
-        Upstream and beside.
-        """
+        Upstream and beside."""
         like = self.like
         x, y = like.radius_x, inf if self.contact.is_plane else like.radius_y
         share = self._answer_to_load * kapitza_factor(like.lubricant, like.speed, x, y) * x / like.load

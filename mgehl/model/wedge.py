@@ -45,10 +45,8 @@ class Pocket:
     """Across the motion, its middle at y = 0."""
 
     def share(self, X, Y, dX, dY):
-        """The part of the cells dX by dY around X (1, nx) and Y (lines, 1), in mm, that it lies over.
-
-        A node's gap is the mean of its cell: wherever the edges lie between nodes, the volume is the same.
-        """
+        """The part of the cells dX by dY around X (1, nx) and Y (lines, 1), in mm, that it lies over. A
+        node's gap is the mean of its cell: wherever the edges lie between nodes, the volume is the same."""
         half = 0.5 * self.width / MM
         return _covered(X, dX, self.along[0] / MM, self.along[1] / MM) * _covered(Y, dY, -half, half)
 

@@ -89,9 +89,7 @@ class WedgeSeries:
     @cached_property
     def _coefficients(self):
         """Factors A, B of I_1(k X)/I_1(k inlet) and K_1(k X)/K_1(k exit) in g = X f, by Cramer's rule.
-
-        Blocked: f' = -6 c/X^2 at the exit, with (I_1(z)/z)' = I_2(z)/z and (K_1(z)/z)' = -K_2(z)/z.
-        """
+        Blocked: f' = -6 c/X^2 at the exit, with (I_1(z)/z)' = I_2(z)/z and (K_1(z)/z)' = -K_2(z)/z."""
         k, c, X = self._k, self._c, self.exit
         D, slope = struve_difference(k * X)
         if self.blocked:

@@ -31,10 +31,8 @@ LARGEST = 200_000
 
 
 def cliffs(eps, driven):
-    """Nodes with a neighbour on the other side of a cliff, (lines, nx), of ghosted mobilities `eps`.
-
-    One of the two is more mobile than `driven`.
-    """
+    """Nodes with a neighbour on the other side of a cliff, (lines, nx), of ghosted mobilities `eps`. One of
+    the two is more mobile than `driven`."""
     here, before, after = own(eps), eps[HALO - 1 : -HALO - 1], eps[HALO + 1 : len(eps) - HALO + 1]
     found = _differ(here, before, driven) | _differ(here, after, driven)
     along = _differ(here[:, 1:], here[:, :-1], driven)
@@ -63,9 +61,7 @@ class CliffZone:
     @event(NEARBY)
     def gather(self, found, linearisation, distributive, free):
         """Tell the first rank what the zone around the nodes that were `found` to stand at a cliff is.
-
-        Masks (lines, nx): those nodes, the distributive ones, and those whose pressure is not given.
-        """
+        Masks (lines, nx): those nodes, the distributive ones, and those whose pressure is not given."""
         self.forget()
         nodes = NodeSet.where(self._grid, found).around(AROUND)
         if not 0 < len(nodes) <= LARGEST:

@@ -13,10 +13,8 @@ from mgehl.multigrid.stencil_matrix import stencil_rows
 
 
 class CoarseSolve:
-    """LU of J with its border, sparse in a rigid gap; ranks without lines have nothing to do.
-
-    While the last rank factors, the first one factors what stands at cliffs (`cliffs`).
-    """
+    """LU of J with its border, sparse in a rigid gap; ranks without lines have nothing to do. While the
+    last rank factors, the first one factors what stands at cliffs (`cliffs`)."""
 
     def __init__(self, jacobian):
         self._jacobian = jacobian
@@ -53,10 +51,8 @@ class CoarseSolve:
 
     @event(COARSE)
     def solve(self, r, load):
-        """Corrections of P, (lines, nx), and of H0 for a residual.
-
-        The last rank alone knows the residual's `load`, and alone is told the correction of H0.
-        """
+        """Corrections of P, (lines, nx), and of H0 for a residual. The last rank alone knows the residual's
+        `load`, and alone is told the correction of H0."""
         grid, dP, dH0 = self._jacobian.grid, None, 0.0
         if not grid.has_lines:
             return r, dH0

@@ -24,10 +24,8 @@ class FCycle:
         self._coarse, self._sweeps = coarse, sweeps
 
     def setUp(self, _pc):
-        """Factor the bands and matrices of the present linearisation on all grids.
-
-        What one rank factors alone comes last: the first one does its part while the last one does another.
-        """
+        """Factor the bands and matrices of the present linearisation on all grids. What one rank factors
+        alone comes last: the first one does its part while the last one does another."""
         for smoother in self._smoothers:
             smoother.factor()
         for smoother in self._smoothers:
@@ -53,10 +51,8 @@ class FCycle:
         return level > 0 and self._smoothers[level - 1].sees_cliffs
 
     def _corrections(self, level, r, load, again):
-        """Of P, (lines, nx), and of H0 for a residual on a grid; the border on the last rank alone.
-
-        `again` says whether coarser grids may be visited twice.
-        """
+        """Of P, (lines, nx), and of H0 for a residual on a grid; the border on the last rank alone. `again`
+        says whether coarser grids may be visited twice."""
         if level == 0:
             return self._coarse.solve(r, load)
         fine, coarse = self._jacobians[level], self._jacobians[level - 1]

@@ -46,10 +46,8 @@ class NearbySolve:
 
     @event(NEARBY)
     def factor(self, distributive, free):
-        """Factor T of the present linearisation.
-
-        Masks (lines + 2 HALO, nx): the distributive nodes, and those whose pressure is not given.
-        """
+        """Factor T of the present linearisation. Masks (lines + 2 HALO, nx): the distributive nodes, and
+        those whose pressure is not given."""
         matrix = self.matrix(distributive, free)
         if self._places is None:
             numbers = np.flatnonzero(self._zone) + self._jacobian.grid.first * self._zone.shape[1]
@@ -63,10 +61,8 @@ class NearbySolve:
 
     @event(NEARBY)
     def solve(self, r, w):
-        """Solve T w = r in the zone, both (lines, nx); beyond it w is zero.
-
-        A singular T gives a `w` that is not finite.
-        """
+        """Solve T w = r in the zone, both (lines, nx); beyond it w is zero. A singular T gives a `w` that
+        is not finite."""
         right, left = self._vecs
         right.setArray(r[self._zone])
         self._ksp.solve(right, left)
@@ -93,10 +89,8 @@ class NearbySolve:
 
 
 class NearColumns:
-    """What a node has of the columns of Q and N that stand at the nodes around it.
-
-    `K` and `share` as of a `NearbySolve`.
-    """
+    """What a node has of the columns of Q and N that stand at the nodes around it. `K` and `share` as of a
+    `NearbySolve`."""
 
     def __init__(self, K, share):
         places = np.abs(NEAR)

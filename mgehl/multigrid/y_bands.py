@@ -39,9 +39,7 @@ class YBands:
 
     def factor(self, linearisation, distributive, given, contents=None):
         """Factor what J Q couples along Y; `distributive` and `given` nodes, `contents`: masks (lines, nx).
-
-        Contents are not carried along Y: they couple to nothing.
-        """
+        Contents are not carried along Y: they couple to nothing."""
         lin, grid = linearisation, self._grid
         spans = self._spans_of_all(given)
         self._follow(spans)
@@ -105,10 +103,8 @@ class YBands:
         return np.stack([first, end], axis=1)
 
     def _follow(self, spans):
-        """Deal the y-lines out anew where one rank has too much of their work.
-
-        A cavity behind the contact would leave the rank idle whose y-lines it takes.
-        """
+        """Deal the y-lines out anew where one rank has too much of their work. A cavity behind the contact
+        would leave the rank idle whose y-lines it takes."""
         ends = np.zeros(self._grid.mesh.nx + 1)
         np.add.at(ends, spans[:, 0], 1.0)
         np.add.at(ends, spans[:, 1], -1.0)

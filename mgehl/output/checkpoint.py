@@ -154,10 +154,8 @@ def _head(tables):
 
 
 def scattered(grid, arrays):
-    """Every rank's lines of the whole arrays that rank 0 has (collective).
-
-    Raises ValueError, on all, where one is not of this grid.
-    """
+    """Every rank's lines of the whole arrays that rank 0 has (collective). Raises ValueError, on all, where
+    one is not of this grid."""
     whole = (grid.mesh.ny, grid.mesh.nx)
     shapes = grid.comm.bcast({name: array.shape for name, array in arrays.items()})
     for name, shape in shapes.items():
@@ -173,9 +171,7 @@ def damaged(path, error):
 
 def load(path, tables=None):
     """(record, arrays) of a file, None where there is none; `tables` are those of the run's configuration.
-
-    Raises OutputError where it is damaged, or of another version or configuration.
-    """
+    Raises OutputError where it is damaged, or of another version or configuration."""
     try:
         record, arrays = unpacked(path)
         version, by = record["format"], record["mgehl"]

@@ -38,9 +38,7 @@ def make_directory(path, force=False):
 
 def prepare_directory(directory, laws=()):
     """Make a locked directory ready for a new run: its result stays, the checkpoint of an earlier run goes.
-
-    Raises OutputError where the new run, with the names of its `laws`, would replace what is no run's.
-    """
+    Raises OutputError where the new run, with the names of its `laws`, would replace what is no run's."""
     check_replaceable(directory, laws)
     clear_checkpoint(directory)
 

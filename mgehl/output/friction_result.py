@@ -130,9 +130,7 @@ def banded(friction, mixed, boundary_coefficient):
 
 def with_unthinned(friction, result, solve):
     """A `FrictionResult` with the films that there would be if shear did not thin it (collective).
-
-    `solve()` returns that contact's problem and its `Outcome`.
-    """
+    `solve()` returns that contact's problem and its `Outcome`."""
     if not result.converged:
         return friction
     problem, outcome = solve()

@@ -36,10 +36,8 @@ def portable(config):
 
 
 def placed(tables, places, courses=None):
-    """The `Config` of such tables; `places` are the files that its laws are now, by their names.
-
-    With `courses`, as `own_courses` has them, no function is run.
-    """
+    """The `Config` of such tables; `places` are the files that its laws are now, by their names. With
+    `courses`, as `own_courses` has them, no function is run."""
     tables = _moved(tables, places)
     return config_from_tables(tables if courses is None else with_recorded(tables, courses))
 
@@ -87,10 +85,8 @@ def as_they_were(begun, folder, directory):
 
 
 def _own(tables):
-    """(Section, key, (file, function)) of every own function in nested tables, and of files of heights.
-
-    A file of heights, or a table of time, has no function: None.
-    """
+    """(Section, key, (file, function)) of every own function in nested tables, and of files of heights. A
+    file of heights, or a table of time, has no function: None."""
     for section, table in tables.items():
         for key, value in table.items():
             if (key == "file" and value is not None) or is_table(f"{section}.{key}", value):

@@ -80,10 +80,8 @@ class Nodes:
 
 
 def mixed_result(problem, state):
-    """The `MixedResult` of a state; None of smooth bodies (collective).
-
-    Rank 0 has all nodes and tells the others: whatever the number of ranks the sums are the same.
-    """
+    """The `MixedResult` of a state; None of smooth bodies (collective). Rank 0 has all nodes and tells the
+    others: whatever the number of ranks the sums are the same."""
     grid, contact = problem.grid, problem.contact
     if contact.surface is None:
         return None
@@ -133,10 +131,8 @@ def measured(contact, mesh, nodes, kept=0.0, load_share=1.0):
 
 
 def _sealed(solid):
-    """Nodes that are not `solid` and that solid nodes shut in, by sides of the cells: (ny, nx).
-
-    A line contact is open at its two ends alone.
-    """
+    """Nodes that are not `solid` and that solid nodes shut in, by sides of the cells: (ny, nx). A line
+    contact is open at its two ends alone."""
     labels, _ = ndimage.label(~solid)
     sides = labels[[0, -1]] if len(labels) > 1 else labels[:0]
     return ~solid & ~np.isin(labels, np.concatenate([sides.ravel(), labels[:, [0, -1]].ravel()]))

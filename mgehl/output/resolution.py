@@ -109,10 +109,8 @@ def resolving_nodes(contact, mesh, scene=None):
 
 
 def expectation(cells, start, is_mixed, shuts):
-    """What a run finds with so many cells in its inlet from a `start`.
-
-    `is_mixed`: peaks reach through the film. `shuts`: contact shuts its faces.
-    """
+    """What a run finds with so many cells in its inlet from a `start`. `is_mixed`: peaks reach through the
+    film. `shuts`: contact shuts its faces."""
     if is_mixed:
         return "a film that the highest peaks may reach through: the run tells how much they carry"
     if cells >= RESOLVED_CELLS:
@@ -127,10 +125,8 @@ def expectation(cells, start, is_mixed, shuts):
 
 
 def film_lost(contact, mesh, scene=None):
-    """Estimate, in per cent, of the film that a domain of twice the size would have more.
-
-    Of central and minimum film the one that changes more; good to a factor of two. Of a `Scene` the most.
-    """
+    """Estimate, in per cent, of the film that a domain of twice the size would have more. Of central and
+    minimum film the one that changes more; good to a factor of two. Of a `Scene` the most."""
     return max(
         Starvation(there, there.flooded_film).lost(*there.in_its_units(*contact.ends(mesh)))
         for there in _instants(contact, scene)
@@ -138,10 +134,8 @@ def film_lost(contact, mesh, scene=None):
 
 
 def load_beyond(contact, mesh, scene=None):
-    """Part of the load, in per cent, that the film in the domain of a mesh need not carry.
-
-    Of a `Scene` the most that an instant has.
-    """
+    """Part of the load, in per cent, that the film in the domain of a mesh need not carry. Of a `Scene` the
+    most that an instant has."""
     return 100.0 * max(there.share_beyond(*contact.ends(mesh)) for there in _instants(contact, scene))
 
 
@@ -171,9 +165,7 @@ def domain_words(verdict, lost):
 
 def beyond_words(percent, at_most=False):
     """How much of the load the film in a domain need not carry, in a list; empty where hardly any.
-
-    `at_most`: of the instants of a run in time.
-    """
+    `at_most`: of the instants of a run in time."""
     part = f"{'up to ' if at_most else ''}{percent:.1f} % of it"
     words = f"{part} is carried beyond the domain or lost at its sides, the rest within"
     return [words] if percent >= 0.05 else []

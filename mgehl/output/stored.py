@@ -53,10 +53,8 @@ AS_JSON = dacite.Config(cast=[tuple], type_hooks={float: _real})
 
 
 def result_from(tables):
-    """The `Result` that nested plain values stand for; its numbers that are null are nan.
-
-    Raises ValueError, TypeError or DaciteError where they stand for none.
-    """
+    """The `Result` that nested plain values stand for; its numbers that are null are nan. Raises
+    ValueError, TypeError or DaciteError where they stand for none."""
     return dacite.from_dict(Result, tables, AS_JSON)
 
 

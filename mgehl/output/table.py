@@ -103,10 +103,8 @@ def said(value):
 
 
 def _work(finest, nodes):
-    """Columns of the work on a grid of so many nodes, from its rows of the history.
-
-    A run may solve on it several times, from step 0 each; between them are other grids, too.
-    """
+    """Columns of the work on a grid of so many nodes, from its rows of the history. A run may solve on it
+    several times, from step 0 each; between them are other grids, too."""
     iterations = (each.get("linear_iterations", "0") for each in finest)
     found = {"most GMRES iterations": max(iterations, key=int, default="")}
     steps = [
@@ -130,10 +128,8 @@ def with_bands(rows):
 
 
 def drawn(rows, columns, width=None):
-    """Some columns of the rows as text, no line longer than `width`; numbers stand on the right.
-
-    Columns that have no room are drawn below, with the first column repeated before them.
-    """
+    """Some columns of the rows as text, no line longer than `width`; numbers stand on the right. Columns
+    that have no room are drawn below, with the first column repeated before them."""
     first, *others = columns
     blocks, width = [[first]], width or WIDTH
     for column in others:

@@ -91,10 +91,8 @@ class JsonLines(Silent):
 
 
 class Lines(Silent):
-    """A line for each cycle; at the end the answer and whether to trust it.
-
-    On a terminal lines are broken at spaces. `verbose` ones have all numbers, however long they are.
-    """
+    """A line for each cycle; at the end the answer and whether to trust it. On a terminal lines are broken
+    at spaces. `verbose` ones have all numbers, however long they are."""
 
     def __init__(self, verbose=False):
         self._verbose = verbose

@@ -73,10 +73,8 @@ class Beside:
         return problem, solve_near(self._task, problem, problem.with_own_gap(self._state))
 
     def _solve(self, level, contact, state, scheme, **limits):
-        """Problem and `Outcome` of a contact on a coarser grid, from the finer `state` at its nodes.
-
-        With these limits of Newton's, but where the same was solved before; Eq. 2 lets nothing go.
-        """
+        """Problem and `Outcome` of a contact on a coarser grid, from the finer `state` at its nodes. With
+        these limits of Newton's, but where the same was solved before; Eq. 2 lets nothing go."""
         known, _ = self._solved.get(level, (None, None))
         if known and known.contact is contact and known.scheme == scheme:
             return self._solved[level]

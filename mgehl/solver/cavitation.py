@@ -87,10 +87,8 @@ def overflows(state):
 
 
 def cavities_rest(problem, state):
-    """Whether no film pulls and no cavity overflows: nothing asks for another set at this gap.
-
-    Where the gap moves, too, the relaxation knows more: it finds what the pressure will ask for.
-    """
+    """Whether no film pulls and no cavity overflows: nothing asks for another set at this gap. Where the
+    gap moves, too, the relaxation knows more: it finds what the pressure will ask for."""
     pulls = (state.status == LUBRICATED) & (state.P <= problem.contact.tears_at)
     return problem.grid.count(pulls | overflows(state)) == 0
 

@@ -44,10 +44,8 @@ class Continuation:
         return self._asked(last_speed, *self._follow(state, first_speed, last_speed))
 
     def slow_down(self, problem, outcome, exactly=True):
-        """From the solution of a faster contact to that of its own speed, as far as there is one.
-
-        On the way `exactly`, or with a coarse grid's tolerance.
-        """
+        """From the solution of a faster contact to that of its own speed, as far as there is one. On the
+        way `exactly`, or with a coarse grid's tolerance."""
         speed, goal = problem.contact.speed, self._task.contact.speed
         while outcome.converged and speed != goal:
             slower = max(goal, speed / SPEED_RATIO)
@@ -67,10 +65,8 @@ class Continuation:
         return Continuation(task if exactly else replace(task, settings=task.settings.roughly()))
 
     def _asked(self, speed, problem, outcome):
-        """The problem that was asked for, where that of the `outcome` is a stage on the way to it.
-
-        Its state is no solution of these equations, and is judged by them.
-        """
+        """The problem that was asked for, where that of the `outcome` is a stage on the way to it. Its
+        state is no solution of these equations, and is judged by them."""
         if outcome.converged:
             return problem, outcome
         scheme, contact = self._task.settings.scheme, self._task.contact.at_speed(speed)

@@ -103,10 +103,8 @@ def guess_on_finest(hierarchy, contact, scheme):
 
 
 def dry_pressure(problem, P, largest_gap=GUESS_GAP):
-    """Roughly the pressure (lines, nx) with which the bodies carry their load; `P` is a guess.
-
-    Bodies are up to `largest_gap` apart where they press, and overlap by no more, in units of H.
-    """
+    """Roughly the pressure (lines, nx) with which the bodies carry their load; `P` is a guess. Bodies are
+    up to `largest_gap` apart where they press, and overlap by no more, in units of H."""
     P, limit = carrying_pressure(problem, P), min(GUESS * problem.K00, largest_gap)
     for _ in range(SolverSection.max_steps):
         pressed = PressedNodes(problem, P)
@@ -167,10 +165,8 @@ class PressedNodes:
         self.largest_gap = self._grid.max(np.abs(self._left))
 
     def balance(self, limit):
-        """Conjugate gradients until the gap on the set is within `limit`; return how many.
-
-        They end before that where `REDUCTION` of the error is left and the set is not the right one.
-        """
+        """Conjugate gradients until the gap on the set is within `limit`; return how many. They end before
+        that where `REDUCTION` of the error is left and the set is not the right one."""
         direction, energy = self._preconditioned()
         first = energy
         for iteration in range(MOST_ITERATIONS):
@@ -223,10 +219,8 @@ class PressedNodes:
         return self._grid.max(-self.P, initial=0.0)
 
     def without_pull(self):
-        """The pressure to go on with: nodes that pull have none, those that overlap a trace.
-
-        It carries the load.
-        """
+        """The pressure to go on with: nodes that pull have none, those that overlap a trace. It carries the
+        load."""
         return carrying_pressure(self._problem, np.where(self._overlapping, TRACE, self.P))
 
     def told(self, step, iterations):

@@ -23,10 +23,8 @@ weights of the line before, its own and the one after. Nine alike make the minim
 
 @dataclass(frozen=True)
 class GridFilm:
-    """Films of a grid's answer at the run's speed, in nm, between the nodes where need be.
-
-    On a coarser grid the minimum is that of the finer one, less what differs at their common nodes around.
-    """
+    """Films of a grid's answer at the run's speed, in nm, between the nodes where need be. On a coarser
+    grid the minimum is that of the finer one, less what differs at their common nodes around."""
 
     nodes: int
     central_nm: float

@@ -34,10 +34,8 @@ class SetUp:
     """Those axes, beside the user's."""
 
     def recipe(self, start=None, begins=None):
-        """The `Recipe` of a loaded contact with a fluid, maybe from a `start`.
-
-        It `begins` in the way that led to the answer, where that is another.
-        """
+        """The `Recipe` of a loaded contact with a fluid, maybe from a `start`. It `begins` in the way that
+        led to the answer, where that is another."""
         settings = on_mesh(self.settings, self.contact, self.mesh)
         recipe = recipe_of(settings, self.contact, start and A_STATE)
         return replace(recipe, begins=begins or recipe.begins)

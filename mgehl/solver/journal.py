@@ -15,20 +15,16 @@ class Journal:
         """Where the next solve stood when the run was stopped; None at its beginning."""
 
     def step(self, grid, position):
-        """Take note of the `position` before a step: all that the way from here depends on.
-
-        Raises `errors.Stopped` when the run is to end here.
-        """
+        """Take note of the `position` before a step: all that the way from here depends on. Raises
+        `errors.Stopped` when the run is to end here."""
 
     def finish(self, grid, outcome):
         """Take note of the `outcome`, the end of a solve."""
 
 
 def told_to_stop(comm, stop):
-    """The `Stopped` that `stop` returns on any rank, else None (collective).
-
-    A signal may reach one rank only, and clocks differ.
-    """
+    """The `Stopped` that `stop` returns on any rank, else None (collective). A signal may reach one rank
+    only, and clocks differ."""
     return next((each for each in comm.allgather(stop()) if each), None)
 
 

@@ -55,10 +55,8 @@ GO_ON = Verdict(ends=False)
 
 
 def judge(position, partition, limits):
-    """The `Verdict` on a position whose last cycle has just been measured (collective).
-
-    `limits` are `NewtonSettings`, patience included.
-    """
+    """The `Verdict` on a position whose last cycle has just been measured (collective). `limits` are
+    `NewtonSettings`, patience included."""
     cycle = position.cycles[-1]
     limit = position.trial.limit if position.trial else limits.max_steps
     small = cycle.residual <= limits.tolerance and abs(cycle.load_error) <= limits.tolerance
@@ -85,10 +83,8 @@ def judge(position, partition, limits):
 
 
 def how_sets_change(position, by_film):
-    """The `SetsChange` around the next step from a position, by what the last steps gained.
-
-    `by_film` says whether contact closes continuously.
-    """
+    """The `SetsChange` around the next step from a position, by what the last steps gained. `by_film` says
+    whether contact closes continuously."""
     idle = steps_since_lowered(position)
     if by_film and idle >= IDLE_CIRCLE:
         return SetsChange.IN_TURN

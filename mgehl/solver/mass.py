@@ -57,9 +57,7 @@ def mass_account(problem, state, evaluation):
 
 def account(problem, state, evaluation, inside, unit):
     """The `Mass` of an evaluated state, with what flows into and out of the nodes `inside` (collective).
-
-    That is a ghosted mask; `unit` is the flow that carries one unit of H across one of Y, in m^3/s.
-    """
+    That is a ghosted mask; `unit` is the flow that carries one unit of H across one of Y, in m^3/s."""
     grid, mesh = problem.grid, problem.grid.mesh
     cell = mesh.dX * mesh.dY
     inner = ~problem.boundary

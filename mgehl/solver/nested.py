@@ -77,10 +77,8 @@ def single_loop(task, state=None):
 
 
 def first_guess(problem, begins, P=None):
-    """The state that a solve begins with, as a `Recipe` names it.
-
-    `P` (lines, nx) is a pressure to begin with, unless that of smooth bodies.
-    """
+    """The state that a solve begins with, as a `Recipe` names it. `P` (lines, nx) is a pressure to begin
+    with, unless that of smooth bodies."""
     grid, contact = problem.grid, problem.contact
     P = contact.guessed_pressure(grid.X, grid.Y) if P is None else P
     film = contact.expected_film / contact.film_scale
@@ -143,10 +141,8 @@ def guess_fluid(hierarchy, problem, state, settings):
 
 
 def interpolate(transfer, problem, coarse):
-    """The coarse state on the fine grid: P cubic, a node in contact where most of it would be.
-
-    The first steps on every grid would smooth the kinks of a bilinear P.
-    """
+    """The coarse state on the fine grid: P cubic, a node in contact where most of it would be. The first
+    steps on every grid would smooth the kinks of a bilinear P."""
     P = transfer.cubic(coarse.P)
     in_contact = transfer.bilinear((coarse.status == CONTACT).astype(float)) > 0.5
     film = (P > problem.contact.tears_at) | (not problem.scheme.cavitation)

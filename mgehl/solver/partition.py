@@ -93,9 +93,7 @@ class Past(Kept):
 
 class Partition:
     """Moves nodes of a state between the sets; `past`, which may be replaced, is what they went through.
-
-    With `in_turn` neighbours whose signs are wrong change in turn, and not at once.
-    """
+    With `in_turn` neighbours whose signs are wrong change in turn, and not at once."""
 
     def __init__(self, problem, release_budget):
         self._problem, self._grid = problem, problem.grid
@@ -164,10 +162,8 @@ class Partition:
         changes.entered += self._grid.count(closed)
 
     def _still_pressed(self, state):
-        """Nodes that have just been torn open though bodies overlap there by more than the tension was.
-
-        A step not taken whole leaves a first guess' overlap: a film of less than nothing.
-        """
+        """Nodes that have just been torn open though bodies overlap there by more than the tension was. A
+        step not taken whole leaves a first guess' overlap: a film of less than nothing."""
         torn = self.past.just_released & is_fluid(state.status) & (self.past.torn_pressure < 0.0)
         if self._contact_law.closes_faces:
             return np.zeros(torn.shape, dtype=bool)
@@ -203,10 +199,8 @@ class Partition:
         changes.released += self._grid.count(opened)
 
     def _that_change(self, asked, excess, in_turn):
-        """Of the nodes that are `asked` to change those that do so now, all (lines, nx) (collective).
-
-        All of them, or each whose `excess` no neighbour that is asked surpasses.
-        """
+        """Of the nodes that are `asked` to change those that do so now, all (lines, nx) (collective). All
+        of them, or each whose `excess` no neighbour that is asked surpasses."""
         if not in_turn:
             return asked
         largest = maximum_filter(self._grid.halo(np.where(asked, excess, 0.0)), size=3)
@@ -245,10 +239,8 @@ class Partition:
         return self._grid.count(self.violations(state)[0] & (self.past.budget > 0))
 
     def release_violations(self, state, changes):
-        """Release contact nodes that violate Eq. 2 and have budget left.
-
-        The fluid beside such a node would pry it open: it becomes film under that fluid's pressure.
-        """
+        """Release contact nodes that violate Eq. 2 and have budget left. The fluid beside such a node would
+        pry it open: it becomes film under that fluid's pressure."""
         released, beside = self.violations(state)
         released &= self.past.budget > 0
         self.past.budget[released] -= 1

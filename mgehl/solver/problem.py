@@ -80,9 +80,7 @@ class Problem:
 
     def march_contents(self, state, evaluation):
         """Give the cavities that feed nothing what flows into them, in place; return the new evaluation.
-
-        Where bodies may overlap nothing can be said of contents: there cavities count as full.
-        """
+        Where bodies may overlap nothing can be said of contents: there cavities count as full."""
         if not self.scheme.contact_law.has_contact:
             fills = (state.status == CAVITATED) & (evaluation.inflow > 0.0)
             state.filling = np.where(fills, OVERFULL, 1.0)
@@ -203,10 +201,8 @@ class ContactProblem(Problem):
         return -self.grid.min(gap[P > 0.0])
 
     def state(self, P, H0, status, p=None, filling=None):
-        """The state of a given pressure, with its gap; boundary nodes are set.
-
-        Unless they are given, the fluid presses as hard as contact does, and cavities are full.
-        """
+        """The state of a given pressure, with its gap; boundary nodes are set. Unless they are given, the
+        fluid presses as hard as contact does, and cavities are full."""
         P = np.where(self.boundary, 0.0, P)
         status = np.where(self.boundary, BOUNDARY, status).astype(np.int8)
         H = self.gap(P, H0)

@@ -5,10 +5,8 @@ from mgehl.solver.record import Kept, Record
 
 
 class Remembered(Kept):
-    """The memory of a `MultigridSolver` as it is when it is asked: nothing is copied before.
-
-    It is kept whole, deflections, too: what is left out changes the digits of all that follows.
-    """
+    """The memory of a `MultigridSolver` as it is when it is asked: nothing is copied before. It is kept
+    whole, deflections, too: what is left out changes the digits of all that follows."""
 
     def __init__(self, multigrid):
         self._multigrid, self._memory, self._space = multigrid, multigrid.memory, multigrid.space

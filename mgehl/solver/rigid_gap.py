@@ -33,10 +33,8 @@ class FluidStep:
 
 
 class RigidGapFluid:
-    """Newton's method for the separable fluid alone; `multigrid` solves its linear systems.
-
-    That is a rigid-gap `MultigridSolver`, or an `AssembledSolver`.
-    """
+    """Newton's method for the separable fluid alone; `multigrid` solves its linear systems. That is a
+    rigid-gap `MultigridSolver`, or an `AssembledSolver`."""
 
     def __init__(self, problem, multigrid, options_prefix, linear_tolerance=LINEAR_TOLERANCE):
         self._problem, self._multigrid = problem, multigrid
@@ -52,10 +50,8 @@ class RigidGapFluid:
         self._multigrid.free()
 
     def separable(self, evaluation, status):
-        """Fluid nodes that this solver answers for: (lines, nx) bool.
-
-        Films under contact pressure are not among them: so viscous a fluid is driven out of no gap.
-        """
+        """Fluid nodes that this solver answers for: (lines, nx) bool. Films under contact pressure are not
+        among them: so viscous a fluid is driven out of no gap."""
         return is_fluid(status) & (own(evaluation.fluid.eps) > 0.0) & driven(self._problem, evaluation)
 
     def solve(self, state, tolerance, max_steps=30, before_step=lambda: None, to_rest=True):

@@ -85,10 +85,8 @@ def film_shear(problem, state):
 
 
 def solid_shear(problem, state):
-    """Shear stress of solids in Pa, (lines, nx).
-
-    They carry P - p where contact lets fluid through, and P where it closes its faces, or bodies overlap.
-    """
+    """Shear stress of solids in Pa, (lines, nx). They carry P - p where contact lets fluid through, and P
+    where it closes its faces, or bodies overlap."""
     contact, law = problem.contact, problem.scheme.contact_law
     if contact.friction.slide_to_roll == 0.0:
         return np.zeros(state.P.shape)

@@ -28,10 +28,8 @@ class PythonSnes:
             raise OptionError(f"-{OF_A_RUN}snes_type: the solver is the SNES type python, no other")
 
     def free(self):
-        """Destroy the PETSc objects, the multigrid solver's too: the KSP refers to them.
-
-        (Not called `destroy`: PETSc calls a context's method of that name.)
-        """
+        """Destroy the PETSc objects, the multigrid solver's too: the KSP refers to them. (Not called
+        `destroy`: PETSc calls a context's method of that name.)"""
         for each in (self._snes, self._unknown, self._f, self._rhs, self._correction):
             each.destroy()
         self._multigrid.free()

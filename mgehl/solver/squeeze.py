@@ -47,18 +47,14 @@ def squeeze_rates(problem, evaluation, rows, F, settings):
 
 
 def share_of_the_gap(problem, evaluation):
-    """How much of each node's residual only another gap can undo, (lines, nx).
-
-    A thousandth of the pressure does in a deep valley: its large residual says nothing of the gap.
-    """
+    """How much of each node's residual only another gap can undo, (lines, nx). A thousandth of the pressure
+    does in a deep valley: its large residual says nothing of the gap."""
     return 1.0 / (1.0 + own(evaluation.fluid.eps) / (problem.K00 * problem.grid.mesh.dX))
 
 
 def _stable_rates(problem, evaluation, rows, rms):
-    """Rates with which the inflow of each film node falls as its own pressure lifts it: (lines, nx).
-
-    Not of nodes beside contact, which holds them down: half of the rate that would do is worse than none.
-    """
+    """Rates with which the inflow of each film node falls as its own pressure lifts it: (lines, nx). Not of
+    nodes beside contact, which holds them down: half of the rate that would do is worse than none."""
     steady = linearise(evaluation, rows)
     by_own_gap = steady.A[0] / problem.K00 + steady.B[0]
     margin = STABLE * min(1.0, rms / LAST_STEPS) / problem.grid.mesh.dX

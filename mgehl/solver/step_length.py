@@ -37,10 +37,8 @@ def step_length(problem, partition, evaluation, state, dP, dH0, settings):
 
 
 def mean_change(problem, evaluation, state, H):
-    """Mean change of the film over itself on the way to a gap H, (lines, nx).
-
-    Deep valleys do not count: their gap says nothing of the film beside them.
-    """
+    """Mean change of the film over itself on the way to a gap H, (lines, nx). Deep valleys do not count:
+    their gap says nothing of the film beside them."""
     is_thin = share_of_the_gap(problem, evaluation) > 0.5
     film = is_thin & (state.status == LUBRICATED) & (state.H > problem.scheme.contact_law.contact_gap)
     change = np.abs(H - state.H)[film] / state.H[film]

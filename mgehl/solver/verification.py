@@ -81,10 +81,8 @@ NOT_SEEN = Edge(0.0, 0, 0.0, FEWEST_NODES, None)
 
 
 def check_edge(problem, state, part=LOADED):
-    """How the contact stands in its domain: what lies beyond was not solved (collective).
-
-    The loaded zone has at least this `part` of the largest pressure.
-    """
+    """How the contact stands in its domain: what lies beyond was not solved (collective). The loaded zone
+    has at least this `part` of the largest pressure."""
     grid, P = problem.grid, state.P
     largest, overlap = grid.max(P), np.where(problem.boundary, -state.H, 0.0)
     near = _pressure_near_boundary(grid, P)

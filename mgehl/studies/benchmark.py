@@ -183,10 +183,8 @@ def _peak_memory():
 
 
 def ratios(old, new):
-    """{case: {quantity: new/old}} of the cases that both have; seconds in units of the reference.
-
-    A part of less than `NEGLIGIBLE` in both is left out: its ratio is noise.
-    """
+    """{case: {quantity: new/old}} of the cases that both have; seconds in units of the reference. A part of
+    less than `NEGLIGIBLE` in both is left out: its ratio is noise."""
     before = {timing.case: timing for timing in old.timings}
     return {now.case: _ratios(before[now.case], now) for now in new.timings if now.case in before}
 

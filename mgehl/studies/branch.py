@@ -46,10 +46,8 @@ class Point:
 
 
 class Branch:
-    """A branch of the contact of nested tables: "down" or "up".
-
-    `beside` holds points of the other branch, from which this one goes on where it ends.
-    """
+    """A branch of the contact of nested tables: "down" or "up". `beside` holds points of the other branch,
+    from which this one goes on where it ends."""
 
     def __init__(self, study, tables, name, beside=()):
         self._study, self._config, self._name = study, study.config(tables), name

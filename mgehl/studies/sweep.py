@@ -120,10 +120,8 @@ def start_of(behind, axes, point):
 
 
 def _factor(values, before, last):
-    """Change that is expected of the next solution, over that between two; None where none can be.
-
-    The film goes by a power of the key, all else as the film.
-    """
+    """Change that is expected of the next solution, over that between two; None where none can be. The film
+    goes by a power of the key, all else as the film."""
     x = [log(value) for value in values] if min(values) > 0.0 else values
     steps, films = (x[2] - x[1]) / (x[1] - x[0]), [_film(each.result) for each in (before, last)]
     if not 0.0 < steps < NEAR or not min(films) > 0.0 or not max(films) < NEAR * min(films):

@@ -127,10 +127,8 @@ def central_line(solution):
 
 
 def fitted(X, changes, length):
-    """(uniform, wave): the amplitudes in two changes of film, by waves a quarter of a length apart.
-
-    The response to waves anywhere is the real part of one complex function times exp(-ik x0).
-    """
+    """(uniform, wave): the amplitudes in two changes of film, by waves a quarter of a length apart. The
+    response to waves anywhere is the real part of one complex function times exp(-ik x0)."""
     near = np.abs(X) <= WITHIN
     response = (changes[0] + 1j * changes[1])[near]
     wave = np.exp(2j * pi / length * X[near])

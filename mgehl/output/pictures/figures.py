@@ -74,10 +74,8 @@ def drawn_by(solution):
 
 
 def figures(solution: Solution, kinds: Sequence[str] | None = None) -> list[Picture]:
-    """A list of `Picture`s of a run with whole fields: of these kinds, or all that it has.
-
-    Raises UserError for a kind that this contact does not have.
-    """
+    """A list of `Picture`s of a run with whole fields: of these kinds, or all that it has. Raises UserError
+    for a kind that this contact does not have."""
     known = drawn_by(solution)
     for kind in kinds or ():
         if kind not in known:
@@ -88,10 +86,8 @@ def figures(solution: Solution, kinds: Sequence[str] | None = None) -> list[Pict
 
 
 def compared(solutions: Sequence[Solution], names: Sequence[str]) -> list[Picture]:
-    """A list of two `Picture`s that show several runs of one kind of contact, called by `names`.
-
-    Raises UserError where their contacts are of different kinds.
-    """
+    """A list of two `Picture`s that show several runs of one kind of contact, called by `names`. Raises
+    UserError where their contacts are of different kinds."""
     said = labels(solutions, names)
     with style.applied():
         centre, histories = compare_lines(solutions, said), compare_histories(solutions, said)

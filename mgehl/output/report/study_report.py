@@ -20,10 +20,8 @@ def is_study(directory):
 
 
 def study_report(directory, studies):
-    """The page of a study's directory, for `render`; `studies` has what each study is, by name.
-
-    Raises OutputError where a file cannot be read.
-    """
+    """The page of a study's directory, for `render`; `studies` has what each study is, by name. Raises
+    OutputError where a file cannot be read."""
     directory = Path(directory)
     record, name = read_record(directory), directory.resolve().name
     return {
