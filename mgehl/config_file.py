@@ -38,11 +38,8 @@ def default_config():
 
 
 def chosen_config(path=None, settings=()):
-    """Path of the configuration that a command line means.
-
-    The one it names; without any, the paper's ball where there are settings to change it, and else the
-    rough ball.
-    """
+    """Path of the configuration that a command line means: the one it names; without any, the paper's ball
+    where settings change it, and else the rough ball."""
     if path:
         return Path(path)
     return default_config() if settings else _shipped(ROUGH_BALL)

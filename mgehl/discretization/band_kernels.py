@@ -17,11 +17,8 @@ SIDE_BY_SIDE = 2
 
 @compiled()
 def span_of(given, lines):
-    """(first, end) of the nodes that the systems of some `lines`, (first, end), need.
-
-    From the first node that is not `given`, with the given one before it, to the last and the one after
-    it: what a distributive node hands over to a given one has to be taken back there.
-    """
+    """(first, end) of the nodes that the systems of some `lines`, (first, end), need: those that are not
+    `given`, and one on each side, from which what a distributive node hands over is taken back."""
     nx = given.shape[1]
     first, end = nx, 0
     for j in range(lines[0], lines[1]):
@@ -124,11 +121,8 @@ def banded(reach):
 
     @compiled(error_model="numpy")
     def factor(bands, nodes):
-        """LU factors of the `nodes` (first, end) of all lines in place, without pivoting.
-
-        The diagonal holds the reciprocal pivots. What a band has beyond these nodes becomes zero. A
-        singular line gives factors that are not finite: the iteration that made it ends by itself.
-        """
+        """LU factors of the `nodes` (first, end) of all lines in place, without pivoting: reciprocal pivots
+        on the diagonal, zero beyond. A singular line's are not finite, which ends the iteration."""
         nx = nodes[1] - nodes[0]
         for j in range(len(bands)):
             band = bands[j, nodes[0] : nodes[1]]

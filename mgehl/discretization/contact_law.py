@@ -89,11 +89,8 @@ class BoundaryFilm(ContactLaw):
         return np.maximum(H, self.film), H > self.film
 
     def carried(self, H):
-        """What lies above the layers: they stick to the surfaces, and are not compressed.
-
-        Were they carried as fluid, they would have to become thicker wherever the pressure falls along
-        the motion: the rear half of no contact could stay closed.
-        """
+        """What lies above the layers: they stick and are not compressed. As fluid they would thicken
+        wherever the pressure falls along the motion: no contact's rear half could stay."""
         return H - self.film
 
     def closed(self, H, was_released):

@@ -115,11 +115,8 @@ class Part:
 
 
 def add_couette(flow, terms, scheme, fluid, solid, axis):
-    """Add to `flow` through the faces along an axis the Couette flow by `terms` of a `CouetteScheme`.
-
-    `fluid` and `solid` are ghosted. The scheme's products `near` are used where a far node is solid, or is
-    not there.
-    """
+    """Add to `flow` through the faces along an axis the Couette flow by `terms` of a `CouetteScheme`, its
+    products `near` where a far node is solid or not there. `fluid` and `solid` are ghosted."""
     parts = _parts(terms, scheme.near, solid, axis)
     if isfinite(scheme.limit):
         parts = _within(scheme.limit, parts, fluid, axis)

@@ -173,10 +173,7 @@ class FaceMobility:
 
 def face_mobility(scheme, eps, gaps, rho):
     """The `FaceMobility` between nodes of mobilities `eps`, `gaps` and densities `rho`, pairs (W, E), by
-    the scheme's mean.
-
-    With a `mobility_share` below 1 the rest is the arithmetic mean.
-    """
+    the scheme's mean; with a `mobility_share` below 1 the rest is the arithmetic one."""
     if scheme.face_mobility in MONOTONE:
         found = _by_mean_density(MONOTONE[scheme.face_mobility], eps, gaps, rho)
     else:
@@ -186,11 +183,8 @@ def face_mobility(scheme, eps, gaps, rho):
 
 
 def _by_mean_density(mean, eps, gaps, rho):
-    """The mean density times a `mean` of the mobilities without theirs.
-
-    That mean of the whole mobility would fold: where the viscosity has fallen to nothing on one side, a
-    higher pressure on the other would drive less through the face, for its fluid is denser.
-    """
+    """The mean density times a `mean` of the mobilities without theirs. The mean of all would fold: where
+    one side has no viscosity left, more pressure on the other would drive less."""
     volume = mean([each / density for each, density in zip(eps, rho, strict=True)], gaps)
     density = 0.5 * (rho[0] + rho[1])
     by_eps = tuple(density * slope / each for slope, each in zip(volume.by_eps, rho, strict=True))
@@ -203,11 +197,8 @@ def _by_mean_density(mean, eps, gaps, rho):
 
 
 def _logarithmic_mobility(eps, _gaps):
-    """(a - b)/ln(a/b) of the mobilities a and b: vanishes with either side.
-
-    Between nodes of one gap and Barus's law it is exact: their flow is that of the reduced pressure
-    q = (1 - e^(-alpha p))/alpha.
-    """
+    """(a - b)/ln(a/b) of the mobilities a and b: vanishes with either side. Exact between nodes of one gap
+    for Barus's law: their flow is that of the reduced pressure q = (1 - e^(-alpha p))/alpha."""
     parts = np.empty((3, *np.shape(eps[0])))
     logarithmic_means(*(np.atleast_2d(each) for each in (*eps, *parts)))
     value, *by_eps = parts

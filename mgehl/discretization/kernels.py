@@ -47,11 +47,8 @@ def _add_part(a, p, out):
 
 @compiled()
 def distribute(w, distributive, share, omega, out, along_x=True, along_y=True):
-    """out = omega Q w; `w` and `distributive` ghosted, `out` (lines, nx).
-
-    Q as in `band_kernels.build_bands`. A node that is not distributive takes what those beside it hand over
-    along X and along Y, or along one of them only.
-    """
+    """out = omega Q w; `w` and `distributive` ghosted, `out` (lines, nx). Q as in
+    `band_kernels.build_bands`; others take what is handed over along X and along Y, or one."""
     lines, nx = out.shape
     for j in range(lines):
         for i in range(nx):
@@ -155,11 +152,8 @@ def _add_product(flow, factor, inflow):
 
 @compiled()
 def flow_sources(inflow, P, along, across, source):
-    """source = inflow - L P: the net inflow of a node without its Poiseuille flow.
-
-    `P` is ghosted. `along` (lines, nx - 1) and `across` (lines + 1, nx) are the conductances of
-    the x and y faces over dX^2 and dY^2; L P is their flow. Ends of lines are left alone.
-    """
+    """source = inflow - L P: the net inflow of a node without its Poiseuille flow L P; ends of lines are
+    left. `P` is ghosted; `along` (lines, nx - 1) and `across` (lines + 1, nx) are `conductances`."""
     lines, nx = source.shape
     for j in range(lines):
         for i in range(1, nx - 1):
@@ -191,8 +185,7 @@ def relax_cavitation(first, w, film, movable, source, conductances, carried, pas
     Pairs of faces along X, (lines, nx - 1), and Y, (lines + 1, nx), are their `conductances` and what full
     gaps have `carried` through them; a cavity that nothing is carried out of counts as full. `movable`
     nodes take part, which are `film` or cavities by the sign of w. A line's set is iterated `passes` times:
-    solve all nodes, then turn those of the other sign, which begin at 0. Returns the last pass' number of
-    changes.
+    solve all nodes, then turn those of the other sign, which begin at 0. Returns the last changes.
     """
     lines, nx = source.shape
     upper, changes = np.zeros(nx), 0

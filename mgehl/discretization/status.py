@@ -57,11 +57,8 @@ def enclosed(status, axes):
 
 
 def largest_fluid_neighbour(P, status, axes):
-    """Largest pressure of the fluid neighbours of each node, -inf without any.
-
-    `P` and `status` are ghosted, the result is (lines, nx). Boundary nodes count as fluid: their
-    pressure is known. This is the right-hand side of [Liu eq. 2].
-    """
+    """Largest pressure of the fluid neighbours of each node, (lines, nx), -inf without any: the right-hand
+    side of [Liu eq. 2]. `P` and `status` are ghosted; boundary nodes count as fluid."""
     fluid = np.where(is_solid(status), -np.inf, P)
     result = np.full(own(status).shape, -np.inf)
     for axis in axes:

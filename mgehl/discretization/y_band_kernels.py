@@ -75,11 +75,8 @@ def _subtract_product(a, b, c):
 
 @compiled()
 def factor_y_bands(bands, spans):
-    """LU factors of all y-lines in place, without pivoting; the diagonal holds the reciprocal pivots.
-
-    `bands` (ny, 2 reach + 1, columns). What they hold beyond the first and the last line, and beyond the
-    `spans` (ny, 2), does not matter. A singular line gives factors that are not finite.
-    """
+    """LU factors of all y-lines in place, without pivoting; reciprocal pivots on the diagonal. `bands` (ny,
+    2 reach + 1, columns) count within the `spans` (ny, 2). A singular line's are not finite."""
     ny, width, _ = bands.shape
     reach = width // 2
     for j in range(ny):

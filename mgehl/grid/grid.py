@@ -71,11 +71,8 @@ class Grid:
         return self.mesh.Y[self.first : self.last, None]
 
     def halo(self, array, out=None):
-        """Copy of `array` with the neighbours' lines around it; outside the domain zero.
-
-        `array` is (lines, nx) of any type that a double holds, the result (lines + 2 HALO, nx). The
-        team's: a rank without lines is sent nothing, and may be elsewhere.
-        """
+        """Copy of `array`, (lines, nx) of any type that a double holds, with the neighbours' lines around
+        it: (lines + 2 HALO, nx); outside the domain zero. The team's."""
         if self.comm.size == 1:
             return self._with_nothing_around(array, out)
         ghosted = np.zeros(self.ghosted_shape) if out is None else out
@@ -212,11 +209,8 @@ def single_grid(mesh, comm):
 
 
 def build_grids(mesh, coarsest_nodes, comm):
-    """Grids from the coarsest to `mesh`, each of every other node of the next.
-
-    A coarse line belongs to the rank that owns the same fine line, so that a transfer needs ghost
-    lines only; where that would leave the ranks too few lines, fewer ranks share the coarse grid.
-    """
+    """Grids from the coarsest to `mesh`, each of every other node of the next. A coarse line belongs to the
+    rank of the same fine line, so transfers need ghost lines only; fewer ranks share one of few lines."""
     meshes = [mesh]
     while meshes[-1].nx > coarsest_nodes and meshes[-1].nx % 2 and meshes[-1].ny % 2:
         meshes.append(meshes[-1].coarsened())

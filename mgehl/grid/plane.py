@@ -47,11 +47,7 @@ def shares_of_work(work, ranks):
 
 
 def _odd(width):
-    """A width of no less.
-
-    Rows that lie a power of two apart share few places of a cache, and transforms along Y took up to ten
-    times as long.
-    """
+    """A width of no less: rows a power of two apart share few places of a cache."""
     return width | 1
 
 
@@ -85,11 +81,8 @@ class SharedPlane:
         self._comm.Barrier()
 
     def release(self):
-        """All ranks have read what they need: lines and columns may be written again.
-
-        Needed where nothing else that waits for all, `to_columns` or `to_lines`, comes between a rank's
-        reading and another's writing.
-        """
+        """All ranks have read what they need: lines and columns may be written again. Needed where neither
+        `to_columns` nor `to_lines` comes between a rank's reading and another's writing."""
         self._comm.Barrier()
 
 

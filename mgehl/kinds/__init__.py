@@ -23,11 +23,8 @@ KINDS = {kind.name: kind for kind in (POINT, LINE, WEDGE)}
 
 
 def choices(tables):
-    """Every `Choice` that nested values make, in the order in which mistakes are told.
-
-    Values may be those of a whole configuration, or of settings alone: where a key is not there, nothing
-    is chosen by it.
-    """
+    """Every `Choice` that nested values, a whole configuration's or settings, make, as mistakes are
+    told."""
     kind = KINDS.get(word_of(tables, "contact.kind"))
     makers = (
         point_choices, surface_choices, time_choices, friction_choices, fluid_choices, wedge_choices,

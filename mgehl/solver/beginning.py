@@ -49,11 +49,8 @@ def _begin_touching(task):
 
 
 def first_found(task, ways):
-    """Problem and `Outcome` of the first way that leads to an answer, each tried where those before fail.
-
-    `ways` are (where it begins, function of a `Task`). Where none leads there, the `Outcome` is the first
-    one's, and has the reason of each.
-    """
+    """Problem and `Outcome` of the first way that leads to an answer, of `ways` (where it begins, function
+    of a `Task`). Where none does, the `Outcome` is the first one's, and has the reason of each."""
     (_, way), *others = ways
     problem, outcome = way(task)
     if outcome.converged:

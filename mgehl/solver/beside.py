@@ -36,11 +36,8 @@ class Beside:
         """By level: problem and `Outcome`."""
 
     def films(self, scheme):
-        """A tuple of `GridFilm`, of the finest grid and of the next coarser ones (collective).
-
-        Those are solved by a `Scheme` that may be another. It ends with the first grid that has
-        contact, or no answer.
-        """
+        """A tuple of `GridFilm`, of the finest grid and of the next coarser ones, those by a `Scheme` that
+        may be another, down to the first that has contact, or no answer (collective)."""
         problem, state, grids = self.problem, self._state, self._hierarchy.grids
         films = films_between_nodes(problem, state)
         found, last = [_grid_film(problem, state, True, *films)], len(grids) - 1

@@ -85,11 +85,8 @@ def _stage(scheme, speed):
 
 
 def in_steps(solve, state):
-    """Lead `state` from t = 0 to 1 with `solve(t, state)`, which returns a problem and an `Outcome`.
-
-    A step that does not converge is halved and tried again from the last state that did. Returns
-    the last solution: at t = 1, or of the smallest step that failed.
-    """
+    """Lead `state` from t = 0 to 1 with `solve(t, state)`, which returns a problem and an `Outcome`; return
+    the last: at t = 1, or of the smallest step that failed. One that does not converge is halved."""
     reached, step = 0.0, 1.0
     while True:
         t = min(1.0, reached + step)

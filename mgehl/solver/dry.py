@@ -73,11 +73,8 @@ class DryStanding(Kept):
 
 
 def solve_dry(problem, P, tolerance, max_steps, monitor, journal=NOTHING_KEPT):
-    """The `Outcome` of the dry contact of a `ContactProblem`; `P` (lines, nx) is a guess.
-
-    `monitor` is called with each `DryStep`; the `journal` is told of every step, and may know this solve
-    or its first part already.
-    """
+    """The `Outcome` of the dry contact of a `ContactProblem`; `P` (lines, nx) is a guess. `monitor` is
+    called with each `DryStep`; the `journal` as in `Newton.run`."""
     grid = problem.grid
     outcome = journal.recall(grid, partial(Outcome.from_record, line=DryStep))
     if outcome is None:
@@ -90,8 +87,7 @@ def solve_dry(problem, P, tolerance, max_steps, monitor, journal=NOTHING_KEPT):
 
 
 def guess_on_finest(hierarchy, contact, scheme):
-    """A first P (lines, nx) on the finest grid: Hertz' of smooth bodies, else by coarser grids
-    (collective)."""
+    """A first P (lines, nx) on the finest grid, Hertz' of smooth bodies, else by coarser (collective)."""
     grids, P = hierarchy.grids, None
     if not contact.is_hertzian and grids[-1].mesh.nx >= NESTED_NODES:
         for grid, deflection, finer in zip(grids, hierarchy.deflections, hierarchy.transfers, strict=False):

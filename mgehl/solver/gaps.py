@@ -95,11 +95,8 @@ def loads(problem, state):
 
 
 def load_differences(problem, state, P, p, status):
-    """By how much a state differs from a finer grid's P, p and status at its nodes, each (lines, nx).
-
-    `Loads` of the sizes of the differences; that of the largest pressure is their mean by pressure
-    (collective).
-    """
+    """By how much a state differs from a finer grid's P, p and status at its nodes, each (lines, nx):
+    `Loads` of their sizes, that of the largest pressure their mean by pressure (collective)."""
     grid, here, there = problem.grid, state.status == CONTACT, status == CONTACT
     everywhere, weight = np.ones_like(here), grid.sum(state.P.sum())
     of_contact = np.where(here, state.P, 0.0) - np.where(there, P, 0.0)

@@ -96,11 +96,8 @@ def _through(problem, evaluation, inside):
 
 
 def border_flows(evaluation, nodes):
-    """For each axis the width of a face, and what flows into `nodes`, a ghosted mask, by their borders.
-
-    Two flat arrays: through faces where they begin along the axis, and where they end. A face between ranks
-    is counted by the rank whose node is one of them.
-    """
+    """For each axis the width of a face, and what flows into `nodes`, a ghosted mask, by their borders:
+    through faces where they begin along the axis, and where they end."""
     mesh = evaluation.mesh
     for axis, (leaving, entering) in zip(evaluation.axes, evaluation.flows, strict=True):
         first, last = (axis.inner(own(nodes) & ~axis.beside(nodes, side)) for side in (-1, 1))

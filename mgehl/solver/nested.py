@@ -98,11 +98,8 @@ def first_guess(problem, begins, P=None):
 
 
 def _first_guess_of_peaks(problem, begins, P, film):
-    """The dry pressure `P` of the rough bodies, with a `film` between them, nearly none, or none.
-
-    The film lies on the layers that contact keeps. A film thinner than they are would close nearly
-    everywhere.
-    """
+    """The dry pressure `P` of the rough bodies, with a `film` between them, nearly none, or none. It lies
+    on the layers that contact keeps: a film thinner than they are would close nearly everywhere."""
     layers, pressed = problem.scheme.contact_law.contact_gap, P > 0.0
     above = {UNDER_FILM: film, UNDER_THIN_FILM: FLAT * film, DRY: 0.0}[begins]
     H0 = layers + above - problem.mean(problem.gap(P, 0.0), pressed)
@@ -151,11 +148,8 @@ def interpolate(transfer, problem, coarse):
 
 
 def planned_solves(meshes, contact, settings):
-    """(Level, `LevelSolve`) of what is solved on which of the `meshes`, coarsest first, at which speed.
-
-    A film begins on the coarse grids, at speeds that they resolve and that do not lift the bodies off each
-    other.
-    """
+    """(Level, `LevelSolve`) of what is solved on which of the `meshes`, coarsest first, at speeds that
+    coarse grids resolve and that do not lift the bodies off each other."""
     finest, on_coarse_grids = len(meshes) - 1, recipe_of(settings, contact).on_coarse_grids
     for level, mesh in enumerate(meshes):
         if level == finest:

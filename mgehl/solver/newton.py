@@ -48,11 +48,8 @@ class Newton(PythonSnes):
         self._in_turn = False
 
     def run(self, state, journal=NOTHING_KEPT, tolerance=None):
-        """Solve from `state`, which is the solve's own from now on; return the `Outcome`.
-
-        The `journal` is told of every step, and may know this solve or its first part already. The
-        `tolerance` is that of the settings unless it is given.
-        """
+        """Solve from `state`, which is the solve's own from now on; return the `Outcome`. The `journal` is
+        told of every step, and may know this solve or its first part already. `tolerance` overrules."""
         if tolerance is not None:
             self._snes.setTolerances(atol=tolerance)
         grid, self._journal = self._problem.grid, journal

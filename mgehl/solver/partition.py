@@ -124,11 +124,8 @@ class Partition:
         self.fit(state)
 
     def cut_tension(self, state, changes, in_turn=False):
-        """Set pressures below that of torn film to it in place: fluid cavitates, contact is released.
-
-        Contact with open faces under which fluid presses is lifted, not torn apart: `open_contact` lets it
-        go. A node that opened empty beside a film of a few nm closed and opened for ever.
-        """
+        """Set pressures below that of torn film to it in place: fluid cavitates, contact is released, but
+        not where fluid presses under open faces (`open_contact`): that would open empty."""
         P, status = state.P, state.status
         torn, tensile = self.tension(P, status)
         opened = self._that_change(torn, self._tears_at - P, in_turn)

@@ -101,11 +101,8 @@ class Problem:
         return (status == CONTACT) & stops
 
     def feeding(self, status):
-        """Cavities whose content reaches film or contact, (lines, nx).
-
-        All of them in a rigid gap, whose linear systems take no convolution, and whose plate may move
-        against the axis.
-        """
+        """Cavities whose content reaches film or contact, (lines, nx); all in a rigid gap, whose linear
+        systems take no convolution, and whose plate may move against the axis."""
         if not self.is_elastic:
             return status == CAVITATED
         if not self.scheme.contact_law.has_contact or self.scheme.motion == AT_REST:

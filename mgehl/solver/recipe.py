@@ -103,11 +103,8 @@ def recipe_of(settings, contact, begins=None):
 
 
 def recipe_in_time(settings, contact):
-    """The `Recipe` of a step in time: what the surfaces carry is known beforehand.
-
-    Where bodies part, oil that is shut in fills gaps as small as rounding: their nodes would be film and
-    contact by turns for ever, with no residual to tell which.
-    """
+    """The `Recipe` of a step in time: what the surfaces carry is known. Where bodies part, shut-in oil
+    fills gaps as small as rounding: their nodes would change for ever, with no residual to tell."""
     recipe = recipe_of(settings, contact, A_STATE)
     limits = {"max_work": 10**9, "max_steps": MOST_IN_TIME, "idle_steps": MOST_IN_TIME}
     newton = replace(recipe.newton, squeeze=0.0, certain=settings.newton.tolerance, **limits)

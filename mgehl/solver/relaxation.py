@@ -67,11 +67,8 @@ class Standing(Kept):
 
 
 def relax(problem, state, settings, monitor, journal=NOTHING_KEPT):
-    """Relax `state` in place until its true residual and load hold; return the `Outcome`.
-
-    One convolution a sweep. `monitor` is called with a `Sweep` every `REPORT_EVERY` sweeps. The
-    `journal` is told of every sweep, and may know this solve or its first part already.
-    """
+    """Relax `state` in place until its true residual and load hold; return the `Outcome`. One convolution a
+    sweep. `monitor` is called with a `Sweep` every `REPORT_EVERY`; the `journal` as in `Newton.run`."""
     grid = problem.grid
     outcome = journal.recall(grid, partial(Outcome.from_record, line=Sweep))
     if outcome is None:
@@ -137,11 +134,8 @@ class _Relaxation:
         state.status[enclosed(problem.grid.halo_status(state.status), problem.axes)] = CONTACT
 
     def mark_cavities(self, state, evaluation):
-        """Film without pressure that no fluid flows into is a cavity, whose pressure stays.
-
-        (Cutting negative pressures alone settles with a residual beside the cavity: a line's new
-        pressures there answer to those that are cut.)
-        """
+        """Film without pressure that no fluid flows into is a cavity, whose pressure stays. (Cutting
+        negative pressures alone leaves a residual beside it: new pressures answer to cut ones.)"""
         empty = (
             (state.status == LUBRICATED)
             & (state.P <= self._problem.contact.tears_at)

@@ -14,11 +14,8 @@ SMALLEST = 1e-300
 
 
 def step_length(problem, partition, evaluation, state, dP, dH0, settings):
-    """Part of the step -dP (lines, nx), -dH0 from an evaluated state, at most 1 (collective).
-
-    And the gap that it leads to, (lines, nx), and what the gap falls by in a whole step; None where that is
-    not known. By `NewtonSettings`.
-    """
+    """Part of the step -dP (lines, nx), -dH0 from an evaluated state, at most 1, by `NewtonSettings`; the
+    gap that it leads to, and what the gap falls by in a whole step, or None (collective)."""
     # A film falls to the pressure at which it tears and no further, whatever a step asks for.
     room = np.where(state.status == LUBRICATED, state.P - problem.contact.tears_at, np.inf)
     largest = problem.grid.max(np.abs(np.minimum(dP, room)), initial=0.0)

@@ -143,11 +143,8 @@ def _out_of_balance(inflow, law):
 
 
 def flux_imbalance(problem, evaluation):
-    """Flow into the film minus flow out of it over all its borders, relative to the inflow.
-
-    The film is all lubricated nodes; its borders are the domain's edge and the cavities. A conservative
-    scheme leaves nothing but rounding and the residual.
-    """
+    """Flow into the film minus flow out of it over all its borders, domain's edge and cavities, relative to
+    the inflow: of a conservative scheme rounding and the residual."""
     borders = border_flows(evaluation, evaluation.status == LUBRICATED)
     flow = np.concatenate([width * each for width, *flows in borders for each in flows])
     total = problem.grid.sum(flow.sum())

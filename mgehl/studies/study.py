@@ -107,11 +107,8 @@ class Study:
         return draw(self.asked.cases or cases, seed if self.asked.seed is None else self.asked.seed)
 
     def solved(self, cases, must_converge=True):
-        """Solve configurations, {name: nested tables}, one after the other; yield (name, `Solution`).
-
-        A case that cannot be solved is said, remembered in `lost` and passed. Raises ConfigError before the
-        first is solved if one cannot be used.
-        """
+        """Solve configurations, {name: nested tables}, one after the other; yield (name, `Solution`). One
+        that cannot be solved is said, remembered in `lost` and passed. Raises ConfigError beforehand."""
         for tables in cases.values():
             self.config(tables)
         self.expected = max(self.expected, self._done + len(cases))
@@ -135,11 +132,8 @@ class Study:
             return None
 
     def solve(self, title, tables, must_converge=True):
-        """The `Solution` of the configuration of nested `tables`.
-
-        Films get no bands unless the tables ask for them: studies compare grids themselves. Where a case
-        without a solution is an answer, too, it does not make the study a failure.
-        """
+        """The `Solution` of the configuration of nested `tables`, without bands unless these ask for them.
+        Where a case without a solution is an answer, too, it does not make the study a failure."""
         config = self.config(tables)
         solution = self.run(self.path_of(title, config.as_toml_tables()), config)
         self.failures += must_converge and not solution.result.converged
@@ -159,8 +153,7 @@ class Study:
         return self.comm.bcast(directory_of(self.home / RUNS, title, description) if self.first else None)
 
     def run(self, path, config, start=None):
-        """The `Solution` of a configuration, with its fields on rank 0; from its directory once it is
-        there.
+        """The `Solution` of a configuration, with its fields on rank 0; from its directory if there.
 
         Else it goes on there, or is solved from the `start` (collective). Raises OutputError where the run
         there is of another configuration.
@@ -182,11 +175,8 @@ class Study:
             say(f"{self._done:3d}/{max(self.expected, self._done)}  {left:5.0f} s left  {title}{what}")
 
     def write_table(self, name, rows, shown=()):
-        """Write rows (dictionaries of text) as NAME.csv and NAME.md, and print them, or what is to be
-        `shown` of their columns that are not empty (collective).
-
-        Columns are those of all rows; nothing is written of no row.
-        """
+        """Write rows (dictionaries of text) as NAME.csv and NAME.md, if there are any, and print them, or
+        what is to be `shown` of their columns that are not empty (collective)."""
         on_first_rank(self.comm, self._write_table, name, list(rows), shown)
 
     def draw(self, name, function, *arguments):
