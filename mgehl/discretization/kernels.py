@@ -87,8 +87,8 @@ def _deflect_line(K, before, here, behind, out):
 
 @compiled()
 def add_poiseuille(sides, P, conductance, flow):
-    """flow -= conductance (P_E - P_W) through faces (lines, faces) along an axis. `P` is ghosted, `sides`
-    as of an `Axis`."""
+    """flow -= conductance (P_E - P_W) through faces along an axis. `P` is ghosted, `sides` as of an
+    `Axis`."""
     line_w, line_e, node_e = sides
     lines, faces = flow.shape
     for j in range(lines):
@@ -185,7 +185,7 @@ def relax_cavitation(first, w, film, movable, source, conductances, carried, pas
     Pairs of faces along X, (lines, nx - 1), and Y, (lines + 1, nx), are their `conductances` and what full
     gaps have `carried` through them; a cavity that nothing is carried out of counts as full. `movable`
     nodes take part, which are `film` or cavities by the sign of w. A line's set is iterated `passes` times:
-    solve all nodes, then turn those of the other sign, which begin at 0. Returns the last changes.
+    solve all nodes, then turn those of the other sign, which begin at 0. Returns how many.
     """
     lines, nx = source.shape
     upper, changes = np.zeros(nx), 0

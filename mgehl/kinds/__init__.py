@@ -23,8 +23,7 @@ KINDS = {kind.name: kind for kind in (POINT, LINE, WEDGE)}
 
 
 def choices(tables):
-    """Every `Choice` that nested values, a whole configuration's or settings, make, as mistakes are
-    told."""
+    """Every `Choice` that nested values, a whole configuration's or settings, make, in mistakes' order."""
     kind = KINDS.get(word_of(tables, "contact.kind"))
     makers = (
         point_choices, surface_choices, time_choices, friction_choices, fluid_choices, wedge_choices,

@@ -33,8 +33,8 @@ class Continuation:
         return self.slow_down(problem, outcome, exactly=False)
 
     def at(self, speed, state, share=1.0, **limits):
-        """Solve at `speed` from `state`, with own limits of Newton's where some are given; return the
-        problem and the `Outcome`."""
+        """Solve at `speed` from `state`, maybe with own limits of Newton's; return problem and
+        `Outcome`."""
         scheme = replace(self._task.settings.scheme, mobility_share=share)
         problem = self._task.at_speed(speed).but(scheme=scheme).problem()
         return problem, solve_near(self._task, problem, problem.with_own_gap(state), **limits)
