@@ -185,7 +185,7 @@ def relax_cavitation(first, w, film, movable, source, conductances, carried, pas
     Pairs of faces along X, (lines, nx - 1), and Y, (lines + 1, nx), are their `conductances` and what full
     gaps have `carried` through them; a cavity that nothing is carried out of counts as full. `movable`
     nodes take part, which are `film` or cavities by the sign of w. A line's set is iterated `passes` times:
-    solve all nodes, then turn those of the other sign, which begin at 0. Returns how many.
+    solve all nodes, then turn those of the other sign, which begin at 0. Returns how many did.
     """
     lines, nx = source.shape
     upper, changes = np.zeros(nx), 0

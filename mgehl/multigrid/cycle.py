@@ -154,7 +154,7 @@ class MultigridSolver:
         """Linearise on every grid about the finest grid's evaluated state, with its kinds of `rows`.
 
         `rate` is 1/time step of an implicit step, or one for each node, (lines, nx); zero for the steady
-        equations. The evaluation drops what it knows of the faces, where memory is short of the fluid.
+        equations. The evaluation forgets its faces and, where memory is short, the fluid.
         """
         leaks = not (self.jacobian.rigid or self.jacobian.scheme.contact_law.closes_faces)
         if self.jacobian is not self.jacobians[-1]:
@@ -197,7 +197,7 @@ class MultigridSolver:
         """Make a KSP (of a SNES, say) this solver; its options may still change it.
 
         GMRES orthogonalises twice: directions by remembered corrections are nearly alike, and the residual
-        might rise again. With films that grids cannot hold it may, too: there where needed.
+        might rise again. With films that a grid cannot hold only where needed.
         """
         ksp.setType(PETSc.KSP.Type.FGMRES)
         ksp.setOperators(self.jacobian.mat, self.jacobians[-1].mat)

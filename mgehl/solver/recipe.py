@@ -41,7 +41,7 @@ BESIDE_LAYERS = 1.0
 half a layer; at 1.7 layers it leads nowhere on 257 nodes."""
 
 IDLE, IDLE_IN_TIME = 15, 30
-"""Steps in a row that may gain nothing, and in implicit time steps, which pass a fold slowly and let
+"""Steps in a row that may gain nothing; and so many implicit time steps, which pass a fold slowly and let
 contact spread node by node: solves that converged had at most 4 and 23. Contact that closes continuously
 has no such limit in time, nor near peaks: the residual stays until valleys have filled or drained."""
 

@@ -16,7 +16,7 @@ times the error, as Roache has it where nothing is known."""
 
 UNSEEN, UNSEEN_UNLIKE = 1.2, 2.5
 """Safety where there are only two grids, which show no order: times the error's root mean square around the
-centre, as films may agree in a point by chance; as squares are. The second is for another film on one."""
+centre, for films may agree in a point by chance; as squares are added. The second: another film on one."""
 
 SMALLEST = 1e-4
 """Half-width over the film at the least: films of two grids may differ by less, by chance."""

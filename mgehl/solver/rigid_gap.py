@@ -101,8 +101,8 @@ class RigidGapFluid:
         return self._problem.march_contents(state, self._problem.evaluate(state))
 
     def _give_back(self, state, separable, before, evaluation):
-        """Take nodes that are no longer so out of `separable`, in place; they get P of `before`. How
-        many?"""
+        """Take nodes that are no longer so out of `separable`, in place; they get P of `before`. Returns
+        how many."""
         lost = separable & ~self.separable(evaluation, state.status)
         separable[lost] = False
         state.P[lost] = before[lost]

@@ -1,7 +1,7 @@
 """Implicit time steps that include the squeeze flow d(rho H)/dt.
 
 They grow as the residual falls. Squeeze keeps a Newton step from closing a film, so that contact grows node
-by node. Each node also has a step of its own, in which its own flow changes its film by its like.
+by node. Each node also has a step of its own, in which its own flow changes its film by as much.
 
 Where the mobility vanishes with either side, more pressure may drive less out of a node: beyond this fold
 pressure runs away. There the step is so short that the node is stable by itself. Rates that keep rough
