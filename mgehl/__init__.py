@@ -2,10 +2,8 @@
 
     solution = mgehl.solve(mgehl.load("my.toml"))
 
-`load`, `solve`, `sweep` and `read` are the interface, `Config.with_`, `Solution.plot`, `to_xarray` and
-`save` what can be done with what they return.
-
-The layers, lowest first; none imports a higher one (``tests/test_layers.py`` asserts it):
+`load`, `solve`, `sweep` and `read` are the interface (`mgehl.api`). The layers, lowest first; none imports
+a higher one (``tests/test_layers.py`` asserts it):
 
 ``model``           what is computed: SI parameters in, dimensionless groups out
 ``discretization``  finite volumes on one grid: face flows, residual, influence, line bands

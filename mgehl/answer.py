@@ -17,12 +17,9 @@ if TYPE_CHECKING:
 
 
 class Solution(Solved):
-    """A solved contact, as `mgehl.solve` and `mgehl.read` return it.
-
-    `film` in m, `pressure` in Pa and `status` are arrays (ny, nx) beside `x` and `y` in m; `summary` is all
-    that result.json holds, `config` the `Config`. Fields of the whole grid are rank 0's, so is what is made
-    of them.
-    """
+    """A solved contact, as `mgehl.solve` and `mgehl.read` return it: `film` in m, `pressure` in Pa and
+    `status`, (ny, nx), beside `x` and `y` in m; `summary` is all that result.json holds, `config` the
+    `Config`. Fields, and what is made of them, are rank 0's."""
 
     @classmethod
     def of(cls, solved: Solved) -> "Solution":
@@ -77,7 +74,7 @@ class Solution(Solved):
         """Write a run directory, as `mgehl run` does; return its path. `mgehl.read` reads it.
 
         With `force` a result of mgehl's that is there is replaced. Raises OutputError where the directory
-        exists, or cannot be written.
+        exists or cannot be written.
         """
         from mgehl.run import save
 

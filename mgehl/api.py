@@ -44,9 +44,8 @@ def load(
 def read(directory: str | PathLike[str]) -> "Solution":
     """The `Solution` that a finished run left in its directory, on this rank.
 
-    Functions of the user's own are not run: the directory may be anybody's. Of those of speed and load what
-    they gave at a thousand times is kept. Raises `mgehl.UserError` where a file is missing, damaged, or not
-    a run's.
+    Functions of the user's own are not run: the directory may be anybody's; those of speed and load are
+    kept at a thousand times. Raises `mgehl.UserError` where a file is missing, damaged, or not a run's.
     """
     leave_signals_alone()
     from mgehl.answer import Solution

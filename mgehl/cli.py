@@ -2,11 +2,7 @@
 
     mpiexec -n 2 python -m mgehl run [CONFIG] [--set key=value ...] [--out DIR] [PETSc options]
 
-`mgehl --help` lists all commands; `mgehl.commands` holds them, a module each.
-
-argparse takes the words before the first single-dash option, PETSc that option and all after.
-Options of the run's own solvers carry the prefix mgehl_ (-mgehl_ksp_monitor, -mgehl_snes_view;
-mgehl_fluid_ for the fluid solved apart), global ones none (-log_view). Unused ones are reported.
+argparse takes the words before the first single-dash option, PETSc the others: README, "PETSc options".
 """
 
 import argparse

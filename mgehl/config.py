@@ -126,9 +126,7 @@ class Config:
 
     def with_(self, settings: Mapping[str, object] | Iterable[str]) -> "Config":
         """Another configuration with some keys set anew: {"motion.speed": "0.5 m/s", ...}, as --set does.
-
-        Raises ConfigError, as `load_config`.
-        """
+        Raises ConfigError, as `load_config`."""
         return config_from_tables(_set_anew(self.as_toml_tables(), settings))
 
     def as_toml_tables(self):
@@ -163,10 +161,8 @@ def _mean_nothing(key, choices):
 
 
 def load_config(path=None, settings=()):
-    """Read a TOML file (default: the paper's ball) and apply settings, "key=value" or a mapping.
-
-    Raises ConfigError for anything that cannot be used.
-    """
+    """Read a TOML file (default: the paper's ball) and apply settings, "key=value" or a mapping. Raises
+    ConfigError for anything that cannot be used."""
     return config_from_tables(read_tables(path, settings))
 
 
@@ -189,10 +185,8 @@ def read_tables(path=None, settings=()):
 
 
 def _set_anew(tables, settings):
-    """Nested values with settings laid over them; keys that a setting leaves without a meaning go.
-
-    What those gave beside it stays, as a number. Raises ConfigError.
-    """
+    """Nested values with settings laid over them; keys that a setting leaves without a meaning go. What
+    those gave beside it stays, as a number. Raises ConfigError."""
     given, found = nested(settings), choices(tables)
     # A law beside a viscosity means something when the oil has gone, and not yet.
     others = {

@@ -38,11 +38,8 @@ def default_config():
 
 
 def chosen_config(path=None, settings=()):
-    """Path of the configuration that a command line means.
-
-    The one it names; without any, the paper's ball where there are settings to change it, and else the
-    rough ball.
-    """
+    """Path of the configuration that a command line means: the one it names; without any, the paper's ball
+    where settings change it, and else the rough ball."""
     if path:
         return Path(path)
     return default_config() if settings else _shipped(ROUGH_BALL)
@@ -115,10 +112,8 @@ def naming_file(path, settings=()):
 
 
 def _text_of(path):
-    """The text of a file in UTF-8, as TOML demands, or what comes out of a pipe such as <(...).
-
-    The null device is the empty configuration.
-    """
+    """The text of a file in UTF-8, as TOML demands, or what comes out of a pipe such as <(...). The null
+    device is the empty configuration."""
     kind = path.stat().st_mode
     if not (stat.S_ISREG(kind) or stat.S_ISFIFO(kind) or path == Path(os.devnull)):
         raise OSError("is no file")

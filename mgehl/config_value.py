@@ -53,11 +53,8 @@ class WrongUnitError(ConfigError):
 
 def number(default, help, unit=None, low=None, high=None, above=None, own=None, instead=""):
     """A key with a number from `low`, or `above` another, to `high`: a field whose metadata are its rules.
-
     `own` reads a word in its place, such as a function of the user's own, whose path counts from a
-    directory; it returns None for what it cannot read. `instead` names the key that takes what people often
-    give here in a unit of another kind.
-    """
+    directory, or returns None. `instead` names the key for what people often give here in another unit."""
     limits = {"above": above, "low": low, "high": high}
     return _key(default, help, float, unit=unit, own=own, instead=instead, **limits)
 
@@ -174,9 +171,7 @@ def _units():
 @cache
 def _pint():
     """The library of units: slow to import, so only where a unit is met, and without what is `LEFT_OUT`.
-
-    What the program has imported before, pint knows as ever.
-    """
+    What the program has imported before, pint knows as ever."""
     left_out = [name for name in LEFT_OUT if name not in sys.modules]
     sys.modules.update(dict.fromkeys(left_out))  # whoever imports one of them is told that it is not there
     try:

@@ -16,10 +16,8 @@ def _escaped(character: str) -> str:
 
 
 class UserError(Exception):
-    """A mistake in the input or in the surroundings; the message is one line for the user.
-
-    Names that users give may hold line breaks: these become spaces; other control characters, escapes.
-    """
+    """A mistake in the input or in the surroundings; the message is one line for the user. Names that users
+    give may hold line breaks: these become spaces; other control characters, escapes."""
 
     def __init__(self, message: object) -> None:
         super().__init__(printable(" ".join(str(message).splitlines())))
@@ -34,10 +32,8 @@ class OptionError(UserError):
 
 
 class Stopped(Exception):
-    """A run that was told to end before its time; what it had reached is on disk.
-
-    `status` is the exit status: 128 and the signal's number, as a shell has it.
-    """
+    """A run that was told to end before its time; what it had reached is on disk. `status` is the exit
+    status: 128 and the signal's number, as a shell has it."""
 
     def __init__(self, message: str, status: int) -> None:
         super().__init__(message, status)  # both, so that it can be sent from rank to rank

@@ -45,9 +45,7 @@ def columns():
 
 def folded(line, indent, width):
     """A line broken at spaces, so that none is longer than `width` columns; `indent` begins those after.
-
-    Words that are longer, such as paths, stay whole. Without a width the line stays as it is.
-    """
+    Words that are longer, such as paths, stay whole. Without a width the line stays as it is."""
     if width is None or len(line) <= width or " " not in line[len(indent) :].strip():
         return line
     return textwrap.fill(

@@ -11,11 +11,9 @@ SIGNALS = {signal.SIGTERM: "SIGTERM", signal.SIGINT: "Ctrl-C", signal.SIGHUP: "S
 
 
 class StopWhenTold:
-    """Turns the first signal into a request, asked for by calling; the second ends the process.
-
-    A context manager: outside of it signals do what they did. `hint` tells how to go on. A limit of time
-    ends nothing before the second call: whoever goes on again and again within the shortest gets on.
-    """
+    """A context manager in which the first signal is a request, asked for by calling, and the second ends
+    the process. `hint` tells how to go on. A limit of time ends nothing before the second call: whoever
+    goes on again and again within the shortest gets on."""
 
     _second = signal.SIG_DFL
 

@@ -89,23 +89,17 @@ def _drawn(options, kinds):
     """Lists of pictures, each with its directory."""
     if options.against:
         return [([_curves(options)], Path(options.out or "plots"))]
-    from mgehl.output.pictures.figures import compared, figures, left_out
+    from mgehl.output.pictures.figures import compared, figures
     from mgehl.output.pictures.titles import run_names
     from mgehl.output.stored import read_run
-    from mgehl.saying import complain
 
     names, solutions = run_names(options.runs), [read_run(run) for run in options.runs]
     several, drawn = len(solutions) > 1, []
     own = None if "all" in kinds else [kind for kind in kinds if kind != "compare"]
     if own is None or own:
         for run, name, solution in zip(options.runs, names, solutions, strict=True):
-            missing = left_out(solution)
-            for kind in missing if own is None else missing.keys() & own:
-                complain(f"{run}: no picture of the {kind}: {missing[kind]}")
-            # Where nothing else was asked for, that is an error.
-            wanted = own and ([kind for kind in own if kind not in missing] or own)
             out = Path(options.out or Path(run) / "plots")
-            drawn.append((figures(solution, wanted), out / name if several and options.out else out))
+            drawn.append((figures(solution, own), out / name if several and options.out else out))
     if several and (own is None or "compare" in kinds):
         drawn.append((compared(solutions, names), Path(options.out or "plots")))
     return drawn

@@ -41,7 +41,7 @@ def _page(directory):
     from mgehl.output.study_directory import check_study
     from mgehl.studies.catalogue import WHAT
 
-    if is_study(directory, WHAT):
+    if is_study(directory):
         check_study(directory)
         return render(study_report(directory, WHAT))
     return report(read_run(directory), directory.resolve().name)

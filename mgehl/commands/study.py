@@ -14,7 +14,7 @@ from mgehl.commands import CONVERGED, NOT_CONVERGED, add_results, add_settings, 
 from mgehl.config import load_config
 from mgehl.config_file import nested
 from mgehl.errors import ConfigError
-from mgehl.studies.catalogue import REMOVED, STUDIES
+from mgehl.studies.catalogue import STUDIES
 
 _TAKES = {0: "has grids of its own", 1: "takes one grid"}
 
@@ -38,10 +38,6 @@ def add(parser):
 
 def _name(text):
     """The name of a study."""
-    if text in REMOVED:
-        raise ArgumentTypeError(
-            f"study {text} is no longer part of mgehl; runs/README.md has what it found"
-        )
     if text not in STUDIES:
         raise ArgumentTypeError(f"{text}: there is no such study; there are {', '.join(STUDIES)}")
     return text

@@ -1,9 +1,7 @@
 """The faces of the control volumes along X and along Y: the same words for both.
 
-A ghosted array is (lines + 2 HALO, nx): the rank's own lines with those of its neighbours around them.
-Along X the faces are those between the nodes of its own lines, (lines, nx - 1); along Y those between its
-own lines and to the ones before and after, (lines + 1, nx). W and E are the nodes on both sides of a
-face, for Y the line before and the line after.
+Ghosted arrays are (lines + 2 HALO, nx). Faces along X lie between the nodes of the rank's own lines,
+(lines, nx - 1), those along Y around its own lines, (lines + 1, nx). W and E are the nodes on either side.
 """
 
 from dataclasses import dataclass
@@ -14,8 +12,7 @@ from mgehl.discretization.kernels import add_of_faces
 from mgehl.discretization.mesh import HALO
 
 FEW = 2**14
-"""Nodes of a few lines: all that their flows are made of stays in the processor's cache. From 2**14 to
-2**16 a linearisation on 1025 nodes a side takes the same time, with 2**12 two thirds more."""
+"""Nodes of a few lines: all that their flows are made of stays in the processor's cache."""
 
 
 def few_lines(array):
@@ -84,10 +81,11 @@ class Axis:
         """View of the nodes (lines, nx) between two faces: all but the ends of lines along X."""
         return array[..., 1:-1] if self.number else array
 
-    def neighbour(self, ghosted, shift):
-        """View at the nodes `shift` along the axis from those of `inner`."""
+    def beside(self, ghosted, shift):
+        """What lies `shift` nodes along the axis from each, (lines, nx); lines along X end as they are."""
         if self.number:
-            return ghosted[HALO:-HALO, 1 + shift : ghosted.shape[1] - 1 + shift]
+            nx = ghosted.shape[1]
+            return own(ghosted)[:, np.clip(np.arange(nx) + shift, 0, nx - 1)]
         return ghosted[HALO + shift : len(ghosted) - HALO + shift]
 
     def entered(self, array):

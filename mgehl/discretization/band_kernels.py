@@ -9,8 +9,7 @@ import numpy as np
 from mgehl.discretization.compiled import compiled
 
 REACH = 4
-"""Neighbours on each side that a line's band couples where the gap is elastic. With 3 to 10 the
-convolutions are the same within a tenth; the bands take more time and memory, the wider they are."""
+"""Neighbours on each side that a line's band couples where the gap is elastic; 3 to 10 do as well."""
 
 SIDE_BY_SIDE = 2
 """Lines that are solved side by side: a line waits for its own results, two take hardly longer than one."""
@@ -18,11 +17,8 @@ SIDE_BY_SIDE = 2
 
 @compiled()
 def span_of(given, lines):
-    """(first, end) of the nodes that the systems of some `lines`, (first, end), need.
-
-    From the first node that is not `given`, with the given one before it, to the last and the one after
-    it: what a distributive node hands over to a given one has to be taken back there.
-    """
+    """(first, end) of the nodes that the systems of some `lines`, (first, end), need: those that are not
+    `given`, and one on each side, from which what a distributive node hands over is taken back."""
     nx = given.shape[1]
     first, end = nx, 0
     for j in range(lines[0], lines[1]):
@@ -41,8 +37,7 @@ def build_bands(offsets, A, B, distributive, kappa, share, bands, lines, nodes):
     """Fill some `nodes` of some `lines` of `bands` (lines, nx, 2 reach + 1) with each line's part of J Q.
 
     Nodes and lines are (first, end). Column m of Q is 1 at node m and, where `distributive[j, m]`, -share
-    at its neighbours. `kappa[d, l, k]` is the deflection k nodes along and l lines beside a unit column of
-    kind d. What a band has beyond these nodes does not matter to `banded`'s factor.
+    at its neighbours. `kappa` is that of `bands.influence_of_columns`. Beyond, bands may have anything.
     """
     reach = bands.shape[2] // 2
     first, end = nodes
@@ -121,19 +116,13 @@ def _eliminate(band, node, below, reach):
 
 
 def banded(reach):
-    """(factor, solve): functions for bands (lines, nx, 2 reach + 1).
-
-    What they close over must be numbers: numba would keep a function that closes over another anew in every
-    process.
-    """
+    """(factor, solve): functions for bands (lines, nx, 2 reach + 1). What they close over must be numbers:
+    numba keeps functions that close over others in no cache."""
 
     @compiled(error_model="numpy")
     def factor(bands, nodes):
-        """LU factors of the `nodes` (first, end) of all lines in place, without pivoting.
-
-        The diagonal holds the reciprocal pivots. What a band has beyond these nodes becomes zero. A
-        singular line gives factors that are not finite: the iteration that made it ends by itself.
-        """
+        """LU factors of the `nodes` (first, end) of all lines in place, without pivoting: reciprocal pivots
+        on the diagonal, zero beyond. A singular line's are not finite, which ends the iteration."""
         nx = nodes[1] - nodes[0]
         for j in range(len(bands)):
             band = bands[j, nodes[0] : nodes[1]]
@@ -152,9 +141,7 @@ def banded(reach):
     @compiled()
     def solve(bands, spans, r, w):
         """Solve every line with the factors for the nodes of its span (first, end); the others become zero.
-
-        `r` and `w` are (lines, nx), `spans` (lines, 2).
-        """
+        `r` and `w` are (lines, nx), `spans` (lines, 2)."""
         lines, nx, _ = bands.shape
         x = np.zeros((nx + 2 * reach, SIDE_BY_SIDE))
         line = 0

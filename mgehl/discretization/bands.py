@@ -8,8 +8,7 @@ from mgehl.discretization.band_kernels import REACH, banded, build_bands, empty_
 from mgehl.discretization.rows import GAP, PRESSURE
 
 STIFF = 0.3
-"""A node is distributive where its mobility/dX is below this part of its own influence. From 0.09 to 0.9
-the work stays within an eighth, now more, now less; with 0.03 line contacts take half as much again."""
+"""A node is distributive where its mobility/dX is below this part of its influence; 0.09 to 0.9 do."""
 
 REACH_OF_STENCIL = 2
 """What a stencil couples along its line: two nodes upstream, one downstream."""
@@ -26,12 +25,8 @@ LINES_BESIDE = 2
 
 
 def distributive_nodes(eps, rows, dX, K00):
-    """Where corrections are distributed: contact and weak Poiseuille flow; all (lines, nx).
-
-    What such a node would hand to a given one is dropped. (Keeping the correction of a node
-    beside a given one to itself instead leaves modes at the contact's edge that the band of K
-    amplifies: twice the iterations at 513 nodes, and more on finer grids.)
-    """
+    """Where corrections are distributed: contact and weak Poiseuille flow; all (lines, nx). What such a
+    node would hand to a given one is dropped: keeping it leaves modes that the band of K amplifies."""
     stiff = eps < STIFF * K00 * dX
     return (stiff | (rows == GAP)) & (rows != PRESSURE)
 
@@ -39,12 +34,10 @@ def distributive_nodes(eps, rows, dX, K00):
 def influence_of_columns(K, share):
     """Table kappa[d, l, k]: deflection k nodes along and l lines beside a column of Q.
 
-    d = 0 is a single unit pressure, d = 1 the distributed one (1, and -`share` at its neighbours).
-    `K` holds influence coefficients [l, k] for l <= LINES_BESIDE + 1, k <= REACH + 1. Beyond REACH the
-    table keeps its last value: the rows of a band difference it, and one that fell to zero would leave them
-    with a sum. That acts as a source along the line, whose solution grows as exp(c nx): no
-    convergence from 4097 nodes on for the logarithmic kernel of a line contact. (Rows of 2B reach one
-    node further and keep a thousandth of their diagonal.)
+    d = 0 is a single unit pressure, d = 1 the distributed one (1, and -`share` at its neighbours). `K`
+    holds influence coefficients [l, k] for l <= LINES_BESIDE + 1, k <= REACH + 1. Beyond REACH the table
+    keeps its last value: bands difference it, and a sum that is left would act as a source whose solution
+    grows as exp(c nx). (Rows of 2B reach one node further and keep a thousandth of their diagonal.)
     """
     kappa = np.zeros((2, LINES_BESIDE + 1, REACH + 3))
     for line in range(LINES_BESIDE + 1):
@@ -56,12 +49,9 @@ def influence_of_columns(K, share):
 
 
 class LineBands:
-    """Factored banded systems of all local lines, each node coupled to `reach` on each side.
-
-    A line's system has the nodes of its span alone (`span_of`): a cavity behind the contact is a quarter of
-    all nodes. A few lines have a span together, by their numbers on the whole grid, of which `before` come
-    before these: so spans are the same on any number of ranks.
-    """
+    """Factored banded systems of all local lines, each node coupled to `reach` on each side. A line's
+    system has the nodes of its span alone (`span_of`). A few lines have a span together, by their numbers
+    on the whole grid, of which `before` come before these: so spans are the same on any number of ranks."""
 
     def __init__(self, lines, nx, reach=REACH, before=0):
         self._shape, self._factors = (lines, nx, 2 * reach + 1), None
@@ -69,12 +59,8 @@ class LineBands:
         self._factor, self._solve = LOOPS[reach]
 
     def factor(self, linearisation, distributive, given, kappa, share, contents=None):
-        """Factor what J Q couples along the lines.
-
-        Return its diagonal, (lines, nx), zero beyond the spans. A few lines at a time: their bands are
-        still in the processor's cache when they are factored. The unknowns of `contents`, a mask, deflect
-        nothing; they are carried on.
-        """
+        """Factor what J Q couples along the lines; return its diagonal, (lines, nx), zero beyond the spans;
+        a few lines at a time, for the cache. Unknowns of `contents`, a mask, deflect nothing."""
         lin, bands, spans = linearisation, self._room(), self._spans
         diagonal = np.zeros(bands.shape[:2])
         for some in self._groups(AT_A_TIME):

@@ -8,11 +8,8 @@ from numba import njit
 
 
 def compiled(**options):
-    """A decorator as `numba.njit`, with a cache that may fail.
-
-    Nothing may be fused (`fastmath`): what is fused depends on whether a function was compiled just now or
-    read from the cache, and with it the digits.
-    """
+    """A decorator as `numba.njit`, with a cache that may fail. Nothing may be fused (`fastmath`): what is
+    depends on whether a function was compiled just now, and with it the digits."""
 
     def decorate(function):
         dispatcher = njit(**options)(function)

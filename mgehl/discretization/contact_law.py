@@ -59,10 +59,8 @@ class InterfaceConditions(ContactLaw):
         return H, 1.0
 
     def closed(self, H, was_released):
-        """Below H_th; a node that was let go comes back only when the bodies would overlap.
-
-        With a gap between 0 and H_th it would be torn off and put back for ever.
-        """
+        """Below H_th; a node that was let go comes back only when the bodies would overlap. With a gap
+        between 0 and H_th it would be torn off and put back for ever."""
         return np.where(was_released, 0.0, self.threshold) >= H
 
     def takes_fluid(self, H):
@@ -76,13 +74,9 @@ class InterfaceConditions(ContactLaw):
 
 @dataclass(frozen=True)
 class BoundaryFilm(ContactLaw):
-    """Contact where the film would be thinner than the layers that bodies keep between them.
-
-    Closing is continuous: H - h_b >= 0 and P - p >= 0, one of them zero. P is what the bodies feel, p the
-    fluid's own pressure, which answers to the flow through the layers: that of a film of the thickness h_b.
-    So contact never presses less than the fluid in it [Liu eq. 2]. As h_b goes to nothing so does the flow,
-    which gives the interface conditions [Liu eq. 4], where the mobility vanishes with either side.
-    """
+    """Contact where the film would be thinner than the layers that bodies keep between them: H - h_b >= 0
+    and P - p >= 0, one of them zero. P is what the bodies feel, p the fluid's own pressure, which answers
+    to the flow through a film of h_b. So Eq. 2 holds; with h_b the flow goes to nothing [Liu eq. 4]."""
 
     film: float
     """h_b."""
@@ -95,11 +89,8 @@ class BoundaryFilm(ContactLaw):
         return np.maximum(H, self.film), H > self.film
 
     def carried(self, H):
-        """What lies above the layers: they stick to the surfaces, and are not compressed.
-
-        Were they carried as fluid, they would have to become thicker wherever the pressure falls along
-        the motion: the rear half of no contact could stay closed.
-        """
+        """What lies above the layers: they stick and are not compressed. As fluid they would thicken
+        wherever the pressure falls along the motion: no contact's rear half could stay."""
         return H - self.film
 
     def closed(self, H, was_released):

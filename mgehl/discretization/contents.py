@@ -1,9 +1,7 @@
 """What cavities hold: where it is carried to, and what it must be where nothing behind depends on it.
 
-A cavity's content is carried on by the surfaces alone, one node after the other. Where film or contact lies
-further on, the content decides what flows into them: there the part of the gap that is filled is an unknown
-like a pressure. Where only cavities and the domain's end lie further on, it follows from what flows in, and
-is marched.
+The surfaces carry it on from node to node. Where film or contact lies further on, the part of the gap that
+is filled is an unknown like a pressure. Where only cavities do, it follows from the inflow.
 """
 
 import numpy as np
@@ -16,11 +14,8 @@ OVERFULL = 2.0
 
 @compiled()
 def feeding(cavity, receives, along_y):
-    """Cavities whose content is carried into nodes that receive it, at last; all masks (ny, nx).
-
-    The surfaces move along +X and, where `along_y`, along +Y, too. What ends before a node that neither
-    receives it nor is a cavity feeds nothing.
-    """
+    """Cavities whose content is carried into nodes that receive it, at last; all masks (ny, nx). The
+    surfaces move along +X and, where `along_y`, +Y."""
     ny, nx = cavity.shape
     feeds = np.zeros((ny, nx), dtype=np.bool_)
     for j in range(ny - 1, -1, -1):
@@ -34,11 +29,8 @@ def feeding(cavity, receives, along_y):
 
 @compiled()
 def missing_fillings(marched, inflow, leaving_x, leaving_y, stored):
-    """By how much the fillings of `marched` nodes, a mask, must rise so that their `inflow` is nothing.
-
-    All (ny, nx); a full node loses so much along +X and along +Y, and has `stored` so much. None rises by
-    more than `OVERFULL`.
-    """
+    """By how much, `OVERFULL` at most, the fillings of `marched` nodes, a mask, must rise so that their
+    `inflow` is nothing; all (ny, nx). Full nodes lose so much along +X and +Y and have `stored` some."""
     ny, nx = marched.shape
     rise = np.zeros((ny, nx))
     for j in range(ny):

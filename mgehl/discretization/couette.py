@@ -1,9 +1,7 @@
 """The Couette flow through a face by every differential scheme  [Liu eqs. 9-14, 17, 18, 31, 32].
 
-Each scheme is a sum of products c rho_a H_b over the nodes a, b near the face: W and E on its
-two sides, WW beyond W and EE beyond E. Value and linearisation come from the same table. Of a gap that
-adsorbed layers keep open, H is what lies above the layers. The flow of a limited scheme differs from that
-of the node upstream (1B) by no more than a part of it.
+Each is a sum of products c rho_a H_b over the nodes a, b near the face: W and E on its two sides, WW beyond
+W and EE beyond E; H is what lies above adsorbed layers. Value and linearisation come from the same table.
 """
 
 from dataclasses import dataclass, replace
@@ -16,18 +14,14 @@ from mgehl.discretization.flow import EE, SHIFT, WW, E, Flow, W
 
 @dataclass(frozen=True)
 class CouetteScheme:
-    """Terms (c, a, b) of the flow c rho_a H_b that leaves W and that enters E.
-
-    The two are the same flow where the scheme is a difference of rho H. Where rho and H are
-    differenced apart (Eq. 12 has one term more than Eq. 8) they differ. `near` serves the faces
-    whose node WW or EE is not there, or is solid: nothing is extrapolated across an interface.
-    """
+    """Terms (c, a, b) of the flow c rho_a H_b that leaves W and that enters E: the same where the scheme is
+    a difference of rho H, not where these are differenced apart (Eq. 12). `near` serves faces whose node WW
+    or EE is not there, or is solid: nothing is extrapolated across an interface."""
 
     leaving: tuple
     entering: tuple
     order: int
-    """Of the difference that it makes of d(rho H)/dx away from walls: exact for the products x^m of rho and
-    x^n of H up to m + n = order."""
+    """Of its d(rho H)/dx away from walls: exact for products x^m of rho and x^n of H, m + n <= order."""
     near: tuple = ()
     limit: float = inf
     """By how much of 1B's flow the flow may differ from that."""
@@ -47,13 +41,8 @@ _2C = ((0.5, W, W), (0.5, E, E))
 _3B = ((2 / 6, E, E), (5 / 6, W, W), (-1 / 6, WW, WW))
 """Third order, upwind biased."""
 _HALF = 0.5
-"""Limit of 3L. Behind a peak the film falls to nothing from one node to the next. There 3B would carry
-fluid away from a node that has none, and the film would be less than none: of 18 random rough balls 5 do
-not converge. With a limit below 1 the flow ends with the node's film, and all do. Of `configs/rough.toml`
-contact carries 4.5, 13 and 19 % of the load on 257 nodes by 1B, 3L and 3B, 17 % on fine grids. (With a
-third for the least flow it does not converge on 513 nodes. A monotone limiter would cut the crest of
-every wave.)
-"""
+"""Limit of 3L. Behind a peak the film falls to nothing, and 3B would carry away more than there is; below 1
+the flow ends with the node's film. A monotone limiter would cut the crest of every wave."""
 _S1B_LEAVING = ((2.0, W, W), (-1.0, WW, W))
 _S1B_ENTERING = ((1.0, E, W),)
 _S2C = ((0.5, W, E), (0.5, E, W))
@@ -62,9 +51,8 @@ _S2C = ((0.5, W, E), (0.5, E, W))
 def _apart(centre, sides):
     """2B of rho and of H apart: H_m rho_f + rho_m H_f - rho_i H_i at node i = `centre`.
 
-    f is the 2B value at the face, (3 q_W - q_WW)/2; m the mean over `sides`. Flow that leaves less flow
-    that enters is options (v) and (vi) of [Liu sec. 3.1]; the last product, in both, makes each of them a
-    flow: where rho = 1 it is the 2B face value of H.
+    Of [Liu sec. 3.1, (v), (vi)], f is the 2B value at the face, (3 q_W - q_WW)/2; m the mean over `sides`.
+    The last product, in both, makes each of them a flow: where rho = 1 it is the 2B face value of H.
     """
     face = ((1.5, W), (-0.5, WW))
     share = 1.0 / len(sides)
@@ -91,12 +79,8 @@ SCHEMES = {
 
 
 def couette_scheme(name, coarsenings=0):
-    """The `CouetteScheme` of a name; on a grid `coarsenings` times coarser one with about the same error.
-
-    The error of a first-order scheme doubles with each coarsening. So that it does not, half of the scheme
-    is taken on the next grid, a quarter on the one after, and the rest of one of third order. (For a
-    second-order scheme a quarter and so on would keep the leading error, but takes up to a fifth more.)
-    """
+    """The `CouetteScheme` of a name; on a grid `coarsenings` times coarser one with about the same error:
+    half of a first-order scheme on the next, a quarter after that, the rest of third order."""
     scheme = SCHEMES[name]
     if coarsenings == 0:
         return scheme
@@ -131,11 +115,8 @@ class Part:
 
 
 def add_couette(flow, terms, scheme, fluid, solid, axis):
-    """Add to `flow` through the faces along an axis the Couette flow by `terms` of a `CouetteScheme`.
-
-    `fluid` and `solid` are ghosted. The scheme's products `near` are used where a far node is solid, or is
-    not there.
-    """
+    """Add to `flow` through the faces along an axis the Couette flow by `terms` of a `CouetteScheme`, its
+    products `near` where a far node is solid or not there. `fluid` and `solid` are ghosted."""
     parts = _parts(terms, scheme.near, solid, axis)
     if isfinite(scheme.limit):
         parts = _within(scheme.limit, parts, fluid, axis)
@@ -156,10 +137,8 @@ def _parts(terms, near, solid, axis):
 
 
 def _within(limit, parts, fluid, axis):
-    """The parts of a flow that is to differ from 1B's by no more than a `limit` of it.
-
-    Where it would, 1B's flow times 1 - limit or 1 + limit takes its place, with its derivatives.
-    """
+    """The parts of a flow that is to differ from 1B's by no more than a `limit` of it. Where it would, 1B's
+    flow times 1 - limit or 1 + limit takes its place, with its derivatives."""
     least, most = 1.0 - limit, 1.0 + limit
     upstream = axis.at(fluid.rho) * axis.at(fluid.carried)
     carried = Flow(upstream.shape)

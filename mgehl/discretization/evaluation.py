@@ -16,11 +16,9 @@ PARTS = "P", "H", "status", "mesh", "contact", "scheme", "fluid", "filling", "st
 
 
 class Evaluation:
-    """What the pressure, gap and status of a state mean for the flow; the three are ghosted.
-
-    Whoever needs a part of it is handed the whole. It holds what the state was when it was made:
-    a state that has changed is evaluated anew, or its evaluation is told of the new pressure.
-    """
+    """What the pressure, gap and status of a state, all ghosted, mean for the flow, each part computed
+    once. It holds what the state was when it was made: one that has changed is evaluated anew, or its
+    evaluation is told of the new pressure."""
 
     def __init__(self, P, H, status, mesh, contact, scheme, fluid=None, filling=None, storage=None):
         self.P, self.H, self.status, self.filling = P, H, status, filling
@@ -111,10 +109,8 @@ class Evaluation:
         return zip(self.axes, self.mobilities, strict=True)
 
     def carried_by_full_gaps(self):
-        """What the surfaces carry through the faces along X and Y where all cavities are full, per cell.
-
-        As `conductances`: (lines, nx - 1), and (lines + 1, nx), which is zero on a single line.
-        """
+        """What the surfaces carry through the faces along X and Y where all cavities are full, per cell. As
+        `conductances`: (lines, nx - 1), and (lines + 1, nx), which is zero on a single line."""
         lines, nx = own(self.P).shape
         found = np.zeros((lines, nx - 1)), np.zeros((lines + 1, nx))
         for rate, axis in zip(found, self.axes, strict=False):
@@ -124,9 +120,7 @@ class Evaluation:
     @cached_property
     def inflow(self):
         """Net inflow/(dX dY) of every node, whatever its status, less what is stored in a time step.
-
-        (lines, nx); zero on the ends of lines.
-        """
+        (lines, nx); zero on the ends of lines."""
         inflow = np.zeros(own(self.P).shape)
         for axis, (leaving, entering) in zip(self.axes, self.flows, strict=True):
             axis.add_entering(entering.value, inflow)

@@ -46,10 +46,7 @@ def flows(fluid, status, axis, scheme, mobility, linearised=False, rigid=False):
 
 def _add_carried(flow, terms, couette, fluid, stops, axis):
     """Add the Couette flow by `terms` of a `CouetteScheme`: that of full gaps times the filling of the node
-    it comes from.
-
-    So what leaves a cavity that is full is what would leave it as a film, by every scheme.
-    """
+    it comes from. A full cavity loses what a film would, by every scheme."""
     if fluid.torn is None:
         add_couette(flow, terms, couette, fluid, stops, axis)
         return
@@ -67,10 +64,8 @@ def _add_carried(flow, terms, couette, fluid, stops, axis):
 
 
 def carried(fluid, status, axis, scheme):
-    """What leaves W through the faces along an axis with the surfaces, were all cavities full.
-
-    `fluid` and `status` are ghosted; the mobility does not matter.
-    """
+    """What leaves W through the faces along an axis with the surfaces, were all cavities full. `fluid` and
+    `status` are ghosted; the mobility does not matter."""
     whole = replace(fluid, torn=None, filling=None, P=np.zeros(fluid.P.shape))
     still = FaceMobility(np.zeros(axis.of_whole(status)), (0.0, 0.0))
     return flows(whole, status, axis, scheme, still)[0].value
@@ -122,10 +117,7 @@ def mobility_of_faces(fluid, axis, scheme):
 
 
 def conductances(status, axis, scheme, mobility):
-    """Mobility of the faces along an axis over cell times distance, zero where closed.
-
-    With them the Poiseuille flow into a node is a sum over its faces of conductance times pressure
-    difference. `status` is ghosted, `mobility` the `FaceMobility`.
-    """
+    """Mobility of the faces along an axis over cell times distance, zero where closed: times the pressure
+    difference, the Poiseuille flow into a node. `status` is ghosted, `mobility` the `FaceMobility`."""
     solid = is_solid(status, scheme.contact_law.closes_faces)
     return mobility.value * open_faces(solid, axis) / (axis.distance * axis.cell)

@@ -10,11 +10,8 @@ SHIFT = {WW: -1, W: 0, E: 1, EE: 2}
 
 
 class Flow:
-    """A flow through the faces along an axis and its derivatives by P and H at the nodes it depends on.
-
-    `by_P` and `by_H` map node positions (WW, W, E, EE) to arrays of the flow's shape; no nodes,
-    no derivatives, and none by H of a `rigid` gap.
-    """
+    """A flow through the faces along an axis and its derivatives by P and H: `by_P` and `by_H` map node
+    positions (WW, W, E, EE) to arrays of the flow's shape; none by H of a `rigid` gap."""
 
     def __init__(self, shape, nodes=(), rigid=False):
         self.value = np.zeros(shape)

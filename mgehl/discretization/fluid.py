@@ -10,10 +10,8 @@ from mgehl.model.rheology import effective_mobilities
 
 @dataclass
 class Fluid:
-    """Density and mobility at nodes with their derivatives; all arrays of one shape.
-
-    eps = rho* H^3/(eta* lambda)  [Liu eq. 26, in units of a^2/R]
-    """
+    """Density and mobility at nodes with their derivatives; all arrays of one shape. eps = rho* H^3/(eta*
+    lambda)  [Liu eq. 26, in units of a^2/R]"""
 
     P: np.ndarray
     """The fluid's own pressure, in contact the one beside the solids'."""
@@ -59,10 +57,9 @@ class Fluid:
 def fluid_state(P, H, contact, contact_law, touching=None, torn=None, filling=None):
     """Evaluate the constitutive laws at nodes of fluid pressure `P` and gap `H`.
 
-    `contact` gives the lubricant, the unit of P and lambda; the `contact_law` the gap that the
-    Poiseuille flow sees. H must be positive wherever the node can exchange fluid; contact nodes may
-    carry any H where their faces are closed. Elsewhere nodes that are `touching` have the gap that contact
-    keeps. Nodes that are `torn`, whose pressure is given, hold their `filling`.
+    `contact` gives the lubricant, the unit of P and lambda; the `contact_law` the gap that the Poiseuille
+    flow sees: at `touching` nodes what contact keeps. H must be positive wherever the node can exchange
+    fluid. Nodes that are `torn`, whose pressure is given, hold their `filling`.
     """
     follows = None
     if touching is not None and not contact_law.closes_faces:
@@ -86,9 +83,7 @@ def fluid_state(P, H, contact, contact_law, touching=None, torn=None, filling=No
 
 def _thin(fluid, sheared, gap, dgap_dH, dlog_eta_dP):
     """Make a `Fluid` as mobile along X and Y as the shear leaves it, in place; the surfaces slide along X.
-
-    `sheared` over the gap is sigma of `effective_mobilities`. A closed gap is not sheared.
-    """
+    `sheared` over the gap is sigma of `effective_mobilities`. A closed gap is not sheared."""
     is_open = gap > 0.0
     gap = np.where(is_open, gap, 1.0)
     sigma = np.where(is_open, sheared / gap, 0.0)
@@ -178,10 +173,7 @@ class FaceMobility:
 
 def face_mobility(scheme, eps, gaps, rho):
     """The `FaceMobility` between nodes of mobilities `eps`, `gaps` and densities `rho`, pairs (W, E), by
-    the scheme's mean.
-
-    With a `mobility_share` below 1 the rest is the arithmetic mean.
-    """
+    the scheme's mean; with a `mobility_share` below 1 the rest is the arithmetic one."""
     if scheme.face_mobility in MONOTONE:
         found = _by_mean_density(MONOTONE[scheme.face_mobility], eps, gaps, rho)
     else:
@@ -191,11 +183,8 @@ def face_mobility(scheme, eps, gaps, rho):
 
 
 def _by_mean_density(mean, eps, gaps, rho):
-    """The mean density times a `mean` of the mobilities without theirs.
-
-    That mean of the whole mobility would fold: where the viscosity has fallen to nothing on one side, a
-    higher pressure on the other would drive less through the face, for its fluid is denser.
-    """
+    """The mean density times a `mean` of the mobilities without theirs. The mean of all would fold: where
+    one side has no viscosity left, more pressure on the other would drive less."""
     volume = mean([each / density for each, density in zip(eps, rho, strict=True)], gaps)
     density = 0.5 * (rho[0] + rho[1])
     by_eps = tuple(density * slope / each for slope, each in zip(volume.by_eps, rho, strict=True))
@@ -208,11 +197,8 @@ def _by_mean_density(mean, eps, gaps, rho):
 
 
 def _logarithmic_mobility(eps, _gaps):
-    """(a - b)/ln(a/b) of the mobilities a and b: vanishes with either side.
-
-    Between nodes of one gap and Barus's law it is exact: their flow is that of the reduced pressure
-    q = (1 - e^(-alpha p))/alpha.
-    """
+    """(a - b)/ln(a/b) of the mobilities a and b: vanishes with either side. Exact between nodes of one gap
+    for Barus's law: their flow is that of the reduced pressure q = (1 - e^(-alpha p))/alpha."""
     parts = np.empty((3, *np.shape(eps[0])))
     logarithmic_means(*(np.atleast_2d(each) for each in (*eps, *parts)))
     value, *by_eps = parts
@@ -220,10 +206,8 @@ def _logarithmic_mobility(eps, _gaps):
 
 
 def _linear_gap_mobility(eps, gaps):
-    """Exact for one-dimensional flow by Barus's law that the pressure drives through a linear gap.
-
-    e dp/dx = q/h^3 with e = exp(-alpha p) is integrated on both sides from node to node.
-    """
+    """Exact for one-dimensional flow by Barus's law that the pressure drives through a linear gap. e dp/dx
+    = q/h^3 with e = exp(-alpha p) is integrated on both sides from node to node."""
     parts = np.empty((5, *np.shape(eps[0])))
     laid = [np.atleast_2d(each) for each in (*eps, *gaps, *parts)]
     linear_gap_means(*laid)

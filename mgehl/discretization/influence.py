@@ -4,12 +4,9 @@ import numpy as np
 
 
 def influence_coefficients(mesh, kernel, first=0, last=None):
-    """Deflection l lines and k nodes away from a node carrying unit P: [l - first, k].
-
-    Lines `first` to `last` (default all), k from 0 to nx - 1. The `kernel` (`contact.kernel`) tells
-    the deflection by unit P on the rectangle dX by dY/k_e, both in units of a, around each node; on
-    a single line that by the strip dX, and no lines beside it.
-    """
+    """Deflection l lines and k nodes away from a node carrying unit P: [l - first, k], lines `first` to
+    `last` (default all), k from 0 to nx - 1. The `kernel` (`contact.kernel`) tells the deflection by unit P
+    on the rectangle dX by dY/k_e, in units of a, around each node; on a single line by the strip dX."""
     last = mesh.ny if last is None else last
     x = (np.arange(mesh.nx + 1) - 0.5) * mesh.dX
     if mesh.is_line:

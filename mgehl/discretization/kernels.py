@@ -47,11 +47,8 @@ def _add_part(a, p, out):
 
 @compiled()
 def distribute(w, distributive, share, omega, out, along_x=True, along_y=True):
-    """out = omega Q w; `w` and `distributive` ghosted, `out` (lines, nx).
-
-    Q as in `band_kernels.build_bands`. A node that is not distributive takes what those beside it hand over
-    along X and along Y, or along one of them only.
-    """
+    """out = omega Q w; `w` and `distributive` ghosted, `out` (lines, nx). Q as in
+    `band_kernels.build_bands`; others take what is handed over along X and along Y, or one."""
     lines, nx = out.shape
     for j in range(lines):
         for i in range(nx):
@@ -70,9 +67,7 @@ def distribute(w, distributive, share, omega, out, along_x=True, along_y=True):
 @compiled()
 def deflect_nearby(K, p, out):
     """out = deflection by the pressure `p`, ghosted, of a node and the eight around it; `out` (lines, nx).
-
-    `K` holds the influence coefficients [line, node] of a node on itself and on those beside it, (2, 2).
-    """
+    `K` holds the influence coefficients [line, node] of a node on itself and on those beside it, (2, 2)."""
     for j in range(len(out)):
         _deflect_line(K, p[j + HALO - 1], p[j + HALO], p[j + HALO + 1], out[j])
 
@@ -92,10 +87,8 @@ def _deflect_line(K, before, here, behind, out):
 
 @compiled()
 def add_poiseuille(sides, P, conductance, flow):
-    """flow -= conductance (P_E - P_W) through faces (lines, faces) along an axis.
-
-    `P` is ghosted, `sides` as of an `Axis`.
-    """
+    """flow -= conductance (P_E - P_W) through faces along an axis. `P` is ghosted, `sides` as of an
+    `Axis`."""
     line_w, line_e, node_e = sides
     lines, faces = flow.shape
     for j in range(lines):
@@ -113,9 +106,8 @@ def _subtract_flow(conductance, west, east, flow):
 def add_poiseuille_slopes(sides, P, closeness, by_eps_w, by_eps_e, eps_by, by_w, by_e):
     """What that flow changes by as the mobilities of W and E change, added to `by_w` and `by_e`.
 
-    The nodes' mobilities rise by `eps_by`, ghosted, and with each of them the face's by `by_eps_w`,
-    `by_eps_e`: as the faces, or one line that stands for all. `closeness` is 1/distance of the pressures,
-    one for each face of a line.
+    Nodes' mobilities rise by `eps_by`, ghosted, the face's with each of them by `by_eps_w`, `by_eps_e`: as
+    the faces, or one line for all. `closeness` is 1/distance of the pressures, for each face of a line.
     """
     line_w, line_e, node_e = sides
     lines, faces = by_w.shape
@@ -143,9 +135,7 @@ def _subtract_slopes(gradient, by_eps, eps_by, slope):
 @compiled()
 def add_of_faces(number, which, flow, cell, inflow):
     """Add flow/cell of the face before (`which` 0) or behind (1) each node along an axis of that `number`.
-
-    Along X `flow` is (lines, nx - 1) and the ends of lines are left alone, along Y (lines + 1, nx).
-    """
+    Along X `flow` is (lines, nx - 1) and the ends of lines are left alone, along Y (lines + 1, nx)."""
     (lines, nx), factor = inflow.shape, 1.0 / cell
     for j in range(lines):
         if number:
@@ -162,11 +152,8 @@ def _add_product(flow, factor, inflow):
 
 @compiled()
 def flow_sources(inflow, P, along, across, source):
-    """source = inflow - L P: the net inflow of a node without its Poiseuille flow.
-
-    `P` is ghosted. `along` (lines, nx - 1) and `across` (lines + 1, nx) are the conductances of
-    the x and y faces over dX^2 and dY^2; L P is their flow. Ends of lines are left alone.
-    """
+    """source = inflow - L P: the net inflow of a node without its Poiseuille flow L P; ends of lines are
+    left. `P` is ghosted; `along` (lines, nx - 1) and `across` (lines + 1, nx) are `conductances`."""
     lines, nx = source.shape
     for j in range(lines):
         for i in range(1, nx - 1):
@@ -182,10 +169,8 @@ def flow_sources(inflow, P, along, across, source):
 
 @compiled()
 def lifted_by_less(K00, part, source, H, conductance, found):
-    """Where the pressure source/conductance would lift the gap of its node by less than a `part` of H.
-
-    All (lines, nx); K00 is a node's influence on itself.
-    """
+    """Where the pressure source/conductance would lift the gap of its node by less than a `part` of H. All
+    (lines, nx); K00 is a node's influence on itself."""
     lines, nx = found.shape
     for j in range(lines):
         for i in range(nx):
@@ -194,15 +179,13 @@ def lifted_by_less(K00, part, source, H, conductance, found):
 
 @compiled()
 def relax_cavitation(first, w, film, movable, source, conductances, carried, passes):
-    """Solve the flow balance by `w`, ghosted: pressure of film, minus what is empty of a cavity.
+    """Solve the flow balance by `w`, ghosted: pressure of film, minus what is empty of a cavity; every
+    other line from `first`. `source` is what flows into full gaps without the Poiseuille flow.
 
-    On every other line from `first`. `source` is what flows into full gaps without the Poiseuille flow.
     Pairs of faces along X, (lines, nx - 1), and Y, (lines + 1, nx), are their `conductances` and what full
-    gaps have `carried` through them; a cavity that nothing is carried out of counts as full.
-
-    `movable` nodes take part, which are `film` or cavities by the sign of w. On a line the set is iterated
-    `passes` times: solve all nodes, then turn those of the other sign, which begin at 0. Returns the number
-    of changes of the last pass.
+    gaps have `carried` through them; a cavity that nothing is carried out of counts as full. `movable`
+    nodes take part, which are `film` or cavities by the sign of w. A line's set is iterated `passes` times:
+    solve all nodes, then turn those of the other sign, which begin at 0. Returns how many did.
     """
     lines, nx = source.shape
     upper, changes = np.zeros(nx), 0

@@ -22,10 +22,8 @@ def _slope(grown, x):
 
 @compiled()
 def _logarithmic(a, b):
-    """Logarithmic mean of two numbers and its slopes; zero where either vanishes.
-
-    Where small (1 + grown) = large the mean is small grown/x, x = ln(1 + grown).
-    """
+    """Logarithmic mean of two numbers and its slopes; zero where either vanishes. Where small (1 + grown) =
+    large the mean is small grown/x, x = ln(1 + grown)."""
     small, large = min(a, b), max(a, b)
     if small <= VANISHING * large:
         return 0.0, 0.0, 0.0
@@ -50,10 +48,7 @@ def logarithmic_means(a, b, mean, by_a, by_b):
 @compiled()
 def linear_gap_means(a, b, g, h, mean, by_a, by_b, by_g, by_h):
     """Mobilities between nodes of mobility `a`, `b` and gap `g`, `h`, and their slopes: all (lines, nodes).
-
-    The logarithmic mean of what is not the gap's, times the cube of a linear gap whose resistance is the
-    mean one: 2 g^2 h^2/(g + h). Zero where a gap is.
-    """
+    The logarithmic mean of what is not the gap's, times a linear gap's cube: 2 g^2 h^2/(g + h)."""
     lines, nodes = a.shape
     for j in range(lines):
         for i in range(nodes):

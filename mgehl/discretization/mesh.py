@@ -11,10 +11,8 @@ HALO = 2
 
 @dataclass(frozen=True)
 class Mesh:
-    """`nx` by `ny` nodes on [x[0], x[1]] by [y[0], y[1]], outermost nodes on the boundary.
-
-    One line (`ny` = 1) is a plane problem: a slice of unit width between two walls.
-    """
+    """`nx` by `ny` nodes on [x[0], x[1]] by [y[0], y[1]], outermost nodes on the boundary. One line (`ny` =
+    1) is a plane problem: a slice of unit width between two walls."""
 
     nx: int
     ny: int

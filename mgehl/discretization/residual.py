@@ -1,8 +1,7 @@
-"""The nonlinear residual, a row for each node of the kind it has at the moment, and its linearisation.
+"""The nonlinear residual, a row for each node of its present kind, and its linearisation J = A + B K.
 
-The Jacobian is J = A + B K: A and B are stencils on P and on H, K is the deflection by P. What a cavity
-holds is an unknown in the place of its pressure, which is given. Under contact that closes no faces the
-fluid's pressure is one more unknown, and each such node's flow balance one more equation (`Leak`).
+A and B are stencils on P and on H, K is the deflection by P. What a cavity holds is an unknown in the place
+of its pressure. Under contact that closes no faces p is one more, and the balance of each (`Leak`).
 """
 
 from dataclasses import dataclass
@@ -19,10 +18,8 @@ from mgehl.discretization.status import CAVITATED, CONTACT
 
 @dataclass
 class Leak:
-    """What couples the fluid's pressure under contact to the rest, (offsets, nodes) each.
-
-    Of the contact nodes in their order; the offsets are the linearisation's.
-    """
+    """What couples the fluid's pressure under contact to the rest, (offsets, nodes) each. Of the contact
+    nodes in their order; the offsets are the linearisation's."""
 
     nodes: np.ndarray
     """Where they are: a mask (lines, nx)."""
@@ -31,8 +28,7 @@ class Leak:
     B: np.ndarray
     """The same by H."""
     into: np.ndarray
-    """Derivatives of the rows around them by their p: of the row that sees a node at an offset, at the
-    place of that node."""
+    """Derivatives of the rows around them by their p: of the row that sees a node at an offset, there."""
 
 
 @dataclass
@@ -77,13 +73,11 @@ def residual(evaluation, rows):
 
 
 def linearise(evaluation, rows, storage=None, rigid=False, room=None, leaks=False):
-    """Derivatives of `residual` by P (A) and, unless the gap is `rigid`, by H (B).
+    """Derivatives of `residual` by P (A) and, unless the gap is `rigid`, by H (B). Where it `leaks` contact
+    nodes have a flow balance, too. The `storage` is all that nodes store.
 
-    The `storage` is all that a node stores: of the time step that is taken, and of one that only helps on
-    the way to an answer. Where it `leaks` contact nodes have a flow balance, too.
-
-    Of a few lines at a time: their flows are still in the processor's cache when they are added up. The
-    arrays of `room`, a `Linearisation` of the same kind that nobody needs any more, are used again.
+    A few lines at a time, for the processor's cache. The arrays of `room`, a `Linearisation` of the same
+    kind that nobody needs any more, are used again.
     """
     fluid, offsets = evaluation.fluid, _offsets(evaluation)
     A, B = (room.A, room.B) if room else _empty_stencils((len(offsets), *rows.shape), rigid)
@@ -149,8 +143,7 @@ def _leak(linearisation, contact, nodes):
 
 
 def shifted(ghosted, offset):
-    """What a ghosted array has at an `offset` (lines, nodes) from each node, (lines, nx); nothing
-    beyond the ends of lines."""
+    """A ghosted array at an `offset` (lines, nodes) from each node, (lines, nx); 0 beyond lines' ends."""
     line, node = offset
     lines, nx = own(ghosted).shape
     here = ghosted[HALO + line : HALO + line + lines]
@@ -179,10 +172,8 @@ def _offsets(evaluation):
 
 
 def _set_rows(stencil, flowing, part, offsets, found, derivative):
-    """Set a stencil (offsets, lines, nx) from one kind of derivatives of the flows that were `found`.
-
-    Rows that are `flowing` have the net inflow, others nothing.
-    """
+    """Set a stencil (offsets, lines, nx) from one kind of derivatives of the flows that were `found`. Rows
+    that are `flowing` have the net inflow, others nothing."""
     stencil[:] = 0.0
     position = {offset: k for k, offset in enumerate(offsets)}
     for axis, (leaving, entering) in zip(part.axes, found, strict=True):

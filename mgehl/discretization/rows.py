@@ -4,8 +4,7 @@
     PRESSURE  (P_given - P)/dX = 0     boundary, other cavity
     GAP       (h_b - H)/dX = 0         contact; h_b is the gap that its law keeps, mostly zero
 
-Mostly the status says which. But fluid that is settled apart from the gap is *frozen* in the linear
-system of the rest, and in a rigid gap the pressure of a contact node is given, too.
+Fluid settled apart from the gap is *frozen*; in a rigid gap a contact node's pressure is given, too.
 """
 
 import numpy as np
@@ -16,10 +15,8 @@ FLOW, PRESSURE, GAP = np.int8(0), np.int8(1), np.int8(2)
 
 
 def rows_of(status, rigid=False, frozen=None, feeding=None):
-    """The kind of row of every node, shape as `status`; those that are `frozen` keep their pressure.
-
-    The content of cavities that are `feeding` answers to the flow.
-    """
+    """The kind of row of every node, shape as `status`; those that are `frozen` keep their pressure. The
+    content of cavities that are `feeding` answers to the flow."""
     rows = np.full(status.shape, PRESSURE)
     rows[status == LUBRICATED] = FLOW
     if feeding is not None:

@@ -18,13 +18,11 @@ class Scheme:
     couette_at_interface: str = "closed"
     """"closed" as [Liu eq. 4] asks, or "untreated": Poiseuille flow alone stops at contact."""
     motion: tuple[float, float] = (1.0, 0.0)
-    """The surfaces' velocity along X and Y in units of the speed. The differencing looks upstream of +X
-    and +Y; (-1, 0) is a wedge's plate that moves against it."""
+    """Velocity over the speed; (-1, 0): a wedge's plate, which moves against the differencing."""
     contact_law: ContactLaw = InterfaceConditions()
     """What happens where a gap closes."""
     coarsenings: int = 0
-    """How many times coarser than the grid it approximates the grid is, where the truncation error of the
-    Couette flow is to be that grid's (`couette.couette_scheme`)."""
+    """How many times coarser than the grid whose truncation error it is to have (`couette_scheme`)."""
     cavitation: bool = True
     """False lets the fluid's pressure be negative."""
 

@@ -1,8 +1,7 @@
 """What a node is: film, cavity, solid contact or boundary; and which faces contact closes.
 
-All fourteen neighbourhoods of [Liu sec. 3.2.2-3.2.5] are one rule: a face is closed, for
-Poiseuille and Couette flow alike, when either of its two nodes is solid. What equation a node
-has at the moment is another matter (`rows`).
+All fourteen neighbourhoods of [Liu sec. 3.2.2-3.2.5] are one rule: a face is closed, for either flow, when
+either of its two nodes is solid. What equation a node has is another matter (`rows`).
 """
 
 import numpy as np
@@ -39,42 +38,30 @@ def open_faces(solid, axis):
 
 def beside_contact(status, axes):
     """Nodes with one of their faces closed by contact; `status` ghosted, the result (lines, nx)."""
-    return _any_neighbour(status == CONTACT, axes) | (own(status) == CONTACT)
-
-
-def _any_neighbour(ghosted, axes):
-    """Nodes of which a neighbour is True: (lines, nx)."""
-    result = np.zeros(own(ghosted).shape, dtype=bool)
+    contact = status == CONTACT
+    result = own(contact).copy()
     for axis in axes:
-        axis.inner(result)[:] |= axis.neighbour(ghosted, -1) | axis.neighbour(ghosted, 1)
+        result |= axis.beside(contact, -1) | axis.beside(contact, 1)
     return result
 
 
 def enclosed(status, axes):
-    """Fluid nodes shut in from both sides along every axis of motion: they belong to the contact.
-
-    [Liu sec. 3.2.5, last paragraph]. `status` ghosted, the result (lines, nx).
-    """
+    """Fluid nodes shut in from both sides along every axis of motion: they belong to the contact. [Liu sec.
+    3.2.5, last paragraph]. `status` ghosted, the result (lines, nx)."""
     solid = status == CONTACT
     shut = is_fluid(own(status))
     for axis in axes:
         if axis.couette:
-            between = np.zeros_like(shut)
-            axis.inner(between)[:] = axis.neighbour(solid, -1) & axis.neighbour(solid, 1)
-            shut &= between
+            shut &= axis.beside(solid, -1) & axis.beside(solid, 1)
     return shut
 
 
 def largest_fluid_neighbour(P, status, axes):
-    """Largest pressure of the fluid neighbours of each node, -inf without any.
-
-    `P` and `status` are ghosted, the result is (lines, nx). Boundary nodes count as fluid: their
-    pressure is known. This is the right-hand side of [Liu eq. 2].
-    """
+    """Largest pressure of the fluid neighbours of each node, (lines, nx), -inf without any: the right-hand
+    side of [Liu eq. 2]. `P` and `status` are ghosted; boundary nodes count as fluid."""
     fluid = np.where(is_solid(status), -np.inf, P)
     result = np.full(own(status).shape, -np.inf)
     for axis in axes:
         for side in (-1, 1):
-            part = axis.inner(result)
-            np.maximum(part, axis.neighbour(fluid, side), out=part)
+            np.maximum(result, axis.beside(fluid, side), out=result)
     return result

@@ -9,18 +9,15 @@ from mgehl.discretization.axes import own
 
 @dataclass(frozen=True)
 class Storage:
-    """The term -rate (content - before) of the rows of flow; arrays (lines, nx).
-
-    The smaller the time step 1/rate, the less the gap of a film can change in it.
-    """
+    """The term -rate (content - before) of the rows of flow; arrays (lines, nx). The smaller the time step
+    1/rate, the less the gap of a film can change in it."""
 
     rate: float | np.ndarray
     """1/time step, in units in which the Couette flow of a full film is 1."""
     before: np.ndarray
     """The content that the step begins with, carried to where the surfaces are at its end."""
     weights: tuple | None = None
-    """What the Poiseuille flow counts of faces along X, (lines, nx - 1), and along Y, (lines + 1, nx); None
-    where all count as they are."""
+    """What the Poiseuille flow counts of faces, (lines, nx - 1), (lines + 1, nx); None: all of it."""
 
     @classmethod
     def begun(cls, fluid, rate):

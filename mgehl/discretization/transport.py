@@ -1,10 +1,8 @@
 """What the surfaces carry along in a time step: contents go with them, and none is made or lost.
 
-Content m = rho (H - h_b) theta moves with the mean velocity of the surfaces, whatever its shape. So it is
-cut out of the cells that it comes from: each cell's content is a parabola that has the cell's own mean, and
-what of it has passed a face goes to the next cell. A shift by whole cells is exact; any other is of fourth
-order where the content is smooth, and leaves no cell with less than nothing (parabolas that have no
-negative value, as in Colella and Woodward's PPM and Fritsch and Carlson's cubics).
+Content m = rho (H - h_b) theta is cut out of the cells that it comes from, each a parabola with the cell's
+own mean and no negative value (PPM by Colella and Woodward; Fritsch and Carlson's cubics). A shift by whole
+cells is exact; any other of fourth order where the content is smooth.
 """
 
 from dataclasses import dataclass
@@ -32,10 +30,8 @@ class Shift:
 
 
 def passing(m, cells):
-    """What passes the faces of lines m (..., n) that go `cells` along: (..., n + 1), positive along.
-
-    Beyond the ends the content goes on along a straight line.
-    """
+    """What passes the faces of lines m (..., n) that go `cells` along: (..., n + 1), positive along. Beyond
+    the ends the content goes on along a straight line."""
     if cells < 0.0:
         return -passing(m[..., ::-1], -cells)[..., ::-1]
     whole = int(cells)
@@ -70,11 +66,7 @@ def _at_face(m, cells):
 
 def moved(values, cells):
     """`values` of faces or nodes (..., n) moved along by `cells`, linearly in them: of third order at
-    least, and exact by whole cells.
-
-    Beyond the ends they go on as they end there. Sums and differences move as their parts do, so what is
-    a difference of flows stays one.
-    """
+    least, and exact by whole cells. They go on as they end. A difference of flows stays one."""
     if cells < 0.0:
         return moved(values[..., ::-1], -cells)[..., ::-1]
     whole = int(cells)

@@ -1,12 +1,9 @@
 """The loops over banded systems of y-lines, compiled by numba and cached.
 
-The systems of neighbouring y-lines lie side by side: bands are (lines, 2 reach + 1, nx), what each node of
-an x-line is coupled to on the lines from `reach` before to `reach` behind it. So the loops run along X, on
-vectors, and nothing has to be turned. An x-line takes part with the nodes of its span, (first, end): the
-others are given, and what they would be corrected by is zero.
-
-Loops are functions of their own: inside of others the compiler would not make vectors of them, and they
-would take four times as long. The tests say the same slowly.
+Bands are (lines, 2 reach + 1, nx): what each node of an x-line is coupled to on the lines from `reach`
+before to `reach` behind it. So loops run along X, on vectors; as functions of their own, or the compiler
+makes none (four times the time). An x-line takes part with the nodes of its span, (first, end): the others
+are given, their corrections zero.
 """
 
 import numpy as np
@@ -32,10 +29,8 @@ def spans_of_nodes(given):
 
 @compiled()
 def build_y_bands(offsets, A, B, distributive, kappa, share, spans, bands):
-    """Fill the `bands` of some x-lines with what J Q couples along Y, in their `spans`.
-
-    As `band_kernels.build_bands` along X. `distributive` has `reach` lines more on each side.
-    """
+    """Fill the `bands` of some x-lines with what J Q couples along Y, in their `spans`. As
+    `band_kernels.build_bands` along X. `distributive` has `reach` lines more on each side."""
     width = bands.shape[1]
     lines, nx = A.shape[1:]
     reach = width // 2
@@ -80,11 +75,8 @@ def _subtract_product(a, b, c):
 
 @compiled()
 def factor_y_bands(bands, spans):
-    """LU factors of all y-lines in place, without pivoting; the diagonal holds the reciprocal pivots.
-
-    `bands` (ny, 2 reach + 1, columns). What they hold beyond the first and the last line, and beyond the
-    `spans` (ny, 2), does not matter. A singular line gives factors that are not finite.
-    """
+    """LU factors of all y-lines in place, without pivoting; reciprocal pivots on the diagonal. `bands` (ny,
+    2 reach + 1, columns) count within the `spans` (ny, 2). A singular line's are not finite."""
     ny, width, _ = bands.shape
     reach = width // 2
     for j in range(ny):
@@ -104,9 +96,7 @@ def factor_y_bands(bands, spans):
 @compiled()
 def solve_y_bands(bands, spans, columns, w):
     """Solve every y-line of the `columns` (first, end) with its factors, in place in `w`, (ny, columns).
-
-    Beyond the spans `w` becomes zero.
-    """
+    Beyond the spans `w` becomes zero."""
     ny, width, _ = bands.shape
     reach = width // 2
     for j in range(ny):

@@ -1,8 +1,7 @@
 """Deflection of the surfaces: a distributed convolution by FFT  [Liu eq. 51].
 
-Boundary nodes carry no pressure, so the offsets between n - 2 sources and n nodes number
-2n - 3 and a period of 2(n - 1), a power of two, holds them all without overlap. A single line
-has the period 1 across.
+Boundary nodes carry no pressure: a period of 2(n - 1), a power of two, holds all 2n - 3 offsets between n -
+2 sources and n nodes. A single line has the period 1 across.
 """
 
 import numpy as np
@@ -37,10 +36,8 @@ class Deflection:
 
     @event(DEFLECTION)
     def __call__(self, P):
-        """Deflection (lines, nx) by the pressure P (lines, nx), zero on boundary nodes.
-
-        The result is a view that the next call overwrites. Ranks without lines take no part.
-        """
+        """Deflection (lines, nx) by the pressure P (lines, nx), zero on boundary nodes. The result is a
+        view that the next call overwrites. Ranks without lines take no part."""
         self.count += 1
         return self._convolution(P) if self._convolution else np.zeros(self.grid.shape)
 
@@ -48,9 +45,8 @@ class Deflection:
     def inverted(self, D):
         """Roughly the pressure (lines, nx), less its mean, that deflects the surfaces by D (lines, nx).
 
-        It is that of pressures and surfaces which repeat themselves from one end of the domain to the
-        other: symmetric and positive, as a preconditioner must be, and as good on every grid. A view that
-        the next call overwrites; counted as `INVERSE_WORK`.
+        That of a periodic domain: symmetric and positive, as a preconditioner must be, and as good on every
+        grid. A view that the next call overwrites; counted as `INVERSE_WORK`.
         """
         self.count += INVERSE_WORK
         if not self._convolution:

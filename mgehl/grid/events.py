@@ -1,8 +1,7 @@
 """Where the time goes: PETSc's own log events around the parts of a run, shown by -log_view.
 
-An event decorates the functions that do one thing. No two events of `PARTS` nest in each other, so
-their times add up; what a linear solve takes besides is the Krylov method's own (products with the
-stencils, norms, an algebraic multigrid).
+An event decorates the functions that do one thing. Those of `PARTS` do not nest, so their times add up; the
+rest of a linear solve is the Krylov method's own.
 """
 
 from contextlib import contextmanager
@@ -26,10 +25,7 @@ PARTS = {
     "coarse solve": COARSE,
     "I/O": FILES,
 }
-"""Parts that do not overlap, and their events: grids, kernels and FFT plans; convolutions; bands, their
-solution, and that of the nodes at cliffs; what couples nearby nodes, and the rest of its solution; residual
-and linearisation; between grids; the coarsest grid's direct solve; files that one rank reads or writes
-while the others wait."""
+"""Parts that do not overlap, and their events; waiting for a file of one rank is I/O, too."""
 
 _MAIN = 0
 _linear_stage = PETSc.Log.Stage("mgehl linear solves")

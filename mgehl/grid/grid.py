@@ -10,12 +10,9 @@ from mgehl.grid.ownership import active_ranks, ownerships
 
 
 class Grid:
-    """A `Mesh` decomposed along Y only; `shape` is (local lines, nx).
-
-    `starts` are the first lines of all ranks and, last, the number of lines. On a coarse grid some
-    ranks hold no line; the others are its `team`, a communicator, and exchange lines among
-    themselves. What is not said to be the team's is called by all ranks of `comm`.
-    """
+    """A `Mesh` decomposed along Y only; `shape` is (local lines, nx). `starts` are the first lines of all
+    ranks and, last, the number of lines. On a coarse grid some ranks hold no line; the others are its
+    `team`, a communicator. What is not said to be the team's is called by all ranks of `comm`."""
 
     def __init__(self, mesh, starts, comm):
         self.mesh = mesh
@@ -74,11 +71,8 @@ class Grid:
         return self.mesh.Y[self.first : self.last, None]
 
     def halo(self, array, out=None):
-        """Copy of `array` with the neighbours' lines around it; outside the domain zero.
-
-        `array` is (lines, nx) of any type that a double holds, the result (lines + 2 HALO, nx). The
-        team's: a rank without lines is sent nothing, and may be elsewhere.
-        """
+        """Copy of `array`, (lines, nx) of any type that a double holds, with the neighbours' lines around
+        it: (lines + 2 HALO, nx); outside the domain zero. The team's."""
         if self.comm.size == 1:
             return self._with_nothing_around(array, out)
         ghosted = np.zeros(self.ghosted_shape) if out is None else out
@@ -100,10 +94,8 @@ class Grid:
         return out
 
     def lines_around(self, array, count):
-        """As `halo`, the team's too, with `count` lines of each neighbour; (lines + 2 count, nx).
-
-        Each must have as many: at most `ownership.MIN_LINES`.
-        """
+        """As `halo`, the team's too, with `count` lines of each neighbour; (lines + 2 count, nx). Each must
+        have as many: at most `ownership.MIN_LINES`."""
         lines, team = len(array), self.team
         around = np.zeros((lines + 2 * count, *array.shape[1:]), array.dtype)
         around[count : count + lines] = array
@@ -217,11 +209,8 @@ def single_grid(mesh, comm):
 
 
 def build_grids(mesh, coarsest_nodes, comm):
-    """Grids from the coarsest to `mesh`, each of every other node of the next.
-
-    A coarse line belongs to the rank that owns the same fine line, so that a transfer needs ghost
-    lines only; where that would leave the ranks too few lines, fewer ranks share the coarse grid.
-    """
+    """Grids from the coarsest to `mesh`, each of every other node of the next. A coarse line belongs to the
+    rank of the same fine line, so transfers need ghost lines only; fewer ranks share one of few lines."""
     meshes = [mesh]
     while meshes[-1].nx > coarsest_nodes and meshes[-1].nx % 2 and meshes[-1].ny % 2:
         meshes.append(meshes[-1].coarsened())

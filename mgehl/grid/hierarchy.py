@@ -8,10 +8,8 @@ from mgehl.grid.transfers import Transfer
 
 
 class Hierarchy:
-    """Grids, the transfers between neighbours and the deflection operator on each.
-
-    `transfers[l]` leads from grid l to grid l + 1.
-    """
+    """Grids, the transfers between neighbours and the deflection operator on each. `transfers[l]` leads
+    from grid l to grid l + 1."""
 
     @event(SETUP)
     def __init__(self, mesh, coarsest_nodes, kernel, comm):

@@ -6,7 +6,7 @@ from scipy.sparse import csr_matrix
 
 class NodeSet:
     """Nodes of a grid by their `numbers`, counted line by line, in rising order: the same on all ranks with
-    lines. Their values are `here` on the first of these."""
+    lines. Values are `here` on the first."""
 
     def __init__(self, grid, numbers):
         self._grid, self._numbers = grid, numbers
@@ -41,8 +41,7 @@ class NodeSet:
         array.ravel()[self._own] += self._grid.team.bcast(values)[self.mine]
 
     def neighbours(self, others, offsets):
-        """Which of `others` lie at `offsets`, (nodes, offsets), and a mask: False, and any one, where none
-        does."""
+        """Which of `others` lie at `offsets`, (nodes, offsets), and a mask: False where none does."""
         numbers, inside = self._places(offsets)
         there = np.minimum(others.places(np.where(inside, numbers, -1)), len(others) - 1)
         return there, inside & (others._numbers[there] == numbers)

@@ -1,11 +1,8 @@
 """A plane of numbers that ranks fill line by line and read column by column, or the other way round.
 
-Ranks of one machine have one array for it (`SharedPlane`): nothing is sent and nothing is copied, they only
-wait for each other. Ranks of several machines have an array for their lines and one for their columns, and
-send each other what the others need (`SentPlane`).
-
-The lines follow the multigrid hierarchy's ownership, which block-distributing transpose libraries cannot
-express.
+Ranks of one machine share an array for it (`SharedPlane`) and wait for each other; those of several send
+each other what they need (`SentPlane`). Lines follow the multigrid hierarchy's ownership, which libraries
+that transpose cannot express.
 """
 
 import numpy as np
@@ -41,9 +38,7 @@ def even_shares(columns, ranks):
 
 def shares_of_work(work, ranks):
     """The same of columns that take so much `work` each: ranks have equal parts of it, to half a column.
-
-    Each has a column at the least; there must be as many.
-    """
+    Each has a column at the least; there must be as many."""
     done, inner = np.cumsum(work), np.arange(1, ranks)
     cuts = np.searchsorted(done - 0.5 * work, done[-1] * inner / ranks)
     cuts = np.maximum.accumulate(np.maximum(cuts - inner, 0)) + inner
@@ -52,11 +47,7 @@ def shares_of_work(work, ranks):
 
 
 def _odd(width):
-    """A width of no less.
-
-    Rows that lie a power of two apart share few places of a cache, and transforms along Y took up to ten
-    times as long.
-    """
+    """A width of no less: rows a power of two apart share few places of a cache."""
     return width | 1
 
 
@@ -90,11 +81,8 @@ class SharedPlane:
         self._comm.Barrier()
 
     def release(self):
-        """All ranks have read what they need: lines and columns may be written again.
-
-        Needed where nothing else that waits for all, `to_columns` or `to_lines`, comes between a rank's
-        reading and another's writing.
-        """
+        """All ranks have read what they need: lines and columns may be written again. Needed where neither
+        `to_columns` nor `to_lines` comes between a rank's reading and another's writing."""
         self._comm.Barrier()
 
 

@@ -22,11 +22,8 @@ class Aligned:
 
 
 class Regrouped:
-    """Coarse lines between the ranks of the same fine lines and the fewer that work on the coarse grid.
-
-    `beside` is the ownership of the coarse lines beside the fine ones. A rank sends its lines straight
-    to those that need them, and no message where it has none.
-    """
+    """Coarse lines between the ranks of the same fine lines and the fewer that work on the coarse grid;
+    `beside` is the ownership of the coarse lines beside the fine ones. A message has no other stop."""
 
     def __init__(self, coarse, beside):
         comm = coarse.comm
@@ -46,11 +43,8 @@ class Regrouped:
 
 
 class Move:
-    """Lines of a grid from the ranks that hold them to those that want them (collective).
-
-    `held` and `wanted` are (first, last) of every rank. Each line is held once; it may be wanted by
-    several ranks, and lines that nobody holds are zero.
-    """
+    """Lines of a grid from the ranks that hold them to those that want them (collective). `held` and
+    `wanted` are (first, last) of every rank; a line is held once or, zero, by nobody."""
 
     def __init__(self, comm, held, wanted):
         self._comm = comm

@@ -12,10 +12,8 @@ from mgehl.grid.regroup import Aligned, Regrouped
 
 
 class Transfer:
-    """Between a `coarse` and a `fine` Grid; arrays are the local lines of either.
-
-    A rank reckons with the coarse lines beside its fine ones; where others work on those, they move.
-    """
+    """Between a `coarse` and a `fine` Grid; arrays are the local lines of either. A rank reckons with the
+    coarse lines beside its fine ones; where others work on those, they move."""
 
     def __init__(self, coarse, fine):
         self.coarse, self.fine = coarse, fine
@@ -43,9 +41,7 @@ class Transfer:
     @event(TRANSFERS)
     def full_weighting(self, fine):
         """Weighted mean of the nine fine values around each inner coarse node, on a single line of three.
-
-        Zero on the ends of lines; elsewhere a quarter (a half) of the adjoint of `bilinear`.
-        """
+        Zero on the ends of lines; elsewhere a quarter (a half) of the adjoint of `bilinear`."""
         along_y = fine if self.fine.mesh.is_line else self._weighted_lines(self.fine.halo(fine))
         coarse = np.zeros((len(along_y), self.coarse.mesh.nx))
         coarse[:, 1:-1] = 0.5 * along_y[:, 2:-2:2] + 0.25 * (along_y[:, 1:-3:2] + along_y[:, 3:-1:2])
@@ -93,14 +89,10 @@ class Transfer:
 
 
 class PartitionedTransfer:
-    """Full weighting of residuals and bilinear corrections, fluid and contact kept apart.
-
-    Their rows are different equations and their pressures jump across the interface, so each
-    kind is averaged over nodes of its own kind only. A contact row is -H/dX on every grid: what
-    is gathered on the fine one shrinks with the ratio of the spacings (leaving that out makes the
-    coarse correction twice too large, and the cycle slower with every refinement). Rows and
-    corrections of boundary and cavitated nodes are zero, and those of contact in a rigid gap.
-    """
+    """Full weighting of residuals and bilinear corrections, fluid and contact kept apart: their rows are
+    different equations and their pressures jump. A contact row is -H/dX on every grid, so what is gathered
+    shrinks with the ratio of the spacings (or the coarse correction would be twice too large). Rows and
+    corrections of boundary and cavitated nodes are zero, and those of contact in a rigid gap."""
 
     def __init__(self, transfer):
         self._transfer = transfer

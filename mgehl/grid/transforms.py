@@ -16,21 +16,16 @@ TIMED, FIXED = ("FFTW_MEASURE",), ("FFTW_ESTIMATE",)
 """Plans: the fastest of several that are tried, on 4097 nodes a third faster, or one always."""
 
 LARGE = 4000
-"""Nodes of a period from which on plans are timed: that takes a second. On 1025 nodes it saves 3 ms a
-convolution, so it would need some 250 of them to pay for it, on 2049 nodes 50. A single line, which takes
-microseconds, is never timed: another plan has other last digits, and every run of it should have the same.
-"""
+"""Nodes of a period from which on plans are timed: that takes a second, which 1025 nodes do not give back.
+Never a single line's: another plan has other last digits."""
 
 BLOCK = 32_768
 """Numbers of a block: half a megabyte where they are complex."""
 
 
 class PlaneTransforms:
-    """The transforms of a rank with lines, planned, of planes that repeat themselves after a period.
-
-    A spectrum belongs to an even kernel. So it is real, and even, too, and half of it is stored: (columns,
-    period_y // 2 + 1), of this rank's columns of modes.
-    """
+    """Planned transforms of a rank with lines, of periodic planes. The spectrum of an even kernel is real
+    and even: half is stored, (columns, period_y // 2 + 1), of this rank's columns of modes."""
 
     def __init__(self, grid, period_x, period_y):
         """`period_x` is even; nodes that a period has no room for are those of the domain's boundary."""
@@ -56,9 +51,7 @@ class PlaneTransforms:
 
     def product(self, nodes, spectrum, out):
         """Convolve `nodes` (lines, up to a period) with the kernel of a `spectrum`; write `out`, as wide.
-
-        It is `scale` times too large.
-        """
+        It is `scale` times too large."""
         self._along_x.forward(nodes, self._modes.lines)
         self._modes.to_columns()
         self._along_y.multiply(self._modes.columns, spectrum)
@@ -77,8 +70,7 @@ class _AlongX:
         self._to_real = _planned(self._modes, self._real, "FFTW_BACKWARD")
 
     def forward(self, nodes, modes, even=False):
-        """Write the `modes` of lines of `nodes`; what is left of a period is zero or, if `even`, the mirror
-        image."""
+        """Write the `modes` of lines of `nodes`; the rest of a period is zero or, if `even`, the image."""
         there = nodes.shape[1]
         for block, count in self._blocks(nodes):
             self._real[:count, :there] = nodes[block]

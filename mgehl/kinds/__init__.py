@@ -1,9 +1,5 @@
-"""The kinds of contact. Each module says which keys it takes, what it builds of them, what it is called.
-
-A new kind is its physics in `mgehl.model`, a module here with its own section of keys, its name in
-`KINDS` and its section in `mgehl.config.Config`. A key that only some kinds take means nothing to the
-others without a word of theirs.
-"""
+"""The kinds of contact. Each module says which keys it takes, what it builds of them, what it is called. A
+key that only some kinds take means nothing to the others without a word of theirs."""
 
 from dataclasses import dataclass
 from itertools import chain
@@ -27,11 +23,7 @@ KINDS = {kind.name: kind for kind in (POINT, LINE, WEDGE)}
 
 
 def choices(tables):
-    """Every `Choice` that nested values make, in the order in which mistakes are told.
-
-    Values may be those of a whole configuration, or of settings alone: where a key is not there, nothing
-    is chosen by it.
-    """
+    """Every `Choice` that nested values, a whole configuration's or settings, make, in mistakes' order."""
     kind = KINDS.get(word_of(tables, "contact.kind"))
     makers = (
         point_choices, surface_choices, time_choices, friction_choices, fluid_choices, wedge_choices,
@@ -46,10 +38,8 @@ def kind_choice(kind):
 
 
 def derived(config):
-    """What follows from the words of a `Config`, a `Derived` each; there may not yet be such a key.
-
-    Raises ConfigError where the words do not fit.
-    """
+    """What follows from the words of a `Config`, a `Derived` each; there may not yet be such a key. Raises
+    ConfigError where the words do not fit."""
     return (*derived_from_bodies(config), *derived_from_oil(config))
 
 

@@ -198,9 +198,7 @@ def arms(config):
 
 def _bearing(bodies, rotation):
     """Rolling between two rings: u = omega d_m (1 - (d/d_m)^2)/4 at either, d_m the pitch diameter.
-
-    motion.slide_to_roll, where it is given, is slip at this mean speed.
-    """
+    motion.slide_to_roll, where it is given, is slip at this mean speed."""
     element, race = (_round(body) for body in bodies)
     if element is None or race is None or element <= 0.0 or abs(race) == inf:
         raise ConfigError(

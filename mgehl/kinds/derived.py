@@ -87,10 +87,8 @@ def overridden(tables):
 
 
 def orphans(tables, settings):
-    """Numbers that settings leave without words: other words of nested values gave them, too, and go.
-
-    So of the speeds of two bodies the mean stays where motion.slide_to_roll is set.
-    """
+    """Numbers that settings leave without words: other words of nested values gave them, too, and go. So of
+    the speeds of two bodies the mean stays where motion.slide_to_roll is set."""
     gone = {
         word for targets, words in FOLLOWS if given(settings, targets) and not given(settings, words)
         for word in given(tables, words)

@@ -151,9 +151,7 @@ class WedgeKind(Kind):
 
     def mesh(self, config, contact):
         """A square of nodes over the pad and half a cell beyond its exit; a line where all lines are alike.
-
-        The outermost nodes lie on open sides, and half a cell from walls.
-        """
+        The outermost nodes lie on open sides, and half a cell from walls."""
         nodes = config.grid.nodes
         x, edges = contact.placement(nodes)
         if contact.is_plane:

@@ -7,11 +7,9 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Coating:
-    """One of the two bodies of a contact bears a layer, which replaces its outermost `thickness`.
-
-    Lengths in m, moduli in Pa. `reduced_modulus` E' is that of both bodies without the layer, 2/E' the sum
-    of their (1 - nu^2)/E; raises ValueError where the substrate alone is more compliant than that.
-    """
+    """One of the two bodies of a contact bears a layer, which replaces its outermost `thickness`. Lengths
+    in m, moduli in Pa. `reduced_modulus` E' is that of both bodies without the layer, 2/E' the sum of their
+    (1 - nu^2)/E; raises ValueError where the substrate alone is more compliant than that."""
 
     thickness: float
     modulus: float
@@ -43,10 +41,8 @@ class Coating:
         return 1.0 + 0.5 * self.reduced_modulus * (layer - self._substrate)
 
     def layer_compliance(self, kt):
-        """Deflection of the coated body over that of a half-space of the layer's material.
-
-        `kt` is the wave number times the thickness [O'Sullivan and King 1988; Nogi and Kato 1997].
-        """
+        """Deflection of the coated body over that of a half-space of the layer's material. `kt` is the wave
+        number times the thickness [O'Sullivan and King 1988; Nogi and Kato 1997]."""
         nu = self.poisson
         # Shear modulus over that of the substrate.
         rigidity = self.modulus / (1.0 + nu) * self._substrate / (1.0 - self.substrate_poisson)

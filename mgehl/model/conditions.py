@@ -7,10 +7,8 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Conditions:
-    """Where a law is asked: arrays of one shape, or numbers that hold everywhere.
-
-    What a later law may need besides becomes one more of these: no function has to be written anew.
-    """
+    """Where a law is asked: arrays of one shape, or numbers that hold everywhere. What a later law may need
+    besides becomes one more of these: no function has to be written anew."""
 
     pressure: np.ndarray
     """In Pa, never negative."""

@@ -46,12 +46,11 @@ class HertzUnder:
 
 
 class LoadedContact(OnBodies, Inlet, InletHeat):
-    """Scales, film and inlet of a body pressed on a lubricated flat, all values in SI units.
+    """Scales, film and inlet of a body pressed on a lubricated flat, in SI units; `speed` is u of rho u h.
 
     A kind of contact adds `load`, `radius_x`, `reduced_modulus`, `speed`, `lubricant`, `friction` and
     `solids`, the dry `hertz` contact, `groups`, `smooth_gap`, `dry_gap`, the `kernel` of the deformation,
-    the `load_integral` of P and the `contact_area` in units of X and Y. `speed` is u of the Couette flow
-    rho u h.
+    the `load_integral` of P and the `contact_area` in units of X and Y.
     """
 
     is_loaded = True
@@ -80,8 +79,7 @@ class LoadedContact(OnBodies, Inlet, InletHeat):
 
     @property
     def asymptotes(self):
-        """Moes' films, H_Moes, of the contact that formulas know: rigid and elastic isoviscous, the same
-        piezoviscous."""
+        """Moes' films, H_Moes, that formulas know: rigid and elastic isoviscous, the same piezoviscous."""
         raise NotImplementedError
 
     @property
@@ -135,10 +133,8 @@ class LoadedContact(OnBodies, Inlet, InletHeat):
 
     @property
     def reach(self):
-        """How far from the centre, in units of X and Y, the dry contact may reach.
-
-        The widening by a soft layer is estimated, and low by up to a third.
-        """
+        """How far from the centre, in units of X and Y, the dry contact may reach. The widening by a soft
+        layer is estimated, and low by up to a third."""
         return self.widening if self.widening <= 1.0 else min(self.widening**2, 1.3 * self.widening)
 
     def share_beyond(self, x, y):
@@ -146,19 +142,15 @@ class LoadedContact(OnBodies, Inlet, InletHeat):
         return 0.0
 
     def load_within(self, mesh, there=None):
-        """The integral of P that the domain of a mesh takes: the load less what is missing there.
-
-        Of another load and speed that of the contact `there`, in this one's units  [Liu eq. 50].
-        """
+        """The integral of P that the domain of a mesh takes: the load less what is missing there. Of
+        another load and speed that of the contact `there`, in this one's units  [Liu eq. 50]."""
         there = there or self
         within = 1.0 - there.share_beyond(*self.ends(mesh))
         return there.load / self.load * self.load_integral * within
 
     def drag_beyond(self, mesh, downstream=False):
         """What rolling takes from each body beyond the domain of a mesh, in N, of a line contact in N/m.
-
-        Upstream, and `downstream` where no film tears.
-        """
+        Upstream, and `downstream` where no film tears."""
         raise NotImplementedError
 
     @property

@@ -18,10 +18,8 @@ class HalfSpace:
     factor: float
 
     def of_rectangles(self, x, y):
-        """Deflection at (0, 0) by unit P on each rectangle between the lines `x` and `y`.
-
-        `x` (m + 1,) and `y` (n + 1,), ascending, none of them 0; result (n, m). Exact [Love 1929].
-        """
+        """Deflection at (0, 0) by unit P on each rectangle between the lines `x` and `y`. `x` (m + 1,) and
+        `y` (n + 1,), ascending, none of them 0; result (n, m). Exact [Love 1929]."""
         return self.factor * _over_rectangles(_integral, x[None, :], y[:, None])
 
 

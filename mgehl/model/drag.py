@@ -21,9 +21,7 @@ NODES, WEIGHTS = (0.5 * each for each in np.polynomial.legendre.leggauss(32))
 
 def line_drag_beyond(contact, x, downstream):
     """Half of the integral of h dp/dx, in N/m, from the domain's end upstream on, and `downstream`, too.
-
-    The domain ends at `x` in units of X. The gap is that of the dry contact and a formula's film.
-    """
+    The domain ends at `x` in units of X. The gap is that of the dry contact and a formula's film."""
     film = contact.flooded_film / contact.film_scale
     near = 0.5 + NODES  # end/X, from infinity to the end
     total = 0.0
@@ -35,12 +33,9 @@ def line_drag_beyond(contact, x, downstream):
 
 
 def kapitza_drag_beyond(contact, x, y, downstream=False):
-    """Half of the integral of h dp/dx along the motion, in N, from the end of a domain to where bodies are
-    no paraboloids any more: a radius of curvature away; upstream, and `downstream`, too. The domain ends at
-    `x` and `y`, in units of X and Y.
-
-    It grows with the logarithm of that distance, so it has no limit but the bodies' own size.
-    """
+    """Half of the integral of h dp/dx along the motion, in N, from the end of a domain, at `x` and `y` in
+    units of X and Y, to a radius of curvature away, where bodies are no paraboloids any more: it grows with
+    the logarithm of that distance. Upstream, and `downstream`, too."""
     angles = (np.arange(DIRECTIONS) + 0.5) * 2.0 * np.pi / DIRECTIONS
     c, s = np.cos(angles), np.sin(angles)
     motion_x, motion_y = contact.motion

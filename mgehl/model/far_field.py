@@ -1,13 +1,9 @@
 """The load that a film carries beyond its domain: a tenth of it and more where a light load floats on oil.
 
-Far outside the contact the bodies are rigid, the oil is thin, and the pressure falls with the cube of the
-distance: that of Kapitza (1955) upstream, until the film tears. Its load beyond a distance falls only as 1
-over that distance. So a domain that is to hold all of a light load is hundreds of semi-axes wide, and no
-grid resolves its inlet. This load is known, however: the film in the domain need not carry it. The sides of
-the domain, where the pressure is zero, lower the pressure within, too; that load is missing as well.
-
-Both follow from Reynolds' equation of a rigid gap h = h_0 + x^2/2R_x + y^2/2R_y, solved once with the
-domain's sides and once without, on a few thousand nodes.
+Far outside the bodies are rigid, and the pressure of Kapitza (1955) carries a load beyond a distance that
+falls only as 1 over it: no grid resolves a domain that holds it all. The sides of the domain, where the
+pressure is zero, lower the pressure within, too. Both follow from Reynolds' equation of a rigid gap h = h_0
++ x^2/2R_x + y^2/2R_y, solved once with the domain's sides and once without, on a few thousand nodes.
 """
 
 from functools import lru_cache
@@ -34,12 +30,10 @@ STEPS = (0.4, 0.28)
 square of the step; the limit of both is good to half a per cent of it (steps down to 0.13)."""
 
 FAR = 100.0
-"""How far the sides are that stand for none, over those of the domain. Beyond them is as small a part of
-what is missing."""
+"""How far the sides are that stand for none, over those of the domain."""
 
 FIRST_TORN = 0.4
-"""Where the film is first thought to tear: distance downstream over that beside. Around a ball it tears at
-a third, far outside."""
+"""Where the film is first thought to tear: distance downstream over that beside (a ball's: a third)."""
 
 SETTLING = 50
 """Most changes of where the film is torn; two to eight are usual."""
@@ -70,10 +64,8 @@ def _rigid_film(contact):
 
 @lru_cache(maxsize=64)
 def missing_load(x, y, ratio, motion):
-    """The load missing between ends x and y in units of sqrt(2 R h_0), of a motion in these parts.
-
-    In units of 12 eta u sqrt(2 R_x h_0)/h_0^2 times both lengths; their `ratio` is that along x to y.
-    """
+    """The load missing between ends x and y in units of sqrt(2 R h_0), of a motion in these parts. In units
+    of 12 eta u sqrt(2 R_x h_0)/h_0^2 times both lengths; their `ratio` is that along x to y."""
     coarse, fine = (_missing_on(step, x, y, ratio, motion) for step in STEPS)
     limit = fine + (fine - coarse) / ((STEPS[0] / STEPS[1]) ** 2 - 1.0)
     return limit / (1.0 - 1.0 / FAR)
@@ -99,11 +91,9 @@ def _nodes(ends, step):
 
 
 class _Reynolds:
-    """Finite volumes of a rigid gap h = 1 + x^2 + y^2, whose pressure tears at zero.
-
-    Between two nodes h changes a hundredfold. So a face has the flow of the line between them, by which
-    the pressure of a flow q falls by q int h^-3 - int h^-2.
-    """
+    """Finite volumes of a rigid gap h = 1 + x^2 + y^2, whose pressure tears at zero. Between two nodes h
+    changes a hundredfold, so a face has the flow of the line between them, by which the pressure of a flow
+    q falls by q int h^-3 - int h^-2."""
 
     def __init__(self, X, Y, ratio, motion):
         cells_x, cells_y = _cells(X), _cells(Y)

@@ -85,11 +85,8 @@ def hamrock_dowson_soft(groups, radius_x, ellipticity):
 
 
 def chittenden(groups, along, across):
-    """Central and minimum film of Chittenden, Dowson, Dunn and Taylor (1985) for entrainment at any angle.
-
-    `along` and `across` are the radii along and across the motion, in m, and the groups are by the first.
-    Both are good to some 20 %.
-    """
+    """Central and minimum film of Chittenden, Dowson, Dunn and Taylor (1985) for entrainment at any angle,
+    to 20 %. `along` and `across` are radii along and across the motion, in m; groups are by the first."""
     slender = (across / along) ** (2.0 / 3.0)
     common = groups.U**0.68 * groups.G**0.49 * groups.W**-0.073 * along
     return 4.31 * common * (1.0 - exp(-1.23 * slender)), 3.68 * common * (1.0 - exp(-0.67 * slender))
@@ -168,9 +165,7 @@ def grubin(pressure_viscosity, viscosity, speed, a, gap_coefficient):
 
 
 def inlet_heating(pressure, Q, slide_to_roll):
-    """Film with heat by shear in the inlet over the isothermal one, of Gupta and others (1992).
-
-    `pressure` is p_h/E', Q = eta0 beta u^2/k with the oil's thinning beta in 1/K and conductivity k.
-    """
+    """Film with heat by shear in the inlet over the isothermal one, of Gupta and others (1992). `pressure`
+    is p_h/E', Q = eta0 beta u^2/k with the oil's thinning beta in 1/K and conductivity k."""
     slid = 1.0 + 2.23 * abs(slide_to_roll) ** 0.83
     return (1.0 - 13.2 * pressure * Q**0.42) / (1.0 + 0.213 * slid * Q**0.64)

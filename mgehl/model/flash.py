@@ -1,8 +1,7 @@
 """Flash temperatures: heat that a map of friction leaves in two half-spaces that move through it.
 
-Heat that is a time t old has moved with its body by u t and spread by sqrt(4 kappa t). The steady rise is
-the integral over all ages [Carslaw, Jaeger 1959, 10.7], of cells of even heat, summed by FFT. It has no
-other approximation than the cells: fast and slow bodies, at rest, too.
+Heat that is a time t old has moved by u t and spread by sqrt(4 kappa t). The steady rise is the integral
+over all ages [Carslaw, Jaeger 1959, 10.7], of cells of even heat, summed by FFT: at any speed.
 """
 
 from dataclasses import dataclass
@@ -46,11 +45,8 @@ class Solid:
 
 
 class MovingHeat:
-    """Rise of a surface in K by heat in W/m^2, both (ny, nx), on cells of `dx` by `dy` metres.
-
-    Its body moves by `velocity`, (u, v) in m/s, under the heat. A single line of nodes is a band of heat
-    without an end; its body must move.
-    """
+    """Rise of a surface in K by heat in W/m^2, both (ny, nx), on cells of `dx` by `dy` metres. Its body
+    moves by `velocity`, (u, v) in m/s, under the heat. A single line is an endless band; its body moves."""
 
     def __init__(self, solid, velocity, shape, dx, dy):
         self.shape = shape
@@ -66,10 +62,8 @@ class MovingHeat:
 
 
 def _influence(solid, velocity, shape, dx, dy):
-    """Rise at all offsets from a cell that takes 1 W/m^2: (2 ny - 1, 2 nx - 1).
-
-    2/(B sqrt(pi)) times the integral over s = sqrt(t) of what is left of the cell along x and along y.
-    """
+    """Rise at all offsets from a cell that takes 1 W/m^2: (2 ny - 1, 2 nx - 1). 2/(B sqrt(pi)) times the
+    integral over s = sqrt(t) of what is left of the cell along x and along y."""
     (ny, nx), kappa = shape, solid.diffusivity
     x, y = (np.arange(1 - n, n) * d for n, d in ((nx, dx), (ny, dy)))
     ends = _ages(kappa, velocity, max(x[-1], y[-1], dx), dx if ny == 1 else min(dx, dy), dx)
@@ -93,10 +87,8 @@ def _left(distance, cell, width):
 
 
 def _ages(kappa, velocity, length, cell, dx):
-    """Square roots of ages, from 0 on, between which the integrand is smooth.
-
-    Heat passes the edge of a cell along x at one of them as long as it is narrower than a cell.
-    """
+    """Square roots of ages, from 0 on, between which the integrand is smooth. Heat passes the edge of a
+    cell along x at one of them as long as it is narrower than a cell."""
     speed, oldest = np.hypot(*velocity), OLDEST * length**2 / kappa
     past = dx / (2.0 * abs(velocity[0])) if velocity[0] else inf
     s = 0.1 * cell / sqrt(4.0 * kappa)

@@ -24,10 +24,8 @@ class HertzContact:
 
 
 def hertz_contact(load, radius_x, radius_y, reduced_modulus):
-    """Solve the dry contact [Johnson 1985, eqs. 4.25-4.28].
-
-    `load` in N, radii in m, `reduced_modulus` E' in Pa with E' = 2 E*, as in the paper.
-    """
+    """Solve the dry contact [Johnson 1985, eqs. 4.25-4.28]. `load` in N, radii in m, `reduced_modulus` E'
+    in Pa with E' = 2 E*, as in the paper."""
     E_star = reduced_modulus / 2.0
     small, large = sorted((radius_x, radius_y))
     ratio = _axis_ratio(large / small)
@@ -72,9 +70,8 @@ def hertz_pressure(X, Y):
 def hertz_gap(contact, reduced_modulus, x, y):
     """Gap (m) of the dry contact at x and y (m, arrays of one shape); zero inside the ellipse.
 
-    Outside [Johnson 1985, sec. 3.5] it is p_h a b/E* times the integral over t, from 0 to the confocal
-    ellipse through the point, of (x^2/(a^2 + t^2) + y^2/(b^2 + t^2) - 1)/((a^2 + t^2)(b^2 + t^2))^(1/2);
-    t = c sinh s of the minor semi-axis c leaves a smooth integrand.
+    Outside it is p_h a b/E* times the integral over t, from 0 to the confocal ellipse through the point, of
+    (x^2/(a^2 + t^2) + y^2/(b^2 + t^2) - 1)/((a^2 + t^2)(b^2 + t^2))^(1/2) [Johnson 1985, sec. 3.5].
     """
     a, b = contact.a, contact.b
     minor, major = sorted((a, b))
@@ -96,8 +93,6 @@ def hertz_line_gap(X):
 
 
 def edge_gap_coefficient(contact, reduced_modulus):
-    """C in metres of the dry gap h = C s^(3/2) beside the edge on the x axis, s = x/a - 1.
-
-    Locally plane strain: C = (8 sqrt2/3) p_h a/E', which is (8 sqrt2/(3 pi)) a^2/R for a circle.
-    """
+    """C in metres of the dry gap h = C s^(3/2) beside the edge on the x axis, s = x/a - 1. Locally plane
+    strain: C = (8 sqrt2/3) p_h a/E', which is (8 sqrt2/(3 pi)) a^2/R for a circle."""
     return 8.0 * sqrt(2.0) / 3.0 * contact.p_h * contact.a / reduced_modulus

@@ -1,13 +1,12 @@
 """Deflection of layered bodies by the method of images.
 
-The surface of a body that is elastic, layered or graded in depth and alike in all directions along
-the surface answers a pressure wave exp(ikx) with a wave of the same length. What it does at wave
-number k, relative to a half-space, is a function c(k), its compliance. Written as
+A body that is layered or graded in depth, and alike in all directions, answers a pressure wave exp(ikx)
+with a wave of the same length: relative to a half-space, with the compliance
 
     c(k) = c_0 + sum_j c_j exp(-k d_j)
 
-every term is the transform of a closed form: c_0/r, a half-space, and c_j/sqrt(r^2 + d_j^2), the
-half-space felt at the depth d_j below its surface. Their integrals over rectangles are exact.
+Every term is the transform of a closed form: c_0/r, and c_j/sqrt(r^2 + d_j^2), the half-space felt at the
+depth d_j. Their integrals over rectangles are exact.
 """
 
 from dataclasses import dataclass

@@ -6,9 +6,8 @@ from mgehl.model import films
 from mgehl.model.hertz import edge_gap_coefficient
 
 SOFTEST = 3.0
-"""Times that the inlet of soft bodies may be longer than the one by which speeds on coarse grids go. By
-that one alone rubber (E' 20 MPa in oil, 257 nodes) begins at 300 m/s and takes 703 convolutions, with this
-limit 112; with 2 one of 92 soft contacts is not found."""
+"""Times that the inlet of soft bodies may be longer than the one by which speeds on coarse grids go:
+without it rubber takes six times the work, with 2 soft contacts are lost."""
 
 
 class Inlet:
@@ -31,10 +30,8 @@ class Inlet:
 
     @property
     def inlet_length(self):
-        """Length of the zone that builds the film, in units of a; of layered bodies an estimate.
-
-        Of bodies that hardly yield it is sqrt(2 R h), on which the gap is twice the film.
-        """
+        """Length of the zone that builds the film, in units of a; of layered bodies an estimate. Of bodies
+        that hardly yield it is sqrt(2 R h), on which the gap is twice the film."""
         like = self.likeness
         if self.hardly_yields:
             return sqrt(2.0 * like.radius_x * like.flooded_film) / self.x_scale
@@ -55,10 +52,8 @@ class Inlet:
     def matched_speed(self, mesh, cells):
         """Lowest speed not below `speed` that keeps `cells` cells of a mesh along X in the inlet.
 
-        s* grows with the square root of u, so the speed follows in one step. The inlet is that of Ertel and
-        Grubin. Of soft bodies it is too short, and the speed higher than it need be: from there all of 92
-        soft contacts are found, from the speed of their own inlet 86. The inlet of bodies that hardly yield
-        grows with u itself.
+        s* grows with the square root of u, the inlet of bodies that hardly yield with u. That of Ertel and
+        Grubin is too short for soft bodies and the speed too high: more of them are found so.
         """
         if self.hardly_yields:
             return self.speed * max(1.0, cells * mesh.dX / self.inlet_length)

@@ -34,10 +34,8 @@ class Barus:
 
 @dataclass(frozen=True)
 class Roelands:
-    """ln(eta/eta0) = (ln eta0 + 9.67) ((1 + 5.1e-9 p)^z - 1), slope alpha at p = 0.
-
-    Raises ValueError when ln(eta0) + 9.67 is not positive, where the law has no meaning.
-    """
+    """ln(eta/eta0) = (ln eta0 + 9.67) ((1 + 5.1e-9 p)^z - 1), slope alpha at p = 0. Raises ValueError when
+    ln(eta0) + 9.67 is not positive, where the law has no meaning."""
 
     viscosity: float
     pressure_viscosity: float
@@ -113,8 +111,7 @@ class Lubricant:
     thinned: float = 1.0
     """Part of the viscosity that the heat of shear leaves in the inlet."""
     ambient_pressure: float = 0.0
-    """Pressure around the contact in Pa, above that at which the oil tears. P is what comes on top, and
-    values are over those there."""
+    """Pressure around the contact in Pa, above that at which oil tears; P and values are over it."""
 
     @property
     def viscosity(self):

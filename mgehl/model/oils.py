@@ -14,11 +14,8 @@ CELSIUS = 273.15
 
 @dataclass(frozen=True)
 class OilViscosity:
-    """An `Oil` at one temperature: ln(eta/eta0) = alpha p/(1 + decline p).
-
-    Below p = 0 the law goes on as a line. The decline of some oils is slightly negative, and the law then
-    ends far beyond any contact's pressure: there the denominator stays at 1/2.
-    """
+    """An `Oil` at one temperature: ln(eta/eta0) = alpha p/(1 + decline p). Below p = 0 the law goes on as a
+    line. A slightly negative decline ends it far beyond any contact: the denominator stays at 1/2."""
 
     viscosity: float
     """eta0 in Pa s."""
@@ -89,10 +86,8 @@ WALTHER = 0.7
 
 
 def walther(at_40, at_100, T):
-    """Kinematic viscosity at `T` of an oil that has `at_40` and `at_100` degrees C, all in m2/s.
-
-    The equation of Walther [ASTM D341].
-    """
+    """Kinematic viscosity at `T` of an oil that has `at_40` and `at_100` degrees C, all in m2/s. The
+    equation of Walther [ASTM D341]."""
     cold, warm = (log10(log10(1e6 * nu + WALTHER)) for nu in (at_40, at_100))
     T_40, T_100 = log10(40.0 + CELSIUS), log10(100.0 + CELSIUS)
     slope = (cold - warm) / (T_100 - T_40)

@@ -96,10 +96,8 @@ class OnBodies:
         return max(map(step_of, self._nodes(mesh)))
 
     def seen_by(self, mesh, finest):
-        """The contact as a coarser `mesh` than the `finest` sees it: no waves shorter than `SHOWN_CELLS`.
-
-        A surface that has none is left as it is, to the last bit.
-        """
+        """The contact as a coarser `mesh` than the `finest` sees it: no waves shorter than `SHOWN_CELLS`. A
+        surface that has none is left as it is, to the last bit."""
         if self.surface is None:
             return self
         x, y = self._nodes(finest)

@@ -65,10 +65,8 @@ class OwnFunction:
         return [self._shaped(shape, each) for each in results]
 
     def check_arguments(self, *names):
-        """Refuse a function that cannot be called with these arguments by position.
-
-        The file is read anew: in a notebook it may have changed since the last run.
-        """
+        """Refuse a function that cannot be called with these arguments by position. The file is read anew:
+        in a notebook it may have changed since the last run."""
         _run.cache_clear()
         try:
             inspect.signature(self._function()).bind(*names)

@@ -6,8 +6,7 @@
     surface       surface(x, y) -> height in m, a peak positive: it lowers the gap
     deformation   compliance(k) -> deflection at wave number k over that of half-spaces
 
-`conditions` are `Conditions`. Other arguments and results are arrays of one shape: x and y in m from the
-centre, k in 1/m. `check` asks for values before a run does.
+`conditions`: `Conditions`; x and y in m from the centre, k in 1/m, of one shape. `check` asks beforehand.
 """
 
 from dataclasses import dataclass, replace
@@ -55,10 +54,8 @@ class OwnViscosity:
         return value + slope * p_h * np.minimum(P, 0.0), slope * p_h
 
     def check(self, p_max, ambient="the viscosity that it is given"):
-        """Raise OwnFunctionError unless it is a law with its derivative from 0 to `p_max` in Pa.
-
-        `ambient` says in the message what the viscosity at p = 0 must be.
-        """
+        """Raise OwnFunctionError unless it is a law with its derivative from 0 to `p_max` in Pa. `ambient`
+        says in the message what the viscosity at p = 0 must be."""
         p = _check_values(self.function, self._law, p_max, self.viscosity, ambient)
         _check_slope(self.function, self._log_law, p, "d ln(eta)/dp")
 
@@ -188,10 +185,8 @@ class OwnCompliance:
 
 
 def _numbers(function, values, slopes, p, highest):
-    """Values and derivatives of a law at `p` in Pa, positive and finite up to `highest`.
-
-    It was one when it was checked, but may depend on more than the pressure, and is asked for higher ones.
-    """
+    """Values and derivatives of a law at `p` in Pa, positive and finite up to `highest`. It was one when it
+    was checked, but may depend on more than the pressure, and is asked for higher ones."""
     is_law = (values > 0.0) & np.isfinite(values) & np.isfinite(slopes)
     if is_law.all():
         return values, slopes

@@ -1,9 +1,5 @@
-"""How far from the centre the peaks of rough bodies may touch.
-
-Smooth bodies touch within the semi-axes of Hertz. Beyond them the gap opens slowly at first: a peak that is
-higher than the gap touches there, and carries load. The lighter the load, the farther (a ball of 0.1 N with
-66 nm rms: 2.1 semi-axes).
-"""
+"""How far from the centre the peaks of rough bodies may touch: beyond the semi-axes of Hertz the gap opens
+slowly, and a peak that is higher than it carries load. The lighter the load, the farther."""
 
 import numpy as np
 
@@ -20,9 +16,7 @@ DISTANCES = np.geomspace(1.0, LOOKED_AT_LAST, 240)
 
 def reach_of_peaks(contact, film):
     """How far along X and Y, in their units, peaks reach through gap and `film` (m); 0 where none does.
-
-    Looked for as far as the highest peak could touch.
-    """
+    Looked for as far as the highest peak could touch."""
     if contact.surface is None:
         return 0.0, 0.0
     ends = LOOKED_AT_FIRST, LOOKED_AT_FIRST

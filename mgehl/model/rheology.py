@@ -66,11 +66,9 @@ def effective_mobilities(sigma):
 
     Two pairs (value, slope), shapes as sigma = eta V/(h tau_0), where the oil follows Eyring's law, V is
     the sliding speed and pressure gradients are small beside it  [Ehret, Dowson, Taylor, Proc R Soc A 454
-    (1998) 763]. The shear stress tau of the sliding is the same at all heights z of the film. A pressure
-    gradient adds (z - c) dp/dx and (z - c) dp/dy, c the middle. To first order the shear rates
-    (tau_0/eta) sinh(|tau|/tau_0) tau/|tau| change by these times (1/eta) cosh(tau/tau_0) along the sliding,
-    where the size of the stress changes, and (1/eta) sinh(tau/tau_0)/(tau/tau_0) across it, where only its
-    direction does: so much less viscous is the oil. The sliding itself says that sinh(tau/tau_0) = sigma.
+    (1998) 763]. The stress tau of the sliding is the same at all heights, sinh(tau/tau_0) = sigma. To first
+    order shear rates change by a gradient's stress times (1/eta) cosh(tau/tau_0) along the sliding and
+    (1/eta) sinh(tau/tau_0)/(tau/tau_0) across, where only its direction changes.
     """
     along = np.sqrt(1.0 + sigma * sigma)
     stress = np.arcsinh(sigma)

@@ -1,13 +1,8 @@
 """A domain with room for the film, and not more: what "auto" stands for.
 
-Its sides are tried at the distances by which each of them takes the same share of the film, until what they
-take together is little enough. Upstream is where the motion comes from, at whatever angle.
-
-Peaks of rough bodies that touch outside the contact of smooth ones (`peaks`) lie within, too.
-
-Where the load beyond the domain is not counted (`far_field`), light loads ask for a hundred semi-axes, on
-which few grids resolve the film. What the load asks for it gets only as far as the inlet keeps its
-cells: with more nodes the domain grows, and the film stays resolved.
+Its sides are tried at distances by which each takes the same share of the film, until what they take is
+little enough; peaks that touch outside (`peaks`) lie within. Where the load beyond is not counted
+(`far_field`), light loads would ask for a hundred semi-axes: as far as the inlet keeps its cells.
 """
 
 from math import ceil, hypot, sqrt
@@ -37,11 +32,8 @@ PARTS = 32
 
 
 def domain_for(starvation, nodes, farthest):
-    """The smallest x and y in which a film loses no more than `ALLOWED`, up to `farthest` semi-axes.
-
-    The film and its contact are those of a `Starvation`. With too few `nodes` a side, at light loads, it
-    loses more.
-    """
+    """The smallest x and y in which a film loses no more than `ALLOWED`, up to `farthest` semi-axes. The
+    film and its contact are those of a `Starvation`. With too few `nodes` light loads lose more."""
     peaks = reach_of_peaks(starvation.contact, starvation.film)
     for share in SHARES:
         x, y = _ends(starvation, share, nodes, farthest, peaks)

@@ -1,19 +1,11 @@
 """How much film a domain takes away whose sides are too near: the boundary starves the inlet.
 
-Two things end with the domain. The first is reduced pressure. On the way to the contact it grows by
-g/(h + g)^3, with the film h and the gap g of the dry contact (Grubin's integral from the side to the edge
-of the contact), and the film goes with a power of the part that is left. On Hamrock and Dowson's boundary
-m* = 1 + 3.06 [(R_x/b)^2 H]^0.58 a ball has lost some 4 % by that.
+Reduced pressure is missing: on the way to the contact it grows by g/(h + g)^3, with the film h and the gap
+g of the dry contact (Grubin's integral from the side on), and the film goes with a power of the part that
+is left. Hamrock and Dowson's boundary m* = 1 + 3.06 [(R_x/b)^2 H]^0.58 costs a ball some 4 %. And load is
+missing, below M = 8, but for what is counted of it (`far_field`). The side downstream takes nothing.
 
-The second is load. Far outside the bodies are rigid, the pressure is Kapitza's, and the load it carries
-beyond a distance falls only as 1 over that distance, or over its square in a line contact. It rules where a
-film answers to the load: M below 8. What is counted of it (`far_field`) is not lost, but for the part that
-is not known.
-
-The side downstream takes nothing: one at 1.2 semi-axes gives the film of one at 3 to 0.1 %.
-
-The constants were fitted to pairs of solutions on a small and a large domain of equal cells. An estimate is
-good to a factor of two, but where a domain cuts into a light film.
+The constants were fitted to pairs of solutions on domains of equal cells: good to a factor of two.
 """
 
 from dataclasses import dataclass
@@ -102,10 +94,8 @@ class Starvation:
     film: float
 
     def lost(self, x, y):
-        """Per cent of film that a domain of twice the size has more, central or minimum, the larger.
-
-        `x` and `y` are the ends of the domain in units of X and Y.
-        """
+        """Per cent of film that a domain of twice the size has more, central or minimum, the larger. `x`
+        and `y` are the ends of the domain in units of X and Y."""
         near, far = self.missing(x, y), self.missing(_twice(x), _twice(y))
         most = max(less - more for less, more in zip(near, far, strict=True))
         return 100.0 * (1.0 - exp(-most))
@@ -175,9 +165,7 @@ class Starvation:
     @cached_property
     def by_load(self):
         """-ln of the film left without the load beyond a side, times its distance in m to the `order`.
-
-        Upstream and beside.
-        """
+        Upstream and beside."""
         like = self.like
         x, y = like.radius_x, inf if self.contact.is_plane else like.radius_y
         share = self._answer_to_load * kapitza_factor(like.lubricant, like.speed, x, y) * x / like.load

@@ -131,10 +131,8 @@ def _is_comment(line):
 
 
 def _leading_holes(path, empty, first, separator):
-    """Those of the lines before the first row of numbers that are rows of as many holes.
-
-    Raises FileError where one is a row of numbers that are not understood.
-    """
+    """Those of the lines before the first row of numbers that are rows of as many holes. Raises FileError
+    where one is a row of numbers that are not understood."""
     columns = len(_words(first, separator))
     for number, line in empty:
         words = _words(line, separator)

@@ -1,8 +1,7 @@
 """The rigid fixed wedge bearing, with a pillar, a pocket or a blocked exit in its film  [Liu eqs. 43, 44].
 
-Lengths are in millimetres inside the code: X = x/mm, the gap is H = h/(m mm) = |X|, and with
-P = m^2 p/(eta u) per mm the equation is d/dX(H^3 dP/dX) + d/dY(H^3 dP/dY) = +-6 dH/dX. Of a pad that is
-described by its films the smaller of these stands for m mm.
+Inside the code X = x/mm, H = h/(m mm) = |X|, P = m^2 p/(eta u) per mm and d/dX(H^3 dP/dX) + d/dY(H^3 dP/dY)
+= +-6 dH/dX. Of a pad that is described by its films the smaller of these stands for m mm.
 """
 
 from dataclasses import dataclass
@@ -46,10 +45,8 @@ class Pocket:
     """Across the motion, its middle at y = 0."""
 
     def share(self, X, Y, dX, dY):
-        """The part of the cells dX by dY around X (1, nx) and Y (lines, 1), in mm, that it lies over.
-
-        A node's gap is the mean of its cell: wherever the edges lie between nodes, the volume is the same.
-        """
+        """The part of the cells dX by dY around X (1, nx) and Y (lines, 1), in mm, that it lies over. A
+        node's gap is the mean of its cell: wherever the edges lie between nodes, the volume is the same."""
         half = 0.5 * self.width / MM
         return _covered(X, dX, self.along[0] / MM, self.along[1] / MM) * _covered(Y, dY, -half, half)
 
@@ -64,9 +61,9 @@ def _covered(X, cell, first, last):
 class WedgeBearing:
     """A plane pad of gap h = level + slope x over a plate that drags the film from `inlet` to `exit`.
 
-    Lengths in metres, x counted from the line where the gap is `level`: without one, from where pad and
-    plate would meet. The plate moves towards -X; `turned` by 180 degrees about the vertical axis, the
-    bearing lies at negative X and its plate moves towards +X. `speed` is the plate's.
+    Lengths in metres, x counted from where the gap is `level`: without one, from where pad and plate would
+    meet. `turned` by 180 degrees about the vertical axis, it lies at negative X; its plate, of `speed`,
+    moves to +X.
     """
 
     exit: float

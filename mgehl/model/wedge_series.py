@@ -4,12 +4,12 @@ A flat plate over a wedge h = m x, isoviscous, with P = m^2 p/(eta u):
 
     d/dX(X^3 dP/dX) + X^3 d2P/dY2 = -6,    exit <= X <= inlet,  |Y| <= width/2,
 
-P = 0 on both sides and at the inlet. The exit is open, P = 0, or blocked, X^3 dP/dX + 6 X = 0: no net flow.
-X, Y, exit, inlet and width share one unit, mm in the paper; P then is in 1/mm and the load in mm.
+P = 0 on both sides and at the inlet. The exit is open, P = 0, or blocked, X^3 dP/dX + 6 X = 0. Lengths
+share one unit; P is in 1 over it.
 
 With 1 = sum of c cos(k Y), k = n pi/width, c = 4/(n pi) (-1)^((n-1)/2), n odd, P is the sum of f cos(k Y).
-In z = k X the equation of g = X f is z^2 g'' + z g' - (1 + z^2) g = -6 c: modified Bessel functions of
-order one and 3 pi c D, with D = L_{-1} - I_1 of the modified Struve function L.
+In z = k X, g = X f solves z^2 g'' + z g' - (1 + z^2) g = -6 c: modified Bessel functions of order one and 3
+pi c D, D = L_{-1} - I_1 (Struve's L).
 """
 
 from dataclasses import dataclass
@@ -40,12 +40,9 @@ class WedgeSeries:
     """Number of odd n; far more than width/exit."""
 
     def pressure(self, X, Y=0.0):
-        """P at points of the plate; X and Y broadcast.
-
-        Two slow sums are known in closed form: the particular solutions' leading terms make up the short
-        bearing, those of the layer at a blocked exit a dilogarithm. What is left falls like 1/n^3 at exit
-        and inlet and like 1/n^5 between.
-        """
+        """P at points of the plate; X and Y broadcast. Two slow sums are known in closed form: the leading
+        particular solutions make up the short bearing, those of the layer at a blocked exit a dilogarithm.
+        What is left falls like 1/n^3 at exit and inlet, like 1/n^5 between."""
         X, Y = np.asarray(X, dtype=float), np.asarray(Y, dtype=float)
         difference = self.modes(X) - self._short_modes(X) - self._layer_modes(X)
         fast = np.einsum("...n,...n->...", difference, np.cos(Y[..., None] * self._k))
@@ -92,9 +89,7 @@ class WedgeSeries:
     @cached_property
     def _coefficients(self):
         """Factors A, B of I_1(k X)/I_1(k inlet) and K_1(k X)/K_1(k exit) in g = X f, by Cramer's rule.
-
-        Blocked: f' = -6 c/X^2 at the exit, with (I_1(z)/z)' = I_2(z)/z and (K_1(z)/z)' = -K_2(z)/z.
-        """
+        Blocked: f' = -6 c/X^2 at the exit, with (I_1(z)/z)' = I_2(z)/z and (K_1(z)/z)' = -K_2(z)/z."""
         k, c, X = self._k, self._c, self.exit
         D, slope = struve_difference(k * X)
         if self.blocked:

@@ -1,10 +1,8 @@
 """Cliffs of the mobility, and a direct solve of the nodes around them.
 
-At the pressure spike of a thick film the mobility falls by orders of magnitude from one node to the next.
-The mobile node of such a cliff acts on the stiff one, which hardly acts back. No order in which lines are
-solved sees that along an arc: waves of two cells across it are left. The nodes on both sides of the arc are
-few. The near part of J Q among them is a sparse matrix, which the first rank factors, while the last one
-factors the coarsest grid's (`coarse`).
+At the pressure spike of a thick film a mobile node acts on a stiff one, which hardly acts back: lines in
+any order leave waves of two cells across it. The near part of J Q among the few nodes beside the arc is a
+sparse matrix. The first rank factors it, the last one the coarsest grid's (`coarse`).
 """
 
 from contextlib import suppress
@@ -19,13 +17,10 @@ from mgehl.grid.node_set import NodeSet
 from mgehl.multigrid.nearby import NEAR, NearColumns
 
 CLIFF = 10.0
-"""Ratio of the mobilities of neighbours from which on it counts as a cliff. With 100 most films on 129 to
-1025 nodes take as much work or up to a sixth more, few of them less; the first step of M = 20 by the
-logarithmic mean takes 16 iterations of GMRES on 1025 nodes, with 10 it takes 6 (both by V-cycles)."""
+"""Ratio of neighbours' mobilities from which on it counts as a cliff. With 100 films take more work."""
 
 BESIDE = 1
-"""Nodes on each side of a cliff's two that are solved with them. With 2 the work is the same within 3 %,
-with 4 a seventh more. With none it is two to three times as much (measured for cliffs of 100)."""
+"""Nodes on each side of a cliff's two that are solved with them: with none it is twice the work."""
 
 AROUND = np.argwhere(np.ones((2 * BESIDE + 1,) * 2)) - BESIDE
 ITSELF = np.array([(0, 0)])
@@ -36,10 +31,8 @@ LARGEST = 200_000
 
 
 def cliffs(eps, driven):
-    """Nodes with a neighbour on the other side of a cliff, (lines, nx), of ghosted mobilities `eps`.
-
-    One of the two is more mobile than `driven`.
-    """
+    """Nodes with a neighbour on the other side of a cliff, (lines, nx), of ghosted mobilities `eps`. One of
+    the two is more mobile than `driven`."""
     here, before, after = own(eps), eps[HALO - 1 : -HALO - 1], eps[HALO + 1 : len(eps) - HALO + 1]
     found = _differ(here, before, driven) | _differ(here, after, driven)
     along = _differ(here[:, 1:], here[:, :-1], driven)
@@ -54,11 +47,8 @@ def _differ(a, b, driven):
 
 
 class CliffZone:
-    """The nodes around the cliffs of a grid, and the direct solve of what couples them.
-
-    `K` holds the influence coefficients of the few nearest nodes [line, node], `share` is what Q hands to
-    each neighbour. All methods are the team's.
-    """
+    """The nodes around the cliffs of a grid, and their direct solve (all methods the team's). `K` holds the
+    influence of the few nearest nodes [line, node], `share` is what Q hands to each neighbour."""
 
     def __init__(self, grid, K, share):
         self._grid, self._columns = grid, NearColumns(K, share)
@@ -71,9 +61,7 @@ class CliffZone:
     @event(NEARBY)
     def gather(self, found, linearisation, distributive, free):
         """Tell the first rank what the zone around the nodes that were `found` to stand at a cliff is.
-
-        Masks (lines, nx): those nodes, the distributive ones, and those whose pressure is not given.
-        """
+        Masks (lines, nx): those nodes, the distributive ones, and those whose pressure is not given."""
         self.forget()
         nodes = NodeSet.where(self._grid, found).around(AROUND)
         if not 0 < len(nodes) <= LARGEST:
@@ -112,8 +100,7 @@ class CliffZone:
         return A @ Q + B @ N
 
     def solve(self, r, w, weight):
-        """Solve the zone for `weight` times the residual `r`, with `w` as it is around it; in place, both
-        (lines, nx)."""
+        """Solve the zone for `weight` times the residual `r`; `w` in place, both (lines, nx)."""
         if self._nodes is None:
             return
         nodes, dw = self._nodes, None

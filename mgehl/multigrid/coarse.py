@@ -13,10 +13,8 @@ from mgehl.multigrid.stencil_matrix import stencil_rows
 
 
 class CoarseSolve:
-    """LU of J with its border, sparse in a rigid gap; ranks without lines have nothing to do.
-
-    While the last rank factors, the first one factors what stands at cliffs (`cliffs`).
-    """
+    """LU of J with its border, sparse in a rigid gap; ranks without lines have nothing to do. While the
+    last rank factors, the first one factors what stands at cliffs (`cliffs`)."""
 
     def __init__(self, jacobian):
         self._jacobian = jacobian
@@ -53,10 +51,8 @@ class CoarseSolve:
 
     @event(COARSE)
     def solve(self, r, load):
-        """Corrections of P, (lines, nx), and of H0 for a residual.
-
-        The last rank alone knows the residual's `load`, and alone is told the correction of H0.
-        """
+        """Corrections of P, (lines, nx), and of H0 for a residual. The last rank alone knows the residual's
+        `load`, and alone is told the correction of H0."""
         grid, dP, dH0 = self._jacobian.grid, None, 0.0
         if not grid.has_lines:
             return r, dH0
@@ -69,8 +65,7 @@ class CoarseSolve:
         viewer.printfASCII("  LU with the border, on the last rank\n")
 
     def _gathered(self, stencil):
-        """Sparse matrix of a stencil (offsets, local lines, nx) of all ranks with lines; None but on the
-        last."""
+        """Sparse matrix of a stencil (offsets, local lines, nx) of the team; None but on the last rank."""
         grid, offsets = self._jacobian.grid, self._jacobian.linearisation.offsets
         whole = [grid.to_last(position) for position in stencil]
         return None if whole[0] is None else stencil_rows(offsets, np.stack(whole), 0, grid.mesh.nodes)
@@ -88,10 +83,8 @@ def _sparse_inverse(A):
 class DenseInverse:
     """LU of A + B K with its border, A and B sparse and K dense.
 
-    Where the pressure is `given`, (nodes,) bool, a row is its diagonal and solved at once. The LU is that
-    of the other nodes alone: in contact at low speed these are a half, and take an eighth of the work. It
-    stands in `room`, an array of (nodes + 1)^2 numbers: memory that is new each time would take a third of
-    the time.
+    It is that of the nodes whose pressure is not `given`, (nodes,) bool: half of them in contact at low
+    speed. It stands in `room`, (nodes + 1)^2 numbers: new memory would take a third of the time.
     """
 
     def __init__(self, A, B, K, load_weight, given, moves, room):
@@ -120,12 +113,8 @@ class DenseInverse:
 
 @compiled()
 def fill_bordered(matrix, free, moves, A, B, K, load_weight):
-    """Fill the `matrix` of A + B K for the `free` nodes, with its border.
-
-    `moves` is 1, and 0 where an unknown is no pressure: that deflects nothing and carries nothing.
-
-    A and B have the rows of these nodes: (where each begins, columns, values) of sparse matrices.
-    """
+    """Fill the `matrix` of A + B K for the `free` nodes, with its border. A and B have their rows: (where
+    each begins, columns, values). `moves` is 1, and 0 where an unknown is no pressure."""
     count, place = len(free), np.full(len(K), -1)
     place[free] = np.arange(count)
     of_all = np.empty(len(K))

@@ -10,10 +10,9 @@ from mgehl.multigrid.smoother import LineSmoother, influence_nearby
 from mgehl.multigrid.y_bands import YBands
 
 AT_CLIFFS = 1.2
-"""Times the residual that is solved for around cliffs, on grids that hold the film. Lines do not see waves
-along a spike: damped as lines are, by omega = 0.8, these would be the last that are left. With 1.2 thick
-films on 257 to 1025 nodes take up to a quarter less work than with 1, a few of them a twentieth more; with
-1.3 up to an eighth more than with 1.2; with 2 up to two and a half times as much."""
+"""Times the residual that is solved for around cliffs, on grids that hold the film: damped as lines are, by
+omega = 0.8, waves along a spike would be the last that are left. With 1 thick films take up to a quarter
+more work, with 1.3 an eighth."""
 
 
 class LinesBothWays(LineSmoother):
@@ -49,12 +48,10 @@ class LinesBothWays(LineSmoother):
 
 
 class CrossedLineSmoother(LinesBothWays):
-    """The same with lines along both axes: c = omega Q (X D^-1 Y)^-1 r.
+    """The same with lines along both axes: c = omega Q (X D^-1 Y)^-1 r, but for what couples both J Q.
 
-    X and Y are the parts of J Q along the x-lines and along the y-lines, D their diagonal: the product is J
-    Q but for what couples both. Lines along one axis alone leave waves across the motion, the more the
-    finer the grid; the product damps these, too (M = 20, L = 10 by 2B on 257 nodes: 64 convolutions for
-    88). A relaxation goes along X first and then along Y, the next one the other way round.
+    X and Y are the parts of J Q along the x-lines and along the y-lines, D their diagonal. Lines along one
+    axis leave waves across it, the more the finer the grid. The next relaxation goes along Y first.
     """
 
     @event(LINES)
@@ -83,11 +80,8 @@ class CrossedLineSmoother(LinesBothWays):
 
 
 class CliffSmoother(CrossedLineSmoother):
-    """The same, and then a direct solve of the nodes around cliffs of the mobility (`CliffZone`).
-
-    Thick films have cliffs at their pressure spike. M = 200, L = 10 by 3B and the linear gap on 513 nodes
-    takes 38 convolutions; by V-cycles it took 42, by lines alone 376.
-    """
+    """The same, and then a direct solve of the nodes around cliffs of the mobility (`CliffZone`), which
+    thick films have at their pressure spike."""
 
     words = f"{LinesBothWays.words}, nodes at cliffs of the mobility at once"
     sees_cliffs = True

@@ -1,19 +1,12 @@
 """The linear solver: an F-cycle as the right preconditioner of flexible GMRES.
 
-Coarse operators are rediscretised with P, H and status injected from the fine grid, and always with the
-arithmetic mean of the mobility: coarse neighbours differ so much that a mean which vanishes with either
-side would close faces that are open on the fine grid (30 mm/s by the linear gap on 513 nodes: 34
-convolutions, 44 with its own mean; films that coarse grids hold take as many by either). Where the
-surfaces move at an angle to the lines, coarse Couette flows have the finest grid's truncation error.
-Otherwise coarse grids would carry waves across the motion along differently, and their correction of them
-would be a fraction of what it should be. The border travels with the residual, so H0 is corrected by the
-direct solve on the coarsest grid and the cycle needs no second solve for its column.
+Coarse operators are rediscretised with P, H and status injected, and with the arithmetic mean of the
+mobility: one that vanishes with either side would close faces that are open on the fine grid. Where the
+surfaces move at an angle to the lines, coarse Couette flows have the finest grid's truncation error, for
+they would carry waves across the motion along differently.
 
-On a rough surface peaks are as small as a coarse grid's cells. What GMRES learnt in one step is remembered
-for the next (`memory`). Where the film is thin besides, the mobility at one node says nothing of the nodes
-around it. There it is averaged from grid to grid and held fixed (a ball of 100 nm rms at 1 mm/s: 12
-iterations for 18, at 1 micrometre per second 12 for more than 60). A line between rough bodies is the
-coarsest grid itself, whose solve is direct.
+On rough surfaces GMRES remembers (`memory`). Where the film is thin besides, the mobility at one node says
+nothing of those around: it is averaged from grid to grid and held fixed. Rough lines are solved directly.
 """
 
 from dataclasses import dataclass, replace
@@ -38,22 +31,18 @@ from mgehl.multigrid.smoother import RigidLineSmoother
 from mgehl.multigrid.smoother_choice import smoother_of
 
 IN_THE_CYCLE = {"2C": "3B", "S2C": "3B"}
-"""Couette schemes of the cycle's operators where the solved one's leave waves of two cells: lines do not
-damp them."""
+"""The cycle's Couette schemes where the solved one leaves waves of two cells, which lines do not damp."""
 
 ASKEW_OR_APART = IN_THE_CYCLE | {"3B": "2B"}
-"""The same where the surfaces move at an angle to the lines (30 degrees on 513 nodes: 132 convolutions for
-194), and where fluid and contact are solved apart (0.5 mm/s on 257 nodes: 133 for 333). Elsewhere 3B takes
-a third less by its own operators (M = 20, L = 10 on 257 nodes: 55 for 78)."""
+"""The same where the surfaces move at an angle to the lines, and where fluid and contact are solved apart
+(half of the work). Elsewhere 3B takes a third less by its own operators."""
 
 DIRECT = 4097
-"""Most nodes of a line between rough bodies that is solved directly. What a valley couples to others leads
-through the peaks beside it, and coarse grids do not see them: of 40 such contacts (513 to 2049 nodes) by
-the cycle 14 were not found, most of them in linear systems that were never solved."""
+"""Most nodes of a line between rough bodies that is solved directly: coarse grids do not see the peaks
+through which valleys are coupled, and a third of such contacts are not found by the cycle."""
 
 MOST_ITERATIONS = 100
-"""Of GMRES, which is not restarted: thin films on coarse grids take 100, and with a restart after 30 they
-never end."""
+"""Of GMRES, which is not restarted: thin films on coarse grids take 100, restarted after 30 no end."""
 
 RESTART_OF_LARGE = 6
 """Iterations after which GMRES is restarted on a large grid: it keeps two vectors for each, and PETSc
@@ -67,24 +56,18 @@ class CycleSettings:
     sweeps: int = SolverSection.sweeps
     """Line relaxations after the coarse grids: each but the first takes a convolution on every grid."""
     omega: float = SolverSection.omega
-    """Damping of the line relaxation. With 0.7 and 0.9 films and line contacts take up to a third more
-    work, one film and mixed lubrication with 0.7 an eighth and a fifth less."""
+    """Damping of the line relaxation: with 0.7 and 0.9 up to a third more work."""
     couette: str = SolverSection.cycle_couette
     """Couette scheme of the cycle's operators; "same" is the one that is solved."""
     rough: bool = False
-    """Whether peaks are as small as a coarse grid's cells: then corrections are remembered, and lines are
-    solved directly."""
+    """Whether peaks are as small as coarse cells: corrections are remembered, lines solved directly."""
     in_valleys: bool = False
-    """Whether the film is thin besides: it has a smoother, coarse mobilities, and coarse films that end at
-    nodes, of its own."""
+    """Whether the film is thin besides: its own smoother, coarse mobilities and ends of coarse films."""
 
 
 class MultigridSolver:
-    """Flexible GMRES with one F-cycle for the bordered Jacobian of grid `level`.
-
-    With a `rigid` gap it solves for the fluid alone and makes no convolution. Where the fluid is solved
-    `apart` from the gap only contact is left, and contact knows no direction of motion.
-    """
+    """Flexible GMRES with one F-cycle for the bordered Jacobian of grid `level`. With a `rigid` gap it
+    solves for the fluid alone, without a convolution. Fluid solved `apart` leaves contact alone."""
 
     def __init__(
         self, hierarchy, level, contact, scheme, settings=CycleSettings(), rigid=False, apart=False
@@ -154,8 +137,7 @@ class MultigridSolver:
 
     @property
     def way(self):
-        """How the finest grid's next linear system begins (of a `ValleySmoother`); "" where there is
-        one way only."""
+        """How the finest grid's next linear system begins (of a `ValleySmoother`), or ""."""
         return self._smoothers[-1].way if self._smoothers else ""
 
     @way.setter
@@ -171,9 +153,8 @@ class MultigridSolver:
     def linearise(self, evaluation, rows, rate=0.0):
         """Linearise on every grid about the finest grid's evaluated state, with its kinds of `rows`.
 
-        `rate` is 1/time step of an implicit step, or one for each node, (lines, nx); zero for the
-        steady equations. What the evaluation knows of the faces is dropped, where memory is short what it
-        knows of the fluid, too: the solve needs the room.
+        `rate` is 1/time step of an implicit step, or one for each node, (lines, nx); zero for the steady
+        equations. The evaluation forgets its faces and, where memory is short, the fluid.
         """
         leaks = not (self.jacobian.rigid or self.jacobian.scheme.contact_law.closes_faces)
         if self.jacobian is not self.jacobians[-1]:
@@ -215,10 +196,8 @@ class MultigridSolver:
     def configure(self, ksp, rtol):
         """Make a KSP (of a SNES, say) this solver; its options may still change it.
 
-        GMRES orthogonalises twice. Remembered corrections make its directions nearly alike: orthogonalised
-        once only, the residual may rise again. The same may happen with a film that the grid cannot hold.
-        There it is done twice where it is needed (65 nodes at 12 mm/s: 8 iterations on any number of ranks;
-        orthogonalised once 9, 10 and 14 on one to three).
+        GMRES orthogonalises twice: directions by remembered corrections are nearly alike, and the residual
+        might rise again. With films that a grid cannot hold only where needed.
         """
         ksp.setType(PETSc.KSP.Type.FGMRES)
         ksp.setOperators(self.jacobian.mat, self.jacobians[-1].mat)

@@ -1,42 +1,31 @@
 """The cycle itself: from the coarsest grid up, a relaxation on each grid, no convolution on the finest.
 
-The deflection by a coarse grid's correction is convolved there and interpolated with it, instead of one
-more convolution on the finer grid. The difference is as short as the finer grid's cells, and the relaxation
-that follows damps it. A relaxation before the coarse grids would take two convolutions more on the finest
-grid in every iteration, for little more than one relaxation's worth of convergence.
+The deflection by a coarse correction is interpolated, and relaxation damps the difference. A relaxation
+before the coarse grids would take two convolutions more for little more than its own worth.
 
-At a thick film's spike a coarse grid's correction overshoots, and the next finer one's overshoots more:
-the more grids, the more iterations. So F visits the next coarser grid twice, first by F and then by V,
-where that grid holds the film. The second visit takes back what the first one overshot (M = 20, L = 10 by
-3B and the arithmetic mean on 1025 nodes: 3 iterations at most for 5, 93 convolutions for 132). Where a
-grid does not hold the film, its spike is not the finest one's, and to solve for it twice leads astray (7.5
-mm/s on 1025 nodes: not solved after 349 convolutions, but after 38 by V-cycles).
+At a thick film's spike coarse corrections overshoot, the more the more grids there are. So F visits the
+next coarser grid twice, first by F and then by V, where that grid holds the film: the second visit takes
+back what the first one overshot. Elsewhere it is another spike, and a second visit leads astray.
 """
 
 import numpy as np
 
 SECOND = 0.8
-"""How much of the second visit's correction is taken. With all of it thick films on 129 to 1025 nodes take
-up to an eighth more work, a few of them a twentieth less."""
+"""How much of the second visit's correction is taken: with all of it thick films take more work."""
 
 
 class FCycle:
-    """Python context of a PC: one cycle from zero solves for x and gives y.
-
-    Of the grids of the `jacobians`, coarsest first. Grid l > 0 has the smoother and the
-    `PartitionedTransfer` l - 1; on grid 0 the `coarse` solve is direct. A sweep is a smoother's
-    `relaxations`. Where no coarse grid is visited twice it is a V-cycle.
-    """
+    """Python context of a PC: one cycle from zero solves for x and gives y, on the grids of the
+    `jacobians`, coarsest first. Grid l > 0 has the smoother and the `PartitionedTransfer` l - 1; on grid 0
+    the `coarse` solve is direct. A sweep is a smoother's `relaxations`."""
 
     def __init__(self, jacobians, transfers, smoothers, coarse, sweeps):
         self._jacobians, self._transfers, self._smoothers = jacobians, transfers, smoothers
         self._coarse, self._sweeps = coarse, sweeps
 
     def setUp(self, _pc):
-        """Factor the bands and matrices of the present linearisation on all grids.
-
-        What one rank factors alone comes last: the first one does its part while the last one does another.
-        """
+        """Factor the bands and matrices of the present linearisation on all grids. What one rank factors
+        alone comes last: the first one does its part while the last one does another."""
         for smoother in self._smoothers:
             smoother.factor()
         for smoother in self._smoothers:
@@ -62,10 +51,8 @@ class FCycle:
         return level > 0 and self._smoothers[level - 1].sees_cliffs
 
     def _corrections(self, level, r, load, again):
-        """Of P, (lines, nx), and of H0 for a residual on a grid; the border on the last rank alone.
-
-        `again` says whether coarser grids may be visited twice.
-        """
+        """Of P, (lines, nx), and of H0 for a residual on a grid; the border on the last rank alone. `again`
+        says whether coarser grids may be visited twice."""
         if level == 0:
             return self._coarse.solve(r, load)
         fine, coarse = self._jacobians[level], self._jacobians[level - 1]

@@ -1,10 +1,7 @@
-"""The bordered Jacobian on one grid.
+"""The bordered Jacobian on one grid, [ A + B K, B 1; s^T, 0 ] with s = load weight x dX dY.
 
-    [ A + B K   B 1 ] [ dP  ]
-    [ s^T        0  ] [ dH0 ]        s = load weight x dX dY
-
-K is the full convolution and is never truncated or assembled. A bordered vector holds the
-rank's lines of P and, on the last rank, one entry more for H0 (or for the load row).
+K is the full convolution, never truncated or assembled. A bordered vector holds the rank's lines of P and,
+on the last rank, one entry more for H0 (or for the load row).
 """
 
 import numpy as np
@@ -22,8 +19,7 @@ from mgehl.multigrid.under_contact import UnderContact
 
 
 class BorderedSpace:
-    """Vectors (P, H0) on a grid, over all ranks. Some ranks may have no line of the grid; the last one
-    always has."""
+    """Vectors (P, H0) on a grid, over all ranks, of which the last one always has lines."""
 
     def __init__(self, grid):
         self.grid = grid
@@ -61,10 +57,8 @@ class BorderedSpace:
         self._lines(vec.getArray())[:] = P
 
     def parts_in_team(self, entries):
-        """The pressure part of an array of own entries, a view (lines, nx), and the border entry.
-
-        Where ranks have lines; 0 on the others.
-        """
+        """The pressure part of an array of own entries, a view (lines, nx), and the border entry. Where
+        ranks have lines; 0 on the others."""
         P, border = self._own_parts(entries)
         return P, self.border_in_team(border)
 
@@ -80,9 +74,7 @@ class BorderedSpace:
 
     def parts(self, stack):
         """Of many arrays of own entries, (k, own entries): those of P, (k, lines, nx), and the border's.
-
-        The border's k entries are a list that every rank knows (collective).
-        """
+        The border's k entries are a list that every rank knows (collective)."""
         last, inner = self.grid.comm.size - 1, self.grid.shape[0] * self.grid.shape[1]
         borders = self.grid.comm.bcast(stack[:, inner:].ravel().tolist(), root=last)
         return stack[:, :inner].reshape(-1, *self.grid.shape), borders
@@ -104,10 +96,8 @@ def _sent_from_last(comm, number):
 
 
 class Jacobian:
-    """Python context of the bordered Jacobian's Mat.
-
-    Without a `deflection` the gap is rigid: K = 0, H0 is given, and no convolution is made.
-    """
+    """Python context of the bordered Jacobian's Mat. Without a `deflection` the gap is rigid: K = 0, H0 is
+    given, and no convolution is made."""
 
     def __init__(self, grid, deflection, contact, scheme):
         self.grid, self.space = grid, BorderedSpace(grid)
@@ -184,10 +174,8 @@ class Jacobian:
         return self.load_weight * self.grid.sum_of_team(self.pressures(dP).sum())
 
     def product(self, dP, dH, dH0):
-        """A dP + B (dH + dH0), (lines, nx), of a known deflection `dH`; the next call overwrites it.
-
-        In a rigid gap A dP alone.
-        """
+        """A dP + B (dH + dH0), (lines, nx), of a known deflection `dH`; the next call overwrites it. In a
+        rigid gap A dP alone."""
         grid, lin = self.grid, self.linearisation
         grid.halo(dP, out=self._dP)
         if self.rigid:

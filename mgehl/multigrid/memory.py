@@ -1,13 +1,9 @@
-"""What GMRES found in earlier linear systems: the corrections that the cycle misses most, and their
-deflections.
+"""What GMRES found in earlier systems: the corrections that the cycle misses most, and their deflections.
 
-On a rough surface each valley that peaks shut in is a soft mode of its own: the pressure of all its fluid
-may change almost freely, and the films behind it change with it. On coarse grids the valleys leak, so the
-cycle corrects these modes badly and GMRES has to find them, an iteration or more for each. From one Newton
-step to the next the modes hardly change. The deflection by a correction does not change at all, so the
-product of the new Jacobian with a remembered correction takes a stencil and no convolution. Harmonic Ritz
-values decide which are kept: GMRES with recycling [Parks et al., SIAM J. Sci. Comput. 28 (2006) 1651],
-while the Jacobian changes.
+Each valley that peaks shut in is a soft mode of its own. On coarse grids the valleys leak, so GMRES has to
+find these modes, an iteration or more for each. They hardly change from one Newton step to the next, and
+their deflections do not: the product with the new Jacobian takes a stencil and no convolution. Harmonic
+Ritz values decide which are kept: GMRES with recycling [Parks et al., SIAM J. Sci. Comput. 28 (2006) 1651].
 """
 
 from dataclasses import dataclass
@@ -17,14 +13,11 @@ import scipy.linalg
 
 MOST, NODES = 40, 48_000_000
 """Most corrections that are kept from one system to the next, and most nodes of all that are remembered at
-a time: with their deflections and causes 1.2 GB. A ball of 218 nm rms at .3 mm/s takes 694 convolutions
-with 40, 640 with 60, and fails where the last 40 are kept instead of the softest."""
+a time: with their deflections and causes 1.2 GB. To keep the last ones instead of the softest fails."""
 
 SOFT = 2.0
-"""Cause over image from which on a correction is kept: the cycle leaves half of it or more. In a film two
-or three are; to take over 40 took longer than all else (257 nodes in time: 28 s, now 20, with 2 % more
-convolutions; with peaks that touch 26 s, now 19, with 10 % more). Of 14 contacts of machines 14 are found
-with 402 convolutions on average; with all that there is room for 13 were, with 623."""
+"""Cause over image from which on a correction is kept: the cycle leaves half of it or more. To keep all
+that there is room for takes half more work, and time in films, where two or three are soft."""
 
 INDEPENDENT = 1e-12
 """Smallest eigenvalue, over the largest, of images that count as independent of each other."""
@@ -56,11 +49,8 @@ class Corrections:
 
 
 class Memory:
-    """Python context of a PC: first the best of the kept corrections, then a `cycle` on the residual that
-    is left.
-
-    It sees every product of the `jacobian` with a correction that it made. Vectors are a rank's own parts.
-    """
+    """Python context of a PC: first the best of the kept corrections, then a `cycle` on what is left. It
+    sees every product of the `jacobian` with a correction of its own. Vectors are a rank's parts."""
 
     def __init__(self, jacobian, cycle):
         self._jacobian, self._cycle = jacobian, cycle
@@ -142,9 +132,8 @@ class Memory:
 def softest(gram, by_causes, most):
     """Weights (corrections, combinations) of at `most` combinations with orthonormal images.
 
-    `gram` holds the products of the images with each other, `by_causes` those of image i with cause k.
-    Combinations that depend on others are left out. Of the rest those are taken whose image is smallest
-    beside its cause, as far as they are `SOFT`.
+    `gram` are the products of the images with each other, `by_causes` those of image i with cause k.
+    Combinations that depend on others are left out. Of the rest the `SOFT` are taken, softest first.
     """
     lengths = np.sqrt(np.diag(gram))
     scale = np.divide(1.0, lengths, out=np.zeros_like(lengths), where=lengths > 0.0)

@@ -1,9 +1,7 @@
 """A direct solve of all that couples nearby nodes.
 
-Peaks shut fluid into valleys, and the pressure of each valley is a soft mode of its own (`memory`). On
-coarse grids the valleys leak, and a line of nodes knows nothing of the lines beside it. What decides such a
-pressure is nearby: the channels that lead out of the valley, and how its bed gives way. The near part of
-J Q on the whole grid is a sparse matrix that has these modes as they are.
+The pressure of a valley that peaks shut in is a soft mode (`memory`) that coarse grids and lines do not
+see. What decides it is nearby: channels out of it, and how its bed gives way. The near part of J Q has it.
 """
 
 import numpy as np
@@ -15,9 +13,8 @@ from mgehl.multigrid.options import OF_NEARBY_NODES, by_default
 from mgehl.multigrid.stencil_matrix import StencilMatrix
 
 NEAR = np.array([(line, node) for line in (-1, 0, 1) for node in (-1, 0, 1)])
-"""(lines, nodes) to the nodes whose deflection a correction has in the matrix. With itself alone a ball of
-200 nm rms takes 33 iterations of GMRES, with these 22, with two nodes on each side 18 and twice the
-time."""
+"""(lines, nodes) to the nodes whose deflection a correction has in the matrix: itself alone takes half more
+iterations, two nodes on each side twice the time."""
 
 CENTRE = 4
 """Place of the node itself among them."""
@@ -29,10 +26,9 @@ PACKAGES = "mumps", "superlu_dist"
 class NearbySolve:
     """LU of T = A Q + B N, the near part of J Q, between the nodes of a `zone`, a mask (lines, nx).
 
-    Q as in `band_kernels.build_bands`, N the deflection of near nodes by its columns. `K` holds the
-    influence coefficients of the few nearest nodes [line, node], `share` is what Q hands to each neighbour.
-    The places of T's entries stay the same, so the order of elimination is found once. It must not depend
-    on the entries (MUMPS's `icntl_6`): a run that goes on finds it from others.
+    Q as in `band_kernels.build_bands`, N the deflection of near nodes by its columns; `K` and `share` as of
+    a `CliffZone`. The order of elimination is found once, for the places of T's entries stay. It must not
+    depend on the entries (MUMPS's `icntl_6`): a run that goes on finds it from others.
     """
 
     def __init__(self, jacobian, K, share, zone):
@@ -50,10 +46,8 @@ class NearbySolve:
 
     @event(NEARBY)
     def factor(self, distributive, free):
-        """Factor T of the present linearisation.
-
-        Masks (lines + 2 HALO, nx): the distributive nodes, and those whose pressure is not given.
-        """
+        """Factor T of the present linearisation. Masks (lines + 2 HALO, nx): the distributive nodes, and
+        those whose pressure is not given."""
         matrix = self.matrix(distributive, free)
         if self._places is None:
             numbers = np.flatnonzero(self._zone) + self._jacobian.grid.first * self._zone.shape[1]
@@ -67,10 +61,8 @@ class NearbySolve:
 
     @event(NEARBY)
     def solve(self, r, w):
-        """Solve T w = r in the zone, both (lines, nx); beyond it w is zero.
-
-        A singular T gives a `w` that is not finite.
-        """
+        """Solve T w = r in the zone, both (lines, nx); beyond it w is zero. A singular T gives a `w` that
+        is not finite."""
         right, left = self._vecs
         right.setArray(r[self._zone])
         self._ksp.solve(right, left)
@@ -97,10 +89,8 @@ class NearbySolve:
 
 
 class NearColumns:
-    """What a node has of the columns of Q and N that stand at the nodes around it.
-
-    `K` and `share` as of a `NearbySolve`.
-    """
+    """What a node has of the columns of Q and N that stand at the nodes around it. `K` and `share` as of a
+    `NearbySolve`."""
 
     def __init__(self, K, share):
         places = np.abs(NEAR)

@@ -50,11 +50,8 @@ class XLines:
 
 
 class LineSmoother(XLines):
-    """Relaxation c = omega Q T^-1 r, T the x-lines' part of J Q.
-
-    Without the distribution Q the relaxation diverges: K is long-ranged, and a band of it
-    overshoots on smooth corrections; K Q decays fast enough for a band.
-    """
+    """Relaxation c = omega Q T^-1 r, T the x-lines' part of J Q. Without Q it diverges: K is long-ranged,
+    and a band of it overshoots on smooth corrections; K Q decays fast enough."""
 
     words = "lines along x"
     """Of a recipe."""

@@ -8,10 +8,8 @@ from mgehl.multigrid.valleys import RoughLineSmoother, ValleySmoother
 def smoother_of(is_line, holds_film=False, in_valleys=False, finest=False, apart=False):
     """The class of a grid's smoother, but for a rigid gap's: a single line has nothing beside it.
 
-    A film `in_valleys` closes at the peaks of rough surfaces; it has smoothers of its own, another on the
-    `finest` grid. Where the fluid is solved `apart` hardly more than contact is left, which has no
-    direction: lines along X take as many convolutions there, and a tenth less time.
-    Cliffs are looked for on the finest grid and on all that hold the film.
+    A film `in_valleys` has smoothers of its own, another on the `finest` grid. Fluid solved `apart` leaves
+    contact, which needs lines along X alone. Cliffs are looked for where a grid holds the film.
     """
     if is_line:
         return LineSmoother

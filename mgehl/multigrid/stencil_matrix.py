@@ -10,9 +10,7 @@ from scipy.sparse import coo_array
 
 def stencil_rows(offsets, stencil, first_row, columns):
     """Sparse rows of a stencil (offsets, lines, nx) whose first node is row `first_row` of the whole.
-
-    `columns` is the number of nodes, or one more for a border.
-    """
+    `columns` is the number of nodes, or one more for a border."""
     _, lines, nx = stencil.shape
     rows = np.arange(lines * nx)
     parts = []
@@ -25,9 +23,7 @@ def stencil_rows(offsets, stencil, first_row, columns):
 
 class StencilMatrix:
     """The distributed matrix of a stencil (offsets, lines, nx), whose entries may be set again and again.
-
-    An entry that is zero keeps its place.
-    """
+    An entry that is zero keeps its place."""
 
     def __init__(self, grid, offsets):
         self._order = np.lexsort((offsets[:, 1], offsets[:, 0]))

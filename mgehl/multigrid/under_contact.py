@@ -1,9 +1,7 @@
 """The fluid's pressure under contact, eliminated from the linear system.
 
-Under contact that keeps layers between the bodies p answers to the flow balance, P to the gap. The layers
-let little through, so what one patch of contact has of p is coupled to the rest by its rim alone. The
-balance of all these nodes is a sparse system, L p = ..., which the first rank factors. What is left is a
-system of the other unknowns:
+Under contact that keeps layers p answers to the flow balance, P to the gap. The balance of all these nodes,
+coupled to the rest by their rims, is a sparse system L p = ..., which the first rank factors:
 
     J' = J - C L^-1 R        R: rows of the nodes under contact, C: columns of their p
 """
@@ -86,9 +84,8 @@ class UnderContact:
 def factored(L):
     """LU of the balance L of nodes under contact.
 
-    Several p_h make oil by Barus so stiff that 1e-30 of the flow beside gets through. Nodes that such oil
-    shuts in may keep to rounding what they have, and L is singular: there p may be anything. Far from a
-    solution nothing may get through at all: there p stays.
+    By Barus so stiff an oil may let 1e-30 of the flow through. Nodes that it shuts in may keep to rounding
+    what they have, where L is singular: there p may be anything. Where nothing at all gets through p stays.
     """
     how = {"permc_spec": "MMD_AT_PLUS_A", "diag_pivot_thresh": 0.0}
     nothing = np.abs(L.diagonal()) < np.finfo(float).tiny

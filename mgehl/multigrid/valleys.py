@@ -12,23 +12,18 @@ from mgehl.multigrid.nearby import NearbySolve
 
 DRIVEN = 30.0
 """Mobility/dX over a node's own influence from which on it is relaxed along Y, too: elsewhere it is the gap
-that moves, along X alone. Of eight rough contacts seven take with 5 and 150 the same work within a tenth,
-one a quarter and a third more. With 0 six take a third less to a quarter more."""
+that moves, along X alone. With 5 and 150 about the same work."""
 
 PATIENCE = 30
-"""Relaxations of one linear system by lines; then nearby nodes are solved at once. To factor them takes as
-long as some fifteen iterations."""
+"""Relaxations of one system by lines; then nearby nodes are solved at once, by an LU as dear as 15."""
 
 MOST_AT_ONCE = 50
 """Relaxations of one linear system with nearby nodes at once; then it is finished by lines, and so are all
-later ones. When all nodes were solved at once a dented polymer on 513 nodes took 119 s by this, and without
-it was not done after 330. Other values were tried with an earlier smoother only (30: half more)."""
+later ones: in soft bodies what a valley couples to is not near."""
 
 ZONE = 1.25
-"""How far nearby nodes are solved at once, over the reach of the dry contact. Beyond it films are thick, or
-there are none. With 1, a dimpled ball whose peaks touch outside takes 3315 convolutions for 506. All nodes
-take on 257 nodes as many convolutions within a tenth (one of eight a third less) and up to a half more
-time; on 65 nodes, where the zone's edge is near, a third fewer iterations."""
+"""How far nearby nodes are solved at once, over the reach of the dry contact. Beyond it films are thick.
+With 1 peaks that touch outside take six times the work; all nodes take more time."""
 
 LARGEST = 600_000
 """Most nodes of that zone: they take some 18 kB each, with what GMRES remembers."""
@@ -41,14 +36,9 @@ class RoughLineSmoother(LinesBothWays):
     """Lines along X, and then along Y where the pressure drives the flow by far, as in valleys.
 
     c = c_X + omega Q Y^-1 D (r - J c_X), c_X = omega Q X^-1 r: J with the deflection of near nodes alone, D
-    the nodes that are driven. Oil leaves a valley in any direction (a polymer with peaks of 450 nm rms, six
-    times as long along X as along Y: 134 convolutions for 1522 by lines along X). The product of lines both
-    ways (`CrossedLineSmoother`) is of no use here: where a driven node stands beside a stiff one it leaves
-    a residual as large as the driven one's mobility.
-
-    For the same reason a stiff node hands nothing over to a driven one beside its line: lines solved apart
-    from each other could not remove what that would leave (by lines along X alone a ball of 400 nm rms at
-    1 mm/s takes 17 iterations for 39).
+    the nodes that are driven. Oil leaves a valley in any direction. The product of lines both ways
+    (`CrossedLineSmoother`) leaves a residual as large as a driven node's mobility beside a stiff one. So a
+    stiff node hands nothing over to a driven one beside its line.
     """
 
     words = "lines along x, in valleys along y, too"
@@ -107,10 +97,7 @@ class ValleySmoother(RoughLineSmoother):
     the contact and lines beyond, in the rest of that system and in all later ones.
 
     c = c_L + Q T^-1 (r - J c_L): c_L by lines for r beyond the zone, J with the deflection of near nodes
-    alone. A ball of 200 nm rms at 3.5 um/s on 257 nodes takes 22 iterations of GMRES; by lines alone it was
-    not solved after 110. Zones of more than `LARGEST` nodes keep the lines, and where a system takes more
-    than `MOST_AT_ONCE` relaxations all later ones are left to the lines again: in soft bodies what a valley
-    couples to is not near.
+    alone. Zones above `LARGEST` keep the lines, and so do systems after `MOST_AT_ONCE`.
     """
 
     words = f"{RoughLineSmoother.words}, nearby nodes at once where that takes long"

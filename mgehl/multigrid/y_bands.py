@@ -22,14 +22,10 @@ UNEVEN = 1.05
 
 
 class YBands:
-    """Factored banded systems of all y-lines, each node coupled to `REACH` on each side.
-
-    The bands are one plane of numbers (`grid.plane`): each rank fills those of its x-lines, then factors
-    and solves its share of the y-lines, as they lie there. All methods are the team's.
-
-    `kappa` is the table of `bands.influence_of_columns` with X and Y exchanged; `share` is what Q hands to
-    each neighbour.
-    """
+    """Factored banded systems of all y-lines, each node coupled to `REACH` on each side: one plane of
+    numbers (`grid.plane`). Each rank fills those of its x-lines, then factors and solves its share of the
+    y-lines. All methods are the team's. `kappa` is the table of `bands.influence_of_columns` with X and Y
+    exchanged; `share` is what Q hands to each neighbour."""
 
     def __init__(self, grid, kappa, share):
         self._grid, self._kappa, self._share = grid, kappa, share
@@ -43,9 +39,7 @@ class YBands:
 
     def factor(self, linearisation, distributive, given, contents=None):
         """Factor what J Q couples along Y; `distributive` and `given` nodes, `contents`: masks (lines, nx).
-
-        Contents are not carried along Y: they couple to nothing.
-        """
+        Contents are not carried along Y: they couple to nothing."""
         lin, grid = linearisation, self._grid
         spans = self._spans_of_all(given)
         self._follow(spans)
@@ -109,10 +103,8 @@ class YBands:
         return np.stack([first, end], axis=1)
 
     def _follow(self, spans):
-        """Deal the y-lines out anew where one rank has too much of their work.
-
-        A cavity behind the contact would leave the rank idle whose y-lines it takes.
-        """
+        """Deal the y-lines out anew where one rank has too much of their work. A cavity behind the contact
+        would leave the rank idle whose y-lines it takes."""
         ends = np.zeros(self._grid.mesh.nx + 1)
         np.add.at(ends, spans[:, 0], 1.0)
         np.add.at(ends, spans[:, 1], -1.0)

@@ -7,18 +7,9 @@ RUN/checkpoint/
     frame-000000.npz, ... fields of instants that are kept of a run in time
     finished/             the files of the finished run, until they are published
 
-Every file is whole, and knows again each bit of it (`archive`). Its record has
-
-    format, mgehl       the version of this layout, and of the program
-    configuration       for which it was written
-    solve               the number of the solve
-    progress            the history of the run until then, its convolutions and seconds
-    values              what the solver kept beside its arrays, by name
-
-or, in begun.npz, what its arrays are and where the laws were. The names of values and arrays are described
-in `solver.record`; here nothing is known of them. An array in a file is of the whole grid, (ny, nx), or of
-several such. A run that goes on repeats its solves in order; those that are finished are read instead of
-solved.
+Every file is whole, and knows again each bit of it (`archive`). Its arrays are of the whole grid, (ny, nx),
+or several of such; its record has `format`, `mgehl`, `configuration`, `solve`, `progress` and `values`,
+what the solver kept beside arrays (`solver.record`). A run that goes on reads its finished solves.
 """
 
 import os
@@ -43,8 +34,7 @@ START = "start"
 """In begun.npz the bytes of the fields.h5 of the run that this one was started from."""
 
 FORMAT = 12
-"""Version of the files. It goes up with every change of the layout or of a name; files of another version
-are not read."""
+"""Version of the files, up with every change of layout or name; those of another are not read."""
 
 
 @dataclass(frozen=True)
@@ -97,12 +87,9 @@ def is_begun(directory):
 
 
 class Checkpoint(Journal):
-    """Keeps how far the run of `config` has come in DIRECTORY/checkpoint, every `seconds` and after each
-    solve.
-
-    `progress` has the history, which is kept with it. `stop` is asked before every step; it
-    returns None or the `Stopped` to raise, once the present position is saved.
-    """
+    """Keeps how far the run of `config` has come in DIRECTORY/checkpoint, with the history of `progress`,
+    every `seconds` and after each solve. `stop` is asked before every step; it returns None or the
+    `Stopped` to raise, once the present position is saved."""
 
     def __init__(self, directory, config, progress, seconds, stop=lambda: None):
         self._folder, self._progress = Path(directory) / CHECKPOINT, progress
@@ -148,8 +135,7 @@ class Checkpoint(Journal):
         self._saved = time.monotonic()
 
     def _read(self, grid, path, made):
-        """What is `made` of a file, where it is there and about the next solve; the history goes on from
-        it."""
+        """What is `made` of a file, if there is one about the next solve; the history goes on."""
         found = on_first_rank(grid.comm, load, path, self._tables)
         record, arrays = found or (None, {})
         record = grid.comm.bcast(record)
@@ -168,10 +154,8 @@ def _head(tables):
 
 
 def scattered(grid, arrays):
-    """Every rank's lines of the whole arrays that rank 0 has (collective).
-
-    Raises ValueError, on all, where one is not of this grid.
-    """
+    """Every rank's lines of the whole arrays that rank 0 has (collective). Raises ValueError, on all, where
+    one is not of this grid."""
     whole = (grid.mesh.ny, grid.mesh.nx)
     shapes = grid.comm.bcast({name: array.shape for name, array in arrays.items()})
     for name, shape in shapes.items():
@@ -187,9 +171,7 @@ def damaged(path, error):
 
 def load(path, tables=None):
     """(record, arrays) of a file, None where there is none; `tables` are those of the run's configuration.
-
-    Raises OutputError where it is damaged, or of another version or configuration.
-    """
+    Raises OutputError where it is damaged, or of another version or configuration."""
     try:
         record, arrays = unpacked(path)
         version, by = record["format"], record["mgehl"]

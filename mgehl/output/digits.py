@@ -23,9 +23,7 @@ def is_number(text):
 
 def with_band(value, half_width=None):
     """A film and the half-width of its band, both of one unit, with one digit, or two that begin with a 1.
-
-    Without a band four digits stand after the point; of a diverged run four in all.
-    """
+    Without a band four digits stand after the point; of a diverged run four in all."""
     known = half_width is not None and isfinite(value) and isfinite(half_width)
     if not known or abs(value) >= LARGE:
         band = f" ± {half_width:.1e}" if known else ""

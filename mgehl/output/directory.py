@@ -4,9 +4,8 @@
     result.json, history.csv, configuration.toml, laws/, ...   the same for people and other programs
     checkpoint/      what a run that has not finished has reached (`checkpoint`)
 
-A run is put together in a folder of the checkpoint. Where all of it is on the disk, one rename puts its
-fields.h5 in the place of the one before: whoever reads has the old run or the new one, whole. Only plain
-files of a run's names are removed or replaced, and only where there is a run.
+A run is put together in the checkpoint. Once it is on the disk one rename replaces fields.h5: readers have
+the old run or the new one. Only plain files of a run's names are ever removed or replaced.
 """
 
 import os
@@ -39,9 +38,7 @@ def make_directory(path, force=False):
 
 def prepare_directory(directory, laws=()):
     """Make a locked directory ready for a new run: its result stays, the checkpoint of an earlier run goes.
-
-    Raises OutputError where the new run, with the names of its `laws`, would replace what is no run's.
-    """
+    Raises OutputError where the new run, with the names of its `laws`, would replace what is no run's."""
     check_replaceable(directory, laws)
     clear_checkpoint(directory)
 

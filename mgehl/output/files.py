@@ -52,10 +52,8 @@ def on_first_rank(comm, function, *arguments):
 
 
 def from_first_rank(comm, function, *arguments):
-    """Call on rank 0 and return there what it returned, None elsewhere.
-
-    Every rank raises what it raised.
-    """
+    """Call on rank 0 and return there what it returned, None elsewhere. Every rank raises what it
+    raised."""
     result = error = None
     if comm.rank == 0:
         try:
@@ -139,9 +137,7 @@ def further_fields(solution):
 
 def write_fields(path, solution, texts):
     """fields.h5, netCDF-4: pressure, film and status with coordinates, SI and dimensionless; all `texts`.
-
-    Each part of it has a checksum, the data Fletcher's and HDF5's own lists those of its version 1.10.
-    """
+    Each part of it has a checksum, the data Fletcher's and HDF5's own lists those of its version 1.10."""
     mesh, contact = solution.mesh, solution.contact
     unit = f"maximum Hertz pressure, or eta u/(m^2 mm): {contact.pressure_scale:.6g} Pa"
     names = ", ".join(f"{k} {name}" for k, name in enumerate(status.names(solution.is_dry)))

@@ -19,10 +19,8 @@ POISEUILLE_ORDER = 2
 
 @dataclass(frozen=True)
 class FilmError:
-    """Half-widths of the bands about the films, in nm: the limit of ever finer grids lies within.
-
-    The limit is that on this domain: what a larger domain would change is not in the band.
-    """
+    """Half-widths of the bands about the films, in nm: the limit of ever finer grids lies within. The limit
+    is that on this domain: what a larger domain would change is not in the band."""
 
     central_nm: float | None
     """None where there is no band; `how` says why."""
@@ -68,10 +66,8 @@ def why_no_band(result, contact):
 
 
 def film_error(result, beside, progress):
-    """The `FilmError` of a `Result`, by what is solved `Beside` it (collective).
-
-    `progress` counts the convolutions.
-    """
+    """The `FilmError` of a `Result`, by what is solved `Beside` it (collective). `progress` counts the
+    convolutions."""
     settings = beside.settings
     why_not = why_no_band(result, beside.problem.contact)
     if why_not or not settings.error:
@@ -89,10 +85,8 @@ def _order(scheme):
 
 
 def from_grids(result, grids, order, other=None):
-    """The `FilmError` that the films of two or three `grids` tell, by a scheme of this order.
-
-    The coarser ones may be by an`other` `Scheme`.
-    """
+    """The `FilmError` that the films of two or three `grids` tell, by a scheme of this order. The coarser
+    ones may be by an`other` `Scheme`."""
     coarser = grids[1]
     if not coarser.settled or (coarser.contact_nodes and coarser.central_nm <= 0.0):
         return no_band(f"on {coarser.nodes} nodes, the next coarser grid, there is no film to compare with")

@@ -25,9 +25,7 @@ from mgehl.saying import complain
 
 def finish_run(comm, directory, solution, picture=True):
     """Replace the run in the directory by the files of a `Solution`, remove the checkpoint (collective).
-
-    Raises OutputError where the disk does not take them; the run before and the checkpoint stay then.
-    """
+    Raises OutputError where the disk does not take them; the run before and the checkpoint stay then."""
     on_first_rank(comm, _finish, Path(directory), solution, picture)
 
 

@@ -1,8 +1,7 @@
 """What a run will take, as far as that can be told before it starts, and whether it has room in memory.
 
-Its time is that of so many convolutions. One convolution is timed on this machine; how many a run takes,
-and how much time beside each, was measured (processor time on one rank, the cases of configs/). Runs that
-converge take half to twice the estimate.
+One convolution is timed on this machine; how many a run takes, and how much time beside each, was measured
+on configs/. Runs that converge take half to twice the estimate.
 """
 
 import resource
@@ -47,15 +46,13 @@ SPARE = 128 * MiB
 """Bytes of buffers that BLAS and MPI take during a run."""
 
 SAVED_ON_LARGE_GRIDS = 430.0
-"""Bytes a node that are given back in time, or not asked for, where memory is short
-(`grid.freed_memory`)."""
+"""Bytes a node given back in time, or not asked for, where memory is short (`grid.freed_memory`)."""
 
 START_SECONDS, RANK_BYTES = 3.0, 330 * MiB
 """Of every run: imports, plans, the coarsest grid, files, the picture; of every rank: the libraries."""
 
 UNSEEN = Effort(90.0, 2e-7, 2e-3, 1300.0, "films that a grid hardly sees took 42 to 640 on 65 to 257 nodes")
-"""Films whose inlet has less than `FILM_TOUCHES` cells: 0.1 mm/s to 0.8 m/s. Slower ones took 300 to
-1700."""
+"""Films whose inlet has less than `FILM_TOUCHES` cells, 0.1 mm/s to 0.8 m/s; slower ones take more."""
 
 SHUT = replace(UNSEEN, convolutions=600.0, measured="films that touch took 230 to 1380, and few settled")
 """The same of contact that shuts its faces: 65 nodes, 5 to 100 mm/s."""
@@ -69,8 +66,7 @@ ROUGH = Effort(
     150.0, 2e-7, 0.01, 5000.0, "rough balls on 129 nodes took 42 to 1165", most_bytes_per_node=12500.0
 )
 """Balls whose peaks reach through the film; `_of_peaks` has their convolutions. What GMRES and its memory
-keep grows with the iterations: on 257 nodes runs took 450 to 680 MiB. Those whose nearby nodes were solved
-at once took 1010 to 1100, and 11.4 GiB on 1025 nodes, where one by lines took 4.0."""
+keep grows with the iterations, the more where nearby nodes are solved at once."""
 
 ROUGH_LINE = Effort(
     90.0, 3e-7, 2e-3, 5000.0, "rough lines on 1025 nodes took 13 to 1600, half of them 36 to 133"
@@ -200,12 +196,11 @@ def _steady_effort(config, contact, mesh):
 
 
 def _of_peaks(contact, has_layers, mesh):
-    """Convolutions of a ball whose peaks reach through the film.
+    """Convolutions of a ball whose peaks reach through the film, by 129 nodes along x: of most right within
+    2.
 
-    Measured on 129 nodes along x, by which they grow (`rough.toml` takes 142, 280 and 644 on 65, 129 and
-    257): of 27 balls (drawn as in `study mixed`, seeds 41 and 42) 25 converged, and 20 of these took half
-    to twice as many. They fall with less roughness over the depth of the dry contact, and rise with
-    1/lambda below lambda = 0.15, with layers of 2 nm faster than without.
+    They fall with less roughness over the depth of the dry contact, and rise with 1/lambda below lambda =
+    0.15, with layers of 2 nm faster.
     """
     highest, power = (376.0, 0.75) if has_layers else (465.0, 0.36)
     thinner = max(0.15 * contact.roughness / contact.expected_film, 1.0) ** power
@@ -229,8 +224,7 @@ def time_convolution(mesh):
 
 
 def check_memory(case, ranks):
-    """Raise UserError where one of so many ranks may not take what a `Case` needs (ulimit -v): without room
-    libraries crash or hang."""
+    """UserError where a rank may not take what a `Case` needs (ulimit -v): libraries crash or hang."""
     limit, _ = resource.getrlimit(resource.RLIMIT_AS)
     if limit == resource.RLIM_INFINITY:
         return

@@ -18,8 +18,7 @@ class Temperatures:
     """Of the surface of body 1."""
     largest_2: float
     film: float | None
-    """Of the film, a mean over its thickness and by pressure; None where the oil's conductivity is not
-    known."""
+    """Mean over thickness and by pressure; None where the oil's conductivity is not known."""
     largest_film: float | None
 
 
@@ -37,11 +36,9 @@ class FrictionResult:
     film_coefficient: float
     solid_coefficient: float
     rolling_coefficient: float
-    """What drags each body against the motion, over the load, whether or not they slide: by the film in the
-    domain."""
+    """What drags each body against the motion, over the load: by the film in the domain."""
     rolling_beyond: float
-    """What drags beyond the domain, up to a radius of curvature away, where all of it is full of oil, by
-    the film of rigid bodies. No force has it."""
+    """What drags up to a radius of curvature away between rigid bodies full of oil: in no force."""
     force_1_N: float
     """On body 1, of speed u (1 + S/2): positive along the motion."""
     force_2_N: float
@@ -56,18 +53,15 @@ class FrictionResult:
     per_metre: bool = False
     """Whether forces and power are those of a metre: of a line contact."""
     coefficient_band: float | None = None
-    """Half-width of the band about it, of rough bodies: by the next coarser grid, and what the band of the
-    load on solids makes of it at the least. None without one."""
+    """Half-width of its band, of rough bodies: by the coarser grid, at the least by solids' load."""
     is_the_grids: bool = False
     """Whether the load on solids is the grid's, and so is the coefficient."""
     moment_1_Nm: float | None = None
-    """Of the force on body 1 about its axis, as far away as `rotation_radius` or its radius says: positive
-    the way that its surface moves along the motion. None of a flat body."""
+    """Of the force on body 1 about its axis, positive as its surface moves along the motion; None: flat."""
     moment_2_Nm: float | None = None
     """The same of body 2; of a line contact those of a metre."""
     unthinned_film_nm: float | None = None
-    """The central film if shear did not thin it, of rough bodies the mean gap; None where it does not, or
-    where nobody asked (`solver.error`)."""
+    """Central film, or mean gap, if shear did not thin it; None where it does not, or nobody asked."""
     unthinned_minimum_nm: float | None = None
     """The minimum film then; None in older results, too."""
 
@@ -136,16 +130,14 @@ def banded(friction, mixed, boundary_coefficient):
 
 def with_unthinned(friction, result, solve):
     """A `FrictionResult` with the films that there would be if shear did not thin it (collective).
-
-    `solve()` returns that contact's problem and its `Outcome`.
-    """
+    `solve()` returns that contact's problem and its `Outcome`."""
     if not result.converged:
         return friction
     problem, outcome = solve()
     if not outcome.converged:
         return friction
     nm, (central, minimum) = 1e9 * problem.contact.film_scale, problem.films(outcome.state)
-    film = gaps(problem, outcome.state).mean if result.mixed else central
+    film = gaps(problem, outcome.state.P, outcome.state.H)[0] if result.mixed else central
     return replace(friction, unthinned_film_nm=nm * film, unthinned_minimum_nm=nm * minimum)
 
 

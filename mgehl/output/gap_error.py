@@ -1,5 +1,4 @@
-"""The bands about mean gaps, largest pressure and loads of a rough contact, and how they came about:
-`mixed.error` of result.json."""
+"""The bands about mean gaps, largest pressure and loads of a rough contact (`mixed.error` of a result)."""
 
 from dataclasses import dataclass, replace
 
@@ -12,16 +11,11 @@ OF_SECOND_ORDER, OF_FIRST_ORDER = 1.0 / 3.0, 1.0
 where there is contact, whose edge is known to a cell."""
 
 ALIKE = 0.05
-"""Difference over the gap from which on the order is taken to be the first: grids so far apart do not show
-the second yet."""
+"""Difference over the gap from which on the order is the first: such grids do not show the second."""
 
 SPREAD = 0.5
-"""Part of the mean size of the differences from node to node that is added to the error. Their mean may be
-small by chance: over the six waves of a lightly loaded ball it varies by about half of their size.
-
-Of 16 solves of random balls on 65 and 129 nodes, most of which this was chosen by, the bands hold the value
-of the next finer grid: of the mean gap 14, of the gap by pressure 9 of 11, of the largest pressure 16, of
-either load all 14 that are not the grid's."""
+"""Part of the mean size of the differences from node to node that is added to the error, whose mean may be
+small by chance. Chosen by 16 solves of random balls on 65 and 129 nodes, against the next finer grid."""
 
 WIDEST = 0.5
 """Half-width over a gap or pressure from which on a band would tell nothing: there is none."""
@@ -89,8 +83,7 @@ def why_no_band(result, problem):
 
 
 def gap_error(result, beside, progress):
-    """The `GapError` of a `Result`; None of smooth bodies (collective). Otherwise as
-    `film_error.film_error`."""
+    """The `GapError` of a `Result`, else as `film_error.film_error`; None of smooth bodies (collective)."""
     problem = beside.problem
     if not problem.contact.roughness:
         return None

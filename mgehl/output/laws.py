@@ -36,10 +36,8 @@ def portable(config):
 
 
 def placed(tables, places, courses=None):
-    """The `Config` of such tables; `places` are the files that its laws are now, by their names.
-
-    With `courses`, as `own_courses` has them, no function is run.
-    """
+    """The `Config` of such tables; `places` are the files that its laws are now, by their names. With
+    `courses`, as `own_courses` has them, no function is run."""
     tables = _moved(tables, places)
     return config_from_tables(tables if courses is None else with_recorded(tables, courses))
 
@@ -69,11 +67,10 @@ def put_laws(folder, laws):
 
 
 def as_they_were(begun, folder, directory):
-    """A run's `Config` with the laws where they were when it began, if they are still the same there; and
-    messages. Raises OSError.
+    """A run's `Config` with the laws where they were when it began, with the files that they read, if they
+    are still the same; and messages. Raises OSError.
 
-    There a law finds the files that it reads. Otherwise, as on another machine, the copies in `folder` are
-    run. `begun` is what the `checkpoint.Begun` run of the `directory` began with.
+    Otherwise, as on another machine, the copies in `folder` are run. `begun` is the directory's `Begun`.
     """
     places, said = {}, []
     for name, content in begun.laws.items():
@@ -88,10 +85,8 @@ def as_they_were(begun, folder, directory):
 
 
 def _own(tables):
-    """(Section, key, (file, function)) of every own function in nested tables, and of files of heights.
-
-    A file of heights, or a table of time, has no function: None.
-    """
+    """(Section, key, (file, function)) of every own function in nested tables, and of files of heights. A
+    file of heights, or a table of time, has no function: None."""
     for section, table in tables.items():
         for key, value in table.items():
             if (key == "file" and value is not None) or is_table(f"{section}.{key}", value):

@@ -23,10 +23,8 @@ _WITHOUT_LOCKS = (errno.ENOLCK, errno.ENOSYS, errno.EOPNOTSUPP, errno.EINVAL)
 
 @contextmanager
 def locked(comm, directory):
-    """Hold a directory that exists for writing, by rank 0 (collective).
-
-    Raises OutputError, on all ranks, where another process holds it or nothing can be written there.
-    """
+    """Hold a directory that exists for writing, by rank 0 (collective). Raises OutputError, on all ranks,
+    where another process holds it or nothing can be written there."""
     path = Path(directory) / NAME
     file = on_first_rank(comm, _take, path)
     try:

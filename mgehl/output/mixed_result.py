@@ -19,11 +19,8 @@ NEAR = 1.1
 
 @dataclass(frozen=True)
 class MixedResult:
-    """Film and contact of rough bodies; areas of a line contact are those of one metre of its length.
-
-    Films are means and minima over nodes that are film, within the Hertz ellipse (of a line contact its
-    width): not of contact, nor where the film is torn. They are None where there is no such node.
-    """
+    """Film and contact of rough bodies; areas of a line contact are those of one metre of its length. Films
+    are means and minima over film nodes within the Hertz ellipse or width, or None."""
 
     lambda_ratio: float | None
     """Central film that a formula predicts of smooth bodies, over Sq; None where Sq is 0."""
@@ -57,8 +54,7 @@ class MixedResult:
     sealed_load_fraction: float | None = None
     """Part of the load on films and cavities that contact shuts in on all sides; None in older results."""
     torn_filling: float | None = None
-    """Mean part of the gap above the layers that cavities within the Hertz ellipse hold fluid in; None
-    without any."""
+    """Mean part of the gap above the layers that cavities within the Hertz ellipse hold fluid in."""
 
     @property
     def hertz_region(self):
@@ -84,10 +80,8 @@ class Nodes:
 
 
 def mixed_result(problem, state):
-    """The `MixedResult` of a state; None of smooth bodies (collective).
-
-    Rank 0 has all nodes and tells the others: whatever the number of ranks the sums are the same.
-    """
+    """The `MixedResult` of a state; None of smooth bodies (collective). Rank 0 has all nodes and tells the
+    others: whatever the number of ranks the sums are the same."""
     grid, contact = problem.grid, problem.contact
     if contact.surface is None:
         return None
@@ -105,7 +99,8 @@ def measured(contact, mesh, nodes, kept=0.0, load_share=1.0):
     film = inside & (nodes.status == LUBRICATED)
     cell, square_metres = mesh.dX * mesh.dY, contact.cell_area(mesh)
     unit_nm = 1e9 * contact.film_scale
-    nm, sizes, gaps = unit_nm * nodes.H, patch_sizes(solid), gaps_of(mesh, nodes.P, nodes.H, hertz.reach)
+    nm, sizes = unit_nm * nodes.H, patch_sizes(solid)
+    mean_gap, loaded_gap = gaps_of(mesh, nodes.P, nodes.H, hertz.reach)
     near = (nodes.status == LUBRICATED) & (nodes.H <= NEAR * kept)
     torn, sealed = inside & (nodes.status == CAVITATED), _sealed(solid)
 
@@ -126,8 +121,8 @@ def measured(contact, mesh, nodes, kept=0.0, load_share=1.0):
         valley_film_nm=_of_some(np.mean, nm[film & (nodes.heights < -Sq)]),
         torn_share=float(np.mean(nodes.status[inside] == CAVITATED)),
         per_metre=mesh.is_line,
-        mean_gap_nm=unit_nm * gaps.mean,
-        loaded_gap_nm=unit_nm * gaps.loaded,
+        mean_gap_nm=unit_nm * mean_gap,
+        loaded_gap_nm=unit_nm * loaded_gap,
         near_contact_load_share=share(nodes.P[near]),
         solid_load_fraction=share((nodes.P - nodes.p)[solid]),
         sealed_load_fraction=share(nodes.P[sealed]),
@@ -136,10 +131,8 @@ def measured(contact, mesh, nodes, kept=0.0, load_share=1.0):
 
 
 def _sealed(solid):
-    """Nodes that are not `solid` and that solid nodes shut in, by sides of the cells: (ny, nx).
-
-    A line contact is open at its two ends alone.
-    """
+    """Nodes that are not `solid` and that solid nodes shut in, by sides of the cells: (ny, nx). A line
+    contact is open at its two ends alone."""
     labels, _ = ndimage.label(~solid)
     sides = labels[[0, -1]] if len(labels) > 1 else labels[:0]
     return ~solid & ~np.isin(labels, np.concatenate([sides.ravel(), labels[:, [0, -1]].ravel()]))

@@ -26,11 +26,8 @@ def flags(is_dry):
 @contextmanager
 def netcdf_file(path, title=None, **options):
     """An `h5netcdf.File` to write to, whose bytes go to `path` at the end, if nothing failed; one with a
-    `title` has the attributes of CF.
-
-    HDF5 writes when it closes a file or a data set; where it cannot, the process ends with a
-    segmentation fault. A write of plain bytes raises OSError.
-    """
+    `title` has the attributes of CF. Where HDF5 itself cannot write, the process ends with a segmentation
+    fault; a write of plain bytes raises OSError."""
     memory = BytesIO()
     with h5netcdf.File(memory, "w", **options) as file:
         if title:

@@ -8,11 +8,9 @@ STEPS_A_GRID = 8
 
 
 class Progress:
-    """Collects the history of a run and tells the speaker of it, with the time that is left.
-
-    The monitor of a `Task`. `kind` makes a cycle a row: `newton_row` and its like.
-    A run that goes on begins with what its checkpoint had of all this (`record`, `go_on`).
-    """
+    """Collects the history of a run and tells the speaker of it, with the time that is left: the monitor of
+    a `Task`. `kind` makes a cycle a row: `newton_row` and its like. A run that goes on begins with what its
+    checkpoint had of it (`record`, `go_on`)."""
 
     def __init__(self, kind, film_scale, hierarchy, tolerance, speaker):
         self._kind, self._nm, self._hierarchy, self._speaker = kind, 1e9 * film_scale, hierarchy, speaker

@@ -1,9 +1,5 @@
-"""How well a grid resolves the inlet, where the film is made, and whether the domain is large enough for
-the film; the words for it. A film is resolved where both are enough.
-
-The verdict follows from the contact, the grid and the film of a formula alone: `mgehl check` and the run
-say the same.
-"""
+"""Whether a grid resolves the inlet, where the film is made, and a domain is large enough for it, by a
+formula's film alone: `mgehl check` and the run say the same words."""
 
 from dataclasses import dataclass, replace
 from math import isfinite, isnan, nan
@@ -19,12 +15,10 @@ SEEN_CELLS = 1.0
 """Cells in the inlet below which the contact set is the grid's, not the problem's."""
 
 FILM_TOUCHES, CONTACT_OPENS = 1.5, 0.75
-"""Cells in the inlet below which a film start has had contact whose faces are shut, and above which a
-contact start has lost full contact: 129 to 513 nodes, arithmetic mean."""
+"""Cells in the inlet below which film starts had contact with shut faces; above, contact starts lost it."""
 
 FILM_IS_THE_GRIDS = 0.5
-"""Cells below which films of contact that closes continuously touch by the grid: on 257 nodes, not yet on
-129 and 65."""
+"""Cells below which films of contact that closes continuously touch by the grid, on 257 nodes."""
 
 
 STARVED_FROM = 1.0
@@ -115,10 +109,8 @@ def resolving_nodes(contact, mesh, scene=None):
 
 
 def expectation(cells, start, is_mixed, shuts):
-    """What a run finds with so many cells in its inlet from a `start`.
-
-    `is_mixed`: peaks reach through the film. `shuts`: contact shuts its faces.
-    """
+    """What a run finds with so many cells in its inlet from a `start`. `is_mixed`: peaks reach through the
+    film. `shuts`: contact shuts its faces."""
     if is_mixed:
         return "a film that the highest peaks may reach through: the run tells how much they carry"
     if cells >= RESOLVED_CELLS:
@@ -133,11 +125,8 @@ def expectation(cells, start, is_mixed, shuts):
 
 
 def film_lost(contact, mesh, scene=None):
-    """Estimate, in per cent, of the film that a domain of twice the size would have more.
-
-    Of central and minimum film the one that changes more; good to a factor of two. Of a `Scene` the most
-    that an instant has.
-    """
+    """Estimate, in per cent, of the film that a domain of twice the size would have more. Of central and
+    minimum film the one that changes more; good to a factor of two. Of a `Scene` the most."""
     return max(
         Starvation(there, there.flooded_film).lost(*there.in_its_units(*contact.ends(mesh)))
         for there in _instants(contact, scene)
@@ -145,10 +134,8 @@ def film_lost(contact, mesh, scene=None):
 
 
 def load_beyond(contact, mesh, scene=None):
-    """Part of the load, in per cent, that the film in the domain of a mesh need not carry.
-
-    Of a `Scene` the most that an instant has.
-    """
+    """Part of the load, in per cent, that the film in the domain of a mesh need not carry. Of a `Scene` the
+    most that an instant has."""
     return 100.0 * max(there.share_beyond(*contact.ends(mesh)) for there in _instants(contact, scene))
 
 
@@ -178,9 +165,7 @@ def domain_words(verdict, lost):
 
 def beyond_words(percent, at_most=False):
     """How much of the load the film in a domain need not carry, in a list; empty where hardly any.
-
-    `at_most`: of the instants of a run in time.
-    """
+    `at_most`: of the instants of a run in time."""
     part = f"{'up to ' if at_most else ''}{percent:.1f} % of it"
     words = f"{part} is carried beyond the domain or lost at its sides, the rest within"
     return [words] if percent >= 0.05 else []

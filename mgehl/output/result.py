@@ -95,8 +95,7 @@ class TimeResult:
     convolutions_a_step: float
     """Half of the steps took fewer."""
     passages: float
-    """Lengths of the Hertz contact that the slowest heights have gone that move; of smooth bodies those of
-    the mean surface."""
+    """Hertz lengths that the slowest moving heights have gone; of smooth bodies the mean surface."""
     means: dict[str, Mean]
     """Over the last passage; none before the end of the first."""
     largest_shear_MPa: float = None
@@ -112,18 +111,15 @@ class Result:
     """
 
     converged: bool
-    """`settled`, the pressure inequality [Liu eq. 2] holds all along the interface within the error of the
-    pressures there, and the contact lies within its domain, on enough nodes."""
+    """`settled`, Eq. 2 holds within pressures' error, the contact lies in its domain, on enough nodes."""
     settled: bool
-    """Sets, residual, load and complementarity hold: a solution of the discrete equations. Of a dry contact
-    and of a bearing as `converged`: there is no inequality besides."""
+    """Sets, residual, load and complementarity hold; of dry contacts and bearings as `converged`."""
     reason: str
 
     # Of a loaded contact.
     max_pressure_GPa: float = None
     pressure_crest: float = None
-    """By how much the pressure may be larger between the nodes, over the largest there; with a fluid alone,
-    None in older results."""
+    """By how much the pressure may be larger between nodes, over the largest; None without a fluid."""
     load_error: float = None
     complementarity_error: float = None
     """Of a dry contact the largest |gap| in contact, overlap elsewhere (units of H), or pull (p_h)."""
@@ -162,8 +158,7 @@ class Result:
     friction: FrictionResult | None = None
     """None in older results."""
     thermal_reduction: float = None
-    """Part of the film that the heat of shear in the inlet leaves, by Gupta's formula; None where the
-    lubricant has no conductivity or no thermoviscosity."""
+    """Part of the film that the heat of shear in the inlet leaves (Gupta); None: oil without the data."""
     is_thermally_reduced: bool = False
     """Whether the film has been solved with so much less viscosity."""
     time: TimeResult | None = None

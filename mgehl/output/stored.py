@@ -53,12 +53,9 @@ AS_JSON = dacite.Config(cast=[tuple], type_hooks={float: _real})
 
 
 def result_from(tables):
-    """The `Result` that nested plain values stand for; its numbers that are null are nan.
-
-    Raises ValueError, TypeError or DaciteError where they stand for none.
-    """
-    # A dry contact of an older mgehl says once that it has converged.
-    return dacite.from_dict(Result, {"settled": tables["converged"]} | tables, AS_JSON)
+    """The `Result` that nested plain values stand for; its numbers that are null are nan. Raises
+    ValueError, TypeError or DaciteError where they stand for none."""
+    return dacite.from_dict(Result, tables, AS_JSON)
 
 
 def read_run(directory) -> Solution:
@@ -106,11 +103,10 @@ def _read(directory, found, source=None):
         raise OutputError(f"{path}: is damaged, or no run of mgehl: {one_line(error)}") from None
 
 
-def _texts(file, directory):
-    if WHOLE in file:
-        return json.loads(file[WHOLE][()].tobytes())
-    # An older mgehl wrote it.
-    return {name: (directory / name).read_text("utf-8") for name in (CONFIGURATION, RESULT, HISTORY)}
+def _texts(file, _directory):
+    if WHOLE not in file:
+        raise ValueError("it is of mgehl 0.1: solve it anew")
+    return json.loads(file[WHOLE][()].tobytes())
 
 
 def _solution(file, directory):

@@ -25,9 +25,6 @@ UNFINISHED = "unfinished"
 RUNS = "runs"
 """Folder of run directories."""
 
-POINT = "point.json"
-"""In a run directory of an older study what that knew of it besides."""
-
 _RUN = re.compile(r"\d{3,}|.*-[0-9a-f]{16}")
 """Names of run directories that sweeps and studies make."""
 
@@ -60,10 +57,7 @@ def write_record(directory, record):
 
 
 def read_record(directory):
-    """The `StudyRecord` of a directory; None without one, as of studies of an earlier version.
-
-    Raises OutputError where it is damaged.
-    """
+    """The `StudyRecord` of a directory; None without one. Raises OutputError where it is damaged."""
     path = Path(directory) / NAME
     try:
         return dacite.from_dict(StudyRecord, json.loads(path.read_text()), dacite.Config(cast=[tuple]))
@@ -74,10 +68,8 @@ def read_record(directory):
 
 
 def begin_study(directory, record, resume):
-    """Make a locked directory ready for a study; return the folder to write to.
-
-    Raises UserError where the directory is that of something else.
-    """
+    """Make a locked directory ready for a study; return the folder to write to. Raises UserError where the
+    directory is that of something else."""
     directory = Path(directory)
     stage = directory / UNFINISHED
     if os.path.lexists(stage) and not is_folder(stage):
@@ -109,7 +101,7 @@ def clear_runs(directory):
 
 def _clear_run(path):
     clear_checkpoint(path)
-    remove_plain(path / name for name in (*files_of(path), POINT))
+    remove_plain(path / name for name in files_of(path))
     for folder in (path / LAWS, path):
         with suppress(OSError):  # not there, or somebody else's, too
             folder.rmdir()
@@ -131,10 +123,8 @@ def _is_name(name):
 
 
 def finish_study(directory, stage, resume):
-    """Put the tables and pictures of `stage` in the directory, in the place of those that were there.
-
-    With `resume`, tables that were not written anew stay. Raises OutputError.
-    """
+    """Put the tables and pictures of `stage` in the directory, in the place of those that were there. With
+    `resume`, tables that were not written anew stay. Raises OutputError."""
     old = read_record(directory)
     kept = old.files if old and resume else ()
     with writing(stage):

@@ -146,11 +146,8 @@ def _more(result, conserves):
 
 
 def _conserves(problem, mass, tolerance):
-    """Whether no oil is made.
-
-    The unified equations know no contents and do not say. Where contact closes its faces hardly anything
-    may flow through; there what a residual of the `tolerance` makes is nothing.
-    """
+    """Whether no oil is made; the unified equations do not say. Where contact closes its faces hardly
+    anything may flow through: there what a residual of the `tolerance` makes is nothing."""
     law, mesh, contact = problem.scheme.contact_law, problem.grid.mesh, problem.contact
     if mass.made_share <= CLOSED or not law.has_contact:
         return True

@@ -121,8 +121,6 @@ def _recommended(verdict, nodes, mesh):
 
 def _part_lines(key, part, contact, mesh):
     """Lines about one body's surface: its sign, its size, its tilt and its end."""
-    if part.function is not None:
-        yield f"           {key}: in earlier versions such heights added to the gap"
     if isinstance(part, Measured):
         heights = part.heights
         (rows, columns), (width, length) = heights.values.shape, heights.size

@@ -67,12 +67,9 @@ WIDTH = 120
 
 
 def collect(directories, keys=()):
-    """A row (dict of text) for each run directory, all of the same columns; empty where a run has none.
-
-    Among them are these `keys` of the configurations, "section.key", in SI units.
-
-    Raises OutputError for a directory that is not as its run wrote it, OSError if one cannot be read.
-    """
+    """A row (dict of text) for each run directory, all of the same columns, with these `keys` of the
+    configurations, "section.key", in SI units; empty where a run has none. Raises OutputError for a
+    directory that is not as its run wrote it, OSError if one cannot be read."""
     rows = [_row(Path(directory), keys) for directory in directories]
     columns = dict.fromkeys(name for row in rows for name in row)
     return [{name: row.get(name, "") for name in columns} for row in rows]
@@ -106,10 +103,8 @@ def said(value):
 
 
 def _work(finest, nodes):
-    """Columns of the work on a grid of so many nodes, from its rows of the history.
-
-    A run may solve on it several times, from step 0 each; between them are other grids, too.
-    """
+    """Columns of the work on a grid of so many nodes, from its rows of the history. A run may solve on it
+    several times, from step 0 each; between them are other grids, too."""
     iterations = (each.get("linear_iterations", "0") for each in finest)
     found = {"most GMRES iterations": max(iterations, key=int, default="")}
     steps = [
@@ -123,8 +118,7 @@ def _work(finest, nodes):
 
 
 def with_bands(rows):
-    """The rows of `collect` as they are shown: films and gaps with their bands and no more digits than they
-    have."""
+    """The rows of `collect` as shown: films and gaps with their bands and no more digits than those."""
 
     def shown(row, name):
         band = row.get(name.replace(" nm", " ± nm")) if name.endswith(" nm") else ""
@@ -134,10 +128,8 @@ def with_bands(rows):
 
 
 def drawn(rows, columns, width=None):
-    """Some columns of the rows as text, no line longer than `width`; numbers stand on the right.
-
-    Columns that have no room are drawn below, with the first column repeated before them.
-    """
+    """Some columns of the rows as text, no line longer than `width`; numbers stand on the right. Columns
+    that have no room are drawn below, with the first column repeated before them."""
     first, *others = columns
     blocks, width = [[first]], width or WIDTH
     for column in others:

@@ -91,10 +91,8 @@ class JsonLines(Silent):
 
 
 class Lines(Silent):
-    """A line for each cycle; at the end the answer and whether to trust it.
-
-    On a terminal lines are broken at spaces. `verbose` ones have all numbers, however long they are.
-    """
+    """A line for each cycle; at the end the answer and whether to trust it. On a terminal lines are broken
+    at spaces. `verbose` ones have all numbers, however long they are."""
 
     def __init__(self, verbose=False):
         self._verbose = verbose
@@ -163,11 +161,8 @@ def _safely(show, *words, **options):
 
 
 def speaker(quiet=False, json_lines=False, stream=None, verbose=False):
-    """The speaker that options and the terminal ask for.
-
-    Open MPI gives its ranks a terminal of their own. It has the width of that on which mpiexec was started,
-    and none where the words go to a file: that cannot show a bar.
-    """
+    """The speaker that options and the terminal ask for. Open MPI gives its ranks a terminal of their own;
+    where words go to a file it has no width, and cannot show a bar."""
     if quiet or json_lines:
         return Quiet() if quiet else JsonLines()
     stream = stream or sys.stdout

@@ -8,20 +8,17 @@ from mgehl.solver.nested import nested_iteration
 from mgehl.solver.recipe import DRY, IN_CONTACT, THICK_FILM, TOUCHING, on_mesh, recipe_of
 
 COVERED = 1.5
-"""Film of smooth bodies over the roughness from which on a walk down in speed may begin: more than 1, or
-its first solve would begin from the dry contact, too. Other values were not tried."""
+"""Film over the roughness from which on a walk down in speed may begin: above 1, or it begins dry, too."""
 
 FIRST_WAY = 0.75
-"""Part of the work that is allowed (`solver.max_work`) at which the first way is given up. Slow balls need
-most of it: of 40 (65 nodes) 33 are found with 3000 convolutions for the first way, 31 with 1500."""
+"""Part of `solver.max_work` at which the first way is given up: slow balls need most of it."""
 
 NOR = "; nor from"
 """Begins, in the reason of a failure, what is said of every other way that was tried."""
 
 
 def begin(task):
-    """Solve a `Task` in the way that its surface, and its mean of the mobility, need; as
-    `nested_iteration`."""
+    """Solve a `Task` in the way that surface and mean of the mobility need; as `nested_iteration`."""
     contact, settings = task.contact, task.settings
     if recipe_of(settings, contact).peaks == TOUCHING:
         return _begin_touching(task)
@@ -33,10 +30,7 @@ def begin(task):
 
 
 def _begin_touching(task):
-    """The same where peaks touch: where one way fails, another.
-
-    Of 8 contacts that no film led to (5 rollers, 3 slow balls) 3 are found from the dry contact.
-    """
+    """The same where peaks touch: where one way fails, another."""
     recipe = recipe_of(task.settings, task.contact)
     if not recipe.or_otherwise:
         return nested_iteration(task)
@@ -55,11 +49,8 @@ def _begin_touching(task):
 
 
 def first_found(task, ways):
-    """Problem and `Outcome` of the first way that leads to an answer, each tried where those before fail.
-
-    `ways` are (where it begins, function of a `Task`). Where none leads there, the `Outcome` is the first
-    one's, and has the reason of each.
-    """
+    """Problem and `Outcome` of the first way that leads to an answer, of `ways` (where it begins, function
+    of a `Task`). Where none does, the `Outcome` is the first one's, and has the reason of each."""
     (_, way), *others = ways
     problem, outcome = way(task)
     if outcome.converged:
@@ -85,12 +76,10 @@ def begin_dry(task):
 
 
 def begin_thick(task):
-    """Solve at a speed at which the film covers the peaks, and slow down: film fills the valleys on the
-    way.
+    """Solve at a speed at which the film covers the peaks, and slow down: film fills the valleys.
 
-    The other way is from the dry contact, whose valleys are empty. Between rough lines they fill one after
-    the other from the inlet on, for all must flow over the peaks. Solutions on the way are exact: of seven
-    lines that are not found from the dry contact one fails with 1e-6, and a second with 1e-4.
+    The valleys of the dry contact are empty; between rough lines they would fill one after the other from
+    the inlet on. Solutions on the way are exact: looser ones lead to fewer answers.
     """
     faster = task.contact
     while faster.expected_film < COVERED * task.contact.roughness:

@@ -1,8 +1,7 @@
-"""The cavitation boundary with the gap held fixed: no convolution.
+"""The cavitation boundary with the gap held fixed, by line sweeps: no convolution.
 
-A Newton step moves the boundary by one layer of nodes, and the far field alone may need dozens.
-Where Poiseuille flow dominates, H hardly depends on P, so the complementarity problem of the flow balance,
-P >= 0 of film and fillings below 1 of cavities, can be solved there at the present gap, by line sweeps.
+A Newton step moves the boundary by one layer of nodes only. Where Poiseuille flow dominates, H hardly
+depends on P: flow balance, P >= 0 and fillings below 1 can be solved there at the present gap.
 """
 
 import numpy as np
@@ -13,56 +12,44 @@ from mgehl.discretization.kernels import lifted_by_less, relax_cavitation
 from mgehl.discretization.status import CAVITATED, LUBRICATED, is_fluid
 
 WEAKLY_COUPLED = 10.0
-"""A node is relaxed where its mobility/dX exceeds this multiple of its own influence. With 3 to 100
-everything converges, nearly all of it in as many steps to a tenth; one film on 257 nodes takes 100 to 150
-convolutions."""
+"""A node is relaxed where its mobility/dX exceeds this multiple of its influence; 3 to 100 do as well."""
 
 LONG_WAVES = 1.0
-"""Smallest mobility of a node that is relaxed in a line contact, where fluid is all along the line. On its
-fine grids a node hardly moves its own gap, but long waves of pressure do: one of length L changes Couette's
-flow by L and Poiseuille's by mobility/L. So in a valley between contact the limit falls with the square of
-its length; of 57 rough rollers on 1025 nodes (seed 5555) as many settle without that, by a sixth more work.
-Without any limit Newton's steps and the relaxation undo each other (thick films on 4097 nodes). From 0.003
-to 0.1 the same steps; but of 42 soft lines (L from 0.2 to 3) one does not converge with 0.3, and several
-with 0.01. (Since `LOW` 30 such lines settle without it; a rough roller that is followed down in speed takes
-189 steps for 90.) A point contact of 2049 by 2049 nodes needs no limit, and takes fewer steps without
-one."""
+"""Smallest mobility of a node that is relaxed in a line contact, where fluid is all along the line.
+
+On its fine grids a node hardly moves its own gap, but long waves of pressure do: one of length L changes
+Couette's flow by L and Poiseuille's by mobility/L. In a valley between contact the limit falls with the
+square of its length. Without a limit Newton's steps and the relaxation undo each other (thick films on 4097
+nodes), with 0.3 and 0.01 soft lines fail. A point contact needs none.
+"""
 
 LIFTED = 0.1
 """Where the pressure that the inflow needs would lift the gap by more than this part of it, the node is
-left to Newton's steps: the relaxation holds the gap fixed, and gap and pressure would take turns for ever
-(2049 nodes: the gap changed by 0.35 of itself a step). From 0.03 to 0.1 the same steps but for one; at 0.01
-mixed lubrication takes a fifth more."""
+left to Newton's steps, or gap and pressure take turns for ever. With 0.01 a fifth more work."""
 
 LOW = 0.1
-"""Part of the largest pressure that a relaxed node has at the most. Where the fluid of soft bodies flows
-easily under all of the load, relaxing it holds a gap fixed that is far from an answer: a wide soft roller
-(M = 5000) takes 434 convolutions without this limit, 824 with 0.3, 121 with 0.1 and less, 120 where nothing
-is relaxed. With 0.03 and less partial contact of the paper's ball at 55 mm/s is not found."""
+"""Part of the largest pressure that a relaxed node has at the most: where fluid flows easily under all of
+the load, relaxing it holds a wrong gap fixed. With 0.3 a wide soft roller takes seven times the work; with
+0.03 partial contact of the paper's ball is lost."""
 
 SHIFTED = {False: 1e-2, True: 1e-3}
 """Part of the load, that on contact included, that a relaxation may take away or add, of smooth bodies and
-of rough ones. What is added lifts the bodies, and around a film that is too thick the next relaxation adds
-more: a rough steel ellipse takes 840 convolutions with 1e-2 and 358 with 1e-3. The paper's ball at 55 mm/s
-is found with 1e-2 and 1e-1, and not with 5e-3."""
+of rough ones. Added load lifts the bodies, so that the next relaxation adds more: 1e-2 doubles the work of
+rough ones. With 5e-3 partial contact of the paper's ball is lost."""
 
 SWEEPS, QUIET = 1000, 30
-"""Sweeps over all lines at the most; they end when so many, one after the other, changed no status. What
-ends at the first of these stops where pressures have hardly begun to spread across the lines: `rough.toml`
-takes 51 steps on 257 nodes for 40."""
+"""Sweeps over all lines at the most; they end when so many, one after the other, changed no status: fewer
+end before pressures have spread across the lines."""
 
 PASSES = 2
-"""Set iterations on a line in each sweep. With 1 most take the same steps, a motion at 30 degrees 3 % more,
-one film on 257 nodes a sixth less."""
+"""Set iterations on a line in each sweep; with 1 most take the same steps."""
 
 
 def relax_cavitation_set(problem, state, evaluation=None):
     """Relax pressures, fillings and status of the weakly coupled fluid; return how many nodes changed.
 
-    Updates `state` in place, but only if the set moved: otherwise Newton's values stand. The `evaluation`
-    of the state, where it is known, stays as it is. Zebra order by global line number: the number of ranks
-    does not matter. A rigid gap is left alone: its linear systems take no convolution. So is a step in
-    time: few nodes change in it.
+    Updates `state` in place if the set moved; else Newton's values stand, and its `evaluation`. Zebra order
+    by global line number: ranks do not matter. Rigid gaps and steps in time would gain nothing.
     """
     if not (problem.scheme.cavitation and problem.is_elastic) or problem.storage is not None:
         return 0
@@ -100,11 +87,8 @@ def overflows(state):
 
 
 def cavities_rest(problem, state):
-    """Whether no film pulls and no cavity overflows: nothing asks for another set at this gap.
-
-    Where the gap moves, too, the relaxation knows more: it finds what the pressure will ask for (M = 20,
-    L = 10 by 2B on 513 nodes: 39 convolutions for 43).
-    """
+    """Whether no film pulls and no cavity overflows: nothing asks for another set at this gap. Where the
+    gap moves, too, the relaxation knows more: it finds what the pressure will ask for."""
     pulls = (state.status == LUBRICATED) & (state.P <= problem.contact.tears_at)
     return problem.grid.count(pulls | overflows(state)) == 0
 

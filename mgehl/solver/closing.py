@@ -19,10 +19,7 @@ rounding may not let it fall so far."""
 
 def close_account(task, problem, outcome):
     """The `Outcome` of the solved problem of a `Task`, its account of the oil closed as far as it can be
-    (collective).
-
-    Contact that shuts its faces has no flow that its sets depend on: there the residual says all.
-    """
+    (collective). Where contact shuts its faces the residual says all."""
     news, continuous = "solved on, until no node makes oil", problem.scheme.contact_law.is_continuous
     for _ in range(ROUNDS):
         if not (outcome.converged and continuous and _makes_oil(problem, outcome.state)):

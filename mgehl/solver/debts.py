@@ -1,8 +1,7 @@
 """Contents of less than nothing are paid for by the nodes around: none is made.
 
-What a step in time leaves as its residual is carried on as content. Under contact, or in a cavity that has
-run empty, that may be less than nothing, and no pressure of the next step could make up for it: contact has
-no oil to lose.
+The residual of a step in time is carried on as content. In contact or an empty cavity that may be less than
+nothing, which no pressure of the next step could make up for.
 """
 
 import numpy as np
@@ -15,8 +14,7 @@ ROUNDS = 50
 
 
 def paid(problem, m):
-    """Contents (lines, nx) with the same sum, none below nothing; nodes of the boundary have no part in it
-    (collective)."""
+    """Contents (lines, nx) with the same sum, none below nothing; not of the boundary (collective)."""
     for _ in range(ROUNDS):
         owed = np.where(problem.boundary, 0.0, np.maximum(-m, 0.0))
         if not problem.grid.count(owed > 0.0):

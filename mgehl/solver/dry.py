@@ -1,15 +1,9 @@
 """The dry contact: bodies pressed together without a fluid, P >= 0, gap >= 0, one of them zero.
 
-A set of pressed nodes is guessed. On it conjugate gradients look for the pressure under which the gap is
-the same everywhere, which the approach of the bodies then takes away. Nodes that pull leave the set, nodes
-where the bodies overlap enter it [primal-dual active set: Hintermueller, Ito, Kunisch 2003], and so on
-until none does. Four things make it quick:
-
-- Deflection falls with the wave number as 1/k. The preconditioner gives that back
-  (`Deflection.inverted`, a quarter of a convolution), so that steps do not grow with the grid.
-- An early set is solved to one digit only; where it has not changed the last one is solved on.
-- The gap follows the pressure by what each step has convolved anyway.
-- On fine grids the set, which moves by some nodes a step, is brought near from coarser ones.
+Primal-dual active set [Hintermueller, Ito, Kunisch 2003]: conjugate gradients look for the pressure of the
+pressed nodes under which their gap is the same, which the approach of the bodies takes away; nodes that
+pull leave, nodes that overlap enter. `Deflection.inverted` preconditions, so steps do not grow with the
+grid. The gap follows by what steps have convolved. Early sets are solved to one digit, on coarse grids.
 """
 
 from dataclasses import dataclass, field
@@ -26,12 +20,10 @@ from mgehl.solver.problem import ContactProblem, State
 from mgehl.solver.record import Kept, Record
 
 REDUCTION = 0.1
-"""What is left of the error on a set before the set is looked at again. From 0.05 to 0.3 the same work
-within 5 %, over rough, wavy and smooth balls on 129 and 257 nodes."""
+"""What is left of the error on a set before it is looked at again; 0.05 to 0.3 do as well."""
 
 SHARE = 0.01
-"""Largest gap of a pressed node, over the tolerance. The pressure is least certain at the contact's edge.
-With these two digits more the nodes in contact are counted right; they take four convolutions."""
+"""Largest gap of a pressed node, over the tolerance: with two digits more the edge's nodes count right."""
 
 ROUNDING = 1e-13
 """Overlap, in units of H, below which a node does not enter: it may be rounding."""
@@ -43,14 +35,11 @@ MOST_ITERATIONS = 200
 """Most iterations of conjugate gradients on one set: rough balls take fewer than 20."""
 
 GUESS, GUESS_GAP = 0.03, 1e-3
-"""Errors that a first guess may have at a node, in units of P and of H. From it a mixed contact takes as
-many Newton steps as from the exact dry contact."""
+"""Errors of a first guess at a node, in units of P and of H: as good as the exact dry contact."""
 
 
 FIRST_NODES, NESTED_NODES = 65, 257
-"""Nodes of the first coarse grid that is solved, and of the smallest finest grid for which coarse grids
-pay. They save 7 of 50 convolutions of a rough ball on 257 nodes, 13 of 61 on 513. Where they do not see the
-surface (another height at every node) they cost a tenth more."""
+"""Nodes of the first coarse grid, and of the smallest finest grid for which coarse grids pay."""
 
 
 @dataclass
@@ -84,11 +73,8 @@ class DryStanding(Kept):
 
 
 def solve_dry(problem, P, tolerance, max_steps, monitor, journal=NOTHING_KEPT):
-    """The `Outcome` of the dry contact of a `ContactProblem`; `P` (lines, nx) is a guess.
-
-    `monitor` is called with each `DryStep`; the `journal` is told of every step, and may know this solve
-    or its first part already.
-    """
+    """The `Outcome` of the dry contact of a `ContactProblem`; `P` (lines, nx) is a guess. `monitor` is
+    called with each `DryStep`; the `journal` as in `Newton.run`."""
     grid = problem.grid
     outcome = journal.recall(grid, partial(Outcome.from_record, line=DryStep))
     if outcome is None:
@@ -101,8 +87,7 @@ def solve_dry(problem, P, tolerance, max_steps, monitor, journal=NOTHING_KEPT):
 
 
 def guess_on_finest(hierarchy, contact, scheme):
-    """A pressure (lines, nx) to start from on the finest grid: of smooth bodies Hertz', of others from
-    coarser grids, each roughly solved from the one before (collective)."""
+    """A first P (lines, nx) on the finest grid, Hertz' of smooth bodies, else by coarser (collective)."""
     grids, P = hierarchy.grids, None
     if not contact.is_hertzian and grids[-1].mesh.nx >= NESTED_NODES:
         for grid, deflection, finer in zip(grids, hierarchy.deflections, hierarchy.transfers, strict=False):
@@ -114,10 +99,8 @@ def guess_on_finest(hierarchy, contact, scheme):
 
 
 def dry_pressure(problem, P, largest_gap=GUESS_GAP):
-    """Roughly the pressure (lines, nx) with which the bodies carry their load; `P` is a guess.
-
-    Bodies are up to `largest_gap` apart where they press, and overlap by no more, in units of H.
-    """
+    """Roughly the pressure (lines, nx) with which the bodies carry their load; `P` is a guess. Bodies are
+    up to `largest_gap` apart where they press, and overlap by no more, in units of H."""
     P, limit = carrying_pressure(problem, P), min(GUESS * problem.K00, largest_gap)
     for _ in range(SolverSection.max_steps):
         pressed = PressedNodes(problem, P)
@@ -160,11 +143,8 @@ def _why_not(step, gap, limit):
 
 
 class PressedNodes:
-    """Pressure and gap of a problem while a set of its nodes is in contact (all methods collective).
-
-    `P` and `gap` are (lines, nx). The gap is that before the bodies approach each other; `approach` is its
-    mean over the set: by so much they approach. The sum of P never changes: it carries the load.
-    """
+    """`P` and `gap`, (lines, nx), while a set of nodes is in contact (all methods collective). `gap` is
+    that before the bodies approach by `approach`, its mean over the set. The sum of P never changes."""
 
     def __init__(self, problem, P):
         """`P` carries the load; the set is where it presses."""
@@ -181,10 +161,8 @@ class PressedNodes:
         self.largest_gap = self._grid.max(np.abs(self._left))
 
     def balance(self, limit):
-        """Conjugate gradients until the gap on the set is within `limit`; return how many.
-
-        They end before that where `REDUCTION` of the error is left and the set is not the right one.
-        """
+        """Conjugate gradients until the gap on the set is within `limit`; return how many. They end before
+        that where `REDUCTION` of the error is left and the set is not the right one."""
         direction, energy = self._preconditioned()
         first = energy
         for iteration in range(MOST_ITERATIONS):
@@ -237,10 +215,8 @@ class PressedNodes:
         return self._grid.max(-self.P, initial=0.0)
 
     def without_pull(self):
-        """The pressure to go on with: nodes that pull have none, those that overlap a trace.
-
-        It carries the load.
-        """
+        """The pressure to go on with: nodes that pull have none, those that overlap a trace. It carries the
+        load."""
         return carrying_pressure(self._problem, np.where(self._overlapping, TRACE, self.P))
 
     def told(self, step, iterations):

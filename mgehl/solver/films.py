@@ -1,9 +1,7 @@
 """Central and minimum film between the nodes, so that films of different grids can be compared.
 
-A node lies at the centre by chance, and never at the bottom of the smallest gap. So its film goes up and
-down from grid to grid by a few per cent, with the place of the node alone. Films that are compared come
-from polynomials through the nodes around, and so does the central film that a run reports; its minimum is
-that of a node.
+A node lies at the centre by chance, and never at the bottom of the smallest gap: its film varies from grid
+to grid by a few per cent. So films come from polynomials through the nodes around, but a run's minimum.
 """
 
 from dataclasses import dataclass
@@ -20,28 +18,13 @@ AROUND = 3
 
 ALONG, BESIDE = 2, np.array([0.5, 1.0, 0.5])
 """Nodes on each side of the smallest gap, along its line, over which a difference of films is averaged, and
-weights of the line before, its own and the one after: films differ from line to line anyway. With nine
-nodes that count alike half the bands of the minimum film are a tenth wider."""
-
-
-@dataclass(frozen=True)
-class Films:
-    """Central and minimum film in units of H."""
-
-    central: float
-    minimum: float
-    around: float = 0.0
-    """Of a coarser grid: its difference from the finer one around the centre, a root mean square."""
-    spread: float = 0.0
-    """The same around the smallest gap, a standard deviation."""
+weights of the line before, its own and the one after. Nine alike make the minimum's bands a tenth wider."""
 
 
 @dataclass(frozen=True)
 class GridFilm:
-    """Films of a grid's answer at the run's speed, in nm, between the nodes where need be.
-
-    On a coarser grid the minimum is that of the finer one, less what differs at their common nodes around.
-    """
+    """Films of a grid's answer at the run's speed, in nm, between the nodes where need be. On a coarser
+    grid the minimum is that of the finer one, less what differs at their common nodes around."""
 
     nodes: int
     central_nm: float
@@ -60,27 +43,24 @@ class GridFilm:
 
 
 def films_between_nodes(problem, state):
-    """`Films` at the centre itself and at the bottom of the smallest gap (collective)."""
+    """Central film and bottom of the smallest gap, in units of H (collective)."""
     mesh = problem.grid.mesh
-    return problem.grid.on_first(lambda H: Films(value_at(H, mesh, 0.0, 0.0), smallest(H)), state.H)
+    return problem.grid.on_first(lambda H: (value_at(H, mesh, 0.0, 0.0), smallest(H)), state.H)
 
 
-def films_beside(problem, state, finer, H):
-    """`Films` of a coarser grid, to be compared with the `finer` grid's, whose gap at this grid's nodes is
-    `H`, (lines, nx) (collective).
+def films_beside(problem, state, minimum, H):
+    """The same of a coarser grid, beside a finer one of this `minimum`, whose gap at this grid's nodes is
+    `H`, (lines, nx); and `around` and `spread` of a `GridFilm`, all in units of H (collective).
 
-    The smallest gap differs from the finer grid's by the mean of the gaps' differences at the nodes around
-    the one where `H` is smallest. Its own smallest gap would tell less: it is too narrow there for a
-    polynomial through its nodes, and may lie elsewhere (on 129 nodes the difference often has the wrong
-    sign).
+    The smallest gap is the finer grid's, less the mean of the gaps' differences around the node where `H`
+    is smallest. This grid's own is too narrow for a polynomial: its difference often has the wrong sign.
     """
     mesh = problem.grid.mesh
 
     def found(whole, of_finer):
         difference = of_finer - whole
         mean, spread = _mean_and_spread(difference, *np.unravel_index(np.argmin(of_finer), of_finer.shape))
-        around = _around_centre(difference, mesh)
-        return Films(value_at(whole, mesh, 0.0, 0.0), finer.minimum - mean, around, spread)
+        return value_at(whole, mesh, 0.0, 0.0), minimum - mean, _around_centre(difference, mesh), spread
 
     return problem.grid.on_first(found, state.H, H)
 
@@ -107,8 +87,7 @@ def value_at(H, mesh, X, Y):
 
 
 def weights_at(mesh, X, Y):
-    """What nodes count for a value at a point, (ny, nx): cubics through the four around it along either
-    axis."""
+    """What nodes count for a value at a point, (ny, nx): cubics through four along either axis."""
     across = np.ones(1) if mesh.is_line else _cubic(mesh.Y, Y)
     return np.outer(across, _cubic(mesh.X, X))
 

@@ -1,6 +1,6 @@
 """From a configuration to the objects of a solve."""
 
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, fields, replace
 
 from mgehl.config import COARSEST_NODES
 from mgehl.discretization.contact_law import UnifiedEquations
@@ -34,10 +34,8 @@ class SetUp:
     """Those axes, beside the user's."""
 
     def recipe(self, start=None, begins=None):
-        """The `Recipe` of a loaded contact with a fluid, maybe from a `start`.
-
-        It `begins` in the way that led to the answer, where that is another.
-        """
+        """The `Recipe` of a loaded contact with a fluid, maybe from a `start`. It `begins` in the way that
+        led to the answer, where that is another."""
         settings = on_mesh(self.settings, self.contact, self.mesh)
         recipe = recipe_of(settings, self.contact, start and A_STATE)
         return replace(recipe, begins=begins or recipe.begins)
@@ -86,26 +84,20 @@ CONTACT_LAWS = {"lcic": _interface_conditions, "unified": _unified_equations}
 
 def settings_from(config, contact):
     """Everything the solver is told."""
-    solver, relaxation, scheme = config.solver, config.relaxation, scheme_from(config, contact)
+    solver, scheme = config.solver, scheme_from(config, contact)
+    tolerance = share_of_the_flow(contact, scheme) * solver.tolerance
+    time = TimeSettings(config.time.step, config.time.tolerance, solver.tolerance)
     return SolverSettings(
-        method=solver.method,
+        **_keys_of(SolverSettings, solver),
         scheme=scheme,
-        start=solver.start,
-        first_nodes=solver.first_nodes,
-        inlet_cells=solver.inlet_cells,
-        newton=NewtonSettings(
-            tolerance=share_of_the_flow(contact, scheme) * solver.tolerance,
-            max_steps=solver.max_steps,
-            idle_steps=solver.idle_steps,
-            max_work=solver.max_work,
-            linear_tolerance=solver.linear_tolerance,
-            release_budget=solver.release_budget,
-            squeeze=solver.squeeze,
-        ),
-        cycle=CycleSettings(sweeps=solver.sweeps, omega=solver.omega, couette=solver.cycle_couette),
-        relaxation=RelaxationSettings(**asdict(relaxation), tolerance=solver.tolerance),
-        time=TimeSettings(config.time.step, config.time.tolerance, solver.tolerance)
-        if config.is_in_time
-        else None,
-        error=solver.error,
+        newton=NewtonSettings(**_keys_of(NewtonSettings, solver) | {"tolerance": tolerance}),
+        cycle=CycleSettings(**_keys_of(CycleSettings, solver), couette=solver.cycle_couette),
+        relaxation=RelaxationSettings(**asdict(config.relaxation), tolerance=solver.tolerance),
+        time=time if config.is_in_time else None,
     )
+
+
+def _keys_of(settings, section):
+    """Those fields of a class of settings that are keys of a section, with its values."""
+    names = (each.name for each in fields(settings) if hasattr(section, each.name))
+    return {name: getattr(section, name) for name in names}

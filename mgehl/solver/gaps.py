@@ -1,8 +1,7 @@
 """Mean gaps of rough bodies, film and contact alike, and what carries the load: different grids compared.
 
-Which nodes are in contact changes from grid to grid where gaps hardly differ, and with it the load on
-contact and the mean of the film beside it. The mean of all gaps does not care what a gap is called. It
-converges as a film does.
+Which nodes are in contact changes from grid to grid where gaps hardly differ. The mean of all gaps does not
+care what a gap is called, and converges as a film does.
 """
 
 from dataclasses import dataclass
@@ -13,21 +12,9 @@ from mgehl.discretization.status import CONTACT
 from mgehl.solver.inequality import bend_of_a_cell
 from mgehl.solver.shear import coefficient, friction_difference
 
-
-@dataclass(frozen=True)
-class Gaps:
-    """Two mean gaps in units of H."""
-
-    mean: float
-    """Of all nodes within the Hertz ellipse, or a line contact's width."""
-    loaded: float
-    """Of all nodes by their pressure: the gap on which the load rests."""
-
-
 NARROW = 0.05
 """What the largest pressure may be larger between nodes, over itself, from which on it is a spike of three
-nodes: beside it the pressure is four fifths of it or less. The spike of a line contact that 1025 nodes do
-not hold has 0.15, those that a grid holds 4e-4 and less (ball bearing on 129 nodes, M = 200 on 257)."""
+nodes. Spikes that a grid does not hold have 0.15, others 4e-4 and less."""
 
 
 @dataclass(frozen=True)
@@ -79,31 +66,23 @@ class GridGap:
 
 
 def within_hertz(mesh, reach=1.0):
-    """Nodes within the Hertz ellipse, or a line contact's width: (ny, nx).
-
-    `reach` are its semi-axes in units of X and Y: of a load in time not 1.
-    """
+    """Nodes within the Hertz ellipse, or a line contact's width: (ny, nx). `reach` are its semi-axes in
+    units of X and Y: of a load in time not 1."""
     across = np.zeros(1) if mesh.is_line else mesh.Y
     return mesh.X[None, :] ** 2 + across[:, None] ** 2 <= reach**2
 
 
 def gaps_of(mesh, P, H, reach=1.0):
-    """`Gaps` of the whole grid's pressure and gap, each (ny, nx), in a Hertz ellipse as `within_hertz`."""
-    return Gaps(float(np.mean(H[within_hertz(mesh, reach)])), _loaded(P, H))
+    """Mean of the gap H `within_hertz`, and of all nodes by their pressure P; both (ny, nx)."""
+    load = P.sum()
+    loaded = float(np.vdot(P, H) / load) if load > 0.0 else float("nan")
+    return float(np.mean(H[within_hertz(mesh, reach)])), loaded
 
 
-def gaps(problem, state):
-    """`Gaps` of a state (collective): rank 0 tells the others, so they do not depend on their number."""
+def gaps(problem, P, H):
+    """The same of a rank's lines (collective): rank 0 tells the others, so ranks do not matter."""
     mesh, reach = problem.grid.mesh, problem.hertz.reach
-    return problem.grid.on_first(lambda P, H: gaps_of(mesh, P, H, reach), state.P, state.H)
-
-
-def differences(problem, state, H):
-    """Means of the sizes by which the gaps of a state's nodes differ from a finer grid's `H` there,
-    (lines, nx): `Gaps`, too (collective)."""
-    mesh, reach = problem.grid.mesh, problem.hertz.reach
-    size = np.abs(state.H - H)
-    return problem.grid.on_first(lambda P, size: gaps_of(mesh, P, size, reach), state.P, size)
+    return problem.grid.on_first(lambda P, H: gaps_of(mesh, P, H, reach), P, H)
 
 
 def loads(problem, state):
@@ -116,11 +95,8 @@ def loads(problem, state):
 
 
 def load_differences(problem, state, P, p, status):
-    """By how much a state differs from a finer grid's P, p and status at its nodes, each (lines, nx).
-
-    `Loads` of the sizes of the differences; that of the largest pressure is their mean by pressure
-    (collective).
-    """
+    """By how much a state differs from a finer grid's P, p and status at its nodes, each (lines, nx):
+    `Loads` of their sizes, that of the largest pressure their mean by pressure (collective)."""
     grid, here, there = problem.grid, state.status == CONTACT, status == CONTACT
     everywhere, weight = np.ones_like(here), grid.sum(state.P.sum())
     of_contact = np.where(here, state.P, 0.0) - np.where(there, P, 0.0)
@@ -134,23 +110,19 @@ def load_differences(problem, state, P, p, status):
 def grid_gap(problem, state, settled, finer=None):
     """The `GridGap` of a state; of a coarser grid `finer` is the finer one's at its nodes (collective)."""
     nm, GPa, apart = 1e9 * problem.contact.film_scale, 1e-9 * problem.contact.hertz.p_h, {}
-    found, carried = gaps(problem, state), loads(problem, state)
+    mean, loaded = gaps(problem, state.P, state.H)
+    carried = loads(problem, state)
     if finer:
-        of_gaps = differences(problem, state, finer.H)
+        mean_apart, loaded_apart = gaps(problem, state.P, np.abs(state.H - finer.H))
         of_loads = load_differences(problem, state, finer.P, finer.p, finer.status)
         apart = {
-            "mean_apart_nm": nm * of_gaps.mean, "loaded_apart_nm": nm * of_gaps.loaded,
+            "mean_apart_nm": nm * mean_apart, "loaded_apart_nm": nm * loaded_apart,
             "pressure_apart_GPa": GPa * of_loads.largest, "contact_load_apart": of_loads.contact,
             "solid_load_apart": of_loads.solids,
             "friction_apart": friction_difference(problem, state, finer),
         }  # fmt: skip
     return GridGap(
-        problem.grid.mesh.nx, nm * found.mean, nm * found.loaded, carried.contact, settled,
+        problem.grid.mesh.nx, nm * mean, nm * loaded, carried.contact, settled,
         max_pressure_GPa=GPa * carried.largest, pressure_crest_GPa=GPa * carried.crest,
         solid_load_fraction=carried.solids, friction=coefficient(problem, state), **apart,
     )  # fmt: skip
-
-
-def _loaded(P, H):
-    load = P.sum()
-    return float(np.vdot(P, H) / load) if load > 0.0 else float("nan")

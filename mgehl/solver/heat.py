@@ -21,10 +21,7 @@ class Rise:
 
 def rise_of(problem, state, shear):
     """The `Rise` by a map of `shear` stress in Pa, (lines, nx), of a contact that `has_temperatures`
-    (collective).
-
-    Rank 0 has all of it: whatever the number of ranks the temperatures are the same.
-    """
+    (collective). Rank 0 has all of it: ranks do not matter."""
     grid, contact = problem.grid, problem.contact
     heat = shear * contact.friction.sliding_speed(contact.speed)
     gap = problem.scheme.contact_law.flow_gap(state.H)[0]

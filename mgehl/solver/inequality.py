@@ -6,18 +6,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from mgehl.discretization.axes import own
-from mgehl.discretization.mesh import HALO
 from mgehl.discretization.status import CONTACT, is_solid, largest_fluid_neighbour
 
 ROUNDING = 1e-12
 """Difference of pressures in p_h that may come from rounding alone."""
 
 SAFETY = 1.25
-"""How many times the estimated errors contact's pressure may be below the fluid's at the interface.
-
-An estimate is now and then too low, and a rough contact has thousands of faces. Of 38570 faces of 29 rough
-balls with boundary films on 257 nodes the difference is more than half of the error at 208, more than .9 of
-it at seven, and more than all of it at two; the next finer grid has nothing there."""
+"""How many times the estimated errors contact's pressure may be below the fluid's at the interface: an
+estimate is now and then too low (of 38570 faces at two), and a rough contact has thousands of faces."""
 
 MOST_UNDECIDED = 0.1
 """Part of the faces from which on the check at the interface decides nothing on this grid."""
@@ -49,13 +45,11 @@ class Inequality:
     worst: float
     """Largest violation, 0 without any."""
     largest_ratio: float
-    """Largest fluid pressure over the contact pressure beside it, infinite beside P = 0; only of nodes
-    compared."""
+    """Largest fluid pressure over the contact's beside it, of nodes compared; infinite beside P = 0."""
     nodes: list
     """{"i", "j", "size"} of each violation: the contact node, counted from 1, and by how much (p_h)."""
     compared: str = "at the nodes"
-    """Where: "at the nodes" on both sides of the interface, "at the interface" between them, or at each
-    node "under contact"."""
+    """"at the nodes" beside the interface, "at the interface" between them, or "under contact"."""
     power: Power = Power()
     """How many faces the check at the interface could decide; the others compare without a tolerance."""
 
@@ -94,23 +88,13 @@ def check_under_contact(problem, state):
 def check_interface(problem, state):
     """Check P(contact) >= P(fluid) at the interface itself, nodes counted from 1  [Liu eqs. 1, 2].
 
-    The paper compares the two sides of the interface, which lies between two nodes. Both pressures are
-    extrapolated to the face, each from nodes of its side, and each has an error (`_at_face`). The gap has
-    one, too: half of what it changes across the face, where a wake may begin, changes the pressure on each
-    side by as much as a node needs for that deflection. So a pressure that rises or falls continuously
-    through the interface does not break Eq. 2. A jump that stays as the grid is refined is found on every
-    grid. (Compared at the nodes alone, contact behind a constriction, where the pressure falls, breaks the
-    inequality on all grids alike.)
+    Both pressures are extrapolated to the face, each with its error (`_at_face`). The gap has one, too:
+    half of what it changes across the face changes the pressure on each side by what a node needs for that
+    deflection. So a pressure that falls continuously through the interface breaks nothing, a jump does on
+    every grid. (Compared at the nodes alone, contact behind a constriction breaks Eq. 2 on all grids.)
 
-    Measured on a ball with roughness of 100 nm rms, a boundary film of 2 nm, 0.5 mm/s: beside the interface
-    pressures of 257 and 513 nodes differ by 0.010 p_h (median), in one of ten nodes by more than 0.020.
-
-    Contact one node wide through which the pressure falls has no second node that could tell the pressure
-    at its upper face: it may be that of the fluid there, and breaks nothing on this axis. Such a node is
-    broken only where the fluid presses harder from both sides.
-
-    Contact's pressure may vanish at its edge, as that of a dry contact does, on every grid: hardly anything
-    is found there. `Power` counts these faces.
+    The upper face of contact one node wide may have the fluid's pressure: such a node is broken only where
+    fluid presses harder from both sides. Pressure that vanishes as at a dry edge is counted by `Power`.
     """
     grid = problem.grid
     P, H, status = problem.ghosted(state)
@@ -120,7 +104,7 @@ def check_interface(problem, state):
         return _inequality(grid, checked, excess, "at the interface")
     faces, hidden = 0, [np.zeros(0)]
     for axis in problem.axes:
-        ends = [contact & ~_beside(axis, solid, side) for side in (-1, 1)]
+        ends = [contact & ~axis.beside(solid, side) for side in (-1, 1)]
         asked = [_jump(problem, axis, state, (P, H, solid), side) for side in (-1, 1)]
         jumps = [jump for jump, _ in asked]
         is_wide = ~(ends[0] & ends[1])
@@ -144,36 +128,27 @@ def _jump(problem, axis, state, ghosted, side):
     (P, H, solid), axes = ghosted, problem.axes
     of_contact, its_error = _at_face(axes, axis, P, solid, side, sides=(1,))
     of_fluid, error = (
-        _beside(axis, problem.grid.halo(each), side) for each in _at_face(axes, axis, P, solid, -side)
+        axis.beside(problem.grid.halo(each), side) for each in _at_face(axes, axis, P, solid, -side)
     )
-    of_gap = np.abs(_beside(axis, H, side) - state.H) / problem.K00
+    of_gap = np.abs(axis.beside(H, side) - state.H) / problem.K00
     tolerance = SAFETY * (error + its_error + of_gap)
-    presses = np.maximum(of_fluid, _beside(axis, P, side))
+    presses = np.maximum(of_fluid, axis.beside(P, side))
     return of_fluid - of_contact - tolerance, np.where(tolerance > state.P, presses, 0.0)
-
-
-def _beside(axis, ghosted, shift):
-    """What a ghosted array holds `shift` nodes along an axis, (lines, nx); lines end as they are."""
-    lines, nx = own(ghosted).shape
-    if axis.number:
-        return own(ghosted)[:, np.clip(np.arange(nx) + shift, 0, nx - 1)]
-    return ghosted[HALO + shift : HALO + shift + lines]
 
 
 def _at_face(axes, axis, P, solid, side, sides=(1, -1)):
     """Pressure of each node at its face on a `side`, as it comes from behind, and its error: (lines, nx).
 
-    The error has three parts: the step to the nearest node behind, the curvature through the two nearest,
-    and how far the pressure bends along the face. Where no node of its kind is behind it, half the
-    pressure's change to that side (1), or to the one behind (-1), stands for the first two: the larger one
-    of the `sides`.
+    The error is the step to the nearest node behind, the curvature through the two nearest, and how far the
+    pressure bends along the face. With no node of its kind behind, half the pressure's change to that side
+    (1), or to the one behind (-1), stands for the first two: the larger one of the `sides`.
     """
     near, kind = own(P), own(solid)
-    behind, farther = (_beside(axis, P, shift * side) for shift in (-1, -2))
-    known, known_farther = (_beside(axis, solid, shift * side) == kind for shift in (-1, -2))
+    behind, farther = (axis.beside(P, shift * side) for shift in (-1, -2))
+    known, known_farther = (axis.beside(solid, shift * side) == kind for shift in (-1, -2))
     step = np.where(known, 0.5 * (near - behind), 0.0)
     bend = np.where(known_farther, 0.375 * np.abs(near - 2.0 * behind + farther), np.abs(step))
-    changes = [np.abs(near - _beside(axis, P, each * side)) for each in sides]
+    changes = [np.abs(near - axis.beside(P, each * side)) for each in sides]
     unknown = 0.5 * np.maximum.reduce(changes)
     along = sum(bend_of_a_cell(other, P) for other in axes if other is not axis)
     return near + step, np.where(known, np.abs(step) + bend, unknown) + along
@@ -181,4 +156,4 @@ def _at_face(axes, axis, P, solid, side, sides=(1, -1)):
 
 def bend_of_a_cell(axis, P):
     """How far the pressure bends from the middle of a cell to its ends, (lines, nx)."""
-    return 0.125 * np.abs(_beside(axis, P, -1) - 2.0 * own(P) + _beside(axis, P, 1))
+    return 0.125 * np.abs(axis.beside(P, -1) - 2.0 * own(P) + axis.beside(P, 1))

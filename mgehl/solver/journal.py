@@ -2,12 +2,10 @@
 
 
 class Journal:
-    """Keeps nothing. `output.checkpoint.Checkpoint` is the one that keeps everything on disk.
+    """Keeps nothing; `output.checkpoint.Checkpoint` keeps everything (collective on the comm of `grid`).
 
-    A run is a row of solves. Each asks first whether it was finished before (`recall`), then whether it was
-    under way (`standing`); it tells of every step and of its end. What it tells of has a `record()`, and
-    `made` turns that `Record` back into an object (`solver.record`). All methods are collective on the
-    communicator of `grid`.
+    Each solve of a run asks whether it was finished (`recall`) or under way (`standing`) before, and tells
+    of every step and its end. What is told has a `record()`; `made` turns that back into an object.
     """
 
     def recall(self, grid, made):
@@ -17,20 +15,16 @@ class Journal:
         """Where the next solve stood when the run was stopped; None at its beginning."""
 
     def step(self, grid, position):
-        """Take note of the `position` before a step: all that the way from here depends on.
-
-        Raises `errors.Stopped` when the run is to end here.
-        """
+        """Take note of the `position` before a step: all that the way from here depends on. Raises
+        `errors.Stopped` when the run is to end here."""
 
     def finish(self, grid, outcome):
         """Take note of the `outcome`, the end of a solve."""
 
 
 def told_to_stop(comm, stop):
-    """The `Stopped` that `stop` returns on any rank, else None (collective).
-
-    A signal may reach one rank only, and clocks differ.
-    """
+    """The `Stopped` that `stop` returns on any rank, else None (collective). A signal may reach one rank
+    only, and clocks differ."""
     return next((each for each in comm.allgather(stop()) if each), None)
 
 

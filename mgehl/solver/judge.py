@@ -10,30 +10,21 @@ from petsc4py import PETSc
 from mgehl.solver.problem import DIVERGED
 
 STALLS = 3
-"""Linear systems that GMRES may leave unsolved before a solve is given up. Where no state is near (a film
-that ends, a node at a fold) all later ones would take the most iterations and lead nowhere. Values from
-1 on change nothing that converges."""
+"""Linear systems that GMRES may leave unsolved before a solve is given up: no state is near."""
 
 UNSOLVED = 0.5
-"""A linear system counts as unsolved where GMRES leaves more than this part of its residual. Less is still
-of use (a ball of 188 nm rms at 0.04 mm/s settles after more than three that took all iterations)."""
+"""A linear system counts as unsolved where GMRES leaves more than this part of its residual."""
 
 STUCK = 0.9
 """A step that leaves more than this part of the residual gained nothing. After two the cavities are not
-relaxed before the next step: their relaxation at a fixed gap and the step that moves the gap might undo
-each other for ever. A ball at 3 m/s on 65 nodes by 1B ends after 60 steps without this, and settles in 16
-with it."""
+relaxed before the next step: relaxation at a fixed gap and the step might undo each other for ever."""
 
 IDLE_STUCK = 5
-"""Steps that did not lower the residual from which on this is so of films, though one of them may have
-brought back what another had lost. At the ends of wide ellipses the edge of the film crosses the lines, and
-the sets went in a circle (radii 1:112, 257 nodes). Films that were found before took at most 4."""
+"""Idle steps from which on this is so of films: at wide ellipses' ends sets go in a circle."""
 
 IDLE_CIRCLE = 8
 """Steps that did not lower the residual from which on neighbours change sets in turn, where contact closes
-continuously. Of 20 balls without layers, lambda from .0005 to .009 (65 nodes), 8 are found within 1500
-convolutions without it and 15 with 4; within 3000, by as many steps as that takes, 19 with 4 and 19 with 8.
-With 4 random rollers take 2 % more work than with 8."""
+continuously: without it hardly half of thin-film balls without layers are found; 4 cost rollers 2 %."""
 
 
 class SetsChange(Enum):
@@ -46,9 +37,7 @@ class SetsChange(Enum):
 
 IN_TURN_TOLERANCE = 0.01
 """Relative tolerance of GMRES where neighbours change in turn: a few valley nodes make up most of the
-residual, and what 0.1 of it leaves to others turns their signs. Of five balls that 0.1 does not find (257
-nodes) it finds three. Judged on others it is no better and no worse: of 24 rollers (seed 4242) one more, of
-24 balls on 129 nodes (seed 9090) one less. With 0.001 17 of the 20 balls of `IDLE_CIRCLE`, with both 19."""
+residual, and what 0.1 of it leaves to others turns their signs. Finer tolerances find no more."""
 
 
 @dataclass(frozen=True)
@@ -66,10 +55,8 @@ GO_ON = Verdict(ends=False)
 
 
 def judge(position, partition, limits):
-    """The `Verdict` on a position whose last cycle has just been measured (collective).
-
-    `limits` are `NewtonSettings`, patience included.
-    """
+    """The `Verdict` on a position whose last cycle has just been measured (collective). `limits` are
+    `NewtonSettings`, patience included."""
     cycle = position.cycles[-1]
     limit = position.trial.limit if position.trial else limits.max_steps
     small = cycle.residual <= limits.tolerance and abs(cycle.load_error) <= limits.tolerance
@@ -96,10 +83,8 @@ def judge(position, partition, limits):
 
 
 def how_sets_change(position, by_film):
-    """The `SetsChange` around the next step from a position, by what the last steps gained.
-
-    `by_film` says whether contact closes continuously.
-    """
+    """The `SetsChange` around the next step from a position, by what the last steps gained. `by_film` says
+    whether contact closes continuously."""
     idle = steps_since_lowered(position)
     if by_film and idle >= IDLE_CIRCLE:
         return SetsChange.IN_TURN

@@ -31,11 +31,8 @@ class FluidInLayers:
 
 
 def by_reduced_pressure(change, stiffening):
-    """The change of a pressure whose fluid stiffens by e^(`stiffening` p), by that of its reduced pressure.
-
-    What flows under contact is linear in the reduced pressure, and far from it in p. Where no pressure
-    drives as much, the one that drives nearly all that any could.
-    """
+    """The change of a pressure whose fluid stiffens by e^(`stiffening` p), by that of its reduced pressure,
+    in which the flow under contact is linear; at most the one that drives nearly all that any could."""
     steep = np.abs(stiffening * change) > 1e-8
     with np.errstate(divide="ignore", invalid="ignore"):
         reduced = -np.log1p(-np.minimum(stiffening * change, NEARLY_ALL)) / stiffening

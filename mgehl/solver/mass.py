@@ -16,8 +16,7 @@ CLOSED = 1e-6
 """Part of what flows through that may be made, or lost, by a node or by all nodes of one kind."""
 
 LEAST_THROUGH = 1e-2
-"""Part of what the surfaces carry into the domain that counts as flowing through at the least: nothing
-flows through full contact."""
+"""Part of what surfaces carry in that counts as flowing through at the least: of full contact."""
 
 
 @dataclass(frozen=True)
@@ -58,9 +57,7 @@ def mass_account(problem, state, evaluation):
 
 def account(problem, state, evaluation, inside, unit):
     """The `Mass` of an evaluated state, with what flows into and out of the nodes `inside` (collective).
-
-    That is a ghosted mask; `unit` is the flow that carries one unit of H across one of Y, in m^3/s.
-    """
+    That is a ghosted mask; `unit` is the flow that carries one unit of H across one of Y, in m^3/s."""
     grid, mesh = problem.grid, problem.grid.mesh
     cell = mesh.dX * mesh.dY
     inner = ~problem.boundary
@@ -99,14 +96,10 @@ def _through(problem, evaluation, inside):
 
 
 def border_flows(evaluation, nodes):
-    """For each axis the width of a face, and what flows into `nodes`, a ghosted mask, by their borders.
-
-    Two flat arrays: through faces where they begin along the axis, and where they end. A face between ranks
-    is counted by the rank whose node is one of them.
-    """
+    """For each axis the width of a face, and what flows into `nodes`, a ghosted mask, by their borders:
+    through faces where they begin along the axis, and where they end."""
     mesh = evaluation.mesh
     for axis, (leaving, entering) in zip(evaluation.axes, evaluation.flows, strict=True):
-        here = axis.inner(own(nodes))
-        first, last = here & ~axis.neighbour(nodes, -1), here & ~axis.neighbour(nodes, 1)
+        first, last = (axis.inner(own(nodes) & ~axis.beside(nodes, side)) for side in (-1, 1))
         inward = axis.entered(entering.value)[first], -axis.left(leaving.value)[last]
         yield mesh.dX * mesh.dY / axis.cell, *inward

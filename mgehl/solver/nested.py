@@ -23,13 +23,11 @@ from mgehl.solver.settings import COARSE_TOLERANCE
 
 FLAT = 0.1
 """Largest gap, and largest overlap, that the dry guess may leave, over the formula's film that is laid on
-it. A larger overlap would make contact where there is none (a ball of 188 nm rms at 0.04 mm/s: 2234
-nodes)."""
+it: a larger overlap would make contact where there is none."""
 
 THICKER = 3.0
 """Film over that of the formula from which a grid begins that hardly sees it: too few cells in the inlet
-make films thicker, those of the paper's ball at 0.1 mm/s three times on 129 nodes. That takes 2313
-convolutions from the formula's own film, 367 from 3 times it, 360 from 5; at 1 mm/s 63, 91 and 100."""
+make films up to three times as thick. From the formula's own it takes up to six times the work."""
 
 
 def nested_iteration(task):
@@ -56,27 +54,21 @@ def nested_iteration(task):
 
 
 def _solve(task, problem, state, settings, solve):
-    """Solve from a state, by its own `SolverSettings`; where Newton's own steps lead nowhere, anew by time
-    steps."""
+    """Solve from a state, by its own `SolverSettings`; where that leads nowhere, anew by time steps."""
     in_time = replace(settings, newton=settings.newton.squeezed())
     recipe, patient = (recipe_of(each, problem.contact) for each in (settings, in_time))
 
-    def found(state, recipe, solve):
-        tell = partial(task.monitor, solve)
-        return solve_on(task.hierarchy, problem, state, recipe, tell, task.journal)
-
     if recipe.newton.squeeze > 0.0:
-        return found(state, recipe, solve)
-    outcome = found(state.copy(), recipe, solve)
+        return solve_on(task, problem, state, recipe, solve)
+    outcome = solve_on(task, problem, state.copy(), recipe, solve)
     if outcome.converged:
         return outcome
     news = f"not found: {outcome.reason}; now by time steps"
-    return found(state, patient, replace(solve, news=news))
+    return solve_on(task, problem, state, patient, replace(solve, news=news))
 
 
 def single_loop(task, state=None):
-    """Solve by the paper's relaxation, on the finest grid alone, maybe from a `state`; otherwise as
-    `nested_iteration`."""
+    """Solve by the paper's relaxation, on the finest grid alone; else as `nested_iteration`."""
     problem, settings = task.problem(), task.settings
     if state is None:
         state = first_guess(problem, recipe_of(settings, task.contact).begins)
@@ -85,10 +77,8 @@ def single_loop(task, state=None):
 
 
 def first_guess(problem, begins, P=None):
-    """The state that a solve begins with, as a `Recipe` names it.
-
-    `P` (lines, nx) is a pressure to begin with, unless that of smooth bodies.
-    """
+    """The state that a solve begins with, as a `Recipe` names it. `P` (lines, nx) is a pressure to begin
+    with, unless that of smooth bodies."""
     grid, contact = problem.grid, problem.contact
     P = contact.guessed_pressure(grid.X, grid.Y) if P is None else P
     film = contact.expected_film / contact.film_scale
@@ -108,11 +98,8 @@ def first_guess(problem, begins, P=None):
 
 
 def _first_guess_of_peaks(problem, begins, P, film):
-    """The dry pressure `P` of the rough bodies, with a `film` between them, nearly none, or none.
-
-    The film lies on the layers that contact keeps. Without them a film thinner than they are would close
-    nearly everywhere (a ball of 188 nm rms at 0.04 mm/s, 2 nm: 14000 nodes, and no end).
-    """
+    """The dry pressure `P` of the rough bodies, with a `film` between them, nearly none, or none. It lies
+    on the layers that contact keeps: a film thinner than they are would close nearly everywhere."""
     layers, pressed = problem.scheme.contact_law.contact_gap, P > 0.0
     above = {UNDER_FILM: film, UNDER_THIN_FILM: FLAT * film, DRY: 0.0}[begins]
     H0 = layers + above - problem.mean(problem.gap(P, 0.0), pressed)
@@ -125,10 +112,8 @@ def _first_guess_of_peaks(problem, begins, P, film):
 def guess_fluid(hierarchy, problem, state, settings):
     """Set the fluid around a contact start, the `state`, in place, to that of the coarser grids in its gap.
 
-    A Newton step or a line sweep moves the boundary of the cavities by a few nodes, so a fine grid needs
-    many of them. On 1025 nodes it takes 14 steps from a pressure of zero, and 4 from the coarser grids'
-    pressures. The gap is injected, so no convolution is made. Fluid that is beside contact on the coarse
-    grid is left as it is: pressures jump there.
+    The gap is injected, no convolution is made. The boundary of cavities moves by a few nodes a step, too
+    slowly for a fine grid. Fluid beside contact on the coarse grid is left: pressures jump there.
     """
     level = hierarchy.grids.index(problem.grid) - 1
     grid, fewest = hierarchy.grids[level], settings.first_nodes
@@ -153,11 +138,8 @@ def guess_fluid(hierarchy, problem, state, settings):
 
 
 def interpolate(transfer, problem, coarse):
-    """The coarse state on the fine grid: P cubic, a node in contact where most of it would be.
-
-    The first steps on every grid would smooth the kinks of a bilinear P (M = 200, L = 10 on 1025 nodes: 99
-    convolutions for 75).
-    """
+    """The coarse state on the fine grid: P cubic, a node in contact where most of it would be. The first
+    steps on every grid would smooth the kinks of a bilinear P."""
     P = transfer.cubic(coarse.P)
     in_contact = transfer.bilinear((coarse.status == CONTACT).astype(float)) > 0.5
     film = (P > problem.contact.tears_at) | (not problem.scheme.cavitation)
@@ -166,11 +148,8 @@ def interpolate(transfer, problem, coarse):
 
 
 def planned_solves(meshes, contact, settings):
-    """(Level, `LevelSolve`) of what is solved on which of the `meshes`, coarsest first, at which speed.
-
-    A film begins on the coarse grids, at speeds that they resolve and that do not lift the bodies off each
-    other.
-    """
+    """(Level, `LevelSolve`) of what is solved on which of the `meshes`, coarsest first, at speeds that
+    coarse grids resolve and that do not lift the bodies off each other."""
     finest, on_coarse_grids = len(meshes) - 1, recipe_of(settings, contact).on_coarse_grids
     for level, mesh in enumerate(meshes):
         if level == finest:

@@ -1,7 +1,6 @@
 """Newton's method for one grid, the sets re-partitioned between its steps.
 
-Residual and Jacobian of the present partition are SNES's own function and Jacobian, and the iteration asks
-SNES for them.
+Residual and Jacobian of the present partition are SNES's own, and the iteration asks SNES for them.
 """
 
 from dataclasses import replace
@@ -28,7 +27,7 @@ from mgehl.solver.layers import FluidInLayers
 from mgehl.solver.outcome import Cycle, Outcome
 from mgehl.solver.partition import Changes, Partition
 from mgehl.solver.position import Position, Step, Trial
-from mgehl.solver.remembered import remembered
+from mgehl.solver.remembered import Remembered
 from mgehl.solver.rigid_gap import FLUID_AHEAD
 from mgehl.solver.snes import PythonSnes
 from mgehl.solver.squeeze import squeeze_rates
@@ -36,12 +35,9 @@ from mgehl.solver.step_length import step_length
 
 
 class Newton(PythonSnes):
-    """Solves one `ContactProblem` with a `MultigridSolver`; the only one who changes its `Position`.
-
-    With a `fluid` solver (`RigidGapFluid`) the separable fluid is solved at each new gap, without
-    convolutions, and left out of the linear systems: right where solid contact carries the load.
-    `monitor` is called with every `Cycle`.
-    """
+    """Solves one `ContactProblem` with a `MultigridSolver`; the only one who changes its `Position`. With a
+    `fluid` solver (`RigidGapFluid`) separable fluid is solved at each new gap, without convolutions: right
+    where contact carries the load. `monitor` is called with every `Cycle`."""
 
     def __init__(self, problem, multigrid, settings, fluid=None, monitor=None):
         super().__init__(multigrid, settings)
@@ -52,11 +48,8 @@ class Newton(PythonSnes):
         self._in_turn = False
 
     def run(self, state, journal=NOTHING_KEPT, tolerance=None):
-        """Solve from `state`, which is the solve's own from now on; return the `Outcome`.
-
-        The `journal` is told of every step, and may know this solve or its first part already. The
-        `tolerance` is that of the settings unless it is given.
-        """
+        """Solve from `state`, which is the solve's own from now on; return the `Outcome`. The `journal` is
+        told of every step, and may know this solve or its first part already. `tolerance` overrules."""
         if tolerance is not None:
             self._snes.setTolerances(atol=tolerance)
         grid, self._journal = self._problem.grid, journal
@@ -69,7 +62,10 @@ class Newton(PythonSnes):
 
     def remembered(self, kept):
         """What the linear solver remembers from now on: first what was `kept`, a `Record` or None."""
-        return remembered(self._multigrid, kept)
+        memory = self._multigrid.memory and Remembered(self._multigrid)
+        if memory and kept:
+            memory.take_back(kept)
+        return memory
 
     def _go_on(self, position):
         """Let SNES solve from a position; return the `Outcome`."""
@@ -188,8 +184,7 @@ class Newton(PythonSnes):
         return reason
 
     def _pose(self):
-        """Pose the linear system: the kind of row of each node, 1/time step; return its right-hand side,
-        (lines, nx)."""
+        """Pose the linear system: rows, 1/time step; return its right-hand side, (lines, nx)."""
         problem, status = self._problem, self._position.state.status
         F, frozen = self._space.read_pressure(self._f).copy(), None
         if self._fluid:

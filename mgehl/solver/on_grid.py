@@ -33,16 +33,13 @@ def solve_near(task, problem, state, news="", **limits):
     recipe = recipe_of(replace(task.settings, scheme=problem.scheme), contact, A_STATE)
     recipe = replace(recipe, newton=replace(recipe.newton, **limits))
     solve = LevelSolve(grid.mesh.nx, contact.speed, grid is hierarchy.grids[-1], news)
-    return solve_on(hierarchy, problem, state, recipe, partial(task.monitor, solve), task.journal)
+    return solve_on(task, problem, state, recipe, solve)
 
 
-def solve_on(hierarchy, problem, state, recipe, tell, journal):
-    """Solve a `ContactProblem` on its grid from a `state`, as its `Recipe` says; return the `Outcome`.
-
-    `tell(cycle)` is called with every `Cycle`.
-    """
-    with newton_on(hierarchy, problem, recipe, tell) as newton:
-        return newton.run(state, journal)
+def solve_on(task, problem, state, recipe, solve):
+    """The same as a `Recipe` says, told of as this `LevelSolve`."""
+    with newton_on(task.hierarchy, problem, recipe, partial(task.monitor, solve)) as newton:
+        return newton.run(state, task.journal)
 
 
 @contextmanager

@@ -1,13 +1,11 @@
 """Which nodes are film, cavity and contact: re-partitioned between Newton steps.
 
-cavitated  enters when P < 0, leaves when it would hold more than its gap does
-contact    enters when H <= H_th, leaves when P < 0 (always) or when its P is below the fluid
-           pressure beside it [Liu eq. 2] (when the sets have settled, a finite number of times);
-           one that leaves its faces open leaves when p > P, and at P < 0
+cavitated: enters when P < 0, leaves when it would hold more than its gap does. contact: enters when H <=
+H_th, leaves when P < 0, or a finite number of times, the sets settled, when its P is below the fluid's
+beside it [Liu eq. 2]; one that leaves its faces open leaves when p > P, and at P < 0.
 
-All nodes whose sign is wrong change at once. Where that goes in a circle, neighbours change in turn: in a
-valley one node that is torn or fills takes away what asked the next one to. (Block principal pivoting,
-Judice and Pires 1994, does the same with all nodes of a linear complementarity problem.)
+All whose sign is wrong change at once; where that goes in a circle, neighbours in turn: a node that is torn
+or fills takes away what asked the next one to [block principal pivoting, Judice and Pires 1994].
 """
 
 from dataclasses import dataclass
@@ -30,8 +28,7 @@ from mgehl.solver.cavitation import overflows
 from mgehl.solver.record import Kept
 
 RESTLESS = 12
-"""Turns between film and contact after which a node is not expected to settle. From 4 to 40 nothing that
-converges changes."""
+"""Turns between film and contact after which a node is not expected to settle; 4 to 40 do the same."""
 
 ROUND = 2
 """Turns that a node takes to close and be torn open again."""
@@ -53,11 +50,8 @@ class Changes(Kept):
 
 @dataclass(frozen=True)
 class Contradiction(Kept):
-    """A node that can be neither film nor contact: as film it closes, as contact it is torn open.
-
-    Nodes count from 1. `gap` is the H at which it last became contact, `pressure` the P at which it was
-    last released, `neighbours` the statuses west, east, before and after.
-    """
+    """A node that as film closes, as contact is torn open; nodes count from 1. `gap` is the H at which it
+    last became contact, `pressure` P at its last release, `neighbours` are west, east, before, after."""
 
     i: int
     j: int
@@ -99,9 +93,7 @@ class Past(Kept):
 
 class Partition:
     """Moves nodes of a state between the sets; `past`, which may be replaced, is what they went through.
-
-    With `in_turn` neighbours whose signs are wrong change in turn, and not at once.
-    """
+    With `in_turn` neighbours whose signs are wrong change in turn, and not at once."""
 
     def __init__(self, problem, release_budget):
         self._problem, self._grid = problem, problem.grid
@@ -132,11 +124,8 @@ class Partition:
         self.fit(state)
 
     def cut_tension(self, state, changes, in_turn=False):
-        """Set pressures below that of torn film to it in place: fluid cavitates, contact is released.
-
-        Contact with open faces under which fluid presses is lifted, not torn apart: `open_contact` lets it
-        go. A node that opened empty beside a film of a few nm closed and opened for ever.
-        """
+        """Set pressures below that of torn film to it in place: fluid cavitates, contact is released, but
+        not where fluid presses under open faces (`open_contact`): that would open empty."""
         P, status = state.P, state.status
         torn, tensile = self.tension(P, status)
         opened = self._that_change(torn, self._tears_at - P, in_turn)
@@ -153,12 +142,9 @@ class Partition:
         changes.released += self._grid.count(apart)
 
     def enter_contact(self, state, changes):
-        """Nodes whose gap is closed, and fluid shut in along the motion, become contact.
-
-        One pass is enough: shut-in fluid had contact on both sides already, so it shuts in no other.
-        Contact with open faces (`BoundaryFilm`) shuts in nothing, and may close and open any number of
-        times.
-        """
+        """Nodes whose gap is closed, and fluid shut in along the motion, become contact. One pass is
+        enough: shut-in fluid shuts in no other. Contact with open faces (`BoundaryFilm`) shuts in nothing,
+        and may close and open any number of times."""
         may_close = is_fluid(state.status) & ~self.past.just_released
         closed = may_close & self._contact_law.closed(state.H, self.past.was_released)
         closed |= self._still_pressed(state)
@@ -173,11 +159,8 @@ class Partition:
         changes.entered += self._grid.count(closed)
 
     def _still_pressed(self, state):
-        """Nodes that have just been torn open though bodies overlap there by more than the tension was.
-
-        A step that is not taken whole leaves the overlap of a first guess. A node that opens with it has a
-        film of less than nothing.
-        """
+        """Nodes that have just been torn open though bodies overlap there by more than the tension was. A
+        step not taken whole leaves a first guess' overlap: a film of less than nothing."""
         torn = self.past.just_released & is_fluid(state.status) & (self.past.torn_pressure < 0.0)
         if self._contact_law.closes_faces:
             return np.zeros(torn.shape, dtype=bool)
@@ -213,10 +196,8 @@ class Partition:
         changes.released += self._grid.count(opened)
 
     def _that_change(self, asked, excess, in_turn):
-        """Of the nodes that are `asked` to change those that do so now, all (lines, nx) (collective).
-
-        All of them, or each whose `excess` no neighbour that is asked surpasses.
-        """
+        """Of the nodes that are `asked` to change those that do so now, all (lines, nx) (collective). All
+        of them, or each whose `excess` no neighbour that is asked surpasses."""
         if not in_turn:
             return asked
         largest = maximum_filter(self._grid.halo(np.where(asked, excess, 0.0)), size=3)
@@ -255,10 +236,8 @@ class Partition:
         return self._grid.count(self.violations(state)[0] & (self.past.budget > 0))
 
     def release_violations(self, state, changes):
-        """Release contact nodes that violate Eq. 2 and have budget left.
-
-        The fluid beside such a node would pry it open: it becomes film under that fluid's pressure.
-        """
+        """Release contact nodes that violate Eq. 2 and have budget left. The fluid beside such a node would
+        pry it open: it becomes film under that fluid's pressure."""
         released, beside = self.violations(state)
         released &= self.past.budget > 0
         self.past.budget[released] -= 1

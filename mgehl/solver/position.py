@@ -19,8 +19,7 @@ class Step(Kept):
 
 @dataclass
 class Trial(Kept):
-    """A trial whether Eq. 2 can hold: contact of a settled state was released, and the sets must settle
-    again."""
+    """Whether Eq. 2 can hold: contact of a settled state was released, and the sets must settle."""
 
     PARTS = {"answer": State}
 

@@ -19,8 +19,7 @@ AT_REST = (0.0, 0.0)
 """The `motion` of a scheme without a Couette flow."""
 
 DIVERGED = 1e10
-"""Residual above which a solve counts as diverged; that of a first guess is below 1e4. Values from 1e3 to
-1e14 change nothing that converges."""
+"""Residual above which a solve counts as diverged; that of a first guess is below 1e4."""
 
 
 @dataclass
@@ -35,8 +34,7 @@ class State(Kept):
     p: np.ndarray | None = None
     """The fluid's own pressure: P but for contact, where solids carry the rest. None: P everywhere."""
     filling: np.ndarray | None = None
-    """The part of the gap above the layers that cavities hold fluid in; elsewhere without meaning. None:
-    cavities are full."""
+    """The part of the gap above the layers that cavities hold fluid in; None: all of it."""
 
     def __post_init__(self):
         self.p = self.P.copy() if self.p is None else self.p
@@ -82,9 +80,7 @@ class Problem:
 
     def march_contents(self, state, evaluation):
         """Give the cavities that feed nothing what flows into them, in place; return the new evaluation.
-
-        Where bodies may overlap nothing can be said of contents: there cavities count as full.
-        """
+        Where bodies may overlap nothing can be said of contents: there cavities count as full."""
         if not self.scheme.contact_law.has_contact:
             fills = (state.status == CAVITATED) & (evaluation.inflow > 0.0)
             state.filling = np.where(fills, OVERFULL, 1.0)
@@ -105,11 +101,8 @@ class Problem:
         return (status == CONTACT) & stops
 
     def feeding(self, status):
-        """Cavities whose content reaches film or contact, (lines, nx).
-
-        All of them in a rigid gap, whose linear systems take no convolution, and whose plate may move
-        against the axis.
-        """
+        """Cavities whose content reaches film or contact, (lines, nx); all in a rigid gap, whose linear
+        systems take no convolution, and whose plate may move against the axis."""
         if not self.is_elastic:
             return status == CAVITATED
         if not self.scheme.contact_law.has_contact or self.scheme.motion == AT_REST:
@@ -178,8 +171,7 @@ class ContactProblem(Problem):
         return np.array(np.broadcast_to(found, grid.shape))
 
     def turn_to(self, surfaces, there):
-        """Take the surfaces of the contact `surfaces` as they are at another time, and the load, the
-        velocity and the oil of the contact `there`."""
+        """Take another time's surfaces, of the contact `surfaces`, and load, velocity and oil of `there`."""
         contact = self.contact
         friction = contact.friction.slowed(there.speed / contact.speed)
         self.flowing = replace(contact.turned(there.angle), lubricant=there.lubricant, friction=friction)
@@ -206,10 +198,8 @@ class ContactProblem(Problem):
         return -self.grid.min(gap[P > 0.0])
 
     def state(self, P, H0, status, p=None, filling=None):
-        """The state of a given pressure, with its gap; boundary nodes are set.
-
-        Unless they are given, the fluid presses as hard as contact does, and cavities are full.
-        """
+        """The state of a given pressure, with its gap; boundary nodes are set. Unless they are given, the
+        fluid presses as hard as contact does, and cavities are full."""
         P = np.where(self.boundary, 0.0, P)
         status = np.where(self.boundary, BOUNDARY, status).astype(np.int8)
         H = self.gap(P, H0)

@@ -6,9 +6,8 @@
     near        3L             a full film        coarse grids    lines in valleys        corrections
     touching    3L             the dry contact    the finest      lines in valleys        corrections
 
-A film that the finest grid hardly sees begins there alone, from a thicker one (`on_mesh`). Keys of the
-configuration overrule it. A contact at another speed, or as a coarser grid sees it, has a recipe of its
-own.
+A film that the finest grid hardly sees begins there alone (`on_mesh`). Keys overrule the recipe. A contact
+at another speed, or as a coarser grid sees it, has its own.
 """
 
 from dataclasses import dataclass, replace
@@ -24,52 +23,38 @@ NONE, COVERED, NEAR, TOUCHING = "none", "covered", "near", "touching"
 would have, where the law lets them touch."""
 
 THICK = 2.0
-"""Film that smooth bodies would have over the roughness from which on the cycle is that of smooth bodies. A
-ball of lambda 1.7 takes 312 convolutions by the cycle for thin films and 644 by the other, balls of lambda
-3 to 14 an eighth more."""
+"""Film that smooth bodies would have over the roughness from which on the cycle is that of smooth bodies:
+below, it takes twice the work, above, the one for thin films takes an eighth more."""
 
 OF_SMOOTH, OF_ROUGH = "3B", "3L"
-"""The Couette flow's schemes of smooth and of rough bodies. Behind a peak the film falls to nothing from
-one node to the next; without limits it might be less than none. By 1B it stays a film, too, but on a usual
-grid one that is 6 to 15 % too thick, and of a short wave twice as thick (`tests/solver/test_rough.py`)."""
+"""The Couette flow's schemes of smooth and of rough bodies: behind a peak 3B's film may be less than none.
+1B's is 6 to 15 % too thick on usual grids (`tests/solver/test_rough.py`)."""
 
 FULL_FILM, UNSEEN_FILM, IN_CONTACT, A_STATE = "film", "film that the grid hardly sees", "contact", "a state"
 UNDER_FILM, UNDER_THIN_FILM = "dry contact under a film", "dry contact under a thin film"
 DRY, THICK_FILM = "dry contact", "thick film, slowed down"
-"""First guesses: a film of the formula's thickness, or of one that the grid sees, or contact, under the
-pressure of smooth bodies; another solution; the dry contact of the peaks with such a film, with nearly
-none, without a fluid; and a film that covers the peaks, from which on the surfaces slow down."""
+"""First guesses: the formula's film, or one that the grid sees, or contact, with smooth bodies' pressure;
+another solution; the dry contact with such a film, nearly none, or no fluid; a film over the peaks."""
 
 BESIDE_LAYERS = 1.0
-"""The formula's film over the layers below which a start takes the dry contact as it is. A ball of 100 nm
-rms with layers of 2 nm at 0.1 mm/s (half a layer): 209 convolutions for 425 from a thin film on 129 nodes.
-Below 0.1 um/s it is found from the dry contact alone. At 0.6 mm/s (1.7 layers) the dry contact saves a
-quarter on 129 nodes, and leads nowhere on 257."""
+"""The formula's film over the layers below which a start takes the dry contact as it is: half the work at
+half a layer; at 1.7 layers it leads nowhere on 257 nodes."""
 
 IDLE, IDLE_IN_TIME = 15, 30
-"""Steps in a row that may gain nothing. The second number is for implicit time steps, which pass a fold
-slowly and let contact spread node by node. Of 800 solves that converged, those by Newton's own steps took
-at most 4 such steps. In time a film start that ends in full contact took 14, the geometric mean 15, a rough
-ball of 197 nm rms 23. Films that the grid does not hold took 60 steps in vain (65 nodes, 20 and 50 mm/s);
-now some 20. Contact that closes continuously has no such limit in time, nor near peaks: valleys fill and
-drain node by node, and until they are done the residual stays what it is. At five speeds from 7 to .1 um/s
-a ball of 105 nm rms without layers is found once with 60 steps and 1500 convolutions, and always without a
-limit (129 nodes)."""
+"""Steps in a row that may gain nothing; and so many implicit time steps, which pass a fold slowly and let
+contact spread node by node: solves that converged had at most 4 and 23. Contact that closes continuously
+has no such limit in time, nor near peaks: the residual stays until valleys have filled or drained."""
 
 MOST_IN_TIME = 30
 """Newton steps after which a step in time is halved."""
 
 STEEP, MOST_MORE = 19.0, 2.0
-"""alpha p_h below which a step may change the pressures of smooth bodies by more, in proportion: a longer
-step goes wrong because the viscosity does not follow its tangent. A pressure spike grows from grid to grid
-by p_h and more, which takes many short steps: M = 20, L = 10 (alpha p_h = 10) on 1025 nodes by 3B and the
-arithmetic mean 17 without this, 12 with it. With 15 to 20 as many within two; with alpha p_h from 20 on
-longer steps do harm as often as good. `MOST_MORE` is how many times as much at the most: a longer step
-closes the film of soft bodies, and they do not part again (without it 32 of 92 did not converge).
+"""alpha p_h below which a step may change the pressures of smooth bodies by more, in proportion, and how
+many times as much at the most: the viscosity follows its tangent farther, and spikes grow by p_h from grid
+to grid. From 20 on longer steps do harm as often as good; without a most, soft bodies close for good.
 
-The pressures of rough bodies are compared with the largest one, which may be several p_h: of 37 contacts
-(257 nodes) six take a third to two thirds less work by it, one 2 % more. With more besides, a ball of
-294 nm rms at 0.64 m/s and 22 N does not settle on 257 nodes."""
+Pressures of rough bodies are compared with the largest one, which may be several p_h; more than that fails.
+"""
 
 LEAST_SHARE = 1e-2
 """Least part of the tolerance that a thin film asks for: less comes near to rounding."""
@@ -89,8 +74,7 @@ class Recipe:
     on_coarse_grids: bool
     """Whether it begins on coarse grids, at speeds that they resolve."""
     or_otherwise: bool
-    """Whether it begins anew where the first way fails: from the dry contact, then at a speed whose film
-    covers the peaks."""
+    """Whether it begins anew where the first way fails, from the dry contact, then from a thick film."""
     fluid_apart: bool
     """Whether fluid beside contact is solved at each gap by itself."""
     newton: NewtonSettings
@@ -119,11 +103,8 @@ def recipe_of(settings, contact, begins=None):
 
 
 def recipe_in_time(settings, contact):
-    """The `Recipe` of a step in time: what the surfaces carry is known beforehand.
-
-    Where bodies part, oil that is shut in fills gaps as small as rounding: their nodes would be film and
-    contact by turns for ever, with no residual to tell which.
-    """
+    """The `Recipe` of a step in time: what the surfaces carry is known. Where bodies part, shut-in oil
+    fills gaps as small as rounding: their nodes would change for ever, with no residual to tell."""
     recipe = recipe_of(settings, contact, A_STATE)
     limits = {"max_work": 10**9, "max_steps": MOST_IN_TIME, "idle_steps": MOST_IN_TIME}
     newton = replace(recipe.newton, squeeze=0.0, certain=settings.newton.tolerance, **limits)
@@ -139,12 +120,8 @@ def _peaks(law, contact):
 
 
 def _first_guess(start, law, contact):
-    """That of peaks that touch.
-
-    A start from contact takes the thinnest film and no node in contact. With contact everywhere, nodes
-    would open and close for ever (a ball of 100 nm rms at 0.1 m/s: 60 steps without an end, 14 from the
-    thin film). Where the film is thin beside the layers, solids carry nearly all.
-    """
+    """That of peaks that touch: the thinnest film and no node in contact, for with contact everywhere nodes
+    would open and close for ever. Where the film is thin beside the layers, solids carry nearly all."""
     if start in (A_STATE, DRY):
         return start
     if contact.expected_film / contact.film_scale < BESIDE_LAYERS * law.contact_gap:
@@ -175,12 +152,8 @@ def _more(contact):
 
 
 def on_mesh(settings, contact, mesh):
-    """The `SolverSettings` for a mesh: where a film is asked for that it hardly sees, coarse grids tell
-    nothing of that.
-
-    Smooth bodies, and peaks under a film. Of 48 random contacts with too few cells for a start on coarse
-    grids all are found in this way, with 100 convolutions on average; from higher speeds on with 249.
-    """
+    """The `SolverSettings` for a mesh: where it hardly sees the film that is asked for, coarse grids tell
+    nothing. Smooth bodies, and peaks under a film; from higher speeds on they take twice the work."""
     law = settings.scheme.contact_law
     seen = contact.matched_speed(mesh, settings.inlet_cells) == contact.speed
     otherwise = settings.scheme.face_mobility in FOLDING or settings.method == "relaxation"
@@ -197,13 +170,11 @@ def couette_scheme_of(contact):
 
 def interface_law(contact, layers, threshold, mean, in_time):
     """Contact that closes continuously, whose mobility vanishes and closes its faces; for who names the
-    paper's mean of the mobility, contact that shuts them.
+    paper's mean of the mobility, contact that shuts them. `layers` (h_b) and `threshold` (H_th) in m.
 
-    `layers` (h_b) and `threshold` (H_th) in m. The arithmetic `mean` lets half of a node's flow through to
-    a closed neighbour: such faces must be shut. Shut faces keep what touches on the way to a film: a smooth
-    ball at 3.8 mm/s on 129 nodes has 324 contact nodes and no end from a film, 8227 and no end from
-    contact. Closing continuously it has one film from both, after 207 and 83 convolutions. So have rough
-    bodies, those with layers and those in time by every mean.
+    The arithmetic `mean` lets half of a node's flow through to a closed neighbour, so its faces must be
+    shut. Shut faces keep what touches on the way to a film: smooth balls then find no end, from film or
+    from contact. Rough bodies, those with layers and those in time close continuously by every mean.
     """
     shuts = mean == ARITHMETIC and layers == 0.0 and not contact.is_rough and not in_time
     if shuts or not contact.is_loaded:

@@ -42,8 +42,7 @@ AT_REST = "from the dry contact: the surfaces are at rest"
 
 
 def recipe_words(recipe, is_line, at_rest=False):
-    """Words for each choice of a `Recipe` and what it follows from; of a single line of nodes, of surfaces
-    that begin `at_rest`."""
+    """Words for each choice of a `Recipe` and why; of a single line, of surfaces that begin `at_rest`."""
     law, newton = recipe.scheme.contact_law, recipe.newton
     yield PEAKS[recipe.peaks]
     limited = ", limited: no film behind a peak is less than none" if recipe.scheme.couette == "3L" else ""

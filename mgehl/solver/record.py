@@ -1,8 +1,7 @@
-"""What is kept of a solve: named values and named arrays, which anybody can read.
+"""What is kept of a solve: named values and named arrays, which anybody can read; no class of the solver.
 
-A `Record` knows no class of the solver. What is kept turns itself into one (`record`) and is made
-from one again (`from_record`). Its names are those of the fields of the `Kept` classes; a dot parts that
-of a whole from that of its part. A new one, or one that is no more, is another `output.checkpoint.FORMAT`.
+Names are those of the fields of the `Kept` classes; a dot parts that of a whole from that of its part. A
+new one, or one that is no more, is another `output.checkpoint.FORMAT`.
 """
 
 from dataclasses import dataclass, field

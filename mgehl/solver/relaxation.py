@@ -1,8 +1,7 @@
-"""The paper's own method, to compare with: one loop of relaxed line or point solutions.
+"""The paper's own method, to compare with: sweeps of relaxed line or point solutions.
 
-Every sweep marks contact by the gap, solves each x-line for new pressures (fluid nodes by
-[Liu eqs. 37, 52], contact nodes by [Liu eq. 41]), moves a small part of the way to them
-[Liu eq. 53, whose sign is mended] and every few sweeps corrects H0 by the load [Liu eq. 54].
+A sweep marks contact by the gap, solves each x-line for new pressures [Liu eqs. 37, 41, 52], moves a small
+part of the way [Liu eq. 53, whose sign is mended]; every few sweeps H0 follows the load [Liu eq. 54].
 """
 
 from dataclasses import dataclass, field
@@ -37,11 +36,8 @@ REPORT_EVERY = 100
 
 @dataclass(frozen=True)
 class RelaxationSettings(RelaxationSection):
-    """The keys of the section, and what ends it.
-
-    Updates by lines are [Liu eqs. 37, 41], by points [Liu eqs. 36, 42]; `stability` is C_c of
-    [Liu eqs. 40-42], `load_factor` omega_w of [Liu eq. 54].
-    """
+    """The keys of the section, and what ends it. Updates by lines are [Liu eqs. 37, 41], by points [Liu
+    eqs. 36, 42]; `stability` is C_c of [Liu eqs. 40-42], `load_factor` omega_w of [Liu eq. 54]."""
 
     tolerance: float = SolverSection.tolerance
 
@@ -71,11 +67,8 @@ class Standing(Kept):
 
 
 def relax(problem, state, settings, monitor, journal=NOTHING_KEPT):
-    """Relax `state` in place until its true residual and load hold; return the `Outcome`.
-
-    One convolution a sweep. `monitor` is called with a `Sweep` every `REPORT_EVERY` sweeps. The
-    `journal` is told of every sweep, and may know this solve or its first part already.
-    """
+    """Relax `state` in place until its true residual and load hold; return the `Outcome`. One convolution a
+    sweep. `monitor` is called with a `Sweep` every `REPORT_EVERY`; the `journal` as in `Newton.run`."""
     grid = problem.grid
     outcome = journal.recall(grid, partial(Outcome.from_record, line=Sweep))
     if outcome is None:
@@ -141,11 +134,8 @@ class _Relaxation:
         state.status[enclosed(problem.grid.halo_status(state.status), problem.axes)] = CONTACT
 
     def mark_cavities(self, state, evaluation):
-        """Film without pressure that no fluid flows into is a cavity, whose pressure stays.
-
-        (Cutting negative pressures alone settles with a residual beside the cavity: a line's new
-        pressures there answer to those that are cut.)
-        """
+        """Film without pressure that no fluid flows into is a cavity, whose pressure stays. (Cutting
+        negative pressures alone leaves a residual beside it: new pressures answer to cut ones.)"""
         empty = (
             (state.status == LUBRICATED)
             & (state.P <= self._problem.contact.tears_at)

@@ -4,24 +4,9 @@ from mgehl.multigrid.memory import Corrections
 from mgehl.solver.record import Kept, Record
 
 
-def remembered(multigrid, kept):
-    """What a `MultigridSolver` remembers from now on: first what was `kept`, a `Record` or None.
-
-    None of one without a memory.
-    """
-    if multigrid.memory is None:
-        return None
-    memory = Remembered(multigrid)
-    if kept:
-        memory.take_back(kept)
-    return memory
-
-
 class Remembered(Kept):
-    """The memory of a `MultigridSolver` as it is when it is asked: nothing is copied before.
-
-    It is kept whole, deflections, too: what is left out changes the digits of all that follows.
-    """
+    """The memory of a `MultigridSolver` as it is when it is asked: nothing is copied before. It is kept
+    whole, deflections, too: what is left out changes the digits of all that follows."""
 
     def __init__(self, multigrid):
         self._multigrid, self._memory, self._space = multigrid, multigrid.memory, multigrid.space

@@ -4,10 +4,8 @@ from dataclasses import dataclass
 from math import hypot, log2
 
 SAFETY = 0.25
-"""Part of the central film's estimated error that is added to it where three grids show the scheme's order,
-as in Roache's grid convergence index. The parts here were chosen so that 95 of 100 bands hold the limit, by
-103 random contacts of M from 10 to 2000 and L from 2 to 14 by the default scheme, each on three grids.
-`study error --cases` tries them on others."""
+"""Part of the central film's estimated error that is added where three grids show the scheme's order, as in
+Roache's index. `study error --cases` tries this file's safeties: chosen so that 95 of 100 bands hold."""
 
 IRREGULAR = 0.7
 """The same where three grids show another order, or none."""
@@ -17,10 +15,8 @@ UNLIKE = 2.0
 times the error, as Roache has it where nothing is known."""
 
 UNSEEN, UNSEEN_UNLIKE = 1.2, 2.5
-"""Safety where there are only two grids, which show no order: how many times the error's root mean square
-around the centre is added, as squares are. Two films may agree in one point by chance, hardly in all points
-around it. The second number is for another film on the coarser grid. Of 128 contacts on 65 nodes 98 of 100
-bands hold the limit. With twice the error of the centre alone it would be 88."""
+"""Safety where there are only two grids, which show no order: times the error's root mean square around the
+centre, for films may agree in a point by chance; as squares are added. The second: another film on one."""
 
 SMALLEST = 1e-4
 """Half-width over the film at the least: films of two grids may differ by less, by chance."""
@@ -31,14 +27,12 @@ show it, or errors of two kinds cancel there."""
 
 FASTER = 0.5
 """By how much the observed order may exceed the scheme's. Beyond that, the last difference is taken to be
-small by chance. With 0 bands are wider; with 1 some are too narrow on 129 nodes, whose coarsest grid has
-errors of every order."""
+small by chance. With 0 bands are wider; with 1 some are too narrow."""
 
 
 SPREADS, SPREADS_OF_TWO, WIDER = 0.9, 1.3, 2.0
 """Safety of the minimum film: how much of the estimated error's spread around it is added, with three grids
-and, as squares are, with two; and by how much more where the next grid has another film. Of 397 bands by
-the default scheme, by which they were chosen, 96 of 100 hold the limit."""
+and, as squares are, with two; and by how much more where the next grid has another film."""
 
 OFF = 0.25
 """Part that is added of the distance between the film of a node and that between the nodes."""
@@ -56,12 +50,10 @@ class Band:
 def band(film, values, around, order, unlike=False):
     """The `Band` about a `film` of nodes, from two or three `values` between nodes, finest grid's first.
 
-    The last difference and the order tell the error (Richardson). The order is the scheme's, or the
-    observed one where that is somewhat lower. From the order and the difference before, the last difference
-    can be foretold. One that is clearly smaller is small by chance, for example because it changes its
-    sign: what it lacks is added. Of two grids the safety comes from the last difference `around` the
-    centre, a root mean square. A part of the node's distance from the value between the nodes is added.
-    `unlike` says that the second grid has another film.
+    The last difference and the order, the scheme's or a somewhat lower observed one, tell the error
+    (Richardson). Where the last difference is smaller than the one before foretells, it is so by chance,
+    and what it lacks is added. Of two grids the safety comes from the last difference `around` the centre,
+    a root mean square. Part of the node's distance is added. `unlike`: another film on the second.
     """
     last, *before = (finer - coarser for finer, coarser in zip(values, values[1:], strict=False))
     observed = observed_order(last, *before)
@@ -78,10 +70,9 @@ def band(film, values, around, order, unlike=False):
 def band_of_smallest(film, values, spread, order, unlike=False):
     """The same about the film of the smallest node; `values` are those of `films.films_beside`.
 
-    What differs from grid to grid around the smallest gap changes its sign from node to node. So the
-    order that it shows means little, and its mean may be small by chance: the safety is its `spread`. Nor
-    does the mean make the node's distance from the value between the nodes smaller, for its sign is wrong
-    for every third film. Of two grids a part of the error is added.
+    Differences around the smallest gap change their sign from node to node: order and mean tell little, so
+    the safety is their `spread`. The mean does not make the node's distance from the value smaller, its
+    sign is wrong for every third film. Of two grids a part of the error is added.
     """
     last, *before = (finer - coarser for finer, coarser in zip(values, values[1:], strict=False))
     part, off = 1.0 / (2.0**order - 1.0), values[0] - film
@@ -95,12 +86,11 @@ def band_of_smallest(film, values, spread, order, unlike=False):
 
 
 def band_beside(film, others, order):
-    """The `Band` about a `film`, from one or two values of `others`: coarser grids', by a better scheme.
+    """The `Band` about a `film`, from one or two values of `others`, coarser grids' by a better scheme.
 
-    This is for schemes of first order. Their own differences tell nothing, because their error cancels more
-    or less of the other errors. With two others the limit is Richardson's, and its distance from the finer
-    one is added. With one, the limit lies between film and other, since first order makes films too thick
-    and second order too thin.
+    For schemes of first order, whose own differences tell nothing. With two others the limit is
+    Richardson's, and its distance from the finer one is added. With one, the limit lies between film and
+    other: first order makes films too thick, second too thin.
     """
     finer, *coarser = others
     error = (finer - coarser[0]) / (2.0**order - 1.0) if coarser else 0.0
@@ -124,7 +114,6 @@ def safety_of(order, observed):
 
 
 def by_chance(order, last, before):
-    """By how much a `last` difference is smaller than the one `before` it foretells; zero where it is
-    not."""
+    """By how much a `last` difference is smaller, if it is, than the one `before` foretells."""
     expected = abs(before) / 2.0 ** (order + FASTER)
     return max(0.0, expected - abs(last)) / (2.0**order - 1.0)

@@ -13,19 +13,15 @@ from mgehl.solver.cavitation import cavities_rest, driven, overflows, relax_cavi
 from mgehl.solver.problem import DIVERGED
 
 LARGEST_STEP = 0.3
-"""Largest change of a pressure in one step, in p_h here, and as `NewtonSettings` says in Newton's steps:
-near a fold a longer step leads astray. Here from 0.03 to 3 the same steps."""
+"""Largest change of a pressure in one step, in p_h: near a fold longer ones lead astray; 0.03 to 3 do."""
 
 LINEAR_TOLERANCE = 0.03
-"""Relative tolerance of the linear systems of a rigid gap. From 0.01 to 0.1 the same Newton steps; 0.1
-takes fewer iterations of the fluid (20 in mixed lubrication, 35 with 0.01). At either end full contact on
-257 nodes takes a step more."""
+"""Relative tolerance of linear systems of a rigid gap; from 0.01 to 0.1 the same steps within one."""
 
 
 FLUID_AHEAD = 0.1
-"""Residual to which the fluid is solved apart, over that of the rest, or over its tolerance where that is
-larger. From 0.03 to 0.1 the same Newton steps; at 0.01 and at 0.3 full contact on 257 nodes
-takes one more. Above 1 no solve would end."""
+"""Residual to which the fluid is solved apart, over that of the rest or, where larger, its tolerance: from
+0.01 to 0.3 the same Newton steps within one. Above 1 no solve would end."""
 
 
 @dataclass(frozen=True)
@@ -37,10 +33,8 @@ class FluidStep:
 
 
 class RigidGapFluid:
-    """Newton's method for the separable fluid alone; `multigrid` solves its linear systems.
-
-    That is a rigid-gap `MultigridSolver`, or an `AssembledSolver`.
-    """
+    """Newton's method for the separable fluid alone; `multigrid` solves its linear systems. That is a
+    rigid-gap `MultigridSolver`, or an `AssembledSolver`."""
 
     def __init__(self, problem, multigrid, options_prefix, linear_tolerance=LINEAR_TOLERANCE):
         self._problem, self._multigrid = problem, multigrid
@@ -56,22 +50,18 @@ class RigidGapFluid:
         self._multigrid.free()
 
     def separable(self, evaluation, status):
-        """Fluid nodes that this solver answers for: (lines, nx) bool.
-
-        Films under contact pressure are not among them: so viscous a fluid is driven out of no gap.
-        """
+        """Fluid nodes that this solver answers for: (lines, nx) bool. Films under contact pressure are not
+        among them: so viscous a fluid is driven out of no gap."""
         return is_fluid(status) & (own(evaluation.fluid.eps) > 0.0) & driven(self._problem, evaluation)
 
     def solve(self, state, tolerance, max_steps=30, before_step=lambda: None, to_rest=True):
         """Bring the fluid of `state` into balance at its gap, in place; return its `FluidStep`s and the
         `Evaluation` of its last state.
 
-        Ends when the rms inflow is below `tolerance` and the set has settled, or after `max_steps` (in
-        contact on 129 and 257 nodes 3 to 60 come to the same); the last step is the residual that is left,
-        without an iteration. `before_step` is called before each and may raise what ends it. A node whose
-        pressure rises until it is no longer separable gets its old pressure back: the caller, who moves the
-        gap, solves for it. Nor need cavities come `to_rest` for such a caller: 33 contact starts take as
-        many convolutions without, and a sixth less time.
+        Ends when the rms inflow is below `tolerance` and the set has settled, or after `max_steps`; the
+        last step is the residual that is left. `before_step` is called before each and may raise what ends
+        it. A node whose pressure rises until it is no longer separable gets its old pressure back, for the
+        caller to solve: who moves the gap needs no cavities that come `to_rest` either.
         """
         problem, steps, before = self._problem, [], state.P.copy()
         evaluation = self._evaluated(state)
@@ -111,9 +101,8 @@ class RigidGapFluid:
         return self._problem.march_contents(state, self._problem.evaluate(state))
 
     def _give_back(self, state, separable, before, evaluation):
-        """Take nodes that are no longer separable out of `separable`, in place; they get the P of `before`.
-        Return how many.
-        """
+        """Take nodes that are no longer so out of `separable`, in place; they get P of `before`. Returns
+        how many."""
         lost = separable & ~self.separable(evaluation, state.status)
         separable[lost] = False
         state.P[lost] = before[lost]

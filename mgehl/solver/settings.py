@@ -13,8 +13,7 @@ from mgehl.solver.rigid_gap import LARGEST_STEP
 from mgehl.solver.squeeze import SQUEEZE
 
 COARSE_TOLERANCE = 1e-4
-"""Residual at which a coarse grid has served its purpose. From 3e-5 to 1e-3 films take the same work
-within 3 %, line contacts 56 to 67 convolutions; contact starts the same up to 1e-2."""
+"""Residual at which a coarse grid has served its purpose; 3e-5 to 1e-3 take the same work."""
 
 
 @dataclass(frozen=True)
@@ -33,20 +32,15 @@ class NewtonSettings:
     spreading_steps: int | None = None
     """Steps in which contact may spread before a solve is given up; None: any."""
     linear_tolerance: float = SolverSection.linear_tolerance
-    """Relative tolerance of GMRES in a step. From 0.05 to 0.2 the work varies by a quarter, now more, now
-    less: the looser, the more steps and the fewer iterations in each."""
+    """Relative tolerance of GMRES in a step: looser ones take more steps of fewer iterations."""
     max_pressure_step: float = LARGEST_STEP
-    """Largest change of a pressure in one step, over p_h. A longer step is shortened as a whole. From
-    0.2 to 0.5 films take the same work within a tenth (a motion at 30 degrees 271 to 187 convolutions),
-    contact starts the same steps."""
+    """Largest change of a pressure in one step, over p_h. A longer step is shortened as a whole."""
     over_largest: bool = False
     """Whether it is over the largest pressure, where that is more than p_h."""
     by_film: bool = False
-    """Whether steps are measured by what they change of the film, too: where it closes as continuously as
-    it opens."""
+    """Whether the film's change bounds steps, too: where it closes as continuously as it opens."""
     release_budget: int = SolverSection.release_budget
-    """Times a contact node may be released on Eq. 2. With 1 the same steps; with 0 mixed lubrication ends
-    with nodes that break Eq. 2."""
+    """Times a contact node may be released on Eq. 2."""
     squeeze: float = SolverSection.squeeze
     """Rate of implicit time steps per rms residual and cell (`solver.squeeze`); 0 for Newton's own."""
 
@@ -77,13 +71,10 @@ class SolverSettings:
     start: str = SolverSection.start
     """"film" from a full film on a coarse grid, "contact" from the Hertz ellipse in contact."""
     first_nodes: int = SolverSection.first_nodes
-    """Nodes along X of the first grid of the nested iteration, and of the first one asked for a contact
-    start's fluid. With 33 and 129 the work is the same within 7 %; 129 halve it for a motion at 30
-    degrees."""
+    """Nodes along X of the first grid of the nested iteration, and of a contact start's fluid."""
     inlet_cells: float = SolverSection.inlet_cells
-    """Cells that the inlet must have on the coarse grids: the speed is raised until it has. Fewer lead to
-    spurious contact that poisons finer grids (full film is lost near 1.4), more to a longer way back. From
-    1.7 to 2.5 the work varies by a third without order; at 30 degrees 2.5 save half of it."""
+    """Cells that the inlet must have on the coarse grids: the speed is raised until it has. Fewer (1.4)
+    lead to spurious contact that poisons finer grids."""
     newton: NewtonSettings = field(default_factory=NewtonSettings)
     cycle: CycleSettings = field(default_factory=CycleSettings)
     relaxation: RelaxationSettings = field(default_factory=RelaxationSettings)

@@ -42,8 +42,7 @@ def shear_of(problem, state):
 
 
 def flows_out_whole(problem, state):
-    """Whether the film leaves the domain without a cavity: under an ambient pressure it need not tear
-    (collective)."""
+    """Whether the film leaves the domain without a cavity, as under an ambient pressure (collective)."""
     grid = problem.grid
     torn = state.status == CAVITATED
     lines = np.arange(grid.first, grid.last) == grid.mesh.ny - 2
@@ -58,8 +57,7 @@ def coefficient(problem, state):
 
 
 def friction_difference(problem, one, other):
-    """Sum of the sizes by which the shear of two states differs from node to node, over the load
-    (collective)."""
+    """Sum of the sizes by which the shear of two states differs at nodes, over the load (collective)."""
     grid, contact = problem.grid, problem.contact
     if contact.friction.slide_to_roll == 0.0:
         return 0.0
@@ -87,10 +85,8 @@ def film_shear(problem, state):
 
 
 def solid_shear(problem, state):
-    """Shear stress of solids in Pa, (lines, nx).
-
-    They carry P - p where contact lets fluid through, and P where it closes its faces, or bodies overlap.
-    """
+    """Shear stress of solids in Pa, (lines, nx). They carry P - p where contact lets fluid through, and P
+    where it closes its faces, or bodies overlap."""
     contact, law = problem.contact, problem.scheme.contact_law
     if contact.friction.slide_to_roll == 0.0:
         return np.zeros(state.P.shape)
@@ -101,12 +97,9 @@ def solid_shear(problem, state):
 
 
 def rolling_force(problem, state):
-    """Half of the integral of h dp/dx along the motion, in N, of a line contact in N/m (collective).
-
-    Each body is dragged so much against the motion. Of a face it is the mean of its gaps times the
-    difference of its pressures: summed by parts, and as the deflection is symmetric, that of a full film
-    is exactly the load times how far its centre lies upstream, over 2 R.
-    """
+    """Half of the integral of h dp/dx along the motion, in N, of a line contact in N/m (collective): so
+    much drags each body. Of a face it is its mean gap times its pressure difference: of a full film exactly
+    the load times how far its centre lies upstream, over 2 R."""
     grid, contact, law = problem.grid, problem.contact, problem.scheme.contact_law
     P, H, status = grid.halo(state.p), grid.halo(state.H), grid.halo_status(state.status)
     gap, solid = law.flow_gap(H)[0], is_solid(status, law.closes_faces)

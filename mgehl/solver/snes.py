@@ -8,10 +8,7 @@ from mgehl.multigrid.options import OF_A_RUN
 
 class PythonSnes:
     """The SNES that a subclass iterates by `_iterate`, with its `_form_function` and `_form_jacobian`.
-
-    Its linear systems are a `MultigridSolver`'s; `settings` are `NewtonSettings`. PETSc objects are freed
-    by `free`.
-    """
+    Linear systems are a `MultigridSolver`'s; `settings` are `NewtonSettings`; `free` destroys them."""
 
     def __init__(self, multigrid, settings):
         self._multigrid, self._space = multigrid, multigrid.space
@@ -31,10 +28,8 @@ class PythonSnes:
             raise OptionError(f"-{OF_A_RUN}snes_type: the solver is the SNES type python, no other")
 
     def free(self):
-        """Destroy the PETSc objects, the multigrid solver's too: the KSP refers to them.
-
-        (Not called `destroy`: PETSc calls a context's method of that name.)
-        """
+        """Destroy the PETSc objects, the multigrid solver's too: the KSP refers to them. (Not called
+        `destroy`: PETSc calls a context's method of that name.)"""
         for each in (self._snes, self._unknown, self._f, self._rhs, self._correction):
             each.destroy()
         self._multigrid.free()

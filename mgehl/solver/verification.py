@@ -17,10 +17,7 @@ from mgehl.solver.mass import border_flows
 
 LARGEST_EDGE_PRESSURE = 0.01
 """Largest pressure near the domain's boundary, over the largest of all, of a contact that lies inside the
-domain. Measured: configurations of the repository up to 5e-4, domains that are "auto" up to 3e-4 (M from 1
-to 200, 65 and 129 nodes, point and line) and where a light contact is ten times as wide as long, 7e-4,
-thirty times, 9e-3, starved films on the paper's domain up to 6e-3 (M = 10, 65 nodes); domains that end 1.01
-semi-axes from the centre, on one side, 0.02 to 0.9."""
+domain. Starved films have up to 6e-3, very wide ellipses 9e-3, contacts that a side cuts 0.02 and more."""
 
 NEAR = 0.1
 """Semi-axes from the boundary at which that pressure is looked at, or a cell, if that is less."""
@@ -84,10 +81,8 @@ NOT_SEEN = Edge(0.0, 0, 0.0, FEWEST_NODES, None)
 
 
 def check_edge(problem, state, part=LOADED):
-    """How the contact stands in its domain: what lies beyond was not solved (collective).
-
-    The loaded zone has at least this `part` of the largest pressure.
-    """
+    """How the contact stands in its domain: what lies beyond was not solved (collective). The loaded zone
+    has at least this `part` of the largest pressure."""
     grid, P = problem.grid, state.P
     largest, overlap = grid.max(P), np.where(problem.boundary, -state.H, 0.0)
     near = _pressure_near_boundary(grid, P)
@@ -116,12 +111,9 @@ def _pressure_near_boundary(grid, P):
 def complementarity_error(problem, state, evaluation):
     """Largest breach of the conditions that define the partition, in units of P and H.
 
-    With p_t where film tears: lubricated P >= p_t (if the film cavitates) and H >= 0 (where bodies may
-    touch). Cavitated: P = p_t, H >= 0, no more fluid than the gap holds, and as much flows in as out.
-    Contact: P >= p_t and H = 0, or the boundary film, p_t <= p <= P, and as much flows in as out. Fluid
-    shut in along the motion counts as 1. A film node whose gap falls below H_th becomes contact. A node
-    that contact has released stays film until the bodies would overlap, so its gap may lie between 0 and
-    H_th.
+    Lubricated: P >= p_t (if film tears) and H >= 0 (where bodies may touch). Cavitated: P = p_t, H >= 0, no
+    more fluid than the gap holds, inflow balanced. Contact: P >= p_t and H = 0, or the boundary film, p_t
+    <= p <= P and inflow balanced. Fluid shut in: 1. Released contact's H may be up to H_th.
     """
     grid, status, scheme = problem.grid, state.status, problem.scheme
     law = scheme.contact_law
@@ -151,11 +143,8 @@ def _out_of_balance(inflow, law):
 
 
 def flux_imbalance(problem, evaluation):
-    """Flow into the film minus flow out of it over all its borders, relative to the inflow.
-
-    The film is all lubricated nodes; its borders are the domain's edge and the cavities. A conservative
-    scheme leaves nothing but rounding and the residual.
-    """
+    """Flow into the film minus flow out of it over all its borders, domain's edge and cavities, relative to
+    the inflow: of a conservative scheme rounding and the residual."""
     borders = border_flows(evaluation, evaluation.status == LUBRICATED)
     flow = np.concatenate([width * each for width, *flows in borders for each in flows])
     total = problem.grid.sum(flow.sum())

@@ -43,9 +43,8 @@ CASES = {
     },
     "wedge-257": _PILLAR | {"grid": {"nodes": 257}},
 }
-"""Name and configuration (nested tables) of every case: film and contact of the paper's ball, a line
-contact, a wedge with a pillar. Without bands, which would be timed with them; every other key has its
-default."""
+"""Name and configuration (nested tables) of every case, without bands, which would be timed with them;
+every other key has its default."""
 
 LARGE = {
     "film-513": _point(513, 0.03),
@@ -99,8 +98,7 @@ class Timing:
     reference: Clocks
     """Of one reference FFT beside this case."""
     memory_MiB: float
-    """Largest memory of a rank since the program began: a later case shows only what it takes beyond the
-    earlier ones."""
+    """Largest memory of a rank since the program began: of a later case what it takes beyond."""
     parts: dict
     """Name of a part and its seconds of wall time; "other" is the rest."""
 
@@ -185,10 +183,8 @@ def _peak_memory():
 
 
 def ratios(old, new):
-    """{case: {quantity: new/old}} of the cases that both have; seconds in units of the reference.
-
-    A part of less than `NEGLIGIBLE` in both is left out: its ratio is noise.
-    """
+    """{case: {quantity: new/old}} of the cases that both have; seconds in units of the reference. A part of
+    less than `NEGLIGIBLE` in both is left out: its ratio is noise."""
     before = {timing.case: timing for timing in old.timings}
     return {now.case: _ratios(before[now.case], now) for now in new.timings if now.case in before}
 

@@ -1,11 +1,6 @@
-"""A contact followed in speed on one grid: each point is a run that starts from the one before.
-
-    down  from the fastest speed and a full film
-    up    from the slowest speed and full contact
-
-A branch ends where no state near the last one solves the equations at the next speed. Then the point is
-taken from the other branch, or from the other start, and says so.
-"""
+"""A contact followed in speed on one grid, down from the fastest and a full film, up from the slowest and
+full contact: each point is a run that starts from the one before. Where a branch ends, the point is taken
+from the other branch, or from the other start, and says so."""
 
 from dataclasses import dataclass, replace
 
@@ -17,8 +12,7 @@ from mgehl.output.solution import Solution
 STARTS = {"down": "film", "up": "contact"}
 
 STEPS_OF_START = 2
-"""Factor by which such a point may take more steps than others: there is no nearer one to try it from (513
-nodes at 7.5 mm/s: 40)."""
+"""Factor by which such a point may take more steps: there is no nearer one to try it from."""
 
 BEYOND = 8.0
 """Factor between the wanted speed and one at which the other start is far from the end of its branch."""
@@ -52,10 +46,8 @@ class Point:
 
 
 class Branch:
-    """A branch of the contact of nested tables: "down" or "up".
-
-    `beside` holds points of the other branch, from which this one goes on where it ends.
-    """
+    """A branch of the contact of nested tables: "down" or "up". `beside` holds points of the other branch,
+    from which this one goes on where it ends."""
 
     def __init__(self, study, tables, name, beside=()):
         self._study, self._config, self._name = study, study.config(tables), name
@@ -95,8 +87,7 @@ class Branch:
         return Point(speed, self._name, replace(found, result=result), origin, sweep, obstacle)
 
     def _ways(self, speed, last):
-        """(Name, function that returns runs, the last one of this speed) of what may lead to a point, the
-        best first."""
+        """(Name, function that returns runs, the last of this speed) of the ways to a point, best first."""
         if last:
             yield "continued", lambda: [self._run("continued", speed, last.solution)]
         else:

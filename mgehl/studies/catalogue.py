@@ -33,12 +33,6 @@ STUDIES = {
     "dry": Entry("dry contacts beside a public code's numbers"),
 }
 
-REMOVED = (
-    "line", "inlet", "onset", "bracket", "accuracy", "angle", "domain", "soft", "peaks", "ranks",
-    "gaps", "rough",
-)  # fmt: skip
-"""What they found is in runs/README.md."""
-
 WHAT = {name: entry.what for name, entry in STUDIES.items()} | {
     "sweep": "a contact at many values of its keys, each point from its neighbours"
 }

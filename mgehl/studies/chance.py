@@ -37,10 +37,8 @@ class Drawn:
 
 
 def run_drawn(study, name, draw, row, nodes, cases):
-    """Solve what `draw(cases, seed)` finds; write a table of the `row` of each case and a summary.
-
-    On so many `nodes`, and so many `cases`, where the study is not told others.
-    """
+    """Solve what `draw(cases, seed)` finds; write a table of the `row` of each case and a summary. On so
+    many `nodes`, and so many `cases`, where the study is not told others."""
     (nodes,) = study.asked.nodes or (nodes,)
     drawn = {case.title: case for case in study.drawn(draw, cases, SEED)}
     tables = {title: merged(case.tables, {"grid": {"nodes": nodes}}) for title, case in drawn.items()}

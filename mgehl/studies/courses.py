@@ -1,9 +1,8 @@
 """Speed, direction and load that change.
 
-The paper's ball starts, stops, is turned round and aside, and its load rises; what is told are its films on
-the way. Where squeeze is weak, the film at x is the steady one at the speed of the time before in which the
-oil there entered [Sugimura et al., Tribol Int 32 (1999) 117]: a softer ball's speed swings by half, and its
-film is compared.
+The paper's ball, whose speed, direction or load changes, and films on the way. Where squeeze is weak, the
+film at x is the steady one at the speed at which the oil there entered [Sugimura et al., Tribol Int 32
+(1999) 117]: a softer ball's.
 """
 
 from math import pi, sin

@@ -53,8 +53,8 @@ REFERENCE = {
     ("rough 500 nm", 257): Reference(14486, 7.602938, 13.098811, 180),
 }
 """By surface and nodes a side: runs of ContactMechanics 1.8.3 [Polonsky and Keer 1999] to its last digits,
-and their convolutions by the tolerances that it has by default. Its discretisation is the same: uniform
-pressure on rectangles around nodes, no periods."""
+and their convolutions by its default tolerances. Its discretisation is the same: uniform pressure on
+rectangles around nodes, no periods."""
 
 
 def run(study):

@@ -18,10 +18,8 @@ def order_of_errors(coarse, fine):
 
 
 def richardson(values):
-    """(limit, observed order) from the values on the last three grids, each twice as fine.
-
-    NaN where the differences do not fall with one sign: there is no limit to see yet.
-    """
+    """(limit, observed order) from the values on the last three grids, each twice as fine. NaN where the
+    differences do not fall with one sign: there is no limit to see yet."""
     coarse, middle, fine = values[-3:]
     first, second = middle - coarse, fine - middle
     if second == 0.0 or not first / second > 1.0:

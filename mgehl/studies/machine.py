@@ -88,10 +88,8 @@ def smooth_case(chance, bodies):
 
 
 def with_surface(chance, number, smooth, surface_of, nodes, shortest):
-    """The `Drawn` of `smooth` bodies with a surface, whose roughness goes by their film.
-
-    Its shortest wave has from, to so many cells of the smooth bodies' domain on so many nodes.
-    """
+    """The `Drawn` of `smooth` bodies with a surface, whose roughness goes by their film. Its shortest wave
+    has from, to so many cells of the smooth bodies' domain on so many nodes."""
     config = config_from_tables(merged(smooth, {"grid": {"nodes": nodes}}))
     contact = contact_from(config)
     rms = float(np.clip(contact.expected_film / by_logarithm(chance, *LAMBDA), *RMS))

@@ -1,10 +1,8 @@
 """Roughness that moves: waves and a dimple that pass through full films, beside published numbers.
 
-Small waves pass through a line contact at s times the mean speed of the surfaces (s = 1 in pure rolling).
-What is told is the amplitude with which the film at the centre swings, over that of the waves. Waves along
-and across pass through a point contact in pure rolling, beside the curve of Venner and Lubrecht (2000, eq.
-29). A dimple passes through another: measured and set up by Mourier et al., Tribol Int 39 (2006) 1745,
-computed by Hansen et al., Tribol Lett 70 (2022) 80.
+Small waves pass through a line contact at s times the mean speed: the amplitude with which the central film
+swings, over theirs. Waves pass through a point contact in pure rolling [Venner and Lubrecht 2000, eq. 29],
+and a dimple [Mourier et al., Tribol Int 39 (2006) 1745; Hansen et al., Tribol Lett 70 (2022) 80].
 """
 
 from pathlib import Path

@@ -43,10 +43,8 @@ class Axis:
 
 
 def axis_of(config, key, values):
-    """The `Axis` of a key; values are a list, or a text such as "1e-4..1 m/s:20" or "50,100,200 N".
-
-    Raises ConfigError where the key cannot be swept, or where the values are none that it takes.
-    """
+    """The `Axis` of a key; values are a list, or a text such as "1e-4..1 m/s:20" or "50,100,200 N". Raises
+    ConfigError where the key cannot be swept, or where the values are none that it takes."""
     checked_key("--over", key)
     rules = KEYS[key].metadata
     if rules["kind"] not in (int, float):

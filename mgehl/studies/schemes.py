@@ -1,8 +1,7 @@
 """Every differential scheme on the point contact at 1 m/s: films against grid, and their limit.
 
-The central schemes leave the film of the high-pressure zone two-valued, a saw-tooth along the
-motion: where viscosity stops the Poiseuille flow they couple every other node only. Its size is
-listed, and limits are taken of the film with the saw-tooth averaged out.
+Where viscosity stops the Poiseuille flow central schemes couple every other node only: a saw-tooth along
+the motion, which is listed and averaged out.
 """
 
 from mgehl.discretization.couette import SCHEMES

@@ -5,8 +5,8 @@ DIRECTORY/
     *.csv, *.md, *.nc, *.png  tables, the same as arrays, and pictures
     report.html, study.json   all on one page, and what was asked for
 
-A study is a module with `run(study)`: named configurations go to `Study.solved`, what comes back becomes
-rows of tables, and pictures where there are any. A sweep is a study whose cases follow from axes.
+A study is a module with `run(study)`, which makes rows of tables of what `Study.solved` returns. A sweep is
+a study whose cases follow from axes.
 """
 
 import time
@@ -51,11 +51,8 @@ PAPERS_DOMAIN = {"x": [-1.9, 1.3], "y": [-1.5, 1.5]}
 @contextmanager
 def begun(directory, comm, record, resume=True, force=False, **how):
     """The `Study` of a `StudyRecord` in a directory, which it holds; at the end its tables replace those
-    that were there (collective).
-
-    What has finished is taken as it is with `resume`; all is solved anew with `force`. `how` are other
-    fields of the `Study`.
-    """
+    that were there (collective). What has finished is taken with `resume`; all is solved anew with `force`.
+    `how` are other fields of the `Study`."""
     on_first_rank(comm, make_directory, directory, resume or force)
     with locked(comm, directory):
         stage = comm.bcast(on_first_rank(comm, begin_study, directory, record, resume))
@@ -110,11 +107,8 @@ class Study:
         return draw(self.asked.cases or cases, seed if self.asked.seed is None else self.asked.seed)
 
     def solved(self, cases, must_converge=True):
-        """Solve configurations, {name: nested tables}, one after the other; yield (name, `Solution`).
-
-        A case that cannot be solved is said, remembered in `lost` and passed. Raises ConfigError before the
-        first is solved if one cannot be used.
-        """
+        """Solve configurations, {name: nested tables}, one after the other; yield (name, `Solution`). One
+        that cannot be solved is said, remembered in `lost` and passed. Raises ConfigError beforehand."""
         for tables in cases.values():
             self.config(tables)
         self.expected = max(self.expected, self._done + len(cases))
@@ -138,11 +132,8 @@ class Study:
             return None
 
     def solve(self, title, tables, must_converge=True):
-        """The `Solution` of the configuration of nested `tables`.
-
-        Films get no bands unless the tables ask for them: studies compare grids themselves. Where a case
-        without a solution is an answer, too, it does not make the study a failure.
-        """
+        """The `Solution` of the configuration of nested `tables`, without bands unless these ask for them.
+        Where a case without a solution is an answer, too, it does not make the study a failure."""
         config = self.config(tables)
         solution = self.run(self.path_of(title, config.as_toml_tables()), config)
         self.failures += must_converge and not solution.result.converged
@@ -162,11 +153,10 @@ class Study:
         return self.comm.bcast(directory_of(self.home / RUNS, title, description) if self.first else None)
 
     def run(self, path, config, start=None):
-        """The `Solution` of a configuration, with its fields on rank 0, from its run directory where it has
-        finished.
+        """The `Solution` of a configuration, with its fields on rank 0; from its directory if there.
 
-        Else it goes on there, or is solved from the `start` that a run takes (collective). Raises
-        OutputError where the run that is there is of another configuration.
+        Else it goes on there, or is solved from the `start` (collective). Raises OutputError where the run
+        there is of another configuration.
         """
         case = enter(config, self.comm)
         if not self.comm.bcast(on_first_rank(self.comm, _has_finished, path, case.config)):
@@ -185,11 +175,8 @@ class Study:
             say(f"{self._done:3d}/{max(self.expected, self._done)}  {left:5.0f} s left  {title}{what}")
 
     def write_table(self, name, rows, shown=()):
-        """Write rows (dictionaries of text) as NAME.csv and NAME.md, and print them, or what is to be
-        `shown` of their columns that are not empty (collective).
-
-        Columns are those of all rows; nothing is written of no row.
-        """
+        """Write rows (dictionaries of text) as NAME.csv and NAME.md, if there are any, and print them, or
+        what is to be `shown` of their columns that are not empty (collective)."""
         on_first_rank(self.comm, self._write_table, name, list(rows), shown)
 
     def draw(self, name, function, *arguments):

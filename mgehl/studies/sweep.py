@@ -1,11 +1,8 @@
-"""A contact at many values of its keys: each point starts from its neighbours and is a run of its own.
+"""A contact at many values of its keys: each point starts from its neighbours and is a run of its own,
+runs/001, ... in the order of solving.
 
-SWEEP/
-    runs/001, ...             a run directory for each point, in the order in which they are solved
-    sweep.csv, .md, .nc, .png one table, the same as arrays with a dimension for each key, and curves
-    report.html               all on one page
-
-A point that has no answer is said and passed; the next one starts from the last that has one.
+sweep.csv, .md, .nc, .png are one table, the same as arrays with a dimension for each key, and curves;
+report.html has all. A point that has no answer is said and passed.
 """
 
 from functools import partial
@@ -53,8 +50,7 @@ def swept(directory, comm, axes, points, watch, speak=True, words=()):
 
 
 def fill(study, directory, axes, points, name="sweep"):
-    """The same in a directory of a `Study`, whose files are NAME.csv and others; return the `Told` runs
-    (collective)."""
+    """The same in a `Study`'s directory, in files NAME.csv, ...; return the `Told` runs (collective)."""
     from mgehl.output.pictures.curves import curves  # matplotlib is slow to import
 
     folder, behind, runs = directory / RUNS, [], []
@@ -124,11 +120,8 @@ def start_of(behind, axes, point):
 
 
 def _factor(values, before, last):
-    """Change that is expected of the next solution, over that between two; None where none can be.
-
-    The film goes by a power of the key, all else as the film: from 0.5 to 0.3 m/s a rough ball's comes
-    within a per cent.
-    """
+    """Change that is expected of the next solution, over that between two; None where none can be. The film
+    goes by a power of the key, all else as the film."""
     x = [log(value) for value in values] if min(values) > 0.0 else values
     steps, films = (x[2] - x[1]) / (x[1] - x[0]), [_film(each.result) for each in (before, last)]
     if not 0.0 < steps < NEAR or not min(films) > 0.0 or not max(films) < NEAR * min(films):

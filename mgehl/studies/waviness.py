@@ -1,9 +1,8 @@
 """Waves that stand still in the full film of a line contact: how they change it, beside published numbers.
 
-The contact flattens the waves. What is left is mostly a uniform change of film, made in the inlet: there a
-wave holds back more or less of the flow, depending on where its peaks are. The study tells the response to
-small waves, with a peak in the centre and a quarter of a length further on. Half the difference between
-waves of either sign has no part that grows with the square of their height.
+What the contact does not flatten of small waves is mostly a uniform change of film, made in the inlet: told
+with a peak in the centre and a quarter of a length further on. Half the difference between waves of either
+sign has no part that grows with their square.
 """
 
 from math import hypot, pi, sqrt
@@ -39,8 +38,7 @@ LINES = ((100.0, 11.0, "Roelands, compressible"), (200.0, 10.0, "Barus, incompre
 """Moes' M and L, and the fluid."""
 
 REFERENCE = {(100.0, 1.0): 0.0817, (100.0, 0.5): 0.1888, (200.0, 1.0): 0.0492, (200.0, 0.5): 0.1251}
-"""Change of film over the waves' amplitude by M and length: an independent linear calculation, 2B on 2049
-nodes."""
+"""Change of film over waves' amplitude by M and length: a linear calculation, 2B on 2049 nodes."""
 
 GRIDS = (("2B", "arithmetic", 2049), ("3B", "linear-gap", 4097))
 """As the reference has it; and the usual scheme on 4097 nodes."""
@@ -129,10 +127,8 @@ def central_line(solution):
 
 
 def fitted(X, changes, length):
-    """(uniform, wave): the amplitudes in two changes of film, by waves a quarter of a length apart.
-
-    The response to waves anywhere is the real part of one complex function times exp(-ik x0).
-    """
+    """(uniform, wave): the amplitudes in two changes of film, by waves a quarter of a length apart. The
+    response to waves anywhere is the real part of one complex function times exp(-ik x0)."""
     near = np.abs(X) <= WITHIN
     response = (changes[0] + 1j * changes[1])[near]
     wave = np.exp(2j * pi / length * X[near])

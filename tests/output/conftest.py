@@ -57,6 +57,14 @@ def bare_result(converged=True, **more):
     return Result(converged=converged, settled=converged, **known, **more)
 
 
+def heights_of(body, mesh):
+    """Of a body's surface at the nodes, None of a smooth one."""
+    if body.surface is None:
+        return None
+    x, y = mesh.X[None, :] * body.x_scale, mesh.Y[:, None] * body.y_scale
+    return np.broadcast_to(body.surface.height(x, y), (mesh.ny, mesh.nx))
+
+
 @pytest.fixture
 def make_solution():
     def make(nodes=33, contact=0.0, settings=(), rows=None, converged=True):
@@ -69,7 +77,9 @@ def make_solution():
         H = np.where(status == CONTACT, 0.0, FILM + np.maximum(X**2 + Y**2 - 1.0, 0.0))
         result = bare_result(converged)
         rows = newton_rows() if rows is None else rows
-        return Solution(config, body, mesh, Fields(P, H, status), rows, result)
+        return Solution(
+            config, body, mesh, Fields(P, H, status, heights=heights_of(body, mesh)), rows, result
+        )
 
     return make
 
@@ -83,8 +93,8 @@ def make_line():
         P = np.sqrt(np.maximum(1.0 - mesh.X**2, 0.0))[None, :]
         status = np.full((1, nodes), LUBRICATED)
         status[0, [0, -1]] = BOUNDARY
-        result = bare_result()
-        return Solution(config, body, mesh, Fields(P, FILM + 0.0 * P, status), newton_rows(), result)
+        fields = Fields(P, FILM + 0.0 * P, status, heights=heights_of(body, mesh))
+        return Solution(config, body, mesh, fields, newton_rows(), bare_result())
 
     return make
 

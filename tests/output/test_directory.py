@@ -215,13 +215,13 @@ class TestPublishing:
             put(here, -0.5, force=True)
         assert timeless(here) == expected and read_run(here).H0 == -0.5
 
-    def test_an_older_result_is_read_and_replaced(self, tmp_path):
-        """Its fields.h5 has no texts: the files beside it are what they are."""
+    def test_a_result_of_the_first_version_is_named(self, tmp_path):
+        """Its fields.h5 has no texts."""
         here = put(tmp_path / "here", -0.5)
         with h5py.File(here / "fields.h5", "r+") as file:
             del file["run"]
-        assert read_run(here).H0 == -0.5
-        assert read_run(put(here, -0.25, force=True)).H0 == -0.25
+        with pytest.raises(OutputError, match="it is of mgehl 0.1: solve it anew"):
+            read_run(here)
 
 
 def test_one_that_has_not_finished_says_how_to_go_on(tmp_path):

@@ -78,7 +78,7 @@ class TestFromAThickFilm:
     def test_all_ways_lead_to_the_same_answer(self, task):
         ways = begin_thick, begin_dry, begin
         found = [way(task) for way in ways]
-        means = [gaps(problem, outcome.state).mean for problem, outcome in found]
+        means = [gaps(problem, outcome.state.P, outcome.state.H)[0] for problem, outcome in found]
         assert means == pytest.approx(3 * means[:1], rel=1e-6)
 
     def test_where_both_fail_the_state_is_of_the_contact_s_own_speed(self, task):

@@ -60,10 +60,8 @@ def farthest(z):
 
 
 def outstanding(z, step):
-    """Number of points that stand out of all eight neighbours, and the `Point` that does most.
-
-    Form and tilt are no matter, and few such points do not change what a usual step is.
-    """
+    """Number of points that stand out of all eight neighbours, and the `Point` that does most. Form and
+    tilt are no matter, and few such points do not change what a usual step is."""
     least, most = (
         function(z, footprint=_RING, mode="mirror")
         for function in (ndimage.minimum_filter, ndimage.maximum_filter)

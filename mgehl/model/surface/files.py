@@ -56,9 +56,7 @@ def _is_numpy(path):
 
 def _read_numpy(path):
     """A matrix and, of an archive where they are there, x, y, dx, dy, height_unit, position_unit and unit.
-
-    Of an archive nothing else is unpacked.
-    """
+    Of an archive nothing else is unpacked."""
     try:
         if not zipfile.is_zipfile(path):
             with open(path, "rb") as file:
@@ -160,10 +158,8 @@ def _steps(path, found, shape):
 
 
 def _read_instrument(path, fault):
-    """What SurfaceTopography reads: heights (nx, ny), sizes and one unit of both.
-
-    `fault` says why the file is no text of heights: so are those that the library itself reads as text.
-    """
+    """What SurfaceTopography reads: heights (nx, ny), sizes and one unit of both. `fault` says why the file
+    is no text of heights: so are those that the library itself reads as text."""
     no_text = isinstance(fault, NoTableError)
     try:
         from SurfaceTopography import open_topography

@@ -87,10 +87,8 @@ class Heights:
 
 @dataclass(frozen=True)
 class Measured(Surface):
-    """The heights of a file, which is read when they are first asked for.
-
-    The file's middle lies at x, y and its own x axis at `angle`. Raises SurfaceFileError.
-    """
+    """The heights of a file, which is read when they are first asked for. The file's middle lies at x, y
+    and its own x axis at `angle`. Raises SurfaceFileError."""
 
     path: str
     preparation: Preparation = field(default_factory=Preparation)

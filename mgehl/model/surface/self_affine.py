@@ -1,8 +1,7 @@
 """A random surface whose spectrum is a power law: self-affine, as ground and shot surfaces are.
 
-Its waves are those of a square lattice of wave vectors, all of known amplitude and with random phases. So
-heights are exact at any point, the rms over a period is exact, and neither depends on a grid; on the
-nodes of a grid two products of matrices sum hundreds of thousands of waves.
+Waves of a square lattice have known amplitudes and random phases: heights at any point and the rms over a
+period are exact, whatever the grid; on a grid's nodes two products of matrices sum them.
 """
 
 from dataclasses import dataclass, replace
@@ -103,9 +102,8 @@ class SelfAffine(Surface):
 def lattice(rms, shortest, longest, hurst, seed, aspect, angle):
     """Numbers of waves in a period along x (m,), along y (n,), and amplitudes (n, m), of one of k and -k.
 
-    `shortest` and `longest` are parts of the period. Phases are drawn from the longest wave to the
-    shortest, so that a surface with a shorter cut-off has the same long waves. Amplitudes squared add up
-    to 2 rms^2.
+    `shortest` and `longest` are parts of the period. Phases are drawn from the longest wave on, so that a
+    shorter cut-off keeps the long waves. Amplitudes squared add up to 2 rms^2.
     """
     most = int((1.0 + JUST) / shortest)
     m, n = np.arange(-most, most + 1), np.arange(most + 1)

@@ -21,10 +21,8 @@ def deviation(wavelength):
 
 
 def lines_of(x, y):
-    """x (nx,), y (ny,) of points that are nodes of a grid, and whether x runs down the first axis.
-
-    None of other points.
-    """
+    """x (nx,), y (ny,) of points that are nodes of a grid, and whether x runs down the first axis. None of
+    other points."""
     x, y = np.atleast_2d(x), np.atleast_2d(y)
     if x.shape[0] == 1 and y.shape[1] == 1:
         return x[0], y[:, 0], False

@@ -25,10 +25,8 @@ class Surface:
         raise NotImplementedError
 
     def shortest(self, x, y):
-        """Shortest wavelength in m; `inf` of one without waves.
-
-        Where it is not known it is told from the heights at the nodes x (nx,) and y (ny,).
-        """
+        """Shortest wavelength in m; `inf` of one without waves. Where it is not known it is told from the
+        heights at the nodes x (nx,) and y (ny,)."""
         return shortest_of(self.height(x[None, :], y[:, None]), step_of(x), step_of(y))
 
     def filtered(self, wavelengths, x, y):

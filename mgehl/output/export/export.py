@@ -20,10 +20,8 @@ UNITS = {"fluid_pressure": "fluid_pressure_Pa", "heights": "heights_m"}
 
 
 def write_npz(path, solution):
-    """Write x, y, pressure and film in SI, P, H, status and its names, `further_fields`, and two texts.
-
-    The texts `result` and `configuration` are strings of JSON; nothing in the file is pickled.
-    """
+    """Write x, y, pressure and film in SI, P, H, status and its names, `further_fields`, and two texts. The
+    texts `result` and `configuration` are strings of JSON; nothing in the file is pickled."""
     memory = BytesIO()  # zipfile complains at length where the disk is full
     np.savez_compressed(
         memory,
@@ -92,10 +90,8 @@ def targets(formats, directory, out=None):
 
 
 def export(solution, paths, force=False):
-    """Write `solution` to `paths`, {format: path}, over files that exist only with `force`.
-
-    Raises OutputError where a file exists or cannot be written, or a field makes no sense.
-    """
+    """Write `solution` to `paths`, {format: path}, over files that exist only with `force`. Raises
+    OutputError where a file exists or cannot be written, or a field makes no sense."""
     for path in paths.values():
         if path.exists() and not force:
             raise OutputError(f"{path} exists: add --force to replace it, or choose another with --out")

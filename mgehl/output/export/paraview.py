@@ -29,10 +29,8 @@ ARRAY = '<DataArray type="Float64" Name="{}" NumberOfComponents="{}" format="app
 
 
 def write_vts(path, solution):
-    """Write pressure_Pa, film_m, P, H, status and `further_fields` on x and y in metres.
-
-    Raises OSError where the file cannot be written.
-    """
+    """Write pressure_Pa, film_m, P, H, status and `further_fields` on x and y in metres. Raises OSError
+    where the file cannot be written."""
     fields = solution.fields
     X, Y = np.meshgrid(solution.x, solution.y)
     arrays = {"Position": np.stack([X, Y, 0.0 * X], axis=-1)}
@@ -50,10 +48,8 @@ def write_vts(path, solution):
 
 
 def write_pvd(path, solution):
-    """Write PATH, which names a VTK file for each instant, and these in a folder of its name.
-
-    Raises UserError where the run has no frames, OSError where a file cannot be written.
-    """
+    """Write PATH, which names a VTK file for each instant, and these in a folder of its name. Raises
+    UserError where the run has no frames, OSError where a file cannot be written."""
     if solution.frames is None:
         raise UserError("--to pvd: this run has no frames, as runs in time have (frames.nc)")
     folder, contact = path.with_suffix(""), solution.contact

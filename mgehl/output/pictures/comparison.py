@@ -18,10 +18,8 @@ STROKES = "-", "--", "-.", ":"
 
 
 def compare_lines(solutions, labels):
-    """Figure of the centre lines of all runs, in the units of each run's own contact.
-
-    Raises UserError where the contacts are not of one kind.
-    """
+    """Figure of the centre lines of all runs, in the units of each run's own contact. Raises UserError
+    where the contacts are not of one kind."""
     if len({each.config.contact.kind for each in solutions}) > 1:
         raise UserError("runs of different kinds of contact have no common picture: plot each")
     if not solutions[0].contact.is_loaded:

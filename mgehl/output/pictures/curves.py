@@ -126,10 +126,8 @@ def _label(label, panel):
 
 
 def _groups(runs, key, names):
-    """{what runs have in common but the key: their `Group`}, in order.
-
-    Of a key that follows from words the other numbers that follow from them are told, and not the words.
-    """
+    """{what runs have in common but the key: their `Group`}, in order. Of a key that follows from words the
+    other numbers that follow from them are told, and not the words."""
     numbers, words = beside(key) if any(value_of(run.tables, key) is None for run in runs) else ((), ())
     differ = [
         each for each in differing([run.tables for run in runs]) if each not in (key, *words, *DOMAIN)

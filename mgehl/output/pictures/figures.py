@@ -1,10 +1,7 @@
 """Every picture of a finished run, by name: for the command line, reports and notebooks.
 
-    for picture in figures(read_run("runs/point_contact")):
-        print(picture.name, picture.title)
-
-`write` saves them. For another look call both under `style.applied("my.mplstyle")`. `run_picture` is
-the one that a run leaves.
+`figures(read_run(directory))` yields them, `write` saves them; for another look call both under
+`style.applied`. `run_picture` is the one that a run leaves.
 """
 
 from collections.abc import Sequence
@@ -21,7 +18,7 @@ from mgehl.output.pictures import lines, maps, style, wedge_picture
 from mgehl.output.pictures.comparison import compare_histories, compare_lines
 from mgehl.output.pictures.history import history
 from mgehl.output.pictures.over_time import over_time
-from mgehl.output.pictures.surface import heights_of, surface_picture
+from mgehl.output.pictures.surface import surface_picture
 from mgehl.output.pictures.titles import gap_words, labels, title_with_films
 from mgehl.output.solution import Solution
 
@@ -64,25 +61,6 @@ _FLAT = {"film", "gap", "pressure", "status", *_OF_FRICTION}
 
 def drawn_by(solution):
     """Title and function of each picture of a run, by kind: a single line has no maps."""
-    missing = left_out(solution)
-    return {kind: each for kind, each in _possible(solution).items() if kind not in missing}
-
-
-def left_out(solution):
-    """{kind: why} of pictures that cannot be drawn.
-
-    Of an older result, without heights, that is the surface where its file is not there any more.
-    """
-    try:
-        if "surface" in _possible(solution):
-            heights_of(solution)
-    except UserError as error:
-        return {"surface": str(error)}
-    return {}
-
-
-def _possible(solution):
-    """As `drawn_by`, with those that are left out."""
     drawn = _POINT | (_ROUGH if solution.contact.is_loaded and solution.contact.surface is not None else {})
     if not solution.contact.is_loaded:
         drawn = _BEARING
@@ -96,11 +74,9 @@ def _possible(solution):
 
 
 def figures(solution: Solution, kinds: Sequence[str] | None = None) -> list[Picture]:
-    """A list of `Picture`s of a run with whole fields: of these kinds, or all that it has.
-
-    Raises UserError for a kind that this contact does not have.
-    """
-    known = _possible(solution) if kinds else drawn_by(solution)
+    """A list of `Picture`s of a run with whole fields: of these kinds, or all that it has. Raises UserError
+    for a kind that this contact does not have."""
+    known = drawn_by(solution)
     for kind in kinds or ():
         if kind not in known:
             raise UserError(f"no picture {kind!r} of this contact: it has {', '.join(known)}")
@@ -110,10 +86,8 @@ def figures(solution: Solution, kinds: Sequence[str] | None = None) -> list[Pict
 
 
 def compared(solutions: Sequence[Solution], names: Sequence[str]) -> list[Picture]:
-    """A list of two `Picture`s that show several runs of one kind of contact, called by `names`.
-
-    Raises UserError where their contacts are of different kinds.
-    """
+    """A list of two `Picture`s that show several runs of one kind of contact, called by `names`. Raises
+    UserError where their contacts are of different kinds."""
     said = labels(solutions, names)
     with style.applied():
         centre, histories = compare_lines(solutions, said), compare_histories(solutions, said)

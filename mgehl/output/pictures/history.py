@@ -22,10 +22,8 @@ NARROW = 0.15
 
 
 def history(solution):
-    """Figure of residual and load error, and of the sets, against the cycles in their order.
-
-    Raises OutputError where the history lacks a column.
-    """
+    """Figure of residual and load error, and of the sets, against the cycles in their order. Raises
+    OutputError where the history lacks a column."""
     rows = solution.rows
     position, unit = cycles(rows)
     needed = {"residual": ERRORS["residual"]}

@@ -144,10 +144,8 @@ def draw_sets(axes, plane, least=CONTACT, known=NAMES):
 
 
 def finish(axes, solution, plane):
-    """Limits, names of the axes, Hertz's ellipse and the motion; handles of the legend.
-
-    A map whose sides differ by more than LONGEST is stretched, which its axis says.
-    """
+    """Limits, names of the axes, Hertz's ellipse and the motion; handles of the legend. A map whose sides
+    differ by more than LONGEST is stretched, which its axis says."""
     (left, right, bottom, top), contact = plane.blocks.extent, solution.contact
     drawn, true = _ratios(plane)
     x, y = (

@@ -28,10 +28,8 @@ SHOWN = 1.7
 
 
 def write_movie(solution, folder):
-    """Draw `movie.mp4` into a folder, or `movie.gif` where ffmpeg is not there; return its path.
-
-    Raises UserError where the run has no frames.
-    """
+    """Draw `movie.mp4` into a folder, or `movie.gif` where ffmpeg is not there; return its path. Raises
+    UserError where the run has no frames."""
     if solution.frames is None:
         raise UserError("no movie of this run: it has no frames, as runs in time have (frames.nc)")
     folder.mkdir(parents=True, exist_ok=True)

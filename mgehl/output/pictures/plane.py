@@ -26,11 +26,9 @@ NO_FILM = 10.0
 
 
 class Blocks:
-    """Equal blocks of the nodes at X (nx,) and Y (ny,), at most `most` along either side.
-
-    A block is drawn as the least or the largest of its nodes: of the film the least, of pressure and status
-    the largest, for contact is above cavitated and that above lubricated. So single nodes in contact stay.
-    """
+    """Equal blocks of the nodes at X (nx,) and Y (ny,), at most `most` along either side. A block is drawn
+    as the least of its nodes' films, and as the largest pressure and status, contact above cavity above
+    film: so single nodes in contact stay."""
 
     def __init__(self, X, Y, most=MOST):
         self._stride = ceil(max(len(X), len(Y)) / most)
@@ -61,12 +59,9 @@ class Blocks:
 
 
 class Plane:
-    """A part of a run's plane in `blocks`, in mm; fields are (len(blocks.Y), len(blocks.X)).
-
-    It is what carries load and Hertz's ellipse, with room, within the boundary, or the `whole` domain.
-    `film` is in nm, `filling` from 0 to 1; `distance` is that from the middle of what carries load, 1 on
-    its edge. `part` are the slices of the nodes (y, x).
-    """
+    """A part of a run's plane in `blocks`, in mm; fields are (len(blocks.Y), len(blocks.X)). It is what
+    carries load and Hertz's ellipse, with room, or the `whole` domain. `film` is in nm, `filling` from 0 to
+    1; `distance` that from the loaded zone's middle, 1 on its edge; `part` the nodes' slices (y, x)."""
 
     def __init__(self, solution, most=MOST, whole=False):
         contact, fields, ends = solution.contact, solution.fields, solution.at_the_end

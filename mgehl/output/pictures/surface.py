@@ -23,7 +23,7 @@ HEIGHT = "height, nm (a peak is positive)"
 
 def surface_picture(solution):
     """Figure of a solution whose contact has a surface; of a line contact its heights along x."""
-    heights = heights_of(solution)
+    heights = solution.heights
     panels = 2 if solution.mesh.is_line else 3
     figure, axes = subplots(1, panels, size=(1.0 + 4.4 * panels, 4.4))
     if solution.mesh.is_line:
@@ -36,18 +36,6 @@ def surface_picture(solution):
     notes = surface_words(*_seen(solution, heights)), mixed_note(solution.result.mixed)
     figure.suptitle("\n".join(filter(None, (f"surface, {title(solution)}", *notes))))
     return figure
-
-
-def heights_of(solution):
-    """Heights of the nodes in m, a peak positive, (ny, nx).
-
-    Raises UserError where an older result needs a file that is not there.
-    """
-    if solution.heights is not None:
-        return solution.heights
-    shape = solution.mesh.ny, solution.mesh.nx
-    heights = solution.contact.surface.height(solution.x[None, :], solution.y[:, None])
-    return np.broadcast_to(heights, shape)
 
 
 def _inside(solution, heights):

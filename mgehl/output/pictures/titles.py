@@ -95,10 +95,8 @@ def common_labels(solutions):
 
 
 def run_names(directories):
-    """The last part of each run directory's path, or as many as tell them apart.
-
-    Raises UserError where a directory is given twice.
-    """
+    """The last part of each run directory's path, or as many as tell them apart. Raises UserError where a
+    directory is given twice."""
     parts = [Path(directory).resolve().parts for directory in directories]
     for each, directory in zip(parts, directories, strict=True):
         if parts.count(each) > 1:
@@ -110,10 +108,8 @@ def run_names(directories):
 
 
 def labels(solutions, names):
-    """A label for each run: what differs of its configuration, or its name where that says too much.
-
-    A run that did not converge says so.
-    """
+    """A label for each run: what differs of its configuration, or its name where that says too much. A run
+    that did not converge says so."""
     tables = [portable(each.config) for each in solutions]
     keys = differing(tables)
     keys = [key for key in keys if key not in DOMAIN] or keys

@@ -154,10 +154,8 @@ FUNCTIONS = {
 
 
 def films_of(result, of_what=""):
-    """Rows of films: the computed ones with their bands, then those of formulas, `of_what` in words.
-
-    What did not converge, and what an instant has, is not compared with formulas.
-    """
+    """Rows of films: the computed ones with their bands, then those of formulas, `of_what` in words. What
+    did not converge, and what an instant has, is not compared with formulas."""
     is_steady = result.converged and not result.time
     own, error = (result.central_film_nm, result.minimum_film_nm), result.error
     shown = [film(nm, band) for nm, band in zip(own, (error.central_nm, error.minimum_nm), strict=True)]

@@ -14,42 +14,25 @@ DPI = 150
 """Of pictures of studies."""
 
 
-def is_study(directory, studies):
-    """True of a directory with a study's record, or tables that one of `studies` left before there were
-    records, and no file of a run, whose history is a table, too."""
-    directory = Path(directory)
-    if any((directory / name).exists() for name in NAMES):
-        return False
-    return (directory / STUDY).exists() or bool(
-        any(directory.glob("*.csv")) and _named_by_files(directory, studies)
-    )
+def is_study(directory):
+    """True of a directory with a study's record and no file of a run."""
+    return not any((directory / name).exists() for name in NAMES) and (directory / STUDY).exists()
 
 
 def study_report(directory, studies):
-    """The page of a study's directory, for `render`; `studies` has what each study is, by name.
-
-    Raises OutputError where a file cannot be read.
-    """
+    """The page of a study's directory, for `render`; `studies` has what each study is, by name. Raises
+    OutputError where a file cannot be read."""
     directory = Path(directory)
     record, name = read_record(directory), directory.resolve().name
-    known = [record.name] if record else _named_by_files(directory, studies)
-    what = [f"Study {each}: {studies[each]}." for each in known if each in studies]
     return {
-        "title": f"Study {known[0]}" if len(known) == 1 else f"Studies in {name}",
+        "title": f"Study {record.name}",
         "subtitle": f"Study in {name}",
         "verdict": None,
-        "what": what or ["Tables of a study that its files do not name."],
+        "what": [f"Study {record.name}: {studies[record.name]}."] if record.name in studies else [],
         "tables": [_table(path) for path in _in_order(directory, "*.csv")],
         "pictures": [_picture(path) for path in _in_order(directory, "*.png")],
-        "origin": record and list(_origin(record)),
+        "origin": list(_origin(record)),
     }
-
-
-def _named_by_files(directory, studies):
-    """Names of studies that the directory's name ends with, or that names of its tables begin with."""
-    own = [name for name in studies if directory.resolve().name in (name, f"study-{name}")]
-    stems = sorted(path.stem for path in directory.glob("*.csv"))
-    return own or [name for name in studies if any(stem.split("-")[0] == name for stem in stems)]
 
 
 def _in_order(directory, pattern):

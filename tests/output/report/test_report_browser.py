@@ -11,6 +11,7 @@ import mgehl
 from mgehl.output.report.page import render
 from mgehl.output.report.run_report import report
 from mgehl.output.report.study_report import study_report
+from mgehl.output.study_directory import StudyRecord, write_record
 
 BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 
@@ -90,6 +91,7 @@ def pages(tmp_path_factory):
         config = mgehl.load(settings={"grid.nodes": 65} | settings)
         solved[kind] = report(mgehl.solve(config, MPI.COMM_SELF), "a-run-with-a-long-name-" + 8 * "x")
     (study / "figure_7.png").write_bytes(_a_picture())
+    write_record(study, StudyRecord("wedge", (65,), 1, {}))
     return solved | {"study": render(study_report(study, {}))}
 
 

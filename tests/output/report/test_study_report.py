@@ -20,6 +20,7 @@ def directory(tmp_path):
         (directory / f"figure_{k}.png").write_bytes(b"\x89PNG %d" % k)
     (directory / "cases.md").write_text("| not shown |")
     (directory / "points").mkdir()
+    write_record(directory, RECORD)
     return directory
 
 
@@ -36,7 +37,6 @@ def test_tables(directory):
 
 
 def test_what_it_is_is_told_by_its_record(directory):
-    write_record(directory, RECORD)
     page = study_report(directory, STUDIES)
     assert (page["title"], page["what"]) == ("Study wedge", ["Study wedge: what wedge is."])
     rows = dict(page["origin"])
