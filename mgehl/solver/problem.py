@@ -171,7 +171,7 @@ class ContactProblem(Problem):
         return np.array(np.broadcast_to(found, grid.shape))
 
     def turn_to(self, surfaces, there):
-        """Take another time's surfaces, of the contact `surfaces`, and load, velocity and oil of `there`."""
+        """Take another time's surfaces, of the contact `surfaces`, and load, motion and oil of `there`."""
         contact = self.contact
         friction = contact.friction.slowed(there.speed / contact.speed)
         self.flowing = replace(contact.turned(there.angle), lubricant=there.lubricant, friction=friction)
