@@ -179,6 +179,43 @@ def test_motion_that_turns_in_other_axes_has_the_same_film(turned):
     assert other.film.T == pytest.approx(one.film, abs=1e-13)
 
 
+def test_motion_that_has_turned_is_motion_of_its_direction(tmp_path):
+    """Beside cavities it was asked along x alone whether what comes to a node was film."""
+    scheme = {"discretization.couette": "3B", "discretization.face_mobility": "linear-gap"}
+    ball = BALL | scheme | {"grid.x": [-2.5, 2.5], "grid.y": [-2.5, 2.5], "time.step": 0.03 * UNIT}
+    (tmp_path / "angle.csv").write_text("0,0\n1e-7,90\n1,90\n")
+    (tmp_path / "speed.csv").write_text("0,0.09\n1e-7,0.09\n1,0.09\n")
+    start = mgehl.solve(mgehl.load(None, BALL | scheme | {"grid.x": [-2.5, 2.5], "grid.y": [-2.5, 2.5]}))
+    turned, there = {"motion.angle": str(tmp_path / "angle.csv")}, {"motion.angle": 90.0}
+    steps = {"time.end": 0.6 * UNIT, "motion.speed": str(tmp_path / "speed.csv")}  # the same first one
+    one, other = (
+        mgehl.solve(mgehl.load(None, ball | steps | motion), start=start) for motion in (turned, there)
+    )
+    assert one.fields.H == pytest.approx(other.fields.H, abs=1e-5)
+    assert one.rows[-1]["rolling"] == pytest.approx(other.rows[-1]["rolling"], rel=1e-4)
+
+
+def test_rolling_drags_against_a_reversed_motion_as_against_one_that_is_turned(tmp_path):
+    start = solved()
+    (tmp_path / "speed.csv").write_text(f"0,0.09\n{0.01 * UNIT},-0.09\n1,-0.09\n")
+    (tmp_path / "angle.csv").write_text("0,0\n1e-7,180\n1,180\n")
+    courses = ({"motion.speed": str(tmp_path / "speed.csv")}, {"motion.angle": str(tmp_path / "angle.csv")})
+    wide = {"grid.x": [-2.5, 2.5], "grid.y": [-2.0, 2.0], "time.end": 0.5 * UNIT}
+    reversed_, turned = (
+        mgehl.solve(mgehl.load(None, BALL | wide | course), start=start) for course in courses
+    )
+    assert reversed_.rows[-1]["rolling"] == pytest.approx(turned.rows[-1]["rolling"], rel=0.01)
+    assert reversed_.motion == pytest.approx(turned.motion, abs=1e-12) == (-1.0, 0.0)
+
+
+def test_the_path_goes_on_where_a_run_of_another_direction_starts_from_it(turned):
+    """The part across the direction of the second run was lost."""
+    first = turned(0.0, 90.0, time__end=0.35 * UNIT)
+    along_x = {key.replace("__", "."): value for key, value in OBLONG.items()} | {"time.end": 0.1 * UNIT}
+    second = mgehl.solve(mgehl.load(None, BALL | along_x), start=first)
+    assert second.path == pytest.approx((first.path[0] + 0.09 * 0.1 * UNIT, first.path[1]))
+
+
 def test_roughness_goes_along_where_the_motion_turns(turned):
     moving = {key.replace(".", "__"): value for key, value in ROUGH.items()} | {"surface__rms": 30e-9}
     first = turned(0.0, 90.0, **moving)

@@ -86,3 +86,10 @@ def moved(values, cells):
         s * (s + 1.0) * (s + 2.0) / 6.0,  # at +1
     )
     return sum(weight * wide[..., k : k + n] for k, weight in enumerate(weights))
+
+
+def least_on_the_way(values, cells):
+    """The least of `values` at each node (..., n) and at those that contents pass which go `cells` to it,
+    one node more included."""
+    passed = [float(np.copysign(k, cells)) for k in range(1, int(np.ceil(abs(cells))) + 2)]
+    return np.minimum.reduce([values, *(moved(values, each) for each in passed)])

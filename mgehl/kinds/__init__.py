@@ -15,6 +15,7 @@ from mgehl.kinds.line import LINE
 from mgehl.kinds.lubricant import derived_from_oil
 from mgehl.kinds.own import naming_keys
 from mgehl.kinds.point import POINT, point_choices
+from mgehl.kinds.surface import check_ways
 from mgehl.kinds.surface_kinds import surface_choices
 from mgehl.kinds.time import scene_of, time_choices
 from mgehl.kinds.wedge import WEDGE, wedge_choices
@@ -57,6 +58,10 @@ class Case:
     def scene(self):
         """The `Scene` of a run in time."""
         return scene_of(self.config, self.contact)
+
+    def check_ways(self, begin):
+        """Raise ConfigError unless surfaces cover the contact in time, the mean one after a path in m."""
+        check_ways(self.config, self.contact, begin)
 
 
 def case_of(config, contact=None):

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from mgehl.config_value import number, switch, word
+from mgehl.config_value import number, shown, switch, word
 from mgehl.errors import ConfigError
 from mgehl.kinds.choice import Choice
 from mgehl.kinds.time import range_of
@@ -50,11 +50,11 @@ def check_friction(config):
     section = config.friction
     if section.thinning and section.eyring_stress is None:
         raise ConfigError("friction.thinning = True: needs friction.eyring_stress")
-    angles = range_of(config, "motion.angle")
-    if _thins(config) and (angles[0] < angles[1] or angles[0] % 90.0):
-        turns = " to ".join(f"{angle:g}" for angle in dict.fromkeys(angles))
+    least, most = range_of(config, "motion.angle")
+    if _thins(config) and (least < most or least % 90.0):
+        angle, must = (f"{least:g}", "be") if least == most else (shown(config.motion.angle), "stay at")
         raise ConfigError(
-            f"motion.angle = {turns}: with friction.thinning it must be a multiple of 90; "
+            f"motion.angle = {angle}: with friction.thinning it must {must} a multiple of 90; "
             "friction.thinning = false leaves the film as it is"
         )
 

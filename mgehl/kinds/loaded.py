@@ -47,8 +47,8 @@ class LoadedKind(Kind):
 
     def check_keys(self, config):
         """Neither the laws of the lubricant nor the surfaces may contradict themselves."""
-        surface.check_keys(config)
         time.check_courses(config)
+        surface.check_keys(config)
         check_laws(config)
         check_friction(config)
 
@@ -76,9 +76,9 @@ class LoadedKind(Kind):
     def _domain(self, config, contact):
         """The ends along x and y, in semi-axes of the first load, of a domain for every load of a run."""
         contacts = [
-            each.turned(angle)
+            turned
             for each in time.extremes(config, contact)
-            for angle in time.directions(config)
+            for turned in time.in_all_directions(config, each)
         ]
         found = [self.domain(each, config.grid.nodes) for each in contacts]
         if len(found) == 1:
@@ -114,8 +114,8 @@ class LoadedKind(Kind):
     def _check_ways(self, config, contact, heaviest):
         """The domain must be large enough for every direction of a run in time, under the heaviest load."""
         ways, wide = (1.0, -1.0)[: 1 + time.reverses(config)], heaviest.x_scale / contact.x_scale
-        for way, angle in product(ways, time.directions(config)):
-            loaded_checks.check_domain(config.grid, heaviest.turned(angle), way, wide)
+        for way, turned in product(ways, time.in_all_directions(config, heaviest)):
+            loaded_checks.check_domain(config.grid, turned, way, wide)
 
     def check_fluid(self, grid, contact):
         """Laws must give numbers; the domain must be large enough for contact and inlet."""

@@ -5,7 +5,7 @@ import numpy as np
 from mgehl.kinds.heat import solids_from
 from mgehl.kinds.loaded_checks import LARGEST_CONTACT, on_the_bodies
 from mgehl.kinds.surface_kinds import NAMES, STILL, every_surface
-from mgehl.kinds.time import begins_at_rest, range_of, reference, scene_of
+from mgehl.kinds.time import begins_at_rest, course, range_of, reference, scene_of
 from mgehl.model.films import formula_of
 from mgehl.model.frame import direction
 from mgehl.model.lubricant import Roelands
@@ -25,6 +25,9 @@ USUAL = {
     "body_2.Ra": (0.0, 2e-5, "m"),
 }
 """{key: smallest and largest value of machines, from gels to diamond and from petrol to gear oil, unit}."""
+
+LARGEST_TURN = 180.0
+"""Degrees from one value of a course to the next that may be meant."""
 
 HARD = 1e10
 """E' in Pa from which on bodies are hard: gels, rubber and plastics are pressed lightly, and by right."""
@@ -89,6 +92,7 @@ def implausible(config, contact):
     yield from _without_temperatures(config)
     yield from _parts_from_rest(config)
     yield from _odd_steps(config, contact)
+    yield from _leaps(config)
     if config.lubricant.oil is not None:
         yield from _range(config.lubricant, contact.hertz.p_h)
 
@@ -131,6 +135,19 @@ def _odd_steps(config, contact):
         yield (
             f"time.step = {config.time.step:.4g} s: surfaces go {cells:.2g} of a cell in a step at most; "
             f"below {LEAST_CELLS:g} contents are carried along less well, not better"
+        )
+
+
+def _leaps(config):
+    """Of a direction that changes with time, where it turns nearly all the way back, as after 360."""
+    if not isinstance(config.motion.angle, str):
+        return
+    found = course("motion.angle", config.motion.angle)
+    turns = np.abs(np.diff([found.value(t) for t in found.times(config.time.end)])).max()
+    if turns > LARGEST_TURN:
+        yield (
+            f"motion.angle = {config.motion.angle!r}: turns by {turns:.4g} degrees from one value to the "
+            "next; beyond 360 it goes on: 358, 362"
         )
 
 

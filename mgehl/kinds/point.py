@@ -155,8 +155,9 @@ POINT = PointKind()
 
 
 def angle_words(config):
-    """The direction after a speed, in time from where to where it goes; nothing where it is that of x."""
-    angles = dict.fromkeys(range_of(config, "motion.angle"))
+    """The direction after a speed, in time the farthest ones; nothing where it is that of x."""
+    least, most = range_of(config, "motion.angle")
+    angles = dict.fromkeys([least, most] if reference(config, "motion.angle") < most else [most, least])
     return f" at {' to '.join(f'{angle:g}°' for angle in angles)}" if any(angles) else ""
 
 

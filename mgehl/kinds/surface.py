@@ -84,8 +84,20 @@ def check_surfaces(config, contact, mesh):
             else:
                 _check_heights(key, surface, x, y, radius)
                 _check_size(key, surface, contact)
-                for way in ways_of(config, contact, key.partition(".")[0]):
-                    _check_size(key, Moved(surface, way), contact, "on its way ")
+    check_ways(config, contact)
+
+
+def check_ways(config, contact, begin=(0.0, 0.0)):
+    """Raise ConfigError unless every surface covers the contact wherever it goes in time.
+
+    The mean surface has gone the path `begin` in m before.
+    """
+    for key, surface in parts_of(config):
+        if not isinstance(surface, Measured):
+            continue
+        with _naming(key):
+            for way in ways_of(config, contact, key.partition(".")[0], begin):
+                _check_size(key, Moved(surface, way), contact, "on its way ")
 
 
 def check_known(config, contact):

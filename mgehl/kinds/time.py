@@ -12,7 +12,7 @@ from mgehl.kinds.surface_kinds import every_surface, share_of
 from mgehl.model.course import SAMPLES, Recorded, Table, course_of
 from mgehl.model.frame import direction
 from mgehl.model.own_function import OwnFunctionError, is_own
-from mgehl.model.scene import Scene
+from mgehl.model.scene import CLOSE, Scene, directions
 from mgehl.model.text_table import FileError, unit_words
 
 
@@ -32,6 +32,9 @@ class TimeSection:
         ("end", "settled"))
     # fmt: on
 
+
+MOST_TURNED = 36000.0
+"""Degrees, a hundred turns, to which a direction may go."""
 
 ONLY_IN_TIME = {
     "motion.speed": "m/s", "motion.angle": "deg", "contact.load": "N", "contact.load_per_length": "N/m",
@@ -110,9 +113,10 @@ def of_first_load(config):
 
 
 def of_formulas(config):
-    """Words after what formulas tell of a contact whose load or speed is a course; else empty."""
+    """Words after what formulas tell of a contact that changes with time; else empty."""
     fastest = ", at the largest speed" if isinstance(config.motion.speed, str) else ""
-    return f"{of_first_load(config)}{fastest}"
+    turns = ", in the first direction" if len(set(range_of(config, "motion.angle"))) > 1 else ""
+    return f"{of_first_load(config)}{fastest}{turns}"
 
 
 def reference(config, key):
@@ -160,7 +164,10 @@ def _wrong_with(key, value, end):
     found = course(key, value)
     least, most = found.range(end)
     if key == "motion.angle":
-        return None
+        turned = max(least, most, key=abs)
+        return (
+            None if abs(turned) <= MOST_TURNED else f"turns to {turned:g}; must stay within {MOST_TURNED:g}"
+        )
     if key != "motion.speed":
         return None if least > 0.0 else f"falls to {least:g}; must stay above 0"
     if least == most == 0.0:
@@ -184,15 +191,12 @@ def extremes(config, contact):
     return tuple(replace(contact, load=load) for load in loads)
 
 
-LARGEST_TURN = 15.0
-"""Degrees between directions for which a domain is made."""
-
-
-def directions(config):
-    """Angles of the motion until time.end, close together from the least to the largest."""
-    least, most = range_of(config, "motion.angle")
-    count = min(int((most - least) / LARGEST_TURN), int(360.0 / LARGEST_TURN)) + 2
-    return np.linspace(least, min(most, least + 360.0), count).tolist() if least < most else [least]
+def in_all_directions(config, contact):
+    """The contact with the motion in each of its directions until time.end."""
+    if not config.is_in_time:
+        return [contact]
+    angles = directions(course("motion.angle", config.motion.angle), config.time.end)
+    return [contact.turned(angle) for angle in angles]
 
 
 def reverses(config):
@@ -211,15 +215,18 @@ PARTS = 200
 """Parts of a run whose ways are added up to find how far a surface gets."""
 
 
-def ways_of(config, contact, name):
-    """The farthest ways (x, y) in m that the surface of a section goes in time; none of one that rests."""
+def ways_of(config, contact, name, begin=(0.0, 0.0)):
+    """The farthest ways (x, y) in m that the surface of a section goes in time; none of one that rests.
+
+    The mean surface has gone the path `begin` before.
+    """
     section = getattr(config, name)
     share = share_of(section.body, config.motion.slip)
     if not config.is_in_time or share == 0.0 or config.moes.M is not None:
         return []
     scene, times = scene_of(config, contact), np.linspace(0.0, config.time.end, PARTS + 1)
-    path = share * np.cumsum([scene.way(*ends) for ends in pairwise(times)], axis=0)
-    towards = np.array([direction(angle) for angle in np.arange(0.0, 360.0, LARGEST_TURN)])
+    path = share * np.cumsum([begin, *(scene.way(*ends) for ends in pairwise(times))], axis=0)
+    towards = np.array([direction(angle) for angle in np.arange(0.0, 360.0, CLOSE)])
     farthest = np.unique(np.argmax(path @ towards.T, axis=0))
     return [(x, y) for x, y in path[farthest].tolist() if x or y]
 

@@ -46,6 +46,17 @@ def cells_a_step(shares):
     return max([1.0, *(max(abs(share), 2.0 * abs(share - 1.0)) for share in shares)])
 
 
+CLOSE = 15.0
+"""Degrees between directions that stand for all of them."""
+
+
+def directions(angle, end):
+    """Angles close together from the least to the largest of a `Course` until a time, a circle at most."""
+    least, most = angle.range(end)
+    most = min(most, least + 360.0)
+    return np.linspace(least, most, int((most - least) / CLOSE) + 2).tolist() if least < most else [least]
+
+
 @dataclass(frozen=True)
 class Scene:
     """What changes with time; `contact` is the one at a time of 0, in the user's axes."""
@@ -150,13 +161,24 @@ class Scene:
 
         Where heat thins its oil, it thins that of the instant by as much as there.
         """
+        return self._driven(contact, t, self.angle.value(t))
+
+    def in_all_directions(self, contact, t):
+        """The same with the motion in each direction of the run, if not in that of the time."""
+        return [self._driven(contact, t, angle) for angle in directions(self.angle, self.end)]
+
+    def _driven(self, contact, t, angle):
+        """The contact under the load and at the speed of a time, in a direction of the user's axes."""
         speed, there = abs(self.speed.value(t)), contact.under(self.load_share(t))
         if self.turns:
-            users = self.contact.frame
-            axes = Frame() if contact.frame == users else users
-            there = there.turned(axes.angle(self.angle.value(t)))
+            there = there.turned(self._axes_of(contact).angle(angle))
         there = there if speed == contact.speed else there.at_speed(speed)
         return there.heated() if contact.lubricant.thinned < 1.0 and there is not contact else there
+
+    def _axes_of(self, contact):
+        """The `Frame` in whose axes a contact of a time of 0 is described: the user's, or the solve's."""
+        users = self.contact.frame
+        return Frame() if contact.frame == users else users
 
     @cached_property
     def _speeds(self):

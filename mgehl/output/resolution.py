@@ -51,11 +51,11 @@ class Resolution:
 
 
 def inlet_cells(contact, mesh, scene=None):
-    """Cells of a mesh in the inlet of a loaded contact; of a `Scene` in that of its slowest motion."""
+    """Cells of a mesh in the inlet of a loaded contact; of a `Scene` the fewest of its slowest motion."""
     if scene is None:
         return contact.inlet_cells(mesh)
-    slow = scene.instant(contact, scene.slowest)
-    return slow.inlet_cells(mesh) * (slow.x_scale / contact.x_scale)
+    slow = scene.in_all_directions(contact, scene.slowest)
+    return min(there.inlet_cells(mesh) * (there.x_scale / contact.x_scale) for there in slow)
 
 
 def resolution(contact, mesh, scene=None):
@@ -140,8 +140,10 @@ def load_beyond(contact, mesh, scene=None):
 
 
 def _instants(contact, scene):
-    """The contact itself, of a `Scene` those of its extremes."""
-    return [contact] if scene is None else [scene.instant(contact, t) for t in scene.extremes]
+    """The contact itself, of a `Scene` those of its extremes, in each of its directions."""
+    if scene is None:
+        return [contact]
+    return [there for t in scene.extremes for there in scene.in_all_directions(contact, t)]
 
 
 def domain_verdict(lost):

@@ -23,9 +23,9 @@ COLUMNS = {
     "step_s": ("s", "length of the step"),
     "speed_mm_s": ("mm s-1", "entrainment speed"),
     "load_share": ("1", "load over that at the beginning"),
-    "path_um": ("um", "way that the mean surface has gone"),
-    "angle_deg": ("degree", "direction of the motion, from +x towards +y"),
-    "path_x_um": ("um", "way that the mean surface has gone along x"),
+    "angle_deg": ("degree", "direction of the motion, from +x towards +y, where it changes"),
+    "path_um": ("um", "way that the mean surface of a line contact has gone"),
+    "path_x_um": ("um", "the same of a point contact along x"),
     "path_y_um": ("um", "the same along y"),
     "central_film_nm": ("nm", "film at the centre of the contact"),
     "minimum_film_nm": ("nm", "smallest film"),
@@ -48,10 +48,10 @@ COLUMNS = {
     "convolutions": ("1", "fine-grid convolutions until then"),
     "seconds": ("s", "seconds of work until then"),
 }
-"""What history.csv and series.nc have of each step beside time_s: unit and meaning.
+"""What history.csv and series.nc have of each step beside time_s: unit and meaning."""
 
-Where the direction of the motion stays they have the path along it, else the direction and both parts.
-"""
+PATH = "path_um", "path_x_um", "path_y_um"
+"""Columns of the path: one or two."""
 
 SETTLED = 0.01
 """Part of a mean that its band may be; of a load share that part of the load."""
@@ -103,10 +103,9 @@ def row_of(instant, standing, problem, scene, convolutions, seconds):
 
 def _gone(instant, standing, scene):
     """The direction of the motion where it changes, and the path."""
-    if not scene.turns:
-        return {"path_um": 1e6 * float(np.dot(standing.path, scene.contact.motion))}
-    x, y = standing.path
-    return {"angle_deg": scene.angle.value(instant.t), "path_x_um": 1e6 * x, "path_y_um": 1e6 * y}
+    x, y = (1e6 * part for part in standing.path)
+    path = {"path_um": x} if scene.contact.is_plane else {"path_x_um": x, "path_y_um": y}
+    return ({"angle_deg": scene.angle.value(instant.t)} if scene.turns else {}) | path
 
 
 def _resistance(instant, state, problem):
@@ -114,10 +113,11 @@ def _resistance(instant, state, problem):
     contact, there = problem.contact, copy(problem)
     there.contact = replace(contact.turned(problem.flowing.angle), speed=abs(instant.speed))
     shear, load = shear_of(there, state), instant.load * contact.load
+    against = np.copysign(1.0, instant.speed)  # the contact's own direction is that of a positive speed
     return {
         "friction": shear.sliding_force / load,
         "largest_shear_MPa": 1e-6 * problem.grid.max(shear.stress),
-        "rolling": shear.rolling_force / load,
+        "rolling": against * shear.rolling_force / load,
     }
 
 
@@ -141,8 +141,7 @@ def write_series(path, rows, title):
 
 def passed(rows, scene):
     """Passages that the rows of a history have gone through by the end of each, (rows,)."""
-    names = ("path_x_um", "path_y_um") if scene.turns else ("path_um",)
-    path = np.array([[row[name] for name in names] for row in rows])
+    path = np.array([[row[name] for name in PATH if name in row] for row in rows])
     loads = np.array([row["load_share"] for row in rows])
     shares, which = np.unique(loads, return_inverse=True)
     lengths = 1e6 * np.array([scene.passage(share) for share in shares])

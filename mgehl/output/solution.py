@@ -102,11 +102,9 @@ class Solution:
     def path(self) -> tuple[float, float]:
         """Way in m along x and y that the mean surface of a run in time has gone at its end, with that of
         the run that it started from; (0, 0) of a steady state."""
-        last = self.last or {"path_um": 0.0}
-        if "path_um" not in last:
-            return 1e-6 * last["path_x_um"], 1e-6 * last["path_y_um"]
-        x, y = self.contact.motion
-        return 1e-6 * last["path_um"] * x, 1e-6 * last["path_um"] * y
+        last = self.last or {}
+        x, y = last.get("path_um", last.get("path_x_um", 0.0)), last.get("path_y_um", 0.0)
+        return 1e-6 * x, 1e-6 * y
 
     @property
     def at_the_end(self) -> LoadedContact | WedgeBearing:

@@ -27,7 +27,7 @@ import numpy as np
 from mgehl.discretization.axes import HALO, own
 from mgehl.discretization.status import BOUNDARY, LUBRICATED
 from mgehl.discretization.storage import Storage, content
-from mgehl.discretization.transport import moved
+from mgehl.discretization.transport import least_on_the_way, moved
 from mgehl.solver.debts import paid
 from mgehl.solver.record import Kept
 
@@ -217,9 +217,8 @@ class Transport:
 
     def _moved(self, carried, shift):
         """What passed the faces of each axis in the last step, moved along."""
-        G_x, G_y = carried.G_x, carried.G_y
-        G_x = np.pad(moved(G_x[:, :-1], shift.along_x), ((0, 0), (0, 1)))
-        G_y = None if G_y is None else moved(G_y, shift.along_x)
+        G_x = np.pad(moved(carried.G_x[:, :-1], shift.along_x), ((0, 0), (0, 1)))
+        G_y = None if carried.G_y is None else moved(carried.G_y, shift.along_x)
         if shift.along_y:
             G_x, G_y = self._moved_across(G_x, shift, 0), self._moved_across(G_y, shift, 1)
         return self._faces(G_x, G_y)
@@ -240,11 +239,13 @@ class Transport:
 
     def _from_film(self, status, shift):
         """Nodes that are film, and so are those that their content comes from, (lines, nx)."""
-        film = (status == LUBRICATED) | (status == BOUNDARY)
-        found = film.copy()
-        for cells in range(1, int(np.ceil(abs(shift.along_x))) + 2):
-            found &= moved(film.astype(float), float(np.copysign(cells, shift.along_x))) > 0.5
-        return found
+        film = ((status == LUBRICATED) | (status == BOUNDARY)).astype(float)
+        if not shift.along_y:
+            return least_on_the_way(film, shift.along_x) > 0.5
+        whole = self._grid.gather(least_on_the_way(film, shift.along_x) if shift.along_x else film)
+        return (
+            self._grid.scatter(None if whole is None else least_on_the_way(whole.T, shift.along_y).T) > 0.5
+        )
 
     def _between(self, values):
         """The lesser of both nodes' values (lines, nx) at the faces of each axis."""

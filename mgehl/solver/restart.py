@@ -86,6 +86,8 @@ def check_start(start, case):
     other, kind = start.config.contact.kind, case.config.contact.kind
     if other != kind or not start.contact.is_loaded:
         raise UserError(f"a {other} is no start for a {kind}")
+    if any(start.path):
+        case.check_ways(start.path)
     if case.config.is_in_time and start.fields and (off := _other_heights(start, case)) > OTHER_HEIGHTS:
         raise UserError(
             f"start: its heights differ by {100.0 * off:.3g} % from those that this run in time begins "

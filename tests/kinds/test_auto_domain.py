@@ -6,9 +6,10 @@ from mpi4py import MPI
 
 from mgehl.config import load_config
 from mgehl.errors import ConfigError
-from mgehl.kinds import check_contact, contact_from, mesh_from, settled
+from mgehl.kinds import check_contact, checked_case, contact_from, mesh_from, settled
 from mgehl.model.peaks import reach_of_peaks
 from mgehl.model.surface.surface import Surface
+from mgehl.output.resolution import resolution
 from mgehl.run import solve
 
 
@@ -53,6 +54,12 @@ def test_a_motion_that_turns_has_a_domain_for_each_of_its_directions(tmp_path):
     grid, first = settled(*loaded(*turns)).grid, settled(*loaded("motion.speed=0.5")).grid
     assert grid.x == grid.y and grid.x[0] <= first.x[0] and grid.y[1] >= first.y[1]
     check_contact(*loaded(*turns))
+    short = ["grid.x=[-4, 3]", "grid.y=[-1.5, 1.5]"]
+    lost = []
+    for motion in (turns, ["time.end=1", "motion.angle=90", "motion.speed=0.5"]):
+        case = checked_case(loaded(*motion, *short)[0])
+        lost.append(resolution(case.contact, case.mesh, case.scene).domain_loss_percent)
+    assert lost[0] == pytest.approx(lost[1]), "judged in the direction that it takes most from"
     with pytest.raises(ConfigError, match=r"grid.y = .*: must begin before"):
         check_contact(*loaded(*turns, "grid.x=[-4, 4]", "grid.y=[-1.05, 4]"))
 
