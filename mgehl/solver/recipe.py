@@ -48,6 +48,10 @@ has no such limit in time, nor near peaks: the residual stays until valleys have
 MOST_IN_TIME = 30
 """Newton steps after which a step in time is halved."""
 
+CERTAIN = 1e-11
+"""Residual below which sets that change tell nothing where contact closes continuously: the gap and the
+pressure of their nodes both vanish but for rounding. The verdict asks for complementarity none the less."""
+
 STEEP, MOST_MORE = 19.0, 2.0
 """alpha p_h below which a step may change the pressures of smooth bodies by more, in proportion, and how
 many times as much at the most: the viscosity follows its tangent farther, and spikes grow by p_h from grid
@@ -142,6 +146,7 @@ def _newton(settings, contact, peaks, in_time):
         max_pressure_step=asked.max_pressure_step * (1.0 if rough else _more(contact)),
         over_largest=rough,
         by_film=by_film,
+        certain=CERTAIN if by_film else 0.0,
     )
 
 
