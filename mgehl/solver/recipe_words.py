@@ -96,5 +96,5 @@ def plain(recipe):
     }
 
 
-NEWTON = "tolerance", "squeeze", "idle_steps", "max_pressure_step", "over_largest", "by_film"
+NEWTON = "tolerance", "certain", "squeeze", "idle_steps", "max_pressure_step", "over_largest", "by_film"
 """Newton's rules that a recipe has."""
