@@ -10,9 +10,6 @@ from mgehl.solver.recipe import DRY, IN_CONTACT, THICK_FILM, TOUCHING, on_mesh, 
 COVERED = 1.5
 """Film over the roughness from which on a walk down in speed may begin: above 1, or it begins dry, too."""
 
-FIRST_WAY = 0.75
-"""Part of `solver.max_work` at which the first way is given up: slow balls need most of it."""
-
 NOR = "; nor from"
 """Begins, in the reason of a failure, what is said of every other way that was tried."""
 
@@ -42,7 +39,7 @@ def _begin_touching(task):
 
         return found
 
-    ways = [("a film", lambda task: nested_iteration(task.within(FIRST_WAY)))]
+    ways = [("a film", nested_iteration)]
     if recipe.begins != DRY:
         ways.append(("the dry contact without oil", other(DRY, begin_dry)))
     return first_found(task, [*ways, ("a thick film", other(THICK_FILM, begin_thick))])
@@ -50,10 +47,11 @@ def _begin_touching(task):
 
 def first_found(task, ways):
     """Problem and `Outcome` of the first way that leads to an answer, of `ways` (where it begins, function
-    of a `Task`). Where none does, the `Outcome` is the first one's, and has the reason of each."""
+    of a `Task`). Where none does, the `Outcome` is the first one's, and has the reason of each. The others
+    are tried with what work is left."""
     (_, way), *others = ways
     problem, outcome = way(task)
-    if outcome.converged:
+    if outcome.converged or not task.may_go_on:
         return problem, outcome
     reason = outcome.reason
     for where, way in others:

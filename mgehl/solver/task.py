@@ -37,6 +37,13 @@ class Task:
         """The same but for some of its settings."""
         return replace(self, settings=replace(self.settings, **settings))
 
+    @property
+    def may_go_on(self):
+        """Whether the run has made fewer convolutions than it may (collective)."""
+        comm, hierarchy = self.hierarchy.grids[-1].comm, self.hierarchy
+        made = comm.bcast(hierarchy.convolutions, root=comm.size - 1)  # the last rank has all grids
+        return made < self.settings.newton.max_work
+
     def within(self, part):
         """The same with a part of the work that is allowed (`solver.max_work`)."""
         newton = self.settings.newton
