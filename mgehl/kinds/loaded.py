@@ -109,9 +109,9 @@ class LoadedKind(Kind):
             surface.check_surfaces(config, contact, self.mesh(config, contact))
         self.check_fluid(config.grid, contact)
         if config.is_in_time:
-            self._check_ways(config, contact, heaviest)
+            self._check_in_all_directions(config, contact, heaviest)
 
-    def _check_ways(self, config, contact, heaviest):
+    def _check_in_all_directions(self, config, contact, heaviest):
         """The domain must be large enough for every direction of a run in time, under the heaviest load."""
         ways, wide = (1.0, -1.0)[: 1 + time.reverses(config)], heaviest.x_scale / contact.x_scale
         for way, turned in product(ways, time.in_all_directions(config, heaviest)):
