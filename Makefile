@@ -115,7 +115,7 @@ study-%: $(ENVIRONMENT)
 
 # make movies   the courses of study-courses as movies: start, stop, reversal, turn, load (runs/study-courses/runs/*/plots)
 movies: study-courses
-	for r in runs/study-courses/runs/*; do ( $(ON) mgehl plot $$r --movie ) || exit 1; done
+	for r in runs/study-courses/runs/*/frames.nc; do ( $(ON) mgehl plot $${r%/*} --movie ) || exit 1; done
 
 .PHONY: movies
 
