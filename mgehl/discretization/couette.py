@@ -21,7 +21,8 @@ class CouetteScheme:
     leaving: tuple
     entering: tuple
     order: int
-    """Of its d(rho H)/dx away from walls: exact for products x^m of rho and x^n of H, m + n <= order."""
+    """Of its d(rho H)/dx away from walls: exact for products x^m of rho and x^n of H, m + n <= order. The
+    bands about films are by it."""
     near: tuple = ()
     limit: float = inf
     """By how much of 1B's flow the flow may differ from that."""

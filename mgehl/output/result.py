@@ -136,6 +136,7 @@ class Result:
     # With a fluid; a bearing has not all of these.
     central_film_nm: float = None
     minimum_film_nm: float = None
+    """The smallest gap of all nodes, contact and what lies outside the ellipse included."""
     residual: float = None
     flux_imbalance: float = None
     cavitated_nodes: int = None

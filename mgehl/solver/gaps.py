@@ -66,8 +66,8 @@ class GridGap:
 
 
 def within_hertz(mesh, reach=1.0):
-    """Nodes within the Hertz ellipse, or a line contact's width: (ny, nx). `reach` are its semi-axes in
-    units of X and Y: of a load in time not 1."""
+    """Nodes of the whole grid within the Hertz ellipse, or a line contact's width: (ny, nx). `reach` are
+    its semi-axes in units of X and Y: of a load in time not 1."""
     across = np.zeros(1) if mesh.is_line else mesh.Y
     return mesh.X[None, :] ** 2 + across[:, None] ** 2 <= reach**2
 
