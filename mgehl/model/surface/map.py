@@ -33,8 +33,8 @@ class SurfaceFileError(FileError):
 
 @dataclass(frozen=True, eq=False)
 class Map:
-    """Heights (ny, nx), rows along x, the first at the lowest y, in the file's units; what the file does not
-    tell is None. A height that is not finite is a hole."""
+    """Heights (ny, nx), rows along x, the first at the lowest y, in the file's units. What the file does
+    not tell is None; a height that is not finite is a hole."""
 
     path: str
     heights: np.ndarray
