@@ -472,3 +472,7 @@ def test_a_file_must_reach_as_far_as_it_goes(tmp_path):
     enter(mgehl.load(None, BALL | surface | {"time.end": 0.1 * UNIT}), MPI.COMM_SELF)
     with pytest.raises(ConfigError, match="on its way ends inside the contact"):
         enter(mgehl.load(None, BALL | surface | {"time.end": 2.0 * UNIT}), MPI.COMM_SELF)
+    case = enter(mgehl.load(None, BALL | surface | {"time.end": 0.1 * UNIT}), MPI.COMM_SELF)
+    case.check_ways((0.01 * case.contact.x_scale, 0.0))
+    with pytest.raises(ConfigError, match="on its way ends inside the contact"):
+        case.check_ways((0.0, 2.0 * case.contact.x_scale))  # where the run that it starts from has ended

@@ -1,6 +1,7 @@
 import numpy as np
 import pytest
 
+from mgehl.config import load_config
 from mgehl.errors import ConfigError
 from mgehl.kinds.time import course
 
@@ -40,3 +41,15 @@ def test_each_key_has_its_unit(tmp_path):
 def test_a_unit_that_is_none_of_the_column_is_refused(tmp_path, heading):
     with pytest.raises(ConfigError, match="its heading '.*' tells no unit of its column; must be such as"):
         read(tmp_path, heading)
+
+
+def test_a_direction_that_changes_needs_time_and_an_end(tmp_path):
+    """Of a body whose heights move, too: that was an error of mgehl's own."""
+    (tmp_path / "angle.csv").write_text("0,0\n1,1e6\n")
+    turns = {"motion.angle": str(tmp_path / "angle.csv")}
+    waves = {"surface.kind": "waviness", "surface.amplitude": 1e-8, "surface.wavelength_x": 1e-4}
+    for more in ({}, waves | {"surface.body": "body_1"}):
+        with pytest.raises(ConfigError, match="changes with time, and time.end is not given"):
+            load_config(settings=turns | more)
+    with pytest.raises(ConfigError, match="turns to 1e.06; must stay within 36000"):
+        load_config(settings=turns | {"time.end": 1.0})

@@ -187,3 +187,10 @@ def test_a_load_that_changes_is_told_by_its_ends(tmp_path):
     assert re.search("GPa, of the first load$", lines, re.M)
     assert re.search("^films, .*, of the first load$", lines, re.M)
     assert "1 m/s, 50 N to 100 N, 65" in told.replace("\u00a0", " ")
+
+
+@pytest.mark.parametrize("last, is_odd", [(2.0, True), (362.0, False)])
+def test_a_direction_that_turns_back_after_360_is_named(tmp_path, last, is_odd):
+    (tmp_path / "angle.csv").write_text(f"0,350\n0.5,358\n1,{last}\n")
+    said = odd([f"motion.angle={tmp_path / 'angle.csv'}", "time.end=1"])
+    assert any("from one value to the next" in words for words in said) is is_odd
