@@ -112,7 +112,6 @@ class SolverSection:
     squeeze: float = number(0.0, "rate of implicit time steps, per residual and cell (contact, "
         "continuation: at least 3)", low=0.0, high=1e6)
     error: bool = switch(True, "whether two coarser grids are solved, too, for bands about the films")
-    release_budget: int = whole(2, "times a contact node may be released on Eq. 2", 0, 100)
     # fmt: on
 
 

@@ -62,7 +62,7 @@ def test_units_end_as_SI_floats(setting, value):
      ("grid.x=[-4.5, 1.5]", (-4.5, 1.5)), ("grid.y=[-3, 3]", (-3.0, 3.0)), ("grid.x=auto", "auto"),
      ("discretization.couette=S2C", "S2C"), ('discretization.couette="2B"', "2B"),
      ("lubricant.viscosity_law=roelands", "roelands"), ("lubricant.density_law=constant", "constant"),
-     ("solver.release_budget=0", 0), ("solver.omega=.9", 0.9), ("contact.load=5.", 5.0)],
+     ("solver.error=false", False), ("solver.omega=.9", 0.9), ("contact.load=5.", 5.0)],
 )  # fmt: skip
 def test_settings_are_toml_or_numbers_or_else_plain_strings(setting, value):
     section, key = setting.split("=")[0].strip().split(".")

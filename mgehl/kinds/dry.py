@@ -25,7 +25,7 @@ OF_A_FLUID = (
     "discretization.couette_at_interface", "discretization.cavitation", "discretization.film_threshold",
     "solver.method", "solver.start", "solver.linear_tolerance", "solver.sweeps", "solver.omega",
     "solver.cycle_couette", "solver.first_nodes", "solver.inlet_cells", "solver.squeeze", "solver.error",
-    "solver.release_budget", "solver.idle_steps",
+    "solver.idle_steps",
 )  # fmt: skip
 """Sections and keys that only a fluid uses. A dry contact accepts them and does nothing with them."""
 

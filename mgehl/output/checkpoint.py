@@ -33,7 +33,7 @@ BEGUN, UNDER_WAY = "begun.npz", "under-way.npz"
 START = "start"
 """In begun.npz the bytes of the fields.h5 of the run that this one was started from."""
 
-FORMAT = 12
+FORMAT = 13
 """Version of the files, up with every change of layout or name; those of another are not read."""
 
 

@@ -71,12 +71,12 @@ class Beside:
 
     def _solve(self, level, contact, state, scheme, **limits):
         """Problem and `Outcome` of a contact on a coarser grid, from the finer `state` at its nodes. With
-        these limits of Newton's, but where the same was solved before; Eq. 2 lets nothing go."""
+        these limits of Newton's, but where the same was solved before."""
         known, _ = self._solved.get(level, (None, None))
         if known and known.contact is contact and known.scheme == scheme:
             return self._solved[level]
         hierarchy, newton = self._hierarchy, self.settings.newton
-        limits |= {"tolerance": max(TOLERANCE, newton.tolerance), "release_budget": 0}
+        limits |= {"tolerance": max(TOLERANCE, newton.tolerance)}
         task = self._task.but(newton=replace(newton, **limits))
         problem = ContactProblem(hierarchy.grids[level], hierarchy.deflections[level], contact, scheme)
         there = _at_nodes(hierarchy.transfers[level], state)

@@ -58,7 +58,6 @@ def judge(position, partition, limits):
     """The `Verdict` on a position whose last cycle has just been measured (collective). `limits` are
     `NewtonSettings`, patience included."""
     cycle = position.cycles[-1]
-    limit = position.trial.limit if position.trial else limits.max_steps
     small = cycle.residual <= limits.tolerance and abs(cycle.load_error) <= limits.tolerance
     if small and cycle.changes.total == 0:
         return Verdict(True, True, "residual, load and sets settled")
@@ -70,13 +69,13 @@ def judge(position, partition, limits):
         return _never_settling(partition.contradictions(position.state.status), cycle.step)
     if position.stalls == STALLS:
         return Verdict(True, reason=f"{STALLS} linear systems in {cycle.step} steps could not be solved")
-    if not (position.trial or small) and steps_since_lowered(position) >= limits.idle_steps:
+    if not small and steps_since_lowered(position) >= limits.idle_steps:
         return Verdict(True, reason=_idle(cycle, limits.idle_steps))
     if limits.spreading_steps and steps_of_spreading(position) >= limits.spreading_steps:
         return Verdict(
             True, reason=f"contact spreads, to {cycle.contact_nodes} nodes in {cycle.step} steps"
         )
-    if cycle.step >= limit:
+    if cycle.step >= limits.max_steps:
         settled = "sets still change after" if small else f"residual {cycle.residual:.1e} after"
         return Verdict(True, reason=f"{settled} {cycle.step} steps")
     return GO_ON
@@ -120,8 +119,6 @@ def judge_work(verdict, work, most):
 
 def judge_system(reason, position):
     """The `Verdict` on a linear system that was solved, or not, with this KSP's `reason`."""
-    if position.trial and reason < 0:
-        return Verdict(True, reason="what Eq. 2 let go leaves no linear system that can be solved")
     if reason == PETSc.KSP.ConvergedReason.DIVERGED_NANORINF:
         step = position.cycles[-1].step
         return Verdict(True, reason=f"singular: no linear solution after {step} steps")

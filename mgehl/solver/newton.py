@@ -11,7 +11,6 @@ from petsc4py import PETSc
 
 from mgehl.discretization.status import CONTACT, LUBRICATED
 from mgehl.grid.events import linear_solve
-from mgehl.solver.arbiter import RELEASE_STEPS, Ruling, rule
 from mgehl.solver.cavitation import relax_cavitation_set
 from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.judge import (
@@ -26,7 +25,7 @@ from mgehl.solver.judge import (
 from mgehl.solver.layers import FluidInLayers
 from mgehl.solver.outcome import Cycle, Outcome
 from mgehl.solver.partition import Changes, Partition
-from mgehl.solver.position import Position, Step, Trial
+from mgehl.solver.position import Position, Step
 from mgehl.solver.remembered import Remembered
 from mgehl.solver.rigid_gap import FLUID_AHEAD
 from mgehl.solver.snes import PythonSnes
@@ -44,7 +43,7 @@ class Newton(PythonSnes):
         self._problem, self._settings, self._fluid = problem, settings, fluid
         self._monitor = monitor or (lambda cycle: None)
         self._load_scale = multigrid.jacobian.load_scale
-        self._partition = Partition(problem, settings.release_budget)
+        self._partition = Partition(problem)
         self._in_turn = False
 
     def run(self, state, journal=NOTHING_KEPT, tolerance=None):
@@ -92,19 +91,12 @@ class Newton(PythonSnes):
             self._measure()
             verdict = judge(position, partition, limits)
             verdict = judge_work(verdict, self._multigrid.work, self._settings.max_work)
-            ruling = rule(position, verdict, partition, self._fluid is not None)
-            if ruling.ends:
-                break
-            if ruling is not Ruling.GO_ON:
-                self._release(ruling, verdict.reason, max_steps)
-                self._settle()
-                self._compute_function()
-            verdict = judge_system(self._correct(), position)
+            if not verdict.ends:
+                verdict = judge_system(self._correct(), position)
             if verdict.ends:
-                ruling = Ruling.KEEP if position.trial else Ruling.GIVE_UP
                 break
             self._step()
-        self._conclude(verdict, ruling)
+        self._conclude(verdict)
 
     def _settle(self):
         """Bring the fluid, its cavities and their pressures to rest at the present gap."""
@@ -137,8 +129,6 @@ class Newton(PythonSnes):
             self._evaluation = self._problem.evaluate(position.state)
             F, load = self._compute_function()
         self._tell(F, load)
-        if position.trial:
-            position.trial.entered += position.changes.entered
         position.changes = Changes()
 
     def _evaluate(self, evaluation=None):
@@ -150,19 +140,6 @@ class Newton(PythonSnes):
         """Give the state the gap of its own pressure."""
         state = self._position.state
         state.H = self._problem.gap(state.P, state.H0)
-
-    def _release(self, ruling, reason, max_steps):
-        """Release contact that breaks Eq. 2; keep the state that settled as a possible answer."""
-        position, partition = self._position, self._partition
-        state = position.state
-        if ruling is Ruling.TRY_RELEASE:
-            counts = partition.count_violations(state), partition.count_releasable(state)
-            limit = min(max_steps, position.cycles[-1].step + RELEASE_STEPS)
-            position.trial = Trial(state.copy(), reason, *counts, limit)
-        else:
-            position.early_rounds += 1
-        partition.release_violations(state, position.changes)
-        self._take_own_gap()
 
     def _correct(self):
         """Solve the linearised bordered system; return the `KSP.ConvergedReason`."""
@@ -222,27 +199,15 @@ class Newton(PythonSnes):
         self._partition.follow_gap(state, changes, self._in_turn)
         position.step = replace(position.step, length=length)
 
-    def _conclude(self, verdict, ruling):
+    def _conclude(self, verdict):
         """The `Outcome`, and what SNES is told of it."""
         position, reasons = self._position, PETSc.SNES.ConvergedReason
-        if ruling is Ruling.KEEP:
-            self._take_up(position.trial.answer)
-            outcome = Outcome(position.state, True, position.trial.reason, position.cycles)
-        else:
-            converged, contradictions = ruling is Ruling.ACCEPT, list(verdict.contradictions)
-            outcome = Outcome(position.state, converged, verdict.reason, position.cycles, contradictions)
-        self._outcome = outcome
+        contradictions = list(verdict.contradictions)
+        found = verdict.converged, verdict.reason, position.cycles, contradictions
+        self._outcome = Outcome(position.state, *found)
         self._snes.setConvergedReason(
-            reasons.CONVERGED_FNORM_ABS if outcome.converged else reasons.DIVERGED_MAX_IT
+            reasons.CONVERGED_FNORM_ABS if verdict.converged else reasons.DIVERGED_MAX_IT
         )
-
-    def _take_up(self, state):
-        """Make a state that was kept the present one, and the last of the history."""
-        position = self._position
-        position.state, position.changes, position.step = state, Changes(), Step()
-        self._evaluate()
-        self._tell(*self._compute_function())
-        position.changes = Changes()
 
     def _tell(self, F, load):
         """Add the present state to the history, tell the monitors."""

@@ -1,8 +1,7 @@
 """Which nodes are film, cavity and contact: re-partitioned between Newton steps.
 
 cavitated: enters when P < 0, leaves when it would hold more than its gap does. contact: enters when H <=
-H_th, leaves when P < 0, or a finite number of times, the sets settled, when its P is below the fluid's
-beside it [Liu eq. 2]; one that leaves its faces open leaves when p > P, and at P < 0.
+H_th, leaves when P < 0; one that leaves its faces open leaves when p > P, too.
 
 All whose sign is wrong change at once; where that goes in a circle, neighbours in turn: a node that is torn
 or fills takes away what asked the next one to [block principal pivoting, Judice and Pires 1994].
@@ -22,7 +21,6 @@ from mgehl.discretization.status import (
     NAMES,
     enclosed,
     is_fluid,
-    largest_fluid_neighbour,
 )
 from mgehl.solver.cavitation import overflows
 from mgehl.solver.record import Kept
@@ -69,8 +67,6 @@ class Contradiction(Kept):
 class Past(Kept):
     """What the nodes went through, all (lines, nx): it decides what they may do next."""
 
-    budget: np.ndarray
-    """Releases on Eq. 2 that are left."""
     just_released: np.ndarray
     was_released: np.ndarray
     turns: np.ndarray
@@ -79,10 +75,9 @@ class Past(Kept):
     torn_pressure: np.ndarray
 
     @classmethod
-    def none(cls, shape, release_budget):
+    def none(cls, shape):
         """Of nodes that went through nothing yet."""
         return cls(
-            budget=np.full(shape, release_budget, dtype=np.int8),
             just_released=np.zeros(shape, dtype=bool),
             was_released=np.zeros(shape, dtype=bool),
             turns=np.zeros(shape, dtype=np.int8),
@@ -95,20 +90,14 @@ class Partition:
     """Moves nodes of a state between the sets; `past`, which may be replaced, is what they went through.
     With `in_turn` neighbours whose signs are wrong change in turn, and not at once."""
 
-    def __init__(self, problem, release_budget):
+    def __init__(self, problem):
         self._problem, self._grid = problem, problem.grid
         self._contact_law, self._tears_at = problem.scheme.contact_law, problem.contact.tears_at
-        self._budget = release_budget
         self.past = self.nothing_past()
 
     def nothing_past(self):
         """The `Past` of nodes before the first step."""
-        return Past.none(self._grid.shape, self._budget)
-
-    @property
-    def asks_eq_2(self):
-        """Whether contact is let go by its pressure, and not by its flow."""
-        return self._contact_law.closes_faces
+        return Past.none(self._grid.shape)
 
     def tension(self, P, status):
         """Where fluid would be torn, and where contact, by negative pressures: two arrays (lines, nx)."""
@@ -129,7 +118,7 @@ class Partition:
         P, status = state.P, state.status
         torn, tensile = self.tension(P, status)
         opened = self._that_change(torn, self._tears_at - P, in_turn)
-        apart = tensile & (self.asks_eq_2 | (state.p <= self._tears_at))
+        apart = tensile & (self._contact_law.closes_faces | (state.p <= self._tears_at))
         self.past.torn_pressure[apart] = P[apart] - self._tears_at
         self.past.turns += apart & self._contact_law.closes_faces
         P[torn | tensile] = self._tears_at
@@ -173,7 +162,7 @@ class Partition:
     def fit(self, state):
         """Contents from nothing to what the gap holds, and p as P where there are no solids; in place."""
         state.filling = np.clip(state.filling, 0.0, 1.0)
-        contact = (state.status == CONTACT) & (not self.asks_eq_2)
+        contact = (state.status == CONTACT) & (not self._contact_law.closes_faces)
         state.p = np.where(contact, np.maximum(state.p, self._tears_at), state.P)
 
     def fill(self, state, changes, in_turn=False):
@@ -220,29 +209,3 @@ class Partition:
             names = tuple((*NAMES, "wall")[each] for each in beside)
             local.append(Contradiction(int(i) + 1, int(j) + self._grid.first + 1, gap, pressure, names))
         return [each for part in self._grid.comm.allgather(local) for each in part]
-
-    def violations(self, state):
-        """Contact nodes whose pressure is below the fluid's beside them [Liu eq. 2], and that pressure."""
-        ghosted = self._grid.halo(state.P), self._grid.halo_status(state.status)
-        beside = largest_fluid_neighbour(*ghosted, self._problem.axes)
-        return (state.status == CONTACT) & (state.P < beside), beside
-
-    def count_violations(self, state):
-        """How many contact nodes break Eq. 2, over all ranks."""
-        return self._grid.count(self.violations(state)[0])
-
-    def count_releasable(self, state):
-        """How many of them may still be let go."""
-        return self._grid.count(self.violations(state)[0] & (self.past.budget > 0))
-
-    def release_violations(self, state, changes):
-        """Release contact nodes that violate Eq. 2 and have budget left. The fluid beside such a node would
-        pry it open: it becomes film under that fluid's pressure."""
-        released, beside = self.violations(state)
-        released &= self.past.budget > 0
-        self.past.budget[released] -= 1
-        state.status[released] = LUBRICATED
-        state.P[released] = beside[released]
-        self.past.was_released |= released
-        self.past.turns[:] = 0
-        changes.released += self._grid.count(released)

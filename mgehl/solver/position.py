@@ -18,24 +18,6 @@ class Step(Kept):
 
 
 @dataclass
-class Trial(Kept):
-    """Whether Eq. 2 can hold: contact of a settled state was released, and the sets must settle."""
-
-    PARTS = {"answer": State}
-
-    answer: State
-    """The state that settled, kept."""
-    reason: str
-    violations: int
-    """Nodes of the answer that break Eq. 2."""
-    released: int
-    limit: int
-    """Step at which the trial has failed."""
-    entered: int = 0
-    """Nodes that came into contact since."""
-
-
-@dataclass
 class Position(Kept):
     """The present state and what is remembered of the way; written by `Newton` alone."""
 
@@ -44,7 +26,6 @@ class Position(Kept):
         "past": Past,
         "changes": Changes,
         "step": Step,
-        "trial": Trial,
         "memory": Record,
     }
     ROWS = {"cycles": ("history", Cycle)}
@@ -56,9 +37,6 @@ class Position(Kept):
     changes: Changes = field(default_factory=Changes)
     """Of the sets since the last cycle."""
     step: Step = Step()
-    trial: Trial | None = None
-    early_rounds: int = 0
-    """Releases on Eq. 2 before the residual was small."""
     stalls: int = 0
     """Linear systems that were given up."""
     memory: Kept | Record | None = None

@@ -39,8 +39,6 @@ class NewtonSettings:
     """Whether it is over the largest pressure, where that is more than p_h."""
     by_film: bool = False
     """Whether the film's change bounds steps, too: where it closes as continuously as it opens."""
-    release_budget: int = SolverSection.release_budget
-    """Times a contact node may be released on Eq. 2."""
     squeeze: float = SolverSection.squeeze
     """Rate of implicit time steps per rms residual and cell (`solver.squeeze`); 0 for Newton's own."""
 
@@ -85,5 +83,5 @@ class SolverSettings:
 
     def roughly(self):
         """The same for solves whose answers only lead to others, as those of coarse grids."""
-        newton = replace(self.newton, tolerance=COARSE_TOLERANCE, release_budget=0)
+        newton = replace(self.newton, tolerance=COARSE_TOLERANCE)
         return replace(self, newton=newton)
