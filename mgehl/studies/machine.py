@@ -46,12 +46,12 @@ def several(drawn, cases, seed):
 
 def _drawn(chance, number):
     """One case: bodies and oil first, then a roughness for their film and their contact."""
-    smooth = smooth_case(chance, _bodies(chance))
+    smooth = smooth_case(chance, drawn_bodies(chance))
     smooth["motion"]["angle"] = _angle(chance)
     return with_surface(chance, number, smooth, surface_of, NODES, SHORTEST)
 
 
-def _bodies(chance):
+def drawn_bodies(chance):
     """Radii, modulus and the load that presses smooth bodies as hard as was drawn."""
     modulus, pressure = modulus_and_pressure(chance)
     radius = by_logarithm(chance, *RADIUS)
